@@ -1,0 +1,21 @@
+/* Warnings: things that a user should know but that stop nothing. They are held back while work goes on and printed by
+ * main() at the end, on success or with -v. Fixed size, so a hostile file cannot make it grow; equal texts count once. */
+#ifndef GN_CORE_WARN_H
+#define GN_CORE_WARN_H
+
+#include <stdio.h>
+
+#define GN_WARN_MAX 32
+
+struct gn_warnings {
+    int count;   /* texts held, at most GN_WARN_MAX */
+    int dropped; /* different ones beyond that */
+    char text[GN_WARN_MAX][256];
+};
+
+/* warnings may be NULL: then nothing is kept. One line each; control characters are dropped. */
+void gn_warn(struct gn_warnings *warnings, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* One "gnomon: warning: .." line each, then "and N more". */
+void gn_warn_print(const struct gn_warnings *warnings, FILE *to);
+
+#endif

@@ -1,0 +1,193 @@
+/* What a .glb says, checked, resolved and ready to draw: immutable after loading, free of GL and of the clock, and all that
+ * a new GL context needs. Right-handed, Y up, metres, linear colour. Every index in it has been checked. */
+#ifndef GN_SCENE_SCENE_H
+#define GN_SCENE_SCENE_H
+
+#include <cglm/cglm.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/err.h"
+#include "core/warn.h"
+
+struct gn_box { /* axis-aligned; empty when min > max */
+    vec3 min, max;
+};
+
+/* Pixels of a decoded picture. Row 0 is the top row, which glTF puts at v = 0. */
+struct gn_image {
+    uint32_t width_px, height_px;
+    const uint8_t *rgba; /* width x height x 4, sRGB-encoded or linear as its use says */
+    bool has_alpha;      /* some texel is not opaque */
+};
+
+enum gn_wrap { GN_WRAP_REPEAT, GN_WRAP_CLAMP, GN_WRAP_MIRROR };
+struct gn_texture {
+    uint32_t image;
+    enum gn_wrap wrap_s, wrap_t;
+    bool mag_nearest;
+    bool min_nearest; /* within a level */
+    bool mipmaps;     /* the sampler's min filter uses them; default true */
+    bool mip_nearest; /* between levels; false = trilinear */
+};
+
+enum gn_texture_slot {
+    GN_TEXTURE_BASE,      /* sRGB colour, alpha */
+    GN_TEXTURE_ROUGHNESS, /* linear: G roughness, B metalness */
+    GN_TEXTURE_EMISSIVE,  /* sRGB colour */
+    GN_TEXTURE_OCCLUSION, /* linear: R */
+    GN_TEXTURE_SLOT_COUNT,
+};
+struct gn_texture_ref {
+    int32_t texture; /* index, or -1: none */
+    uint8_t uv_set;  /* 0 or 1 */
+    /* uv' = (m[0] u + m[2] v + m[4], m[1] u + m[3] v + m[5]): KHR_texture_transform, identity without */
+    float uv_from_uv[6];
+};
+
+enum gn_alpha { GN_ALPHA_OPAQUE, GN_ALPHA_MASK, GN_ALPHA_BLEND };
+struct gn_material {
+    const char *name; /* never NULL */
+    vec4 base_color;  /* linear, factors; alpha last */
+    vec3 emissive;    /* linear radiance, KHR_materials_emissive_strength applied */
+    float roughness, metalness, occlusion_strength, alpha_cutoff;
+    enum gn_alpha alpha;
+    bool double_sided, unlit;
+    struct gn_texture_ref textures[GN_TEXTURE_SLOT_COUNT];
+};
+
+/* One unique set of accessors: a range of the scene's vertices and indices. Triangles only (strips and fans are unrolled).
+ * Primitives that name the same accessors share one geometry whatever their materials. */
+struct gn_geometry {
+    uint32_t first_vertex, vertex_count;
+    uint32_t first_index, index_count; /* a multiple of 3; indices are absolute, into scene->positions */
+    struct gn_box box;                 /* mesh space */
+    bool has_normals_in_file, has_uv0, has_uv1, has_color;
+    bool flat;  /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
+    vec4 plane; /* mesh space, if flat: n.p + d = 0, |n| = 1, on the side its front faces look to */
+};
+
+/* One thing to draw: a primitive of a node's mesh, or of one instance of it (EXT_mesh_gpu_instancing). Sorted so that items
+ * that can share an instanced call (same geometry, materials that differ only in factors, same flags) stand together. */
+enum gn_cast_faces { GN_CAST_BOTH, GN_CAST_FRONT, GN_CAST_BACK, GN_CAST_AUTO };
+struct gn_item {
+    uint32_t node, geometry, material;
+    int32_t instance; /* index into scene->instances, or -1 */
+    uint32_t batch;   /* equal for items that can share a call; ascending */
+    bool casts, receives, plane; /* gnomon_cast, gnomon_receive, gnomon_plane */
+    enum gn_cast_faces cast_faces;
+};
+
+struct gn_node {
+    const char *name; /* never NULL */
+    int32_t parent;   /* index < its own, or -1: parents stand before children */
+    bool has_matrix;  /* then `matrix`, else translation, rotation (xyzw, unit), scale */
+    mat4 matrix;
+    vec3 translation, scale;
+    versor rotation;
+};
+
+enum gn_light_type { GN_LIGHT_DIRECTIONAL, GN_LIGHT_POINT, GN_LIGHT_SPOT };
+struct gn_light { /* one per node that carries one, in the order of a depth-first walk of the scene */
+    const char *name;
+    uint32_t node; /* shines along its -Z */
+    enum gn_light_type type;
+    vec3 color;       /* linear, times intensity: lux (directional) or candela */
+    float range_m;    /* 0: unlimited */
+    float inner_rad, outer_rad; /* half-angles of a spot, inner < outer */
+    float radius;          /* metres, or tangent of the angular radius (directional) */
+    const char *technique; /* gnomon_shadow, or NULL */
+    uint32_t map_px;       /* 0: the default */
+    float shadow_strength; /* 1 */
+    int32_t slide;         /* texture, or -1 */
+    float slide_size_m[2], slide_distance_m;
+    bool slide_lit_outside;
+};
+
+struct gn_camera {
+    const char *name;
+    uint32_t node; /* looks along its -Z */
+    bool orthographic;
+    float yfov_rad;     /* perspective */
+    float aspect;       /* 0: the picture's */
+    float xmag_m, ymag_m; /* orthographic half-sizes */
+    float near_m, far_m;  /* far 0: infinite */
+};
+
+enum gn_anim_path { GN_ANIM_TRANSLATION, GN_ANIM_ROTATION, GN_ANIM_SCALE };
+enum gn_anim_interpolation { GN_ANIM_LINEAR, GN_ANIM_STEP, GN_ANIM_CUBIC };
+struct gn_channel {
+    uint32_t node;
+    enum gn_anim_path path;
+    enum gn_anim_interpolation interpolation;
+    uint32_t key_count;
+    const float *times_s; /* ascending, finite, >= 0 */
+    const float *values;  /* key_count x (3 or 4), x 3 for cubic (in-tangent, value, out-tangent) */
+};
+struct gn_clip {
+    const char *name;
+    uint32_t first_channel, channel_count;
+    int64_t duration_ns; /* time of the last key; 0 for one key */
+    bool on_by_default;  /* its channels do not collide with an earlier clip's */
+};
+
+struct gn_scene {
+    const char *name;
+    float *positions; /* 3 per vertex */
+    float *normals;   /* 3 per vertex, unit */
+    float *uv0, *uv1; /* 2 per vertex, or NULL if no geometry has any */
+    uint8_t *colors;  /* RGBA per vertex, linear, or NULL */
+    uint32_t *indices;
+    uint32_t vertex_count, index_count;
+
+    struct gn_geometry *geometries;
+    struct gn_material *materials; /* the last one is glTF's default material */
+    struct gn_image *images;
+    struct gn_texture *textures;
+    struct gn_node *nodes; /* of the shown scene only */
+    mat4 *instances;       /* node_from_instance */
+    struct gn_item *items;
+    struct gn_light *lights;
+    struct gn_camera *cameras;
+    struct gn_clip *clips;
+    struct gn_channel *channels;
+    uint32_t geometry_count, material_count, image_count, texture_count, node_count, instance_count, item_count, light_count,
+        camera_count, clip_count, channel_count, batch_count;
+    bool made_light, made_camera; /* the file had none: the last of its kind was made here */
+
+    vec3 sky, ground, background; /* radiance of the hemisphere, linear, after exposure; background colour */
+    struct gn_box box;            /* of everything, world space, nodes as the file places them */
+    uint64_t triangle_count;      /* of all items */
+    size_t bytes;                 /* memory the scene holds */
+    void *memory;                 /* its arena; private */
+};
+
+/* Bounds on what a file may ask for; 0 = the default beside each. Named so in --limit NAME=VALUE. */
+struct gn_scene_limits {
+    uint64_t file_mb;    /* 512: any one file read */
+    uint64_t memory_mb;  /* 1024: all that the scene holds */
+    uint64_t nodes;      /* 100000 */
+    uint64_t instances;  /* 1000000 */
+    uint64_t vertices;   /* 20000000 */
+    uint64_t texels;     /* 67108864 per picture (8192 x 8192) */
+    uint64_t keys;       /* 4000000 animation keys */
+    uint64_t json_depth; /* 512 */
+};
+/* Sets one limit by its name; false and a usage error that lists the names if there is no such. */
+bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value, struct gn_err *err);
+
+/* Loads a .glb or .gltf (by content, not by name) with the files it names, which must lie in its folder or below. NULL and one
+ * line with the file and the JSON path or byte offset on failure. limits and warnings may be NULL. */
+struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *limits, struct gn_warnings *warnings,
+                               struct gn_err *err);
+/* The same from memory; external files are refused. label stands for the file in messages. */
+struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t size, const struct gn_scene_limits *limits,
+                                     struct gn_warnings *warnings, struct gn_err *err);
+void gn_scene_destroy(struct gn_scene *scene);
+
+/* Finds by name, else by number; -1 and a usage error that lists what there is. `what`: NULL or "" gives 0 (first camera). */
+int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct gn_err *err);
+int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err);
+
+#endif
