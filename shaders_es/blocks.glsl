@@ -1,0 +1,20 @@
+/* Where things lie in u_pass[], the one array of constants that a pass gives to its programs (vec4 each, default block: a
+ * std140 block read in a fragment shader costs Mali load/store slots). Read by GLSL and by C, so it holds only #define. */
+#define PASS_CLIP 0       /* 4 columns of clip_from_world */
+#define PASS_EYE 4        /* xyz: eye, world space, or direction to it if w = 0; w: 1 perspective, 0 orthographic */
+#define PASS_SKY 5        /* rgb: hemisphere's upper radiance, after exposure */
+#define PASS_GROUND 6     /* rgb: lower */
+#define PASS_EXPOSURE 7   /* x: factor on emitted radiance; y: 1 = AOV visibility has a light; zw: unused */
+#define PASS_LIGHTS 8     /* GN_LIGHTS_MAX x LIGHT_SIZE */
+#define LIGHT_SIZE 3
+#define LIGHT_COLOR 0     /* rgb: illuminance (lux) or intensity (candela), over pi, after exposure; w: shadow strength 0..1 */
+#define LIGHT_PLACE 1     /* directional: xyz unit vector to the light; else position, world space; w: 1 / range, 0 = unlimited */
+#define LIGHT_AXIS 2      /* spot: xyz unit vector along which it shines; w: cosine of the outer angle */
+#define PASS_CONES 32     /* GN_LIGHTS_MAX in two vec4: 1 / (cos inner - cos outer) of light i in [i / 4][i % 4] */
+#define PASS_SHADOWS 34   /* GN_SHADOWS_MAX x SHADOW_SIZE; slot i belongs to light i */
+#define SHADOW_SIZE 7
+#define SHADOW_MAP 0      /* 4 columns of map_from_world */
+#define SHADOW_BIAS 4     /* x: normal offset, y: slope offset, both in plane units (texel times texels); z: slope_max; w: ulp, metres */
+#define SHADOW_PLACE 5    /* xyz: position of the light; w: distance_scale */
+#define SHADOW_MAP_SIZE 6 /* x: distance_offset; y: side in texels; z: 1 / side; w: far_code */
+#define PASS_SIZE 62

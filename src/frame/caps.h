@@ -1,0 +1,32 @@
+/* What a GPU was proved to do at start-up, as plain data. */
+#ifndef GN_FRAME_CAPS_H
+#define GN_FRAME_CAPS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "shadow/technique.h"
+
+enum gn_cap { /* named in --without and by doctor: see gn_cap_names */
+    GN_CAP_DEPTH_COMPARE, /* depth texture read through a comparing sampler; every ES 3.0 has it, but some drivers break it */
+    GN_CAP_R32UI,
+    GN_CAP_R16F,          /* half-float colour target, by either extension, drawn and read back */
+    GN_CAP_RGBA16F,       /* linear colour target for PFM */
+    GN_CAP_SRGB,          /* SRGB8_ALPHA8 target that encodes */
+    GN_CAP_MSAA4,
+    GN_CAP_TIMER,         /* EXT_disjoint_timer_query */
+    GN_CAP_DEBUG,         /* KHR_debug */
+    GN_CAP_COUNT,
+};
+extern const char *const gn_cap_names[GN_CAP_COUNT]; /* "depth-compare", "r32ui", "r16f", "rgba16f", "srgb", "msaa4", "timer", "debug" */
+
+struct gn_caps {
+    uint32_t has; /* bit per gn_cap */
+    int max_texture_px, max_texture_units;
+    char vendor[64], renderer[96], version[96];
+    bool software; /* llvmpipe, softpipe, swrast */
+};
+/* The encodings that caps prove, as gn_encoding_choose wants them. */
+uint32_t gn_caps_encodings(const struct gn_caps *caps);
+
+#endif

@@ -1,0 +1,56 @@
+/* From a light, a pose and an eye to a shadow view: what a shadow map shows and how it is read. Pure.
+ *
+ * Plane coordinates: for a directional light metres across the light's direction, for a spot tangents (x/z, y/z). The map is a
+ * window in them: as small as holds every place where a caster can darken something that the eye sees, of a width from a
+ * geometric series and with its corner on a whole texel, so that it moves by whole texels when the eye moves. */
+#ifndef GN_SHADOW_FIT_H
+#define GN_SHADOW_FIT_H
+
+#include "scene/pose.h"
+#include "shadow/technique.h"
+
+struct gn_shadow_opts {
+    enum gn_technique technique;
+    enum gn_encoding encoding; /* a proved one, never AUTO */
+    uint32_t map_px;           /* side of the map */
+};
+
+struct gn_shadow_view {
+    uint32_t light;
+    enum gn_technique technique;
+    enum gn_encoding encoding;
+    uint32_t map_px;
+    bool perspective;      /* spot */
+    vec3 light_ws;         /* position (spot) */
+    vec3 to_light_ws;      /* unit (directional) */
+    mat4 light_from_world; /* rigid; looks along -Z */
+    mat4 clip_from_world;  /* draws the map */
+    /* Reads the map: xy / w in 0..1 over the map, z / w in the encoding's own unit for a directional light, and for a spot with
+     * encoding depth; for other spot encodings z = |p - light_ws| * distance_scale + distance_offset. */
+    mat4 map_from_world;
+    float distance_scale, distance_offset;
+    float far_code;        /* the far end in the encoding's unit: what the map is cleared to */
+    float near_m, far_m;
+    float texel;           /* plane units: metres, or metres per metre of depth */
+    float normal_offset;   /* texels, times sin(theta) */
+    float slope_offset;    /* texels towards the light, times tan(theta) clamped at slope_max */
+    float slope_max;
+    float ulp_m;           /* added towards the light: the encoding's rounding at the far end */
+    uint64_t content_hash; /* of all that decides the map's content, casters included */
+};
+
+/* What the eye sees, for fitting. */
+struct gn_eye {
+    mat4 clip_from_world;
+    vec4 planes[6]; /* inside: dot(plane, (p,1)) >= 0 */
+    vec3 corners[8];
+};
+void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world);
+bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box); /* conservative */
+
+/* Fits the light's view. casts (one byte per item, storage of the caller) is filled with 1 for the items to draw into the map.
+ * False: nothing that is seen can be in this light's shadow; no map is needed. Point lights: false. */
+bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye, const struct gn_shadow_opts *opts,
+                   uint8_t *casts, struct gn_shadow_view *view);
+
+#endif
