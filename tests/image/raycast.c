@@ -1,0 +1,289 @@
+#include "image/raycast.h"
+
+#include <math.h>
+
+#include "core/arena.h"
+
+enum { SEEN = 1, SEEN_FROM_BEHIND = 2, CASTS = 4, MASKED = 8, MIRRORED = 16 };
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double out[3]) {
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static void normalise(double v[3]) {
+    double length = sqrt(dot(v, v));
+    if (length > 0)
+        for (int k = 0; k < 3; k++) v[k] /= length;
+}
+
+/* --- the scene as triangles ------------------------------------------------------------------------------------------ */
+
+static uint32_t item_flags(const struct gn_scene *scene, const struct gn_item *item, bool mirrored) {
+    const struct gn_material *material = &scene->materials[item->material];
+    if (material->alpha == GN_ALPHA_BLEND) return 0;
+    return SEEN | (material->double_sided ? SEEN_FROM_BEHIND : 0) | (item->casts ? CASTS : 0) |
+           (material->alpha == GN_ALPHA_MASK ? MASKED : 0) | (mirrored ? MIRRORED : 0);
+}
+
+static void place(const mat4 world_from_item, const float p[3], double out[3]) {
+    for (int k = 0; k < 3; k++)
+        out[k] = (double)world_from_item[0][k] * p[0] + (double)world_from_item[1][k] * p[1] +
+                 (double)world_from_item[2][k] * p[2] + (double)world_from_item[3][k];
+}
+
+void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
+                     const struct gn_pose *pose) {
+    uint64_t room = 0;
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        room += scene->geometries[scene->items[i].geometry].index_count / 3;
+    struct gn_bvh_triangle *triangles = gn_xalloc(room ? room : 1, sizeof *triangles);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        const struct gn_pose_item *posed = &pose->items[i];
+        const struct gn_geometry *geometry = &scene->geometries[scene->items[i].geometry];
+        uint32_t flags = item_flags(scene, &scene->items[i], posed->mirrored);
+        if (!posed->visible || !flags) continue;
+        for (uint32_t k = 0; k + 2 < geometry->index_count; k += 3) {
+            struct gn_bvh_triangle *t = &triangles[count++];
+            *t = (struct gn_bvh_triangle){
+                .item = i, .index = geometry->first_index + k, .flags = flags};
+            for (int c = 0; c < 3; c++)
+                place(posed->world_from_item,
+                      &scene->positions[3 * (size_t)scene->indices[t->index + c]], t->p[c]);
+        }
+    }
+    *rays = (struct gn_raycast){.scene = scene};
+    gn_bvh_build(&rays->bvh, triangles, count);
+    rays->lift_m = 1e-5 * rays->bvh.diagonal;
+}
+
+void gn_raycast_finish(struct gn_raycast *rays) {
+    gn_bvh_finish(&rays->bvh);
+    *rays = (struct gn_raycast){0};
+}
+
+/* --- holes ----------------------------------------------------------------------------------------------------------- */
+
+static uint32_t wrap(int64_t i, uint32_t size, enum gn_wrap how) {
+    int64_t n = size;
+    if (how == GN_WRAP_CLAMP) return (uint32_t)(i < 0 ? 0 : i >= n ? n - 1 : i);
+    int64_t period = how == GN_WRAP_MIRROR ? 2 * n : n;
+    int64_t m = ((i % period) + period) % period;
+    return (uint32_t)(m < n ? m : period - 1 - m);
+}
+
+static double texel_alpha(const struct gn_scene *scene, const struct gn_texture *texture, int64_t x,
+                          int64_t y) {
+    const struct gn_image *image = &scene->images[texture->image];
+    size_t column = wrap(x, image->width_px, texture->wrap_s);
+    size_t row = wrap(y, image->height_px, texture->wrap_t);
+    return image->rgba[4 * (row * image->width_px + column) + 3] / 255.0;
+}
+
+static double sample_alpha(const struct gn_scene *scene, const struct gn_texture *texture, double u,
+                           double v) {
+    const struct gn_image *image = &scene->images[texture->image];
+    double x = u * image->width_px, y = v * image->height_px;
+    if (!(fabs(x) < 1e15 && fabs(y) < 1e15)) return 1;
+    if (texture->mag_nearest) return texel_alpha(scene, texture, (int64_t)floor(x), (int64_t)floor(y));
+    int64_t i = (int64_t)floor(x - .5), j = (int64_t)floor(y - .5);
+    double s = x - .5 - (double)i, t = y - .5 - (double)j;
+    return (1 - t) * ((1 - s) * texel_alpha(scene, texture, i, j) +
+                      s * texel_alpha(scene, texture, i + 1, j)) +
+           t * ((1 - s) * texel_alpha(scene, texture, i, j + 1) +
+                s * texel_alpha(scene, texture, i + 1, j + 1));
+}
+
+static double alpha_at(const struct gn_scene *scene, const struct gn_bvh_triangle *t,
+                       const struct gn_bvh_hit *hit) {
+    const struct gn_item *item = &scene->items[t->item];
+    const struct gn_geometry *geometry = &scene->geometries[item->geometry];
+    const struct gn_material *material = &scene->materials[item->material];
+    const struct gn_texture_ref *ref = &material->textures[GN_TEXTURE_BASE];
+    const double weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
+    const uint32_t *corner = &scene->indices[t->index];
+    double alpha = material->base_color[3];
+    if (geometry->has_color && scene->colors) {
+        double sum = 0;
+        for (int c = 0; c < 3; c++) sum += weight[c] * scene->colors[4 * (size_t)corner[c] + 3];
+        alpha *= sum / 255;
+    }
+    if (ref->texture < 0) return alpha;
+    const float *set = ref->uv_set ? scene->uv1 : scene->uv0;
+    double u = 0, v = 0;
+    for (int c = 0; set && c < 3; c++) {
+        u += weight[c] * set[2 * (size_t)corner[c]];
+        v += weight[c] * set[2 * (size_t)corner[c] + 1];
+    }
+    const float *m = ref->uv_from_uv;
+    return alpha * sample_alpha(scene, &scene->textures[ref->texture], m[0] * u + m[2] * v + m[4],
+                                m[1] * u + m[3] * v + m[5]);
+}
+
+static bool is_hole(const struct gn_scene *scene, const struct gn_bvh_triangle *t,
+                    const struct gn_bvh_hit *hit) {
+    return (t->flags & MASKED) &&
+           alpha_at(scene, t, hit) < scene->materials[scene->items[t->item].material].alpha_cutoff;
+}
+
+/* --- the eye --------------------------------------------------------------------------------------------------------- */
+
+void gn_eye_init(struct gn_eye *eye, const struct gn_pose *pose, uint32_t camera, int width_px,
+                 int height_px) {
+    const struct gn_camera *c = &pose->scene->cameras[camera];
+    mat4 view;
+    vec3 position;
+    gn_pose_view(pose, camera, view, position);
+    *eye = (struct gn_eye){.orthographic = c->orthographic,
+                           .width_px = width_px,
+                           .height_px = height_px,
+                           .near_m = c->near_m,
+                           .far_m = c->far_m > 0 ? c->far_m : INFINITY};
+    for (int k = 0; k < 3; k++) { /* rows of a rigid matrix are the axes */
+        eye->position_ws[k] = position[k];
+        eye->right[k] = view[k][0];
+        eye->up[k] = view[k][1];
+        eye->forward[k] = -view[k][2];
+    }
+    eye->half_height = c->orthographic ? c->ymag_m : tan(c->yfov_rad / 2);
+    eye->half_width = eye->half_height * width_px / height_px;
+}
+
+double gn_eye_pixel_m(const struct gn_eye *eye, const double point_ws[3]) {
+    double pixel = 2 * eye->half_height / eye->height_px;
+    if (eye->orthographic) return pixel;
+    double v[3];
+    for (int k = 0; k < 3; k++) v[k] = point_ws[k] - eye->position_ws[k];
+    return pixel * fabs(dot(v, eye->forward));
+}
+
+static bool seen_by_eye(const void *context, const struct gn_bvh_triangle *t,
+                        const struct gn_bvh_hit *hit) {
+    const struct gn_raycast *rays = context;
+    if (!(t->flags & SEEN)) return false;
+    bool front = (hit->facing > 0) != ((t->flags & MIRRORED) != 0);
+    if (!front && !(t->flags & SEEN_FROM_BEHIND)) return false;
+    return !is_hole(rays->scene, t, hit);
+}
+
+bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_eye *eye, int x, int y,
+                    struct gn_surface *surface) {
+    double sx = ((x + .5) / eye->width_px * 2 - 1) * eye->half_width;
+    double sy = (1 - (y + .5) / eye->height_px * 2) * eye->half_height;
+    struct gn_ray ray = {.t_min = eye->near_m, .t_max = eye->far_m}; /* t is depth along forward */
+    for (int k = 0; k < 3; k++) {
+        double aside = sx * eye->right[k] + sy * eye->up[k];
+        ray.origin[k] = eye->position_ws[k] + (eye->orthographic ? aside : 0);
+        ray.direction[k] = eye->forward[k] + (eye->orthographic ? 0 : aside);
+    }
+    struct gn_bvh_hit hit;
+    if (!gn_bvh_hit(&rays->bvh, &ray, false, seen_by_eye, rays, &hit)) return false;
+
+    const struct gn_bvh_triangle *t = &rays->bvh.triangles[hit.triangle];
+    double a[3], b[3], away[3];
+    *surface = (struct gn_surface){.item = t->item};
+    for (int k = 0; k < 3; k++) {
+        surface->point_ws[k] = ray.origin[k] + hit.t * ray.direction[k];
+        away[k] = surface->point_ws[k] - eye->position_ws[k];
+        a[k] = t->p[1][k] - t->p[0][k];
+        b[k] = t->p[2][k] - t->p[0][k];
+    }
+    surface->distance_m = sqrt(dot(away, away));
+    cross(a, b, surface->normal_ws);
+    normalise(surface->normal_ws);
+    if (dot(surface->normal_ws, ray.direction) > 0)
+        for (int k = 0; k < 3; k++) surface->normal_ws[k] = -surface->normal_ws[k];
+    return true;
+}
+
+/* --- lights ---------------------------------------------------------------------------------------------------------- */
+
+void gn_lamp_init(struct gn_lamp *lamp, const struct gn_pose *pose, uint32_t light) {
+    const struct gn_light *l = &pose->scene->lights[light];
+    vec3 position, direction;
+    gn_pose_light(pose, light, position, direction);
+    *lamp = (struct gn_lamp){.type = l->type,
+                             .range_m = l->range_m > 0 ? l->range_m : INFINITY,
+                             .cos_cone = cos(fmin(l->outer_rad, 80 * M_PI / 180)),
+                             .radius = l->radius};
+    for (int k = 0; k < 3; k++) {
+        lamp->position_ws[k] = position[k];
+        lamp->direction_ws[k] = direction[k];
+    }
+    normalise(lamp->direction_ws);
+}
+
+/* The vector from the surface to the lamp's middle; its length is the distance, or 1 for a directional lamp. */
+static void towards(const struct gn_lamp *lamp, const struct gn_surface *surface, double to[3]) {
+    for (int k = 0; k < 3; k++)
+        to[k] = lamp->type == GN_LIGHT_DIRECTIONAL ? -lamp->direction_ws[k]
+                                                   : lamp->position_ws[k] - surface->point_ws[k];
+}
+
+/* Does the lamp not shine here at all? Then nothing takes its light away. */
+static bool out_of_reach(const struct gn_lamp *lamp, const double to[3]) {
+    if (lamp->type == GN_LIGHT_DIRECTIONAL) return false;
+    double distance = sqrt(dot(to, to));
+    if (distance > lamp->range_m || distance == 0) return true;
+    return lamp->type == GN_LIGHT_SPOT &&
+           -dot(to, lamp->direction_ws) <= lamp->cos_cone * distance;
+}
+
+static bool casts(const void *context, const struct gn_bvh_triangle *t,
+                  const struct gn_bvh_hit *hit) {
+    const struct gn_raycast *rays = context;
+    return (t->flags & CASTS) && !is_hole(rays->scene, t, hit);
+}
+
+static bool casts_itself(const struct gn_raycast *rays, const struct gn_surface *surface) {
+    return surface->item == GN_SURFACE_NO_ITEM || rays->scene->items[surface->item].casts;
+}
+
+/* Is the way along `to` free (as far as its length, or without end)? */
+static bool is_free(const struct gn_raycast *rays, const struct gn_surface *surface,
+                    const double to[3], bool endless) {
+    if (dot(surface->normal_ws, to) <= 0 && casts_itself(rays, surface)) return false;
+    struct gn_ray ray = {.t_min = 0, .t_max = endless ? INFINITY : 1};
+    for (int k = 0; k < 3; k++) {
+        double lift = rays->lift_m * surface->normal_ws[k];
+        ray.origin[k] = surface->point_ws[k] + lift;
+        ray.direction[k] = to[k] - (endless ? 0 : lift);
+    }
+    struct gn_bvh_hit hit;
+    return !gn_bvh_hit(&rays->bvh, &ray, true, casts, rays, &hit);
+}
+
+int gn_raycast_visible(const struct gn_raycast *rays, const struct gn_lamp *lamp,
+                       const struct gn_surface *surface) {
+    double to[3];
+    towards(lamp, surface, to);
+    if (out_of_reach(lamp, to)) return 1;
+    return is_free(rays, surface, to, lamp->type == GN_LIGHT_DIRECTIONAL);
+}
+
+double gn_raycast_share(const struct gn_raycast *rays, const struct gn_lamp *lamp,
+                        const struct gn_surface *surface, int samples) {
+    double to[3], axis[3], u[3], v[3];
+    towards(lamp, surface, to);
+    if (out_of_reach(lamp, to)) return 1;
+    for (int k = 0; k < 3; k++) axis[k] = to[k];
+    normalise(axis);
+    cross(axis, fabs(axis[1]) < .9 ? (double[3]){0, 1, 0} : (double[3]){1, 0, 0}, u);
+    normalise(u);
+    cross(axis, u, v);
+    int free_ways = 0;
+    for (int i = 0; i < samples; i++) {
+        double radius = lamp->radius * sqrt((i + .5) / samples);
+        double angle = i * M_PI * (3 - sqrt(5)); /* the golden angle */
+        double a = radius * cos(angle), b = radius * sin(angle), way[3];
+        for (int k = 0; k < 3; k++) way[k] = to[k] + a * u[k] + b * v[k];
+        free_ways += is_free(rays, surface, way, lamp->type == GN_LIGHT_DIRECTIONAL);
+    }
+    return (double)free_ways / samples;
+}
