@@ -1,0 +1,202 @@
+# gnomon. `make help` says what there is. Non-recursive: sources are found, not listed; the goals
+# that may have to install packages first do that, and then call this file again with READY=1.
+VERSION := 0.1.0
+CONFIG  ?= release
+O       ?= build
+PREFIX  ?= /usr/local
+HOSTCC  ?= cc
+SUB      = $(MAKE) --no-print-directory \
+           $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc)) READY=1
+Q       := $(if $(V),,@)
+GOALS   := $(or $(MAKECMDGOALS),all)
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SUFFIXES:
+.PHONY: all tests run check accept truth deps lint format man install uninstall help clean FORCE
+
+help:
+	@printf '%s\n' \
+	    'make            build/release/gnomon, the default scene and assets/bench' \
+	    'make run        install what is missing, build, show the default scene' \
+	    'make check      every quick test: gcc, clang, ASan and UBSan, lint' \
+	    'make accept     the long tests' \
+	    'make truth      shadows against ray-traced truth, as a table' \
+	    'make deps       install the packages that building, running and testing need (apt)' \
+	    'make lint       clang-tidy; make format: clang-format, in place' \
+	    'make install    DESTDIR= PREFIX=/usr/local; make uninstall takes it away again' \
+	    'make tests, man, compile_commands.json, clean' \
+	    'CONFIG=release|debug|asan|cov  CROSS=aarch64-linux-gnu  CC=clang  WERROR=1  V=1'
+clean:
+	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb
+deps:
+	@sh board/deps.sh build run test
+
+DEPS_run := build run
+DEPS_check := build run test
+DEPS_accept := build run test
+DEPS_truth := build run test
+BOOT := $(if $(READY),,$(filter run check accept truth,$(GOALS)))
+ifneq ($(BOOT),)
+$(BOOT):
+	@sh board/deps.sh $(DEPS_$@)
+	@+$(SUB) $@
+$(filter-out $(BOOT) help clean deps,$(GOALS)):
+	@+$(SUB) $@
+else ifneq ($(filter-out help clean deps,$(GOALS)),)
+
+# ---- the compiler and its flags ------------------------------------------------------------
+CC      := $(if $(filter default undefined,$(origin CC)),$(if $(CROSS),$(CROSS)-)gcc,$(CC))
+AR      := $(if $(CROSS),$(CROSS)-)ar
+B       := $(O)/$(if $(CROSS),$(CROSS)-)$(if $(findstring clang,$(CC)),clang-)$(CONFIG)
+ifdef CROSS
+PKG_CONFIG_LIBDIR ?= /usr/lib/$(CROSS)/pkgconfig:/usr/share/pkgconfig
+PKG     := PKG_CONFIG_LIBDIR=$(PKG_CONFIG_LIBDIR) pkg-config
+endif
+PKG     ?= pkg-config
+PKGS    := jansson libpng libturbojpeg inih
+HEADERS := egl glesv2 cglm
+MISSING := $(shell for p in $(PKGS) $(HEADERS); do $(PKG) --exists $$p 2>&1 || echo $$p; done)
+$(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps))
+
+takes    = $(shell $(CC) -Werror -O2 $(1) -x c -c -o /dev/null -include stdlib.h /dev/null \
+             2> /dev/null && echo $(1))
+HARDEN   = -fstack-protector-strong -fPIE $(or $(call takes,-D_FORTIFY_SOURCE=3),\
+             -D_FORTIFY_SOURCE=2) $(or $(call takes,-fcf-protection),\
+             $(call takes,-mbranch-protection=standard))
+SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+CFLAGS_release = -O2 -g -DNDEBUG $(HARDEN)
+CFLAGS_debug   = -Og -g
+CFLAGS_asan    = -O1 -g $(SANITIZE)
+CFLAGS_cov     = -O0 -g --coverage
+LDFLAGS_release = -pie -Wl,-z,relro,-z,now
+LDFLAGS_asan    = $(SANITIZE)
+LDFLAGS_cov     = --coverage
+$(if $(CFLAGS_$(CONFIG)),,$(error CONFIG is release, debug, asan or cov, not $(CONFIG)))
+
+WARN    := -Wall -Wextra -Wstrict-prototypes -Wmissing-prototypes -Wvla
+ALL_CFLAGS := -std=c11 -D_GNU_SOURCE -DGL_GLES_PROTOTYPES=0 -DCGLM_ALL_UNALIGNED \
+           -Isrc -I$(B)/gen $(WARN) -ffp-contract=off -fno-math-errno $(CFLAGS_$(CONFIG)) \
+           $(shell $(PKG) --cflags $(PKGS) $(HEADERS)) $(CPPFLAGS) $(CFLAGS)
+ALL_LDFLAGS := $(LDFLAGS_$(CONFIG)) $(LDFLAGS)
+LIBS    := $(shell $(PKG) --libs $(PKGS)) -ldl -lm -lpthread
+COMPILE  = $(CC) $(ALL_CFLAGS) $(if $(WERROR),-Werror) -MMD -MP
+
+# ---- what there is to build ----------------------------------------------------------------
+# x.c needs the package x and x_none.c stands in for it: the list of such pairs
+OPTIONAL := src/display/osmesa:osmesa
+without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(subst :, ,$(p))) \
+             2> /dev/null && echo y),$(firstword $(subst :, ,$(p)))_none.c,\
+             $(firstword $(subst :, ,$(p))).c))
+SRC     := $(filter-out $(without),$(sort $(wildcard src/*/*.c)))
+TESTS_C := $(sort $(wildcard tests/*/*.c))
+PROG_C  := $(foreach d,unit plan image fuzz,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
+PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
+LIB     := $(B)/libgnomon.a
+TESTLIB := $(B)/libgntest.a
+BIN     := $(B)/gnomon
+OBJ      = $(patsubst %.c,$(B)/obj/%.o,$(1))
+SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb) \
+           $(if $(wildcard assets/make_bench.c),assets/bench/s1.glb assets/bench/s2.glb)
+EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES))
+EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb,$(suffix $f)),$f))
+
+all: $(BIN) $(SCENES)
+tests: $(BIN) $(PROGS)
+man: $(O)/gnomon.1
+
+$(BIN): $(call OBJ,src/main.c) $(LIB)
+	@echo "link $@"
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+$(LIB): $(call OBJ,$(SRC)) $(B)/obj/gen/embedded.o
+$(TESTLIB): $(call OBJ,$(filter-out $(PROG_C),$(TESTS_C)))
+$(LIB) $(TESTLIB): $(B)/sources
+	$(Q)rm -f $@ && $(AR) rcs $@ $(filter %.o,$^)
+$(B)/obj/%.o: %.c $(B)/flags | $(B)/gen/config.h
+	@mkdir -p $(@D) && echo "cc   $<"
+	$(Q)$(COMPILE) $(if $(filter tests/%,$<),-Itests) -c -o $@ $<
+$(B)/obj/gen/embedded.o: $(B)/gen/embedded.c $(B)/flags
+	@mkdir -p $(@D) && echo "cc   $<"
+	$(Q)$(COMPILE) -c -o $@ $<
+define program
+$(B)/tests/$(basename $(notdir $(1))): $(call OBJ,$(1)) $(TESTLIB) $(LIB)
+	@mkdir -p $$(@D) && echo "link $$@"
+	$(Q)$$(CC) $$(ALL_CFLAGS) $$(ALL_LDFLAGS) -o $$@ $$^ -lcmocka $$(LIBS)
+endef
+$(foreach c,$(PROG_C),$(eval $(call program,$(c))))
+
+# files that change only when what they say does: the flags, the list of sources, the configuration
+define keep
+@mkdir -p $(@D) && printf '%b\n' '$(1)' | cmp -s - $@ || printf '%b\n' '$(1)' > $@
+endef
+$(B)/flags: FORCE
+	$(call keep,$(shell $(CC) -dumpfullversion) $(CC) $(ALL_CFLAGS))
+$(B)/sources: FORCE
+	$(call keep,$(SRC) $(TESTS_C) $(EMBED))
+$(B)/gen/config.h: FORCE
+	$(call keep,#define GN_VERSION "$(VERSION)"\n#define GN_HAVE_OSMESA $(if \
+	    $(filter %/osmesa.c,$(without)),0,1))
+$(B)/gen/embedded.c: $(O)/host/embed $(B)/sources $(EMBED)
+	$(Q)$< $(foreach f,$(EMBED),$(patsubst shaders_es/%,%,$(patsubst assets/%,%,$f))=$f) > $@
+
+# ---- programs that run while building, and what they make ----------------------------------
+HOST = $(HOSTCC) -std=c11 -D_GNU_SOURCE -O2 -Wall -Wextra -Isrc -Iassets -I$(B)/gen -o $@ \
+       $(filter %.c,$^) -lm
+ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c))
+MAN_C   := $(addprefix src/,cli/help.c cli/options.c cli/value.c core/arena.c core/err.c core/text.c)
+$(O)/host/embed: board/embed.c
+$(O)/host/man: board/man.c $(MAN_C) $(wildcard src/cli/*.h src/core/*.h) | $(B)/gen/config.h
+$(O)/host/make_%: assets/make_%.c $(ASSET_C) $(wildcard assets/*.h)
+$(O)/host/embed $(O)/host/man $(O)/host/make_sundial $(O)/host/make_bench:
+	@mkdir -p $(@D) && echo "host $@"
+	$(Q)$(HOST)
+assets/sundial.glb: $(O)/host/make_sundial
+	$(Q)$< $@.tmp && mv $@.tmp $@
+assets/bench/%.glb: $(O)/host/make_bench
+	@mkdir -p $(@D)
+	$(Q)$< $* $@.tmp && mv $@.tmp $@
+$(O)/gnomon.1: $(O)/host/man
+	$(Q)$< > $@
+
+# ---- checks --------------------------------------------------------------------------------
+programs = $(addprefix $(1)/tests/,$(notdir $(filter-out %/tool_%,$(basename $(PROG_C)))))
+SCRIPTS := $(sort $(wildcard tests/check_*.sh tests/*/check_*.sh))
+run: all
+	$(BIN)
+check:
+	+$(SUB) WERROR=1 CONFIG=release all tests
+	+$(SUB) WERROR=1 CONFIG=debug CC=clang tests
+	+$(SUB) WERROR=1 CONFIG=asan tests
+	+$(SUB) lint
+	@tests/run.sh tests/layers.sh tests/format.sh \
+	    BUILD=$(O)/release $(call programs,$(O)/release) $(SCRIPTS) \
+	    BUILD=$(O)/asan $(call programs,$(O)/asan)
+accept:
+	+$(SUB) WERROR=1 CONFIG=release all tests
+	@GN_FULL=1 tests/run.sh BUILD=$(O)/release $(call programs,$(O)/release) \
+	    $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh))
+truth: $(B)/tests/tool_truth
+	$<
+lint: $(patsubst %.c,$(O)/tidy/%.ok,src/main.c $(SRC))
+$(O)/tidy/%.ok: %.c .clang-tidy $(wildcard src/*/*.h) | $(B)/gen/config.h
+	@mkdir -p $(@D) && echo "tidy $<"
+	$(Q)clang-tidy --quiet --warnings-as-errors='*' $< -- $(filter-out -f%,$(ALL_CFLAGS)) && touch $@
+format:
+	clang-format -i $(wildcard src/*.c src/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*.c)
+compile_commands.json: FORCE
+	@for f in src/main.c $(SRC) $(TESTS_C); do printf \
+	    '{"directory": "$(CURDIR)", "file": "%s", "command": "$(CC) $(ALL_CFLAGS) -Itests -c %s"},\n' \
+	    $$f $$f; done | sed '1s/^/[\n/; $$s/,$$/\n]/' > $@
+
+# ---- installation --------------------------------------------------------------------------
+INTO := $(DESTDIR)$(PREFIX)
+install: all
+	install -D -m 755 $(BIN) $(INTO)/bin/gnomon
+	install -D -m 644 $(O)/gnomon.1 $(INTO)/share/man/man1/gnomon.1
+	install -D -m 644 LICENSE $(INTO)/share/doc/gnomon/LICENSE
+uninstall:
+	rm -f $(INTO)/bin/gnomon $(INTO)/share/man/man1/gnomon.1
+	rm -rf $(INTO)/share/doc/gnomon
+
+-include $(shell find $(B)/obj -name '*.d' 2> /dev/null)
+endif

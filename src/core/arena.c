@@ -1,0 +1,143 @@
+#include "core/arena.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Under ASan every piece is followed by a few bytes that nobody may touch, so that an overrun
+ * inside a block is found. */
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#define POISON
+#endif
+#endif
+#if defined(POISON) || defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#define RED_ZONE         16
+#define FORBID(at, size) __asan_poison_memory_region(at, size)
+#define ALLOW(at, size)  __asan_unpoison_memory_region(at, size)
+#else
+#define RED_ZONE         0
+#define FORBID(at, size) ((void)(at), (void)(size))
+#define ALLOW(at, size)  ((void)(at), (void)(size))
+#endif
+
+#define ALIGNMENT     16
+#define DEFAULT_BLOCK (64 * 1024)
+
+struct gn_arena_block {
+    struct gn_arena_block *next;
+    size_t size, used; /* of data */
+    _Alignas(ALIGNMENT) unsigned char data[];
+};
+
+static _Atomic unsigned long requests;
+static unsigned long fail_countdown;
+
+static bool must_fail(void) { return fail_countdown && --fail_countdown == 0; }
+
+static size_t room(const struct gn_arena_block *block) {
+    return block ? block->size - block->used : 0;
+}
+
+/* Puts a new block after the current one. */
+static struct gn_arena_block *add_block(struct gn_arena *arena, size_t least) {
+    size_t size = arena->block ? arena->block : DEFAULT_BLOCK;
+    if (size < least) size = least;
+    if (size > SIZE_MAX - sizeof(struct gn_arena_block)) return NULL;
+    requests++;
+    struct gn_arena_block *block = calloc(1, sizeof *block + size);
+    if (!block) return NULL;
+    block->size = size;
+    FORBID(block->data, size);
+    struct gn_arena_block **link = arena->current ? &arena->current->next : &arena->first;
+    block->next = *link;
+    *link = block;
+    return block;
+}
+
+/* After a reset the blocks behind the current one are empty: the first that is large enough is
+ * moved up. */
+static struct gn_arena_block *reuse_block(struct gn_arena *arena, size_t least) {
+    if (!arena->current) return NULL;
+    for (struct gn_arena_block **link = &arena->current->next; *link; link = &(*link)->next) {
+        struct gn_arena_block *found = *link;
+        if (found->size < least) continue;
+        *link = found->next;
+        found->next = arena->current->next;
+        arena->current->next = found;
+        return found;
+    }
+    return NULL;
+}
+
+static bool find_room(struct gn_arena *arena, size_t size) {
+    if (arena->current && room(arena->current) >= size) return true;
+    struct gn_arena_block *block = reuse_block(arena, size);
+    if (!block) block = add_block(arena, size);
+    if (block) arena->current = block;
+    return block != NULL;
+}
+
+void *gn_arena_alloc(struct gn_arena *arena, size_t count, size_t size) {
+    size_t bytes;
+    if (must_fail() || __builtin_mul_overflow(count, size, &bytes)) return NULL;
+    if (bytes > SIZE_MAX / 2 || (arena->limit && bytes > arena->limit - arena->used)) return NULL;
+    size_t padded = (bytes + RED_ZONE + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    if (!find_room(arena, padded)) return NULL;
+    unsigned char *data = arena->current->data + arena->current->used;
+    arena->current->used += padded;
+    arena->used += bytes;
+    ALLOW(data, bytes);
+    return data;
+}
+
+char *gn_arena_strdup(struct gn_arena *arena, const char *text) {
+    size_t size = strlen(text) + 1;
+    char *copy = gn_arena_alloc(arena, size, 1);
+    return copy ? memcpy(copy, text, size) : NULL;
+}
+
+void gn_arena_reset(struct gn_arena *arena) {
+    for (struct gn_arena_block *block = arena->first; block; block = block->next) {
+        ALLOW(block->data, block->used);
+        memset(block->data, 0, block->used);
+        FORBID(block->data, block->used);
+        block->used = 0;
+    }
+    arena->current = arena->first;
+    arena->used = 0;
+}
+
+void gn_arena_finish(struct gn_arena *arena) {
+    for (struct gn_arena_block *block = arena->first, *next; block; block = next) {
+        next = block->next;
+        ALLOW(block->data, block->size);
+        free(block);
+    }
+    arena->first = arena->current = NULL;
+    arena->used = 0;
+}
+
+static void *or_abort(void *memory) {
+    if (memory) return memory;
+    fputs("gnomon: out of memory\n", stderr);
+    abort();
+}
+
+void *gn_xalloc(size_t count, size_t size) {
+    requests++;
+    return or_abort(calloc(count ? count : 1, size ? size : 1));
+}
+
+void *gn_xrealloc(void *old, size_t count, size_t size) {
+    size_t bytes;
+    requests++;
+    if (__builtin_mul_overflow(count, size, &bytes)) return or_abort(NULL);
+    return or_abort(realloc(old, bytes ? bytes : 1));
+}
+
+unsigned long gn_alloc_count(void) { return requests; }
+
+void gn_alloc_fail_at(unsigned long nth) { fail_countdown = nth; }

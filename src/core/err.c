@@ -1,0 +1,49 @@
+#include "core/err.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/text.h"
+
+static void fill(struct gn_err *err, enum gn_exit status, const char *format, va_list args) {
+    if (!err) return;
+    gn_text_vformat(err->text, sizeof err->text, format, args);
+    err->status = status;
+}
+
+bool gn_fail(struct gn_err *err, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    fill(err, GN_EXIT_WORLD, format, args);
+    va_end(args);
+    return false;
+}
+
+bool gn_fail_usage(struct gn_err *err, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    fill(err, GN_EXIT_USAGE, format, args);
+    va_end(args);
+    return false;
+}
+
+static void join(struct gn_err *err, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    gn_text_vformat(err->text, sizeof err->text, format, args);
+    va_end(args);
+}
+
+bool gn_fail_prefix(struct gn_err *err, const char *format, ...) {
+    if (!err) return false;
+    struct gn_err prefix;
+    va_list args;
+    va_start(args, format);
+    gn_text_vformat(prefix.text, sizeof prefix.text, format, args);
+    va_end(args);
+    char said[sizeof err->text];
+    memcpy(said, err->text, sizeof said);
+    join(err, "%s: %s", prefix.text, said);
+    return false;
+}

@@ -1,0 +1,162 @@
+#include "core/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char *kind_name(mode_t mode) {
+    return S_ISDIR(mode)    ? "a folder"
+           : S_ISFIFO(mode) ? "a FIFO"
+           : S_ISSOCK(mode) ? "a socket"
+                            : "a device";
+}
+
+static void close_quietly(int fd) {
+    if (fd >= 0) close(fd);
+}
+
+static bool fail_errno(struct gn_err *err, const char *path, const char *verb) {
+    return gn_fail(err, "%s: cannot %s: %s", path, verb, strerror(errno));
+}
+
+static bool fail_size(struct gn_err *err, const char *path, size_t limit) {
+    return gn_fail(err, "%s: larger than the limit of %zu bytes", path, limit);
+}
+
+/* Does not block: neither on a FIFO without a writer nor on a device. */
+static bool open_regular(const char *path, int *fd, struct stat *info, struct gn_err *err) {
+    *fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (*fd < 0 && errno == ENXIO)
+        return gn_fail(err, "%s: is a socket or device, not a file", path);
+    if (*fd < 0) return fail_errno(err, path, "open");
+    if (fstat(*fd, info) != 0) return fail_errno(err, path, "read");
+    if (!S_ISREG(info->st_mode))
+        return gn_fail(err, "%s: is %s, not a file", path, kind_name(info->st_mode));
+    return true;
+}
+
+/* The size that the file had when it was opened is a hint only: it may grow, and files of /proc say
+ * 0. */
+static bool read_all(int fd, const char *path, size_t hint, size_t limit, struct gn_bytes *out,
+                     struct gn_err *err) {
+    size_t room = hint + 1;
+    out->data = malloc(room + 1);
+    while (out->data) {
+        ssize_t got = read(fd, out->data + out->size, room - out->size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return fail_errno(err, path, "read");
+        if (got == 0) break;
+        out->size += (size_t)got;
+        if (limit && out->size > limit) return fail_size(err, path, limit);
+        if (out->size < room) continue;
+        room = room * 2 + 4096;
+        uint8_t *larger = realloc(out->data, room + 1);
+        if (!larger) return gn_fail(err, "%s: too large for this machine's memory", path);
+        out->data = larger;
+    }
+    if (!out->data) return gn_fail(err, "%s: too large for this machine's memory", path);
+    out->data[out->size] = 0;
+    return true;
+}
+
+bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err) {
+    struct stat info;
+    int fd = -1;
+    *out = (struct gn_bytes){0};
+    bool ok = open_regular(path, &fd, &info, err);
+    if (ok && limit && (uintmax_t)info.st_size > limit) ok = fail_size(err, path, limit);
+    ok = ok && read_all(fd, path, (size_t)info.st_size, limit, out, err);
+    close_quietly(fd);
+    if (!ok) gn_bytes_finish(out);
+    return ok;
+}
+
+void gn_bytes_finish(struct gn_bytes *bytes) {
+    free(bytes->data);
+    *bytes = (struct gn_bytes){0};
+}
+
+static bool write_all(int fd, const void *data, size_t size) {
+    const uint8_t *at = data;
+    while (size > 0) {
+        ssize_t put = write(fd, at, size);
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) return false;
+        at += put;
+        size -= (size_t)put;
+    }
+    return true;
+}
+
+/* The descriptor that a path of /dev names, with the position it already has, or a new one. */
+static int open_direct(const char *path) {
+    if (strcmp(path, "/dev/stdout") == 0) return dup(STDOUT_FILENO);
+    if (strcmp(path, "/dev/stderr") == 0) return dup(STDERR_FILENO);
+    return open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
+}
+
+static bool write_direct(const char *path, const void *data, size_t size, struct gn_err *err) {
+    int fd = open_direct(path);
+    if (fd < 0) return fail_errno(err, path, "write");
+    bool ok = write_all(fd, data, size);
+    if (!ok) fail_errno(err, path, "write");
+    if (close(fd) != 0 && ok) ok = fail_errno(err, path, "write");
+    return ok;
+}
+
+static int create_beside(const char *target, char *name, size_t size) {
+    const char *slash = strrchr(target, '/');
+    int folder = slash ? (int)(slash - target + 1) : 0;
+    int fd = -1;
+    for (int attempt = 0; attempt < 100 && fd < 0; attempt++) {
+        int length =
+            snprintf(name, size, "%.*s.gnomon-%ld-%d", folder, target, (long)getpid(), attempt);
+        if (length >= (int)size) errno = ENAMETOOLONG;
+        if (length >= (int)size) return -1;
+        fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd < 0 && errno != EEXIST) return -1;
+    }
+    return fd;
+}
+
+static bool write_and_rename(const char *path, const char *target, const struct stat *old,
+                             const void *data, size_t size, struct gn_err *err) {
+    char name[PATH_MAX];
+    int fd = create_beside(target, name, sizeof name);
+    if (fd < 0) return fail_errno(err, path, "write");
+    bool ok = write_all(fd, data, size) && (!old || fchmod(fd, old->st_mode & 07777) == 0) &&
+              fsync(fd) == 0;
+    int reason = errno;
+    if (close(fd) != 0 && ok) {
+        ok = false;
+        reason = errno;
+    }
+    if (ok && rename(name, target) == 0) return true;
+    if (ok) reason = errno;
+    unlink(name);
+    errno = reason;
+    return fail_errno(err, path, "write");
+}
+
+static bool is_direct(const char *path, const struct stat *info) {
+    return strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0 ||
+           (info && !S_ISREG(info->st_mode));
+}
+
+bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err) {
+    struct stat info;
+    bool exists = stat(path, &info) == 0;
+    if (exists && S_ISDIR(info.st_mode)) return gn_fail(err, "%s: cannot write: is a folder", path);
+    if (!path[0]) return gn_fail(err, "cannot write to a file without a name");
+    if (is_direct(path, exists ? &info : NULL)) return write_direct(path, data, size, err);
+    if (exists && access(path, W_OK) != 0) return fail_errno(err, path, "write");
+    char *real = exists ? realpath(path, NULL) : NULL; /* a link stays a link */
+    bool ok = write_and_rename(path, real ? real : path, exists ? &info : NULL, data, size, err);
+    free(real);
+    return ok;
+}

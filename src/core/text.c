@@ -1,0 +1,61 @@
+#include "core/text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define DISTANCE_MAX 31
+
+static int is_control(const unsigned char *c) {
+    return *c < 0x20 || *c == 0x7f || (c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0);
+}
+
+static void drop_control(char *text) {
+    char *to = text;
+    for (const char *from = text; *from; from++) {
+        const unsigned char *c = (const unsigned char *)from;
+        if (!is_control(c)) *to++ = *from;
+        else if (*c == 0xc2) from++;
+    }
+    *to = '\0';
+}
+
+static size_t utf8_length(unsigned char lead) {
+    return lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;
+}
+
+static void cut_at_character(char *text, size_t length) {
+    size_t start = length;
+    while (start > 0 && length - start < 4 && ((unsigned char)text[start - 1] & 0xc0) == 0x80)
+        start--;
+    if (start == 0) return;
+    if (start - 1 + utf8_length((unsigned char)text[start - 1]) > length) text[start - 1] = '\0';
+}
+
+void gn_text_vformat(char *out, size_t size, const char *format, va_list args) {
+    int wanted = vsnprintf(out, size, format, args);
+    if (wanted < 0) out[0] = '\0';
+    size_t length = strlen(out);
+    if (wanted >= (int)size) cut_at_character(out, length);
+    drop_control(out);
+}
+
+static int least(int a, int b, int c) {
+    int m = a < b ? a : b;
+    return m < c ? m : c;
+}
+
+int gn_text_distance(const char *a, const char *b) {
+    int row[DISTANCE_MAX + 1];
+    int a_length = (int)strnlen(a, DISTANCE_MAX), b_length = (int)strnlen(b, DISTANCE_MAX);
+    for (int j = 0; j <= b_length; j++) row[j] = j;
+    for (int i = 1; i <= a_length; i++) {
+        int diagonal = row[0];
+        row[0] = i;
+        for (int j = 1; j <= b_length; j++) {
+            int replaced = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            row[j] = least(replaced, row[j] + 1, row[j - 1] + 1);
+        }
+    }
+    return row[b_length];
+}

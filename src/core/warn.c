@@ -1,0 +1,31 @@
+#include "core/warn.h"
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "core/text.h"
+
+static bool is_held(const struct gn_warnings *warnings, const char *text) {
+    for (int i = 0; i < warnings->count; i++)
+        if (strcmp(warnings->text[i], text) == 0) return true;
+    return false;
+}
+
+void gn_warn(struct gn_warnings *warnings, const char *format, ...) {
+    if (!warnings) return;
+    char text[sizeof warnings->text[0]];
+    va_list args;
+    va_start(args, format);
+    gn_text_vformat(text, sizeof text, format, args);
+    va_end(args);
+    if (is_held(warnings, text)) return;
+    if (warnings->count == GN_WARN_MAX) warnings->dropped++;
+    else memcpy(warnings->text[warnings->count++], text, sizeof text);
+}
+
+void gn_warn_print(const struct gn_warnings *warnings, FILE *to) {
+    for (int i = 0; i < warnings->count; i++)
+        fprintf(to, "gnomon: warning: %s\n", warnings->text[i]);
+    if (warnings->dropped) fprintf(to, "gnomon: warning: and %d more\n", warnings->dropped);
+}
