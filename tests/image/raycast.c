@@ -68,6 +68,8 @@ void gn_raycast_finish(struct gn_raycast *rays) {
     *rays = (struct gn_raycast){0};
 }
 
+bool gn_raycast_casts(const struct gn_bvh_triangle *triangle) { return triangle->flags & CASTS; }
+
 /* --- holes ----------------------------------------------------------------------------------------------------------- */
 
 static uint32_t wrap(int64_t i, uint32_t size, enum gn_wrap how) {
@@ -134,13 +136,13 @@ static bool is_hole(const struct gn_scene *scene, const struct gn_bvh_triangle *
 
 /* --- the eye --------------------------------------------------------------------------------------------------------- */
 
-void gn_eye_init(struct gn_eye *eye, const struct gn_pose *pose, uint32_t camera, int width_px,
+void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera, int width_px,
                  int height_px) {
     const struct gn_camera *c = &pose->scene->cameras[camera];
     mat4 view;
     vec3 position;
     gn_pose_view(pose, camera, view, position);
-    *eye = (struct gn_eye){.orthographic = c->orthographic,
+    *eye = (struct gn_ray_eye){.orthographic = c->orthographic,
                            .width_px = width_px,
                            .height_px = height_px,
                            .near_m = c->near_m,
@@ -155,7 +157,7 @@ void gn_eye_init(struct gn_eye *eye, const struct gn_pose *pose, uint32_t camera
     eye->half_width = eye->half_height * width_px / height_px;
 }
 
-double gn_eye_pixel_m(const struct gn_eye *eye, const double point_ws[3]) {
+double gn_ray_eye_pixel_m(const struct gn_ray_eye *eye, const double point_ws[3]) {
     double pixel = 2 * eye->half_height / eye->height_px;
     if (eye->orthographic) return pixel;
     double v[3];
@@ -172,8 +174,8 @@ static bool seen_by_eye(const void *context, const struct gn_bvh_triangle *t,
     return !is_hole(rays->scene, t, hit);
 }
 
-bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_eye *eye, int x, int y,
-                    struct gn_surface *surface) {
+bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_ray_eye *eye, int x, int y,
+                    struct gn_ray_surface *surface) {
     double sx = ((x + .5) / eye->width_px * 2 - 1) * eye->half_width;
     double sy = (1 - (y + .5) / eye->height_px * 2) * eye->half_height;
     struct gn_ray ray = {.t_min = eye->near_m, .t_max = eye->far_m}; /* t is depth along forward */
@@ -187,7 +189,7 @@ bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_eye *eye, int
 
     const struct gn_bvh_triangle *t = &rays->bvh.triangles[hit.triangle];
     double a[3], b[3], away[3];
-    *surface = (struct gn_surface){.item = t->item};
+    *surface = (struct gn_ray_surface){.item = t->item};
     for (int k = 0; k < 3; k++) {
         surface->point_ws[k] = ray.origin[k] + hit.t * ray.direction[k];
         away[k] = surface->point_ws[k] - eye->position_ws[k];
@@ -204,11 +206,11 @@ bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_eye *eye, int
 
 /* --- lights ---------------------------------------------------------------------------------------------------------- */
 
-void gn_lamp_init(struct gn_lamp *lamp, const struct gn_pose *pose, uint32_t light) {
+void gn_ray_lamp_init(struct gn_ray_lamp *lamp, const struct gn_pose *pose, uint32_t light) {
     const struct gn_light *l = &pose->scene->lights[light];
     vec3 position, direction;
     gn_pose_light(pose, light, position, direction);
-    *lamp = (struct gn_lamp){.type = l->type,
+    *lamp = (struct gn_ray_lamp){.type = l->type,
                              .range_m = l->range_m > 0 ? l->range_m : INFINITY,
                              .cos_cone = cos(fmin(l->outer_rad, 80 * M_PI / 180)),
                              .radius = l->radius};
@@ -220,14 +222,14 @@ void gn_lamp_init(struct gn_lamp *lamp, const struct gn_pose *pose, uint32_t lig
 }
 
 /* The vector from the surface to the lamp's middle; its length is the distance, or 1 for a directional lamp. */
-static void towards(const struct gn_lamp *lamp, const struct gn_surface *surface, double to[3]) {
+static void towards(const struct gn_ray_lamp *lamp, const struct gn_ray_surface *surface, double to[3]) {
     for (int k = 0; k < 3; k++)
         to[k] = lamp->type == GN_LIGHT_DIRECTIONAL ? -lamp->direction_ws[k]
                                                    : lamp->position_ws[k] - surface->point_ws[k];
 }
 
 /* Does the lamp not shine here at all? Then nothing takes its light away. */
-static bool out_of_reach(const struct gn_lamp *lamp, const double to[3]) {
+static bool out_of_reach(const struct gn_ray_lamp *lamp, const double to[3]) {
     if (lamp->type == GN_LIGHT_DIRECTIONAL) return false;
     double distance = sqrt(dot(to, to));
     if (distance > lamp->range_m || distance == 0) return true;
@@ -241,12 +243,12 @@ static bool casts(const void *context, const struct gn_bvh_triangle *t,
     return (t->flags & CASTS) && !is_hole(rays->scene, t, hit);
 }
 
-static bool casts_itself(const struct gn_raycast *rays, const struct gn_surface *surface) {
-    return surface->item == GN_SURFACE_NO_ITEM || rays->scene->items[surface->item].casts;
+static bool casts_itself(const struct gn_raycast *rays, const struct gn_ray_surface *surface) {
+    return surface->item == GN_RAY_NO_ITEM || rays->scene->items[surface->item].casts;
 }
 
 /* Is the way along `to` free (as far as its length, or without end)? */
-static bool is_free(const struct gn_raycast *rays, const struct gn_surface *surface,
+static bool is_free(const struct gn_raycast *rays, const struct gn_ray_surface *surface,
                     const double to[3], bool endless) {
     if (dot(surface->normal_ws, to) <= 0 && casts_itself(rays, surface)) return false;
     struct gn_ray ray = {.t_min = 0, .t_max = endless ? INFINITY : 1};
@@ -259,16 +261,16 @@ static bool is_free(const struct gn_raycast *rays, const struct gn_surface *surf
     return !gn_bvh_hit(&rays->bvh, &ray, true, casts, rays, &hit);
 }
 
-int gn_raycast_visible(const struct gn_raycast *rays, const struct gn_lamp *lamp,
-                       const struct gn_surface *surface) {
+int gn_raycast_visible(const struct gn_raycast *rays, const struct gn_ray_lamp *lamp,
+                       const struct gn_ray_surface *surface) {
     double to[3];
     towards(lamp, surface, to);
     if (out_of_reach(lamp, to)) return 1;
     return is_free(rays, surface, to, lamp->type == GN_LIGHT_DIRECTIONAL);
 }
 
-double gn_raycast_share(const struct gn_raycast *rays, const struct gn_lamp *lamp,
-                        const struct gn_surface *surface, int samples) {
+double gn_raycast_share(const struct gn_raycast *rays, const struct gn_ray_lamp *lamp,
+                        const struct gn_ray_surface *surface, int samples) {
     double to[3], axis[3], u[3], v[3];
     towards(lamp, surface, to);
     if (out_of_reach(lamp, to)) return 1;

@@ -29,50 +29,51 @@ struct gn_raycast {
 /* Copies the triangles of all visible items to where the pose has them; scene must outlive it, pose need not. */
 void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene, const struct gn_pose *pose);
 void gn_raycast_finish(struct gn_raycast *rays);
+bool gn_raycast_casts(const struct gn_bvh_triangle *triangle); /* one of rays->bvh.triangles */
 
 /* A camera at a pose, and a picture size. A perspective camera keeps its vertical angle; an orthographic one its vertical
  * half-size; the picture's shape gives the horizontal one. Every pixel is square. */
-struct gn_eye {
+struct gn_ray_eye {
     double position_ws[3], right[3], up[3], forward[3];
     double half_width, half_height; /* at distance 1 (perspective) or in metres (orthographic) */
     double near_m, far_m;           /* along forward; far_m INFINITY if unlimited */
     bool orthographic;
     int width_px, height_px;
 };
-void gn_eye_init(struct gn_eye *eye, const struct gn_pose *pose, uint32_t camera, int width_px,
+void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera, int width_px,
                  int height_px);
 /* Size of one pixel in metres for a surface facing the eye at this point. */
-double gn_eye_pixel_m(const struct gn_eye *eye, const double point_ws[3]);
+double gn_ray_eye_pixel_m(const struct gn_ray_eye *eye, const double point_ws[3]);
 
-struct gn_surface {
+struct gn_ray_surface {
     double point_ws[3];
     double normal_ws[3]; /* unit, of the triangle, towards the side it is seen from */
     double distance_m;   /* from the eye */
-    uint32_t item;       /* GN_SURFACE_NO_ITEM: a bare point, taken as part of something that casts */
+    uint32_t item;       /* GN_RAY_NO_ITEM: a bare point, taken as part of something that casts */
 };
-#define GN_SURFACE_NO_ITEM UINT32_MAX
+#define GN_RAY_NO_ITEM UINT32_MAX
 
 /* What the eye sees through the middle of pixel x, y (row 0 on top); false on the background. */
-bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_eye *eye, int x, int y,
-                    struct gn_surface *surface);
+bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_ray_eye *eye, int x, int y,
+                    struct gn_ray_surface *surface);
 
 /* A light at a pose. */
-struct gn_lamp {
+struct gn_ray_lamp {
     enum gn_light_type type;
     double position_ws[3], direction_ws[3]; /* direction: unit, along which it shines */
     double range_m;                         /* INFINITY: unlimited */
     double cos_cone;                        /* of the spot's outer half-angle or 80 degrees */
     double radius;                          /* metres, or tangent of the angular radius */
 };
-void gn_lamp_init(struct gn_lamp *lamp, const struct gn_pose *pose, uint32_t light);
+void gn_ray_lamp_init(struct gn_ray_lamp *lamp, const struct gn_pose *pose, uint32_t light);
 
 /* Is the lamp's middle seen from the surface? 1 lit, 0 dark. */
-int gn_raycast_visible(const struct gn_raycast *rays, const struct gn_lamp *lamp,
-                       const struct gn_surface *surface);
+int gn_raycast_visible(const struct gn_raycast *rays, const struct gn_ray_lamp *lamp,
+                       const struct gn_ray_surface *surface);
 /* Share of the lamp's area that is seen, 0..1: a disk of `radius` that faces the surface (point, spot) or of that tangent
  * about the direction (directional). `samples` points on a Vogel spiral (256-1024 are plenty), the same every time. Of what
  * lies below the surface's horizon nothing is seen. */
-double gn_raycast_share(const struct gn_raycast *rays, const struct gn_lamp *lamp,
-                        const struct gn_surface *surface, int samples);
+double gn_raycast_share(const struct gn_raycast *rays, const struct gn_ray_lamp *lamp,
+                        const struct gn_ray_surface *surface, int samples);
 
 #endif
