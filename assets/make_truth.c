@@ -1,0 +1,306 @@
+/* The scenes in which shadows are measured against ray-traced truth: a ground and casters of every
+ * kind under one light. They are generated from a table and a seed; `--contact` writes the two
+ * scenes of the contact test instead. */
+#include "glb.h"
+#include "outline.h"
+#include "shapes.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#define RADIANS (float)(M_PI / 180)
+
+struct scene {
+    float size;      /* side of the ground, metres */
+    float elevation; /* of the light, degrees */
+    float azimuth;   /* of the light, degrees from +x towards -z */
+    float distance;  /* of the spot, metres; 0: a directional light */
+};
+
+static const struct scene scenes[] = {
+    {5, 35, 20, 0},     {5, 62, 200, 0},     {8, 20, 75, 0},    {8, 48, 310, 0},
+    {13, 27, 140, 0},   {13, 71, 255, 0},    {25, 23, 15, 0},   {25, 54, 105, 0},
+    {60, 31, 230, 0},   {60, 66, 340, 0},    {120, 41, 165, 0}, {120, 80, 50, 0},
+    {5, 52, 285, 6},    {8, 33, 120, 10},    {13, 45, 30, 15},  {25, 68, 215, 27},
+    {60, 38, 160, 70},  {120, 57, 325, 130}, {13, 24, 60, 100}, {13, 50, 190, 100},
+    {13, 77, 280, 100}, {13, 30, 145, 400},  {13, 58, 10, 400}, {13, 72, 235, 400},
+};
+enum { SCENES = sizeof scenes / sizeof *scenes, CASTERS_MAX = 16 };
+_Static_assert(SCENES == 24, "the table is part of the contract");
+
+enum kind { BOX, WALL, BALL, FENCE, TILT, KINDS };
+
+struct spot { /* a caster's place on the ground, in units of the scene's scale */
+    float x, z, radius;
+};
+
+struct build {
+    struct gn_glb *glb;
+    const struct scene *scene;
+    uint32_t seed;
+    float unit; /* metres of what would be one metre in a scene of 10 m */
+    struct spot placed[CASTERS_MAX];
+    int count;
+    int counts[KINDS];
+};
+
+/* ---- chance ---- */
+
+/* xorshift32: Marsaglia, "Xorshift RNGs", 2003. */
+static float chance(struct build *b, float low, float high) {
+    b->seed ^= b->seed << 13;
+    b->seed ^= b->seed >> 17;
+    b->seed ^= b->seed << 5;
+    return low + (high - low) * (float)(b->seed >> 8) / 16777216.0f;
+}
+
+static bool is_free(const struct build *b, float x, float z, float radius) {
+    for (int i = 0; i < b->count; i++)
+        if (hypotf(x - b->placed[i].x, z - b->placed[i].z) < radius + b->placed[i].radius)
+            return false;
+    return true;
+}
+
+/* A free circle on the ground; false if none was found. */
+static bool find_place(struct build *b, float radius, struct spot *out) {
+    for (int tries = 0; tries < 200; tries++) {
+        float reach = 4.4f - radius, x = chance(b, -reach, reach), z = chance(b, -reach, reach);
+        if (!is_free(b, x, z, radius)) continue;
+        *out = b->placed[b->count++] = (struct spot){x, z, radius};
+        return true;
+    }
+    return false;
+}
+
+/* ---- casters, in units of the scene's scale, standing at the pen ---- */
+
+typedef void caster_fn(struct build *b, struct gn_shape *shape);
+
+static void make_box(struct build *b, struct gn_shape *shape) {
+    gn_shape_block(shape, chance(b, 0.5f, 1.1f) * b->unit, chance(b, 0.4f, 1.9f) * b->unit,
+                   chance(b, 0.5f, 1.1f) * b->unit);
+}
+
+static void make_wall(struct build *b, struct gn_shape *shape) {
+    gn_shape_block(shape, chance(b, 1.4f, 2.1f) * b->unit, chance(b, 0.6f, 1.5f) * b->unit,
+                   chance(b, 0.012f, 0.05f) * b->unit);
+}
+
+static void make_ball(struct build *b, struct gn_shape *shape) {
+    float radius = chance(b, 0.25f, 0.6f) * b->unit,
+          lift = chance(b, 0, 1) < 0.5f ? 0 : chance(b, 0.1f, 1.2f) * b->unit;
+    gn_shape_move(shape, 0, radius + lift, 0);
+    gn_shape_sphere(shape, radius, 48, 32);
+}
+
+static void make_fence(struct build *b, struct gn_shape *shape) {
+    float length = 2.0f * b->unit;
+    gn_shape_move(shape, -length / 2, 0, 0);
+    gn_shape_fence(shape, &(struct gn_fence){.length = length,
+                                             .height = chance(b, 0.6f, 1.0f) * b->unit,
+                                             .pitch = chance(b, 0.2f, 0.3f) * b->unit,
+                                             .pale = chance(b, 0.07f, 0.1f) * b->unit,
+                                             .depth = 0.03f * b->unit,
+                                             .pointed = chance(b, 0, 1) < 0.5f});
+}
+
+static void make_tilt(struct build *b, struct gn_shape *shape) {
+    gn_shape_move(shape, 0, chance(b, 0.7f, 1.4f) * b->unit, 0);
+    gn_shape_turn(shape, 'x', chance(b, -40, 40));
+    gn_shape_turn(shape, 'z', chance(b, -25, 25));
+    gn_shape_plane(shape, chance(b, 0.8f, 1.4f) * b->unit, chance(b, 0.8f, 1.2f) * b->unit);
+}
+
+static const struct {
+    const char *name;
+    caster_fn *make;
+    float radius; /* of the free circle it needs */
+} kinds[KINDS] = {
+    [BOX] = {"box", make_box, 0.8f},       [WALL] = {"wall", make_wall, 1.1f},
+    [BALL] = {"sphere", make_ball, 0.65f}, [FENCE] = {"fence", make_fence, 1.1f},
+    [TILT] = {"plane", make_tilt, 0.9f},
+};
+
+static void add_caster(struct build *b, enum kind kind) {
+    struct spot place;
+    if (b->count == CASTERS_MAX || !find_place(b, kinds[kind].radius, &place)) return;
+    struct gn_shape shape;
+    gn_shape_init(&shape, 0);
+    kinds[kind].make(b, &shape);
+    char name[24];
+    snprintf(name, sizeof name, "%s %d", kinds[kind].name, ++b->counts[kind]);
+    struct gn_glb_material material = {
+        .rgba = {chance(b, 0.4f, 0.9f), chance(b, 0.4f, 0.9f), chance(b, 0.4f, 0.9f)},
+        .rough = 1,
+        .double_sided = kind == TILT};
+    struct gn_glb_node node = {.name = name, .move = {place.x * b->unit, 0, place.z * b->unit}};
+    node.mesh = gn_glb_mesh(b->glb, name, gn_glb_geometry(b->glb, &shape),
+                            gn_glb_material(b->glb, &material));
+    gn_glb_turn_y(chance(b, 0, 360), node.turn);
+    gn_glb_node(b->glb, &node);
+    gn_shape_finish(&shape);
+}
+
+static void add_casters(struct build *b) {
+    static const enum kind order[] = {BOX,  WALL, BALL, FENCE, TILT, BOX, WALL,
+                                      BALL, BOX,  TILT, WALL,  BALL, BOX};
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++) add_caster(b, order[i]);
+}
+
+/* ---- ground, light, camera ---- */
+
+static void add_ground(struct build *b) {
+    struct gn_shape shape;
+    gn_shape_init(&shape, 0);
+    gn_shape_plane(&shape, b->scene->size, b->scene->size);
+    int material =
+        gn_glb_material(b->glb, &(struct gn_glb_material){.rgba = {.7f, .7f, .7f}, .rough = 1});
+    gn_glb_node(b->glb, &(struct gn_glb_node){.name = "ground",
+                                              .mesh = gn_glb_mesh(b->glb, "ground",
+                                                                  gn_glb_geometry(b->glb, &shape),
+                                                                  material)});
+    gn_shape_finish(&shape);
+}
+
+static void towards(float elevation, float azimuth, float distance, float out[3]) {
+    float e = elevation * RADIANS, a = azimuth * RADIANS;
+    out[0] = distance * cosf(e) * cosf(a);
+    out[1] = distance * sinf(e);
+    out[2] = -distance * cosf(e) * sinf(a);
+}
+
+/* The half angle under which a spot at `eye` that looks at the origin sees the ground and all that
+ * stands on it. */
+static float cover(const float eye[3], float size) {
+    float widest = 0, distance = sqrtf(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]);
+    for (int corner = 0; corner < 8; corner++) {
+        float p[3] = {(corner & 1 ? .5f : -.5f) * size, corner & 2 ? .25f * size : 0,
+                      (corner & 4 ? .5f : -.5f) * size};
+        float along = 0, length = 0;
+        for (int i = 0; i < 3; i++) {
+            along += (eye[i] - p[i]) * eye[i] / distance;
+            length += (eye[i] - p[i]) * (eye[i] - p[i]);
+        }
+        widest = fmaxf(widest, acosf(along / sqrtf(length)));
+    }
+    return widest;
+}
+
+static void add_light(struct build *b) {
+    const struct scene *s = b->scene;
+    bool spot = s->distance > 0, near = s->distance < 4 * s->size;
+    struct gn_glb_node node = {.name = "light"};
+    towards(s->elevation, s->azimuth, spot ? s->distance : 2 * s->size, node.move);
+    gn_glb_look(node.move, (float[3]){0}, node.turn);
+    struct gn_glb_light light = {.name = "light", .kind = GN_GLB_DIRECTIONAL, .intensity = 3};
+    if (spot) {
+        float half = 1.03f * cover(node.move, s->size);
+        light.kind = GN_GLB_SPOT;
+        light.intensity = 3 * s->distance * s->distance;
+        light.outer = near ? fminf(fmaxf(half, 25 * RADIANS), 60 * RADIANS) : half;
+        light.inner = 0.9f * light.outer;
+    }
+    node.light = gn_glb_light(b->glb, &light);
+    gn_glb_node(b->glb, &node);
+}
+
+/* Looks at the ground from the side on which the light is not, neither along it nor against it. */
+static void add_camera(struct build *b) {
+    float size = b->scene->size, side = chance(b, 0, 1) < .5f ? -1 : 1, eye[3];
+    towards(chance(b, 30, 42), b->scene->azimuth + side * chance(b, 60, 115), 1.08f * size, eye);
+    struct gn_glb_camera lens = {
+        .name = "camera", .yfov = 42 * RADIANS, .znear = .02f * size, .zfar = 4 * size};
+    struct gn_glb_node node = {.name = "camera", .camera = gn_glb_camera(b->glb, &lens)};
+    memcpy(node.move, eye, sizeof node.move);
+    gn_glb_look(eye, (float[3]){0, 0.01f * size, 0}, node.turn);
+    gn_glb_node(b->glb, &node);
+}
+
+static void init_build(struct build *b, const struct scene *scene, uint32_t seed) {
+    *b = (struct build){.scene = scene, .seed = seed * 2654435761u + 1, .unit = scene->size / 10};
+    for (int i = 0; i < 8; i++) chance(b, 0, 1);
+    b->glb = gn_glb_create("CC0 1.0, the authors of gnomon");
+    gn_glb_scene_extras(b->glb, "{\"gnomon_sky\":[0.2,0.2,0.2],\"gnomon_ground\":[0.1,0.1,0.1],"
+                                "\"gnomon_background\":[0.3,0.4,0.5]}");
+}
+
+/* ---- files ---- */
+
+static bool write_note(const struct build *b, const char *path) {
+    const struct scene *s = b->scene;
+    char far[48] = "";
+    if (s->distance > 0) snprintf(far, sizeof far, " %g m away", (double)s->distance);
+    FILE *file = fopen(path, "w");
+    if (!file) {
+        perror(path);
+        return false;
+    }
+    fprintf(file,
+            "%d boxes, %d walls, %d spheres, %d fences, %d tilted planes on %g m; %s%s, elevation "
+            "%g, azimuth %g\n",
+            b->counts[BOX], b->counts[WALL], b->counts[BALL], b->counts[FENCE], b->counts[TILT],
+            (double)s->size, s->distance > 0 ? "spot" : "directional", far, (double)s->elevation,
+            (double)s->azimuth);
+    return !fclose(file);
+}
+
+static bool write_scene(struct build *b, const char *folder, const char *name) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s.glb", folder, name);
+    bool ok = gn_glb_write(b->glb, path);
+    snprintf(path, sizeof path, "%s/%s.txt", folder, name);
+    ok = ok && write_note(b, path);
+    gn_glb_destroy(b->glb);
+    return ok;
+}
+
+static bool write_truth(const char *folder, int index) {
+    struct build b;
+    init_build(&b, &scenes[index], (uint32_t)index + 1);
+    add_light(&b);
+    add_ground(&b);
+    add_casters(&b);
+    add_camera(&b);
+    char name[32];
+    snprintf(name, sizeof name, "truth-%02d", index);
+    return write_scene(&b, folder, name);
+}
+
+/* A box of 1 m in the middle of 10 m. */
+static bool write_contact(const char *folder, const char *name, float distance) {
+    const struct scene scene = {10, 45, 30, distance};
+    struct build b;
+    init_build(&b, &scene, 1);
+    add_light(&b);
+    add_ground(&b);
+    struct gn_shape shape;
+    gn_shape_init(&shape, 0);
+    gn_shape_block(&shape, 1, 1, 1);
+    int material =
+        gn_glb_material(b.glb, &(struct gn_glb_material){.rgba = {.8f, .5f, .3f}, .rough = 1});
+    gn_glb_node(b.glb,
+                &(struct gn_glb_node){
+                    .name = "box",
+                    .mesh = gn_glb_mesh(b.glb, "box", gn_glb_geometry(b.glb, &shape), material)});
+    gn_shape_finish(&shape);
+    b.counts[BOX] = 1;
+    add_camera(&b);
+    return write_scene(&b, folder, name);
+}
+
+int main(int argc, char **argv) {
+    bool contact = argc == 3 && !strcmp(argv[1], "--contact"), ok = true;
+    if (argc != 2 && !contact) {
+        fprintf(stderr, "usage: make_truth [--contact] OUTDIR\n");
+        return 2;
+    }
+    if (contact)
+        return write_contact(argv[2], "contact-sun", 0) &&
+                       write_contact(argv[2], "contact-spot", 12)
+                   ? 0
+                   : 1;
+    for (int i = 0; ok && i < SCENES; i++) ok = write_truth(argv[1], i);
+    return ok ? 0 : 1;
+}

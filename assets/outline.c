@@ -1,0 +1,160 @@
+/* Polygons are cut into triangles by removing ears (G. H. Meisters, "Polygons have ears", 1975); a
+ * hole is first joined to the outline by a cut of no width. */
+#include "outline.h"
+
+#include "shapes.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#define CREASE_COS 0.819f /* of 35 degrees */
+
+/* Outward normal of an edge, the outside lying to its right. */
+static void edge_normal(const float a[2], const float b[2], float out[2]) {
+    float dx = b[0] - a[0], dy = b[1] - a[1], length = hypotf(dx, dy);
+    out[0] = dy / length;
+    out[1] = -dx / length;
+}
+
+static float doubled_area(const float a[2], const float b[2], const float c[2]) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static bool inside(const float a[2], const float b[2], const float c[2], const float p[2]) {
+    bool corner = !memcmp(p, a, 8) || !memcmp(p, b, 8) || !memcmp(p, c, 8);
+    return !corner && doubled_area(a, b, p) >= 0 && doubled_area(b, c, p) >= 0 &&
+           doubled_area(c, a, p) >= 0;
+}
+
+static bool is_ear(const float (*p)[2], const int *ring, int count, int i) {
+    const float *a = p[ring[(i + count - 1) % count]], *b = p[ring[i]],
+                *c = p[ring[(i + 1) % count]];
+    if (doubled_area(a, b, c) <= 0) return false;
+    for (int k = 0; k < count; k++)
+        if (inside(a, b, c, p[ring[k]])) return false;
+    return true;
+}
+
+enum { OUTLINE_MAX = 256 };
+
+/* Cuts the polygon p[0..count) into triangles by removing ears; returns the number of indices
+ * written. */
+static int cut_ears(const float (*p)[2], int count, int *corners) {
+    int ring[OUTLINE_MAX], written = 0;
+    for (int i = 0; i < count; i++) ring[i] = i;
+    for (int left = count, i = 0, tries = 0; left > 2 && tries < left;
+         i = (i + 1) % left, tries++) {
+        if (!is_ear(p, ring, left, i)) continue;
+        corners[written++] = ring[(i + left - 1) % left];
+        corners[written++] = ring[i];
+        corners[written++] = ring[(i + 1) % left];
+        memmove(ring + i, ring + i + 1, (size_t)(left - i - 1) * sizeof *ring);
+        left--;
+        i = (i + left - 1) % left;
+        tries = -1;
+    }
+    return written;
+}
+
+static void nearest_pair(const struct gn_outline *o, int *outer, int *inner) {
+    float best = INFINITY;
+    for (int i = 0; i < o->count; i++)
+        for (int k = 0; k < o->hole_count; k++) {
+            float d = hypotf(o->points[i][0] - o->hole[k][0], o->points[i][1] - o->hole[k][1]);
+            if (d < best) best = d, *outer = i, *inner = k;
+        }
+}
+
+/* Joins outline and hole (backwards) by a cut of no width into one polygon; returns its size. */
+static int join_hole(const struct gn_outline *o, float (*joined)[2]) {
+    int outer = 0, inner = 0, count = 0;
+    if (o->hole) nearest_pair(o, &outer, &inner);
+    for (int i = 0; i < o->count; i++)
+        memcpy(joined[count++], o->points[(outer + i) % o->count], 8);
+    if (!o->hole) return count;
+    memcpy(joined[count++], o->points[outer], 8);
+    for (int i = 0; i <= o->hole_count; i++)
+        memcpy(joined[count++], o->hole[(inner + o->hole_count * 2 - i) % o->hole_count], 8);
+    return count;
+}
+
+static void outline_face(struct gn_shape *shape, const struct gn_outline *o, float z, float side) {
+    float joined[OUTLINE_MAX][2];
+    int corners[3 * OUTLINE_MAX];
+    assert(o->count + o->hole_count + 2 <= OUTLINE_MAX);
+    int count = join_hole(o, joined);
+    int written = cut_ears((const float(*)[2])joined, count, corners);
+    uint32_t first = (uint32_t)shape->vertex_count;
+    for (int i = 0; i < count; i++)
+        gn_shape_vertex(shape, (float[3]){joined[i][0], joined[i][1], z}, (float[3]){0, 0, side},
+                        joined[i]);
+    for (int i = 0; i < written; i += 3)
+        gn_shape_triangle(shape, first + (uint32_t)corners[i],
+                          first + (uint32_t)corners[side > 0 ? i + 1 : i + 2],
+                          first + (uint32_t)corners[side > 0 ? i + 2 : i + 1]);
+}
+
+/* The normal at the end `at` of an edge: shared with the neighbour where the corner is blunt. */
+static void rim_normal(const float edge[2], const float neighbour[2], float out[3]) {
+    bool smooth = edge[0] * neighbour[0] + edge[1] * neighbour[1] > CREASE_COS;
+    out[0] = edge[0] + (smooth ? neighbour[0] : 0);
+    out[1] = edge[1] + (smooth ? neighbour[1] : 0);
+    out[2] = 0;
+}
+
+/* The wall along a closed outline; `step` is 1 for the outside, -1 for a hole. */
+static void outline_rim(struct gn_shape *shape, const float (*p)[2], int count, float depth,
+                        int step) {
+    for (int i = 0; i < count; i++) {
+        const float *before = p[(i - step + count) % count], *a = p[i],
+                    *b = p[(i + step + count) % count];
+        const float *after = p[(i + 2 * step + 2 * count) % count];
+        float edge[2], last[2], next[2], na[3], nb[3], length = hypotf(b[0] - a[0], b[1] - a[1]);
+        edge_normal(before, a, last);
+        edge_normal(a, b, edge);
+        edge_normal(b, after, next);
+        rim_normal(edge, last, na);
+        rim_normal(edge, next, nb);
+        uint32_t first = (uint32_t)shape->vertex_count;
+        for (int row = 0; row < 2; row++) {
+            float z = row ? depth / 2 : -depth / 2;
+            gn_shape_vertex(shape, (float[3]){a[0], a[1], z}, na, (float[2]){0, z});
+            gn_shape_vertex(shape, (float[3]){b[0], b[1], z}, nb, (float[2]){length, z});
+        }
+        gn_shape_triangle(shape, first, first + 1, first + 3);
+        gn_shape_triangle(shape, first, first + 3, first + 2);
+    }
+}
+
+void gn_shape_extrude(struct gn_shape *shape, const struct gn_outline *outline, float depth) {
+    outline_face(shape, outline, depth / 2, 1);
+    outline_face(shape, outline, -depth / 2, -1);
+    outline_rim(shape, outline->points, outline->count, depth, 1);
+    if (outline->hole) outline_rim(shape, outline->hole, outline->hole_count, depth, -1);
+}
+
+static void pale(struct gn_shape *shape, const struct gn_fence *f, float x) {
+    float w = f->pale / 2, shoulder = f->height - (f->pointed ? f->pale * 0.8f : 0);
+    const float points[][2] = {
+        {x - w, 0}, {x + w, 0}, {x + w, shoulder}, {x, f->height}, {x - w, shoulder}};
+    if (f->pointed) {
+        gn_shape_extrude(shape, &(struct gn_outline){.points = points, .count = 5}, f->depth);
+        return;
+    }
+    gn_shape_move(shape, x, 0, 0);
+    gn_shape_block(shape, f->pale, f->height, f->depth);
+    gn_shape_move(shape, -x, 0, 0);
+}
+
+void gn_shape_fence(struct gn_shape *shape, const struct gn_fence *fence) {
+    int pales = (int)floorf((fence->length - fence->pale) / fence->pitch + 0.001f) + 1;
+    float span = (float)(pales - 1) * fence->pitch, back = -0.9f * fence->depth;
+    for (int i = 0; i < pales; i++) pale(shape, fence, fence->pale / 2 + (float)i * fence->pitch);
+    for (int rail = 0; rail < 2; rail++) {
+        float x = fence->pale / 2 + span / 2, y = fence->height * (rail ? 0.75f : 0.25f);
+        gn_shape_move(shape, x, y, back);
+        gn_shape_box(shape, span + 0.8f * fence->pale, fence->height * 0.07f, fence->depth);
+        gn_shape_move(shape, -x, -y, -back);
+    }
+}

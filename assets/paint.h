@@ -1,0 +1,31 @@
+/* Small pictures painted by arithmetic, for the generators of this folder. All of them tile. */
+#ifndef GN_ASSETS_PAINT_H
+#define GN_ASSETS_PAINT_H
+
+#include <stddef.h>
+
+struct gn_image {
+    int width, height, channels; /* 1 grey, 3 RGB, 4 RGBA; 8 bits, sRGB */
+    unsigned char *pixels;       /* rows from the top */
+};
+
+void gn_image_init(struct gn_image *image, int width, int height, int channels);
+void gn_image_finish(struct gn_image *image);
+/* The picture as a PNG file in memory; free it. */
+void *gn_image_png(const struct gn_image *image, size_t *size);
+
+/* Grey, near white: multiply it with a base colour. `contrast` 0..1 is how dark the darkest grain
+ * gets. */
+void gn_paint_grain(struct gn_image *image, int size_px, float contrast, unsigned seed);
+/* Grey: rough-hewn setts, 4 courses of 4 stones. */
+void gn_paint_paving(struct gn_image *image, int size_px, unsigned seed);
+/* Grey: grain of wood along v. */
+void gn_paint_wood(struct gn_image *image, int size_px, unsigned seed);
+/* Grey: the many small leaves of a hedge or a lawn. */
+void gn_paint_hedge(struct gn_image *image, int size_px, unsigned seed);
+/* RGBA: a diagonal lattice of laths with holes between them. */
+void gn_paint_lattice(struct gn_image *image, int size_px, int meshes, unsigned seed);
+/* RGBA: a twig with leaves, growing from the middle of the bottom edge. */
+void gn_paint_branch(struct gn_image *image, int size_px, unsigned seed);
+
+#endif
