@@ -1,0 +1,65 @@
+#include "display/display.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "display/private.h"
+
+const struct gn_display_ops *const gn_displays[] = {
+    &gn_display_surfaceless,
+    &gn_display_osmesa,
+    NULL,
+};
+
+static bool open_row(struct gn_display *display, const struct gn_display_ops *ops,
+                     struct gn_warnings *warnings, struct gn_err *err) {
+    *display = (struct gn_display){.ops = ops};
+    if (ops->open(display, warnings, err)) return true;
+    *display = (struct gn_display){0};
+    return false;
+}
+
+static void append(char *list, size_t size, const char *name, const char *text) {
+    size_t used = strlen(list);
+    snprintf(list + used, size - used, "%s%s%s%s", used ? "; " : "", name, *text ? ": " : "", text);
+}
+
+static bool open_any(struct gn_display *display, struct gn_warnings *warnings, struct gn_err *err) {
+    char reasons[sizeof err->text] = "";
+    for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
+        struct gn_err why = {0};
+        if (open_row(display, *row, warnings, &why)) return true;
+        append(reasons, sizeof reasons, (*row)->name, why.text);
+    }
+    return gn_fail(err, "no display opens: %s", reasons);
+}
+
+static bool fail_unknown(const char *name, struct gn_err *err) {
+    char names[sizeof err->text] = "auto";
+    for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, ", %s", (*row)->name);
+    }
+    return gn_fail_usage(err, "there is no backend \"%s\": use one of %s", name, names);
+}
+
+bool gn_display_open(struct gn_display *display, const char *name, struct gn_warnings *warnings,
+                     struct gn_err *err) {
+    *display = (struct gn_display){0};
+    if (strcmp(name, "auto") == 0) return open_any(display, warnings, err);
+    for (const struct gn_display_ops *const *row = gn_displays; *row; row++)
+        if (strcmp(name, (*row)->name) == 0)
+            return open_row(display, *row, warnings, err) ||
+                   gn_fail_prefix(err, "backend %s", name);
+    return fail_unknown(name, err);
+}
+
+gn_display_proc gn_display_get_proc(void *display, const char *name) {
+    struct gn_display *d = display;
+    return d->ops->get_proc(d, name);
+}
+
+void gn_display_close(struct gn_display *display) {
+    if (display->ops) display->ops->close(display);
+    *display = (struct gn_display){0};
+}

@@ -1,0 +1,83 @@
+/* Mesa's off-screen library, opened at run time. A desktop core context; ARB_ES3_compatibility
+ * makes it read the same shaders. It wants a buffer of its own to be current; pictures never go
+ * there. */
+#include <GL/osmesa.h>
+#include <dlfcn.h>
+#include <stdlib.h>
+
+#include "core/arena.h"
+#include "display/private.h"
+
+enum { BUFFER_PX = 16 }; /* the side of the buffer that nobody draws to */
+
+struct osmesa {
+    void *library;
+    OSMesaContext context;
+    __typeof__(OSMesaCreateContextAttribs) *create;
+    __typeof__(OSMesaDestroyContext) *destroy;
+    __typeof__(OSMesaMakeCurrent) *make_current;
+    __typeof__(OSMesaGetProcAddress) *get_proc;
+    unsigned char buffer[BUFFER_PX * BUFFER_PX * 4];
+};
+
+static bool load(struct osmesa *o, struct gn_err *err) {
+    o->library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
+    if (!o->library) o->library = dlopen("libOSMesa.so.6", RTLD_NOW | RTLD_LOCAL);
+    if (!o->library) return gn_fail(err, "libOSMesa.so.8 is missing; install libosmesa6");
+    *(void **)&o->create = dlsym(o->library, "OSMesaCreateContextAttribs");
+    *(void **)&o->destroy = dlsym(o->library, "OSMesaDestroyContext");
+    *(void **)&o->make_current = dlsym(o->library, "OSMesaMakeCurrent");
+    *(void **)&o->get_proc = dlsym(o->library, "OSMesaGetProcAddress");
+    if (!o->create || !o->destroy || !o->make_current || !o->get_proc)
+        return gn_fail(err, "libOSMesa is too old: gnomon needs Mesa 12 or later");
+    return true;
+}
+
+static bool make_context(struct osmesa *o, struct gn_err *err) {
+    static const int wanted[] = {OSMESA_FORMAT,
+                                 OSMESA_RGBA,
+                                 OSMESA_PROFILE,
+                                 OSMESA_CORE_PROFILE,
+                                 OSMESA_CONTEXT_MAJOR_VERSION,
+                                 3,
+                                 OSMESA_CONTEXT_MINOR_VERSION,
+                                 3,
+                                 0};
+    o->context = o->create(wanted, NULL);
+    if (!o->context) return gn_fail(err, "libOSMesa makes no OpenGL 3.3 core context");
+    if (!o->make_current(o->context, o->buffer, GL_UNSIGNED_BYTE, BUFFER_PX, BUFFER_PX))
+        return gn_fail(err, "libOSMesa does not make its context current");
+    return true;
+}
+
+static void osmesa_close(struct gn_display *display) {
+    struct osmesa *o = display->state;
+    if (!o) return;
+    if (o->context) o->make_current(NULL, NULL, 0, 0, 0);
+    if (o->context) o->destroy(o->context);
+    free(o); /* the library stays: what it has started does not survive being unloaded */
+    display->state = NULL;
+}
+
+static bool osmesa_open(struct gn_display *display, struct gn_warnings *warnings,
+                        struct gn_err *err) {
+    (void)warnings;
+    struct osmesa *o = display->state = gn_xalloc(1, sizeof *o);
+    if (load(o, err) && make_context(o, err)) return true;
+    osmesa_close(display);
+    return false;
+}
+
+static gn_display_proc osmesa_get_proc(struct gn_display *display, const char *name) {
+    struct osmesa *o = display->state;
+    return (gn_display_proc)o->get_proc(name);
+}
+
+const struct gn_display_ops gn_display_osmesa = {
+    .name = "osmesa",
+    .what = "off-screen rendering by the CPU (Mesa's OSMesa)",
+    .desktop = true,
+    .open = osmesa_open,
+    .get_proc = osmesa_get_proc,
+    .close = osmesa_close,
+};
