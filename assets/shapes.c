@@ -441,5 +441,10 @@ void gn_shape_knot(struct gn_shape *shape, float radius, float tube, int tubular
             raw_vertex(shape, p, n, (float)i / (float)tubular * 12, (float)j / (float)radial);
         }
     }
-    weave(shape, first, radial, tubular);
+    for (int i = 0; i < tubular; i++)
+        for (int j = 0; j < radial; j++) {
+            uint32_t a = first + (uint32_t)(i * (radial + 1) + j), b = a + (uint32_t)radial + 1;
+            gn_shape_triangle(shape, a, b, a + 1);
+            gn_shape_triangle(shape, b, b + 1, a + 1);
+        }
 }
