@@ -9,7 +9,8 @@
 
 enum { BINS = 16, LEAF = 4, STACK = 128 };
 
-/* Inner: children at `first` and `first + 1`, count 0. Leaf: triangles first .. first + count - 1. */
+/* Inner: children at `first` and `first + 1`, count 0. Leaf: triangles first .. first + count - 1.
+ */
 struct gn_bvh_node {
     double min[3], max[3];
     uint32_t first, count;
@@ -60,7 +61,8 @@ static int bin_of(const struct split *s, const struct gn_bvh_triangle *t) {
     return bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin;
 }
 
-/* Finds the cheapest of the 15 planes between the bins; false if all centroids coincide or no plane parts them. */
+/* Finds the cheapest of the 15 planes between the bins; false if all centroids coincide or no plane
+ * parts them. */
 static bool find_split(const struct gn_bvh_triangle *t, uint32_t count, struct split *split) {
     struct bounds centres = nothing;
     for (uint32_t i = 0; i < count; i++)
@@ -127,8 +129,8 @@ void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_
     if (!count) return;
     struct bounds all = nothing;
     for (uint32_t i = 0; i < count; i++) bounds_triangle(&all, &triangles[i]);
-    bvh->diagonal = hypot(hypot(all.max[0] - all.min[0], all.max[1] - all.min[1]),
-                          all.max[2] - all.min[2]);
+    bvh->diagonal =
+        hypot(hypot(all.max[0] - all.min[0], all.max[1] - all.min[1]), all.max[2] - all.min[2]);
     double pad = 1e-9 * bvh->diagonal;
 
     bvh->nodes = gn_xalloc(2 * (size_t)count, sizeof *bvh->nodes);
@@ -158,7 +160,8 @@ void gn_bvh_finish(struct gn_bvh *bvh) {
     *bvh = (struct gn_bvh){0};
 }
 
-/* The ray in the frame of Woop's test: its longest component is z, and x and y are sheared so that it runs along z. */
+/* The ray in the frame of Woop's test: its longest component is z, and x and y are sheared so that
+ * it runs along z. */
 struct sheared {
     const struct gn_ray *ray;
     int kx, ky, kz;
@@ -222,7 +225,8 @@ static bool hit_box(const struct sheared *s, const struct gn_bvh_node *node, dou
     return from <= to;
 }
 
-/* Tests triangles first .. first + count - 1 and keeps the nearest in *best (best->t is the limit). */
+/* Tests triangles first .. first + count - 1 and keeps the nearest in *best (best->t is the limit).
+ */
 static bool hit_range(const struct gn_bvh *bvh, const struct sheared *s, uint32_t first,
                       uint32_t count, gn_bvh_accept accept, const void *context,
                       struct gn_bvh_hit *best) {

@@ -1,10 +1,11 @@
-/* A bounding volume hierarchy over triangles in double precision: what the ray caster asks "what is first along this ray?"
+/* A bounding volume hierarchy over triangles in double precision: what the ray caster asks "what is
+ * first along this ray?"
  *
- * Build: binned surface-area heuristic, 16 bins on the longest axis of the centroids, a median split where the bins cannot
- * part them (Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007).
- * Traversal: an explicit stack, near child first.
- * Triangle test: Woop, Benthin, Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013: both neighbours of an edge
- * count a ray through it, so no ray slips between them. */
+ * Build: binned surface-area heuristic, 16 bins on the longest axis of the centroids, a median
+ * split where the bins cannot part them (Wald, "On fast construction of SAH-based bounding volume
+ * hierarchies", 2007). Traversal: an explicit stack, near child first. Triangle test: Woop,
+ * Benthin, Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013: both neighbours of an
+ * edge count a ray through it, so no ray slips between them. */
 #ifndef GN_IMAGE_BVH_H
 #define GN_IMAGE_BVH_H
 
@@ -46,7 +47,8 @@ typedef bool (*gn_bvh_accept)(const void *context, const struct gn_bvh_triangle 
 void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_t count);
 void gn_bvh_finish(struct gn_bvh *bvh);
 
-/* The closest accepted hit, or any accepted one if `any` (then `hit` is just one of them). Thread-safe. */
+/* The closest accepted hit, or any accepted one if `any` (then `hit` is just one of them).
+ * Thread-safe. */
 bool gn_bvh_hit(const struct gn_bvh *bvh, const struct gn_ray *ray, bool any, gn_bvh_accept accept,
                 const void *context, struct gn_bvh_hit *hit);
 /* The same over every triangle, without the tree: the reference that the tree is tested against. */

@@ -8,7 +8,9 @@
 
 #include "core/arena.h"
 
-/* --- colours --------------------------------------------------------------------------------------------------------- */
+/* --- colours
+ * ---------------------------------------------------------------------------------------------------------
+ */
 
 static double channel_difference(float a, float b) {
     if (a == b || (isnan(a) && isnan(b))) return 0;
@@ -39,7 +41,9 @@ bool gn_compare(const struct gn_picture *a, const struct gn_picture *b, double t
     return true;
 }
 
-/* --- edges of a mask -------------------------------------------------------------------------------------------------- */
+/* --- edges of a mask
+ * --------------------------------------------------------------------------------------------------
+ */
 
 /* How far the point of j lies off the plane of i. */
 static double off_plane(const struct gn_mask_truth *t, size_t i, size_t j) {
@@ -68,7 +72,8 @@ static bool is_edge(const struct gn_mask_truth *t, int x, int y) {
     return false;
 }
 
-/* One row or column: out[i] = min over j of (i - j)^2 + f[j], by the lower envelope of parabolas. */
+/* One row or column: out[i] = min over j of (i - j)^2 + f[j], by the lower envelope of parabolas.
+ */
 static void envelope(const float *f, int n, float *out, int *at, double *from) {
     int k = -1;
     for (int j = 0; j < n; j++) {
@@ -111,7 +116,9 @@ void gn_mask_edges(const struct gn_mask_truth *truth, float *out) {
     free(at);
 }
 
-/* --- masks ----------------------------------------------------------------------------------------------------------- */
+/* --- masks
+ * -----------------------------------------------------------------------------------------------------------
+ */
 
 static bool is_away(const struct gn_mask_truth *truth, const float *edges, size_t i) {
     return edges[i] > (truth->band_px ? fmaxf(2, truth->band_px[i]) : 2);
@@ -149,7 +156,8 @@ double gn_mask_leak(const struct gn_mask_score *s) { return percent(s->leak, s->
 double gn_mask_gap(const struct gn_mask_score *s) { return percent(s->gap, s->dark); }
 double gn_mask_wrong(const struct gn_mask_score *s) { return percent(s->wrong, s->pixels); }
 
-/* --- failures as pictures --------------------------------------------------------------------------------------------- */
+/* --- failures as pictures
+ * --------------------------------------------------------------------------------------------- */
 
 static void make_folder(const char *path) {
     char part[512];
@@ -170,8 +178,10 @@ static void save(const char *folder, const char *name, const char *kind,
     folder = folder ? folder : "build/failures";
     make_folder(folder);
     snprintf(path, sizeof path, "%s/%s-%s.png", folder, name, kind);
-    if (gn_picture_write_png(picture, path, &err)) printf("  %s\n", path);
-    else printf("  %s: %s\n", path, err.text);
+    if (gn_picture_write_png(picture, path, &err))
+        printf("  %s\n", path);
+    else
+        printf("  %s: %s\n", path, err.text);
 }
 
 static void mask_diff(const struct gn_mask_truth *truth, const struct gn_picture *shot,

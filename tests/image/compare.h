@@ -1,9 +1,10 @@
 /* Is the picture the expected one? Two ways to ask.
  *
- * Colour: how many pixels differ by more than so much (a tolerance is a largest difference and an allowed share).
- * Shadow masks: against truth, knowing about edges. A map has texels and a rasteriser has pixels, so next to the outline of
- * a shadow or of a thing both answers are right; away from edges only one is. Acne and leaks are counted away from edges, gaps
- * (peter-panning) and everything wrong with the edges in. */
+ * Colour: how many pixels differ by more than so much (a tolerance is a largest difference and an
+ * allowed share). Shadow masks: against truth, knowing about edges. A map has texels and a
+ * rasteriser has pixels, so next to the outline of a shadow or of a thing both answers are right;
+ * away from edges only one is. Acne and leaks are counted away from edges, gaps (peter-panning) and
+ * everything wrong with the edges in. */
 #ifndef GN_IMAGE_COMPARE_H
 #define GN_IMAGE_COMPARE_H
 
@@ -13,11 +14,13 @@
 #include "image/picture.h"
 
 struct gn_difference {
-    double max;          /* largest difference of any channel */
-    double share;        /* of the pixels, those with a channel that differs by more than the tolerance; 0..1 */
+    double max;   /* largest difference of any channel */
+    double share; /* of the pixels, those with a channel that differs by more than the tolerance;
+                     0..1 */
     int worst_x, worst_y;
 };
-/* false if the sizes or channels differ (then max and share are infinite). NaN differs from all but NaN. */
+/* false if the sizes or channels differ (then max and share are infinite). NaN differs from all but
+ * NaN. */
 bool gn_compare(const struct gn_picture *a, const struct gn_picture *b, double tolerance,
                 struct gn_difference *difference);
 
@@ -29,15 +32,15 @@ struct gn_mask_truth {
     const float *point_ws;   /* 3 per pixel */
     const float *normal_ws;  /* 3 per pixel */
     const float *distance_m; /* from the eye */
-    const float *band_px;    /* how wide the edges are at this pixel; NULL: 2 everywhere; at least 2 */
+    const float *band_px; /* how wide the edges are at this pixel; NULL: 2 everywhere; at least 2 */
 };
 
-struct gn_mask_score { /* counts of pixels */
+struct gn_mask_score {                               /* counts of pixels */
     uint64_t pixels, lit, dark, away_lit, away_dark; /* of the truth; away: from edges */
-    uint64_t acne;  /* away_lit but dark in the shot */
-    uint64_t leak;  /* away_dark but lit in the shot */
-    uint64_t gap;   /* dark but lit in the shot, edges included */
-    uint64_t wrong; /* all that differ, edges included */
+    uint64_t acne;                                   /* away_lit but dark in the shot */
+    uint64_t leak;                                   /* away_dark but lit in the shot */
+    uint64_t gap;                                    /* dark but lit in the shot, edges included */
+    uint64_t wrong;                                  /* all that differ, edges included */
 };
 /* Shares in per cent. */
 double gn_mask_acne(const struct gn_mask_score *score);
@@ -45,19 +48,20 @@ double gn_mask_leak(const struct gn_mask_score *score);
 double gn_mask_gap(const struct gn_mask_score *score);
 double gn_mask_wrong(const struct gn_mask_score *score);
 
-/* Distance of each pixel's middle to the nearest edge pixel's (0 on one), into out (width x height). Edge pixels: the truth
- * differs from one of the 8 neighbours, or the thing seen does (another item, a step in depth of over 2 % of the distance
- * off the plane of both, or normals more than 45 degrees apart). Exact Euclidean (Felzenszwalb, Huttenlocher,
- * "Distance transforms of sampled functions", 2012). */
+/* Distance of each pixel's middle to the nearest edge pixel's (0 on one), into out (width x
+ * height). Edge pixels: the truth differs from one of the 8 neighbours, or the thing seen does
+ * (another item, a step in depth of over 2 % of the distance off the plane of both, or normals more
+ * than 45 degrees apart). Exact Euclidean (Felzenszwalb, Huttenlocher, "Distance transforms of
+ * sampled functions", 2012). */
 void gn_mask_edges(const struct gn_mask_truth *truth, float *out);
 
 /* shot: grey, 1 lit .. 0 dark, same size; below .5 (or NaN) is dark. */
 void gn_mask_compare(const struct gn_mask_truth *truth, const struct gn_picture *shot,
                      struct gn_mask_score *score);
 
-/* Writes <folder>/<name>-shot.png, -truth.png and -diff.png; folder is made if missing and NULL means build/failures. In the
- * difference of masks red is acne, blue is a leak, and pale red or blue the same on an edge; of colours it is |a - b| x 8.
- * Prints the paths on stdout. */
+/* Writes <folder>/<name>-shot.png, -truth.png and -diff.png; folder is made if missing and NULL
+ * means build/failures. In the difference of masks red is acne, blue is a leak, and pale red or
+ * blue the same on an edge; of colours it is |a - b| x 8. Prints the paths on stdout. */
 void gn_mask_save(const char *folder, const char *name, const struct gn_mask_truth *truth,
                   const struct gn_picture *shot);
 void gn_compare_save(const char *folder, const char *name, const struct gn_picture *shot,

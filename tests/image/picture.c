@@ -29,13 +29,13 @@ static bool size_is_sane(long width, long height) {
     return width > 0 && height > 0 && width <= SIDE_MAX && height <= SIDE_MAX;
 }
 
-/* --- PFM: "Pf" or "PF", width, height, scale (negative: little-endian), one white space, rows from the bottom up -------- */
+/* --- PFM: "Pf" or "PF", width, height, scale (negative: little-endian), one white space, rows from
+ * the bottom up -------- */
 
 static float pfm_float(const uint8_t b[4], bool little) {
-    uint32_t bits = little ? (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 |
-                                 (uint32_t)b[3] << 24
-                           : (uint32_t)b[3] | (uint32_t)b[2] << 8 | (uint32_t)b[1] << 16 |
-                                 (uint32_t)b[0] << 24;
+    uint32_t bits =
+        little ? (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24
+               : (uint32_t)b[3] | (uint32_t)b[2] << 8 | (uint32_t)b[1] << 16 | (uint32_t)b[0] << 24;
     float value;
     memcpy(&value, &bits, sizeof value);
     return value;
@@ -67,7 +67,9 @@ static bool read_pfm(struct gn_picture *picture, FILE *file, const char *path, s
     return gn_fail(err, "%s: bytes after the last row", path);
 }
 
-/* --- PNG ------------------------------------------------------------------------------------------------------------- */
+/* --- PNG
+ * -------------------------------------------------------------------------------------------------------------
+ */
 
 static void png_failed(png_structp png, png_const_charp message) {
     gn_fail(png_get_error_ptr(png), "%s", message);
@@ -82,8 +84,8 @@ static void png_warned(png_structp png, png_const_charp message) {
 static void to_floats(struct gn_picture *picture, const uint8_t *bytes, bool wide) {
     size_t count = (size_t)picture->width_px * picture->height_px * picture->channels;
     for (size_t i = 0; i < count; i++)
-        picture->data[i] = wide ? (float)(bytes[2 * i] << 8 | bytes[2 * i + 1]) / 65535
-                                : (float)bytes[i] / 255;
+        picture->data[i] =
+            wide ? (float)(bytes[2 * i] << 8 | bytes[2 * i + 1]) / 65535 : (float)bytes[i] / 255;
 }
 
 static bool read_png(struct gn_picture *picture, FILE *file, const char *path, struct gn_err *err) {
@@ -101,7 +103,8 @@ static bool read_png(struct gn_picture *picture, FILE *file, const char *path, s
         int height = (int)png_get_image_height(png, info);
         size_t stride = png_get_rowbytes(png, info);
         bool wide = png_get_bit_depth(png, info) == 16;
-        if (!size_is_sane((long)png_get_image_width(png, info), height)) png_error(png, "too large");
+        if (!size_is_sane((long)png_get_image_width(png, info), height))
+            png_error(png, "too large");
         bytes = gn_xalloc(height, stride);
         rows = gn_xalloc(height, sizeof *rows);
         for (int y = 0; y < height; y++) rows[y] = bytes + y * stride;
@@ -124,14 +127,13 @@ bool gn_picture_read(struct gn_picture *picture, const char *path, struct gn_err
     if (!file) return gn_fail(err, "%s: cannot be read", path);
     int first = fgetc(file);
     rewind(file);
-    bool ok = first == 'P' ? read_pfm(picture, file, path, err) : read_png(picture, file, path, err);
+    bool ok =
+        first == 'P' ? read_pfm(picture, file, path, err) : read_png(picture, file, path, err);
     fclose(file);
     return ok;
 }
 
-static uint8_t to_byte(float v) {
-    return !(v > 0) ? 0 : v >= 1 ? 255 : (uint8_t)lrintf(255 * v);
-}
+static uint8_t to_byte(float v) { return !(v > 0) ? 0 : v >= 1 ? 255 : (uint8_t)lrintf(255 * v); }
 
 static uint8_t *to_bytes(const struct gn_picture *picture) {
     size_t count = (size_t)picture->width_px * picture->height_px;

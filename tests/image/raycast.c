@@ -22,9 +22,11 @@ static void normalise(double v[3]) {
         for (int k = 0; k < 3; k++) v[k] /= length;
 }
 
-/* --- the scene as triangles ------------------------------------------------------------------------------------------ */
+/* --- the scene as triangles
+ * ------------------------------------------------------------------------------------------ */
 
-static uint32_t item_flags(const struct gn_scene *scene, const struct gn_item *item, bool mirrored) {
+static uint32_t item_flags(const struct gn_scene *scene, const struct gn_item *item,
+                           bool mirrored) {
     const struct gn_material *material = &scene->materials[item->material];
     if (material->alpha == GN_ALPHA_BLEND) return 0;
     return SEEN | (material->double_sided ? SEEN_FROM_BEHIND : 0) | (item->casts ? CASTS : 0) |
@@ -70,7 +72,9 @@ void gn_raycast_finish(struct gn_raycast *rays) {
 
 bool gn_raycast_casts(const struct gn_bvh_triangle *triangle) { return triangle->flags & CASTS; }
 
-/* --- holes ----------------------------------------------------------------------------------------------------------- */
+/* --- holes
+ * -----------------------------------------------------------------------------------------------------------
+ */
 
 static uint32_t wrap(int64_t i, uint32_t size, enum gn_wrap how) {
     int64_t n = size;
@@ -93,7 +97,8 @@ static double sample_alpha(const struct gn_scene *scene, const struct gn_texture
     const struct gn_image *image = &scene->images[texture->image];
     double x = u * image->width_px, y = v * image->height_px;
     if (!(fabs(x) < 1e15 && fabs(y) < 1e15)) return 1;
-    if (texture->mag_nearest) return texel_alpha(scene, texture, (int64_t)floor(x), (int64_t)floor(y));
+    if (texture->mag_nearest)
+        return texel_alpha(scene, texture, (int64_t)floor(x), (int64_t)floor(y));
     int64_t i = (int64_t)floor(x - .5), j = (int64_t)floor(y - .5);
     double s = x - .5 - (double)i, t = y - .5 - (double)j;
     return (1 - t) * ((1 - s) * texel_alpha(scene, texture, i, j) +
@@ -134,19 +139,21 @@ static bool is_hole(const struct gn_scene *scene, const struct gn_bvh_triangle *
            alpha_at(scene, t, hit) < scene->materials[scene->items[t->item].material].alpha_cutoff;
 }
 
-/* --- the eye --------------------------------------------------------------------------------------------------------- */
+/* --- the eye
+ * ---------------------------------------------------------------------------------------------------------
+ */
 
-void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera, int width_px,
-                 int height_px) {
+void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera,
+                     int width_px, int height_px) {
     const struct gn_camera *c = &pose->scene->cameras[camera];
     mat4 view;
     vec3 position;
     gn_pose_view(pose, camera, view, position);
     *eye = (struct gn_ray_eye){.orthographic = c->orthographic,
-                           .width_px = width_px,
-                           .height_px = height_px,
-                           .near_m = c->near_m,
-                           .far_m = c->far_m > 0 ? c->far_m : INFINITY};
+                               .width_px = width_px,
+                               .height_px = height_px,
+                               .near_m = c->near_m,
+                               .far_m = c->far_m > 0 ? c->far_m : INFINITY};
     for (int k = 0; k < 3; k++) { /* rows of a rigid matrix are the axes */
         eye->position_ws[k] = position[k];
         eye->right[k] = view[k][0];
@@ -204,16 +211,18 @@ bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_ray_eye *eye,
     return true;
 }
 
-/* --- lights ---------------------------------------------------------------------------------------------------------- */
+/* --- lights
+ * ----------------------------------------------------------------------------------------------------------
+ */
 
 void gn_ray_lamp_init(struct gn_ray_lamp *lamp, const struct gn_pose *pose, uint32_t light) {
     const struct gn_light *l = &pose->scene->lights[light];
     vec3 position, direction;
     gn_pose_light(pose, light, position, direction);
     *lamp = (struct gn_ray_lamp){.type = l->type,
-                             .range_m = l->range_m > 0 ? l->range_m : INFINITY,
-                             .cos_cone = cos(fmin(l->outer_rad, 80 * M_PI / 180)),
-                             .radius = l->radius};
+                                 .range_m = l->range_m > 0 ? l->range_m : INFINITY,
+                                 .cos_cone = cos(fmin(l->outer_rad, 80 * M_PI / 180)),
+                                 .radius = l->radius};
     for (int k = 0; k < 3; k++) {
         lamp->position_ws[k] = position[k];
         lamp->direction_ws[k] = direction[k];
@@ -221,8 +230,10 @@ void gn_ray_lamp_init(struct gn_ray_lamp *lamp, const struct gn_pose *pose, uint
     normalise(lamp->direction_ws);
 }
 
-/* The vector from the surface to the lamp's middle; its length is the distance, or 1 for a directional lamp. */
-static void towards(const struct gn_ray_lamp *lamp, const struct gn_ray_surface *surface, double to[3]) {
+/* The vector from the surface to the lamp's middle; its length is the distance, or 1 for a
+ * directional lamp. */
+static void towards(const struct gn_ray_lamp *lamp, const struct gn_ray_surface *surface,
+                    double to[3]) {
     for (int k = 0; k < 3; k++)
         to[k] = lamp->type == GN_LIGHT_DIRECTIONAL ? -lamp->direction_ws[k]
                                                    : lamp->position_ws[k] - surface->point_ws[k];
@@ -233,8 +244,7 @@ static bool out_of_reach(const struct gn_ray_lamp *lamp, const double to[3]) {
     if (lamp->type == GN_LIGHT_DIRECTIONAL) return false;
     double distance = sqrt(dot(to, to));
     if (distance > lamp->range_m || distance == 0) return true;
-    return lamp->type == GN_LIGHT_SPOT &&
-           -dot(to, lamp->direction_ws) <= lamp->cos_cone * distance;
+    return lamp->type == GN_LIGHT_SPOT && -dot(to, lamp->direction_ws) <= lamp->cos_cone * distance;
 }
 
 static bool casts(const void *context, const struct gn_bvh_triangle *t,

@@ -1,16 +1,21 @@
-/* The oracle: what a scene looks like and what its lights see, by rays over the same triangles that the renderer draws.
- * All in double precision; no map, no bias, no texel.
+/* The oracle: what a scene looks like and what its lights see, by rays over the same triangles that
+ * the renderer draws. All in double precision; no map, no bias, no texel.
  *
  * Rules, and where they come from (the contract's words in quotes):
- * - The eye sees the front faces of single-sided surfaces only, both faces of the others. Alpha-masked surfaces have their
- *   holes. The eye looks through blended surfaces: an AOV is of the first opaque or masked one.
- * - Opaque and masked surfaces cast, "from both sides"; masked ones "cast their holes". Blended surfaces cast nothing.
- *   Nothing whose gnomon_cast is false casts. gnomon_cast_faces chooses how a map is drawn, not what is true: ignored.
- * - Visibility is "only what the geometry says": cone, range, N.L and gnomon_receive are not in it, so it is 1 outside the
- *   cone, beyond the range, behind the light and on the background. Cones are cut at 80 degrees, as the maps are.
- * - A casting surface seen from the side turned away from the light is dark: it stands in its own light.
- * - A hole is where texture alpha x vertex alpha x factor < cutoff; the texture at level 0, nearest or bilinear with its
- *   wrap, as OpenGL ES 3.0 section 3.8.10 has it. The renderer minifies with mip-maps, so rims of far holes may differ. */
+ * - The eye sees the front faces of single-sided surfaces only, both faces of the others.
+ * Alpha-masked surfaces have their holes. The eye looks through blended surfaces: an AOV is of the
+ * first opaque or masked one.
+ * - Opaque and masked surfaces cast, "from both sides"; masked ones "cast their holes". Blended
+ * surfaces cast nothing. Nothing whose gnomon_cast is false casts. gnomon_cast_faces chooses how a
+ * map is drawn, not what is true: ignored.
+ * - Visibility is "only what the geometry says": cone, range, N.L and gnomon_receive are not in it,
+ * so it is 1 outside the cone, beyond the range, behind the light and on the background. Cones are
+ * cut at 80 degrees, as the maps are.
+ * - A casting surface seen from the side turned away from the light is dark: it stands in its own
+ * light.
+ * - A hole is where texture alpha x vertex alpha x factor < cutoff; the texture at level 0, nearest
+ * or bilinear with its wrap, as OpenGL ES 3.0 section 3.8.10 has it. The renderer minifies with
+ * mip-maps, so rims of far holes may differ. */
 #ifndef GN_IMAGE_RAYCAST_H
 #define GN_IMAGE_RAYCAST_H
 
@@ -26,13 +31,16 @@ struct gn_raycast {
     double lift_m; /* shadow rays start this far off a surface: 1e-5 of the scene's diagonal */
 };
 
-/* Copies the triangles of all visible items to where the pose has them; scene must outlive it, pose need not. */
-void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene, const struct gn_pose *pose);
+/* Copies the triangles of all visible items to where the pose has them; scene must outlive it, pose
+ * need not. */
+void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
+                     const struct gn_pose *pose);
 void gn_raycast_finish(struct gn_raycast *rays);
 bool gn_raycast_casts(const struct gn_bvh_triangle *triangle); /* one of rays->bvh.triangles */
 
-/* A camera at a pose, and a picture size. A perspective camera keeps its vertical angle; an orthographic one its vertical
- * half-size; the picture's shape gives the horizontal one. Every pixel is square. */
+/* A camera at a pose, and a picture size. A perspective camera keeps its vertical angle; an
+ * orthographic one its vertical half-size; the picture's shape gives the horizontal one. Every
+ * pixel is square. */
 struct gn_ray_eye {
     double position_ws[3], right[3], up[3], forward[3];
     double half_width, half_height; /* at distance 1 (perspective) or in metres (orthographic) */
@@ -40,8 +48,8 @@ struct gn_ray_eye {
     bool orthographic;
     int width_px, height_px;
 };
-void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera, int width_px,
-                 int height_px);
+void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera,
+                     int width_px, int height_px);
 /* Size of one pixel in metres for a surface facing the eye at this point. */
 double gn_ray_eye_pixel_m(const struct gn_ray_eye *eye, const double point_ws[3]);
 
@@ -70,9 +78,10 @@ void gn_ray_lamp_init(struct gn_ray_lamp *lamp, const struct gn_pose *pose, uint
 /* Is the lamp's middle seen from the surface? 1 lit, 0 dark. */
 int gn_raycast_visible(const struct gn_raycast *rays, const struct gn_ray_lamp *lamp,
                        const struct gn_ray_surface *surface);
-/* Share of the lamp's area that is seen, 0..1: a disk of `radius` that faces the surface (point, spot) or of that tangent
- * about the direction (directional). `samples` points on a Vogel spiral (256-1024 are plenty), the same every time. Of what
- * lies below the surface's horizon nothing is seen. */
+/* Share of the lamp's area that is seen, 0..1: a disk of `radius` that faces the surface (point,
+ * spot) or of that tangent about the direction (directional). `samples` points on a Vogel spiral
+ * (256-1024 are plenty), the same every time. Of what lies below the surface's horizon nothing is
+ * seen. */
 double gn_raycast_share(const struct gn_raycast *rays, const struct gn_ray_lamp *lamp,
                         const struct gn_ray_surface *surface, int samples);
 

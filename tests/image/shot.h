@@ -1,5 +1,6 @@
 /* Runs the gnomon under test as a user would, and takes what it leaves.
- * GNOMON names the program (build/release/gnomon), BUILD the folder for files that come and go (build/release). */
+ * GNOMON names the program (build/release/gnomon), BUILD the folder for files that come and go
+ * (build/release). */
 #ifndef GN_IMAGE_SHOT_H
 #define GN_IMAGE_SHOT_H
 
@@ -17,11 +18,13 @@ struct gn_run {
     char err[4096];
     double seconds;
 };
-/* argv ends with NULL; argv[0] is a path. timeout_s 0: 60. False only if it could not be started. */
+/* argv ends with NULL; argv[0] is a path. timeout_s 0: 60. False only if it could not be started.
+ */
 bool gn_run(struct gn_run *run, const char *const argv[], int timeout_s, struct gn_err *err);
 
-/* `gnomon render SCENE -o FILE ARGS..`; ARGS end with NULL. kind: "png" or "pfm". On failure the message holds the command,
- * its status and what it said; status (may be NULL) gets the status either way. */
+/* `gnomon render SCENE -o FILE ARGS..`; ARGS end with NULL. kind: "png" or "pfm". On failure the
+ * message holds the command, its status and what it said; status (may be NULL) gets the status
+ * either way. */
 bool gn_shot(struct gn_picture *picture, int *status, struct gn_err *err, const char *kind,
              const char *scene, const char *const args[]);
 /* The same, leaving the bytes in a file of the caller's and reading nothing. */

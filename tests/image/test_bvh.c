@@ -53,8 +53,8 @@ static void test_tree_agrees_with_every_triangle(void **state) {
         uint32_t count;
         double size;
         bool flat;
-    } cases[] = {{1, .5, false}, {5, .5, false}, {3000, .05, false}, {3000, .5, false},
-                 {2000, .1, true}};
+    } cases[] = {
+        {1, .5, false}, {5, .5, false}, {3000, .05, false}, {3000, .5, false}, {2000, .1, true}};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         struct gn_bvh bvh;
         int hits = 0;
@@ -87,7 +87,8 @@ static void test_empty_tree_has_no_hit(void **state) {
     gn_bvh_finish(&bvh);
 }
 
-/* A closed surface of triangles with corners at odd places: rays at its very edges and corners must not slip out. */
+/* A closed surface of triangles with corners at odd places: rays at its very edges and corners must
+ * not slip out. */
 static void test_no_ray_slips_between_triangles(void **state) {
     (void)state;
     enum { RINGS = 12, SECTORS = 17 };

@@ -17,7 +17,8 @@
 
 enum { W = 60, H = 40 };
 
-/* A floor seen from above, 1 m a pixel; the left 20 columns lie in shadow; item 7 covers the right 10. */
+/* A floor seen from above, 1 m a pixel; the left 20 columns lie in shadow; item 7 covers the
+ * right 10. */
 struct flat {
     uint8_t lit[W * H];
     int32_t item[W * H];
@@ -38,8 +39,8 @@ static int setup(void **state) {
         f->distance[i] = 50;
         f->shot.data[i] = f->lit[i];
     }
-    f->truth = (struct gn_mask_truth){W,        H,         f->lit,      f->item,
-                                      f->point, f->normal, f->distance, NULL};
+    f->truth =
+        (struct gn_mask_truth){W, H, f->lit, f->item, f->point, f->normal, f->distance, NULL};
     *state = f;
     return 0;
 }
@@ -168,7 +169,9 @@ static void test_colours_by_tolerance_and_share(void **state) {
     gn_picture_finish(&c);
 }
 
-/* --- pictures on disk ----------------------------------------------------------------------------------------------------- */
+/* --- pictures on disk
+ * -----------------------------------------------------------------------------------------------------
+ */
 
 static const char *scratch(const char *name) {
     static char path[300];
@@ -210,8 +213,8 @@ static void test_pfm_in_both_byte_orders(void **state) {
 
 /* 1x2, 16-bit grey: 0x8000 above 0xffff; made once by hand. */
 static const uint8_t png16[] = {
-    0x89, 'P',  'N',  'G',  0x0d, 0x0a, 0x1a, 0x0a, 0,    0,    0,    13,   'I',  'H',  'D',
-    'R',  0,    0,    0,    1,    0,    0,    0,    2,    16,   0,    0,    0,    0,
+    0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a, 0, 0,  0, 13, 'I', 'H', 'D',
+    'R',  0,   0,   0,   1,    0,    0,    0,    2, 16, 0, 0,  0,   0,
 };
 
 static uint32_t crc(const uint8_t *bytes, size_t size) {
@@ -229,7 +232,8 @@ static size_t put32(uint8_t *out, uint32_t v) {
 }
 
 static size_t make_png16(uint8_t *out) {
-    /* zlib stream of one stored block: two rows of filter byte 0 and a sample; adler32 at the end */
+    /* zlib stream of one stored block: two rows of filter byte 0 and a sample; adler32 at the end
+     */
     static const uint8_t rows[6] = {0, 0x80, 0x00, 0, 0xff, 0xff};
     uint32_t a = 1, b = 0;
     for (int i = 0; i < 6; i++) a = (a + rows[i]) % 65521, b = (b + a) % 65521;
@@ -301,14 +305,16 @@ static void test_failure_leaves_three_pictures(void **state) {
     rmdir(scratch("failures"));
 }
 
-/* --- running programs ----------------------------------------------------------------------------------------------------- */
+/* --- running programs
+ * -----------------------------------------------------------------------------------------------------
+ */
 
 static void test_runs_programs(void **state) {
     (void)state;
     struct gn_run *run = calloc(1, sizeof *run);
     struct gn_err err = {{0}, GN_EXIT_WORLD};
-    assert_true(gn_run(run, (const char *[]){"/bin/sh", "-c", "echo a; echo b >&2; exit 3", NULL}, 0,
-                       &err));
+    assert_true(gn_run(run, (const char *[]){"/bin/sh", "-c", "echo a; echo b >&2; exit 3", NULL},
+                       0, &err));
     assert_int_equal(run->status, 3);
     assert_string_equal(run->out, "a\n");
     assert_string_equal(run->err, "b\n");
@@ -318,10 +324,10 @@ static void test_runs_programs(void **state) {
     assert_int_equal(run->status, 124);
     assert_true(run->seconds < 5);
     /* more than the texts hold must neither hang nor spill */
-    assert_true(gn_run(run,
-                       (const char *[]){"/bin/sh", "-c",
-                                        "head -c 300000 /dev/zero | tr '\\0' x; exit 0", NULL},
-                       0, &err));
+    assert_true(gn_run(
+        run,
+        (const char *[]){"/bin/sh", "-c", "head -c 300000 /dev/zero | tr '\\0' x; exit 0", NULL}, 0,
+        &err));
     assert_int_equal(run->status, 0);
     assert_int_equal(strlen(run->out), sizeof run->out - 1);
     assert_false(gn_run(run, (const char *[]){"/nonexistent/gnomon", NULL}, 0, &err));

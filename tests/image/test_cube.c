@@ -12,8 +12,9 @@
 
 #include "image/truth.h"
 
-/* A ground of 20 m, a unit cube standing on it, a camera on (0, 6, 0) that looks straight down, a sun from +X, 45 degrees
- * high. Positions are 8-bit so that the buffer is short: the ground's 4 corners, then the cube's 8. */
+/* A ground of 20 m, a unit cube standing on it, a camera on (0, 6, 0) that looks straight down, a
+ * sun from +X, 45 degrees high. Positions are 8-bit so that the buffer is short: the ground's 4
+ * corners, then the cube's 8. */
 static const char cube_scene[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2,3]}],"
     "\"extensionsUsed\":[\"KHR_lights_punctual\",\"KHR_mesh_quantization\"],"
@@ -47,10 +48,10 @@ static void base64(const uint8_t *in, int size, char *out) {
 
 static struct gn_scene *load_cube(void) {
     static const int8_t ground[4][2] = {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}};
-    static const uint8_t faces[42] = {0, 1, 2, 0, 2, 3,             /* ground, up */
-                                      0, 4, 6, 0, 6, 2,             /* -x; corner = x + 2 y + 4 z */
-                                      1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
-                                      2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
+    static const uint8_t faces[42] = {0, 1, 2, 0, 2, 3, /* ground, up */
+                                      0, 4, 6, 0, 6, 2, /* -x; corner = x + 2 y + 4 z */
+                                      1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7,
+                                      2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
     uint8_t bytes[90] = {0};
     for (int i = 0; i < 4; i++) {
         bytes[4 * i] = (uint8_t)ground[i][0];
@@ -68,8 +69,8 @@ static struct gn_scene *load_cube(void) {
     return scene;
 }
 
-/* From above, 6 m up with a tangent of .5 at the top of the picture: the cube's roof is 1 m wide at 5 m, its shadow reaches
- * 1 m out to -X; everything else is lit. */
+/* From above, 6 m up with a tangent of .5 at the top of the picture: the cube's roof is 1 m wide at
+ * 5 m, its shadow reaches 1 m out to -X; everything else is lit. */
 static void test_truth_of_a_cube_from_a_file(void **state) {
     (void)state;
     struct gn_scene *scene = load_cube();
@@ -92,8 +93,8 @@ static void test_truth_of_a_cube_from_a_file(void **state) {
         dark += shadow;
     }
     assert_true(dark > 500);
-    /* Casters: the ground, 20 m. Seen: 8 x 6 m of ground, a little more by the roof. As the sun sees it, 8 m lie in
-     * 8 sin 45 = 5.7 m, across them 6 m (5 for the roof): the square is 6 m. */
+    /* Casters: the ground, 20 m. Seen: 8 x 6 m of ground, a little more by the roof. As the sun
+     * sees it, 8 m lie in 8 sin 45 = 5.7 m, across them 6 m (5 for the roof): the square is 6 m. */
     assert_true(fabs(truth.frame.extent - 6) < .05);
     gn_truth_finish(&truth);
     gn_scene_destroy(scene);

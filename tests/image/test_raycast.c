@@ -1,4 +1,5 @@
-/* The oracle against what can be written down: boxes by intervals, disks by segments of a circle, holes by arithmetic. */
+/* The oracle against what can be written down: boxes by intervals, disks by segments of a circle,
+ * holes by arithmetic. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +17,9 @@
 static struct gn_dice dice;
 static double between(double low, double high) { return gn_dice_between(&dice, low, high); }
 
-/* --- a scene in memory ------------------------------------------------------------------------------------------------ */
+/* --- a scene in memory
+ * ------------------------------------------------------------------------------------------------
+ */
 
 enum { THINGS = 8, VERTICES = 24 * THINGS, INDICES = 36 * THINGS };
 struct small {
@@ -62,15 +65,15 @@ static struct gn_material *small_item(struct small *s) {
     return &s->materials[i];
 }
 
-/* Corners a, a + u, a + u + v, a + v; front towards u x v; texture coordinates 0..1 along u and v. */
+/* Corners a, a + u, a + u + v, a + v; front towards u x v; texture coordinates 0..1 along u and v.
+ */
 static void small_quad(struct small *s, const float a[3], const float u[3], const float v[3]) {
     static const int order[6] = {0, 1, 2, 0, 2, 3};
     struct gn_geometry *g = &s->geometries[s->scene.item_count - 1];
     for (int c = 0; c < 4; c++) {
         float along = c == 1 || c == 2, up = c >= 2;
         uint32_t vertex = s->scene.vertex_count + c;
-        for (int k = 0; k < 3; k++)
-            s->positions[3 * vertex + k] = a[k] + along * u[k] + up * v[k];
+        for (int k = 0; k < 3; k++) s->positions[3 * vertex + k] = a[k] + along * u[k] + up * v[k];
         s->uv[2 * vertex] = along;
         s->uv[2 * vertex + 1] = up;
         memset(&s->colors[4 * vertex], 255, 4);
@@ -122,17 +125,22 @@ static const struct gn_ray_eye front_eye = {.position_ws = {0, 0, 5},
                                             .width_px = 100,
                                             .height_px = 100};
 
-/* --- what the eye sees ------------------------------------------------------------------------------------------------- */
+/* --- what the eye sees
+ * -------------------------------------------------------------------------------------------------
+ */
 
-/* A quad at z = 0 that fills the view, its front towards the eye unless turned; a wall at z = -1 behind it. */
+/* A quad at z = 0 that fills the view, its front towards the eye unless turned; a wall at z = -1
+ * behind it. */
 static uint32_t item_in_view(bool turned, bool mirrored, bool double_sided, enum gn_alpha alpha) {
     struct small s;
     small_init(&s);
     struct gn_material *material = small_item(&s);
     material->double_sided = double_sided;
     material->alpha = alpha;
-    if (turned) small_quad(&s, (float[]){1, -1, 0}, (float[]){-2, 0, 0}, (float[]){0, 2, 0});
-    else small_quad(&s, (float[]){-1, -1, 0}, (float[]){2, 0, 0}, (float[]){0, 2, 0});
+    if (turned)
+        small_quad(&s, (float[]){1, -1, 0}, (float[]){-2, 0, 0}, (float[]){0, 2, 0});
+    else
+        small_quad(&s, (float[]){-1, -1, 0}, (float[]){2, 0, 0}, (float[]){0, 2, 0});
     if (mirrored) {
         s.posed[0].world_from_item[0][0] = -1;
         s.posed[0].mirrored = true;
@@ -186,7 +194,9 @@ static void test_eye_looks_through_the_middle_of_pixels(void **state) {
     gn_raycast_finish(&rays);
 }
 
-/* --- holes ------------------------------------------------------------------------------------------------------------- */
+/* --- holes
+ * -------------------------------------------------------------------------------------------------------------
+ */
 
 struct hole_case {
     enum gn_wrap wrap;
@@ -195,7 +205,8 @@ struct hole_case {
     bool opaque;
 };
 
-/* A texture of two texels, opaque and clear, on a quad of texture coordinates -2 .. 2 (scale 4, offset -2). */
+/* A texture of two texels, opaque and clear, on a quad of texture coordinates -2 .. 2 (scale 4,
+ * offset -2). */
 static bool is_opaque(const struct hole_case *hole) {
     static const uint8_t texels[8] = {0, 0, 0, 255, 0, 0, 0, 0};
     struct small s;
@@ -252,7 +263,9 @@ static void test_vertex_alpha_makes_holes(void **state) {
     gn_raycast_finish(&rays);
 }
 
-/* --- shadows ----------------------------------------------------------------------------------------------------------- */
+/* --- shadows
+ * -----------------------------------------------------------------------------------------------------------
+ */
 
 /* Keeps of lo..hi the t at which a + b t lies in min..max. */
 static void slab(double a, double b, double min, double max, double *lo, double *hi) {
@@ -261,8 +274,8 @@ static void slab(double a, double b, double min, double max, double *lo, double 
     *hi = fmin(*hi, fmax(s, t));
 }
 
-/* How far the way from the ground to the light runs within the box 0 .. 1 high: < 0 is clear of it. Light at w = 1, or
- * towards it at w = 0. */
+/* How far the way from the ground to the light runs within the box 0 .. 1 high: < 0 is clear of it.
+ * Light at w = 1, or towards it at w = 0. */
 static double in_box(double x, double z, const double light[4], const float low[3],
                      const float high[3]) {
     double lo = 0, hi = light[3] > 0 ? 1 : 1e9;
@@ -302,9 +315,8 @@ static void test_box_shadow_by_formula(void **state) {
         struct gn_ray_lamp lamp = sun(-to[0], -to[1], -to[2]);
         check_box_shadow(&lamp, to);
         double at[4] = {3 * to[0], 3 * to[1] + .5, 3 * to[2], 1};
-        lamp = (struct gn_ray_lamp){.type = GN_LIGHT_POINT,
-                                    .position_ws = {at[0], at[1], at[2]},
-                                    .range_m = INFINITY};
+        lamp = (struct gn_ray_lamp){
+            .type = GN_LIGHT_POINT, .position_ws = {at[0], at[1], at[2]}, .range_m = INFINITY};
         check_box_shadow(&lamp, at);
     }
 }
@@ -358,7 +370,8 @@ static void test_who_casts(void **state) {
     }
 }
 
-/* Seen from the side turned away from the light, a surface is dark if it casts; a grazing ray must not get past its rim. */
+/* Seen from the side turned away from the light, a surface is dark if it casts; a grazing ray must
+ * not get past its rim. */
 static void test_turned_away_is_dark(void **state) {
     (void)state;
     struct small s;
@@ -382,7 +395,9 @@ static void test_turned_away_is_dark(void **state) {
     gn_raycast_finish(&rays);
 }
 
-/* --- area lights ------------------------------------------------------------------------------------------------------- */
+/* --- area lights
+ * -------------------------------------------------------------------------------------------------------
+ */
 
 /* Share of a unit disk left of x = cut. */
 static double left_of(double cut) {

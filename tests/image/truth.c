@@ -27,7 +27,9 @@ struct header {
     struct gn_truth_frame frame;
 };
 
-/* --- making ----------------------------------------------------------------------------------------------------------- */
+/* --- making
+ * -----------------------------------------------------------------------------------------------------------
+ */
 
 struct job {
     const struct gn_raycast *rays;
@@ -58,14 +60,15 @@ static void cast_all(struct job *job, int threads) {
     pthread_t thread[16];
     int started = 0;
     threads = threads < 1 ? 2 : threads > 16 ? 16 : threads;
-    while (started < threads - 1 &&
-           pthread_create(&thread[started], NULL, cast_rows, job) == 0)
+    while (started < threads - 1 && pthread_create(&thread[started], NULL, cast_rows, job) == 0)
         started++;
     cast_rows(job);
     while (started) pthread_join(thread[--started], NULL);
 }
 
-/* --- the light's plane ------------------------------------------------------------------------------------------------ */
+/* --- the light's plane
+ * ------------------------------------------------------------------------------------------------
+ */
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -190,7 +193,9 @@ static bool make(struct gn_truth_frame *frame, struct pixel *pixels, const struc
     return true;
 }
 
-/* --- keeping ---------------------------------------------------------------------------------------------------------- */
+/* --- keeping
+ * ----------------------------------------------------------------------------------------------------------
+ */
 
 /* From the cached form to the arrays of the mask, all in one block. */
 static void unpack(struct gn_truth *truth, const struct gn_truth_frame *frame,
@@ -215,8 +220,9 @@ static void unpack(struct gn_truth *truth, const struct gn_truth_frame *frame,
         item[i] = pixels[i].item;
         lit[i] = pixels[i].lit != 0;
     }
-    *truth = (struct gn_truth){
-        .mask = {w, h, lit, item, point, normal, distance, band}, .frame = *frame, .memory = floats};
+    *truth = (struct gn_truth){.mask = {w, h, lit, item, point, normal, distance, band},
+                               .frame = *frame,
+                               .memory = floats};
 }
 
 static struct gn_truth_opts filled(const struct gn_truth_opts *opts) {
@@ -301,7 +307,9 @@ void gn_truth_finish(struct gn_truth *truth) {
     *truth = (struct gn_truth){0};
 }
 
-/* --- measures ---------------------------------------------------------------------------------------------------------- */
+/* --- measures
+ * ----------------------------------------------------------------------------------------------------------
+ */
 
 double gn_truth_texel(const struct gn_truth *truth, unsigned map_px) {
     return truth->frame.extent / map_px;
@@ -360,17 +368,33 @@ static bool is_contact(const struct gn_truth *truth, int x, int y) {
     return false;
 }
 
-static double contact_gap(const struct gn_truth *truth, const struct gn_picture *shot, size_t i) {
+/* Where the shot is dark as it should be, on surfaces that face the light: in the light's plane,
+ * with the item. */
+struct shade {
+    double at[2];
+    int32_t item;
+};
+
+static size_t find_shades(const struct gn_truth *truth, const struct gn_picture *shot,
+                          struct shade *out) {
     const struct gn_mask_truth *m = &truth->mask;
-    double at[2], best = INFINITY;
-    if (!gn_truth_plane(&truth->frame, &m->point_ws[3 * i], at)) return 0;
-    for (size_t j = 0; j < (size_t)m->width_px * m->height_px; j++) {
-        double p[2];
-        if (m->item[j] != m->item[i] || m->lit[j] || facing(truth, j) <= 0) continue;
-        if (shot->data[j * shot->channels] >= .5f) continue;
-        if (gn_truth_plane(&truth->frame, &m->point_ws[3 * j], p))
-            best = fmin(best, hypot(p[0] - at[0], p[1] - at[1]));
+    size_t count = 0;
+    for (size_t i = 0; i < (size_t)m->width_px * m->height_px; i++) {
+        if (m->item[i] < 0 || m->lit[i] || facing(truth, i) <= 0) continue;
+        if (shot->data[i * shot->channels] >= .5f) continue;
+        out[count].item = m->item[i];
+        count += gn_truth_plane(&truth->frame, &m->point_ws[3 * i], out[count].at);
     }
+    return count;
+}
+
+static double contact_gap(const struct gn_truth *truth, const struct shade *shades, size_t count,
+                          size_t i) {
+    double at[2], best = INFINITY;
+    if (!gn_truth_plane(&truth->frame, &truth->mask.point_ws[3 * i], at)) return 0;
+    for (size_t j = 0; j < count; j++)
+        if (shades[j].item == truth->mask.item[i])
+            best = fmin(best, hypot(shades[j].at[0] - at[0], shades[j].at[1] - at[1]));
     return best;
 }
 
@@ -384,11 +408,13 @@ void gn_truth_contact(const struct gn_truth *truth, const struct gn_picture *sho
     const struct gn_mask_truth *m = &truth->mask;
     size_t count = (size_t)m->width_px * m->height_px;
     double *gaps = gn_xalloc(count, sizeof *gaps), texel = gn_truth_texel(truth, map_px), sum = 0;
+    struct shade *shades = gn_xalloc(count, sizeof *shades);
+    size_t shade_count = find_shades(truth, shot, shades);
     *contact = (struct gn_contact){0};
     for (size_t i = 0; i < count; i++) {
         if (!is_contact(truth, (int)(i % m->width_px), (int)(i / m->width_px))) continue;
         bool shown = shot->data[i * shot->channels] >= .5f;
-        double gap = shown ? contact_gap(truth, shot, i) / texel : 0;
+        double gap = shown ? contact_gap(truth, shades, shade_count, i) / texel : 0;
         gaps[contact->contacts++] = gap;
         sum += gap;
     }
@@ -398,5 +424,6 @@ void gn_truth_contact(const struct gn_truth *truth, const struct gn_picture *sho
         contact->p99 = gaps[(int)(.99 * (contact->contacts - 1) + .5)];
         contact->worst = gaps[contact->contacts - 1];
     }
+    free(shades);
     free(gaps);
 }

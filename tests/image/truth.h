@@ -1,11 +1,14 @@
-/* The true picture of a scene's shadow: what the ray caster says of every pixel, kept in build/truth-cache under the hash of
- * the scene file, and how large a texel of a well-fitted shadow map is there.
+/* The true picture of a scene's shadow: what the ray caster says of every pixel, kept in
+ * build/truth-cache under the hash of the scene file, and how large a texel of a well-fitted shadow
+ * map is there.
  *
- * The texel is estimated without asking the renderer: the map is the smallest square, upright in the light's plane, around
- * (casters, as the light sees them) intersected with (places that the picture shows, as the light sees them), for a spot
- * within its cone. The light's plane has metres (directional) or tangents (spot) as its unit. A real fit cannot know the
- * picture, so its texels are rather larger, and a measure in units of ours rather strict. Point lights have no such map:
- * their texel is that of a face of a cube, 2 / map. Slant is left out as well: no texel is stretched over its surface. */
+ * The texel is estimated without asking the renderer: the map is the smallest square, upright in
+ * the light's plane, around (casters, as the light sees them) intersected with (places that the
+ * picture shows, as the light sees them), for a spot within its cone. The light's plane has metres
+ * (directional) or tangents (spot) as its unit. A real fit cannot know the picture, so its texels
+ * are rather larger, and a measure in units of ours rather strict. Point lights have no such map:
+ * their texel is that of a face of a cube, 2 / map. Slant is left out as well: no texel is
+ * stretched over its surface. */
 #ifndef GN_IMAGE_TRUTH_H
 #define GN_IMAGE_TRUTH_H
 
@@ -26,10 +29,10 @@ struct gn_truth {
     void *memory;
 };
 
-struct gn_truth_opts { /* zero means the default */
+struct gn_truth_opts {       /* zero means the default */
     int width_px, height_px; /* 640 x 480 */
     uint32_t camera, light;
-    int threads;             /* 2 */
+    int threads; /* 2 */
     bool no_cache;
 };
 
@@ -45,12 +48,14 @@ void gn_truth_finish(struct gn_truth *truth);
 double gn_truth_texel(const struct gn_truth *truth, unsigned map_px);
 /* A point in the light's plane; false behind a spot. */
 bool gn_truth_plane(const struct gn_truth_frame *frame, const float point_ws[3], double out[2]);
-/* Fills mask.band_px with two texels of that map in pixels, at least 2; returns the mean over what is not background. */
+/* Fills mask.band_px with two texels of that map in pixels, at least 2; returns the mean over what
+ * is not background. */
 double gn_truth_band(struct gn_truth *truth, unsigned map_px);
 
-/* The gap at contacts. A contact is a dark pixel on a surface that faces the light, next to (and not merely in front of) a
- * surface that turns away from it: the foot of a wall on its shadow side. Its gap is the way, as the light sees it, to the
- * nearest dark pixel of the shot on the same item. */
+/* The gap at contacts. A contact is a dark pixel on a surface that faces the light, next to (and
+ * not merely in front of) a surface that turns away from it: the foot of a wall on its shadow side.
+ * Its gap is the way, as the light sees it, to the nearest dark pixel of the shot on the same item.
+ */
 struct gn_contact {
     int contacts;            /* pixels */
     double mean, p99, worst; /* texels */

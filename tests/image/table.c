@@ -1,0 +1,356 @@
+#include "image/table.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/file.h"
+#include "core/hash.h"
+#include "image/shot.h"
+
+/* --- scenes
+ * ------------------------------------------------------------------------------------------------------------
+ */
+
+static bool generate(const char *generator, bool contact, const char *folder, struct gn_err *err) {
+    char making[600];
+    struct gn_run *run = malloc(sizeof *run);
+    if (!run) abort();
+    snprintf(making, sizeof making, "%s.%d", folder, (int)getpid());
+    mkdir(making, 0777);
+    const char *plain[] = {generator, making, NULL};
+    const char *contacts[] = {generator, "--contact", making, NULL};
+    bool ok = gn_run(run, contact ? contacts : plain, 0, err);
+    if (ok && run->status) ok = gn_fail(err, "%s: status %d: %s", generator, run->status, run->err);
+    free(run);
+    /* Another test may have been faster: then its folder stays and ours is left beside it, unused.
+     */
+    if (ok && rename(making, folder) && access(folder, R_OK))
+        ok = gn_fail(err, "%s cannot be made", folder);
+    return ok;
+}
+
+char *gn_table_scenes(bool contact, struct gn_err *err) {
+    char parent[400], generator[500], *folder = malloc(500);
+    struct gn_bytes bytes;
+    if (!folder) abort();
+    snprintf(parent, sizeof parent, "%s", gn_shot_build());
+    char *slash = strrchr(parent, '/');
+    snprintf(slash ? slash : parent, 2, slash ? "" : ".");
+    snprintf(generator, sizeof generator, "%s/host/make_truth", parent);
+    if (!gn_file_read(generator, 0, &bytes, err)) {
+        gn_fail_prefix(err, "the generator of the scenes is missing (make %s)", generator);
+        free(folder);
+        return NULL;
+    }
+    snprintf(folder, 500, "%s/%s-%08x", parent, contact ? "contact" : "truth",
+             (unsigned)gn_hash(GN_HASH_INIT, bytes.data, bytes.size));
+    gn_bytes_finish(&bytes);
+    if (!access(folder, R_OK) || generate(generator, contact, folder, err)) return folder;
+    free(folder);
+    return NULL;
+}
+
+/* --- measuring
+ * ---------------------------------------------------------------------------------------------------------
+ */
+
+void gn_table_add(struct gn_table *table, const char *technique, const char *format,
+                  unsigned map_px) {
+    if (table->row_count == GN_TABLE_ROWS) return;
+    table->rows[table->row_count++] =
+        (struct gn_table_row){.technique = technique, .format = format, .map_px = map_px};
+}
+
+static bool take_shot(struct gn_picture *shot, const struct gn_table_row *row, const char *scene,
+                      int width_px, int height_px, struct gn_err *err) {
+    char size[32], map[16];
+    snprintf(size, sizeof size, "%dx%d", width_px, height_px);
+    snprintf(map, sizeof map, "%u", row->map_px);
+    const char *args[] = {"--aov",    "visibility",   "--light", "0", "--size",       size,
+                          "--shadow", row->technique, "--map",   map, "--map-format", row->format,
+                          NULL};
+    if (!gn_shot(shot, NULL, err, "pfm", scene, args)) return false;
+    if (shot->width_px == width_px && shot->height_px == height_px) return true;
+    gn_picture_finish(shot);
+    return gn_fail(err, "%s: the picture is not of the size that was asked for", scene);
+}
+
+struct job {
+    struct gn_table *table;
+    pthread_mutex_t lock;
+    atomic_int next_scene;
+    int done, total;
+};
+
+static void note_failure(struct job *job, const struct gn_err *err) {
+    pthread_mutex_lock(&job->lock);
+    if (!job->table->failures++)
+        snprintf(job->table->failure, sizeof job->table->failure, "%s", err->text);
+    pthread_mutex_unlock(&job->lock);
+}
+
+static void note_progress(struct job *job) {
+    pthread_mutex_lock(&job->lock);
+    job->done++;
+    if (job->table->progress)
+        fprintf(stderr, "\r%d of %d%s", job->done, job->total, job->done < job->total ? "" : "\n");
+    pthread_mutex_unlock(&job->lock);
+}
+
+static void cell_name(const struct gn_table_row *row, int scene, char *out, size_t size) {
+    snprintf(out, size, "truth-%02d-%s-%s-%u", scene, row->technique, row->format, row->map_px);
+}
+
+static void measure(struct job *job, struct gn_truth *truth, struct gn_table_row *row, int scene,
+                    const char *path) {
+    struct gn_picture shot;
+    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    char name[100];
+    gn_truth_band(truth, row->map_px);
+    if (!take_shot(&shot, row, path, truth->mask.width_px, truth->mask.height_px, &err)) {
+        note_failure(job, &err);
+        return;
+    }
+    gn_mask_compare(&truth->mask, &shot, &row->scores[scene]);
+    row->measured[scene] = true;
+    cell_name(row, scene, name, sizeof name);
+    if (job->table->save) gn_mask_save(job->table->save, name, &truth->mask, &shot);
+    gn_picture_finish(&shot);
+}
+
+static void scene_path(const struct gn_table *table, int scene, char *out, size_t size) {
+    snprintf(out, size, "%s/truth-%02d.glb", table->folder, scene);
+}
+
+static void measure_scene(struct job *job, int scene) {
+    struct gn_table *table = job->table;
+    struct gn_truth truth;
+    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    char path[600];
+    scene_path(table, scene, path, sizeof path);
+    if (!gn_truth_load(&truth, path, &(struct gn_truth_opts){.threads = 1}, &err)) {
+        note_failure(job, &err);
+        return;
+    }
+    table->band_px[scene] = table->row_count ? gn_truth_band(&truth, table->rows[0].map_px) : 2;
+    for (int r = 0; r < table->row_count; r++) {
+        measure(job, &truth, &table->rows[r], scene, path);
+        note_progress(job);
+    }
+    const struct gn_mask_score *s = &table->rows[0].scores[scene];
+    if (s->pixels) table->away[scene] = (double)(s->away_lit + s->away_dark) / (double)s->pixels;
+    gn_truth_finish(&truth);
+}
+
+static void *work(void *data) {
+    struct job *job = data;
+    for (int scene; (scene = atomic_fetch_add(&job->next_scene, 1)) < GN_TABLE_SCENES;)
+        if (job->table->scenes[scene]) measure_scene(job, scene);
+    return NULL;
+}
+
+void gn_table_run(struct gn_table *table) {
+    struct job job = {.table = table, .lock = PTHREAD_MUTEX_INITIALIZER};
+    pthread_t other;
+    for (int i = 0; i < GN_TABLE_SCENES; i++)
+        if (table->scenes[i]) job.total += table->row_count;
+    bool two = pthread_create(&other, NULL, work, &job) == 0;
+    work(&job);
+    if (two) pthread_join(other, NULL);
+}
+
+/* --- judging
+ * ------------------------------------------------------------------------------------------------------------
+ */
+
+static const char *const fault_names[GN_FAULT_COUNT] = {"acne", "leak", "gap", "wrong"};
+
+static double fault_of(const struct gn_mask_score *s, enum gn_fault fault) {
+    switch (fault) {
+    case GN_FAULT_ACNE: return gn_mask_acne(s);
+    case GN_FAULT_LEAK: return gn_mask_leak(s);
+    case GN_FAULT_GAP: return gn_mask_gap(s);
+    default: return gn_mask_wrong(s);
+    }
+}
+
+struct gn_fault_sum gn_table_sum(const struct gn_table_row *row, enum gn_fault fault) {
+    struct gn_fault_sum sum = {0, 0, -1};
+    int count = 0;
+    for (int i = 0; i < GN_TABLE_SCENES; i++) {
+        if (!row->measured[i]) continue;
+        double value = fault_of(&row->scores[i], fault);
+        sum.mean += value;
+        count++;
+        if (sum.worst_scene < 0 || value > sum.worst) {
+            sum.worst = value;
+            sum.worst_scene = i;
+        }
+    }
+    if (count) sum.mean /= count;
+    return sum;
+}
+
+static bool is_hard(const struct gn_table_row *row) { return !strcmp(row->technique, "hard"); }
+
+struct gn_limit_row gn_table_limit(const struct gn_table_row *row, enum gn_fault fault) {
+    bool small = row->map_px < 1024;
+    if (fault <= GN_FAULT_LEAK)
+        return small ? (struct gn_limit_row){.05, INFINITY} : (struct gn_limit_row){.02, .3};
+    if (small || !is_hard(row)) return (struct gn_limit_row){INFINITY, INFINITY};
+    return fault == GN_FAULT_GAP ? (struct gn_limit_row){3, 5}
+                                 : (struct gn_limit_row){.15, INFINITY};
+}
+
+static bool is_over(const struct gn_table_row *row, enum gn_fault fault) {
+    struct gn_fault_sum sum = gn_table_sum(row, fault);
+    struct gn_limit_row limit = gn_table_limit(row, fault);
+    return sum.mean > limit.mean || sum.worst > limit.worst;
+}
+
+void gn_table_print(const struct gn_table *table, FILE *to) {
+    fprintf(to, "per cent: mean over the scenes, worst scene (its number); ! over a limit\n");
+    fprintf(to, "%-6s %-9s %5s | %-23s | %-23s | %-23s | %-23s\n", "", "map", "px",
+            "acne: lit but dark", "leak: dark but lit", "gap: the same, edges in",
+            "wrong: all, edges in");
+    for (int r = 0; r < table->row_count; r++) {
+        const struct gn_table_row *row = &table->rows[r];
+        fprintf(to, "%-6s %-9s %5u", row->technique, row->format, row->map_px);
+        for (int f = 0; f < GN_FAULT_COUNT; f++) {
+            struct gn_fault_sum sum = gn_table_sum(row, f);
+            if (sum.worst_scene < 0)
+                fprintf(to, " | %-23s", "not measured");
+            else
+                fprintf(to, " | %7.4f  %7.4f (%02d) %s", sum.mean, sum.worst, sum.worst_scene,
+                        is_over(row, f) ? "!" : " ");
+        }
+        fprintf(to, "\n");
+    }
+    double band = 0, away = 0, widest = 0;
+    int count = 0;
+    for (int i = 0; i < GN_TABLE_SCENES; i++) {
+        if (!table->scenes[i]) continue;
+        band += table->band_px[i];
+        away += table->away[i];
+        widest = fmax(widest, table->band_px[i]);
+        count++;
+    }
+    if (count)
+        fprintf(
+            to,
+            "%d scenes; edges are %.2f px wide to each side (mean; widest scene %.2f); %.1f %% of "
+            "the pixels are away from them\n",
+            count, band / count, widest, 100 * away / count);
+}
+
+int gn_table_check(const struct gn_table *table, FILE *to) {
+    int over = 0;
+    if (table->failures)
+        fprintf(to, "%d pictures did not come about, the first: %s\n", table->failures,
+                table->failure);
+    for (int r = 0; r < table->row_count; r++)
+        for (int f = 0; f < GN_FAULT_COUNT; f++) {
+            const struct gn_table_row *row = &table->rows[r];
+            if (!is_over(row, f)) continue;
+            struct gn_fault_sum sum = gn_table_sum(row, f);
+            struct gn_limit_row limit = gn_table_limit(row, f);
+            fprintf(to, "%s %s %u: %s is %.4f %% (limit %g), worst scene truth-%02d %.4f %%",
+                    row->technique, row->format, row->map_px, fault_names[f], sum.mean, limit.mean,
+                    sum.worst_scene, sum.worst);
+            if (isfinite(limit.worst)) fprintf(to, " (limit %g)", limit.worst);
+            fprintf(to, "\n");
+            over++;
+        }
+    return over + table->failures;
+}
+
+static void save_cell(const struct gn_table *table, const struct gn_table_row *row, int scene) {
+    struct gn_truth truth;
+    struct gn_picture shot;
+    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    char path[600], name[100];
+    scene_path(table, scene, path, sizeof path);
+    if (!gn_truth_load(&truth, path, NULL, &err)) return;
+    gn_truth_band(&truth, row->map_px);
+    if (take_shot(&shot, row, path, truth.mask.width_px, truth.mask.height_px, &err)) {
+        cell_name(row, scene, name, sizeof name);
+        gn_mask_save(NULL, name, &truth.mask, &shot);
+        gn_picture_finish(&shot);
+    }
+    gn_truth_finish(&truth);
+}
+
+void gn_table_save_failures(const struct gn_table *table) {
+    for (int r = 0; r < table->row_count; r++) {
+        int last = -1;
+        for (int f = 0; f < GN_FAULT_COUNT; f++) {
+            if (!is_over(&table->rows[r], f)) continue;
+            int scene = gn_table_sum(&table->rows[r], f).worst_scene;
+            if (scene != last) save_cell(table, &table->rows[r], scene);
+            last = scene;
+        }
+    }
+}
+
+/* --- contacts
+ * ------------------------------------------------------------------------------------------------------------
+ */
+
+static bool measure_contact(const char *path, const struct gn_table_row *row,
+                            struct gn_contact *contact, struct gn_truth *truth, FILE *to) {
+    struct gn_picture shot;
+    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    const struct gn_mask_truth *mask = &truth->mask;
+    if (!take_shot(&shot, row, path, mask->width_px, mask->height_px, &err)) {
+        fprintf(to, "%s\n", err.text);
+        return false;
+    }
+    gn_truth_contact(truth, &shot, row->map_px, contact);
+    double limit = is_hard(row) ? 1.5 : 2.5;
+    bool ok = contact->contacts > 50 && contact->worst <= limit;
+    fprintf(
+        to,
+        "%-6s %-9s %5u | %s: gap at %d contact pixels %.2f texels, 99 %% under %.2f, worst %.2f "
+        "(limit %g)%s\n",
+        row->technique, row->format, row->map_px, strrchr(path, '/') + 1, contact->contacts,
+        contact->mean, contact->p99, contact->worst, limit, ok ? "" : " !");
+    if (!ok) {
+        char name[100];
+        snprintf(name, sizeof name, "%.20s-%s-%s", strrchr(path, '/') + 1, row->technique,
+                 row->format);
+        gn_mask_save(NULL, name, mask, &shot);
+    }
+    gn_picture_finish(&shot);
+    return ok;
+}
+
+int gn_table_contacts(const char *folder, const struct gn_table_row *rows, int row_count,
+                      FILE *to) {
+    static const char *const scenes[] = {"contact-sun.glb", "contact-spot.glb"};
+    int failures = 0;
+    for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++) {
+        /* Larger than the rest, so that a pixel is smaller than a texel. */
+        const struct gn_truth_opts opts = {.width_px = 1920, .height_px = 1440};
+        struct gn_truth truth;
+        struct gn_err err = {{0}, GN_EXIT_WORLD};
+        char path[600];
+        snprintf(path, sizeof path, "%s/%s", folder, scenes[s]);
+        if (!gn_truth_load(&truth, path, &opts, &err)) {
+            fprintf(to, "%s\n", err.text);
+            failures += row_count;
+            continue;
+        }
+        gn_truth_band(&truth, 1024);
+        for (int r = 0; r < row_count; r++) {
+            struct gn_contact contact;
+            failures += !measure_contact(path, &rows[r], &contact, &truth, to);
+        }
+        gn_truth_finish(&truth);
+    }
+    return failures;
+}

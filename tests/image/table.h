@@ -1,0 +1,72 @@
+/* Shadows against truth, as a table: a row for each technique and map encoding, over the generated
+ * scenes. */
+#ifndef GN_IMAGE_TABLE_H
+#define GN_IMAGE_TABLE_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "image/truth.h"
+
+enum { GN_TABLE_SCENES = 24, GN_TABLE_ROWS = 64 };
+
+/* Folder with truth-00.glb .. truth-23.glb (or the contact scenes), made by <parent of
+ * BUILD>/host/make_truth when it is not there yet; a new generator makes a new folder. NULL and a
+ * message on failure; free() it. */
+char *gn_table_scenes(bool contact, struct gn_err *err);
+
+struct gn_table_row {
+    const char *technique, *format; /* as on the command line */
+    unsigned map_px;
+    struct gn_mask_score scores[GN_TABLE_SCENES];
+    bool measured[GN_TABLE_SCENES];
+};
+
+struct gn_table {
+    const char *folder;
+    bool scenes[GN_TABLE_SCENES]; /* which to measure */
+    int row_count;
+    struct gn_table_row rows[GN_TABLE_ROWS];
+    const char *save;  /* folder for shot, truth and diff of every cell; NULL: none */
+    bool progress;     /* a line that counts, on stderr */
+    int failures;      /* filled: shots that did not come about */
+    char failure[512]; /* the first one */
+    double band_px[GN_TABLE_SCENES],
+        away[GN_TABLE_SCENES]; /* for the first row's map: mean width of the edges in pixels,
+                                  and share of the pixels that are away from them */
+};
+
+void gn_table_add(struct gn_table *table, const char *technique, const char *format,
+                  unsigned map_px);
+/* Renders and compares everything, two scenes at a time. */
+void gn_table_run(struct gn_table *table);
+
+/* Of a row, over the measured scenes: means and worst, in per cent. */
+enum gn_fault { GN_FAULT_ACNE, GN_FAULT_LEAK, GN_FAULT_GAP, GN_FAULT_WRONG, GN_FAULT_COUNT };
+struct gn_fault_sum {
+    double mean, worst;
+    int worst_scene;
+};
+struct gn_fault_sum gn_table_sum(const struct gn_table_row *row, enum gn_fault fault);
+
+/* The limits that the project has set itself, in per cent; INFINITY: none. Acne and leaks bind
+ * every technique, the rest those with a hard edge. With maps under 1024 only acne and leaks are
+ * limited. */
+struct gn_limit_row {
+    double mean, worst;
+};
+struct gn_limit_row gn_table_limit(const struct gn_table_row *row, enum gn_fault fault);
+
+void gn_table_print(const struct gn_table *table, FILE *to);
+/* Prints each limit passed, with the scene that is worst; returns how many there are (failed shots
+ * count). */
+int gn_table_check(const struct gn_table *table, FILE *to);
+/* Renders the worst scene of each row over its limits again and leaves shot, truth and diff in
+ * build/failures. */
+void gn_table_save_failures(const struct gn_table *table);
+
+/* Gap at contacts over both contact scenes. Limits: 1.5 texels for hard, 2.5 for the others.
+ * Returns how many are passed. */
+int gn_table_contacts(const char *folder, const struct gn_table_row *rows, int row_count, FILE *to);
+
+#endif

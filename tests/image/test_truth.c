@@ -1,0 +1,97 @@
+/* Shadows against ray-traced truth, with the limits that the project has set itself: eight scenes
+ * and three rows, or with GN_FULL=1 all scenes, techniques, encodings and map sizes. A failure
+ * leaves shot, truth and diff in build/failures. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/shot.h"
+#include "image/table.h"
+
+static void quick_rows(struct gn_table *table) {
+    for (int i = 1; i < GN_TABLE_SCENES; i += 3) table->scenes[i] = true;
+    gn_table_add(table, "hard", "r16f", 1024);
+    gn_table_add(table, "hard", "depth", 1024);
+    gn_table_add(table, "pcf3", "depth", 1024);
+}
+
+static void full_rows(struct gn_table *table) {
+    static const char *const formats[] = {"r16f", "depth", "r16f-raw", "r32ui", "rgba8"};
+    static const char *const filters[] = {"pcf", "pcf2", "pcf3", "pcf5"};
+    static const unsigned maps[] = {1024, 256};
+    for (int i = 0; i < GN_TABLE_SCENES; i++) table->scenes[i] = true;
+    for (int m = 0; m < 2; m++) {
+        for (int f = 0; f < 5; f++) gn_table_add(table, "hard", formats[f], maps[m]);
+        for (int t = 0; t < 4; t++)
+            for (int f = 0; f < 2; f++) gn_table_add(table, filters[t], formats[f], maps[m]);
+    }
+}
+
+/* A spoilt table must not pass: the truth of one scene turned round counts as acne and as leaks. */
+static bool notices_a_wrong_picture(const char *folder) {
+    static struct gn_table table;
+    struct gn_truth truth;
+    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    char path[600];
+    snprintf(path, sizeof path, "%s/truth-01.glb", folder);
+    if (!gn_truth_load(&truth, path, NULL, &err)) {
+        printf("%s\n", err.text);
+        return false;
+    }
+    struct gn_picture shot;
+    gn_picture_init(&shot, truth.mask.width_px, truth.mask.height_px, 1);
+    for (int i = 0; i < shot.width_px * shot.height_px; i++) shot.data[i] = !truth.mask.lit[i];
+    gn_table_add(&table, "hard", "depth", 1024);
+    gn_mask_compare(&truth.mask, &shot, &table.rows[0].scores[1]);
+    table.rows[0].measured[1] = table.scenes[1] = true;
+    FILE *nowhere = fopen("/dev/null", "w");
+    int over = nowhere ? gn_table_check(&table, nowhere) : 0;
+    if (nowhere) fclose(nowhere);
+    gn_picture_finish(&shot);
+    gn_truth_finish(&truth);
+    return over == GN_FAULT_COUNT;
+}
+
+static int check_contacts(const struct gn_table *table) {
+    struct gn_table_row rows[GN_TABLE_ROWS];
+    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    int count = 0;
+    for (int i = 0; i < table->row_count; i++)
+        if (table->rows[i].map_px == 1024 && (!strcmp(table->rows[i].technique, "hard") ||
+                                              !strcmp(table->rows[i].technique, "pcf3")))
+            rows[count++] = table->rows[i];
+    char *folder = gn_table_scenes(true, &err);
+    if (!folder) {
+        printf("%s\n", err.text);
+        return 1;
+    }
+    int over = gn_table_contacts(folder, rows, count, stdout);
+    free(folder);
+    return over;
+}
+
+int main(void) {
+    static struct gn_table table;
+    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    char *folder = gn_table_scenes(false, &err);
+    if (!folder) {
+        printf("%s\n", err.text);
+        return 1;
+    }
+    if (!notices_a_wrong_picture(folder)) {
+        printf("the comparison does not notice a picture that is all wrong\n");
+        return 1;
+    }
+    table.folder = folder;
+    if (gn_shot_full())
+        full_rows(&table);
+    else
+        quick_rows(&table);
+    gn_table_run(&table);
+    gn_table_print(&table, stdout);
+    int over = gn_table_check(&table, stdout);
+    if (over > table.failures) gn_table_save_failures(&table);
+    over += check_contacts(&table);
+    free(folder);
+    return over ? 1 : 0;
+}

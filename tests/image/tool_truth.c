@@ -1,0 +1,148 @@
+/* `make truth`: every technique and map encoding against ray-traced truth, over the 24 generated
+ * scenes, as a table. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/shot.h"
+#include "image/table.h"
+
+static const char usage[] =
+    "usage: tool_truth [options]\n"
+    "  --scenes A-B[,C..]  which of 0-23 (all)\n"
+    "  --technique LIST    of hard,pcf,pcf2,pcf3,pcf5,.. (those five)\n"
+    "  --format LIST       of depth,r16f,r16f-raw,r32ui,rgba8 (hard: all; others: depth,r16f)\n"
+    "  --map LIST          of sizes in pixels (1024,256)\n"
+    "  --save DIR          shot, truth and diff of every cell, as PNG\n"
+    "  --no-contact        leave out the gaps at contacts\n"
+    "  --limits            exit 1 if a limit is passed\n";
+
+struct arguments {
+    char *scenes, *techniques, *formats, *maps, *save;
+    bool contact, limits;
+};
+
+static int refuse(const char *what) {
+    fprintf(stderr, "tool_truth: %s\n%s", what, usage);
+    return 2;
+}
+
+static bool parse(int argc, char **argv, struct arguments *a) {
+    struct {
+        const char *name;
+        char **value;
+    } const valued[] = {{"--scenes", &a->scenes},
+                        {"--technique", &a->techniques},
+                        {"--format", &a->formats},
+                        {"--map", &a->maps},
+                        {"--save", &a->save}};
+    for (int i = 1; i < argc; i++) {
+        bool known = true;
+        if (!strcmp(argv[i], "--limits"))
+            a->limits = true;
+        else if (!strcmp(argv[i], "--no-contact"))
+            a->contact = false;
+        else
+            known = false;
+        for (size_t k = 0; !known && k < sizeof valued / sizeof *valued; k++)
+            if (!strcmp(argv[i], valued[k].name) && i + 1 < argc) {
+                *valued[k].value = argv[++i];
+                known = true;
+            }
+        if (!known) return false;
+    }
+    return true;
+}
+
+static bool choose_scenes(struct gn_table *table, const char *list) {
+    char *end;
+    for (const char *p = list; *p; p = *end ? end + 1 : end) {
+        long from = strtol(p, &end, 10), to = from;
+        if (end == p) return false;
+        if (*end == '-') to = strtol(end + 1, &end, 10);
+        if (from < 0 || to < from || to >= GN_TABLE_SCENES || (*end && *end != ',')) return false;
+        for (long i = from; i <= to; i++) table->scenes[i] = true;
+    }
+    return true;
+}
+
+/* Splits a list at its commas, in place. */
+static int split(char *list, const char *out[], int room) {
+    int count = 0;
+    for (char *word = strtok(list, ","); word && count < room; word = strtok(NULL, ","))
+        out[count++] = word;
+    return count;
+}
+
+static void add_rows(struct gn_table *table, const struct arguments *a, unsigned map_px) {
+    const char *techniques[] = {"hard", "pcf", "pcf2", "pcf3", "pcf5", NULL, NULL, NULL};
+    const char *all[] = {"depth", "r16f", "r16f-raw", "r32ui", "rgba8"};
+    const char *given[8], *given_techniques[16];
+    char formats[200], list[200];
+    int format_count = 0, technique_count = 5;
+    snprintf(formats, sizeof formats, "%s", a->formats ? a->formats : "");
+    snprintf(list, sizeof list, "%s", a->techniques ? a->techniques : "");
+    if (a->formats) format_count = split(formats, given, 8);
+    if (a->techniques) technique_count = split(list, given_techniques, 16);
+    for (int t = 0; t < technique_count; t++) {
+        const char *technique = a->techniques ? given_techniques[t] : techniques[t];
+        int count = a->formats ? format_count : !strcmp(technique, "hard") ? 5 : 2;
+        for (int f = 0; f < count; f++)
+            gn_table_add(table, strdup(technique), strdup(a->formats ? given[f] : all[f]), map_px);
+    }
+}
+
+static bool add_maps(struct gn_table *table, const struct arguments *a) {
+    char maps[200];
+    const char *sizes[8];
+    snprintf(maps, sizeof maps, "%s", a->maps ? a->maps : "1024,256");
+    int count = split(maps, sizes, 8);
+    for (int i = 0; i < count; i++) {
+        long px = strtol(sizes[i], NULL, 10);
+        if (px < 1 || px > 16384) return false;
+        add_rows(table, a, (unsigned)px);
+    }
+    return true;
+}
+
+/* hard and pcf3 as asked for, on the larger map. */
+static int contacts(const struct gn_table *table, struct gn_err *err) {
+    struct gn_table_row rows[GN_TABLE_ROWS];
+    int count = 0;
+    for (int i = 0; i < table->row_count; i++)
+        if (table->rows[i].map_px >= 1024 && (!strcmp(table->rows[i].technique, "hard") ||
+                                              !strcmp(table->rows[i].technique, "pcf3")))
+            rows[count++] = table->rows[i];
+    if (!count) return 0;
+    char *folder = gn_table_scenes(true, err);
+    if (!folder) return -1;
+    printf("\n");
+    int over = gn_table_contacts(folder, rows, count, stdout);
+    free(folder);
+    return over;
+}
+
+int main(int argc, char **argv) {
+    static struct gn_table table;
+    struct arguments a = {.contact = true};
+    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    if (!parse(argc, argv, &a)) return refuse("wrong options");
+    if (!choose_scenes(&table, a.scenes ? a.scenes : "0-23")) return refuse("wrong list of scenes");
+    if (!add_maps(&table, &a)) return refuse("wrong map size");
+    char *folder = gn_table_scenes(false, &err);
+    if (!folder) {
+        fprintf(stderr, "tool_truth: %s\n", err.text);
+        return 1;
+    }
+    table.folder = folder;
+    table.save = a.save;
+    table.progress = true;
+    gn_table_run(&table);
+    gn_table_print(&table, stdout);
+    int over = gn_table_check(&table, stdout);
+    int contact = a.contact ? contacts(&table, &err) : 0;
+    if (contact < 0) fprintf(stderr, "tool_truth: %s\n", err.text);
+    free(folder);
+    return (a.limits && (over || contact)) || table.failures || contact < 0 ? 1 : 0;
+}
