@@ -2,9 +2,11 @@
  * std140 block read in a fragment shader costs Mali load/store slots). Read by GLSL and by C, so it holds only #define. */
 #define PASS_CLIP 0       /* 4 columns of clip_from_world */
 #define PASS_EYE 4        /* xyz: eye, world space, or direction to it if w = 0; w: 1 perspective, 0 orthographic */
+#define PASS_CODE 4       /* shadow passes: code = dot(xyzw, (p, 1)), or with a radial distance |p - xyz| * w + .. */
+#define PASS_CODE_ADD 5   /* shadow passes: .. + x */
 #define PASS_SKY 5        /* rgb: hemisphere's upper radiance, after exposure */
 #define PASS_GROUND 6     /* rgb: lower */
-#define PASS_EXPOSURE 7   /* x: factor on emitted radiance; y: 1 = AOV visibility has a light; zw: unused */
+#define PASS_EXPOSURE 7   /* x: factor on emitted radiance; yzw: position of the eye, world space */
 #define PASS_LIGHTS 8     /* GN_LIGHTS_MAX x LIGHT_SIZE */
 #define LIGHT_SIZE 3
 #define LIGHT_COLOR 0     /* rgb: illuminance (lux) or intensity (candela), over pi, after exposure; w: shadow strength 0..1 */
@@ -18,3 +20,6 @@
 #define SHADOW_PLACE 5    /* xyz: position of the light; w: distance_scale */
 #define SHADOW_MAP_SIZE 6 /* x: distance_offset; y: side in texels; z: 1 / side; w: far_code */
 #define PASS_SIZE 62
+#define AOV_VISIBILITY 1  /* values of AOV: gn_aov */
+#define AOV_DISTANCE 2
+#define AOV_NORMAL 3

@@ -105,13 +105,14 @@ struct gn_pass {
 
 enum gn_output_format {
     GN_OUTPUT_SRGB8,  /* SRGB8_ALPHA8: encodes on write */
-    GN_OUTPUT_LINEAR8, /* RGBA8 */
+    GN_OUTPUT_LINEAR8, /* RGBA8; with encode_srgb the shaders encode */
     GN_OUTPUT_FLOAT,  /* RGBA16F */
     GN_OUTPUT_AOV,    /* RGBA32UI: bits of four floats; not blended, not antialiased */
 };
 struct gn_plan {
     uint32_t width_px, height_px;
     enum gn_output_format output;
+    bool encode_srgb; /* sRGB wanted of a GPU without such a target */
     uint32_t msaa; /* samples: 0, 2, 4 */
     enum gn_aov aov;
     const struct gn_scene *scene;

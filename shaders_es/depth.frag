@@ -1,0 +1,3 @@
+#include "lib/caster.frag.glsl"
+
+void main() { cut_holes(); }

@@ -1,0 +1,4 @@
+// Casters into a depth map.
+#include "lib/caster.vert.glsl"
+
+void main() { place_caster(position_ws()); }

@@ -1,0 +1,18 @@
+// What both shadow passes' vertex shaders share: where a caster's vertex goes, and what its alpha is read with.
+#include "lib/pass.glsl"
+#include "lib/vertex.glsl"
+
+#ifdef WITH_ALPHA_MASK
+out vec2 v_uv;
+out float v_alpha;
+flat out float v_cutoff;
+#endif
+
+void place_caster(vec3 p) {
+    gl_Position = pass_matrix(PASS_CLIP) * vec4(p, 1.0);
+#ifdef WITH_ALPHA_MASK
+    v_uv = slot_uv(0, BASE_UV1);
+    v_alpha = a_base_color.a * (VERTEX_COLOR ? a_color.a : 1.0);
+    v_cutoff = a_surface.w;
+#endif
+}

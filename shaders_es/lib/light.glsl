@@ -1,0 +1,30 @@
+// Light from a directional, point or spot light, per fragment, in linear space.
+
+#define LIGHT(slot, what) u_pass[PASS_LIGHTS + (slot)*LIGHT_SIZE + (what)]
+
+struct light_sample {
+    vec3 to_light; // unit
+    vec3 color;    // lux over pi on a surface that faces the light, after exposure
+    float cone;    // spot: 0 outside the outer angle, 1 inside the inner one; else 1
+    bool in_range;
+};
+
+// type: LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT. Inverse-square falloff with the range window of KHR_lights_punctual; the
+// cone goes by smoothstep of the cosines.
+light_sample light_at(const int slot, const int type, vec3 p) {
+    vec3 color = LIGHT(slot, LIGHT_COLOR).rgb;
+    vec4 place = LIGHT(slot, LIGHT_PLACE);
+    if (type == LIGHT_DIRECTIONAL) return light_sample(place.xyz, color, 1.0, true);
+    vec3 v = place.xyz - p;
+    float d2 = max(dot(v, v), 1e-8);
+    vec3 l = v * inversesqrt(d2);
+    float x = d2 * place.w * place.w;
+    float window = clamp(1.0 - x * x, 0.0, 1.0);
+    float cone = 1.0;
+    if (type == LIGHT_SPOT) {
+        vec4 axis = LIGHT(slot, LIGHT_AXIS);
+        float t = clamp((dot(-l, axis.xyz) - axis.w) * u_pass[PASS_CONES + slot / 4][slot % 4], 0.0, 1.0);
+        cone = t * t * (3.0 - 2.0 * t);
+    }
+    return light_sample(l, color * (window / d2) * cone, cone, window > 0.0);
+}

@@ -1,0 +1,11 @@
+//@ names map_lit map_lit_linear
+// Depth texture behind a comparing sampler, LEQUAL. at: uv over the map (0..1) and depth (0..1), past the far end = the far end;
+// 1 = lit. Outside the map its cleared rim is read: lit.
+#undef MAP_SAMPLER
+#undef MAP_OUT
+#define MAP_SAMPLER sampler2DShadow
+
+float map_lit(MAP_SAMPLER map, vec3 at, vec4 size) { return texture(map, at); }
+
+// Weighs four texels: the sampler is LINEAR.
+float map_lit_linear(MAP_SAMPLER map, vec3 at, vec4 size) { return texture(map, at); }

@@ -1,0 +1,39 @@
+// The surface under a fragment: what lit.frag and aov.frag know about it.
+#include "lib/pass.glsl"
+
+#ifdef WITH_VERTEX_COLOR
+in vec4 v_color;
+#else
+flat in vec4 v_color;
+#endif
+in vec3 v_position;
+in vec3 v_normal;
+in vec2 v_uv_base, v_uv_roughness, v_uv_emissive, v_uv_occlusion;
+flat in vec4 v_surface;  // roughness, metalness, occlusion strength, alpha cutoff
+flat in vec4 v_emissive; // radiance; w: 1 = casts
+#ifdef WITH_SHADOWS
+in vec3 v_shadow[SHADOW_COUNT]; // directional lights with a map: uv and code
+#endif
+
+#ifdef WITH_BASE_TEXTURE
+uniform mediump sampler2D u_texture_base;
+#endif
+
+// Linear, alpha last; fragments of a masked material's holes are gone after this.
+vec4 surface_base() {
+    vec4 base = v_color;
+#ifdef WITH_BASE_TEXTURE
+    base *= texture(u_texture_base, v_uv_base);
+#endif
+    if (ALPHA_MASK && base.a < v_surface.w) discard;
+    return base;
+}
+
+// Unit, towards the viewer on both sides of a double-sided surface.
+vec3 surface_normal() {
+    vec3 n = normalize(v_normal);
+    return DOUBLE_SIDED && !gl_FrontFacing ? -n : n;
+}
+
+// Unit vector towards the eye.
+vec3 surface_to_eye() { return normalize(u_pass[PASS_EYE].xyz - v_position * u_pass[PASS_EYE].w); }

@@ -1,0 +1,35 @@
+// Attributes of a vertex and of an instance, and what every vertex shader makes of them.
+layout(location = 0) in vec3 a_position;
+layout(location = 1) in vec3 a_normal;
+layout(location = 2) in vec2 a_uv0;
+layout(location = 3) in vec2 a_uv1;
+layout(location = 4) in vec4 a_color;
+layout(location = 5) in vec4 a_world_0; // rows of world_from_item
+layout(location = 6) in vec4 a_world_1;
+layout(location = 7) in vec4 a_world_2;
+layout(location = 8) in vec4 a_base_color; // linear
+layout(location = 9) in vec4 a_surface;    // roughness, metalness, occlusion strength, alpha cutoff
+layout(location = 10) in vec4 a_emissive;  // linear radiance; w: 1 = casts
+
+uniform vec4 u_uv[8]; // two rows per texture slot: uv_from_uv
+
+vec3 position_ws() {
+    vec4 p = vec4(a_position, 1.0);
+    return vec3(dot(a_world_0, p), dot(a_world_1, p), dot(a_world_2, p));
+}
+
+// Normals go by the inverse transpose, here as the cofactor matrix, whose rows are cross products of the matrix's rows: right
+// for any scale, and for a mirrored one, whose determinant's sign is taken out. Not of unit length.
+vec3 normal_ws() {
+    vec3 c0 = cross(a_world_1.xyz, a_world_2.xyz);
+    vec3 c1 = cross(a_world_2.xyz, a_world_0.xyz);
+    vec3 c2 = cross(a_world_0.xyz, a_world_1.xyz);
+    vec3 n = vec3(dot(c0, a_normal), dot(c1, a_normal), dot(c2, a_normal));
+    return dot(a_world_0.xyz, c0) < 0.0 ? -n : n;
+}
+
+// Texture coordinates of slot 0..3 (base, roughness, emissive, occlusion).
+vec2 slot_uv(const int slot, const bool second) {
+    vec3 uv = vec3(second ? a_uv1 : a_uv0, 1.0);
+    return vec2(dot(u_uv[2 * slot].xyz, uv), dot(u_uv[2 * slot + 1].xyz, uv));
+}

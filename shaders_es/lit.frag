@@ -1,0 +1,96 @@
+// colour = ambient x albedo x occlusion + sum over lights of (1 - strength (1 - visibility)) x (diffuse + specular) + emissive,
+// in linear space, after exposure.
+#include "lib/surface.glsl"
+#include "lib/light.glsl"
+#include "lib/shadow_point.glsl"
+#include "lib/srgb.glsl"
+
+#ifdef WITH_ROUGHNESS_TEXTURE
+uniform mediump sampler2D u_texture_roughness;
+#endif
+#ifdef WITH_EMISSIVE_TEXTURE
+uniform mediump sampler2D u_texture_emissive;
+#endif
+#ifdef WITH_OCCLUSION_TEXTURE
+uniform mediump sampler2D u_texture_occlusion;
+#endif
+
+layout(location = 0) out vec4 o_color;
+
+// x: roughness, y: metalness
+vec2 surface_roughness() {
+    vec2 factors = v_surface.xy;
+#ifdef WITH_ROUGHNESS_TEXTURE
+    factors *= texture(u_texture_roughness, v_uv_roughness).gb;
+#endif
+    return factors;
+}
+
+vec3 surface_ambient(vec3 n) {
+    vec3 ambient = u_pass[PASS_SKY].rgb;
+    if (HEMISPHERE) ambient = mix(u_pass[PASS_GROUND].rgb, ambient, 0.5 * n.y + 0.5);
+#ifdef WITH_OCCLUSION_TEXTURE
+    ambient *= 1.0 + v_surface.z * (texture(u_texture_occlusion, v_uv_occlusion).r - 1.0);
+#endif
+    return ambient;
+}
+
+vec3 surface_emission() {
+    vec3 emission = v_emissive.rgb * u_pass[PASS_EXPOSURE].x;
+#ifdef WITH_EMISSIVE_TEXTURE
+    emission *= texture(u_texture_emissive, v_uv_emissive).rgb;
+#endif
+    return emission;
+}
+
+// What every light needs of the surface. Blinn-Phong normalised: (n + 8) / 8 pi, of which the 1 / pi is in the light.
+struct surface {
+    vec3 normal, to_eye, diffuse, specular;
+    float exponent;
+};
+
+surface surface_make(vec4 base) {
+    surface s;
+    s.normal = surface_normal();
+    s.diffuse = base.rgb;
+    if (SPECULAR) {
+        vec2 rm = surface_roughness();
+        float alpha = max(rm.x * rm.x, 0.002);
+        s.exponent = 2.0 / (alpha * alpha) - 2.0;
+        s.specular = mix(vec3(0.04), base.rgb, rm.y) * (0.125 * s.exponent + 1.0);
+        s.diffuse = base.rgb * (1.0 - rm.y);
+        s.to_eye = surface_to_eye();
+    }
+    return s;
+}
+
+vec3 surface_reflect(surface s, light_sample l) {
+    float n_l = max(dot(s.normal, l.to_light), 0.0);
+    if (!SPECULAR) return s.diffuse * l.color * n_l;
+    float n_h = max(dot(s.normal, normalize(l.to_light + s.to_eye)), 0.0001); // pow(0, 0) is undefined
+    return (s.diffuse + s.specular * pow(n_h, s.exponent)) * l.color * n_l;
+}
+
+#define ADD_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
+    { \
+        light_sample l = light_at(slot, type, v_position); \
+        vec3 at = type == LIGHT_DIRECTIONAL ? v_shadow[slot] \
+                                            : shadow_point_spot(slot, radial, v_position, s.normal, l.to_light); \
+        float seen = visibility(map, at, SHADOW(slot, SHADOW_MAP_SIZE)); \
+        color += surface_reflect(s, l) * (1.0 - LIGHT(slot, LIGHT_COLOR).w * (1.0 - seen)); \
+    }
+#define ADD_OPEN_LIGHT(slot, type) color += surface_reflect(s, light_at(slot, type, v_position));
+
+void main() {
+    vec4 base = surface_base();
+    vec3 color = base.rgb;
+    if (!UNLIT) {
+        surface s = surface_make(base);
+        color *= surface_ambient(s.normal);
+        EACH_SHADOWED_LIGHT(ADD_SHADOWED_LIGHT)
+        EACH_OPEN_LIGHT(ADD_OPEN_LIGHT)
+        if (EMISSIVE) color += surface_emission();
+    }
+    if (ENCODE_SRGB) color = srgb_from_linear(color);
+    o_color = ALPHA_BLEND ? vec4(color * base.a, base.a) : vec4(color, 1.0);
+}

@@ -1,0 +1,38 @@
+// Vertices for lit.frag and aov.frag.
+#include "lib/pass.glsl"
+#include "lib/vertex.glsl"
+#include "lib/shadow_point.glsl"
+
+#ifdef WITH_VERTEX_COLOR
+out vec4 v_color;
+#else
+flat out vec4 v_color;
+#endif
+out vec3 v_position;
+out vec3 v_normal;
+out vec2 v_uv_base, v_uv_roughness, v_uv_emissive, v_uv_occlusion;
+flat out vec4 v_surface;
+flat out vec4 v_emissive;
+#ifdef WITH_SHADOWS
+out vec3 v_shadow[SHADOW_COUNT];
+#endif
+
+#define PLACE_SHADOW(slot, type) \
+    v_shadow[slot] = type == LIGHT_DIRECTIONAL \
+        ? shadow_point_directional(slot, p, n, u_pass[PASS_LIGHTS + slot * LIGHT_SIZE + LIGHT_PLACE].xyz) : vec3(0.0);
+
+void main() {
+    vec3 p = position_ws();
+    vec3 n = normalize(normal_ws());
+    gl_Position = pass_matrix(PASS_CLIP) * vec4(p, 1.0);
+    v_position = p;
+    v_normal = n;
+    v_color = VERTEX_COLOR ? a_base_color * a_color : a_base_color;
+    v_surface = a_surface;
+    v_emissive = a_emissive;
+    v_uv_base = slot_uv(0, BASE_UV1);
+    v_uv_roughness = slot_uv(1, ROUGHNESS_UV1);
+    v_uv_emissive = slot_uv(2, EMISSIVE_UV1);
+    v_uv_occlusion = slot_uv(3, OCCLUSION_UV1);
+    EACH_SHADOWED_LIGHT_VERTEX(PLACE_SHADOW)
+}

@@ -1,0 +1,306 @@
+/* Building a plan: eye, lights, one pass per shadow map, then the picture. Items are sorted by batch, so a run of them becomes
+ * one instanced call (two when some are mirrored); blended items go last, farthest first, one by one. */
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "blocks.glsl"
+#include "core/arena.h"
+#include "frame/private.h"
+
+void *gn_list_grow(void *at, uint32_t count, uint32_t *room, size_t size) {
+    if (count < *room) return at;
+    *room = *room ? 2 * *room : 64;
+    return gn_xrealloc(at, *room, size);
+}
+
+struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_caps *caps) {
+    struct gn_frame *frame = gn_xalloc(1, sizeof *frame);
+    frame->scene = scene;
+    frame->caps = *caps;
+    frame->casts = gn_xalloc((size_t)scene->item_count * GN_SHADOWS_MAX, 1);
+    frame->constants = gn_xalloc((GN_SHADOWS_MAX + 1) * GN_PASS_SIZE, sizeof *frame->constants);
+    return frame;
+}
+
+void gn_frame_destroy(struct gn_frame *frame) {
+    if (!frame) return;
+    free(frame->draws.at);
+    free(frame->instances.at);
+    free(frame->programs.at);
+    free(frame->blended.at);
+    free(frame->passes.at);
+    free(frame->casts);
+    free(frame->constants);
+    free(frame);
+}
+
+static uint32_t program_index(struct gn_frame *frame, const struct gn_program_key *key) {
+    for (uint32_t i = 0; i < frame->programs.count; i++)
+        if (memcmp(&frame->programs.at[i], key, sizeof *key) == 0) return i;
+    GN_LIST_PUSH(&frame->programs) = *key;
+    return frame->programs.count - 1;
+}
+
+static void add_instance(struct gn_frame *frame, const struct gn_pose *pose, uint32_t index) {
+    const struct gn_item *item = &frame->scene->items[index];
+    const struct gn_material *m = &frame->scene->materials[item->material];
+    struct gn_instance *instance = &GN_LIST_PUSH(&frame->instances);
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 4; c++) instance->world[r][c] = pose->items[index].world_from_item[c][r];
+    memcpy(instance->base_color, m->base_color, sizeof instance->base_color);
+    instance->surface[0] = m->roughness;
+    instance->surface[1] = m->metalness;
+    instance->surface[2] = m->occlusion_strength;
+    instance->surface[3] = m->alpha_cutoff;
+    memcpy(instance->emissive, m->emissive, sizeof m->emissive);
+    instance->emissive[3] = item->casts && m->alpha != GN_ALPHA_BLEND ? 1.0f : 0.0f;
+}
+
+static enum gn_cull caster_cull(const struct gn_item *item) {
+    if (item->cast_faces == GN_CAST_FRONT) return GN_CULL_BACK;
+    return item->cast_faces == GN_CAST_BACK ? GN_CULL_FRONT : GN_CULL_NONE;
+}
+
+static enum gn_cull eye_cull(const struct gn_frame *frame, const struct gn_item *item) {
+    return frame->scene->materials[item->material].double_sided ? GN_CULL_NONE : GN_CULL_BACK;
+}
+
+static void begin_draw(struct gn_frame *frame, uint32_t item, const struct gn_program_key *key, enum gn_cull cull,
+                       bool mirrored) {
+    uint32_t program = program_index(frame, key);
+    GN_LIST_PUSH(&frame->draws) = (struct gn_draw){
+        .program = program,
+        .geometry = frame->scene->items[item].geometry,
+        .material = frame->scene->items[item].material,
+        .first_instance = frame->instances.count,
+        .cull = (uint8_t)cull,
+        .mirrored = mirrored,
+    };
+}
+
+/* Which items a pass takes, and with which program. */
+struct selection {
+    const uint8_t *casts;               /* shadow pass: those marked; NULL: what the eye sees */
+    const struct gn_shadow_view *view;  /* shadow pass */
+    const struct gn_frame_opts *opts;
+};
+
+static bool is_blended(const struct gn_frame *frame, uint32_t item) {
+    return frame->scene->materials[frame->scene->items[item].material].alpha == GN_ALPHA_BLEND;
+}
+
+static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s, uint32_t item) {
+    if (s->casts) return s->casts[item];
+    if (!pose->items[item].visible || !gn_eye_sees(&frame->eye, &pose->items[item].box_ws)) {
+        frame->plan.culled++;
+        return false;
+    }
+    if (!is_blended(frame, item)) return true;
+    if (s->opts->aov != GN_AOV_COLOR) return false;
+    vec4 centre = {0, 0, 0, 1}, clip;
+    glm_vec3_center((float *)pose->items[item].box_ws.min, (float *)pose->items[item].box_ws.max, centre);
+    glm_mat4_mulv(frame->eye.clip_from_world, centre, clip);
+    GN_LIST_PUSH(&frame->blended) = (struct gn_blended){clip[3] == 1.0f ? clip[2] : clip[3], item};
+    return false;
+}
+
+static void draw_item(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s, uint32_t item,
+                      bool *open) {
+    bool mirrored = pose->items[item].mirrored;
+    if (*open && frame->draws.at[frame->draws.count - 1].mirrored != mirrored) *open = false;
+    if (!*open) {
+        const struct gn_item *it = &frame->scene->items[item];
+        struct gn_program_key key = s->casts ? gn_key_caster(frame, item, s->view) : gn_key_lit(frame, item, s->opts);
+        begin_draw(frame, item, &key, s->casts ? caster_cull(it) : eye_cull(frame, it), mirrored);
+        *open = true;
+    }
+    add_instance(frame, pose, item);
+    frame->draws.at[frame->draws.count - 1].instance_count++;
+}
+
+static void draw_items(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s) {
+    bool open = false;
+    uint32_t batch = UINT32_MAX;
+    for (uint32_t i = 0; i < frame->scene->item_count; i++) {
+        if (!takes(frame, pose, s, i)) continue;
+        if (frame->scene->items[i].batch != batch) open = false;
+        batch = frame->scene->items[i].batch;
+        draw_item(frame, pose, s, i, &open);
+    }
+}
+
+/* Opaque before masked (a discard costs early depth), then by how near the batch's first instance is. */
+static float draw_order(const struct gn_frame *frame, const struct gn_draw *draw) {
+    const struct gn_instance *first = &frame->instances.at[draw->first_instance];
+    vec4 p = {first->world[0][3], first->world[1][3], first->world[2][3], 1.0f}, clip;
+    glm_mat4_mulv((vec4 *)frame->eye.clip_from_world, p, clip);
+    bool masked = frame->programs.at[draw->program].features & GN_FEATURE_ALPHA_MASK;
+    return clip[3] + (masked ? 1e9f : 0.0f);
+}
+
+/* Few draws, nearly sorted from frame to frame: insertion. */
+static void sort_draws(struct gn_frame *frame, uint32_t first) {
+    struct gn_draw *draws = frame->draws.at;
+    for (uint32_t i = first + 1; i < frame->draws.count; i++) {
+        struct gn_draw draw = draws[i];
+        float order = draw_order(frame, &draw);
+        uint32_t at = i;
+        for (; at > first && draw_order(frame, &draws[at - 1]) > order; at--) draws[at] = draws[at - 1];
+        draws[at] = draw;
+    }
+}
+
+static struct gn_pass *begin_pass(struct gn_frame *frame) {
+    struct gn_pass *pass = &GN_LIST_PUSH(&frame->passes);
+    *pass = (struct gn_pass){.first_draw = frame->draws.count, .depth_write = true, .constant_count = GN_PASS_SIZE};
+    return pass;
+}
+
+static void end_pass(struct gn_frame *frame) {
+    struct gn_pass *pass = &frame->passes.at[frame->passes.count - 1];
+    pass->draw_count = frame->draws.count - pass->first_draw;
+}
+
+static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot) {
+    struct gn_shadow_view *view = &frame->shadows[slot];
+    struct gn_pass *pass = begin_pass(frame);
+    snprintf(pass->label, sizeof pass->label, "shadow %u %s", slot, frame->scene->lights[view->light].name);
+    pass->target = (struct gn_target){GN_TARGET_SHADOW, slot, view->map_px, view->map_px, view->encoding};
+    pass->clear = true;
+    pass->clear_color[0] = view->far_code;
+    pass->discard_depth = view->encoding != GN_ENCODING_DEPTH;
+    pass->border_px = 1;
+    pass->content_hash = view->content_hash;
+    pass->constants = frame->constants + (size_t)slot * GN_PASS_SIZE;
+    gn_frame_shadow_constants(view, frame->constants + (size_t)slot * GN_PASS_SIZE);
+    struct selection casters = {.casts = frame->casts + (size_t)slot * frame->scene->item_count, .view = view};
+    draw_items(frame, pose, &casters);
+    end_pass(frame);
+}
+
+static float srgb_from_linear(float c) {
+    c = glm_clamp_zo(c);
+    return c <= 0.0031308f ? 12.92f * c : 1.055f * powf(c, 1.0f / 2.4f) - 0.055f;
+}
+
+static void set_clear(const struct gn_frame *frame, enum gn_aov aov, float color[4]) {
+    static const float aov_clear[GN_AOV_COUNT] = {[GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY};
+    for (int k = 0; k < 3; k++) {
+        color[k] = aov == GN_AOV_COLOR ? frame->scene->background[k] : aov_clear[aov];
+        if (frame->plan.encode_srgb) color[k] = srgb_from_linear(color[k]);
+    }
+    color[3] = 1.0f;
+}
+
+static struct gn_pass *picture_pass(struct gn_frame *frame, const char *label) {
+    struct gn_pass *pass = begin_pass(frame);
+    snprintf(pass->label, sizeof pass->label, "%s", label);
+    pass->target = (struct gn_target){.kind = GN_TARGET_OUTPUT, .width_px = frame->plan.width_px, .height_px = frame->plan.height_px};
+    pass->constants = frame->constants + (size_t)GN_SHADOWS_MAX * GN_PASS_SIZE;
+    return pass;
+}
+
+static int by_depth(const void *a, const void *b) {
+    const struct gn_blended *x = a, *y = b;
+    if (x->depth != y->depth) return x->depth < y->depth ? 1 : -1;
+    return x->item < y->item ? -1 : 1;
+}
+
+static void blend_pass(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s) {
+    struct gn_pass *pass = picture_pass(frame, "blend");
+    pass->blend = GN_BLEND_ALPHA;
+    pass->depth_write = false;
+    pass->discard_depth = true;
+    qsort(frame->blended.at, frame->blended.count, sizeof *frame->blended.at, by_depth);
+    for (uint32_t i = 0; i < frame->blended.count; i++) {
+        bool open = i > 0 && frame->scene->items[frame->blended.at[i].item].batch ==
+                                 frame->scene->items[frame->blended.at[i - 1].item].batch;
+        draw_item(frame, pose, s, frame->blended.at[i].item, &open);
+    }
+    end_pass(frame);
+}
+
+static void picture_passes(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts) {
+    struct selection seen = {.opts = opts};
+    struct gn_pass *pass = picture_pass(frame, opts->aov == GN_AOV_COLOR ? "opaque" : "aov");
+    uint32_t first = pass->first_draw, index = frame->passes.count - 1;
+    pass->clear = true;
+    set_clear(frame, opts->aov, pass->clear_color);
+    frame->blended.count = 0;
+    draw_items(frame, pose, &seen);
+    sort_draws(frame, first);
+    end_pass(frame);
+    if (frame->blended.count > 0)
+        blend_pass(frame, pose, &seen);
+    else
+        frame->passes.at[index].discard_depth = true;
+}
+
+static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
+    struct gn_plan *plan = &frame->plan;
+    plan->aov = opts->aov;
+    plan->msaa = opts->aov == GN_AOV_COLOR ? opts->msaa : 0;
+    plan->encode_srgb = false;
+    if (opts->aov != GN_AOV_COLOR)
+        plan->output = GN_OUTPUT_AOV;
+    else if (opts->output_float && frame->caps.has & 1u << GN_CAP_RGBA16F)
+        plan->output = GN_OUTPUT_FLOAT;
+    else if (opts->output_linear || opts->output_float)
+        plan->output = GN_OUTPUT_LINEAR8;
+    else if (frame->caps.has & 1u << GN_CAP_SRGB)
+        plan->output = GN_OUTPUT_SRGB8;
+    else {
+        plan->output = GN_OUTPUT_LINEAR8;
+        plan->encode_srgb = true;
+    }
+    if (opts->aov == GN_AOV_COLOR && opts->output_float && plan->output != GN_OUTPUT_FLOAT)
+        gn_warn(warnings, "this GPU cannot draw to half floats: colour has 8 bits and ends at 1");
+    if (plan->msaa && !(frame->caps.has & 1u << GN_CAP_MSAA4)) {
+        gn_warn(warnings, "this GPU cannot antialias by multisampling: --msaa 0 is used");
+        plan->msaa = 0;
+    }
+}
+
+static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts,
+                              float (*c)[4]) {
+    memcpy(c[PASS_SKY], frame->scene->sky, sizeof(vec3));
+    memcpy(c[PASS_GROUND], frame->scene->ground, sizeof(vec3));
+    c[PASS_EXPOSURE][0] = opts->exposure_given ? frame->plan.exposure : 1.0f;
+    gn_frame_light_constants(frame, pose, c);
+}
+
+static void reset(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+    frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
+    frame->plan = (struct gn_plan){.scene = frame->scene};
+    frame->plan.width_px = opts->width_px ? opts->width_px : 1280;
+    frame->plan.height_px = opts->height_px ? opts->height_px : 720;
+}
+
+const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts,
+                                     struct gn_warnings *warnings) {
+    struct gn_plan *plan = &frame->plan;
+    float(*constants)[4] = frame->constants + (size_t)GN_SHADOWS_MAX * GN_PASS_SIZE;
+    reset(frame, opts);
+    choose_output(frame, opts, warnings);
+    gn_frame_eye(frame, pose, opts, constants);
+    plan->exposure = gn_frame_exposure(frame, pose, opts);
+    gn_frame_choose_lights(frame, pose, opts, warnings);
+    gn_frame_fit_shadows(frame, pose, opts);
+    for (uint32_t i = 0; i < frame->shadow_count; i++) shadow_pass(frame, pose, i);
+    picture_constants(frame, pose, opts, constants);
+    picture_passes(frame, pose, opts);
+    plan->passes = frame->passes.at;
+    plan->draws = frame->draws.at;
+    plan->instances = frame->instances.at;
+    plan->programs = frame->programs.at;
+    plan->shadows = frame->shadows;
+    plan->pass_count = frame->passes.count;
+    plan->draw_count = frame->draws.count;
+    plan->instance_count = frame->instances.count;
+    plan->program_count = frame->programs.count;
+    plan->shadow_count = frame->shadow_count;
+    assert(gn_plan_check(plan) == NULL);
+    return plan;
+}

@@ -1,0 +1,204 @@
+#include <math.h>
+#include <string.h>
+
+#include "blocks.glsl"
+#include "frame/private.h"
+
+_Static_assert(GN_PASS_SIZE == PASS_SIZE, "room for the constants of a pass");
+_Static_assert(PASS_LIGHTS + GN_LIGHTS_MAX * LIGHT_SIZE <= PASS_CONES, "lights");
+_Static_assert(PASS_SHADOWS + GN_SHADOWS_MAX * SHADOW_SIZE == PASS_SIZE, "shadows");
+
+static float luminance(const vec3 c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
+
+/* Lux on a surface at the scene's centre that faces the light; cones are left out of account. */
+static float illuminance(const struct gn_pose *pose, uint32_t index) {
+    const struct gn_light *light = &pose->scene->lights[index];
+    if (light->type == GN_LIGHT_DIRECTIONAL) return luminance(light->color);
+    vec3 place, direction, centre;
+    gn_pose_light(pose, index, place, direction);
+    glm_vec3_center((float *)pose->box_ws.min, (float *)pose->box_ws.max, centre);
+    float d2 = glm_vec3_distance2(place, centre);
+    return luminance(light->color) / fmaxf(d2, 1e-4f);
+}
+
+float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts) {
+    if (opts->exposure_given) return exp2f(opts->exposure_ev);
+    if (frame->exposure_known) return frame->auto_exposure;
+    float sum = 0.0f, strongest = 0.0f;
+    for (uint32_t i = 0; i < frame->scene->light_count; i++) {
+        float lux = illuminance(pose, i);
+        sum += lux;
+        strongest = fmaxf(strongest, lux);
+    }
+    frame->exposure_known = true;
+    frame->auto_exposure = 1.0f;
+    if (strongest > 0.0f && isfinite(strongest) && (sum < 0.3f || sum > 30.0f))
+        frame->auto_exposure = exp2f(roundf(log2f(0.8f * GLM_PIf / strongest)));
+    return frame->auto_exposure;
+}
+
+static enum gn_technique technique_of(const struct gn_light *light, const struct gn_frame_opts *opts,
+                                      struct gn_warnings *warnings) {
+    enum gn_technique own = GN_TECHNIQUE_PCF;
+    if (light->technique && !gn_technique_find(light->technique, &own, NULL)) {
+        gn_warn(warnings, "light '%s': gnomon_shadow '%s' is not a technique of this version; it gets pcf",
+                light->name, light->technique);
+        own = GN_TECHNIQUE_PCF;
+    }
+    if (own == GN_TECHNIQUE_NONE || !opts->technique_given) return own;
+    return opts->technique;
+}
+
+static struct gn_frame_light describe(const struct gn_frame *frame, const struct gn_pose *pose, uint32_t index,
+                                      const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
+    const struct gn_light *light = &frame->scene->lights[index];
+    struct gn_frame_light l = {.light = index, .technique = technique_of(light, opts, warnings)};
+    l.strength = opts->strength_given ? opts->strength : light->shadow_strength;
+    l.illuminance = illuminance(pose, index);
+    if (light->type == GN_LIGHT_POINT && l.technique != GN_TECHNIQUE_NONE) {
+        gn_warn(warnings, "light '%s': a point light casts no shadow in this version; a spot would", light->name);
+        l.technique = GN_TECHNIQUE_NONE;
+    }
+    if (l.technique == GN_TECHNIQUE_NONE) return l;
+    bool fell_back;
+    l.encoding = gn_encoding_choose(l.technique, opts->encoding, gn_caps_encodings(&frame->caps), &fell_back);
+    if (fell_back)
+        gn_warn(warnings, "this GPU cannot draw map format %s; %s is used", gn_encodings[opts->encoding].name,
+                gn_encodings[l.encoding].name);
+    return l;
+}
+
+/* Puts a light in its place: those with maps first, then by the scene's order. Full: the weakest goes. */
+static void insert(struct gn_frame *frame, struct gn_frame_light light) {
+    uint32_t at = light.technique == GN_TECHNIQUE_NONE ? frame->light_count : frame->shadow_count;
+    memmove(&frame->lights[at + 1], &frame->lights[at], (frame->light_count - at) * sizeof light);
+    frame->lights[at] = light;
+    frame->light_count++;
+    if (light.technique != GN_TECHNIQUE_NONE) frame->shadow_count++;
+}
+
+static uint32_t weakest(const struct gn_frame *frame, uint32_t count) {
+    uint32_t found = 0;
+    for (uint32_t i = 1; i < count; i++)
+        if (frame->lights[i].illuminance <= frame->lights[found].illuminance) found = i;
+    return found;
+}
+
+static struct gn_frame_light take_out(struct gn_frame *frame, uint32_t at) {
+    struct gn_frame_light light = frame->lights[at];
+    memmove(&frame->lights[at], &frame->lights[at + 1], (frame->light_count - at - 1) * sizeof light);
+    frame->light_count--;
+    if (light.technique != GN_TECHNIQUE_NONE) frame->shadow_count--;
+    return light;
+}
+
+static const char *name_of(const struct gn_frame *frame, const struct gn_frame_light *light) {
+    return frame->scene->lights[light->light].name;
+}
+
+void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts,
+                            struct gn_warnings *warnings) {
+    bool visibility = opts->aov == GN_AOV_VISIBILITY;
+    frame->light_count = frame->shadow_count = 0;
+    if (opts->aov != GN_AOV_COLOR && !visibility) return;
+    for (uint32_t i = 0; i < frame->scene->light_count; i++) {
+        if (visibility && (int)i != opts->light) continue;
+        struct gn_frame_light light = describe(frame, pose, i, opts, warnings);
+        if (light.technique != GN_TECHNIQUE_NONE && frame->shadow_count == GN_SHADOWS_MAX) {
+            uint32_t least = weakest(frame, frame->shadow_count);
+            if (frame->lights[least].illuminance < light.illuminance) {
+                struct gn_frame_light other = take_out(frame, least);
+                insert(frame, light);
+                light = other;
+            }
+            gn_warn(warnings, "light '%s' casts no shadow: %d lights with shadows are the most at once",
+                    name_of(frame, &light), GN_SHADOWS_MAX);
+            light.technique = GN_TECHNIQUE_NONE;
+        }
+        if (frame->light_count == GN_LIGHTS_MAX) {
+            uint32_t least = weakest(frame, frame->light_count);
+            if (frame->lights[least].illuminance < light.illuminance) {
+                struct gn_frame_light other = take_out(frame, least);
+                insert(frame, light);
+                light = other;
+            }
+            gn_warn(warnings, "light '%s' is left out: %d lights are the most at once", name_of(frame, &light),
+                    GN_LIGHTS_MAX);
+            continue;
+        }
+        insert(frame, light);
+    }
+}
+
+/* A map that stays empty: everything reads it as lit. The slot stays, so that programs do not change with what is in view. */
+static void make_empty(struct gn_shadow_view *view) {
+    static const mat4 nowhere = {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.5f, 0.5f, 0, 1}};
+    memcpy(view->map_from_world, nowhere, sizeof nowhere);
+    memcpy(view->clip_from_world, nowhere, sizeof nowhere);
+    view->distance_scale = view->distance_offset = 0.0f;
+    view->texel = view->normal_offset = view->slope_offset = view->ulp_m = 0.0f;
+    view->far_code = view->encoding == GN_ENCODING_RGBA8 ? 0.999999f : 1.0f;
+    view->content_hash = 1;
+}
+
+void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts) {
+    for (uint32_t i = 0; i < frame->shadow_count; i++) {
+        const struct gn_frame_light *light = &frame->lights[i];
+        const struct gn_light *l = &frame->scene->lights[light->light];
+        uint32_t map_px = opts->map_px ? opts->map_px : l->map_px ? l->map_px : 1024;
+        if (map_px > (uint32_t)frame->caps.max_texture_px) map_px = (uint32_t)frame->caps.max_texture_px;
+        struct gn_shadow_opts shadow = {light->technique, light->encoding, map_px};
+        uint8_t *casts = frame->casts + (size_t)i * frame->scene->item_count;
+        if (!gn_shadow_fit(pose, light->light, &frame->eye, &shadow, casts, &frame->shadows[i])) {
+            memset(casts, 0, frame->scene->item_count);
+            make_empty(&frame->shadows[i]);
+        }
+    }
+}
+
+static void put3(float to[4], const float *v) { memcpy(to, v, sizeof(vec3)); }
+
+static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
+    memcpy(c[SHADOW_MAP], view->map_from_world, sizeof view->map_from_world);
+    c[SHADOW_BIAS][0] = view->normal_offset * view->texel;
+    c[SHADOW_BIAS][1] = view->slope_offset * view->texel;
+    c[SHADOW_BIAS][2] = view->slope_max;
+    c[SHADOW_BIAS][3] = view->ulp_m;
+    put3(c[SHADOW_PLACE], view->light_ws);
+    c[SHADOW_PLACE][3] = view->distance_scale;
+    c[SHADOW_MAP_SIZE][0] = view->distance_offset;
+    c[SHADOW_MAP_SIZE][1] = (float)view->map_px;
+    c[SHADOW_MAP_SIZE][2] = 1.0f / (float)view->map_px;
+    c[SHADOW_MAP_SIZE][3] = view->far_code;
+}
+
+void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose, float (*constants)[4]) {
+    for (uint32_t i = 0; i < frame->light_count; i++) {
+        const struct gn_light *light = &frame->scene->lights[frame->lights[i].light];
+        float(*c)[4] = constants + PASS_LIGHTS + i * LIGHT_SIZE;
+        vec3 place, direction;
+        gn_pose_light(pose, frame->lights[i].light, place, direction);
+        for (int k = 0; k < 3; k++) {
+            c[LIGHT_COLOR][k] = light->color[k] * frame->plan.exposure / GLM_PIf;
+            c[LIGHT_PLACE][k] = light->type == GN_LIGHT_DIRECTIONAL ? -direction[k] : place[k];
+        }
+        c[LIGHT_COLOR][3] = frame->lights[i].strength;
+        c[LIGHT_PLACE][3] = light->range_m > 0.0f ? 1.0f / light->range_m : 0.0f;
+        put3(c[LIGHT_AXIS], direction);
+        float outer = cosf(light->outer_rad), inner = cosf(light->inner_rad);
+        c[LIGHT_AXIS][3] = outer;
+        constants[PASS_CONES + i / 4][i % 4] = 1.0f / fmaxf(inner - outer, 1e-4f);
+        if (i < frame->shadow_count) shadow_slot(&frame->shadows[i], constants + PASS_SHADOWS + i * SHADOW_SIZE);
+    }
+}
+
+void gn_frame_shadow_constants(const struct gn_shadow_view *view, float (*constants)[4]) {
+    memcpy(constants[PASS_CLIP], view->clip_from_world, sizeof view->clip_from_world);
+    if (view->perspective) {
+        put3(constants[PASS_CODE], view->light_ws);
+        constants[PASS_CODE][3] = view->distance_scale;
+        constants[PASS_CODE_ADD][0] = view->distance_offset;
+        return;
+    }
+    for (int c = 0; c < 4; c++) constants[PASS_CODE][c] = view->map_from_world[c][2];
+}

@@ -1,0 +1,75 @@
+#include "shadow/fit.h"
+#include "shadow/private.h"
+
+#include <string.h>
+
+void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world) {
+    glm_mat4_copy(clip_from_world, eye->clip_from_world);
+    for (int i = 0; i < 6; i++) { /* row 3 plus or minus row i / 2 (Gribb and Hartmann, 2001) */
+        float sign = i % 2 ? -1.0f : 1.0f;
+        for (int c = 0; c < 4; c++)
+            eye->planes[i][c] = clip_from_world[c][3] + sign * clip_from_world[c][i / 2];
+        float length = glm_vec3_norm(eye->planes[i]);
+        if (length > 0.0f) glm_vec4_scale(eye->planes[i], 1.0f / length, eye->planes[i]);
+    }
+    mat4 world_from_clip;
+    glm_mat4_inv_precise(clip_from_world, world_from_clip);
+    for (int i = 0; i < 8; i++) {
+        vec4 p = {i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f, 1.0f};
+        glm_mat4_mulv(world_from_clip, p, p);
+        glm_vec3_scale(p, 1.0f / p[3], eye->corners[i]);
+    }
+}
+
+bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box) {
+    for (int i = 0; i < 6; i++) {
+        const float *n = eye->planes[i];
+        float farthest = n[3];
+        for (int k = 0; k < 3; k++) farthest += n[k] * (n[k] >= 0.0f ? box->max[k] : box->min[k]);
+        if (farthest < 0.0f) return false;
+    }
+    return true;
+}
+
+void gn_polygon_clip(struct gn_polygon *polygon, const vec4 plane) {
+    struct gn_polygon kept = {0};
+    for (int i = 0; i < polygon->count; i++) {
+        float *a = polygon->at[i], *b = polygon->at[(i + 1) % polygon->count];
+        float da = a[0] * plane[0] + a[1] * plane[1] + a[2] * plane[2] + plane[3];
+        float db = b[0] * plane[0] + b[1] * plane[1] + b[2] * plane[2] + plane[3];
+        if (da >= 0.0f && kept.count < GN_POLYGON_MAX) glm_vec3_copy(a, kept.at[kept.count++]);
+        if ((da < 0.0f) != (db < 0.0f) && kept.count < GN_POLYGON_MAX)
+            glm_vec3_lerp(a, b, da / (da - db), kept.at[kept.count++]);
+    }
+    *polygon = kept;
+}
+
+void gn_box_corners(const struct gn_box *box, mat4 to, vec3 corners[8]) {
+    for (int i = 0; i < 8; i++) {
+        vec3 p = {i & 1 ? box->max[0] : box->min[0], i & 2 ? box->max[1] : box->min[1],
+                  i & 4 ? box->max[2] : box->min[2]};
+        glm_mat4_mulv3(to, p, 1.0f, corners[i]);
+    }
+}
+
+static const uint8_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+
+void gn_box_face(vec3 corners[8], int face, struct gn_polygon *out) {
+    out->count = 4;
+    for (int i = 0; i < 4; i++) glm_vec3_copy(corners[faces[face][i]], out->at[i]);
+}
+
+void gn_box_planes(vec3 corners[8], vec4 planes[6]) {
+    vec3 middle = {0.0f, 0.0f, 0.0f};
+    for (int i = 0; i < 8; i++) glm_vec3_muladds(corners[i], 0.125f, middle);
+    for (int i = 0; i < 6; i++) {
+        vec3 a, b;
+        glm_vec3_sub(corners[faces[i][2]], corners[faces[i][0]], a); /* diagonals: stand for a face with a short side */
+        glm_vec3_sub(corners[faces[i][3]], corners[faces[i][1]], b);
+        glm_vec3_cross(a, b, planes[i]);
+        glm_vec3_normalize(planes[i]); /* zero stays zero: cuts nothing */
+        planes[i][3] = -glm_vec3_dot(planes[i], corners[faces[i][0]]);
+        float inside = glm_vec3_dot(planes[i], middle) + planes[i][3];
+        if (inside < 0.0f) glm_vec4_negate(planes[i]);
+    }
+}

@@ -1,0 +1,371 @@
+/* Fitting a shadow view. What matters are pairs: a caster, and something that the eye sees behind it. The window is the
+ * intersection of what the seen receivers and the casters cover in plane coordinates, narrowed twice, since each limits the
+ * other; near and far are those of the casters alone and do not depend on the eye (a receiver beyond the last caster compares
+ * against the far end). A large flat caster with nothing behind it - the ground - is left out altogether: it can darken
+ * nothing, and what is not in the map can neither shadow itself nor cost resolution. */
+#include "shadow/fit.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/hash.h"
+#include "shadow/private.h"
+
+#define SPOT_MAX_RAD 1.3962634f /* 80 degrees: beyond it a spot's map does not reach */
+#define EXACT_TRIANGLES 32      /* geometries up to this many are clipped triangle by triangle, larger ones as boxes */
+#define STEPS_PER_OCTAVE 8      /* of the texel's size: the window's width moves in steps of 9 % */
+#define RIM_TEXELS 2            /* cleared rim, and the texel that snapping takes */
+
+/* A region in plane coordinates and depth along the light's axis. Empty when min > max. */
+struct region {
+    float min[2], max[2];
+    float near, far;
+    float far_radial; /* farthest point from the light's origin */
+};
+
+static const struct region nothing = {
+    {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, INFINITY, -INFINITY, 0.0f};
+
+struct fitter {
+    const struct gn_pose *pose;
+    const struct gn_eye *eye; /* NULL: everything is seen */
+    const struct gn_shadow_opts *opts;
+    struct gn_shadow_view *view;
+    vec4 cone[5]; /* spot: planes in world space that hold what its map can show */
+    int cone_count;
+    float tan_cone;
+    float scene_size_m;
+};
+
+static bool region_is_empty(const struct region *r) { return r->min[0] > r->max[0] || r->min[1] > r->max[1]; }
+
+static bool regions_meet(const struct region *a, const struct region *b) {
+    return a->min[0] <= b->max[0] && b->min[0] <= a->max[0] && a->min[1] <= b->max[1] && b->min[1] <= a->max[1];
+}
+
+static struct region intersect(const struct region *a, const struct region *b) {
+    struct region r = *a;
+    for (int k = 0; k < 2; k++) {
+        r.min[k] = fmaxf(a->min[k], b->min[k]);
+        r.max[k] = fminf(a->max[k], b->max[k]);
+    }
+    return r;
+}
+
+static void unite(struct region *a, const struct region *b) {
+    if (region_is_empty(b)) return;
+    for (int k = 0; k < 2; k++) {
+        a->min[k] = fminf(a->min[k], b->min[k]);
+        a->max[k] = fmaxf(a->max[k], b->max[k]);
+    }
+    a->near = fminf(a->near, b->near);
+    a->far = fmaxf(a->far, b->far);
+    a->far_radial = fmaxf(a->far_radial, b->far_radial);
+}
+
+static void add_point(const struct fitter *f, struct region *r, vec3 p_ws) {
+    vec3 p;
+    glm_mat4_mulv3(f->view->light_from_world, p_ws, 1.0f, p);
+    float depth = -p[2];
+    float scale = f->view->perspective ? 1.0f / fmaxf(depth, 1e-6f) : 1.0f;
+    struct region point = {{p[0] * scale, p[1] * scale}, {p[0] * scale, p[1] * scale}, depth, depth, glm_vec3_norm(p)};
+    unite(r, &point);
+}
+
+static void add_polygon(const struct fitter *f, struct region *r, struct gn_polygon *polygon, bool seen_only) {
+    if (seen_only)
+        for (int i = 0; i < 6 && polygon->count; i++) gn_polygon_clip(polygon, f->eye->planes[i]);
+    for (int i = 0; i < f->cone_count && polygon->count; i++) gn_polygon_clip(polygon, f->cone[i]);
+    for (int i = 0; i < polygon->count; i++) add_point(f, r, polygon->at[i]);
+}
+
+static bool planes_hold(vec4 *planes, int count, const struct gn_box *box) {
+    for (int i = 0; i < count; i++) {
+        float least = planes[i][3];
+        for (int k = 0; k < 3; k++) least += planes[i][k] * (planes[i][k] >= 0.0f ? box->min[k] : box->max[k]);
+        if (least < 0.0f) return false;
+    }
+    return true;
+}
+
+static void add_triangles(const struct fitter *f, struct region *r, uint32_t item, bool seen_only) {
+    const struct gn_scene *scene = f->pose->scene;
+    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
+    for (uint32_t i = 0; i < g->index_count; i += 3) {
+        struct gn_polygon triangle = {.count = 3};
+        for (int k = 0; k < 3; k++)
+            glm_mat4_mulv3(f->pose->items[item].world_from_item,
+                           scene->positions + 3 * (size_t)scene->indices[g->first_index + i + k], 1.0f,
+                           triangle.at[k]);
+        add_polygon(f, r, &triangle, seen_only);
+    }
+}
+
+/* The hull of box and frustum: clipped faces of each by the other. */
+static void add_body(const struct fitter *f, struct region *r, vec3 corners[8], bool seen_only) {
+    struct gn_polygon face;
+    for (int i = 0; i < 6; i++) {
+        gn_box_face(corners, i, &face);
+        add_polygon(f, r, &face, seen_only);
+    }
+    if (!seen_only) return;
+    vec4 planes[6];
+    gn_box_planes(corners, planes);
+    for (int i = 0; i < 6; i++) {
+        gn_box_face((vec3 *)f->eye->corners, i, &face);
+        for (int k = 0; k < 6 && face.count; k++) gn_polygon_clip(&face, planes[k]);
+        add_polygon(f, r, &face, false);
+    }
+}
+
+/* What an item covers, of that what the eye sees, of that what the light can show. */
+static struct region item_region(const struct fitter *f, uint32_t item, bool seen_only) {
+    struct region r = nothing;
+    const struct gn_scene *scene = f->pose->scene;
+    const struct gn_pose_item *posed = &f->pose->items[item];
+    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
+    if (seen_only && !gn_eye_sees(f->eye, &posed->box_ws)) return r;
+    seen_only = seen_only && !planes_hold((vec4 *)f->eye->planes, 6, &posed->box_ws);
+    vec3 corners[8];
+    gn_box_corners(&g->box, (vec4 *)posed->world_from_item, corners);
+    if (!seen_only && planes_hold((vec4 *)f->cone, f->cone_count, &posed->box_ws))
+        for (int i = 0; i < 8; i++) add_point(f, &r, corners[i]);
+    else if (g->index_count <= 3 * EXACT_TRIANGLES)
+        add_triangles(f, &r, item, seen_only);
+    else
+        add_body(f, &r, corners, seen_only);
+    return r;
+}
+
+static bool item_receives(const struct fitter *f, uint32_t item) {
+    return f->pose->items[item].visible && f->pose->scene->items[item].receives;
+}
+
+static bool item_casts(const struct fitter *f, uint32_t item) {
+    const struct gn_item *it = &f->pose->scene->items[item];
+    return f->pose->items[item].visible && it->casts &&
+           f->pose->scene->materials[it->material].alpha != GN_ALPHA_BLEND;
+}
+
+/* Only large flat casters are worth the walk. */
+static bool is_large_flat(const struct fitter *f, uint32_t item) {
+    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
+    const struct gn_box *box = &f->pose->items[item].box_ws;
+    return g->flat && glm_vec3_distance((float *)box->min, (float *)box->max) > 0.25f * f->scene_size_m;
+}
+
+/* The flat item's plane in world space, its light's side positive. False when it is seen edge-on by the light. */
+static bool lit_plane(const struct fitter *f, uint32_t item, vec4 plane) {
+    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
+    vec4 *world_from_item = (vec4 *)f->pose->items[item].world_from_item;
+    vec3 on_plane, n, p = {0.0f, 0.0f, 0.0f};
+    glm_vec3_muladds((float *)g->plane, -g->plane[3], p);
+    glm_mat4_mulv3(world_from_item, p, 1.0f, on_plane);
+    mat4 inverse;
+    glm_mat4_inv_precise(world_from_item, inverse);
+    for (int k = 0; k < 3; k++) n[k] = inverse[k][0] * g->plane[0] + inverse[k][1] * g->plane[1] + inverse[k][2] * g->plane[2];
+    glm_vec3_normalize(n);
+    glm_vec3_copy(n, plane);
+    plane[3] = -glm_vec3_dot(n, on_plane);
+    float towards = f->view->perspective ? glm_vec3_dot(n, f->view->light_ws) + plane[3]
+                                         : glm_vec3_dot(n, f->view->to_light_ws) * f->scene_size_m;
+    if (towards < 0.0f) glm_vec4_negate(plane);
+    return fabsf(towards) > 1e-4f * f->scene_size_m;
+}
+
+/* The part of a large flat caster's region that has any receiver behind its plane, seen or not. */
+static struct region useful_region(const struct fitter *f, uint32_t item, const struct region *whole) {
+    vec4 plane;
+    if (!lit_plane(f, item, plane)) return *whole;
+    struct region behind = nothing;
+    for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
+        if (i == item || !item_receives(f, i)) continue;
+        const struct gn_box *box = &f->pose->items[i].box_ws;
+        float least = plane[3];
+        for (int k = 0; k < 3; k++) least += plane[k] * (plane[k] >= 0.0f ? box->min[k] : box->max[k]);
+        if (least >= -1e-4f * f->scene_size_m) continue;
+        struct region r = item_region(f, i, false);
+        unite(&behind, &r);
+    }
+    struct region r = intersect(whole, &behind);
+    return region_is_empty(&r) ? nothing : r;
+}
+
+static struct region caster_region(const struct fitter *f, uint32_t item) {
+    struct region r = item_region(f, item, false);
+    return !region_is_empty(&r) && is_large_flat(f, item) ? useful_region(f, item, &r) : r;
+}
+
+/* The window before snapping, and the depths of all casters. */
+static bool find_window(const struct fitter *f, uint8_t *casts, struct region *window, struct region *depths) {
+    uint32_t count = f->pose->scene->item_count;
+    struct region receivers = nothing, casters = nothing, again = nothing;
+    *depths = nothing;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!item_receives(f, i)) continue;
+        struct region r = item_region(f, i, true);
+        unite(&receivers, &r);
+    }
+    memset(casts, 0, count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!item_casts(f, i)) continue;
+        struct region r = caster_region(f, i);
+        if (region_is_empty(&r)) continue;
+        unite(depths, &r);
+        if (!regions_meet(&r, &receivers) || r.near > receivers.far) continue;
+        casts[i] = 1;
+        r = intersect(&r, &receivers);
+        unite(&casters, &r);
+    }
+    if (region_is_empty(&casters)) return false;
+    for (uint32_t i = 0; i < count; i++) { /* receivers once more, now that the casters are known */
+        if (!item_receives(f, i)) continue;
+        struct region r = item_region(f, i, true);
+        if (region_is_empty(&r) || !regions_meet(&r, &casters) || r.far < casters.near) continue;
+        r = intersect(&r, &casters);
+        unite(&again, &r);
+    }
+    *window = intersect(&casters, &again);
+    return !region_is_empty(window);
+}
+
+static void look_along(vec3 eye, vec3 direction, mat4 out) {
+    vec3 up = {0.0f, 1.0f, 0.0f}, across = {0.0f, 0.0f, 1.0f};
+    glm_look(eye, direction, fabsf(direction[1]) > 0.99f ? across : up, out);
+}
+
+static void place_light(struct fitter *f, const struct gn_light *light) {
+    struct gn_shadow_view *view = f->view;
+    vec3 direction, origin = {0.0f, 0.0f, 0.0f};
+    gn_pose_light(f->pose, view->light, view->light_ws, direction);
+    glm_vec3_negate_to(direction, view->to_light_ws);
+    view->perspective = light->type == GN_LIGHT_SPOT;
+    look_along(view->perspective ? view->light_ws : origin, direction, view->light_from_world);
+    if (!view->perspective) return;
+    /* Five planes of a pyramid round the cone; its near plane is a ten-thousandth of the scene away. */
+    f->tan_cone = tanf(fminf(light->outer_rad, SPOT_MAX_RAD));
+    float near_m = fmaxf(1e-4f * f->scene_size_m, 1e-4f);
+    vec4 planes[5] = {{1, 0, -f->tan_cone, 0}, {-1, 0, -f->tan_cone, 0}, {0, 1, -f->tan_cone, 0},
+                      {0, -1, -f->tan_cone, 0}, {0, 0, -1, -near_m}};
+    f->cone_count = 5;
+    for (int i = 0; i < 5; i++) /* a plane goes by the transpose: world from light */
+        for (int c = 0; c < 4; c++) f->cone[i][c] = glm_vec4_dot(planes[i], view->light_from_world[c]);
+}
+
+static float ceil_to_step(float size) {
+    return exp2f(ceilf(log2f(size) * STEPS_PER_OCTAVE) / STEPS_PER_OCTAVE);
+}
+
+/* Snaps the window to whole texels of a size from a geometric series; returns its low corner. */
+static void snap_window(const struct fitter *f, const struct region *window, double low[2]) {
+    struct gn_shadow_view *view = f->view;
+    uint32_t margin = gn_techniques[view->technique].radius_texels + RIM_TEXELS;
+    uint32_t usable = view->map_px > 2 * margin + 2 ? view->map_px - 2 * margin : 2;
+    float span = fmaxf(window->max[0] - window->min[0], window->max[1] - window->min[1]);
+    view->texel = ceil_to_step(fmaxf(span, 1e-6f * f->scene_size_m) / (float)(usable - 1));
+    for (int k = 0; k < 2; k++)
+        low[k] = (floor((double)window->min[k] / view->texel) - margin) * view->texel;
+}
+
+static float half_float_step(float value) { return exp2f(floorf(log2f(fmaxf(value, 1e-5f))) - 10.0f); }
+
+/* The encoding's code of a distance is distance * scale + offset; ulp_m is its coarsest step. */
+static void set_code(struct gn_shadow_view *view, float near_depth, float far_depth) {
+    float range = view->far_m - view->near_m, float_step = 4e-7f * view->far_m;
+    view->distance_scale = 1.0f;
+    view->distance_offset = 0.0f;
+    view->far_code = view->far_m;
+    view->ulp_m = float_step;
+    switch (view->encoding) {
+    case GN_ENCODING_R16F:
+        view->distance_scale = 2.0f / range;
+        view->distance_offset = -(view->far_m + view->near_m) / range;
+        view->far_code = 1.0f;
+        view->ulp_m = 0.5f * range * exp2f(-11.0f) + float_step;
+        return;
+    case GN_ENCODING_R16F_RAW:
+        view->ulp_m = half_float_step(view->far_m) + float_step;
+        view->far_code = exp2f(ceilf(log2f(view->far_m) * 1024.0f) / 1024.0f); /* rounding must not bring it nearer */
+        return;
+    case GN_ENCODING_RGBA8:
+        view->distance_scale = 1.0f / range;
+        view->distance_offset = -view->near_m / range;
+        view->far_code = 0.999999f;
+        view->ulp_m = range * exp2f(-22.0f) + float_step;
+        return;
+    case GN_ENCODING_DEPTH:
+        view->far_code = 1.0f;
+        view->ulp_m += view->perspective ? far_depth * range / near_depth * exp2f(-23.0f) : range * exp2f(-22.0f);
+        return;
+    case GN_ENCODING_R32UI:
+    case GN_ENCODING_COUNT: return;
+    }
+}
+
+static void set_matrices(struct gn_shadow_view *view, const double low[2], float near_depth, float far_depth) {
+    double side = (double)view->texel * view->map_px;
+    float left = (float)low[0], right = (float)(low[0] + side), bottom = (float)low[1], top = (float)(low[1] + side);
+    mat4 clip_from_light;
+    if (view->perspective)
+        glm_frustum(left * near_depth, right * near_depth, bottom * near_depth, top * near_depth, near_depth, far_depth,
+                    clip_from_light);
+    else
+        glm_ortho(left, right, bottom, top, near_depth, far_depth, clip_from_light);
+    glm_mat4_mul(clip_from_light, view->light_from_world, view->clip_from_world);
+    mat4 map_from_clip = {{0.5f, 0, 0, 0}, {0, 0.5f, 0, 0}, {0, 0, 0.5f, 0}, {0.5f, 0.5f, 0.5f, 1}};
+    glm_mat4_mul(map_from_clip, view->clip_from_world, view->map_from_world);
+    if (view->perspective || view->encoding == GN_ENCODING_DEPTH) return;
+    for (int c = 0; c < 4; c++) { /* z is the code itself: distance from the near plane is -z_ls - near */
+        float depth = -view->light_from_world[c][2] - (c == 3 ? near_depth : 0.0f);
+        view->map_from_world[c][2] = depth * view->distance_scale + (c == 3 ? view->distance_offset : 0.0f);
+    }
+}
+
+static void set_depths(struct gn_shadow_view *view, const struct region *depths, float *near_depth, float *far_depth) {
+    float pad = 1e-3f * (depths->far - depths->near) + 1e-5f * fabsf(depths->far);
+    *near_depth = view->perspective ? fmaxf(depths->near - pad, 0.5f * depths->near) : depths->near - pad;
+    *far_depth = depths->far + pad;
+    view->near_m = view->perspective ? *near_depth : 0.0f;
+    view->far_m = view->perspective ? depths->far_radial + pad : *far_depth - *near_depth;
+}
+
+/* Normal offset and slope by the width that the technique averages over; figures measured by `make truth`. */
+static void set_bias(struct gn_shadow_view *view) {
+    float width = gn_techniques[view->technique].bias_texels;
+    view->normal_offset = width;
+    view->slope_offset = 0.7f * width;
+    view->slope_max = 4.0f;
+}
+
+static uint64_t hash_content(const struct gn_pose *pose, const uint8_t *casts, const struct gn_shadow_view *view) {
+    uint64_t h = gn_hash(GN_HASH_INIT, view->clip_from_world, sizeof view->clip_from_world);
+    float code[] = {view->distance_scale, view->distance_offset, view->far_code, (float)view->map_px, (float)view->encoding};
+    h = gn_hash(h, code, sizeof code);
+    for (uint32_t i = 0; i < pose->scene->item_count; i++)
+        if (casts[i]) {
+            uint64_t item[2] = {i, pose->items[i].hash};
+            h = gn_hash(h, item, sizeof item);
+        }
+    return h ? h : 1;
+}
+
+bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye, const struct gn_shadow_opts *opts,
+                   uint8_t *casts, struct gn_shadow_view *view) {
+    *view = (struct gn_shadow_view){.light = light, .technique = opts->technique, .encoding = opts->encoding, .map_px = opts->map_px};
+    const struct gn_light *l = &pose->scene->lights[light];
+    if (l->type == GN_LIGHT_POINT || opts->technique == GN_TECHNIQUE_NONE) return false;
+    struct fitter f = {.pose = pose, .eye = eye, .opts = opts, .view = view};
+    f.scene_size_m = fmaxf(glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max), 1e-6f);
+    place_light(&f, l);
+    struct region window, depths;
+    if (!find_window(&f, casts, &window, &depths)) return false;
+    float near_depth, far_depth;
+    double low[2];
+    snap_window(&f, &window, low);
+    set_depths(view, &depths, &near_depth, &far_depth);
+    set_code(view, near_depth, far_depth);
+    set_matrices(view, low, near_depth, far_depth);
+    set_bias(view);
+    view->content_hash = hash_content(pose, casts, view);
+    return true;
+}

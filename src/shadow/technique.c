@@ -1,0 +1,94 @@
+#include "shadow/technique.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const struct gn_technique_row gn_techniques[GN_TECHNIQUE_COUNT] = {
+    [GN_TECHNIQUE_NONE] = {.name = "none", .what = "no shadows"},
+    [GN_TECHNIQUE_HARD] = {.name = "hard",
+                           .file = "shadow/hard.glsl",
+                           .reads_distance = true,
+                           .radius_texels = 1,
+                           .bias_texels = 0.7f,
+                           .what = "one comparison",
+                           .source = "Williams 1978"},
+    [GN_TECHNIQUE_PCF] = {.name = "pcf",
+                          .file = "shadow/pcf.glsl",
+                          .filters = true,
+                          .radius_texels = 2,
+                          .bias_texels = 1.1f,
+                          .what = "four hardware-compare taps half a texel away",
+                          .source = "Reeves, Salesin, Cook 1987"},
+    [GN_TECHNIQUE_PCF2] = {.name = "pcf2",
+                           .file = "shadow/pcf2.glsl",
+                           .filters = true,
+                           .radius_texels = 1,
+                           .bias_texels = 0.9f,
+                           .what = "one hardware-compare tap",
+                           .source = "Reeves, Salesin, Cook 1987"},
+    [GN_TECHNIQUE_PCF3] = {.name = "pcf3",
+                           .file = "shadow/pcf3.glsl",
+                           .filters = true,
+                           .radius_texels = 2,
+                           .bias_texels = 1.4f,
+                           .what = "[1 2 1] squared in four fetches",
+                           .source = "Reeves, Salesin, Cook 1987"},
+    [GN_TECHNIQUE_PCF5] = {.name = "pcf5",
+                           .file = "shadow/pcf5.glsl",
+                           .filters = true,
+                           .radius_texels = 3,
+                           .bias_texels = 2.0f,
+                           .what = "[1 3 4 3 1] squared in nine fetches",
+                           .source = "Reeves, Salesin, Cook 1987"},
+};
+
+const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
+    [GN_ENCODING_DEPTH] = {"depth", "lib/map_depth.glsl", 4},
+    [GN_ENCODING_R32UI] = {"r32ui", "lib/map_r32ui.glsl", 8},
+    [GN_ENCODING_R16F] = {"r16f", "lib/map_r16f.glsl", 6},
+    [GN_ENCODING_R16F_RAW] = {"r16f-raw", "lib/map_r16f.glsl", 6},
+    [GN_ENCODING_RGBA8] = {"rgba8", "lib/map_rgba8.glsl", 8},
+};
+
+bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err) {
+    char names[160] = "";
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
+        if (strcmp(name, gn_techniques[i].name) == 0) {
+            *out = (enum gn_technique)i;
+            return true;
+        }
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", gn_techniques[i].name);
+    }
+    return gn_fail_usage(err, "there is no shadow technique '%s'; there are %s", name, names);
+}
+
+bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *err) {
+    if (strcmp(name, "auto") == 0) {
+        *out = GN_ENCODING_AUTO;
+        return true;
+    }
+    char names[160] = "auto";
+    for (int i = 0; i < GN_ENCODING_COUNT; i++) {
+        if (strcmp(name, gn_encodings[i].name) == 0) {
+            *out = (enum gn_encoding)i;
+            return true;
+        }
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, ", %s", gn_encodings[i].name);
+    }
+    return gn_fail_usage(err, "there is no map format '%s'; there are %s", name, names);
+}
+
+enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted, uint32_t proved,
+                                    bool *fell_back) {
+    static const enum gn_encoding by_distance[] = {GN_ENCODING_R16F, GN_ENCODING_R32UI, GN_ENCODING_DEPTH};
+    static const enum gn_encoding by_depth[] = {GN_ENCODING_DEPTH, GN_ENCODING_R32UI, GN_ENCODING_R16F};
+    *fell_back = false;
+    if (wanted != GN_ENCODING_AUTO && proved & 1u << wanted) return wanted;
+    *fell_back = wanted != GN_ENCODING_AUTO;
+    const enum gn_encoding *order = gn_techniques[technique].reads_distance ? by_distance : by_depth;
+    for (int i = 0; i < 3; i++)
+        if (proved & 1u << order[i]) return order[i];
+    return GN_ENCODING_RGBA8; /* core, needs no proof */
+}
