@@ -1,0 +1,127 @@
+/* What the file left open: bounds, the plane, a key light and a camera where there are none. */
+#include "scene/private.h"
+
+#include <math.h>
+
+#include "scene/pose.h"
+
+/* ---- nodes that are made ---- */
+
+/* A node at position whose -Z looks along forward_ws. */
+static uint32_t add_node(struct gn_gltf *g, const char *name, vec3 position, vec3 forward_ws) {
+    struct gn_scene *scene = g->scene;
+    struct gn_node *node = &scene->nodes[scene->node_count];
+    g->placed[scene->node_count].mesh = -1;
+    *node = (struct gn_node){.name = gn_gltf_strdup(g, name), .parent = -1, .has_matrix = true};
+    glm_mat4_identity(node->matrix);
+    glm_vec3_normalize_to(forward_ws, node->matrix[2]);
+    glm_vec3_negate(node->matrix[2]);
+    glm_vec3_crossn(GLM_YUP, node->matrix[2], node->matrix[0]);
+    glm_vec3_cross(node->matrix[2], node->matrix[0], node->matrix[1]);
+    glm_vec3_copy(position, node->matrix[3]);
+    glm_vec3_one(node->scale);
+    glm_quat_identity(node->rotation);
+    return scene->node_count++;
+}
+
+/* From the upper left, in front: shadows fall to the right and to the back. */
+static void make_light(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    scene->made_light = true;
+    vec3 middle;
+    glm_vec3_center(scene->box.min, scene->box.max, middle);
+    scene->lights[scene->light_count++] = (struct gn_light){
+        .name = "key light",
+        .node = add_node(g, "key light", middle, (vec3){.5f, -1, -.6f}),
+        .type = GN_LIGHT_DIRECTIONAL,
+        .color = {2.8f, 2.8f * .95f, 2.8f * .87f},
+        .radius = .00465f,
+        .shadow_strength = 1,
+        .slide = -1,
+    };
+}
+
+/* ---- the camera ---- */
+
+static void corner_of(const struct gn_box *box, int i, vec3 out) {
+    for (int k = 0; k < 3; k++) out[k] = i >> k & 1 ? box->max[k] : box->min[k];
+}
+
+/* How far from the middle, along `back`, all of the box is in the picture, in 4:3 and wider; reach: of the box along it. */
+static float fitting_distance(const struct gn_box *box, vec3 axes[3], float slope, float reach[2]) {
+    float distance = 0;
+    vec3 middle, corner;
+    glm_vec3_center((float *) box->min, (float *) box->max, middle);
+    reach[0] = reach[1] = 0;
+    for (int i = 0; i < 8; i++) {
+        corner_of(box, i, corner);
+        glm_vec3_sub(corner, middle, corner);
+        float x = fabsf(glm_vec3_dot(corner, axes[0])), y = fabsf(glm_vec3_dot(corner, axes[1]));
+        float z = glm_vec3_dot(corner, axes[2]);
+        distance = fmaxf(distance, z + fmaxf(y, x * 3 / 4) / slope);
+        reach[0] = fminf(reach[0], z);
+        reach[1] = fmaxf(reach[1], z);
+    }
+    return distance;
+}
+
+/* Three quarters: from the front, the right and above. */
+static void make_camera(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    const float yfov_rad = glm_rad(35), filled = .92f;
+    vec3 axes[3] = {{0}, {0}, {.55f, .5f, 1}}, middle, eye, forward;
+    glm_vec3_normalize(axes[2]);
+    glm_vec3_crossn(GLM_YUP, axes[2], axes[0]);
+    glm_vec3_cross(axes[2], axes[0], axes[1]);
+    float reach[2];
+    float distance = fitting_distance(&scene->box, axes, tanf(yfov_rad / 2) * filled, reach);
+    float size = fmaxf(glm_vec3_distance(scene->box.min, scene->box.max), 1e-3f);
+    distance = fmaxf(distance, size * .5f);
+    scene->made_camera = true;
+    glm_vec3_center(scene->box.min, scene->box.max, middle);
+    glm_vec3_scale(axes[2], distance, eye);
+    glm_vec3_add(eye, middle, eye);
+    glm_vec3_negate_to(axes[2], forward);
+    scene->cameras[scene->camera_count++] = (struct gn_camera){
+        .name = "camera",
+        .node = add_node(g, "camera", eye, forward),
+        .yfov_rad = yfov_rad,
+        .near_m = fmaxf((distance - reach[1]) / 2, distance / 100),
+        .far_m = distance - reach[0] + size,
+    };
+}
+
+/* ---- messages ---- */
+
+static void name_missing(struct gn_gltf *g) {
+    static const char *const names[GN_MISSING_COUNT] = {
+        [GN_MISSING_SKINS] = "skins",
+        [GN_MISSING_MORPHS] = "morph targets",
+        [GN_MISSING_NORMAL_MAPS] = "normal maps",
+        [GN_MISSING_VARIANTS] = "material variants",
+        [GN_MISSING_WEBP] = "WebP pictures",
+        [GN_MISSING_BASISU] = "KTX2 pictures",
+        [GN_MISSING_DRACO] = "Draco-compressed meshes",
+        [GN_MISSING_POINTERS] = "animation pointers",
+    };
+    char list[200] = "";
+    for (size_t i = 0, at = 0; i < GN_MISSING_COUNT; i++)
+        if (g->is_missing[i])
+            at += (size_t) snprintf(list + at, sizeof list - at, "%s%s", at > 0 ? ", " : "", names[i]);
+    if (list[0]) gn_gltf_warn(g, NULL, "shown without %s: not supported yet", list);
+}
+
+bool gn_scene_complete(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    struct gn_pose pose;
+    gn_pose_init(&pose, scene, GN_POSE_NONE);
+    scene->box = pose.box_ws;
+    if (scene->box.min[0] > scene->box.max[0]) /* nothing to be seen as the file places it */
+        scene->box = (struct gn_box){{-1, -1, -1}, {1, 1, 1}};
+    gn_scene_find_plane(g, &pose);
+    gn_pose_finish(&pose);
+    if (scene->light_count == 0) make_light(g);
+    if (scene->camera_count == 0) make_camera(g);
+    name_missing(g);
+    return !g->failed;
+}

@@ -1,0 +1,276 @@
+/* Fills the scene's vertices and indices from the accessors of each geometry. */
+#include "scene/private.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+enum { POSITION, NORMAL, UV0, UV1, COLOR };
+enum { MODE_TRIANGLES = 4, MODE_STRIP = 5 };
+
+/* Squares of larger numbers do not fit a float. */
+static bool usable(const float *p) {
+    return fabsf(p[0]) < 1e18f && fabsf(p[1]) < 1e18f && fabsf(p[2]) < 1e18f;
+}
+
+/* ---- vertices ---- */
+
+/* Where a vertex of the scene comes from: source[i], or i itself if source is NULL. */
+struct gather {
+    const struct gn_accessor *accessor;
+    const uint32_t *source;
+    size_t first, count;
+};
+
+/* All elements of the accessor, in work memory; missing components are 1 (an alpha, for one). */
+static float *read_all(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
+    float *all = gn_gltf_alloc(g, &g->work, (uint64_t) a->count * components, sizeof *all);
+    for (size_t i = 0; all && a->components < components && i < a->count * components; i++)
+        all[i] = 1;
+    if (all) gn_accessor_floats(a, components, all);
+    return all;
+}
+
+static bool put_floats(struct gn_gltf *g, const struct gather *gather, size_t components, float *out) {
+    if (!gather->accessor) return true;
+    out += gather->first * components;
+    if (!gather->source) {
+        gn_accessor_floats(gather->accessor, components, out);
+        return true;
+    }
+    const float *all = read_all(g, gather->accessor, components);
+    for (size_t i = 0; all && i < gather->count; i++)
+        memcpy(out + i * components, all + gather->source[i] * components, components * sizeof *out);
+    return all != NULL;
+}
+
+static bool put_uvs(struct gn_gltf *g, const struct gather *gather, float *out) {
+    if (!gather->accessor) return true;
+    if (!put_floats(g, gather, 2, out)) return false;
+    for (size_t i = 2 * gather->first; i < 2 * (gather->first + gather->count); i++)
+        if (!(fabsf(out[i]) < 1e18f)) out[i] = 0;
+    return true;
+}
+
+static bool put_colors(struct gn_gltf *g, const struct gather *gather, uint8_t *out) {
+    if (!out) return true;
+    out += 4 * gather->first;
+    if (!gather->accessor) {
+        memset(out, 255, 4 * gather->count);
+        return true;
+    }
+    struct gn_accessor a = *gather->accessor;
+    a.normalized = true;
+    const float *all = read_all(g, &a, 4);
+    for (size_t i = 0; all && i < gather->count; i++) {
+        const float *from = all + 4 * (gather->source ? gather->source[i] : i);
+        for (int k = 0; k < 4; k++)
+            out[4 * i + (size_t) k] = (uint8_t) (fminf(fmaxf(from[k], 0), 1) * 255 + .5f);
+    }
+    return all != NULL;
+}
+
+/* Everything but positions and normals. */
+static bool put_rest(struct gn_gltf *g, const int32_t *attribute, struct gather gather) {
+    struct gn_scene *scene = g->scene;
+    gather.accessor = gn_gltf_accessor(g, attribute[UV0]);
+    if (!put_uvs(g, &gather, scene->uv0)) return false;
+    gather.accessor = gn_gltf_accessor(g, attribute[UV1]);
+    if (!put_uvs(g, &gather, scene->uv1)) return false;
+    gather.accessor = gn_gltf_accessor(g, attribute[COLOR]);
+    return put_colors(g, &gather, scene->colors);
+}
+
+/* ---- vertices with normals of their own ---- */
+
+static void make_unit(struct gn_vertices *vertices, float *normals) {
+    for (size_t i = 0; i < vertices->count; i++) {
+        float *n = normals + 3 * i;
+        float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        bool right = length > 1e-12f && length < 1e18f;
+        if (!right) vertices->lacks_normals = true;
+        for (int k = 0; k < 3; k++) n[k] = right ? n[k] / length : 0;
+    }
+}
+
+static bool fill_vertices(struct gn_gltf *g, struct gn_vertices *vertices) {
+    if (vertices->filled) return true;
+    struct gn_scene *scene = g->scene;
+    vertices->filled = true;
+    vertices->first = scene->vertex_count;
+    scene->vertex_count += vertices->count;
+    struct gather gather = {.first = vertices->first, .count = vertices->count};
+    gather.accessor = gn_gltf_accessor(g, vertices->attribute[POSITION]);
+    if (!put_floats(g, &gather, 3, scene->positions)) return false;
+    gather.accessor = gn_gltf_accessor(g, vertices->attribute[NORMAL]);
+    if (!put_floats(g, &gather, 3, scene->normals)) return false;
+    make_unit(vertices, scene->normals + 3 * (size_t) vertices->first);
+    return put_rest(g, vertices->attribute, gather);
+}
+
+/* ---- corners ---- */
+
+static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
+                              size_t *count) {
+    size_t vertex_count = gn_gltf_accessor(g, shape->attribute[POSITION])->count;
+    const struct gn_accessor *indices = gn_gltf_accessor(g, shape->indices);
+    *count = indices ? indices->count : vertex_count;
+    uint32_t *raw = gn_gltf_alloc(g, &g->work, *count, sizeof *raw);
+    if (!raw) return NULL;
+    for (size_t i = 0; !indices && i < *count; i++) raw[i] = (uint32_t) i;
+    if (indices) gn_accessor_indices(indices, raw);
+    struct gn_at place = gn_at_any(at, "indices");
+    for (size_t i = 0; i < *count; i++) {
+        if (raw[i] < vertex_count) continue;
+        gn_gltf_fail(g, &place, "element %zu is vertex %" PRIu32 ", but there are %zu vertices", i,
+                     raw[i], vertex_count);
+        return NULL;
+    }
+    return raw;
+}
+
+/* The corners of triangle t, wound as glTF 2.0, 3.7.2.1 has it. */
+static void triangle_at(const uint32_t *raw, int32_t mode, size_t t, uint32_t out[3]) {
+    size_t odd = t % 2;
+    if (mode == MODE_TRIANGLES) memcpy(out, raw + 3 * t, 3 * sizeof *out);
+    else if (mode == MODE_STRIP) {
+        out[0] = raw[t];
+        out[1] = raw[t + 1 + odd];
+        out[2] = raw[t + 2 - odd];
+    } else {
+        out[0] = raw[t + 1];
+        out[1] = raw[t + 2];
+        out[2] = raw[0];
+    }
+}
+
+/* Unrolls strips and fans into out, without triangles that have no area by their indices or a position that is no place;
+ * returns the number of corners. */
+static size_t unroll(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
+                     const uint32_t *raw, const float *positions, uint32_t *out) {
+    size_t count = 0, dropped = 0;
+    for (size_t t = 0; t < shape->corner_count / 3; t++) {
+        uint32_t v[3];
+        triangle_at(raw, shape->mode, t, v);
+        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+        if (usable(positions + 3 * (size_t) v[0]) && usable(positions + 3 * (size_t) v[1]) &&
+            usable(positions + 3 * (size_t) v[2])) {
+            memcpy(out + count, v, sizeof v);
+            count += 3;
+        } else dropped++;
+    }
+    if (dropped > 0)
+        gn_gltf_warn(g, at, "%zu triangles with positions that are not finite are not shown", dropped);
+    return count;
+}
+
+/* ---- geometries ---- */
+
+static bool fill_flat(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
+                      struct gn_geometry *geometry) {
+    struct gn_scene *scene = g->scene;
+    const struct gn_accessor *a = gn_gltf_accessor(g, shape->attribute[POSITION]);
+    size_t count = 0, made = 0;
+    const float *positions = read_all(g, a, 3);
+    const uint32_t *raw = positions ? read_corners(g, at, shape, &count) : NULL;
+    if (!raw) return false;
+    uint32_t *corners = scene->indices + geometry->first_index, *source = NULL;
+    float *normals = NULL;
+    count = unroll(g, at, shape, raw, positions, corners);
+    if (!gn_geometry_flat_normals(g, positions, corners, count, a->count, &source, &normals, &made))
+        return false;
+    geometry->first_vertex = scene->vertex_count;
+    geometry->vertex_count = (uint32_t) made;
+    geometry->index_count = (uint32_t) count;
+    for (size_t i = 0; i < count; i++) corners[i] += geometry->first_vertex;
+    memcpy(scene->normals + 3 * (size_t) geometry->first_vertex, normals, 3 * made * sizeof *normals);
+    for (size_t i = 0; i < made; i++)
+        memcpy(scene->positions + 3 * (geometry->first_vertex + i), positions + 3 * (size_t) source[i],
+               3 * sizeof *positions);
+    scene->vertex_count += geometry->vertex_count;
+    return put_rest(g, shape->attribute,
+                    (struct gather){.source = source, .first = geometry->first_vertex, .count = made});
+}
+
+static bool fill_shared(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
+                        struct gn_geometry *geometry) {
+    struct gn_scene *scene = g->scene;
+    struct gn_vertices *vertices = &g->vertices[shape->vertices];
+    size_t count = 0;
+    if (!fill_vertices(g, vertices)) return false;
+    const uint32_t *raw = read_corners(g, at, shape, &count);
+    if (!raw) return false;
+    uint32_t *corners = scene->indices + geometry->first_index;
+    count = unroll(g, at, shape, raw, scene->positions + 3 * (size_t) vertices->first, corners);
+    for (size_t i = 0; i < count; i++) corners[i] += vertices->first;
+    geometry->first_vertex = vertices->first;
+    geometry->vertex_count = vertices->count;
+    geometry->index_count = (uint32_t) count;
+    geometry->has_normals_in_file = true;
+    if (vertices->lacks_normals && gn_geometry_repair_normals(scene, geometry) > 0)
+        gn_gltf_warn(g, at, "normals without length; those of the faces are used");
+    return true;
+}
+
+static bool fill(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *geometry) {
+    struct gn_at root = gn_at_root(g), meshes = gn_at_array(g, &root, "meshes");
+    struct gn_at mesh = gn_at_element(&meshes, shape->mesh);
+    struct gn_at list = gn_at_array(g, &mesh, "primitives");
+    struct gn_at at = gn_at_element(&list, shape->primitive);
+    gn_arena_reset(&g->work);
+    geometry->first_index = g->scene->index_count;
+    geometry->has_uv0 = shape->attribute[UV0] >= 0;
+    geometry->has_uv1 = shape->attribute[UV1] >= 0;
+    geometry->has_color = shape->attribute[COLOR] >= 0;
+    bool flat = shape->vertices == UINT32_MAX;
+    if (!(flat ? fill_flat : fill_shared)(g, &at, shape, geometry)) return false;
+    g->scene->index_count += geometry->index_count;
+    gn_geometry_measure(g->scene, geometry, &shape->area);
+    return true;
+}
+
+/* ---- all of them ---- */
+
+/* Room for the most that there can be. */
+static bool allocate(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    uint64_t vertices = 0, corners = 0;
+    bool any[GN_ATTRIBUTES] = {false};
+    for (size_t i = 0; i < g->vertices_count; i++) vertices += g->vertices[i].count;
+    for (size_t i = 0; i < scene->geometry_count; i++) {
+        const struct gn_shape *shape = &g->shapes[i];
+        corners += shape->corner_count;
+        if (shape->vertices == UINT32_MAX) vertices += shape->corner_count;
+        for (int k = 0; k < GN_ATTRIBUTES; k++) any[k] |= shape->attribute[k] >= 0;
+    }
+    if (vertices > g->limits.vertices)
+        return gn_gltf_fail(g, NULL, "%" PRIu64 " vertices are more than the limit vertices=%" PRIu64,
+                            vertices, g->limits.vertices);
+    if (corners > UINT32_MAX)
+        return gn_gltf_fail(g, NULL, "%" PRIu64 " indices are more than can be drawn", corners);
+    scene->geometries = gn_gltf_alloc(g, g->arena, scene->geometry_count, sizeof *scene->geometries);
+    scene->positions = gn_gltf_alloc(g, g->arena, vertices, 3 * sizeof *scene->positions);
+    scene->normals = gn_gltf_alloc(g, g->arena, vertices, 3 * sizeof *scene->normals);
+    scene->indices = gn_gltf_alloc(g, g->arena, corners, sizeof *scene->indices);
+    if (any[UV0]) scene->uv0 = gn_gltf_alloc(g, g->arena, vertices, 2 * sizeof *scene->uv0);
+    if (any[UV1]) scene->uv1 = gn_gltf_alloc(g, g->arena, vertices, 2 * sizeof *scene->uv1);
+    if (any[COLOR]) scene->colors = gn_gltf_alloc(g, g->arena, vertices, 4);
+    return !g->failed;
+}
+
+/* Vertices that no triangle uses must still be harmless. */
+static void tidy(struct gn_scene *scene) {
+    for (size_t i = 0; i < scene->vertex_count; i++) {
+        float *p = scene->positions + 3 * i, *n = scene->normals + 3 * i;
+        if (!usable(p)) memset(p, 0, 3 * sizeof *p);
+        if (n[0] == 0 && n[1] == 0 && n[2] == 0) n[1] = 1;
+    }
+}
+
+bool gn_gltf_geometries(struct gn_gltf *g) {
+    if (!allocate(g)) return false;
+    for (uint32_t i = 0; i < g->scene->geometry_count; i++)
+        if (!fill(g, &g->shapes[i], &g->scene->geometries[i])) return false;
+    tidy(g->scene);
+    return true;
+}

@@ -1,0 +1,176 @@
+/* Animations to clips. A channel that cannot be played is left out with a warning; the clip keeps its number. */
+#include "scene/private.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+struct sampler {
+    const struct gn_accessor *input, *output;
+    int32_t input_index;
+    enum gn_anim_interpolation interpolation;
+};
+
+/* ---- samplers ---- */
+
+static enum gn_anim_interpolation read_interpolation(struct gn_gltf *g, const struct gn_at *at) {
+    static const char *const names[] = {
+        [GN_ANIM_LINEAR] = "LINEAR", [GN_ANIM_STEP] = "STEP", [GN_ANIM_CUBIC] = "CUBICSPLINE"};
+    const char *name = gn_at_text(g, at, "interpolation");
+    for (int i = 0; name && i < 3; i++)
+        if (strcmp(name, names[i]) == 0) return (enum gn_anim_interpolation) i;
+    if (name) gn_gltf_warn(g, at, "interpolation '%.20s' is unknown; taken as LINEAR", name);
+    return GN_ANIM_LINEAR;
+}
+
+static bool read_sampler(struct gn_gltf *g, const struct gn_at *at, struct sampler *sampler) {
+    int32_t output = gn_at_ref(g, at, "output", g->accessor_count, "accessors");
+    sampler->input_index = gn_at_ref(g, at, "input", g->accessor_count, "accessors");
+    sampler->interpolation = read_interpolation(g, at);
+    sampler->input = gn_gltf_accessor(g, sampler->input_index);
+    sampler->output = gn_gltf_accessor(g, output);
+    if (g->failed) return false;
+    if (!sampler->input || !sampler->output) return gn_gltf_fail(g, at, "needs input and output");
+    return true;
+}
+
+/* Times as floats, ascending; read once for all channels that share them. NULL: unusable, or failed. */
+static const float *read_times(struct gn_gltf *g, const struct sampler *sampler) {
+    const struct gn_accessor *a = sampler->input;
+    if (a->components != 1) return NULL;
+    if (g->key_times[sampler->input_index]) return g->key_times[sampler->input_index];
+    float *times = gn_gltf_alloc(g, g->arena, a->count, sizeof *times);
+    if (!times) return NULL;
+    gn_accessor_floats(a, 1, times);
+    for (size_t i = 0; i < a->count; i++)
+        if (!(times[i] >= (i > 0 ? times[i - 1] : 0) && times[i] <= 1e9f)) return NULL;
+    g->key_times[sampler->input_index] = times;
+    return times;
+}
+
+static const float *read_values(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
+    float *values = gn_gltf_alloc(g, g->arena, (uint64_t) a->count * components, sizeof *values);
+    if (!values) return NULL;
+    struct gn_accessor copy = *a;
+    if (components == 4) copy.normalized = true; /* integers can only be that for a rotation */
+    gn_accessor_floats(&copy, components, values);
+    for (size_t i = 0; i < a->count * components; i++)
+        if (!(fabsf(values[i]) < 1e18f)) return NULL;
+    return values;
+}
+
+/* ---- channels ---- */
+
+/* The node in the scene that the channel moves and how; -1: none, or not ours. */
+static int32_t read_target(struct gn_gltf *g, const struct gn_at *at, enum gn_anim_path *path) {
+    static const char *const names[] = {[GN_ANIM_TRANSLATION] = "translation",
+                                        [GN_ANIM_ROTATION] = "rotation",
+                                        [GN_ANIM_SCALE] = "scale"};
+    struct gn_at target = gn_at_object(g, at, "target");
+    int32_t node = gn_at_ref(g, &target, "node", g->file_node_count, "nodes");
+    const char *name = gn_at_text(g, &target, "path");
+    if (g->failed || !name) return -1;
+    for (int i = 0; i < 3; i++) {
+        *path = (enum gn_anim_path) i;
+        if (strcmp(name, names[i]) == 0) return node < 0 ? -1 : g->scene_node[node];
+    }
+    if (strcmp(name, "weights") == 0) g->is_missing[GN_MISSING_MORPHS] = true;
+    else if (strcmp(name, "pointer") == 0) g->is_missing[GN_MISSING_POINTERS] = true;
+    else gn_gltf_warn(g, &target, "path '%.20s' is unknown; ignored", name);
+    return -1;
+}
+
+/* A matrix cannot be animated: the node gets the translation, rotation and scale that it stands for. */
+static void use_trs(struct gn_node *node) {
+    if (!node->has_matrix) return;
+    node->has_matrix = false;
+    glm_vec3_copy(node->matrix[3], node->translation);
+    mat3 axes;
+    glm_mat4_pick3(node->matrix, axes);
+    for (int k = 0; k < 3; k++) {
+        node->scale[k] = glm_vec3_norm(axes[k]);
+        if (node->scale[k] > 0) glm_vec3_scale(axes[k], 1 / node->scale[k], axes[k]);
+    }
+    if (glm_mat3_det(axes) < 0) {
+        node->scale[0] = -node->scale[0];
+        glm_vec3_negate(axes[0]);
+    }
+    if (node->scale[0] != 0 && node->scale[1] != 0 && node->scale[2] != 0)
+        glm_mat3_quat(axes, node->rotation);
+    glm_quat_normalize(node->rotation);
+}
+
+static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct gn_at *samplers,
+                         struct gn_channel *channel) {
+    int32_t node = read_target(g, at, &channel->path);
+    int32_t index = gn_at_ref(g, at, "sampler", gn_at_size(samplers), "samplers");
+    struct sampler sampler = {0};
+    if (g->failed || node < 0) return false;
+    struct gn_at place = gn_at_any(at, "sampler");
+    if (index < 0) return gn_gltf_fail(g, &place, "missing");
+    struct gn_at sampler_at = gn_at_item(g, samplers, (size_t) index);
+    if (g->failed || !read_sampler(g, &sampler_at, &sampler)) return false;
+    size_t components = channel->path == GN_ANIM_ROTATION ? 4 : 3;
+    size_t per_key = sampler.interpolation == GN_ANIM_CUBIC ? 3 : 1;
+    bool fits = sampler.output->components == components && sampler.output->count % per_key == 0 &&
+                sampler.output->count / per_key == sampler.input->count;
+    g->key_total += fits ? sampler.output->count : 0;
+    if (g->key_total > g->limits.keys)
+        return gn_gltf_fail(g, at, "more animation keys than the limit keys=%" PRIu64, g->limits.keys);
+    channel->node = (uint32_t) node;
+    channel->interpolation = sampler.interpolation;
+    channel->key_count = (uint32_t) sampler.input->count;
+    channel->times_s = fits ? read_times(g, &sampler) : NULL;
+    channel->values = channel->times_s ? read_values(g, sampler.output, components) : NULL;
+    if (g->failed) return false;
+    if (!channel->values) {
+        gn_gltf_warn(g, &sampler_at, "%s; channel not played",
+                     !fits               ? "input and output do not fit each other"
+                     : !channel->times_s ? "times must ascend from 0"
+                                         : "values that are not finite");
+        return false;
+    }
+    use_trs(&g->scene->nodes[node]);
+    return true;
+}
+
+/* ---- clips ---- */
+
+static void read_clip(struct gn_gltf *g, const struct gn_at *at, struct gn_clip *clip, uint8_t *claimed) {
+    struct gn_scene *scene = g->scene;
+    struct gn_at samplers = gn_at_array(g, at, "samplers"), channels = gn_at_array(g, at, "channels");
+    float last_s = 0;
+    clip->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
+    clip->first_channel = scene->channel_count;
+    clip->on_by_default = true;
+    for (size_t i = 0; i < gn_at_size(&channels) && !g->failed; i++) {
+        struct gn_at channel_at = gn_at_item(g, &channels, i);
+        struct gn_channel *channel = &scene->channels[scene->channel_count];
+        if (g->failed || !read_channel(g, &channel_at, &samplers, channel)) continue;
+        last_s = fmaxf(last_s, channel->times_s[channel->key_count - 1]);
+        if (claimed[channel->node] & 1U << channel->path) clip->on_by_default = false;
+        scene->channel_count++;
+    }
+    clip->channel_count = scene->channel_count - clip->first_channel;
+    clip->duration_ns = llround((double) last_s * 1e9);
+    for (uint32_t i = clip->first_channel; i < scene->channel_count; i++)
+        claimed[scene->channels[i].node] |= (uint8_t) (1U << scene->channels[i].path);
+}
+
+bool gn_gltf_animations(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    struct gn_at root = gn_at_root(g), array = gn_at_array(g, &root, "animations");
+    size_t count = gn_at_size(&array), channels = 0;
+    for (size_t i = 0; i < count && !g->failed; i++) {
+        struct gn_at at = gn_at_item(g, &array, i), list = gn_at_array(g, &at, "channels");
+        channels += gn_at_size(&list);
+    }
+    scene->clips = gn_gltf_alloc(g, g->arena, count, sizeof *scene->clips);
+    scene->channels = gn_gltf_alloc(g, g->arena, channels, sizeof *scene->channels);
+    uint8_t *claimed = gn_gltf_alloc(g, &g->scratch, scene->node_count, 1);
+    for (size_t i = 0; i < count && !g->failed; i++) {
+        struct gn_at at = gn_at_element(&array, i);
+        read_clip(g, &at, &scene->clips[scene->clip_count++], claimed);
+    }
+    return !g->failed;
+}

@@ -1,0 +1,76 @@
+#include "scene/private.h"
+
+#include <inttypes.h>
+
+/* ---- buffers ---- */
+
+static bool buffer_bytes(struct gn_gltf *g, const struct gn_at *at, size_t index,
+                         struct gn_blob *buffer) {
+    const char *uri = gn_at_text(g, at, "uri");
+    if (g->failed) return false;
+    struct gn_err err = {0};
+    struct gn_at place = gn_at_any(at, "uri");
+    if (uri) return gn_uri_fetch(g, uri, buffer, &err) || gn_gltf_fail(g, &place, "%s", err.text);
+    if (index == 0) *buffer = g->bin; /* later ones without a URI hold nothing: placeholders */
+    return true;
+}
+
+static bool load_buffer(struct gn_gltf *g, const struct gn_at *at, size_t index,
+                        struct gn_blob *buffer) {
+    uint64_t wanted = gn_at_uint(g, at, "byteLength", UINT64_MAX);
+    struct gn_at place = gn_at_any(at, "byteLength");
+    if (g->failed) return false;
+    if (wanted == UINT64_MAX) return gn_gltf_fail(g, &place, "missing");
+    if (!buffer_bytes(g, at, index, buffer)) return false;
+    if (buffer->data && wanted > buffer->size)
+        return gn_gltf_fail(g, &place, "%" PRIu64 ", but the data has %zu bytes", wanted,
+                            buffer->size);
+    return true;
+}
+
+static bool load_buffers(struct gn_gltf *g, const struct gn_at *root) {
+    struct gn_at array = gn_at_array(g, root, "buffers");
+    size_t count = gn_at_size(&array);
+    g->buffers = gn_gltf_alloc(g, &g->scratch, count, sizeof *g->buffers);
+    if (!g->buffers) return false;
+    g->buffer_count = count;
+    for (size_t i = 0; i < count; i++) {
+        struct gn_at at = gn_at_item(g, &array, i);
+        if (g->failed || !load_buffer(g, &at, i, &g->buffers[i])) return false;
+    }
+    return true;
+}
+
+/* ---- views ---- */
+
+static bool load_view(struct gn_gltf *g, const struct gn_at *at, struct gn_view *view) {
+    int32_t index = gn_at_ref(g, at, "buffer", g->buffer_count, "buffers");
+    uint64_t offset = gn_at_uint(g, at, "byteOffset", 0);
+    uint64_t length = gn_at_uint(g, at, "byteLength", 0);
+    view->stride = (size_t) gn_at_uint(g, at, "byteStride", 0);
+    if (g->failed) return false;
+    struct gn_at place = gn_at_any(at, "buffer");
+    if (index < 0) return gn_gltf_fail(g, &place, "missing");
+    const struct gn_blob *buffer = &g->buffers[index];
+    view->size = (size_t) length;
+    if (!buffer->data) return true;
+    if (offset > buffer->size || length > buffer->size - offset)
+        return gn_gltf_fail(g, at, "byteOffset %" PRIu64 " + byteLength %" PRIu64
+                            " passes the end of buffer %d (%zu bytes)", offset, length, index,
+                            buffer->size);
+    view->data = buffer->data + offset;
+    return true;
+}
+
+bool gn_gltf_buffers(struct gn_gltf *g) {
+    struct gn_at root = gn_at_root(g);
+    if (!load_buffers(g, &root)) return false;
+    struct gn_at array = gn_at_array(g, &root, "bufferViews");
+    g->view_count = gn_at_size(&array);
+    g->views = gn_gltf_alloc(g, &g->scratch, g->view_count, sizeof *g->views);
+    for (size_t i = 0; i < g->view_count && !g->failed; i++) {
+        struct gn_at at = gn_at_item(g, &array, i);
+        if (!g->failed) load_view(g, &at, &g->views[i]);
+    }
+    return !g->failed;
+}

@@ -1,0 +1,66 @@
+/* Cameras: one per node that carries one, in the order of the nodes. One that cannot see is left out with a warning. */
+#include "scene/private.h"
+
+#include <math.h>
+
+/* A number that has to be there. */
+static float needed(struct gn_gltf *g, const struct gn_at *up, const char *key) {
+    struct gn_at at = gn_at_any(up, key);
+    if (!at.json) gn_gltf_fail(g, &at, "missing");
+    return gn_at_float(g, up, key, 0);
+}
+
+static bool read_perspective(struct gn_gltf *g, const struct gn_at *at, struct gn_camera *camera) {
+    camera->yfov_rad = needed(g, at, "yfov");
+    camera->near_m = needed(g, at, "znear");
+    camera->far_m = gn_at_float(g, at, "zfar", 0);
+    camera->aspect = gn_at_float(g, at, "aspectRatio", 0);
+    if (camera->aspect < 1e-3f || camera->aspect > 1e3f) camera->aspect = 0;
+    return camera->yfov_rad > 1e-3f && camera->yfov_rad < GLM_PIf - 1e-3f && camera->near_m > 0;
+}
+
+static bool read_orthographic(struct gn_gltf *g, const struct gn_at *at, struct gn_camera *camera) {
+    camera->orthographic = true;
+    camera->xmag_m = fabsf(needed(g, at, "xmag"));
+    camera->ymag_m = fabsf(needed(g, at, "ymag"));
+    camera->near_m = needed(g, at, "znear");
+    camera->far_m = needed(g, at, "zfar");
+    return camera->xmag_m > 0 && camera->ymag_m > 0 && camera->near_m >= 0 && camera->far_m > 0;
+}
+
+static void add(struct gn_gltf *g, const struct gn_at *at, uint32_t node) {
+    struct gn_scene *scene = g->scene;
+    struct gn_camera camera = {.node = node};
+    struct gn_at perspective = gn_at_object(g, at, "perspective");
+    struct gn_at orthographic = gn_at_object(g, at, "orthographic");
+    const char *name = gn_at_text(g, at, "name"), *type = gn_at_text(g, at, "type");
+    (void) type;
+    if (!perspective.json && !orthographic.json) gn_gltf_fail(g, at, "is neither perspective nor orthographic");
+    bool sees = perspective.json ? read_perspective(g, &perspective, &camera)
+                                 : read_orthographic(g, &orthographic, &camera);
+    bool deep = camera.far_m == 0 || camera.far_m > camera.near_m;
+    if (g->failed) return;
+    if (!sees || !deep) {
+        gn_gltf_warn(g, at, "sees nothing: %s; ignored",
+                     deep ? "its field or near plane is out of range" : "zfar is not beyond znear");
+        return;
+    }
+    camera.name = name && *name ? gn_gltf_strdup(g, name) : scene->nodes[node].name;
+    scene->cameras[scene->camera_count++] = camera;
+}
+
+bool gn_gltf_cameras(struct gn_gltf *g) {
+    struct gn_at root = gn_at_root(g), nodes = gn_at_array(g, &root, "nodes");
+    struct gn_at definitions = gn_at_array(g, &root, "cameras");
+    struct gn_scene *scene = g->scene;
+    scene->cameras = gn_gltf_alloc(g, g->arena, (uint64_t) scene->node_count + 1, sizeof *scene->cameras);
+    for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
+        if (g->placed[i].bare) continue;
+        struct gn_at node = gn_at_element(&nodes, g->placed[i].json);
+        int32_t camera = gn_at_ref(g, &node, "camera", gn_at_size(&definitions), "cameras");
+        if (camera < 0) continue;
+        struct gn_at definition = gn_at_item(g, &definitions, (size_t) camera);
+        if (!g->failed) add(g, &definition, i);
+    }
+    return !g->failed;
+}

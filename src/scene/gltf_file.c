@@ -1,0 +1,145 @@
+/* The container: .glb or .gltf by content, its JSON and BIN chunk, and whether we can show what it asks for. */
+#include "scene/private.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { HEADER = 12, CHUNK = 8 };
+#define CHUNK_JSON 0x4e4f534aU
+#define CHUNK_BIN  0x004e4942U
+
+static uint32_t u32(const uint8_t *p) {
+    return (uint32_t) p[0] | (uint32_t) p[1] << 8 | (uint32_t) p[2] << 16 | (uint32_t) p[3] << 24;
+}
+
+/* ---- .glb ---- */
+
+static bool check_header(struct gn_gltf *g, const uint8_t *data, size_t *size) {
+    if (*size < HEADER + CHUNK)
+        return gn_gltf_fail(g, NULL, "byte %zu: the file ends within the .glb header", *size);
+    uint32_t version = u32(data + 4), length = u32(data + 8);
+    if (version != 2)
+        return gn_gltf_fail(g, NULL, "byte 4: .glb version %" PRIu32 "; only version 2 is read: "
+                            "export it again as glTF 2.0", version);
+    if (length > *size)
+        return gn_gltf_fail(g, NULL, "byte 8: says %" PRIu32 " bytes, the file has %zu: it was cut "
+                            "short, copy it again", length, *size);
+    if (length < HEADER + CHUNK)
+        return gn_gltf_fail(g, NULL, "byte 8: a length of %" PRIu32 " is too short", length);
+    if (length < *size) gn_gltf_warn(g, NULL, "%zu bytes after the end ignored", *size - length);
+    *size = length;
+    return true;
+}
+
+static bool take_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
+    uint32_t length = u32(data + at), type = u32(data + at + 4);
+    const uint8_t *body = data + at + CHUNK;
+    if (at == HEADER && type != CHUNK_JSON)
+        return gn_gltf_fail(g, NULL, "byte %zu: the first chunk must be JSON", at + 4);
+    if (at == HEADER) {
+        while (length > 0 && body[length - 1] == 0) length--; /* some pad with zeros */
+        return gn_gltf_parse(g, (const char *) body, length, at + CHUNK);
+    }
+    if (type == CHUNK_JSON)
+        return gn_gltf_fail(g, NULL, "byte %zu: a second JSON chunk", at);
+    if (type == CHUNK_BIN && g->bin.data) gn_gltf_warn(g, NULL, "byte %zu: a second BIN chunk", at);
+    else if (type == CHUNK_BIN) g->bin = (struct gn_blob){.data = body, .size = length};
+    return true;
+}
+
+static bool open_glb(struct gn_gltf *g, const uint8_t *data, size_t size) {
+    if (!check_header(g, data, &size)) return false;
+    size_t at = HEADER;
+    for (; size - at >= CHUNK; ) {
+        uint32_t length = u32(data + at);
+        if (length > size - at - CHUNK)
+            return gn_gltf_fail(g, NULL, "byte %zu: a chunk of %" PRIu32 " bytes, but %zu are left",
+                                at, length, size - at - CHUNK);
+        if (!take_chunk(g, data, at)) return false;
+        at += CHUNK + (size_t) length;
+    }
+    if (at < size) gn_gltf_warn(g, NULL, "byte %zu: %zu bytes that are no chunk", at, size - at);
+    return true;
+}
+
+/* ---- .gltf ---- */
+
+static bool open_json(struct gn_gltf *g, const uint8_t *data, size_t size) {
+    size_t bom = size >= 3 && memcmp(data, "\xef\xbb\xbf", 3) == 0 ? 3 : 0, start = bom;
+    while (start < size && data[start] && strchr(" \t\r\n", data[start])) start++;
+    if (start == size || data[start] != '{')
+        return gn_gltf_fail(g, NULL, "byte %zu: neither .glb ('glTF') nor .gltf ('{')", start);
+    return gn_gltf_parse(g, (const char *) data + bom, size - bom, bom);
+}
+
+bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {
+    if (size == 0) return gn_gltf_fail(g, NULL, "byte 0: the file is empty");
+    if (size >= 4 && memcmp(data, "glTF", 4) == 0) return open_glb(g, data, size);
+    return open_json(g, data, size);
+}
+
+/* ---- versions and extensions ---- */
+
+static bool check_version(struct gn_gltf *g, const struct gn_at *asset) {
+    const char *version = gn_at_text(g, asset, "version");
+    const char *least = gn_at_text(g, asset, "minVersion");
+    struct gn_at at = gn_at_any(asset, "version");
+    if (g->failed) return false;
+    if (!version) return gn_gltf_fail(g, &at, "missing; only glTF 2.0 is read");
+    char *end = NULL;
+    if (strtol(version, &end, 10) != 2 || *end != '.')
+        return gn_gltf_fail(g, &at, "'%.20s'; only glTF 2.0 is read: export it again", version);
+    at = gn_at_any(asset, "minVersion");
+    if (least && strcmp(least, "2.0") != 0)
+        return gn_gltf_fail(g, &at, "'%.20s'; only glTF 2.0 is read", least);
+    return true;
+}
+
+static const char *const SUPPORTED[] = {
+    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_unlit",
+    "KHR_mesh_quantization",  "KHR_texture_transform",           "EXT_mesh_gpu_instancing",
+};
+
+static const struct cure {
+    const char *extension, *what_to_do;
+} CURES[] = {
+    {"KHR_draco_mesh_compression", "decompress it first (gltf-transform can)"},
+    {"EXT_meshopt_compression", "decompress it first (gltf-transform can)"},
+    {"KHR_meshopt_compression", "decompress it first (gltf-transform can)"},
+    {"KHR_texture_basisu", "export it with PNG or JPEG pictures"},
+    {"EXT_texture_webp", "export it with PNG or JPEG pictures"},
+    {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
+    {"KHR_materials_pbrSpecularGlossiness", "convert it first (gltf-transform metalrough can)"},
+};
+
+static const char *cure_of(const char *extension) {
+    for (size_t i = 0; i < sizeof CURES / sizeof CURES[0]; i++)
+        if (strcmp(CURES[i].extension, extension) == 0) return CURES[i].what_to_do;
+    return "export the scene without it";
+}
+
+static bool check_extension(struct gn_gltf *g, const struct gn_at *at) {
+    const char *name = json_string_value(at->json);
+    if (!name) return gn_gltf_fail(g, at, "must be a string");
+    for (size_t i = 0; i < sizeof SUPPORTED / sizeof SUPPORTED[0]; i++)
+        if (strcmp(SUPPORTED[i], name) == 0) return true;
+    return gn_gltf_fail(g, at, "%.80s is not supported; %s", name, cure_of(name));
+}
+
+bool gn_gltf_check_support(struct gn_gltf *g) {
+    struct gn_at root = gn_at_root(g), asset = gn_at_object(g, &root, "asset");
+    if (g->failed || !check_version(g, &asset)) return false;
+    struct gn_at used = gn_at_array(g, &root, "extensionsUsed");
+    for (size_t i = 0; i < gn_at_size(&used); i++) {
+        const char *name = json_string_value(json_array_get(used.json, i));
+        if (name && strcmp(name, "KHR_materials_variants") == 0)
+            g->is_missing[GN_MISSING_VARIANTS] = true;
+    }
+    struct gn_at required = gn_at_array(g, &root, "extensionsRequired");
+    for (size_t i = 0; i < gn_at_size(&required); i++) {
+        struct gn_at at = gn_at_element(&required, i);
+        if (!check_extension(g, &at)) return false;
+    }
+    return !g->failed;
+}

@@ -1,0 +1,92 @@
+/* EXT_mesh_gpu_instancing: translations, rotations and scales of the copies of a node's mesh. */
+#include "scene/private.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+struct copies {
+    const struct gn_accessor *translation, *rotation, *scale;
+    size_t count;
+};
+
+static const struct gn_accessor *attribute(struct gn_gltf *g, const struct gn_at *attributes,
+                                           const char *key, uint8_t components, struct copies *copies) {
+    int32_t index = gn_at_ref(g, attributes, key, g->accessor_count, "accessors");
+    const struct gn_accessor *a = gn_gltf_accessor(g, index);
+    if (!a) return NULL;
+    struct gn_at at = gn_at_any(attributes, key);
+    if (a->components != components || a->component == GN_U32)
+        gn_gltf_fail(g, &at, "must be VEC%d of floats or normalized bytes or shorts", components);
+    else if (copies->count > 0 && copies->count != a->count)
+        gn_gltf_fail(g, &at, "%zu elements, but another attribute has %zu", a->count, copies->count);
+    copies->count = a->count;
+    return a;
+}
+
+static struct copies read_copies(struct gn_gltf *g, const struct gn_placed *placed) {
+    struct copies copies = {0};
+    struct gn_at root = gn_at_root(g), nodes = gn_at_array(g, &root, "nodes");
+    struct gn_at node = gn_at_element(&nodes, placed->json);
+    struct gn_at extension = gn_at_extension(g, &node, "extensions.EXT_mesh_gpu_instancing");
+    struct gn_at attributes = gn_at_object(g, &extension, "attributes");
+    if (!extension.json || g->failed) return copies;
+    copies.translation = attribute(g, &attributes, "TRANSLATION", 3, &copies);
+    copies.rotation = attribute(g, &attributes, "ROTATION", 4, &copies);
+    copies.scale = attribute(g, &attributes, "SCALE", 3, &copies);
+    if (copies.count == 0 && !g->failed)
+        gn_gltf_warn(g, &extension, "has none of TRANSLATION, ROTATION, SCALE; shown once");
+    return copies;
+}
+
+/* n values per copy, or the fallback where there is no such attribute. */
+static float *values(struct gn_gltf *g, const struct gn_accessor *a, size_t count, size_t n,
+                     const float *fallback) {
+    float *out = gn_gltf_alloc(g, &g->work, (uint64_t) count * n, sizeof *out);
+    for (size_t i = 0; out && i < count * n; i++) out[i] = fallback[i % n];
+    if (!out || !a) return out;
+    struct gn_accessor copy = *a;
+    if (n == 4) copy.normalized = true; /* integers can only be that for a rotation */
+    gn_accessor_floats(&copy, n, out);
+    return out;
+}
+
+static void fill(struct gn_gltf *g, const struct copies *copies, mat4 *out) {
+    gn_arena_reset(&g->work);
+    float *t = values(g, copies->translation, copies->count, 3, (float[]){0, 0, 0});
+    float *r = values(g, copies->rotation, copies->count, 4, (float[]){0, 0, 0, 1});
+    float *s = values(g, copies->scale, copies->count, 3, (float[]){1, 1, 1});
+    for (size_t i = 0; i < copies->count && !g->failed; i++) {
+        struct gn_node local;
+        local.has_matrix = false;
+        memcpy(local.translation, t + 3 * i, sizeof local.translation);
+        memcpy(local.scale, s + 3 * i, sizeof local.scale);
+        memcpy(local.rotation, r + 4 * i, sizeof local.rotation);
+        glm_quat_normalize(local.rotation);
+        gn_node_local(&local, out[i]);
+    }
+}
+
+bool gn_gltf_instances(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    uint64_t total = 0;
+    for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
+        struct gn_placed *placed = &g->placed[i];
+        if (placed->mesh < 0) continue;
+        struct copies copies = read_copies(g, placed);
+        if (copies.count > g->limits.instances - total)
+            return gn_gltf_fail(g, NULL, "more copies than the limit instances=%" PRIu64,
+                                g->limits.instances);
+        placed->first_instance = (uint32_t) total;
+        placed->instance_count = (uint32_t) copies.count;
+        total += copies.count;
+    }
+    scene->instance_count = (uint32_t) total;
+    scene->instances = gn_gltf_alloc(g, g->arena, total, sizeof *scene->instances);
+    for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
+        const struct gn_placed *placed = &g->placed[i];
+        if (placed->instance_count == 0) continue;
+        struct copies copies = read_copies(g, placed);
+        fill(g, &copies, scene->instances + placed->first_instance);
+    }
+    return !g->failed;
+}

@@ -1,0 +1,54 @@
+/* Things to draw: every primitive of every placed mesh, and of every copy of it. */
+#include "scene/private.h"
+
+#include <inttypes.h>
+
+static uint32_t copies_of(const struct gn_placed *placed) {
+    return placed->instance_count > 0 ? placed->instance_count : 1;
+}
+
+static void add(struct gn_gltf *g, uint32_t node, const struct gn_draw *draw) {
+    struct gn_scene *scene = g->scene;
+    const struct gn_placed *placed = &g->placed[node];
+    uint32_t fallback = (uint32_t) g->material_count;
+    for (uint32_t k = 0; k < copies_of(placed); k++) {
+        scene->triangle_count += scene->geometries[draw->geometry].index_count / 3;
+        scene->items[scene->item_count++] = (struct gn_item){
+            .node = node,
+            .geometry = draw->geometry,
+            .material = draw->material < 0 ? fallback : (uint32_t) draw->material,
+            .instance = placed->instance_count > 0 ? (int32_t) (placed->first_instance + k) : -1,
+            .casts = placed->casts,
+            .receives = placed->receives,
+            .cast_faces = placed->cast_faces,
+        };
+    }
+}
+
+bool gn_gltf_items(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    if (!gn_gltf_instances(g)) return false;
+    uint64_t total = 0;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        if (g->placed[i].mesh >= 0)
+            total += (uint64_t) copies_of(&g->placed[i]) * g->meshes[g->placed[i].mesh].draw_count;
+    if (total > g->limits.instances)
+        return gn_gltf_fail(g, NULL, "%" PRIu64 " things to draw are more than the limit instances=%"
+                            PRIu64, total, g->limits.instances);
+    scene->items = gn_gltf_alloc(g, g->arena, total, sizeof *scene->items);
+    if (!scene->items) return false;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const struct gn_mesh *mesh = g->placed[i].mesh >= 0 ? &g->meshes[g->placed[i].mesh] : NULL;
+        for (uint32_t k = 0; mesh && k < mesh->draw_count; k++) {
+            const struct gn_draw *draw = &g->draws[mesh->first_draw + k];
+            if (scene->geometries[draw->geometry].index_count > 0) add(g, i, draw);
+        }
+    }
+    if (scene->item_count == 0) {
+        bool draco = g->is_missing[GN_MISSING_DRACO];
+        return gn_gltf_fail(g, NULL, draco ? "its meshes are compressed with KHR_draco_mesh_compression, "
+                                             "which is not supported; decompress it first (gltf-transform can)"
+                                           : "the scene is empty: no node of it has a mesh with triangles");
+    }
+    return true;
+}

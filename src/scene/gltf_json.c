@@ -1,0 +1,244 @@
+#include "scene/private.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- messages ---- */
+
+enum { PATH_STEPS = 24 };
+
+/* "nodes[3].mesh: " into text. */
+static void write_path(const struct gn_at *at, char *text, size_t size) {
+    const struct gn_at *steps[PATH_STEPS];
+    int count = 0;
+    for (; at && at->up && count < PATH_STEPS; at = at->up) steps[count++] = at;
+    size_t used = 0;
+    text[0] = 0;
+    for (int i = count - 1; i >= 0 && used < size; i--) {
+        const char *dot = i == count - 1 ? "" : ".";
+        if (steps[i]->key)
+            used += (size_t) snprintf(text + used, size - used, "%s%s", dot, steps[i]->key);
+        else
+            used += (size_t) snprintf(text + used, size - used, "[%zu]", steps[i]->index);
+    }
+    if (count > 0 && used < size) snprintf(text + used, size - used, ": ");
+}
+
+bool gn_gltf_fail(struct gn_gltf *g, const struct gn_at *at, const char *format, ...) {
+    if (g->failed) return false;
+    g->failed = true;
+    char where[200], what[300];
+    write_path(at, where, sizeof where);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(what, sizeof what, format, args);
+    va_end(args);
+    return gn_fail(g->err, "%s: %s%s", g->path, where, what);
+}
+
+void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format, ...) {
+    char where[200], what[300];
+    write_path(at, where, sizeof where);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(what, sizeof what, format, args);
+    va_end(args);
+    gn_warn(g->warnings, "%s: %s%s", g->path, where, what);
+}
+
+/* ---- parsing ---- */
+
+/* The parser recurses and allocates as the text tells it to: bound both before it starts. A container costs jansson about
+ * 256 bytes, any other value or key about 96. */
+static bool bounded(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
+    uint64_t depth = 0, bytes = 2 * (uint64_t) size;
+    bool quoted = false;
+    for (size_t i = 0; i < size; i++) {
+        char c = text[i];
+        if (quoted && c == '\\') i++;
+        else if (c == '"') quoted = !quoted;
+        else if (quoted) continue;
+        else if (c == ',' || c == ':') bytes += 96;
+        else if ((c == ']' || c == '}') && depth > 0) depth--;
+        else if (c == '[' || c == '{') {
+            bytes += 256;
+            if (++depth > g->limits.json_depth)
+                return gn_gltf_fail(g, NULL, "byte %zu: JSON nested deeper than json_depth=%" PRIu64,
+                                    offset + i, g->limits.json_depth);
+        }
+    }
+    if (bytes > gn_gltf_room(g))
+        return gn_gltf_fail(g, NULL, "byte %zu: JSON too large for memory_mb=%" PRIu64, offset,
+                            g->limits.memory_mb);
+    g->other_bytes += (size_t) bytes;
+    return true;
+}
+
+bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
+    if (!bounded(g, text, size, offset)) return false;
+    json_error_t error;
+    g->json = json_loadb(text, size, 0, &error);
+    if (!g->json) {
+        size_t byte = offset + (error.position > 0 ? (size_t) error.position : 0);
+        return gn_gltf_fail(g, NULL, "byte %zu (line %d): JSON: %s", byte, error.line, error.text);
+    }
+    if (!json_is_object(g->json))
+        return gn_gltf_fail(g, NULL, "byte %zu: JSON: must be an object", offset);
+    return true;
+}
+
+/* ---- cursors ---- */
+
+static const char *type_name(const json_t *json) {
+    switch (json_typeof(json)) {
+    case JSON_OBJECT: return "an object";
+    case JSON_ARRAY: return "an array";
+    case JSON_STRING: return "a string";
+    case JSON_INTEGER:
+    case JSON_REAL: return "a number";
+    case JSON_TRUE:
+    case JSON_FALSE: return "true or false";
+    default: return "null";
+    }
+}
+
+/* Empties the cursor and fails unless it is absent or right. */
+static bool want(struct gn_gltf *g, struct gn_at *at, bool right, const char *wanted) {
+    if (!at->json) return false;
+    if (right) return true;
+    gn_gltf_fail(g, at, "must be %s, is %s", wanted, type_name(at->json));
+    at->json = NULL;
+    return false;
+}
+
+struct gn_at gn_at_root(const struct gn_gltf *g) { return (struct gn_at){.json = g->json}; }
+
+struct gn_at gn_at_any(const struct gn_at *up, const char *key) {
+    return (struct gn_at){.up = up, .key = key, .json = json_object_get(up->json, key)};
+}
+
+struct gn_at gn_at_object(struct gn_gltf *g, const struct gn_at *up, const char *key) {
+    struct gn_at at = gn_at_any(up, key);
+    want(g, &at, json_is_object(at.json), "an object");
+    return at;
+}
+
+struct gn_at gn_at_array(struct gn_gltf *g, const struct gn_at *up, const char *key) {
+    struct gn_at at = gn_at_any(up, key);
+    want(g, &at, json_is_array(at.json), "an array");
+    return at;
+}
+
+struct gn_at gn_at_element(const struct gn_at *array, size_t index) {
+    return (struct gn_at){.up = array, .index = index, .json = json_array_get(array->json, index)};
+}
+
+struct gn_at gn_at_item(struct gn_gltf *g, const struct gn_at *array, size_t index) {
+    struct gn_at at = gn_at_element(array, index);
+    want(g, &at, json_is_object(at.json), "an object");
+    return at;
+}
+
+struct gn_at gn_at_extension(struct gn_gltf *g, const struct gn_at *up, const char *key) {
+    struct gn_at all = gn_at_object(g, up, "extensions");
+    struct gn_at at = {.up = up, .key = key};
+    at.json = json_object_get(all.json, key + strlen("extensions."));
+    want(g, &at, json_is_object(at.json), "an object");
+    return at;
+}
+
+size_t gn_at_size(const struct gn_at *array) { return json_array_size(array->json); }
+
+/* ---- values ---- */
+
+bool gn_json_number(const json_t *json, double *out) {
+    if (!json_is_number(json)) return false;
+    *out = json_number_value(json);
+    return isfinite(*out);
+}
+
+bool gn_json_whole(const json_t *json, int64_t *out) {
+    if (json_is_integer(json)) {
+        *out = json_integer_value(json);
+        return true;
+    }
+    double real = json_is_real(json) ? json_real_value(json) : 0.5;
+    if (!(fabs(real) < 9007199254740992.0) || floor(real) != real) return false;
+    *out = (int64_t) real;
+    return true;
+}
+
+const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up, const char *key) {
+    struct gn_at at = gn_at_any(up, key);
+    return want(g, &at, json_is_string(at.json), "a string") ? json_string_value(at.json) : NULL;
+}
+
+bool gn_at_flag(struct gn_gltf *g, const struct gn_at *up, const char *key, bool fallback) {
+    struct gn_at at = gn_at_any(up, key);
+    return want(g, &at, json_is_boolean(at.json), "true or false") ? json_is_true(at.json) : fallback;
+}
+
+uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *key, uint64_t fallback) {
+    struct gn_at at = gn_at_any(up, key);
+    int64_t value = 0;
+    if (!want(g, &at, json_is_number(at.json), "an integer")) return fallback;
+    if (!gn_json_whole(at.json, &value)) {
+        gn_gltf_fail(g, &at, "must be an integer, is %g", json_number_value(at.json));
+        return fallback;
+    }
+    if (value < 0) {
+        gn_gltf_fail(g, &at, "must not be negative, is %" PRId64, value);
+        return fallback;
+    }
+    return (uint64_t) value;
+}
+
+/* The number at the cursor, if it is one that a float can hold. */
+static bool read_float(struct gn_gltf *g, struct gn_at *at, float *out) {
+    double value = 0;
+    if (!want(g, at, json_is_number(at->json), "a number")) return false;
+    if (!gn_json_number(at->json, &value) || fabs(value) > (double) FLT_MAX)
+        return gn_gltf_fail(g, at, "%g is too large", json_number_value(at->json));
+    *out = (float) value;
+    return true;
+}
+
+float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *key, float fallback) {
+    struct gn_at at = gn_at_any(up, key);
+    float value = fallback;
+    return read_float(g, &at, &value) ? value : fallback;
+}
+
+bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t n, float *out) {
+    struct gn_at array = gn_at_array(g, up, key);
+    if (!array.json) return false;
+    if (gn_at_size(&array) != n)
+        return gn_gltf_fail(g, &array, "must have %zu numbers, has %zu", n, gn_at_size(&array));
+    for (size_t i = 0; i < n; i++) {
+        struct gn_at at = gn_at_element(&array, i);
+        if (!read_float(g, &at, &out[i])) return false;
+    }
+    return true;
+}
+
+int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, const char *what) {
+    struct gn_at copy = *at;
+    int64_t value = 0;
+    if (!want(g, &copy, json_is_number(at->json), "an index")) return -1;
+    if (!gn_json_whole(at->json, &value))
+        gn_gltf_fail(g, at, "must be an index, is %g", json_number_value(at->json));
+    else if (value < 0 || (uint64_t) value >= count || value > INT32_MAX)
+        gn_gltf_fail(g, at, "index %" PRId64 ", but there are %zu %s", value, count, what);
+    else return (int32_t) value;
+    return -1;
+}
+
+int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t count,
+                  const char *what) {
+    struct gn_at at = gn_at_any(up, key);
+    return gn_at_ref_here(g, &at, count, what);
+}

@@ -1,0 +1,98 @@
+/* KHR_lights_punctual: a light per node that carries one, in the order of the nodes. */
+#include "scene/private.h"
+
+#include <math.h>
+#include <string.h>
+
+static const float SUN_TANGENT = .00465f; /* of the sun's angular radius */
+static const float LAMP_RADIUS_M = .05f;
+
+static bool read_type(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
+    static const char *const names[] = {[GN_LIGHT_DIRECTIONAL] = "directional",
+                                        [GN_LIGHT_POINT] = "point",
+                                        [GN_LIGHT_SPOT] = "spot"};
+    const char *name = gn_at_text(g, at, "type");
+    struct gn_at place = gn_at_any(at, "type");
+    for (int i = 0; name && i < 3; i++) {
+        light->type = (enum gn_light_type) i;
+        if (strcmp(name, names[i]) == 0) return true;
+    }
+    if (!g->failed)
+        gn_gltf_warn(g, &place, "'%.20s' is none of directional, point, spot; light ignored",
+                     name ? name : "");
+    return false;
+}
+
+static void read_color(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
+    glm_vec3_one(light->color);
+    gn_at_floats(g, at, "color", 3, light->color);
+    float intensity = gn_at_float(g, at, "intensity", 1);
+    bool right = intensity >= 0;
+    for (int k = 0; k < 3; k++) {
+        right &= light->color[k] >= 0;
+        light->color[k] = fminf(fmaxf(light->color[k], 0) * fmaxf(intensity, 0), 1e18f);
+    }
+    if (!right) gn_gltf_warn(g, at, "negative light; taken as none");
+}
+
+static void read_cone(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
+    struct gn_at spot = gn_at_object(g, at, "spot");
+    light->inner_rad = gn_at_float(g, &spot, "innerConeAngle", 0);
+    light->outer_rad = gn_at_float(g, &spot, "outerConeAngle", GLM_PI_4f);
+    bool wide = !(light->outer_rad > 0 && light->outer_rad <= GLM_PI_2f + 1e-4f);
+    if (wide) {
+        light->outer_rad = light->outer_rad > 0 ? GLM_PI_2f : GLM_PI_4f;
+        gn_gltf_warn(g, &spot, "outerConeAngle is not between 0 and 90 degrees; %g are used",
+                     (double) glm_deg(light->outer_rad));
+    }
+    light->outer_rad = fminf(light->outer_rad, GLM_PI_2f);
+    if (light->inner_rad >= 0 && light->inner_rad < light->outer_rad) return;
+    if (light->inner_rad != light->outer_rad) /* equal: exporters write that for a hard edge */
+        gn_gltf_warn(g, &spot, "innerConeAngle is not between 0 and outerConeAngle; made to fit");
+    light->inner_rad = light->inner_rad < 0 ? 0 : .99f * light->outer_rad;
+}
+
+static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
+    if (!read_type(g, at, light)) return false;
+    read_color(g, at, light);
+    light->range_m = gn_at_float(g, at, "range", 0);
+    struct gn_at range = gn_at_any(at, "range");
+    if (range.json && !(light->range_m > 0)) {
+        gn_gltf_warn(g, &range, "must be over 0; taken as unlimited");
+        light->range_m = 0;
+    }
+    light->radius = light->type == GN_LIGHT_DIRECTIONAL ? SUN_TANGENT : LAMP_RADIUS_M;
+    light->shadow_strength = 1;
+    light->slide = -1;
+    if (light->type == GN_LIGHT_SPOT) read_cone(g, at, light);
+    return !g->failed;
+}
+
+static void add(struct gn_gltf *g, const struct gn_at *definition, const struct gn_at *node,
+                uint32_t index) {
+    struct gn_light light = {.node = index};
+    if (!read_light(g, definition, &light)) return;
+    gn_extras_light(g, definition, &light);
+    gn_extras_light(g, node, &light);
+    const char *name = gn_at_text(g, definition, "name");
+    light.name = name && *name ? gn_gltf_strdup(g, name) : g->scene->nodes[index].name;
+    if (!g->failed) g->scene->lights[g->scene->light_count++] = light;
+}
+
+bool gn_gltf_lights(struct gn_gltf *g) {
+    struct gn_at root = gn_at_root(g), nodes = gn_at_array(g, &root, "nodes");
+    struct gn_at extension = gn_at_extension(g, &root, "extensions.KHR_lights_punctual");
+    struct gn_at definitions = gn_at_array(g, &extension, "lights");
+    struct gn_scene *scene = g->scene;
+    scene->lights = gn_gltf_alloc(g, g->arena, (uint64_t) scene->node_count + 1, sizeof *scene->lights);
+    for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
+        if (g->placed[i].bare) continue;
+        struct gn_at node = gn_at_element(&nodes, g->placed[i].json);
+        struct gn_at use = gn_at_extension(g, &node, "extensions.KHR_lights_punctual");
+        int32_t light = gn_at_ref(g, &use, "light", gn_at_size(&definitions), "lights");
+        if (light < 0) continue;
+        struct gn_at definition = gn_at_item(g, &definitions, (size_t) light);
+        if (!g->failed) add(g, &definition, &node, i);
+    }
+    return !g->failed;
+}

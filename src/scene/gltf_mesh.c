@@ -1,0 +1,214 @@
+/* Primitives of the meshes in use: which geometries they come to. What names the same accessors is one geometry, and
+ * geometries with the same vertex accessors share their vertices. Nothing is read yet but the accessors' headers. */
+#include "scene/private.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#include "core/hash.h"
+
+enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
+
+/* ---- a hash table of keys that lie in an array of structs ---- */
+
+struct table {
+    uint32_t *slots; /* index + 1, or 0 */
+    size_t mask, stride, key_size;
+    const char *keys; /* the first key */
+};
+
+static bool table_init(struct gn_gltf *g, struct table *table, size_t most) {
+    size_t size = 16;
+    while (size < 2 * most) size *= 2;
+    table->mask = size - 1;
+    table->slots = gn_gltf_alloc(g, &g->scratch, size, sizeof *table->slots);
+    return table->slots != NULL;
+}
+
+/* The slot of an equal key, or the empty one where it belongs. */
+static uint32_t *table_find(const struct table *table, const void *key) {
+    size_t at = (size_t) gn_hash(GN_HASH_INIT, key, table->key_size) & table->mask;
+    for (;; at = (at + 1) & table->mask) {
+        uint32_t slot = table->slots[at];
+        if (slot == 0 || memcmp(table->keys + (slot - 1) * table->stride, key, table->key_size) == 0)
+            return &table->slots[at];
+    }
+}
+
+struct reader {
+    struct gn_gltf *g;
+    struct table shapes, vertices;
+    uint32_t shape_count;
+};
+
+/* ---- attributes ---- */
+
+#define BIT(c)   (1U << ((c) - GN_I8))
+#define FLOATS   BIT(GN_F32)
+#define SMALL    (BIT(GN_I8) | BIT(GN_U8) | BIT(GN_I16) | BIT(GN_U16))
+#define UNSIGNED (BIT(GN_U8) | BIT(GN_U16))
+
+static const struct semantic {
+    const char *name;
+    uint8_t least, most; /* components */
+    unsigned types;
+} SEMANTICS[GN_ATTRIBUTES] = {{"POSITION", 3, 3, FLOATS | SMALL},
+                              {"NORMAL", 3, 3, FLOATS | BIT(GN_I8) | BIT(GN_I16)},
+                              {"TEXCOORD_0", 2, 2, FLOATS | SMALL},
+                              {"TEXCOORD_1", 2, 2, FLOATS | SMALL},
+                              {"COLOR_0", 3, 4, FLOATS | UNSIGNED}};
+
+static bool check_attribute(struct gn_gltf *g, const struct gn_at *attributes, int which,
+                            int32_t index, size_t vertex_count) {
+    const struct semantic *semantic = &SEMANTICS[which];
+    const struct gn_accessor *a = gn_gltf_accessor(g, index);
+    if (!a) return index < 0;
+    struct gn_at at = gn_at_any(attributes, semantic->name);
+    if (a->components < semantic->least || a->components > semantic->most)
+        return gn_gltf_fail(g, &at, "accessor %d has elements of %d numbers, must be VEC%d", index,
+                            a->components, semantic->least);
+    if (!(BIT(a->component) & semantic->types))
+        return gn_gltf_fail(g, &at, "accessor %d has component type %d, which cannot be here", index,
+                            a->component);
+    if (a->count != vertex_count)
+        return gn_gltf_fail(g, &at, "%zu elements, but POSITION has %zu", a->count, vertex_count);
+    return true;
+}
+
+/* The positions' count, or 0: failed, or nothing to show (which is said). */
+static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, int32_t *out) {
+    struct gn_at attributes = gn_at_object(g, primitive, "attributes");
+    for (int i = 0; i < GN_ATTRIBUTES; i++)
+        out[i] = gn_at_ref(g, &attributes, SEMANTICS[i].name, g->accessor_count, "accessors");
+    struct gn_at draco = gn_at_extension(g, primitive, "extensions.KHR_draco_mesh_compression");
+    const struct gn_accessor *positions = gn_gltf_accessor(g, out[0]);
+    if (g->failed) return 0;
+    if (draco.json && positions && !positions->backed) {
+        g->is_missing[GN_MISSING_DRACO] = true;
+        return 0;
+    }
+    if (!positions) {
+        gn_gltf_warn(g, primitive, "has no POSITION; not shown");
+        return 0;
+    }
+    for (int i = 0; i < GN_ATTRIBUTES; i++)
+        if (!check_attribute(g, &attributes, i, out[i], positions->count)) return 0;
+    return positions->count;
+}
+
+/* ---- triangles ---- */
+
+static uint64_t corners_of(struct gn_gltf *g, const struct gn_at *primitive, int32_t mode,
+                           uint64_t count) {
+    if (mode != MODE_TRIANGLES) return count < 3 ? 0 : 3 * (count - 2);
+    if (count % 3 != 0)
+        gn_gltf_warn(g, primitive, "%" PRIu64 " corners are no whole number of triangles; the last "
+                     "%d ignored", count, (int) (count % 3));
+    return count - count % 3;
+}
+
+static bool check_indices(struct gn_gltf *g, const struct gn_at *primitive,
+                          const struct gn_accessor *indices) {
+    struct gn_at at = gn_at_any(primitive, "indices");
+    bool whole = indices->component == GN_U8 || indices->component == GN_U16 || indices->component == GN_U32;
+    if (indices->components == 1 && whole) return true;
+    return gn_gltf_fail(g, &at, "must be SCALAR of unsigned bytes, shorts or ints");
+}
+
+/* Fills the shape's key and size; false: failed or nothing to show. */
+static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive, struct gn_shape *shape) {
+    uint64_t mode = gn_at_uint(g, primitive, "mode", MODE_TRIANGLES);
+    struct gn_at mode_at = gn_at_any(primitive, "mode");
+    if (mode > MODE_FAN) return gn_gltf_fail(g, &mode_at, "%" PRIu64 " is not in 0..6", mode);
+    if (mode < MODE_TRIANGLES) {
+        gn_gltf_warn(g, primitive, "points and lines are not shown");
+        return false;
+    }
+    shape->mode = (int32_t) mode;
+    shape->indices = gn_at_ref(g, primitive, "indices", g->accessor_count, "accessors");
+    size_t count = read_attributes(g, primitive, shape->attribute);
+    if (count == 0) return false;
+    const struct gn_accessor *indices = gn_gltf_accessor(g, shape->indices);
+    if (g->failed || (indices && !check_indices(g, primitive, indices))) return false;
+    shape->corner_count = corners_of(g, primitive, shape->mode, indices ? indices->count : count);
+    if (shape->corner_count == 0) gn_gltf_warn(g, primitive, "has no triangle");
+    return shape->corner_count > 0;
+}
+
+/* ---- sharing ---- */
+
+/* Only with normals of its own can a vertex be shared: flat ones depend on the triangles. */
+static uint32_t share_vertices(struct reader *reader, const struct gn_shape *shape) {
+    struct gn_gltf *g = reader->g;
+    uint32_t *slot = table_find(&reader->vertices, shape->attribute);
+    if (*slot == 0) {
+        struct gn_vertices *vertices = &g->vertices[g->vertices_count++];
+        memcpy(vertices->attribute, shape->attribute, sizeof vertices->attribute);
+        vertices->count = (uint32_t) g->accessors[shape->attribute[0]].count;
+        *slot = (uint32_t) g->vertices_count;
+    }
+    return *slot - 1;
+}
+
+static uint32_t share_shape(struct reader *reader, const struct gn_shape *shape) {
+    uint32_t *slot = table_find(&reader->shapes, shape->attribute);
+    if (*slot == 0) {
+        struct gn_shape *added = &reader->g->shapes[reader->shape_count++];
+        *added = *shape;
+        added->vertices = shape->attribute[1] < 0 ? UINT32_MAX : share_vertices(reader, shape);
+        *slot = reader->shape_count;
+    }
+    return *slot - 1;
+}
+
+static void read_primitive(struct reader *reader, const struct gn_at *primitive, uint32_t mesh,
+                           uint32_t index) {
+    struct gn_gltf *g = reader->g;
+    struct gn_shape shape = {.mesh = mesh, .primitive = index};
+    int32_t material = gn_at_ref(g, primitive, "material", g->material_count, "materials");
+    if (gn_at_size(&(struct gn_at){.json = json_object_get(primitive->json, "targets")}) > 0)
+        g->is_missing[GN_MISSING_MORPHS] = true;
+    if (g->failed || !read_shape(g, primitive, &shape) || g->failed) return;
+    g->draws[g->draw_count++] = (struct gn_draw){share_shape(reader, &shape), material};
+    g->meshes[mesh].draw_count++;
+}
+
+static bool allocate(struct reader *reader, size_t primitives) {
+    struct gn_gltf *g = reader->g;
+    g->draws = gn_gltf_alloc(g, &g->scratch, primitives, sizeof *g->draws);
+    g->shapes = gn_gltf_alloc(g, &g->scratch, primitives, sizeof *g->shapes);
+    g->vertices = gn_gltf_alloc(g, &g->scratch, primitives, sizeof *g->vertices);
+    if (g->failed) return false;
+    reader->shapes = (struct table){.stride = sizeof *g->shapes,
+                                    .key_size = (GN_ATTRIBUTES + 2) * sizeof(int32_t),
+                                    .keys = (const char *) g->shapes};
+    reader->vertices = (struct table){.stride = sizeof *g->vertices,
+                                      .key_size = GN_ATTRIBUTES * sizeof(int32_t),
+                                      .keys = (const char *) g->vertices};
+    _Static_assert(offsetof(struct gn_shape, mode) == (GN_ATTRIBUTES + 1) * sizeof(int32_t), "key");
+    return table_init(g, &reader->shapes, primitives) && table_init(g, &reader->vertices, primitives);
+}
+
+bool gn_gltf_meshes(struct gn_gltf *g) {
+    struct gn_at root = gn_at_root(g), meshes = gn_at_array(g, &root, "meshes");
+    struct gn_at materials = gn_at_array(g, &root, "materials");
+    struct reader reader = {.g = g};
+    g->material_count = gn_at_size(&materials);
+    size_t primitives = 0;
+    for (size_t i = 0; i < g->mesh_count && !g->failed; i++) {
+        struct gn_at mesh = gn_at_item(g, &meshes, i), list = gn_at_array(g, &mesh, "primitives");
+        if (g->meshes[i].used) primitives += gn_at_size(&list);
+    }
+    if (g->failed || !allocate(&reader, primitives)) return false;
+    for (size_t i = 0; i < g->mesh_count && !g->failed; i++) {
+        if (!g->meshes[i].used) continue;
+        g->meshes[i].first_draw = (uint32_t) g->draw_count;
+        struct gn_at mesh = gn_at_item(g, &meshes, i), list = gn_at_array(g, &mesh, "primitives");
+        for (size_t k = 0; k < gn_at_size(&list) && !g->failed; k++) {
+            struct gn_at primitive = gn_at_item(g, &list, k);
+            if (!g->failed) read_primitive(&reader, &primitive, (uint32_t) i, (uint32_t) k);
+        }
+    }
+    g->scene->geometry_count = reader.shape_count;
+    return !g->failed;
+}

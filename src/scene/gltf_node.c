@@ -1,0 +1,233 @@
+/* The tree of nodes: checked, cut down to the shown scene, and laid out parents first, without recursion. */
+#include "scene/private.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+/* A node of the file. */
+struct source {
+    int32_t parent;
+    bool shown;   /* the scene lists it or one of its ancestors */
+    bool carried; /* it is shown, or an ancestor of one that is */
+    bool queued;
+    uint8_t mark; /* while looking for cycles */
+};
+
+struct tree {
+    struct gn_gltf *g;
+    struct gn_at array; /* nodes */
+    struct source *sources;
+    int32_t *stack;
+    size_t depth, count;
+};
+
+static int32_t child_at(struct tree *tree, const struct gn_at *children, size_t i) {
+    struct gn_at at = gn_at_element(children, i);
+    return gn_at_ref_here(tree->g, &at, tree->count, "nodes");
+}
+
+/* ---- parents and cycles ---- */
+
+static void adopt(struct tree *tree, size_t parent) {
+    struct gn_at node = gn_at_item(tree->g, &tree->array, parent);
+    struct gn_at children = gn_at_array(tree->g, &node, "children");
+    for (size_t i = 0; i < gn_at_size(&children) && !tree->g->failed; i++) {
+        int32_t child = child_at(tree, &children, i);
+        if (child < 0) {
+            struct gn_at at = gn_at_element(&children, i);
+            gn_gltf_fail(tree->g, &at, "must be an index");
+            return;
+        }
+        if (tree->sources[child].parent < 0) tree->sources[child].parent = (int32_t) parent;
+        else
+            gn_gltf_warn(tree->g, &children, "node %d has two parents; shown under the first, %d",
+                         child, tree->sources[child].parent);
+    }
+}
+
+/* Follows the parents from each node; mark 1 is on the way, 2 is known to end. */
+static bool check_cycles(struct tree *tree) {
+    for (size_t i = 0; i < tree->count; i++) {
+        int32_t n = (int32_t) i;
+        for (; n >= 0 && tree->sources[n].mark == 0; n = tree->sources[n].parent)
+            tree->sources[n].mark = 1;
+        if (n >= 0 && tree->sources[n].mark == 1) {
+            struct gn_at at = gn_at_element(&tree->array, (size_t) n);
+            return gn_gltf_fail(tree->g, &at, "is its own ancestor");
+        }
+        for (n = (int32_t) i; n >= 0 && tree->sources[n].mark == 1; n = tree->sources[n].parent)
+            tree->sources[n].mark = 2;
+    }
+    return true;
+}
+
+static bool read_tree(struct tree *tree) {
+    struct gn_gltf *g = tree->g;
+    if (tree->count > g->limits.nodes)
+        return gn_gltf_fail(g, &tree->array, "%zu are more than the limit nodes=%" PRIu64,
+                            tree->count, g->limits.nodes);
+    tree->sources = gn_gltf_alloc(g, &g->scratch, tree->count, sizeof *tree->sources);
+    tree->stack = gn_gltf_alloc(g, &g->scratch, tree->count, sizeof *tree->stack);
+    g->scene_node = gn_gltf_alloc(g, &g->scratch, tree->count, sizeof *g->scene_node);
+    if (g->failed) return false;
+    for (size_t i = 0; i < tree->count; i++) {
+        tree->sources[i].parent = -1;
+        g->scene_node[i] = -1;
+    }
+    for (size_t i = 0; i < tree->count && !g->failed; i++) adopt(tree, i);
+    return !g->failed && check_cycles(tree);
+}
+
+/* ---- what is shown ---- */
+
+static void push(struct tree *tree, int32_t node) {
+    if (tree->sources[node].queued) return;
+    tree->sources[node].queued = true;
+    tree->stack[tree->depth++] = node;
+}
+
+/* The last first, so that the first comes off the stack first. */
+static void push_children(struct tree *tree, int32_t node) {
+    struct gn_at at = gn_at_element(&tree->array, (size_t) node);
+    struct gn_at children = gn_at_array(tree->g, &at, "children");
+    for (size_t i = gn_at_size(&children); i-- > 0;) {
+        int32_t child = child_at(tree, &children, i);
+        if (child >= 0 && tree->sources[child].parent == node) push(tree, child);
+    }
+}
+
+/* Marks a listed node, all below it and, as carriers, all above it. */
+static void show(struct tree *tree, int32_t listed) {
+    push(tree, listed);
+    while (tree->depth > 0) {
+        int32_t node = tree->stack[--tree->depth];
+        tree->sources[node].shown = tree->sources[node].carried = true;
+        push_children(tree, node);
+    }
+    for (int32_t n = tree->sources[listed].parent; n >= 0 && !tree->sources[n].carried;
+         n = tree->sources[n].parent)
+        tree->sources[n].carried = true;
+}
+
+static int32_t root_of(const struct tree *tree, int32_t node, int32_t *roots) {
+    int32_t root = node;
+    while (tree->sources[root].parent >= 0 && roots[root] < 0) root = tree->sources[root].parent;
+    if (roots[root] >= 0) root = roots[root];
+    for (int32_t n = node; n >= 0 && roots[n] < 0; n = tree->sources[n].parent) roots[n] = root;
+    return root;
+}
+
+static struct gn_at shown_scene(struct gn_gltf *g, const struct gn_at *scenes) {
+    struct gn_at root = gn_at_root(g);
+    size_t count = gn_at_size(scenes);
+    int32_t index = gn_at_ref(g, &root, "scene", count, "scenes");
+    return count > 0 ? gn_at_item(g, scenes, index < 0 ? 0 : (size_t) index) : (struct gn_at){0};
+}
+
+/* ---- laying out ---- */
+
+static void read_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_node *node) {
+    glm_mat4_identity(node->matrix);
+    glm_vec3_one(node->scale);
+    glm_quat_identity(node->rotation);
+    float m[16];
+    node->has_matrix = gn_at_floats(g, at, "matrix", 16, m);
+    if (node->has_matrix) memcpy(node->matrix, m, sizeof m);
+    gn_at_floats(g, at, "translation", 3, node->translation);
+    gn_at_floats(g, at, "scale", 3, node->scale);
+    if (!gn_at_floats(g, at, "rotation", 4, node->rotation)) return;
+    float length = glm_vec4_norm(node->rotation);
+    if (length > 1e-6f && length < 1e18f) {
+        glm_vec4_scale(node->rotation, 1 / length, node->rotation);
+        return;
+    }
+    struct gn_at place = gn_at_any(at, "rotation");
+    gn_gltf_warn(g, &place, "is no rotation; none is applied");
+    glm_quat_identity(node->rotation);
+}
+
+static void emit(struct tree *tree, int32_t source) {
+    struct gn_gltf *g = tree->g;
+    struct gn_at at = gn_at_element(&tree->array, (size_t) source);
+    uint32_t index = g->scene->node_count++;
+    struct gn_node *node = &g->scene->nodes[index];
+    struct gn_placed *placed = &g->placed[index];
+    g->scene_node[source] = (int32_t) index;
+    int32_t parent = tree->sources[source].parent;
+    node->parent = parent < 0 ? -1 : g->scene_node[parent];
+    node->name = gn_gltf_strdup(g, gn_at_text(g, &at, "name"));
+    read_transform(g, &at, node);
+    placed->json = (size_t) source;
+    placed->bare = !tree->sources[source].shown;
+    placed->mesh = gn_at_ref(g, &at, "mesh", g->mesh_count, "meshes");
+    if (placed->bare) placed->mesh = -1;
+    if (placed->mesh >= 0) g->meshes[placed->mesh].used = true;
+    if (gn_at_any(&at, "skin").json && !placed->bare) g->is_missing[GN_MISSING_SKINS] = true;
+    gn_extras_node(g, &at, placed);
+}
+
+static void lay_out(struct tree *tree, int32_t root) {
+    push(tree, root);
+    while (tree->depth > 0 && !tree->g->failed) {
+        int32_t node = tree->stack[--tree->depth];
+        if (!tree->sources[node].carried) continue;
+        emit(tree, node);
+        push_children(tree, node);
+    }
+}
+
+static bool allocate(struct gn_gltf *g, size_t count) {
+    struct gn_at root = gn_at_root(g), meshes = gn_at_array(g, &root, "meshes");
+    g->mesh_count = gn_at_size(&meshes);
+    g->file_node_count = count;
+    g->meshes = gn_gltf_alloc(g, &g->scratch, g->mesh_count, sizeof *g->meshes);
+    g->scene->nodes = gn_gltf_alloc(g, g->arena, count + 2, sizeof *g->scene->nodes);
+    g->placed = gn_gltf_alloc(g, &g->scratch, count + 2, sizeof *g->placed);
+    return !g->failed;
+}
+
+/* The nodes to begin with, each once; in the order of the scene's list. */
+static size_t listed_nodes(struct tree *tree, const struct gn_at *list, bool all, int32_t *out) {
+    size_t count = 0;
+    for (size_t i = 0; !all && i < gn_at_size(list); i++) {
+        int32_t node = child_at(tree, list, i);
+        if (node < 0) {
+            struct gn_at at = gn_at_element(list, i);
+            gn_gltf_fail(tree->g, &at, "must be an index");
+            return 0;
+        }
+        if (tree->sources[node].queued) continue;
+        tree->sources[node].queued = true;
+        if (tree->sources[node].parent >= 0)
+            gn_gltf_warn(tree->g, list, "node %d has a parent; shown in its place under it", node);
+        out[count++] = node;
+    }
+    for (size_t i = 0; all && i < tree->count; i++)
+        if (tree->sources[i].parent < 0) out[count++] = (int32_t) i;
+    for (size_t i = 0; i < tree->count; i++) tree->sources[i].queued = false;
+    return count;
+}
+
+bool gn_gltf_nodes(struct gn_gltf *g) {
+    struct gn_at root = gn_at_root(g), scenes = gn_at_array(g, &root, "scenes");
+    struct tree tree = {.g = g, .array = gn_at_array(g, &root, "nodes")};
+    tree.count = gn_at_size(&tree.array);
+    if (g->failed || !allocate(g, tree.count) || !read_tree(&tree)) return false;
+    int32_t *listed = gn_gltf_alloc(g, &g->scratch, tree.count, sizeof *listed);
+    int32_t *roots = gn_gltf_alloc(g, &g->scratch, tree.count, sizeof *roots);
+    struct gn_at scene = shown_scene(g, &scenes);
+    struct gn_at list = gn_at_array(g, &scene, "nodes");
+    if (g->failed) return false;
+    g->scene->name = gn_gltf_strdup(g, gn_at_text(g, &scene, "name"));
+    gn_extras_scene(g, &scene);
+    size_t count = listed_nodes(&tree, &list, scene.json == NULL, listed);
+    for (size_t i = 0; i < count; i++) show(&tree, listed[i]);
+    for (size_t i = 0; i < tree.count; i++) {
+        tree.sources[i].queued = false;
+        roots[i] = -1;
+    }
+    for (size_t i = 0; i < count && !g->failed; i++) lay_out(&tree, root_of(&tree, listed[i], roots));
+    if (!g->failed && g->scene->node_count == 0)
+        return gn_gltf_fail(g, scene.json ? &scene : NULL, "the scene is empty: it lists no node");
+    return !g->failed;
+}

@@ -1,0 +1,101 @@
+/* PNG of every kind to RGBA, 8 bits. libpng leaves by longjmp when it fails: it is called only from here, and what must
+ * outlive a jump lies in one struct. */
+#include "scene/private.h"
+
+#include <png.h>
+#include <setjmp.h>
+#include <string.h>
+
+enum { IHDR_END = 8 + 8 + 13 };
+
+static uint32_t big_endian(const uint8_t *p) {
+    return (uint32_t) p[0] << 24 | (uint32_t) p[1] << 16 | (uint32_t) p[2] << 8 | (uint32_t) p[3];
+}
+
+/* The header says more than deflate could ever make of the file: refused before memory is asked for. */
+static bool too_small(const uint8_t *data, size_t size, const uint32_t px[2]) {
+    static const uint8_t channels[] = {1, 0, 3, 1, 2, 0, 4};
+    uint64_t bits = (uint64_t) data[24] * (data[25] < sizeof channels ? channels[data[25]] : 1);
+    if (bits > 64) bits = 64;
+    return (uint64_t) px[0] * px[1] / 8 * bits / 1100 > size;
+}
+
+bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err) {
+    if (size < IHDR_END || memcmp(data + 12, "IHDR", 4) != 0) return gn_fail(err, "PNG: cut short");
+    px[0] = big_endian(data + 16);
+    px[1] = big_endian(data + 20);
+    if (px[0] > INT32_MAX || px[1] > INT32_MAX) return gn_fail(err, "PNG: no such size");
+    if (too_small(data, size, px)) return gn_fail(err, "PNG: cut short");
+    return true;
+}
+
+struct reader {
+    const uint8_t *data;
+    size_t left;
+    jmp_buf leave;
+    png_structp png;
+    png_infop info;
+    png_bytep *rows;
+    struct gn_err *err;
+};
+
+static void read_bytes(png_structp png, png_bytep out, size_t size) {
+    struct reader *reader = png_get_io_ptr(png);
+    if (size > reader->left) png_error(png, "cut short");
+    memcpy(out, reader->data, size);
+    reader->data += size;
+    reader->left -= size;
+}
+
+static void on_error(png_structp png, png_const_charp message) {
+    struct reader *reader = png_get_error_ptr(png);
+    gn_fail(reader->err, "PNG: %s", message);
+    longjmp(reader->leave, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp message) {
+    (void) png;
+    (void) message;
+}
+
+static void set_limits(png_structp png, const uint32_t px[2]) {
+    png_set_user_limits(png, px[0], px[1]);
+    png_set_chunk_cache_max(png, 64);
+    png_set_chunk_malloc_max(png, 1 << 20);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
+}
+
+static void set_rgba8(png_structp png) {
+    png_set_expand(png);
+    png_set_scale_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
+    png_set_interlace_handling(png);
+}
+
+static bool decode(struct reader *reader, const uint32_t px[2], uint8_t *rgba) {
+    if (setjmp(reader->leave)) return false;
+    png_set_read_fn(reader->png, reader, read_bytes);
+    set_limits(reader->png, px);
+    png_read_info(reader->png, reader->info);
+    set_rgba8(reader->png);
+    png_read_update_info(reader->png, reader->info);
+    if (png_get_rowbytes(reader->png, reader->info) != 4 * (size_t) px[0] ||
+        png_get_image_height(reader->png, reader->info) != px[1])
+        png_error(reader->png, "not of the size that its header says");
+    reader->rows = png_malloc(reader->png, px[1] * sizeof *reader->rows);
+    for (uint32_t y = 0; y < px[1]; y++) reader->rows[y] = rgba + 4 * (size_t) px[0] * y;
+    png_read_image(reader->png, reader->rows);
+    return true;
+}
+
+bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
+                 struct gn_err *err) {
+    struct reader reader = {.data = data, .left = size, .err = err};
+    reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, on_error, on_warning);
+    reader.info = reader.png ? png_create_info_struct(reader.png) : NULL;
+    bool done = reader.info ? decode(&reader, px, rgba) : gn_fail(err, "PNG: out of memory");
+    if (reader.rows) png_free(reader.png, reader.rows);
+    if (reader.png) png_destroy_read_struct(&reader.png, reader.info ? &reader.info : NULL, NULL);
+    return done;
+}

@@ -1,0 +1,77 @@
+#include "scene/private.h"
+
+#include <inttypes.h>
+#include <stddef.h>
+#include <string.h>
+
+static const struct row {
+    const char *name;
+    size_t offset;
+    uint64_t normal, most;
+} ROWS[] = {
+    {"file_mb", offsetof(struct gn_scene_limits, file_mb), 512, 1 << 20},
+    {"memory_mb", offsetof(struct gn_scene_limits, memory_mb), 1024, 1 << 20},
+    {"nodes", offsetof(struct gn_scene_limits, nodes), 100000, 100000000},
+    {"instances", offsetof(struct gn_scene_limits, instances), 1000000, 100000000},
+    {"vertices", offsetof(struct gn_scene_limits, vertices), 20000000, 1 << 30},
+    {"texels", offsetof(struct gn_scene_limits, texels), 67108864, 1 << 30},
+    {"keys", offsetof(struct gn_scene_limits, keys), 4000000, 1 << 30},
+    {"json_depth", offsetof(struct gn_scene_limits, json_depth), 512, 2000},
+};
+enum { ROW_COUNT = sizeof ROWS / sizeof ROWS[0] };
+_Static_assert(sizeof(struct gn_scene_limits) == ROW_COUNT * sizeof(uint64_t), "a row per limit");
+
+static uint64_t *field(struct gn_scene_limits *limits, const struct row *row) {
+    return (uint64_t *) (void *) ((char *) limits + row->offset);
+}
+
+bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,
+                         struct gn_err *err) {
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        if (strcmp(ROWS[i].name, name) != 0) continue;
+        if (value < 1 || value > ROWS[i].most)
+            return gn_fail_usage(err, "limit %s: %" PRIu64 " is not in 1..%" PRIu64, name, value,
+                                 ROWS[i].most);
+        *field(limits, &ROWS[i]) = value;
+        return true;
+    }
+    char names[160] = "";
+    for (size_t i = 0, at = 0; i < ROW_COUNT && at < sizeof names; i++)
+        at += (size_t) snprintf(names + at, sizeof names - at, " %s", ROWS[i].name);
+    return gn_fail_usage(err, "no limit is called '%s'; there are:%s", name, names);
+}
+
+struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *limits) {
+    struct gn_scene_limits result = limits ? *limits : (struct gn_scene_limits){0};
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        uint64_t *value = field(&result, &ROWS[i]);
+        if (*value == 0) *value = ROWS[i].normal;
+        if (*value > ROWS[i].most) *value = ROWS[i].most;
+    }
+    return result;
+}
+
+size_t gn_gltf_room(const struct gn_gltf *g) {
+    uint64_t limit = g->limits.memory_mb << 20;
+    uint64_t used = (uint64_t) g->arena->used + g->scratch.used + g->work.used + g->other_bytes;
+    return used < limit ? (size_t) (limit - used) : 0;
+}
+
+void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, size_t size) {
+    if (g->failed) return NULL;
+    uint64_t bytes = 0;
+    void *memory = NULL;
+    if (!__builtin_mul_overflow(count, size, &bytes) && bytes <= gn_gltf_room(g))
+        memory = gn_arena_alloc(arena, (size_t) count, size);
+    if (!memory)
+        gn_gltf_fail(g, NULL, "needs more memory than there is or than memory_mb=%" PRIu64 " allows",
+                     g->limits.memory_mb);
+    return memory;
+}
+
+char *gn_gltf_strdup(struct gn_gltf *g, const char *text) {
+    size_t size = text ? strlen(text) + 1 : 1;
+    char *copy = gn_gltf_alloc(g, g->arena, size, 1);
+    if (copy && text) memcpy(copy, text, size);
+    return copy;
+}

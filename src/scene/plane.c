@@ -1,0 +1,62 @@
+/* Which flat thing receives planar shadows: what gnomon_plane names, else the largest flat face of the scene if it is large
+ * enough to be a floor or a wall. */
+#include "scene/private.h"
+
+#include <math.h>
+
+#include "scene/pose.h"
+
+/* The least share of the scene, seen along the face's normal, that a found plane covers. */
+static const double LEAST_SHARE = .3;
+
+static void to_world(const struct gn_pose *pose, uint32_t i, vec3 normal_ws, double *area) {
+    const struct gn_item *item = &pose->scene->items[i];
+    mat3 cofactor;
+    gn_cofactor(pose->items[i].world_from_item, cofactor);
+    glm_mat3_mulv(cofactor, pose->scene->geometries[item->geometry].plane, normal_ws);
+    double stretch = (double) glm_vec3_norm(normal_ws);
+    *area *= stretch;
+    if (stretch > 0) glm_vec3_scale(normal_ws, (float) (1 / stretch), normal_ws);
+}
+
+/* Area of the box's shadow along n. */
+static double seen_along(const struct gn_box *box, vec3 n) {
+    double s[3];
+    for (int k = 0; k < 3; k++) s[k] = (double) box->max[k] - (double) box->min[k];
+    return fabs((double) n[0]) * s[1] * s[2] + fabs((double) n[1]) * s[2] * s[0] +
+           fabs((double) n[2]) * s[0] * s[1];
+}
+
+static bool take_named(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    bool named = false;
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        struct gn_item *item = &scene->items[i];
+        if (g->placed[item->node].plane != GN_YES) continue;
+        named = true;
+        item->plane = scene->geometries[item->geometry].flat;
+        if (!item->plane)
+            gn_gltf_warn(g, NULL, "gnomon_plane: node '%.60s' is not flat; ignored",
+                         scene->nodes[item->node].name);
+    }
+    return named;
+}
+
+void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose) {
+    struct gn_scene *scene = g->scene;
+    if (take_named(g)) return;
+    double best = 0;
+    struct gn_item *found = NULL;
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        struct gn_item *item = &scene->items[i];
+        bool may = scene->geometries[item->geometry].flat && pose->items[i].visible && item->receives;
+        if (!may || g->placed[item->node].plane == GN_NO) continue;
+        vec3 normal_ws;
+        double area = g->shapes[item->geometry].area;
+        to_world(pose, i, normal_ws, &area);
+        if (area <= best || area < LEAST_SHARE * seen_along(&pose->box_ws, normal_ws)) continue;
+        best = area;
+        found = item;
+    }
+    if (found) found->plane = true;
+}

@@ -1,0 +1,268 @@
+#include "scene/pose.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "core/hash.h"
+#include "scene/private.h"
+
+struct memory { /* what pose->memory points to */
+    struct gn_node *local; /* the scene's nodes as the clips have them now */
+    uint32_t *nodes, *items; /* those that move */
+    uint32_t node_count, item_count;
+    struct gn_box still_ws; /* of the visible items that do not */
+};
+
+static const float LIMIT = 1e18f; /* beyond it squares overflow */
+
+/* ---- matrices ---- */
+
+void gn_node_local(const struct gn_node *node, mat4 parent_from_node) {
+    if (node->has_matrix) {
+        glm_mat4_copy((vec4 *) node->matrix, parent_from_node);
+        return;
+    }
+    glm_quat_mat4((float *) node->rotation, parent_from_node);
+    for (int k = 0; k < 3; k++)
+        glm_vec3_scale(parent_from_node[k], node->scale[k], parent_from_node[k]);
+    glm_vec3_copy((float *) node->translation, parent_from_node[3]);
+}
+
+double gn_cofactor(mat4 m, mat3 out) {
+    double c[3][3], det = 0;
+    for (int k = 0; k < 3; k++) {
+        const float *u = m[(k + 1) % 3], *v = m[(k + 2) % 3];
+        for (int i = 0; i < 3; i++) {
+            int j = (i + 1) % 3, l = (i + 2) % 3;
+            c[k][i] = (double) u[j] * (double) v[l] - (double) u[l] * (double) v[j];
+            out[k][i] = (float) c[k][i];
+        }
+    }
+    for (int i = 0; i < 3; i++) det += (double) m[0][i] * c[0][i];
+    return det;
+}
+
+static bool usable(mat4 m) {
+    for (int i = 0; i < 16; i++)
+        if (!(fabsf(m[i / 4][i % 4]) < LIMIT)) return false;
+    return true;
+}
+
+/* ---- boxes ---- */
+
+static const struct gn_box EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static void join(struct gn_box *box, const struct gn_box *other) {
+    for (int k = 0; k < 3; k++) {
+        box->min[k] = fminf(box->min[k], other->min[k]);
+        box->max[k] = fmaxf(box->max[k], other->max[k]);
+    }
+}
+
+/* Arvo, Transforming axis-aligned bounding boxes, Graphics Gems, 1990. */
+static struct gn_box transform_box(mat4 m, const struct gn_box *box) {
+    struct gn_box out;
+    for (int k = 0; k < 3; k++) {
+        double low = (double) m[3][k], high = low;
+        for (int i = 0; i < 3; i++) {
+            double a = (double) m[i][k] * (double) box->min[i], b = (double) m[i][k] * (double) box->max[i];
+            low += a < b ? a : b;
+            high += a < b ? b : a;
+        }
+        out.min[k] = (float) low;
+        out.max[k] = (float) high;
+    }
+    return out;
+}
+
+static bool box_usable(const struct gn_box *box) {
+    for (int k = 0; k < 3; k++)
+        if (!(fabsf(box->min[k]) < LIMIT && fabsf(box->max[k]) < LIMIT)) return false;
+    return true;
+}
+
+/* ---- items ---- */
+
+static void pose_item(struct gn_pose *pose, uint32_t i) {
+    const struct gn_scene *scene = pose->scene;
+    const struct gn_item *item = &scene->items[i];
+    struct gn_pose_item *out = &pose->items[i];
+    vec4 *world_from_node = pose->world_from_node[item->node];
+    if (item->instance < 0) glm_mat4_copy(world_from_node, out->world_from_item);
+    else glm_mat4_mul(world_from_node, scene->instances[item->instance], out->world_from_item);
+    out->visible = usable(out->world_from_item);
+    if (out->visible) {
+        mat3 cofactor; /* nothing has an area if it is 0 */
+        out->mirrored = gn_cofactor(out->world_from_item, cofactor) < 0;
+        out->box_ws = transform_box(out->world_from_item, &scene->geometries[item->geometry].box);
+        float area = glm_vec3_norm(cofactor[0]) + glm_vec3_norm(cofactor[1]) + glm_vec3_norm(cofactor[2]);
+        out->visible = area > 0 && box_usable(&out->box_ws);
+    }
+    if (!out->visible) out->box_ws = EMPTY;
+    out->hash = gn_hash(GN_HASH_INIT, out->world_from_item, sizeof out->world_from_item);
+}
+
+static void pose_node(struct gn_pose *pose, uint32_t i) {
+    const struct gn_node *node = &((struct memory *) pose->memory)->local[i];
+    mat4 local;
+    gn_node_local(node, local);
+    if (node->parent < 0) glm_mat4_copy(local, pose->world_from_node[i]);
+    else glm_mat4_mul(pose->world_from_node[node->parent], local, pose->world_from_node[i]);
+}
+
+/* ---- clips ---- */
+
+static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
+    if (pose->clips == GN_POSE_DEFAULT) return pose->scene->clips[clip].on_by_default;
+    return pose->clips == (int) clip;
+}
+
+/* The time within the clip; in integers until it is small. */
+static double clip_time_s(const struct gn_clip *clip, int64_t time_ns) {
+    if (clip->duration_ns <= 0) return 0;
+    int64_t local_ns = time_ns % clip->duration_ns;
+    if (local_ns < 0) local_ns += clip->duration_ns;
+    return (double) local_ns * 1e-9;
+}
+
+static void apply_clip(struct gn_pose *pose, const struct gn_clip *clip) {
+    struct memory *memory = pose->memory;
+    double time_s = clip_time_s(clip, pose->time_ns);
+    for (uint32_t i = 0; i < clip->channel_count; i++) {
+        const struct gn_channel *channel = &pose->scene->channels[clip->first_channel + i];
+        struct gn_node *node = &memory->local[channel->node];
+        float *const target[] = {[GN_ANIM_TRANSLATION] = node->translation,
+                                 [GN_ANIM_ROTATION] = node->rotation,
+                                 [GN_ANIM_SCALE] = node->scale};
+        gn_channel_sample(channel, time_s, target[channel->path]);
+    }
+}
+
+static void mark_moving(struct gn_pose *pose) {
+    const struct gn_scene *scene = pose->scene;
+    for (uint32_t c = 0; c < scene->clip_count; c++) {
+        const struct gn_clip *clip = &scene->clips[c];
+        if (!clip_on(pose, c)) continue;
+        if (clip->channel_count > 0) pose->animated = true;
+        for (uint32_t i = 0; i < clip->channel_count; i++)
+            pose->node_moves[scene->channels[clip->first_channel + i].node] = true;
+    }
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        int32_t parent = scene->nodes[i].parent;
+        if (parent >= 0 && pose->node_moves[parent]) pose->node_moves[i] = true;
+    }
+}
+
+/* ---- life ---- */
+
+static void list_moving(struct gn_pose *pose) {
+    struct memory *memory = pose->memory;
+    const struct gn_scene *scene = pose->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        if (pose->node_moves[i]) memory->nodes[memory->node_count++] = i;
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (pose->node_moves[scene->items[i].node]) memory->items[memory->item_count++] = i;
+}
+
+/* Everything once, as the file places it; what stands still is done with. */
+static void pose_still(struct gn_pose *pose) {
+    struct memory *memory = pose->memory;
+    const struct gn_scene *scene = pose->scene;
+    memory->still_ws = EMPTY;
+    for (uint32_t i = 0; i < scene->node_count; i++) pose_node(pose, i);
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        if (pose->node_moves[scene->items[i].node]) continue;
+        pose_item(pose, i);
+        join(&memory->still_ws, &pose->items[i].box_ws);
+    }
+    pose->box_ws = memory->still_ws;
+}
+
+void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips) {
+    *pose = (struct gn_pose){.scene = scene, .clips = clips};
+    struct memory *memory = pose->memory = gn_xalloc(1, sizeof *memory);
+    pose->world_from_node = gn_xalloc(scene->node_count, sizeof *pose->world_from_node);
+    pose->node_moves = gn_xalloc(scene->node_count, sizeof *pose->node_moves);
+    pose->items = gn_xalloc(scene->item_count, sizeof *pose->items);
+    memory->local = gn_xalloc(scene->node_count, sizeof *memory->local);
+    memory->nodes = gn_xalloc(scene->node_count, sizeof *memory->nodes);
+    memory->items = gn_xalloc(scene->item_count, sizeof *memory->items);
+    if (scene->node_count > 0)
+        memcpy(memory->local, scene->nodes, scene->node_count * sizeof *memory->local);
+    mark_moving(pose);
+    list_moving(pose);
+    pose_still(pose);
+    gn_pose_step(pose, 0);
+}
+
+void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
+    struct memory *memory = pose->memory;
+    pose->time_ns = time_ns;
+    if (!pose->animated) return;
+    for (uint32_t c = 0; c < pose->scene->clip_count; c++)
+        if (clip_on(pose, c)) apply_clip(pose, &pose->scene->clips[c]);
+    for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
+    pose->box_ws = memory->still_ws;
+    for (uint32_t i = 0; i < memory->item_count; i++) {
+        pose_item(pose, memory->items[i]);
+        join(&pose->box_ws, &pose->items[memory->items[i]].box_ws);
+    }
+}
+
+void gn_pose_finish(struct gn_pose *pose) {
+    struct memory *memory = pose->memory;
+    if (memory) {
+        free(memory->local);
+        free(memory->nodes);
+        free(memory->items);
+        free(memory);
+    }
+    free(pose->world_from_node);
+    free(pose->node_moves);
+    free(pose->items);
+    *pose = (struct gn_pose){0};
+}
+
+/* ---- eyes and lights ---- */
+
+/* The unit vector along v, or the fallback if it has no length. */
+static void unit_or(const float *v, const float *fallback, vec3 out) {
+    double length = sqrt((double) v[0] * (double) v[0] + (double) v[1] * (double) v[1] +
+                         (double) v[2] * (double) v[2]);
+    bool right = length > 1e-30 && isfinite(length);
+    for (int k = 0; k < 3; k++) out[k] = right ? (float) ((double) v[k] / length) : fallback[k];
+}
+
+static void position_of(vec4 *world_from_node, vec3 out) {
+    for (int k = 0; k < 3; k++) {
+        float x = world_from_node[3][k];
+        out[k] = fabsf(x) < LIMIT ? x : 0;
+    }
+}
+
+void gn_pose_view(const struct gn_pose *pose, uint32_t camera, mat4 view_from_world, vec3 eye_ws) {
+    vec4 *world = pose->world_from_node[pose->scene->cameras[camera].node];
+    vec3 axes[3], eye, side;
+    unit_or(world[2], (vec3){0, 0, 1}, axes[2]);
+    unit_or(world[1], (vec3){0, 1, 0}, side);
+    glm_vec3_cross(side, axes[2], side);
+    if (glm_vec3_norm(side) < 1e-6f) glm_vec3_ortho(axes[2], side);
+    unit_or(side, (vec3){1, 0, 0}, axes[0]);
+    glm_vec3_cross(axes[2], axes[0], axes[1]);
+    position_of(world, eye);
+    glm_mat4_identity(view_from_world);
+    for (int row = 0; row < 3; row++) {
+        for (int k = 0; k < 3; k++) view_from_world[k][row] = axes[row][k];
+        view_from_world[3][row] = -glm_vec3_dot(axes[row], eye);
+    }
+    if (eye_ws) glm_vec3_copy(eye, eye_ws);
+}
+
+void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws, vec3 direction_ws) {
+    vec4 *world = pose->world_from_node[pose->scene->lights[light].node];
+    unit_or(world[2], (vec3){0, 0, 1}, direction_ws);
+    glm_vec3_negate(direction_ws);
+    position_of(world, position_ws);
+}
