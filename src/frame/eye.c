@@ -23,6 +23,22 @@ static float farthest(const struct gn_pose *pose, vec3 eye_ws, float near_m) {
     return isfinite(far_m) && far_m > 2.0f * near_m ? far_m : 2.0f * near_m;
 }
 
+/* Carries the eye round the vertical through the scene's centre. */
+static void turn(const struct gn_pose *pose, float angle_rad, mat4 view_from_world, vec3 eye_ws) {
+    if (angle_rad == 0.0f) return;
+    vec3 centre, back;
+    mat4 turned_from_world = GLM_MAT4_IDENTITY_INIT;
+    glm_vec3_center((float *)pose->box_ws.min, (float *)pose->box_ws.max, centre);
+    glm_vec3_negate_to(centre, back);
+    glm_translate(turned_from_world, centre);
+    glm_rotate_y(turned_from_world, -angle_rad, turned_from_world);
+    glm_translate(turned_from_world, back);
+    glm_mat4_mul(view_from_world, turned_from_world, view_from_world);
+    glm_vec3_sub(eye_ws, centre, eye_ws);
+    glm_vec3_rotate(eye_ws, angle_rad, (vec3){0.0f, 1.0f, 0.0f});
+    glm_vec3_add(eye_ws, centre, eye_ws);
+}
+
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts,
                   float (*constants)[4]) {
     const struct gn_camera *camera = &frame->scene->cameras[opts->camera];
@@ -30,6 +46,7 @@ void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose, const stru
     mat4 view_from_world, clip_from_view, clip_from_world;
     vec3 eye_ws;
     gn_pose_view(pose, (uint32_t)opts->camera, view_from_world, eye_ws);
+    turn(pose, opts->turntable_rad, view_from_world, eye_ws);
     if (camera->orthographic) {
         float half[2];
         ortho_half(camera, aspect, half);

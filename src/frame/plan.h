@@ -143,6 +143,7 @@ struct gn_frame_opts { /* zero means the default written beside */
     bool strength_given;
     float strength;                  /* overrides the lights' gnomon_shadow_strength */
     uint32_t msaa;
+    float turntable_rad;             /* the eye goes round the scene's centre by this, about +Y */
 };
 
 struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing */
