@@ -76,7 +76,7 @@ $(if $(CFLAGS_$(CONFIG)),,$(error CONFIG is release, debug, asan or cov, not $(C
 
 WARN    := -Wall -Wextra -Wstrict-prototypes -Wmissing-prototypes -Wvla
 ALL_CFLAGS := -std=c11 -D_GNU_SOURCE -DGL_GLES_PROTOTYPES=0 -DCGLM_ALL_UNALIGNED \
-           -Isrc -I$(B)/gen $(WARN) -ffp-contract=off -fno-math-errno $(CFLAGS_$(CONFIG)) \
+           -Isrc -Ishaders_es -I$(B)/gen $(WARN) -ffp-contract=off -fno-math-errno $(CFLAGS_$(CONFIG)) \
            $(shell $(PKG) --cflags $(PKGS) $(HEADERS)) $(CPPFLAGS) $(CFLAGS)
 ALL_LDFLAGS := $(LDFLAGS_$(CONFIG)) $(LDFLAGS)
 LIBS    := $(shell $(PKG) --libs $(PKGS)) -ldl -lm -lpthread
@@ -101,7 +101,7 @@ SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb) \
 EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES))
 EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb,$(suffix $f)),$f))
 
-all: $(BIN) $(SCENES)
+all: $(BIN) $(SCENES) man
 tests: $(BIN) $(PROGS)
 man: $(O)/gnomon.1
 

@@ -1,0 +1,60 @@
+#!/bin/sh
+# deps.sh SET..: installs the Debian packages of the sets that are missing. Says nothing when none is.
+set -eu
+
+build='gcc libc6-dev make pkgconf libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libegl-dev
+    libgles-dev libcglm-dev'
+run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri'
+test='libcmocka-dev clang clang-format clang-tidy'
+optional_test='libosmesa6-dev' # not in every Debian
+
+command -v dpkg-query > /dev/null || exit 0 # not Debian: the Makefile says what pkg-config does not find
+
+missing() {
+    dpkg-query -W -f='${db:Status-Abbrev} ${Package}\n' "$@" 2> /dev/null |
+        awk -v all="$*" '$1 == "ii" { have[$2] = 1 }
+            END { n = split(all, p, " "); for (i = 1; i <= n; i++) if (!(p[i] in have)) printf " %s", p[i] }'
+}
+
+wanted='' extra=''
+for set in "$@"; do
+    case $set in
+    build) wanted="$wanted $build" ;;
+    run) wanted="$wanted $run" ;;
+    test) wanted="$wanted $test" extra="$extra $optional_test" ;;
+    *) echo "deps.sh: no set of packages is called $set" >&2 && exit 2 ;;
+    esac
+done
+
+needed=$(missing $wanted)
+# what could not be had once is not asked for again: the stamp remembers
+stamp=${O:-build}/deps-optional
+[ -e "$stamp" ] || [ -z "$extra" ] || extra=$(missing $extra)
+[ ! -e "$stamp" ] || extra=''
+[ -n "$needed$extra" ] || exit 0
+
+as_root=''
+if [ "$(id -u)" != 0 ]; then
+    as_root='sudo'
+    if ! command -v sudo > /dev/null || { [ ! -t 0 ] && ! sudo -n true 2> /dev/null; }; then
+        [ -n "$needed" ] || exit 0
+        echo "gnomon needs packages and cannot install them itself; as root: apt-get install$needed" >&2
+        exit 1
+    fi
+fi
+
+echo "installing:$needed$extra" >&2
+export DEBIAN_FRONTEND=noninteractive
+apt() { $as_root apt-get -q -y -o Dpkg::Use-Pty=0 "$@" < /dev/null > "$log" 2>&1; }
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt update || true # a list that is old may do
+if [ -n "$needed" ] && ! apt install --no-install-recommends $needed; then
+    tail -n 5 "$log" >&2
+    echo "gnomon needs packages that apt-get could not install:$needed" >&2
+    exit 1
+fi
+for package in $extra; do
+    apt install --no-install-recommends "$package" || echo "without $package: apt-get has none" >&2
+done
+[ -z "$extra" ] || { mkdir -p "$(dirname "$stamp")" && : > "$stamp"; }

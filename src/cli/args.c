@@ -1,0 +1,230 @@
+#include "cli/args.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/config.h"
+#include "core/text.h"
+
+struct flag {
+    const struct gn_option_row *row;
+    const char *text;
+    char label[40]; /* "--size", "-o" */
+};
+struct args {
+    struct gn_options *options;
+    char *const *argv;
+    int argc, at;
+    struct flag *flags;
+    int flag_count;
+    const char *words[2]; /* command, scene */
+    int word_count;
+};
+
+/* ---- splitting ----------------------------------------------------------------------------- */
+
+static bool fail_option(const char *name, size_t length, struct gn_err *err) {
+    char wanted[32];
+    snprintf(wanted, sizeof wanted, "%.*s", (int)(length < 31 ? length : 31), name);
+    const char *nearest = NULL;
+    int least = 3;
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        int distance = gn_text_distance(wanted, gn_option_rows[i].name);
+        if (!gn_option_rows[i].commands || distance >= least) continue;
+        least = distance;
+        nearest = gn_option_rows[i].name;
+    }
+    if (nearest)
+        return gn_fail_usage(err, "unknown option --%s; did you mean --%s?", wanted, nearest);
+    return gn_fail_usage(err, "unknown option --%s; --help lists those there are", wanted);
+}
+
+static bool add_flag(struct args *args, const struct gn_option_row *row, const char *text,
+                     const char *label, struct gn_err *err) {
+    bool is_flag = row->kind == GN_KIND_FLAG;
+    if (is_flag && text) return gn_fail_usage(err, "%s takes no value", label);
+    if (!is_flag && !text) text = args->argv[args->at] ? args->argv[args->at++] : NULL;
+    if (!is_flag && !text) return gn_fail_usage(err, "%s needs a value: %s", label, row->value);
+    struct flag *flag = &args->flags[args->flag_count++];
+    *flag = (struct flag){.row = row, .text = is_flag ? "yes" : text};
+    snprintf(flag->label, sizeof flag->label, "%s", label);
+    return true;
+}
+
+static bool add_long(struct args *args, const char *name, struct gn_err *err) {
+    const char *equals = strchr(name, '=');
+    size_t length = equals ? (size_t)(equals - name) : strlen(name);
+    const struct gn_option_row *row = gn_option_find(name, length);
+    if (!row) return fail_option(name, length, err);
+    char label[40];
+    snprintf(label, sizeof label, "--%s", row->name);
+    return add_flag(args, row, equals ? equals + 1 : NULL, label, err);
+}
+
+/* -v, -o FILE, -oFILE, -vo FILE */
+static bool add_letters(struct args *args, const char *letters, struct gn_err *err) {
+    for (; *letters; letters++) {
+        const struct gn_option_row *row = gn_option_find_letter(*letters);
+        char label[] = {'-', *letters, '\0'};
+        if (!row)
+            return gn_fail_usage(err, "unknown option -%c; --help lists those there are", *letters);
+        bool takes_rest = row->kind != GN_KIND_FLAG && letters[1];
+        if (!add_flag(args, row, takes_rest ? letters + 1 : NULL, label, err)) return false;
+        if (takes_rest) break;
+    }
+    return true;
+}
+
+static bool add_word(struct args *args, const char *word, struct gn_err *err) {
+    if (args->word_count == 2)
+        return gn_fail_usage(err, "one scene at a time; what is \"%.80s\"?", word);
+    args->words[args->word_count++] = word;
+    return true;
+}
+
+static bool split(struct args *args, struct gn_err *err) {
+    bool only_words = false, ok = true;
+    while (ok && args->at < args->argc) {
+        const char *arg = args->argv[args->at++];
+        if (only_words || arg[0] != '-' || !arg[1])
+            ok = add_word(args, arg, err);
+        else if (arg[1] != '-')
+            ok = add_letters(args, arg + 1, err);
+        else if (arg[2])
+            ok = add_long(args, arg + 2, err);
+        else
+            only_words = true;
+    }
+    return ok;
+}
+
+static const struct flag *find_flag(const struct args *args, const char *name) {
+    for (int i = args->flag_count - 1; i >= 0; i--)
+        if (strcmp(args->flags[i].row->name, name) == 0) return &args->flags[i];
+    return NULL;
+}
+
+/* ---- the command --------------------------------------------------------------------------- */
+
+static enum gn_command command_of(const char *word) {
+    for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
+        if (strcmp(word, gn_commands[i].name) == 0) return i;
+    return GN_COMMAND_AUTO;
+}
+
+static bool fail_command(const char *word, struct gn_err *err) {
+    const char *nearest = NULL;
+    int least = 4;
+    for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++) {
+        int distance = gn_text_distance(word, gn_commands[i].name);
+        if (distance >= least) continue;
+        least = distance;
+        nearest = gn_commands[i].name;
+    }
+    if (nearest)
+        return gn_fail_usage(err, "\"%.80s\" is neither a command nor a file; did you mean %s?",
+                             word, nearest);
+    return gn_fail_usage(err,
+                         "\"%.80s\" is neither a command nor a file; the commands are show, "
+                         "render, bench, inspect, doctor",
+                         word);
+}
+
+static bool looks_like_file(const char *word) {
+    return strpbrk(word, "./") || access(word, F_OK) == 0;
+}
+
+static bool find_command(struct args *args, struct gn_err *err) {
+    struct gn_options *options = args->options;
+    const char *first = args->words[0];
+    options->command = first ? command_of(first) : GN_COMMAND_AUTO;
+    bool bare = options->command == GN_COMMAND_AUTO;
+    if (bare && first && !looks_like_file(first)) return fail_command(first, err);
+    if (bare && args->words[1])
+        return gn_fail_usage(err, "one scene at a time; what is \"%.80s\"?", args->words[1]);
+    if (options->command == GN_COMMAND_DOCTOR && args->words[1])
+        return gn_fail_usage(err, "doctor takes no scene; what is \"%.80s\"?", args->words[1]);
+    return true;
+}
+
+static bool check_flags(const struct args *args, struct gn_err *err) {
+    enum gn_command command = args->options->command;
+    for (int i = 0; i < args->flag_count; i++)
+        if (!(args->flags[i].row->commands & (1u << command)))
+            return gn_fail_usage(
+                err, "gnomon%s%s does not take %s", gn_commands[command].name ? " " : "",
+                gn_commands[command].name ? gn_commands[command].name : "", args->flags[i].label);
+    return true;
+}
+
+/* ---- the INI file, the flags, the mode ----------------------------------------------------- */
+
+/* A kiosk with a bad file runs on with its defaults and says so; only a file that was named and is
+ * not there stops it. */
+static bool run_without_config(struct args *args, bool named, struct gn_warnings *warnings,
+                               const struct gn_err *err) {
+    struct gn_options *options = args->options;
+    if (options->command != GN_COMMAND_SHOW || (named && err->status != GN_EXIT_USAGE))
+        return false;
+    gn_options_finish(options);
+    gn_options_init(options);
+    options->command = GN_COMMAND_SHOW;
+    options->config_error = gn_arena_strdup(&options->arena, err->text);
+    gn_warn(warnings, "%s (running with the defaults)", err->text);
+    return true;
+}
+
+static bool read_config(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
+    char found[PATH_MAX];
+    const struct flag *named = find_flag(args, "config");
+    bool searches =
+        args->options->command == GN_COMMAND_AUTO || args->options->command == GN_COMMAND_SHOW;
+    if (!named && !(searches && gn_config_find(found, sizeof found))) return true;
+    struct gn_err why = {0};
+    if (gn_config_load(args->options, named ? named->text : found, &why)) return true;
+    if (run_without_config(args, named, warnings, &why)) return true;
+    *err = why;
+    return false;
+}
+
+static bool apply_flags(struct args *args, struct gn_err *err) {
+    for (int i = 0; i < args->flag_count; i++) {
+        const struct flag *flag = &args->flags[i];
+        if (!gn_options_set(args->options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
+            return false;
+    }
+    const char *scene = args->words[args->options->command != GN_COMMAND_AUTO];
+    const struct gn_option_row *row = gn_option_find_key("scene", "file");
+    return !scene || gn_options_set(args->options, row, scene, GN_SOURCE_FLAG, "SCENE", err);
+}
+
+static bool apply_mode(struct gn_options *options, struct gn_err *err) {
+    return !options->mode || options->config_error ||
+           gn_options_apply_mode(options, options->mode, err);
+}
+
+static bool understand(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
+    struct gn_options *options = args->options;
+    if (!split(args, err)) return false;
+    options->help = find_flag(args, "help");
+    options->version = find_flag(args, "version");
+    if (options->help && args->words[0]) options->command = command_of(args->words[0]);
+    if (options->help || options->version) return true;
+    return find_command(args, err) && check_flags(args, err) && read_config(args, warnings, err) &&
+           apply_flags(args, err) && apply_mode(options, err);
+}
+
+bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
+                   struct gn_warnings *warnings, struct gn_err *err) {
+    struct args args = {.options = options, .argv = argv, .argc = argc, .at = 1};
+    size_t letters = 0; /* no argument makes more flags than it has letters */
+    for (int i = 0; i < argc; i++) letters += strlen(argv[i]);
+    args.flags = gn_xalloc(letters + 1, sizeof *args.flags);
+    gn_options_init(options);
+    bool ok = understand(&args, warnings, err);
+    free(args.flags);
+    return ok;
+}

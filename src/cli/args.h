@@ -1,0 +1,15 @@
+/* The command line: flags, the command, the scene; then the INI file, then the mode. */
+#ifndef GN_CLI_ARGS_H
+#define GN_CLI_ARGS_H
+
+#include "cli/options.h"
+#include "core/warn.h"
+
+/* Fills options, which gn_options_finish() must finish also after a failure. Flags and scene may
+ * stand in any order, "--" ends the flags. `show` and the bare command look for a configuration
+ * file, the others read the one that -c names. With
+ * --help or --version nothing else is looked at or read. */
+bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
+                   struct gn_warnings *warnings, struct gn_err *err);
+
+#endif

@@ -1,0 +1,14 @@
+/* The commands, one file each. Each returns false with err filled; what it has to say to the user
+ * goes to stdout, once. */
+#ifndef GN_CLI_COMMANDS_H
+#define GN_CLI_COMMANDS_H
+
+#include "cli/options.h"
+#include "core/warn.h"
+
+typedef bool gn_cli_command(const struct gn_options *options, struct gn_warnings *warnings,
+                            struct gn_err *err);
+
+gn_cli_command gn_cli_auto, gn_cli_show, gn_cli_render, gn_cli_bench, gn_cli_inspect, gn_cli_doctor;
+
+#endif

@@ -1,0 +1,155 @@
+#include "cli/config.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/ini.h"
+#include "cli/value.h"
+#include "core/file.h"
+#include "core/text.h"
+
+#define FILE_MAX (1024 * 1024)
+
+static bool is_there(const char *path) { return access(path, F_OK) == 0; }
+
+bool gn_config_find(char *path, size_t size) {
+    const char *folder = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
+    path[0] = '\0';
+    if (folder && folder[0] == '/')
+        snprintf(path, size, "%s/gnomon/kiosk.ini", folder);
+    else if (home && home[0] == '/')
+        snprintf(path, size, "%s/.config/gnomon/kiosk.ini", home);
+    if (path[0] && is_there(path)) return true;
+    snprintf(path, size, "/etc/gnomon/kiosk.ini");
+    return is_there(path);
+}
+
+struct load {
+    struct gn_options *options;
+    const char *path;
+    struct gn_mode *modes;
+    struct gn_mode *mode;       /* whose section this is, or NULL */
+    int lines[GN_OPTION_COUNT]; /* where each was set outside of modes */
+};
+
+/* ---- sections ------------------------------------------------------------------------------ */
+
+static bool open_mode(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
+    struct gn_options *options = load->options;
+    if (!line->name)
+        return gn_fail_usage(err, "%s: a mode has a name: [mode \"NAME\"]", line->where);
+    for (int i = 0; i < options->mode_count; i++)
+        if (strcmp(load->modes[i].name, line->name) == 0)
+            return gn_fail_usage(err, "%s: mode \"%s\" is there already, in line %d", line->where,
+                                 line->name, load->modes[i].line);
+    if (options->mode_count == GN_MODES_MAX)
+        return gn_fail_usage(err, "%s: more than %d modes", line->where, GN_MODES_MAX);
+    load->mode = &load->modes[options->mode_count++];
+    load->mode->name = gn_arena_strdup(&options->arena, line->name);
+    load->mode->line = line->number;
+    return load->mode->name || gn_fail(err, "%s: no memory left", line->where);
+}
+
+static bool open_section(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
+    static const char *const plain[] = {"display", "scene", "render"};
+    load->mode = NULL;
+    if (strcmp(line->section, "mode") == 0) return open_mode(load, line, err);
+    for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
+        if (strcmp(line->section, plain[i]) == 0)
+            return !line->name ||
+                   gn_fail_usage(err, "%s: [%s] has no name", line->where, line->section);
+    return gn_fail_usage(
+        err, "%s: unknown section [%s]; expected [display], [scene], [render] or [mode \"NAME\"]",
+        line->where, line->section);
+}
+
+/* ---- settings ------------------------------------------------------------------------------ */
+
+static bool fail_key(const struct gn_ini_line *line, const char *section, struct gn_err *err) {
+    char keys[400] = "", key[64];
+    const char *nearest = NULL;
+    size_t used = 0;
+    for (int i = 0; i < GN_OPTION_COUNT && used < sizeof keys; i++) {
+        const struct gn_option_row *row = &gn_option_rows[i];
+        gn_option_key(row, key, sizeof key);
+        if (!row->section || gn_option_find_key(section, key) != row) continue;
+        if (gn_text_distance(key, line->key) <= 2) nearest = row->key ? row->key : row->name;
+        used += (size_t)snprintf(keys + used, sizeof keys - used, "%s %s", used ? "," : "", key);
+    }
+    if (!nearest)
+        return gn_fail_usage(err, "%s: unknown key \"%s\"; [%s] knows%s", line->where, line->key,
+                             line->section, keys);
+    snprintf(key, sizeof key, "%s", nearest);
+    for (char *c = key; *c; c++) *c = *c == '-' ? '_' : *c;
+    return gn_fail_usage(err, "%s: unknown key \"%s\" in [%s]; expected %s", line->where, line->key,
+                         line->section, key);
+}
+
+/* Paths are seen from the folder of the file that names them. */
+static const char *resolve(const struct load *load, const struct gn_option_row *row,
+                           const char *text, char *buffer, size_t size) {
+    const char *slash = strrchr(load->path, '/');
+    if (row->kind != GN_KIND_PATH || text[0] == '/' || text[0] == '\0' || !slash) return text;
+    snprintf(buffer, size, "%.*s%s", (int)(slash - load->path + 1), load->path, text);
+    return buffer;
+}
+
+static struct gn_setting *find_setting(struct gn_mode *mode, const struct gn_option_row *row) {
+    for (int i = 0; i < mode->count; i++)
+        if (mode->settings[i].row == row) return &mode->settings[i];
+    return NULL;
+}
+
+static bool set_in_mode(struct load *load, const struct gn_option_row *row, const char *text,
+                        const char *label, int number, struct gn_err *err) {
+    struct gn_arena *arena = &load->options->arena;
+    struct gn_setting *setting = find_setting(load->mode, row);
+    void *value =
+        setting ? (void *)setting->value : gn_arena_alloc(arena, 1, gn_value_size(row->kind));
+    if (!value) return gn_fail(err, "%s: no memory left", label);
+    if (!gn_value_parse(row, text, value, arena, label, err)) return false;
+    if (!setting)
+        load->mode->settings[load->mode->count++] = (struct gn_setting){row, value, number};
+    return true;
+}
+
+static int line_before(struct load *load, const struct gn_option_row *row) {
+    if (row->kind == GN_KIND_LIMIT) return 0; /* may be given again */
+    if (!load->mode) return load->lines[row - gn_option_rows];
+    const struct gn_setting *setting = find_setting(load->mode, row);
+    return setting ? setting->line : 0;
+}
+
+static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *err) {
+    struct load *load = user;
+    if (!line->key) return open_section(load, line, err);
+    const char *section = load->mode ? NULL : line->section;
+    const struct gn_option_row *row = gn_option_find_key(section, line->key);
+    if (!row) return fail_key(line, section, err);
+    if (line_before(load, row))
+        return gn_fail_usage(err, "%s: %s is set already, in line %d", line->where, line->key,
+                             line_before(load, row));
+    char label[400], buffer[PATH_MAX];
+    snprintf(label, sizeof label, "%s: %s", line->where, line->key);
+    const char *text = resolve(load, row, line->value, buffer, sizeof buffer);
+    if (load->mode) return set_in_mode(load, row, text, label, line->number, err);
+    load->lines[row - gn_option_rows] = line->number;
+    return gn_options_set(load->options, row, text, GN_SOURCE_INI, label, err);
+}
+
+bool gn_config_load(struct gn_options *options, const char *path, struct gn_err *err) {
+    struct gn_bytes bytes;
+    struct load load = {.options = options, .path = path};
+    if (!gn_file_read(path, FILE_MAX, &bytes, err)) return false;
+    load.modes = gn_arena_alloc(&options->arena, GN_MODES_MAX, sizeof *load.modes);
+    options->modes = load.modes;
+    options->config_path = gn_arena_strdup(&options->arena, path);
+    bool ok = load.modes && options->config_path
+                  ? gn_ini_parse(path, (const char *)bytes.data, bytes.size, on_line, &load, err)
+                  : gn_fail(err, "%s: no memory left", path);
+    gn_bytes_finish(&bytes);
+    return ok;
+}

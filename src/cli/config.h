@@ -1,0 +1,15 @@
+/* The one configuration file: where it is and what its settings mean. */
+#ifndef GN_CLI_CONFIG_H
+#define GN_CLI_CONFIG_H
+
+#include "cli/options.h"
+
+/* The first that is there of $XDG_CONFIG_HOME/gnomon/kiosk.ini (~/.config without it) and
+ * /etc/gnomon/kiosk.ini. */
+bool gn_config_find(char *path, size_t size);
+
+/* Puts the settings of a file into options. A file that cannot be read is the world's fault, one
+ * that says what it should not a usage error: file, line, key, and what was expected. */
+bool gn_config_load(struct gn_options *options, const char *path, struct gn_err *err);
+
+#endif

@@ -1,0 +1,181 @@
+#include "cli/help.h"
+
+#include <string.h>
+
+#define COLUMN 26 /* where the phrases of --help begin */
+#define WIDTH  96
+
+static const struct {
+    const char *status, *meaning;
+} exits[] = {
+    {"0", "done, also after SIGTERM or SIGINT"},
+    {"1", "the world said no: a file, a driver, a scene"},
+    {"2", "wrong usage, also a value outside its range"},
+    {"70", "gave up on the display: restart me"},
+};
+static const struct {
+    const char *path, *meaning;
+} files[] = {
+    {"$XDG_CONFIG_HOME/gnomon/kiosk.ini",
+     "the configuration, if it is there (~/.config without the variable)"},
+    {"/etc/gnomon/kiosk.ini", "else this one"},
+};
+
+/* ---- --help -------------------------------------------------------------------------------- */
+
+/* Prints words from column `at` on, wrapped before WIDTH, ends the line. */
+static void print_wrapped(FILE *to, int at, const char *text) {
+    while (*text) {
+        int length = (int)strcspn(text, " ");
+        if (at + 1 + length > WIDTH) at = fprintf(to, "\n%*s", COLUMN - 1, "") - 1;
+        at += fprintf(to, " %.*s", length, text);
+        text += length;
+        text += strspn(text, " ");
+    }
+    fputc('\n', to);
+}
+
+static void phrase(const struct gn_option_row *row, char *out, size_t size) {
+    const char *choices_or_unit = row->unit ? row->unit : "";
+    size_t used = (size_t)snprintf(out, size, "%s", row->help);
+    for (const struct gn_choice *c = row->choices; c && c->name && used < size; c++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s", c == row->choices ? ": " : ", ",
+                                 c->name);
+    if (row->fallback && used < size)
+        snprintf(out + used, size - used, " (%s%s%s)", row->fallback, choices_or_unit[0] ? " " : "",
+                 choices_or_unit);
+    else if (row->unit && used < size)
+        snprintf(out + used, size - used, " (in %s)", row->unit);
+}
+
+static void print_option(FILE *to, const struct gn_option_row *row) {
+    char text[400], letter[8] = "    ";
+    if (row->letter) snprintf(letter, sizeof letter, "-%c, ", row->letter);
+    phrase(row, text, sizeof text);
+    int at = fprintf(to, "  %s--%s%s%s", letter, row->name, row->value ? " " : "",
+                     row->value ? row->value : "");
+    if (at >= COLUMN) at = fprintf(to, "\n") - 1;
+    print_wrapped(to, at + fprintf(to, "%*s", COLUMN - 1 - at, ""), text);
+}
+
+static void print_options(FILE *to, unsigned commands) {
+    fputs("\noptions:\n", to);
+    for (int i = 0; i < GN_OPTION_COUNT; i++)
+        if (gn_option_rows[i].commands & commands) print_option(to, &gn_option_rows[i]);
+}
+
+static void print_command(FILE *to, enum gn_command command) {
+    fprintf(to, "usage: gnomon %s\n\n  %s\n", gn_commands[command].usage,
+            gn_commands[command].what);
+    print_options(to, 1u << command);
+}
+
+void gn_help_print(FILE *to, enum gn_command command) {
+    if (command != GN_COMMAND_AUTO) {
+        print_command(to, command);
+        return;
+    }
+    fputs("gnomon puts a 3-D scene with true shadows on a screen or into a file.\n\nusage:\n", to);
+    for (int i = 0; i < GN_COMMAND_COUNT; i++)
+        fprintf(to, "  gnomon %s\n      %s\n", gn_commands[i].usage, gn_commands[i].what);
+    fputs(
+        "\nA SCENE is a .glb or .gltf file; without one, the sundial inside the program is shown.\n"
+        "`gnomon COMMAND --help` lists what that command takes.\n",
+        to);
+    print_options(to, ~0u);
+}
+
+/* ---- the man page -------------------------------------------------------------------------- */
+
+static void print_roff(FILE *to, const char *text) {
+    if (*text == '.' || *text == '\'') fputs("\\&", to);
+    for (; *text; text++)
+        if (*text == '-')
+            fputs("\\-", to);
+        else if (*text == '\\')
+            fputs("\\e", to);
+        else
+            fputc(*text, to);
+}
+
+static void print_tagged(FILE *to, const char *tag, const char *text) {
+    fputs(".TP\n.B ", to);
+    print_roff(to, tag);
+    fputc('\n', to);
+    print_roff(to, text);
+    fputc('\n', to);
+}
+
+static void print_man_synopsis(FILE *to) {
+    fputs(".SH SYNOPSIS\n.nf\n", to);
+    for (int i = 0; i < GN_COMMAND_COUNT; i++) {
+        fputs("gnomon ", to);
+        print_roff(to, gn_commands[i].usage);
+        fputc('\n', to);
+    }
+    fputs(".fi\n", to);
+}
+
+static void print_man_commands(FILE *to) {
+    fputs(".SH COMMANDS\n", to);
+    for (int i = 0; i < GN_COMMAND_COUNT; i++)
+        print_tagged(to, gn_commands[i].name ? gn_commands[i].name : "(none)", gn_commands[i].what);
+}
+
+static void print_man_option(FILE *to, const struct gn_option_row *row) {
+    char tag[120], text[700], key[64];
+    int at = row->letter ? snprintf(tag, sizeof tag, "-%c, ", row->letter) : 0;
+    snprintf(tag + at, sizeof tag - (size_t)at, "--%s%s%s", row->name, row->value ? " " : "",
+             row->value ? row->value : "");
+    phrase(row, text, sizeof text);
+    size_t used = strlen(text);
+    if (row->section)
+        snprintf(text + used, sizeof text - used, ". INI: [%s] %s", row->section,
+                 gn_option_key(row, key, sizeof key));
+    used = strlen(text);
+    snprintf(text + used, sizeof text - used, ".");
+    print_tagged(to, tag, text);
+}
+
+static void print_man_options(FILE *to) {
+    fputs(".SH OPTIONS\nWhat each command takes, `gnomon COMMAND \\-\\-help` says.\n", to);
+    for (int i = 0; i < GN_OPTION_COUNT; i++)
+        if (gn_option_rows[i].commands) print_man_option(to, &gn_option_rows[i]);
+}
+
+static void print_man_files(FILE *to) {
+    fputs(".SH FILES\nExactly one configuration file is read: the one that \\-c names, else the "
+          "first there is of these,\n"
+          "and only by \\fBshow\\fP and by \\fBgnomon\\fP without a command.\n",
+          to);
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
+        print_tagged(to, files[i].path, files[i].meaning);
+    fputs(".PP\nIts sections are [display], [scene], [render] and any number of [mode \"NAME\"], "
+          "which hold settings\n"
+          "of [scene] and [render]. A key is an option's name with _ for \\-; the scene is "
+          "\\fBfile\\fP in [scene].\n"
+          "A flag beats a mode, a mode beats a section, a section beats the default. Paths are "
+          "seen from the\n"
+          "folder of the file. A comment begins with ; or, at the start of a line, with #.\n"
+          ".PP\n.nf\n[scene]\nfile = sundial.glb\n[render]\nshadow = pcf\nshadow_strength = "
+          "0.7\n[mode \"Hard\"]\n"
+          "shadow = hard\n.fi\n",
+          to);
+}
+
+void gn_help_print_man(FILE *to, const char *version) {
+    fprintf(to,
+            ".TH GNOMON 1 \"\" \"gnomon %s\"\n.SH NAME\ngnomon \\- a 3\\-D scene with true shadows "
+            "on a screen or in a file\n",
+            version);
+    print_man_synopsis(to);
+    fputs(".SH DESCRIPTION\nA SCENE is a glTF 2.0 file, .glb or .gltf; without one, the sundial "
+          "inside the program is shown.\n",
+          to);
+    print_man_commands(to);
+    print_man_options(to);
+    fputs(".SH EXIT STATUS\n", to);
+    for (size_t i = 0; i < sizeof exits / sizeof exits[0]; i++)
+        print_tagged(to, exits[i].status, exits[i].meaning);
+    print_man_files(to);
+}

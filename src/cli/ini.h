@@ -1,0 +1,31 @@
+/* INI files, strictly: one setting per line, nothing cut, nothing guessed. inih splits the lines;
+ * before it sees them this room counts them and refuses those over 190 characters, names over 48,
+ * continuation lines and bytes that are no text. */
+#ifndef GN_CLI_INI_H
+#define GN_CLI_INI_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "core/err.h"
+
+#define GN_INI_LINE_MAX 190
+#define GN_INI_NAME_MAX 48
+
+struct gn_ini_line {
+    const char *where;   /* "kiosk.ini:12" */
+    int number;          /* from 1 */
+    const char *section; /* "mode" of [mode "Soft"] */
+    const char *name;    /* "Soft", or NULL */
+    const char *key;     /* NULL: the line opens the section */
+    const char *value;
+};
+typedef bool gn_ini_handler(void *user, const struct gn_ini_line *line, struct gn_err *err);
+
+/* Calls the handler for every section and every setting, in order, and stops at the first that
+ * fails. All texts live only during the call. path is for messages, which are usage errors and
+ * begin with "path:line: ". */
+bool gn_ini_parse(const char *path, const char *text, size_t size, gn_ini_handler *handler,
+                  void *user, struct gn_err *err);
+
+#endif

@@ -1,0 +1,261 @@
+#include "cli/options.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/value.h"
+#include "frame/plan.h"
+
+#define BIT(command) (1u << GN_COMMAND_##command)
+#define KIOSK        (BIT(AUTO) | BIT(SHOW))
+#define DRAW         (KIOSK | BIT(RENDER) | BIT(BENCH))
+#define ANY          ((1u << GN_COMMAND_COUNT) - 1)
+#define FIELD(name)  offsetof(struct gn_options, name)
+
+static const struct gn_choice backends[] = {{"auto", 0}, {"kms", 0},    {"window", 0},
+                                            {"egl", 0},  {"osmesa", 0}, {0}};
+static const struct gn_choice map_formats[] = {
+    {"auto", 0}, {"depth", 0}, {"r32ui", 0}, {"r16f", 0}, {"r16f-raw", 0}, {"rgba8", 0}, {0}};
+static const struct gn_choice aovs[] = {
+    {"color", GN_AOV_COLOR},       {"visibility", GN_AOV_VISIBILITY},
+    {"distance", GN_AOV_DISTANCE}, {"normal", GN_AOV_NORMAL},
+    {"map", GN_AOV_COUNT},         {0}};
+static const struct gn_choice outputs[] = {
+    {"srgb", GN_PICTURE_SRGB}, {"linear", GN_PICTURE_LINEAR}, {0}};
+static const struct gn_choice samples[] = {{"0", 0}, {"2", 2}, {"4", 4}, {0}};
+static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};
+
+const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
+    [GN_COMMAND_AUTO] =
+        {NULL, "[OPTION..] [SCENE]",
+         "shows a scene in the best way there is: full screen, or as gnomon.png in this folder"},
+    [GN_COMMAND_SHOW] =
+        {"show", "show [OPTION..] [SCENE]",
+         "the kiosk: runs until it is told to end, and waits for a display where there is none"},
+    [GN_COMMAND_RENDER] = {"render", "render [OPTION..] [SCENE] -o FILE",
+                           "draws into a file: .png, .pfm, or frame-%04d.png with --frames"},
+    [GN_COMMAND_BENCH] =
+        {"bench", "bench [OPTION..] [SCENE]",
+         "measures: time per frame and pass, draws, triangles, bytes, first picture, memory"},
+    [GN_COMMAND_INSPECT] = {"inspect", "inspect [OPTION..] [SCENE]",
+                            "says what is in a scene, what it costs and what is wrong with it"},
+    [GN_COMMAND_DOCTOR] = {"doctor", "doctor [OPTION..]",
+                           "says what this machine can do, and the cure for what it cannot"},
+};
+
+/* clang-format off */
+const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
+    /* the scene, and how it stands */
+    {.name = "scene", .key = "file", .section = "scene", .kind = GN_KIND_PATH, .value = "FILE",
+     .help = "the scene (.glb, .gltf); on the command line it needs no flag", .offset = FIELD(scene)},
+    {.name = "camera", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N",
+     .help = "look through this camera of the scene", .commands = DRAW, .offset = FIELD(camera)},
+    {.name = "animation", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|none",
+     .help = "play only this clip; without it, all that do not collide", .commands = DRAW, .offset = FIELD(animation)},
+    {.name = "no-animation", .section = "scene", .kind = GN_KIND_FLAG,
+     .help = "leave the nodes as the file places them", .commands = DRAW, .offset = FIELD(no_animation)},
+    {.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e6, .value = "S", .unit = "seconds", .fallback = "0",
+     .help = "start at this time of the animation", .commands = DRAW, .offset = FIELD(time_ns)},
+    {.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min = -3600, .max = 3600, .value = "DEG",
+     .unit = "degrees per second", .fallback = "0",
+     .help = "turn the camera around the scene", .commands = DRAW, .offset = FIELD(turntable_deg_s)},
+    /* the picture */
+    {.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
+     .fallback = "1280x720", .help = "size of the picture", .commands = DRAW, .offset = FIELD(size)},
+    {.name = "shadow", .section = "render", .kind = GN_KIND_TEXT, .value = "TECHNIQUE", .fallback = "pcf",
+     .help = "shadow technique; bench takes a list: pcf,hard", .commands = DRAW, .offset = FIELD(shadow)},
+    {.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
+     .fallback = "1024", .help = "side of a shadow map", .commands = DRAW, .offset = FIELD(map_px)},
+    {.name = "map-format", .section = "render", .kind = GN_KIND_WORD, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
+     .help = "how a shadow map stores distance", .commands = DRAW, .offset = FIELD(map_format)},
+    {.name = "shadow-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1, .value = "X", .fallback = "1",
+     .help = "how much direct light a shadow takes away", .commands = DRAW, .offset = FIELD(shadow_strength)},
+    {.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
+     .help = "draw a mark where each light stands", .commands = DRAW, .offset = FIELD(show_lights)},
+    {.name = "light", .section = "render", .kind = GN_KIND_INT, .max = 65535, .value = "N", .fallback = "0",
+     .help = "the light that --aov visibility and map show", .commands = BIT(RENDER), .offset = FIELD(light)},
+    {.name = "aov", .section = "render", .kind = GN_KIND_CHOICE, .choices = aovs, .value = "WHAT", .fallback = "color",
+     .help = "what to draw", .commands = BIT(RENDER), .offset = FIELD(aov)},
+    {.name = "output", .section = "render", .kind = GN_KIND_CHOICE, .choices = outputs, .value = "SPACE", .fallback = "srgb",
+     .help = "linear writes linear colour as it is, for measurement", .commands = BIT(RENDER) | BIT(BENCH), .offset = FIELD(output)},
+    {.name = "exposure", .section = "render", .kind = GN_KIND_EV, .min = -24, .max = 24, .value = "auto|EV", .unit = "stops",
+     .fallback = "auto", .help = "brightness: 0 shows radiance 1 as white", .commands = DRAW, .offset = FIELD(exposure_ev)},
+    {.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices = samples, .value = "N", .unit = "samples", .fallback = "0",
+     .help = "antialiasing", .commands = DRAW, .offset = FIELD(msaa)},
+    {.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value = "DIR",
+     .help = "read the shaders from this folder", .commands = DRAW | BIT(DOCTOR), .offset = FIELD(shaders)},
+    {.name = "without", .section = "render", .kind = GN_KIND_TEXT, .value = "CAP,..",
+     .help = "pretend that these capabilities, named as doctor prints them, are missing", .commands = DRAW | BIT(DOCTOR), .offset = FIELD(without)},
+    {.name = "limit", .section = "render", .kind = GN_KIND_LIMIT, .min = 1, .max = 1099511627776.0, .value = "NAME=VALUE",
+     .help = "a bound on what a scene may ask for; may be given again", .commands = DRAW | BIT(INSPECT), .offset = FIELD(limits)},
+    /* where it goes */
+    {.name = "backend", .section = "display", .kind = GN_KIND_WORD, .choices = backends, .value = "NAME", .fallback = "auto",
+     .help = "where pictures are drawn", .commands = DRAW | BIT(DOCTOR), .offset = FIELD(backend)},
+    {.name = "connector", .section = "display", .kind = GN_KIND_TEXT, .value = "NAME",
+     .help = "the display's connector; without it, the first connected", .commands = KIOSK, .offset = FIELD(connector)},
+    {.name = "display-mode", .key = "mode", .section = "display", .kind = GN_KIND_MODE, .min = 16, .max = 16384,
+     .value = "WxH@HZ", .help = "the display's mode; without it, its current one", .commands = KIOSK, .offset = FIELD(display_mode)},
+    {.name = "rotate", .section = "display", .kind = GN_KIND_CHOICE, .choices = turns, .value = "DEG", .unit = "degrees",
+     .fallback = "0", .help = "turn the picture for a display on its side", .commands = KIOSK, .offset = FIELD(rotate_deg)},
+    {.name = "max-fps", .section = "display", .kind = GN_KIND_INT, .min = 1, .max = 1000, .value = "N", .unit = "frames per second",
+     .fallback = "60", .help = "draw no faster than this", .commands = KIOSK, .offset = FIELD(max_fps)},
+    /* the command's own */
+    {.name = "config", .letter = 'c', .kind = GN_KIND_PATH, .value = "FILE",
+     .help = "read this INI file", .commands = DRAW | BIT(INSPECT), .offset = FIELD(config)},
+    {.name = "mode", .kind = GN_KIND_TEXT, .value = "NAME",
+     .help = "start in this mode of the INI file, or with this technique", .commands = DRAW, .offset = FIELD(mode)},
+    {.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
+     .help = "write to this file; %04d in it becomes the number of the frame", .commands = BIT(RENDER), .offset = FIELD(out)},
+    {.name = "frames", .kind = GN_KIND_INT, .min = 1, .max = 1000000, .value = "N",
+     .help = "how many frames; show ends after them", .commands = BIT(SHOW) | BIT(RENDER) | BIT(BENCH), .offset = FIELD(frames)},
+    {.name = "fps", .kind = GN_KIND_NUMBER, .min = .001, .max = 1000, .value = "F", .unit = "frames per second", .fallback = "60",
+     .help = "step of time between frames", .commands = BIT(RENDER), .offset = FIELD(fps)},
+    {.name = "plan", .kind = GN_KIND_FLAG,
+     .help = "print the plan of the frame instead of drawing it", .commands = BIT(RENDER), .offset = FIELD(plan)},
+    {.name = "json", .kind = GN_KIND_FLAG,
+     .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR), .offset = FIELD(json)},
+    {.name = "self-test", .kind = GN_KIND_FLAG,
+     .help = "draw small scenes with every technique and compare them with the truth", .commands = BIT(DOCTOR), .offset = FIELD(self_test)},
+    {.name = "verbose", .letter = 'v', .kind = GN_KIND_FLAG,
+     .help = "print warnings also when the command fails", .commands = ANY, .offset = FIELD(verbose)},
+    {.name = "version", .kind = GN_KIND_FLAG,
+     .help = "print the version", .commands = ANY, .offset = FIELD(version)},
+    {.name = "help", .letter = 'h', .kind = GN_KIND_FLAG,
+     .help = "print this; after a command, what that command takes", .commands = ANY, .offset = FIELD(help)},
+};
+/* clang-format on */
+
+static size_t index_of(const struct gn_option_row *row) { return (size_t)(row - gn_option_rows); }
+
+static const struct gn_option_row *end_of_rows(void) { return gn_option_rows + GN_OPTION_COUNT; }
+
+const struct gn_option_row *gn_option_find(const char *name, size_t length) {
+    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++)
+        if (row->commands && strlen(row->name) == length && memcmp(row->name, name, length) == 0)
+            return row;
+    return NULL;
+}
+
+const struct gn_option_row *gn_option_find_letter(char letter) {
+    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++)
+        if (row->letter && row->letter == letter) return row;
+    return NULL;
+}
+
+const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t size) {
+    snprintf(buffer, size, "%s", row->key ? row->key : row->name);
+    for (char *c = buffer; *c; c++)
+        if (*c == '-') *c = '_';
+    return buffer;
+}
+
+static bool in_section(const struct gn_option_row *row, const char *section) {
+    if (!row->section) return false;
+    return section ? strcmp(row->section, section) == 0 : strcmp(row->section, "display") != 0;
+}
+
+const struct gn_option_row *gn_option_find_key(const char *section, const char *key) {
+    char buffer[64];
+    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++)
+        if (in_section(row, section) && strcmp(gn_option_key(row, buffer, sizeof buffer), key) == 0)
+            return row;
+    return NULL;
+}
+
+static void *field_of(struct gn_options *options, const struct gn_option_row *row) {
+    return (char *)options + row->offset;
+}
+
+void gn_options_init(struct gn_options *options) {
+    struct gn_err err = {0};
+    *options = (struct gn_options){0};
+    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++) {
+        bool ok = !row->fallback || gn_value_parse(row, row->fallback, field_of(options, row),
+                                                   &options->arena, row->name, &err);
+        assert(ok && "a default is in its own range");
+        (void)ok;
+    }
+}
+
+void gn_options_finish(struct gn_options *options) {
+    gn_arena_finish(&options->arena);
+    *options = (struct gn_options){0};
+}
+
+void gn_options_put(struct gn_options *options, const struct gn_option_row *row, const void *value,
+                    enum gn_source source) {
+    uint8_t *from = &options->source[index_of(row)];
+    if (*from > source) return;
+    memcpy(field_of(options, row), value, gn_value_size(row->kind));
+    *from = (uint8_t)source;
+}
+
+bool gn_options_set(struct gn_options *options, const struct gn_option_row *row, const char *text,
+                    enum gn_source source, const char *label, struct gn_err *err) {
+    _Alignas(16) char value[sizeof(struct gn_limits)] = {0};
+    if (options->source[index_of(row)] == source) /* NAME=VALUE adds */
+        memcpy(value, field_of(options, row), gn_value_size(row->kind));
+    if (!gn_value_parse(row, text, value, &options->arena, label, err)) return false;
+    gn_options_put(options, row, value, source);
+    return true;
+}
+
+enum gn_source gn_options_source(const struct gn_options *options, size_t offset) {
+    for (size_t i = 0; i < GN_OPTION_COUNT; i++)
+        if (gn_option_rows[i].offset == offset) return options->source[i];
+    assert(!"a field of the table");
+    return GN_SOURCE_DEFAULT;
+}
+
+/* ---- modes --------------------------------------------------------------------------------- */
+
+static void undo_mode(struct gn_options *options) {
+    for (size_t i = 0; i < GN_OPTION_COUNT && options->base; i++) {
+        const struct gn_option_row *row = &gn_option_rows[i];
+        if (options->source[i] != GN_SOURCE_MODE) continue;
+        memcpy(field_of(options, row), field_of(options->base, row), gn_value_size(row->kind));
+        options->source[i] = options->base->source[i];
+    }
+    options->mode_now = NULL;
+}
+
+static bool remember_base(struct gn_options *options) {
+    if (!options->base) options->base = gn_arena_alloc(&options->arena, 1, sizeof *options);
+    if (options->base) *options->base = *options;
+    return options->base;
+}
+
+static bool fail_no_mode(const struct gn_options *options, const char *name, struct gn_err *err) {
+    char names[300] = "";
+    size_t used = 0;
+    for (int i = 0; i < options->mode_count && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s \"%s\"", i ? "," : "",
+                                 options->modes[i].name);
+    return gn_fail_usage(err, "no mode \"%.48s\"; %s has%s", name, options->config_path, names);
+}
+
+static void apply_found(struct gn_options *options, const struct gn_mode *mode) {
+    for (int i = 0; i < mode->count; i++)
+        gn_options_put(options, mode->settings[i].row, mode->settings[i].value, GN_SOURCE_MODE);
+    options->mode_now = mode->name;
+}
+
+/* Without modes in an INI file each technique is one; the shadow room knows which there are. */
+static void apply_technique(struct gn_options *options, const char *name) {
+    gn_options_put(options, gn_option_find("shadow", strlen("shadow")), &name, GN_SOURCE_MODE);
+    options->mode_now = name;
+}
+
+bool gn_options_apply_mode(struct gn_options *options, const char *name, struct gn_err *err) {
+    const struct gn_mode *mode = options->modes, *end = mode + options->mode_count;
+    while (mode < end && strcmp(mode->name, name) != 0) mode++;
+    if (mode == end && options->mode_count) return fail_no_mode(options, name, err);
+    undo_mode(options);
+    if (!remember_base(options)) return gn_fail(err, "mode \"%s\": no memory left", name);
+    if (options->mode_count)
+        apply_found(options, mode);
+    else
+        apply_technique(options, name);
+    return true;
+}

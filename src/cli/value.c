@@ -1,0 +1,235 @@
+#include "cli/value.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/clock.h"
+
+bool gn_parse_int(const char *text, int64_t *out) {
+    const char *digits = text[0] == '-' ? text + 1 : text;
+    if (!digits[0] || digits[strspn(digits, "0123456789")]) return false;
+    errno = 0;
+    *out = strtoll(text, NULL, 10);
+    return errno == 0;
+}
+
+bool gn_parse_number(const char *text, double *out) {
+    char *end;
+    if (!text[0] || text[strspn(text, "+-.0123456789eE")] || !strpbrk(text, "0123456789"))
+        return false;
+    *out = strtod(text, &end);
+    return *end == '\0' && isfinite(*out);
+}
+
+typedef bool parse_fn(const struct gn_option_row *row, const char *text, void *field,
+                      struct gn_arena *arena);
+
+static bool parse_flag(const struct gn_option_row *row, const char *text, void *field,
+                       struct gn_arena *arena) {
+    static const struct gn_choice words[] = {{"yes", 1}, {"no", 0},  {"true", 1}, {"false", 0},
+                                             {"on", 1},  {"off", 0}, {"1", 1},    {"0", 0}};
+    (void)row, (void)arena;
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (strcmp(text, words[i].name) == 0) {
+            *(bool *)field = words[i].value;
+            return true;
+        }
+    return false;
+}
+
+static bool in_range(const struct gn_option_row *row, double value) {
+    return value >= row->min && value <= row->max;
+}
+
+static bool parse_int(const struct gn_option_row *row, const char *text, void *field,
+                      struct gn_arena *arena) {
+    int64_t value;
+    (void)arena;
+    if (!gn_parse_int(text, &value) || !in_range(row, (double)value)) return false;
+    *(int *)field = (int)value;
+    return true;
+}
+
+static bool parse_number(const struct gn_option_row *row, const char *text, void *field,
+                         struct gn_arena *arena) {
+    double value;
+    (void)arena;
+    if (!gn_parse_number(text, &value) || !in_range(row, value)) return false;
+    *(double *)field = value;
+    return true;
+}
+
+static bool parse_seconds(const struct gn_option_row *row, const char *text, void *field,
+                          struct gn_arena *arena) {
+    double seconds;
+    if (!parse_number(row, text, &seconds, arena)) return false;
+    *(int64_t *)field = llround(seconds * (double)GN_NS_PER_S);
+    return true;
+}
+
+/* "WxH" at the start of text; *rest is what follows. */
+static bool parse_sides(const struct gn_option_row *row, const char *text, int *width, int *height,
+                        const char **rest) {
+    int used = 0;
+    if (text[strspn(text, "0123456789")] != 'x' ||
+        sscanf(text, "%6dx%6d%n", width, height, &used) != 2)
+        return false;
+    const char *second = strchr(text, 'x') + 1;
+    *rest = text + used;
+    return second[0] >= '0' && second[0] <= '9' && in_range(row, *width) && in_range(row, *height);
+}
+
+static bool parse_size(const struct gn_option_row *row, const char *text, void *field,
+                       struct gn_arena *arena) {
+    struct gn_size size;
+    const char *rest;
+    (void)arena;
+    if (!parse_sides(row, text, &size.width_px, &size.height_px, &rest) || *rest) return false;
+    *(struct gn_size *)field = size;
+    return true;
+}
+
+static bool parse_mode(const struct gn_option_row *row, const char *text, void *field,
+                       struct gn_arena *arena) {
+    struct gn_display_mode mode = {0};
+    const char *rest;
+    (void)arena;
+    if (!parse_sides(row, text, &mode.width_px, &mode.height_px, &rest)) return false;
+    if (*rest &&
+        (*rest != '@' || !gn_parse_number(rest + 1, &mode.hz) || mode.hz < 1 || mode.hz > 1000))
+        return false;
+    *(struct gn_display_mode *)field = mode;
+    return true;
+}
+
+static bool parse_ev(const struct gn_option_row *row, const char *text, void *field,
+                     struct gn_arena *arena) {
+    if (strcmp(text, "auto") != 0) return parse_number(row, text, field, arena);
+    *(double *)field = NAN;
+    return true;
+}
+
+static const struct gn_choice *find_choice(const struct gn_option_row *row, const char *text) {
+    const struct gn_choice *choice = row->choices;
+    while (choice->name && strcmp(choice->name, text) != 0) choice++;
+    return choice->name ? choice : NULL;
+}
+
+static bool parse_choice(const struct gn_option_row *row, const char *text, void *field,
+                         struct gn_arena *arena) {
+    const struct gn_choice *choice = find_choice(row, text);
+    (void)arena;
+    if (choice) *(int *)field = choice->value;
+    return choice;
+}
+
+static bool parse_word(const struct gn_option_row *row, const char *text, void *field,
+                       struct gn_arena *arena) {
+    const struct gn_choice *choice = find_choice(row, text);
+    (void)arena;
+    if (choice) *(const char **)field = choice->name;
+    return choice;
+}
+
+static bool parse_text(const struct gn_option_row *row, const char *text, void *field,
+                       struct gn_arena *arena) {
+    (void)row;
+    if (!text[0]) return false;
+    const char *copy = gn_arena_strdup(arena, text);
+    *(const char **)field = copy;
+    return copy;
+}
+
+static bool parse_limit(const struct gn_option_row *row, const char *text, void *field,
+                        struct gn_arena *arena) {
+    struct gn_limits *limits = field;
+    const char *equals = strchr(text, '=');
+    int64_t value;
+    if (limits->count == GN_LIMITS_MAX || !equals || equals == text) return false;
+    if (!gn_parse_int(equals + 1, &value) || !in_range(row, (double)value)) return false;
+    char *name = gn_arena_strdup(arena, text);
+    if (!name) return false;
+    name[equals - text] = '\0';
+    limits->items[limits->count++] = (struct gn_limit){name, value};
+    return true;
+}
+
+typedef void expected_fn(const struct gn_option_row *row, char *out, size_t size);
+
+static void expect_flag(const struct gn_option_row *row, char *out, size_t size) {
+    (void)row;
+    snprintf(out, size, "yes or no");
+}
+
+static void expect_int(const struct gn_option_row *row, char *out, size_t size) {
+    snprintf(out, size, "a whole number from %.0f to %.0f", row->min, row->max);
+}
+
+static void expect_number(const struct gn_option_row *row, char *out, size_t size) {
+    snprintf(out, size, "a number from %.9g to %.9g", row->min, row->max);
+}
+
+static void expect_size(const struct gn_option_row *row, char *out, size_t size) {
+    snprintf(out, size, "a size WxH, each side from %.0f to %.0f", row->min, row->max);
+}
+
+static void expect_mode(const struct gn_option_row *row, char *out, size_t size) {
+    snprintf(out, size, "WxH or WxH@HZ, each side from %.0f to %.0f", row->min, row->max);
+}
+
+static void expect_ev(const struct gn_option_row *row, char *out, size_t size) {
+    snprintf(out, size, "auto or a number from %.0f to %.0f", row->min, row->max);
+}
+
+static void expect_choice(const struct gn_option_row *row, char *out, size_t size) {
+    size_t used = (size_t)snprintf(out, size, "one of");
+    for (const struct gn_choice *c = row->choices; c->name && used < size; c++)
+        used += (size_t)snprintf(out + used, size - used, "%s %s", c == row->choices ? "" : ",",
+                                 c->name);
+}
+
+static void expect_text(const struct gn_option_row *row, char *out, size_t size) {
+    snprintf(out, size, "%s (it is empty)", row->value);
+}
+
+static void expect_limit(const struct gn_option_row *row, char *out, size_t size) {
+    snprintf(out, size, "NAME=VALUE with a whole number from %.0f to %.0f, at most %d times",
+             row->min, row->max, GN_LIMITS_MAX);
+}
+
+static const struct {
+    size_t size;
+    parse_fn *parse;
+    expected_fn *expected;
+} kinds[] = {
+    [GN_KIND_FLAG] = {sizeof(bool), parse_flag, expect_flag},
+    [GN_KIND_INT] = {sizeof(int), parse_int, expect_int},
+    [GN_KIND_NUMBER] = {sizeof(double), parse_number, expect_number},
+    [GN_KIND_SECONDS] = {sizeof(int64_t), parse_seconds, expect_number},
+    [GN_KIND_SIZE] = {sizeof(struct gn_size), parse_size, expect_size},
+    [GN_KIND_MODE] = {sizeof(struct gn_display_mode), parse_mode, expect_mode},
+    [GN_KIND_EV] = {sizeof(double), parse_ev, expect_ev},
+    [GN_KIND_CHOICE] = {sizeof(int), parse_choice, expect_choice},
+    [GN_KIND_WORD] = {sizeof(const char *), parse_word, expect_choice},
+    [GN_KIND_TEXT] = {sizeof(const char *), parse_text, expect_text},
+    [GN_KIND_PATH] = {sizeof(const char *), parse_text, expect_text},
+    [GN_KIND_LIMIT] = {sizeof(struct gn_limits), parse_limit, expect_limit},
+};
+_Static_assert(sizeof kinds / sizeof kinds[0] == GN_KIND_COUNT, "a row per kind");
+
+size_t gn_value_size(enum gn_option_kind kind) { return kinds[kind].size; }
+
+void gn_value_expected(const struct gn_option_row *row, char *out, size_t size) {
+    kinds[row->kind].expected(row, out, size);
+}
+
+bool gn_value_parse(const struct gn_option_row *row, const char *text, void *field,
+                    struct gn_arena *arena, const char *label, struct gn_err *err) {
+    char expected[160];
+    if (kinds[row->kind].parse(row, text, field, arena)) return true;
+    gn_value_expected(row, expected, sizeof expected);
+    return gn_fail_usage(err, "%s: \"%.80s\" is not %s", label, text, expected);
+}

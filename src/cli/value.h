@@ -1,0 +1,21 @@
+/* Texts to values and back to words: what a value must look like, per kind of option. */
+#ifndef GN_CLI_VALUE_H
+#define GN_CLI_VALUE_H
+
+#include "cli/options.h"
+
+/* Parses text into the field (of gn_value_size bytes); all of text must be the value. Texts are
+ * kept in the arena. GN_KIND_LIMIT adds to what is in the field. A failure is a usage error:
+ * `LABEL: "TEXT" is not EXPECTED`. */
+bool gn_value_parse(const struct gn_option_row *row, const char *text, void *field,
+                    struct gn_arena *arena, const char *label, struct gn_err *err);
+size_t gn_value_size(enum gn_option_kind kind);
+
+/* "a whole number from 16 to 16384" */
+void gn_value_expected(const struct gn_option_row *row, char *out, size_t size);
+
+/* Decimal numbers in the C locale's way, all of text, without hex, inf, nan or leading space. */
+bool gn_parse_int(const char *text, int64_t *out);
+bool gn_parse_number(const char *text, double *out);
+
+#endif
