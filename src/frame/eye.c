@@ -28,7 +28,7 @@ static void turn(const struct gn_pose *pose, float angle_rad, mat4 view_from_wor
     if (angle_rad == 0.0f) return;
     vec3 centre, back;
     mat4 turned_from_world = GLM_MAT4_IDENTITY_INIT;
-    glm_vec3_center((float *)pose->box_ws.min, (float *)pose->box_ws.max, centre);
+    glm_vec3_center((float *)pose->scene->box.min, (float *)pose->scene->box.max, centre);
     glm_vec3_negate_to(centre, back);
     glm_translate(turned_from_world, centre);
     glm_rotate_y(turned_from_world, -angle_rad, turned_from_world);
