@@ -175,13 +175,14 @@ static void save(const char *folder, const char *name, const char *kind,
                  const struct gn_picture *picture) {
     char path[1024];
     struct gn_err err = {{0}, GN_EXIT_WORLD};
-    folder = folder ? folder : "build/failures";
+    bool failed = !folder;
+    if (failed) folder = "build/failures";
     make_folder(folder);
     snprintf(path, sizeof path, "%s/%s-%s.png", folder, name, kind);
-    if (gn_picture_write_png(picture, path, &err))
+    if (!gn_picture_write_png(picture, path, &err))
+        printf("  %s\n", err.text);
+    else if (failed)
         printf("  %s\n", path);
-    else
-        printf("  %s: %s\n", path, err.text);
 }
 
 static void mask_diff(const struct gn_mask_truth *truth, const struct gn_picture *shot,

@@ -59,9 +59,9 @@ void gn_mask_edges(const struct gn_mask_truth *truth, float *out);
 void gn_mask_compare(const struct gn_mask_truth *truth, const struct gn_picture *shot,
                      struct gn_mask_score *score);
 
-/* Writes <folder>/<name>-shot.png, -truth.png and -diff.png; folder is made if missing and NULL
- * means build/failures. In the difference of masks red is acne, blue is a leak, and pale red or
- * blue the same on an edge; of colours it is |a - b| x 8. Prints the paths on stdout. */
+/* Writes <folder>/<name>-shot.png, -truth.png and -diff.png; folder is made if missing. NULL means
+ * build/failures, and then the paths are printed on stdout. In the difference of masks red is acne,
+ * blue is a leak, and pale red or blue the same on an edge; of colours it is |a - b| x 8. */
 void gn_mask_save(const char *folder, const char *name, const struct gn_mask_truth *truth,
                   const struct gn_picture *shot);
 void gn_compare_save(const char *folder, const char *name, const struct gn_picture *shot,
