@@ -30,7 +30,7 @@ static void add_ground(struct gn_glb *glb) {
 static void add_box(struct gn_glb *glb, int geometry, int grid, int index) {
     float pitch = 18.0f / (float)grid, h = hash01((uint32_t)index),
           height = (.25f + .75f * h) * .9f * pitch;
-    char name[16];
+    char name[24];
     snprintf(name, sizeof name, "box %d", index);
     int mesh = gn_glb_mesh(glb, NULL, geometry, matte(glb, .4f + .5f * h, .5f, .7f - .4f * h));
     gn_glb_node(glb, &(struct gn_glb_node){

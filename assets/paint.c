@@ -122,7 +122,7 @@ static float paving_at(float u, float v, const void *what) {
     int stone, course;
     float edge = joint_distance(u, v, r->seed, &stone, &course);
     float tone =
-        0.74f + 0.2f * hash(stone, course, r->seed + 1) - 0.16f * fractal(u, v, 8, 4, r->seed + 2);
+        0.80f + 0.2f * hash(stone, course, r->seed + 1) - 0.16f * fractal(u, v, 8, 4, r->seed + 2);
     return mix(0.42f, tone, ramp(0.012f, 0.05f, edge)) - 0.06f * noise(u, v, 128, r->seed + 8);
 }
 
