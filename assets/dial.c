@@ -29,7 +29,7 @@ static void add_strip(struct gn_shape *shape, const struct strip *s) {
 static void add_ring(struct gn_shape *shape, float radius, float width) {
     float inner = radius - width / 2, outer = radius + width / 2, top = 0.005f;
     const float profile[][2] = {{outer, -BURIED}, {outer, top}, {inner, top}, {inner, -BURIED}};
-    gn_shape_lathe(shape, profile, 4, 52);
+    gn_shape_lathe(shape, profile, 4, 48);
 }
 
 /* ---- numerals ---- */

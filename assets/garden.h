@@ -1,0 +1,79 @@
+/* What the parts of the sundial scene share: its pictures and materials, and how a thing is put
+ * into it. +x is east, -z north; the court is a circle of 7 m about the origin. */
+#ifndef GN_ASSETS_GARDEN_H
+#define GN_ASSETS_GARDEN_H
+
+#include "shapes.h"
+
+#define GN_RADIANS  (float)(3.14159265358979 / 180)
+#define GN_LATITUDE 50.0f /* degrees north */
+#define GN_COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
+
+enum gn_picture { NO_PICTURE, GRAIN, PAVING, TIMBER, BUSH, LATTICE, BRANCH, PICTURES };
+enum gn_surface {
+    COURT,
+    LAWN,
+    STONE,
+    MARBLE,
+    LIME,
+    BRONZE,
+    INLAY,
+    WOOD,
+    BARK,
+    HEDGE,
+    SCREEN,
+    LEAVES,
+    IRON,
+    GLASS,
+    PANE,
+    GLOW,
+    GULL,
+    SURFACES
+};
+
+struct gn_glb;
+
+struct gn_garden {
+    struct gn_glb *glb;
+    int pictures[PICTURES], surfaces[SURFACES]; /* handles in glb */
+};
+
+struct gn_place {
+    float x, y, z; /* metres */
+    float yaw;     /* degrees about +y */
+};
+
+/* Paints the pictures and mixes the materials into garden->glb. */
+void gn_garden_init(struct gn_garden *garden, struct gn_glb *glb);
+
+/* An empty shape whose UVs suit the surface. */
+struct gn_shape gn_garden_begin(enum gn_surface surface);
+/* Makes a mesh of the shape and frees the shape. */
+int gn_garden_mesh(struct gn_garden *garden, const char *name, struct gn_shape *shape,
+                   enum gn_surface surface);
+/* Puts a mesh somewhere; `extras` is a JSON object or NULL. Returns the node. */
+int gn_garden_stand(struct gn_garden *garden, const char *name, int mesh, struct gn_place at,
+                    const char *extras);
+/* A thing that is there once, its shape already in the scene's coordinates. Frees the shape. */
+void gn_garden_put(struct gn_garden *garden, const char *name, struct gn_shape *shape,
+                   enum gn_surface surface);
+
+/* ornaments.c: what stands still */
+void gn_garden_add_portico(struct gn_garden *garden);
+void gn_garden_add_bench(struct gn_garden *garden);
+void gn_garden_add_urns(struct gn_garden *garden);
+void gn_garden_add_balls(struct gn_garden *garden);
+void gn_garden_add_globe(struct gn_garden *garden);
+void gn_garden_add_armillary(struct gn_garden *garden);
+void gn_garden_add_arches(struct gn_garden *garden);
+void gn_garden_add_canes(struct gn_garden *garden);
+void gn_garden_add_fence(struct gn_garden *garden);
+void gn_garden_add_screen(struct gn_garden *garden);
+void gn_garden_add_trees(struct gn_garden *garden);
+void gn_garden_add_cypresses(struct gn_garden *garden);
+
+/* movers.c: what moves, every twelve seconds the same way */
+void gn_garden_add_hoop(struct gn_garden *garden);
+void gn_garden_add_gull(struct gn_garden *garden);
+
+#endif
