@@ -13,7 +13,7 @@ static const float DIAL_TOP = 1.245f;
 
 static void add_ground(struct gn_garden *g) {
     struct gn_shape court = gn_garden_begin(COURT), lawn = gn_garden_begin(LAWN);
-    gn_shape_paving(&court, 1.4f, 7.1f, 10, 52);
+    gn_shape_paving(&court, 1.4f, 7.1f, 10, 48);
     gn_garden_stand(g, "Court", gn_garden_mesh(g, "court", &court, COURT), (struct gn_place){0},
                     "{\"gnomon_plane\":true}");
     gn_shape_at(&lawn, 0, -0.02f, 0);
@@ -70,7 +70,7 @@ static void add_plinth(struct gn_garden *g) {
         {1.52f, 1.16f}, {1.50f, 1.18f}, {0, 1.18f},
     };
     struct gn_shape shape = gn_garden_begin(STONE);
-    gn_shape_lathe(&shape, profile, GN_COUNT(profile), 42);
+    gn_shape_lathe(&shape, profile, GN_COUNT(profile), 36);
     gn_garden_put(g, "Plinth", &shape, STONE);
 }
 

@@ -64,7 +64,7 @@ enum { LAP = 8 }; /* seconds of key frames; the lap takes twelve seconds */
 
 /* Where the gull is at the lap's share t, and its velocity per share. */
 static void gull_at(float t, float at[3], float velocity[3]) {
-    float a = 2 * (float)M_PI * (t + .27f), w = 2 * (float)M_PI;
+    float a = 2 * (float)M_PI * (t + .2f), w = 2 * (float)M_PI;
     at[0] = -.8f + 3.3f * cosf(a), at[1] = 3.5f + .35f * sinf(2 * a), at[2] = .9f + 3.6f * sinf(a);
     velocity[0] = -3.3f * w * sinf(a), velocity[1] = .7f * w * cosf(2 * a),
     velocity[2] = 3.6f * w * cosf(a);

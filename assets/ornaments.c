@@ -17,7 +17,7 @@ static int column_mesh(struct gn_garden *g) {
     gn_shape_move(&shape, 0, -.05f, 0);
     gn_shape_block(&shape, .72f, .18f, .72f);
     gn_shape_home(&shape);
-    gn_shape_lathe(&shape, profile, GN_COUNT(profile), 24);
+    gn_shape_lathe(&shape, profile, GN_COUNT(profile), 20);
     gn_shape_move(&shape, 0, 2.48f, 0);
     gn_shape_block(&shape, .64f, .12f, .64f);
     return gn_garden_mesh(g, "column", &shape, STONE);
@@ -83,7 +83,7 @@ void gn_garden_add_urns(struct gn_garden *g) {
 void gn_garden_add_balls(struct gn_garden *g) {
     static const float balls[][3] = {{2.55f, 2.75f, .36f}, {3.2f, 2.2f, .22f}, {2.2f, 3.4f, .18f}};
     struct gn_shape shape = gn_garden_begin(STONE);
-    gn_shape_sphere(&shape, 1, 32, 16);
+    gn_shape_sphere(&shape, 1, 28, 16);
     int mesh = gn_garden_mesh(g, "ball", &shape, STONE);
     for (int i = 0; i < GN_COUNT(balls); i++) {
         char name[24];
@@ -123,7 +123,7 @@ void gn_garden_add_armillary(struct gn_garden *g) {
                       GN_LATITUDE - 90); /* the equator's ring lies square to the earth's axis */
         if (i > 0) gn_shape_turn(&rings, 'z', 90);
         if (i > 1) gn_shape_turn(&rings, 'x', 90);
-        gn_shape_torus(&rings, .46f + .018f * (float)i, .016f, 36, 6);
+        gn_shape_torus(&rings, .46f + .018f * (float)i, .016f, 32, 6);
     }
     const float c = cosf(GN_LATITUDE * GN_RADIANS), s = sinf(GN_LATITUDE * GN_RADIANS);
     gn_shape_home(&rings);
