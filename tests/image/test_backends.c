@@ -77,13 +77,13 @@ static bool runs_are_equal(const char *scene, const char *backend, const struct 
     return same;
 }
 
-/* Why OSMesa cannot be had, or NULL: only "built without" is a reason to skip. */
+/* Why OSMesa cannot be had, or NULL: only "not built in" is a reason to skip. */
 static const char *osmesa_missing(const char *scene) {
     static struct gn_err err;
     struct gn_picture picture;
     bool ok = shot_by(&picture, "osmesa", scene, &looks[0], &err);
     gn_picture_finish(&picture);
-    return !ok && strstr(err.text, "built without") ? err.text : NULL;
+    return !ok && strstr(err.text, "not built in") ? err.text : NULL;
 }
 
 int main(void) {
