@@ -102,7 +102,7 @@ EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundi
 EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb,$(suffix $f)),$f))
 
 all: $(BIN) $(SCENES) man
-tests: $(BIN) $(PROGS)
+tests: $(BIN) $(PROGS) $(HOST_ASSETS) $(SCENES)
 man: $(O)/gnomon.1
 
 $(BIN): $(call OBJ,src/main.c) $(LIB)
@@ -140,14 +140,16 @@ $(B)/gen/embedded.c: $(O)/host/embed $(B)/sources $(EMBED)
 	$(Q)$< $(foreach f,$(EMBED),$(patsubst shaders_es/%,%,$(patsubst assets/%,%,$f))=$f) > $@
 
 # ---- programs that run while building, and what they make ----------------------------------
-HOST = $(HOSTCC) -std=c11 -D_GNU_SOURCE -O2 -Wall -Wextra -Isrc -Iassets -I$(B)/gen -o $@ \
-       $(filter %.c,$^) -lm
+HOST     = $(HOSTCC) -std=c11 -D_GNU_SOURCE -O2 -Wall -Wextra -Isrc -Iassets -I$(B)/gen -o $@ \
+           $(filter %.c,$^) $(HOST_LIBS) -lm
 ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c))
+HOST_ASSETS := $(patsubst assets/%.c,$(O)/host/%,$(wildcard assets/make_*.c))
 MAN_C   := $(addprefix src/,cli/help.c cli/options.c cli/value.c core/arena.c core/err.c core/text.c)
 $(O)/host/embed: board/embed.c
 $(O)/host/man: board/man.c $(MAN_C) $(wildcard src/cli/*.h src/core/*.h) | $(B)/gen/config.h
-$(O)/host/make_%: assets/make_%.c $(ASSET_C) $(wildcard assets/*.h)
-$(O)/host/embed $(O)/host/man $(O)/host/make_sundial $(O)/host/make_bench:
+$(HOST_ASSETS): HOST_LIBS = $(shell pkg-config --cflags --libs jansson libpng)
+$(HOST_ASSETS): $(O)/host/%: assets/%.c $(ASSET_C) $(wildcard assets/*.h)
+$(O)/host/embed $(O)/host/man $(HOST_ASSETS):
 	@mkdir -p $(@D) && echo "host $@"
 	$(Q)$(HOST)
 assets/sundial.glb: $(O)/host/make_sundial

@@ -13,8 +13,10 @@ static void drop_control(char *text) {
     char *to = text;
     for (const char *from = text; *from; from++) {
         const unsigned char *c = (const unsigned char *)from;
-        if (!is_control(c)) *to++ = *from;
-        else if (*c == 0xc2) from++;
+        if (!is_control(c))
+            *to++ = *from;
+        else if (*c == 0xc2)
+            from++;
     }
     *to = '\0';
 }

@@ -5,11 +5,12 @@
 #include <stdarg.h>
 #include <stddef.h>
 
-/* Formats into out (size > 0 bytes with the ending zero), drops C0, DEL and C1 control characters and cuts what does not
- * fit at a whole UTF-8 character. */
+/* Formats into out (size > 0 bytes with the ending zero), drops C0, DEL and C1 control characters
+ * and cuts what does not fit at a whole UTF-8 character. */
 void gn_text_vformat(char *out, size_t size, const char *format, va_list args);
 
-/* How many single-character edits (insert, delete, replace) turn a into b; texts beyond 31 characters are cut. */
+/* How many single-character edits (insert, delete, replace) turn a into b; texts beyond 31
+ * characters are cut. */
 int gn_text_distance(const char *a, const char *b);
 
 #endif

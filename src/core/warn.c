@@ -20,8 +20,10 @@ void gn_warn(struct gn_warnings *warnings, const char *format, ...) {
     gn_text_vformat(text, sizeof text, format, args);
     va_end(args);
     if (is_held(warnings, text)) return;
-    if (warnings->count == GN_WARN_MAX) warnings->dropped++;
-    else memcpy(warnings->text[warnings->count++], text, sizeof text);
+    if (warnings->count == GN_WARN_MAX)
+        warnings->dropped++;
+    else
+        memcpy(warnings->text[warnings->count++], text, sizeof text);
 }
 
 void gn_warn_print(const struct gn_warnings *warnings, FILE *to) {
