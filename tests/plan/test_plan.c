@@ -1,0 +1,254 @@
+/* Plans as text against goldens, and what must hold between plans: what is drawn again, and when. A change of rendering is
+ * reviewed as the difference of a golden: GN_UPDATE=1 writes them anew. */
+#include <math.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "core/arena.h"
+#include "core/file.h"
+#include "frame/plan.h"
+#include "plan/stage_scene.h"
+
+struct fixture {
+    struct gn_scene *scene;
+    struct gn_pose pose;
+    struct gn_frame *frame;
+    struct gn_frame_opts opts;
+};
+
+static void begin(struct fixture *f, uint32_t caps) {
+    f->scene = gn_stage_scene_make();
+    gn_pose_init(&f->pose, f->scene, GN_POSE_DEFAULT);
+    gn_pose_step(&f->pose, 0);
+    struct gn_caps all = {.has = caps, .max_texture_px = 4096, .max_texture_units = 16};
+    f->frame = gn_frame_create(f->scene, &all);
+    f->opts = (struct gn_frame_opts){.encoding = GN_ENCODING_AUTO};
+}
+
+static void end(struct fixture *f) {
+    gn_frame_destroy(f->frame);
+    gn_pose_finish(&f->pose);
+    gn_scene_destroy(f->scene);
+}
+
+static const struct gn_plan *build(struct fixture *f) { return gn_frame_build(f->frame, &f->pose, &f->opts, NULL); }
+
+static const uint32_t everything = (1u << GN_CAP_COUNT) - 1;
+
+static char *print(const struct gn_plan *plan, size_t *size) {
+    char *text = NULL;
+    FILE *to = open_memstream(&text, size);
+    gn_plan_print(plan, to);
+    fclose(to);
+    return text;
+}
+
+static void expect_golden(const struct gn_plan *plan, const char *name) {
+    char path[256];
+    snprintf(path, sizeof path, "tests/plan/golden/%s.txt", name);
+    size_t size;
+    char *text = print(plan, &size);
+    struct gn_err err = {0};
+    struct gn_bytes golden = {0};
+    if (getenv("GN_UPDATE")) assert_true(gn_file_write(path, text, size, &err));
+    if (!gn_file_read(path, 0, &golden, &err)) fail_msg("%s", err.text);
+    bool same = golden.size == size && memcmp(golden.data, text, size) == 0;
+    gn_bytes_finish(&golden);
+    if (!same) print_message("%s differs from this plan (GN_UPDATE=1 accepts it):\n%s", path, text);
+    free(text);
+    assert_true(same);
+}
+
+static void test_default_plan(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    expect_golden(build(&f), "default");
+    end(&f);
+}
+
+static void test_hard_plan(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    f.opts.technique_given = true;
+    f.opts.technique = GN_TECHNIQUE_HARD;
+    expect_golden(build(&f), "hard");
+    end(&f);
+}
+
+static void test_visibility_plan(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    f.opts.aov = GN_AOV_VISIBILITY;
+    f.opts.light = 1;
+    expect_golden(build(&f), "visibility");
+    end(&f);
+}
+
+static void test_plan_without_float_and_srgb_targets(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, 1u << GN_CAP_R32UI);
+    struct gn_warnings warnings = {0};
+    f.opts.encoding = GN_ENCODING_R16F;
+    const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+    assert_int_equal(plan->output, GN_OUTPUT_LINEAR8);
+    assert_true(plan->encode_srgb);
+    assert_int_equal(plan->shadows[0].encoding, GN_ENCODING_R32UI);
+    assert_true(warnings.count > 0);
+    assert_non_null(strstr(warnings.text[0], "r16f"));
+    expect_golden(plan, "poor");
+    end(&f);
+}
+
+static uint64_t hash_of(struct fixture *f, uint32_t slot) { return build(f)->shadows[slot].content_hash; }
+
+static void test_still_scene_keeps_its_maps(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    uint64_t sun = hash_of(&f, 0), spot = hash_of(&f, 1);
+    gn_pose_step(&f.pose, 0);
+    assert_true(sun == hash_of(&f, 0));
+    assert_true(spot == hash_of(&f, 1));
+    end(&f);
+}
+
+static void test_a_millimetre_draws_again(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    uint64_t sun = hash_of(&f, 0);
+    gn_pose_step(&f.pose, 1000000); /* the mover goes 1 m/s */
+    assert_false(sun == hash_of(&f, 0));
+    end(&f);
+}
+
+static void test_no_allocation_once_grown(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    build(&f);
+    unsigned long before = gn_alloc_count();
+    for (int i = 1; i < 100; i++) {
+        gn_pose_step(&f.pose, i * 16666667);
+        build(&f);
+    }
+    assert_int_equal(gn_alloc_count(), before);
+    end(&f);
+}
+
+/* The window's corner in texels from the world's origin, which must be whole, and its texel. */
+static void corner_in_texels(const struct gn_shadow_view *view, double out[2]) {
+    mat4 map_from_light, light_inverse;
+    glm_mat4_inv_precise((vec4 *)view->light_from_world, light_inverse);
+    glm_mat4_mul((vec4 *)view->map_from_world, light_inverse, map_from_light);
+    for (int k = 0; k < 2; k++) out[k] = -(double)map_from_light[3][k] * view->map_px;
+}
+
+static void test_map_moves_by_whole_texels(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    f.opts.width_px = 100; /* a narrow view limits the window */
+    struct gn_shadow_view still = build(&f)->shadows[0];
+    int moved = 0;
+    for (int step = 1; step <= 40; step++) {
+        f.opts.turntable_rad = 0.0005f * (float)step;
+        const struct gn_shadow_view *view = &build(&f)->shadows[0];
+        double corner[2];
+        corner_in_texels(view, corner);
+        for (int k = 0; k < 2; k++) assert_true(fabs(corner[k] - round(corner[k])) < 0.02);
+        if (view->texel != still.texel) continue;
+        moved += memcmp(view->clip_from_world, still.clip_from_world, sizeof still.clip_from_world) != 0;
+        assert_true(view->near_m == still.near_m && view->far_m == still.far_m);
+        for (int c = 0; c < 4; c++) assert_true(view->clip_from_world[c][2] == still.clip_from_world[c][2]);
+    }
+    assert_true(moved > 0);
+    end(&f);
+}
+
+static void test_an_eye_that_sees_no_shadow_needs_no_caster(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    f.opts.camera = 1;
+    const struct gn_plan *plan = build(&f);
+    assert_int_equal(plan->shadow_count, 2); /* the slots stay: programs do not change with the view */
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        if (plan->passes[i].target.kind == GN_TARGET_SHADOW && plan->shadows[plan->passes[i].target.slot].content_hash == 1)
+            assert_int_equal(plan->passes[i].draw_count, 0);
+    end(&f);
+}
+
+static void test_flat_ground_is_not_in_the_map(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    const struct gn_plan *plan = build(&f);
+    for (uint32_t i = 0; i < plan->passes[0].draw_count; i++) {
+        const struct gn_draw *draw = &plan->draws[plan->passes[0].first_draw + i];
+        assert_false(f.scene->geometries[draw->geometry].flat);
+    }
+    end(&f);
+}
+
+static void test_check_finds_what_is_broken(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    struct gn_plan plan = *build(&f);
+    assert_null(gn_plan_check(&plan));
+    plan.program_count = 0;
+    assert_non_null(gn_plan_check(&plan));
+    plan = *build(&f);
+    plan.instance_count--;
+    assert_non_null(gn_plan_check(&plan));
+    plan = *build(&f);
+    plan.passes[0].clear = false;
+    assert_non_null(gn_plan_check(&plan));
+    end(&f);
+}
+
+static void test_exposure(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    assert_true(build(&f)->exposure == 1.0f); /* 2.5 lux and a little */
+    f.opts.exposure_given = true;
+    f.opts.exposure_ev = -2.0f;
+    assert_true(build(&f)->exposure == 0.25f);
+    end(&f);
+    begin(&f, everything);
+    for (uint32_t i = 0; i < f.scene->light_count; i++) glm_vec3_scale(f.scene->lights[i].color, 40000.0f, f.scene->lights[i].color);
+    float exposure = build(&f)->exposure;
+    assert_true(exposure == exp2f(roundf(log2f(exposure)))); /* a power of two */
+    float white = 2.5f * 40000.0f / GLM_PIf * exposure;
+    assert_true(white > 0.5f && white < 1.2f);
+    end(&f);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_default_plan),
+        cmocka_unit_test(test_hard_plan),
+        cmocka_unit_test(test_visibility_plan),
+        cmocka_unit_test(test_plan_without_float_and_srgb_targets),
+        cmocka_unit_test(test_still_scene_keeps_its_maps),
+        cmocka_unit_test(test_a_millimetre_draws_again),
+        cmocka_unit_test(test_no_allocation_once_grown),
+        cmocka_unit_test(test_map_moves_by_whole_texels),
+        cmocka_unit_test(test_an_eye_that_sees_no_shadow_needs_no_caster),
+        cmocka_unit_test(test_flat_ground_is_not_in_the_map),
+        cmocka_unit_test(test_check_finds_what_is_broken),
+        cmocka_unit_test(test_exposure),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
