@@ -8,9 +8,7 @@
 
 #include "core/arena.h"
 
-/* --- colours
- * ---------------------------------------------------------------------------------------------------------
- */
+/* --- colours --- */
 
 static double channel_difference(float a, float b) {
     if (a == b || (isnan(a) && isnan(b))) return 0;
@@ -41,9 +39,7 @@ bool gn_compare(const struct gn_picture *a, const struct gn_picture *b, double t
     return true;
 }
 
-/* --- edges of a mask
- * --------------------------------------------------------------------------------------------------
- */
+/* --- edges of a mask --- */
 
 /* How far the point of j lies off the plane of i. */
 static double off_plane(const struct gn_mask_truth *t, size_t i, size_t j) {
@@ -116,9 +112,7 @@ void gn_mask_edges(const struct gn_mask_truth *truth, float *out) {
     free(at);
 }
 
-/* --- masks
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- masks --- */
 
 static bool is_away(const struct gn_mask_truth *truth, const float *edges, size_t i) {
     return edges[i] > (truth->band_px ? fmaxf(2, truth->band_px[i]) : 2);
@@ -156,8 +150,7 @@ double gn_mask_leak(const struct gn_mask_score *s) { return percent(s->leak, s->
 double gn_mask_gap(const struct gn_mask_score *s) { return percent(s->gap, s->dark); }
 double gn_mask_wrong(const struct gn_mask_score *s) { return percent(s->wrong, s->pixels); }
 
-/* --- failures as pictures
- * --------------------------------------------------------------------------------------------- */
+/* --- failures as pictures --- */
 
 static void make_folder(const char *path) {
     char part[512];

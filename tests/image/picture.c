@@ -29,8 +29,8 @@ static bool size_is_sane(long width, long height) {
     return width > 0 && height > 0 && width <= SIDE_MAX && height <= SIDE_MAX;
 }
 
-/* --- PFM: "Pf" or "PF", width, height, scale (negative: little-endian), one white space, rows from
- * the bottom up -------- */
+/* PFM: "Pf" or "PF", width, height, scale (negative: little-endian), one white space, rows from the
+ * bottom up */
 
 static float pfm_float(const uint8_t b[4], bool little) {
     uint32_t bits =
@@ -67,9 +67,7 @@ static bool read_pfm(struct gn_picture *picture, FILE *file, const char *path, s
     return gn_fail(err, "%s: bytes after the last row", path);
 }
 
-/* --- PNG
- * -------------------------------------------------------------------------------------------------------------
- */
+/* --- PNG --- */
 
 static void png_failed(png_structp png, png_const_charp message) {
     gn_fail(png_get_error_ptr(png), "%s", message);

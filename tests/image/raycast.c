@@ -22,8 +22,7 @@ static void normalise(double v[3]) {
         for (int k = 0; k < 3; k++) v[k] /= length;
 }
 
-/* --- the scene as triangles
- * ------------------------------------------------------------------------------------------ */
+/* --- the scene as triangles --- */
 
 static uint32_t item_flags(const struct gn_scene *scene, const struct gn_item *item,
                            bool mirrored) {
@@ -72,9 +71,7 @@ void gn_raycast_finish(struct gn_raycast *rays) {
 
 bool gn_raycast_casts(const struct gn_bvh_triangle *triangle) { return triangle->flags & CASTS; }
 
-/* --- holes
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- holes --- */
 
 static uint32_t wrap(int64_t i, uint32_t size, enum gn_wrap how) {
     int64_t n = size;
@@ -139,9 +136,7 @@ static bool is_hole(const struct gn_scene *scene, const struct gn_bvh_triangle *
            alpha_at(scene, t, hit) < scene->materials[scene->items[t->item].material].alpha_cutoff;
 }
 
-/* --- the eye
- * ---------------------------------------------------------------------------------------------------------
- */
+/* --- the eye --- */
 
 void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera,
                      int width_px, int height_px) {
@@ -211,9 +206,7 @@ bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_ray_eye *eye,
     return true;
 }
 
-/* --- lights
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- lights --- */
 
 void gn_ray_lamp_init(struct gn_ray_lamp *lamp, const struct gn_pose *pose, uint32_t light) {
     const struct gn_light *l = &pose->scene->lights[light];

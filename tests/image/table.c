@@ -12,9 +12,7 @@
 #include "core/hash.h"
 #include "image/shot.h"
 
-/* --- scenes
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- scenes --- */
 
 static bool generate(const char *generator, bool contact, const char *folder, struct gn_err *err) {
     char making[600];
@@ -55,9 +53,7 @@ char *gn_table_scenes(bool contact, struct gn_err *err) {
     return NULL;
 }
 
-/* --- measuring
- * ---------------------------------------------------------------------------------------------------------
- */
+/* --- measuring --- */
 
 void gn_table_add(struct gn_table *table, const char *technique, const char *format,
                   unsigned map_px) {
@@ -164,9 +160,7 @@ void gn_table_run(struct gn_table *table) {
     if (two) pthread_join(other, NULL);
 }
 
-/* --- judging
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- judging --- */
 
 static const char *const fault_names[GN_FAULT_COUNT] = {"acne", "leak", "gap", "wrong"};
 
@@ -297,9 +291,7 @@ void gn_table_save_failures(const struct gn_table *table) {
     }
 }
 
-/* --- contacts
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- contacts --- */
 
 static bool measure_contact(const char *path, const struct gn_table_row *row,
                             struct gn_contact *contact, struct gn_truth *truth, FILE *to) {

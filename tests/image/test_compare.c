@@ -169,9 +169,7 @@ static void test_colours_by_tolerance_and_share(void **state) {
     gn_picture_finish(&c);
 }
 
-/* --- pictures on disk
- * -----------------------------------------------------------------------------------------------------
- */
+/* --- pictures on disk --- */
 
 static const char *scratch(const char *name) {
     static char path[300];
@@ -305,9 +303,7 @@ static void test_failure_leaves_three_pictures(void **state) {
     rmdir(scratch("failures"));
 }
 
-/* --- running programs
- * -----------------------------------------------------------------------------------------------------
- */
+/* --- running programs --- */
 
 static void test_runs_programs(void **state) {
     (void)state;

@@ -17,9 +17,7 @@
 static struct gn_dice dice;
 static double between(double low, double high) { return gn_dice_between(&dice, low, high); }
 
-/* --- a scene in memory
- * ------------------------------------------------------------------------------------------------
- */
+/* --- a scene in memory --- */
 
 enum { THINGS = 8, VERTICES = 24 * THINGS, INDICES = 36 * THINGS };
 struct small {
@@ -125,9 +123,7 @@ static const struct gn_ray_eye front_eye = {.position_ws = {0, 0, 5},
                                             .width_px = 100,
                                             .height_px = 100};
 
-/* --- what the eye sees
- * -------------------------------------------------------------------------------------------------
- */
+/* --- what the eye sees --- */
 
 /* A quad at z = 0 that fills the view, its front towards the eye unless turned; a wall at z = -1
  * behind it. */
@@ -194,9 +190,7 @@ static void test_eye_looks_through_the_middle_of_pixels(void **state) {
     gn_raycast_finish(&rays);
 }
 
-/* --- holes
- * -------------------------------------------------------------------------------------------------------------
- */
+/* --- holes --- */
 
 struct hole_case {
     enum gn_wrap wrap;
@@ -263,9 +257,7 @@ static void test_vertex_alpha_makes_holes(void **state) {
     gn_raycast_finish(&rays);
 }
 
-/* --- shadows
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- shadows --- */
 
 /* Keeps of lo..hi the t at which a + b t lies in min..max. */
 static void slab(double a, double b, double min, double max, double *lo, double *hi) {
@@ -395,9 +387,7 @@ static void test_turned_away_is_dark(void **state) {
     gn_raycast_finish(&rays);
 }
 
-/* --- area lights
- * -------------------------------------------------------------------------------------------------------
- */
+/* --- area lights --- */
 
 /* Share of a unit disk left of x = cut. */
 static double left_of(double cut) {

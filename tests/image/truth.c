@@ -27,9 +27,7 @@ struct header {
     struct gn_truth_frame frame;
 };
 
-/* --- making
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- making --- */
 
 struct job {
     const struct gn_raycast *rays;
@@ -66,9 +64,7 @@ static void cast_all(struct job *job, int threads) {
     while (started) pthread_join(thread[--started], NULL);
 }
 
-/* --- the light's plane
- * ------------------------------------------------------------------------------------------------
- */
+/* --- the light's plane --- */
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -193,9 +189,7 @@ static bool make(struct gn_truth_frame *frame, struct pixel *pixels, const struc
     return true;
 }
 
-/* --- keeping
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- keeping --- */
 
 /* From the cached form to the arrays of the mask, all in one block. */
 static void unpack(struct gn_truth *truth, const struct gn_truth_frame *frame,
@@ -307,9 +301,7 @@ void gn_truth_finish(struct gn_truth *truth) {
     *truth = (struct gn_truth){0};
 }
 
-/* --- measures
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- measures --- */
 
 double gn_truth_texel(const struct gn_truth *truth, unsigned map_px) {
     return truth->frame.extent / map_px;
