@@ -236,6 +236,7 @@ static bool allocate(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     uint64_t vertices = 0, corners = 0;
     bool any[GN_ATTRIBUTES] = {false};
+    struct gn_at root = gn_at_root(g), meshes = gn_at_any(&root, "meshes");
     for (size_t i = 0; i < g->vertices_count; i++) vertices += g->vertices[i].count;
     for (size_t i = 0; i < scene->geometry_count; i++) {
         const struct gn_shape *shape = &g->shapes[i];
@@ -244,10 +245,10 @@ static bool allocate(struct gn_gltf *g) {
         for (int k = 0; k < GN_ATTRIBUTES; k++) any[k] |= shape->attribute[k] >= 0;
     }
     if (vertices > g->limits.vertices)
-        return gn_gltf_fail(g, NULL, "%" PRIu64 " vertices are more than the limit vertices=%" PRIu64,
+        return gn_gltf_fail(g, &meshes, "%" PRIu64 " vertices are more than the limit vertices=%" PRIu64,
                             vertices, g->limits.vertices);
     if (corners > UINT32_MAX)
-        return gn_gltf_fail(g, NULL, "%" PRIu64 " indices are more than can be drawn", corners);
+        return gn_gltf_fail(g, &meshes, "%" PRIu64 " indices are more than can be drawn", corners);
     scene->geometries = gn_gltf_alloc(g, g->arena, scene->geometry_count, sizeof *scene->geometries);
     scene->positions = gn_gltf_alloc(g, g->arena, vertices, 3 * sizeof *scene->positions);
     scene->normals = gn_gltf_alloc(g, g->arena, vertices, 3 * sizeof *scene->normals);

@@ -13,6 +13,15 @@ static uint32_t u32(const uint8_t *p) {
     return (uint32_t) p[0] | (uint32_t) p[1] << 8 | (uint32_t) p[2] << 16 | (uint32_t) p[3] << 24;
 }
 
+static bool has_bom(const uint8_t *text, size_t size) {
+    return size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0;
+}
+
+static bool parse(struct gn_gltf *g, const uint8_t *text, size_t size, size_t offset) {
+    size_t skip = has_bom(text, size) ? 3 : 0;
+    return gn_gltf_parse(g, (const char *) text + skip, size - skip, offset + skip);
+}
+
 /* ---- .glb ---- */
 
 static bool check_header(struct gn_gltf *g, const uint8_t *data, size_t *size) {
@@ -39,7 +48,7 @@ static bool take_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
         return gn_gltf_fail(g, NULL, "byte %zu: the first chunk must be JSON", at + 4);
     if (at == HEADER) {
         while (length > 0 && body[length - 1] == 0) length--; /* some pad with zeros */
-        return gn_gltf_parse(g, (const char *) body, length, at + CHUNK);
+        return parse(g, body, length, at + CHUNK);
     }
     if (type == CHUNK_JSON)
         return gn_gltf_fail(g, NULL, "byte %zu: a second JSON chunk", at);
@@ -66,11 +75,11 @@ static bool open_glb(struct gn_gltf *g, const uint8_t *data, size_t size) {
 /* ---- .gltf ---- */
 
 static bool open_json(struct gn_gltf *g, const uint8_t *data, size_t size) {
-    size_t bom = size >= 3 && memcmp(data, "\xef\xbb\xbf", 3) == 0 ? 3 : 0, start = bom;
+    size_t start = has_bom(data, size) ? 3 : 0;
     while (start < size && data[start] && strchr(" \t\r\n", data[start])) start++;
     if (start == size || data[start] != '{')
         return gn_gltf_fail(g, NULL, "byte %zu: neither .glb ('glTF') nor .gltf ('{')", start);
-    return gn_gltf_parse(g, (const char *) data + bom, size - bom, bom);
+    return parse(g, data, size, 0);
 }
 
 bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {

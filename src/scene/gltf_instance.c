@@ -68,13 +68,14 @@ static void fill(struct gn_gltf *g, const struct copies *copies, mat4 *out) {
 
 bool gn_gltf_instances(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
+    struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes");
     uint64_t total = 0;
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         struct gn_placed *placed = &g->placed[i];
         if (placed->mesh < 0) continue;
         struct copies copies = read_copies(g, placed);
         if (copies.count > g->limits.instances - total)
-            return gn_gltf_fail(g, NULL, "more copies than the limit instances=%" PRIu64,
+            return gn_gltf_fail(g, &nodes, "more copies than the limit instances=%" PRIu64,
                                 g->limits.instances);
         placed->first_instance = (uint32_t) total;
         placed->instance_count = (uint32_t) copies.count;

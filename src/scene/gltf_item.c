@@ -25,15 +25,24 @@ static void add(struct gn_gltf *g, uint32_t node, const struct gn_draw *draw) {
     }
 }
 
+static bool refuse_empty(struct gn_gltf *g) {
+    struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes"), meshes = gn_at_any(&root, "meshes");
+    if (g->is_missing[GN_MISSING_DRACO])
+        return gn_gltf_fail(g, &meshes, "KHR_draco_mesh_compression is not supported; decompress them "
+                            "first (gltf-transform can)");
+    return gn_gltf_fail(g, &nodes, "the scene is empty: no node of it has a mesh with triangles");
+}
+
 bool gn_gltf_items(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     if (!gn_gltf_instances(g)) return false;
     uint64_t total = 0;
+    struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes");
     for (uint32_t i = 0; i < scene->node_count; i++)
         if (g->placed[i].mesh >= 0)
             total += (uint64_t) copies_of(&g->placed[i]) * g->meshes[g->placed[i].mesh].draw_count;
     if (total > g->limits.instances)
-        return gn_gltf_fail(g, NULL, "%" PRIu64 " things to draw are more than the limit instances=%"
+        return gn_gltf_fail(g, &nodes, "%" PRIu64 " things to draw are more than the limit instances=%"
                             PRIu64, total, g->limits.instances);
     scene->items = gn_gltf_alloc(g, g->arena, total, sizeof *scene->items);
     if (!scene->items) return false;
@@ -44,11 +53,5 @@ bool gn_gltf_items(struct gn_gltf *g) {
             if (scene->geometries[draw->geometry].index_count > 0) add(g, i, draw);
         }
     }
-    if (scene->item_count == 0) {
-        bool draco = g->is_missing[GN_MISSING_DRACO];
-        return gn_gltf_fail(g, NULL, draco ? "its meshes are compressed with KHR_draco_mesh_compression, "
-                                             "which is not supported; decompress it first (gltf-transform can)"
-                                           : "the scene is empty: no node of it has a mesh with triangles");
-    }
-    return true;
+    return scene->item_count > 0 || refuse_empty(g);
 }

@@ -228,6 +228,6 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     }
     for (size_t i = 0; i < count && !g->failed; i++) lay_out(&tree, root_of(&tree, listed[i], roots));
     if (!g->failed && g->scene->node_count == 0)
-        return gn_gltf_fail(g, scene.json ? &scene : NULL, "the scene is empty: it lists no node");
+        return gn_gltf_fail(g, scene.json ? &scene : &tree.array, "the scene is empty: there is no node");
     return !g->failed;
 }
