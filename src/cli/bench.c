@@ -1,0 +1,280 @@
+/* gnomon bench: what a scene costs. Techniques take turns in blocks of a few frames, so that
+ * whatever else the machine does hits them all alike. The order of things matters: the start is
+ * timed before anything else has run, the driver's cache and the empty context are looked at when
+ * that is over, memory when all programs and targets are there, and the passes, which need a
+ * read-back each, come last. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/bench_report.h"
+#include "cli/commands.h"
+#include "cli/driver_cache.h"
+#include "cli/memory.h"
+#include "cli/stage.h"
+#include "core/arena.h"
+#include "core/clock.h"
+
+enum { WARM_UP = 10, BLOCK = 6, FRAMES_DEFAULT = 60, FPS = 60, MS_NS = 1000000 };
+
+struct entry { /* a technique that takes part */
+    struct gn_frame_opts opts;
+    struct gn_bench_run *run;
+    uint32_t frame; /* steps of animation so far */
+    double *ms;     /* of timed frames; those so far: run->frames */
+    int64_t cpu_ns;
+    uint64_t allocations; /* in timed frames, of memory and GL objects: there should be none */
+};
+
+struct bench {
+    const struct gn_options *options;
+    struct gn_warnings *warnings;
+    struct gn_stage stage;
+    struct gn_memory_probe probe;
+    struct gn_bench_report report;
+    struct entry entries[GN_TECHNIQUE_COUNT];
+    double *pass_ms;
+    uint32_t frames, pass_room;
+    int64_t start_ns;
+};
+
+/* ---- what takes part ---- */
+
+static bool add_entry(struct bench *b, const char *name, struct gn_err *err) {
+    enum gn_technique technique;
+    if (!gn_technique_find(name, &technique, err)) return false;
+    uint32_t count = b->report.run_count;
+    for (uint32_t i = 0; i < count; i++)
+        if (b->entries[i].opts.technique == technique)
+            return gn_fail_usage(err, "--shadow %s: %s is there twice", b->options->shadow, name);
+    b->entries[count].opts.technique = technique;
+    b->entries[count].opts.technique_given = true;
+    b->report.run_count++;
+    return true;
+}
+
+/* The names between the commas; without --shadow one entry, as the scene has it. */
+static bool choose_entries(struct bench *b, struct gn_err *err) {
+    if (!gn_options_given(b->options, shadow) || !b->options->shadow) {
+        b->report.run_count = 1;
+        return true;
+    }
+    for (const char *at = b->options->shadow;; at++) {
+        char name[32];
+        size_t length = strcspn(at, ",");
+        snprintf(name, sizeof name, "%.*s", (int)(length < 31 ? length : 31), at);
+        if (!add_entry(b, name, err)) return false;
+        at += length;
+        if (!*at) return true;
+    }
+}
+
+static void prepare_entries(struct bench *b) {
+    b->frames = b->options->frames > 0 ? (uint32_t)b->options->frames : FRAMES_DEFAULT;
+    b->report.runs = gn_xalloc(b->report.run_count, sizeof *b->report.runs);
+    for (uint32_t i = 0; i < b->report.run_count; i++) {
+        struct entry *e = &b->entries[i];
+        struct gn_frame_opts opts = b->stage.frame_opts;
+        opts.technique_given = e->opts.technique_given;
+        opts.technique = e->opts.technique;
+        e->opts = opts;
+        e->run = &b->report.runs[i];
+        e->ms = gn_xalloc(b->frames, sizeof *e->ms);
+    }
+}
+
+/* ---- frames ---- */
+
+static int64_t time_of(const struct bench *b, uint32_t frame) {
+    return b->options->time_ns + (int64_t)frame * GN_NS_PER_S / FPS;
+}
+
+static const struct gn_plan *prepare_frame(struct bench *b, const struct entry *e, uint32_t frame,
+                                           struct gn_err *err) {
+    struct gn_stage *stage = &b->stage;
+    stage->frame_opts = e->opts;
+    int64_t time_ns = time_of(b, frame);
+    double turn_deg = fmod(b->options->turntable_deg_s * ((double)time_ns * 1e-9), 360.0);
+    stage->frame_opts.turntable_rad = glm_rad((float)turn_deg);
+    gn_pose_step(&stage->pose, time_ns);
+    const struct gn_plan *plan =
+        gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, b->warnings);
+    return gn_gl_prepare(stage->gl, plan, err) ? plan : NULL;
+}
+
+static bool draw_frame(struct bench *b, const struct entry *e, uint32_t frame, struct gn_err *err) {
+    const struct gn_plan *plan = prepare_frame(b, e, frame, err);
+    if (!plan || !gn_gl_run(b->stage.gl, plan, NULL, err)) return false;
+    gn_gl_finish_frame(b->stage.gl);
+    return true;
+}
+
+static uint64_t allocations(const struct bench *b) {
+    return gn_alloc_count() + gn_gl_stats(b->stage.gl).objects_created;
+}
+
+static bool time_frame(struct bench *b, struct entry *e, struct gn_err *err) {
+    uint64_t before = allocations(b);
+    int64_t wall_ns = gn_clock_monotonic_ns(), cpu_ns = gn_clock_process_cpu_ns();
+    if (!draw_frame(b, e, e->frame, err)) return false;
+    e->cpu_ns += gn_clock_process_cpu_ns() - cpu_ns;
+    e->ms[e->run->frames++] = (double)(gn_clock_monotonic_ns() - wall_ns) / MS_NS;
+    e->frame++;
+    e->allocations += allocations(b) - before;
+    return true;
+}
+
+static bool warm_up(struct bench *b, struct entry *e, struct gn_err *err) {
+    for (; e->frame < WARM_UP; e->frame++)
+        if (!draw_frame(b, e, e->frame, err)) return false;
+    return true;
+}
+
+/* The first frame of a block is drawn a second time, untimed: it follows another technique's, whose
+ * programs and maps lie in the processor's caches. */
+static bool time_block(struct bench *b, struct entry *e, struct gn_err *err) {
+    if (!draw_frame(b, e, e->frame - 1, err)) return false;
+    for (int i = 0; i < BLOCK && e->run->frames < b->frames; i++)
+        if (!time_frame(b, e, err)) return false;
+    e->run->stats = gn_gl_stats(b->stage.gl);
+    return true;
+}
+
+static bool time_frames(struct bench *b, struct gn_err *err) {
+    uint32_t count = b->report.run_count;
+    for (uint32_t i = 0; i < count; i++)
+        if (!warm_up(b, &b->entries[i], err)) return false;
+    for (uint32_t done = 0; done < b->frames; done += BLOCK)
+        for (uint32_t i = 0; i < count; i++)
+            if (!time_block(b, &b->entries[i], err)) return false;
+    return true;
+}
+
+/* ---- passes ---- */
+
+static bool time_passes_once(struct bench *b, struct entry *e, struct gn_err *err) {
+    const struct gn_plan *plan = prepare_frame(b, e, e->frame++, err);
+    if (!plan) return false;
+    if (plan->pass_count > b->pass_room)
+        b->pass_ms = gn_xrealloc(b->pass_ms, b->pass_room = plan->pass_count, sizeof *b->pass_ms);
+    if (!gn_gl_run(b->stage.gl, plan, b->pass_ms, err)) return false;
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        gn_bench_add_pass(e->run, plan->passes[i].label, b->pass_ms[i] / b->frames);
+    return true;
+}
+
+static bool time_passes(struct bench *b, struct gn_err *err) {
+    for (uint32_t i = 0; i < b->report.run_count; i++)
+        for (uint32_t n = 0; n < b->frames; n++)
+            if (!time_passes_once(b, &b->entries[i], err)) return false;
+    return true;
+}
+
+/* ---- what was found out ---- */
+
+/* Adds "+name" unless it is there. */
+static void add_name(char *list, size_t size, const char *name) {
+    size_t length = strlen(name), used = strlen(list);
+    for (const char *at = list; *at; at += strcspn(at, "+"), at += *at == '+')
+        if (strncmp(at, name, length) == 0 && (at[length] == '+' || !at[length])) return;
+    snprintf(list + used, size - used, "%s%s", used ? "+" : "", name);
+}
+
+/* What the lights of the picture really use. */
+static void describe(struct gn_bench_run *run, const struct entry *e, const struct gn_plan *plan) {
+    for (uint32_t i = 0; i < plan->shadow_count; i++) {
+        const struct gn_shadow_view *view = &plan->shadows[i];
+        add_name(run->map_format, sizeof run->map_format, gn_encodings[view->encoding].name);
+        if (!e->opts.technique_given)
+            add_name(run->technique, sizeof run->technique, gn_techniques[view->technique].name);
+    }
+    if (e->opts.technique_given)
+        add_name(run->technique, sizeof run->technique, gn_techniques[e->opts.technique].name);
+    if (!run->technique[0]) add_name(run->technique, sizeof run->technique, "none");
+    if (!run->map_format[0]) add_name(run->map_format, sizeof run->map_format, "none");
+}
+
+static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
+    const struct gn_plan *plan = prepare_frame(b, e, e->frame, err);
+    if (!plan) return false;
+    struct gn_bench_run *run = e->run;
+    describe(run, e, plan);
+    run->output = b->options->output == GN_PICTURE_LINEAR ? "linear" : "srgb";
+    run->ms_median = gn_bench_quantile(e->ms, run->frames, .5);
+    run->ms_p95 = gn_bench_quantile(e->ms, run->frames, .95);
+    run->cpu_ms = (double)e->cpu_ns / MS_NS / run->frames;
+    run->idle = !b->stage.pose.animated && b->options->turntable_deg_s == 0;
+    if (e->allocations > 0)
+        gn_warn(b->warnings, "%s: timed frames asked for memory or GL objects %llu times",
+                run->technique, (unsigned long long)e->allocations);
+    return true;
+}
+
+/* ---- the start ---- */
+
+static bool draw_first_picture(struct bench *b, struct gn_err *err) {
+    size_t pixels = (size_t)b->options->size.width_px * (size_t)b->options->size.height_px;
+    uint8_t *rgba = gn_xalloc(pixels, 4);
+    bool ok = draw_frame(b, &b->entries[0], 0, err) && gn_gl_read_rgba8(b->stage.gl, rgba, err);
+    b->report.start_ms = (double)(gn_clock_monotonic_ns() - b->start_ns) / MS_NS;
+    free(rgba);
+    return ok;
+}
+
+static bool start(struct bench *b, struct gn_err *err) {
+    const struct gn_options *o = b->options;
+    if (!choose_entries(b, err) || !gn_stage_load(&b->stage, o, b->warnings, err)) return false;
+    struct gn_driver_cache before = gn_driver_cache_read();
+    prepare_entries(b);
+    if (!gn_stage_open(&b->stage, b->warnings, err) || !draw_first_picture(b, err)) return false;
+    b->report.private_dirty_empty_context_mb = gn_memory_probe_read(&b->probe);
+    struct gn_driver_cache after = gn_driver_cache_read();
+    b->report.cache_warm = gn_driver_cache_warm(&before, &after);
+    b->report.renderer = gn_gl_caps(b->stage.gl)->renderer;
+    b->report.scene = o->scene ? o->scene : "(default scene)";
+    b->report.width_px = (uint32_t)o->size.width_px;
+    b->report.height_px = (uint32_t)o->size.height_px;
+    return true;
+}
+
+static bool measure(struct bench *b, struct gn_err *err) {
+    if (!start(b, err) || !time_frames(b, err)) return false;
+    b->report.private_dirty_mb = gn_memory_private_dirty_mb();
+    if (!time_passes(b, err)) return false;
+    for (uint32_t i = 0; i < b->report.run_count; i++)
+        if (!finish_run(b, &b->entries[i], err)) return false;
+    return true;
+}
+
+static bool print(const struct bench *b, struct gn_err *err) {
+    if (b->options->json && !gn_bench_print_json(&b->report, stdout, err)) return false;
+    if (!b->options->json) gn_bench_print(&b->report, stdout);
+    return fflush(stdout) == 0 && !ferror(stdout) ? true
+                                                  : gn_fail(err, "cannot write to the output");
+}
+
+static void finish(struct bench *b) {
+    for (uint32_t i = 0; i < b->report.run_count; i++) {
+        free(b->entries[i].ms);
+        if (b->report.runs) free(b->report.runs[i].passes);
+    }
+    free(b->report.runs);
+    free(b->pass_ms);
+    gn_memory_probe_close(&b->probe);
+    gn_stage_close(&b->stage);
+}
+
+/* The process began when its clock of CPU time did: until here it has not waited for anything. The
+ * kernel's own figure counts in steps of 10 ms. */
+bool gn_cli_bench(const struct gn_options *options, struct gn_warnings *warnings,
+                  struct gn_err *err) {
+    struct bench b = {
+        .options = options,
+        .warnings = warnings,
+        .start_ns = gn_clock_monotonic_ns() - gn_clock_process_cpu_ns(),
+    };
+    gn_memory_probe_open(&b.probe, options->backend);
+    bool ok = measure(&b, err) && print(&b, err);
+    finish(&b);
+    return ok;
+}

@@ -1,0 +1,49 @@
+/* What `gnomon bench` has found out, and the two ways to say it. */
+#ifndef GN_CLI_BENCH_REPORT_H
+#define GN_CLI_BENCH_REPORT_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "core/err.h"
+#include "gl/gl.h"
+
+struct gn_bench_pass {
+    char label[48]; /* of the plan's pass; passes of one label are one */
+    double ms; /* per frame: wall clock around the pass and a read-back, from a run of its own */
+};
+
+struct gn_bench_run { /* one technique */
+    char technique[32];
+    char map_format[32]; /* what its maps were, "none" without any; "depth+r16f" if they differ */
+    const char *output;  /* "srgb", "linear" */
+    uint32_t frames;
+    double ms_median, ms_p95;     /* wall clock of a frame, read-back included */
+    double cpu_ms;                /* CPU time of the process, all threads, per frame */
+    struct gn_bench_pass *passes; /* in the order of the plan */
+    uint32_t pass_count;
+    struct gn_gl_stats stats; /* of the last timed frame. target_bytes: of all techniques so far */
+    bool idle;                /* the kiosk would draw nothing: no clip, no turntable */
+};
+
+struct gn_bench_report {
+    const char *renderer, *scene;
+    uint32_t width_px, height_px;
+    double start_ms; /* from the start of the process until the first picture is read back */
+    bool cache_warm; /* that picture needed nothing that the driver had not compiled before */
+    double private_dirty_mb, private_dirty_empty_context_mb; /* 2^20 bytes; NAN: not known */
+    struct gn_bench_run *runs;
+    uint32_t run_count;
+};
+
+/* The value below which a share 0..1 of the values lies (nearest rank); sorts them. count > 0. */
+double gn_bench_quantile(double *values, uint32_t count, double share);
+/* Adds ms to the pass of that label, which is made if it is not there. */
+void gn_bench_add_pass(struct gn_bench_run *run, const char *label, double ms);
+
+/* Aligned, for people: one row a technique; the ratio is that of cpu_ms to the first row's. */
+void gn_bench_print(const struct gn_bench_report *report, FILE *to);
+/* One JSON object, the fields in the order of the contract; what is not known is null. */
+bool gn_bench_print_json(const struct gn_bench_report *report, FILE *to, struct gn_err *err);
+
+#endif

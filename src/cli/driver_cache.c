@@ -1,0 +1,61 @@
+#include "cli/driver_cache.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+enum { DEPTH_MAX = 3 }; /* the cache has folders of two digits, a database one of parts */
+
+static void add_folder(struct gn_driver_cache *cache, const char *path, int depth);
+
+static void add_entry(struct gn_driver_cache *cache, const char *path, int depth) {
+    struct stat info;
+    if (lstat(path, &info) < 0) return;
+    if (S_ISDIR(info.st_mode) && depth < DEPTH_MAX) add_folder(cache, path, depth + 1);
+    if (!S_ISREG(info.st_mode)) return;
+    cache->files++;
+    cache->bytes += (uint64_t)info.st_size;
+}
+
+static void add_folder(struct gn_driver_cache *cache, const char *path, int depth) {
+    DIR *folder = opendir(path);
+    if (!folder) return;
+    char child[4096];
+    for (struct dirent *entry; (entry = readdir(folder));) {
+        int length = snprintf(child, sizeof child, "%s/%s", path, entry->d_name);
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 && length > 0 &&
+            (size_t)length < sizeof child)
+            add_entry(cache, child, depth);
+    }
+    closedir(folder);
+}
+
+static bool is_true(const char *text) {
+    return text && (!strcmp(text, "1") || !strcasecmp(text, "true") || !strcasecmp(text, "yes"));
+}
+
+struct gn_driver_cache gn_driver_cache_read(void) {
+    static const char *const names[] = {"mesa_shader_cache", "mesa_shader_cache_db"};
+    struct gn_driver_cache cache = {0};
+    const char *base = getenv("MESA_SHADER_CACHE_DIR"), *below = "";
+    if (is_true(getenv("MESA_SHADER_CACHE_DISABLE"))) return cache;
+    if (!base) base = getenv("XDG_CACHE_HOME");
+    if (!base) {
+        base = getenv("HOME");
+        below = "/.cache";
+    }
+    for (int i = 0; base && i < 2; i++) {
+        char path[4096];
+        int length = snprintf(path, sizeof path, "%s%s/%s", base, below, names[i]);
+        if (length > 0 && (size_t)length < sizeof path) add_folder(&cache, path, 0);
+    }
+    return cache;
+}
+
+bool gn_driver_cache_warm(const struct gn_driver_cache *before,
+                          const struct gn_driver_cache *after) {
+    return after->files > 0 && after->files <= before->files && after->bytes <= before->bytes;
+}

@@ -1,0 +1,23 @@
+/* The driver's cache of compiled shaders, looked at from outside: Mesa does not say whether it
+ * found what it needed, but what it did not find it compiles and writes there. */
+#ifndef GN_CLI_DRIVER_CACHE_H
+#define GN_CLI_DRIVER_CACHE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct gn_driver_cache {
+    uint64_t files, bytes; /* 0: no cache */
+};
+
+/* What Mesa's cache holds now: the folders mesa_shader_cache and mesa_shader_cache_db in
+ * $MESA_SHADER_CACHE_DIR, else $XDG_CACHE_HOME, else $HOME/.cache. Nothing where
+ * $MESA_SHADER_CACHE_DISABLE is true. The driver writes from a thread of its own: wait for it. */
+struct gn_driver_cache gn_driver_cache_read(void);
+
+/* Whether what was drawn between two readings came out of the cache: it holds something and gained
+ * nothing. Any other driver than Mesa counts as cold. */
+bool gn_driver_cache_warm(const struct gn_driver_cache *before,
+                          const struct gn_driver_cache *after);
+
+#endif
