@@ -1,0 +1,104 @@
+/* What this GPU is and can do. Extension names are compared whole; what can be proved is (probe.c).
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "gl/private.h"
+
+static bool has_extension(struct gn_gl *gl, const char *name) {
+    GLint count = 0;
+    GL(gl, GetIntegerv)(GL_NUM_EXTENSIONS, &count);
+    for (GLint i = 0; i < count; i++) {
+        const GLubyte *extension = GL(gl, GetStringi)(GL_EXTENSIONS, (GLuint)i);
+        if (extension && strcmp((const char *)extension, name) == 0) return true;
+    }
+    return false;
+}
+
+bool gn_gl_version_check(const struct gn_gl_opts *opts, struct gn_err *err) {
+    static const char es[] = "OpenGL ES ";
+    PFNGLGETSTRINGPROC get = (PFNGLGETSTRINGPROC)opts->get_proc(opts->display, "glGetString");
+    const char *version = get ? (const char *)get(GL_VERSION) : NULL;
+    if (!version) return gn_fail(err, "there is no OpenGL ES context");
+    const char *number =
+        strncmp(version, es, sizeof es - 1) == 0 ? version + sizeof es - 1 : version;
+    int major = 0, minor = 0;
+    sscanf(number, "%d.%d", &major, &minor);
+    if (major >= 3) return true;
+    return gn_fail(
+        err,
+        "%s has only OpenGL ES %d.%d; gnomon needs 3.0 (Pi 4/5, Mali T760+, Adreno 3xx+, "
+        "llvmpipe)",
+        (const char *)get(GL_RENDERER), major, minor);
+}
+
+static void copy_string(struct gn_gl *gl, GLenum what, char *out, size_t size) {
+    const GLubyte *text = GL(gl, GetString)(what);
+    snprintf(out, size, "%s", text ? (const char *)text : "unknown");
+}
+
+static bool is_software(const char *renderer) {
+    return strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
+           strstr(renderer, "swrast") || strstr(renderer, "Software Rasterizer");
+}
+
+/* The bit of the name at the start of list, up to a comma; -1: no such name. */
+static int find_cap(const char *list, size_t length) {
+    for (int i = 0; i < GN_CAP_COUNT; i++)
+        if (strlen(gn_cap_names[i]) == length && memcmp(gn_cap_names[i], list, length) == 0)
+            return i;
+    return -1;
+}
+
+static bool fail_unknown(const char *name, size_t length, struct gn_err *err) {
+    char names[200] = "";
+    for (int i = 0; i < GN_CAP_COUNT; i++) {
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", gn_cap_names[i]);
+    }
+    return gn_fail_usage(err, "--without: there is no capability \"%.*s\"; there are %s",
+                         (int)length, name, names);
+}
+
+static bool parse_without(const char *list, uint32_t *out, struct gn_err *err) {
+    *out = 0;
+    while (list && *list) {
+        size_t length = strcspn(list, ",");
+        int cap = find_cap(list, length);
+        if (cap < 0) return fail_unknown(list, length, err);
+        *out |= 1u << cap;
+        list += length + (list[length] == ',');
+    }
+    return true;
+}
+
+static bool has_timer(struct gn_gl *gl) {
+    static const GLenum time_elapsed = GL_TIME_ELAPSED_EXT;
+    GLint bits = 0;
+    if (!gl->fn.GetQueryiv) return false;
+    if (!gl->desktop && !has_extension(gl, "GL_EXT_disjoint_timer_query")) return false;
+    GL(gl, GetQueryiv)(time_elapsed, GL_QUERY_COUNTER_BITS_EXT, &bits);
+    return bits > 0;
+}
+
+static bool has_debug(struct gn_gl *gl) {
+    return gl->fn.PushDebugGroup && gl->fn.PopDebugGroup && gl->fn.DebugMessageCallback &&
+           has_extension(gl, "GL_KHR_debug");
+}
+
+bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err *err) {
+    struct gn_caps *caps = &gl->caps;
+    uint32_t without;
+    if (!parse_without(opts->without, &without, err)) return false;
+    copy_string(gl, GL_VENDOR, caps->vendor, sizeof caps->vendor);
+    copy_string(gl, GL_RENDERER, caps->renderer, sizeof caps->renderer);
+    copy_string(gl, GL_VERSION, caps->version, sizeof caps->version);
+    caps->software = is_software(caps->renderer);
+    GL(gl, GetIntegerv)(GL_MAX_TEXTURE_SIZE, &caps->max_texture_px);
+    GL(gl, GetIntegerv)(GL_MAX_TEXTURE_IMAGE_UNITS, &caps->max_texture_units);
+    if (has_timer(gl)) caps->has |= 1u << GN_CAP_TIMER;
+    if (has_debug(gl)) caps->has |= 1u << GN_CAP_DEBUG;
+    caps->has |= gn_gl_probe(gl, ~without);
+    caps->has &= ~without;
+    return gn_gl_error_check(gl, "learning what the GPU can do", err);
+}

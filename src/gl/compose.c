@@ -1,0 +1,176 @@
+/* From a program key to the source of a stage. Key bits become `const bool`, used with plain `if`;
+ * a WITH_ macro stands beside each for declarations. Every technique defines the same function, and
+ * so does every encoding: where a program needs several of them, the names that a file lists in its
+ * `//@ names` line get a suffix by macro while the file is read. No GL. */
+#include <stdio.h>
+#include <string.h>
+
+#include "gl/private.h"
+
+static const char *const feature_names[GN_FEATURE_BITS] = {
+    "BASE_TEXTURE", "ROUGHNESS_TEXTURE", "EMISSIVE_TEXTURE", "OCCLUSION_TEXTURE",
+    "BASE_UV1",     "ROUGHNESS_UV1",     "EMISSIVE_UV1",     "OCCLUSION_UV1",
+    "VERTEX_COLOR", "ALPHA_MASK",        "ALPHA_BLEND",      "DOUBLE_SIDED",
+    "UNLIT",        "SPECULAR",          "EMISSIVE",         "HEMISPHERE",
+    "ENCODE_SRGB",  "PERSPECTIVE",
+};
+_Static_assert(GN_FEATURE_PERSPECTIVE == 1 << (GN_FEATURE_BITS - 1), "a name for each feature");
+
+static const char *const light_names[] = {
+    [GN_LIGHT_DIRECTIONAL] = "LIGHT_DIRECTIONAL",
+    [GN_LIGHT_POINT] = "LIGHT_POINT",
+    [GN_LIGHT_SPOT] = "LIGHT_SPOT",
+};
+static const char *const aov_names[GN_AOV_COUNT] = {
+    [GN_AOV_COLOR] = "AOV_COLOR",
+    [GN_AOV_VISIBILITY] = "AOV_VISIBILITY",
+    [GN_AOV_DISTANCE] = "AOV_DISTANCE",
+    [GN_AOV_NORMAL] = "AOV_NORMAL",
+};
+static const char *const kind_names[GN_PROGRAM_KIND_COUNT] = {
+    [GN_PROGRAM_DEPTH] = "depth",
+    [GN_PROGRAM_DISTANCE] = "distance",
+    [GN_PROGRAM_LIT] = "lit",
+    [GN_PROGRAM_AOV] = "aov",
+};
+static const char *const kind_files[GN_PROGRAM_KIND_COUNT][2] = {
+    [GN_PROGRAM_DEPTH] = {"depth.vert", "depth.frag"},
+    [GN_PROGRAM_DISTANCE] = {"distance.vert", "distance.frag"},
+    [GN_PROGRAM_LIT] = {"lit.vert", "lit.frag"},
+    [GN_PROGRAM_AOV] = {"lit.vert", "aov.frag"},
+};
+
+static const char *sampler_type(enum gn_encoding encoding) {
+    switch (encoding) {
+    case GN_ENCODING_DEPTH: return "sampler2DShadow";
+    case GN_ENCODING_R32UI: return "usampler2D";
+    default: return "sampler2D";
+    }
+}
+
+static void add_constants(const struct gn_program_key *key, struct gn_gl_text *out) {
+    gn_gl_text_add(out, "#version 300 es\nprecision highp float;\nprecision highp int;\n"
+                        "precision highp sampler2D;\nprecision highp sampler2DShadow;\n"
+                        "precision highp usampler2D;\n");
+    for (int i = 0; i < GN_FEATURE_BITS; i++) {
+        bool on = key->features >> i & 1;
+        gn_gl_text_add(out, "const bool %s = %s;\n", feature_names[i], on ? "true" : "false");
+        if (on) gn_gl_text_add(out, "#define WITH_%s 1\n", feature_names[i]);
+    }
+    if (key->shadow_count) gn_gl_text_add(out, "#define WITH_SHADOWS 1\n");
+    gn_gl_text_add(out, "const int LIGHT_COUNT = %d;\nconst int SHADOW_COUNT = %d;\n",
+                   key->light_count, key->shadow_count);
+    for (int i = 0; i < 3; i++) gn_gl_text_add(out, "const int %s = %d;\n", light_names[i], i);
+    for (int i = 0; i < GN_AOV_COUNT; i++)
+        gn_gl_text_add(out, "const int %s = %d;\n", aov_names[i], i);
+    gn_gl_text_add(out, "const int AOV = %d;\n", key->aov);
+}
+
+static bool same_pair(const struct gn_light_key *a, const struct gn_light_key *b) {
+    return a->technique == b->technique && a->encoding == b->encoding;
+}
+
+/* The first light that has the technique and encoding of light i: its number is the suffix. */
+static int pair_of(const struct gn_program_key *key, int i) {
+    int first = 0;
+    while (!same_pair(&key->lights[first], &key->lights[i])) first++;
+    return first;
+}
+
+static void add_suffixes(char names[GN_GL_NAMES_MAX][64], int count, int suffix,
+                         struct gn_gl_text *out) {
+    for (int i = 0; i < count; i++)
+        gn_gl_text_add(out, "#define %s %s_%d\n", names[i], names[i], suffix);
+}
+
+static void drop_suffixes(char names[GN_GL_NAMES_MAX][64], int count, struct gn_gl_text *out) {
+    for (int i = 0; i < count; i++) gn_gl_text_add(out, "#undef %s\n", names[i]);
+}
+
+static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *light, int suffix,
+                     struct gn_gl_text *out, struct gn_err *err) {
+    const char *encoding = gn_encodings[light->encoding].file;
+    const char *technique = gn_techniques[light->technique].file;
+    char ours[GN_GL_NAMES_MAX][64], theirs[GN_GL_NAMES_MAX][64];
+    int our_count = gn_gl_source_names(source, encoding, ours, err);
+    int their_count = our_count < 0 ? -1 : gn_gl_source_names(source, technique, theirs, err);
+    if (their_count < 0) return false;
+    add_suffixes(ours, our_count, suffix, out);
+    add_suffixes(theirs, their_count, suffix, out);
+    if (!gn_gl_source_add(source, encoding, out, err)) return false;
+    if (!gn_gl_source_add(source, technique, out, err)) return false;
+    drop_suffixes(ours, our_count, out);
+    drop_suffixes(theirs, their_count, out);
+    gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n");
+    return true;
+}
+
+static bool add_maps(struct gn_gl_source *source, const struct gn_program_key *key,
+                     struct gn_gl_text *out, struct gn_err *err) {
+    for (int i = 0; i < key->shadow_count; i++)
+        gn_gl_text_add(out, "uniform %s u_map_%d;\n", sampler_type(key->lights[i].encoding), i);
+    for (int i = 0; i < key->shadow_count; i++)
+        if (pair_of(key, i) == i && !add_pair(source, &key->lights[i], i, out, err)) return false;
+    return true;
+}
+
+static void add_light_loops(const struct gn_program_key *key, struct gn_gl_text *out) {
+    gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT(F)");
+    for (int i = 0; i < key->shadow_count; i++) {
+        const struct gn_light_key *light = &key->lights[i];
+        bool radial = light->type == GN_LIGHT_SPOT && light->encoding != GN_ENCODING_DEPTH;
+        gn_gl_text_add(out, " F(%d, %s, %s, shadow_visibility_%d, u_map_%d)", i,
+                       light_names[light->type], radial ? "true" : "false", pair_of(key, i), i);
+    }
+    gn_gl_text_add(out, "\n#define EACH_OPEN_LIGHT(F)");
+    for (int i = key->shadow_count; i < key->light_count; i++)
+        gn_gl_text_add(out, " F(%d, %s)", i, light_names[key->lights[i].type]);
+    gn_gl_text_add(out, "\n");
+}
+
+static void add_vertex_loop(const struct gn_program_key *key, struct gn_gl_text *out) {
+    gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT_VERTEX(F)");
+    for (int i = 0; i < key->shadow_count; i++)
+        gn_gl_text_add(out, " F(%d, %s)", i, light_names[key->lights[i].type]);
+    gn_gl_text_add(out, "\n");
+}
+
+bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_stage stage,
+                   struct gn_gl_text *out, struct gn_err *err) {
+    struct gn_gl_source source = {.folder = folder};
+    bool lit = key->kind == GN_PROGRAM_LIT || key->kind == GN_PROGRAM_AOV;
+    add_constants(key, out);
+    if (!gn_gl_source_add(&source, "blocks.glsl", out, err)) return false;
+    if (lit && stage == GN_GL_VERTEX) add_vertex_loop(key, out);
+    if (lit && stage == GN_GL_FRAGMENT) {
+        if (!add_maps(&source, key, out, err)) return false;
+        add_light_loops(key, out);
+    }
+    if (key->kind == GN_PROGRAM_DISTANCE && stage == GN_GL_FRAGMENT)
+        if (!gn_gl_source_add(&source, gn_encodings[key->encoding].file, out, err)) return false;
+    return gn_gl_source_add(&source, kind_files[key->kind][stage], out, err);
+}
+
+static void append(char *out, size_t size, const char *separator, const char *word) {
+    size_t used = strlen(out);
+    snprintf(out + used, size - used, "%s%s", separator, word);
+}
+
+void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
+    snprintf(out, size, "%s", kind_names[key->kind]);
+    if (key->kind == GN_PROGRAM_AOV) append(out, size, " ", aov_names[key->aov]);
+    if (key->kind == GN_PROGRAM_DISTANCE) append(out, size, " ", gn_encodings[key->encoding].name);
+    const char *separator = " ";
+    for (int i = 0; i < GN_FEATURE_BITS; i++) {
+        if (!(key->features >> i & 1)) continue;
+        append(out, size, separator, feature_names[i]);
+        separator = "|";
+    }
+    for (int i = 0; i < key->light_count; i++) {
+        const struct gn_light_key *light = &key->lights[i];
+        append(out, size, ", ", light_names[light->type] + sizeof "LIGHT_" - 1);
+        if (i >= key->shadow_count) continue;
+        append(out, size, " ", gn_techniques[light->technique].name);
+        append(out, size, " ", gn_encodings[light->encoding].name);
+    }
+}

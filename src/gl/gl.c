@@ -1,0 +1,98 @@
+#include "gl/gl.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "gl/private.h"
+
+static void GL_APIENTRY hear(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                             const GLchar *message, const void *user) {
+    (void)source, (void)id, (void)severity, (void)length;
+    struct gn_gl *gl = (struct gn_gl *)user;
+    if (type != GL_DEBUG_TYPE_ERROR_KHR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR_KHR) return;
+    if (!gl->debug_text[0]) snprintf(gl->debug_text, sizeof gl->debug_text, "%s", message);
+}
+
+static void listen(struct gn_gl *gl) {
+    if (!(gl->caps.has & 1u << GN_CAP_DEBUG)) return;
+    GL(gl, Enable)(GL_DEBUG_OUTPUT_KHR);
+    GL(gl, Enable)(GL_DEBUG_OUTPUT_SYNCHRONOUS_KHR);
+    GL(gl, DebugMessageCallback)(hear, gl);
+}
+
+static const char *error_name(GLenum error) {
+    switch (error) {
+    case GL_INVALID_ENUM: return "invalid enum";
+    case GL_INVALID_VALUE: return "invalid value";
+    case GL_INVALID_OPERATION: return "invalid operation";
+    case GL_INVALID_FRAMEBUFFER_OPERATION: return "invalid framebuffer operation";
+    case GL_OUT_OF_MEMORY: return "out of GPU memory";
+    default: return "unknown GL error";
+    }
+}
+
+bool gn_gl_error_check(struct gn_gl *gl, const char *what, struct gn_err *err) {
+    GLenum error = GL(gl, GetError)();
+    if (error == GL_NO_ERROR && !gl->debug_text[0]) return true;
+    gn_fail(err, "%s: %s", what, gl->debug_text[0] ? gl->debug_text : error_name(error));
+    gl->debug_text[0] = 0;
+    for (int i = 0; error != GL_NO_ERROR && i < 8; i++) error = GL(gl, GetError)();
+    return false;
+}
+
+static bool start(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err *err) {
+    if (!gn_gl_version_check(opts, err) || !gn_gl_table_load(&gl->fn, opts, err)) return false;
+    gn_gl_state_init(gl);
+    gn_gl_targets_init(gl);
+    for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
+        gl->instances.buffers[i] = gn_gl_object_create(gl, GN_GL_BUFFER);
+    if (!gn_gl_caps_learn(gl, opts, err)) return false;
+    if (gl->debug) listen(gl);
+    return true;
+}
+
+struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *warnings,
+                           struct gn_err *err) {
+    struct gn_gl *gl = gn_xalloc(1, sizeof *gl);
+    gl->desktop = opts->desktop;
+    gl->debug = opts->debug;
+    gl->warnings = warnings;
+    gl->shaders = opts->shaders ? strdup(opts->shaders) : NULL;
+    if (start(gl, opts, err)) return gl;
+    gn_gl_destroy(gl);
+    return NULL;
+}
+
+void gn_gl_destroy(struct gn_gl *gl) {
+    if (!gl) return;
+    if (gl->fn.Viewport) { /* the last of the table: it was loaded */
+        gn_gl_scene_finish(gl);
+        gn_gl_programs_finish(gl);
+        gn_gl_targets_finish(gl);
+        for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
+            gn_gl_object_destroy(gl, GN_GL_BUFFER, &gl->instances.buffers[i]);
+        if (gl->fn.DebugMessageCallback && gl->debug) GL(gl, DebugMessageCallback)(NULL, NULL);
+    }
+    free(gl->plan_programs);
+    free(gl->shaders);
+    free(gl);
+}
+
+const struct gn_caps *gn_gl_caps(const struct gn_gl *gl) { return &gl->caps; }
+
+bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err) {
+    gn_gl_targets_forget(gl);
+    return gn_gl_scene_upload(gl, scene, err);
+}
+
+struct gn_gl_stats gn_gl_stats(const struct gn_gl *gl) {
+    struct gn_gl_stats stats = gl->stats;
+    stats.objects_created = gl->objects_created;
+    stats.target_bytes = gn_gl_targets_bytes(gl);
+    stats.texture_bytes = gl->scene.texture_bytes;
+    stats.buffer_bytes = gl->scene.buffer_bytes;
+    for (int i = 0; i < GN_GL_INSTANCE_RING; i++) stats.buffer_bytes += gl->instances.room[i];
+    return stats;
+}

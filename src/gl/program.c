@@ -1,0 +1,204 @@
+/* Programs: one a key, in a hash table, made in prepare. After linking no string is ever used. */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "core/hash.h"
+#include "gl/private.h"
+
+struct sources { /* of one program, and the stage that failed */
+    struct gn_gl_text stage[2];
+    int failed; /* enum gn_gl_stage; 2: linking */
+};
+
+static const char *const stage_names[] = {"vertex", "fragment", "link"};
+
+static bool says_error(const char *line, size_t length) {
+    for (size_t i = 0; i + 5 <= length; i++)
+        if (strncasecmp(line + i, "error", 5) == 0) return true;
+    return false;
+}
+
+/* The driver's first line that says error, else its first line. */
+static bool fail_log(const char *log, const char *stage, struct gn_err *err) {
+    const char *line = log;
+    while (*line && !says_error(line, strcspn(line, "\n"))) {
+        line += strcspn(line, "\n");
+        line += *line == '\n';
+    }
+    if (!*line) line = log;
+    while (isspace((unsigned char)*line)) line++;
+    return gn_fail(err, "%s: %.*s", stage, (int)strcspn(line, "\n"), *line ? line : "no reason");
+}
+
+static bool compile(struct gn_gl *gl, GLuint program, int stage, const char *source,
+                    struct gn_err *err) {
+    char log[2048] = "";
+    GLint ok = 0;
+    GLuint shader =
+        GL(gl, CreateShader)(stage == GN_GL_VERTEX ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
+    GL(gl, ShaderSource)(shader, 1, &source, NULL);
+    GL(gl, CompileShader)(shader);
+    GL(gl, GetShaderiv)(shader, GL_COMPILE_STATUS, &ok);
+    if (ok)
+        GL(gl, AttachShader)(program, shader);
+    else
+        GL(gl, GetShaderInfoLog)(shader, sizeof log, NULL, log);
+    GL(gl, DeleteShader)(shader); /* lives on with the program */
+    return ok || fail_log(log, stage_names[stage], err);
+}
+
+static bool link(struct gn_gl *gl, GLuint program, struct gn_err *err) {
+    char log[2048] = "";
+    GLint ok = 0;
+    GL(gl, LinkProgram)(program);
+    GL(gl, GetProgramiv)(program, GL_LINK_STATUS, &ok);
+    if (!ok) GL(gl, GetProgramInfoLog)(program, sizeof log, NULL, log);
+    return ok || fail_log(log, stage_names[2], err);
+}
+
+/* 0 on failure; *failed says at which stage. */
+static GLuint build(struct gn_gl *gl, const char *const sources[2], int *failed,
+                    struct gn_err *err) {
+    GLuint program = GL(gl, CreateProgram)();
+    gl->objects_created++;
+    for (*failed = 0; *failed < 2; ++*failed)
+        if (!compile(gl, program, *failed, sources[*failed], err)) goto fail;
+    if (link(gl, program, err)) return program;
+fail:
+    GL(gl, DeleteProgram)(program);
+    return 0;
+}
+
+GLuint gn_gl_program_link(struct gn_gl *gl, const char *vertex, const char *fragment,
+                          struct gn_err *err) {
+    int failed;
+    return build(gl, (const char *const[]){vertex, fragment}, &failed, err);
+}
+
+static GLuint compose_and_build(struct gn_gl *gl, const struct gn_program_key *key,
+                                struct sources *sources, struct gn_err *err) {
+    for (int i = 0; i < 2; i++) {
+        sources->failed = i;
+        if (!gn_gl_compose(gl->shaders, key, i, &sources->stage[i], err)) return 0;
+    }
+    const char *const text[2] = {sources->stage[0].data, sources->stage[1].data};
+    GLuint program = build(gl, text, &sources->failed, err);
+    if (program) return program;
+    char name[200];
+    gn_gl_key_text(key, name, sizeof name);
+    gn_fail_prefix(err, "shader program (%s)", name);
+    return 0;
+}
+
+static void sources_finish(struct sources *sources) {
+    for (int i = 0; i < 2; i++) gn_gl_text_finish(&sources->stage[i]);
+}
+
+/* Of a failed link the fragment stage is shown: nearly always it is the one that asks too much. */
+static char *sources_log(const struct sources *sources) {
+    return gn_gl_text_numbered(&sources->stage[sources->failed == 0 ? 0 : 1]);
+}
+
+static uint32_t active_attributes(struct gn_gl *gl, GLuint program) {
+    uint32_t mask = 0;
+    GLint count = 0;
+    GL(gl, GetProgramiv)(program, GL_ACTIVE_ATTRIBUTES, &count);
+    for (GLint i = 0; i < count; i++) {
+        char name[64];
+        GLint size;
+        GLenum type;
+        GL(gl, GetActiveAttrib)(program, (GLuint)i, sizeof name, NULL, &size, &type, name);
+        GLint location = GL(gl, GetAttribLocation)(program, name);
+        if (location >= 0 && location < GN_GL_ATTRIBUTE_COUNT) mask |= 1u << location;
+    }
+    return mask;
+}
+
+static bool set_unit(struct gn_gl *gl, GLuint program, const char *sampler, int unit) {
+    GLint location = GL(gl, GetUniformLocation)(program, sampler);
+    if (location >= 0) GL(gl, Uniform1i)(location, unit);
+    return location >= 0;
+}
+
+static void set_units(struct gn_gl *gl, struct gn_gl_program *program) {
+    static const char *const textures[GN_TEXTURE_SLOT_COUNT] = {
+        [GN_TEXTURE_BASE] = "u_texture_base",
+        [GN_TEXTURE_ROUGHNESS] = "u_texture_roughness",
+        [GN_TEXTURE_EMISSIVE] = "u_texture_emissive",
+        [GN_TEXTURE_OCCLUSION] = "u_texture_occlusion",
+    };
+    static const char *const maps[GN_SHADOWS_MAX] = {"u_map_0", "u_map_1", "u_map_2", "u_map_3"};
+    gn_gl_use_program(gl, program->name);
+    for (int i = 0; i < GN_SHADOWS_MAX; i++)
+        set_unit(gl, program->name, maps[i], GN_GL_UNIT_MAP + i);
+    for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
+        if (set_unit(gl, program->name, textures[i], GN_GL_UNIT_TEXTURE + i))
+            program->texture_slots |= 1u << i;
+}
+
+static struct gn_gl_program *place_of(struct gn_gl_programs *programs,
+                                      const struct gn_program_key *key) {
+    uint32_t i = (uint32_t)gn_hash(GN_HASH_INIT, key, sizeof *key);
+    for (;; i++) {
+        struct gn_gl_program *p = &programs->table[i & (programs->room - 1)];
+        if (!p->name || memcmp(&p->key, key, sizeof *key) == 0) return p;
+    }
+}
+
+struct gn_gl_program *gn_gl_program_find(struct gn_gl *gl, const struct gn_program_key *key) {
+    if (!gl->programs.room) return NULL;
+    struct gn_gl_program *p = place_of(&gl->programs, key);
+    return p->name ? p : NULL;
+}
+
+static void grow(struct gn_gl_programs *programs) {
+    struct gn_gl_programs more = {.room = programs->room ? 2 * programs->room : 32};
+    more.table = gn_xalloc(more.room, sizeof *more.table);
+    for (uint32_t i = 0; i < programs->room; i++)
+        if (programs->table[i].name) *place_of(&more, &programs->table[i].key) = programs->table[i];
+    more.count = programs->count;
+    free(programs->table);
+    *programs = more;
+}
+
+static void add(struct gn_gl *gl, const struct gn_program_key *key, GLuint name) {
+    struct gn_gl_program p = {.key = *key, .name = name, .uv = UINT32_MAX};
+    p.u_pass = GL(gl, GetUniformLocation)(name, "u_pass");
+    p.u_uv = GL(gl, GetUniformLocation)(name, "u_uv");
+    p.attributes = active_attributes(gl, name);
+    set_units(gl, &p);
+    *place_of(&gl->programs, key) = p;
+    gl->programs.count++;
+}
+
+bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err) {
+    if (gn_gl_program_find(gl, key)) return true;
+    if (2 * (gl->programs.count + 1) > gl->programs.room) grow(&gl->programs);
+    struct sources sources = {0};
+    GLuint name = compose_and_build(gl, key, &sources, err);
+    sources_finish(&sources);
+    if (name) add(gl, key, name);
+    return name;
+}
+
+void gn_gl_programs_finish(struct gn_gl *gl) {
+    for (uint32_t i = 0; i < gl->programs.room; i++)
+        if (gl->programs.table[i].name) GL(gl, DeleteProgram)(gl->programs.table[i].name);
+    free(gl->programs.table);
+    gl->programs = (struct gn_gl_programs){0};
+}
+
+bool gn_gl_try_program(struct gn_gl *gl, const struct gn_program_key *key, char **log,
+                       struct gn_err *err) {
+    struct sources sources = {0};
+    GLuint name = compose_and_build(gl, key, &sources, err);
+    if (name)
+        GL(gl, DeleteProgram)(name);
+    else if (log)
+        *log = sources_log(&sources);
+    sources_finish(&sources);
+    return name;
+}

@@ -1,0 +1,203 @@
+/* Reading back: pictures, maps, and one pixel where all that is wanted is that drawing has ended.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "gl/private.h"
+
+static bool has_output(struct gn_gl *gl, struct gn_err *err) {
+    if (!gl->targets.output.framebuffer) return gn_fail(err, "there is no picture to read yet");
+    gn_gl_bind_framebuffer(gl, gl->targets.output.resolved);
+    return true;
+}
+
+static void flip_rows(void *pixels, size_t row_bytes, uint32_t rows) {
+    uint8_t *top = pixels, *bottom = top + row_bytes * (rows - 1);
+    for (; top < bottom; top += row_bytes, bottom -= row_bytes)
+        for (size_t i = 0; i < row_bytes; i++) {
+            uint8_t swapped = top[i];
+            top[i] = bottom[i];
+            bottom[i] = swapped;
+        }
+}
+
+/* RGBA of the framebuffer that is bound, first row at the bottom. */
+static void read_pixels(struct gn_gl *gl, uint32_t width, uint32_t height, GLenum format,
+                        GLenum type, void *out) {
+    GL(gl, ReadPixels)(0, 0, (GLsizei)width, (GLsizei)height, format, type, out);
+}
+
+bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err) {
+    const struct gn_gl_output *o = &gl->targets.output;
+    if (!has_output(gl, err)) return false;
+    if (o->format == GN_OUTPUT_FLOAT || o->format == GN_OUTPUT_AOV)
+        return gn_fail(err, "the picture is not of bytes");
+    read_pixels(gl, o->width_px, o->height_px, GL_RGBA, GL_UNSIGNED_BYTE, out);
+    flip_rows(out, 4ul * o->width_px, o->height_px);
+    return gn_gl_error_check(gl, "reading the picture", err);
+}
+
+static float float_from_half(uint16_t h) {
+    const int exponent = h >> 10 & 31;
+    const float fraction = (float)(h & 1023);
+    float x = exponent ? ldexpf(1024 + fraction, exponent - 25) : ldexpf(fraction, -24);
+    if (exponent == 31) x = fraction > 0 ? NAN : INFINITY;
+    return h & 0x8000 ? -x : x;
+}
+
+/* The halves stand in the first half of out: widen them from the end. */
+static void widen(float *out, size_t count) {
+    const uint8_t *halves = (const uint8_t *)out;
+    while (count--) {
+        uint16_t h;
+        memcpy(&h, halves + 2 * count, sizeof h);
+        out[count] = float_from_half(h);
+    }
+}
+
+/* A driver with only EXT_color_buffer_half_float may hand out halves alone. */
+void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float *out) {
+    GLint type = 0;
+    GL(gl, GetIntegerv)(GL_IMPLEMENTATION_COLOR_READ_TYPE, &type);
+    const bool halves = type == GL_HALF_FLOAT;
+    read_pixels(gl, width, height, GL_RGBA, halves ? GL_HALF_FLOAT : GL_FLOAT, out);
+    if (halves) widen(out, 4 * (size_t)width * height);
+}
+
+bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err) {
+    const struct gn_gl_output *o = &gl->targets.output;
+    if (!has_output(gl, err)) return false;
+    if (o->format == GN_OUTPUT_AOV)
+        read_pixels(gl, o->width_px, o->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, out);
+    else if (o->format == GN_OUTPUT_FLOAT)
+        gn_gl_read_floats(gl, o->width_px, o->height_px, out);
+    else
+        return gn_fail(err, "the picture is not of floats");
+    flip_rows(out, 4ul * sizeof *out * o->width_px, o->height_px);
+    return gn_gl_error_check(gl, "reading the picture", err);
+}
+
+/* ---- one pixel ---- */
+
+void gn_gl_finish_frame(struct gn_gl *gl) {
+    const struct gn_gl_output *o = &gl->targets.output;
+    uint32_t pixel[4];
+    if (!o->framebuffer) return;
+    gn_gl_bind_framebuffer(gl, o->resolved);
+    if (o->format == GN_OUTPUT_AOV)
+        read_pixels(gl, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, pixel);
+    else if (o->format == GN_OUTPUT_FLOAT)
+        gn_gl_read_floats(gl, 1, 1, (float *)pixel);
+    else
+        read_pixels(gl, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
+}
+
+void gn_gl_wait(struct gn_gl *gl) {
+    GL(gl, Finish)(); /* of maps too, some of which cannot be read */
+    gn_gl_finish_frame(gl);
+}
+
+/* ---- maps ---- */
+
+/* GLES reads no depth: a triangle copies it, and with it every other encoding that is one number.
+ */
+static const char copy_vertex[] = "#version 300 es\n"
+                                  "void main() {\n"
+                                  "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, "
+                                  "gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
+                                  "}\n";
+static const char copy_fragment[] =
+    "#version 300 es\n"
+    "precision highp float;\n"
+    "precision highp int;\n"
+    "uniform highp sampler2D u_map;\n"
+    "layout(location = 0) out highp uvec4 o_bits;\n"
+    "void main() {\n"
+    "    o_bits = floatBitsToUint(texelFetch(u_map, ivec2(gl_FragCoord.xy), 0));\n"
+    "}\n";
+
+static void draw_copy(struct gn_gl *gl, GLuint program, const struct gn_gl_map *map) {
+    GLuint array = gn_gl_object_create(gl, GN_GL_VERTEX_ARRAY);
+    gn_gl_bind_vertex_array(gl, array);
+    gn_gl_use_program(gl, program);
+    const GLint u_map = GL(gl, GetUniformLocation)(program, "u_map");
+    GL(gl, Uniform1i)(u_map, GN_GL_UNIT_WORK);
+    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, map->texture,
+                       gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
+    gn_gl_set_viewport(gl,
+                       (struct gn_gl_rect){0, 0, (GLsizei)map->width_px, (GLsizei)map->height_px});
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_set_depth(gl, false, false);
+    gn_gl_set_blend(gl, GN_BLEND_OFF);
+    gn_gl_set_cull(gl, GN_CULL_NONE, false);
+    GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
+    gn_gl_object_destroy(gl, GN_GL_VERTEX_ARRAY, &array);
+}
+
+static bool copy_bits(struct gn_gl *gl, GLuint program, const struct gn_gl_map *map, uint32_t *bits,
+                      struct gn_err *err) {
+    GLuint framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
+    GLuint color = gn_gl_object_create(gl, GN_GL_RENDERBUFFER);
+    GL(gl, BindRenderbuffer)(GL_RENDERBUFFER, color);
+    GL(gl, RenderbufferStorage)
+    (GL_RENDERBUFFER, GL_RGBA32UI, (GLsizei)map->width_px, (GLsizei)map->height_px);
+    gn_gl_bind_framebuffer(gl, framebuffer);
+    GL(gl, FramebufferRenderbuffer)
+    (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
+    bool ok = gn_gl_framebuffer_check(gl, "copy of a shadow map", err);
+    if (ok) draw_copy(gl, program, map);
+    if (ok) read_pixels(gl, map->width_px, map->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits);
+    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &framebuffer);
+    gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &color);
+    return ok;
+}
+
+static bool read_by_copy(struct gn_gl *gl, const struct gn_gl_map *map, uint32_t *rgba,
+                         struct gn_err *err) {
+    GLuint program = gn_gl_program_link(gl, copy_vertex, copy_fragment, err);
+    if (!program) return false;
+    bool ok = copy_bits(gl, program, map, rgba, err);
+    gn_gl_use_program(gl, 0);
+    GL(gl, DeleteProgram)(program);
+    return ok;
+}
+
+static bool read_raw(struct gn_gl *gl, const struct gn_gl_map *map, uint32_t *rgba,
+                     struct gn_err *err) {
+    gn_gl_bind_framebuffer(gl, map->framebuffer);
+    switch (map->encoding) {
+    case GN_ENCODING_R32UI:
+        read_pixels(gl, map->width_px, map->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, rgba);
+        return true;
+    case GN_ENCODING_RGBA8:
+        read_pixels(gl, map->width_px, map->height_px, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+        return true;
+    default: return read_by_copy(gl, map, rgba, err);
+    }
+}
+
+/* Most significant byte first, as shaders_es/lib/map_rgba8.glsl packs it. */
+static float code_from_bytes(const uint8_t b[4]) {
+    return (float)(b[0] / 256.0 + b[1] / 65536.0 + b[2] / 16777216.0 + b[3] / 4294967296.0);
+}
+
+static void decode(const struct gn_gl_map *map, const uint32_t *rgba, float *out) {
+    const size_t count = (size_t)map->width_px * map->height_px;
+    for (size_t i = 0; i < count; i++)
+        if (map->encoding == GN_ENCODING_RGBA8)
+            out[i] = code_from_bytes((const uint8_t *)rgba + 4 * i);
+        else
+            memcpy(&out[i], &rgba[4 * i], sizeof out[i]);
+}
+
+bool gn_gl_read_map(struct gn_gl *gl, uint32_t slot, float *out, struct gn_err *err) {
+    const struct gn_gl_map *map = gn_gl_map_of_slot(gl, slot);
+    if (!map) return gn_fail(err, "there is no shadow map %u", slot);
+    uint32_t *rgba = gn_xalloc((size_t)map->width_px * map->height_px, 4 * sizeof *rgba);
+    bool ok = read_raw(gl, map, rgba, err) && gn_gl_error_check(gl, "reading a shadow map", err);
+    if (ok) decode(map, rgba, out);
+    free(rgba);
+    return ok;
+}

@@ -1,0 +1,219 @@
+/* Runs a plan: each pass sets all its state, which the cache turns into the few calls that change
+ * something. Nothing here allocates, makes a GL object or uses a string that GL looks at. */
+#include <string.h>
+
+#include "core/arena.h"
+#include "core/clock.h"
+#include "core/hash.h"
+#include "gl/private.h"
+
+/* ---- targets ---- */
+
+static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
+    static const float far_depth = 1.0f;
+    if (gl->targets.output.format == GN_OUTPUT_AOV) {
+        GLuint bits[4];
+        memcpy(bits, pass->clear_color, sizeof bits);
+        GL(gl, ClearBufferuiv)(GL_COLOR, 0, bits);
+        GL(gl, ClearBufferfv)(GL_DEPTH, 0, &far_depth);
+        return;
+    }
+    gn_gl_set_clear_color(gl, pass->clear_color);
+    GL(gl, Clear)(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+/* To the light's far end, in the encoding's own unit. */
+static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
+    static const float ones[4] = {1, 1, 1, 1};
+    const float far_code[4] = {pass->clear_color[0], 0, 0, 1};
+    GLuint bits[4] = {0, 0, 0, 1};
+    memcpy(bits, far_code, sizeof bits[0]);
+    switch (pass->target.encoding) {
+    case GN_ENCODING_R32UI: GL(gl, ClearBufferuiv)(GL_COLOR, 0, bits); break;
+    case GN_ENCODING_RGBA8: GL(gl, ClearBufferfv)(GL_COLOR, 0, ones); break;
+    case GN_ENCODING_R16F:
+    case GN_ENCODING_R16F_RAW: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); break;
+    default: break;
+    }
+    GL(gl, ClearBufferfv)(GL_DEPTH, 0, ones);
+}
+
+static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer) {
+    const GLsizei width = (GLsizei)pass->target.width_px, height = (GLsizei)pass->target.height_px;
+    const GLint border = (GLint)pass->border_px;
+    const struct gn_gl_rect inner = {border, border, width - 2 * border, height - 2 * border};
+    gn_gl_bind_framebuffer(gl, framebuffer);
+    gn_gl_set_viewport(gl, (struct gn_gl_rect){0, 0, width, height});
+    if (pass->clear) {
+        gn_gl_set_scissor(gl, NULL);
+        gn_gl_set_depth(gl, true, true);
+        if (pass->target.kind == GN_TARGET_SHADOW)
+            clear_map(gl, pass);
+        else
+            clear_output(gl, pass);
+    }
+    gn_gl_set_scissor(gl, border ? &inner : NULL);
+    gn_gl_set_depth(gl, true, pass->depth_write);
+    gn_gl_set_blend(gl, pass->blend);
+}
+
+static void end_target(struct gn_gl *gl, const struct gn_pass *pass) {
+    static const GLenum depth = GL_DEPTH_ATTACHMENT;
+    const bool is_map = pass->target.kind == GN_TARGET_SHADOW;
+    if (is_map && pass->target.encoding == GN_ENCODING_DEPTH) return; /* it is what was wanted */
+    if (pass->discard_depth) GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, 1, &depth);
+}
+
+static void resolve(struct gn_gl *gl) {
+    static const GLenum color = GL_COLOR_ATTACHMENT0;
+    const struct gn_gl_output *o = &gl->targets.output;
+    const GLint w = (GLint)o->width_px, h = (GLint)o->height_px;
+    if (o->resolved == o->framebuffer) return;
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_bind_framebuffer(gl, o->framebuffer);
+    GL(gl, BindFramebuffer)(GL_DRAW_FRAMEBUFFER, o->resolved);
+    GL(gl, BlitFramebuffer)(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    GL(gl, InvalidateFramebuffer)(GL_READ_FRAMEBUFFER, 1, &color);
+    GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, o->framebuffer); /* as the cache says */
+}
+
+/* ---- what draws read ---- */
+
+static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
+    const GLuint *samplers = gl->targets.map_samplers;
+    if (view->encoding != GN_ENCODING_DEPTH) return samplers[GN_GL_MAP_NEAREST];
+    return samplers[gn_techniques[view->technique].filters ? GN_GL_MAP_COMPARE_LINEAR
+                                                           : GN_GL_MAP_COMPARE];
+}
+
+static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan) {
+    for (uint32_t i = 0; i < plan->shadow_count; i++) {
+        const struct gn_shadow_view *view = &plan->shadows[i];
+        const struct gn_target target = {GN_TARGET_SHADOW, i, view->map_px, view->map_px,
+                                         view->encoding};
+        const struct gn_gl_map *map = gn_gl_map_find(gl, &target);
+        if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, map_sampler(gl, view));
+    }
+}
+
+static void set_constants(struct gn_gl *gl, struct gn_gl_program *program,
+                          const struct gn_pass *pass, uint64_t hash) {
+    gn_gl_use_program(gl, program->name);
+    if (program->constants_hash == hash || program->u_pass < 0) return;
+    program->constants_hash = hash;
+    GL(gl, Uniform4fv)(program->u_pass, (GLsizei)pass->constant_count, pass->constants[0]);
+}
+
+static void set_material(struct gn_gl *gl, struct gn_gl_program *program, uint32_t material) {
+    if (!program->texture_slots) return;
+    const struct gn_texture_ref *refs = gl->scene.scene->materials[material].textures;
+    for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
+        if (program->texture_slots >> slot & 1) gn_gl_texture_bind(gl, slot, &refs[slot]);
+    const uint32_t uv = gl->scene.material_uv[material];
+    if (program->uv == uv || program->u_uv < 0) return;
+    program->uv = uv;
+    GL(gl, Uniform4fv)(program->u_uv, 2 * GN_TEXTURE_SLOT_COUNT, gl->scene.uv[uv][0]);
+}
+
+static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
+                 uint64_t constants_hash) {
+    struct gn_gl_program *program = gl->plan_programs[d->program];
+    const struct gn_geometry *geometry = &gl->scene.scene->geometries[d->geometry];
+    const size_t first = geometry->first_index * gl->scene.index_size;
+    set_constants(gl, program, pass, constants_hash);
+    set_material(gl, program, d->material);
+    gn_gl_set_cull(gl, d->cull, d->mirrored);
+    gn_gl_vertices_bind(gl, program->attributes, d->first_instance);
+    GL(gl, DrawElementsInstanced)
+    (GL_TRIANGLES, (GLsizei)geometry->index_count, gl->scene.index_type, (const void *)first,
+     (GLsizei)d->instance_count);
+    gl->stats.draws++;
+    gl->stats.shadow_draws += pass->target.kind == GN_TARGET_SHADOW;
+    gl->stats.triangles += (uint64_t)geometry->index_count / 3 * d->instance_count;
+}
+
+/* ---- passes ---- */
+
+static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
+                      GLuint framebuffer, struct gn_err *err) {
+    const bool grouped = gl->debug && gl->fn.PushDebugGroup;
+    const uint64_t hash =
+        gn_hash(GN_HASH_INIT, pass->constants, pass->constant_count * sizeof *pass->constants);
+    if (grouped) GL(gl, PushDebugGroup)(GL_DEBUG_SOURCE_APPLICATION_KHR, 0, -1, pass->label);
+    begin_target(gl, pass, framebuffer);
+    if (pass->target.kind == GN_TARGET_OUTPUT) bind_maps(gl, plan);
+    for (uint32_t i = 0; i < pass->draw_count; i++)
+        draw(gl, pass, &plan->draws[pass->first_draw + i], hash);
+    end_target(gl, pass);
+    if (grouped) GL(gl, PopDebugGroup)();
+    return !gl->debug || gn_gl_error_check(gl, pass->label, err);
+}
+
+static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
+                     struct gn_err *err) {
+    if (pass->target.kind == GN_TARGET_OUTPUT)
+        return draw_pass(gl, plan, pass, gl->targets.output.framebuffer, err);
+    struct gn_gl_map *map = gn_gl_map_find(gl, &pass->target);
+    if (!map) return gn_fail(err, "%s: the plan was not prepared", pass->label);
+    if (pass->content_hash && map->content_hash == pass->content_hash) {
+        gl->stats.shadow_passes_skipped++;
+        return true;
+    }
+    bool ok = draw_pass(gl, plan, pass, map->framebuffer, err);
+    map->content_hash = ok ? pass->content_hash : 0;
+    return ok;
+}
+
+static bool run_passes(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms,
+                       struct gn_err *err) {
+    if (pass_ms) gn_gl_wait(gl);
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const int64_t start_ns = pass_ms ? gn_clock_monotonic_ns() : 0;
+        if (!run_pass(gl, plan, &plan->passes[i], err)) return false;
+        if (i + 1 == plan->pass_count) resolve(gl);
+        if (!pass_ms) continue;
+        gn_gl_wait(gl);
+        pass_ms[i] = (double)(gn_clock_monotonic_ns() - start_ns) * 1e-6;
+    }
+    return true;
+}
+
+static bool find_programs(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
+    if (plan->program_count > gl->plan_programs_room || plan->scene != gl->scene.scene)
+        return gn_fail(err, "the plan was not prepared");
+    for (uint32_t i = 0; i < plan->program_count; i++) {
+        gl->plan_programs[i] = gn_gl_program_find(gl, &plan->programs[i]);
+        if (!gl->plan_programs[i]) return gn_fail(err, "program %u was not prepared", i);
+    }
+    return true;
+}
+
+bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err) {
+    const uint32_t calls_before = gl->calls;
+    gl->stats = (struct gn_gl_stats){0};
+    if (!find_programs(gl, plan, err)) return false;
+    gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
+    bool ok = run_passes(gl, plan, pass_ms, err);
+    gl->stats.gl_calls = gl->calls - calls_before;
+    return ok;
+}
+
+/* ---- preparing ---- */
+
+static void grow_plan_programs(struct gn_gl *gl, uint32_t count) {
+    if (count <= gl->plan_programs_room) return;
+    gl->plan_programs_room = 2 * count;
+    gl->plan_programs =
+        gn_xrealloc(gl->plan_programs, gl->plan_programs_room, sizeof(struct gn_gl_program *));
+}
+
+bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
+    if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
+    grow_plan_programs(gl, plan->program_count);
+    for (uint32_t i = 0; i < plan->program_count; i++) {
+        if (!gn_gl_program_ensure(gl, &plan->programs[i], err)) return false;
+        const struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[i]);
+        if (!gn_gl_vertices_ensure(gl, p->attributes, err)) return false;
+    }
+    return gn_gl_targets_ensure(gl, plan, err);
+}

@@ -1,0 +1,142 @@
+/* The one cache of GL state. Setting what is set already costs no call; nothing is ever restored.
+ */
+#include <string.h>
+
+#include "gl/private.h"
+
+void gn_gl_bind_framebuffer(struct gn_gl *gl, GLuint name) {
+    if (gl->state.framebuffer == name) return;
+    gl->state.framebuffer = name;
+    GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, name);
+}
+
+void gn_gl_bind_vertex_array(struct gn_gl *gl, GLuint name) {
+    if (gl->state.vertex_array == name) return;
+    gl->state.vertex_array = name;
+    GL(gl, BindVertexArray)(name);
+}
+
+void gn_gl_bind_array_buffer(struct gn_gl *gl, GLuint name) {
+    if (gl->state.array_buffer == name) return;
+    gl->state.array_buffer = name;
+    GL(gl, BindBuffer)(GL_ARRAY_BUFFER, name);
+}
+
+void gn_gl_bind_texture(struct gn_gl *gl, GLuint unit, GLuint texture, GLuint sampler) {
+    struct gn_gl_state *s = &gl->state;
+    if (s->textures[unit] != texture) {
+        if (s->unit != unit) GL(gl, ActiveTexture)(GL_TEXTURE0 + unit);
+        s->unit = unit;
+        s->textures[unit] = texture;
+        GL(gl, BindTexture)(GL_TEXTURE_2D, texture);
+    }
+    if (s->samplers[unit] == sampler) return;
+    s->samplers[unit] = sampler;
+    GL(gl, BindSampler)(unit, sampler);
+}
+
+void gn_gl_use_program(struct gn_gl *gl, GLuint name) {
+    if (gl->state.program == name) return;
+    gl->state.program = name;
+    GL(gl, UseProgram)(name);
+}
+
+static void enable(struct gn_gl *gl, GLenum what, bool *cached, bool on) {
+    if (*cached == on) return;
+    *cached = on;
+    if (on)
+        GL(gl, Enable)(what);
+    else
+        GL(gl, Disable)(what);
+}
+
+void gn_gl_set_viewport(struct gn_gl *gl, struct gn_gl_rect rect) {
+    if (memcmp(&gl->state.viewport, &rect, sizeof rect) == 0) return;
+    gl->state.viewport = rect;
+    GL(gl, Viewport)(rect.x, rect.y, rect.width, rect.height);
+}
+
+void gn_gl_set_scissor(struct gn_gl *gl, const struct gn_gl_rect *rect) {
+    enable(gl, GL_SCISSOR_TEST, &gl->state.scissor_on, rect);
+    if (!rect || memcmp(&gl->state.scissor, rect, sizeof *rect) == 0) return;
+    gl->state.scissor = *rect;
+    GL(gl, Scissor)(rect->x, rect->y, rect->width, rect->height);
+}
+
+void gn_gl_set_depth(struct gn_gl *gl, bool test, bool write) {
+    enable(gl, GL_DEPTH_TEST, &gl->state.depth_on, test);
+    if (gl->state.depth_write == write) return;
+    gl->state.depth_write = write;
+    GL(gl, DepthMask)(write);
+}
+
+void gn_gl_set_blend(struct gn_gl *gl, enum gn_blend blend) {
+    enable(gl, GL_BLEND, &gl->state.blend_on, blend != GN_BLEND_OFF);
+}
+
+void gn_gl_set_cull(struct gn_gl *gl, enum gn_cull cull, bool mirrored) {
+    struct gn_gl_state *s = &gl->state;
+    enable(gl, GL_CULL_FACE, &s->cull_on, cull != GN_CULL_NONE);
+    if (cull != GN_CULL_NONE && s->cull != cull) {
+        s->cull = (uint8_t)cull;
+        GL(gl, CullFace)(cull == GN_CULL_BACK ? GL_BACK : GL_FRONT);
+    }
+    if (s->mirrored == mirrored) return;
+    s->mirrored = mirrored;
+    GL(gl, FrontFace)(mirrored ? GL_CW : GL_CCW);
+}
+
+void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]) {
+    if (memcmp(gl->state.clear_color, rgba, sizeof gl->state.clear_color) == 0) return;
+    memcpy(gl->state.clear_color, rgba, sizeof gl->state.clear_color);
+    GL(gl, ClearColor)(rgba[0], rgba[1], rgba[2], rgba[3]);
+}
+
+/* A context starts with all the rest as a zeroed cache says. */
+void gn_gl_state_init(struct gn_gl *gl) {
+    static const GLenum framebuffer_srgb = 0x8DB9; /* desktop GL only: ES always encodes */
+    gl->state = (struct gn_gl_state){.depth_write = true, .cull = GN_CULL_BACK};
+    GL(gl, DepthFunc)(GL_LEQUAL);
+    GL(gl, BlendFunc)(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    GL(gl, VertexAttrib4f)(GN_GL_COLOR, 1.0f, 1.0f, 1.0f, 1.0f);
+    if (gl->desktop) GL(gl, Enable)(framebuffer_srgb);
+}
+
+GLuint gn_gl_object_create(struct gn_gl *gl, enum gn_gl_object kind) {
+    GLuint name = 0;
+    gl->objects_created++;
+    switch (kind) {
+    case GN_GL_BUFFER: GL(gl, GenBuffers)(1, &name); break;
+    case GN_GL_FRAMEBUFFER: GL(gl, GenFramebuffers)(1, &name); break;
+    case GN_GL_RENDERBUFFER: GL(gl, GenRenderbuffers)(1, &name); break;
+    case GN_GL_SAMPLER: GL(gl, GenSamplers)(1, &name); break;
+    case GN_GL_TEXTURE: GL(gl, GenTextures)(1, &name); break;
+    case GN_GL_VERTEX_ARRAY: GL(gl, GenVertexArrays)(1, &name); break;
+    }
+    return name;
+}
+
+/* GL unbinds what is deleted; a new object may get the old one's name. */
+static void forget(struct gn_gl_state *s, enum gn_gl_object kind, GLuint name) {
+    if (kind == GN_GL_BUFFER && s->array_buffer == name) s->array_buffer = 0;
+    if (kind == GN_GL_FRAMEBUFFER && s->framebuffer == name) s->framebuffer = 0;
+    if (kind == GN_GL_VERTEX_ARRAY && s->vertex_array == name) s->vertex_array = 0;
+    for (int i = 0; i < GN_GL_UNIT_COUNT; i++) {
+        if (kind == GN_GL_TEXTURE && s->textures[i] == name) s->textures[i] = 0;
+        if (kind == GN_GL_SAMPLER && s->samplers[i] == name) s->samplers[i] = 0;
+    }
+}
+
+void gn_gl_object_destroy(struct gn_gl *gl, enum gn_gl_object kind, GLuint *name) {
+    if (!*name) return;
+    forget(&gl->state, kind, *name);
+    switch (kind) {
+    case GN_GL_BUFFER: GL(gl, DeleteBuffers)(1, name); break;
+    case GN_GL_FRAMEBUFFER: GL(gl, DeleteFramebuffers)(1, name); break;
+    case GN_GL_RENDERBUFFER: GL(gl, DeleteRenderbuffers)(1, name); break;
+    case GN_GL_SAMPLER: GL(gl, DeleteSamplers)(1, name); break;
+    case GN_GL_TEXTURE: GL(gl, DeleteTextures)(1, name); break;
+    case GN_GL_VERTEX_ARRAY: GL(gl, DeleteVertexArrays)(1, name); break;
+    }
+    *name = 0;
+}

@@ -1,0 +1,241 @@
+/* What passes draw to: one output, and a map per shadow slot. Made again when a plan asks for
+ * another size or format; maps of plans that take turns are kept. */
+#include "gl/private.h"
+
+static GLuint make_renderbuffer(struct gn_gl *gl, GLenum format, GLsizei samples, uint32_t width,
+                                uint32_t height) {
+    GLuint name = gn_gl_object_create(gl, GN_GL_RENDERBUFFER);
+    GL(gl, BindRenderbuffer)(GL_RENDERBUFFER, name);
+    if (samples > 1) GL(gl, RenderbufferStorageMultisample)
+    (GL_RENDERBUFFER, samples, format, (GLsizei)width, (GLsizei)height);
+    else GL(gl, RenderbufferStorage)(GL_RENDERBUFFER, format, (GLsizei)width, (GLsizei)height);
+    return name;
+}
+
+static GLuint make_framebuffer(struct gn_gl *gl) {
+    GLuint name = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
+    gn_gl_bind_framebuffer(gl, name);
+    return name;
+}
+
+static void attach_renderbuffer(struct gn_gl *gl, GLenum where, GLuint renderbuffer) {
+    GL(gl, FramebufferRenderbuffer)(GL_FRAMEBUFFER, where, GL_RENDERBUFFER, renderbuffer);
+}
+
+bool gn_gl_framebuffer_check(struct gn_gl *gl, const char *what, struct gn_err *err) {
+    GLenum status = GL(gl, CheckFramebufferStatus)(GL_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE) return true;
+    return gn_fail(err, "%s: the driver cannot draw to it (0x%x)", what, status);
+}
+
+/* ---- the output ---- */
+
+static const struct {
+    GLenum format;
+    unsigned bytes;
+} output_formats[] = {
+    [GN_OUTPUT_SRGB8] = {GL_SRGB8_ALPHA8, 4},
+    [GN_OUTPUT_LINEAR8] = {GL_RGBA8, 4},
+    [GN_OUTPUT_FLOAT] = {GL_RGBA16F, 8},
+    [GN_OUTPUT_AOV] = {GL_RGBA32UI, 16},
+};
+
+static uint32_t possible_samples(struct gn_gl *gl, const struct gn_plan *plan) {
+    GLint most = 0;
+    if (plan->msaa < 2 || plan->output == GN_OUTPUT_AOV) return 0;
+    if (!(gl->caps.has & 1u << GN_CAP_MSAA4)) return 0;
+    GL(gl, GetInternalformativ)
+    (GL_RENDERBUFFER, output_formats[plan->output].format, GL_SAMPLES, 1,
+     &most); /* largest first */
+    uint32_t samples = plan->msaa < (uint32_t)most ? plan->msaa : (uint32_t)most;
+    return samples > 1 ? samples : 0;
+}
+
+static void output_finish(struct gn_gl *gl) {
+    struct gn_gl_output *o = &gl->targets.output;
+    if (o->resolved == o->framebuffer) o->resolved = o->resolved_color = 0;
+    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->framebuffer);
+    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->resolved);
+    gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &o->color);
+    gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &o->depth);
+    gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &o->resolved_color);
+    *o = (struct gn_gl_output){0};
+}
+
+static bool output_is(const struct gn_gl_output *o, const struct gn_plan *plan) {
+    return o->framebuffer && o->width_px == plan->width_px && o->height_px == plan->height_px &&
+           o->format == plan->output && o->msaa_wanted == plan->msaa;
+}
+
+static bool make_resolved(struct gn_gl *gl, struct gn_gl_output *o, GLenum format,
+                          struct gn_err *err) {
+    o->resolved = o->framebuffer;
+    if (!o->msaa) return true;
+    o->resolved_color = make_renderbuffer(gl, format, 0, o->width_px, o->height_px);
+    o->resolved = make_framebuffer(gl);
+    attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->resolved_color);
+    return gn_gl_framebuffer_check(gl, "resolved output", err);
+}
+
+static bool output_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
+    struct gn_gl_output *o = &gl->targets.output;
+    if (output_is(o, plan)) return true;
+    output_finish(gl);
+    const GLenum format = output_formats[plan->output].format;
+    const uint64_t pixels = (uint64_t)plan->width_px * plan->height_px;
+    const uint32_t msaa = possible_samples(gl, plan);
+    o->width_px = plan->width_px, o->height_px = plan->height_px;
+    o->format = plan->output, o->msaa = msaa, o->msaa_wanted = plan->msaa;
+    o->color = make_renderbuffer(gl, format, (GLsizei)msaa, o->width_px, o->height_px);
+    o->depth =
+        make_renderbuffer(gl, GL_DEPTH_COMPONENT24, (GLsizei)msaa, o->width_px, o->height_px);
+    o->framebuffer = make_framebuffer(gl);
+    attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->color);
+    attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, o->depth);
+    o->bytes = pixels * (output_formats[plan->output].bytes + 4) * (msaa ? msaa : 1);
+    if (msaa) o->bytes += pixels * output_formats[plan->output].bytes;
+    if (gn_gl_framebuffer_check(gl, "output", err) && make_resolved(gl, o, format, err) &&
+        gn_gl_error_check(gl, "making the output", err))
+        return true;
+    output_finish(gl);
+    return false;
+}
+
+/* ---- shadow maps ---- */
+
+static const GLenum map_formats[GN_ENCODING_COUNT] = {
+    [GN_ENCODING_DEPTH] = GL_DEPTH_COMPONENT24,
+    [GN_ENCODING_R32UI] = GL_R32UI,
+    [GN_ENCODING_R16F] = GL_R16F,
+    [GN_ENCODING_R16F_RAW] = GL_R16F,
+    [GN_ENCODING_RGBA8] = GL_RGBA8,
+};
+
+static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {
+    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &map->framebuffer);
+    gn_gl_object_destroy(gl, GN_GL_TEXTURE, &map->texture);
+    gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &map->depth);
+    *map = (struct gn_gl_map){0};
+}
+
+static void attach_map(struct gn_gl *gl, struct gn_gl_map *map) {
+    const bool is_depth = map->encoding == GN_ENCODING_DEPTH;
+    static const GLenum none = GL_NONE;
+    GL(gl, FramebufferTexture2D)
+    (GL_FRAMEBUFFER, is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+     map->texture, 0);
+    if (is_depth) {
+        GL(gl, DrawBuffers)(1, &none);
+        GL(gl, ReadBuffer)(GL_NONE);
+        return;
+    }
+    map->depth = make_renderbuffer(gl, GL_DEPTH_COMPONENT24, 0, map->width_px, map->height_px);
+    attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, map->depth);
+}
+
+static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err) {
+    map->bytes = (uint64_t)map->width_px * map->height_px * gn_encodings[map->encoding].texel_bytes;
+    map->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
+    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, map->texture, 0);
+    GL(gl, TexStorage2D)
+    (GL_TEXTURE_2D, 1, map_formats[map->encoding], (GLsizei)map->width_px, (GLsizei)map->height_px);
+    map->framebuffer = make_framebuffer(gl);
+    attach_map(gl, map);
+    if (gn_gl_framebuffer_check(gl, "shadow map", err) &&
+        gn_gl_error_check(gl, "making a shadow map", err))
+        return true;
+    gn_fail_prefix(err, "%s", gn_encodings[map->encoding].name);
+    map_finish(gl, map);
+    return false;
+}
+
+struct gn_gl_map *gn_gl_map_find(struct gn_gl *gl, const struct gn_target *t) {
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
+        struct gn_gl_map *m = &gl->targets.maps[i];
+        if (m->framebuffer && m->slot == t->slot && m->encoding == t->encoding &&
+            m->width_px == t->width_px && m->height_px == t->height_px)
+            return m;
+    }
+    return NULL;
+}
+
+struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot) {
+    struct gn_gl_map *latest = NULL;
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
+        struct gn_gl_map *m = &gl->targets.maps[i];
+        if (m->framebuffer && m->slot == slot && (!latest || m->last_used > latest->last_used))
+            latest = m;
+    }
+    return latest;
+}
+
+/* An empty place, else the one unused for longest: never one of this plan, which has four at most.
+ */
+static struct gn_gl_map *free_place(struct gn_gl *gl) {
+    struct gn_gl_map *oldest = &gl->targets.maps[0];
+    for (int i = 1; i < GN_GL_MAPS_MAX; i++)
+        if (gl->targets.maps[i].last_used < oldest->last_used) oldest = &gl->targets.maps[i];
+    map_finish(gl, oldest);
+    return oldest;
+}
+
+static bool map_ensure(struct gn_gl *gl, const struct gn_target *target, struct gn_err *err) {
+    struct gn_gl_map *map = gn_gl_map_find(gl, target);
+    if (!map) {
+        map = free_place(gl);
+        *map = (struct gn_gl_map){.slot = target->slot,
+                                  .encoding = target->encoding,
+                                  .width_px = target->width_px,
+                                  .height_px = target->height_px};
+        if (!make_map(gl, map, err)) return false;
+    }
+    map->last_used = gl->targets.prepares;
+    return true;
+}
+
+/* ---- all of them ---- */
+
+bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
+    gl->targets.prepares++;
+    if (!output_ensure(gl, plan, err)) return false;
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        if (plan->passes[i].target.kind == GN_TARGET_SHADOW)
+            if (!map_ensure(gl, &plan->passes[i].target, err)) return false;
+    return true;
+}
+
+void gn_gl_targets_forget(struct gn_gl *gl) {
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++) gl->targets.maps[i].content_hash = 0;
+}
+
+uint64_t gn_gl_targets_bytes(const struct gn_gl *gl) {
+    uint64_t bytes = gl->targets.output.bytes;
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++)
+        if (gl->targets.maps[i].last_used == gl->targets.prepares)
+            bytes += gl->targets.maps[i].bytes;
+    return bytes;
+}
+
+static GLuint make_map_sampler(struct gn_gl *gl, enum gn_gl_map_sampler kind) {
+    const GLint filter = kind == GN_GL_MAP_COMPARE_LINEAR ? GL_LINEAR : GL_NEAREST;
+    GLuint s = gn_gl_object_create(gl, GN_GL_SAMPLER);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_MIN_FILTER, filter);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_MAG_FILTER, filter);
+    if (kind == GN_GL_MAP_NEAREST) return s;
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    return s;
+}
+
+void gn_gl_targets_init(struct gn_gl *gl) {
+    for (int i = 0; i < 3; i++) gl->targets.map_samplers[i] = make_map_sampler(gl, i);
+}
+
+void gn_gl_targets_finish(struct gn_gl *gl) {
+    output_finish(gl);
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++) map_finish(gl, &gl->targets.maps[i]);
+    for (int i = 0; i < 3; i++)
+        gn_gl_object_destroy(gl, GN_GL_SAMPLER, &gl->targets.map_samplers[i]);
+}

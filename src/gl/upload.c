@@ -1,0 +1,239 @@
+/* The scene's vertices on the GPU: one set of buffers for all of it. Positions stand alone, so that
+ * shadow passes fetch nothing else; indices are 16 bits wide wherever that is enough. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "core/hash.h"
+#include "gl/private.h"
+
+enum { NORMAL_BYTES = 8, UV_BYTES = 8, COLOR_BYTES = 4, PIECE = 1024 };
+
+static GLuint make_buffer(struct gn_gl *gl, GLenum target, const void *data, size_t size) {
+    GLuint name = gn_gl_object_create(gl, GN_GL_BUFFER);
+    GL(gl, BindBuffer)(target, name); /* of the vertex array bound now, if an index buffer */
+    GL(gl, BufferData)(target, (GLsizeiptr)size, data, GL_STATIC_DRAW);
+    gl->scene.buffer_bytes += size;
+    return name;
+}
+
+static GLuint make_vertex_buffer(struct gn_gl *gl, const void *data, size_t size) {
+    GLuint name = make_buffer(gl, GL_ARRAY_BUFFER, data, size);
+    gl->state.array_buffer = name;
+    return name;
+}
+
+static int place(GLsizei *stride, bool present, GLsizei bytes) {
+    int at = *stride;
+    *stride += present ? bytes : 0;
+    return present ? at : -1;
+}
+
+static void lay_out(struct gn_gl_scene *s) {
+    s->attribute_stride = 0;
+    s->attribute_at[GN_GL_POSITION] = -1;
+    s->attribute_at[GN_GL_NORMAL] = place(&s->attribute_stride, true, NORMAL_BYTES);
+    s->attribute_at[GN_GL_UV0] = place(&s->attribute_stride, s->scene->uv0, UV_BYTES);
+    s->attribute_at[GN_GL_UV1] = place(&s->attribute_stride, s->scene->uv1, UV_BYTES);
+    s->attribute_at[GN_GL_COLOR] = place(&s->attribute_stride, s->scene->colors, COLOR_BYTES);
+}
+
+static int16_t snorm16(float x) { return (int16_t)lrintf(fmaxf(-1, fminf(1, x)) * 32767); }
+
+static void pack_vertex(const struct gn_gl_scene *s, uint32_t i, uint8_t *out) {
+    const float *n = s->scene->normals + 3 * (size_t)i;
+    const int16_t packed[4] = {snorm16(n[0]), snorm16(n[1]), snorm16(n[2]), 0};
+    memcpy(out, packed, NORMAL_BYTES);
+    if (s->scene->uv0)
+        memcpy(out + s->attribute_at[GN_GL_UV0], s->scene->uv0 + 2 * (size_t)i, UV_BYTES);
+    if (s->scene->uv1)
+        memcpy(out + s->attribute_at[GN_GL_UV1], s->scene->uv1 + 2 * (size_t)i, UV_BYTES);
+    if (s->scene->colors)
+        memcpy(out + s->attribute_at[GN_GL_COLOR], s->scene->colors + 4 * (size_t)i, COLOR_BYTES);
+}
+
+/* Packed and sent in pieces, so that a large scene needs no second copy of itself. */
+static void upload_attributes(struct gn_gl *gl) {
+    uint8_t packed[PIECE * (NORMAL_BYTES + 2 * UV_BYTES + COLOR_BYTES)];
+    const uint32_t count = gl->scene.scene->vertex_count;
+    const size_t stride = (size_t)gl->scene.attribute_stride;
+    gl->scene.attributes = make_vertex_buffer(gl, NULL, count * stride);
+    for (uint32_t first = 0; first < count; first += PIECE) {
+        uint32_t n = count - first < PIECE ? count - first : PIECE;
+        for (uint32_t i = 0; i < n; i++) pack_vertex(&gl->scene, first + i, packed + i * stride);
+        GL(gl, BufferSubData)
+        (GL_ARRAY_BUFFER, (GLintptr)(first * stride), (GLsizeiptr)(n * stride), packed);
+    }
+}
+
+static void upload_narrow(struct gn_gl *gl, const uint32_t *indices, uint32_t count) {
+    uint16_t narrow[PIECE];
+    for (uint32_t first = 0; first < count; first += PIECE) {
+        uint32_t n = count - first < PIECE ? count - first : PIECE;
+        for (uint32_t i = 0; i < n; i++) narrow[i] = (uint16_t)indices[first + i];
+        GL(gl, BufferSubData)
+        (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * sizeof *narrow),
+         (GLsizeiptr)(n * sizeof *narrow), narrow);
+    }
+}
+
+static void upload_indices(struct gn_gl *gl) {
+    struct gn_gl_scene *s = &gl->scene;
+    const uint32_t count = s->scene->index_count;
+    bool wide = s->scene->vertex_count > 65536;
+    s->index_type = wide ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT;
+    s->index_size = wide ? sizeof(uint32_t) : sizeof(uint16_t);
+    gn_gl_bind_vertex_array(gl, 0);
+    s->indices = make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, wide ? s->scene->indices : NULL,
+                             count * s->index_size);
+    if (!wide) upload_narrow(gl, s->scene->indices, count);
+}
+
+static void material_rows(const struct gn_material *material, float rows[][4]) {
+    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+        const float *m = material->textures[slot].uv_from_uv;
+        const float both[8] = {m[0], m[2], m[4], 0, m[1], m[3], m[5], 0};
+        memcpy(rows[2 * slot], both, sizeof both);
+    }
+}
+
+/* Materials with the same transforms, nearly all, share one set: so a program keeps it. */
+static void collect_uv(struct gn_gl_scene *s) {
+    s->uv = gn_xalloc(s->scene->material_count + 1, sizeof *s->uv);
+    s->material_uv = gn_xalloc(s->scene->material_count + 1, sizeof *s->material_uv);
+    for (uint32_t i = 0; i < s->scene->material_count; i++) {
+        material_rows(&s->scene->materials[i], s->uv[s->uv_count]);
+        uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
+        while (memcmp(s->uv[same], s->uv[s->uv_count], sizeof *s->uv) != 0) same++;
+        s->material_uv[i] = same;
+        s->uv_count += same == s->uv_count;
+    }
+}
+
+static void forget_programs(struct gn_gl *gl) {
+    for (uint32_t i = 0; i < gl->programs.room; i++) gl->programs.table[i].uv = UINT32_MAX;
+}
+
+bool gn_gl_scene_upload(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err) {
+    gn_gl_scene_finish(gl);
+    gl->scene.scene = scene;
+    lay_out(&gl->scene);
+    gl->scene.positions =
+        make_vertex_buffer(gl, scene->positions, scene->vertex_count * 3 * sizeof(float));
+    upload_attributes(gl);
+    upload_indices(gl);
+    collect_uv(&gl->scene);
+    forget_programs(gl);
+    if (gn_gl_textures_upload(gl, err) && gn_gl_error_check(gl, "uploading the scene", err))
+        return true;
+    gn_gl_scene_finish(gl);
+    return false;
+}
+
+void gn_gl_scene_finish(struct gn_gl *gl) {
+    struct gn_gl_scene *s = &gl->scene;
+    for (uint32_t i = 0; i < s->vertices_count; i++)
+        gn_gl_object_destroy(gl, GN_GL_VERTEX_ARRAY, &s->vertices[i].name);
+    gn_gl_object_destroy(gl, GN_GL_BUFFER, &s->positions);
+    gn_gl_object_destroy(gl, GN_GL_BUFFER, &s->attributes);
+    gn_gl_object_destroy(gl, GN_GL_BUFFER, &s->indices);
+    gn_gl_textures_finish(gl);
+    free(s->uv);
+    free(s->material_uv);
+    *s = (struct gn_gl_scene){0};
+}
+
+/* ---- vertex arrays ---- */
+
+static bool reads(uint32_t attributes, int location) { return attributes >> location & 1; }
+
+static void point(struct gn_gl *gl, GLuint location, GLint size, GLenum type, GLsizei stride,
+                  size_t offset) {
+    const GLboolean normalized = type != GL_FLOAT;
+    GL(gl, VertexAttribPointer)(location, size, type, normalized, stride, (const void *)offset);
+}
+
+static void point_to_scene(struct gn_gl *gl, uint32_t attributes) {
+    static const struct {
+        GLint size;
+        GLenum type;
+    } forms[] = {
+        [GN_GL_NORMAL] = {4, GL_SHORT},
+        [GN_GL_UV0] = {2, GL_FLOAT},
+        [GN_GL_UV1] = {2, GL_FLOAT},
+        [GN_GL_COLOR] = {4, GL_UNSIGNED_BYTE},
+    };
+    const struct gn_gl_scene *s = &gl->scene;
+    gn_gl_bind_array_buffer(gl, s->positions);
+    GL(gl, EnableVertexAttribArray)(GN_GL_POSITION);
+    point(gl, GN_GL_POSITION, 3, GL_FLOAT, 0, 0);
+    gn_gl_bind_array_buffer(gl, s->attributes);
+    for (int i = GN_GL_NORMAL; i <= GN_GL_COLOR; i++) {
+        if (!reads(attributes, i) || s->attribute_at[i] < 0) continue;
+        GL(gl, EnableVertexAttribArray)((GLuint)i);
+        point(gl, (GLuint)i, forms[i].size, forms[i].type, s->attribute_stride,
+              (size_t)s->attribute_at[i]);
+    }
+}
+
+static struct gn_gl_vertices *find_vertices(struct gn_gl_scene *s, uint32_t attributes) {
+    for (uint32_t i = 0; i < s->vertices_count; i++)
+        if (s->vertices[i].attributes == attributes) return &s->vertices[i];
+    return NULL;
+}
+
+bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err *err) {
+    struct gn_gl_scene *s = &gl->scene;
+    if (find_vertices(s, attributes)) return true;
+    if (s->vertices_count == GN_GL_VERTICES_MAX)
+        return gn_fail(err, "more than %d sets of vertex attributes", GN_GL_VERTICES_MAX);
+    struct gn_gl_vertices *v = &s->vertices[s->vertices_count++];
+    v->attributes = attributes;
+    v->name = gn_gl_object_create(gl, GN_GL_VERTEX_ARRAY);
+    gn_gl_bind_vertex_array(gl, v->name);
+    GL(gl, BindBuffer)(GL_ELEMENT_ARRAY_BUFFER, s->indices);
+    point_to_scene(gl, attributes);
+    for (int i = GN_GL_WORLD; i < GN_GL_ATTRIBUTE_COUNT; i++) {
+        if (!reads(attributes, i)) continue;
+        GL(gl, EnableVertexAttribArray)((GLuint)i);
+        GL(gl, VertexAttribDivisor)((GLuint)i, 1);
+    }
+    return true;
+}
+
+/* ES 3.0 has no base instance: the pointers move instead. */
+void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_instance) {
+    struct gn_gl_vertices *v = find_vertices(&gl->scene, attributes);
+    const GLuint buffer = gl->instances.buffers[gl->instances.current];
+    const size_t offset = first_instance * sizeof(struct gn_instance);
+    gn_gl_bind_vertex_array(gl, v->name);
+    if (v->instances == buffer && v->offset == offset) return;
+    v->instances = buffer;
+    v->offset = offset;
+    gn_gl_bind_array_buffer(gl, buffer);
+    for (int i = GN_GL_WORLD; i < GN_GL_ATTRIBUTE_COUNT; i++)
+        if (reads(attributes, i))
+            point(gl, (GLuint)i, 4, GL_FLOAT, sizeof(struct gn_instance),
+                  offset + (size_t)(i - GN_GL_WORLD) * 4 * sizeof(float));
+}
+
+_Static_assert(sizeof(struct gn_instance) ==
+                   (GN_GL_ATTRIBUTE_COUNT - GN_GL_WORLD) * 4 * sizeof(float),
+               "locations 5..10 are the members of gn_instance, a vec4 each");
+
+void gn_gl_instances_upload(struct gn_gl *gl, const struct gn_instance *instances, size_t count) {
+    struct gn_gl_instances *ring = &gl->instances;
+    const size_t size = count * sizeof *instances;
+    const uint64_t hash = gn_hash(GN_HASH_INIT ^ size, instances, size);
+    if (ring->hash == hash) return;
+    ring->hash = hash;
+    ring->current = (ring->current + 1) % GN_GL_INSTANCE_RING;
+    gn_gl_bind_array_buffer(gl, ring->buffers[ring->current]);
+    if (ring->room[ring->current] < size) {
+        ring->room[ring->current] = size + size / 2;
+        GL(gl, BufferData)
+        (GL_ARRAY_BUFFER, (GLsizeiptr)ring->room[ring->current], NULL, GL_STREAM_DRAW);
+    }
+    GL(gl, BufferSubData)(GL_ARRAY_BUFFER, 0, (GLsizeiptr)size, instances);
+}
