@@ -19,7 +19,7 @@ struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_c
     struct gn_frame *frame = gn_xalloc(1, sizeof *frame);
     frame->scene = scene;
     frame->caps = *caps;
-    frame->casts = gn_xalloc((size_t)scene->item_count * GN_SHADOWS_MAX, 1);
+    for (int i = 0; i < GN_SHADOWS_MAX; i++) gn_shadow_memory_init(&frame->memory[i], scene->item_count);
     frame->constants = gn_xalloc((GN_SHADOWS_MAX + 1) * GN_PASS_SIZE, sizeof *frame->constants);
     return frame;
 }
@@ -31,7 +31,7 @@ void gn_frame_destroy(struct gn_frame *frame) {
     free(frame->programs.at);
     free(frame->blended.at);
     free(frame->passes.at);
-    free(frame->casts);
+    for (int i = 0; i < GN_SHADOWS_MAX; i++) gn_shadow_memory_finish(&frame->memory[i]);
     free(frame->constants);
     free(frame);
 }
@@ -175,7 +175,7 @@ static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint
     pass->content_hash = view->content_hash;
     pass->constants = frame->constants + (size_t)slot * GN_PASS_SIZE;
     gn_frame_shadow_constants(view, frame->constants + (size_t)slot * GN_PASS_SIZE);
-    struct selection casters = {.casts = frame->casts + (size_t)slot * frame->scene->item_count, .view = view};
+    struct selection casters = {.casts = frame->memory[slot].casts, .view = view};
     draw_items(frame, pose, &casters);
     end_pass(frame);
 }

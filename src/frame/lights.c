@@ -148,9 +148,8 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose, co
         uint32_t map_px = opts->map_px ? opts->map_px : l->map_px ? l->map_px : 1024;
         if (map_px > (uint32_t)frame->caps.max_texture_px) map_px = (uint32_t)frame->caps.max_texture_px;
         struct gn_shadow_opts shadow = {light->technique, light->encoding, map_px};
-        uint8_t *casts = frame->casts + (size_t)i * frame->scene->item_count;
-        if (!gn_shadow_fit(pose, light->light, &frame->eye, &shadow, casts, &frame->shadows[i])) {
-            memset(casts, 0, frame->scene->item_count);
+        if (!gn_shadow_fit(pose, light->light, &frame->eye, &shadow, &frame->memory[i], &frame->shadows[i])) {
+            memset(frame->memory[i].casts, 0, frame->scene->item_count);
             make_empty(&frame->shadows[i]);
         }
     }

@@ -28,7 +28,7 @@ struct gn_frame {
     struct gn_frame_light lights[GN_LIGHTS_MAX]; /* those with maps first */
     uint32_t light_count, shadow_count;
     struct gn_shadow_view shadows[GN_SHADOWS_MAX];
-    uint8_t *casts; /* GN_SHADOWS_MAX x item_count */
+    struct gn_shadow_memory memory[GN_SHADOWS_MAX];
     GN_LIST(struct gn_draw) draws;
     GN_LIST(struct gn_instance) instances;
     GN_LIST(struct gn_program_key) programs;

@@ -6,8 +6,10 @@
 #include "shadow/fit.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "core/hash.h"
 #include "shadow/private.h"
 
@@ -16,20 +18,13 @@
 #define STEPS_PER_OCTAVE 8      /* of the texel's size: the window's width moves in steps of 9 % */
 #define RIM_TEXELS 2            /* cleared rim, and the texel that snapping takes */
 
-/* A region in plane coordinates and depth along the light's axis. Empty when min > max. */
-struct region {
-    float min[2], max[2];
-    float near, far;
-    float far_radial; /* farthest point from the light's origin */
-};
-
-static const struct region nothing = {
+static const struct gn_shadow_region nothing = {
     {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, INFINITY, -INFINITY, 0.0f};
 
 struct fitter {
     const struct gn_pose *pose;
-    const struct gn_eye *eye; /* NULL: everything is seen */
-    const struct gn_shadow_opts *opts;
+    const struct gn_eye *eye;
+    struct gn_shadow_memory *memory;
     struct gn_shadow_view *view;
     vec4 cone[5]; /* spot: planes in world space that hold what its map can show */
     int cone_count;
@@ -37,14 +32,31 @@ struct fitter {
     float scene_size_m;
 };
 
-static bool region_is_empty(const struct region *r) { return r->min[0] > r->max[0] || r->min[1] > r->max[1]; }
+void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count) {
+    memory->item_count = item_count;
+    memory->casts = gn_xalloc(item_count, sizeof *memory->casts);
+    memory->seen = gn_xalloc(item_count, sizeof *memory->seen);
+    memory->whole = gn_xalloc(item_count, sizeof *memory->whole);
+    memory->pose_hash = gn_xalloc(item_count, sizeof *memory->pose_hash);
+    memory->light_hash = 0;
+}
 
-static bool regions_meet(const struct region *a, const struct region *b) {
+void gn_shadow_memory_finish(struct gn_shadow_memory *memory) {
+    free(memory->casts);
+    free(memory->seen);
+    free(memory->whole);
+    free(memory->pose_hash);
+    *memory = (struct gn_shadow_memory){0};
+}
+
+static bool region_is_empty(const struct gn_shadow_region *r) { return r->min[0] > r->max[0] || r->min[1] > r->max[1]; }
+
+static bool regions_meet(const struct gn_shadow_region *a, const struct gn_shadow_region *b) {
     return a->min[0] <= b->max[0] && b->min[0] <= a->max[0] && a->min[1] <= b->max[1] && b->min[1] <= a->max[1];
 }
 
-static struct region intersect(const struct region *a, const struct region *b) {
-    struct region r = *a;
+static struct gn_shadow_region intersect(const struct gn_shadow_region *a, const struct gn_shadow_region *b) {
+    struct gn_shadow_region r = *a;
     for (int k = 0; k < 2; k++) {
         r.min[k] = fmaxf(a->min[k], b->min[k]);
         r.max[k] = fminf(a->max[k], b->max[k]);
@@ -52,7 +64,7 @@ static struct region intersect(const struct region *a, const struct region *b) {
     return r;
 }
 
-static void unite(struct region *a, const struct region *b) {
+static void unite(struct gn_shadow_region *a, const struct gn_shadow_region *b) {
     if (region_is_empty(b)) return;
     for (int k = 0; k < 2; k++) {
         a->min[k] = fminf(a->min[k], b->min[k]);
@@ -63,16 +75,16 @@ static void unite(struct region *a, const struct region *b) {
     a->far_radial = fmaxf(a->far_radial, b->far_radial);
 }
 
-static void add_point(const struct fitter *f, struct region *r, vec3 p_ws) {
+static void add_point(const struct fitter *f, struct gn_shadow_region *r, vec3 p_ws) {
     vec3 p;
     glm_mat4_mulv3(f->view->light_from_world, p_ws, 1.0f, p);
     float depth = -p[2];
     float scale = f->view->perspective ? 1.0f / fmaxf(depth, 1e-6f) : 1.0f;
-    struct region point = {{p[0] * scale, p[1] * scale}, {p[0] * scale, p[1] * scale}, depth, depth, glm_vec3_norm(p)};
+    struct gn_shadow_region point = {{p[0] * scale, p[1] * scale}, {p[0] * scale, p[1] * scale}, depth, depth, glm_vec3_norm(p)};
     unite(r, &point);
 }
 
-static void add_polygon(const struct fitter *f, struct region *r, struct gn_polygon *polygon, bool seen_only) {
+static void add_polygon(const struct fitter *f, struct gn_shadow_region *r, struct gn_polygon *polygon, bool seen_only) {
     if (seen_only)
         for (int i = 0; i < 6 && polygon->count; i++) gn_polygon_clip(polygon, f->eye->planes[i]);
     for (int i = 0; i < f->cone_count && polygon->count; i++) gn_polygon_clip(polygon, f->cone[i]);
@@ -88,7 +100,7 @@ static bool planes_hold(vec4 *planes, int count, const struct gn_box *box) {
     return true;
 }
 
-static void add_triangles(const struct fitter *f, struct region *r, uint32_t item, bool seen_only) {
+static void add_triangles(const struct fitter *f, struct gn_shadow_region *r, uint32_t item, bool seen_only) {
     const struct gn_scene *scene = f->pose->scene;
     const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
     for (uint32_t i = 0; i < g->index_count; i += 3) {
@@ -102,7 +114,7 @@ static void add_triangles(const struct fitter *f, struct region *r, uint32_t ite
 }
 
 /* The hull of box and frustum: clipped faces of each by the other. */
-static void add_body(const struct fitter *f, struct region *r, vec3 corners[8], bool seen_only) {
+static void add_body(const struct fitter *f, struct gn_shadow_region *r, vec3 corners[8], bool seen_only) {
     struct gn_polygon face;
     for (int i = 0; i < 6; i++) {
         gn_box_face(corners, i, &face);
@@ -118,14 +130,11 @@ static void add_body(const struct fitter *f, struct region *r, vec3 corners[8], 
     }
 }
 
-/* What an item covers, of that what the eye sees, of that what the light can show. */
-static struct region item_region(const struct fitter *f, uint32_t item, bool seen_only) {
-    struct region r = nothing;
-    const struct gn_scene *scene = f->pose->scene;
+/* What an item covers, of that what the light can show, and of that - if so wanted - what the eye sees. */
+static struct gn_shadow_region measure(const struct fitter *f, uint32_t item, bool seen_only) {
+    struct gn_shadow_region r = nothing;
     const struct gn_pose_item *posed = &f->pose->items[item];
-    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
-    if (seen_only && !gn_eye_sees(f->eye, &posed->box_ws)) return r;
-    seen_only = seen_only && !planes_hold((vec4 *)f->eye->planes, 6, &posed->box_ws);
+    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
     vec3 corners[8];
     gn_box_corners(&g->box, (vec4 *)posed->world_from_item, corners);
     if (!seen_only && planes_hold((vec4 *)f->cone, f->cone_count, &posed->box_ws))
@@ -135,6 +144,36 @@ static struct region item_region(const struct fitter *f, uint32_t item, bool see
     else
         add_body(f, &r, corners, seen_only);
     return r;
+}
+
+static const struct gn_shadow_region *whole_region(const struct fitter *f, uint32_t item) {
+    return &f->memory->whole[item];
+}
+
+enum { SEEN_NOT, SEEN_PARTLY, SEEN_WHOLE };
+
+static struct gn_shadow_region seen_region(const struct fitter *f, uint32_t item) {
+    return f->memory->seen[item] == SEEN_WHOLE ? *whole_region(f, item) : measure(f, item, true);
+}
+
+/* Brings the memory up to this pose, light and eye. */
+static void remember(const struct fitter *f) {
+    struct gn_shadow_memory *m = f->memory;
+    uint64_t light = gn_hash(GN_HASH_INIT, f->view->light_from_world, sizeof f->view->light_from_world);
+    light = gn_hash(light, &f->tan_cone, sizeof f->tan_cone);
+    for (uint32_t i = 0; i < m->item_count; i++) {
+        const struct gn_pose_item *posed = &f->pose->items[i];
+        if (!posed->visible) {
+            m->seen[i] = SEEN_NOT;
+            continue;
+        }
+        if (m->light_hash != light || m->pose_hash[i] != posed->hash) m->whole[i] = measure(f, i, false);
+        m->pose_hash[i] = posed->hash;
+        m->seen[i] = !gn_eye_sees(f->eye, &posed->box_ws) ? SEEN_NOT
+                     : planes_hold((vec4 *)f->eye->planes, 6, &posed->box_ws) ? SEEN_WHOLE
+                                                                              : SEEN_PARTLY;
+    }
+    m->light_hash = light;
 }
 
 static bool item_receives(const struct fitter *f, uint32_t item) {
@@ -174,42 +213,42 @@ static bool lit_plane(const struct fitter *f, uint32_t item, vec4 plane) {
 }
 
 /* The part of a large flat caster's region that has any receiver behind its plane, seen or not. */
-static struct region useful_region(const struct fitter *f, uint32_t item, const struct region *whole) {
+static struct gn_shadow_region useful_region(const struct fitter *f, uint32_t item, const struct gn_shadow_region *whole) {
     vec4 plane;
     if (!lit_plane(f, item, plane)) return *whole;
-    struct region behind = nothing;
+    struct gn_shadow_region behind = nothing;
     for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
         if (i == item || !item_receives(f, i)) continue;
         const struct gn_box *box = &f->pose->items[i].box_ws;
         float least = plane[3];
         for (int k = 0; k < 3; k++) least += plane[k] * (plane[k] >= 0.0f ? box->min[k] : box->max[k]);
         if (least >= -1e-4f * f->scene_size_m) continue;
-        struct region r = item_region(f, i, false);
-        unite(&behind, &r);
+        unite(&behind, whole_region(f, i));
     }
-    struct region r = intersect(whole, &behind);
+    struct gn_shadow_region r = intersect(whole, &behind);
     return region_is_empty(&r) ? nothing : r;
 }
 
-static struct region caster_region(const struct fitter *f, uint32_t item) {
-    struct region r = item_region(f, item, false);
-    return !region_is_empty(&r) && is_large_flat(f, item) ? useful_region(f, item, &r) : r;
+static struct gn_shadow_region caster_region(const struct fitter *f, uint32_t item) {
+    const struct gn_shadow_region *r = whole_region(f, item);
+    return !region_is_empty(r) && is_large_flat(f, item) ? useful_region(f, item, r) : *r;
 }
 
 /* The window before snapping, and the depths of all casters. */
-static bool find_window(const struct fitter *f, uint8_t *casts, struct region *window, struct region *depths) {
-    uint32_t count = f->pose->scene->item_count;
-    struct region receivers = nothing, casters = nothing, again = nothing;
+static bool find_window(const struct fitter *f, struct gn_shadow_region *window, struct gn_shadow_region *depths) {
+    uint32_t count = f->memory->item_count;
+    uint8_t *casts = f->memory->casts;
+    struct gn_shadow_region receivers = nothing, casters = nothing, again = nothing;
     *depths = nothing;
     for (uint32_t i = 0; i < count; i++) {
-        if (!item_receives(f, i)) continue;
-        struct region r = item_region(f, i, true);
+        if (!item_receives(f, i) || f->memory->seen[i] == SEEN_NOT) continue;
+        struct gn_shadow_region r = seen_region(f, i);
         unite(&receivers, &r);
     }
     memset(casts, 0, count);
     for (uint32_t i = 0; i < count; i++) {
         if (!item_casts(f, i)) continue;
-        struct region r = caster_region(f, i);
+        struct gn_shadow_region r = caster_region(f, i);
         if (region_is_empty(&r)) continue;
         unite(depths, &r);
         if (!regions_meet(&r, &receivers) || r.near > receivers.far) continue;
@@ -219,8 +258,9 @@ static bool find_window(const struct fitter *f, uint8_t *casts, struct region *w
     }
     if (region_is_empty(&casters)) return false;
     for (uint32_t i = 0; i < count; i++) { /* receivers once more, now that the casters are known */
-        if (!item_receives(f, i)) continue;
-        struct region r = item_region(f, i, true);
+        if (!item_receives(f, i) || f->memory->seen[i] == SEEN_NOT) continue;
+        if (!regions_meet(whole_region(f, i), &casters)) continue;
+        struct gn_shadow_region r = seen_region(f, i);
         if (region_is_empty(&r) || !regions_meet(&r, &casters) || r.far < casters.near) continue;
         r = intersect(&r, &casters);
         unite(&again, &r);
@@ -257,7 +297,7 @@ static float ceil_to_step(float size) {
 }
 
 /* Snaps the window to whole texels of a size from a geometric series; returns its low corner. */
-static void snap_window(const struct fitter *f, const struct region *window, double low[2]) {
+static void snap_window(const struct fitter *f, const struct gn_shadow_region *window, double low[2]) {
     struct gn_shadow_view *view = f->view;
     uint32_t margin = gn_techniques[view->technique].radius_texels + RIM_TEXELS;
     uint32_t usable = view->map_px > 2 * margin + 2 ? view->map_px - 2 * margin : 2;
@@ -321,7 +361,7 @@ static void set_matrices(struct gn_shadow_view *view, const double low[2], float
     }
 }
 
-static void set_depths(struct gn_shadow_view *view, const struct region *depths, float *near_depth, float *far_depth) {
+static void set_depths(struct gn_shadow_view *view, const struct gn_shadow_region *depths, float *near_depth, float *far_depth) {
     float pad = 1e-3f * (depths->far - depths->near) + 1e-5f * fabsf(depths->far);
     *near_depth = view->perspective ? fmaxf(depths->near - pad, 0.5f * depths->near) : depths->near - pad;
     *far_depth = depths->far + pad;
@@ -350,15 +390,16 @@ static uint64_t hash_content(const struct gn_pose *pose, const uint8_t *casts, c
 }
 
 bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye, const struct gn_shadow_opts *opts,
-                   uint8_t *casts, struct gn_shadow_view *view) {
+                   struct gn_shadow_memory *memory, struct gn_shadow_view *view) {
     *view = (struct gn_shadow_view){.light = light, .technique = opts->technique, .encoding = opts->encoding, .map_px = opts->map_px};
     const struct gn_light *l = &pose->scene->lights[light];
     if (l->type == GN_LIGHT_POINT || opts->technique == GN_TECHNIQUE_NONE) return false;
-    struct fitter f = {.pose = pose, .eye = eye, .opts = opts, .view = view};
+    struct fitter f = {.pose = pose, .eye = eye, .memory = memory, .view = view};
     f.scene_size_m = fmaxf(glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max), 1e-6f);
     place_light(&f, l);
-    struct region window, depths;
-    if (!find_window(&f, casts, &window, &depths)) return false;
+    remember(&f);
+    struct gn_shadow_region window, depths;
+    if (!find_window(&f, &window, &depths)) return false;
     float near_depth, far_depth;
     double low[2];
     snap_window(&f, &window, low);
@@ -366,6 +407,6 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
     set_code(view, near_depth, far_depth);
     set_matrices(view, low, near_depth, far_depth);
     set_bias(view);
-    view->content_hash = hash_content(pose, casts, view);
+    view->content_hash = hash_content(pose, memory->casts, view);
     return true;
 }

@@ -48,9 +48,27 @@ struct gn_eye {
 void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world);
 bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box); /* conservative */
 
-/* Fits the light's view. casts (one byte per item, storage of the caller) is filled with 1 for the items to draw into the map.
- * False: nothing that is seen can be in this light's shadow; no map is needed. Point lights: false. */
+/* What fitting remembers of a light from frame to frame, so that what stands still costs nothing, and what it found out. One
+ * per shadow map; any scene of as many items, any light. */
+struct gn_shadow_region { /* in plane coordinates and depth along the light's axis; empty when min > max */
+    float min[2], max[2];
+    float near, far;
+    float far_radial; /* farthest point from the light's origin */
+};
+struct gn_shadow_memory {
+    uint32_t item_count;
+    uint8_t *casts;                 /* per item: 1 = draw it into the map */
+    uint8_t *seen;                  /* per item: how much of it the eye sees; private */
+    struct gn_shadow_region *whole; /* per item: all that it covers; private */
+    uint64_t *pose_hash;            /* per item: of the pose that `whole` is of; private */
+    uint64_t light_hash;
+};
+void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count);
+void gn_shadow_memory_finish(struct gn_shadow_memory *memory);
+
+/* Fits the light's view and fills memory->casts. False: nothing that is seen can be in this light's shadow; no map is needed.
+ * Point lights: false. Allocates nothing. */
 bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye, const struct gn_shadow_opts *opts,
-                   uint8_t *casts, struct gn_shadow_view *view);
+                   struct gn_shadow_memory *memory, struct gn_shadow_view *view);
 
 #endif
