@@ -98,8 +98,10 @@ BIN     := $(B)/gnomon
 OBJ      = $(patsubst %.c,$(B)/obj/%.o,$(1))
 SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb) \
            $(if $(wildcard assets/make_bench.c),assets/bench/s1.glb assets/bench/s2.glb)
-EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES))
-EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb,$(suffix $f)),$f))
+SELFTEST := $(foreach s,box ball fence lattice tilt stack,$(addprefix $(O)/selftest/$s,.glb .truth))
+EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES)) \
+           $(SELFTEST)
+EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(suffix $f)),$f))
 
 all: $(BIN) $(SCENES) man
 tests: $(BIN) $(PROGS) $(HOST_ASSETS) $(SCENES)
@@ -137,7 +139,8 @@ $(B)/gen/config.h: FORCE
 	$(call keep,#define GN_VERSION "$(VERSION)"\n#define GN_HAVE_OSMESA $(if \
 	    $(filter %/osmesa.c,$(without)),0,1))
 $(B)/gen/embedded.c: $(O)/host/embed $(B)/sources $(EMBED)
-	$(Q)$< $(foreach f,$(EMBED),$(patsubst shaders_es/%,%,$(patsubst assets/%,%,$f))=$f) > $@
+	$(Q)$< $(foreach f,$(EMBED),$(patsubst $(O)/%,%,$(patsubst shaders_es/%,%,\
+	    $(patsubst assets/%,%,$f)))=$f) > $@
 
 # ---- programs that run while building, and what they make ----------------------------------
 HOST     = $(HOSTCC) -std=c11 -D_GNU_SOURCE -O2 -Wall -Wextra -Isrc -Iassets -I$(B)/gen -o $@ \
@@ -157,6 +160,9 @@ assets/sundial.glb: $(O)/host/make_sundial
 assets/bench/%.glb: $(O)/host/make_bench
 	@mkdir -p $(@D)
 	$(Q)$< $* $@.tmp && mv $@.tmp $@
+$(O)/selftest/%.glb $(O)/selftest/%.truth: $(O)/host/make_selftest
+	@mkdir -p $(@D)
+	$(Q)$< $* $(basename $@)
 $(O)/gnomon.1: $(O)/host/man
 	$(Q)$< > $@
 
