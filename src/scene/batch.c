@@ -1,11 +1,12 @@
-/* The order of the items. Those that one instanced call can draw stand together: same geometry, same flags, and materials
- * that look alike but for their factors. */
+/* The order of the items. Those that one instanced call can draw stand together: same geometry,
+ * same flags, and materials that look alike but for their factors. */
 #include "scene/private.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What makes two materials different programs or different state. Compared as bytes, so made from zeroed memory. */
+/* What makes two materials different programs or different state. Compared as bytes, so made from
+ * zeroed memory. */
 struct look {
     struct gn_texture_ref textures[GN_TEXTURE_SLOT_COUNT];
     uint8_t alpha, double_sided, unlit, specular, emissive;
@@ -17,7 +18,7 @@ struct look_key {
 
 static void look_of(const struct gn_material *m, struct look *look) {
     memcpy(look->textures, m->textures, sizeof look->textures);
-    look->alpha = (uint8_t) m->alpha;
+    look->alpha = (uint8_t)m->alpha;
     look->double_sided = m->double_sided;
     look->unlit = m->unlit;
     look->specular = !m->unlit && (m->roughness < 1 || m->metalness > 0 ||
@@ -53,7 +54,7 @@ struct item_key {
 };
 
 static int compare_items(const void *a, const void *b) {
-    const uint32_t *x = ((const struct item_key *) a)->part, *y = ((const struct item_key *) b)->part;
+    const uint32_t *x = ((const struct item_key *)a)->part, *y = ((const struct item_key *)b)->part;
     for (int i = 0; i < KEY_COUNT; i++)
         if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
     return 0;
@@ -61,15 +62,14 @@ static int compare_items(const void *a, const void *b) {
 
 static struct item_key key_of(const struct gn_scene *scene, uint32_t index, const uint32_t *looks) {
     const struct gn_item *item = &scene->items[index];
-    uint32_t flags = (uint32_t) item->casts | (uint32_t) item->receives << 1 |
-                     (uint32_t) item->plane << 2 | (uint32_t) item->cast_faces << 3;
-    return (struct item_key){
-        .part = {[KEY_ALPHA] = scene->materials[item->material].alpha,
-                 [KEY_LOOK] = looks[item->material],
-                 [KEY_GEOMETRY] = item->geometry,
-                 [KEY_FLAGS] = flags,
-                 [KEY_ORDER] = index},
-        .item = *item};
+    uint32_t flags = (uint32_t)item->casts | (uint32_t)item->receives << 1 |
+                     (uint32_t)item->plane << 2 | (uint32_t)item->cast_faces << 3;
+    return (struct item_key){.part = {[KEY_ALPHA] = scene->materials[item->material].alpha,
+                                      [KEY_LOOK] = looks[item->material],
+                                      [KEY_GEOMETRY] = item->geometry,
+                                      [KEY_FLAGS] = flags,
+                                      [KEY_ORDER] = index},
+                             .item = *item};
 }
 
 bool gn_scene_batch(struct gn_gltf *g) {
@@ -81,7 +81,8 @@ bool gn_scene_batch(struct gn_gltf *g) {
     for (uint32_t i = 0; i < scene->item_count; i++) keys[i] = key_of(scene, i, looks);
     qsort(keys, scene->item_count, sizeof *keys, compare_items);
     for (uint32_t i = 0; i < scene->item_count; i++) {
-        bool next = i > 0 && memcmp(keys[i].part, keys[i - 1].part, KEY_ORDER * sizeof(uint32_t)) != 0;
+        bool next =
+            i > 0 && memcmp(keys[i].part, keys[i - 1].part, KEY_ORDER * sizeof(uint32_t)) != 0;
         scene->batch_count = i == 0 ? 1 : scene->batch_count + next;
         scene->items[i] = keys[i].item;
         scene->items[i].batch = scene->batch_count - 1;

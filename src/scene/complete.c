@@ -47,11 +47,12 @@ static void corner_of(const struct gn_box *box, int i, vec3 out) {
     for (int k = 0; k < 3; k++) out[k] = i >> k & 1 ? box->max[k] : box->min[k];
 }
 
-/* How far from the middle, along `back`, all of the box is in the picture, in 4:3 and wider; reach: of the box along it. */
+/* How far from the middle, along `back`, all of the box is in the picture, in 4:3 and wider; reach:
+ * of the box along it. */
 static float fitting_distance(const struct gn_box *box, vec3 axes[3], float slope, float reach[2]) {
     float distance = 0;
     vec3 middle, corner;
-    glm_vec3_center((float *) box->min, (float *) box->max, middle);
+    glm_vec3_center((float *)box->min, (float *)box->max, middle);
     reach[0] = reach[1] = 0;
     for (int i = 0; i < 8; i++) {
         corner_of(box, i, corner);
@@ -107,7 +108,8 @@ static void name_missing(struct gn_gltf *g) {
     char list[200] = "";
     for (size_t i = 0, at = 0; i < GN_MISSING_COUNT; i++)
         if (g->is_missing[i])
-            at += (size_t) snprintf(list + at, sizeof list - at, "%s%s", at > 0 ? ", " : "", names[i]);
+            at +=
+                (size_t)snprintf(list + at, sizeof list - at, "%s%s", at > 0 ? ", " : "", names[i]);
     if (list[0]) gn_gltf_warn(g, NULL, "shown without %s: not supported yet", list);
 }
 

@@ -24,14 +24,15 @@ struct gather {
 
 /* All elements of the accessor, in work memory; missing components are 1 (an alpha, for one). */
 static float *read_all(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
-    float *all = gn_gltf_alloc(g, &g->work, (uint64_t) a->count * components, sizeof *all);
+    float *all = gn_gltf_alloc(g, &g->work, (uint64_t)a->count * components, sizeof *all);
     for (size_t i = 0; all && a->components < components && i < a->count * components; i++)
         all[i] = 1;
     if (all) gn_accessor_floats(a, components, all);
     return all;
 }
 
-static bool put_floats(struct gn_gltf *g, const struct gather *gather, size_t components, float *out) {
+static bool put_floats(struct gn_gltf *g, const struct gather *gather, size_t components,
+                       float *out) {
     if (!gather->accessor) return true;
     out += gather->first * components;
     if (!gather->source) {
@@ -40,7 +41,8 @@ static bool put_floats(struct gn_gltf *g, const struct gather *gather, size_t co
     }
     const float *all = read_all(g, gather->accessor, components);
     for (size_t i = 0; all && i < gather->count; i++)
-        memcpy(out + i * components, all + gather->source[i] * components, components * sizeof *out);
+        memcpy(out + i * components, all + gather->source[i] * components,
+               components * sizeof *out);
     return all != NULL;
 }
 
@@ -65,7 +67,7 @@ static bool put_colors(struct gn_gltf *g, const struct gather *gather, uint8_t *
     for (size_t i = 0; all && i < gather->count; i++) {
         const float *from = all + 4 * (gather->source ? gather->source[i] : i);
         for (int k = 0; k < 4; k++)
-            out[4 * i + (size_t) k] = (uint8_t) (fminf(fmaxf(from[k], 0), 1) * 255 + .5f);
+            out[4 * i + (size_t)k] = (uint8_t)(fminf(fmaxf(from[k], 0), 1) * 255 + .5f);
     }
     return all != NULL;
 }
@@ -104,20 +106,20 @@ static bool fill_vertices(struct gn_gltf *g, struct gn_vertices *vertices) {
     if (!put_floats(g, &gather, 3, scene->positions)) return false;
     gather.accessor = gn_gltf_accessor(g, vertices->attribute[NORMAL]);
     if (!put_floats(g, &gather, 3, scene->normals)) return false;
-    make_unit(vertices, scene->normals + 3 * (size_t) vertices->first);
+    make_unit(vertices, scene->normals + 3 * (size_t)vertices->first);
     return put_rest(g, vertices->attribute, gather);
 }
 
 /* ---- corners ---- */
 
-static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
-                              size_t *count) {
+static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at,
+                              const struct gn_shape *shape, size_t *count) {
     size_t vertex_count = gn_gltf_accessor(g, shape->attribute[POSITION])->count;
     const struct gn_accessor *indices = gn_gltf_accessor(g, shape->indices);
     *count = indices ? indices->count : vertex_count;
     uint32_t *raw = gn_gltf_alloc(g, &g->work, *count, sizeof *raw);
     if (!raw) return NULL;
-    for (size_t i = 0; !indices && i < *count; i++) raw[i] = (uint32_t) i;
+    for (size_t i = 0; !indices && i < *count; i++) raw[i] = (uint32_t)i;
     if (indices) gn_accessor_indices(indices, raw);
     struct gn_at place = gn_at_any(at, "indices");
     for (size_t i = 0; i < *count; i++) {
@@ -132,7 +134,8 @@ static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at, const s
 /* The corners of triangle t, wound as glTF 2.0, 3.7.2.1 has it. */
 static void triangle_at(const uint32_t *raw, int32_t mode, size_t t, uint32_t out[3]) {
     size_t odd = t % 2;
-    if (mode == MODE_TRIANGLES) memcpy(out, raw + 3 * t, 3 * sizeof *out);
+    if (mode == MODE_TRIANGLES)
+        memcpy(out, raw + 3 * t, 3 * sizeof *out);
     else if (mode == MODE_STRIP) {
         out[0] = raw[t];
         out[1] = raw[t + 1 + odd];
@@ -144,8 +147,8 @@ static void triangle_at(const uint32_t *raw, int32_t mode, size_t t, uint32_t ou
     }
 }
 
-/* Unrolls strips and fans into out, without triangles that have no area by their indices or a position that is no place;
- * returns the number of corners. */
+/* Unrolls strips and fans into out, without triangles that have no area by their indices or a
+ * position that is no place; returns the number of corners. */
 static size_t unroll(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
                      const uint32_t *raw, const float *positions, uint32_t *out) {
     size_t count = 0, dropped = 0;
@@ -153,14 +156,16 @@ static size_t unroll(struct gn_gltf *g, const struct gn_at *at, const struct gn_
         uint32_t v[3];
         triangle_at(raw, shape->mode, t, v);
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-        if (usable(positions + 3 * (size_t) v[0]) && usable(positions + 3 * (size_t) v[1]) &&
-            usable(positions + 3 * (size_t) v[2])) {
+        if (usable(positions + 3 * (size_t)v[0]) && usable(positions + 3 * (size_t)v[1]) &&
+            usable(positions + 3 * (size_t)v[2])) {
             memcpy(out + count, v, sizeof v);
             count += 3;
-        } else dropped++;
+        } else
+            dropped++;
     }
     if (dropped > 0)
-        gn_gltf_warn(g, at, "%zu triangles with positions that are not finite are not shown", dropped);
+        gn_gltf_warn(g, at, "%zu triangles with positions that are not finite are not shown",
+                     dropped);
     return count;
 }
 
@@ -180,16 +185,18 @@ static bool fill_flat(struct gn_gltf *g, const struct gn_at *at, const struct gn
     if (!gn_geometry_flat_normals(g, positions, corners, count, a->count, &source, &normals, &made))
         return false;
     geometry->first_vertex = scene->vertex_count;
-    geometry->vertex_count = (uint32_t) made;
-    geometry->index_count = (uint32_t) count;
+    geometry->vertex_count = (uint32_t)made;
+    geometry->index_count = (uint32_t)count;
     for (size_t i = 0; i < count; i++) corners[i] += geometry->first_vertex;
-    memcpy(scene->normals + 3 * (size_t) geometry->first_vertex, normals, 3 * made * sizeof *normals);
+    memcpy(scene->normals + 3 * (size_t)geometry->first_vertex, normals,
+           3 * made * sizeof *normals);
     for (size_t i = 0; i < made; i++)
-        memcpy(scene->positions + 3 * (geometry->first_vertex + i), positions + 3 * (size_t) source[i],
-               3 * sizeof *positions);
+        memcpy(scene->positions + 3 * (geometry->first_vertex + i),
+               positions + 3 * (size_t)source[i], 3 * sizeof *positions);
     scene->vertex_count += geometry->vertex_count;
-    return put_rest(g, shape->attribute,
-                    (struct gather){.source = source, .first = geometry->first_vertex, .count = made});
+    return put_rest(
+        g, shape->attribute,
+        (struct gather){.source = source, .first = geometry->first_vertex, .count = made});
 }
 
 static bool fill_shared(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
@@ -201,11 +208,11 @@ static bool fill_shared(struct gn_gltf *g, const struct gn_at *at, const struct 
     const uint32_t *raw = read_corners(g, at, shape, &count);
     if (!raw) return false;
     uint32_t *corners = scene->indices + geometry->first_index;
-    count = unroll(g, at, shape, raw, scene->positions + 3 * (size_t) vertices->first, corners);
+    count = unroll(g, at, shape, raw, scene->positions + 3 * (size_t)vertices->first, corners);
     for (size_t i = 0; i < count; i++) corners[i] += vertices->first;
     geometry->first_vertex = vertices->first;
     geometry->vertex_count = vertices->count;
-    geometry->index_count = (uint32_t) count;
+    geometry->index_count = (uint32_t)count;
     geometry->has_normals_in_file = true;
     if (vertices->lacks_normals && gn_geometry_repair_normals(scene, geometry) > 0)
         gn_gltf_warn(g, at, "normals without length; those of the faces are used");
@@ -245,11 +252,13 @@ static bool allocate(struct gn_gltf *g) {
         for (int k = 0; k < GN_ATTRIBUTES; k++) any[k] |= shape->attribute[k] >= 0;
     }
     if (vertices > g->limits.vertices)
-        return gn_gltf_fail(g, &meshes, "%" PRIu64 " vertices are more than the limit vertices=%" PRIu64,
+        return gn_gltf_fail(g, &meshes,
+                            "%" PRIu64 " vertices are more than the limit vertices=%" PRIu64,
                             vertices, g->limits.vertices);
     if (corners > UINT32_MAX)
         return gn_gltf_fail(g, &meshes, "%" PRIu64 " indices are more than can be drawn", corners);
-    scene->geometries = gn_gltf_alloc(g, g->arena, scene->geometry_count, sizeof *scene->geometries);
+    scene->geometries =
+        gn_gltf_alloc(g, g->arena, scene->geometry_count, sizeof *scene->geometries);
     scene->positions = gn_gltf_alloc(g, g->arena, vertices, 3 * sizeof *scene->positions);
     scene->normals = gn_gltf_alloc(g, g->arena, vertices, 3 * sizeof *scene->normals);
     scene->indices = gn_gltf_alloc(g, g->arena, corners, sizeof *scene->indices);

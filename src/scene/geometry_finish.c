@@ -1,15 +1,17 @@
-/* What follows from a geometry's triangles: normals where the file has none, bounds, and whether it is flat. */
+/* What follows from a geometry's triangles: normals where the file has none, bounds, and whether it
+ * is flat. */
 #include "scene/private.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Twice the area along the normal of a counter-clockwise triangle; in double, since edges may be short and far away. */
+/* Twice the area along the normal of a counter-clockwise triangle; in double, since edges may be
+ * short and far away. */
 static void cross_of(const float *a, const float *b, const float *c, double out[3]) {
     double u[3], v[3];
     for (int i = 0; i < 3; i++) {
-        u[i] = (double) b[i] - (double) a[i];
-        v[i] = (double) c[i] - (double) a[i];
+        u[i] = (double)b[i] - (double)a[i];
+        v[i] = (double)c[i] - (double)a[i];
     }
     out[0] = u[1] * v[2] - u[2] * v[1];
     out[1] = u[2] * v[0] - u[0] * v[2];
@@ -23,14 +25,16 @@ static void face_normal(const float *a, const float *b, const float *c, float ou
     double n[3];
     cross_of(a, b, c, n);
     double length = length_of(n);
-    for (int i = 0; i < 3; i++) out[i] = length > 0 ? (float) (n[i] / length) : (float) (i == 1);
+    for (int i = 0; i < 3; i++) out[i] = length > 0 ? (float)(n[i] / length) : (float)(i == 1);
 }
 
 /* ---- normals ---- */
 
-/* glTF has flat normals where none are given: a vertex is made again for each face around it that looks another way. */
-bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_t *corners, size_t corner_count,
-                              size_t vertex_count, uint32_t **source, float **normals, size_t *made) {
+/* glTF has flat normals where none are given: a vertex is made again for each face around it that
+ * looks another way. */
+bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_t *corners,
+                              size_t corner_count, size_t vertex_count, uint32_t **source,
+                              float **normals, size_t *made) {
     uint32_t *latest = gn_gltf_alloc(g, &g->work, vertex_count, sizeof *latest); /* made + 1 */
     *source = gn_gltf_alloc(g, &g->work, corner_count, sizeof **source);
     *normals = gn_gltf_alloc(g, &g->work, corner_count, 3 * sizeof **normals);
@@ -40,15 +44,16 @@ bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_
     for (size_t i = 0; i < corner_count; i++) {
         const uint32_t *t = corners + i;
         if (i % 3 == 0)
-            face_normal(positions + 3 * (size_t) t[0], positions + 3 * (size_t) t[1],
-                        positions + 3 * (size_t) t[2], normal);
+            face_normal(positions + 3 * (size_t)t[0], positions + 3 * (size_t)t[1],
+                        positions + 3 * (size_t)t[2], normal);
         uint32_t vertex = corners[i], known = latest[vertex];
-        const float *other = *normals + 3 * (size_t) (known ? known - 1 : 0);
-        bool same = known && normal[0] * other[0] + normal[1] * other[1] + normal[2] * other[2] > 1 - 1e-6f;
+        const float *other = *normals + 3 * (size_t)(known ? known - 1 : 0);
+        bool same =
+            known && normal[0] * other[0] + normal[1] * other[1] + normal[2] * other[2] > 1 - 1e-6f;
         if (!same) {
             memcpy(*normals + 3 * count, normal, sizeof normal);
             (*source)[count] = vertex;
-            latest[vertex] = (uint32_t) ++count;
+            latest[vertex] = (uint32_t)++count;
         }
         corners[i] = latest[vertex] - 1;
     }
@@ -60,11 +65,11 @@ size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geomet
     const uint32_t *t = scene->indices + geometry->first_index;
     size_t repaired = 0;
     for (size_t i = 0; i < geometry->index_count; i++) {
-        float *n = scene->normals + 3 * (size_t) t[i];
+        float *n = scene->normals + 3 * (size_t)t[i];
         if (n[0] != 0 || n[1] != 0 || n[2] != 0) continue;
         const uint32_t *face = t + i - i % 3;
-        face_normal(scene->positions + 3 * (size_t) face[0], scene->positions + 3 * (size_t) face[1],
-                    scene->positions + 3 * (size_t) face[2], n);
+        face_normal(scene->positions + 3 * (size_t)face[0], scene->positions + 3 * (size_t)face[1],
+                    scene->positions + 3 * (size_t)face[2], n);
         repaired++;
     }
     return repaired;
@@ -76,7 +81,7 @@ static struct gn_box bounds(const struct gn_scene *scene, const struct gn_geomet
     struct gn_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     const uint32_t *index = scene->indices + geometry->first_index;
     for (size_t i = 0; i < geometry->index_count; i++) {
-        const float *p = scene->positions + 3 * (size_t) index[i];
+        const float *p = scene->positions + 3 * (size_t)index[i];
         for (int k = 0; k < 3; k++) {
             if (p[k] < box.min[k]) box.min[k] = p[k];
             if (p[k] > box.max[k]) box.max[k] = p[k];
@@ -86,15 +91,16 @@ static struct gn_box bounds(const struct gn_scene *scene, const struct gn_geomet
 }
 
 /* The normal of the largest triangle, turned to the side to which most of the area looks. */
-static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry *geometry, double out[3],
-                         double *area) {
+static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry *geometry,
+                         double out[3], double *area) {
     const uint32_t *index = scene->indices + geometry->first_index;
     double sum[3] = {0}, best = 0;
     *area = 0;
     for (size_t i = 0; i + 2 < geometry->index_count; i += 3) {
         double n[3];
-        cross_of(scene->positions + 3 * (size_t) index[i], scene->positions + 3 * (size_t) index[i + 1],
-                 scene->positions + 3 * (size_t) index[i + 2], n);
+        cross_of(scene->positions + 3 * (size_t)index[i],
+                 scene->positions + 3 * (size_t)index[i + 1],
+                 scene->positions + 3 * (size_t)index[i + 2], n);
         double length = length_of(n);
         *area += length / 2;
         for (int k = 0; k < 3; k++) sum[k] += n[k];
@@ -107,12 +113,12 @@ static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry 
     return best > 0;
 }
 
-static bool in_plane(const struct gn_scene *scene, const struct gn_geometry *geometry, const double n[3],
-                     double d, double tolerance) {
+static bool in_plane(const struct gn_scene *scene, const struct gn_geometry *geometry,
+                     const double n[3], double d, double tolerance) {
     const uint32_t *index = scene->indices + geometry->first_index;
     for (size_t i = 0; i < geometry->index_count; i++) {
-        const float *p = scene->positions + 3 * (size_t) index[i];
-        double distance = n[0] * (double) p[0] + n[1] * (double) p[1] + n[2] * (double) p[2] + d;
+        const float *p = scene->positions + 3 * (size_t)index[i];
+        double distance = n[0] * (double)p[0] + n[1] * (double)p[1] + n[2] * (double)p[2] + d;
         if (!(fabs(distance) <= tolerance)) return false;
     }
     return true;
@@ -124,13 +130,13 @@ void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geome
     geometry->box = bounds(scene, geometry);
     double n[3] = {0}, size[3], d = 0;
     if (!guess_normal(scene, geometry, n, area)) return;
-    const float *on = scene->positions + 3 * (size_t) scene->indices[geometry->first_index];
+    const float *on = scene->positions + 3 * (size_t)scene->indices[geometry->first_index];
     for (int k = 0; k < 3; k++) {
-        size[k] = (double) geometry->box.max[k] - (double) geometry->box.min[k];
-        d -= n[k] * (double) on[k];
+        size[k] = (double)geometry->box.max[k] - (double)geometry->box.min[k];
+        d -= n[k] * (double)on[k];
     }
     geometry->flat = in_plane(scene, geometry, n, d, 1e-5 * length_of(size));
     if (!geometry->flat) return;
-    for (int k = 0; k < 3; k++) geometry->plane[k] = (float) n[k];
-    geometry->plane[3] = (float) d;
+    for (int k = 0; k < 3; k++) geometry->plane[k] = (float)n[k];
+    geometry->plane[3] = (float)d;
 }

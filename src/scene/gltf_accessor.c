@@ -1,5 +1,5 @@
-/* Accessors: every one that is used goes once through gn_gltf_accessor(), which checks it against the data behind it; what
- * comes out can be read without further checks. */
+/* Accessors: every one that is used goes once through gn_gltf_accessor(), which checks it against
+ * the data behind it; what comes out can be read without further checks. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -37,7 +37,7 @@ static bool read_component(struct gn_gltf *g, const struct gn_at *up, enum gn_co
     if (g->failed) return false;
     if (value < GN_I8 || value > GN_F32 || value == 5124)
         return gn_gltf_fail(g, &at, "%" PRIu64 " is none of 5120-5123, 5125, 5126", value);
-    *out = (enum gn_component) value;
+    *out = (enum gn_component)value;
     return true;
 }
 
@@ -66,15 +66,18 @@ static const uint8_t *span_data(struct gn_gltf *g, const struct gn_at *at, struc
                 !__builtin_add_overflow(end, span->element, &end) &&
                 !__builtin_add_overflow(end, span->offset, &end);
     if (!view->data)
-        gn_gltf_fail(g, at, "the buffer of bufferView %d holds no data; if the file is compressed, "
-                     "decompress it first (gltf-transform can)", span->view);
+        gn_gltf_fail(g, at,
+                     "the buffer of bufferView %d holds no data; if the file is compressed, "
+                     "decompress it first (gltf-transform can)",
+                     span->view);
     else if (span->stride < span->element)
         gn_gltf_fail(g, at, "byteStride %zu of bufferView %d is less than an element of %zu bytes",
                      span->stride, span->view, span->element);
     else if (!fits || end > view->size)
-        gn_gltf_fail(g, at, "%" PRIu64 " elements from byte %" PRIu64
-                     " on pass the end of bufferView %d (%zu bytes)", span->count, span->offset,
-                     span->view, view->size);
+        gn_gltf_fail(g, at,
+                     "%" PRIu64 " elements from byte %" PRIu64
+                     " on pass the end of bufferView %d (%zu bytes)",
+                     span->count, span->offset, span->view, view->size);
     return g->failed ? NULL : view->data + span->offset;
 }
 
@@ -112,16 +115,21 @@ static bool apply_sparse(struct gn_gltf *g, const struct gn_at *sparse, struct g
     struct gn_at at = gn_at_any(sparse, "count");
     if (count > a->count)
         return gn_gltf_fail(g, &at, "%" PRIu64 " is more than the accessor's %zu", count, a->count);
-    struct gn_at indices = gn_at_object(g, sparse, "indices"), values = gn_at_object(g, sparse, "values");
-    struct gn_accessor index = {.count = (size_t) count, .components = 1, .backed = true};
+    struct gn_at indices = gn_at_object(g, sparse, "indices"),
+                 values = gn_at_object(g, sparse, "values");
+    struct gn_accessor index = {.count = (size_t)count, .components = 1, .backed = true};
     if (!read_component(g, &indices, &index.component)) return false;
     index.stride = gn_component_size(index.component);
-    struct span index_span = {.view = gn_at_ref(g, &indices, "bufferView", g->view_count, "bufferViews"),
-                              .offset = gn_at_uint(g, &indices, "byteOffset", 0),
-                              .count = count, .element = index.stride};
-    struct span value_span = {.view = gn_at_ref(g, &values, "bufferView", g->view_count, "bufferViews"),
+    struct span index_span = {
+        .view = gn_at_ref(g, &indices, "bufferView", g->view_count, "bufferViews"),
+        .offset = gn_at_uint(g, &indices, "byteOffset", 0),
+        .count = count,
+        .element = index.stride};
+    struct span value_span = {.view =
+                                  gn_at_ref(g, &values, "bufferView", g->view_count, "bufferViews"),
                               .offset = gn_at_uint(g, &values, "byteOffset", 0),
-                              .count = count, .element = element};
+                              .count = count,
+                              .element = element};
     if (g->failed || index_span.view < 0 || value_span.view < 0)
         return gn_gltf_fail(g, sparse, "indices.bufferView and values.bufferView are needed");
     if (index.component != GN_U8 && index.component != GN_U16 && index.component != GN_U32)
@@ -154,7 +162,7 @@ static bool resolve(struct gn_gltf *g, const struct gn_at *at, struct gn_accesso
     if (a->backed) span.stride = g->views[span.view].stride;
     a->data = a->backed ? span_data(g, at, &span) : ZEROS;
     a->stride = span.stride;
-    a->count = (size_t) span.count;
+    a->count = (size_t)span.count;
     if (g->failed) return false;
     struct gn_at sparse = gn_at_object(g, at, "sparse");
     if (sparse.json) apply_sparse(g, &sparse, a, span.element);
@@ -162,7 +170,7 @@ static bool resolve(struct gn_gltf *g, const struct gn_at *at, struct gn_accesso
 }
 
 struct gn_at gn_at_accessor(const struct gn_at *accessors, int32_t index) {
-    return gn_at_element(accessors, (size_t) index);
+    return gn_at_element(accessors, (size_t)index);
 }
 
 const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index) {
@@ -170,7 +178,7 @@ const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index) {
     struct gn_accessor *a = &g->accessors[index];
     if (a->resolved) return a;
     struct gn_at root = gn_at_root(g), array = gn_at_array(g, &root, "accessors");
-    struct gn_at at = gn_at_item(g, &array, (size_t) index);
+    struct gn_at at = gn_at_item(g, &array, (size_t)index);
     a->resolved = !g->failed && resolve(g, &at, a);
     return a->resolved ? a : NULL;
 }
@@ -191,17 +199,17 @@ static float component_float(const uint8_t *p, enum gn_component component, bool
     uint32_t u32;
     float f32;
     switch (component) {
-    case GN_I8: return normalized ? fmaxf((float) (int8_t) *p / 127.0f, -1) : (float) (int8_t) *p;
-    case GN_U8: return normalized ? (float) *p / 255.0f : (float) *p;
+    case GN_I8: return normalized ? fmaxf((float)(int8_t)*p / 127.0f, -1) : (float)(int8_t)*p;
+    case GN_U8: return normalized ? (float)*p / 255.0f : (float)*p;
     case GN_I16:
         memcpy(&i16, p, sizeof i16);
-        return normalized ? fmaxf((float) i16 / 32767.0f, -1) : (float) i16;
+        return normalized ? fmaxf((float)i16 / 32767.0f, -1) : (float)i16;
     case GN_U16:
         memcpy(&u16, p, sizeof u16);
-        return normalized ? (float) u16 / 65535.0f : (float) u16;
+        return normalized ? (float)u16 / 65535.0f : (float)u16;
     case GN_U32:
         memcpy(&u32, p, sizeof u32);
-        return normalized ? (float) ((double) u32 / 4294967295.0) : (float) u32;
+        return normalized ? (float)((double)u32 / 4294967295.0) : (float)u32;
     default: memcpy(&f32, p, sizeof f32); return f32;
     }
 }
@@ -212,7 +220,8 @@ void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *o
     for (size_t i = 0; i < a->count; i++) {
         const uint8_t *element = a->data + i * a->stride;
         float *to = out + i * components;
-        if (a->component == GN_F32) memcpy(to, element, n * sizeof *to);
+        if (a->component == GN_F32)
+            memcpy(to, element, n * sizeof *to);
         else
             for (size_t k = 0; k < n; k++)
                 to[k] = component_float(element + k * size, a->component, a->normalized);

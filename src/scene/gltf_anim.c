@@ -1,4 +1,5 @@
-/* Animations to clips. A channel that cannot be played is left out with a warning; the clip keeps its number. */
+/* Animations to clips. A channel that cannot be played is left out with a warning; the clip keeps
+ * its number. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -18,7 +19,7 @@ static enum gn_anim_interpolation read_interpolation(struct gn_gltf *g, const st
         [GN_ANIM_LINEAR] = "LINEAR", [GN_ANIM_STEP] = "STEP", [GN_ANIM_CUBIC] = "CUBICSPLINE"};
     const char *name = gn_at_text(g, at, "interpolation");
     for (int i = 0; name && i < 3; i++)
-        if (strcmp(name, names[i]) == 0) return (enum gn_anim_interpolation) i;
+        if (strcmp(name, names[i]) == 0) return (enum gn_anim_interpolation)i;
     if (name) gn_gltf_warn(g, at, "interpolation '%.20s' is unknown; taken as LINEAR", name);
     return GN_ANIM_LINEAR;
 }
@@ -34,7 +35,8 @@ static bool read_sampler(struct gn_gltf *g, const struct gn_at *at, struct sampl
     return true;
 }
 
-/* Times as floats, ascending; read once for all channels that share them. NULL: unusable, or failed. */
+/* Times as floats, ascending; read once for all channels that share them. NULL: unusable, or
+ * failed. */
 static const float *read_times(struct gn_gltf *g, const struct sampler *sampler) {
     const struct gn_accessor *a = sampler->input;
     if (a->components != 1) return NULL;
@@ -49,7 +51,7 @@ static const float *read_times(struct gn_gltf *g, const struct sampler *sampler)
 }
 
 static const float *read_values(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
-    float *values = gn_gltf_alloc(g, g->arena, (uint64_t) a->count * components, sizeof *values);
+    float *values = gn_gltf_alloc(g, g->arena, (uint64_t)a->count * components, sizeof *values);
     if (!values) return NULL;
     struct gn_accessor copy = *a;
     if (components == 4) copy.normalized = true; /* integers can only be that for a rotation */
@@ -71,16 +73,20 @@ static int32_t read_target(struct gn_gltf *g, const struct gn_at *at, enum gn_an
     const char *name = gn_at_text(g, &target, "path");
     if (g->failed || !name) return -1;
     for (int i = 0; i < 3; i++) {
-        *path = (enum gn_anim_path) i;
+        *path = (enum gn_anim_path)i;
         if (strcmp(name, names[i]) == 0) return node < 0 ? -1 : g->scene_node[node];
     }
-    if (strcmp(name, "weights") == 0) g->is_missing[GN_MISSING_MORPHS] = true;
-    else if (strcmp(name, "pointer") == 0) g->is_missing[GN_MISSING_POINTERS] = true;
-    else gn_gltf_warn(g, &target, "path '%.20s' is unknown; ignored", name);
+    if (strcmp(name, "weights") == 0)
+        g->is_missing[GN_MISSING_MORPHS] = true;
+    else if (strcmp(name, "pointer") == 0)
+        g->is_missing[GN_MISSING_POINTERS] = true;
+    else
+        gn_gltf_warn(g, &target, "path '%.20s' is unknown; ignored", name);
     return -1;
 }
 
-/* A matrix cannot be animated: the node gets the translation, rotation and scale that it stands for. */
+/* A matrix cannot be animated: the node gets the translation, rotation and scale that it stands
+ * for. */
 static void use_trs(struct gn_node *node) {
     if (!node->has_matrix) return;
     node->has_matrix = false;
@@ -108,7 +114,7 @@ static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct
     if (g->failed || node < 0) return false;
     struct gn_at place = gn_at_any(at, "sampler");
     if (index < 0) return gn_gltf_fail(g, &place, "missing");
-    struct gn_at sampler_at = gn_at_item(g, samplers, (size_t) index);
+    struct gn_at sampler_at = gn_at_item(g, samplers, (size_t)index);
     if (g->failed || !read_sampler(g, &sampler_at, &sampler)) return false;
     size_t components = channel->path == GN_ANIM_ROTATION ? 4 : 3;
     size_t per_key = sampler.interpolation == GN_ANIM_CUBIC ? 3 : 1;
@@ -116,10 +122,11 @@ static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct
                 sampler.output->count / per_key == sampler.input->count;
     g->key_total += fits ? sampler.output->count : 0;
     if (g->key_total > g->limits.keys)
-        return gn_gltf_fail(g, at, "more animation keys than the limit keys=%" PRIu64, g->limits.keys);
-    channel->node = (uint32_t) node;
+        return gn_gltf_fail(g, at, "more animation keys than the limit keys=%" PRIu64,
+                            g->limits.keys);
+    channel->node = (uint32_t)node;
     channel->interpolation = sampler.interpolation;
-    channel->key_count = (uint32_t) sampler.input->count;
+    channel->key_count = (uint32_t)sampler.input->count;
     channel->times_s = fits ? read_times(g, &sampler) : NULL;
     channel->values = channel->times_s ? read_values(g, sampler.output, components) : NULL;
     if (g->failed) return false;
@@ -136,9 +143,11 @@ static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct
 
 /* ---- clips ---- */
 
-static void read_clip(struct gn_gltf *g, const struct gn_at *at, struct gn_clip *clip, uint8_t *claimed) {
+static void read_clip(struct gn_gltf *g, const struct gn_at *at, struct gn_clip *clip,
+                      uint8_t *claimed) {
     struct gn_scene *scene = g->scene;
-    struct gn_at samplers = gn_at_array(g, at, "samplers"), channels = gn_at_array(g, at, "channels");
+    struct gn_at samplers = gn_at_array(g, at, "samplers"),
+                 channels = gn_at_array(g, at, "channels");
     float last_s = 0;
     clip->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
     clip->first_channel = scene->channel_count;
@@ -152,9 +161,9 @@ static void read_clip(struct gn_gltf *g, const struct gn_at *at, struct gn_clip 
         scene->channel_count++;
     }
     clip->channel_count = scene->channel_count - clip->first_channel;
-    clip->duration_ns = llround((double) last_s * 1e9);
+    clip->duration_ns = llround((double)last_s * 1e9);
     for (uint32_t i = clip->first_channel; i < scene->channel_count; i++)
-        claimed[scene->channels[i].node] |= (uint8_t) (1U << scene->channels[i].path);
+        claimed[scene->channels[i].node] |= (uint8_t)(1U << scene->channels[i].path);
 }
 
 bool gn_gltf_animations(struct gn_gltf *g) {

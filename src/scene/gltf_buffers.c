@@ -47,17 +47,18 @@ static bool load_view(struct gn_gltf *g, const struct gn_at *at, struct gn_view 
     int32_t index = gn_at_ref(g, at, "buffer", g->buffer_count, "buffers");
     uint64_t offset = gn_at_uint(g, at, "byteOffset", 0);
     uint64_t length = gn_at_uint(g, at, "byteLength", 0);
-    view->stride = (size_t) gn_at_uint(g, at, "byteStride", 0);
+    view->stride = (size_t)gn_at_uint(g, at, "byteStride", 0);
     if (g->failed) return false;
     struct gn_at place = gn_at_any(at, "buffer");
     if (index < 0) return gn_gltf_fail(g, &place, "missing");
     const struct gn_blob *buffer = &g->buffers[index];
-    view->size = (size_t) length;
+    view->size = (size_t)length;
     if (!buffer->data) return true;
     if (offset > buffer->size || length > buffer->size - offset)
-        return gn_gltf_fail(g, at, "byteOffset %" PRIu64 " + byteLength %" PRIu64
-                            " passes the end of buffer %d (%zu bytes)", offset, length, index,
-                            buffer->size);
+        return gn_gltf_fail(g, at,
+                            "byteOffset %" PRIu64 " + byteLength %" PRIu64
+                            " passes the end of buffer %d (%zu bytes)",
+                            offset, length, index, buffer->size);
     view->data = buffer->data + offset;
     return true;
 }

@@ -1,4 +1,5 @@
-/* Cameras: one per node that carries one, in the order of the nodes. One that cannot see is left out with a warning. */
+/* Cameras: one per node that carries one, in the order of the nodes. One that cannot see is left
+ * out with a warning. */
 #include "scene/private.h"
 
 #include <math.h>
@@ -34,8 +35,9 @@ static void add(struct gn_gltf *g, const struct gn_at *at, uint32_t node) {
     struct gn_at perspective = gn_at_object(g, at, "perspective");
     struct gn_at orthographic = gn_at_object(g, at, "orthographic");
     const char *name = gn_at_text(g, at, "name"), *type = gn_at_text(g, at, "type");
-    (void) type;
-    if (!perspective.json && !orthographic.json) gn_gltf_fail(g, at, "is neither perspective nor orthographic");
+    (void)type;
+    if (!perspective.json && !orthographic.json)
+        gn_gltf_fail(g, at, "is neither perspective nor orthographic");
     bool sees = perspective.json ? read_perspective(g, &perspective, &camera)
                                  : read_orthographic(g, &orthographic, &camera);
     bool deep = camera.far_m == 0 || camera.far_m > camera.near_m;
@@ -53,13 +55,14 @@ bool gn_gltf_cameras(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), nodes = gn_at_array(g, &root, "nodes");
     struct gn_at definitions = gn_at_array(g, &root, "cameras");
     struct gn_scene *scene = g->scene;
-    scene->cameras = gn_gltf_alloc(g, g->arena, (uint64_t) scene->node_count + 1, sizeof *scene->cameras);
+    scene->cameras =
+        gn_gltf_alloc(g, g->arena, (uint64_t)scene->node_count + 1, sizeof *scene->cameras);
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         if (g->placed[i].bare) continue;
         struct gn_at node = gn_at_element(&nodes, g->placed[i].json);
         int32_t camera = gn_at_ref(g, &node, "camera", gn_at_size(&definitions), "cameras");
         if (camera < 0) continue;
-        struct gn_at definition = gn_at_item(g, &definitions, (size_t) camera);
+        struct gn_at definition = gn_at_item(g, &definitions, (size_t)camera);
         if (!g->failed) add(g, &definition, i);
     }
     return !g->failed;

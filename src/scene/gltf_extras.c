@@ -1,5 +1,6 @@
-/* What glTF cannot say: the gnomon_ keys in the extras of nodes, lights and the scene. They come from hand-made custom
- * properties, so nothing here fails: what is wrong is warned about by name and the default stays. */
+/* What glTF cannot say: the gnomon_ keys in the extras of nodes, lights and the scene. They come
+ * from hand-made custom properties, so nothing here fails: what is wrong is warned about by name
+ * and the default stays. */
 #include "scene/private.h"
 
 #include <float.h>
@@ -20,12 +21,12 @@ static void take_float(struct gn_gltf *g, const struct gn_at *extras, const char
     double value;
     char wanted[48];
     if (!at.json) return;
-    if (gn_json_number(at.json, &value) && value >= 0 && value <= (double) most) {
-        *out = (float) value;
+    if (gn_json_number(at.json, &value) && value >= 0 && value <= (double)most) {
+        *out = (float)value;
         return;
     }
-    snprintf(wanted, sizeof wanted, most < FLT_MAX ? "a number from 0 to %g" : "a number, 0 or more",
-             (double) most);
+    snprintf(wanted, sizeof wanted,
+             most < FLT_MAX ? "a number from 0 to %g" : "a number, 0 or more", (double)most);
     complain(g, &at, wanted);
 }
 
@@ -34,8 +35,10 @@ static bool take_flag(struct gn_gltf *g, const struct gn_at *extras, const char 
     struct gn_at at = gn_at_any(extras, key);
     int64_t value = 0;
     if (!at.json) return false;
-    if (json_is_boolean(at.json)) *out = json_is_true(at.json);
-    else if (gn_json_whole(at.json, &value) && (value == 0 || value == 1)) *out = value == 1;
+    if (json_is_boolean(at.json))
+        *out = json_is_true(at.json);
+    else if (gn_json_whole(at.json, &value) && (value == 0 || value == 1))
+        *out = value == 1;
     else {
         complain(g, &at, "true or false");
         return false;
@@ -57,14 +60,15 @@ static int take_word(struct gn_gltf *g, const struct gn_at *extras, const char *
     return -1;
 }
 
-static bool take_pair(struct gn_gltf *g, const struct gn_at *extras, const char *key, float out[2]) {
+static bool take_pair(struct gn_gltf *g, const struct gn_at *extras, const char *key,
+                      float out[2]) {
     struct gn_at at = gn_at_any(extras, key);
     double w = 0, h = 0;
     if (!at.json) return false;
     if (json_array_size(at.json) == 2 && gn_json_number(json_array_get(at.json, 0), &w) &&
         gn_json_number(json_array_get(at.json, 1), &h) && w > 0 && h > 0 && w < 1e6 && h < 1e6) {
-        out[0] = (float) w;
-        out[1] = (float) h;
+        out[0] = (float)w;
+        out[1] = (float)h;
         return true;
     }
     complain(g, &at, "two numbers over 0: [width, height]");
@@ -86,12 +90,12 @@ static bool take_color(struct gn_gltf *g, const struct gn_at *extras, const char
         complain(g, &at, "a colour: [r, g, b], linear, 0 or more");
         return false;
     }
-    for (int i = 0; i < 3; i++) out[i] = (float) c[i];
+    for (int i = 0; i < 3; i++) out[i] = (float)c[i];
     return true;
 }
 
-static void take_whole(struct gn_gltf *g, const struct gn_at *extras, const char *key, int64_t least,
-                       int64_t most, int64_t *out) {
+static void take_whole(struct gn_gltf *g, const struct gn_at *extras, const char *key,
+                       int64_t least, int64_t most, int64_t *out) {
     struct gn_at at = gn_at_any(extras, key);
     int64_t value = 0;
     char wanted[64];
@@ -100,16 +104,18 @@ static void take_whole(struct gn_gltf *g, const struct gn_at *extras, const char
         *out = value;
         return;
     }
-    snprintf(wanted, sizeof wanted, "a whole number from %lld to %lld", (long long) least,
-             (long long) most);
+    snprintf(wanted, sizeof wanted, "a whole number from %lld to %lld", (long long)least,
+             (long long)most);
     complain(g, &at, wanted);
 }
 
 /* ---- holders ---- */
 
 void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_placed *placed) {
-    static const char *const faces[] = {
-        [GN_CAST_BOTH] = "both", [GN_CAST_FRONT] = "front", [GN_CAST_BACK] = "back", [GN_CAST_AUTO] = "auto"};
+    static const char *const faces[] = {[GN_CAST_BOTH] = "both",
+                                        [GN_CAST_FRONT] = "front",
+                                        [GN_CAST_BACK] = "back",
+                                        [GN_CAST_AUTO] = "auto"};
     placed->casts = placed->receives = true;
     struct gn_at extras = extras_of(node);
     if (!json_is_object(extras.json)) return;
@@ -118,17 +124,17 @@ void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_place
     bool plane = false;
     if (take_flag(g, &extras, "gnomon_plane", &plane)) placed->plane = plane ? GN_YES : GN_NO;
     int word = take_word(g, &extras, "gnomon_cast_faces", faces, 4);
-    if (word >= 0) placed->cast_faces = (enum gn_cast_faces) word;
+    if (word >= 0) placed->cast_faces = (enum gn_cast_faces)word;
 }
 
 static void light_slide(struct gn_gltf *g, const struct gn_at *extras, struct gn_light *light) {
     static const char *const outside[] = {"dark", "lit"};
     int64_t slide = -1;
     if (g->file_texture_count > 0)
-        take_whole(g, extras, "gnomon_slide", 0, (int64_t) g->file_texture_count - 1, &slide);
+        take_whole(g, extras, "gnomon_slide", 0, (int64_t)g->file_texture_count - 1, &slide);
     else if (gn_at_any(extras, "gnomon_slide").json)
         gn_gltf_warn(g, extras, "gnomon_slide: the file has no textures; ignored");
-    if (slide >= 0) light->slide = gn_gltf_texture(g, (int32_t) slide);
+    if (slide >= 0) light->slide = gn_gltf_texture(g, (int32_t)slide);
     take_pair(g, extras, "gnomon_slide_size_m", light->slide_size_m);
     take_float(g, extras, "gnomon_slide_distance_m", 1e6f, &light->slide_distance_m);
     int word = take_word(g, extras, "gnomon_slide_outside", outside, 2);
@@ -142,12 +148,15 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
     take_float(g, &extras, "gnomon_shadow_strength", 1, &light->shadow_strength);
     int64_t px = light->map_px;
     take_whole(g, &extras, "gnomon_map_px", 16, 16384, &px);
-    light->map_px = (uint32_t) px;
+    light->map_px = (uint32_t)px;
     struct gn_at technique = gn_at_any(&extras, "gnomon_shadow");
     const char *name = json_string_value(technique.json);
-    if (name) light->technique = gn_gltf_strdup(g, name);
-    else if (technique.json) complain(g, &technique, "the name of a technique, or none");
-    if (light->type == GN_LIGHT_SPOT) light_slide(g, &extras, light);
+    if (name)
+        light->technique = gn_gltf_strdup(g, name);
+    else if (technique.json)
+        complain(g, &technique, "the name of a technique, or none");
+    if (light->type == GN_LIGHT_SPOT)
+        light_slide(g, &extras, light);
     else if (gn_at_any(&extras, "gnomon_slide").json)
         gn_gltf_warn(g, &extras, "gnomon_slide: only a spot can project a slide; ignored");
 }

@@ -1,4 +1,5 @@
-/* The container: .glb or .gltf by content, its JSON and BIN chunk, and whether we can show what it asks for. */
+/* The container: .glb or .gltf by content, its JSON and BIN chunk, and whether we can show what it
+ * asks for. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -10,7 +11,7 @@ enum { HEADER = 12, CHUNK = 8 };
 #define CHUNK_BIN  0x004e4942U
 
 static uint32_t u32(const uint8_t *p) {
-    return (uint32_t) p[0] | (uint32_t) p[1] << 8 | (uint32_t) p[2] << 16 | (uint32_t) p[3] << 24;
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
 
 static bool has_bom(const uint8_t *text, size_t size) {
@@ -19,7 +20,7 @@ static bool has_bom(const uint8_t *text, size_t size) {
 
 static bool parse(struct gn_gltf *g, const uint8_t *text, size_t size, size_t offset) {
     size_t skip = has_bom(text, size) ? 3 : 0;
-    return gn_gltf_parse(g, (const char *) text + skip, size - skip, offset + skip);
+    return gn_gltf_parse(g, (const char *)text + skip, size - skip, offset + skip);
 }
 
 /* ---- .glb ---- */
@@ -29,11 +30,15 @@ static bool check_header(struct gn_gltf *g, const uint8_t *data, size_t *size) {
         return gn_gltf_fail(g, NULL, "byte %zu: the file ends within the .glb header", *size);
     uint32_t version = u32(data + 4), length = u32(data + 8);
     if (version != 2)
-        return gn_gltf_fail(g, NULL, "byte 4: .glb version %" PRIu32 "; only version 2 is read: "
-                            "export it again as glTF 2.0", version);
+        return gn_gltf_fail(g, NULL,
+                            "byte 4: .glb version %" PRIu32 "; only version 2 is read: "
+                            "export it again as glTF 2.0",
+                            version);
     if (length > *size)
-        return gn_gltf_fail(g, NULL, "byte 8: says %" PRIu32 " bytes, the file has %zu: it was cut "
-                            "short, copy it again", length, *size);
+        return gn_gltf_fail(g, NULL,
+                            "byte 8: says %" PRIu32 " bytes, the file has %zu: it was cut "
+                            "short, copy it again",
+                            length, *size);
     if (length < HEADER + CHUNK)
         return gn_gltf_fail(g, NULL, "byte 8: a length of %" PRIu32 " is too short", length);
     if (length < *size) gn_gltf_warn(g, NULL, "%zu bytes after the end ignored", *size - length);
@@ -50,23 +55,24 @@ static bool take_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
         while (length > 0 && body[length - 1] == 0) length--; /* some pad with zeros */
         return parse(g, body, length, at + CHUNK);
     }
-    if (type == CHUNK_JSON)
-        return gn_gltf_fail(g, NULL, "byte %zu: a second JSON chunk", at);
-    if (type == CHUNK_BIN && g->bin.data) gn_gltf_warn(g, NULL, "byte %zu: a second BIN chunk", at);
-    else if (type == CHUNK_BIN) g->bin = (struct gn_blob){.data = body, .size = length};
+    if (type == CHUNK_JSON) return gn_gltf_fail(g, NULL, "byte %zu: a second JSON chunk", at);
+    if (type == CHUNK_BIN && g->bin.data)
+        gn_gltf_warn(g, NULL, "byte %zu: a second BIN chunk", at);
+    else if (type == CHUNK_BIN)
+        g->bin = (struct gn_blob){.data = body, .size = length};
     return true;
 }
 
 static bool open_glb(struct gn_gltf *g, const uint8_t *data, size_t size) {
     if (!check_header(g, data, &size)) return false;
     size_t at = HEADER;
-    for (; size - at >= CHUNK; ) {
+    for (; size - at >= CHUNK;) {
         uint32_t length = u32(data + at);
         if (length > size - at - CHUNK)
             return gn_gltf_fail(g, NULL, "byte %zu: a chunk of %" PRIu32 " bytes, but %zu are left",
                                 at, length, size - at - CHUNK);
         if (!take_chunk(g, data, at)) return false;
-        at += CHUNK + (size_t) length;
+        at += CHUNK + (size_t)length;
     }
     if (at < size) gn_gltf_warn(g, NULL, "byte %zu: %zu bytes that are no chunk", at, size - at);
     return true;
@@ -106,8 +112,8 @@ static bool check_version(struct gn_gltf *g, const struct gn_at *asset) {
 }
 
 static const char *const SUPPORTED[] = {
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_unlit",
-    "KHR_mesh_quantization",  "KHR_texture_transform",           "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_unlit",
+    "KHR_mesh_quantization", "KHR_texture_transform",           "EXT_mesh_gpu_instancing",
 };
 
 static const struct cure {

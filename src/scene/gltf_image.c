@@ -1,5 +1,5 @@
-/* Textures and pictures, looked at only when something that is shown uses them. A picture that cannot be had costs its
- * textures and a warning, never the scene. */
+/* Textures and pictures, looked at only when something that is shown uses them. A picture that
+ * cannot be had costs its textures and a warning, never the scene. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -33,19 +33,21 @@ static bool decode(struct gn_gltf *g, const struct gn_blob *blob, struct gn_imag
     uint32_t px[2] = {0};
     if (!format) return gn_fail(err, "neither PNG nor JPEG");
     if (!format->size(blob->data, blob->size, px, err)) return false;
-    uint64_t texels = (uint64_t) px[0] * px[1];
+    uint64_t texels = (uint64_t)px[0] * px[1];
     if (texels == 0 || texels > g->limits.texels || px[0] > 1U << 20 || px[1] > 1U << 20)
-        return gn_fail(err, "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64, px[0], px[1],
-                       g->limits.texels);
+        return gn_fail(err, "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64, px[0],
+                       px[1], g->limits.texels);
     if (4 * texels > gn_gltf_room(g)) return gn_fail(err, "no room for it in memory_mb");
     uint8_t *rgba = gn_gltf_alloc(g, g->arena, texels, 4);
     if (!rgba || !format->read(blob->data, blob->size, px, rgba, err)) return false;
     *image = (struct gn_image){.width_px = px[0], .height_px = px[1], .rgba = rgba};
-    for (uint64_t i = 0; i < texels && !image->has_alpha; i++) image->has_alpha = rgba[4 * i + 3] != 255;
+    for (uint64_t i = 0; i < texels && !image->has_alpha; i++)
+        image->has_alpha = rgba[4 * i + 3] != 255;
     return true;
 }
 
-static bool fetch(struct gn_gltf *g, const struct gn_at *at, struct gn_blob *blob, struct gn_err *err) {
+static bool fetch(struct gn_gltf *g, const struct gn_at *at, struct gn_blob *blob,
+                  struct gn_err *err) {
     const char *uri = gn_at_text(g, at, "uri");
     int32_t view = gn_at_ref(g, at, "bufferView", g->view_count, "bufferViews");
     if (g->failed) return false;
@@ -61,14 +63,17 @@ static int32_t image_at(struct gn_gltf *g, int32_t index) {
     if (g->scene_image[index] != UNSEEN) return g->scene_image[index];
     g->scene_image[index] = DROPPED;
     struct gn_at root = gn_at_root(g), images = gn_at_array(g, &root, "images");
-    struct gn_at at = gn_at_item(g, &images, (size_t) index);
+    struct gn_at at = gn_at_item(g, &images, (size_t)index);
     struct gn_blob blob = {0};
     struct gn_err err = {0};
     struct gn_scene *scene = g->scene;
-    bool done = fetch(g, &at, &blob, &err) && decode(g, &blob, &scene->images[scene->image_count], &err);
+    bool done =
+        fetch(g, &at, &blob, &err) && decode(g, &blob, &scene->images[scene->image_count], &err);
     gn_blob_finish(g, &blob);
-    if (done) g->scene_image[index] = (int32_t) scene->image_count++;
-    else if (!g->failed) gn_gltf_warn(g, &at, "%s; shown without this picture", err.text);
+    if (done)
+        g->scene_image[index] = (int32_t)scene->image_count++;
+    else if (!g->failed)
+        gn_gltf_warn(g, &at, "%s; shown without this picture", err.text);
     return g->scene_image[index];
 }
 
@@ -83,15 +88,25 @@ static enum gn_wrap read_wrap(struct gn_gltf *g, const struct gn_at *sampler, co
     return GN_WRAP_REPEAT;
 }
 
-static void read_sampler(struct gn_gltf *g, const struct gn_at *sampler, struct gn_texture *texture) {
-    enum { NEAREST = 9728, LINEAR = 9729, NEAREST_MIP_NEAREST = 9984, LINEAR_MIP_NEAREST, NEAREST_MIP_LINEAR,
-           LINEAR_MIP_LINEAR };
+static void read_sampler(struct gn_gltf *g, const struct gn_at *sampler,
+                         struct gn_texture *texture) {
+    enum {
+        NEAREST = 9728,
+        LINEAR = 9729,
+        NEAREST_MIP_NEAREST = 9984,
+        LINEAR_MIP_NEAREST,
+        NEAREST_MIP_LINEAR,
+        LINEAR_MIP_LINEAR
+    };
     uint64_t mag = gn_at_uint(g, sampler, "magFilter", LINEAR);
     uint64_t min = gn_at_uint(g, sampler, "minFilter", LINEAR_MIP_LINEAR);
-    bool known = min == NEAREST || min == LINEAR || (min >= NEAREST_MIP_NEAREST && min <= LINEAR_MIP_LINEAR);
-    if (!known || (mag != NEAREST && mag != LINEAR)) gn_gltf_warn(g, sampler, "unknown filter; trilinear");
+    bool known =
+        min == NEAREST || min == LINEAR || (min >= NEAREST_MIP_NEAREST && min <= LINEAR_MIP_LINEAR);
+    if (!known || (mag != NEAREST && mag != LINEAR))
+        gn_gltf_warn(g, sampler, "unknown filter; trilinear");
     texture->mag_nearest = mag == NEAREST;
-    texture->min_nearest = min == NEAREST || min == NEAREST_MIP_NEAREST || min == NEAREST_MIP_LINEAR;
+    texture->min_nearest =
+        min == NEAREST || min == NEAREST_MIP_NEAREST || min == NEAREST_MIP_LINEAR;
     texture->mipmaps = min != NEAREST && min != LINEAR;
     texture->mip_nearest = min == NEAREST_MIP_NEAREST || min == LINEAR_MIP_NEAREST;
     texture->wrap_s = read_wrap(g, sampler, "wrapS");
@@ -104,9 +119,12 @@ static int32_t source_of(struct gn_gltf *g, const struct gn_at *at) {
     bool webp = gn_at_extension(g, at, "extensions.EXT_texture_webp").json != NULL;
     bool basisu = gn_at_extension(g, at, "extensions.KHR_texture_basisu").json != NULL;
     if (source < 0 && !g->failed) {
-        if (webp) g->is_missing[GN_MISSING_WEBP] = true;
-        else if (basisu) g->is_missing[GN_MISSING_BASISU] = true;
-        else gn_gltf_warn(g, at, "has no source; shown without this texture");
+        if (webp)
+            g->is_missing[GN_MISSING_WEBP] = true;
+        else if (basisu)
+            g->is_missing[GN_MISSING_BASISU] = true;
+        else
+            gn_gltf_warn(g, at, "has no source; shown without this texture");
     }
     return source;
 }
@@ -126,19 +144,21 @@ static bool prepare(struct gn_gltf *g) {
 
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index) {
     if (g->failed || !prepare(g)) return -1;
-    if (g->scene_texture[index] != UNSEEN) return g->scene_texture[index] < 0 ? -1 : g->scene_texture[index];
+    if (g->scene_texture[index] != UNSEEN)
+        return g->scene_texture[index] < 0 ? -1 : g->scene_texture[index];
     g->scene_texture[index] = DROPPED;
     struct gn_at root = gn_at_root(g), textures = gn_at_array(g, &root, "textures");
     struct gn_at samplers = gn_at_array(g, &root, "samplers");
-    struct gn_at at = gn_at_item(g, &textures, (size_t) index);
+    struct gn_at at = gn_at_item(g, &textures, (size_t)index);
     int32_t sampler = gn_at_ref(g, &at, "sampler", gn_at_size(&samplers), "samplers");
     int32_t source = source_of(g, &at);
     int32_t image = source < 0 || g->failed ? -1 : image_at(g, source);
     if (image < 0) return -1;
-    struct gn_at sampler_at = sampler < 0 ? (struct gn_at){0} : gn_at_item(g, &samplers, (size_t) sampler);
+    struct gn_at sampler_at =
+        sampler < 0 ? (struct gn_at){0} : gn_at_item(g, &samplers, (size_t)sampler);
     struct gn_texture *texture = &g->scene->textures[g->scene->texture_count];
-    texture->image = (uint32_t) image;
+    texture->image = (uint32_t)image;
     read_sampler(g, &sampler_at, texture);
-    g->scene_texture[index] = (int32_t) g->scene->texture_count++;
+    g->scene_texture[index] = (int32_t)g->scene->texture_count++;
     return g->scene_texture[index];
 }

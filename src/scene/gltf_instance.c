@@ -10,7 +10,8 @@ struct copies {
 };
 
 static const struct gn_accessor *attribute(struct gn_gltf *g, const struct gn_at *attributes,
-                                           const char *key, uint8_t components, struct copies *copies) {
+                                           const char *key, uint8_t components,
+                                           struct copies *copies) {
     int32_t index = gn_at_ref(g, attributes, key, g->accessor_count, "accessors");
     const struct gn_accessor *a = gn_gltf_accessor(g, index);
     if (!a) return NULL;
@@ -18,7 +19,8 @@ static const struct gn_accessor *attribute(struct gn_gltf *g, const struct gn_at
     if (a->components != components || a->component == GN_U32)
         gn_gltf_fail(g, &at, "must be VEC%d of floats or normalized bytes or shorts", components);
     else if (copies->count > 0 && copies->count != a->count)
-        gn_gltf_fail(g, &at, "%zu elements, but another attribute has %zu", a->count, copies->count);
+        gn_gltf_fail(g, &at, "%zu elements, but another attribute has %zu", a->count,
+                     copies->count);
     copies->count = a->count;
     return a;
 }
@@ -41,7 +43,7 @@ static struct copies read_copies(struct gn_gltf *g, const struct gn_placed *plac
 /* n values per copy, or the fallback where there is no such attribute. */
 static float *values(struct gn_gltf *g, const struct gn_accessor *a, size_t count, size_t n,
                      const float *fallback) {
-    float *out = gn_gltf_alloc(g, &g->work, (uint64_t) count * n, sizeof *out);
+    float *out = gn_gltf_alloc(g, &g->work, (uint64_t)count * n, sizeof *out);
     for (size_t i = 0; out && i < count * n; i++) out[i] = fallback[i % n];
     if (!out || !a) return out;
     struct gn_accessor copy = *a;
@@ -77,11 +79,11 @@ bool gn_gltf_instances(struct gn_gltf *g) {
         if (copies.count > g->limits.instances - total)
             return gn_gltf_fail(g, &nodes, "more copies than the limit instances=%" PRIu64,
                                 g->limits.instances);
-        placed->first_instance = (uint32_t) total;
-        placed->instance_count = (uint32_t) copies.count;
+        placed->first_instance = (uint32_t)total;
+        placed->instance_count = (uint32_t)copies.count;
         total += copies.count;
     }
-    scene->instance_count = (uint32_t) total;
+    scene->instance_count = (uint32_t)total;
     scene->instances = gn_gltf_alloc(g, g->arena, total, sizeof *scene->instances);
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         const struct gn_placed *placed = &g->placed[i];

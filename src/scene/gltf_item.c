@@ -10,14 +10,14 @@ static uint32_t copies_of(const struct gn_placed *placed) {
 static void add(struct gn_gltf *g, uint32_t node, const struct gn_draw *draw) {
     struct gn_scene *scene = g->scene;
     const struct gn_placed *placed = &g->placed[node];
-    uint32_t fallback = (uint32_t) g->material_count;
+    uint32_t fallback = (uint32_t)g->material_count;
     for (uint32_t k = 0; k < copies_of(placed); k++) {
         scene->triangle_count += scene->geometries[draw->geometry].index_count / 3;
         scene->items[scene->item_count++] = (struct gn_item){
             .node = node,
             .geometry = draw->geometry,
-            .material = draw->material < 0 ? fallback : (uint32_t) draw->material,
-            .instance = placed->instance_count > 0 ? (int32_t) (placed->first_instance + k) : -1,
+            .material = draw->material < 0 ? fallback : (uint32_t)draw->material,
+            .instance = placed->instance_count > 0 ? (int32_t)(placed->first_instance + k) : -1,
             .casts = placed->casts,
             .receives = placed->receives,
             .cast_faces = placed->cast_faces,
@@ -26,9 +26,11 @@ static void add(struct gn_gltf *g, uint32_t node, const struct gn_draw *draw) {
 }
 
 static bool refuse_empty(struct gn_gltf *g) {
-    struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes"), meshes = gn_at_any(&root, "meshes");
+    struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes"),
+                 meshes = gn_at_any(&root, "meshes");
     if (g->is_missing[GN_MISSING_DRACO])
-        return gn_gltf_fail(g, &meshes, "KHR_draco_mesh_compression is not supported; decompress them "
+        return gn_gltf_fail(g, &meshes,
+                            "KHR_draco_mesh_compression is not supported; decompress them "
                             "first (gltf-transform can)");
     return gn_gltf_fail(g, &nodes, "the scene is empty: no node of it has a mesh with triangles");
 }
@@ -40,10 +42,11 @@ bool gn_gltf_items(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes");
     for (uint32_t i = 0; i < scene->node_count; i++)
         if (g->placed[i].mesh >= 0)
-            total += (uint64_t) copies_of(&g->placed[i]) * g->meshes[g->placed[i].mesh].draw_count;
+            total += (uint64_t)copies_of(&g->placed[i]) * g->meshes[g->placed[i].mesh].draw_count;
     if (total > g->limits.instances)
-        return gn_gltf_fail(g, &nodes, "%" PRIu64 " things to draw are more than the limit instances=%"
-                            PRIu64, total, g->limits.instances);
+        return gn_gltf_fail(g, &nodes,
+                            "%" PRIu64 " things to draw are more than the limit instances=%" PRIu64,
+                            total, g->limits.instances);
     scene->items = gn_gltf_alloc(g, g->arena, total, sizeof *scene->items);
     if (!scene->items) return false;
     for (uint32_t i = 0; i < scene->node_count; i++) {

@@ -21,9 +21,9 @@ static void write_path(const struct gn_at *at, char *text, size_t size) {
     for (int i = count - 1; i >= 0 && used < size; i--) {
         const char *dot = i == count - 1 ? "" : ".";
         if (steps[i]->key)
-            used += (size_t) snprintf(text + used, size - used, "%s%s", dot, steps[i]->key);
+            used += (size_t)snprintf(text + used, size - used, "%s%s", dot, steps[i]->key);
         else
-            used += (size_t) snprintf(text + used, size - used, "[%zu]", steps[i]->index);
+            used += (size_t)snprintf(text + used, size - used, "[%zu]", steps[i]->index);
     }
     if (count > 0 && used < size) snprintf(text + used, size - used, ": ");
 }
@@ -52,29 +52,35 @@ void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format,
 
 /* ---- parsing ---- */
 
-/* The parser recurses and allocates as the text tells it to: bound both before it starts. A container costs jansson about
- * 256 bytes, any other value or key about 96. */
+/* The parser recurses and allocates as the text tells it to: bound both before it starts. A
+ * container costs jansson about 256 bytes, any other value or key about 96. */
 static bool bounded(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
-    uint64_t depth = 0, bytes = 2 * (uint64_t) size;
+    uint64_t depth = 0, bytes = 2 * (uint64_t)size;
     bool quoted = false;
     for (size_t i = 0; i < size; i++) {
         char c = text[i];
-        if (quoted && c == '\\') i++;
-        else if (c == '"') quoted = !quoted;
-        else if (quoted) continue;
-        else if (c == ',' || c == ':') bytes += 96;
-        else if ((c == ']' || c == '}') && depth > 0) depth--;
+        if (quoted && c == '\\')
+            i++;
+        else if (c == '"')
+            quoted = !quoted;
+        else if (quoted)
+            continue;
+        else if (c == ',' || c == ':')
+            bytes += 96;
+        else if ((c == ']' || c == '}') && depth > 0)
+            depth--;
         else if (c == '[' || c == '{') {
             bytes += 256;
             if (++depth > g->limits.json_depth)
-                return gn_gltf_fail(g, NULL, "byte %zu: JSON nested deeper than json_depth=%" PRIu64,
+                return gn_gltf_fail(g, NULL,
+                                    "byte %zu: JSON nested deeper than json_depth=%" PRIu64,
                                     offset + i, g->limits.json_depth);
         }
     }
     if (bytes > gn_gltf_room(g))
         return gn_gltf_fail(g, NULL, "byte %zu: JSON too large for memory_mb=%" PRIu64, offset,
                             g->limits.memory_mb);
-    g->other_bytes += (size_t) bytes;
+    g->other_bytes += (size_t)bytes;
     return true;
 }
 
@@ -83,7 +89,7 @@ bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offs
     json_error_t error;
     g->json = json_loadb(text, size, 0, &error);
     if (!g->json) {
-        size_t byte = offset + (error.position > 0 ? (size_t) error.position : 0);
+        size_t byte = offset + (error.position > 0 ? (size_t)error.position : 0);
         return gn_gltf_fail(g, NULL, "byte %zu (line %d): JSON: %s", byte, error.line, error.text);
     }
     if (!json_is_object(g->json))
@@ -115,7 +121,9 @@ static bool want(struct gn_gltf *g, struct gn_at *at, bool right, const char *wa
     return false;
 }
 
-struct gn_at gn_at_root(const struct gn_gltf *g) { return (struct gn_at){.json = g->json}; }
+struct gn_at gn_at_root(const struct gn_gltf *g) {
+    return (struct gn_at){.json = g->json};
+}
 
 struct gn_at gn_at_any(const struct gn_at *up, const char *key) {
     return (struct gn_at){.up = up, .key = key, .json = json_object_get(up->json, key)};
@@ -168,7 +176,7 @@ bool gn_json_whole(const json_t *json, int64_t *out) {
     }
     double real = json_is_real(json) ? json_real_value(json) : 0.5;
     if (!(fabs(real) < 9007199254740992.0) || floor(real) != real) return false;
-    *out = (int64_t) real;
+    *out = (int64_t)real;
     return true;
 }
 
@@ -179,7 +187,8 @@ const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up, const char *ke
 
 bool gn_at_flag(struct gn_gltf *g, const struct gn_at *up, const char *key, bool fallback) {
     struct gn_at at = gn_at_any(up, key);
-    return want(g, &at, json_is_boolean(at.json), "true or false") ? json_is_true(at.json) : fallback;
+    return want(g, &at, json_is_boolean(at.json), "true or false") ? json_is_true(at.json)
+                                                                   : fallback;
 }
 
 uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *key, uint64_t fallback) {
@@ -194,16 +203,16 @@ uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *key, 
         gn_gltf_fail(g, &at, "must not be negative, is %" PRId64, value);
         return fallback;
     }
-    return (uint64_t) value;
+    return (uint64_t)value;
 }
 
 /* The number at the cursor, if it is one that a float can hold. */
 static bool read_float(struct gn_gltf *g, struct gn_at *at, float *out) {
     double value = 0;
     if (!want(g, at, json_is_number(at->json), "a number")) return false;
-    if (!gn_json_number(at->json, &value) || fabs(value) > (double) FLT_MAX)
+    if (!gn_json_number(at->json, &value) || fabs(value) > (double)FLT_MAX)
         return gn_gltf_fail(g, at, "%g is too large", json_number_value(at->json));
-    *out = (float) value;
+    *out = (float)value;
     return true;
 }
 
@@ -213,7 +222,8 @@ float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *key, fl
     return read_float(g, &at, &value) ? value : fallback;
 }
 
-bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t n, float *out) {
+bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t n,
+                  float *out) {
     struct gn_at array = gn_at_array(g, up, key);
     if (!array.json) return false;
     if (gn_at_size(&array) != n)
@@ -231,9 +241,10 @@ int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, 
     if (!want(g, &copy, json_is_number(at->json), "an index")) return -1;
     if (!gn_json_whole(at->json, &value))
         gn_gltf_fail(g, at, "must be an index, is %g", json_number_value(at->json));
-    else if (value < 0 || (uint64_t) value >= count || value > INT32_MAX)
+    else if (value < 0 || (uint64_t)value >= count || value > INT32_MAX)
         gn_gltf_fail(g, at, "index %" PRId64 ", but there are %zu %s", value, count, what);
-    else return (int32_t) value;
+    else
+        return (int32_t)value;
     return -1;
 }
 

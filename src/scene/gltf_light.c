@@ -14,7 +14,7 @@ static bool read_type(struct gn_gltf *g, const struct gn_at *at, struct gn_light
     const char *name = gn_at_text(g, at, "type");
     struct gn_at place = gn_at_any(at, "type");
     for (int i = 0; name && i < 3; i++) {
-        light->type = (enum gn_light_type) i;
+        light->type = (enum gn_light_type)i;
         if (strcmp(name, names[i]) == 0) return true;
     }
     if (!g->failed)
@@ -43,7 +43,7 @@ static void read_cone(struct gn_gltf *g, const struct gn_at *at, struct gn_light
     if (wide) {
         light->outer_rad = light->outer_rad > 0 ? GLM_PI_2f : GLM_PI_4f;
         gn_gltf_warn(g, &spot, "outerConeAngle is not between 0 and 90 degrees; %g are used",
-                     (double) glm_deg(light->outer_rad));
+                     (double)glm_deg(light->outer_rad));
     }
     light->outer_rad = fminf(light->outer_rad, GLM_PI_2f);
     if (light->inner_rad >= 0 && light->inner_rad < light->outer_rad) return;
@@ -84,14 +84,15 @@ bool gn_gltf_lights(struct gn_gltf *g) {
     struct gn_at extension = gn_at_extension(g, &root, "extensions.KHR_lights_punctual");
     struct gn_at definitions = gn_at_array(g, &extension, "lights");
     struct gn_scene *scene = g->scene;
-    scene->lights = gn_gltf_alloc(g, g->arena, (uint64_t) scene->node_count + 1, sizeof *scene->lights);
+    scene->lights =
+        gn_gltf_alloc(g, g->arena, (uint64_t)scene->node_count + 1, sizeof *scene->lights);
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         if (g->placed[i].bare) continue;
         struct gn_at node = gn_at_element(&nodes, g->placed[i].json);
         struct gn_at use = gn_at_extension(g, &node, "extensions.KHR_lights_punctual");
         int32_t light = gn_at_ref(g, &use, "light", gn_at_size(&definitions), "lights");
         if (light < 0) continue;
-        struct gn_at definition = gn_at_item(g, &definitions, (size_t) light);
+        struct gn_at definition = gn_at_item(g, &definitions, (size_t)light);
         if (!g->failed) add(g, &definition, &node, i);
     }
     return !g->failed;

@@ -7,7 +7,8 @@ static float clamp(float x, float least, float most) { return fminf(fmaxf(x, lea
 
 /* ---- textures ---- */
 
-/* KHR_texture_transform as one affine map; the rotation turns the picture clockwise, v pointing down. */
+/* KHR_texture_transform as one affine map; the rotation turns the picture clockwise, v pointing
+ * down. */
 static void read_uv_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_texture_ref *ref,
                               uint64_t *uv_set) {
     struct gn_at transform = gn_at_extension(g, at, "extensions.KHR_texture_transform");
@@ -39,10 +40,10 @@ static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
         gn_gltf_fail(g, &place, "missing");
     } else if (uv_set > 1) {
         gn_gltf_warn(g, at, "texCoord %llu: only sets 0 and 1 are read; shown without this texture",
-                     (unsigned long long) uv_set);
+                     (unsigned long long)uv_set);
     } else {
         ref->texture = gn_gltf_texture(g, texture);
-        ref->uv_set = (uint8_t) uv_set;
+        ref->uv_set = (uint8_t)uv_set;
     }
 }
 
@@ -60,7 +61,8 @@ static void read_pbr(struct gn_gltf *g, const struct gn_at *at, bool used, struc
     read_texture(g, &roughness, used, &m->textures[GN_TEXTURE_ROUGHNESS]);
 }
 
-static void read_emission(struct gn_gltf *g, const struct gn_at *at, bool used, struct gn_material *m) {
+static void read_emission(struct gn_gltf *g, const struct gn_at *at, bool used,
+                          struct gn_material *m) {
     struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
     float strength = gn_at_float(g, &strong, "emissiveStrength", 1);
     gn_at_floats(g, at, "emissiveFactor", 3, m->emissive);
@@ -78,10 +80,11 @@ static void read_alpha(struct gn_gltf *g, const struct gn_at *at, struct gn_mate
     bool known = !name;
     for (int i = 0; name && i < 3; i++) {
         if (strcmp(name, names[i]) != 0) continue;
-        m->alpha = (enum gn_alpha) i;
+        m->alpha = (enum gn_alpha)i;
         known = true;
     }
-    if (!known) gn_gltf_warn(g, &place, "'%.20s' is none of OPAQUE, MASK, BLEND; taken as OPAQUE", name);
+    if (!known)
+        gn_gltf_warn(g, &place, "'%.20s' is none of OPAQUE, MASK, BLEND; taken as OPAQUE", name);
     m->alpha_cutoff = clamp(gn_at_float(g, at, "alphaCutoff", .5f), 0, 2);
 }
 
@@ -97,7 +100,8 @@ static void init_material(struct gn_material *m) {
     }
 }
 
-static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used, struct gn_material *m) {
+static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
+                          struct gn_material *m) {
     init_material(m);
     m->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
     m->double_sided = gn_at_flag(g, at, "doubleSided", false);
@@ -108,13 +112,14 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used, 
     struct gn_at occlusion = gn_at_object(g, at, "occlusionTexture");
     m->occlusion_strength = clamp(gn_at_float(g, &occlusion, "strength", 1), 0, 1);
     read_texture(g, &occlusion, used, &m->textures[GN_TEXTURE_OCCLUSION]);
-    if (used && gn_at_object(g, at, "normalTexture").json) g->is_missing[GN_MISSING_NORMAL_MAPS] = true;
+    if (used && gn_at_object(g, at, "normalTexture").json)
+        g->is_missing[GN_MISSING_NORMAL_MAPS] = true;
 }
 
 bool gn_gltf_materials(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     struct gn_at root = gn_at_root(g), materials = gn_at_array(g, &root, "materials");
-    scene->material_count = (uint32_t) g->material_count + 1;
+    scene->material_count = (uint32_t)g->material_count + 1;
     scene->materials = gn_gltf_alloc(g, g->arena, scene->material_count, sizeof *scene->materials);
     bool *used = gn_gltf_alloc(g, &g->scratch, scene->material_count, sizeof *used);
     if (g->failed) return false;

@@ -1,5 +1,6 @@
-/* Primitives of the meshes in use: which geometries they come to. What names the same accessors is one geometry, and
- * geometries with the same vertex accessors share their vertices. Nothing is read yet but the accessors' headers. */
+/* Primitives of the meshes in use: which geometries they come to. What names the same accessors is
+ * one geometry, and geometries with the same vertex accessors share their vertices. Nothing is read
+ * yet but the accessors' headers. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -27,10 +28,11 @@ static bool table_init(struct gn_gltf *g, struct table *table, size_t most) {
 
 /* The slot of an equal key, or the empty one where it belongs. */
 static uint32_t *table_find(const struct table *table, const void *key) {
-    size_t at = (size_t) gn_hash(GN_HASH_INIT, key, table->key_size) & table->mask;
+    size_t at = (size_t)gn_hash(GN_HASH_INIT, key, table->key_size) & table->mask;
     for (;; at = (at + 1) & table->mask) {
         uint32_t slot = table->slots[at];
-        if (slot == 0 || memcmp(table->keys + (slot - 1) * table->stride, key, table->key_size) == 0)
+        if (slot == 0 ||
+            memcmp(table->keys + (slot - 1) * table->stride, key, table->key_size) == 0)
             return &table->slots[at];
     }
 }
@@ -43,7 +45,7 @@ struct reader {
 
 /* ---- attributes ---- */
 
-#define BIT(c)   (1U << ((c) - GN_I8))
+#define BIT(c)   (1U << ((c)-GN_I8))
 #define FLOATS   BIT(GN_F32)
 #define SMALL    (BIT(GN_I8) | BIT(GN_U8) | BIT(GN_I16) | BIT(GN_U16))
 #define UNSIGNED (BIT(GN_U8) | BIT(GN_U16))
@@ -68,8 +70,8 @@ static bool check_attribute(struct gn_gltf *g, const struct gn_at *attributes, i
         return gn_gltf_fail(g, &at, "accessor %d has elements of %d numbers, must be VEC%d", index,
                             a->components, semantic->least);
     if (!(BIT(a->component) & semantic->types))
-        return gn_gltf_fail(g, &at, "accessor %d has component type %d, which cannot be here", index,
-                            a->component);
+        return gn_gltf_fail(g, &at, "accessor %d has component type %d, which cannot be here",
+                            index, a->component);
     if (a->count != vertex_count)
         return gn_gltf_fail(g, &at, "%zu elements, but POSITION has %zu", a->count, vertex_count);
     return true;
@@ -102,15 +104,18 @@ static uint64_t corners_of(struct gn_gltf *g, const struct gn_at *primitive, int
                            uint64_t count) {
     if (mode != MODE_TRIANGLES) return count < 3 ? 0 : 3 * (count - 2);
     if (count % 3 != 0)
-        gn_gltf_warn(g, primitive, "%" PRIu64 " corners are no whole number of triangles; the last "
-                     "%d ignored", count, (int) (count % 3));
+        gn_gltf_warn(g, primitive,
+                     "%" PRIu64 " corners are no whole number of triangles; the last "
+                     "%d ignored",
+                     count, (int)(count % 3));
     return count - count % 3;
 }
 
 static bool check_indices(struct gn_gltf *g, const struct gn_at *primitive,
                           const struct gn_accessor *indices) {
     struct gn_at at = gn_at_any(primitive, "indices");
-    bool whole = indices->component == GN_U8 || indices->component == GN_U16 || indices->component == GN_U32;
+    bool whole =
+        indices->component == GN_U8 || indices->component == GN_U16 || indices->component == GN_U32;
     if (indices->components == 1 && whole) return true;
     return gn_gltf_fail(g, &at, "must be SCALAR of unsigned bytes, shorts or ints");
 }
@@ -124,7 +129,7 @@ static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive, struct 
         gn_gltf_warn(g, primitive, "points and lines are not shown");
         return false;
     }
-    shape->mode = (int32_t) mode;
+    shape->mode = (int32_t)mode;
     shape->indices = gn_at_ref(g, primitive, "indices", g->accessor_count, "accessors");
     size_t count = read_attributes(g, primitive, shape->attribute);
     if (count == 0) return false;
@@ -144,8 +149,8 @@ static uint32_t share_vertices(struct reader *reader, const struct gn_shape *sha
     if (*slot == 0) {
         struct gn_vertices *vertices = &g->vertices[g->vertices_count++];
         memcpy(vertices->attribute, shape->attribute, sizeof vertices->attribute);
-        vertices->count = (uint32_t) g->accessors[shape->attribute[0]].count;
-        *slot = (uint32_t) g->vertices_count;
+        vertices->count = (uint32_t)g->accessors[shape->attribute[0]].count;
+        *slot = (uint32_t)g->vertices_count;
     }
     return *slot - 1;
 }
@@ -181,12 +186,13 @@ static bool allocate(struct reader *reader, size_t primitives) {
     if (g->failed) return false;
     reader->shapes = (struct table){.stride = sizeof *g->shapes,
                                     .key_size = (GN_ATTRIBUTES + 2) * sizeof(int32_t),
-                                    .keys = (const char *) g->shapes};
+                                    .keys = (const char *)g->shapes};
     reader->vertices = (struct table){.stride = sizeof *g->vertices,
                                       .key_size = GN_ATTRIBUTES * sizeof(int32_t),
-                                      .keys = (const char *) g->vertices};
+                                      .keys = (const char *)g->vertices};
     _Static_assert(offsetof(struct gn_shape, mode) == (GN_ATTRIBUTES + 1) * sizeof(int32_t), "key");
-    return table_init(g, &reader->shapes, primitives) && table_init(g, &reader->vertices, primitives);
+    return table_init(g, &reader->shapes, primitives) &&
+           table_init(g, &reader->vertices, primitives);
 }
 
 bool gn_gltf_meshes(struct gn_gltf *g) {
@@ -202,11 +208,11 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
     if (g->failed || !allocate(&reader, primitives)) return false;
     for (size_t i = 0; i < g->mesh_count && !g->failed; i++) {
         if (!g->meshes[i].used) continue;
-        g->meshes[i].first_draw = (uint32_t) g->draw_count;
+        g->meshes[i].first_draw = (uint32_t)g->draw_count;
         struct gn_at mesh = gn_at_item(g, &meshes, i), list = gn_at_array(g, &mesh, "primitives");
         for (size_t k = 0; k < gn_at_size(&list) && !g->failed; k++) {
             struct gn_at primitive = gn_at_item(g, &list, k);
-            if (!g->failed) read_primitive(&reader, &primitive, (uint32_t) i, (uint32_t) k);
+            if (!g->failed) read_primitive(&reader, &primitive, (uint32_t)i, (uint32_t)k);
         }
     }
     g->scene->geometry_count = reader.shape_count;

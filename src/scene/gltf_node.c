@@ -1,4 +1,5 @@
-/* The tree of nodes: checked, cut down to the shown scene, and laid out parents first, without recursion. */
+/* The tree of nodes: checked, cut down to the shown scene, and laid out parents first, without
+ * recursion. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -38,7 +39,8 @@ static void adopt(struct tree *tree, size_t parent) {
             gn_gltf_fail(tree->g, &at, "must be an index");
             return;
         }
-        if (tree->sources[child].parent < 0) tree->sources[child].parent = (int32_t) parent;
+        if (tree->sources[child].parent < 0)
+            tree->sources[child].parent = (int32_t)parent;
         else
             gn_gltf_warn(tree->g, &children, "node %d has two parents; shown under the first, %d",
                          child, tree->sources[child].parent);
@@ -48,14 +50,14 @@ static void adopt(struct tree *tree, size_t parent) {
 /* Follows the parents from each node; mark 1 is on the way, 2 is known to end. */
 static bool check_cycles(struct tree *tree) {
     for (size_t i = 0; i < tree->count; i++) {
-        int32_t n = (int32_t) i;
+        int32_t n = (int32_t)i;
         for (; n >= 0 && tree->sources[n].mark == 0; n = tree->sources[n].parent)
             tree->sources[n].mark = 1;
         if (n >= 0 && tree->sources[n].mark == 1) {
-            struct gn_at at = gn_at_element(&tree->array, (size_t) n);
+            struct gn_at at = gn_at_element(&tree->array, (size_t)n);
             return gn_gltf_fail(tree->g, &at, "is its own ancestor");
         }
-        for (n = (int32_t) i; n >= 0 && tree->sources[n].mark == 1; n = tree->sources[n].parent)
+        for (n = (int32_t)i; n >= 0 && tree->sources[n].mark == 1; n = tree->sources[n].parent)
             tree->sources[n].mark = 2;
     }
     return true;
@@ -88,7 +90,7 @@ static void push(struct tree *tree, int32_t node) {
 
 /* The last first, so that the first comes off the stack first. */
 static void push_children(struct tree *tree, int32_t node) {
-    struct gn_at at = gn_at_element(&tree->array, (size_t) node);
+    struct gn_at at = gn_at_element(&tree->array, (size_t)node);
     struct gn_at children = gn_at_array(tree->g, &at, "children");
     for (size_t i = gn_at_size(&children); i-- > 0;) {
         int32_t child = child_at(tree, &children, i);
@@ -121,7 +123,7 @@ static struct gn_at shown_scene(struct gn_gltf *g, const struct gn_at *scenes) {
     struct gn_at root = gn_at_root(g);
     size_t count = gn_at_size(scenes);
     int32_t index = gn_at_ref(g, &root, "scene", count, "scenes");
-    return count > 0 ? gn_at_item(g, scenes, index < 0 ? 0 : (size_t) index) : (struct gn_at){0};
+    return count > 0 ? gn_at_item(g, scenes, index < 0 ? 0 : (size_t)index) : (struct gn_at){0};
 }
 
 /* ---- laying out ---- */
@@ -148,16 +150,16 @@ static void read_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_
 
 static void emit(struct tree *tree, int32_t source) {
     struct gn_gltf *g = tree->g;
-    struct gn_at at = gn_at_element(&tree->array, (size_t) source);
+    struct gn_at at = gn_at_element(&tree->array, (size_t)source);
     uint32_t index = g->scene->node_count++;
     struct gn_node *node = &g->scene->nodes[index];
     struct gn_placed *placed = &g->placed[index];
-    g->scene_node[source] = (int32_t) index;
+    g->scene_node[source] = (int32_t)index;
     int32_t parent = tree->sources[source].parent;
     node->parent = parent < 0 ? -1 : g->scene_node[parent];
     node->name = gn_gltf_strdup(g, gn_at_text(g, &at, "name"));
     read_transform(g, &at, node);
-    placed->json = (size_t) source;
+    placed->json = (size_t)source;
     placed->bare = !tree->sources[source].shown;
     placed->mesh = gn_at_ref(g, &at, "mesh", g->mesh_count, "meshes");
     if (placed->bare) placed->mesh = -1;
@@ -203,7 +205,7 @@ static size_t listed_nodes(struct tree *tree, const struct gn_at *list, bool all
         out[count++] = node;
     }
     for (size_t i = 0; all && i < tree->count; i++)
-        if (tree->sources[i].parent < 0) out[count++] = (int32_t) i;
+        if (tree->sources[i].parent < 0) out[count++] = (int32_t)i;
     for (size_t i = 0; i < tree->count; i++) tree->sources[i].queued = false;
     return count;
 }
@@ -226,8 +228,10 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
         tree.sources[i].queued = false;
         roots[i] = -1;
     }
-    for (size_t i = 0; i < count && !g->failed; i++) lay_out(&tree, root_of(&tree, listed[i], roots));
+    for (size_t i = 0; i < count && !g->failed; i++)
+        lay_out(&tree, root_of(&tree, listed[i], roots));
     if (!g->failed && g->scene->node_count == 0)
-        return gn_gltf_fail(g, scene.json ? &scene : &tree.array, "the scene is empty: there is no node");
+        return gn_gltf_fail(g, scene.json ? &scene : &tree.array,
+                            "the scene is empty: there is no node");
     return !g->failed;
 }

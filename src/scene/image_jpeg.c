@@ -5,7 +5,8 @@
 static bool header(tjhandle handle, const uint8_t *data, size_t size, int px[2], int *space,
                    struct gn_err *err) {
     int sampling;
-    if (tjDecompressHeader3(handle, data, (unsigned long) size, &px[0], &px[1], &sampling, space) == 0)
+    if (tjDecompressHeader3(handle, data, (unsigned long)size, &px[0], &px[1], &sampling, space) ==
+        0)
         return true;
     return gn_fail(err, "JPEG: %s", tjGetErrorStr2(handle));
 }
@@ -15,8 +16,8 @@ bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_er
     int read[2] = {0}, space;
     bool done = handle ? header(handle, data, size, read, &space, err)
                        : gn_fail(err, "JPEG: %s", tjGetErrorStr2(NULL));
-    px[0] = (uint32_t) read[0];
-    px[1] = (uint32_t) read[1];
+    px[0] = (uint32_t)read[0];
+    px[1] = (uint32_t)read[1];
     if (handle) tjDestroy(handle);
     return done;
 }
@@ -24,7 +25,7 @@ bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_er
 /* Adobe stores the four inks inverted. */
 static void rgb_from_cmyk(uint8_t *pixels, size_t count) {
     for (uint8_t *p = pixels; p < pixels + 4 * count; p += 4) {
-        for (int k = 0; k < 3; k++) p[k] = (uint8_t) ((p[k] * p[3] + 127) / 255);
+        for (int k = 0; k < 3; k++) p[k] = (uint8_t)((p[k] * p[3] + 127) / 255);
         p[3] = 255;
     }
 }
@@ -33,14 +34,16 @@ static bool decode(tjhandle handle, const uint8_t *data, size_t size, const uint
                    uint8_t *rgba, struct gn_err *err) {
     int read[2], space;
     if (!header(handle, data, size, read, &space, err)) return false;
-    if ((uint32_t) read[0] != px[0] || (uint32_t) read[1] != px[1]) return gn_fail(err, "JPEG: changed");
+    if ((uint32_t)read[0] != px[0] || (uint32_t)read[1] != px[1])
+        return gn_fail(err, "JPEG: changed");
     bool inks = space == TJCS_CMYK || space == TJCS_YCCK;
-    int failed = tjDecompress2(handle, data, (unsigned long) size, rgba, read[0], 0, read[1],
-                               inks ? TJPF_CMYK : TJPF_RGBA, TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT);
+    int failed =
+        tjDecompress2(handle, data, (unsigned long)size, rgba, read[0], 0, read[1],
+                      inks ? TJPF_CMYK : TJPF_RGBA, TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT);
     if (failed != 0 && tjGetErrorCode(handle) != TJERR_WARNING)
         return gn_fail(err, "JPEG: %s", tjGetErrorStr2(handle));
     if (failed != 0) return gn_fail(err, "JPEG: damaged: %s", tjGetErrorStr2(handle));
-    if (inks) rgb_from_cmyk(rgba, (size_t) px[0] * px[1]);
+    if (inks) rgb_from_cmyk(rgba, (size_t)px[0] * px[1]);
     return true;
 }
 

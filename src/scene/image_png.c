@@ -1,5 +1,5 @@
-/* PNG of every kind to RGBA, 8 bits. libpng leaves by longjmp when it fails: it is called only from here, and what must
- * outlive a jump lies in one struct. */
+/* PNG of every kind to RGBA, 8 bits. libpng leaves by longjmp when it fails: it is called only from
+ * here, and what must outlive a jump lies in one struct. */
 #include "scene/private.h"
 
 #include <png.h>
@@ -9,15 +9,16 @@
 enum { IHDR_END = 8 + 8 + 13 };
 
 static uint32_t big_endian(const uint8_t *p) {
-    return (uint32_t) p[0] << 24 | (uint32_t) p[1] << 16 | (uint32_t) p[2] << 8 | (uint32_t) p[3];
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | (uint32_t)p[3];
 }
 
-/* The header says more than deflate could ever make of the file: refused before memory is asked for. */
+/* The header says more than deflate could ever make of the file: refused before memory is asked
+ * for. */
 static bool too_small(const uint8_t *data, size_t size, const uint32_t px[2]) {
     static const uint8_t channels[] = {1, 0, 3, 1, 2, 0, 4};
-    uint64_t bits = (uint64_t) data[24] * (data[25] < sizeof channels ? channels[data[25]] : 1);
+    uint64_t bits = (uint64_t)data[24] * (data[25] < sizeof channels ? channels[data[25]] : 1);
     if (bits > 64) bits = 64;
-    return (uint64_t) px[0] * px[1] / 8 * bits / 1100 > size;
+    return (uint64_t)px[0] * px[1] / 8 * bits / 1100 > size;
 }
 
 bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err) {
@@ -54,8 +55,8 @@ static void on_error(png_structp png, png_const_charp message) {
 }
 
 static void on_warning(png_structp png, png_const_charp message) {
-    (void) png;
-    (void) message;
+    (void)png;
+    (void)message;
 }
 
 static void set_limits(png_structp png, const uint32_t px[2]) {
@@ -80,11 +81,11 @@ static bool decode(struct reader *reader, const uint32_t px[2], uint8_t *rgba) {
     png_read_info(reader->png, reader->info);
     set_rgba8(reader->png);
     png_read_update_info(reader->png, reader->info);
-    if (png_get_rowbytes(reader->png, reader->info) != 4 * (size_t) px[0] ||
+    if (png_get_rowbytes(reader->png, reader->info) != 4 * (size_t)px[0] ||
         png_get_image_height(reader->png, reader->info) != px[1])
         png_error(reader->png, "not of the size that its header says");
     reader->rows = png_malloc(reader->png, px[1] * sizeof *reader->rows);
-    for (uint32_t y = 0; y < px[1]; y++) reader->rows[y] = rgba + 4 * (size_t) px[0] * y;
+    for (uint32_t y = 0; y < px[1]; y++) reader->rows[y] = rgba + 4 * (size_t)px[0] * y;
     png_read_image(reader->png, reader->rows);
     return true;
 }

@@ -22,7 +22,7 @@ enum { ROW_COUNT = sizeof ROWS / sizeof ROWS[0] };
 _Static_assert(sizeof(struct gn_scene_limits) == ROW_COUNT * sizeof(uint64_t), "a row per limit");
 
 static uint64_t *field(struct gn_scene_limits *limits, const struct row *row) {
-    return (uint64_t *) (void *) ((char *) limits + row->offset);
+    return (uint64_t *)(void *)((char *)limits + row->offset);
 }
 
 bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,
@@ -37,7 +37,7 @@ bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint6
     }
     char names[160] = "";
     for (size_t i = 0, at = 0; i < ROW_COUNT && at < sizeof names; i++)
-        at += (size_t) snprintf(names + at, sizeof names - at, " %s", ROWS[i].name);
+        at += (size_t)snprintf(names + at, sizeof names - at, " %s", ROWS[i].name);
     return gn_fail_usage(err, "no limit is called '%s'; there are:%s", name, names);
 }
 
@@ -53,8 +53,8 @@ struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *
 
 size_t gn_gltf_room(const struct gn_gltf *g) {
     uint64_t limit = g->limits.memory_mb << 20;
-    uint64_t used = (uint64_t) g->arena->used + g->scratch.used + g->work.used + g->other_bytes;
-    return used < limit ? (size_t) (limit - used) : 0;
+    uint64_t used = (uint64_t)g->arena->used + g->scratch.used + g->work.used + g->other_bytes;
+    return used < limit ? (size_t)(limit - used) : 0;
 }
 
 void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, size_t size) {
@@ -62,9 +62,10 @@ void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, s
     uint64_t bytes = 0;
     void *memory = NULL;
     if (!__builtin_mul_overflow(count, size, &bytes) && bytes <= gn_gltf_room(g))
-        memory = gn_arena_alloc(arena, (size_t) count, size);
+        memory = gn_arena_alloc(arena, (size_t)count, size);
     if (!memory)
-        gn_gltf_fail(g, NULL, "needs more memory than there is or than memory_mb=%" PRIu64 " allows",
+        gn_gltf_fail(g, NULL,
+                     "needs more memory than there is or than memory_mb=%" PRIu64 " allows",
                      g->limits.memory_mb);
     return memory;
 }

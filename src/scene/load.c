@@ -13,17 +13,17 @@ struct holder { /* what scene->memory points to */
 
 static bool count_textures(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g);
-    struct gn_at textures = gn_at_array(g, &root, "textures"), images = gn_at_array(g, &root, "images");
+    struct gn_at textures = gn_at_array(g, &root, "textures"),
+                 images = gn_at_array(g, &root, "images");
     g->file_texture_count = gn_at_size(&textures);
     g->file_image_count = gn_at_size(&images);
     return !g->failed;
 }
 
 static bool (*const STEPS[])(struct gn_gltf *) = {
-    gn_gltf_check_support, gn_gltf_buffers,   gn_gltf_accessors, count_textures,
-    gn_gltf_nodes,         gn_gltf_meshes,    gn_gltf_geometries, gn_gltf_items,
-    gn_gltf_materials,     gn_gltf_lights,    gn_gltf_cameras,   gn_gltf_animations,
-    gn_scene_complete,     gn_scene_batch,
+    gn_gltf_check_support, gn_gltf_buffers,    gn_gltf_accessors, count_textures,    gn_gltf_nodes,
+    gn_gltf_meshes,        gn_gltf_geometries, gn_gltf_items,     gn_gltf_materials, gn_gltf_lights,
+    gn_gltf_cameras,       gn_gltf_animations, gn_scene_complete, gn_scene_batch,
 };
 
 static void finish(struct gn_gltf *g) {
@@ -51,8 +51,8 @@ static struct gn_scene *load(struct gn_gltf *g, const uint8_t *data, size_t size
 }
 
 struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t size,
-                                     const struct gn_scene_limits *limits, struct gn_warnings *warnings,
-                                     struct gn_err *err) {
+                                     const struct gn_scene_limits *limits,
+                                     struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_gltf g = {.path = label, .warnings = warnings, .err = err};
     g.limits = gn_scene_limits_or_default(limits);
     return load(&g, data, size);
@@ -63,7 +63,7 @@ static char *folder_of(const char *path) {
     const char *slash = strrchr(path, '/');
     if (!slash) return realpath(".", NULL);
     char folder[PATH_MAX];
-    size_t size = slash == path ? 1 : (size_t) (slash - path);
+    size_t size = slash == path ? 1 : (size_t)(slash - path);
     if (size >= sizeof folder) return NULL;
     memcpy(folder, path, size);
     folder[size] = 0;
@@ -75,7 +75,7 @@ struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *l
     struct gn_gltf g = {.path = path, .warnings = warnings, .err = err};
     g.limits = gn_scene_limits_or_default(limits);
     struct gn_bytes bytes = {0};
-    if (!gn_file_read(path, (size_t) g.limits.file_mb << 20, &bytes, err)) return NULL;
+    if (!gn_file_read(path, (size_t)g.limits.file_mb << 20, &bytes, err)) return NULL;
     g.folder = folder_of(path);
     struct gn_scene *scene = load(&g, bytes.data, bytes.size);
     gn_bytes_finish(&bytes);
@@ -91,11 +91,15 @@ void gn_scene_destroy(struct gn_scene *scene) {
 
 /* ---- finding ---- */
 
-static const char *camera_name(const struct gn_scene *scene, uint32_t i) { return scene->cameras[i].name; }
+static const char *camera_name(const struct gn_scene *scene, uint32_t i) {
+    return scene->cameras[i].name;
+}
 static const char *camera_node(const struct gn_scene *scene, uint32_t i) {
     return scene->nodes[scene->cameras[i].node].name;
 }
-static const char *clip_name(const struct gn_scene *scene, uint32_t i) { return scene->clips[i].name; }
+static const char *clip_name(const struct gn_scene *scene, uint32_t i) {
+    return scene->clips[i].name;
+}
 
 struct list {
     const char *kind;
@@ -107,7 +111,7 @@ struct list {
 static int by_name(const struct gn_scene *scene, const struct list *list, const char *what,
                    const char *(*name)(const struct gn_scene *, uint32_t)) {
     for (uint32_t i = 0; i < list->count; i++)
-        if (strcmp(name(scene, i), what) == 0) return (int) i;
+        if (strcmp(name(scene, i), what) == 0) return (int)i;
     return -1;
 }
 
@@ -117,23 +121,28 @@ static int find(const struct gn_scene *scene, const struct list *list, const cha
     int found = what ? by_name(scene, list, what, list->name) : -1;
     if (found < 0 && what) found = by_name(scene, list, what, list->second_name);
     char *end = NULL;
-    unsigned long number = what && *what >= '0' && *what <= '9' ? strtoul(what, &end, 10) : ULONG_MAX;
-    if (found < 0 && end && *end == 0 && number < list->count) found = (int) number;
+    unsigned long number =
+        what && *what >= '0' && *what <= '9' ? strtoul(what, &end, 10) : ULONG_MAX;
+    if (found < 0 && end && *end == 0 && number < list->count) found = (int)number;
     if (found >= 0) return found;
     char names[360] = "";
     size_t at = 0;
     for (uint32_t i = 0; i < list->count && at < sizeof names; i++)
-        at += (size_t) snprintf(names + at, sizeof names - at, "%s%" PRIu32 " '%.40s'", i > 0 ? ", " : "", i,
-                                list->name(scene, i));
-    if (list->count == 0) gn_fail_usage(err, "the scene has no %s", list->kind);
-    else gn_fail_usage(err, "no %s is called '%.60s'; there are: %s", list->kind, what, names);
+        at += (size_t)snprintf(names + at, sizeof names - at, "%s%" PRIu32 " '%.40s'",
+                               i > 0 ? ", " : "", i, list->name(scene, i));
+    if (list->count == 0)
+        gn_fail_usage(err, "the scene has no %s", list->kind);
+    else
+        gn_fail_usage(err, "no %s is called '%.60s'; there are: %s", list->kind, what, names);
     return -1;
 }
 
 int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct gn_err *err) {
-    return find(scene, &(struct list){"camera", scene->camera_count, camera_name, camera_node}, what, err);
+    return find(scene, &(struct list){"camera", scene->camera_count, camera_name, camera_node},
+                what, err);
 }
 
 int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err) {
-    return find(scene, &(struct list){"animation", scene->clip_count, clip_name, clip_name}, what, err);
+    return find(scene, &(struct list){"animation", scene->clip_count, clip_name, clip_name}, what,
+                err);
 }

@@ -1,5 +1,5 @@
-/* Which flat thing receives planar shadows: what gnomon_plane names, else the largest flat face of the scene if it is large
- * enough to be a floor or a wall. */
+/* Which flat thing receives planar shadows: what gnomon_plane names, else the largest flat face of
+ * the scene if it is large enough to be a floor or a wall. */
 #include "scene/private.h"
 
 #include <math.h>
@@ -14,17 +14,17 @@ static void to_world(const struct gn_pose *pose, uint32_t i, vec3 normal_ws, dou
     mat3 cofactor;
     gn_cofactor(pose->items[i].world_from_item, cofactor);
     glm_mat3_mulv(cofactor, pose->scene->geometries[item->geometry].plane, normal_ws);
-    double stretch = (double) glm_vec3_norm(normal_ws);
+    double stretch = (double)glm_vec3_norm(normal_ws);
     *area *= stretch;
-    if (stretch > 0) glm_vec3_scale(normal_ws, (float) (1 / stretch), normal_ws);
+    if (stretch > 0) glm_vec3_scale(normal_ws, (float)(1 / stretch), normal_ws);
 }
 
 /* Area of the box's shadow along n. */
 static double seen_along(const struct gn_box *box, vec3 n) {
     double s[3];
-    for (int k = 0; k < 3; k++) s[k] = (double) box->max[k] - (double) box->min[k];
-    return fabs((double) n[0]) * s[1] * s[2] + fabs((double) n[1]) * s[2] * s[0] +
-           fabs((double) n[2]) * s[0] * s[1];
+    for (int k = 0; k < 3; k++) s[k] = (double)box->max[k] - (double)box->min[k];
+    return fabs((double)n[0]) * s[1] * s[2] + fabs((double)n[1]) * s[2] * s[0] +
+           fabs((double)n[2]) * s[0] * s[1];
 }
 
 static bool take_named(struct gn_gltf *g) {
@@ -49,7 +49,8 @@ void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose) {
     struct gn_item *found = NULL;
     for (uint32_t i = 0; i < scene->item_count; i++) {
         struct gn_item *item = &scene->items[i];
-        bool may = scene->geometries[item->geometry].flat && pose->items[i].visible && item->receives;
+        bool may =
+            scene->geometries[item->geometry].flat && pose->items[i].visible && item->receives;
         if (!may || g->placed[item->node].plane == GN_NO) continue;
         vec3 normal_ws;
         double area = g->shapes[item->geometry].area;

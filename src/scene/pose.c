@@ -8,8 +8,8 @@
 #include "core/hash.h"
 #include "scene/private.h"
 
-struct memory { /* what pose->memory points to */
-    struct gn_node *local; /* the scene's nodes as the clips have them now */
+struct memory {              /* what pose->memory points to */
+    struct gn_node *local;   /* the scene's nodes as the clips have them now */
     uint32_t *nodes, *items; /* those that move */
     uint32_t node_count, item_count;
     struct gn_box still_ws; /* of the visible items that do not */
@@ -21,13 +21,13 @@ static const float LIMIT = 1e18f; /* beyond it squares overflow */
 
 void gn_node_local(const struct gn_node *node, mat4 parent_from_node) {
     if (node->has_matrix) {
-        glm_mat4_copy((vec4 *) node->matrix, parent_from_node);
+        glm_mat4_copy((vec4 *)node->matrix, parent_from_node);
         return;
     }
-    glm_quat_mat4((float *) node->rotation, parent_from_node);
+    glm_quat_mat4((float *)node->rotation, parent_from_node);
     for (int k = 0; k < 3; k++)
         glm_vec3_scale(parent_from_node[k], node->scale[k], parent_from_node[k]);
-    glm_vec3_copy((float *) node->translation, parent_from_node[3]);
+    glm_vec3_copy((float *)node->translation, parent_from_node[3]);
 }
 
 double gn_cofactor(mat4 m, mat3 out) {
@@ -36,11 +36,11 @@ double gn_cofactor(mat4 m, mat3 out) {
         const float *u = m[(k + 1) % 3], *v = m[(k + 2) % 3];
         for (int i = 0; i < 3; i++) {
             int j = (i + 1) % 3, l = (i + 2) % 3;
-            c[k][i] = (double) u[j] * (double) v[l] - (double) u[l] * (double) v[j];
-            out[k][i] = (float) c[k][i];
+            c[k][i] = (double)u[j] * (double)v[l] - (double)u[l] * (double)v[j];
+            out[k][i] = (float)c[k][i];
         }
     }
-    for (int i = 0; i < 3; i++) det += (double) m[0][i] * c[0][i];
+    for (int i = 0; i < 3; i++) det += (double)m[0][i] * c[0][i];
     return det;
 }
 
@@ -52,7 +52,8 @@ static bool usable(mat4 m) {
 
 /* ---- boxes ---- */
 
-static const struct gn_box EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+static const struct gn_box EMPTY = {{INFINITY, INFINITY, INFINITY},
+                                    {-INFINITY, -INFINITY, -INFINITY}};
 
 static void join(struct gn_box *box, const struct gn_box *other) {
     for (int k = 0; k < 3; k++) {
@@ -65,14 +66,15 @@ static void join(struct gn_box *box, const struct gn_box *other) {
 static struct gn_box transform_box(mat4 m, const struct gn_box *box) {
     struct gn_box out;
     for (int k = 0; k < 3; k++) {
-        double low = (double) m[3][k], high = low;
+        double low = (double)m[3][k], high = low;
         for (int i = 0; i < 3; i++) {
-            double a = (double) m[i][k] * (double) box->min[i], b = (double) m[i][k] * (double) box->max[i];
+            double a = (double)m[i][k] * (double)box->min[i],
+                   b = (double)m[i][k] * (double)box->max[i];
             low += a < b ? a : b;
             high += a < b ? b : a;
         }
-        out.min[k] = (float) low;
-        out.max[k] = (float) high;
+        out.min[k] = (float)low;
+        out.max[k] = (float)high;
     }
     return out;
 }
@@ -90,14 +92,17 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
     const struct gn_item *item = &scene->items[i];
     struct gn_pose_item *out = &pose->items[i];
     vec4 *world_from_node = pose->world_from_node[item->node];
-    if (item->instance < 0) glm_mat4_copy(world_from_node, out->world_from_item);
-    else glm_mat4_mul(world_from_node, scene->instances[item->instance], out->world_from_item);
+    if (item->instance < 0)
+        glm_mat4_copy(world_from_node, out->world_from_item);
+    else
+        glm_mat4_mul(world_from_node, scene->instances[item->instance], out->world_from_item);
     out->visible = usable(out->world_from_item);
     if (out->visible) {
         mat3 cofactor; /* nothing has an area if it is 0 */
         out->mirrored = gn_cofactor(out->world_from_item, cofactor) < 0;
         out->box_ws = transform_box(out->world_from_item, &scene->geometries[item->geometry].box);
-        float area = glm_vec3_norm(cofactor[0]) + glm_vec3_norm(cofactor[1]) + glm_vec3_norm(cofactor[2]);
+        float area =
+            glm_vec3_norm(cofactor[0]) + glm_vec3_norm(cofactor[1]) + glm_vec3_norm(cofactor[2]);
         out->visible = area > 0 && box_usable(&out->box_ws);
     }
     if (!out->visible) out->box_ws = EMPTY;
@@ -105,18 +110,20 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
 }
 
 static void pose_node(struct gn_pose *pose, uint32_t i) {
-    const struct gn_node *node = &((struct memory *) pose->memory)->local[i];
+    const struct gn_node *node = &((struct memory *)pose->memory)->local[i];
     mat4 local;
     gn_node_local(node, local);
-    if (node->parent < 0) glm_mat4_copy(local, pose->world_from_node[i]);
-    else glm_mat4_mul(pose->world_from_node[node->parent], local, pose->world_from_node[i]);
+    if (node->parent < 0)
+        glm_mat4_copy(local, pose->world_from_node[i]);
+    else
+        glm_mat4_mul(pose->world_from_node[node->parent], local, pose->world_from_node[i]);
 }
 
 /* ---- clips ---- */
 
 static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
     if (pose->clips == GN_POSE_DEFAULT) return pose->scene->clips[clip].on_by_default;
-    return pose->clips == (int) clip;
+    return pose->clips == (int)clip;
 }
 
 /* The time within the clip; in integers until it is small. */
@@ -124,7 +131,7 @@ static double clip_time_s(const struct gn_clip *clip, int64_t time_ns) {
     if (clip->duration_ns <= 0) return 0;
     int64_t local_ns = time_ns % clip->duration_ns;
     if (local_ns < 0) local_ns += clip->duration_ns;
-    return (double) local_ns * 1e-9;
+    return (double)local_ns * 1e-9;
 }
 
 static void apply_clip(struct gn_pose *pose, const struct gn_clip *clip) {
@@ -229,10 +236,10 @@ void gn_pose_finish(struct gn_pose *pose) {
 
 /* The unit vector along v, or the fallback if it has no length. */
 static void unit_or(const float *v, const float *fallback, vec3 out) {
-    double length = sqrt((double) v[0] * (double) v[0] + (double) v[1] * (double) v[1] +
-                         (double) v[2] * (double) v[2]);
+    double length = sqrt((double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] +
+                         (double)v[2] * (double)v[2]);
     bool right = length > 1e-30 && isfinite(length);
-    for (int k = 0; k < 3; k++) out[k] = right ? (float) ((double) v[k] / length) : fallback[k];
+    for (int k = 0; k < 3; k++) out[k] = right ? (float)((double)v[k] / length) : fallback[k];
 }
 
 static void position_of(vec4 *world_from_node, vec3 out) {
@@ -260,7 +267,8 @@ void gn_pose_view(const struct gn_pose *pose, uint32_t camera, mat4 view_from_wo
     if (eye_ws) glm_vec3_copy(eye, eye_ws);
 }
 
-void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws, vec3 direction_ws) {
+void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws,
+                   vec3 direction_ws) {
     vec4 *world = pose->world_from_node[pose->scene->lights[light].node];
     unit_or(world[2], (vec3){0, 0, 1}, direction_ws);
     glm_vec3_negate(direction_ws);

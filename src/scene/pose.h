@@ -4,35 +4,40 @@
 
 #include "scene/scene.h"
 
-enum gn_pose_clips { GN_POSE_DEFAULT = -1, GN_POSE_NONE = -2 }; /* or a clip's number: that one alone */
+enum gn_pose_clips {
+    GN_POSE_DEFAULT = -1,
+    GN_POSE_NONE = -2
+}; /* or a clip's number: that one alone */
 
 struct gn_pose_item {
     mat4 world_from_item;
     struct gn_box box_ws;
-    bool mirrored;  /* negative determinant: front faces wind the other way */
-    bool visible;   /* false: scaled to nothing or not finite; never drawn */
-    uint64_t hash;  /* of world_from_item */
+    bool mirrored; /* negative determinant: front faces wind the other way */
+    bool visible;  /* false: scaled to nothing or not finite; never drawn */
+    uint64_t hash; /* of world_from_item */
 };
 
 struct gn_pose {
     const struct gn_scene *scene;
-    int clips;               /* enum gn_pose_clips or a number */
+    int clips; /* enum gn_pose_clips or a number */
     int64_t time_ns;
-    mat4 *world_from_node;   /* scene->node_count */
+    mat4 *world_from_node;      /* scene->node_count */
     struct gn_pose_item *items; /* scene->item_count */
-    struct gn_box box_ws;    /* of all visible items */
-    bool animated;           /* some clip is on: time changes the pose */
-    bool *node_moves;        /* scene->node_count: an active channel moves it or one of its parents */
-    void *memory;            /* private */
+    struct gn_box box_ws;       /* of all visible items */
+    bool animated;              /* some clip is on: time changes the pose */
+    bool *node_moves; /* scene->node_count: an active channel moves it or one of its parents */
+    void *memory;     /* private */
 };
 
 /* Makes a pose at time 0. The scene must outlive it. */
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips);
-/* Moves it to time_ns (any value; clips loop, negative times too). Allocates nothing; costs nothing for what stands still. */
+/* Moves it to time_ns (any value; clips loop, negative times too). Allocates nothing; costs nothing
+ * for what stands still. */
 void gn_pose_step(struct gn_pose *pose, int64_t time_ns);
 void gn_pose_finish(struct gn_pose *pose);
 
-/* view_from_world of a camera at this pose, rigid (scale is dropped); eye_ws gets its position if not NULL. */
+/* view_from_world of a camera at this pose, rigid (scale is dropped); eye_ws gets its position if
+ * not NULL. */
 void gn_pose_view(const struct gn_pose *pose, uint32_t camera, mat4 view_from_world, vec3 eye_ws);
 /* Where a light is and the unit vector along which it shines, world space. */
 void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws, vec3 direction_ws);

@@ -8,13 +8,16 @@ static uint32_t key_before(const struct gn_channel *channel, double time_s) {
     uint32_t low = 0, high = channel->key_count;
     while (high - low > 1) {
         uint32_t middle = low + (high - low) / 2;
-        if ((double) channel->times_s[middle] <= time_s) low = middle;
-        else high = middle;
+        if ((double)channel->times_s[middle] <= time_s)
+            low = middle;
+        else
+            high = middle;
     }
     return low;
 }
 
-static void between(const struct gn_channel *channel, const float *a, const float *b, float u, float *out) {
+static void between(const struct gn_channel *channel, const float *a, const float *b, float u,
+                    float *out) {
     if (channel->path != GN_ANIM_ROTATION) {
         for (int i = 0; i < 3; i++) out[i] = a[i] + (b[i] - a[i]) * u;
         return;
@@ -38,17 +41,19 @@ static void spline(const float *a, const float *b, int n, float dt_s, float u, f
 void gn_channel_sample(const struct gn_channel *channel, double time_s, float *out) {
     int n = channel->path == GN_ANIM_ROTATION ? 4 : 3;
     bool cubic = channel->interpolation == GN_ANIM_CUBIC;
-    size_t stride = (size_t) n * (cubic ? 3 : 1);
+    size_t stride = (size_t)n * (cubic ? 3 : 1);
     uint32_t k = key_before(channel, time_s);
     const float *key = channel->values + k * stride;
-    double start_s = (double) channel->times_s[k];
+    double start_s = (double)channel->times_s[k];
     if (k + 1 == channel->key_count || time_s <= start_s || channel->interpolation == GN_ANIM_STEP)
-        memcpy(out, key + (cubic ? n : 0), (size_t) n * sizeof *out);
+        memcpy(out, key + (cubic ? n : 0), (size_t)n * sizeof *out);
     else {
-        double dt_s = (double) channel->times_s[k + 1] - start_s; /* not 0: time_s lies between */
-        float u = (float) ((time_s - start_s) / dt_s);
-        if (cubic) spline(key, key + stride, n, (float) dt_s, u, out);
-        else between(channel, key, key + stride, u, out);
+        double dt_s = (double)channel->times_s[k + 1] - start_s; /* not 0: time_s lies between */
+        float u = (float)((time_s - start_s) / dt_s);
+        if (cubic)
+            spline(key, key + stride, n, (float)dt_s, u, out);
+        else
+            between(channel, key, key + stride, u, out);
     }
     if (n == 4) glm_quat_normalize(out);
 }

@@ -1,5 +1,6 @@
-/* What the files of the loader share. One struct gn_gltf lives for one load; its first failure sticks, getters answer with
- * harmless values from then on, and the steps of load.c look at `failed` between them. */
+/* What the files of the loader share. One struct gn_gltf lives for one load; its first failure
+ * sticks, getters answer with harmless values from then on, and the steps of load.c look at
+ * `failed` between them. */
 #ifndef GN_SCENE_PRIVATE_H
 #define GN_SCENE_PRIVATE_H
 
@@ -15,22 +16,24 @@ struct gn_blob { /* bytes of a file, a data URI or a part of the model itself */
     struct gn_bytes file; /* what must be freed, if it came from a file */
 };
 
-struct gn_view { /* a bufferView that lies inside its buffer; data is NULL where the buffer is a placeholder */
+struct gn_view { /* a bufferView that lies inside its buffer; data is NULL where the buffer is a
+                    placeholder */
     const uint8_t *data;
     size_t size, stride; /* stride 0: tight */
 };
 
 enum gn_component { /* glTF's numbers */
-    GN_I8 = 5120,
-    GN_U8 = 5121,
-    GN_I16 = 5122,
-    GN_U16 = 5123,
-    GN_U32 = 5125,
-    GN_F32 = 5126,
+                    GN_I8 = 5120,
+                    GN_U8 = 5121,
+                    GN_I16 = 5122,
+                    GN_U16 = 5123,
+                    GN_U32 = 5125,
+                    GN_F32 = 5126,
 };
 
-/* A checked accessor: data + stride * (count - 1) + one element lie inside memory that we hold. Stride may be 0 (an
- * accessor without a bufferView is one element of zeros). Elements may be unaligned: read them with the functions below. */
+/* A checked accessor: data + stride * (count - 1) + one element lie inside memory that we hold.
+ * Stride may be 0 (an accessor without a bufferView is one element of zeros). Elements may be
+ * unaligned: read them with the functions below. */
 struct gn_accessor {
     const uint8_t *data;
     size_t stride, count;
@@ -112,13 +115,14 @@ struct gn_gltf {
     struct gn_draw *draws;
     struct gn_shape *shapes;
     struct gn_vertices *vertices;
-    struct gn_placed *placed;  /* scene->node_count, + 2 */
-    int32_t *scene_node;       /* of the file's nodes: index in the scene, or -1 */
-    int32_t *scene_texture;    /* of the file's textures: index in the scene, -1 not looked at, -2 dropped */
-    int32_t *scene_image;      /* the same for its pictures */
-    const float **key_times;   /* per accessor: times already copied */
-    size_t buffer_count, view_count, accessor_count, mesh_count, draw_count, vertices_count, material_count, file_node_count,
-        file_texture_count, file_image_count;
+    struct gn_placed *placed; /* scene->node_count, + 2 */
+    int32_t *scene_node;      /* of the file's nodes: index in the scene, or -1 */
+    int32_t *scene_texture;   /* of the file's textures: index in the scene, -1 not looked at, -2
+                                 dropped */
+    int32_t *scene_image;     /* the same for its pictures */
+    const float **key_times;  /* per accessor: times already copied */
+    size_t buffer_count, view_count, accessor_count, mesh_count, draw_count, vertices_count,
+        material_count, file_node_count, file_texture_count, file_image_count;
     uint64_t key_total;
 
     struct gn_scene *scene;
@@ -153,14 +157,16 @@ struct gn_at gn_at_item(struct gn_gltf *g, const struct gn_at *array, size_t ind
 struct gn_at gn_at_extension(struct gn_gltf *g, const struct gn_at *up, const char *key);
 size_t gn_at_size(const struct gn_at *array);
 
-const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up, const char *key); /* NULL if absent */
+const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up,
+                       const char *key); /* NULL if absent */
 bool gn_at_flag(struct gn_gltf *g, const struct gn_at *up, const char *key, bool fallback);
 uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *key, uint64_t fallback);
 float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *key, float fallback);
 /* Exactly n numbers into out, which stays as it is if there are none; true if there were. */
 bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t n, float *out);
 /* An index below count, or -1 if absent or wrong; what: plural, for the message. */
-int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t count, const char *what);
+int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t count,
+                  const char *what);
 int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, const char *what);
 /* A number or an integral real, for those who do not want a failure. */
 bool gn_json_number(const json_t *json, double *out);
@@ -179,49 +185,57 @@ size_t gn_gltf_room(const struct gn_gltf *g);
 
 bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size); /* gltf_file.c */
 bool gn_gltf_check_support(struct gn_gltf *g);
-bool gn_gltf_buffers(struct gn_gltf *g);                                /* gltf_buffers.c */
-bool gn_gltf_accessors(struct gn_gltf *g);                              /* gltf_accessor.c */
-bool gn_gltf_nodes(struct gn_gltf *g);                                  /* gltf_node.c */
-bool gn_gltf_meshes(struct gn_gltf *g);                                 /* gltf_mesh.c */
-bool gn_gltf_geometries(struct gn_gltf *g);                             /* geometry.c */
-bool gn_gltf_items(struct gn_gltf *g);                                  /* gltf_item.c */
-bool gn_gltf_materials(struct gn_gltf *g);                              /* gltf_material.c */
-bool gn_gltf_lights(struct gn_gltf *g);                                 /* gltf_light.c */
-bool gn_gltf_cameras(struct gn_gltf *g);                                /* gltf_camera.c */
-bool gn_gltf_animations(struct gn_gltf *g);                             /* gltf_anim.c */
-bool gn_scene_complete(struct gn_gltf *g);                              /* complete.c */
-bool gn_scene_batch(struct gn_gltf *g);                                 /* batch.c */
+bool gn_gltf_buffers(struct gn_gltf *g);    /* gltf_buffers.c */
+bool gn_gltf_accessors(struct gn_gltf *g);  /* gltf_accessor.c */
+bool gn_gltf_nodes(struct gn_gltf *g);      /* gltf_node.c */
+bool gn_gltf_meshes(struct gn_gltf *g);     /* gltf_mesh.c */
+bool gn_gltf_geometries(struct gn_gltf *g); /* geometry.c */
+bool gn_gltf_items(struct gn_gltf *g);      /* gltf_item.c */
+bool gn_gltf_materials(struct gn_gltf *g);  /* gltf_material.c */
+bool gn_gltf_lights(struct gn_gltf *g);     /* gltf_light.c */
+bool gn_gltf_cameras(struct gn_gltf *g);    /* gltf_camera.c */
+bool gn_gltf_animations(struct gn_gltf *g); /* gltf_anim.c */
+bool gn_scene_complete(struct gn_gltf *g);  /* complete.c */
+bool gn_scene_batch(struct gn_gltf *g);     /* batch.c */
 
 /* ---- helpers of one file that others use ---- */
 
-/* uri.c: data: URIs and files in the model's folder or below. The text of err has no path before it. */
+/* uri.c: data: URIs and files in the model's folder or below. The text of err has no path before
+ * it. */
 bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err);
 void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob);
 
-/* gltf_accessor.c. The accessor named by up[key], or NULL (absent or failed); sparse ones are made dense here. */
+/* gltf_accessor.c. The accessor named by up[key], or NULL (absent or failed); sparse ones are made
+ * dense here. */
 const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index);
 struct gn_at gn_at_accessor(const struct gn_at *accessors, int32_t index);
 size_t gn_component_size(enum gn_component component);
-/* count elements from first on as floats, normalised as the accessor says; missing components stay as they are in out. */
+/* count elements from first on as floats, normalised as the accessor says; missing components stay
+ * as they are in out. */
 void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *out);
 void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out);
 
 /* geometry_finish.c: the parts of making a geometry that need its triangles only. */
-bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_t *corners, size_t corner_count,
-                              size_t vertex_count, uint32_t **source, float **normals, size_t *made);
+bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_t *corners,
+                              size_t corner_count, size_t vertex_count, uint32_t **source,
+                              float **normals, size_t *made);
 size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geometry *geometry);
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area);
 
-/* gltf_image.c: the scene's texture for one of the file's, made now if need be; -1: none, or dropped with a warning. */
+/* gltf_image.c: the scene's texture for one of the file's, made now if need be; -1: none, or
+ * dropped with a warning. */
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture);
 
 /* image_png.c, image_jpeg.c: the header's size, then width x height x 4 bytes into rgba. */
 bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
-bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba, struct gn_err *err);
+bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
+                 struct gn_err *err);
 bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
-bool gn_jpeg_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba, struct gn_err *err);
+bool gn_jpeg_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
+                  struct gn_err *err);
 
-/* gltf_extras.c: the gnomon_ keys; a wrong type or value is warned about by name, and the default stays. */
+/* gltf_extras.c: the gnomon_ keys; a wrong type or value is warned about by name, and the default
+ * stays. */
 void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_placed *placed);
 void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_light *light);
 void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene);
@@ -229,7 +243,8 @@ void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene);
 /* gltf_instance.c: EXT_mesh_gpu_instancing of all placed nodes. */
 bool gn_gltf_instances(struct gn_gltf *g);
 
-/* plane.c: sets item->plane, by gnomon_plane or by finding one large flat face. world: of the nodes as placed. */
+/* plane.c: sets item->plane, by gnomon_plane or by finding one large flat face. world: of the nodes
+ * as placed. */
 struct gn_pose;
 void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose);
 

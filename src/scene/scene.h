@@ -1,5 +1,6 @@
-/* What a .glb says, checked, resolved and ready to draw: immutable after loading, free of GL and of the clock, and all that
- * a new GL context needs. Right-handed, Y up, metres, linear colour. Every index in it has been checked. */
+/* What a .glb says, checked, resolved and ready to draw: immutable after loading, free of GL and of
+ * the clock, and all that a new GL context needs. Right-handed, Y up, metres, linear colour. Every
+ * index in it has been checked. */
 #ifndef GN_SCENE_SCENE_H
 #define GN_SCENE_SCENE_H
 
@@ -42,7 +43,8 @@ enum gn_texture_slot {
 struct gn_texture_ref {
     int32_t texture; /* index, or -1: none */
     uint8_t uv_set;  /* 0 or 1 */
-    /* uv' = (m[0] u + m[2] v + m[4], m[1] u + m[3] v + m[5]): KHR_texture_transform, identity without */
+    /* uv' = (m[0] u + m[2] v + m[4], m[1] u + m[3] v + m[5]): KHR_texture_transform, identity
+     * without */
     float uv_from_uv[6];
 };
 
@@ -57,24 +59,28 @@ struct gn_material {
     struct gn_texture_ref textures[GN_TEXTURE_SLOT_COUNT];
 };
 
-/* One unique set of accessors: a range of the scene's vertices and indices. Triangles only (strips and fans are unrolled).
- * Primitives that name the same accessors share one geometry whatever their materials. */
+/* One unique set of accessors: a range of the scene's vertices and indices. Triangles only (strips
+ * and fans are unrolled). Primitives that name the same accessors share one geometry whatever their
+ * materials; geometries with the same vertex accessors share the range of vertices. One without
+ * indices (nothing of it could be shown) has no items. */
 struct gn_geometry {
     uint32_t first_vertex, vertex_count;
-    uint32_t first_index, index_count; /* a multiple of 3; indices are absolute, into scene->positions */
-    struct gn_box box;                 /* mesh space */
+    uint32_t first_index,
+        index_count;   /* a multiple of 3; indices are absolute, into scene->positions */
+    struct gn_box box; /* mesh space */
     bool has_normals_in_file, has_uv0, has_uv1, has_color;
     bool flat;  /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
     vec4 plane; /* mesh space, if flat: n.p + d = 0, |n| = 1, on the side its front faces look to */
 };
 
-/* One thing to draw: a primitive of a node's mesh, or of one instance of it (EXT_mesh_gpu_instancing). Sorted so that items
- * that can share an instanced call (same geometry, materials that differ only in factors, same flags) stand together. */
+/* One thing to draw: a primitive of a node's mesh, or of one instance of it
+ * (EXT_mesh_gpu_instancing). Sorted so that items that can share an instanced call (same geometry,
+ * materials that differ only in factors, same flags) stand together. */
 enum gn_cast_faces { GN_CAST_BOTH, GN_CAST_FRONT, GN_CAST_BACK, GN_CAST_AUTO };
 struct gn_item {
     uint32_t node, geometry, material;
-    int32_t instance; /* index into scene->instances, or -1 */
-    uint32_t batch;   /* equal for items that can share a call; ascending */
+    int32_t instance;            /* index into scene->instances, or -1 */
+    uint32_t batch;              /* equal for items that can share a call; ascending */
     bool casts, receives, plane; /* gnomon_cast, gnomon_receive, gnomon_plane */
     enum gn_cast_faces cast_faces;
 };
@@ -89,28 +95,30 @@ struct gn_node {
 };
 
 enum gn_light_type { GN_LIGHT_DIRECTIONAL, GN_LIGHT_POINT, GN_LIGHT_SPOT };
-struct gn_light { /* one per node that carries one, in the order of a depth-first walk of the scene */
+struct gn_light { /* one per node that carries one, in the order of a depth-first walk of the scene
+                   */
     const char *name;
     uint32_t node; /* shines along its -Z */
     enum gn_light_type type;
-    vec3 color;       /* linear, times intensity: lux (directional) or candela */
-    float range_m;    /* 0: unlimited */
+    vec3 color;                 /* linear, times intensity: lux (directional) or candela */
+    float range_m;              /* 0: unlimited */
     float inner_rad, outer_rad; /* half-angles of a spot, inner < outer */
-    float radius;          /* metres, or tangent of the angular radius (directional) */
-    const char *technique; /* gnomon_shadow, or NULL */
-    uint32_t map_px;       /* 0: the default */
-    float shadow_strength; /* 1 */
-    int32_t slide;         /* texture, or -1 */
-    float slide_size_m[2], slide_distance_m;
-    bool slide_lit_outside;
+    float radius;               /* metres, or tangent of the angular radius (directional) */
+    const char *technique;      /* gnomon_shadow, or NULL */
+    uint32_t map_px;            /* 0: the default */
+    float shadow_strength;      /* 1 */
+    int32_t slide;              /* texture, or -1 */
+    float slide_size_m[2];      /* 0, 0: as large as the cone is there */
+    float slide_distance_m;     /* 0: at the near plane */
+    bool slide_lit_outside;     /* a film; false: a projector, dark outside */
 };
 
 struct gn_camera {
     const char *name;
     uint32_t node; /* looks along its -Z */
     bool orthographic;
-    float yfov_rad;     /* perspective */
-    float aspect;       /* 0: the picture's */
+    float yfov_rad;       /* perspective */
+    float aspect;         /* 0: the picture's */
     float xmag_m, ymag_m; /* orthographic half-sizes */
     float near_m, far_m;  /* far 0: infinite */
 };
@@ -152,18 +160,21 @@ struct gn_scene {
     struct gn_camera *cameras;
     struct gn_clip *clips;
     struct gn_channel *channels;
-    uint32_t geometry_count, material_count, image_count, texture_count, node_count, instance_count, item_count, light_count,
-        camera_count, clip_count, channel_count, batch_count;
+    uint32_t geometry_count, material_count, image_count, texture_count, node_count, instance_count,
+        item_count, light_count, camera_count, clip_count, channel_count, batch_count;
     bool made_light, made_camera; /* the file had none: the last of its kind was made here */
 
-    vec3 sky, ground, background; /* radiance of the hemisphere, linear, after exposure; background colour */
-    struct gn_box box;            /* of everything, world space, nodes as the file places them */
-    uint64_t triangle_count;      /* of all items */
-    size_t bytes;                 /* memory the scene holds */
-    void *memory;                 /* its arena; private */
+    vec3 sky, ground,
+        background; /* radiance of the hemisphere, linear, after exposure; background colour */
+    struct gn_box
+        box; /* of everything visible, world space, nodes as the file places them; never empty */
+    uint64_t triangle_count; /* of all items */
+    size_t bytes;            /* memory the scene holds */
+    void *memory;            /* its arena; private */
 };
 
-/* Bounds on what a file may ask for; 0 = the default beside each. Named so in --limit NAME=VALUE. */
+/* Bounds on what a file may ask for; 0 = the default beside each. Named so in --limit NAME=VALUE.
+ */
 struct gn_scene_limits {
     uint64_t file_mb;    /* 512: any one file read */
     uint64_t memory_mb;  /* 1024: all that the scene holds */
@@ -175,18 +186,22 @@ struct gn_scene_limits {
     uint64_t json_depth; /* 512 */
 };
 /* Sets one limit by its name; false and a usage error that lists the names if there is no such. */
-bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value, struct gn_err *err);
+bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,
+                         struct gn_err *err);
 
-/* Loads a .glb or .gltf (by content, not by name) with the files it names, which must lie in its folder or below. NULL and one
- * line with the file and the JSON path or byte offset on failure. limits and warnings may be NULL. */
-struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *limits, struct gn_warnings *warnings,
-                               struct gn_err *err);
+/* Loads a .glb or .gltf (by content, not by name) with the files it names, which must lie in its
+ * folder or below. NULL and one line with the file and the JSON path or byte offset on failure.
+ * limits and warnings may be NULL. */
+struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *limits,
+                               struct gn_warnings *warnings, struct gn_err *err);
 /* The same from memory; external files are refused. label stands for the file in messages. */
-struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t size, const struct gn_scene_limits *limits,
+struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t size,
+                                     const struct gn_scene_limits *limits,
                                      struct gn_warnings *warnings, struct gn_err *err);
 void gn_scene_destroy(struct gn_scene *scene);
 
-/* Finds by name, else by number; -1 and a usage error that lists what there is. `what`: NULL or "" gives 0 (first camera). */
+/* Finds by name, else by number; -1 and a usage error that lists what there is. `what`: NULL or ""
+ * gives 0 (first camera). */
 int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct gn_err *err);
 int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err);
 

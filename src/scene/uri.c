@@ -1,5 +1,6 @@
-/* Where a URI of the model leads: into itself (data:), or to a regular file in its own folder or below. Everything else is
- * refused, by the real path, so that neither "..", nor a link leads out. */
+/* Where a URI of the model leads: into itself (data:), or to a regular file in its own folder or
+ * below. Everything else is refused, by the real path, so that neither "..", nor a link leads out.
+ */
 #include "scene/private.h"
 
 #include <ctype.h>
@@ -10,17 +11,18 @@
 
 static int hex(char c) {
     if (c >= '0' && c <= '9') return c - '0';
-    c = (char) (c | 32);
+    c = (char)(c | 32);
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* Undoes %XX into out (as large as text); the number of bytes. A % that starts no pair stands for itself. */
+/* Undoes %XX into out (as large as text); the number of bytes. A % that starts no pair stands for
+ * itself. */
 static size_t percent_decode(const char *text, uint8_t *out) {
     size_t n = 0;
     while (*text) {
         int high = *text == '%' ? hex(text[1]) : -1;
         int low = high >= 0 ? hex(text[2]) : -1;
-        out[n++] = low >= 0 ? (uint8_t) (high * 16 + low) : (uint8_t) *text;
+        out[n++] = low >= 0 ? (uint8_t)(high * 16 + low) : (uint8_t)*text;
         text += low >= 0 ? 3 : 1;
     }
     return n;
@@ -29,9 +31,10 @@ static size_t percent_decode(const char *text, uint8_t *out) {
 /* ---- data: ---- */
 
 static void base64_table(int8_t table[256]) {
-    static const char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static const char alphabet[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     memset(table, -1, 256);
-    for (int i = 0; i < 64; i++) table[(uint8_t) alphabet[i]] = (int8_t) i;
+    for (int i = 0; i < 64; i++) table[(uint8_t)alphabet[i]] = (int8_t)i;
 }
 
 static bool base64_decode(const char *text, size_t length, uint8_t *out, size_t *size) {
@@ -41,24 +44,25 @@ static bool base64_decode(const char *text, size_t length, uint8_t *out, size_t 
     uint32_t bits = 0;
     size_t n = 0;
     for (size_t i = 0; i < length; i++) {
-        int8_t value = table[(uint8_t) text[i]];
+        int8_t value = table[(uint8_t)text[i]];
         if (value < 0) return false;
-        bits = bits << 6 | (uint32_t) value;
+        bits = bits << 6 | (uint32_t)value;
         if (i % 4 == 0) continue;
-        out[n++] = (uint8_t) (bits >> (6 - 2 * (i % 4)));
+        out[n++] = (uint8_t)(bits >> (6 - 2 * (i % 4)));
     }
     *size = n;
     return length % 4 != 1;
 }
 
-static bool fetch_data(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err) {
+static bool fetch_data(struct gn_gltf *g, const char *uri, struct gn_blob *out,
+                       struct gn_err *err) {
     const char *comma = strchr(uri, ',');
     if (!comma) return gn_fail(err, "data URI without a comma");
     size_t length = strlen(comma + 1);
     uint8_t *bytes = gn_gltf_alloc(g, &g->scratch, length, 1);
     if (!bytes) return false;
     static const char mark[] = ";base64";
-    size_t header = (size_t) (comma - uri), tail = sizeof mark - 1;
+    size_t header = (size_t)(comma - uri), tail = sizeof mark - 1;
     out->data = bytes;
     if (header < tail || strncasecmp(comma - tail, mark, tail) != 0)
         out->size = percent_decode(comma + 1, bytes);
@@ -70,8 +74,8 @@ static bool fetch_data(struct gn_gltf *g, const char *uri, struct gn_blob *out, 
 /* ---- files ---- */
 
 static bool has_scheme(const char *uri) {
-    if (!isalpha((unsigned char) *uri)) return false;
-    while (isalnum((unsigned char) *uri) || strchr("+.-", *uri)) {
+    if (!isalpha((unsigned char)*uri)) return false;
+    while (isalnum((unsigned char)*uri) || strchr("+.-", *uri)) {
         if (*uri == 0) return false;
         uri++;
     }
@@ -83,24 +87,26 @@ static bool climbs(const char *path) {
     int depth = 0;
     for (const char *part = path; *part && depth >= 0;) {
         size_t length = strcspn(part, "/");
-        if (length == 2 && part[0] == '.' && part[1] == '.') depth--;
-        else if (length > 0 && !(length == 1 && part[0] == '.')) depth++;
+        if (length == 2 && part[0] == '.' && part[1] == '.')
+            depth--;
+        else if (length > 0 && !(length == 1 && part[0] == '.'))
+            depth++;
         part += length;
         part += *part == '/';
     }
     return depth < 0;
 }
 
-/* The file's path below the folder, decoded, with '\' (which some exporters write) taken for '/'. */
+/* The file's path below the folder, decoded, with '\' (which some exporters write) taken for '/'.
+ */
 static bool relative_path(const char *uri, char *out, size_t size, struct gn_err *err) {
     if (strlen(uri) >= size) return gn_fail(err, "URI of %zu characters is too long", strlen(uri));
-    size_t n = percent_decode(uri, (uint8_t *) out);
+    size_t n = percent_decode(uri, (uint8_t *)out);
     out[n] = 0;
     if (n == 0) return gn_fail(err, "empty URI");
     if (strlen(out) != n) return gn_fail(err, "'%s': a file name cannot contain a zero byte", uri);
     for (char *c = strchr(out, '\\'); c; c = strchr(c, '\\')) *c = '/';
-    if (has_scheme(uri))
-        return gn_fail(err, "'%.80s': only files beside the model are read", uri);
+    if (has_scheme(uri)) return gn_fail(err, "'%.80s': only files beside the model are read", uri);
     if (out[0] == '/' || climbs(out))
         return gn_fail(err, "'%.80s' lies outside the model's folder; put the file beside it", uri);
     return true;
@@ -115,17 +121,19 @@ static bool inside(const char *folder, const char *path) {
 static size_t file_limit(const struct gn_gltf *g) {
     uint64_t most = g->limits.file_mb << 20;
     size_t room = gn_gltf_room(g);
-    return most < room ? (size_t) most : room;
+    return most < room ? (size_t)most : room;
 }
 
-static bool fetch_file(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err) {
+static bool fetch_file(struct gn_gltf *g, const char *uri, struct gn_blob *out,
+                       struct gn_err *err) {
     char below[PATH_MAX], full[2 * PATH_MAX], real[PATH_MAX];
     if (!relative_path(uri, below, sizeof below, err)) return false;
     if (!g->folder) return gn_fail(err, "'%.80s': a model in memory cannot name other files", uri);
     if (file_limit(g) == 0) return gn_fail(err, "'%.80s': no memory left for it", uri);
     snprintf(full, sizeof full, "%s/%s", g->folder, below);
     if (realpath(full, real) && !inside(g->folder, real))
-        return gn_fail(err, "'%.80s' leads outside the model's folder; put the file beside it", uri);
+        return gn_fail(err, "'%.80s' leads outside the model's folder; put the file beside it",
+                       uri);
     if (!gn_file_read(full, file_limit(g), &out->file, err)) return false;
     out->data = out->file.data;
     out->size = out->file.size;

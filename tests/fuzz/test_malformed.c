@@ -1,6 +1,7 @@
-/* Every .gltf and .glb below a folder of broken files (../shared/malformed, or malformed/ in $GNOMON_SHARED), and of good
- * ones beside it (assets/): a scene that holds, or one line that names the file and a place in it; in under two seconds.
- * With arguments: those files, and what became of them. Skipped (77) without the folder. */
+/* Every .gltf and .glb below a folder of broken files (../shared/malformed, or malformed/ in
+ * $GNOMON_SHARED), and of good ones beside it (assets/): a scene that holds, or one line that names
+ * the file and a place in it; in under two seconds. With arguments: those files, and what became of
+ * them. Skipped (77) without the folder. */
 #include <ftw.h>
 #include <inttypes.h>
 #include <limits.h>
@@ -30,9 +31,10 @@ static void complain(const char *path, const char *what) {
 
 /* A byte offset, a JSON path, or the limit that was passed, right after the file's name. */
 static bool says_where(const char *text) {
-    static const char *const starts[] = {
-        "byte ",   "asset",     "extensions", "scene",    "nodes",  "meshes",     "accessors", "bufferViews", "buffers",
-        "cameras", "materials", "textures",   "samplers", "images", "animations", "needs more memory"};
+    static const char *const starts[] = {"byte ",    "asset",   "extensions", "scene",
+                                         "nodes",    "meshes",  "accessors",  "bufferViews",
+                                         "buffers",  "cameras", "materials",  "textures",
+                                         "samplers", "images",  "animations", "needs more memory"};
     for (size_t i = 0; i < sizeof starts / sizeof starts[0]; i++)
         if (strncmp(text, starts[i], strlen(starts[i])) == 0) return true;
     return false;
@@ -46,8 +48,10 @@ static void try_file(const char *path) {
     int64_t took_ns = gn_clock_monotonic_ns() - start_ns;
     const char *wrong = scene ? gn_scene_check(scene) : NULL;
     count.files++;
-    if (scene) count.shown++;
-    else count.refused++;
+    if (scene)
+        count.shown++;
+    else
+        count.refused++;
     if (took_ns > count.slowest_ns) count.slowest_ns = took_ns;
     if (took_ns > 2 * GN_NS_PER_S) complain(path, "took over 2 s");
     if (wrong) complain(path, wrong);
@@ -63,8 +67,8 @@ static void try_file(const char *path) {
 }
 
 static int visit(const char *path, const struct stat *status, int type, struct FTW *where) {
-    (void) status;
-    (void) where;
+    (void)status;
+    (void)where;
     if (type == FTW_F && is_gltf(path)) try_file(path);
     return 0;
 }
@@ -82,7 +86,7 @@ int main(int argc, char **argv) {
             return 77;
         }
     }
-    printf("%d files: %d shown, %d refused, %d wrong; slowest %" PRId64 " ms\n", count.files, count.shown,
-           count.refused, count.failures, count.slowest_ns / 1000000);
+    printf("%d files: %d shown, %d refused, %d wrong; slowest %" PRId64 " ms\n", count.files,
+           count.shown, count.refused, count.failures, count.slowest_ns / 1000000);
     return count.failures > 0;
 }

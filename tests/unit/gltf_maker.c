@@ -41,13 +41,14 @@ int gn_maker_add(struct gn_maker *maker, const char *array, const char *json) {
     json_t *list = json_object_get(maker->root, array);
     if (!list) json_object_set_new(maker->root, array, list = json_array());
     json_array_append_new(list, parse(json));
-    return (int) json_array_size(list) - 1;
+    return (int)json_array_size(list) - 1;
 }
 
 int gn_maker_view(struct gn_maker *maker, const void *data, size_t size) {
     char json[120];
     size_t padded = (size + 3) / 4 * 4;
-    snprintf(json, sizeof json, "{'buffer':0,'byteOffset':%zu,'byteLength':%zu}", maker->size, size);
+    snprintf(json, sizeof json, "{'buffer':0,'byteOffset':%zu,'byteLength':%zu}", maker->size,
+             size);
     maker->bin = gn_xrealloc(maker->bin, maker->size + padded, 1);
     memset(maker->bin + maker->size, 0, padded);
     memcpy(maker->bin + maker->size, data, size);
@@ -55,21 +56,24 @@ int gn_maker_view(struct gn_maker *maker, const void *data, size_t size) {
     return gn_maker_add(maker, "bufferViews", json);
 }
 
-int gn_maker_accessor(struct gn_maker *maker, const char *type, int component, size_t count, const void *data,
-                      size_t size, const char *more) {
+int gn_maker_accessor(struct gn_maker *maker, const char *type, int component, size_t count,
+                      const void *data, size_t size, const char *more) {
     char json[400];
     int view = data ? gn_maker_view(maker, data, size) : -1, n = 0;
-    if (view >= 0) n = snprintf(json, sizeof json, "{'bufferView':%d,", view);
-    else n = snprintf(json, sizeof json, "{");
-    snprintf(json + n, sizeof json - (size_t) n, "'componentType':%d,'count':%zu,'type':'%s'%s%s}", component, count,
-             type, more ? "," : "", more ? more : "");
+    if (view >= 0)
+        n = snprintf(json, sizeof json, "{'bufferView':%d,", view);
+    else
+        n = snprintf(json, sizeof json, "{");
+    snprintf(json + n, sizeof json - (size_t)n, "'componentType':%d,'count':%zu,'type':'%s'%s%s}",
+             component, count, type, more ? "," : "", more ? more : "");
     return gn_maker_add(maker, "accessors", json);
 }
 
 void gn_maker_square(struct gn_maker *maker) {
     static const float positions[] = {-1, 0, -1, -1, 0, 1, 1, 0, 1, 1, 0, -1};
     static const uint16_t indices[] = {0, 1, 2, 0, 2, 3};
-    gn_maker_accessor(maker, "VEC3", 5126, 4, positions, sizeof positions, "'min':[-1,0,-1],'max':[1,0,1]");
+    gn_maker_accessor(maker, "VEC3", 5126, 4, positions, sizeof positions,
+                      "'min':[-1,0,-1],'max':[1,0,1]");
     gn_maker_accessor(maker, "SCALAR", 5123, 6, indices, sizeof indices, NULL);
     gn_maker_add(maker, "meshes", "{'primitives':[{'attributes':{'POSITION':0},'indices':1}]}");
     gn_maker_add(maker, "nodes", "{'name':'square','mesh':0}");
@@ -78,7 +82,7 @@ void gn_maker_square(struct gn_maker *maker) {
 }
 
 static void put_u32(uint8_t *out, size_t value) {
-    for (int i = 0; i < 4; i++) out[i] = (uint8_t) (value >> (8 * i));
+    for (int i = 0; i < 4; i++) out[i] = (uint8_t)(value >> (8 * i));
 }
 
 struct gn_made gn_maker_glb(struct gn_maker *maker) {
@@ -106,12 +110,14 @@ struct gn_made gn_maker_glb(struct gn_maker *maker) {
 }
 
 static char *base64(const uint8_t *data, size_t size) {
-    static const char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static const char alphabet[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     char *out = gn_xalloc((size + 2) / 3 * 4 + 1, 1), *to = out;
     for (size_t i = 0; i < size; i += 3) {
-        uint32_t bits = (uint32_t) data[i] << 16 | (i + 1 < size ? (uint32_t) data[i + 1] << 8 : 0) |
+        uint32_t bits = (uint32_t)data[i] << 16 | (i + 1 < size ? (uint32_t)data[i + 1] << 8 : 0) |
                         (i + 2 < size ? data[i + 2] : 0);
-        for (int k = 0; k < 4; k++) *to++ = i + (size_t) k <= size ? alphabet[bits >> (18 - 6 * k) & 63] : '=';
+        for (int k = 0; k < 4; k++)
+            *to++ = i + (size_t)k <= size ? alphabet[bits >> (18 - 6 * k) & 63] : '=';
     }
     return out;
 }
@@ -121,16 +127,18 @@ struct gn_made gn_maker_gltf(struct gn_maker *maker) {
     char *text = base64(maker->bin, maker->size), *uri = gn_xalloc(sizeof head + strlen(text), 1);
     strcpy(stpcpy(uri, head), text);
     if (maker->size > 0)
-        json_object_set_new(maker->root, "buffers",
-                            json_pack("[{s:s,s:I}]", "uri", uri, "byteLength", (json_int_t) maker->size));
+        json_object_set_new(
+            maker->root, "buffers",
+            json_pack("[{s:s,s:I}]", "uri", uri, "byteLength", (json_int_t)maker->size));
     free(text);
     free(uri);
-    struct gn_made made = {.data = (uint8_t *) json_dumps(maker->root, JSON_COMPACT)};
-    made.size = strlen((char *) made.data);
+    struct gn_made made = {.data = (uint8_t *)json_dumps(maker->root, JSON_COMPACT)};
+    made.size = strlen((char *)made.data);
     return made;
 }
 
-struct gn_scene *gn_maker_load(struct gn_maker *maker, struct gn_warnings *warnings, struct gn_err *err) {
+struct gn_scene *gn_maker_load(struct gn_maker *maker, struct gn_warnings *warnings,
+                               struct gn_err *err) {
     struct gn_made made = gn_maker_glb(maker);
     struct gn_scene *scene = gn_scene_load_bytes("t", made.data, made.size, NULL, warnings, err);
     free(made.data);
@@ -150,16 +158,16 @@ static void append(png_structp png, png_bytep data, size_t size) {
     made->size += size;
 }
 
-static void flush(png_structp png) { (void) png; }
+static void flush(png_structp png) { (void)png; }
 
-static struct gn_made write_png(uint32_t width, uint32_t height, const uint8_t *rows, size_t stride, int depth,
-                                int type) {
+static struct gn_made write_png(uint32_t width, uint32_t height, const uint8_t *rows, size_t stride,
+                                int depth, int type) {
     struct gn_made made = {0};
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
     png_infop info = png_create_info_struct(png);
     png_set_write_fn(png, &made, append, flush);
-    png_set_IHDR(png, info, width, height, depth, type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, width, height, depth, type, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png, info);
     if (depth == 16) png_set_swap(png);
     for (uint32_t y = 0; y < height; y++) png_write_row(png, rows + y * stride);
@@ -169,11 +177,12 @@ static struct gn_made write_png(uint32_t width, uint32_t height, const uint8_t *
 }
 
 struct gn_made gn_maker_png(uint32_t width, uint32_t height, const uint8_t *rgba) {
-    return write_png(width, height, rgba, 4 * (size_t) width, 8, PNG_COLOR_TYPE_RGBA);
+    return write_png(width, height, rgba, 4 * (size_t)width, 8, PNG_COLOR_TYPE_RGBA);
 }
 
 struct gn_made gn_maker_png_grey16(uint32_t width, uint32_t height, const uint16_t *grey) {
-    return write_png(width, height, (const uint8_t *) grey, 2 * (size_t) width, 16, PNG_COLOR_TYPE_GRAY);
+    return write_png(width, height, (const uint8_t *)grey, 2 * (size_t)width, 16,
+                     PNG_COLOR_TYPE_GRAY);
 }
 
 struct gn_made gn_maker_jpeg(int width, int height, const uint8_t *rgb) {

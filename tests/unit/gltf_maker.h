@@ -30,16 +30,18 @@ int gn_maker_add(struct gn_maker *maker, const char *array, const char *json);
 /* A bufferView of these bytes, aligned to 4; returns its index. */
 int gn_maker_view(struct gn_maker *maker, const void *data, size_t size);
 /* A view and an accessor on it; `more` is JSON members to add ("'normalized':true") or NULL. */
-int gn_maker_accessor(struct gn_maker *maker, const char *type, int component, size_t count, const void *data,
-                      size_t size, const char *more);
-/* A 2 x 2 square in y = 0, facing up, as mesh 0 (accessors 0 and 1, no normals), node 0 with it, and a scene. */
+int gn_maker_accessor(struct gn_maker *maker, const char *type, int component, size_t count,
+                      const void *data, size_t size, const char *more);
+/* A 2 x 2 square in y = 0, facing up, as mesh 0 (accessors 0 and 1, no normals), node 0 with it,
+ * and a scene. */
 void gn_maker_square(struct gn_maker *maker);
 
 struct gn_made gn_maker_glb(struct gn_maker *maker);
 /* Buffer 0 as a data URI. */
 struct gn_made gn_maker_gltf(struct gn_maker *maker);
 /* As .glb, called "t" in messages; finishes the maker. A scene has passed gn_scene_check. */
-struct gn_scene *gn_maker_load(struct gn_maker *maker, struct gn_warnings *warnings, struct gn_err *err);
+struct gn_scene *gn_maker_load(struct gn_maker *maker, struct gn_warnings *warnings,
+                               struct gn_err *err);
 
 /* A PNG of width x height in RGBA, or grey of 16 bits; and a JPEG. */
 struct gn_made gn_maker_png(uint32_t width, uint32_t height, const uint8_t *rgba);

@@ -5,7 +5,7 @@
 
 #include "scene/pose.h"
 
-#define NEED(what)                                                                                           \
+#define NEED(what)                                                                                 \
     if (!(what)) return #what
 
 static bool finite_all(const float *values, size_t count) {
@@ -24,7 +24,7 @@ static bool unit_all(const float *v, size_t count) {
 static bool box_right(const struct gn_scene *scene, const struct gn_geometry *geometry) {
     vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
     for (uint32_t i = 0; i < geometry->index_count; i++) {
-        const float *p = scene->positions + 3 * (size_t) scene->indices[geometry->first_index + i];
+        const float *p = scene->positions + 3 * (size_t)scene->indices[geometry->first_index + i];
         for (int k = 0; k < 3; k++) {
             low[k] = fminf(low[k], p[k]);
             high[k] = fmaxf(high[k], p[k]);
@@ -35,9 +35,10 @@ static bool box_right(const struct gn_scene *scene, const struct gn_geometry *ge
     return true;
 }
 
-static const char *check_geometry(const struct gn_scene *scene, const struct gn_geometry *geometry) {
-    NEED((uint64_t) geometry->first_vertex + geometry->vertex_count <= scene->vertex_count);
-    NEED((uint64_t) geometry->first_index + geometry->index_count <= scene->index_count);
+static const char *check_geometry(const struct gn_scene *scene,
+                                  const struct gn_geometry *geometry) {
+    NEED((uint64_t)geometry->first_vertex + geometry->vertex_count <= scene->vertex_count);
+    NEED((uint64_t)geometry->first_index + geometry->index_count <= scene->index_count);
     NEED(geometry->index_count % 3 == 0);
     for (uint32_t i = 0; i < geometry->index_count; i++) {
         uint32_t index = scene->indices[geometry->first_index + i];
@@ -45,7 +46,7 @@ static const char *check_geometry(const struct gn_scene *scene, const struct gn_
         NEED(index < geometry->first_vertex + geometry->vertex_count);
     }
     NEED(geometry->index_count == 0 || box_right(scene, geometry));
-    NEED(!geometry->flat || fabsf(glm_vec3_norm((float *) geometry->plane) - 1) < 1e-4f);
+    NEED(!geometry->flat || fabsf(glm_vec3_norm((float *)geometry->plane) - 1) < 1e-4f);
     NEED(!geometry->has_uv0 || scene->uv0);
     NEED(!geometry->has_uv1 || scene->uv1);
     NEED(!geometry->has_color || scene->colors);
@@ -65,7 +66,8 @@ static const char *check_vertices(const struct gn_scene *scene) {
     return NULL;
 }
 
-static const char *check_material(const struct gn_scene *scene, const struct gn_material *material) {
+static const char *check_material(const struct gn_scene *scene,
+                                  const struct gn_material *material) {
     NEED(material->name);
     NEED(finite_all(material->base_color, 4) && finite_all(material->emissive, 3));
     NEED(material->roughness >= 0 && material->roughness <= 1);
@@ -74,7 +76,7 @@ static const char *check_material(const struct gn_scene *scene, const struct gn_
     NEED(isfinite(material->alpha_cutoff) && material->alpha <= GN_ALPHA_BLEND);
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++) {
         const struct gn_texture_ref *ref = &material->textures[i];
-        NEED(ref->texture >= -1 && ref->texture < (int64_t) scene->texture_count);
+        NEED(ref->texture >= -1 && ref->texture < (int64_t)scene->texture_count);
         NEED(ref->uv_set <= 1 && finite_all(ref->uv_from_uv, 6));
     }
     return NULL;
@@ -82,11 +84,13 @@ static const char *check_material(const struct gn_scene *scene, const struct gn_
 
 static const char *check_looks(const struct gn_scene *scene) {
     NEED(scene->material_count >= 1);
-    for (uint32_t i = 0; i < scene->texture_count; i++) NEED(scene->textures[i].image < scene->image_count);
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        NEED(scene->textures[i].image < scene->image_count);
     for (uint32_t i = 0; i < scene->image_count; i++) {
         const struct gn_image *image = &scene->images[i];
         NEED(image->width_px > 0 && image->height_px > 0 && image->rgba);
-        NEED(image->rgba[4 * (size_t) image->width_px * image->height_px - 1] == 255 || image->has_alpha);
+        NEED(image->rgba[4 * (size_t)image->width_px * image->height_px - 1] == 255 ||
+             image->has_alpha);
     }
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const char *wrong = check_material(scene, &scene->materials[i]);
@@ -102,7 +106,7 @@ static const char *check_items(const struct gn_scene *scene) {
         const struct gn_item *item = &scene->items[i], *before = i > 0 ? item - 1 : item;
         NEED(item->node < scene->node_count && item->geometry < scene->geometry_count);
         NEED(item->material < scene->material_count);
-        NEED(item->instance >= -1 && item->instance < (int64_t) scene->instance_count);
+        NEED(item->instance >= -1 && item->instance < (int64_t)scene->instance_count);
         NEED(item->batch < scene->batch_count);
         NEED(item->batch == before->batch || item->batch == before->batch + 1);
         NEED(item->batch != before->batch || item->geometry == before->geometry);
@@ -121,18 +125,20 @@ static const char *check_light(const struct gn_scene *scene, const struct gn_lig
     NEED(light->type <= GN_LIGHT_SPOT && finite_all(light->color, 3));
     NEED(light->color[0] >= 0 && light->color[1] >= 0 && light->color[2] >= 0);
     NEED(light->range_m >= 0 && light->radius >= 0 && isfinite(light->radius));
-    NEED(light->type != GN_LIGHT_SPOT || (light->inner_rad >= 0 && light->inner_rad < light->outer_rad));
+    NEED(light->type != GN_LIGHT_SPOT ||
+         (light->inner_rad >= 0 && light->inner_rad < light->outer_rad));
     NEED(light->outer_rad <= GLM_PI_2f);
     NEED(light->shadow_strength >= 0 && light->shadow_strength <= 1);
-    NEED(light->slide >= -1 && light->slide < (int64_t) scene->texture_count);
+    NEED(light->slide >= -1 && light->slide < (int64_t)scene->texture_count);
     return NULL;
 }
 
 static const char *check_camera(const struct gn_scene *scene, const struct gn_camera *camera) {
     NEED(camera->name && camera->node < scene->node_count);
     NEED(camera->far_m == 0 || camera->far_m > camera->near_m);
-    NEED(camera->orthographic ? camera->xmag_m > 0 && camera->ymag_m > 0 && camera->near_m >= 0
-                              : camera->yfov_rad > 0 && camera->yfov_rad < GLM_PIf && camera->near_m > 0);
+    NEED(camera->orthographic
+             ? camera->xmag_m > 0 && camera->ymag_m > 0 && camera->near_m >= 0
+             : camera->yfov_rad > 0 && camera->yfov_rad < GLM_PIf && camera->near_m > 0);
     NEED(camera->aspect >= 0 && isfinite(camera->aspect) && isfinite(camera->far_m));
     return NULL;
 }
@@ -141,13 +147,14 @@ static const char *check_nodes(const struct gn_scene *scene) {
     const char *wrong = NULL;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const struct gn_node *node = &scene->nodes[i];
-        NEED(node->name && node->parent >= -1 && node->parent < (int64_t) i);
+        NEED(node->name && node->parent >= -1 && node->parent < (int64_t)i);
         NEED(finite_all(node->translation, 3) && finite_all(node->scale, 3));
-        NEED(fabsf(glm_vec4_norm((float *) node->rotation) - 1) < 1e-3f);
+        NEED(fabsf(glm_vec4_norm((float *)node->rotation) - 1) < 1e-3f);
         NEED(finite_all(node->matrix[0], 16));
     }
     NEED(scene->light_count > 0 && scene->camera_count > 0);
-    for (uint32_t i = 0; i < scene->light_count && !wrong; i++) wrong = check_light(scene, &scene->lights[i]);
+    for (uint32_t i = 0; i < scene->light_count && !wrong; i++)
+        wrong = check_light(scene, &scene->lights[i]);
     for (uint32_t i = 0; i < scene->camera_count && !wrong; i++)
         wrong = check_camera(scene, &scene->cameras[i]);
     NEED(scene->box.min[0] <= scene->box.max[0] && finite_all(scene->box.min, 6));
@@ -158,12 +165,12 @@ static const char *check_clips(const struct gn_scene *scene) {
     for (uint32_t c = 0; c < scene->clip_count; c++) {
         const struct gn_clip *clip = &scene->clips[c];
         NEED(clip->name && clip->duration_ns >= 0);
-        NEED((uint64_t) clip->first_channel + clip->channel_count <= scene->channel_count);
+        NEED((uint64_t)clip->first_channel + clip->channel_count <= scene->channel_count);
     }
     for (uint32_t c = 0; c < scene->channel_count; c++) {
         const struct gn_channel *channel = &scene->channels[c];
         size_t per_key = (channel->path == GN_ANIM_ROTATION ? 4 : 3) *
-                         (size_t) (channel->interpolation == GN_ANIM_CUBIC ? 3 : 1);
+                         (size_t)(channel->interpolation == GN_ANIM_CUBIC ? 3 : 1);
         NEED(channel->node < scene->node_count && channel->key_count > 0);
         NEED(!scene->nodes[channel->node].has_matrix);
         NEED(finite_all(channel->times_s, channel->key_count));
@@ -210,8 +217,8 @@ static const char *check_poses(const struct gn_scene *scene) {
 }
 
 const char *gn_scene_check(const struct gn_scene *scene) {
-    static const char *(*const checks[])(const struct gn_scene *) = {check_vertices, check_looks, check_items,
-                                                                     check_nodes,    check_clips, check_poses};
+    static const char *(*const checks[])(const struct gn_scene *) = {
+        check_vertices, check_looks, check_items, check_nodes, check_clips, check_poses};
     for (size_t i = 0; i < sizeof checks / sizeof checks[0]; i++) {
         const char *wrong = checks[i](scene);
         if (wrong) return wrong;

@@ -1,4 +1,5 @@
-/* Containers, JSON, buffers, URIs, versions, limits: what comes in, and what is said about it when it cannot. */
+/* Containers, JSON, buffers, URIs, versions, limits: what comes in, and what is said about it when
+ * it cannot. */
 #include <limits.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +19,7 @@ static struct gn_err err;
 static struct gn_warnings warnings;
 
 static int reset(void **state) {
-    (void) state;
+    (void)state;
     memset(&err, 0, sizeof err);
     memset(&warnings, 0, sizeof warnings);
     return 0;
@@ -31,17 +32,20 @@ static void refuse_bytes(const void *data, size_t size, const char *message) {
     assert_int_equal(err.status, GN_EXIT_WORLD);
 }
 
-static void refuse_text(const char *text, const char *message) { refuse_bytes(text, strlen(text), message); }
+static void refuse_text(const char *text, const char *message) {
+    refuse_bytes(text, strlen(text), message);
+}
 
 /* ---- containers ---- */
 
 static void test_not_gltf(void **state) {
-    (void) state;
+    (void)state;
     refuse_bytes("", 0, "t: byte 0: the file is empty");
     refuse_text("  hello", "t: byte 2: neither .glb ('glTF') nor .gltf ('{')");
     refuse_text("glTF", "t: byte 4: the file ends within the .glb header");
     refuse_text("{\"a\":[}", "t: byte 7 (line 1): JSON: unexpected token near '}'");
-    refuse_text("{\"a\":\"\xff\"}", "t: byte 6 (line 1): JSON: unable to decode byte 0xff near '\"'");
+    refuse_text("{\"a\":\"\xff\"}",
+                "t: byte 6 (line 1): JSON: unable to decode byte 0xff near '\"'");
 }
 
 static struct gn_made square_glb(void) {
@@ -61,24 +65,27 @@ static void refuse_changed(size_t at, uint8_t value, const char *message) {
 }
 
 static void test_glb_header(void **state) {
-    (void) state;
+    (void)state;
     struct gn_made made = square_glb();
     char message[160];
-    snprintf(message, sizeof message, "t: byte 8: says %zu bytes, the file has %zu: it was cut short, copy it again",
+    snprintf(message, sizeof message,
+             "t: byte 8: says %zu bytes, the file has %zu: it was cut short, copy it again",
              made.size, made.size - 1);
     refuse_bytes(made.data, made.size - 1, message);
     free(made.data);
-    refuse_changed(4, 1, "t: byte 4: .glb version 1; only version 2 is read: export it again as glTF 2.0");
+    refuse_changed(
+        4, 1, "t: byte 4: .glb version 1; only version 2 is read: export it again as glTF 2.0");
     refuse_changed(16, 'X', "t: byte 16: the first chunk must be JSON");
     refuse_changed(15, 1, "t: byte 12: a chunk of 16777692 bytes, but 544 are left");
 }
 
 static void test_trailing_data_is_a_warning(void **state) {
-    (void) state;
+    (void)state;
     struct gn_made made = square_glb();
     made.data = realloc(made.data, made.size + 5);
     memset(made.data + made.size, 7, 5);
-    struct gn_scene *scene = gn_scene_load_bytes("t", made.data, made.size + 5, NULL, &warnings, &err);
+    struct gn_scene *scene =
+        gn_scene_load_bytes("t", made.data, made.size + 5, NULL, &warnings, &err);
     assert_non_null(scene);
     assert_string_equal(warnings.text[0], "t: 5 bytes after the end ignored");
     gn_scene_destroy(scene);
@@ -86,7 +93,7 @@ static void test_trailing_data_is_a_warning(void **state) {
 }
 
 static void test_gltf_with_bom_and_data_uri(void **state) {
-    (void) state;
+    (void)state;
     struct gn_maker maker;
     gn_maker_init(&maker);
     gn_maker_square(&maker);
@@ -116,15 +123,18 @@ static void refuse_key(const char *key, const char *json, const char *message) {
 }
 
 static void test_wrong_json(void **state) {
-    (void) state;
+    (void)state;
     static const struct {
         const char *key, *json, *message;
     } rows[] = {
         {"asset", "{}", "t: asset.version: missing; only glTF 2.0 is read"},
-        {"asset", "{'version':'1.0'}", "t: asset.version: '1.0'; only glTF 2.0 is read: export it again"},
-        {"asset", "{'version':'2.1','minVersion':'2.1'}", "t: asset.minVersion: '2.1'; only glTF 2.0 is read"},
+        {"asset", "{'version':'1.0'}",
+         "t: asset.version: '1.0'; only glTF 2.0 is read: export it again"},
+        {"asset", "{'version':'2.1','minVersion':'2.1'}",
+         "t: asset.minVersion: '2.1'; only glTF 2.0 is read"},
         {"extensionsRequired", "['KHR_draco_mesh_compression']",
-         "t: extensionsRequired[0]: KHR_draco_mesh_compression is not supported; decompress it first "
+         "t: extensionsRequired[0]: KHR_draco_mesh_compression is not supported; decompress it "
+         "first "
          "(gltf-transform can)"},
         {"extensionsRequired", "['EXT_x']",
          "t: extensionsRequired[0]: EXT_x is not supported; export the scene without it"},
@@ -134,10 +144,12 @@ static void test_wrong_json(void **state) {
         {"nodes", "[{'mesh':-1}]", "t: nodes[0].mesh: index -1, but there are 1 meshes"},
         {"nodes", "[{'mesh':0.5}]", "t: nodes[0].mesh: must be an index, is 0.5"},
         {"nodes", "[{'mesh':'0'}]", "t: nodes[0].mesh: must be an index, is a string"},
-        {"nodes", "[{'mesh':0,'translation':[1,2]}]", "t: nodes[0].translation: must have 3 numbers, has 2"},
+        {"nodes", "[{'mesh':0,'translation':[1,2]}]",
+         "t: nodes[0].translation: must have 3 numbers, has 2"},
         {"nodes", "[{'mesh':0,'scale':[1,1e300,2]}]", "t: nodes[0].scale[1]: 1e+300 is too large"},
         {"nodes", "[{'mesh':0,'children':[0]}]", "t: nodes[0]: is its own ancestor"},
-        {"nodes", "[{'children':[1]},{'children':[0],'mesh':0}]", "t: nodes[0]: is its own ancestor"},
+        {"nodes", "[{'children':[1]},{'children':[0],'mesh':0}]",
+         "t: nodes[0]: is its own ancestor"},
         {"nodes", "[]", "t: scenes[0].nodes[0]: index 0, but there are 0 nodes"},
         {"scene", "3", "t: scene: index 3, but there are 1 scenes"},
         {"scenes", "[{}]", "t: scenes[0]: the scene is empty: there is no node"},
@@ -146,16 +158,20 @@ static void test_wrong_json(void **state) {
         {"meshes", "[{'primitives':[{'attributes':{'POSITION':0},'mode':7}]}]",
          "t: meshes[0].primitives[0].mode: 7 is not in 0..6"},
         {"meshes", "[{'primitives':[{'attributes':{'POSITION':1}}]}]",
-         "t: meshes[0].primitives[0].attributes.POSITION: accessor 1 has elements of 1 numbers, must be VEC3"},
+         "t: meshes[0].primitives[0].attributes.POSITION: accessor 1 has elements of 1 numbers, "
+         "must be VEC3"},
         {"meshes", "[{'primitives':[{'attributes':{'POSITION':0},'indices':0}]}]",
          "t: meshes[0].primitives[0].indices: must be SCALAR of unsigned bytes, shorts or ints"},
         {"bufferViews", "[{'buffer':0,'byteLength':48,'byteOffset':4611686018427387904}]",
-         "t: bufferViews[0]: byteOffset 4611686018427387904 + byteLength 48 passes the end of buffer 0 (60 bytes)"},
-        {"accessors", "[{'componentType':5126,'type':'VEC3','count':4611686018427387904,'bufferView':0}]",
+         "t: bufferViews[0]: byteOffset 4611686018427387904 + byteLength 48 passes the end of "
+         "buffer 0 (60 bytes)"},
+        {"accessors",
+         "[{'componentType':5126,'type':'VEC3','count':4611686018427387904,'bufferView':0}]",
          "t: meshes[0].primitives[0].indices: index 1, but there are 1 accessors"},
         {"accessors",
          "[{'componentType':5126,'type':'VEC3','count':4611686018427387904,'bufferView':0},{}]",
-         "t: accessors[0]: 4611686018427387904 elements from byte 0 on pass the end of bufferView 0 (48 bytes)"},
+         "t: accessors[0]: 4611686018427387904 elements from byte 0 on pass the end of bufferView "
+         "0 (48 bytes)"},
         {"accessors", "[{'componentType':5126,'type':'VEC3','count':1099511627776},{}]",
          "t: accessors[0].count: 1099511627776 is more than the limit vertices=20000000"},
         {"accessors", "[{'componentType':5124,'type':'VEC3','count':4},{}]",
@@ -164,14 +180,15 @@ static void test_wrong_json(void **state) {
          "t: accessors[0].type: 'VEC5' is none of SCALAR, VEC2-4, MAT2-4"},
         {"materials", "[{'pbrMetallicRoughness':[]}]",
          "t: materials[0].pbrMetallicRoughness: must be an object, is an array"},
-        {"materials", "[{'doubleSided':1}]", "t: materials[0].doubleSided: must be true or false, is a number"},
+        {"materials", "[{'doubleSided':1}]",
+         "t: materials[0].doubleSided: must be true or false, is a number"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         refuse_key(rows[i].key, rows[i].json, rows[i].message);
 }
 
 static void test_integral_reals_are_integers(void **state) {
-    (void) state;
+    (void)state;
     struct gn_maker maker;
     gn_maker_init(&maker);
     gn_maker_square(&maker);
@@ -183,14 +200,14 @@ static void test_integral_reals_are_integers(void **state) {
 }
 
 static void test_deep_nesting(void **state) {
-    (void) state;
+    (void)state;
     char text[4000] = "{\"a\":";
     memset(text + 5, '[', sizeof text - 6);
     refuse_bytes(text, sizeof text - 1, "t: byte 516: JSON nested deeper than json_depth=512");
 }
 
 static void test_duplicate_keys_are_tolerated(void **state) {
-    (void) state;
+    (void)state;
     refuse_text("{\"asset\":{\"version\":\"1.0\",\"version\":\"2.0\"}}",
                 "t: nodes: the scene is empty: there is no node");
 }
@@ -205,7 +222,8 @@ static void put(const char *name, const void *data, size_t size) {
     assert_true(gn_file_write(path, data, size, &err));
 }
 
-/* A model in folder/in whose buffer is at uri; the scene or NULL with the message after the URI's path in err. */
+/* A model in folder/in whose buffer is at uri; the scene or NULL with the message after the URI's
+ * path in err. */
 static struct gn_scene *load_with_uri(const char *uri) {
     struct gn_maker maker;
     char json[PATH_MAX], path[PATH_MAX + 20];
@@ -230,9 +248,10 @@ static void refuse_uri(const char *uri, const char *message) {
 }
 
 static int make_folder(void **state) {
-    (void) state;
+    (void)state;
     char path[PATH_MAX + 40], outside[PATH_MAX + 40];
-    snprintf(folder, sizeof folder, "%s/gn-scene-XXXXXX", getenv("TMPDIR") ? getenv("TMPDIR") : "/tmp");
+    snprintf(folder, sizeof folder, "%s/gn-scene-XXXXXX",
+             getenv("TMPDIR") ? getenv("TMPDIR") : "/tmp");
     if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/in", folder);
     mkdir(path, 0777);
@@ -246,7 +265,7 @@ static int make_folder(void **state) {
 }
 
 static int remove_folder(void **state) {
-    (void) state;
+    (void)state;
     static const char *const names[] = {"in/a.gltf", "in/some bin.bin", "in/link.bin", "in/pipe",
                                         "in/sub",    "outside.bin",     "in",          "."};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -258,15 +277,16 @@ static int remove_folder(void **state) {
 }
 
 static void test_uris(void **state) {
-    (void) state;
-    static const char *const good[] = {"some%20bin.bin", "some bin.bin", "./some bin.bin", "sub/../some%20bin.bin",
-                                       "sub\\\\..\\\\some bin.bin"};
+    (void)state;
+    static const char *const good[] = {"some%20bin.bin", "some bin.bin", "./some bin.bin",
+                                       "sub/../some%20bin.bin", "sub\\\\..\\\\some bin.bin"};
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
         struct gn_scene *scene = load_with_uri(good[i]);
         if (!scene) fail_msg("%s: %s", good[i], err.text);
         gn_scene_destroy(scene);
     }
-    refuse_uri("../outside.bin", "buffers[0].uri: '../outside.bin' lies outside the model's folder");
+    refuse_uri("../outside.bin",
+               "buffers[0].uri: '../outside.bin' lies outside the model's folder");
     refuse_uri("%2e%2e/outside.bin", "lies outside the model's folder");
     refuse_uri("sub/../../outside.bin", "lies outside the model's folder");
     refuse_uri("/etc/passwd", "lies outside the model's folder");
@@ -283,23 +303,26 @@ static void test_uris(void **state) {
 }
 
 static void test_memory_names_no_files(void **state) {
-    (void) state;
-    refuse_text("{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"a.bin\",\"byteLength\":1}]}",
-                "t: buffers[0].uri: 'a.bin': a model in memory cannot name other files");
+    (void)state;
+    refuse_text(
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"a.bin\",\"byteLength\":1}]}",
+        "t: buffers[0].uri: 'a.bin': a model in memory cannot name other files");
 }
 
 /* ---- limits ---- */
 
 static void test_limits(void **state) {
-    (void) state;
+    (void)state;
     struct gn_scene_limits limits = {0};
     assert_true(gn_scene_limits_set(&limits, "vertices", 3, &err));
     assert_int_equal(limits.vertices, 3);
     assert_false(gn_scene_limits_set(&limits, "vertices", 0, &err));
     assert_int_equal(err.status, GN_EXIT_USAGE);
     assert_false(gn_scene_limits_set(&limits, "verts", 1, &err));
-    assert_string_equal(err.text, "no limit is called 'verts'; there are: file_mb memory_mb nodes instances vertices "
-                                  "texels keys json_depth");
+    assert_string_equal(
+        err.text,
+        "no limit is called 'verts'; there are: file_mb memory_mb nodes instances vertices "
+        "texels keys json_depth");
     struct gn_made made = square_glb();
     assert_null(gn_scene_load_bytes("t", made.data, made.size, &limits, NULL, &err));
     assert_string_equal(err.text, "t: meshes: 6 vertices are more than the limit vertices=3");
