@@ -12,20 +12,19 @@ static float clamp(float x, float least, float most) { return fminf(fmaxf(x, lea
 static void read_uv_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_texture_ref *ref,
                               uint64_t *uv_set) {
     struct gn_at transform = gn_at_extension(g, at, "extensions.KHR_texture_transform");
-    float offset[2] = {0, 0}, scale[2] = {1, 1}, angle = 0;
-    if (transform.json) {
-        gn_at_floats(g, &transform, "offset", 2, offset);
-        gn_at_floats(g, &transform, "scale", 2, scale);
-        angle = gn_at_float(g, &transform, "rotation", 0);
-        *uv_set = gn_at_uint(g, &transform, "texCoord", *uv_set);
-    }
-    float c = cosf(angle), s = sinf(angle);
-    float *m = ref->uv_from_uv;
+    if (!transform.json) return;
+    float offset[2] = {0, 0}, scale[2] = {1, 1};
+    gn_at_floats(g, &transform, "offset", 2, offset);
+    gn_at_floats(g, &transform, "scale", 2, scale);
+    *uv_set = gn_at_uint(g, &transform, "texCoord", *uv_set);
+    float angle = gn_at_float(g, &transform, "rotation", 0);
+    float c = cosf(angle), s = sinf(angle), *m = ref->uv_from_uv;
     m[0] = c * scale[0];
     m[1] = -s * scale[0];
     m[2] = s * scale[1];
     m[3] = c * scale[1];
     memcpy(m + 4, offset, sizeof offset);
+    for (int i = 0; i < 6; i++) m[i] += 0; /* no -0: transforms are compared as bytes */
 }
 
 static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,

@@ -16,6 +16,7 @@ bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_er
     int read[2] = {0}, space;
     bool done = handle ? header(handle, data, size, read, &space, err)
                        : gn_fail(err, "JPEG: %s", tjGetErrorStr2(NULL));
+    if (done && (read[0] <= 0 || read[1] <= 0)) done = gn_fail(err, "JPEG: no size in it");
     px[0] = (uint32_t)read[0];
     px[1] = (uint32_t)read[1];
     if (handle) tjDestroy(handle);

@@ -1,0 +1,246 @@
+/* The scene at a time. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/arena.h"
+#include "core/clock.h"
+#include "gltf_maker.h"
+#include "scene/pose.h"
+
+static struct gn_maker maker;
+static struct gn_err err;
+static struct gn_warnings warnings;
+static struct gn_scene *scene;
+static struct gn_pose pose;
+
+enum { TIMES = 2, MOVE, TURN, SPLINE }; /* accessors */
+
+static int setup(void **state) {
+    (void)state;
+    static const float times[] = {0, 1, 2}, moves[] = {0, 0, 0, 4, 0, 0, 0, 0, 8};
+    static const float turns[] = {0, 0, 0, 1, 0, .70710678f, 0, .70710678f, 0, -1, 0, 0};
+    static const float spline[] = {0, 0, 0, 0, 0, 0, 2, 0, 0, 4, 0, 0, 1, 0,
+                                   0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
+    memset(&warnings, 0, sizeof warnings);
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_accessor(&maker, "SCALAR", 5126, 3, times, sizeof times, NULL);
+    gn_maker_accessor(&maker, "VEC3", 5126, 3, moves, sizeof moves, NULL);
+    gn_maker_accessor(&maker, "VEC4", 5126, 3, turns, sizeof turns, NULL);
+    gn_maker_accessor(&maker, "VEC3", 5126, 9, spline, sizeof spline, NULL);
+    gn_maker_set(&maker, "nodes",
+                 "[{'mesh':0,'children':[1]},{'mesh':0,'translation':[0,1,0]},{'mesh':0}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,2]}]");
+    return 0;
+}
+
+static int teardown(void **state) {
+    (void)state;
+    gn_pose_finish(&pose);
+    gn_scene_destroy(scene);
+    scene = NULL;
+    return 0;
+}
+
+static void animate(const char *path, int output, const char *interpolation) {
+    char json[300];
+    snprintf(json, sizeof json,
+             "{'samplers':[{'input':%d,'output':%d,'interpolation':'%s'}],"
+             "'channels':[{'sampler':0,'target':{'node':0,'path':'%s'}}]}",
+             TIMES, output, interpolation, path);
+    gn_maker_add(&maker, "animations", json);
+}
+
+static void load(int clips) {
+    scene = gn_maker_load(&maker, &warnings, &err);
+    if (!scene) fail_msg("%s", err.text);
+    gn_pose_init(&pose, scene, clips);
+}
+
+static void assert_at(double time_s, uint32_t node, float x, float y, float z) {
+    gn_pose_step(&pose, (int64_t)(time_s * 1e9));
+    const float *p = pose.world_from_node[node][3];
+    if (fabsf(p[0] - x) > 1e-5f || fabsf(p[1] - y) > 1e-5f || fabsf(p[2] - z) > 1e-5f)
+        fail_msg("at %g s: (%g %g %g), not (%g %g %g)", time_s, (double)p[0], (double)p[1],
+                 (double)p[2], (double)x, (double)y, (double)z);
+}
+
+static void test_linear_and_children(void **state) {
+    (void)state;
+    animate("translation", MOVE, "LINEAR");
+    load(GN_POSE_DEFAULT);
+    assert_true(pose.animated);
+    assert_true(pose.node_moves[0] && pose.node_moves[1] && !pose.node_moves[2]);
+    assert_at(.5, 0, 2, 0, 0);
+    assert_at(.5, 1, 2, 1, 0);
+    assert_at(1.5, 0, 2, 0, 4);
+    assert_at(2.5, 0, 2, 0, 0); /* loops */
+    assert_at(-.5, 0, 2, 0, 4); /* before 0, too */
+}
+
+static void test_step(void **state) {
+    (void)state;
+    animate("translation", MOVE, "STEP");
+    load(GN_POSE_DEFAULT);
+    assert_at(.999, 0, 0, 0, 0);
+    assert_at(1, 0, 4, 0, 0);
+    assert_at(1.999, 0, 4, 0, 0);
+}
+
+/* Hermite between 0 (tangent 2) and 0 (tangent 1) over 1 s: at .5, (2 - 1) / 8... with values 0 and
+ * 0 of x. */
+static void test_cubic(void **state) {
+    (void)state;
+    animate("translation", SPLINE, "CUBICSPLINE");
+    load(GN_POSE_DEFAULT);
+    /* key 0: value 0, out-tangent 2; key 1: in-tangent 4, value 1 */
+    assert_at(.5, 0, .5f * 1 + .125f * 2 - .125f * 4, 0, 0);
+    assert_at(0, 0, 0, 0, 0);
+    assert_at(1, 0, 1, 0, 0);
+}
+
+static void test_rotation_takes_the_short_way(void **state) {
+    (void)state;
+    animate("rotation", TURN, "LINEAR");
+    load(GN_POSE_DEFAULT);
+    gn_pose_step(&pose, GN_NS_PER_S / 2); /* 45 degrees about y: x goes to (c, 0, -s) */
+    assert_true(fabsf(pose.world_from_node[0][0][0] - .70710678f) < 1e-5f);
+    assert_true(fabsf(pose.world_from_node[0][0][2] + .70710678f) < 1e-5f);
+    gn_pose_step(&pose, GN_NS_PER_S * 3 / 2); /* 90 to 180, the second given by its negative */
+    assert_true(fabsf(pose.world_from_node[0][0][0] + .70710678f) < 1e-5f);
+}
+
+static void test_time_is_exact_after_years(void **state) {
+    (void)state;
+    animate("translation", MOVE, "LINEAR");
+    load(GN_POSE_DEFAULT);
+    gn_pose_step(&pose, INT64_C(2) * GN_NS_PER_S * 200000000 + GN_NS_PER_S / 4); /* 12 years */
+    assert_true(pose.world_from_node[0][3][0] == 1);
+}
+
+static void test_clips(void **state) {
+    (void)state;
+    animate("translation", MOVE, "LINEAR");
+    animate("translation", SPLINE, "CUBICSPLINE");
+    animate("scale", SPLINE, "CUBICSPLINE");
+    load(GN_POSE_NONE);
+    assert_true(scene->clips[0].on_by_default && !scene->clips[1].on_by_default &&
+                scene->clips[2].on_by_default);
+    assert_int_equal(scene->clips[0].duration_ns, 2 * GN_NS_PER_S);
+    assert_false(pose.animated);
+    assert_at(.5, 0, 0, 0, 0);
+    gn_pose_finish(&pose);
+    gn_pose_init(&pose, scene, 0);
+    assert_at(.5, 0, 2, 0, 0);
+    assert_int_equal(gn_scene_find_clip(scene, "2", &err), 2);
+    assert_int_equal(gn_scene_find_clip(scene, "Walk", &err), -1);
+    assert_int_equal(err.status, GN_EXIT_USAGE);
+}
+
+static void test_items_follow_and_nothing_is_allocated(void **state) {
+    (void)state;
+    animate("translation", MOVE, "LINEAR");
+    load(GN_POSE_DEFAULT);
+    unsigned long before = gn_alloc_count();
+    gn_pose_step(&pose, 0);
+    uint64_t still = 0, moved = 0;
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        *(scene->items[i].node == 2 ? &still : &moved) = pose.items[i].hash;
+    gn_pose_step(&pose, GN_NS_PER_S);
+    assert_true(pose.box_ws.max[0] == 5 && pose.box_ws.min[0] == -1);
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        if (scene->items[i].node == 2)
+            assert_true(pose.items[i].hash == still);
+        else
+            assert_true(pose.items[i].hash != moved);
+    }
+    assert_int_equal(gn_alloc_count(), before);
+}
+
+static void test_mirrored_and_invisible(void **state) {
+    (void)state;
+    gn_maker_set(
+        &maker, "nodes",
+        "[{'mesh':0,'scale':[-1,1,1]},{'mesh':0,'scale':[0,0,0]},{'mesh':0,'scale':[1,0,1]},"
+        "{'children':[4],'scale':[1e30,1,1]},{'mesh':0,'scale':[1e30,1,1]}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3]}]");
+    load(GN_POSE_DEFAULT);
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        uint32_t node = scene->items[i].node;
+        assert_int_equal(pose.items[i].mirrored && pose.items[i].visible, node == 0);
+        assert_int_equal(pose.items[i].visible,
+                         node == 0 || node == 2); /* flat is still to be seen */
+    }
+    assert_true(pose.box_ws.max[0] == 1);
+}
+
+static void test_unusable_channels_are_left_out(void **state) {
+    (void)state;
+    animate("translation", TURN, "LINEAR");      /* four numbers for three */
+    animate("translation", MOVE, "CUBICSPLINE"); /* a third of the values */
+    animate("weights", MOVE, "LINEAR");
+    load(GN_POSE_DEFAULT);
+    assert_int_equal(scene->clip_count, 3);
+    assert_int_equal(scene->channel_count, 0);
+    assert_false(pose.animated);
+    assert_string_equal(warnings.text[0],
+                        "t: animations[0].samplers[0]: input and output do not fit each other; "
+                        "channel not played");
+    assert_string_equal(warnings.text[2], "t: shown without morph targets: not supported yet");
+}
+
+static void test_a_matrix_that_is_animated(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "nodes", "[{'mesh':0,'matrix':[0,0,-2,0,0,2,0,0,2,0,0,0,1,2,3,1]},{},{}]");
+    animate("translation", MOVE, "LINEAR");
+    load(GN_POSE_NONE);
+    assert_false(scene->nodes[0].has_matrix);
+    static const float wanted[16] = {0, 0, -2, 0, 0, 2, 0, 0, 2, 0, 0, 0, 1, 2, 3, 1};
+    for (int i = 0; i < 16; i++)
+        assert_true(fabsf(pose.world_from_node[0][i / 4][i % 4] - wanted[i]) < 1e-5f);
+}
+
+static void test_view_and_light(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "cameras",
+                 "[{'type':'perspective','perspective':{'yfov':1,'znear':0.1}}]");
+    gn_maker_set(&maker, "extensions", "{'KHR_lights_punctual':{'lights':[{'type':'spot'}]}}");
+    gn_maker_set(
+        &maker, "nodes",
+        "[{'mesh':0},{'camera':0,'translation':[0,0,5],'scale':[2,3,4]},{'translation':[0,4,0],"
+        "'rotation':[-0.70710678,0,0,0.70710678],'extensions':{'KHR_lights_punctual':{'light':0}}}"
+        "]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2]}]");
+    load(GN_POSE_NONE);
+    mat4 view;
+    vec3 eye, position, direction;
+    gn_pose_view(&pose, 0, view, eye);
+    assert_true(eye[2] == 5 && view[3][2] == -5 && view[0][0] == 1 && view[2][2] == 1);
+    gn_pose_light(&pose, 0, position, direction);
+    assert_true(position[1] == 4 && fabsf(direction[1] + 1) < 1e-6f);
+    gn_pose_view(&pose, 0, view, NULL);
+}
+
+#define TEST(f) cmocka_unit_test_setup_teardown(f, setup, teardown)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(test_linear_and_children),
+        TEST(test_step),
+        TEST(test_cubic),
+        TEST(test_rotation_takes_the_short_way),
+        TEST(test_time_is_exact_after_years),
+        TEST(test_clips),
+        TEST(test_items_follow_and_nothing_is_allocated),
+        TEST(test_mirrored_and_invisible),
+        TEST(test_unusable_channels_are_left_out),
+        TEST(test_a_matrix_that_is_animated),
+        TEST(test_view_and_light),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,265 @@
+/* Materials, textures, pictures, batches. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "gltf_maker.h"
+
+static struct gn_maker maker;
+static struct gn_err err;
+static struct gn_warnings warnings;
+
+static int setup(void **state) {
+    (void)state;
+    memset(&warnings, 0, sizeof warnings);
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}]");
+    return 0;
+}
+
+static struct gn_scene *load(void) {
+    struct gn_scene *scene = gn_maker_load(&maker, &warnings, &err);
+    if (!scene) fail_msg("%s", err.text);
+    return scene;
+}
+
+static void assert_near(float a, float b) {
+    if (!(fabsf(a - b) < 1e-5f)) fail_msg("%g is not %g", (double)a, (double)b);
+}
+
+static void add_picture(const void *data, size_t size) {
+    char json[80];
+    snprintf(json, sizeof json, "{'bufferView':%d}", gn_maker_view(&maker, data, size));
+    int image = gn_maker_add(&maker, "images", json);
+    snprintf(json, sizeof json, "{'source':%d}", image);
+    gn_maker_add(&maker, "textures", json);
+}
+
+#define BASE_TEXTURE "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}]"
+
+/* ---- materials ---- */
+
+static void test_factors(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "materials",
+                 "[{'name':'m','alphaMode':'MASK','alphaCutoff':0.25,'doubleSided':true,'"
+                 "emissiveFactor':[1,0.5,0],"
+                 "'extensions':{'KHR_materials_emissive_strength':{'emissiveStrength':4},'KHR_"
+                 "materials_unlit':{}},"
+                 "'pbrMetallicRoughness':{'baseColorFactor':[0.1,0.2,0.3,0.4],'metallicFactor':0.5,"
+                 "'roughnessFactor':7}}]");
+    struct gn_scene *scene = load();
+    const struct gn_material *m = &scene->materials[0];
+    assert_int_equal(scene->material_count, 2);
+    assert_string_equal(m->name, "m");
+    assert_true(m->alpha == GN_ALPHA_MASK && m->double_sided && m->unlit);
+    assert_near(m->alpha_cutoff, .25f);
+    assert_near(m->emissive[1], 2);
+    assert_near(m->base_color[3], .4f);
+    assert_near(m->metalness, .5f);
+    assert_near(m->roughness, 1);
+    assert_near(scene->materials[1].metalness, 1); /* glTF's default */
+    gn_scene_destroy(scene);
+}
+
+/* The extension's own example: the lower left quadrant, turned. */
+static void test_texture_transform(void **state) {
+    (void)state;
+    static const uint8_t red[] = {255, 0, 0, 255};
+    struct gn_made png = gn_maker_png(1, 1, red);
+    add_picture(png.data, png.size);
+    free(png.data);
+    gn_maker_set(
+        &maker, "materials",
+        "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':0,'extensions':"
+        "{'KHR_texture_transform':{'offset':[0,1],'rotation':1.5707963,'scale':[0.5,0.5],'texCoord'"
+        ":1}}}},"
+        "'occlusionTexture':{'index':0,'texCoord':2}}]");
+    struct gn_scene *scene = load();
+    const struct gn_texture_ref *ref = &scene->materials[0].textures[GN_TEXTURE_BASE];
+    const float *m = ref->uv_from_uv;
+    assert_int_equal(ref->uv_set, 1);
+    assert_near(m[0] * 1 + m[2] * 0 + m[4], 0);
+    assert_near(m[1] * 1 + m[3] * 0 + m[5], .5f);
+    assert_near(m[0] * 0 + m[2] * 1 + m[4], .5f);
+    assert_int_equal(scene->materials[0].textures[GN_TEXTURE_OCCLUSION].texture, -1);
+    assert_string_equal(warnings.text[0],
+                        "t: materials[0].occlusionTexture: texCoord 2: only sets 0 and 1 are read; "
+                        "shown without this texture");
+    gn_scene_destroy(scene);
+}
+
+static void test_samplers(void **state) {
+    (void)state;
+    static const uint8_t red[] = {255, 0, 0, 255};
+    struct gn_made png = gn_maker_png(1, 1, red);
+    add_picture(png.data, png.size);
+    free(png.data);
+    gn_maker_set(&maker, "textures", "[{'source':0,'sampler':0},{'source':0}]");
+    gn_maker_set(&maker, "samplers",
+                 "[{'magFilter':9728,'minFilter':9729,'wrapS':33071,'wrapT':33648}]");
+    gn_maker_set(&maker, "materials",
+                 "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}},'emissiveTexture':{'"
+                 "index':1}}]");
+    struct gn_scene *scene = load();
+    assert_int_equal(scene->image_count, 1);
+    const struct gn_texture *t = scene->textures;
+    assert_true(t[0].mag_nearest && !t[0].mipmaps && !t[0].min_nearest);
+    assert_true(t[0].wrap_s == GN_WRAP_CLAMP && t[0].wrap_t == GN_WRAP_MIRROR);
+    assert_true(!t[1].mag_nearest && t[1].mipmaps && !t[1].mip_nearest &&
+                t[1].wrap_s == GN_WRAP_REPEAT);
+    gn_scene_destroy(scene);
+}
+
+/* ---- pictures ---- */
+
+static void test_png_rgba(void **state) {
+    (void)state;
+    static const uint8_t rgba[] = {1, 2, 3, 4, 5, 6, 7, 255, 9, 10, 11, 255, 13, 14, 15, 255};
+    struct gn_made png = gn_maker_png(2, 2, rgba);
+    add_picture(png.data, png.size);
+    free(png.data);
+    gn_maker_set(&maker, "materials", BASE_TEXTURE);
+    struct gn_scene *scene = load();
+    assert_memory_equal(scene->images[0].rgba, rgba, sizeof rgba);
+    assert_true(scene->images[0].has_alpha);
+    gn_scene_destroy(scene);
+}
+
+static void test_png_of_16_bits(void **state) {
+    (void)state;
+    static const uint16_t grey[] = {0, 65535, 32896, 257};
+    struct gn_made png = gn_maker_png_grey16(4, 1, grey);
+    add_picture(png.data, png.size);
+    free(png.data);
+    gn_maker_set(&maker, "materials", BASE_TEXTURE);
+    struct gn_scene *scene = load();
+    static const uint8_t wanted[] = {0,   0,   0,   255, 255, 255, 255, 255,
+                                     128, 128, 128, 255, 1,   1,   1,   255};
+    assert_memory_equal(scene->images[0].rgba, wanted, sizeof wanted);
+    assert_false(scene->images[0].has_alpha);
+    gn_scene_destroy(scene);
+}
+
+static void test_jpeg(void **state) {
+    (void)state;
+    uint8_t rgb[8 * 8 * 3];
+    for (size_t i = 0; i < sizeof rgb; i++) rgb[i] = (uint8_t)(i % 3 == 0 ? 200 : 40);
+    struct gn_made jpeg = gn_maker_jpeg(8, 8, rgb);
+    add_picture(jpeg.data, jpeg.size);
+    free(jpeg.data);
+    gn_maker_set(&maker, "materials", BASE_TEXTURE);
+    struct gn_scene *scene = load();
+    assert_true(abs(scene->images[0].rgba[0] - 200) < 4 && abs(scene->images[0].rgba[1] - 40) < 4);
+    assert_int_equal(scene->images[0].rgba[3], 255);
+    gn_scene_destroy(scene);
+}
+
+static void expect_dropped(const void *data, size_t size, const char *why) {
+    setup(NULL);
+    add_picture(data, size);
+    gn_maker_set(&maker, "materials", BASE_TEXTURE);
+    struct gn_scene *scene = load();
+    assert_int_equal(scene->image_count, 0);
+    assert_int_equal(scene->materials[0].textures[GN_TEXTURE_BASE].texture, -1);
+    if (warnings.count != 1 || !strstr(warnings.text[0], why))
+        fail_msg("'%s', not '%s'", warnings.text[0], why);
+    assert_non_null(strstr(warnings.text[0], "t: images[0]: "));
+    gn_scene_destroy(scene);
+}
+
+static void test_broken_pictures_cost_a_warning(void **state) {
+    (void)state;
+    gn_maker_finish(&maker);
+    uint8_t rgba[64 * 64 * 4];
+    for (size_t i = 0; i < sizeof rgba; i++) rgba[i] = (uint8_t)(i * 2654435761U >> 24);
+    struct gn_made png = gn_maker_png(64, 64, rgba);
+    expect_dropped("GIF89a", 6, "neither PNG nor JPEG");
+    expect_dropped(png.data, 20, "PNG: cut short");
+    expect_dropped(png.data, png.size / 2, "PNG: cut short");
+    png.data[16] = 0x10; /* 268 million wide */
+    expect_dropped(png.data, png.size, "cut short");
+    expect_dropped("\xff\xd8\xff\xe0 no jpeg", 12, "JPEG:");
+    free(png.data);
+}
+
+static void test_missing_picture_file(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "images", "[{'uri':'gone.png'},{'uri':'also.png'}]");
+    gn_maker_set(&maker, "textures", "[{'source':0},{'source':1}]");
+    gn_maker_set(&maker, "materials",
+                 "["
+                 "{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}},"
+                 "{'emissiveTexture':{'index':1}}]");
+    struct gn_scene *scene = load();
+    assert_int_equal(warnings.count, 1); /* nothing uses the other */
+    assert_non_null(strstr(warnings.text[0], "images[0]: 'gone.png'"));
+    gn_scene_destroy(scene);
+}
+
+static void test_later_work_is_named_once(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "textures", "[{'extensions':{'EXT_texture_webp':{'source':0}}}]");
+    gn_maker_set(
+        &maker, "materials",
+        "[{'normalTexture':{'index':0},'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}]");
+    gn_maker_set(&maker, "nodes", "[{'mesh':0,'skin':0}]");
+    struct gn_scene *scene = load();
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.text[0],
+                        "t: shown without skins, normal maps, WebP pictures: not supported yet");
+    gn_scene_destroy(scene);
+}
+
+/* ---- batches ---- */
+
+static uint32_t batches_of(const char *materials) {
+    setup(NULL);
+    gn_maker_set(&maker, "materials", materials);
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0},"
+                 "{'attributes':{'POSITION':0},'indices':1,'material':1}]}]");
+    gn_maker_set(&maker, "nodes", "[{'mesh':0,'extras':{'gnomon_plane':false}}]");
+    struct gn_scene *scene = load();
+    uint32_t count = scene->batch_count;
+    gn_scene_destroy(scene);
+    return count;
+}
+
+static void test_batches(void **state) {
+    (void)state;
+    gn_maker_finish(&maker);
+    assert_int_equal(batches_of("[{'pbrMetallicRoughness':{'baseColorFactor':[1,0,0,1]}},{}]"), 1);
+    assert_int_equal(batches_of("[{'emissiveFactor':[1,0,0]},{'emissiveFactor':[0,1,0]}]"), 1);
+    assert_int_equal(batches_of("[{'emissiveFactor':[1,0,0]},{}]"), 2);
+    assert_int_equal(batches_of("[{'pbrMetallicRoughness':{'metallicFactor':0}},{}]"), 2);
+    assert_int_equal(batches_of("[{'pbrMetallicRoughness':{'metallicFactor':0.5}},{}]"), 1);
+    assert_int_equal(batches_of("[{'doubleSided':true},{}]"), 2);
+    assert_int_equal(batches_of("[{'alphaMode':'MASK','alphaCutoff':0.2},{'alphaMode':'MASK'}]"),
+                     1);
+    assert_int_equal(batches_of("[{'alphaMode':'BLEND'},{}]"), 2);
+    assert_int_equal(batches_of("[{'extensions':{'KHR_materials_unlit':{}}},{}]"), 2);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(test_factors, setup),
+        cmocka_unit_test_setup(test_texture_transform, setup),
+        cmocka_unit_test_setup(test_samplers, setup),
+        cmocka_unit_test_setup(test_png_rgba, setup),
+        cmocka_unit_test_setup(test_png_of_16_bits, setup),
+        cmocka_unit_test_setup(test_jpeg, setup),
+        cmocka_unit_test_setup(test_broken_pictures_cost_a_warning, setup),
+        cmocka_unit_test_setup(test_missing_picture_file, setup),
+        cmocka_unit_test_setup(test_later_work_is_named_once, setup),
+        cmocka_unit_test_setup(test_batches, setup),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
