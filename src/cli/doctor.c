@@ -1,0 +1,178 @@
+/* gnomon doctor: what this machine can do. Drivers are woken up in children (child.h), one a
+ * backend: what they print, a crash and a hang all end in the report. */
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/child.h"
+#include "cli/commands.h"
+#include "cli/doctor_report.h"
+#include "core/clock.h"
+#include "display/display.h"
+
+struct attempt { /* what the child is told */
+    const struct gn_options *options;
+    const char *backend;
+    bool self_test;
+    int64_t begun_ns;
+};
+struct answer { /* what it leaves, in shared memory */
+    bool opens;
+    struct gn_err err; /* of opening, or of the self-test */
+    struct gn_caps caps;
+    struct gn_selftest self_test;
+    bool self_tested;
+};
+
+/* ---- in the child -------------------------------------------------------------------------- */
+
+static void try_backend(void *shared, const void *argument) {
+    const struct attempt *attempt = argument;
+    struct answer *answer = shared;
+    struct gn_display display = {0};
+    if (!gn_display_open(&display, attempt->backend, NULL, &answer->err)) return;
+    const struct gn_gl_opts opts = {
+        .get_proc = gn_display_get_proc,
+        .display = &display,
+        .shaders = attempt->options->shaders,
+        .without = attempt->options->without,
+        .desktop = display.ops->desktop,
+    };
+    struct gn_gl *gl = gn_gl_create(&opts, NULL, &answer->err);
+    answer->opens = gl;
+    if (gl) answer->caps = *gn_gl_caps(gl);
+    if (gl && attempt->self_test)
+        answer->self_tested = gn_selftest_run(&answer->self_test, gl, &answer->err);
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+}
+
+/* ---- here ---------------------------------------------------------------------------------- */
+
+/* On a terminal, once the work has taken a second. */
+static void show_progress(void *shared, const void *argument) {
+    const struct attempt *attempt = argument;
+    const volatile struct gn_selftest *test = &((const struct answer *)shared)->self_test;
+    if (gn_clock_monotonic_ns() - attempt->begun_ns < GN_NS_PER_S || !isatty(STDERR_FILENO)) return;
+    fprintf(stderr, "\rself-test: picture %u of %u ", test->done, test->all);
+}
+
+static void end_progress(const struct attempt *attempt) {
+    if (gn_clock_monotonic_ns() - attempt->begun_ns < GN_NS_PER_S || !isatty(STDERR_FILENO)) return;
+    fprintf(stderr, "\r\33[K");
+}
+
+static const struct gn_display_ops *find_built(const char *name) {
+    for (const struct gn_display_ops *const *row = gn_displays; *row; row++)
+        if (strcmp((*row)->name, name) == 0) return *row;
+    return NULL;
+}
+
+static struct gn_doctor_backend *add_backend(struct gn_doctor_report *report, const char *name) {
+    const struct gn_display_ops *ops = find_built(name);
+    if (report->backend_count == GN_DOCTOR_BACKENDS) return NULL;
+    struct gn_doctor_backend *b = &report->backends[report->backend_count++];
+    *b = (struct gn_doctor_backend){.name = name, .what = ops ? ops->what : NULL, .built = ops};
+    return b;
+}
+
+/* False only for wrong usage: --without with a name that is none. */
+static bool check_backend(struct gn_doctor_backend *b, const struct gn_options *options,
+                          struct answer *answer, struct gn_err *err) {
+    const struct attempt attempt = {.options = options, .backend = b->name};
+    const struct gn_child child = {.work = try_backend, .argument = &attempt};
+    struct gn_err end = {0};
+    memset(answer, 0, sizeof *answer);
+    bool ended = gn_child_run(&child, answer, &end);
+    b->opens = ended && answer->opens;
+    b->caps = answer->caps;
+    if (!b->opens) snprintf(b->why, sizeof b->why, "%.319s", ended ? answer->err.text : end.text);
+    if (!ended || answer->err.status != GN_EXIT_USAGE) return true;
+    *err = answer->err;
+    return false;
+}
+
+/* All that --backend knows, in the order in which "auto" tries them, then those not built in. */
+static bool check_backends(struct gn_doctor_report *report, const struct gn_options *options,
+                           struct answer *answer, struct gn_err *err) {
+    const struct gn_option_row *row = gn_option_find("backend", strlen("backend"));
+    for (const struct gn_display_ops *const *ops = gn_displays; *ops; ops++) {
+        struct gn_doctor_backend *b = add_backend(report, (*ops)->name);
+        if (b && !check_backend(b, options, answer, err)) return false;
+    }
+    for (const struct gn_choice *choice = row->choices; choice->name; choice++)
+        if (strcmp(choice->name, "auto") != 0 && !find_built(choice->name))
+            add_backend(report, choice->name);
+    return true;
+}
+
+static int choose(const struct gn_doctor_report *report, const char *wanted) {
+    for (int i = 0; i < report->backend_count; i++) {
+        const struct gn_doctor_backend *b = &report->backends[i];
+        if (b->opens && (strcmp(wanted, "auto") == 0 || strcmp(wanted, b->name) == 0)) return i;
+    }
+    return -1;
+}
+
+static void self_test(struct gn_doctor_report *report, const struct gn_options *options,
+                      struct answer *answer) {
+    const char *name = report->backends[report->chosen].name;
+    const struct attempt attempt = {.options = options,
+                                    .backend = name,
+                                    .self_test = true,
+                                    .begun_ns = gn_clock_monotonic_ns()};
+    const struct gn_child child = {.work = try_backend,
+                                   .watch = show_progress,
+                                   .argument = &attempt,
+                                   .progress = &answer->self_test.done,
+                                   .stall_s = 120};
+    struct gn_err end = {0};
+    memset(answer, 0, sizeof *answer);
+    bool ended = gn_child_run(&child, answer, &end);
+    end_progress(&attempt);
+    if (answer->self_test.row_count) report->self_test = &answer->self_test;
+    if (!ended || !answer->self_tested)
+        gn_doctor_add(report, "send this report to those who make gnomon or the GPU's driver",
+                      "the self-test on %s stopped after %u of %u pictures: %s", name,
+                      answer->self_test.done, answer->self_test.all,
+                      ended ? answer->err.text : end.text);
+}
+
+static bool verdict(const struct gn_doctor_report *report, const struct gn_options *options,
+                    const struct answer *answer, struct gn_err *err) {
+    if (report->chosen < 0)
+        return gn_fail(err, "nothing can draw here%s%s: see the problems that doctor lists",
+                       strcmp(options->backend, "auto") == 0 ? "" : " with backend ",
+                       strcmp(options->backend, "auto") == 0 ? "" : options->backend);
+    if (!options->self_test) return true;
+    uint32_t failures = report->self_test ? gn_selftest_failures(report->self_test) : 0;
+    if (failures)
+        return gn_fail(err, "self-test: %u of %u rows fail on %s", failures,
+                       report->self_test->row_count,
+                       report->backends[report->chosen].caps.renderer);
+    return answer->self_tested || gn_fail(err, "self-test: %s", answer->err.text);
+}
+
+static bool examine(struct gn_doctor_report *report, const struct gn_options *options,
+                    struct answer *answer, struct gn_err *err) {
+    gn_machine_read(&report->machine, "");
+    if (!check_backends(report, options, answer, err)) return false;
+    report->chosen = choose(report, options->backend);
+    gn_doctor_diagnose(report);
+    if (options->self_test && report->chosen >= 0) self_test(report, options, answer);
+    if (!options->json)
+        gn_doctor_print(report, stdout);
+    else if (!gn_doctor_print_json(report, stdout, err))
+        return false;
+    return verdict(report, options, answer, err);
+}
+
+bool gn_cli_doctor(const struct gn_options *options, struct gn_warnings *warnings,
+                   struct gn_err *err) {
+    (void)warnings;
+    struct gn_doctor_report report = {.chosen = -1};
+    struct answer *answer = gn_child_share(sizeof *answer, err);
+    bool ok = answer && examine(&report, options, answer, err);
+    gn_child_unshare(answer, sizeof *answer);
+    return ok;
+}

@@ -1,0 +1,324 @@
+#include "cli/doctor_report.h"
+
+#include <jansson.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include <config.h> /* made by the build; not cli/config.h */
+#include "core/text.h"
+
+/* What is used where a capability is not proved. */
+static const char *const instead[GN_CAP_COUNT] = {
+    [GN_CAP_DEPTH_COMPARE] = "shaders compare, on r32ui or r16f maps: slower",
+    [GN_CAP_R32UI] = "r16f or depth maps",
+    [GN_CAP_R16F] = "r32ui maps, then depth, then rgba8",
+    [GN_CAP_RGBA16F] = "8 bits a channel, ending at 1, in .pfm files of colour",
+    [GN_CAP_SRGB] = "shaders encode sRGB: slower",
+    [GN_CAP_MSAA4] = "no antialiasing",
+    [GN_CAP_TIMER] = "bench times passes by the clock of the CPU",
+    [GN_CAP_DEBUG] = "errors of the driver come without its words",
+};
+
+/* ---- problems ------------------------------------------------------------------------------ */
+
+void gn_doctor_add(struct gn_doctor_report *report, const char *cure, const char *what, ...) {
+    if (report->problem_count == GN_DOCTOR_PROBLEMS) return;
+    struct gn_doctor_problem *problem = &report->problems[report->problem_count++];
+    va_list args;
+    va_start(args, what);
+    gn_text_vformat(problem->what, sizeof problem->what, what, args);
+    va_end(args);
+    snprintf(problem->cure, sizeof problem->cure, "%s", cure);
+}
+
+static bool in_group(const struct gn_machine *m, const char *group) {
+    for (int i = 0; i < m->group_count; i++)
+        if (strcmp(m->groups[i], group) == 0) return true;
+    return false;
+}
+
+static void diagnose_device(struct gn_doctor_report *report, const struct gn_device *device) {
+    const struct gn_machine *m = &report->machine;
+    char cure[200];
+    if (device->readable && device->writable) return;
+    if (device->group_may && !in_group(m, device->group) && strcmp(device->group, "root") != 0)
+        snprintf(cure, sizeof cure, "sudo usermod -aG %s %s, then log in again", device->group,
+                 m->user);
+    else
+        snprintf(cure, sizeof cure,
+                 "give it to a group with a udev rule (GROUP=\"%s\", MODE=\"0660\")",
+                 device->kind == GN_DEVICE_GPIO   ? "gpio"
+                 : device->kind == GN_DEVICE_CARD ? "video"
+                                                  : "render");
+    gn_doctor_add(report, cure, "%s may not %s %s", m->user,
+                  device->readable   ? "write"
+                  : device->writable ? "read"
+                                     : "open",
+                  device->path);
+}
+
+static bool has_device(const struct gn_machine *m, enum gn_device_kind kind) {
+    for (int i = 0; i < m->device_count; i++)
+        if (m->devices[i].kind == kind) return true;
+    return false;
+}
+
+static void diagnose_machine(struct gn_doctor_report *report) {
+    const struct gn_machine *m = &report->machine;
+    for (int i = 0; i < m->device_count; i++) diagnose_device(report, &m->devices[i]);
+    if (!has_device(m, GN_DEVICE_CARD))
+        gn_doctor_add(report,
+                      "on a Raspberry Pi put dtoverlay=vc4-kms-v3d into /boot/firmware/config.txt; "
+                      "else load the GPU's kernel driver",
+                      "there is no display card (/dev/dri/card*): pictures go to files only");
+    if (m->memory_mb && m->free_mb < 128)
+        gn_doctor_add(report, "end other programs, or use smaller textures",
+                      "only %llu MB of memory are free", (unsigned long long)m->free_mb);
+}
+
+static void diagnose_gpu(struct gn_doctor_report *report) {
+    const struct gn_caps *caps = &report->backends[report->chosen].caps;
+    if (caps->software)
+        gn_doctor_add(report,
+                      has_device(&report->machine, GN_DEVICE_RENDER)
+                          ? "install the GPU's driver (libgl1-mesa-dri) and let the user open "
+                            "/dev/dri/renderD*"
+                          : "use a board whose GPU has OpenGL ES 3 (Pi 4/5, Mali T760+, Adreno "
+                            "3xx+), or small pictures",
+                      "the CPU draws (%s): shadows work, but slowly", caps->renderer);
+    if (gn_caps_encodings(caps) == 1u << GN_ENCODING_RGBA8)
+        gn_doctor_add(report, "update Mesa or the GPU's driver",
+                      "the GPU draws no map format but rgba8: shadows are slower");
+}
+
+void gn_doctor_diagnose(struct gn_doctor_report *report) {
+    for (int i = 0; i < report->backend_count; i++) {
+        const struct gn_doctor_backend *b = &report->backends[i];
+        if (b->built && !b->opens)
+            gn_doctor_add(report,
+                          report->chosen < 0 ? "sudo apt install libegl1 libgles2 libgl1-mesa-dri"
+                                             : "only needed if you want this backend",
+                          "backend %s: %s", b->name, b->why);
+    }
+    if (report->chosen >= 0) diagnose_gpu(report);
+    diagnose_machine(report);
+}
+
+/* ---- for people ---------------------------------------------------------------------------- */
+
+static void print_machine(const struct gn_machine *m, FILE *to) {
+    fprintf(to, "Machine\n");
+    if (m->model[0]) fprintf(to, "  %-11s %s\n", "board", m->model);
+    fprintf(to, "  %-11s %s; %s; %s; %d CPU%s\n", "system", m->system[0] ? m->system : "unknown",
+            m->kernel, m->arch, m->cpus, m->cpus == 1 ? "" : "s");
+    fprintf(to, "  %-11s %llu MB, %llu MB free", "memory", (unsigned long long)m->memory_mb,
+            (unsigned long long)m->free_mb);
+    if (m->cma_mb) fprintf(to, ", %llu MB contiguous (CMA)", (unsigned long long)m->cma_mb);
+    fprintf(to, "\n  %-11s %s; groups", "user", m->user);
+    for (int i = 0; i < m->group_count; i++) fprintf(to, " %s", m->groups[i]);
+    fprintf(to, "\n");
+}
+
+static void print_backends(const struct gn_doctor_report *report, FILE *to) {
+    fprintf(to, "\nBackends\n");
+    for (int i = 0; i < report->backend_count; i++) {
+        const struct gn_doctor_backend *b = &report->backends[i];
+        fprintf(to, "  %-11s ", b->name);
+        if (!b->built)
+            fprintf(to, "not in this build\n");
+        else if (b->opens)
+            fprintf(to, "opens: %s\n", b->what);
+        else
+            fprintf(to, "does not open: %s\n", b->why);
+    }
+}
+
+static void print_maps(const struct gn_caps *caps, FILE *to) {
+    uint32_t encodings = gn_caps_encodings(caps);
+    bool fell_back;
+    fprintf(to, "  %-11s", "map formats");
+    for (int i = 0; i < GN_ENCODING_COUNT; i++)
+        if (encodings & 1u << i) fprintf(to, " %s", gn_encodings[i].name);
+    fprintf(to, "\n  %-11s", "chosen");
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
+        if (gn_techniques[i].file)
+            fprintf(to, " %s:%s", gn_techniques[i].name,
+                    gn_encodings[gn_encoding_choose((enum gn_technique)i, GN_ENCODING_AUTO,
+                                                    encodings, &fell_back)]
+                        .name);
+    fprintf(to, "\n");
+}
+
+static void print_gpu(const struct gn_doctor_backend *b, FILE *to) {
+    const struct gn_caps *caps = &b->caps;
+    fprintf(to, "\nGPU (%s)\n", b->name);
+    fprintf(to, "  %-11s %s%s\n", "renderer", caps->renderer, caps->software ? " - the CPU" : "");
+    fprintf(to, "  %-11s %s\n  %-11s %s\n", "vendor", caps->vendor, "version", caps->version);
+    fprintf(to, "  %-11s %d px, %d at once\n", "textures", caps->max_texture_px,
+            caps->max_texture_units);
+    fprintf(to, "  %-11s", "proved");
+    for (int i = 0; i < GN_CAP_COUNT; i++)
+        if (caps->has & 1u << i) fprintf(to, " %s", gn_cap_names[i]);
+    fprintf(to, "\n");
+    for (int i = 0; i < GN_CAP_COUNT; i++)
+        if (!(caps->has & 1u << i))
+            fprintf(to, "  %-11s %s; instead: %s\n", "not proved", gn_cap_names[i], instead[i]);
+    print_maps(caps, to);
+}
+
+static void print_device(const struct gn_device *device, FILE *to) {
+    static const char *const may[] = {"no access", "read only", "write only", "read and write"};
+    fprintf(to, "  %-20s %-16s %s (group %s)\n", device->path,
+            device->driver[0] ? device->driver : "unknown driver",
+            may[device->readable + 2 * device->writable], device->group);
+}
+
+static void print_devices(const struct gn_machine *m, bool gpio, FILE *to) {
+    bool any = false;
+    fprintf(to, "\n%s\n", gpio ? "GPIO" : "Cards");
+    for (int i = 0; i < m->device_count; i++) {
+        if ((m->devices[i].kind == GN_DEVICE_GPIO) != gpio) continue;
+        print_device(&m->devices[i], to);
+        any = true;
+    }
+    if (!any) fprintf(to, "  none\n");
+    for (int i = 0; i < m->connector_count && !gpio; i++)
+        fprintf(to, "  %-20s %s%s%s\n", m->connectors[i].name, m->connectors[i].status,
+                m->connectors[i].mode[0] ? ", " : "", m->connectors[i].mode);
+}
+
+static void print_problems(const struct gn_doctor_report *report, FILE *to) {
+    fprintf(to, "\nProblems\n");
+    if (!report->problem_count) fprintf(to, "  none\n");
+    for (int i = 0; i < report->problem_count; i++)
+        fprintf(to, "  %d. %s\n     cure: %s\n", i + 1, report->problems[i].what,
+                report->problems[i].cure);
+}
+
+void gn_doctor_print(const struct gn_doctor_report *report, FILE *to) {
+    fprintf(to, "gnomon %s\n\n", GN_VERSION);
+    print_machine(&report->machine, to);
+    print_backends(report, to);
+    if (report->chosen >= 0) print_gpu(&report->backends[report->chosen], to);
+    print_devices(&report->machine, false, to);
+    print_devices(&report->machine, true, to);
+    print_problems(report, to);
+    if (report->self_test) gn_selftest_print(report->self_test, to);
+}
+
+/* ---- for programs -------------------------------------------------------------------------- */
+
+/* What the kernel and drivers say may be anything; what is not UTF-8 is null. */
+static json_t *text(const char *value) {
+    json_t *string = value && value[0] ? json_string(value) : NULL;
+    return string ? string : json_null();
+}
+
+static json_t *machine_json(const struct gn_machine *m) {
+    json_t *groups = json_array();
+    for (int i = 0; i < m->group_count; i++) json_array_append_new(groups, text(m->groups[i]));
+    return json_pack("{so so so so si sI sI sI so so}", "model", text(m->model), "system",
+                     text(m->system), "kernel", text(m->kernel), "arch", text(m->arch), "cpus",
+                     m->cpus, "memory_mb", (json_int_t)m->memory_mb, "memory_free_mb",
+                     (json_int_t)m->free_mb, "cma_mb", (json_int_t)m->cma_mb, "user", text(m->user),
+                     "groups", groups);
+}
+
+static json_t *backends_json(const struct gn_doctor_report *report) {
+    json_t *all = json_array();
+    for (int i = 0; i < report->backend_count; i++) {
+        const struct gn_doctor_backend *b = &report->backends[i];
+        json_array_append_new(
+            all, json_pack("{ss so sb sb so so so so so}", "name", b->name, "what", text(b->what),
+                           "built", b->built, "opens", b->opens, "why", text(b->why), "vendor",
+                           text(b->caps.vendor), "renderer", text(b->caps.renderer), "gles",
+                           text(b->caps.version), "software",
+                           b->opens ? json_boolean(b->caps.software) : json_null()));
+    }
+    return all;
+}
+
+static json_t *maps_json(const struct gn_caps *caps) {
+    json_t *formats = json_array();
+    for (int i = 0; i < GN_ENCODING_COUNT; i++)
+        if (gn_caps_encodings(caps) & 1u << i)
+            json_array_append_new(formats, json_string(gn_encodings[i].name));
+    return formats;
+}
+
+static json_t *auto_json(const struct gn_caps *caps) {
+    json_t *chosen = json_object();
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
+        bool fell_back;
+        enum gn_encoding e = gn_encoding_choose((enum gn_technique)i, GN_ENCODING_AUTO,
+                                                gn_caps_encodings(caps), &fell_back);
+        if (gn_techniques[i].file)
+            json_object_set_new(chosen, gn_techniques[i].name, json_string(gn_encodings[e].name));
+    }
+    return chosen;
+}
+
+static json_t *gpu_json(const struct gn_doctor_backend *b) {
+    const struct gn_caps *caps = &b->caps;
+    json_t *proved = json_array(), *not_proved = json_array();
+    for (int i = 0; i < GN_CAP_COUNT; i++)
+        if (caps->has & 1u << i)
+            json_array_append_new(proved, json_string(gn_cap_names[i]));
+        else
+            json_array_append_new(
+                not_proved, json_pack("{ss ss}", "name", gn_cap_names[i], "instead", instead[i]));
+    return json_pack(
+        "{ss so so so sb si si so so so so}", "backend", b->name, "vendor", text(caps->vendor),
+        "renderer", text(caps->renderer), "gles", text(caps->version), "software", caps->software,
+        "max_texture_px", caps->max_texture_px, "texture_units", caps->max_texture_units, "proved",
+        proved, "not_proved", not_proved, "map_formats", maps_json(caps), "auto", auto_json(caps));
+}
+
+static json_t *devices_json(const struct gn_machine *m, bool gpio) {
+    json_t *all = json_array();
+    for (int i = 0; i < m->device_count; i++) {
+        const struct gn_device *d = &m->devices[i];
+        if ((d->kind == GN_DEVICE_GPIO) != gpio) continue;
+        json_t *device = json_pack(
+            "{so so so sb sb}", "path", text(d->path), gpio ? "device" : "driver", text(d->driver),
+            "group", text(d->group), "readable", d->readable, "writable", d->writable);
+        if (!gpio)
+            json_object_set_new(device, "kind",
+                                json_string(d->kind == GN_DEVICE_CARD ? "card" : "render"));
+        json_array_append_new(all, device);
+    }
+    return all;
+}
+
+static json_t *connectors_json(const struct gn_machine *m) {
+    json_t *all = json_array();
+    for (int i = 0; i < m->connector_count; i++)
+        json_array_append_new(all, json_pack("{so so so}", "name", text(m->connectors[i].name),
+                                             "status", text(m->connectors[i].status), "mode",
+                                             text(m->connectors[i].mode)));
+    return all;
+}
+
+static json_t *problems_json(const struct gn_doctor_report *report) {
+    json_t *all = json_array();
+    for (int i = 0; i < report->problem_count; i++)
+        json_array_append_new(all, json_pack("{so so}", "what", text(report->problems[i].what),
+                                             "cure", text(report->problems[i].cure)));
+    return all;
+}
+
+bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struct gn_err *err) {
+    const struct gn_machine *m = &report->machine;
+    bool draws = report->chosen >= 0;
+    json_t *all =
+        json_pack("{ss sb so so so so so so so}", "version", GN_VERSION, "can_draw", draws,
+                  "machine", machine_json(m), "backends", backends_json(report), "gpu",
+                  draws ? gpu_json(&report->backends[report->chosen]) : json_null(), "cards",
+                  devices_json(m, false), "connectors", connectors_json(m), "gpio",
+                  devices_json(m, true), "problems", problems_json(report));
+    if (all && report->self_test)
+        json_object_set_new(all, "self_test", gn_selftest_json(report->self_test));
+    bool ok = all && json_dumpf(all, to, JSON_INDENT(2)) == 0 && fputc('\n', to) != EOF;
+    json_decref(all);
+    return ok || gn_fail(err, "the report cannot be written");
+}

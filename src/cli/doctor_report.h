@@ -1,0 +1,55 @@
+/* What `gnomon doctor` has found out, and the two ways to say it. */
+#ifndef GN_CLI_DOCTOR_REPORT_H
+#define GN_CLI_DOCTOR_REPORT_H
+
+#include <stdio.h>
+
+#include "cli/machine.h"
+#include "cli/selftest.h"
+#include "core/err.h"
+#include "frame/caps.h"
+
+enum { GN_DOCTOR_BACKENDS = 8, GN_DOCTOR_PROBLEMS = 24 };
+
+struct gn_doctor_backend {
+    const char *name, *what; /* what: a line for people, NULL if it is not built in */
+    bool built, opens;
+    char why[320];       /* it does not open */
+    struct gn_caps caps; /* it opens */
+};
+struct gn_doctor_problem { /* one line together: "what: cure" */
+    char what[320], cure[200];
+};
+struct gn_doctor_report {
+    struct gn_machine machine;
+    struct gn_doctor_backend backends[GN_DOCTOR_BACKENDS];
+    int backend_count;
+    int chosen; /* the one that is described; -1: nothing can draw */
+    struct gn_doctor_problem problems[GN_DOCTOR_PROBLEMS];
+    int problem_count;
+    const struct gn_selftest *self_test; /* NULL: not asked for, or it did not start */
+};
+
+/* Adds a problem; one too many is left out. */
+void gn_doctor_add(struct gn_doctor_report *report, const char *cure, const char *what, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The problems that can be read off the machine and the backends, as filled so far. */
+void gn_doctor_diagnose(struct gn_doctor_report *report);
+
+void gn_doctor_print(const struct gn_doctor_report *report, FILE *to);
+/* One object:
+ * version, can_draw (bool),
+ * machine {model|null, system, kernel, arch, cpus, memory_mb, memory_free_mb, cma_mb, user, groups
+ *     [name]},
+ * backends [{name, what|null, built, opens, why|null, vendor|null, renderer|null, gles|null,
+ *     software|null}],
+ * gpu null or {backend, vendor, renderer, gles, software, max_texture_px, texture_units, proved
+ *     [name], not_proved [{name, instead}], map_formats [name], auto {technique: map format}},
+ * cards [{path, kind (card, render), driver|null, group, readable, writable}],
+ * connectors [{name, status, mode|null}],
+ * gpio [{path, device|null, group, readable, writable}],
+ * problems [{what, cure}],
+ * self_test: see selftest.h; absent if not asked for. */
+bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struct gn_err *err);
+
+#endif

@@ -1,0 +1,260 @@
+#include "cli/selftest.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "core/embedded.h"
+
+#define LIT  1
+#define EDGE 2
+
+struct truth {
+    uint32_t width_px, height_px;
+    uint8_t *pixels; /* LIT, EDGE; malloc'ed */
+};
+
+/* ---- what is inside the program ------------------------------------------------------------ */
+
+/* "selftest/box.glb" -> "box" */
+static bool scene_name(const char *path, char *out, size_t size) {
+    static const char folder[] = "selftest/";
+    size_t length = strlen(path), skip = sizeof folder - 1;
+    if (strncmp(path, folder, skip) != 0 || strcmp(path + length - 4, ".glb") != 0) return false;
+    snprintf(out, size, "%.*s", (int)(length - skip - 4), path + skip);
+    return true;
+}
+
+static bool unpack(const struct gn_embedded *file, struct truth *truth) {
+    const uint8_t *data = file->data;
+    if (file->size < 12 || memcmp(data, "gntruth1", 8) != 0) return false;
+    *truth = (struct truth){data[8] | data[9] << 8, data[10] | data[11] << 8, NULL};
+    size_t all = (size_t)truth->width_px * truth->height_px, done = 0;
+    truth->pixels = gn_xalloc(all, 1);
+    for (size_t i = 12; i < file->size; i++)
+        for (int run = data[i] >> 2; run >= 0 && done < all; run--)
+            truth->pixels[done++] = data[i] & (LIT | EDGE);
+    if (done == all) return true;
+    free(truth->pixels);
+    return false;
+}
+
+static bool find_truth(const char *scene, struct truth *truth, struct gn_err *err) {
+    char path[64];
+    snprintf(path, sizeof path, "selftest/%s.truth", scene);
+    const struct gn_embedded *file = gn_embedded_find(path);
+    return (file && unpack(file, truth)) ||
+           gn_fail(err, "self-test: this build has no whole %s inside", path);
+}
+
+static struct gn_scene *find_scene(const char *scene, struct gn_err *err) {
+    char path[64];
+    snprintf(path, sizeof path, "selftest/%s.glb", scene);
+    const struct gn_embedded *file = gn_embedded_find(path);
+    return gn_scene_load_bytes(path, file->data, file->size, NULL, NULL, err);
+}
+
+/* ---- drawing and counting ------------------------------------------------------------------ */
+
+struct desk { /* one scene being tested */
+    struct gn_gl *gl;
+    struct truth truth;
+    struct gn_scene *scene;
+    struct gn_pose pose;
+    struct gn_frame *frame;
+    float *picture; /* RGBA */
+};
+
+static struct gn_selftest_count count_wrong(const struct desk *desk) {
+    size_t all = (size_t)desk->truth.width_px * desk->truth.height_px;
+    size_t away = 0, away_wrong = 0, wrong = 0;
+    for (size_t i = 0; i < all; i++) {
+        bool lit = desk->truth.pixels[i] & LIT, edge = desk->truth.pixels[i] & EDGE;
+        bool differs = (desk->picture[4 * i] >= 0.5f) != lit; /* NaN is dark */
+        away += !edge;
+        away_wrong += !edge && differs;
+        wrong += differs;
+    }
+    return (struct gn_selftest_count){100.0 * (double)away_wrong / (double)(away ? away : 1),
+                                      100.0 * (double)wrong / (double)all};
+}
+
+static bool draw(const struct desk *desk, const struct gn_selftest_row *row, struct gn_err *err) {
+    const struct gn_frame_opts opts = {
+        .width_px = desk->truth.width_px,
+        .height_px = desk->truth.height_px,
+        .technique_given = true,
+        .technique = row->technique,
+        .encoding = row->encoding,
+        .map_px = GN_SELFTEST_MAP_PX,
+        .aov = GN_AOV_VISIBILITY,
+    };
+    const struct gn_plan *plan = gn_frame_build(desk->frame, &desk->pose, &opts, NULL);
+    return gn_gl_prepare(desk->gl, plan, err) && gn_gl_run(desk->gl, plan, NULL, err) &&
+           gn_gl_read_f32(desk->gl, desk->picture, err);
+}
+
+static void test_row(struct gn_selftest *test, uint32_t scene, struct gn_selftest_row *row,
+                     const struct desk *desk) {
+    struct gn_err err = {0};
+    if (draw(desk, row, &err))
+        row->scenes[scene] = count_wrong(desk);
+    else if (!row->failure[0])
+        snprintf(row->failure, sizeof row->failure, "%.199s", err.text);
+    test->done++;
+}
+
+static void test_scene(struct gn_selftest *test, uint32_t scene, struct desk *desk) {
+    gn_pose_init(&desk->pose, desk->scene, GN_POSE_DEFAULT);
+    desk->frame = gn_frame_create(desk->scene, gn_gl_caps(desk->gl));
+    desk->picture =
+        gn_xalloc((size_t)desk->truth.width_px * desk->truth.height_px, 4 * sizeof(float));
+    for (uint32_t i = 0; i < test->row_count; i++) test_row(test, scene, &test->rows[i], desk);
+    free(desk->picture);
+    gn_frame_destroy(desk->frame);
+    gn_pose_finish(&desk->pose);
+}
+
+static bool run_scene(struct gn_selftest *test, uint32_t scene, struct gn_gl *gl,
+                      struct gn_err *err) {
+    struct desk desk = {.gl = gl};
+    if (!find_truth(test->scenes[scene], &desk.truth, err)) return false;
+    test->width_px = desk.truth.width_px;
+    test->height_px = desk.truth.height_px;
+    desk.scene = find_scene(test->scenes[scene], err);
+    bool ok = desk.scene && gn_gl_load(gl, desk.scene, err);
+    if (ok) test_scene(test, scene, &desk);
+    gn_scene_destroy(desk.scene);
+    free(desk.truth.pixels);
+    return ok;
+}
+
+static void list_scenes(struct gn_selftest *test) {
+    for (const struct gn_embedded *e = gn_embedded_table; e->name; e++) {
+        char *name = test->scenes[test->scene_count];
+        if (test->scene_count < GN_SELFTEST_SCENES &&
+            scene_name(e->name, name, sizeof test->scenes[0]))
+            test->scene_count++;
+    }
+}
+
+static void add_row(struct gn_selftest *test, enum gn_technique technique,
+                    enum gn_encoding encoding) {
+    struct gn_selftest_row *row = &test->rows[test->row_count++];
+    *row = (struct gn_selftest_row){.technique = technique, .encoding = encoding};
+    for (int i = 0; i < GN_SELFTEST_SCENES; i++)
+        row->scenes[i] = (struct gn_selftest_count){NAN, NAN};
+}
+
+static void list_rows(struct gn_selftest *test, uint32_t encodings) {
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
+        for (int e = 0; e < GN_ENCODING_COUNT && gn_techniques[t].file; e++)
+            if (encodings & 1u << e) add_row(test, (enum gn_technique)t, (enum gn_encoding)e);
+}
+
+bool gn_selftest_run(struct gn_selftest *test, struct gn_gl *gl, struct gn_err *err) {
+    *test = (struct gn_selftest){0};
+    list_scenes(test);
+    list_rows(test, gn_caps_encodings(gn_gl_caps(gl)));
+    test->all = test->row_count * test->scene_count;
+    if (!test->all) return gn_fail(err, "self-test: this build has no scenes inside");
+    for (uint32_t i = 0; i < test->scene_count; i++)
+        if (!run_scene(test, i, gl, err)) return false;
+    return true;
+}
+
+/* ---- results ------------------------------------------------------------------------------- */
+
+static double away_of(const struct gn_selftest_count *count) { return count->away; }
+static double wrong_of(const struct gn_selftest_count *count) { return count->wrong; }
+
+static struct gn_selftest_sum sum(const struct gn_selftest *test, const struct gn_selftest_row *row,
+                                  double (*of)(const struct gn_selftest_count *)) {
+    struct gn_selftest_sum s = {0};
+    for (uint32_t i = 0; i < test->scene_count; i++) {
+        double share = of(&row->scenes[i]);
+        s.mean += share / test->scene_count;
+        if (share <= s.worst) continue; /* NAN is worst */
+        s.worst = share;
+        s.worst_scene = i;
+        if (isnan(share)) break;
+    }
+    if (isnan(s.worst)) s.mean = NAN;
+    return s;
+}
+
+struct gn_selftest_sum gn_selftest_away(const struct gn_selftest *test,
+                                        const struct gn_selftest_row *row) {
+    return sum(test, row, away_of);
+}
+
+struct gn_selftest_sum gn_selftest_wrong(const struct gn_selftest *test,
+                                         const struct gn_selftest_row *row) {
+    return sum(test, row, wrong_of);
+}
+
+bool gn_selftest_row_passes(const struct gn_selftest *test, const struct gn_selftest_row *row) {
+    return !row->failure[0] && gn_selftest_away(test, row).worst <= GN_SELFTEST_AWAY_MAX &&
+           gn_selftest_wrong(test, row).worst <= GN_SELFTEST_WRONG_MAX;
+}
+
+uint32_t gn_selftest_failures(const struct gn_selftest *test) {
+    uint32_t failures = 0;
+    for (uint32_t i = 0; i < test->row_count; i++)
+        failures += !gn_selftest_row_passes(test, &test->rows[i]);
+    return failures;
+}
+
+static void print_row(const struct gn_selftest *test, const struct gn_selftest_row *row, FILE *to) {
+    struct gn_selftest_sum away = gn_selftest_away(test, row), wrong = gn_selftest_wrong(test, row);
+    fprintf(to, "  %-10s %-9s", gn_techniques[row->technique].name,
+            gn_encodings[row->encoding].name);
+    if (row->failure[0])
+        fprintf(to, " FAIL   %s\n", row->failure);
+    else
+        fprintf(to, " %-6s %7.3f %7.3f  %-9s %7.2f %7.2f  %s\n",
+                gn_selftest_row_passes(test, row) ? "PASS" : "FAIL", away.mean, away.worst,
+                away.worst > 0 ? test->scenes[away.worst_scene] : "-", wrong.mean, wrong.worst,
+                test->scenes[wrong.worst_scene]);
+}
+
+void gn_selftest_print(const struct gn_selftest *test, FILE *to) {
+    fprintf(to, "\nSelf-test: %u scenes at %ux%u with maps of %d px, wrong pixels in %%\n",
+            test->scene_count, test->width_px, test->height_px, GN_SELFTEST_MAP_PX);
+    fprintf(to, "  %-10s %-9s %-6s %7s %7s  %-9s %7s %7s\n", "technique", "map", "", "away",
+            "worst", "scene", "all", "worst");
+    for (uint32_t i = 0; i < test->row_count; i++) print_row(test, &test->rows[i], to);
+    uint32_t failures = gn_selftest_failures(test);
+    fprintf(to, "  %u of %u pass; limits for the worst scene: %g away from edges, %g of all\n",
+            test->row_count - failures, test->row_count, GN_SELFTEST_AWAY_MAX,
+            GN_SELFTEST_WRONG_MAX);
+}
+
+static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
+
+static json_t *sum_json(const struct gn_selftest *test, struct gn_selftest_sum s) {
+    return json_pack("{so so ss}", "mean", number(s.mean), "worst", number(s.worst), "scene",
+                     test->scenes[s.worst_scene]);
+}
+
+static json_t *row_json(const struct gn_selftest *test, const struct gn_selftest_row *row) {
+    return json_pack(
+        "{ss ss sb ss? so so}", "technique", gn_techniques[row->technique].name, "map_format",
+        gn_encodings[row->encoding].name, "pass", gn_selftest_row_passes(test, row), "failure",
+        row->failure[0] ? row->failure : NULL, "away", sum_json(test, gn_selftest_away(test, row)),
+        "wrong", sum_json(test, gn_selftest_wrong(test, row)));
+}
+
+json_t *gn_selftest_json(const struct gn_selftest *test) {
+    json_t *scenes = json_array(), *rows = json_array();
+    uint32_t failures = gn_selftest_failures(test);
+    for (uint32_t i = 0; i < test->scene_count; i++)
+        json_array_append_new(scenes, json_string(test->scenes[i]));
+    for (uint32_t i = 0; i < test->row_count; i++)
+        json_array_append_new(rows, row_json(test, &test->rows[i]));
+    return json_pack("{s[ii] si s{sf sf} so so si si}", "size_px", (int)test->width_px,
+                     (int)test->height_px, "map_px", GN_SELFTEST_MAP_PX, "limits", "away",
+                     GN_SELFTEST_AWAY_MAX, "wrong", GN_SELFTEST_WRONG_MAX, "scenes", scenes, "rows",
+                     rows, "passed", (int)(test->row_count - failures), "failed", (int)failures);
+}
