@@ -1,6 +1,5 @@
 #include "display/display.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "display/private.h"
@@ -19,9 +18,11 @@ static bool open_row(struct gn_display *display, const struct gn_display_ops *op
     return false;
 }
 
-static void append(char *list, size_t size, const char *name, const char *text) {
-    size_t used = strlen(list);
-    snprintf(list + used, size - used, "%s%s%s%s", used ? "; " : "", name, *text ? ": " : "", text);
+static void append(char *list, size_t size, const char *text) {
+    size_t used = strlen(list), room = size - 1 - used;
+    size_t length = strlen(text) < room ? strlen(text) : room;
+    memcpy(list + used, text, length);
+    list[used + length] = 0;
 }
 
 static bool open_any(struct gn_display *display, struct gn_warnings *warnings, struct gn_err *err) {
@@ -29,7 +30,10 @@ static bool open_any(struct gn_display *display, struct gn_warnings *warnings, s
     for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
         struct gn_err why = {0};
         if (open_row(display, *row, warnings, &why)) return true;
-        append(reasons, sizeof reasons, (*row)->name, why.text);
+        if (*reasons) append(reasons, sizeof reasons, "; ");
+        append(reasons, sizeof reasons, (*row)->name);
+        append(reasons, sizeof reasons, ": ");
+        append(reasons, sizeof reasons, why.text);
     }
     return gn_fail(err, "no display opens: %s", reasons);
 }
@@ -37,8 +41,8 @@ static bool open_any(struct gn_display *display, struct gn_warnings *warnings, s
 static bool fail_unknown(const char *name, struct gn_err *err) {
     char names[sizeof err->text] = "auto";
     for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
-        size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, ", %s", (*row)->name);
+        append(names, sizeof names, ", ");
+        append(names, sizeof names, (*row)->name);
     }
     return gn_fail_usage(err, "there is no backend \"%s\": use one of %s", name, names);
 }

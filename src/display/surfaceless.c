@@ -14,7 +14,6 @@
     X(PFNEGLGETPROCADDRESSPROC, GetProcAddress)                                                    \
     X(PFNEGLQUERYSTRINGPROC, QueryString)                                                          \
     X(PFNEGLINITIALIZEPROC, Initialize)                                                            \
-    X(PFNEGLTERMINATEPROC, Terminate)                                                              \
     X(PFNEGLBINDAPIPROC, BindAPI)                                                                  \
     X(PFNEGLCHOOSECONFIGPROC, ChooseConfig)                                                        \
     X(PFNEGLCREATECONTEXTPROC, CreateContext)                                                      \
@@ -112,9 +111,10 @@ static void surfaceless_close(struct gn_display *display) {
         s->MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (s->surface != EGL_NO_SURFACE) s->DestroySurface(s->display, s->surface);
         if (s->context != EGL_NO_CONTEXT) s->DestroyContext(s->display, s->context);
-        s->Terminate(s->display);
     }
-    free(s); /* the libraries stay: what they have started does not survive being unloaded */
+    /* The libraries stay, and so does the EGL display, which the next open gets again: terminating
+     * it unloads the driver, and what that has started does not always survive it. */
+    free(s);
     display->state = NULL;
 }
 

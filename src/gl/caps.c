@@ -99,6 +99,9 @@ bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn
     if (has_timer(gl)) caps->has |= 1u << GN_CAP_TIMER;
     if (has_debug(gl)) caps->has |= 1u << GN_CAP_DEBUG;
     caps->has |= gn_gl_probe(gl, ~without);
+    gl->msaa_proved = opts->prove_all;
+    if (opts->prove_all ? gn_gl_probe_msaa(gl) : gn_gl_has_samples(gl))
+        caps->has |= 1u << GN_CAP_MSAA4;
     caps->has &= ~without;
     return gn_gl_error_check(gl, "learning what the GPU can do", err);
 }

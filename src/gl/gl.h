@@ -16,6 +16,7 @@ struct gn_gl_opts {
     const char *shaders;     /* folder to read shaders from; NULL: those embedded */
     const char *without;     /* comma list of capabilities to pretend missing, or NULL; unknown names are a usage error */
     bool desktop;            /* a desktop GL context (OSMesa): switch GL_FRAMEBUFFER_SRGB on */
+    bool prove_all;          /* prove at once also what else is proved when first asked for: msaa4 (slow to compile) */
     bool debug;              /* KHR_debug messages become errors that gn_gl_error() reports */
 };
 

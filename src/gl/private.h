@@ -217,11 +217,16 @@ bool gn_gl_version_check(const struct gn_gl_opts *opts, struct gn_err *err);
 bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err *err);
 /* Of the gn_cap bits wanted, those that a draw and a read-back prove; others are left alone. */
 uint32_t gn_gl_probe(struct gn_gl *gl, uint32_t wanted);
+/* Four samples: what the driver says, and the proof, which software drivers take 40 ms to compile:
+ * it is put off until a plan asks for them. */
+bool gn_gl_has_samples(struct gn_gl *gl);
+bool gn_gl_probe_msaa(struct gn_gl *gl);
 
 struct gn_gl {
     struct gn_gl_table fn;
     uint32_t calls;
     bool desktop, debug;
+    bool msaa_proved;
     char *shaders; /* folder, or NULL */
     struct gn_warnings *warnings;
     struct gn_caps caps;

@@ -231,10 +231,14 @@ static bool resolves(struct gn_gl *gl, const GLuint framebuffers[2]) {
     return p[0] == 255 && p[1] == 0 && p[2] == 255 && p[3] == 0;
 }
 
-static bool probe_msaa(struct gn_gl *gl) {
+bool gn_gl_has_samples(struct gn_gl *gl) {
     GLint most = 0;
     GL(gl, GetInternalformativ)(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, GL_SAMPLES, 1, &most);
-    if (most < 4) return false;
+    return most >= 4;
+}
+
+bool gn_gl_probe_msaa(struct gn_gl *gl) {
+    if (!gn_gl_has_samples(gl)) return false;
     GLuint framebuffers[2], colors[2];
     for (int i = 0; i < 2; i++) {
         framebuffers[i] = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
@@ -255,7 +259,6 @@ uint32_t gn_gl_probe(struct gn_gl *gl, uint32_t wanted) {
     uint32_t proved = probe_formats(gl, wanted);
     if (wanted >> GN_CAP_DEPTH_COMPARE & 1 && probe_compare(gl))
         proved |= 1u << GN_CAP_DEPTH_COMPARE;
-    if (wanted >> GN_CAP_MSAA4 & 1 && probe_msaa(gl)) proved |= 1u << GN_CAP_MSAA4;
     gn_gl_object_destroy(gl, GN_GL_VERTEX_ARRAY, &array);
     drop_errors(gl);
     return proved;

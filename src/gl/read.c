@@ -59,11 +59,10 @@ static void widen(float *out, size_t count) {
 
 /* A driver with only EXT_color_buffer_half_float may hand out halves alone. */
 void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float *out) {
-    GLint type = 0;
-    GL(gl, GetIntegerv)(GL_IMPLEMENTATION_COLOR_READ_TYPE, &type);
-    const bool halves = type == GL_HALF_FLOAT;
-    read_pixels(gl, width, height, GL_RGBA, halves ? GL_HALF_FLOAT : GL_FLOAT, out);
-    if (halves) widen(out, 4 * (size_t)width * height);
+    read_pixels(gl, width, height, GL_RGBA, GL_FLOAT, out);
+    if (GL(gl, GetError)() == GL_NO_ERROR) return;
+    read_pixels(gl, width, height, GL_RGBA, GL_HALF_FLOAT, out);
+    widen(out, 4 * (size_t)width * height);
 }
 
 bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err) {

@@ -1,0 +1,27 @@
+/* For tests that draw: a context, a small scene made by hand, and plans of it. */
+#ifndef GN_TESTS_GL_HELP_H
+#define GN_TESTS_GL_HELP_H
+
+#include "display/display.h"
+#include "gl/gl.h"
+
+/* Opens the display, or skips the test where there is none. */
+void help_open(struct gn_display *display, const char *name);
+struct gn_gl *help_gl(struct gn_display *display, const struct gn_gl_opts *extra,
+                      struct gn_warnings *warnings);
+
+/* Writes name (a path of at most one folder) below a new temporary folder and returns the folder.
+ */
+const char *help_folder(void);
+void help_write(const char *folder, const char *name, const char *text);
+void help_remove(const char *folder);
+
+/* Two flat squares that fill the view, at depth .25 (small: half the width) and .75 of clip space.
+ */
+extern const struct gn_scene help_scene;
+enum { HELP_NEAR, HELP_FAR }; /* geometries */
+
+/* A folder of shaders for it: LIT writes base_color + u_pass[0], DISTANCE u_pass[0].x. */
+const char *help_shaders(void);
+
+#endif

@@ -1,0 +1,108 @@
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+/* after what it needs */
+#include <cmocka.h>
+
+#include "gl/private.h"
+#include "unit/gl_help.h"
+
+static struct gn_gl_opts opts_of(struct gn_display *display) {
+    return (struct gn_gl_opts){
+        .get_proc = gn_display_get_proc, .display = display, .desktop = display->ops->desktop};
+}
+
+/* All that Mesa's software drivers have is proved, on either backend. */
+static void test_proved(void **state) {
+    struct gn_display display;
+    help_open(&display, *state);
+    struct gn_gl *gl = help_gl(&display, &(struct gn_gl_opts){.prove_all = true}, NULL);
+    const struct gn_caps *caps = gn_gl_caps(gl);
+    assert_true(caps->max_texture_px >= 2048 && caps->max_texture_units >= 16);
+    assert_true(*caps->vendor && *caps->renderer && *caps->version);
+    if (caps->software) assert_int_equal(caps->has & 0x3f, 0x3f);
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+}
+
+static void test_without(void **state) {
+    struct gn_display display;
+    help_open(&display, *state);
+    struct gn_gl *gl = help_gl(&display, &(struct gn_gl_opts){.without = "r16f,srgb"}, NULL);
+    assert_int_equal(gn_gl_caps(gl)->has & (1u << GN_CAP_R16F | 1u << GN_CAP_SRGB), 0);
+    gn_gl_destroy(gl);
+    struct gn_err err = {0};
+    struct gn_gl_opts opts = opts_of(&display);
+    opts.without = "r16f,wings";
+    assert_null(gn_gl_create(&opts, NULL, &err));
+    assert_int_equal(err.status, GN_EXIT_USAGE);
+    assert_non_null(strstr(err.text, "\"wings\""));
+    assert_non_null(strstr(err.text, "depth-compare, r32ui"));
+    gn_display_close(&display);
+}
+
+static void test_failed_program(void **state) {
+    struct gn_display display;
+    help_open(&display, *state);
+    const char *folder = help_shaders();
+    help_write(folder, "depth.frag", "void main() {\n    nonsense(1);\n}\n");
+    struct gn_gl *gl = help_gl(&display, &(struct gn_gl_opts){.shaders = folder}, NULL);
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = GN_PROGRAM_DEPTH;
+    key.features = GN_FEATURE_UNLIT;
+    struct gn_err err = {0};
+    char *log = NULL;
+    assert_false(gn_gl_try_program(gl, &key, &log, &err));
+    assert_non_null(strstr(err.text, "shader program (depth UNLIT): fragment: "));
+    assert_non_null(strstr(err.text, "nonsense"));
+    assert_null(strchr(err.text, '\n'));
+    assert_non_null(log);
+    assert_non_null(strstr(log, "   1  #version 300 es\n"));
+    assert_non_null(strstr(log, "nonsense(1);"));
+    free(log);
+    key.kind = GN_PROGRAM_LIT;
+    assert_true(gn_gl_try_program(gl, &key, NULL, &err));
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+    help_remove(folder);
+}
+
+static void test_destroy_null(void **state) {
+    (void)state;
+    gn_gl_destroy(NULL);
+}
+
+/* The shaders that the program holds: each kind compiles, with nothing on and with a light of each.
+ */
+static void test_embedded(void **state) {
+    struct gn_display display;
+    help_open(&display, *state);
+    struct gn_gl *gl = help_gl(&display, NULL, NULL);
+    for (int kind = 0; kind < GN_PROGRAM_KIND_COUNT; kind++) {
+        struct gn_program_key key;
+        memset(&key, 0, sizeof key);
+        key.kind = (uint8_t)kind;
+        key.encoding = kind == GN_PROGRAM_DISTANCE ? GN_ENCODING_R32UI : 0;
+        key.aov = kind == GN_PROGRAM_AOV ? GN_AOV_NORMAL : 0;
+        struct gn_err err = {0};
+        char *log = NULL;
+        if (!gn_gl_try_program(gl, &key, &log, &err)) fail_msg("%s\n%s", err.text, log);
+    }
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+}
+
+#define TEST(name)                                                                                 \
+    {#name " egl", name, NULL, NULL, "egl"}, { #name " osmesa", name, NULL, NULL, "osmesa" }
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_destroy_null), TEST(test_proved),   TEST(test_without),
+        TEST(test_failed_program),           TEST(test_embedded),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

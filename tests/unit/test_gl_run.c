@@ -1,0 +1,432 @@
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+/* after what it needs */
+#include <cmocka.h>
+
+#include "core/arena.h"
+#include "gl/private.h"
+#include "unit/gl_help.h"
+
+enum { SIDE = 16, MAP = 8 };
+
+static const char *shaders;
+static struct gn_display display;
+static struct gn_gl *gl;
+static struct gn_warnings warnings;
+static struct gn_err err;
+
+static void open_backend(const char *name) {
+    help_open(&display, name);
+    memset(&warnings, 0, sizeof warnings);
+    gl = help_gl(&display, &(struct gn_gl_opts){.shaders = shaders}, &warnings);
+    if (!gn_gl_load(gl, &help_scene, &err)) fail_msg("%s", err.text);
+}
+
+static int open_egl(void **state) {
+    (void)state;
+    shaders = help_shaders();
+    open_backend("egl");
+    return 0;
+}
+
+static int open_osmesa(void **state) {
+    (void)state;
+    shaders = help_shaders();
+    open_backend("osmesa");
+    return 0;
+}
+
+static int close_all(void **state) {
+    (void)state;
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+    gl = NULL;
+    help_remove(shaders);
+    return 0;
+}
+
+/* ---- plans by hand ---- */
+
+static struct scratch {
+    struct gn_plan plan;
+    struct gn_pass passes[2];
+    struct gn_draw draws[4];
+    struct gn_instance instances[4];
+    struct gn_program_key programs[2];
+    struct gn_shadow_view shadows[1];
+    float constants[2][2][4];
+} s;
+
+static struct gn_instance instance(float r, float g, float b, float a) {
+    return (struct gn_instance){.world = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}},
+                                .base_color = {r, g, b, a}};
+}
+
+static void begin_plan(enum gn_output_format output) {
+    memset(&s, 0, sizeof s);
+    s.plan = (struct gn_plan){.width_px = SIDE,
+                              .height_px = SIDE,
+                              .output = output,
+                              .scene = &help_scene,
+                              .passes = s.passes,
+                              .draws = s.draws,
+                              .instances = s.instances,
+                              .programs = s.programs,
+                              .shadows = s.shadows,
+                              .pass_count = 1,
+                              .program_count = 1,
+                              .exposure = 1};
+    s.passes[0] = (struct gn_pass){.label = "opaque",
+                                   .target = {.width_px = SIDE, .height_px = SIDE},
+                                   .clear = true,
+                                   .depth_write = true,
+                                   .discard_depth = true,
+                                   .constants = (const float(*)[4])s.constants[0],
+                                   .constant_count = 2};
+    s.programs[0].kind = output == GN_OUTPUT_AOV ? GN_PROGRAM_AOV : GN_PROGRAM_LIT;
+}
+
+static struct gn_draw *add_draw(uint32_t geometry, struct gn_instance what) {
+    uint32_t i = s.plan.draw_count++;
+    s.instances[s.plan.instance_count++] = what;
+    s.draws[i] = (struct gn_draw){
+        .geometry = geometry, .first_instance = i, .instance_count = 1, .cull = GN_CULL_BACK};
+    s.passes[0].draw_count = s.plan.draw_count;
+    return &s.draws[i];
+}
+
+static void prepare(void) {
+    if (!gn_gl_prepare(gl, &s.plan, &err)) fail_msg("%s", err.text);
+}
+
+static void run(void) {
+    if (!gn_gl_run(gl, &s.plan, NULL, &err)) fail_msg("%s", err.text);
+}
+
+static uint8_t picture[SIDE][SIDE][4];
+
+static void show(void) {
+    prepare();
+    run();
+    if (!gn_gl_read_rgba8(gl, &picture[0][0][0], &err)) fail_msg("%s", err.text);
+}
+
+static void expect(int x, int y, int r, int g, int b) {
+    const uint8_t *p = picture[y][x];
+    if (abs(p[0] - r) > 1 || abs(p[1] - g) > 1 || abs(p[2] - b) > 1)
+        fail_msg("pixel %d,%d is %d %d %d, not %d %d %d", x, y, p[0], p[1], p[2], r, g, b);
+}
+
+/* ---- the output ---- */
+
+static void test_depth_and_srgb(void **state) {
+    (void)state;
+    begin_plan(GN_OUTPUT_SRGB8);
+    add_draw(HELP_NEAR, instance(0.5f, 0, 0, 1)); /* first, so the far one must lose by depth */
+    add_draw(HELP_FAR, instance(0, 0.5f, 0, 1));
+    show();
+    expect(8, 8, 188, 0, 0);
+    expect(0, 8, 0, 188, 0);
+    begin_plan(GN_OUTPUT_LINEAR8);
+    add_draw(HELP_FAR, instance(0.5f, 0, 0, 1));
+    show();
+    expect(8, 8, 128, 0, 0);
+}
+
+static void test_clear_and_constants(void **state) {
+    (void)state;
+    begin_plan(GN_OUTPUT_SRGB8);
+    s.passes[0].clear_color[2] = 0.5f;
+    add_draw(HELP_NEAR, instance(0, 0, 0, 1));
+    s.constants[0][0][1] = 0.5f;
+    show();
+    expect(8, 8, 0, 188, 0);
+    expect(0, 8, 0, 0, 188);
+    s.constants[0][0][1] = 1;
+    show();
+    expect(8, 8, 0, 255, 0);
+}
+
+static void test_cull_and_mirror(void **state) {
+    (void)state;
+    begin_plan(GN_OUTPUT_LINEAR8);
+    struct gn_draw *d = add_draw(HELP_FAR, instance(1, 1, 1, 1));
+    static const struct {
+        uint8_t cull;
+        bool mirrored;
+        int seen;
+    } cases[] = {{GN_CULL_NONE, false, 255}, {GN_CULL_NONE, true, 255}, {GN_CULL_BACK, false, 255},
+                 {GN_CULL_BACK, true, 0},    {GN_CULL_FRONT, false, 0}, {GN_CULL_FRONT, true, 255}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        d->cull = cases[i].cull;
+        d->mirrored = cases[i].mirrored;
+        show();
+        expect(8, 8, cases[i].seen, cases[i].seen, cases[i].seen);
+    }
+}
+
+static void test_blend(void **state) {
+    (void)state;
+    begin_plan(GN_OUTPUT_LINEAR8);
+    s.passes[0].clear_color[0] = 1;
+    s.passes[0].blend = GN_BLEND_ALPHA;
+    s.passes[0].depth_write = false;
+    add_draw(HELP_FAR, instance(0, 0.25f, 0, 0.25f)); /* premultiplied */
+    show();
+    expect(8, 8, 191, 64, 0);
+}
+
+/* Row 0 of a picture is its top; v = 0 is at the bottom of the square, and it is image row 0. */
+static void test_texture_and_rows(void **state) {
+    (void)state;
+    begin_plan(GN_OUTPUT_SRGB8);
+    s.programs[0].features = GN_FEATURE_BASE_TEXTURE;
+    add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
+    show();
+    expect(0, 0, 0, 0, 255);
+    expect(SIDE - 1, 0, 255, 255, 255);
+    expect(0, SIDE - 1, 255, 0, 0);
+    expect(SIDE - 1, SIDE - 1, 0, 255, 0);
+}
+
+static void test_instances(void **state) {
+    (void)state;
+    begin_plan(GN_OUTPUT_LINEAR8);
+    add_draw(HELP_NEAR, instance(1, 0, 0, 1));
+    s.instances[1] = instance(0, 1, 0, 1);
+    s.instances[0].world[0][3] = -0.5f;
+    s.instances[1].world[0][3] = 0.5f;
+    s.plan.instance_count = 2;
+    s.draws[0].instance_count = 2;
+    show();
+    expect(2, 8, 255, 0, 0);
+    expect(13, 8, 0, 255, 0);
+    s.draws[0].first_instance = 1; /* pointers move */
+    s.draws[0].instance_count = 1;
+    show();
+    expect(2, 8, 0, 0, 0);
+    expect(13, 8, 0, 255, 0);
+}
+
+static void test_msaa(void **state) {
+    (void)state;
+    if (!(gn_gl_caps(gl)->has & 1u << GN_CAP_MSAA4)) skip();
+    begin_plan(GN_OUTPUT_SRGB8);
+    s.plan.msaa = 4;
+    add_draw(HELP_NEAR, instance(0.5f, 0, 0, 1));
+    s.instances[0].world[0][3] = 0.0625f; /* half a pixel */
+    show();
+    expect(8, 8, 188, 0, 0);
+    assert_in_range(picture[8][4][0], 90, 160);
+    s.plan.msaa = 0;
+    show();
+    assert_true(picture[8][4][0] == 0 || abs(picture[8][4][0] - 188) < 2);
+}
+
+static void test_float_and_aov(void **state) {
+    (void)state;
+    float out[SIDE][SIDE][4];
+    begin_plan(GN_OUTPUT_FLOAT);
+    add_draw(HELP_NEAR, instance(100, -0.5f, 0.25f, 1));
+    prepare();
+    run();
+    assert_true(gn_gl_read_f32(gl, &out[0][0][0], &err));
+    assert_true(out[8][8][0] == 100 && out[8][8][1] == -0.5f && out[8][8][2] == 0.25f);
+    begin_plan(GN_OUTPUT_AOV);
+    s.passes[0].clear_color[0] = INFINITY;
+    add_draw(HELP_NEAR, instance(12345.678f, -1, 0, 1));
+    prepare();
+    run();
+    assert_true(gn_gl_read_f32(gl, &out[0][0][0], &err));
+    assert_true(out[8][8][0] == 12345.678f && out[8][8][1] == -1);
+    assert_true(isinf(out[0][0][0]));
+    assert_false(gn_gl_read_rgba8(gl, &picture[0][0][0], &err));
+}
+
+/* ---- maps ---- */
+
+/* Pass 0 draws a map with its rim left clear, pass 1 shows what the middle of it says. */
+static void plan_map(enum gn_encoding encoding, float code, float far_code) {
+    begin_plan(GN_OUTPUT_LINEAR8);
+    add_draw(HELP_NEAR, instance(0, 0, 0, 1));
+    add_draw(HELP_FAR, instance(1, 1, 1, 1))->program = 1;
+    s.passes[1] = s.passes[0];
+    s.passes[1].first_draw = 1, s.passes[1].draw_count = 1;
+    s.passes[0].draw_count = 1;
+    s.passes[0].target = (struct gn_target){GN_TARGET_SHADOW, 0, MAP, MAP, encoding};
+    s.passes[0].border_px = 1;
+    s.passes[0].clear_color[0] = far_code;
+    s.passes[0].content_hash = 77;
+    s.constants[1][0][0] = code;
+    s.passes[0].constants = (const float(*)[4])s.constants[1];
+    s.plan.pass_count = 2, s.plan.program_count = 2, s.plan.shadow_count = 1;
+    s.shadows[0] = (struct gn_shadow_view){
+        .technique = GN_TECHNIQUE_HARD, .encoding = encoding, .map_px = MAP};
+    s.programs[0].kind = encoding == GN_ENCODING_DEPTH ? GN_PROGRAM_DEPTH : GN_PROGRAM_DISTANCE;
+    s.programs[0].encoding = encoding == GN_ENCODING_DEPTH ? 0 : (uint8_t)encoding;
+    s.programs[1].kind = GN_PROGRAM_LIT;
+    s.programs[1].light_count = s.programs[1].shadow_count = 1;
+    s.programs[1].lights[0] =
+        (struct gn_light_key){GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_HARD, (uint8_t)encoding, 0};
+}
+
+static void check_map(enum gn_encoding encoding, float code, float far_code, int seen) {
+    float map[MAP][MAP];
+    if (!(gn_caps_encodings(gn_gl_caps(gl)) >> encoding & 1)) return;
+    plan_map(encoding, code, far_code);
+    show();
+    expect(8, 8, seen, seen, seen);
+    if (!gn_gl_read_map(gl, 0, &map[0][0], &err)) fail_msg("%s", err.text);
+    assert_true(fabsf(map[0][4] - far_code) < 1e-6f); /* the rim, though the square covers it */
+    assert_true(fabsf(map[4][0] - far_code) < 1e-6f);
+    assert_true(fabsf(map[4][4] - code) < 1e-6f);
+}
+
+static void test_maps(void **state) {
+    (void)state;
+    check_map(GN_ENCODING_DEPTH, 0.25f, 1, 0); /* the reference is .5 */
+    check_map(GN_ENCODING_R32UI, 0.75f, 123.4567f, 191);
+    check_map(GN_ENCODING_R16F, 0.5f, 1, 128);
+    check_map(GN_ENCODING_R16F_RAW, 0.5f, 400, 128);
+    check_map(GN_ENCODING_RGBA8, 0.5f, 1, 128);
+}
+
+static void test_map_skipped(void **state) {
+    (void)state;
+    plan_map(GN_ENCODING_R32UI, 0.75f, 1);
+    show();
+    assert_int_equal(gn_gl_stats(gl).shadow_draws, 1);
+    s.constants[1][0][0] = 0.25f; /* not seen: the hash says that nothing has changed */
+    show();
+    expect(8, 8, 191, 191, 191);
+    assert_int_equal(gn_gl_stats(gl).shadow_passes_skipped, 1);
+    assert_int_equal(gn_gl_stats(gl).shadow_draws, 0);
+    s.passes[0].content_hash = 78;
+    show();
+    expect(8, 8, 64, 64, 64);
+    assert_true(gn_gl_load(gl, &help_scene, &err)); /* another scene: all is drawn again */
+    show();
+    assert_int_equal(gn_gl_stats(gl).shadow_draws, 1);
+    s.passes[0].content_hash = 0;
+    show();
+    assert_int_equal(gn_gl_stats(gl).shadow_draws, 1);
+}
+
+/* Plans that take turns find their maps again, up to a number of them. */
+static void test_maps_take_turns(void **state) {
+    (void)state;
+    for (int round = 0; round < 2; round++) {
+        plan_map(GN_ENCODING_R32UI, 0.75f, 1);
+        show();
+        plan_map(GN_ENCODING_RGBA8, 0.5f, 1);
+        show();
+        assert_int_equal(gn_gl_stats(gl).shadow_passes_skipped, round);
+    }
+    const uint64_t bytes = gn_gl_stats(gl).target_bytes;
+    for (uint32_t side = 1; side < 3 * GN_GL_MAPS_MAX; side++) {
+        s.passes[0].target.width_px = s.passes[0].target.height_px = s.shadows[0].map_px = side;
+        s.passes[0].border_px = 0;
+        show();
+    }
+    plan_map(GN_ENCODING_RGBA8, 0.5f, 1);
+    show();
+    assert_int_equal(gn_gl_stats(gl).shadow_draws, 1);
+    assert_int_equal(gn_gl_stats(gl).target_bytes, bytes);
+}
+
+/* ---- the frame loop ---- */
+
+static void test_steady(void **state) {
+    (void)state;
+    plan_map(GN_ENCODING_DEPTH, 0.25f, 1);
+    show();
+    run();
+    const uint32_t still = gn_gl_stats(gl).gl_calls;
+    const uint64_t objects = gn_gl_stats(gl).objects_created;
+    const unsigned long allocated = gn_alloc_count();
+    for (uint64_t i = 0; i < 5; i++) {
+        s.instances[1].base_color[0] = 0.1f * (float)i;
+        s.constants[0][0][0] = 0.01f * (float)i;
+        s.passes[0].content_hash = 100 + i;
+        prepare();
+        run();
+    }
+    assert_int_equal(gn_gl_stats(gl).objects_created, objects);
+    assert_int_equal(gn_alloc_count(), allocated);
+    run();
+    run();
+    assert_int_equal(gn_gl_stats(gl).gl_calls, still); /* nothing is uploaded twice */
+    double ms[2];
+    assert_true(gn_gl_run(gl, &s.plan, ms, &err));
+    assert_true(ms[0] >= 0 && ms[1] > 0);
+}
+
+static void test_not_prepared(void **state) {
+    (void)state;
+    begin_plan(GN_OUTPUT_LINEAR8);
+    add_draw(HELP_FAR, instance(1, 1, 1, 1));
+    show();
+    s.programs[0].features = GN_FEATURE_UNLIT;
+    assert_false(gn_gl_run(gl, &s.plan, NULL, &err));
+    s.plan.scene = NULL;
+    assert_false(gn_gl_prepare(gl, &s.plan, &err));
+}
+
+/* ---- scenes ---- */
+
+static void test_wide_indices(void **state) {
+    (void)state;
+    enum { FIRST = 70000 };
+    struct gn_scene scene = help_scene;
+    scene.vertex_count = FIRST + 4;
+    scene.positions = calloc(scene.vertex_count, 3 * sizeof(float));
+    scene.normals = calloc(scene.vertex_count, 3 * sizeof(float));
+    scene.uv0 = NULL;
+    scene.colors = calloc(scene.vertex_count, 4);
+    memcpy(scene.positions + 3 * FIRST, help_scene.positions + 12, 12 * sizeof(float));
+    uint32_t indices[12];
+    for (int i = 0; i < 12; i++) indices[i] = help_scene.indices[i] % 4 + FIRST;
+    scene.indices = indices;
+    assert_true(gn_gl_load(gl, &scene, &err));
+    begin_plan(GN_OUTPUT_LINEAR8);
+    s.plan.scene = &scene;
+    add_draw(HELP_FAR, instance(0, 1, 0, 1));
+    show();
+    expect(0, 0, 0, 255, 0);
+    free(scene.positions);
+    free(scene.normals);
+    free(scene.colors);
+}
+
+static void test_large_image(void **state) {
+    (void)state;
+    gl->caps.max_texture_px = 1;
+    assert_true(gn_gl_load(gl, &help_scene, &err));
+    assert_int_equal(warnings.count, 1);
+    begin_plan(GN_OUTPUT_SRGB8);
+    s.programs[0].features = GN_FEATURE_BASE_TEXTURE;
+    add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
+    show();
+    expect(8, 8, 188, 188, 188); /* the mean of light, not of codes */
+}
+
+#define TEST(name)                                                                                 \
+    {#name " egl", name, open_egl, close_all, NULL}, {                                             \
+#name " osmesa", name, open_osmesa, close_all, NULL                                        \
+    }
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(test_depth_and_srgb), TEST(test_clear_and_constants), TEST(test_cull_and_mirror),
+        TEST(test_blend),          TEST(test_texture_and_rows),    TEST(test_instances),
+        TEST(test_msaa),           TEST(test_float_and_aov),       TEST(test_maps),
+        TEST(test_map_skipped),    TEST(test_maps_take_turns),     TEST(test_steady),
+        TEST(test_not_prepared),   TEST(test_wide_indices),        TEST(test_large_image),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
