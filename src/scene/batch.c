@@ -5,44 +5,56 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What makes two materials different programs or different state. Compared as bytes, so made from
- * zeroed memory. */
-struct look {
-    struct gn_texture_ref textures[GN_TEXTURE_SLOT_COUNT];
-    uint8_t alpha, double_sided, unlit, specular, emissive;
+/* What makes two materials different programs or different state, as words to compare. */
+enum {
+    SLOT_WORDS = 2 + 6,
+    FLAG_WORDS = 5,
+    LOOK_WORDS = GN_TEXTURE_SLOT_COUNT * SLOT_WORDS + FLAG_WORDS
 };
-struct look_key {
-    struct look look;
-    uint32_t material;
+struct look {
+    uint32_t word[LOOK_WORDS];
+    uint32_t material; /* whose it is; not compared */
 };
 
-static void look_of(const struct gn_material *m, struct look *look) {
-    memcpy(look->textures, m->textures, sizeof look->textures);
-    look->alpha = (uint8_t)m->alpha;
-    look->double_sided = m->double_sided;
-    look->unlit = m->unlit;
-    look->specular = !m->unlit && (m->roughness < 1 || m->metalness > 0 ||
-                                   m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0);
-    look->emissive = m->emissive[0] > 0 || m->emissive[1] > 0 || m->emissive[2] > 0;
+static bool has_specular(const struct gn_material *m) {
+    bool shiny =
+        m->roughness < 1 || m->metalness > 0 || m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
+    return shiny && !m->unlit;
+}
+
+static struct look look_of(const struct gn_material *m, uint32_t material) {
+    struct look look = {.material = material};
+    uint32_t *to = look.word;
+    for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++, to += SLOT_WORDS) {
+        const struct gn_texture_ref *ref = &m->textures[i];
+        if (ref->texture < 0) continue;
+        to[0] = (uint32_t)ref->texture + 1;
+        to[1] = ref->uv_set;
+        memcpy(to + 2, ref->uv_from_uv, sizeof ref->uv_from_uv);
+    }
+    *to++ = m->alpha;
+    *to++ = m->double_sided;
+    *to++ = m->unlit;
+    *to++ = has_specular(m);
+    *to++ = m->emissive[0] > 0 || m->emissive[1] > 0 || m->emissive[2] > 0;
+    return look;
 }
 
 static int compare_looks(const void *a, const void *b) {
-    return memcmp(a, b, sizeof(struct look)); /* look stands first */
+    return memcmp(((const struct look *)a)->word, ((const struct look *)b)->word,
+                  LOOK_WORDS * sizeof(uint32_t));
 }
 
 /* Numbers the looks; look_number[material]. */
 static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
     uint32_t count = g->scene->material_count, number = 0;
-    struct look_key *keys = gn_gltf_alloc(g, &g->scratch, count, sizeof *keys);
-    if (!keys) return false;
+    struct look *looks = gn_gltf_alloc(g, &g->scratch, count, sizeof *looks);
+    if (!looks) return false;
+    for (uint32_t i = 0; i < count; i++) looks[i] = look_of(&g->scene->materials[i], i);
+    qsort(looks, count, sizeof *looks, compare_looks);
     for (uint32_t i = 0; i < count; i++) {
-        keys[i].material = i;
-        look_of(&g->scene->materials[i], &keys[i].look);
-    }
-    qsort(keys, count, sizeof *keys, compare_looks);
-    for (uint32_t i = 0; i < count; i++) {
-        if (i > 0 && memcmp(&keys[i].look, &keys[i - 1].look, sizeof keys->look) != 0) number++;
-        look_number[keys[i].material] = number;
+        if (i > 0 && compare_looks(&looks[i], &looks[i - 1]) != 0) number++;
+        look_number[looks[i].material] = number;
     }
     return true;
 }

@@ -156,7 +156,8 @@ static void read_clip(struct gn_gltf *g, const struct gn_at *at, struct gn_clip 
         struct gn_at channel_at = gn_at_item(g, &channels, i);
         struct gn_channel *channel = &scene->channels[scene->channel_count];
         if (g->failed || !read_channel(g, &channel_at, &samplers, channel)) continue;
-        last_s = fmaxf(last_s, channel->times_s[channel->key_count - 1]);
+        const float *times_s = channel->times_s;
+        if (times_s) last_s = fmaxf(last_s, times_s[channel->key_count - 1]);
         if (claimed[channel->node] & 1U << channel->path) clip->on_by_default = false;
         scene->channel_count++;
     }

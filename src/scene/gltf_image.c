@@ -19,7 +19,7 @@ static const struct format {
 
 static const struct format *format_of(const struct gn_blob *blob) {
     for (size_t i = 0; i < sizeof FORMATS / sizeof FORMATS[0]; i++)
-        if (blob->size >= FORMATS[i].magic_size &&
+        if (blob->data && blob->size >= FORMATS[i].magic_size &&
             memcmp(blob->data, FORMATS[i].magic, FORMATS[i].magic_size) == 0)
             return &FORMATS[i];
     return NULL;

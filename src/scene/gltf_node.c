@@ -71,7 +71,7 @@ static bool read_tree(struct tree *tree) {
     tree->sources = gn_gltf_alloc(g, &g->scratch, tree->count, sizeof *tree->sources);
     tree->stack = gn_gltf_alloc(g, &g->scratch, tree->count, sizeof *tree->stack);
     g->scene_node = gn_gltf_alloc(g, &g->scratch, tree->count, sizeof *g->scene_node);
-    if (g->failed) return false;
+    if (!tree->sources || !tree->stack || !g->scene_node) return false;
     for (size_t i = 0; i < tree->count; i++) {
         tree->sources[i].parent = -1;
         g->scene_node[i] = -1;
@@ -219,7 +219,7 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     int32_t *roots = gn_gltf_alloc(g, &g->scratch, tree.count, sizeof *roots);
     struct gn_at scene = shown_scene(g, &scenes);
     struct gn_at list = gn_at_array(g, &scene, "nodes");
-    if (g->failed) return false;
+    if (g->failed || !tree.sources || !listed || !roots) return false;
     g->scene->name = gn_gltf_strdup(g, gn_at_text(g, &scene, "name"));
     gn_extras_scene(g, &scene);
     size_t count = listed_nodes(&tree, &list, scene.json == NULL, listed);

@@ -126,7 +126,7 @@ static size_t file_limit(const struct gn_gltf *g) {
 
 static bool fetch_file(struct gn_gltf *g, const char *uri, struct gn_blob *out,
                        struct gn_err *err) {
-    char below[PATH_MAX], full[2 * PATH_MAX], real[PATH_MAX];
+    char below[PATH_MAX] = "", full[2 * PATH_MAX], real[PATH_MAX];
     if (!relative_path(uri, below, sizeof below, err)) return false;
     if (!g->folder) return gn_fail(err, "'%.80s': a model in memory cannot name other files", uri);
     if (file_limit(g) == 0) return gn_fail(err, "'%.80s': no memory left for it", uri);

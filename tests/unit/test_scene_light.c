@@ -243,11 +243,10 @@ static void assert_framed(const struct gn_scene *scene) {
 
 static void test_made_camera_and_light(void **state) {
     (void)state;
-    static const char *const nodes[] = {"[{'mesh':0}]",
-                                        "[{'mesh':0,'scale':[1000,1,1],'translation':[5,6,7]}]",
-                                        "[{'mesh':0,'scale':[0.001,0.001,0.001],'children':[1]},"
-                                        "{'mesh':0,'translation':[0,9,0]}]",
-                                        "[{'mesh':0,'scale':[0,0,0]}]"};
+    static const char child[] =
+        "[{'mesh':0,'scale':[0.001,0.001,0.001],'children':[1]},{'mesh':0,'translation':[0,9,0]}]";
+    static const char *const nodes[] = {"[{'mesh':0}]", child, "[{'mesh':0,'scale':[0,0,0]}]",
+                                        "[{'mesh':0,'scale':[1000,1,1],'translation':[5,6,7]}]"};
     gn_maker_finish(&maker);
     for (size_t i = 0; i < sizeof nodes / sizeof nodes[0]; i++) {
         setup(NULL);
