@@ -150,13 +150,23 @@ static bool find_command(struct args *args, struct gn_err *err) {
     return true;
 }
 
+static bool fail_unfit(const struct flag *flag, enum gn_command command, struct gn_err *err) {
+    char takers[64] = "";
+    size_t used = 0;
+    for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
+        if (flag->row->commands & (1u << i))
+            used += (size_t)snprintf(takers + used, sizeof takers - used, "%s %s", used ? "," : "",
+                                     gn_commands[i].name);
+    const char *name = gn_commands[command].name;
+    return gn_fail_usage(err, "%s does not go with %s; it goes with%s", flag->label,
+                         name ? name : "the bare gnomon", takers);
+}
+
 static bool check_flags(const struct args *args, struct gn_err *err) {
     enum gn_command command = args->options->command;
     for (int i = 0; i < args->flag_count; i++)
         if (!(args->flags[i].row->commands & (1u << command)))
-            return gn_fail_usage(
-                err, "gnomon%s%s does not take %s", gn_commands[command].name ? " " : "",
-                gn_commands[command].name ? gn_commands[command].name : "", args->flags[i].label);
+            return fail_unfit(&args->flags[i], command, err);
     return true;
 }
 

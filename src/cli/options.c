@@ -247,13 +247,18 @@ static void apply_technique(struct gn_options *options, const char *name) {
     options->mode_now = name;
 }
 
+static const struct gn_mode *find_mode(const struct gn_options *options, const char *name) {
+    for (int i = 0; i < options->mode_count; i++)
+        if (strcmp(options->modes[i].name, name) == 0) return &options->modes[i];
+    return NULL;
+}
+
 bool gn_options_apply_mode(struct gn_options *options, const char *name, struct gn_err *err) {
-    const struct gn_mode *mode = options->modes, *end = mode + options->mode_count;
-    while (mode < end && strcmp(mode->name, name) != 0) mode++;
-    if (mode == end && options->mode_count) return fail_no_mode(options, name, err);
+    const struct gn_mode *mode = find_mode(options, name);
+    if (!mode && options->mode_count) return fail_no_mode(options, name, err);
     undo_mode(options);
     if (!remember_base(options)) return gn_fail(err, "mode \"%s\": no memory left", name);
-    if (options->mode_count)
+    if (mode)
         apply_found(options, mode);
     else
         apply_technique(options, name);

@@ -1,0 +1,61 @@
+#!/bin/sh
+# The program as a user meets it: exit status, one line on stderr, odd descriptors.
+set -u
+gnomon=${GNOMON:-build/release/gnomon}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+bad=0
+export XDG_CONFIG_HOME="$folder/none"
+
+complain() {
+    echo "FAIL: $*"
+    bad=1
+}
+
+# expect STATUS TEXT ARGUMENT..: that status, and one line on stderr that has the text ('' = none)
+expect() {
+    status=$1 text=$2
+    shift 2
+    timeout 60 "$gnomon" "$@" > "$folder/out" 2> "$folder/err" < /dev/null
+    got=$?
+    [ "$got" = "$status" ] || complain "gnomon $*: exit status $got, not $status: $(cat "$folder/err")"
+    lines=$(wc -l < "$folder/err")
+    [ "$lines" = "$([ -n "$text" ] && echo 1 || echo 0)" ] || complain "gnomon $*: $lines lines on stderr"
+    [ -z "$text" ] || grep -qF -- "$text" "$folder/err" || complain "gnomon $*: $(cat "$folder/err")"
+}
+
+expect 0 '' --version
+grep -q '^gnomon [0-9]' "$folder/out" || complain 'the version'
+for command in '' show render bench inspect doctor; do
+    # shellcheck disable=SC2086
+    expect 0 '' $command --help
+    grep -q '^  .*--verbose' "$folder/out" || complain "$command --help"
+done
+
+expect 2 'gnomon: unknown option --sise; did you mean --size?' --sise 1x1
+expect 2 'did you mean render?' rendr
+expect 2 '--size: "0x10"' render --size 0x10 -o "$folder/a.png"
+expect 2 '--size: "100000x10"' render --size 100000x10 -o "$folder/a.png"
+expect 2 '--size: "100000x10"' render -v --size 100000x10 -o "$folder/a.png"
+expect 2 '--shadow' render --shadow nosuch -o "$folder/a.png"
+expect 1 "$folder/missing.glb" render "$folder/missing.glb" -o "$folder/a.png"
+expect 1 "$folder/missing.ini" render -c "$folder/missing.ini" -o "$folder/a.png"
+printf '[render]\nmap = 1\n' > "$folder/bad.ini"
+expect 2 "$folder/bad.ini:2: map: \"1\" is not a whole number from 16 to 16384" render -c "$folder/bad.ini" -o "$folder/a.png"
+[ ! -e "$folder/a.png" ] || complain 'a failure left a picture'
+
+# decimal points are points, whatever the locale
+LC_ALL=de_DE.UTF-8 "$gnomon" render --time 1.5 --help > /dev/null || complain 'numbers in a German locale'
+
+# a closed or full descriptor is no crash
+"$gnomon" --help | head -n 1 > /dev/null
+"$gnomon" --version >&- 2>&-
+[ $? -le 1 ] || complain 'closed descriptors'
+"$gnomon" --sise >&- 2>&-
+[ $? = 2 ] || complain 'closed descriptors and a wrong option'
+"$gnomon" --version > /dev/full 2> "$folder/err"
+[ $? = 1 ] && grep -q 'standard output' "$folder/err" || complain 'a full disk'
+(trap '' PIPE && "$gnomon" --help 2> "$folder/err" | :)
+[ ! -s "$folder/err" ] || complain 'a reader that had enough'
+
+exit $bad

@@ -1,0 +1,51 @@
+#!/bin/sh
+# Includes go one way, and each foreign header stays in its room.
+set -eu
+[ $# = 0 ] || cd "$1"
+find src -name '*.[ch]' | sort | xargs awk '
+BEGIN {
+    # what a room may include, besides itself; src/main.c may include all
+    may["core"] = ""
+    may["scene"] = "core"
+    may["shadow"] = "core scene"
+    may["frame"] = "core scene shadow"
+    may["gl"] = "core scene shadow frame"
+    may["display"] = may["input"] = "core"
+    may["kiosk"] = "core scene shadow frame gl display input"
+    may["cli"] = "core scene shadow frame gl display input kiosk"
+    # which rooms may include <KEY..>
+    foreign["GLES3/"] = foreign["GLES2/"] = "gl"
+    foreign["EGL/"] = foreign["GL/osmesa.h"] = foreign["gbm.h"] = foreign["xf86drm"] = "display"
+    foreign["drm"] = foreign["libdrm/"] = foreign["GLFW/"] = foreign["wayland"] = "display"
+    foreign["gpiod.h"] = foreign["linux/input"] = "input"
+    foreign["ini.h"] = "cli"
+    foreign["jansson.h"] = "scene cli kiosk"
+    foreign["cmocka.h"] = "none"
+}
+function complain(what) { printf "%s:%d: %s\n", FILENAME, FNR, what; bad = 1 }
+function is_in(word, list) { return index(" " list " ", " " word " ") > 0 }
+FNR == 1 {
+    n = split(FILENAME, part, "/")
+    room = n > 2 ? part[2] : ""
+    if (room != "" && !(room in may)) complain("no room is called " room)
+}
+FNR == 501 { complain("a file of more than 500 lines") }
+/^[ \t]*#[ \t]*include[ \t]*"/ {
+    split($0, quoted, "\"")
+    target = quoted[2]
+    slash = index(target, "/")
+    other = slash ? substr(target, 1, slash - 1) : ""
+    if (index(target, "..")) complain("a path with .. in it")
+    else if (other in may) {
+        if (room != "" && other != room && !is_in(other, may[room])) complain(room " may not include " target)
+        if (target ~ /\/private\.h$/ && other != room) complain("private.h of another room")
+    } else if (target != "config.h" && target != "blocks.glsl") complain("\"" target "\" is in no room: write room/header.h")
+}
+/^[ \t]*#[ \t]*include[ \t]*</ {
+    split($0, angled, /[<>]/)
+    for (key in foreign)
+        if (index(angled[2], key) == 1 && !is_in(room, foreign[key]))
+            complain("<" angled[2] "> belongs to " foreign[key])
+}
+END { exit bad }
+'

@@ -1,0 +1,202 @@
+#include "unit/check.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "core/file.h"
+
+static char folder[] = "/tmp/gnomon-file-XXXXXX";
+
+static const char *in_folder(const char *name) {
+    static char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static int enter(void **state) {
+    (void)state;
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int leave(void **state) {
+    char command[128];
+    (void)state;
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    return system(command);
+}
+
+static int files_here(void) {
+    int count = 0;
+    DIR *dir = opendir(folder);
+    for (struct dirent *e; (e = readdir(dir));)
+        count += strcmp(e->d_name, ".") && strcmp(e->d_name, "..");
+    closedir(dir);
+    return count;
+}
+
+static void assert_holds(const char *path, const char *text) {
+    struct gn_bytes bytes;
+    struct gn_err err = {0};
+    assert_true(gn_file_read(path, 0, &bytes, &err));
+    assert_int_equal(bytes.size, strlen(text));
+    assert_string_equal((char *)bytes.data, text);
+    gn_bytes_finish(&bytes);
+}
+
+static void assert_refused(const char *path, const char *why) {
+    struct gn_bytes bytes;
+    struct gn_err err = {0};
+    assert_false(gn_file_read(path, 0, &bytes, &err));
+    assert_null(bytes.data);
+    assert_non_null(strstr(err.text, path));
+    if (!strstr(err.text, why)) fail_msg("\"%s\" does not say \"%s\"", err.text, why);
+}
+
+static void what_was_written_is_read(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    assert_true(gn_file_write(in_folder("a"), "sun", 3, &err));
+    assert_holds(in_folder("a"), "sun");
+    assert_true(gn_file_write(in_folder("a"), "", 0, &err));
+    assert_holds(in_folder("a"), "");
+    assert_true(gn_file_write("relative", "x", 1, &err));
+    assert_holds(in_folder("relative"), "x");
+}
+
+static void a_file_of_many_megabytes_is_whole(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    size_t size = 5 * 1024 * 1024 + 3;
+    char *data = malloc(size);
+    for (size_t i = 0; i < size; i++) data[i] = (char)(i * 31 >> 3);
+    assert_true(gn_file_write("large", data, size, &err));
+    struct gn_bytes bytes;
+    assert_true(gn_file_read("large", size, &bytes, &err));
+    assert_int_equal(bytes.size, size);
+    assert_memory_equal(bytes.data, data, size);
+    gn_bytes_finish(&bytes);
+    assert_false(gn_file_read("large", size - 1, &bytes, &err));
+    assert_non_null(strstr(err.text, "limit"));
+    free(data);
+}
+
+static void files_that_hide_their_size_are_read(void **state) {
+    (void)state;
+    struct gn_bytes bytes;
+    struct gn_err err = {0};
+    assert_true(gn_file_read("/proc/self/status", 0, &bytes, &err));
+    assert_true(bytes.size > 100);
+    gn_bytes_finish(&bytes);
+    assert_false(gn_file_read("/proc/self/status", 100, &bytes, &err));
+    assert_null(bytes.data);
+}
+
+static void what_is_no_file_is_refused_at_once(void **state) {
+    (void)state;
+    struct sockaddr_un address = {.sun_family = AF_UNIX, .sun_path = "socket"};
+    mkfifo("fifo", 0600);
+    int fd = socket(AF_UNIX, SOCK_STREAM, 0);
+    assert_int_equal(bind(fd, (struct sockaddr *)&address, sizeof address), 0);
+    close(fd);
+    assert_refused("fifo", "FIFO");
+    assert_refused("socket", "socket");
+    assert_refused("/dev/zero", "device");
+    assert_refused(folder, "folder");
+    assert_refused("nowhere", "No such file");
+    assert_refused("", "cannot open");
+}
+
+static void a_failed_write_leaves_nothing(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    int before = files_here();
+    assert_false(gn_file_write("no/such/folder", "x", 1, &err));
+    assert_false(gn_file_write(folder, "x", 1, &err));
+    assert_false(gn_file_write("", "x", 1, &err));
+    assert_false(gn_file_write("/dev/full", "x", 1, &err));
+    assert_non_null(strstr(err.text, "/dev/full"));
+    assert_int_equal(files_here(), before);
+}
+
+static void a_write_leaves_no_other_file(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    assert_true(gn_file_write("only", "x", 1, &err));
+    int before = files_here();
+    assert_true(gn_file_write("only", "y", 1, &err));
+    assert_int_equal(files_here(), before);
+}
+
+static void an_old_reader_keeps_the_old_file(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    char text[4] = "";
+    assert_true(gn_file_write("old", "old", 3, &err));
+    int fd = open("old", O_RDONLY);
+    assert_true(gn_file_write("old", "new", 3, &err));
+    assert_int_equal(read(fd, text, 3), 3);
+    close(fd);
+    assert_string_equal(text, "old");
+    assert_holds("old", "new");
+}
+
+static void the_mode_of_a_file_stays(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    struct stat info;
+    assert_true(gn_file_write("mode", "x", 1, &err));
+    chmod("mode", 0640);
+    assert_true(gn_file_write("mode", "y", 1, &err));
+    stat("mode", &info);
+    assert_int_equal(info.st_mode & 07777, 0640);
+}
+
+static void a_link_stays_a_link(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    struct stat info;
+    assert_true(gn_file_write("target", "x", 1, &err));
+    assert_int_equal(symlink("target", "link"), 0);
+    assert_true(gn_file_write("link", "y", 1, &err));
+    lstat("link", &info);
+    assert_true(S_ISLNK(info.st_mode));
+    assert_holds("target", "y");
+}
+
+static void a_pipe_is_written_to_directly(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    char text[4] = "", path[32];
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    snprintf(path, sizeof path, "/dev/fd/%d", ends[1]);
+    assert_true(gn_file_write(path, "sun", 3, &err));
+    assert_int_equal(read(ends[0], text, 3), 3);
+    assert_string_equal(text, "sun");
+    close(ends[0]);
+    close(ends[1]);
+    assert_true(gn_file_write("/dev/null", "x", 1, &err));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_was_written_is_read),
+        cmocka_unit_test(a_file_of_many_megabytes_is_whole),
+        cmocka_unit_test(files_that_hide_their_size_are_read),
+        cmocka_unit_test(what_is_no_file_is_refused_at_once),
+        cmocka_unit_test(a_failed_write_leaves_nothing),
+        cmocka_unit_test(a_write_leaves_no_other_file),
+        cmocka_unit_test(an_old_reader_keeps_the_old_file),
+        cmocka_unit_test(the_mode_of_a_file_stays),
+        cmocka_unit_test(a_link_stays_a_link),
+        cmocka_unit_test(a_pipe_is_written_to_directly),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}

@@ -1,0 +1,326 @@
+#include "unit/check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/args.h"
+#include "cli/config.h"
+#include "cli/ini.h"
+#include "core/file.h"
+
+static char folder[] = "/tmp/gnomon-ini-XXXXXX";
+static struct gn_err err;
+
+/* ---- lines --------------------------------------------------------------------------------- */
+
+static char seen[4096];
+
+static bool note(void *user, const struct gn_ini_line *line, struct gn_err *e) {
+    size_t used = strlen(seen);
+    (void)user, (void)e;
+    snprintf(seen + used, sizeof seen - used, "%s [%s|%s] %s=%s\n", strrchr(line->where, ':') + 1,
+             line->section, line->name ? line->name : "", line->key ? line->key : "",
+             line->value ? line->value : "");
+    return !line->value || strcmp(line->value, "fail") != 0 || gn_fail(e, "told to");
+}
+
+static bool read_text(const char *text) {
+    seen[0] = '\0';
+    err = (struct gn_err){0};
+    return gn_ini_parse("f.ini", text, strlen(text), note, NULL, &err);
+}
+
+static void assert_refused(const char *text, const char *says) {
+    if (read_text(text)) fail_msg("taken: %s", text);
+    if (!strstr(err.text, says)) fail_msg("\"%s\" is not \"%s\"", err.text, says);
+    assert_int_equal(err.status, GN_EXIT_USAGE);
+}
+
+static void settings_come_with_section_and_line(void **state) {
+    (void)state;
+    assert_true(read_text("\xef\xbb\xbf; comment\n\n[a]\r\nk = v w ; comment\n# c\n  ; c\n[mode "
+                          "\"So ft\"] ; c\nx=1"));
+    assert_string_equal(seen, "3 [a|] =\n4 [a|] k=v w\n7 [mode|So ft] =\n8 [mode|So ft] x=1\n");
+}
+
+static void nothing_is_fine(void **state) {
+    (void)state;
+    assert_true(read_text(""));
+    assert_true(read_text("\n\n"));
+    assert_string_equal(seen, "");
+}
+
+static void wrong_lines_are_named(void **state) {
+    (void)state;
+    assert_refused("[a]\nk = 1\n  more\n", "f.ini:3: begins with a space");
+    assert_refused("[a]\n  k = 1\n", "f.ini:2: begins with a space");
+    assert_refused("k = 1\n", "f.ini:1: a setting before the first [section]");
+    assert_refused("[a]\nk\n", "f.ini:2: expected KEY = VALUE");
+    assert_refused("[a]\nk: v\n", "f.ini:2: expected KEY = VALUE");
+    assert_refused("[a]\nk ; = v\n", "f.ini:2: expected KEY = VALUE");
+    assert_refused("[a]\n= v\n", "f.ini:2: expected a key");
+    assert_refused("[a\n", "f.ini:1: a section ends with ]");
+    assert_refused("[a] b\n", "f.ini:1: nothing may follow");
+    assert_refused("[mode \"x]\n", "f.ini:1: expected [section]");
+    assert_refused("[mode x]\n", "f.ini:1: expected [section]");
+    assert_refused("[mode \"\"]\n", "f.ini:1: expected [section]");
+    assert_refused("[mode \"x\" y]\n", "f.ini:1: expected [section]");
+    assert_refused("[a]\nk = \x01\n", "f.ini:2: control characters");
+}
+
+static void long_lines_and_names_are_refused_not_cut(void **state) {
+    (void)state;
+    char text[400], name[64];
+    for (int length = 180; length < 250; length++) {
+        snprintf(text, sizeof text, "[a]\nk=%0*d\n", length - 2, 0);
+        if (length <= GN_INI_LINE_MAX) {
+            assert_true(read_text(text));
+            assert_int_equal(strlen(strstr(seen, "k=")), length + 1);
+        } else
+            assert_refused(text, "f.ini:2: a line of more than 190 characters");
+    }
+    memset(name, 'n', sizeof name);
+    name[GN_INI_NAME_MAX] = '\0';
+    snprintf(text, sizeof text, "[%s]\n%s = 1\n[mode \"%s\"]\n", name, name, name);
+    assert_true(read_text(text));
+    snprintf(text, sizeof text, "[a]\n%sx = 1\n", name);
+    assert_refused(text, "f.ini:2: a key of more than 48");
+    snprintf(text, sizeof text, "[%sx]\n", name);
+    assert_refused(text, "f.ini:1: a name of more than 48");
+    snprintf(text, sizeof text, "[mode \"%sx\"]\n", name);
+    assert_refused(text, "f.ini:1: a name of more than 48");
+}
+
+static void a_zero_byte_is_refused(void **state) {
+    (void)state;
+    assert_false(gn_ini_parse("f.ini", "[a]\nk=\0v\n", 9, note, NULL, &err));
+    assert_non_null(strstr(err.text, "f.ini:2: control"));
+}
+
+static void the_first_failure_stops(void **state) {
+    (void)state;
+    assert_false(read_text("[a]\nk = fail\nl = 1\n[b]\n"));
+    assert_string_equal(err.text, "told to");
+    assert_null(strstr(seen, "l="));
+}
+
+/* ---- meaning ------------------------------------------------------------------------------- */
+
+static struct gn_options options;
+static struct gn_warnings warnings;
+
+static const char *in_folder(const char *name) {
+    static char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void write_file(const char *name, const char *text) {
+    assert_true(gn_file_write(in_folder(name), text, strlen(text), &err));
+}
+
+static bool parse(int argc, char **argv) {
+    gn_options_finish(&options);
+    warnings = (struct gn_warnings){0};
+    err = (struct gn_err){0};
+    return gn_args_parse(&options, argc, argv, &warnings, &err);
+}
+#define PARSE(...)                                                                                 \
+    parse((int)(sizeof((char *[]){__VA_ARGS__}) / sizeof(char *)), (char *[]){__VA_ARGS__, NULL})
+
+static const char full[] =
+    "[display]\nconnector = HDMI-A-1\nmode = 1920x1080@60\nrotate = 90\nmax_fps = 30\n"
+    "[scene]\nfile = sundial.glb\nturntable = 6\n"
+    "[render]\nshadow = hard\nmap = 512\nshow_lights = yes\nlimit = nodes=9\nlimit = keys=8\n"
+    "[mode \"Soft\"]\nshadow = pcf5\n"
+    "[mode \"Plan\"]\ncamera = Top\nmap = 256\nfile = plan.glb\n";
+
+static void the_file_of_the_manual_is_read(void **state) {
+    (void)state;
+    write_file("k.ini", full);
+    char *path = (char *)in_folder("k.ini"), scene[200];
+    snprintf(scene, sizeof scene, "%s/sundial.glb", folder);
+    assert_true(PARSE("gnomon", "show", "-c", path));
+    assert_string_equal(options.connector, "HDMI-A-1");
+    assert_int_equal(options.display_mode.height_px, 1080);
+    assert_int_equal(options.rotate_deg, 90);
+    assert_int_equal(options.max_fps, 30);
+    assert_string_equal(options.scene, scene);
+    assert_true(options.turntable_deg_s == 6);
+    assert_true(options.show_lights);
+    assert_int_equal(options.limits.count, 2);
+    assert_int_equal(options.mode_count, 2);
+    assert_null(options.mode_now);
+    assert_true(gn_options_given(&options, shadow));
+}
+
+static void a_flag_beats_a_mode_beats_the_file(void **state) {
+    (void)state;
+    write_file("k.ini", full);
+    char *path = (char *)in_folder("k.ini");
+    assert_true(PARSE("gnomon", "render", "-c", path));
+    assert_string_equal(options.shadow, "hard");
+    assert_true(PARSE("gnomon", "render", "-c", path, "--mode", "Soft"));
+    assert_string_equal(options.shadow, "pcf5");
+    assert_int_equal(options.map_px, 512);
+    assert_true(
+        PARSE("gnomon", "render", "-c", path, "--mode", "Soft", "--shadow", "pcf2", "x.glb"));
+    assert_string_equal(options.shadow, "pcf2");
+    assert_string_equal(options.scene, "x.glb");
+}
+
+static void a_mode_is_undone_by_the_next(void **state) {
+    (void)state;
+    write_file("k.ini", full);
+    char plan[200];
+    snprintf(plan, sizeof plan, "%s/plan.glb", folder);
+    assert_true(PARSE("gnomon", "show", "-c", (char *)in_folder("k.ini")));
+    assert_true(gn_options_apply_mode(&options, "Plan", &err));
+    assert_string_equal(options.camera, "Top");
+    assert_string_equal(options.scene, plan);
+    assert_int_equal(options.map_px, 256);
+    size_t used = options.arena.used;
+    for (int i = 0; i < 100; i++) {
+        assert_true(gn_options_apply_mode(&options, "Soft", &err));
+        assert_null(options.camera);
+        assert_int_equal(options.map_px, 512);
+        assert_string_equal(options.shadow, "pcf5");
+        assert_true(gn_options_apply_mode(&options, "Plan", &err));
+        assert_string_equal(options.shadow, "hard");
+    }
+    assert_int_equal(options.arena.used, used);
+    assert_false(gn_options_apply_mode(&options, "Pla", &err));
+    assert_non_null(strstr(err.text, "\"Soft\", \"Plan\""));
+    assert_string_equal(options.mode_now, "Plan");
+    assert_int_equal(options.map_px, 256);
+}
+
+static void assert_file_refused(const char *text, const char *says) {
+    write_file("bad.ini", text);
+    if (PARSE("gnomon", "render", "-c", (char *)in_folder("bad.ini"))) fail_msg("taken: %s", text);
+    if (!strstr(err.text, says)) fail_msg("\"%s\" is not \"%s\"", err.text, says);
+    assert_int_equal(err.status, GN_EXIT_USAGE);
+}
+
+static void what_a_file_may_not_say(void **state) {
+    (void)state;
+    assert_file_refused("[rendr]\n",
+                        "bad.ini:1: unknown section [rendr]; expected [display], [scene]");
+    assert_file_refused("[render \"x\"]\n", "bad.ini:1: [render] has no name");
+    assert_file_refused("[mode]\n", "bad.ini:1: a mode has a name");
+    assert_file_refused("[render]\nshadw = pcf\n",
+                        "bad.ini:2: unknown key \"shadw\" in [render]; expected shadow");
+    assert_file_refused("[render]\nzzzzzzz = 1\n",
+                        "bad.ini:2: unknown key \"zzzzzzz\"; [render] knows size,");
+    assert_file_refused("[render]\nmap-format = auto\n", "expected map_format");
+    assert_file_refused("[render]\nout = x\n", "bad.ini:2: unknown key \"out\"");
+    assert_file_refused("[render]\nturntable = 1\n", "bad.ini:2: unknown key \"turntable\"");
+    assert_file_refused("[render]\n\nmap = 8\n",
+                        "bad.ini:3: map: \"8\" is not a whole number from 16 to 16384");
+    assert_file_refused("[render]\nmap =\n", "bad.ini:2: map: \"\"");
+    assert_file_refused("[render]\nshow_lights = maybe\n", "is not yes or no");
+    assert_file_refused("[display]\nmode = big\n", "bad.ini:2: mode: \"big\" is not WxH");
+    assert_file_refused("[render]\nmap = 64\nmap = 64\n",
+                        "bad.ini:3: map is set already, in line 2");
+    assert_file_refused("[mode \"a\"]\nmap = 64\nmap = 64\n",
+                        "bad.ini:3: map is set already, in line 2");
+    assert_file_refused("[mode \"a\"]\nmap = 8\n", "bad.ini:2: map: \"8\"");
+    assert_file_refused("[mode \"a\"]\nconnector = x\n", "bad.ini:2: unknown key \"connector\"");
+    assert_file_refused("[mode \"a\"]\n[mode \"b\"]\n[mode \"a\"]\n",
+                        "bad.ini:3: mode \"a\" is there already, in line 1");
+}
+
+/* Each line of a good file is replaced by a wrong one: always refused, by its own line. */
+static void every_line_broken_in_turn_is_found(void **state) {
+    (void)state;
+    int line = 1;
+    for (const char *at = full; *at; at = strchr(at, '\n') + 1, line++) {
+        char text[1024], says[40];
+        snprintf(text, sizeof text, "%.*s!%s", (int)(at - full), full, at);
+        snprintf(says, sizeof says, "bad.ini:%d: ", line);
+        assert_file_refused(text, says);
+    }
+    assert_int_equal(line, 21);
+}
+
+static void a_missing_file_is_the_worlds_fault(void **state) {
+    (void)state;
+    char *path = (char *)in_folder("missing.ini");
+    assert_false(PARSE("gnomon", "render", "-c", path));
+    assert_int_equal(err.status, GN_EXIT_WORLD);
+    assert_false(PARSE("gnomon", "show", "-c", path));
+    assert_int_equal(err.status, GN_EXIT_WORLD);
+    assert_non_null(strstr(err.text, "missing.ini"));
+}
+
+static void a_kiosk_runs_on_without_its_bad_file(void **state) {
+    (void)state;
+    write_file("bad.ini", "[render]\nmap = 64\nmap = 8\n");
+    assert_true(PARSE("gnomon", "show", "--size", "8x8", "-c", (char *)in_folder("bad.ini")));
+    assert_non_null(strstr(options.config_error, "bad.ini:3"));
+    assert_int_equal(options.map_px, 1024);
+    assert_int_equal(options.size.width_px, 8);
+    assert_int_equal(warnings.count, 1);
+    assert_false(PARSE("gnomon", "-c", (char *)in_folder("bad.ini")));
+}
+
+static void only_show_and_the_bare_command_search(void **state) {
+    (void)state;
+    assert_int_equal(mkdir(in_folder("gnomon"), 0700), 0);
+    write_file("gnomon/kiosk.ini", "[render]\nmap = 64\n");
+    setenv("XDG_CONFIG_HOME", folder, 1);
+    assert_true(PARSE("gnomon", "show"));
+    assert_int_equal(options.map_px, 64);
+    assert_string_equal(options.config_path, in_folder("gnomon/kiosk.ini"));
+    assert_true(PARSE("gnomon"));
+    assert_int_equal(options.map_px, 64);
+    assert_true(PARSE("gnomon", "render"));
+    assert_int_equal(options.map_px, 1024);
+    setenv("XDG_CONFIG_HOME", "relative", 1);
+    assert_true(PARSE("gnomon", "show"));
+    assert_int_equal(options.map_px, 1024);
+    assert_int_equal(mkdir(in_folder(".config"), 0700), 0);
+    assert_int_equal(mkdir(in_folder(".config/gnomon"), 0700), 0);
+    write_file(".config/gnomon/kiosk.ini", "[render]\nmap = 32\n");
+    setenv("HOME", folder, 1);
+    assert_true(PARSE("gnomon", "show"));
+    assert_int_equal(options.map_px, 32);
+}
+
+static int enter(void **state) {
+    (void)state;
+    unsetenv("HOME");
+    unsetenv("XDG_CONFIG_HOME");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int leave(void **state) {
+    char command[128];
+    (void)state;
+    gn_options_finish(&options);
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    return system(command);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(settings_come_with_section_and_line),
+        cmocka_unit_test(nothing_is_fine),
+        cmocka_unit_test(wrong_lines_are_named),
+        cmocka_unit_test(long_lines_and_names_are_refused_not_cut),
+        cmocka_unit_test(a_zero_byte_is_refused),
+        cmocka_unit_test(the_first_failure_stops),
+        cmocka_unit_test(the_file_of_the_manual_is_read),
+        cmocka_unit_test(a_flag_beats_a_mode_beats_the_file),
+        cmocka_unit_test(a_mode_is_undone_by_the_next),
+        cmocka_unit_test(what_a_file_may_not_say),
+        cmocka_unit_test(every_line_broken_in_turn_is_found),
+        cmocka_unit_test(a_missing_file_is_the_worlds_fault),
+        cmocka_unit_test(a_kiosk_runs_on_without_its_bad_file),
+        cmocka_unit_test(only_show_and_the_bare_command_search),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}

@@ -1,0 +1,332 @@
+#include "unit/check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/args.h"
+#include "cli/help.h"
+#include "cli/value.h"
+
+static struct gn_options options;
+static struct gn_warnings warnings;
+static struct gn_err err;
+
+/* Splits at spaces: no argument of these tests has one. */
+static bool parse(const char *line) {
+    char text[1024];
+    char *argv[40] = {"gnomon"};
+    int argc = 1;
+    snprintf(text, sizeof text, "%s", line);
+    for (char *word = strtok(text, " "); word; word = strtok(NULL, " ")) argv[argc++] = word;
+    gn_options_finish(&options);
+    warnings.count = 0;
+    err = (struct gn_err){0};
+    return gn_args_parse(&options, argc, argv, &warnings, &err);
+}
+
+static void assert_wrong(const char *line, const char *says) {
+    if (parse(line)) fail_msg("\"%s\" was taken", line);
+    if (!strstr(err.text, says)) fail_msg("\"%s\" says \"%s\", not \"%s\"", line, err.text, says);
+    assert_int_equal(err.status, GN_EXIT_USAGE);
+}
+
+static int clean(void **state) {
+    (void)state;
+    gn_options_finish(&options);
+    return 0;
+}
+
+static int without_home(void **state) {
+    (void)state;
+    unsetenv("HOME");
+    setenv("XDG_CONFIG_HOME", "/nonexistent", 1);
+    return 0;
+}
+
+/* ---- the command line ---------------------------------------------------------------------- */
+
+static void nothing_gives_the_defaults(void **state) {
+    (void)state;
+    assert_true(parse(""));
+    assert_int_equal(options.command, GN_COMMAND_AUTO);
+    assert_null(options.scene);
+    assert_int_equal(options.size.width_px, 1280);
+    assert_int_equal(options.size.height_px, 720);
+    assert_int_equal(options.map_px, 1024);
+    assert_string_equal(options.shadow, "pcf");
+    assert_string_equal(options.backend, "auto");
+    assert_string_equal(options.map_format, "auto");
+    assert_true(isnan(options.exposure_ev));
+    assert_true(options.shadow_strength == 1);
+    assert_false(gn_options_given(&options, shadow));
+}
+
+static void values_come_in_three_ways(void **state) {
+    (void)state;
+    assert_true(parse("render a.glb --size 640x480 --map=256 -oout.png"));
+    assert_int_equal(options.command, GN_COMMAND_RENDER);
+    assert_string_equal(options.scene, "a.glb");
+    assert_int_equal(options.size.height_px, 480);
+    assert_int_equal(options.map_px, 256);
+    assert_string_equal(options.out, "out.png");
+    assert_true(gn_options_given(&options, map_px));
+    assert_true(parse("-v render -o x.png a.glb"));
+    assert_true(options.verbose);
+    assert_string_equal(options.scene, "a.glb");
+    assert_true(parse("render -vo x.png -- -odd.glb"));
+    assert_string_equal(options.scene, "-odd.glb");
+}
+
+static void the_last_of_two_wins(void **state) {
+    (void)state;
+    assert_true(parse("render --map 64 --map 128"));
+    assert_int_equal(options.map_px, 128);
+}
+
+static void every_kind_is_read(void **state) {
+    (void)state;
+    assert_true(parse(
+        "render --aov map --output linear --exposure -1.5 --time 1.25 --msaa 4 --no-animation"));
+    assert_int_equal(options.output, GN_PICTURE_LINEAR);
+    assert_true(options.exposure_ev == -1.5);
+    assert_true(options.time_ns == 1250000000);
+    assert_int_equal(options.msaa, 4);
+    assert_true(options.no_animation);
+    assert_true(parse("render --limit nodes=5 --limit texels=7"));
+    assert_int_equal(options.limits.count, 2);
+    assert_string_equal(options.limits.items[0].name, "nodes");
+    assert_int_equal(options.limits.items[1].value, 7);
+    assert_true(parse("show --display-mode 1920x1080@59.94 --rotate 90"));
+    assert_int_equal(options.display_mode.width_px, 1920);
+    assert_true(options.display_mode.hz == 59.94);
+    assert_int_equal(options.rotate_deg, 90);
+}
+
+static void a_wrong_value_names_option_value_and_range(void **state) {
+    (void)state;
+    assert_wrong("render --size 0x10",
+                 "--size: \"0x10\" is not a size WxH, each side from 1 to 16384");
+    assert_wrong("render --size 100000x10", "100000x10");
+    assert_wrong("render --size 10x", "--size");
+    assert_wrong("render --size 10x-5", "--size");
+    assert_wrong("render --size 10x5x", "--size");
+    assert_wrong("render --size +10x5", "--size");
+    assert_wrong("render --size 4294967297x1", "--size");
+    assert_wrong("render --map 15", "--map: \"15\" is not a whole number from 16 to 16384");
+    assert_wrong("render --map 16385", "16384");
+    assert_wrong("render --map 0x40", "whole number");
+    assert_wrong("render --map 64.0", "whole number");
+    assert_wrong("render --map=", "--map: \"\"");
+    assert_wrong("render --map 99999999999999999999", "whole number");
+    assert_wrong("render --shadow-strength 1.01",
+                 "--shadow-strength: \"1.01\" is not a number from 0 to 1");
+    assert_wrong("render --shadow-strength 0,5", "0,5");
+    assert_wrong("render --shadow-strength nan", "nan");
+    assert_wrong("render --exposure inf", "auto or a number");
+    assert_wrong("render --time -1", "--time");
+    assert_wrong("render --aov colour", "one of color, visibility, distance, normal, map");
+    assert_wrong("render --msaa 3", "one of 0, 2, 4");
+    assert_wrong("render --backend EGL", "one of auto, kms, window, egl, osmesa");
+    assert_wrong("render --shadow=", "--shadow");
+    assert_wrong("render --limit nodes", "NAME=VALUE");
+    assert_wrong("render --limit =5", "NAME=VALUE");
+    assert_wrong("render --limit nodes=0", "NAME=VALUE");
+    assert_wrong("show --display-mode 1920x1080@", "WxH@HZ");
+    assert_wrong("show --rotate 45", "one of 0, 90, 180, 270");
+}
+
+static void wrong_words_are_explained(void **state) {
+    (void)state;
+    assert_wrong("rendr", "did you mean render?");
+    assert_wrong("xyzzyxyzzy", "the commands are");
+    assert_wrong("render --sise 1x1", "did you mean --size?");
+    assert_wrong("render --siz", "did you mean --size?");
+    assert_wrong("render --quaternion", "unknown option --quaternion");
+    assert_wrong("render -q", "unknown option -q");
+    assert_wrong("render --size", "--size needs a value: WxH");
+    assert_wrong("render --plan=yes", "--plan takes no value");
+    assert_wrong("inspect --map 64",
+                 "--map does not go with inspect; it goes with show, render, bench");
+    assert_wrong("--json", "it goes with bench, inspect, doctor");
+    assert_wrong("render a.glb b.glb", "b.glb");
+    assert_wrong("a.glb b.glb", "b.glb");
+    assert_wrong("doctor a.glb", "no scene");
+}
+
+static void a_missing_file_is_not_a_wrong_command(void **state) {
+    (void)state;
+    assert_true(parse("missing.glb"));
+    assert_string_equal(options.scene, "missing.glb");
+    assert_int_equal(options.command, GN_COMMAND_AUTO);
+}
+
+static void help_and_version_need_nothing_else(void **state) {
+    (void)state;
+    assert_true(parse("render --help -c /nonexistent.ini"));
+    assert_true(options.help);
+    assert_int_equal(options.command, GN_COMMAND_RENDER);
+    assert_true(parse("rendr --version"));
+    assert_true(options.version);
+    assert_true(parse("-h"));
+    assert_true(options.help);
+}
+
+/* ---- modes --------------------------------------------------------------------------------- */
+
+static void without_a_file_the_techniques_are_modes(void **state) {
+    (void)state;
+    assert_true(parse("render --mode hard"));
+    assert_string_equal(options.shadow, "hard");
+    assert_int_equal(gn_options_source(&options, offsetof(struct gn_options, shadow)),
+                     GN_SOURCE_MODE);
+    assert_true(parse("render --mode hard --shadow pcf3"));
+    assert_string_equal(options.shadow, "pcf3");
+}
+
+/* ---- the table ----------------------------------------------------------------------------- */
+
+static void every_default_is_in_its_range(void **state) {
+    (void)state;
+    struct gn_arena arena = {0};
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        const struct gn_option_row *row = &gn_option_rows[i];
+        _Alignas(16) char field[sizeof(struct gn_limits)] = {0};
+        if (row->fallback && !gn_value_parse(row, row->fallback, field, &arena, row->name, &err))
+            fail_msg("%s", err.text);
+    }
+    gn_arena_finish(&arena);
+}
+
+static void rows_are_complete_and_different(void **state) {
+    (void)state;
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        const struct gn_option_row *a = &gn_option_rows[i];
+        assert_non_null(a->name);
+        assert_non_null(a->help);
+        assert_true(a->commands || a->section);
+        assert_true(!a->value == (a->kind == GN_KIND_FLAG));
+        assert_true(a->offset + gn_value_size(a->kind) <= sizeof(struct gn_options));
+        for (int k = 0; k < i; k++) {
+            const struct gn_option_row *b = &gn_option_rows[k];
+            assert_string_not_equal(a->name, b->name);
+            assert_true(!a->letter || a->letter != b->letter);
+            assert_true(a->offset + gn_value_size(a->kind) <= b->offset ||
+                        b->offset + gn_value_size(b->kind) <= a->offset);
+        }
+    }
+}
+
+static void every_key_finds_its_row(void **state) {
+    (void)state;
+    char key[64];
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        const struct gn_option_row *row = &gn_option_rows[i];
+        if (row->section)
+            assert_ptr_equal(gn_option_find_key(row->section, gn_option_key(row, key, sizeof key)),
+                             row);
+        if (row->commands) assert_ptr_equal(gn_option_find(row->name, strlen(row->name)), row);
+    }
+    assert_null(gn_option_find_key(NULL, "connector"));
+    assert_null(gn_option_find_key("render", "turntable"));
+    assert_null(gn_option_find("siz", 3));
+}
+
+/* ---- --help and the man page --------------------------------------------------------------- */
+
+static char *help_of(enum gn_command command) {
+    char *text = NULL;
+    size_t size;
+    FILE *to = open_memstream(&text, &size);
+    gn_help_print(to, command);
+    fclose(to);
+    return text;
+}
+
+static char *man_page(void) {
+    char *text = NULL, *from, *to_char;
+    size_t size;
+    FILE *to = open_memstream(&text, &size);
+    gn_help_print_man(to, "1.2.3");
+    fclose(to);
+    for (from = to_char = text; *from; from++) /* roff's \- is a minus */
+        if (*from != '\\') *to_char++ = *from;
+    *to_char = '\0';
+    return text;
+}
+
+static bool has_word(const char *text, const char *word) {
+    for (const char *at = text; (at = strstr(at, word)); at++)
+        if (!strchr("abcdefghijklmnopqrstuvwxyz-", at[strlen(word)]) || !at[strlen(word)])
+            return true;
+    return false;
+}
+
+static void help_lists_what_the_parser_takes_and_nothing_else(void **state) {
+    (void)state;
+    for (int command = 0; command < GN_COMMAND_COUNT; command++) {
+        char *text = help_of(command);
+        for (int i = 0; i < GN_OPTION_COUNT; i++) {
+            const struct gn_option_row *row = &gn_option_rows[i];
+            unsigned wanted = command == GN_COMMAND_AUTO ? ~0u : 1u << command;
+            char flag[80];
+            snprintf(flag, sizeof flag, "    --%s%s%s\n", row->name, row->value ? " " : "",
+                     row->value ? row->value : "");
+            flag[strlen(flag) - 1] = '\0';
+            char *listed = strstr(text, row->letter ? flag + 4 : flag);
+            assert_int_equal(listed != NULL, (row->commands & wanted) != 0);
+        }
+        free(text);
+    }
+}
+
+static void the_man_page_lists_every_option_default_and_key(void **state) {
+    (void)state;
+    char *text = man_page(), key[64], line[200];
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        const struct gn_option_row *row = &gn_option_rows[i];
+        snprintf(line, sizeof line, "--%s", row->name);
+        assert_int_equal(has_word(text, line), row->commands != 0);
+        snprintf(line, sizeof line, "INI: [%s] %s.", row->section,
+                 gn_option_key(row, key, sizeof key));
+        if (row->section && row->commands && !strstr(text, line))
+            fail_msg("no \"%s\" in the man page", line);
+        snprintf(line, sizeof line, "(%s", row->fallback);
+        if (row->fallback && !strstr(text, line)) fail_msg("no \"%s\" in the man page", line);
+    }
+    for (int i = 1; i < GN_COMMAND_COUNT; i++) assert_true(has_word(text, gn_commands[i].name));
+    free(text);
+}
+
+static void help_fits_a_hundred_columns(void **state) {
+    (void)state;
+    for (int command = 0; command < GN_COMMAND_COUNT; command++) {
+        char *text = help_of(command);
+        for (const char *at = text; *at; at += strcspn(at, "\n") + 1)
+            assert_in_range(strcspn(at, "\n"), 0, 100);
+        free(text);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(nothing_gives_the_defaults, clean),
+        cmocka_unit_test_teardown(values_come_in_three_ways, clean),
+        cmocka_unit_test_teardown(the_last_of_two_wins, clean),
+        cmocka_unit_test_teardown(every_kind_is_read, clean),
+        cmocka_unit_test_teardown(a_wrong_value_names_option_value_and_range, clean),
+        cmocka_unit_test_teardown(wrong_words_are_explained, clean),
+        cmocka_unit_test_teardown(a_missing_file_is_not_a_wrong_command, clean),
+        cmocka_unit_test_teardown(help_and_version_need_nothing_else, clean),
+        cmocka_unit_test_teardown(without_a_file_the_techniques_are_modes, clean),
+        cmocka_unit_test(every_default_is_in_its_range),
+        cmocka_unit_test(rows_are_complete_and_different),
+        cmocka_unit_test(every_key_finds_its_row),
+        cmocka_unit_test(help_lists_what_the_parser_takes_and_nothing_else),
+        cmocka_unit_test(the_man_page_lists_every_option_default_and_key),
+        cmocka_unit_test(help_fits_a_hundred_columns),
+    };
+    return cmocka_run_group_tests(tests, without_home, NULL);
+}

@@ -1,0 +1,58 @@
+#include "unit/check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/warn.h"
+
+static char *printed(const struct gn_warnings *warnings) {
+    char *text = NULL;
+    size_t size;
+    FILE *to = open_memstream(&text, &size);
+    gn_warn_print(warnings, to);
+    fclose(to);
+    return text;
+}
+
+static void equal_texts_count_once(void **state) {
+    (void)state;
+    struct gn_warnings warnings = {0};
+    gn_warn(&warnings, "node %d", 1);
+    gn_warn(&warnings, "node %d", 2);
+    gn_warn(&warnings, "node\n %d", 1);
+    char *text = printed(&warnings);
+    assert_int_equal(warnings.count, 2);
+    assert_string_equal(text, "gnomon: warning: node 1\ngnomon: warning: node 2\n");
+    free(text);
+}
+
+static void more_than_fit_are_counted(void **state) {
+    (void)state;
+    struct gn_warnings warnings = {0};
+    for (int i = 0; i < GN_WARN_MAX + 5; i++) gn_warn(&warnings, "w%d", i);
+    gn_warn(&warnings, "w0");
+    assert_int_equal(warnings.count, GN_WARN_MAX);
+    assert_int_equal(warnings.dropped, 5);
+    char *text = printed(&warnings);
+    assert_non_null(strstr(text, "gnomon: warning: and 5 more\n"));
+    free(text);
+}
+
+static void none_print_nothing(void **state) {
+    (void)state;
+    struct gn_warnings warnings = {0};
+    gn_warn(NULL, "nobody listens");
+    char *text = printed(&warnings);
+    assert_string_equal(text, "");
+    free(text);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equal_texts_count_once),
+        cmocka_unit_test(more_than_fit_are_counted),
+        cmocka_unit_test(none_print_nothing),
+    };
+    return RUN(tests);
+}
