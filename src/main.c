@@ -1,8 +1,68 @@
+/* Arguments -> a command; the one error line; the exit status. */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
+#include "cli/args.h"
+#include "cli/commands.h"
+#include "cli/help.h"
 #include "config.h"
 
-int main(void) {
-    puts("gnomon " GN_VERSION);
-    return 0;
+static gn_cli_command *const commands[] = {
+    [GN_COMMAND_AUTO] = gn_cli_auto,       [GN_COMMAND_SHOW] = gn_cli_show,
+    [GN_COMMAND_RENDER] = gn_cli_render,   [GN_COMMAND_BENCH] = gn_cli_bench,
+    [GN_COMMAND_INSPECT] = gn_cli_inspect, [GN_COMMAND_DOCTOR] = gn_cli_doctor,
+};
+_Static_assert(sizeof commands / sizeof commands[0] == GN_COMMAND_COUNT, "a row per command");
+
+/* A closed descriptor 0, 1 or 2 would be given to the next file that is opened, and libraries print
+ * there. */
+static void fill_standard_descriptors(void) {
+    int fd;
+    do fd = open("/dev/null", O_RDWR);
+    while (fd >= 0 && fd <= STDERR_FILENO);
+    if (fd >= 0) close(fd);
+}
+
+static bool run(const struct gn_options *options, struct gn_warnings *warnings,
+                struct gn_err *err) {
+    if (options->version)
+        puts("gnomon " GN_VERSION);
+    else if (options->help)
+        gn_help_print(stdout, options->command);
+    else
+        return commands[options->command](options, warnings, err);
+    return true;
+}
+
+/* A reader that had enough (`| head`) is no failure. */
+static bool flush_output(struct gn_err *err) {
+    bool bad = ferror(stdout);
+    if (fflush(stdout) == 0 && !bad) return true;
+    return errno == EPIPE || gn_fail(err, "standard output: cannot write: %s", strerror(errno));
+}
+
+static int report(bool ok, const struct gn_options *options, const struct gn_warnings *warnings,
+                  const struct gn_err *err) {
+    if (ok || options->verbose) gn_warn_print(warnings, stderr);
+    if (ok) return GN_EXIT_OK;
+    fprintf(stderr, "gnomon: %s\n", err->text);
+    return err->status == GN_EXIT_OK ? GN_EXIT_WORLD : err->status;
+}
+
+int main(int argc, char **argv) {
+    static struct gn_warnings warnings;
+    struct gn_options options;
+    struct gn_err err = {0};
+    fill_standard_descriptors();
+    signal(SIGPIPE, SIG_IGN);
+    bool ok =
+        gn_args_parse(&options, argc, argv, &warnings, &err) && run(&options, &warnings, &err);
+    if (ok) ok = flush_output(&err);
+    int status = report(ok, &options, &warnings, &err);
+    gn_options_finish(&options);
+    return status;
 }

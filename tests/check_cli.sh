@@ -37,7 +37,7 @@ expect 2 'did you mean render?' rendr
 expect 2 '--size: "0x10"' render --size 0x10 -o "$folder/a.png"
 expect 2 '--size: "100000x10"' render --size 100000x10 -o "$folder/a.png"
 expect 2 '--size: "100000x10"' render -v --size 100000x10 -o "$folder/a.png"
-expect 2 '--shadow' render --shadow nosuch -o "$folder/a.png"
+expect 2 'nosuch' render --shadow nosuch -o "$folder/a.png"
 expect 1 "$folder/missing.glb" render "$folder/missing.glb" -o "$folder/a.png"
 expect 1 "$folder/missing.ini" render -c "$folder/missing.ini" -o "$folder/a.png"
 printf '[render]\nmap = 1\n' > "$folder/bad.ini"
