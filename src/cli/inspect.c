@@ -1,18 +1,89 @@
-#include <stdio.h>
+/* gnomon inspect: loads a scene, builds the plan of its default view, and says what it found. */
+#include "cli/inspect.h"
+
+#include <string.h>
 
 #include "cli/commands.h"
 #include "cli/stage.h"
+
+static void count_pass(struct gn_scene_cost *cost, const struct gn_plan *plan,
+                       const struct gn_pass *pass) {
+    bool shadow = pass->target.kind == GN_TARGET_SHADOW;
+    uint64_t triangles = 0;
+    for (uint32_t i = 0; i < pass->draw_count; i++) {
+        const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
+        triangles += (uint64_t)plan->scene->geometries[draw->geometry].index_count / 3 *
+                     draw->instance_count;
+    }
+    *(shadow ? &cost->shadow_passes : &cost->passes) += 1;
+    *(shadow ? &cost->shadow_draws : &cost->draws) += pass->draw_count;
+    *(shadow ? &cost->shadow_triangles : &cost->triangles) += triangles;
+    if (shadow)
+        cost->map_bytes += (uint64_t)pass->target.width_px * pass->target.height_px *
+                           gn_encodings[pass->target.encoding].texel_bytes;
+}
+
+static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene) {
+    const struct gn_caps caps = {
+        .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
+    const struct gn_frame_opts opts = {.width_px = GN_INSPECT_WIDTH_PX,
+                                       .height_px = GN_INSPECT_HEIGHT_PX,
+                                       .encoding = GN_ENCODING_AUTO};
+    struct gn_pose pose;
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    struct gn_frame *frame = gn_frame_create(scene, &caps);
+    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
+    for (uint32_t i = 0; i < plan->pass_count; i++) count_pass(cost, plan, &plan->passes[i]);
+    cost->programs = plan->program_count;
+    cost->culled = plan->culled;
+    cost->target_bytes = (uint64_t)GN_INSPECT_WIDTH_PX * GN_INSPECT_HEIGHT_PX * 8;
+    gn_frame_destroy(frame);
+    gn_pose_finish(&pose);
+}
+
+/* As gl/ lays them out: positions, then a packed rest; indices of 16 bits where that is enough. */
+static void count_buffers(struct gn_scene_cost *cost, const struct gn_scene *scene) {
+    uint64_t vertex =
+        12 + 8 + (scene->uv0 ? 8 : 0) + (scene->uv1 ? 8 : 0) + (scene->colors ? 4 : 0);
+    cost->vertex_bytes = vertex * scene->vertex_count;
+    cost->index_bytes = (uint64_t)scene->index_count * (scene->vertex_count > 65536 ? 4 : 2);
+}
+
+uint64_t gn_inspect_image_bytes(const struct gn_scene *scene, uint32_t image) {
+    bool used[2] = {false, false}, mipmaps = false; /* as data, as colour */
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+            int32_t texture = scene->materials[i].textures[slot].texture;
+            if (texture < 0 || scene->textures[texture].image != image) continue;
+            used[slot == GN_TEXTURE_BASE || slot == GN_TEXTURE_EMISSIVE] = true;
+            mipmaps |= scene->textures[texture].mipmaps;
+        }
+    uint64_t pixels = (uint64_t)scene->images[image].width_px * scene->images[image].height_px;
+    return (uint64_t)(used[0] + used[1]) * pixels * 4 * (mipmaps ? 4 : 3) / 3;
+}
+
+void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
+                      const struct gn_warnings *warnings) {
+    *in = (struct gn_inspection){.file = file, .scene = scene, .warnings = warnings};
+    count_plan(&in->cost, scene);
+    count_buffers(&in->cost, scene);
+    for (uint32_t i = 0; i < scene->image_count; i++)
+        in->cost.texture_bytes += gn_inspect_image_bytes(scene, i);
+    gn_inspect_advise(in);
+}
 
 bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnings,
                     struct gn_err *err) {
     struct gn_scene *scene = gn_stage_scene(options, warnings, err);
     if (!scene) return false;
-    printf("nodes %u, meshes %u, instances %u, lights %u, cameras %u, clips %u\n", scene->node_count,
-           scene->geometry_count, scene->instance_count, scene->light_count, scene->camera_count,
-           scene->clip_count);
-    printf("triangles %llu, vertices %u, materials %u, textures %u, memory %zu bytes\n",
-           (unsigned long long)scene->triangle_count, scene->vertex_count, scene->material_count,
-           scene->texture_count, scene->bytes);
+    struct gn_inspection in;
+    bool ok = true;
+    gn_inspect_build(&in, options->scene ? options->scene : "(default scene)", scene, warnings);
+    if (options->json)
+        ok = gn_inspect_print_json(&in, stdout, err);
+    else
+        gn_inspect_print(&in, stdout);
+    *warnings = (struct gn_warnings){0}; /* the report has said them */
     gn_scene_destroy(scene);
-    return true;
+    return ok;
 }

@@ -1,0 +1,60 @@
+/* What is in a scene, what it costs and what is wrong with it: found out without a GPU. */
+#ifndef GN_CLI_INSPECT_H
+#define GN_CLI_INSPECT_H
+
+#include <stdio.h>
+
+#include "core/err.h"
+#include "core/warn.h"
+#include "scene/scene.h"
+
+enum { GN_INSPECT_ADVICE = 64, GN_INSPECT_WIDTH_PX = 1280, GN_INSPECT_HEIGHT_PX = 720 };
+
+struct gn_advice { /* one line together: "what: cure" */
+    char what[240], cure[160];
+};
+
+struct gn_scene_cost { /* of the default view: first camera, 1280x720, time 0, a GPU that can all */
+    uint32_t passes, shadow_passes, draws, shadow_draws, programs, culled;
+    uint64_t triangles, shadow_triangles;
+    uint64_t vertex_bytes, index_bytes, texture_bytes; /* on the GPU, with mip-maps */
+    uint64_t map_bytes, target_bytes;                  /* shadow maps; the picture with its depth */
+};
+
+struct gn_inspection {
+    const char *file; /* as in messages */
+    const struct gn_scene *scene;
+    const struct gn_warnings *warnings; /* of loading */
+    struct gn_scene_cost cost;
+    struct gn_advice advice[GN_INSPECT_ADVICE];
+    uint32_t advice_count, advice_dropped;
+};
+
+/* All but `warnings` of it; file and scene must outlive it. */
+void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
+                      const struct gn_warnings *warnings);
+/* GPU bytes of a picture with its mip-maps, once for each way (colour, data) in which it is used.
+ */
+uint64_t gn_inspect_image_bytes(const struct gn_scene *scene, uint32_t image);
+/* Fills advice; the cost must be known. */
+void gn_inspect_advise(struct gn_inspection *in);
+
+void gn_inspect_print(const struct gn_inspection *in, FILE *to);
+/* One object:
+ * file, name, size_m [x, y, z],
+ * counts {nodes, items, instances, batches, geometries, vertices, triangles, textures},
+ * materials {count, opaque, mask, blend, unlit, double_sided} (glTF's default one counts),
+ * images [{width_px, height_px, alpha, bytes}],
+ * lights [{name, type, intensity, unit, color, range_m|null, inner_deg|null, outer_deg|null,
+ *     gnomon_shadow|null, gnomon_map_px|null, gnomon_radius, gnomon_shadow_strength,
+ *     gnomon_slide|null, made}] (intensity: of the strongest channel; made: not in the file),
+ * cameras [{name, type, yfov_deg|null, half_height_m|null, near_m, far_m|null, made}],
+ * clips [{name, duration_s, channels, on}] (on: plays by default),
+ * hemisphere {sky, ground, background},
+ * cost {width_px, height_px, passes, shadow_passes, draws, shadow_draws, programs, culled,
+ *     triangles, shadow_triangles, vertex_bytes, index_bytes, texture_bytes, map_bytes,
+ *     target_bytes, memory_bytes},
+ * warnings [text], warnings_dropped, advice [{what, cure}], advice_dropped. */
+bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_err *err);
+
+#endif

@@ -1,0 +1,287 @@
+#include <jansson.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "cli/inspect.h"
+#include "core/text.h"
+
+#define DEG(radians) ((double)(radians) * (180.0 / 3.14159265358979323846))
+#define MB(bytes)    ((double)(bytes) / (1024.0 * 1024.0))
+
+static const char *const light_types[] = {
+    [GN_LIGHT_DIRECTIONAL] = "directional", [GN_LIGHT_POINT] = "point", [GN_LIGHT_SPOT] = "spot"};
+
+static double intensity(const struct gn_light *light) {
+    return (double)fmaxf(light->color[0], fmaxf(light->color[1], light->color[2]));
+}
+
+static const char *unit(const struct gn_light *light) {
+    return light->type == GN_LIGHT_DIRECTIONAL ? "lux" : "candela";
+}
+
+static bool is_made(bool made, uint32_t i, uint32_t count) { return made && i + 1 == count; }
+
+struct kinds {
+    uint32_t alpha[3], unlit, double_sided;
+};
+
+static struct kinds count_kinds(const struct gn_scene *scene) {
+    struct kinds k = {0};
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        k.alpha[scene->materials[i].alpha]++;
+        k.unlit += scene->materials[i].unlit;
+        k.double_sided += scene->materials[i].double_sided;
+    }
+    return k;
+}
+
+static void size_of(const struct gn_scene *scene, vec3 out) {
+    for (int k = 0; k < 3; k++) out[k] = fmaxf(0.0f, scene->box.max[k] - scene->box.min[k]);
+}
+
+/* ---- for people ---------------------------------------------------------------------------- */
+
+/* Names come from a file: what would move the cursor is dropped. */
+__attribute__((format(printf, 2, 3))) static void line(FILE *to, const char *format, ...) {
+    char text[512];
+    va_list args;
+    va_start(args, format);
+    gn_text_vformat(text, sizeof text, format, args);
+    va_end(args);
+    fprintf(to, "  %s\n", text);
+}
+
+static void print_content(const struct gn_inspection *in, FILE *to) {
+    const struct gn_scene *s = in->scene;
+    struct kinds k = count_kinds(s);
+    vec3 size;
+    size_of(s, size);
+    fprintf(to, "Scene\n");
+    line(to, "%-11s %s", "file", in->file);
+    if (s->name && s->name[0]) line(to, "%-11s %s", "name", s->name);
+    line(to, "%-11s %.4g x %.4g x %.4g m", "size", (double)size[0], (double)size[1],
+         (double)size[2]);
+    line(to, "%-11s %u", "nodes", s->node_count);
+    line(to, "%-11s %u in %u batches, %u of them instances", "items", s->item_count, s->batch_count,
+         s->instance_count);
+    line(to, "%-11s %u geometries, %u vertices, %llu triangles in all items", "meshes",
+         s->geometry_count, s->vertex_count, (unsigned long long)s->triangle_count);
+    line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided", "materials",
+         s->material_count, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK],
+         k.alpha[GN_ALPHA_BLEND], k.unlit, k.double_sided);
+    const float *c[] = {s->sky, s->ground, s->background};
+    static const char *const names[] = {"sky", "ground", "background"};
+    for (int i = 0; i < 3; i++)
+        line(to, "%-11s %.3g %.3g %.3g", names[i], (double)c[i][0], (double)c[i][1],
+             (double)c[i][2]);
+}
+
+static void print_images(const struct gn_scene *s, FILE *to) {
+    if (s->image_count)
+        fprintf(to, "\nTextures: %u of %u images\n", s->texture_count, s->image_count);
+    for (uint32_t i = 0; i < s->image_count; i++)
+        line(to, "%-3u %ux%u%s, %.2f MB", i, s->images[i].width_px, s->images[i].height_px,
+             s->images[i].has_alpha ? " with alpha" : "", MB(gn_inspect_image_bytes(s, i)));
+}
+
+static void print_light(const struct gn_scene *s, uint32_t i, FILE *to) {
+    const struct gn_light *light = &s->lights[i];
+    char cone[64] = "", range[32] = "", map[32] = "", slide[32] = "";
+    if (light->type == GN_LIGHT_SPOT)
+        snprintf(cone, sizeof cone, ", cone %.3g to %.3g degrees", DEG(light->inner_rad),
+                 DEG(light->outer_rad));
+    if (light->range_m > 0) snprintf(range, sizeof range, ", range %.4g m", (double)light->range_m);
+    if (light->map_px) snprintf(map, sizeof map, ", map %u px", light->map_px);
+    if (light->slide >= 0) snprintf(slide, sizeof slide, ", slide texture %d", light->slide);
+    line(to, "%-3u %s: %s, %.4g %s%s%s, shadow %s%s, radius %.3g, strength %.3g%s%s", i,
+         light->name, light_types[light->type], intensity(light), unit(light), cone, range,
+         light->technique ? light->technique : "by mode", map, (double)light->radius,
+         (double)light->shadow_strength, slide,
+         is_made(s->made_light, i, s->light_count) ? " (made: the file has none)" : "");
+}
+
+static void print_camera(const struct gn_scene *s, uint32_t i, FILE *to) {
+    const struct gn_camera *c = &s->cameras[i];
+    char lens[64], far[32] = "infinity";
+    if (c->orthographic)
+        snprintf(lens, sizeof lens, "orthographic, %.4g m high", 2 * (double)c->ymag_m);
+    else
+        snprintf(lens, sizeof lens, "perspective, %.3g degrees high", DEG(c->yfov_rad));
+    if (c->far_m > 0) snprintf(far, sizeof far, "%.4g m", (double)c->far_m);
+    line(to, "%-3u %s: %s, from %.4g m to %s%s", i, c->name, lens, (double)c->near_m, far,
+         is_made(s->made_camera, i, s->camera_count) ? " (made: the file has none)" : "");
+}
+
+static void print_lists(const struct gn_scene *s, FILE *to) {
+    print_images(s, to);
+    fprintf(to, "\nLights\n");
+    for (uint32_t i = 0; i < s->light_count; i++) print_light(s, i, to);
+    fprintf(to, "\nCameras\n");
+    for (uint32_t i = 0; i < s->camera_count; i++) print_camera(s, i, to);
+    if (s->clip_count) fprintf(to, "\nClips\n");
+    for (uint32_t i = 0; i < s->clip_count; i++)
+        line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->clips[i].name,
+             (double)s->clips[i].duration_ns * 1e-9, s->clips[i].channel_count,
+             s->clips[i].channel_count == 1 ? "" : "s", s->clips[i].on_by_default ? "on" : "off");
+}
+
+static void print_cost(const struct gn_inspection *in, FILE *to) {
+    const struct gn_scene_cost *c = &in->cost;
+    fprintf(to, "\nCost at %dx%d through the first camera\n", GN_INSPECT_WIDTH_PX,
+            GN_INSPECT_HEIGHT_PX);
+    line(to, "%-11s %u passes, %u draw calls, %llu triangles; %u items out of sight", "picture",
+         c->passes, c->draws, (unsigned long long)c->triangles, c->culled);
+    line(to, "%-11s %u maps, %u draw calls, %llu triangles, when something moves", "shadows",
+         c->shadow_passes, c->shadow_draws, (unsigned long long)c->shadow_triangles);
+    line(to, "%-11s %u", "programs", c->programs);
+    line(to, "%-11s %.2f MB vertices, %.2f indices, %.2f textures, %.2f maps, %.2f picture",
+         "GPU memory", MB(c->vertex_bytes), MB(c->index_bytes), MB(c->texture_bytes),
+         MB(c->map_bytes), MB(c->target_bytes));
+    line(to, "%-11s %.2f MB", "memory", MB(in->scene->bytes));
+}
+
+static void print_faults(const struct gn_inspection *in, FILE *to) {
+    int warnings = in->warnings ? in->warnings->count : 0;
+    fprintf(to, "\nTo mend\n");
+    if (!warnings && !in->advice_count) line(to, "nothing");
+    for (int i = 0; i < warnings; i++) line(to, "- %s", in->warnings->text[i]);
+    if (warnings && in->warnings->dropped)
+        line(to, "- and %d more like these", in->warnings->dropped);
+    for (uint32_t i = 0; i < in->advice_count; i++) {
+        line(to, "- %s", in->advice[i].what);
+        line(to, "  cure: %s", in->advice[i].cure);
+    }
+    if (in->advice_dropped) line(to, "- and %u more like these", in->advice_dropped);
+}
+
+void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
+    print_content(in, to);
+    print_lists(in->scene, to);
+    print_cost(in, to);
+    print_faults(in, to);
+}
+
+/* ---- for programs -------------------------------------------------------------------------- */
+
+static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
+static json_t *number_or_null(bool present, double value) {
+    return present ? number(value) : json_null();
+}
+static json_t *count(uint64_t value) { return json_integer((json_int_t)value); }
+static json_t *text(const char *value) {
+    json_t *string = value ? json_string(value) : NULL;
+    return string ? string : json_null();
+}
+static json_t *vector(const float *v) {
+    return json_pack("[ooo]", number((double)v[0]), number((double)v[1]), number((double)v[2]));
+}
+
+static json_t *counts_json(const struct gn_scene *s) {
+    return json_pack("{so so so so so so so so}", "nodes", count(s->node_count), "items",
+                     count(s->item_count), "instances", count(s->instance_count), "batches",
+                     count(s->batch_count), "geometries", count(s->geometry_count), "vertices",
+                     count(s->vertex_count), "triangles", count(s->triangle_count), "textures",
+                     count(s->texture_count));
+}
+
+static json_t *materials_json(const struct gn_scene *s) {
+    struct kinds k = count_kinds(s);
+    return json_pack("{so so so so so so}", "count", count(s->material_count), "opaque",
+                     count(k.alpha[GN_ALPHA_OPAQUE]), "mask", count(k.alpha[GN_ALPHA_MASK]),
+                     "blend", count(k.alpha[GN_ALPHA_BLEND]), "unlit", count(k.unlit),
+                     "double_sided", count(k.double_sided));
+}
+
+static json_t *image_json(const struct gn_scene *s, uint32_t i) {
+    const struct gn_image *image = &s->images[i];
+    return json_pack("{so so sb so}", "width_px", count(image->width_px), "height_px",
+                     count(image->height_px), "alpha", image->has_alpha, "bytes",
+                     count(gn_inspect_image_bytes(s, i)));
+}
+
+static json_t *light_json(const struct gn_scene *s, uint32_t i) {
+    const struct gn_light *l = &s->lights[i];
+    double strongest = intensity(l);
+    bool spot = l->type == GN_LIGHT_SPOT;
+    vec3 color;
+    for (int k = 0; k < 3; k++) color[k] = strongest > 0 ? l->color[k] / (float)strongest : 0.0f;
+    return json_pack("{so ss so ss so so so so so so so so so sb}", "name", text(l->name), "type",
+                     light_types[l->type], "intensity", number(strongest), "unit", unit(l), "color",
+                     vector(color), "range_m", number_or_null(l->range_m > 0, l->range_m),
+                     "inner_deg", number_or_null(spot, DEG(l->inner_rad)), "outer_deg",
+                     number_or_null(spot, DEG(l->outer_rad)), "gnomon_shadow", text(l->technique),
+                     "gnomon_map_px", l->map_px ? count(l->map_px) : json_null(), "gnomon_radius",
+                     number(l->radius), "gnomon_shadow_strength", number(l->shadow_strength),
+                     "gnomon_slide", l->slide >= 0 ? count((uint64_t)l->slide) : json_null(),
+                     "made", is_made(s->made_light, i, s->light_count));
+}
+
+static json_t *camera_json(const struct gn_scene *s, uint32_t i) {
+    const struct gn_camera *c = &s->cameras[i];
+    return json_pack("{so ss so so so so sb}", "name", text(c->name), "type",
+                     c->orthographic ? "orthographic" : "perspective", "yfov_deg",
+                     number_or_null(!c->orthographic, DEG(c->yfov_rad)), "half_height_m",
+                     number_or_null(c->orthographic, c->ymag_m), "near_m", number(c->near_m),
+                     "far_m", number_or_null(c->far_m > 0, c->far_m), "made",
+                     is_made(s->made_camera, i, s->camera_count));
+}
+
+static json_t *clip_json(const struct gn_scene *s, uint32_t i) {
+    const struct gn_clip *c = &s->clips[i];
+    return json_pack("{so so so sb}", "name", text(c->name), "duration_s",
+                     number((double)c->duration_ns * 1e-9), "channels", count(c->channel_count),
+                     "on", c->on_by_default);
+}
+
+static json_t *list(const struct gn_scene *s, uint32_t n,
+                    json_t *(*make)(const struct gn_scene *, uint32_t)) {
+    json_t *all = json_array();
+    for (uint32_t i = 0; i < n; i++) json_array_append_new(all, make(s, i));
+    return all;
+}
+
+static json_t *cost_json(const struct gn_inspection *in) {
+    const struct gn_scene_cost *c = &in->cost;
+    return json_pack(
+        "{si si so so so so so so so so so so so so so so}", "width_px", GN_INSPECT_WIDTH_PX,
+        "height_px", GN_INSPECT_HEIGHT_PX, "passes", count(c->passes), "shadow_passes",
+        count(c->shadow_passes), "draws", count(c->draws), "shadow_draws", count(c->shadow_draws),
+        "programs", count(c->programs), "culled", count(c->culled), "triangles",
+        count(c->triangles), "shadow_triangles", count(c->shadow_triangles), "vertex_bytes",
+        count(c->vertex_bytes), "index_bytes", count(c->index_bytes), "texture_bytes",
+        count(c->texture_bytes), "map_bytes", count(c->map_bytes), "target_bytes",
+        count(c->target_bytes), "memory_bytes", count(in->scene->bytes));
+}
+
+static void add_faults(json_t *all, const struct gn_inspection *in) {
+    json_t *warnings = json_array(), *advice = json_array();
+    for (int i = 0; in->warnings && i < in->warnings->count; i++)
+        json_array_append_new(warnings, text(in->warnings->text[i]));
+    for (uint32_t i = 0; i < in->advice_count; i++)
+        json_array_append_new(advice, json_pack("{so so}", "what", text(in->advice[i].what), "cure",
+                                                text(in->advice[i].cure)));
+    json_object_set_new(all, "warnings", warnings);
+    json_object_set_new(all, "warnings_dropped",
+                        json_integer(in->warnings ? in->warnings->dropped : 0));
+    json_object_set_new(all, "advice", advice);
+    json_object_set_new(all, "advice_dropped", count(in->advice_dropped));
+}
+
+bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_err *err) {
+    const struct gn_scene *s = in->scene;
+    vec3 size;
+    size_of(s, size);
+    json_t *all = json_pack(
+        "{so so so so so so so so so s{so so so} so}", "file", text(in->file), "name",
+        text(s->name), "size_m", vector(size), "counts", counts_json(s), "materials",
+        materials_json(s), "images", list(s, s->image_count, image_json), "lights",
+        list(s, s->light_count, light_json), "cameras", list(s, s->camera_count, camera_json),
+        "clips", list(s, s->clip_count, clip_json), "hemisphere", "sky", vector(s->sky), "ground",
+        vector(s->ground), "background", vector(s->background), "cost", cost_json(in));
+    if (all) add_faults(all, in);
+    bool ok = all && json_dumpf(all, to, JSON_INDENT(2) | JSON_REAL_PRECISION(7)) == 0 &&
+              fputc('\n', to) != EOF;
+    json_decref(all);
+    return ok || gn_fail(err, "the report cannot be written");
+}
