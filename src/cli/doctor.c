@@ -140,10 +140,13 @@ static void self_test(struct gn_doctor_report *report, const struct gn_options *
 
 static bool verdict(const struct gn_doctor_report *report, const struct gn_options *options,
                     const struct answer *answer, struct gn_err *err) {
+    bool any = strcmp(options->backend, "auto") == 0;
+    if (report->chosen < 0 && !any && !find_built(options->backend))
+        return gn_fail(err, "backend %s is not in this build: try --backend auto",
+                       options->backend);
     if (report->chosen < 0)
-        return gn_fail(err, "nothing can draw here%s%s: see the problems that doctor lists",
-                       strcmp(options->backend, "auto") == 0 ? "" : " with backend ",
-                       strcmp(options->backend, "auto") == 0 ? "" : options->backend);
+        return gn_fail(err, "%s%s cannot draw here: see the problems above",
+                       any ? "gnomon" : "backend ", any ? "" : options->backend);
     if (!options->self_test) return true;
     uint32_t failures = report->self_test ? gn_selftest_failures(report->self_test) : 0;
     if (failures)

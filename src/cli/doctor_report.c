@@ -4,8 +4,8 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include <config.h> /* made by the build; not cli/config.h */
 #include "core/text.h"
+#include <config.h> /* made by the build; not cli/config.h */
 
 /* What is used where a capability is not proved. */
 static const char *const instead[GN_CAP_COUNT] = {
@@ -91,15 +91,18 @@ static void diagnose_gpu(struct gn_doctor_report *report) {
                       "the GPU draws no map format but rgba8: shadows are slower");
 }
 
+/* What a backend says has its cure after a semicolon. */
+static void diagnose_backend(struct gn_doctor_report *report, const struct gn_doctor_backend *b) {
+    const char *cure = strstr(b->why, "; ");
+    gn_doctor_add(report, cure ? cure + 2 : "update Mesa, or choose another --backend",
+                  "backend %s: %.*s", b->name, cure ? (int)(cure - b->why) : (int)strlen(b->why),
+                  b->why);
+}
+
 void gn_doctor_diagnose(struct gn_doctor_report *report) {
-    for (int i = 0; i < report->backend_count; i++) {
-        const struct gn_doctor_backend *b = &report->backends[i];
-        if (b->built && !b->opens)
-            gn_doctor_add(report,
-                          report->chosen < 0 ? "sudo apt install libegl1 libgles2 libgl1-mesa-dri"
-                                             : "only needed if you want this backend",
-                          "backend %s: %s", b->name, b->why);
-    }
+    for (int i = 0; i < report->backend_count; i++)
+        if (report->backends[i].built && !report->backends[i].opens)
+            diagnose_backend(report, &report->backends[i]);
     if (report->chosen >= 0) diagnose_gpu(report);
     diagnose_machine(report);
 }
@@ -318,7 +321,8 @@ bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struc
                   devices_json(m, true), "problems", problems_json(report));
     if (all && report->self_test)
         json_object_set_new(all, "self_test", gn_selftest_json(report->self_test));
-    bool ok = all && json_dumpf(all, to, JSON_INDENT(2)) == 0 && fputc('\n', to) != EOF;
+    bool ok = all && json_dumpf(all, to, JSON_INDENT(2) | JSON_REAL_PRECISION(7)) == 0 &&
+              fputc('\n', to) != EOF;
     json_decref(all);
     return ok || gn_fail(err, "the report cannot be written");
 }

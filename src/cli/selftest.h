@@ -24,7 +24,7 @@ enum {
 /* Most wrong pixels that a scene may have, in per cent: away from edges, where both acne and leaks
  * are, and of all. */
 #define GN_SELFTEST_AWAY_MAX  0.3
-#define GN_SELFTEST_WRONG_MAX 2.5
+#define GN_SELFTEST_WRONG_MAX 1.0
 
 struct gn_selftest_count { /* of a scene, in per cent; NAN: not drawn */
     double away, wrong;
