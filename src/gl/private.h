@@ -125,6 +125,14 @@ GLuint gn_gl_program_link(struct gn_gl *gl, const char *vertex, const char *frag
 
 /* ---- the scene on the GPU (upload.c, texture.c) ---- */
 
+struct gn_gl_curve {   /* sRGB by table (mipmap.c) */
+    float decode[256]; /* of a byte: its light, in quarter steps of encode */
+    uint8_t encode[8192];
+};
+void gn_gl_curve_init(struct gn_gl_curve *curve);
+/* Makes *image half as large, in new memory that is also returned: the caller frees it. */
+uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image, bool srgb);
+
 struct gn_gl_vertices { /* one vertex array per set of attributes in use */
     GLuint name;
     uint32_t attributes;

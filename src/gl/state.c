@@ -87,7 +87,8 @@ void gn_gl_set_cull(struct gn_gl *gl, enum gn_cull cull, bool mirrored) {
 }
 
 void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]) {
-    if (memcmp(gl->state.clear_color, rgba, sizeof gl->state.clear_color) == 0) return;
+    const float *c = gl->state.clear_color;
+    if (c[0] == rgba[0] && c[1] == rgba[1] && c[2] == rgba[2] && c[3] == rgba[3]) return;
     memcpy(gl->state.clear_color, rgba, sizeof gl->state.clear_color);
     GL(gl, ClearColor)(rgba[0], rgba[1], rgba[2], rgba[3]);
 }

@@ -1,6 +1,5 @@
 /* The scene's pictures and samplers on the GPU. A picture that is read both as colour and as data
  * is there twice, once a format; equal samplers are there once. */
-#include <math.h>
 #include <stdlib.h>
 
 #include "core/arena.h"
@@ -10,53 +9,17 @@ static bool slot_is_srgb(int slot) {
     return slot == GN_TEXTURE_BASE || slot == GN_TEXTURE_EMISSIVE;
 }
 
-/* ---- pictures larger than the GPU takes ---- */
-
-static float decode(uint8_t byte, bool srgb) {
-    float x = (float)byte / 255;
-    if (!srgb) return x;
-    return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
-}
-
-static uint8_t encode(float x, bool srgb) {
-    if (srgb) x = x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
-    return (uint8_t)(x * 255 + 0.5f);
-}
-
-/* One channel of the mean of 2 x 2 texels; a last odd row or column is taken twice. */
-static uint8_t mean(const struct gn_image *in, uint32_t x, uint32_t y, int channel, bool srgb) {
-    bool curved = srgb && channel < 3;
-    float sum = 0;
-    for (uint32_t j = 0; j < 2; j++)
-        for (uint32_t i = 0; i < 2; i++) {
-            uint32_t u = 2 * x + i < in->width_px ? 2 * x + i : in->width_px - 1;
-            uint32_t v = 2 * y + j < in->height_px ? 2 * y + j : in->height_px - 1;
-            sum += decode(in->rgba[4 * ((size_t)v * in->width_px + u) + (size_t)channel], curved);
-        }
-    return encode(sum / 4, curved);
-}
-
-static uint8_t *halve(struct gn_image *image, bool srgb) {
-    struct gn_image half = {.width_px = (image->width_px + 1) / 2,
-                            .height_px = (image->height_px + 1) / 2};
-    uint8_t *out = gn_xalloc((size_t)half.width_px * half.height_px, 4);
-    for (uint32_t y = 0; y < half.height_px; y++)
-        for (uint32_t x = 0; x < half.width_px; x++)
-            for (int c = 0; c < 4; c++)
-                out[4 * ((size_t)y * half.width_px + x) + (size_t)c] = mean(image, x, y, c, srgb);
-    half.rgba = out;
-    *image = half;
-    return out;
-}
+/* ---- textures ---- */
 
 /* Makes the copy *image small enough; returns what is to be freed, or NULL. */
-static uint8_t *shrink(struct gn_gl *gl, uint32_t index, struct gn_image *image, bool srgb) {
+static uint8_t *shrink(struct gn_gl *gl, const struct gn_gl_curve *curve, uint32_t index,
+                       struct gn_image *image, bool srgb) {
     const uint32_t largest = (uint32_t)gl->caps.max_texture_px;
     const struct gn_image before = *image;
     uint8_t *owned = NULL;
     while (image->width_px > largest || image->height_px > largest) {
         uint8_t *old = owned;
-        owned = halve(image, srgb);
+        owned = gn_gl_image_halve(curve, image, srgb);
         free(old);
     }
     if (owned)
@@ -65,8 +28,6 @@ static uint8_t *shrink(struct gn_gl *gl, uint32_t index, struct gn_image *image,
     return owned;
 }
 
-/* ---- textures ---- */
-
 static GLsizei levels_of(const struct gn_image *image) {
     uint32_t side = image->width_px > image->height_px ? image->width_px : image->height_px;
     GLsizei levels = 1;
@@ -74,19 +35,42 @@ static GLsizei levels_of(const struct gn_image *image) {
     return levels;
 }
 
-static void upload(struct gn_gl *gl, uint32_t index, bool srgb, bool mipmaps) {
+static void send_level(struct gn_gl *gl, GLint level, const struct gn_image *image) {
+    const GLsizei width = (GLsizei)image->width_px, height = (GLsizei)image->height_px;
+    GL(gl, TexSubImage2D)
+    (GL_TEXTURE_2D, level, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image->rgba);
+}
+
+static void make_levels(struct gn_gl *gl, const struct gn_gl_curve *curve, struct gn_image image,
+                        bool srgb) {
+    if (!gl->caps.software) {
+        GL(gl, GenerateMipmap)(GL_TEXTURE_2D);
+        return;
+    }
+    const GLsizei count = levels_of(&image);
+    uint8_t *owned = NULL;
+    for (GLint level = 1; level < count; level++) {
+        uint8_t *before = owned;
+        owned = gn_gl_image_halve(curve, &image, srgb);
+        free(before);
+        send_level(gl, level, &image);
+    }
+    free(owned);
+}
+
+static void upload(struct gn_gl *gl, const struct gn_gl_curve *curve, uint32_t index, bool srgb,
+                   bool mipmaps) {
     struct gn_image image = gl->scene.scene->images[index];
-    uint8_t *owned = shrink(gl, index, &image, srgb);
-    const GLsizei width = (GLsizei)image.width_px, height = (GLsizei)image.height_px;
+    uint8_t *owned = shrink(gl, curve, index, &image, srgb);
     GLuint name = gl->scene.images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
     gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, name, 0);
     GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, mipmaps ? levels_of(&image) : 1, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, width,
-     height);
-    GL(gl, TexSubImage2D)
-    (GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba);
-    if (mipmaps) GL(gl, GenerateMipmap)(GL_TEXTURE_2D);
-    gl->scene.texture_bytes += (uint64_t)width * (uint64_t)height * 4 * (mipmaps ? 4 : 3) / 3;
+    (GL_TEXTURE_2D, mipmaps ? levels_of(&image) : 1, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8,
+     (GLsizei)image.width_px, (GLsizei)image.height_px);
+    send_level(gl, 0, &image);
+    if (mipmaps) make_levels(gl, curve, image, srgb);
+    gl->scene.texture_bytes +=
+        (uint64_t)image.width_px * image.height_px * 4 * (mipmaps ? 4 : 3) / 3;
     free(owned);
 }
 
@@ -96,11 +80,12 @@ static bool wants_mipmaps(const struct gn_scene *scene, uint32_t image) {
     return false;
 }
 
-static void upload_once(struct gn_gl *gl, const struct gn_texture_ref *ref, bool srgb) {
+static void upload_once(struct gn_gl *gl, const struct gn_gl_curve *curve,
+                        const struct gn_texture_ref *ref, bool srgb) {
     if (ref->texture < 0) return;
     uint32_t image = gl->scene.scene->textures[ref->texture].image;
     if (!gl->scene.images[srgb][image])
-        upload(gl, image, srgb, wants_mipmaps(gl->scene.scene, image));
+        upload(gl, curve, image, srgb, wants_mipmaps(gl->scene.scene, image));
 }
 
 /* ---- samplers ---- */
@@ -138,12 +123,14 @@ static void make_sampler(struct gn_gl *gl, const struct gn_texture *t) {
 
 bool gn_gl_textures_upload(struct gn_gl *gl, struct gn_err *err) {
     struct gn_gl_scene *s = &gl->scene;
+    struct gn_gl_curve curve;
+    gn_gl_curve_init(&curve);
     s->image_count = s->scene->image_count;
     for (int i = 0; i < 2; i++)
         s->images[i] = gn_xalloc(s->scene->image_count + 1, sizeof *s->images[i]);
     for (uint32_t i = 0; i < s->scene->material_count; i++)
         for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
-            upload_once(gl, &s->scene->materials[i].textures[slot], slot_is_srgb(slot));
+            upload_once(gl, &curve, &s->scene->materials[i].textures[slot], slot_is_srgb(slot));
     for (uint32_t i = 0; i < s->scene->texture_count; i++) make_sampler(gl, &s->scene->textures[i]);
     return gn_gl_error_check(gl, "uploading the pictures", err);
 }

@@ -98,6 +98,12 @@ static void material_rows(const struct gn_material *material, float rows[][4]) {
     }
 }
 
+static bool same_rows(const float (*a)[4], const float (*b)[4]) {
+    for (int i = 0; i < 2 * GN_TEXTURE_SLOT_COUNT * 4; i++)
+        if (a[i / 4][i % 4] != b[i / 4][i % 4]) return false;
+    return true;
+}
+
 /* Materials with the same transforms, nearly all, share one set: so a program keeps it. */
 static void collect_uv(struct gn_gl_scene *s) {
     s->uv = gn_xalloc(s->scene->material_count + 1, sizeof *s->uv);
@@ -105,7 +111,7 @@ static void collect_uv(struct gn_gl_scene *s) {
     for (uint32_t i = 0; i < s->scene->material_count; i++) {
         material_rows(&s->scene->materials[i], s->uv[s->uv_count]);
         uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
-        while (memcmp(s->uv[same], s->uv[s->uv_count], sizeof *s->uv) != 0) same++;
+        while (same < s->uv_count && !same_rows(s->uv[same], s->uv[s->uv_count])) same++;
         s->material_uv[i] = same;
         s->uv_count += same == s->uv_count;
     }

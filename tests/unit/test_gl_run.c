@@ -415,6 +415,26 @@ static void test_large_image(void **state) {
     expect(8, 8, 188, 188, 188); /* the mean of light, not of codes */
 }
 
+/* The smallest level of a picture of four colours, made by us or by the driver: their mean. */
+static void test_mipmaps(void **state) {
+    (void)state;
+    struct gn_scene scene = help_scene;
+    struct gn_texture texture = {.image = 0, .mipmaps = true};
+    scene.textures = &texture;
+    for (int software = 0; software < 2; software++) {
+        gl->caps.software = software;
+        assert_true(gn_gl_load(gl, &scene, &err));
+        begin_plan(GN_OUTPUT_SRGB8);
+        s.plan.scene = &scene;
+        s.programs[0].features = GN_FEATURE_BASE_TEXTURE;
+        add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
+        s.instances[0].world[0][0] = s.instances[0].world[1][1] = 0.0625f; /* a pixel */
+        s.instances[0].world[0][3] = s.instances[0].world[1][3] = 0.0625f;
+        show();
+        expect(8, 7, 188, 188, 188);
+    }
+}
+
 #define TEST(name)                                                                                 \
     {#name " egl", name, open_egl, close_all, NULL}, {                                             \
 #name " osmesa", name, open_osmesa, close_all, NULL                                        \
@@ -427,6 +447,7 @@ int main(void) {
         TEST(test_msaa),           TEST(test_float_and_aov),       TEST(test_maps),
         TEST(test_map_skipped),    TEST(test_maps_take_turns),     TEST(test_steady),
         TEST(test_not_prepared),   TEST(test_wide_indices),        TEST(test_large_image),
+        TEST(test_mipmaps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

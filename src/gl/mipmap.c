@@ -1,0 +1,50 @@
+/* Smaller pictures by the mean of 2 x 2 texels, of light and not of codes where they are sRGB. For
+ * pictures larger than the GPU takes, and for all levels where the "GPU" is software: llvmpipe
+ * takes thirty times as long, most of it to compile. No GL. */
+#include <math.h>
+
+#include "core/arena.h"
+#include "gl/private.h"
+
+enum { STEPS = sizeof((struct gn_gl_curve *)0)->encode - 1 };
+
+static float decode(float x) {
+    return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
+}
+
+static float encode(float x) {
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
+}
+
+void gn_gl_curve_init(struct gn_gl_curve *curve) {
+    for (int i = 0; i < 256; i++) curve->decode[i] = decode((float)i / 255) * STEPS / 4;
+    for (int i = 0; i <= STEPS; i++)
+        curve->encode[i] = (uint8_t)(encode((float)i / STEPS) * 255 + 0.5f);
+}
+
+static uint8_t mean_light(const struct gn_gl_curve *curve, const uint8_t *const in[4], int c) {
+    const float sum = curve->decode[in[0][c]] + curve->decode[in[1][c]] + curve->decode[in[2][c]] +
+                      curve->decode[in[3][c]];
+    return curve->encode[(int)(sum + 0.5f)];
+}
+
+static uint8_t mean_code(const uint8_t *const in[4], int c) {
+    return (uint8_t)((in[0][c] + in[1][c] + in[2][c] + in[3][c] + 2) / 4);
+}
+
+uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image, bool srgb) {
+    const uint32_t width = image->width_px > 1 ? image->width_px / 2 : 1;
+    const uint32_t height = image->height_px > 1 ? image->height_px / 2 : 1;
+    const size_t right = image->width_px > 1 ? 4 : 0;
+    const size_t below = image->height_px > 1 ? 4ul * image->width_px : 0;
+    uint8_t *out = gn_xalloc((size_t)width * height, 4), *to = out;
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++, to += 4) {
+            const uint8_t *p = image->rgba + 4 * (2ul * y * image->width_px + 2ul * x);
+            const uint8_t *const in[4] = {p, p + right, p + below, p + below + right};
+            for (int c = 0; c < 3; c++) to[c] = srgb ? mean_light(curve, in, c) : mean_code(in, c);
+            to[3] = mean_code(in, 3);
+        }
+    *image = (struct gn_image){.width_px = width, .height_px = height, .rgba = out};
+    return out;
+}
