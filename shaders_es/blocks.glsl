@@ -2,8 +2,8 @@
  * std140 block read in a fragment shader costs Mali load/store slots). Read by GLSL and by C, so it holds only #define. */
 #define PASS_CLIP 0       /* 4 columns of clip_from_world */
 #define PASS_EYE 4        /* xyz: eye, world space, or direction to it if w = 0; w: 1 perspective, 0 orthographic */
-#define PASS_CODE 4       /* shadow passes: code = dot(xyzw, (p, 1)), or with a radial distance |p - xyz| * w + .. */
-#define PASS_CODE_ADD 5   /* shadow passes: .. + x */
+#define PASS_CODE 4       /* shadow passes: w, factor on the depth (0..1), or on the distance from xyz (metres) */
+#define PASS_CODE_ADD 5   /* shadow passes: x is added to that: the code */
 #define PASS_SKY 5        /* rgb: hemisphere's upper radiance, after exposure */
 #define PASS_GROUND 6     /* rgb: lower */
 #define PASS_EXPOSURE 7   /* x: factor on emitted radiance; yzw: position of the eye, world space */

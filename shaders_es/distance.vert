@@ -1,10 +1,8 @@
-// Casters into a distance map: along the light's direction it is linear and made here, from a point it is not.
+// Casters into a distance map.
 #include "lib/caster.vert.glsl"
 
 #ifdef WITH_PERSPECTIVE
 out vec3 v_from_light;
-#else
-out float v_code;
 #endif
 
 void main() {
@@ -12,7 +10,5 @@ void main() {
     place_caster(p);
 #ifdef WITH_PERSPECTIVE
     v_from_light = p - u_pass[PASS_CODE].xyz;
-#else
-    v_code = dot(u_pass[PASS_CODE], vec4(p, 1.0));
 #endif
 }

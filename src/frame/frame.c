@@ -30,6 +30,8 @@ void gn_frame_destroy(struct gn_frame *frame) {
     free(frame->instances.at);
     free(frame->programs.at);
     free(frame->blended.at);
+    free(frame->run.at);
+    free(frame->sorted.at);
     free(frame->passes.at);
     for (int i = 0; i < GN_SHADOWS_MAX; i++) gn_shadow_memory_finish(&frame->memory[i]);
     free(frame->constants);
@@ -58,9 +60,21 @@ static void add_instance(struct gn_frame *frame, const struct gn_pose *pose, uin
     instance->emissive[3] = item->casts && m->alpha != GN_ALPHA_BLEND ? 1.0f : 0.0f;
 }
 
-static enum gn_cull caster_cull(const struct gn_item *item) {
+static bool light_is_outside(const struct gn_box *box, const struct gn_shadow_view *view) {
+    if (!view->perspective) return true;
+    for (int k = 0; k < 3; k++)
+        if (view->light_ws[k] < box->min[k] || view->light_ws[k] > box->max[k]) return true;
+    return false;
+}
+
+/* Casting from both sides, a solid body needs only the faces that look to a light outside it. */
+static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_pose *pose, uint32_t index,
+                                const struct gn_shadow_view *view) {
+    const struct gn_item *item = &scene->items[index];
     if (item->cast_faces == GN_CAST_FRONT) return GN_CULL_BACK;
-    return item->cast_faces == GN_CAST_BACK ? GN_CULL_FRONT : GN_CULL_NONE;
+    if (item->cast_faces == GN_CAST_BACK) return GN_CULL_FRONT;
+    bool solid = scene->geometries[item->geometry].closed && scene->materials[item->material].alpha != GN_ALPHA_MASK;
+    return solid && light_is_outside(&pose->items[index].box_ws, view) ? GN_CULL_BACK : GN_CULL_NONE;
 }
 
 static enum gn_cull eye_cull(const struct gn_frame *frame, const struct gn_item *item) {
@@ -82,8 +96,8 @@ static void begin_draw(struct gn_frame *frame, uint32_t item, const struct gn_pr
 
 /* Which items a pass takes, and with which program. */
 struct selection {
-    const uint8_t *casts;               /* shadow pass: those marked; NULL: what the eye sees */
-    const struct gn_shadow_view *view;  /* shadow pass */
+    const uint8_t *casts;              /* shadow pass: those marked; NULL: what the eye sees */
+    const struct gn_shadow_view *view; /* shadow pass */
     const struct gn_frame_opts *opts;
 };
 
@@ -91,53 +105,90 @@ static bool is_blended(const struct gn_frame *frame, uint32_t item) {
     return frame->scene->materials[frame->scene->items[item].material].alpha == GN_ALPHA_BLEND;
 }
 
+/* How far behind the near plane a box lies: its middle, or its far side. */
+static float depth_of(const struct gn_frame *frame, const struct gn_box *box, bool far_side) {
+    const float *near_plane = frame->eye.planes[4];
+    float depth = near_plane[3];
+    for (int k = 0; k < 3; k++) {
+        depth += near_plane[k] * 0.5f * (box->min[k] + box->max[k]);
+        if (far_side) depth += fabsf(near_plane[k]) * 0.5f * (box->max[k] - box->min[k]);
+    }
+    return depth;
+}
+
 static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s, uint32_t item) {
     if (s->casts) return s->casts[item];
-    if (!pose->items[item].visible || !gn_eye_sees(&frame->eye, &pose->items[item].box_ws)) {
+    const struct gn_box *box = &pose->items[item].box_ws;
+    if (!pose->items[item].visible || !gn_eye_sees(&frame->eye, box)) {
         frame->plan.culled++;
         return false;
     }
     if (!is_blended(frame, item)) return true;
-    if (s->opts->aov != GN_AOV_COLOR) return false;
-    vec4 centre = {0, 0, 0, 1}, clip;
-    glm_vec3_center((float *)pose->items[item].box_ws.min, (float *)pose->items[item].box_ws.max, centre);
-    glm_mat4_mulv(frame->eye.clip_from_world, centre, clip);
-    GN_LIST_PUSH(&frame->blended) = (struct gn_blended){clip[3] == 1.0f ? clip[2] : clip[3], item};
+    if (s->opts->aov == GN_AOV_COLOR)
+        GN_LIST_PUSH(&frame->blended) = (struct gn_placed){depth_of(frame, box, false), item};
     return false;
 }
 
 static void draw_item(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s, uint32_t item,
                       bool *open) {
     bool mirrored = pose->items[item].mirrored;
-    if (*open && frame->draws.at[frame->draws.count - 1].mirrored != mirrored) *open = false;
-    if (!*open) {
-        const struct gn_item *it = &frame->scene->items[item];
+    enum gn_cull cull = s->casts ? caster_cull(frame->scene, pose, item, s->view) : eye_cull(frame, &frame->scene->items[item]);
+    const struct gn_draw *last = *open ? &frame->draws.at[frame->draws.count - 1] : NULL;
+    if (!last || last->mirrored != mirrored || last->cull != cull) {
         struct gn_program_key key = s->casts ? gn_key_caster(frame, item, s->view) : gn_key_lit(frame, item, s->opts);
-        begin_draw(frame, item, &key, s->casts ? caster_cull(it) : eye_cull(frame, it), mirrored);
+        begin_draw(frame, item, &key, cull, mirrored);
         *open = true;
     }
     add_instance(frame, pose, item);
-    frame->draws.at[frame->draws.count - 1].instance_count++;
+    struct gn_draw *draw = &frame->draws.at[frame->draws.count - 1];
+    float depth_m = s->casts ? 0.0f : depth_of(frame, &pose->items[item].box_ws, true);
+    draw->depth_m += (depth_m - draw->depth_m) / (float)++draw->instance_count;
+}
+
+enum { DEPTH_STEPS = 64 };
+
+/* Which of 2 x DEPTH_STEPS bins an item of a run falls in: by depth, mirrored ones after all others. */
+static uint32_t bin_of(const struct gn_pose *pose, const struct gn_placed *placed, float least, float most) {
+    float share = most > least ? (placed->depth - least) / (most - least) : 0.0f;
+    return (uint32_t)((DEPTH_STEPS - 1) * share) + (pose->items[placed->item].mirrored ? DEPTH_STEPS : 0);
+}
+
+/* Draws the gathered run of items of one batch roughly nearest first (a counting sort, so that thousands cost little). */
+static void draw_run(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s) {
+    uint32_t count = frame->run.count, start[2 * DEPTH_STEPS + 1] = {0};
+    float least = INFINITY, most = -INFINITY;
+    frame->sorted.count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        least = fminf(least, frame->run.at[i].depth);
+        most = fmaxf(most, frame->run.at[i].depth);
+        GN_LIST_PUSH(&frame->sorted) = frame->run.at[i];
+    }
+    for (uint32_t i = 0; i < count; i++) start[bin_of(pose, &frame->run.at[i], least, most) + 1]++;
+    for (int k = 0; k < 2 * DEPTH_STEPS; k++) start[k + 1] += start[k];
+    for (uint32_t i = 0; i < count; i++)
+        frame->sorted.at[start[bin_of(pose, &frame->run.at[i], least, most)]++] = frame->run.at[i];
+    bool open = false;
+    for (uint32_t i = 0; i < count; i++) draw_item(frame, pose, s, frame->sorted.at[i].item, &open);
+    frame->run.count = 0;
 }
 
 static void draw_items(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s) {
-    bool open = false;
     uint32_t batch = UINT32_MAX;
+    frame->run.count = 0;
     for (uint32_t i = 0; i < frame->scene->item_count; i++) {
         if (!takes(frame, pose, s, i)) continue;
-        if (frame->scene->items[i].batch != batch) open = false;
+        if (frame->scene->items[i].batch != batch) draw_run(frame, pose, s);
         batch = frame->scene->items[i].batch;
-        draw_item(frame, pose, s, i, &open);
+        float depth = s->casts ? 0.0f : depth_of(frame, &pose->items[i].box_ws, false);
+        GN_LIST_PUSH(&frame->run) = (struct gn_placed){depth, i};
     }
+    draw_run(frame, pose, s);
 }
 
-/* Opaque before masked (a discard costs early depth), then by how near the batch's first instance is. */
+/* Opaque before masked (a discard costs early depth), then nearest first, by the far side: a ground goes last. */
 static float draw_order(const struct gn_frame *frame, const struct gn_draw *draw) {
-    const struct gn_instance *first = &frame->instances.at[draw->first_instance];
-    vec4 p = {first->world[0][3], first->world[1][3], first->world[2][3], 1.0f}, clip;
-    glm_mat4_mulv((vec4 *)frame->eye.clip_from_world, p, clip);
     bool masked = frame->programs.at[draw->program].features & GN_FEATURE_ALPHA_MASK;
-    return clip[3] + (masked ? 1e9f : 0.0f);
+    return draw->depth_m + (masked ? 1e9f : 0.0f);
 }
 
 /* Few draws, nearly sorted from frame to frame: insertion. */
@@ -203,7 +254,7 @@ static struct gn_pass *picture_pass(struct gn_frame *frame, const char *label) {
 }
 
 static int by_depth(const void *a, const void *b) {
-    const struct gn_blended *x = a, *y = b;
+    const struct gn_placed *x = a, *y = b;
     if (x->depth != y->depth) return x->depth < y->depth ? 1 : -1;
     return x->item < y->item ? -1 : 1;
 }

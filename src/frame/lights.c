@@ -193,11 +193,7 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
 
 void gn_frame_shadow_constants(const struct gn_shadow_view *view, float (*constants)[4]) {
     memcpy(constants[PASS_CLIP], view->clip_from_world, sizeof view->clip_from_world);
-    if (view->perspective) {
-        put3(constants[PASS_CODE], view->light_ws);
-        constants[PASS_CODE][3] = view->distance_scale;
-        constants[PASS_CODE_ADD][0] = view->distance_offset;
-        return;
-    }
-    for (int c = 0; c < 4; c++) constants[PASS_CODE][c] = view->map_from_world[c][2];
+    put3(constants[PASS_CODE], view->light_ws);
+    constants[PASS_CODE][3] = view->perspective ? view->distance_scale : view->distance_scale * view->far_m;
+    constants[PASS_CODE_ADD][0] = view->distance_offset;
 }

@@ -73,6 +73,7 @@ struct gn_draw { /* one instanced call */
     uint32_t first_instance, instance_count;
     uint8_t cull;      /* gn_cull */
     bool mirrored;     /* front faces wind clockwise */
+    float depth_m;     /* how far behind the near plane its instances end, on average; a picture is drawn in this order */
 };
 
 enum gn_cull { GN_CULL_NONE, GN_CULL_BACK, GN_CULL_FRONT };

@@ -11,6 +11,11 @@ void *gn_list_grow(void *at, uint32_t count, uint32_t *room, size_t size);
 #define GN_LIST_PUSH(list) \
     (*((list)->at = gn_list_grow((list)->at, (list)->count, &(list)->room, sizeof *(list)->at), &(list)->at[(list)->count++]))
 
+struct gn_placed {
+    float depth; /* behind the near plane, metres */
+    uint32_t item;
+};
+
 /* A light of this frame. */
 struct gn_frame_light {
     uint32_t light;               /* of the scene */
@@ -32,7 +37,7 @@ struct gn_frame {
     GN_LIST(struct gn_draw) draws;
     GN_LIST(struct gn_instance) instances;
     GN_LIST(struct gn_program_key) programs;
-    GN_LIST(struct gn_blended { float depth; uint32_t item; }) blended;
+    GN_LIST(struct gn_placed) blended, run, sorted;
     GN_LIST(struct gn_pass) passes;
     float (*constants)[4]; /* one set per shadow slot, then one for the picture */
     struct gn_eye eye;

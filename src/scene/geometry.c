@@ -233,6 +233,7 @@ static bool fill(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *
     if (!(flat ? fill_flat : fill_shared)(g, &at, shape, geometry)) return false;
     g->scene->index_count += geometry->index_count;
     gn_geometry_measure(g->scene, geometry, &shape->area);
+    geometry->closed = gn_geometry_is_closed(g->scene, geometry);
     return true;
 }
 

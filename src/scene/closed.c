@@ -1,0 +1,116 @@
+/* Is a geometry the boundary of solid bodies, front faces outward? Then for a light outside, what
+ * it reaches first is always a front face, and the other half of the triangles need not go into its
+ * shadow map.
+ *
+ * Vertices are welded by position. A surface is closed when every directed edge meets its opposite,
+ * which is tested without a table of edges: each adds or takes away a 64-bit hash of its undirected
+ * edge, and what is left must be zero. A body is outward when its signed volume is positive; bodies
+ * are told apart by union and find over the welded vertices. */
+#include <string.h>
+
+#include "core/arena.h"
+#include "core/hash.h"
+#include "scene/private.h"
+
+struct welder {
+    const struct gn_scene *scene;
+    const struct gn_geometry *geometry;
+    uint32_t *slots; /* hash table of vertex + 1 */
+    uint32_t mask;
+    uint32_t *vertex; /* per vertex of the geometry: the first one in the same place */
+    uint32_t *body;   /* per welded vertex: parent in its body's tree */
+    double *volume;   /* per root: six times the signed volume */
+};
+
+static bool make_room(struct welder *w, struct gn_arena *arena) {
+    uint32_t count = w->geometry->vertex_count, size = 16;
+    while (size < 2 * (uint64_t)count && size < 1u << 31) size *= 2;
+    w->mask = size - 1;
+    w->slots = gn_arena_alloc(arena, size, sizeof *w->slots);
+    w->vertex = gn_arena_alloc(arena, count, sizeof *w->vertex);
+    w->body = gn_arena_alloc(arena, count, sizeof *w->body);
+    w->volume = gn_arena_alloc(arena, count, sizeof *w->volume);
+    return w->slots && w->vertex && w->body && w->volume;
+}
+
+static const float *position(const struct welder *w, uint32_t vertex) {
+    return w->scene->positions + 3 * ((size_t)w->geometry->first_vertex + vertex);
+}
+
+static void weld(struct welder *w) {
+    for (uint32_t v = 0; v < w->geometry->vertex_count; v++) {
+        float p[3];
+        for (int k = 0; k < 3; k++) p[k] = position(w, v)[k] + 0.0f; /* -0 is 0 */
+        uint32_t at = (uint32_t)(gn_hash(GN_HASH_INIT, p, sizeof p) >> 20) & w->mask;
+        for (; w->slots[at]; at = (at + 1) & w->mask) {
+            const float *q = position(w, w->slots[at] - 1);
+            if (q[0] == p[0] && q[1] == p[1] && q[2] == p[2]) break;
+        }
+        if (!w->slots[at]) w->slots[at] = v + 1;
+        w->vertex[v] = w->slots[at] - 1;
+        w->body[v] = v;
+    }
+}
+
+static uint32_t root(struct welder *w, uint32_t vertex) {
+    while (w->body[vertex] != vertex) vertex = w->body[vertex] = w->body[w->body[vertex]];
+    return vertex;
+}
+
+static uint64_t edge(uint32_t a, uint32_t b) {
+    uint32_t ends[2] = {a < b ? a : b, a < b ? b : a};
+    uint64_t h = gn_hash(GN_HASH_INIT, ends, sizeof ends);
+    return a < b ? h : -h;
+}
+
+static double volume_six(const float *a, const float *b, const float *c, const float *from) {
+    double u[3], v[3], w[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = (double)a[k] - (double)from[k];
+        v[k] = (double)b[k] - (double)from[k];
+        w[k] = (double)c[k] - (double)from[k];
+    }
+    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+           u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+static bool edges_meet(struct welder *w) {
+    uint64_t sum = 0;
+    const uint32_t *index = w->scene->indices + w->geometry->first_index;
+    for (uint32_t i = 0; i < w->geometry->index_count; i += 3) {
+        uint32_t t[3];
+        for (int k = 0; k < 3; k++)
+            t[k] = w->vertex[index[i + (uint32_t)k] - w->geometry->first_vertex];
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+        sum += edge(t[0], t[1]) + edge(t[1], t[2]) + edge(t[2], t[0]);
+        w->body[root(w, t[1])] = root(w, t[0]);
+        w->body[root(w, t[2])] = root(w, t[0]);
+    }
+    return sum == 0;
+}
+
+static bool bodies_are_outward(struct welder *w) {
+    const uint32_t *index = w->scene->indices + w->geometry->first_index;
+    uint32_t first = w->geometry->first_vertex;
+    for (uint32_t i = 0; i < w->geometry->index_count; i += 3) {
+        uint32_t body = root(w, w->vertex[index[i] - first]);
+        w->volume[body] +=
+            volume_six(position(w, index[i] - first), position(w, index[i + 1] - first),
+                       position(w, index[i + 2] - first), position(w, body));
+    }
+    for (uint32_t v = 0; v < w->geometry->vertex_count; v++)
+        if (w->volume[v] < 0.0) return false;
+    return true;
+}
+
+bool gn_geometry_is_closed(const struct gn_scene *scene, const struct gn_geometry *geometry) {
+    struct gn_arena arena = {0};
+    struct welder w = {.scene = scene, .geometry = geometry};
+    bool closed = false;
+    if (geometry->index_count >= 12 && !geometry->flat && make_room(&w, &arena)) {
+        weld(&w);
+        closed = edges_meet(&w) && bodies_are_outward(&w);
+    }
+    gn_arena_finish(&arena);
+    return closed;
+}
