@@ -59,7 +59,7 @@ uint64_t gn_inspect_image_bytes(const struct gn_scene *scene, uint32_t image) {
             mipmaps |= scene->textures[texture].mipmaps;
         }
     uint64_t pixels = (uint64_t)scene->images[image].width_px * scene->images[image].height_px;
-    return (uint64_t)(used[0] + used[1]) * pixels * 4 * (mipmaps ? 4 : 3) / 3;
+    return (uint64_t)(used[0] + used[1]) * (pixels * 4 * (mipmaps ? 4 : 3) / 3);
 }
 
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,

@@ -1,0 +1,283 @@
+/* What inspect finds in a scene: amounts, bytes, and each fault with its cure. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <jansson.h>
+
+#include "cli/inspect.h"
+#include "gltf_maker.h"
+
+static struct gn_maker maker;
+static struct gn_err err;
+static struct gn_warnings warnings;
+static struct gn_scene *scene;
+static struct gn_inspection in;
+
+static int setup(void **state) {
+    (void)state;
+    memset(&warnings, 0, sizeof warnings);
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    return 0;
+}
+
+static int teardown(void **state) {
+    (void)state;
+    gn_scene_destroy(scene);
+    scene = NULL;
+    return 0;
+}
+
+static void inspect(void) {
+    scene = gn_maker_load(&maker, &warnings, &err);
+    if (!scene) fail_msg("%s", err.text);
+    gn_inspect_build(&in, "t", scene, &warnings);
+}
+
+static void assert_advice(const char *part) {
+    for (uint32_t i = 0; i < in.advice_count; i++)
+        if (strstr(in.advice[i].what, part)) {
+            assert_true(in.advice[i].cure[0]);
+            return;
+        }
+    fail_msg("no advice with '%s'", part);
+}
+
+static void assert_no_advice(const char *part) {
+    for (uint32_t i = 0; i < in.advice_count; i++)
+        if (strstr(in.advice[i].what, part)) fail_msg("advice '%s'", in.advice[i].what);
+}
+
+/* Lights, each on a node of its own beside the square; its side in metres. */
+static void set_lights(int count, const char *light, float side) {
+    char list[2000] = "", nodes[3000], roots[200] = "0";
+    snprintf(nodes, sizeof nodes, "[{'mesh':0,'scale':[%g,%g,%g]}", (double)side / 2,
+             (double)side / 2, (double)side / 2);
+    for (int i = 0; i < count; i++) {
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? "," : "", light);
+        snprintf(
+            nodes + strlen(nodes), sizeof nodes - strlen(nodes),
+            ",{'name':'light %d','translation':[0,3,0],'rotation':[-0.70710678,0,0,0.70710678],"
+            "'extensions':{'KHR_lights_punctual':{'light':%d}}}",
+            i, i);
+        snprintf(roots + strlen(roots), sizeof roots - strlen(roots), ",%d", i + 1);
+    }
+    char json[3000];
+    snprintf(json, sizeof json, "{'KHR_lights_punctual':{'lights':[%s]}}", list);
+    gn_maker_set(&maker, "extensions", json);
+    snprintf(nodes + strlen(nodes), sizeof nodes - strlen(nodes), "]");
+    gn_maker_set(&maker, "nodes", nodes);
+    snprintf(json, sizeof json, "[{'nodes':[%s]}]", roots);
+    gn_maker_set(&maker, "scenes", json);
+}
+
+static void set_material(const char *material) {
+    gn_maker_add(&maker, "materials", material);
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}]");
+}
+
+/* ---- amounts ---- */
+
+static void test_a_square_costs_what_it_weighs(void **state) {
+    (void)state;
+    inspect();
+    assert_int_equal(scene->triangle_count, 2);
+    assert_int_equal(in.cost.vertex_bytes, (12 + 8) * scene->vertex_count);
+    assert_int_equal(in.cost.index_bytes, 6 * 2);
+    assert_int_equal(in.cost.draws, 1);
+    assert_int_equal(in.cost.triangles, 2);
+    assert_int_equal(in.cost.texture_bytes, 0);
+    assert_int_equal(in.cost.target_bytes, 1280 * 720 * (4 + 4));
+}
+
+static void test_a_picture_costs_its_mipmaps_once_a_use(void **state) {
+    (void)state;
+    uint8_t rgba[16 * 8 * 4];
+    memset(rgba, 255, sizeof rgba);
+    struct gn_made png = gn_maker_png(16, 8, rgba);
+    char json[80];
+    snprintf(json, sizeof json, "{'mimeType':'image/png','bufferView':%d}",
+             gn_maker_view(&maker, png.data, png.size));
+    free(png.data);
+    gn_maker_add(&maker, "images", json);
+    gn_maker_add(&maker, "textures", "{'source':0}");
+    set_material("{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}},"
+                 "'occlusionTexture':{'index':0}}");
+    inspect();
+    assert_int_equal(gn_inspect_image_bytes(scene, 0), 2 * (16 * 8 * 4 * 4 / 3));
+    assert_int_equal(in.cost.texture_bytes, gn_inspect_image_bytes(scene, 0));
+}
+
+/* ---- faults ---- */
+
+static void test_what_the_file_lacks_is_said(void **state) {
+    (void)state;
+    inspect();
+    assert_advice("no light");
+    assert_advice("no camera");
+    assert_advice("1 mesh has no normals");
+}
+
+static void test_faults_of_a_light_are_named(void **state) {
+    (void)state;
+    set_lights(1,
+               "{'type':'spot','intensity':0,'spot':{'outerConeAngle':1.5},'extras':"
+               "{'gnomon_map_px':8192,'gnomon_shadow':'velvet'}}",
+               2);
+    inspect();
+    assert_advice("'light 0' is dark");
+    assert_advice("opens to 86 degrees");
+    assert_advice("a map of 8192 pixels");
+    assert_advice("'velvet'");
+    assert_no_advice("no light");
+}
+
+static void test_a_right_light_gets_no_advice(void **state) {
+    (void)state;
+    set_lights(1, "{'type':'spot','intensity':50,'spot':{'outerConeAngle':0.7}}", 2);
+    inspect();
+    assert_no_advice("light");
+    assert_no_advice("spot");
+}
+
+static void test_too_many_lights_are_counted(void **state) {
+    (void)state;
+    set_lights(9, "{'type':'directional','intensity':1}", 2);
+    inspect();
+    assert_advice("9 lights want shadows: the 4 strongest");
+    assert_advice("9 lights: the 8 strongest");
+    assert_int_equal(in.cost.shadow_passes <= 4, 1);
+}
+
+static void test_a_point_light_casts_none(void **state) {
+    (void)state;
+    set_lights(1, "{'type':'point','intensity':9}", 2);
+    inspect();
+    assert_advice("point light 'light 0'");
+}
+
+static void test_millimetres_are_noticed(void **state) {
+    (void)state;
+    set_lights(1, "{'type':'directional'}", 9000);
+    inspect();
+    assert_advice("m across: shadow maps");
+}
+
+static void test_a_doll_house_is_noticed(void **state) {
+    (void)state;
+    set_lights(1, "{'type':'directional'}", 0.01f);
+    inspect();
+    assert_advice("only 0.0141 m across");
+}
+
+static void test_a_deep_camera_is_noticed(void **state) {
+    (void)state;
+    gn_maker_add(&maker, "cameras",
+                 "{'type':'perspective','perspective':{'yfov':1,'znear':0.0001,'zfar':1000}}");
+    gn_maker_set(&maker, "nodes", "[{'mesh':0},{'name':'eye','camera':0,'translation':[0,0,5]}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1]}]");
+    inspect();
+    assert_advice("'eye' sees from 0.0001 to 1000 m");
+    assert_no_advice("no camera");
+}
+
+static void test_blend_without_transparency_is_noticed(void **state) {
+    (void)state;
+    set_material("{'name':'wall','alphaMode':'BLEND'}");
+    inspect();
+    assert_advice("material 'wall' is blended, but nothing");
+    assert_advice("1 blended thing (the first is of 'wall') casts no shadow");
+}
+
+static void test_glass_is_not_called_opaque(void **state) {
+    (void)state;
+    set_material("{'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.5]}}");
+    inspect();
+    assert_no_advice("nothing of it is transparent");
+}
+
+/* ---- the report ---- */
+
+static json_t *report(void) {
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    assert_true(gn_inspect_print_json(&in, file, &err));
+    rewind(file);
+    json_t *all = json_loadf(file, 0, NULL);
+    fclose(file);
+    assert_non_null(all);
+    return all;
+}
+
+static void test_json_has_its_fields(void **state) {
+    (void)state;
+    static const char *const fields[] = {
+        "file",   "name",     "size_m",           "counts", "materials",
+        "images", "lights",   "cameras",          "clips",  "hemisphere",
+        "cost",   "warnings", "warnings_dropped", "advice", "advice_dropped"};
+    set_lights(1, "{'type':'spot','intensity':50}", 2);
+    inspect();
+    json_t *all = report();
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        if (!json_object_get(all, fields[i])) fail_msg("no %s", fields[i]);
+    assert_int_equal(json_object_size(all), sizeof fields / sizeof *fields);
+    json_t *light = json_array_get(json_object_get(all, "lights"), 0);
+    assert_string_equal(json_string_value(json_object_get(light, "type")), "spot");
+    assert_string_equal(json_string_value(json_object_get(light, "unit")), "candela");
+    assert_true(json_real_value(json_object_get(light, "intensity")) == 50);
+    json_decref(all);
+}
+
+static void test_warnings_stand_in_the_report(void **state) {
+    (void)state;
+    gn_warn(&warnings, "t: something was odd");
+    inspect();
+    json_t *all = report();
+    json_t *list = json_object_get(all, "warnings");
+    assert_string_equal(json_string_value(json_array_get(list, 0)), "t: something was odd");
+    json_decref(all);
+}
+
+static void test_text_moves_no_cursor(void **state) {
+    (void)state;
+    set_material("{'name':'a\\u001b[2Jb','alphaMode':'BLEND'}");
+    inspect();
+    char *text = NULL;
+    size_t size;
+    FILE *file = open_memstream(&text, &size);
+    gn_inspect_print(&in, file);
+    fclose(file);
+    assert_null(strchr(text, '\33'));
+    assert_non_null(strstr(text, "a[2Jb"));
+    assert_non_null(strstr(text, "2 triangles"));
+    free(text);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_square_costs_what_it_weighs),
+        TEST(test_a_picture_costs_its_mipmaps_once_a_use),
+        TEST(test_what_the_file_lacks_is_said),
+        TEST(test_faults_of_a_light_are_named),
+        TEST(test_a_right_light_gets_no_advice),
+        TEST(test_too_many_lights_are_counted),
+        TEST(test_a_point_light_casts_none),
+        TEST(test_millimetres_are_noticed),
+        TEST(test_a_doll_house_is_noticed),
+        TEST(test_a_deep_camera_is_noticed),
+        TEST(test_blend_without_transparency_is_noticed),
+        TEST(test_glass_is_not_called_opaque),
+        TEST(test_json_has_its_fields),
+        TEST(test_warnings_stand_in_the_report),
+        TEST(test_text_moves_no_cursor),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
