@@ -53,7 +53,7 @@ void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format,
 /* ---- parsing ---- */
 
 /* The parser recurses and allocates as the text tells it to: bound both before it starts. A
- * container costs jansson about 256 bytes, any other value or key about 96. */
+ * container or a key costs jansson about 256 bytes, any other value about 96. */
 static bool bounded(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
     uint64_t depth = 0, bytes = 2 * (uint64_t)size;
     bool quoted = false;
@@ -65,8 +65,10 @@ static bool bounded(struct gn_gltf *g, const char *text, size_t size, size_t off
             quoted = !quoted;
         else if (quoted)
             continue;
-        else if (c == ',' || c == ':')
+        else if (c == ',')
             bytes += 96;
+        else if (c == ':')
+            bytes += 256;
         else if ((c == ']' || c == '}') && depth > 0)
             depth--;
         else if (c == '[' || c == '{') {

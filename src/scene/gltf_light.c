@@ -47,8 +47,7 @@ static void read_cone(struct gn_gltf *g, const struct gn_at *at, struct gn_light
     }
     light->outer_rad = fminf(light->outer_rad, GLM_PI_2f);
     if (light->inner_rad >= 0 && light->inner_rad < light->outer_rad) return;
-    if (light->inner_rad != light->outer_rad) /* equal: exporters write that for a hard edge */
-        gn_gltf_warn(g, &spot, "innerConeAngle is not between 0 and outerConeAngle; made to fit");
+    gn_gltf_warn(g, &spot, "innerConeAngle is not between 0 and outerConeAngle; made to fit");
     light->inner_rad = light->inner_rad < 0 ? 0 : .99f * light->outer_rad;
 }
 
