@@ -137,16 +137,18 @@ static void add_device(struct gn_machine *m, enum gn_device_kind kind, const cha
     find_driver(device, root);
 }
 
+/* full: ".../card0-HDMI-A-1/status" */
 static void add_connector(struct gn_machine *m, const char *full, const char *root) {
-    char path[PATH_MAX], text[4096];
+    char folder[PATH_MAX], path[PATH_MAX + 8], text[4096];
     if (m->connector_count == GN_MACHINE_CONNECTORS) return;
     struct gn_connector *connector = &m->connectors[m->connector_count++];
-    snprintf(path, sizeof path, "%s", full + strlen(root));
-    copy_line(connector->status, sizeof connector->status, slurp(root, path, text, sizeof text));
-    *strrchr(path, '/') = 0;
-    say(connector->name, sizeof connector->name, "%s", base_name(path));
-    strcat(path, "/modes"); /* shorter than "/status" */
-    copy_line(connector->mode, sizeof connector->mode, slurp(root, path, text, sizeof text));
+    snprintf(folder, sizeof folder, "%.*s", (int)(strrchr(full, '/') - full), full);
+    say(connector->name, sizeof connector->name, "%s", base_name(folder));
+    copy_line(connector->status, sizeof connector->status,
+              slurp(root, full + strlen(root), text, sizeof text));
+    snprintf(path, sizeof path, "%s/modes", folder);
+    copy_line(connector->mode, sizeof connector->mode,
+              slurp(root, path + strlen(root), text, sizeof text));
 }
 
 static void read_devices(struct gn_machine *m, const char *root) {

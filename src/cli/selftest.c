@@ -37,6 +37,7 @@ static bool unpack(const struct gn_embedded *file, struct truth *truth) {
             truth->pixels[done++] = data[i] & (LIT | EDGE);
     if (done == all) return true;
     free(truth->pixels);
+    truth->pixels = NULL;
     return false;
 }
 
