@@ -18,7 +18,8 @@ struct reader {
 
 static bool refuse(struct reader *r, const char *what) {
     r->failed = true;
-    return gn_fail_usage(r->err, "%s: %s", r->where, what);
+    gn_fail_usage(r->err, "%s: %s", r->where, what);
+    return false;
 }
 
 static bool is_blank(char c) { return c == ' ' || c == '\t'; }

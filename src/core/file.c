@@ -65,7 +65,7 @@ static bool read_all(int fd, const char *path, size_t hint, size_t limit, struct
 }
 
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err) {
-    struct stat info;
+    struct stat info = {0};
     int fd = -1;
     *out = (struct gn_bytes){0};
     bool ok = open_regular(path, &fd, &info, err);
