@@ -233,7 +233,10 @@ static bool fill(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *
     if (!(flat ? fill_flat : fill_shared)(g, &at, shape, geometry)) return false;
     g->scene->index_count += geometry->index_count;
     gn_geometry_measure(g->scene, geometry, &shape->area);
-    geometry->closed = gn_geometry_is_closed(g->scene, geometry);
+    /* Its cost goes with the vertices, which many geometries may share: only where most are its
+     * own. */
+    if (geometry->vertex_count <= 2 * (uint64_t)geometry->index_count)
+        geometry->closed = gn_geometry_is_closed(g->scene, geometry);
     return true;
 }
 
