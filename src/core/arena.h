@@ -1,5 +1,5 @@
-/* Memory by lifetime. An arena is grown block by block and freed in one call; a scene is one arena, a frame another
- * (reset, never freed). Blocks are zeroed. */
+/* Memory by lifetime. An arena is grown block by block and freed in one call; a scene is one arena,
+ * a frame another (reset, never freed). Blocks are zeroed. */
 #ifndef GN_CORE_ARENA_H
 #define GN_CORE_ARENA_H
 
@@ -14,20 +14,24 @@ struct gn_arena {
     size_t block; /* size of a block; 0 = 64 KiB */
 };
 
-/* Zeroed, 16-byte aligned memory for count elements of size bytes, or NULL if the product overflows, the limit is passed
- * or the system has no more: sizes read from a file fail, they do not abort. count 0 gives a valid pointer. */
+/* Zeroed, 16-byte aligned memory for count elements of size bytes, or NULL if the product
+ * overflows, the limit is passed or the system has no more: sizes read from a file fail, they do
+ * not abort. count 0 gives a valid pointer. */
 void *gn_arena_alloc(struct gn_arena *arena, size_t count, size_t size);
 char *gn_arena_strdup(struct gn_arena *arena, const char *text);
-/* Forgets everything handed out, keeps the blocks: what follows allocates nothing until the old peak is passed. */
+/* Forgets everything handed out, keeps the blocks: what follows allocates nothing until the old
+ * peak is passed. */
 void gn_arena_reset(struct gn_arena *arena);
 /* Frees all; the arena may be used again. A zeroed arena may be finished. */
 void gn_arena_finish(struct gn_arena *arena);
 
-/* For the program's own needs: zeroed memory, or abort (the supervisor restarts us). gn_xrealloc does not zero. */
+/* For the program's own needs: zeroed memory, or abort (the supervisor restarts us). gn_xrealloc
+ * does not zero. */
 void *gn_xalloc(size_t count, size_t size);
 void *gn_xrealloc(void *old, size_t count, size_t size);
 
-/* How often this process has asked the system for memory through the functions above: the frame loop's counter. */
+/* How often this process has asked the system for memory through the functions above: the frame
+ * loop's counter. */
 unsigned long gn_alloc_count(void);
 /* Tests only: let the nth request from now (1 = the next) of gn_arena_alloc fail; 0 = never. */
 void gn_alloc_fail_at(unsigned long nth);

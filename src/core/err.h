@@ -1,6 +1,7 @@
 /* Failure of the outside world: one line that says what, where and what to do.
- * A function that can fail returns false or NULL and fills `err`; its caller passes it up, perhaps with a prefix,
- * and main() prints it once. Bugs are assert(); want of memory aborts (see gn_xalloc in arena.h). */
+ * A function that can fail returns false or NULL and fills `err`; its caller passes it up, perhaps
+ * with a prefix, and main() prints it once. Bugs are assert(); want of memory aborts (see gn_xalloc
+ * in arena.h). */
 #ifndef GN_CORE_ERR_H
 #define GN_CORE_ERR_H
 
@@ -18,12 +19,14 @@ struct gn_err {
     enum gn_exit status; /* GN_EXIT_WORLD unless gn_fail_usage() made it */
 };
 
-/* Both write the text, drop control characters, and return false, so that `return gn_fail(err, ..)` is one line.
- * err may be NULL. */
+/* Both write the text, drop control characters, and return false, so that `return gn_fail(err, ..)`
+ * is one line. err may be NULL. */
 bool gn_fail(struct gn_err *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
-bool gn_fail_usage(struct gn_err *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool gn_fail_usage(struct gn_err *err, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /* Puts "prefix: " before what a callee said; returns false. */
-bool gn_fail_prefix(struct gn_err *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool gn_fail_prefix(struct gn_err *err, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 #endif

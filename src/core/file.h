@@ -1,5 +1,5 @@
-/* Whole files. They are read, not mapped (a file cut short under a mapping is a SIGBUS); output is written beside its
- * target and renamed, so a reader sees the old file or the new one. */
+/* Whole files. They are read, not mapped (a file cut short under a mapping is a SIGBUS); output is
+ * written beside its target and renamed, so a reader sees the old file or the new one. */
 #ifndef GN_CORE_FILE_H
 #define GN_CORE_FILE_H
 
@@ -14,13 +14,13 @@ struct gn_bytes {
     size_t size;
 };
 
-/* Reads a regular file of at most limit bytes (0 = no limit). Refuses directories, devices, FIFOs and sockets (without
- * ever blocking on one), and says the path and the reason. */
+/* Reads a regular file of at most limit bytes (0 = no limit). Refuses directories, devices, FIFOs
+ * and sockets (without ever blocking on one), and says the path and the reason. */
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err);
 void gn_bytes_finish(struct gn_bytes *bytes);
 
-/* Writes path atomically: a temporary file in the same folder, fsync'd and renamed; nothing is left behind on failure. A
- * path that is a device, a FIFO or /dev/stdout is written to directly. */
+/* Writes path atomically: a temporary file in the same folder, fsync'd and renamed; nothing is left
+ * behind on failure. A path that is a device, a FIFO or /dev/stdout is written to directly. */
 bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err);
 
 #endif

@@ -1,5 +1,6 @@
-/* Warnings: things that a user should know but that stop nothing. They are held back while work goes on and printed by
- * main() at the end, on success or with -v. Fixed size, so a hostile file cannot make it grow; equal texts count once. */
+/* Warnings: things that a user should know but that stop nothing. They are held back while work
+ * goes on and printed by main() at the end, on success or with -v. Fixed size, so a hostile file
+ * cannot make it grow; equal texts count once. */
 #ifndef GN_CORE_WARN_H
 #define GN_CORE_WARN_H
 
@@ -14,7 +15,8 @@ struct gn_warnings {
 };
 
 /* warnings may be NULL: then nothing is kept. One line each; control characters are dropped. */
-void gn_warn(struct gn_warnings *warnings, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void gn_warn(struct gn_warnings *warnings, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 /* One "gnomon: warning: .." line each, then "and N more". */
 void gn_warn_print(const struct gn_warnings *warnings, FILE *to);
 
