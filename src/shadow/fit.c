@@ -325,7 +325,8 @@ static void set_code(struct gn_shadow_view *view, float near_depth, float far_de
         return;
     case GN_ENCODING_R16F_RAW:
         view->ulp_m = half_float_step(view->far_m) + float_step;
-        view->far_code = exp2f(ceilf(log2f(view->far_m) * 1024.0f) / 1024.0f); /* rounding must not bring it nearer */
+        /* a half float itself: what the map is cleared to must be what is compared with */
+        view->far_code = ceilf(view->far_m / half_float_step(view->far_m)) * half_float_step(view->far_m);
         return;
     case GN_ENCODING_RGBA8:
         view->distance_scale = 1.0f / range;
