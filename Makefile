@@ -56,7 +56,7 @@ endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm
-MISSING := $(shell for p in $(PKGS) $(HEADERS); do $(PKG) --exists $$p 2>&1 || echo $$p; done)
+MISSING := $(shell for p in $(PKGS) $(HEADERS); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps))
 
 takes    = $(shell $(CC) -Werror -O2 $(1) -x c -c -o /dev/null -include stdlib.h /dev/null \
@@ -134,7 +134,7 @@ define keep
 @mkdir -p $(@D) && printf '%b\n' '$(1)' | cmp -s - $@ || printf '%b\n' '$(1)' > $@
 endef
 $(B)/flags: FORCE
-	$(call keep,$(shell $(CC) -dumpfullversion) $(CC) $(ALL_CFLAGS))
+	$(call keep,$(shell $(CC) --version | head -n 1) $(CC) $(ALL_CFLAGS))
 $(B)/sources: FORCE
 	$(call keep,$(SRC) $(TESTS_C) $(EMBED))
 $(B)/gen/config.h: FORCE
