@@ -20,6 +20,3 @@
 #define SHADOW_PLACE 5    /* xyz: position of the light; w: distance_scale */
 #define SHADOW_MAP_SIZE 6 /* x: distance_offset; y: side in texels; z: 1 / side; w: far_code */
 #define PASS_SIZE 62
-#define AOV_VISIBILITY 1  /* values of AOV: gn_aov */
-#define AOV_DISTANCE 2
-#define AOV_NORMAL 3

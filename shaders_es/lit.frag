@@ -1,5 +1,6 @@
 // colour = ambient x albedo x occlusion + sum over lights of (1 - strength (1 - visibility)) x (diffuse + specular) + emissive,
 // in linear space, after exposure.
+#include "lib/flat_constants.glsl"
 #include "lib/surface.glsl"
 #include "lib/light.glsl"
 #include "lib/shadow_point.glsl"
@@ -27,8 +28,8 @@ vec2 surface_roughness() {
 }
 
 vec3 surface_ambient(vec3 n) {
-    vec3 ambient = u_pass[PASS_SKY].rgb;
-    if (HEMISPHERE) ambient = mix(u_pass[PASS_GROUND].rgb, ambient, 0.5 * n.y + 0.5);
+    vec3 ambient = PASS(PASS_SKY).rgb;
+    if (HEMISPHERE) ambient = mix(PASS(PASS_GROUND).rgb, ambient, 0.5 * n.y + 0.5);
 #ifdef WITH_OCCLUSION_TEXTURE
     ambient *= 1.0 + v_surface.z * (texture(u_texture_occlusion, v_uv_occlusion).r - 1.0);
 #endif
@@ -64,11 +65,13 @@ surface surface_make(vec4 base) {
     return s;
 }
 
-vec3 surface_reflect(surface s, light_sample l) {
-    float n_l = max(dot(s.normal, l.to_light), 0.0);
-    if (!SPECULAR) return s.diffuse * l.color * n_l;
+// What a light adds to the irradiance (over pi), and to the gloss.
+void surface_light(surface s, light_sample l, float seen, inout vec3 irradiance, inout vec3 gloss) {
+    vec3 arriving = l.color * (max(dot(s.normal, l.to_light), 0.0) * seen);
+    irradiance += arriving;
+    if (!SPECULAR) return;
     float n_h = max(dot(s.normal, normalize(l.to_light + s.to_eye)), 0.0001); // pow(0, 0) is undefined
-    return (s.diffuse + s.specular * pow(n_h, s.exponent)) * l.color * n_l;
+    gloss += s.specular * pow(n_h, s.exponent) * arriving;
 }
 
 #define ADD_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
@@ -77,18 +80,23 @@ vec3 surface_reflect(surface s, light_sample l) {
         vec3 at = type == LIGHT_DIRECTIONAL ? v_shadow[slot] \
                                             : shadow_point_spot(slot, radial, v_position, s.normal, l.to_light); \
         float seen = visibility(map, at, SHADOW(slot, SHADOW_MAP_SIZE)); \
-        color += surface_reflect(s, l) * (1.0 - LIGHT(slot, LIGHT_COLOR).w * (1.0 - seen)); \
+        seen = 1.0 - LIGHT(slot, LIGHT_COLOR).w * (1.0 - seen); \
+        surface_light(s, l, seen, irradiance, gloss); \
     }
-#define ADD_OPEN_LIGHT(slot, type) color += surface_reflect(s, light_at(slot, type, v_position));
+#define ADD_OPEN_LIGHT(slot, type) \
+    surface_light(s, light_at(slot, type, v_position), 1.0, irradiance, gloss);
 
 void main() {
     vec4 base = surface_base();
     vec3 color = base.rgb;
     if (!UNLIT) {
         surface s = surface_make(base);
-        color *= surface_ambient(s.normal);
+        vec3 ambient = surface_ambient(s.normal);
+        vec3 irradiance = SPECULAR ? vec3(0.0) : ambient, gloss = SPECULAR ? base.rgb * ambient : vec3(0.0);
         EACH_SHADOWED_LIGHT(ADD_SHADOWED_LIGHT)
         EACH_OPEN_LIGHT(ADD_OPEN_LIGHT)
+        color = s.diffuse * irradiance;
+        if (SPECULAR) color += gloss;
         if (EMISSIVE) color += surface_emission();
     }
     if (ENCODE_SRGB) color = srgb_from_linear(color);

@@ -13,6 +13,9 @@ out vec3 v_normal;
 out vec2 v_uv_base, v_uv_roughness, v_uv_emissive, v_uv_occlusion;
 flat out vec4 v_surface;
 flat out vec4 v_emissive;
+#ifdef WITH_FLAT_CONSTANTS
+flat out vec4 v_constant[6]; // lib/flat_constants.glsl
+#endif
 #ifdef WITH_SHADOWS
 out vec3 v_shadow[SHADOW_COUNT];
 #endif
@@ -34,5 +37,9 @@ void main() {
     v_uv_roughness = slot_uv(1, ROUGHNESS_UV1);
     v_uv_emissive = slot_uv(2, EMISSIVE_UV1);
     v_uv_occlusion = slot_uv(3, OCCLUSION_UV1);
+#ifdef WITH_FLAT_CONSTANTS
+    v_constant = vec4[6](u_pass[PASS_SKY], u_pass[PASS_GROUND], u_pass[PASS_EYE], u_pass[PASS_LIGHTS + LIGHT_COLOR],
+                         u_pass[PASS_LIGHTS + LIGHT_PLACE], u_pass[PASS_SHADOWS + SHADOW_MAP_SIZE]);
+#endif
     EACH_SHADOWED_LIGHT_VERTEX(PLACE_SHADOW)
 }

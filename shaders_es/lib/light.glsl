@@ -1,6 +1,6 @@
 // Light from a directional, point or spot light, per fragment, in linear space.
 
-#define LIGHT(slot, what) u_pass[PASS_LIGHTS + (slot)*LIGHT_SIZE + (what)]
+#define LIGHT(slot, what) PASS(PASS_LIGHTS + (slot)*LIGHT_SIZE + (what))
 
 struct light_sample {
     vec3 to_light; // unit

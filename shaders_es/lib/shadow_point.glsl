@@ -2,7 +2,7 @@
 // map, so that a surface does not shadow itself; nothing of this is in the map. Normal offset: after Holbert, "Saying Goodbye to
 // Shadow Acne", 2011; the slope term covers what a texel of a tilted surface spans in depth.
 
-#define SHADOW(slot, what) u_pass[PASS_SHADOWS + (slot)*SHADOW_SIZE + (what)]
+#define SHADOW(slot, what) PASS(PASS_SHADOWS + (slot)*SHADOW_SIZE + (what))
 
 mat4 shadow_matrix(const int slot) {
     return mat4(SHADOW(slot, 0), SHADOW(slot, 1), SHADOW(slot, 2), SHADOW(slot, 3));

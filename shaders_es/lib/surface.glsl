@@ -36,4 +36,4 @@ vec3 surface_normal() {
 }
 
 // Unit vector towards the eye.
-vec3 surface_to_eye() { return normalize(u_pass[PASS_EYE].xyz - v_position * u_pass[PASS_EYE].w); }
+vec3 surface_to_eye() { return normalize(PASS(PASS_EYE).xyz - v_position * PASS(PASS_EYE).w); }

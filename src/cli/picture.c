@@ -34,9 +34,10 @@ static void append(png_structp png, png_bytep data, png_size_t size) {
 static void no_flush(png_structp png) { (void)png; }
 static void say_nothing(png_structp png, png_const_charp text) { (void)png, (void)text; }
 
-/* rows: bit depth 8 RGB or 16 grey, big-endian, tightly packed. Only want of memory makes libpng fail here: it aborts. */
-static bool write_png(const char *path, const uint8_t *rows, int color_type, int depth, size_t stride, int width_px,
-                      int height_px, bool srgb, struct gn_err *err) {
+/* rows: bit depth 8 RGB or 16 grey, big-endian, tightly packed. Only want of memory makes libpng
+ * fail here: it aborts. */
+static bool write_png(const char *path, const uint8_t *rows, int color_type, int depth,
+                      size_t stride, int width_px, int height_px, bool srgb, struct gn_err *err) {
     struct buffer buffer = {0};
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, say_nothing);
     png_infop info = png ? png_create_info_struct(png) : NULL;
@@ -44,8 +45,8 @@ static bool write_png(const char *path, const uint8_t *rows, int color_type, int
     png_set_write_fn(png, &buffer, append, no_flush);
     png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
     png_set_compression_level(png, 4);
-    png_set_IHDR(png, info, (png_uint_32)width_px, (png_uint_32)height_px, depth, color_type, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, (png_uint_32)width_px, (png_uint_32)height_px, depth, color_type,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
     png_write_info(png, info);
     for (int y = 0; y < height_px; y++) png_write_row(png, rows + (size_t)y * stride);
@@ -56,16 +57,19 @@ static bool write_png(const char *path, const uint8_t *rows, int color_type, int
     return ok;
 }
 
-bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px, bool srgb, struct gn_err *err) {
+bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px,
+                           bool srgb, struct gn_err *err) {
     size_t count = (size_t)width_px * (size_t)height_px;
     uint8_t *rgb = gn_xalloc(count, 3);
     for (size_t i = 0; i < count; i++) memcpy(rgb + 3 * i, rgba + 4 * i, 3);
-    bool ok = write_png(path, rgb, PNG_COLOR_TYPE_RGB, 8, (size_t)width_px * 3, width_px, height_px, srgb, err);
+    bool ok = write_png(path, rgb, PNG_COLOR_TYPE_RGB, 8, (size_t)width_px * 3, width_px, height_px,
+                        srgb, err);
     free(rgb);
     return ok;
 }
 
-bool gn_picture_write_png16_grey(const char *path, const float *grey, int width_px, int height_px, struct gn_err *err) {
+bool gn_picture_write_png16_grey(const char *path, const float *grey, int width_px, int height_px,
+                                 struct gn_err *err) {
     size_t count = (size_t)width_px * (size_t)height_px;
     uint8_t *rows = gn_xalloc(count, 2);
     for (size_t i = 0; i < count; i++) {
@@ -74,7 +78,8 @@ bool gn_picture_write_png16_grey(const char *path, const float *grey, int width_
         rows[2 * i] = (uint8_t)(code >> 8);
         rows[2 * i + 1] = (uint8_t)code;
     }
-    bool ok = write_png(path, rows, PNG_COLOR_TYPE_GRAY, 16, (size_t)width_px * 2, width_px, height_px, false, err);
+    bool ok = write_png(path, rows, PNG_COLOR_TYPE_GRAY, 16, (size_t)width_px * 2, width_px,
+                        height_px, false, err);
     free(rows);
     return ok;
 }
@@ -85,16 +90,18 @@ static void put_little_endian(uint8_t *to, float value) {
     for (int k = 0; k < 4; k++) to[k] = (uint8_t)(bits >> 8 * k);
 }
 
-bool gn_picture_write_pfm(const char *path, const float *values, int channels, int width_px, int height_px,
-                          struct gn_err *err) {
+bool gn_picture_write_pfm(const char *path, const float *values, int channels, int width_px,
+                          int height_px, struct gn_err *err) {
     char header[64];
-    int length = snprintf(header, sizeof header, "%s\n%d %d\n-1.0\n", channels == 1 ? "Pf" : "PF", width_px, height_px);
+    int length = snprintf(header, sizeof header, "%s\n%d %d\n-1.0\n", channels == 1 ? "Pf" : "PF",
+                          width_px, height_px);
     size_t row = (size_t)width_px * (size_t)channels, count = row * (size_t)height_px;
     uint8_t *file = gn_xalloc((size_t)length + 4 * count, 1);
     memcpy(file, header, (size_t)length);
     for (int y = 0; y < height_px; y++)
         for (size_t x = 0; x < row; x++)
-            put_little_endian(file + length + 4 * ((size_t)(height_px - 1 - y) * row + x), values[(size_t)y * row + x]);
+            put_little_endian(file + length + 4 * ((size_t)(height_px - 1 - y) * row + x),
+                              values[(size_t)y * row + x]);
     bool ok = gn_file_write(path, file, (size_t)length + 4 * count, err);
     free(file);
     return ok;

@@ -1,4 +1,5 @@
-/* Pictures to files: PNG by libpng, PFM (Debevec's float map, little-endian, bottom row first). Written whole or not at all. */
+/* Pictures to files: PNG by libpng, PFM (Debevec's float map, little-endian, bottom row first).
+ * Written whole or not at all. */
 #ifndef GN_CLI_PICTURE_H
 #define GN_CLI_PICTURE_H
 
@@ -12,10 +13,12 @@ enum gn_picture_format { GN_PICTURE_PNG, GN_PICTURE_PFM };
 bool gn_picture_format_of(const char *path, enum gn_picture_format *format, struct gn_err *err);
 
 /* All take the top row first. srgb: says in the file that the values are sRGB-encoded. */
-bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px, bool srgb, struct gn_err *err);
-bool gn_picture_write_png16_grey(const char *path, const float *grey, int width_px, int height_px, struct gn_err *err);
+bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px,
+                           bool srgb, struct gn_err *err);
+bool gn_picture_write_png16_grey(const char *path, const float *grey, int width_px, int height_px,
+                                 struct gn_err *err);
 /* channels: 1 or 3 */
-bool gn_picture_write_pfm(const char *path, const float *values, int channels, int width_px, int height_px,
-                          struct gn_err *err);
+bool gn_picture_write_pfm(const char *path, const float *values, int channels, int width_px,
+                          int height_px, struct gn_err *err);
 
 #endif

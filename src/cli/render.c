@@ -31,38 +31,47 @@ static bool check_options(const struct gn_options *o, struct render *r, struct g
     if (!o->out) return gn_fail_usage(err, "render: where to? Add -o FILE.png");
     if (!gn_picture_format_of(o->out, &r->format, err)) return false;
     if (o->frames > 1 && !is_pattern(o->out))
-        return gn_fail_usage(err, "-o %s: with --frames %d the name needs a number, as in frame-%%04d.png", o->out, o->frames);
+        return gn_fail_usage(
+            err, "-o %s: with --frames %d the name needs a number, as in frame-%%04d.png", o->out,
+            o->frames);
     if (strchr(o->out, '%') && !is_pattern(o->out))
-        return gn_fail_usage(err, "-o %s: only one %%d, as in frame-%%04d.png, can stand in the name", o->out);
+        return gn_fail_usage(
+            err, "-o %s: only one %%d, as in frame-%%04d.png, can stand in the name", o->out);
     if (o->aov == GN_AOV_DISTANCE && r->format != GN_PICTURE_PFM)
         return gn_fail_usage(err, "-o %s: distances are metres and need a .pfm file", o->out);
     if (o->shadow && strchr(o->shadow, ','))
-        return gn_fail_usage(err, "--shadow %s: render takes one technique; bench takes a list", o->shadow);
+        return gn_fail_usage(err, "--shadow %s: render takes one technique; bench takes a list",
+                             o->shadow);
     r->map = o->aov == GN_AOV_COUNT;
     return true;
 }
 
 static void keep_channels(float *values, size_t count, int channels) {
     for (size_t i = 0; i < count; i++)
-        for (int k = 0; k < channels; k++) values[i * (size_t)channels + (size_t)k] = values[4 * i + (size_t)k];
+        for (int k = 0; k < channels; k++)
+            values[i * (size_t)channels + (size_t)k] = values[4 * i + (size_t)k];
 }
 
-static bool write_color(struct render *r, const struct gn_plan *plan, const char *path, struct gn_err *err) {
+static bool write_color(struct render *r, const struct gn_plan *plan, const char *path,
+                        struct gn_err *err) {
     int w = (int)plan->width_px, h = (int)plan->height_px;
     if (r->format == GN_PICTURE_PNG)
         return gn_gl_read_rgba8(r->stage.gl, r->rgba, err) &&
-               gn_picture_write_png8(path, r->rgba, w, h, r->stage.options->output == GN_PICTURE_SRGB, err);
+               gn_picture_write_png8(path, r->rgba, w, h,
+                                     r->stage.options->output == GN_PICTURE_SRGB, err);
     if (plan->output == GN_OUTPUT_FLOAT) {
         if (!gn_gl_read_f32(r->stage.gl, r->floats, err)) return false;
     } else {
         if (!gn_gl_read_rgba8(r->stage.gl, r->rgba, err)) return false;
-        for (size_t i = 0; i < 4 * (size_t)w * (size_t)h; i++) r->floats[i] = (float)r->rgba[i] / 255.0f;
+        for (size_t i = 0; i < 4 * (size_t)w * (size_t)h; i++)
+            r->floats[i] = (float)r->rgba[i] / 255.0f;
     }
     keep_channels(r->floats, (size_t)w * (size_t)h, 3);
     return gn_picture_write_pfm(path, r->floats, 3, w, h, err);
 }
 
-static bool write_normals(struct render *r, const struct gn_plan *plan, const char *path, struct gn_err *err) {
+static bool write_normals(struct render *r, const struct gn_plan *plan, const char *path,
+                          struct gn_err *err) {
     int w = (int)plan->width_px, h = (int)plan->height_px;
     if (r->format == GN_PICTURE_PFM) {
         keep_channels(r->floats, (size_t)w * (size_t)h, 3);
@@ -73,38 +82,45 @@ static bool write_normals(struct render *r, const struct gn_plan *plan, const ch
     return gn_picture_write_png8(path, r->rgba, w, h, false, err);
 }
 
-static bool write_grey(const struct render *r, const char *path, const float *grey, int w, int h, struct gn_err *err) {
+static bool write_grey(const struct render *r, const char *path, const float *grey, int w, int h,
+                       struct gn_err *err) {
     return r->format == GN_PICTURE_PFM ? gn_picture_write_pfm(path, grey, 1, w, h, err)
                                        : gn_picture_write_png16_grey(path, grey, w, h, err);
 }
 
-/* 0 near .. 1 far. Hardware depth crowds at the far end, so its contrast is raised by the fourth power. */
+/* 0 near .. 1 far. Hardware depth crowds at the far end, so its contrast is raised by the fourth
+ * power. */
 static float map_grey(const struct gn_shadow_view *view, float code) {
     if (view->encoding == GN_ENCODING_DEPTH) return powf(code, 4.0f);
     float distance = (code - view->distance_offset) / view->distance_scale;
     return (distance - view->near_m) / (view->far_m - view->near_m);
 }
 
-static bool write_map(struct render *r, const struct gn_plan *plan, const char *path, struct gn_err *err) {
+static bool write_map(struct render *r, const struct gn_plan *plan, const char *path,
+                      struct gn_err *err) {
     uint32_t slot = 0;
-    while (slot < plan->shadow_count && (int)plan->shadows[slot].light != r->stage.options->light) slot++;
+    while (slot < plan->shadow_count && (int)plan->shadows[slot].light != r->stage.options->light)
+        slot++;
     if (slot == plan->shadow_count)
-        return gn_fail(err, "light %d has no map: it casts no shadow, or %d lights before it do", r->stage.options->light,
-                       GN_SHADOWS_MAX);
+        return gn_fail(err, "light %d has no map: it casts no shadow, or %d lights before it do",
+                       r->stage.options->light, GN_SHADOWS_MAX);
     const struct gn_shadow_view *view = &plan->shadows[slot];
     size_t side = view->map_px;
-    float *codes = gn_xalloc(side * side, sizeof *codes), *flipped = gn_xalloc(side * side, sizeof *flipped);
+    float *codes = gn_xalloc(side * side, sizeof *codes),
+          *flipped = gn_xalloc(side * side, sizeof *flipped);
     bool ok = gn_gl_read_map(r->stage.gl, slot, codes, err);
     for (size_t y = 0; ok && y < side; y++)
         for (size_t x = 0; x < side; x++)
-            flipped[(side - 1 - y) * side + x] = view->content_hash == 1 ? 1.0f : map_grey(view, codes[y * side + x]);
+            flipped[(side - 1 - y) * side + x] =
+                view->content_hash == 1 ? 1.0f : map_grey(view, codes[y * side + x]);
     ok = ok && write_grey(r, path, flipped, (int)side, (int)side, err);
     free(codes);
     free(flipped);
     return ok;
 }
 
-static bool write_picture(struct render *r, const struct gn_plan *plan, const char *path, struct gn_err *err) {
+static bool write_picture(struct render *r, const struct gn_plan *plan, const char *path,
+                          struct gn_err *err) {
     if (r->map) return write_map(r, plan, path, err);
     if (plan->aov == GN_AOV_COLOR) return write_color(r, plan, path, err);
     if (!gn_gl_read_f32(r->stage.gl, r->floats, err)) return false;
@@ -125,8 +141,10 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
     int frames = o->frames > 0 ? o->frames : 1;
     for (int i = 0; i < frames; i++) {
         char path[4096];
-        int length = is_pattern(o->out) ? snprintf(path, sizeof path, o->out, i) : snprintf(path, sizeof path, "%s", o->out);
-        if (length < 0 || (size_t)length >= sizeof path) return gn_fail_usage(err, "-o: that name is too long");
+        int length = is_pattern(o->out) ? snprintf(path, sizeof path, o->out, i)
+                                        : snprintf(path, sizeof path, "%s", o->out);
+        if (length < 0 || (size_t)length >= sizeof path)
+            return gn_fail_usage(err, "-o: that name is too long");
         int64_t time_ns = o->time_ns + (int64_t)llround((double)i / o->fps * (double)GN_NS_PER_S);
         const struct gn_plan *plan = gn_stage_draw(&r->stage, time_ns, warnings, err);
         if (!plan || !write_picture(r, plan, path, err)) return false;
@@ -137,12 +155,15 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
 }
 
 static void make_room(struct render *r) {
-    size_t pixels = (size_t)r->stage.options->size.width_px * (size_t)r->stage.options->size.height_px;
+    size_t pixels =
+        (size_t)r->stage.options->size.width_px * (size_t)r->stage.options->size.height_px;
     r->rgba = gn_xalloc(pixels, 4);
-    if (r->stage.frame_opts.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM) r->floats = gn_xalloc(4 * pixels, sizeof(float));
+    if (r->stage.frame_opts.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM)
+        r->floats = gn_xalloc(4 * pixels, sizeof(float));
 }
 
-bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warnings, struct gn_err *err) {
+bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warnings,
+                   struct gn_err *err) {
     struct render r = {0};
     bool ok = check_options(options, &r, err) && gn_stage_load(&r.stage, options, warnings, err);
     r.stage.frame_opts.output_float = options->aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;

@@ -1,5 +1,5 @@
-/* gnomon show: the kiosk. So far on an invisible display only, at 60 Hz or max_fps: it runs, animates, draws nothing while
- * nothing changes, and ends cleanly on SIGTERM or SIGINT. */
+/* gnomon show: the kiosk. So far on an invisible display only, at 60 Hz or max_fps: it runs,
+ * animates, draws nothing while nothing changes, and ends cleanly on SIGTERM or SIGINT. */
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
@@ -30,7 +30,9 @@ static bool open_loop(struct show *s, struct gn_err *err) {
     sigprocmask(SIG_BLOCK, &s->blocked, &s->before);
     s->signals = signalfd(-1, &s->blocked, SFD_CLOEXEC | SFD_NONBLOCK);
     s->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
-    int fps = s->stage.options->max_fps > 0 && s->stage.options->max_fps < 60 ? s->stage.options->max_fps : 60;
+    int fps = s->stage.options->max_fps > 0 && s->stage.options->max_fps < 60
+                  ? s->stage.options->max_fps
+                  : 60;
     s->period_ns = GN_NS_PER_S / fps;
     struct timespec period = {s->period_ns / GN_NS_PER_S, s->period_ns % GN_NS_PER_S};
     struct itimerspec every = {period, period};
@@ -48,7 +50,8 @@ static void close_loop(struct show *s) {
 
 static bool draw(struct show *s, struct gn_warnings *warnings, struct gn_err *err) {
     int64_t time_ns = s->stage.options->time_ns + gn_clock_monotonic_ns() - s->begun_ns;
-    if (!gn_stage_draw(&s->stage, s->moves ? time_ns : s->stage.options->time_ns, warnings, err)) return false;
+    if (!gn_stage_draw(&s->stage, s->moves ? time_ns : s->stage.options->time_ns, warnings, err))
+        return false;
     gn_gl_finish_frame(s->stage.gl);
     s->frames++;
     return true;
@@ -56,17 +59,22 @@ static bool draw(struct show *s, struct gn_warnings *warnings, struct gn_err *er
 
 /* One wait: false when it is time to go. */
 static bool wait_tick(struct show *s) {
-    struct pollfd fds[2] = {{.fd = s->signals, .events = POLLIN}, {.fd = s->timer, .events = POLLIN}};
-    bool timed = s->moves || s->most_ticks < UINT64_MAX; /* else nothing changes: sleep until a signal */
-    while (poll(fds, timed ? 2 : 1, -1) < 0 && errno == EINTR) {}
+    struct pollfd fds[2] = {{.fd = s->signals, .events = POLLIN},
+                            {.fd = s->timer, .events = POLLIN}};
+    bool timed =
+        s->moves || s->most_ticks < UINT64_MAX; /* else nothing changes: sleep until a signal */
+    while (poll(fds, timed ? 2 : 1, -1) < 0 && errno == EINTR) {
+    }
     uint64_t ticks = 0;
-    if (fds[1].revents && read(s->timer, &ticks, sizeof ticks) == sizeof ticks) s->missed += ticks - 1;
+    if (fds[1].revents && read(s->timer, &ticks, sizeof ticks) == sizeof ticks)
+        s->missed += ticks - 1;
     s->ticks += ticks;
     return !fds[0].revents;
 }
 
 static bool run(struct show *s, struct gn_warnings *warnings, struct gn_err *err) {
-    s->most_ticks = s->stage.options->frames > 0 ? (uint64_t)s->stage.options->frames - 1 : UINT64_MAX;
+    s->most_ticks =
+        s->stage.options->frames > 0 ? (uint64_t)s->stage.options->frames - 1 : UINT64_MAX;
     if (!draw(s, warnings, err)) return false;
     unsigned long allocations = gn_alloc_count();
     uint64_t objects = gn_gl_stats(s->stage.gl).objects_created;
@@ -74,16 +82,20 @@ static bool run(struct show *s, struct gn_warnings *warnings, struct gn_err *err
         if (s->moves && !draw(s, warnings, err)) return false;
     if (s->stage.options->verbose)
         printf("%llu frames, %llu late, %lu allocations and %llu GL objects after the first\n",
-               (unsigned long long)s->frames, (unsigned long long)s->missed, gn_alloc_count() - allocations,
+               (unsigned long long)s->frames, (unsigned long long)s->missed,
+               gn_alloc_count() - allocations,
                (unsigned long long)(gn_gl_stats(s->stage.gl).objects_created - objects));
     return true;
 }
 
-bool gn_cli_show(const struct gn_options *options, struct gn_warnings *warnings, struct gn_err *err) {
+bool gn_cli_show(const struct gn_options *options, struct gn_warnings *warnings,
+                 struct gn_err *err) {
     if (strcmp(options->backend, "auto") == 0)
-        return gn_fail(err, "show: this version has no display on a screen; --backend egl or osmesa runs the kiosk unseen");
+        return gn_fail(err, "show: this version has no display on a screen; --backend egl or "
+                            "osmesa runs the kiosk unseen");
     struct show s = {.signals = -1, .timer = -1};
-    bool ok = gn_stage_load(&s.stage, options, warnings, err) && gn_stage_open(&s.stage, warnings, err);
+    bool ok =
+        gn_stage_load(&s.stage, options, warnings, err) && gn_stage_open(&s.stage, warnings, err);
     if (ok) {
         s.moves = s.stage.pose.animated || options->turntable_deg_s != 0.0;
         ok = open_loop(&s, err) && run(&s, warnings, err);

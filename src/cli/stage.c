@@ -5,10 +5,12 @@
 
 #include "core/embedded.h"
 
-struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings, struct gn_err *err) {
+struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings,
+                                struct gn_err *err) {
     struct gn_scene_limits limits = {0};
     for (int i = 0; i < options->limits.count; i++)
-        if (!gn_scene_limits_set(&limits, options->limits.items[i].name, (uint64_t)options->limits.items[i].value, err))
+        if (!gn_scene_limits_set(&limits, options->limits.items[i].name,
+                                 (uint64_t)options->limits.items[i].value, err))
             return NULL;
     if (options->scene) return gn_scene_load(options->scene, &limits, warnings, err);
     const struct gn_embedded *sundial = gn_embedded_find("sundial.glb");
@@ -16,7 +18,8 @@ struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warn
         gn_fail(err, "this build has no scene inside: name one");
         return NULL;
     }
-    return gn_scene_load_bytes("(default scene)", sundial->data, sundial->size, &limits, warnings, err);
+    return gn_scene_load_bytes("(default scene)", sundial->data, sundial->size, &limits, warnings,
+                               err);
 }
 
 /* The clip selection of --animation and --no-animation. */
@@ -57,16 +60,18 @@ static bool choose_frame(struct gn_stage *stage, struct gn_err *err) {
     f->technique_given = gn_options_given(o, shadow) && o->shadow;
     f->camera = gn_scene_find_camera(stage->scene, o->camera, err);
     return f->camera >= 0 && gn_encoding_find(o->map_format, &f->encoding, err) &&
-           (!f->technique_given || strchr(o->shadow, ',') || gn_technique_find(o->shadow, &f->technique, err));
+           (!f->technique_given || strchr(o->shadow, ',') ||
+            gn_technique_find(o->shadow, &f->technique, err));
 }
 
-bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options, struct gn_warnings *warnings,
-                   struct gn_err *err) {
+bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options,
+                   struct gn_warnings *warnings, struct gn_err *err) {
     *stage = (struct gn_stage){.options = options};
     stage->scene = gn_stage_scene(options, warnings, err);
     if (!stage->scene) return false;
     int clips;
-    if (!choose_clips(stage, &clips, err) || !check_light(stage, err) || !choose_frame(stage, err)) return false;
+    if (!choose_clips(stage, &clips, err) || !check_light(stage, err) || !choose_frame(stage, err))
+        return false;
     gn_pose_init(&stage->pose, stage->scene, clips);
     gn_pose_step(&stage->pose, options->time_ns);
     return true;
@@ -87,18 +92,19 @@ bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct 
     const struct gn_caps *caps = gn_gl_caps(stage->gl);
     int most = caps->max_texture_px;
     if (o->size.width_px > most || o->size.height_px > most)
-        return gn_fail(err, "--size %dx%d: %s draws at most %dx%d", o->size.width_px, o->size.height_px,
-                       caps->renderer, most, most);
+        return gn_fail(err, "--size %dx%d: %s draws at most %dx%d", o->size.width_px,
+                       o->size.height_px, caps->renderer, most, most);
     stage->frame = gn_frame_create(stage->scene, caps);
     return true;
 }
 
-const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns, struct gn_warnings *warnings,
-                                    struct gn_err *err) {
+const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
+                                    struct gn_warnings *warnings, struct gn_err *err) {
     gn_pose_step(&stage->pose, time_ns);
-    stage->frame_opts.turntable_rad =
-        (float)glm_rad((float)fmod(stage->options->turntable_deg_s * ((double)time_ns * 1e-9), 360.0));
-    const struct gn_plan *plan = gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
+    stage->frame_opts.turntable_rad = (float)glm_rad(
+        (float)fmod(stage->options->turntable_deg_s * ((double)time_ns * 1e-9), 360.0));
+    const struct gn_plan *plan =
+        gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
     if (!gn_gl_prepare(stage->gl, plan, err) || !gn_gl_run(stage->gl, plan, NULL, err)) return NULL;
     return plan;
 }

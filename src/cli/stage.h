@@ -1,4 +1,5 @@
-/* What render, bench and show have in common: a scene at a time, a display, a GPU, a frame builder. */
+/* What render, bench and show have in common: a scene at a time, a display, a GPU, a frame builder.
+ */
 #ifndef GN_CLI_STAGE_H
 #define GN_CLI_STAGE_H
 
@@ -18,16 +19,20 @@ struct gn_stage {
     struct gn_frame_opts frame_opts;
 };
 
-/* The scene that the options name, or the default one inside the program; limits of --limit hold. */
-struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings, struct gn_err *err);
-/* Loads the scene, poses it at --time and checks what the options say about it (camera, animation, light, technique). */
-bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options, struct gn_warnings *warnings,
-                   struct gn_err *err);
+/* The scene that the options name, or the default one inside the program; limits of --limit hold.
+ */
+struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings,
+                                struct gn_err *err);
+/* Loads the scene, poses it at --time and checks what the options say about it (camera, animation,
+ * light, technique). */
+bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options,
+                   struct gn_warnings *warnings, struct gn_err *err);
 /* Opens the display of --backend, makes the context current, loads the scene into it. */
 bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err);
 /* Poses at a time, builds the plan, makes what it needs and draws it. NULL on failure. */
-const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns, struct gn_warnings *warnings,
-                                    struct gn_err *err);
-void gn_stage_close(struct gn_stage *stage); /* a zeroed one may be closed, and one that failed half-way */
+const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
+                                    struct gn_warnings *warnings, struct gn_err *err);
+void gn_stage_close(
+    struct gn_stage *stage); /* a zeroed one may be closed, and one that failed half-way */
 
 #endif

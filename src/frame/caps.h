@@ -7,18 +7,20 @@
 
 #include "shadow/technique.h"
 
-enum gn_cap { /* named in --without and by doctor: see gn_cap_names */
-    GN_CAP_DEPTH_COMPARE, /* depth texture read through a comparing sampler; every ES 3.0 has it, but some drivers break it */
-    GN_CAP_R32UI,
-    GN_CAP_R16F,          /* half-float colour target, by either extension, drawn and read back */
-    GN_CAP_RGBA16F,       /* linear colour target for PFM */
-    GN_CAP_SRGB,          /* SRGB8_ALPHA8 target that encodes */
-    GN_CAP_MSAA4,
-    GN_CAP_TIMER,         /* EXT_disjoint_timer_query */
-    GN_CAP_DEBUG,         /* KHR_debug */
-    GN_CAP_COUNT,
+enum gn_cap {                       /* named in --without and by doctor: see gn_cap_names */
+              GN_CAP_DEPTH_COMPARE, /* depth texture read through a comparing sampler; every ES 3.0
+                                       has it, but some drivers break it */
+              GN_CAP_R32UI,
+              GN_CAP_R16F, /* half-float colour target, by either extension, drawn and read back */
+              GN_CAP_RGBA16F, /* linear colour target for PFM */
+              GN_CAP_SRGB,    /* SRGB8_ALPHA8 target that encodes */
+              GN_CAP_MSAA4,
+              GN_CAP_TIMER, /* EXT_disjoint_timer_query */
+              GN_CAP_DEBUG, /* KHR_debug */
+              GN_CAP_COUNT,
 };
-extern const char *const gn_cap_names[GN_CAP_COUNT]; /* "depth-compare", "r32ui", "r16f", "rgba16f", "srgb", "msaa4", "timer", "debug" */
+extern const char *const gn_cap_names[GN_CAP_COUNT]; /* "depth-compare", "r32ui", "r16f", "rgba16f",
+                                                        "srgb", "msaa4", "timer", "debug" */
 
 struct gn_caps {
     uint32_t has; /* bit per gn_cap */

@@ -2,9 +2,9 @@
 
 #include "frame/plan.h"
 
-#define REQUIRE(what) \
-    do { \
-        if (!(what)) return #what; \
+#define REQUIRE(what)                                                                              \
+    do {                                                                                           \
+        if (!(what)) return #what;                                                                 \
     } while (0)
 
 static const char *check_draw(const struct gn_plan *plan, const struct gn_draw *draw) {
@@ -58,7 +58,9 @@ const char *gn_plan_check(const struct gn_plan *plan) {
     REQUIRE(plan->passes[0].clear);
     REQUIRE(isfinite(plan->exposure) && plan->exposure > 0.0f);
     const char *broken = NULL;
-    for (uint32_t i = 0; i < plan->program_count && !broken; i++) broken = check_key(&plan->programs[i]);
-    for (uint32_t i = 0; i < plan->pass_count && !broken; i++) broken = check_pass(plan, &plan->passes[i]);
+    for (uint32_t i = 0; i < plan->program_count && !broken; i++)
+        broken = check_key(&plan->programs[i]);
+    for (uint32_t i = 0; i < plan->pass_count && !broken; i++)
+        broken = check_pass(plan, &plan->passes[i]);
     return broken;
 }

@@ -1,10 +1,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "frame/private.h"
 #include "blocks.glsl"
+#include "frame/private.h"
 
-/* The orthographic half-sizes that show all of the camera's rectangle in a picture of this aspect. */
+/* The orthographic half-sizes that show all of the camera's rectangle in a picture of this aspect.
+ */
 static void ortho_half(const struct gn_camera *camera, float aspect, float half[2]) {
     half[0] = fabsf(camera->xmag_m);
     half[1] = fabsf(camera->ymag_m);
@@ -18,7 +19,8 @@ static void ortho_half(const struct gn_camera *camera, float aspect, float half[
 static float farthest(const struct gn_pose *pose, vec3 eye_ws, float near_m) {
     vec3 reach;
     for (int k = 0; k < 3; k++)
-        reach[k] = fmaxf(fabsf(pose->box_ws.min[k] - eye_ws[k]), fabsf(pose->box_ws.max[k] - eye_ws[k]));
+        reach[k] =
+            fmaxf(fabsf(pose->box_ws.min[k] - eye_ws[k]), fabsf(pose->box_ws.max[k] - eye_ws[k]));
     float far_m = glm_vec3_norm(reach) * 1.01f;
     return isfinite(far_m) && far_m > 2.0f * near_m ? far_m : 2.0f * near_m;
 }
@@ -39,8 +41,8 @@ static void turn(const struct gn_pose *pose, float angle_rad, mat4 view_from_wor
     glm_vec3_add(eye_ws, centre, eye_ws);
 }
 
-void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts,
-                  float (*constants)[4]) {
+void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
+                  const struct gn_frame_opts *opts, float (*constants)[4]) {
     const struct gn_camera *camera = &frame->scene->cameras[opts->camera];
     float aspect = (float)frame->plan.width_px / (float)frame->plan.height_px;
     mat4 view_from_world, clip_from_view, clip_from_world;
@@ -50,7 +52,8 @@ void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose, const stru
     if (camera->orthographic) {
         float half[2];
         ortho_half(camera, aspect, half);
-        glm_ortho(-half[0], half[0], -half[1], half[1], camera->near_m, camera->far_m, clip_from_view);
+        glm_ortho(-half[0], half[0], -half[1], half[1], camera->near_m, camera->far_m,
+                  clip_from_view);
     } else {
         float far_m = camera->far_m > 0.0f ? camera->far_m : farthest(pose, eye_ws, camera->near_m);
         glm_perspective(camera->yfov_rad, aspect, camera->near_m, far_m, clip_from_view);
@@ -58,7 +61,8 @@ void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose, const stru
     glm_mat4_mul(clip_from_view, view_from_world, clip_from_world);
     gn_eye_build(&frame->eye, clip_from_world);
     memcpy(constants[PASS_CLIP], clip_from_world, sizeof clip_from_world);
-    for (int k = 0; k < 3; k++) { /* orthographic: the unit vector towards the eye is the view's +Z */
+    for (int k = 0; k < 3;
+         k++) { /* orthographic: the unit vector towards the eye is the view's +Z */
         constants[PASS_EYE][k] = camera->orthographic ? view_from_world[k][2] : eye_ws[k];
         constants[PASS_EXPOSURE][1 + k] = eye_ws[k];
     }

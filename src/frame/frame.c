@@ -1,5 +1,6 @@
-/* Building a plan: eye, lights, one pass per shadow map, then the picture. Items are sorted by batch, so a run of them becomes
- * one instanced call (two when some are mirrored); blended items go last, farthest first, one by one. */
+/* Building a plan: eye, lights, one pass per shadow map, then the picture. Items are sorted by
+ * batch, so a run of them becomes one instanced call (two when some are mirrored); blended items go
+ * last, farthest first, one by one. */
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
@@ -19,7 +20,8 @@ struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_c
     struct gn_frame *frame = gn_xalloc(1, sizeof *frame);
     frame->scene = scene;
     frame->caps = *caps;
-    for (int i = 0; i < GN_SHADOWS_MAX; i++) gn_shadow_memory_init(&frame->memory[i], scene->item_count);
+    for (int i = 0; i < GN_SHADOWS_MAX; i++)
+        gn_shadow_memory_init(&frame->memory[i], scene->item_count);
     frame->constants = gn_xalloc((GN_SHADOWS_MAX + 1) * GN_PASS_SIZE, sizeof *frame->constants);
     return frame;
 }
@@ -50,7 +52,8 @@ static void add_instance(struct gn_frame *frame, const struct gn_pose *pose, uin
     const struct gn_material *m = &frame->scene->materials[item->material];
     struct gn_instance *instance = &GN_LIST_PUSH(&frame->instances);
     for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 4; c++) instance->world[r][c] = pose->items[index].world_from_item[c][r];
+        for (int c = 0; c < 4; c++)
+            instance->world[r][c] = pose->items[index].world_from_item[c][r];
     memcpy(instance->base_color, m->base_color, sizeof instance->base_color);
     instance->surface[0] = m->roughness;
     instance->surface[1] = m->metalness;
@@ -68,21 +71,23 @@ static bool light_is_outside(const struct gn_box *box, const struct gn_shadow_vi
 }
 
 /* Casting from both sides, a solid body needs only the faces that look to a light outside it. */
-static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_pose *pose, uint32_t index,
-                                const struct gn_shadow_view *view) {
+static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_pose *pose,
+                                uint32_t index, const struct gn_shadow_view *view) {
     const struct gn_item *item = &scene->items[index];
     if (item->cast_faces == GN_CAST_FRONT) return GN_CULL_BACK;
     if (item->cast_faces == GN_CAST_BACK) return GN_CULL_FRONT;
-    bool solid = scene->geometries[item->geometry].closed && scene->materials[item->material].alpha != GN_ALPHA_MASK;
-    return solid && light_is_outside(&pose->items[index].box_ws, view) ? GN_CULL_BACK : GN_CULL_NONE;
+    bool solid = scene->geometries[item->geometry].closed &&
+                 scene->materials[item->material].alpha != GN_ALPHA_MASK;
+    return solid && light_is_outside(&pose->items[index].box_ws, view) ? GN_CULL_BACK
+                                                                       : GN_CULL_NONE;
 }
 
 static enum gn_cull eye_cull(const struct gn_frame *frame, const struct gn_item *item) {
     return frame->scene->materials[item->material].double_sided ? GN_CULL_NONE : GN_CULL_BACK;
 }
 
-static void begin_draw(struct gn_frame *frame, uint32_t item, const struct gn_program_key *key, enum gn_cull cull,
-                       bool mirrored) {
+static void begin_draw(struct gn_frame *frame, uint32_t item, const struct gn_program_key *key,
+                       enum gn_cull cull, bool mirrored) {
     uint32_t program = program_index(frame, key);
     GN_LIST_PUSH(&frame->draws) = (struct gn_draw){
         .program = program,
@@ -116,7 +121,8 @@ static float depth_of(const struct gn_frame *frame, const struct gn_box *box, bo
     return depth;
 }
 
-static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s, uint32_t item) {
+static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s,
+                  uint32_t item) {
     if (s->casts) return s->casts[item];
     const struct gn_box *box = &pose->items[item].box_ws;
     if (!pose->items[item].visible || !gn_eye_sees(&frame->eye, box)) {
@@ -129,13 +135,15 @@ static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const stru
     return false;
 }
 
-static void draw_item(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s, uint32_t item,
-                      bool *open) {
+static void draw_item(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s,
+                      uint32_t item, bool *open) {
     bool mirrored = pose->items[item].mirrored;
-    enum gn_cull cull = s->casts ? caster_cull(frame->scene, pose, item, s->view) : eye_cull(frame, &frame->scene->items[item]);
+    enum gn_cull cull = s->casts ? caster_cull(frame->scene, pose, item, s->view)
+                                 : eye_cull(frame, &frame->scene->items[item]);
     const struct gn_draw *last = *open ? &frame->draws.at[frame->draws.count - 1] : NULL;
     if (!last || last->mirrored != mirrored || last->cull != cull) {
-        struct gn_program_key key = s->casts ? gn_key_caster(frame, item, s->view) : gn_key_lit(frame, item, s->opts);
+        struct gn_program_key key =
+            s->casts ? gn_key_caster(frame, item, s->view) : gn_key_lit(frame, item, s->opts);
         begin_draw(frame, item, &key, cull, mirrored);
         *open = true;
     }
@@ -147,14 +155,19 @@ static void draw_item(struct gn_frame *frame, const struct gn_pose *pose, const 
 
 enum { DEPTH_STEPS = 64 };
 
-/* Which of 2 x DEPTH_STEPS bins an item of a run falls in: by depth, mirrored ones after all others. */
-static uint32_t bin_of(const struct gn_pose *pose, const struct gn_placed *placed, float least, float most) {
+/* Which of 2 x DEPTH_STEPS bins an item of a run falls in: by depth, mirrored ones after all
+ * others. */
+static uint32_t bin_of(const struct gn_pose *pose, const struct gn_placed *placed, float least,
+                       float most) {
     float share = most > least ? (placed->depth - least) / (most - least) : 0.0f;
-    return (uint32_t)((DEPTH_STEPS - 1) * share) + (pose->items[placed->item].mirrored ? DEPTH_STEPS : 0);
+    return (uint32_t)((DEPTH_STEPS - 1) * share) +
+           (pose->items[placed->item].mirrored ? DEPTH_STEPS : 0);
 }
 
-/* Draws the gathered run of items of one batch roughly nearest first (a counting sort, so that thousands cost little). */
-static void draw_run(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s) {
+/* Draws the gathered run of items of one batch roughly nearest first (a counting sort, so that
+ * thousands cost little). */
+static void draw_run(struct gn_frame *frame, const struct gn_pose *pose,
+                     const struct selection *s) {
     uint32_t count = frame->run.count, start[2 * DEPTH_STEPS + 1] = {0};
     float least = INFINITY, most = -INFINITY;
     frame->sorted.count = 0;
@@ -172,7 +185,8 @@ static void draw_run(struct gn_frame *frame, const struct gn_pose *pose, const s
     frame->run.count = 0;
 }
 
-static void draw_items(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s) {
+static void draw_items(struct gn_frame *frame, const struct gn_pose *pose,
+                       const struct selection *s) {
     uint32_t batch = UINT32_MAX;
     frame->run.count = 0;
     for (uint32_t i = 0; i < frame->scene->item_count; i++) {
@@ -185,7 +199,8 @@ static void draw_items(struct gn_frame *frame, const struct gn_pose *pose, const
     draw_run(frame, pose, s);
 }
 
-/* Opaque before masked (a discard costs early depth), then nearest first, by the far side: a ground goes last. */
+/* Opaque before masked (a discard costs early depth), then nearest first, by the far side: a ground
+ * goes last. */
 static float draw_order(const struct gn_frame *frame, const struct gn_draw *draw) {
     bool masked = frame->programs.at[draw->program].features & GN_FEATURE_ALPHA_MASK;
     return draw->depth_m + (masked ? 1e9f : 0.0f);
@@ -198,14 +213,16 @@ static void sort_draws(struct gn_frame *frame, uint32_t first) {
         struct gn_draw draw = draws[i];
         float order = draw_order(frame, &draw);
         uint32_t at = i;
-        for (; at > first && draw_order(frame, &draws[at - 1]) > order; at--) draws[at] = draws[at - 1];
+        for (; at > first && draw_order(frame, &draws[at - 1]) > order; at--)
+            draws[at] = draws[at - 1];
         draws[at] = draw;
     }
 }
 
 static struct gn_pass *begin_pass(struct gn_frame *frame) {
     struct gn_pass *pass = &GN_LIST_PUSH(&frame->passes);
-    *pass = (struct gn_pass){.first_draw = frame->draws.count, .depth_write = true, .constant_count = GN_PASS_SIZE};
+    *pass = (struct gn_pass){
+        .first_draw = frame->draws.count, .depth_write = true, .constant_count = GN_PASS_SIZE};
     return pass;
 }
 
@@ -217,8 +234,10 @@ static void end_pass(struct gn_frame *frame) {
 static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot) {
     struct gn_shadow_view *view = &frame->shadows[slot];
     struct gn_pass *pass = begin_pass(frame);
-    snprintf(pass->label, sizeof pass->label, "shadow %u %s", slot, frame->scene->lights[view->light].name);
-    pass->target = (struct gn_target){GN_TARGET_SHADOW, slot, view->map_px, view->map_px, view->encoding};
+    snprintf(pass->label, sizeof pass->label, "shadow %u %s", slot,
+             frame->scene->lights[view->light].name);
+    pass->target =
+        (struct gn_target){GN_TARGET_SHADOW, slot, view->map_px, view->map_px, view->encoding};
     pass->clear = true;
     pass->clear_color[0] = view->far_code;
     pass->discard_depth = view->encoding != GN_ENCODING_DEPTH;
@@ -237,7 +256,8 @@ static float srgb_from_linear(float c) {
 }
 
 static void set_clear(const struct gn_frame *frame, enum gn_aov aov, float color[4]) {
-    static const float aov_clear[GN_AOV_COUNT] = {[GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY};
+    static const float aov_clear[GN_AOV_COUNT] = {
+        [GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY};
     for (int k = 0; k < 3; k++) {
         color[k] = aov == GN_AOV_COLOR ? frame->scene->background[k] : aov_clear[aov];
         if (frame->plan.encode_srgb) color[k] = srgb_from_linear(color[k]);
@@ -248,7 +268,9 @@ static void set_clear(const struct gn_frame *frame, enum gn_aov aov, float color
 static struct gn_pass *picture_pass(struct gn_frame *frame, const char *label) {
     struct gn_pass *pass = begin_pass(frame);
     snprintf(pass->label, sizeof pass->label, "%s", label);
-    pass->target = (struct gn_target){.kind = GN_TARGET_OUTPUT, .width_px = frame->plan.width_px, .height_px = frame->plan.height_px};
+    pass->target = (struct gn_target){.kind = GN_TARGET_OUTPUT,
+                                      .width_px = frame->plan.width_px,
+                                      .height_px = frame->plan.height_px};
     pass->constants = frame->constants + (size_t)GN_SHADOWS_MAX * GN_PASS_SIZE;
     return pass;
 }
@@ -259,7 +281,8 @@ static int by_depth(const void *a, const void *b) {
     return x->item < y->item ? -1 : 1;
 }
 
-static void blend_pass(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s) {
+static void blend_pass(struct gn_frame *frame, const struct gn_pose *pose,
+                       const struct selection *s) {
     struct gn_pass *pass = picture_pass(frame, "blend");
     pass->blend = GN_BLEND_ALPHA;
     pass->depth_write = false;
@@ -273,7 +296,8 @@ static void blend_pass(struct gn_frame *frame, const struct gn_pose *pose, const
     end_pass(frame);
 }
 
-static void picture_passes(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts) {
+static void picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                           const struct gn_frame_opts *opts) {
     struct selection seen = {.opts = opts};
     struct gn_pass *pass = picture_pass(frame, opts->aov == GN_AOV_COLOR ? "opaque" : "aov");
     uint32_t first = pass->first_draw, index = frame->passes.count - 1;
@@ -289,7 +313,8 @@ static void picture_passes(struct gn_frame *frame, const struct gn_pose *pose, c
         frame->passes.at[index].discard_depth = true;
 }
 
-static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
+static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *opts,
+                          struct gn_warnings *warnings) {
     struct gn_plan *plan = &frame->plan;
     plan->aov = opts->aov;
     plan->msaa = opts->aov == GN_AOV_COLOR ? opts->msaa : 0;
@@ -314,8 +339,8 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
     }
 }
 
-static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts,
-                              float (*c)[4]) {
+static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose,
+                              const struct gn_frame_opts *opts, float (*c)[4]) {
     memcpy(c[PASS_SKY], frame->scene->sky, sizeof(vec3));
     memcpy(c[PASS_GROUND], frame->scene->ground, sizeof(vec3));
     c[PASS_EXPOSURE][0] = opts->exposure_given ? frame->plan.exposure : 1.0f;
@@ -329,7 +354,8 @@ static void reset(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     frame->plan.height_px = opts->height_px ? opts->height_px : 720;
 }
 
-const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts,
+const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
+                                     const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings) {
     struct gn_plan *plan = &frame->plan;
     float(*constants)[4] = frame->constants + (size_t)GN_SHADOWS_MAX * GN_PASS_SIZE;

@@ -2,7 +2,8 @@
 
 #include "frame/private.h"
 
-static uint32_t texture_features(const struct gn_scene *scene, const struct gn_item *item, uint32_t slots) {
+static uint32_t texture_features(const struct gn_scene *scene, const struct gn_item *item,
+                                 uint32_t slots) {
     const struct gn_material *material = &scene->materials[item->material];
     uint32_t features = 0;
     for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
@@ -17,13 +18,15 @@ static uint32_t texture_features(const struct gn_scene *scene, const struct gn_i
 /* What decides an item's alpha, if anything asks for it. */
 static uint32_t alpha_features(const struct gn_scene *scene, const struct gn_item *item) {
     if (scene->materials[item->material].alpha != GN_ALPHA_MASK) return 0;
-    uint32_t features = GN_FEATURE_ALPHA_MASK | texture_features(scene, item, 1u << GN_TEXTURE_BASE);
+    uint32_t features =
+        GN_FEATURE_ALPHA_MASK | texture_features(scene, item, 1u << GN_TEXTURE_BASE);
     if (scene->geometries[item->geometry].has_color) features |= GN_FEATURE_VERTEX_COLOR;
     return features;
 }
 
 static bool is_specular(const struct gn_material *m) {
-    return m->metalness > 0.0f || m->roughness < 1.0f || m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
+    return m->metalness > 0.0f || m->roughness < 1.0f ||
+           m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
 }
 
 static bool is_emissive(const struct gn_material *m) {
@@ -36,7 +39,9 @@ static uint32_t color_features(const struct gn_frame *frame, const struct gn_ite
     uint32_t slots = 1u << GN_TEXTURE_BASE, features = alpha_features(scene, item);
     if (scene->geometries[item->geometry].has_color) features |= GN_FEATURE_VERTEX_COLOR;
     if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE_ALPHA_BLEND;
-    if (frame->plan.output == GN_OUTPUT_LINEAR8 && frame->plan.encode_srgb) features |= GN_FEATURE_ENCODE_SRGB;
+    if (frame->plan.output == GN_OUTPUT_LINEAR8 && frame->plan.encode_srgb)
+        features |= GN_FEATURE_ENCODE_SRGB;
+    if (frame->caps.software && !m->unlit) features |= GN_FEATURE_FLAT_CONSTANTS;
     if (m->unlit) return features | GN_FEATURE_UNLIT | texture_features(scene, item, slots);
     if (m->double_sided) features |= GN_FEATURE_DOUBLE_SIDED;
     if (is_specular(m)) {
@@ -52,18 +57,21 @@ static uint32_t color_features(const struct gn_frame *frame, const struct gn_ite
     return features | texture_features(scene, item, slots);
 }
 
-struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index, const struct gn_frame_opts *opts) {
+struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
+                                 const struct gn_frame_opts *opts) {
     const struct gn_item *item = &frame->scene->items[index];
     const struct gn_material *m = &frame->scene->materials[item->material];
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = opts->aov == GN_AOV_COLOR ? GN_PROGRAM_LIT : GN_PROGRAM_AOV;
     key.aov = (uint8_t)opts->aov;
-    key.features = opts->aov == GN_AOV_COLOR ? color_features(frame, item) : alpha_features(frame->scene, item);
+    key.features = opts->aov == GN_AOV_COLOR ? color_features(frame, item)
+                                             : alpha_features(frame->scene, item);
     if (opts->aov != GN_AOV_COLOR && m->double_sided) key.features |= GN_FEATURE_DOUBLE_SIDED;
     if (opts->aov == GN_AOV_COLOR ? m->unlit : opts->aov != GN_AOV_VISIBILITY) return key;
     key.light_count = (uint8_t)frame->light_count;
-    key.shadow_count = item->receives || opts->aov == GN_AOV_VISIBILITY ? (uint8_t)frame->shadow_count : 0;
+    key.shadow_count =
+        item->receives || opts->aov == GN_AOV_VISIBILITY ? (uint8_t)frame->shadow_count : 0;
     for (uint32_t i = 0; i < frame->light_count; i++) {
         const struct gn_frame_light *light = &frame->lights[i];
         key.lights[i].type = (uint8_t)frame->scene->lights[light->light].type;
@@ -74,7 +82,8 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index, c
     return key;
 }
 
-struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item, const struct gn_shadow_view *view) {
+struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
+                                    const struct gn_shadow_view *view) {
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = view->encoding == GN_ENCODING_DEPTH ? GN_PROGRAM_DEPTH : GN_PROGRAM_DISTANCE;

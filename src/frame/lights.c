@@ -21,7 +21,8 @@ static float illuminance(const struct gn_pose *pose, uint32_t index) {
     return luminance(light->color) / fmaxf(d2, 1e-4f);
 }
 
-float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts) {
+float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_frame_opts *opts) {
     if (opts->exposure_given) return exp2f(opts->exposure_ev);
     if (frame->exposure_known) return frame->auto_exposure;
     float sum = 0.0f, strongest = 0.0f;
@@ -37,11 +38,13 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose, cons
     return frame->auto_exposure;
 }
 
-static enum gn_technique technique_of(const struct gn_light *light, const struct gn_frame_opts *opts,
+static enum gn_technique technique_of(const struct gn_light *light,
+                                      const struct gn_frame_opts *opts,
                                       struct gn_warnings *warnings) {
     enum gn_technique own = GN_TECHNIQUE_PCF;
     if (light->technique && !gn_technique_find(light->technique, &own, NULL)) {
-        gn_warn(warnings, "light '%s': gnomon_shadow '%s' is not a technique of this version; it gets pcf",
+        gn_warn(warnings,
+                "light '%s': gnomon_shadow '%s' is not a technique of this version; it gets pcf",
                 light->name, light->technique);
         own = GN_TECHNIQUE_PCF;
     }
@@ -49,26 +52,30 @@ static enum gn_technique technique_of(const struct gn_light *light, const struct
     return opts->technique;
 }
 
-static struct gn_frame_light describe(const struct gn_frame *frame, const struct gn_pose *pose, uint32_t index,
-                                      const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
+static struct gn_frame_light describe(const struct gn_frame *frame, const struct gn_pose *pose,
+                                      uint32_t index, const struct gn_frame_opts *opts,
+                                      struct gn_warnings *warnings) {
     const struct gn_light *light = &frame->scene->lights[index];
     struct gn_frame_light l = {.light = index, .technique = technique_of(light, opts, warnings)};
     l.strength = opts->strength_given ? opts->strength : light->shadow_strength;
     l.illuminance = illuminance(pose, index);
     if (light->type == GN_LIGHT_POINT && l.technique != GN_TECHNIQUE_NONE) {
-        gn_warn(warnings, "light '%s': a point light casts no shadow in this version; a spot would", light->name);
+        gn_warn(warnings, "light '%s': a point light casts no shadow in this version; a spot would",
+                light->name);
         l.technique = GN_TECHNIQUE_NONE;
     }
     if (l.technique == GN_TECHNIQUE_NONE) return l;
     bool fell_back;
-    l.encoding = gn_encoding_choose(l.technique, opts->encoding, gn_caps_encodings(&frame->caps), &fell_back);
+    l.encoding = gn_encoding_choose(l.technique, opts->encoding, gn_caps_encodings(&frame->caps),
+                                    &fell_back);
     if (fell_back)
-        gn_warn(warnings, "this GPU cannot draw map format %s; %s is used", gn_encodings[opts->encoding].name,
-                gn_encodings[l.encoding].name);
+        gn_warn(warnings, "this GPU cannot draw map format %s; %s is used",
+                gn_encodings[opts->encoding].name, gn_encodings[l.encoding].name);
     return l;
 }
 
-/* Puts a light in its place: those with maps first, then by the scene's order. Full: the weakest goes. */
+/* Puts a light in its place: those with maps first, then by the scene's order. Full: the weakest
+ * goes. */
 static void insert(struct gn_frame *frame, struct gn_frame_light light) {
     uint32_t at = light.technique == GN_TECHNIQUE_NONE ? frame->light_count : frame->shadow_count;
     memmove(&frame->lights[at + 1], &frame->lights[at], (frame->light_count - at) * sizeof light);
@@ -86,7 +93,8 @@ static uint32_t weakest(const struct gn_frame *frame, uint32_t count) {
 
 static struct gn_frame_light take_out(struct gn_frame *frame, uint32_t at) {
     struct gn_frame_light light = frame->lights[at];
-    memmove(&frame->lights[at], &frame->lights[at + 1], (frame->light_count - at - 1) * sizeof light);
+    memmove(&frame->lights[at], &frame->lights[at + 1],
+            (frame->light_count - at - 1) * sizeof light);
     frame->light_count--;
     if (light.technique != GN_TECHNIQUE_NONE) frame->shadow_count--;
     return light;
@@ -96,8 +104,8 @@ static const char *name_of(const struct gn_frame *frame, const struct gn_frame_l
     return frame->scene->lights[light->light].name;
 }
 
-void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts,
-                            struct gn_warnings *warnings) {
+void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
+                            const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     bool visibility = opts->aov == GN_AOV_VISIBILITY;
     frame->light_count = frame->shadow_count = 0;
     if (opts->aov != GN_AOV_COLOR && !visibility) return;
@@ -111,7 +119,8 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose, 
                 insert(frame, light);
                 light = other;
             }
-            gn_warn(warnings, "light '%s' casts no shadow: %d lights with shadows are the most at once",
+            gn_warn(warnings,
+                    "light '%s' casts no shadow: %d lights with shadows are the most at once",
                     name_of(frame, &light), GN_SHADOWS_MAX);
             light.technique = GN_TECHNIQUE_NONE;
         }
@@ -122,15 +131,16 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose, 
                 insert(frame, light);
                 light = other;
             }
-            gn_warn(warnings, "light '%s' is left out: %d lights are the most at once", name_of(frame, &light),
-                    GN_LIGHTS_MAX);
+            gn_warn(warnings, "light '%s' is left out: %d lights are the most at once",
+                    name_of(frame, &light), GN_LIGHTS_MAX);
             continue;
         }
         insert(frame, light);
     }
 }
 
-/* A map that stays empty: everything reads it as lit. The slot stays, so that programs do not change with what is in view. */
+/* A map that stays empty: everything reads it as lit. The slot stays, so that programs do not
+ * change with what is in view. */
 static void make_empty(struct gn_shadow_view *view) {
     static const mat4 nowhere = {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.5f, 0.5f, 0, 1}};
     memcpy(view->map_from_world, nowhere, sizeof nowhere);
@@ -141,14 +151,17 @@ static void make_empty(struct gn_shadow_view *view) {
     view->content_hash = 1;
 }
 
-void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts) {
+void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
+                          const struct gn_frame_opts *opts) {
     for (uint32_t i = 0; i < frame->shadow_count; i++) {
         const struct gn_frame_light *light = &frame->lights[i];
         const struct gn_light *l = &frame->scene->lights[light->light];
         uint32_t map_px = opts->map_px ? opts->map_px : l->map_px ? l->map_px : 1024;
-        if (map_px > (uint32_t)frame->caps.max_texture_px) map_px = (uint32_t)frame->caps.max_texture_px;
+        if (map_px > (uint32_t)frame->caps.max_texture_px)
+            map_px = (uint32_t)frame->caps.max_texture_px;
         struct gn_shadow_opts shadow = {light->technique, light->encoding, map_px};
-        if (!gn_shadow_fit(pose, light->light, &frame->eye, &shadow, &frame->memory[i], &frame->shadows[i])) {
+        if (!gn_shadow_fit(pose, light->light, &frame->eye, &shadow, &frame->memory[i],
+                           &frame->shadows[i])) {
             memset(frame->memory[i].casts, 0, frame->scene->item_count);
             make_empty(&frame->shadows[i]);
         }
@@ -171,7 +184,8 @@ static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
     c[SHADOW_MAP_SIZE][3] = view->far_code;
 }
 
-void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose, float (*constants)[4]) {
+void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
+                              float (*constants)[4]) {
     for (uint32_t i = 0; i < frame->light_count; i++) {
         const struct gn_light *light = &frame->scene->lights[frame->lights[i].light];
         float(*c)[4] = constants + PASS_LIGHTS + i * LIGHT_SIZE;
@@ -187,13 +201,15 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
         float outer = cosf(light->outer_rad), inner = cosf(light->inner_rad);
         c[LIGHT_AXIS][3] = outer;
         constants[PASS_CONES + i / 4][i % 4] = 1.0f / fmaxf(inner - outer, 1e-4f);
-        if (i < frame->shadow_count) shadow_slot(&frame->shadows[i], constants + PASS_SHADOWS + i * SHADOW_SIZE);
+        if (i < frame->shadow_count)
+            shadow_slot(&frame->shadows[i], constants + PASS_SHADOWS + i * SHADOW_SIZE);
     }
 }
 
 void gn_frame_shadow_constants(const struct gn_shadow_view *view, float (*constants)[4]) {
     memcpy(constants[PASS_CLIP], view->clip_from_world, sizeof view->clip_from_world);
     put3(constants[PASS_CODE], view->light_ws);
-    constants[PASS_CODE][3] = view->perspective ? view->distance_scale : view->distance_scale * view->far_m;
+    constants[PASS_CODE][3] =
+        view->perspective ? view->distance_scale : view->distance_scale * view->far_m;
     constants[PASS_CODE_ADD][0] = view->distance_offset;
 }

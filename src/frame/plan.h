@@ -1,5 +1,6 @@
-/* The frame plan: what a frame consists of, as plain data. Built from a pose and options without GL, run by gl/, printed and
- * compared as text in tests. A plan points into the scene, the pose and the builder; it is valid until the next build. */
+/* The frame plan: what a frame consists of, as plain data. Built from a pose and options without
+ * GL, run by gl/, printed and compared as text in tests. A plan points into the scene, the pose and
+ * the builder; it is valid until the next build. */
 #ifndef GN_FRAME_PLAN_H
 #define GN_FRAME_PLAN_H
 
@@ -9,7 +10,7 @@
 #include "scene/pose.h"
 #include "shadow/fit.h"
 
-#define GN_LIGHTS_MAX 8  /* lights in one pass */
+#define GN_LIGHTS_MAX  8 /* lights in one pass */
 #define GN_SHADOWS_MAX 4 /* of them with a map */
 
 enum gn_aov { GN_AOV_COLOR, GN_AOV_VISIBILITY, GN_AOV_DISTANCE, GN_AOV_NORMAL, GN_AOV_COUNT };
@@ -23,29 +24,34 @@ enum gn_program_kind {
     GN_PROGRAM_AOV,      /* what of it is in `aov` */
     GN_PROGRAM_KIND_COUNT,
 };
-enum gn_feature { /* bits of gn_program_key.features; each becomes `const bool` of that name in GLSL */
-    GN_FEATURE_BASE_TEXTURE = 1 << 0,
-    GN_FEATURE_ROUGHNESS_TEXTURE = 1 << 1,
-    GN_FEATURE_EMISSIVE_TEXTURE = 1 << 2,
-    GN_FEATURE_OCCLUSION_TEXTURE = 1 << 3, /* bits 0-3 in the order of gn_texture_slot */
-    GN_FEATURE_BASE_UV1 = 1 << 4,          /* bits 4-7: that slot reads TEXCOORD_1 */
-    GN_FEATURE_ROUGHNESS_UV1 = 1 << 5,
-    GN_FEATURE_EMISSIVE_UV1 = 1 << 6,
-    GN_FEATURE_OCCLUSION_UV1 = 1 << 7,
-    GN_FEATURE_VERTEX_COLOR = 1 << 8,
-    GN_FEATURE_ALPHA_MASK = 1 << 9,
-    GN_FEATURE_ALPHA_BLEND = 1 << 10,
-    GN_FEATURE_DOUBLE_SIDED = 1 << 11,
-    GN_FEATURE_UNLIT = 1 << 12,
-    GN_FEATURE_SPECULAR = 1 << 13,
-    GN_FEATURE_EMISSIVE = 1 << 14,
-    GN_FEATURE_HEMISPHERE = 1 << 15,  /* sky and ground differ */
-    GN_FEATURE_ENCODE_SRGB = 1 << 16, /* no sRGB target: encode in the shader */
-    GN_FEATURE_PERSPECTIVE = 1 << 17, /* DISTANCE: radial distance from a point, not along a direction */
+enum gn_feature { /* bits of gn_program_key.features; each becomes `const bool` of that name in GLSL
+                   */
+                  GN_FEATURE_BASE_TEXTURE = 1 << 0,
+                  GN_FEATURE_ROUGHNESS_TEXTURE = 1 << 1,
+                  GN_FEATURE_EMISSIVE_TEXTURE = 1 << 2,
+                  GN_FEATURE_OCCLUSION_TEXTURE =
+                      1 << 3,                   /* bits 0-3 in the order of gn_texture_slot */
+                  GN_FEATURE_BASE_UV1 = 1 << 4, /* bits 4-7: that slot reads TEXCOORD_1 */
+                  GN_FEATURE_ROUGHNESS_UV1 = 1 << 5,
+                  GN_FEATURE_EMISSIVE_UV1 = 1 << 6,
+                  GN_FEATURE_OCCLUSION_UV1 = 1 << 7,
+                  GN_FEATURE_VERTEX_COLOR = 1 << 8,
+                  GN_FEATURE_ALPHA_MASK = 1 << 9,
+                  GN_FEATURE_ALPHA_BLEND = 1 << 10,
+                  GN_FEATURE_DOUBLE_SIDED = 1 << 11,
+                  GN_FEATURE_UNLIT = 1 << 12,
+                  GN_FEATURE_SPECULAR = 1 << 13,
+                  GN_FEATURE_EMISSIVE = 1 << 14,
+                  GN_FEATURE_HEMISPHERE = 1 << 15,     /* sky and ground differ */
+                  GN_FEATURE_ENCODE_SRGB = 1 << 16,    /* no sRGB target: encode in the shader */
+                  GN_FEATURE_FLAT_CONSTANTS = 1 << 18, /* software drivers: the first light's
+                                                          constants come as flat varyings */
+                  GN_FEATURE_PERSPECTIVE =
+                      1 << 17, /* DISTANCE: radial distance from a point, not along a direction */
 };
-#define GN_FEATURE_BITS 18
+#define GN_FEATURE_BITS 19
 
-struct gn_light_key { /* one light of a LIT or visibility program */
+struct gn_light_key {  /* one light of a LIT or visibility program */
     uint8_t type;      /* gn_light_type */
     uint8_t technique; /* gn_technique; NONE: no map */
     uint8_t encoding;  /* gn_encoding, 0 when technique is NONE */
@@ -61,19 +67,20 @@ struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps
 
 /* ---- what a draw reads ---- */
 
-struct gn_instance { /* instance attributes, locations 5..10 */
+struct gn_instance {     /* instance attributes, locations 5..10 */
     float world[3][4];   /* rows of world_from_item */
     float base_color[4]; /* linear */
     float surface[4];    /* roughness, metalness, occlusion strength, alpha cutoff */
     float emissive[4];   /* linear radiance; w unused */
 };
-struct gn_draw { /* one instanced call */
-    uint32_t program; /* index into plan->programs */
+struct gn_draw {                 /* one instanced call */
+    uint32_t program;            /* index into plan->programs */
     uint32_t geometry, material; /* material: for textures, transforms */
     uint32_t first_instance, instance_count;
-    uint8_t cull;      /* gn_cull */
-    bool mirrored;     /* front faces wind clockwise */
-    float depth_m;     /* how far behind the near plane its instances end, on average; a picture is drawn in this order */
+    uint8_t cull;  /* gn_cull */
+    bool mirrored; /* front faces wind clockwise */
+    float depth_m; /* how far behind the near plane its instances end, on average; a picture is
+                      drawn in this order */
 };
 
 enum gn_cull { GN_CULL_NONE, GN_CULL_BACK, GN_CULL_FRONT };
@@ -84,20 +91,21 @@ enum gn_blend { GN_BLEND_OFF, GN_BLEND_ALPHA /* premultiplied: ONE, ONE_MINUS_SR
 enum gn_target_kind { GN_TARGET_OUTPUT, GN_TARGET_SHADOW };
 struct gn_target {
     enum gn_target_kind kind;
-    uint32_t slot;             /* SHADOW: which of plan->shadows; its map */
+    uint32_t slot; /* SHADOW: which of plan->shadows; its map */
     uint32_t width_px, height_px;
     enum gn_encoding encoding; /* SHADOW */
 };
 struct gn_pass {
-    char label[48];          /* KHR_debug group, timer, error: "shadow 0 Sun", "opaque", "blend" */
+    char label[48]; /* KHR_debug group, timer, error: "shadow 0 Sun", "opaque", "blend" */
     struct gn_target target;
-    bool clear;              /* colour (or code) and depth, at the pass's start */
-    float clear_color[4];    /* OUTPUT: linear; SHADOW: far_code in [0] */
-    bool depth_write;        /* the depth test is always LEQUAL */
+    bool clear;           /* colour (or code) and depth, at the pass's start */
+    float clear_color[4]; /* OUTPUT: linear; SHADOW: far_code in [0] */
+    bool depth_write;     /* the depth test is always LEQUAL */
     enum gn_blend blend;
-    bool discard_depth;      /* nobody reads the depth after this pass: invalidate */
-    uint32_t border_px;      /* this many texels at the target's rim stay cleared (scissor) */
-    uint64_t content_hash;   /* SHADOW: skip the pass when the target already holds this; 0: always draw */
+    bool discard_depth; /* nobody reads the depth after this pass: invalidate */
+    uint32_t border_px; /* this many texels at the target's rim stay cleared (scissor) */
+    uint64_t
+        content_hash; /* SHADOW: skip the pass when the target already holds this; 0: always draw */
     uint32_t first_draw, draw_count;
     /* Constants of the pass's programs, laid out by shaders_es/blocks.glsl; counts in vec4. */
     const float (*constants)[4];
@@ -105,16 +113,16 @@ struct gn_pass {
 };
 
 enum gn_output_format {
-    GN_OUTPUT_SRGB8,  /* SRGB8_ALPHA8: encodes on write */
+    GN_OUTPUT_SRGB8,   /* SRGB8_ALPHA8: encodes on write */
     GN_OUTPUT_LINEAR8, /* RGBA8; with encode_srgb the shaders encode */
-    GN_OUTPUT_FLOAT,  /* RGBA16F */
-    GN_OUTPUT_AOV,    /* RGBA32UI: bits of four floats; not blended, not antialiased */
+    GN_OUTPUT_FLOAT,   /* RGBA16F */
+    GN_OUTPUT_AOV,     /* RGBA32UI: bits of four floats; not blended, not antialiased */
 };
 struct gn_plan {
     uint32_t width_px, height_px;
     enum gn_output_format output;
     bool encode_srgb; /* sRGB wanted of a GPU without such a target */
-    uint32_t msaa; /* samples: 0, 2, 4 */
+    uint32_t msaa;    /* samples: 0, 2, 4 */
     enum gn_aov aov;
     const struct gn_scene *scene;
     struct gn_pass *passes;
@@ -129,34 +137,39 @@ struct gn_plan {
 
 /* ---- building ---- */
 
-struct gn_frame_opts { /* zero means the default written beside */
-    uint32_t width_px, height_px;    /* 1280 x 720 */
-    int camera;                      /* 0 */
-    bool technique_given;            /* `technique` overrides the lights' own and the default pcf; a light's own none holds */
+struct gn_frame_opts {            /* zero means the default written beside */
+    uint32_t width_px, height_px; /* 1280 x 720 */
+    int camera;                   /* 0 */
+    bool technique_given; /* `technique` overrides the lights' own and the default pcf; a light's
+                             own none holds */
     enum gn_technique technique;
-    enum gn_encoding encoding;       /* GN_ENCODING_AUTO must be set for the automatic choice */
-    uint32_t map_px;                 /* 0: the light's, else 1024 */
+    enum gn_encoding encoding; /* GN_ENCODING_AUTO must be set for the automatic choice */
+    uint32_t map_px;           /* 0: the light's, else 1024 */
     enum gn_aov aov;
-    int light;                       /* for visibility: which */
+    int light; /* for visibility: which */
     bool output_linear, output_float;
     bool exposure_given;
-    float exposure_ev;               /* stops, when given; else automatic */
+    float exposure_ev; /* stops, when given; else automatic */
     bool strength_given;
-    float strength;                  /* overrides the lights' gnomon_shadow_strength */
+    float strength; /* overrides the lights' gnomon_shadow_strength */
     uint32_t msaa;
-    float turntable_rad;             /* the eye goes round the scene's centre by this, about +Y */
+    float turntable_rad; /* the eye goes round the scene's centre by this, about +Y */
 };
 
-struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing */
+struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing
+                  */
 struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_caps *caps);
 void gn_frame_destroy(struct gn_frame *frame);
-/* Builds the plan of this pose. Never fails: what cannot be is left out with a warning (the same text once). */
-const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_frame_opts *opts,
+/* Builds the plan of this pose. Never fails: what cannot be is left out with a warning (the same
+ * text once). */
+const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
+                                     const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings);
 
 /* The plan as text: stable, made for reading and for diff. */
 void gn_plan_print(const struct gn_plan *plan, FILE *to);
-/* All preconditions that gl/ relies on, in one list; NULL when the plan holds them, else the first one broken. */
+/* All preconditions that gl/ relies on, in one list; NULL when the plan holds them, else the first
+ * one broken. */
 const char *gn_plan_check(const struct gn_plan *plan);
 
 #endif

@@ -8,9 +8,13 @@ static const char *const aovs[GN_AOV_COUNT] = {"color", "visibility", "distance"
 static const char *const light_types[] = {"directional", "point", "spot"};
 static const char *const culls[] = {"none", "back", "front"};
 static const char *const features[GN_FEATURE_BITS] = {
-    "base",         "roughness",    "emissive-texture", "occlusion", "base-uv1",     "roughness-uv1",
-    "emissive-uv1", "occlusion-uv1", "vertex-color",    "mask",      "blend",        "double-sided",
-    "unlit",        "specular",     "emissive",         "hemisphere", "encode-srgb", "perspective"};
+    "base",          "roughness",     "emissive-texture",
+    "occlusion",     "base-uv1",      "roughness-uv1",
+    "emissive-uv1",  "occlusion-uv1", "vertex-color",
+    "mask",          "blend",         "double-sided",
+    "unlit",         "specular",      "emissive",
+    "hemisphere",    "encode-srgb",   "perspective",
+    "flat-constants"};
 
 static void print_key(const struct gn_program_key *key, FILE *to) {
     fprintf(to, "%s", kinds[key->kind]);
@@ -22,16 +26,17 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
         const struct gn_light_key *light = &key->lights[i];
         fprintf(to, " %s", light_types[light->type]);
         if (i < key->shadow_count)
-            fprintf(to, ":%s/%s", gn_techniques[light->technique].name, gn_encodings[light->encoding].name);
+            fprintf(to, ":%s/%s", gn_techniques[light->technique].name,
+                    gn_encodings[light->encoding].name);
     }
     fprintf(to, "\n");
 }
 
 static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
     const struct gn_shadow_view *view = &plan->shadows[slot];
-    fprintf(to, "shadow %u: light %u '%s' %s %s/%s %u px", slot, view->light, plan->scene->lights[view->light].name,
-            view->perspective ? "spot" : "directional", gn_techniques[view->technique].name,
-            gn_encodings[view->encoding].name, view->map_px);
+    fprintf(to, "shadow %u: light %u '%s' %s %s/%s %u px", slot, view->light,
+            plan->scene->lights[view->light].name, view->perspective ? "spot" : "directional",
+            gn_techniques[view->technique].name, gn_encodings[view->encoding].name, view->map_px);
     if (view->content_hash == 1)
         fprintf(to, ", empty: it darkens nothing in view\n");
     else
@@ -42,31 +47,36 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
 static void print_draw(const struct gn_plan *plan, const struct gn_draw *draw, FILE *to) {
     const struct gn_geometry *g = &plan->scene->geometries[draw->geometry];
     const char *material = plan->scene->materials[draw->material].name;
-    fprintf(to, "    draw program %u, geometry %u (%u triangles) x %u, material %u '%s', cull %s%s\n", draw->program,
-            draw->geometry, g->index_count / 3, draw->instance_count, draw->material, material, culls[draw->cull],
-            draw->mirrored ? ", mirrored" : "");
+    fprintf(to,
+            "    draw program %u, geometry %u (%u triangles) x %u, material %u '%s', cull %s%s\n",
+            draw->program, draw->geometry, g->index_count / 3, draw->instance_count, draw->material,
+            material, culls[draw->cull], draw->mirrored ? ", mirrored" : "");
 }
 
 static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
     fprintf(to, "pass '%s' -> ", pass->label);
     if (pass->target.kind == GN_TARGET_SHADOW)
-        fprintf(to, "map %u (%s, rim %u px)", pass->target.slot, gn_encodings[pass->target.encoding].name, pass->border_px);
+        fprintf(to, "map %u (%s, rim %u px)", pass->target.slot,
+                gn_encodings[pass->target.encoding].name, pass->border_px);
     else
         fprintf(to, "picture");
-    if (pass->clear && pass->target.kind == GN_TARGET_SHADOW) fprintf(to, ", clear %.4g", (double)pass->clear_color[0]);
+    if (pass->clear && pass->target.kind == GN_TARGET_SHADOW)
+        fprintf(to, ", clear %.4g", (double)pass->clear_color[0]);
     if (pass->clear && pass->target.kind == GN_TARGET_OUTPUT)
-        fprintf(to, ", clear %.3f %.3f %.3f", (double)pass->clear_color[0], (double)pass->clear_color[1],
-                (double)pass->clear_color[2]);
+        fprintf(to, ", clear %.3f %.3f %.3f", (double)pass->clear_color[0],
+                (double)pass->clear_color[1], (double)pass->clear_color[2]);
     if (pass->blend == GN_BLEND_ALPHA) fprintf(to, ", blend");
     if (!pass->depth_write) fprintf(to, ", depth read-only");
     if (pass->discard_depth) fprintf(to, ", depth discarded");
     fprintf(to, "\n");
-    for (uint32_t i = 0; i < pass->draw_count; i++) print_draw(plan, &plan->draws[pass->first_draw + i], to);
+    for (uint32_t i = 0; i < pass->draw_count; i++)
+        print_draw(plan, &plan->draws[pass->first_draw + i], to);
 }
 
 void gn_plan_print(const struct gn_plan *plan, FILE *to) {
-    fprintf(to, "plan %u x %u, %s %s, msaa %u, exposure %.4g, %u items culled\n", plan->width_px, plan->height_px,
-            aovs[plan->aov], outputs[plan->output], plan->msaa, (double)plan->exposure, plan->culled);
+    fprintf(to, "plan %u x %u, %s %s, msaa %u, exposure %.4g, %u items culled\n", plan->width_px,
+            plan->height_px, aovs[plan->aov], outputs[plan->output], plan->msaa,
+            (double)plan->exposure, plan->culled);
     for (uint32_t i = 0; i < plan->program_count; i++) {
         fprintf(to, "program %u: ", i);
         print_key(&plan->programs[i], to);

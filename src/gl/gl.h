@@ -1,5 +1,6 @@
-/* The only room that calls GL: it loads a scene, makes programs and targets, runs plans and reads back. One context, one
- * gn_gl; GL names never leave the room. Everything on the GPU can be made again from the scene. */
+/* The only room that calls GL: it loads a scene, makes programs and targets, runs plans and reads
+ * back. One context, one gn_gl; GL names never leave the room. Everything on the GPU can be made
+ * again from the scene. */
 #ifndef GN_GL_GL_H
 #define GN_GL_GL_H
 
@@ -14,36 +15,42 @@ struct gn_gl_opts {
     gn_gl_get_proc get_proc; /* of the display whose context is current */
     void *display;           /* its argument */
     const char *shaders;     /* folder to read shaders from; NULL: those embedded */
-    const char *without;     /* comma list of capabilities to pretend missing, or NULL; unknown names are a usage error */
-    bool desktop;            /* a desktop GL context (OSMesa): switch GL_FRAMEBUFFER_SRGB on */
-    bool prove_all;          /* prove at once also what else is proved when first asked for: msaa4 (slow to compile) */
-    bool debug;              /* KHR_debug messages become errors that gn_gl_error() reports */
+    const char *without; /* comma list of capabilities to pretend missing, or NULL; unknown names
+                            are a usage error */
+    bool desktop;        /* a desktop GL context (OSMesa): switch GL_FRAMEBUFFER_SRGB on */
+    bool prove_all; /* prove at once also what else is proved when first asked for: msaa4 (slow to
+                       compile) */
+    bool debug;     /* KHR_debug messages become errors that gn_gl_error() reports */
 };
 
 struct gn_gl;
-/* Loads the function table, learns and proves what the GPU can do (by a draw and a read-back), makes what every plan needs.
- * NULL when the context is not OpenGL ES 3.0 or more: the error names the GPU and what it has. */
-struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *warnings, struct gn_err *err);
+/* Loads the function table, learns and proves what the GPU can do (by a draw and a read-back),
+ * makes what every plan needs. NULL when the context is not OpenGL ES 3.0 or more: the error names
+ * the GPU and what it has. */
+struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *warnings,
+                           struct gn_err *err);
 void gn_gl_destroy(struct gn_gl *gl);
 const struct gn_caps *gn_gl_caps(const struct gn_gl *gl);
 
 /* Uploads a scene, replacing the one before. The scene must outlive its use here. */
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err);
 
-/* Makes the programs and targets that a plan needs, if they are not there: after this gn_gl_run() of the plan, and of plans
- * with the same keys and sizes, allocates nothing and makes no GL object. */
+/* Makes the programs and targets that a plan needs, if they are not there: after this gn_gl_run()
+ * of the plan, and of plans with the same keys and sizes, allocates nothing and makes no GL object.
+ */
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
-/* Draws. Shadow passes whose target holds their content_hash are skipped. pass_ms, if not NULL, gets the time of each pass
- * (CPU wall clock around the pass and a 1-pixel read-back: slow, for bench). */
+/* Draws. Shadow passes whose target holds their content_hash are skipped. pass_ms, if not NULL,
+ * gets the time of each pass (CPU wall clock around the pass and a 1-pixel read-back: slow, for
+ * bench). */
 bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err);
 
-/* The last picture, top row first. rgba8: what is stored (sRGB-encoded for GN_OUTPUT_SRGB8). f32: RGBA floats from
- * GN_OUTPUT_FLOAT or GN_OUTPUT_AOV. The buffer holds width x height x 4. */
+/* The last picture, top row first. rgba8: what is stored (sRGB-encoded for GN_OUTPUT_SRGB8). f32:
+ * RGBA floats from GN_OUTPUT_FLOAT or GN_OUTPUT_AOV. The buffer holds width x height x 4. */
 bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err);
 bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err);
 void gn_gl_finish_frame(struct gn_gl *gl); /* a 1-pixel read-back: ends a timed frame */
-/* A shadow map as codes in its encoding's unit (metres for r32ui and r16f-raw, -1..1 for r16f, 0..1 else), map_px x map_px
- * floats, first row at v = 0. For tests and --aov map. */
+/* A shadow map as codes in its encoding's unit (metres for r32ui and r16f-raw, -1..1 for r16f, 0..1
+ * else), map_px x map_px floats, first row at v = 0. For tests and --aov map. */
 bool gn_gl_read_map(struct gn_gl *gl, uint32_t slot, float *out, struct gn_err *err);
 
 struct gn_gl_stats { /* of the last frame, but for the last three */
@@ -55,8 +62,9 @@ struct gn_gl_stats { /* of the last frame, but for the last three */
 };
 struct gn_gl_stats gn_gl_stats(const struct gn_gl *gl);
 
-/* Compiles the program of one key; tests use it to try every key. The source that was tried, numbered, goes into *log (malloc'ed,
- * the caller frees) on failure, if log is not NULL. */
-bool gn_gl_try_program(struct gn_gl *gl, const struct gn_program_key *key, char **log, struct gn_err *err);
+/* Compiles the program of one key; tests use it to try every key. The source that was tried,
+ * numbered, goes into *log (malloc'ed, the caller frees) on failure, if log is not NULL. */
+bool gn_gl_try_program(struct gn_gl *gl, const struct gn_program_key *key, char **log,
+                       struct gn_err *err);
 
 #endif

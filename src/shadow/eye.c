@@ -52,7 +52,8 @@ void gn_box_corners(const struct gn_box *box, mat4 to, vec3 corners[8]) {
     }
 }
 
-static const uint8_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+static const uint8_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                    {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
 void gn_box_face(vec3 corners[8], int face, struct gn_polygon *out) {
     out->count = 4;
@@ -64,7 +65,8 @@ void gn_box_planes(vec3 corners[8], vec4 planes[6]) {
     for (int i = 0; i < 8; i++) glm_vec3_muladds(corners[i], 0.125f, middle);
     for (int i = 0; i < 6; i++) {
         vec3 a, b;
-        glm_vec3_sub(corners[faces[i][2]], corners[faces[i][0]], a); /* diagonals: stand for a face with a short side */
+        glm_vec3_sub(corners[faces[i][2]], corners[faces[i][0]],
+                     a); /* diagonals: stand for a face with a short side */
         glm_vec3_sub(corners[faces[i][3]], corners[faces[i][1]], b);
         glm_vec3_cross(a, b, planes[i]);
         glm_vec3_normalize(planes[i]); /* zero stays zero: cuts nothing */

@@ -1,8 +1,9 @@
-/* Fitting a shadow view. What matters are pairs: a caster, and something that the eye sees behind it. The window is the
- * intersection of what the seen receivers and the casters cover in plane coordinates, narrowed twice, since each limits the
- * other; near and far are those of the casters alone and do not depend on the eye (a receiver beyond the last caster compares
- * against the far end). A large flat caster with nothing behind it - the ground - is left out altogether: it can darken
- * nothing, and what is not in the map can neither shadow itself nor cost resolution. */
+/* Fitting a shadow view. What matters are pairs: a caster, and something that the eye sees behind
+ * it. The window is the intersection of what the seen receivers and the casters cover in plane
+ * coordinates, narrowed twice, since each limits the other; near and far are those of the casters
+ * alone and do not depend on the eye (a receiver beyond the last caster compares against the far
+ * end). A large flat caster with nothing behind it - the ground - is left out altogether: it can
+ * darken nothing, and what is not in the map can neither shadow itself nor cost resolution. */
 #include "shadow/fit.h"
 
 #include <math.h>
@@ -14,9 +15,10 @@
 #include "shadow/private.h"
 
 #define SPOT_MAX_RAD 1.3962634f /* 80 degrees: beyond it a spot's map does not reach */
-#define EXACT_TRIANGLES 32      /* geometries up to this many are clipped triangle by triangle, larger ones as boxes */
-#define STEPS_PER_OCTAVE 8      /* of the texel's size: the window's width moves in steps of 9 % */
-#define RIM_TEXELS 2            /* cleared rim, and the texel that snapping takes */
+#define EXACT_TRIANGLES                                                                            \
+    32 /* geometries up to this many are clipped triangle by triangle, larger ones as boxes */
+#define STEPS_PER_OCTAVE 8 /* of the texel's size: the window's width moves in steps of 9 % */
+#define RIM_TEXELS       2 /* cleared rim, and the texel that snapping takes */
 
 static const struct gn_shadow_region nothing = {
     {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, INFINITY, -INFINITY, 0.0f};
@@ -37,29 +39,39 @@ void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count)
     memory->casts = gn_xalloc(item_count, sizeof *memory->casts);
     memory->seen = gn_xalloc(item_count, sizeof *memory->seen);
     memory->whole = gn_xalloc(item_count, sizeof *memory->whole);
+    memory->part = gn_xalloc(item_count, sizeof *memory->part);
     memory->pose_hash = gn_xalloc(item_count, sizeof *memory->pose_hash);
-    memory->light_hash = 0;
+    memory->light_hash = memory->eye_hash = 0;
 }
 
 void gn_shadow_memory_finish(struct gn_shadow_memory *memory) {
     free(memory->casts);
     free(memory->seen);
     free(memory->whole);
+    free(memory->part);
     free(memory->pose_hash);
     *memory = (struct gn_shadow_memory){0};
 }
 
-static bool region_is_empty(const struct gn_shadow_region *r) { return r->min[0] > r->max[0] || r->min[1] > r->max[1]; }
+/* As fminf and fmaxf, which are calls, for numbers. */
+static float least(float a, float b) { return a < b ? a : b; }
+static float most(float a, float b) { return a > b ? a : b; }
 
-static bool regions_meet(const struct gn_shadow_region *a, const struct gn_shadow_region *b) {
-    return a->min[0] <= b->max[0] && b->min[0] <= a->max[0] && a->min[1] <= b->max[1] && b->min[1] <= a->max[1];
+static bool region_is_empty(const struct gn_shadow_region *r) {
+    return r->min[0] > r->max[0] || r->min[1] > r->max[1];
 }
 
-static struct gn_shadow_region intersect(const struct gn_shadow_region *a, const struct gn_shadow_region *b) {
+static bool regions_meet(const struct gn_shadow_region *a, const struct gn_shadow_region *b) {
+    return a->min[0] <= b->max[0] && b->min[0] <= a->max[0] && a->min[1] <= b->max[1] &&
+           b->min[1] <= a->max[1];
+}
+
+static struct gn_shadow_region intersect(const struct gn_shadow_region *a,
+                                         const struct gn_shadow_region *b) {
     struct gn_shadow_region r = *a;
     for (int k = 0; k < 2; k++) {
-        r.min[k] = fmaxf(a->min[k], b->min[k]);
-        r.max[k] = fminf(a->max[k], b->max[k]);
+        r.min[k] = most(a->min[k], b->min[k]);
+        r.max[k] = least(a->max[k], b->max[k]);
     }
     return r;
 }
@@ -67,24 +79,26 @@ static struct gn_shadow_region intersect(const struct gn_shadow_region *a, const
 static void unite(struct gn_shadow_region *a, const struct gn_shadow_region *b) {
     if (region_is_empty(b)) return;
     for (int k = 0; k < 2; k++) {
-        a->min[k] = fminf(a->min[k], b->min[k]);
-        a->max[k] = fmaxf(a->max[k], b->max[k]);
+        a->min[k] = least(a->min[k], b->min[k]);
+        a->max[k] = most(a->max[k], b->max[k]);
     }
-    a->near = fminf(a->near, b->near);
-    a->far = fmaxf(a->far, b->far);
-    a->far_radial = fmaxf(a->far_radial, b->far_radial);
+    a->near = least(a->near, b->near);
+    a->far = most(a->far, b->far);
+    a->far_radial = most(a->far_radial, b->far_radial);
 }
 
 static void add_point(const struct fitter *f, struct gn_shadow_region *r, vec3 p_ws) {
     vec3 p;
     glm_mat4_mulv3(f->view->light_from_world, p_ws, 1.0f, p);
     float depth = -p[2];
-    float scale = f->view->perspective ? 1.0f / fmaxf(depth, 1e-6f) : 1.0f;
-    struct gn_shadow_region point = {{p[0] * scale, p[1] * scale}, {p[0] * scale, p[1] * scale}, depth, depth, glm_vec3_norm(p)};
+    float scale = f->view->perspective ? 1.0f / most(depth, 1e-6f) : 1.0f;
+    struct gn_shadow_region point = {
+        {p[0] * scale, p[1] * scale}, {p[0] * scale, p[1] * scale}, depth, depth, glm_vec3_norm(p)};
     unite(r, &point);
 }
 
-static void add_polygon(const struct fitter *f, struct gn_shadow_region *r, struct gn_polygon *polygon, bool seen_only) {
+static void add_polygon(const struct fitter *f, struct gn_shadow_region *r,
+                        struct gn_polygon *polygon, bool seen_only) {
     if (seen_only)
         for (int i = 0; i < 6 && polygon->count; i++) gn_polygon_clip(polygon, f->eye->planes[i]);
     for (int i = 0; i < f->cone_count && polygon->count; i++) gn_polygon_clip(polygon, f->cone[i]);
@@ -93,28 +107,31 @@ static void add_polygon(const struct fitter *f, struct gn_shadow_region *r, stru
 
 static bool planes_hold(vec4 *planes, int count, const struct gn_box *box) {
     for (int i = 0; i < count; i++) {
-        float least = planes[i][3];
-        for (int k = 0; k < 3; k++) least += planes[i][k] * (planes[i][k] >= 0.0f ? box->min[k] : box->max[k]);
-        if (least < 0.0f) return false;
+        float nearest = planes[i][3];
+        for (int k = 0; k < 3; k++)
+            nearest += planes[i][k] * (planes[i][k] >= 0.0f ? box->min[k] : box->max[k]);
+        if (nearest < 0.0f) return false;
     }
     return true;
 }
 
-static void add_triangles(const struct fitter *f, struct gn_shadow_region *r, uint32_t item, bool seen_only) {
+static void add_triangles(const struct fitter *f, struct gn_shadow_region *r, uint32_t item,
+                          bool seen_only) {
     const struct gn_scene *scene = f->pose->scene;
     const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
     for (uint32_t i = 0; i < g->index_count; i += 3) {
         struct gn_polygon triangle = {.count = 3};
         for (int k = 0; k < 3; k++)
             glm_mat4_mulv3(f->pose->items[item].world_from_item,
-                           scene->positions + 3 * (size_t)scene->indices[g->first_index + i + k], 1.0f,
-                           triangle.at[k]);
+                           scene->positions + 3 * (size_t)scene->indices[g->first_index + i + k],
+                           1.0f, triangle.at[k]);
         add_polygon(f, r, &triangle, seen_only);
     }
 }
 
 /* The hull of box and frustum: clipped faces of each by the other. */
-static void add_body(const struct fitter *f, struct gn_shadow_region *r, vec3 corners[8], bool seen_only) {
+static void add_body(const struct fitter *f, struct gn_shadow_region *r, vec3 corners[8],
+                     bool seen_only) {
     struct gn_polygon face;
     for (int i = 0; i < 6; i++) {
         gn_box_face(corners, i, &face);
@@ -130,7 +147,8 @@ static void add_body(const struct fitter *f, struct gn_shadow_region *r, vec3 co
     }
 }
 
-/* What an item covers, of that what the light can show, and of that - if so wanted - what the eye sees. */
+/* What an item covers, of that what the light can show, and of that - if so wanted - what the eye
+ * sees. */
 static struct gn_shadow_region measure(const struct fitter *f, uint32_t item, bool seen_only) {
     struct gn_shadow_region r = nothing;
     const struct gn_pose_item *posed = &f->pose->items[item];
@@ -152,28 +170,35 @@ static const struct gn_shadow_region *whole_region(const struct fitter *f, uint3
 
 enum { SEEN_NOT, SEEN_PARTLY, SEEN_WHOLE };
 
-static struct gn_shadow_region seen_region(const struct fitter *f, uint32_t item) {
-    return f->memory->seen[item] == SEEN_WHOLE ? *whole_region(f, item) : measure(f, item, true);
+static const struct gn_shadow_region *seen_region(const struct fitter *f, uint32_t item) {
+    return f->memory->seen[item] == SEEN_WHOLE ? whole_region(f, item) : &f->memory->part[item];
 }
 
 /* Brings the memory up to this pose, light and eye. */
 static void remember(const struct fitter *f) {
     struct gn_shadow_memory *m = f->memory;
-    uint64_t light = gn_hash(GN_HASH_INIT, f->view->light_from_world, sizeof f->view->light_from_world);
+    uint64_t light =
+        gn_hash(GN_HASH_INIT, f->view->light_from_world, sizeof f->view->light_from_world);
     light = gn_hash(light, &f->tan_cone, sizeof f->tan_cone);
+    uint64_t eye = gn_hash(GN_HASH_INIT, f->eye->clip_from_world, sizeof f->eye->clip_from_world);
     for (uint32_t i = 0; i < m->item_count; i++) {
         const struct gn_pose_item *posed = &f->pose->items[i];
         if (!posed->visible) {
             m->seen[i] = SEEN_NOT;
+            m->pose_hash[i] = 0;
             continue;
         }
-        if (m->light_hash != light || m->pose_hash[i] != posed->hash) m->whole[i] = measure(f, i, false);
+        bool same = m->light_hash == light && m->pose_hash[i] == posed->hash;
+        if (!same) m->whole[i] = measure(f, i, false);
         m->pose_hash[i] = posed->hash;
-        m->seen[i] = !gn_eye_sees(f->eye, &posed->box_ws) ? SEEN_NOT
+        if (same && m->eye_hash == eye) continue;
+        m->seen[i] = !gn_eye_sees(f->eye, &posed->box_ws)                     ? SEEN_NOT
                      : planes_hold((vec4 *)f->eye->planes, 6, &posed->box_ws) ? SEEN_WHOLE
                                                                               : SEEN_PARTLY;
+        if (m->seen[i] == SEEN_PARTLY) m->part[i] = measure(f, i, true);
     }
     m->light_hash = light;
+    m->eye_hash = eye;
 }
 
 static bool item_receives(const struct fitter *f, uint32_t item) {
@@ -190,10 +215,12 @@ static bool item_casts(const struct fitter *f, uint32_t item) {
 static bool is_large_flat(const struct fitter *f, uint32_t item) {
     const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
     const struct gn_box *box = &f->pose->items[item].box_ws;
-    return g->flat && glm_vec3_distance((float *)box->min, (float *)box->max) > 0.25f * f->scene_size_m;
+    return g->flat &&
+           glm_vec3_distance((float *)box->min, (float *)box->max) > 0.25f * f->scene_size_m;
 }
 
-/* The flat item's plane in world space, its light's side positive. False when it is seen edge-on by the light. */
+/* The flat item's plane in world space, its light's side positive. False when it is seen edge-on by
+ * the light. */
 static bool lit_plane(const struct fitter *f, uint32_t item, vec4 plane) {
     const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
     vec4 *world_from_item = (vec4 *)f->pose->items[item].world_from_item;
@@ -202,7 +229,9 @@ static bool lit_plane(const struct fitter *f, uint32_t item, vec4 plane) {
     glm_mat4_mulv3(world_from_item, p, 1.0f, on_plane);
     mat4 inverse;
     glm_mat4_inv_precise(world_from_item, inverse);
-    for (int k = 0; k < 3; k++) n[k] = inverse[k][0] * g->plane[0] + inverse[k][1] * g->plane[1] + inverse[k][2] * g->plane[2];
+    for (int k = 0; k < 3; k++)
+        n[k] =
+            inverse[k][0] * g->plane[0] + inverse[k][1] * g->plane[1] + inverse[k][2] * g->plane[2];
     glm_vec3_normalize(n);
     glm_vec3_copy(n, plane);
     plane[3] = -glm_vec3_dot(n, on_plane);
@@ -213,16 +242,18 @@ static bool lit_plane(const struct fitter *f, uint32_t item, vec4 plane) {
 }
 
 /* The part of a large flat caster's region that has any receiver behind its plane, seen or not. */
-static struct gn_shadow_region useful_region(const struct fitter *f, uint32_t item, const struct gn_shadow_region *whole) {
+static struct gn_shadow_region useful_region(const struct fitter *f, uint32_t item,
+                                             const struct gn_shadow_region *whole) {
     vec4 plane;
     if (!lit_plane(f, item, plane)) return *whole;
     struct gn_shadow_region behind = nothing;
     for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
         if (i == item || !item_receives(f, i)) continue;
         const struct gn_box *box = &f->pose->items[i].box_ws;
-        float least = plane[3];
-        for (int k = 0; k < 3; k++) least += plane[k] * (plane[k] >= 0.0f ? box->min[k] : box->max[k]);
-        if (least >= -1e-4f * f->scene_size_m) continue;
+        float nearest = plane[3];
+        for (int k = 0; k < 3; k++)
+            nearest += plane[k] * (plane[k] >= 0.0f ? box->min[k] : box->max[k]);
+        if (nearest >= -1e-4f * f->scene_size_m) continue;
         unite(&behind, whole_region(f, i));
     }
     struct gn_shadow_region r = intersect(whole, &behind);
@@ -235,15 +266,15 @@ static struct gn_shadow_region caster_region(const struct fitter *f, uint32_t it
 }
 
 /* The window before snapping, and the depths of all casters. */
-static bool find_window(const struct fitter *f, struct gn_shadow_region *window, struct gn_shadow_region *depths) {
+static bool find_window(const struct fitter *f, struct gn_shadow_region *window,
+                        struct gn_shadow_region *depths) {
     uint32_t count = f->memory->item_count;
     uint8_t *casts = f->memory->casts;
     struct gn_shadow_region receivers = nothing, casters = nothing, again = nothing;
     *depths = nothing;
     for (uint32_t i = 0; i < count; i++) {
         if (!item_receives(f, i) || f->memory->seen[i] == SEEN_NOT) continue;
-        struct gn_shadow_region r = seen_region(f, i);
-        unite(&receivers, &r);
+        unite(&receivers, seen_region(f, i));
     }
     memset(casts, 0, count);
     for (uint32_t i = 0; i < count; i++) {
@@ -260,9 +291,10 @@ static bool find_window(const struct fitter *f, struct gn_shadow_region *window,
     for (uint32_t i = 0; i < count; i++) { /* receivers once more, now that the casters are known */
         if (!item_receives(f, i) || f->memory->seen[i] == SEEN_NOT) continue;
         if (!regions_meet(whole_region(f, i), &casters)) continue;
-        struct gn_shadow_region r = seen_region(f, i);
-        if (region_is_empty(&r) || !regions_meet(&r, &casters) || r.far < casters.near) continue;
-        r = intersect(&r, &casters);
+        const struct gn_shadow_region *seen = seen_region(f, i);
+        if (region_is_empty(seen) || !regions_meet(seen, &casters) || seen->far < casters.near)
+            continue;
+        struct gn_shadow_region r = intersect(seen, &casters);
         unite(&again, &r);
     }
     *window = intersect(&casters, &again);
@@ -282,14 +314,19 @@ static void place_light(struct fitter *f, const struct gn_light *light) {
     view->perspective = light->type == GN_LIGHT_SPOT;
     look_along(view->perspective ? view->light_ws : origin, direction, view->light_from_world);
     if (!view->perspective) return;
-    /* Five planes of a pyramid round the cone; its near plane is a ten-thousandth of the scene away. */
+    /* Five planes of a pyramid round the cone; its near plane is a ten-thousandth of the scene
+     * away. */
     f->tan_cone = tanf(fminf(light->outer_rad, SPOT_MAX_RAD));
     float near_m = fmaxf(1e-4f * f->scene_size_m, 1e-4f);
-    vec4 planes[5] = {{1, 0, -f->tan_cone, 0}, {-1, 0, -f->tan_cone, 0}, {0, 1, -f->tan_cone, 0},
-                      {0, -1, -f->tan_cone, 0}, {0, 0, -1, -near_m}};
+    vec4 planes[5] = {{1, 0, -f->tan_cone, 0},
+                      {-1, 0, -f->tan_cone, 0},
+                      {0, 1, -f->tan_cone, 0},
+                      {0, -1, -f->tan_cone, 0},
+                      {0, 0, -1, -near_m}};
     f->cone_count = 5;
     for (int i = 0; i < 5; i++) /* a plane goes by the transpose: world from light */
-        for (int c = 0; c < 4; c++) f->cone[i][c] = glm_vec4_dot(planes[i], view->light_from_world[c]);
+        for (int c = 0; c < 4; c++)
+            f->cone[i][c] = glm_vec4_dot(planes[i], view->light_from_world[c]);
 }
 
 static float ceil_to_step(float size) {
@@ -297,7 +334,8 @@ static float ceil_to_step(float size) {
 }
 
 /* Snaps the window to whole texels of a size from a geometric series; returns its low corner. */
-static void snap_window(const struct fitter *f, const struct gn_shadow_region *window, double low[2]) {
+static void snap_window(const struct fitter *f, const struct gn_shadow_region *window,
+                        double low[2]) {
     struct gn_shadow_view *view = f->view;
     uint32_t margin = gn_techniques[view->technique].radius_texels + RIM_TEXELS;
     uint32_t usable = view->map_px > 2 * margin + 2 ? view->map_px - 2 * margin : 2;
@@ -307,7 +345,9 @@ static void snap_window(const struct fitter *f, const struct gn_shadow_region *w
         low[k] = (floor((double)window->min[k] / view->texel) - margin) * view->texel;
 }
 
-static float half_float_step(float value) { return exp2f(floorf(log2f(fmaxf(value, 1e-5f))) - 10.0f); }
+static float half_float_step(float value) {
+    return exp2f(floorf(log2f(fmaxf(value, 1e-5f))) - 10.0f);
+}
 
 /* The encoding's code of a distance is distance * scale + offset; ulp_m is its coarsest step. */
 static void set_code(struct gn_shadow_view *view, float near_depth, float far_depth) {
@@ -326,7 +366,8 @@ static void set_code(struct gn_shadow_view *view, float near_depth, float far_de
     case GN_ENCODING_R16F_RAW:
         view->ulp_m = half_float_step(view->far_m) + float_step;
         /* a half float itself: what the map is cleared to must be what is compared with */
-        view->far_code = ceilf(view->far_m / half_float_step(view->far_m)) * half_float_step(view->far_m);
+        view->far_code =
+            ceilf(view->far_m / half_float_step(view->far_m)) * half_float_step(view->far_m);
         return;
     case GN_ENCODING_RGBA8:
         view->distance_scale = 1.0f / range;
@@ -336,41 +377,49 @@ static void set_code(struct gn_shadow_view *view, float near_depth, float far_de
         return;
     case GN_ENCODING_DEPTH:
         view->far_code = 1.0f;
-        view->ulp_m += view->perspective ? far_depth * range / near_depth * exp2f(-23.0f) : range * exp2f(-22.0f);
+        view->ulp_m += view->perspective ? far_depth * range / near_depth * exp2f(-23.0f)
+                                         : range * exp2f(-22.0f);
         return;
     case GN_ENCODING_R32UI:
     case GN_ENCODING_COUNT: return;
     }
 }
 
-static void set_matrices(struct gn_shadow_view *view, const double low[2], float near_depth, float far_depth) {
+static void set_matrices(struct gn_shadow_view *view, const double low[2], float near_depth,
+                         float far_depth) {
     double side = (double)view->texel * view->map_px;
-    float left = (float)low[0], right = (float)(low[0] + side), bottom = (float)low[1], top = (float)(low[1] + side);
+    float left = (float)low[0], right = (float)(low[0] + side), bottom = (float)low[1],
+          top = (float)(low[1] + side);
     mat4 clip_from_light;
     if (view->perspective)
-        glm_frustum(left * near_depth, right * near_depth, bottom * near_depth, top * near_depth, near_depth, far_depth,
-                    clip_from_light);
+        glm_frustum(left * near_depth, right * near_depth, bottom * near_depth, top * near_depth,
+                    near_depth, far_depth, clip_from_light);
     else
         glm_ortho(left, right, bottom, top, near_depth, far_depth, clip_from_light);
     glm_mat4_mul(clip_from_light, view->light_from_world, view->clip_from_world);
     mat4 map_from_clip = {{0.5f, 0, 0, 0}, {0, 0.5f, 0, 0}, {0, 0, 0.5f, 0}, {0.5f, 0.5f, 0.5f, 1}};
     glm_mat4_mul(map_from_clip, view->clip_from_world, view->map_from_world);
     if (view->perspective || view->encoding == GN_ENCODING_DEPTH) return;
-    for (int c = 0; c < 4; c++) { /* z is the code itself: distance from the near plane is -z_ls - near */
+    for (int c = 0; c < 4;
+         c++) { /* z is the code itself: distance from the near plane is -z_ls - near */
         float depth = -view->light_from_world[c][2] - (c == 3 ? near_depth : 0.0f);
-        view->map_from_world[c][2] = depth * view->distance_scale + (c == 3 ? view->distance_offset : 0.0f);
+        view->map_from_world[c][2] =
+            depth * view->distance_scale + (c == 3 ? view->distance_offset : 0.0f);
     }
 }
 
-static void set_depths(struct gn_shadow_view *view, const struct gn_shadow_region *depths, float *near_depth, float *far_depth) {
+static void set_depths(struct gn_shadow_view *view, const struct gn_shadow_region *depths,
+                       float *near_depth, float *far_depth) {
     float pad = 1e-3f * (depths->far - depths->near) + 1e-5f * fabsf(depths->far);
-    *near_depth = view->perspective ? fmaxf(depths->near - pad, 0.5f * depths->near) : depths->near - pad;
+    *near_depth =
+        view->perspective ? fmaxf(depths->near - pad, 0.5f * depths->near) : depths->near - pad;
     *far_depth = depths->far + pad;
     view->near_m = view->perspective ? *near_depth : 0.0f;
     view->far_m = view->perspective ? depths->far_radial + pad : *far_depth - *near_depth;
 }
 
-/* Normal offset and slope by the width that the technique averages over; figures measured by `make truth`. */
+/* Normal offset and slope by the width that the technique averages over; figures measured by `make
+ * truth`. */
 static void set_bias(struct gn_shadow_view *view) {
     float width = gn_techniques[view->technique].bias_texels;
     view->normal_offset = width;
@@ -378,9 +427,11 @@ static void set_bias(struct gn_shadow_view *view) {
     view->slope_max = 4.0f;
 }
 
-static uint64_t hash_content(const struct gn_pose *pose, const uint8_t *casts, const struct gn_shadow_view *view) {
+static uint64_t hash_content(const struct gn_pose *pose, const uint8_t *casts,
+                             const struct gn_shadow_view *view) {
     uint64_t h = gn_hash(GN_HASH_INIT, view->clip_from_world, sizeof view->clip_from_world);
-    float code[] = {view->distance_scale, view->distance_offset, view->far_code, (float)view->map_px, (float)view->encoding};
+    float code[] = {view->distance_scale, view->distance_offset, view->far_code,
+                    (float)view->map_px, (float)view->encoding};
     h = gn_hash(h, code, sizeof code);
     for (uint32_t i = 0; i < pose->scene->item_count; i++)
         if (casts[i]) {
@@ -390,13 +441,18 @@ static uint64_t hash_content(const struct gn_pose *pose, const uint8_t *casts, c
     return h ? h : 1;
 }
 
-bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye, const struct gn_shadow_opts *opts,
-                   struct gn_shadow_memory *memory, struct gn_shadow_view *view) {
-    *view = (struct gn_shadow_view){.light = light, .technique = opts->technique, .encoding = opts->encoding, .map_px = opts->map_px};
+bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
+                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
+                   struct gn_shadow_view *view) {
+    *view = (struct gn_shadow_view){.light = light,
+                                    .technique = opts->technique,
+                                    .encoding = opts->encoding,
+                                    .map_px = opts->map_px};
     const struct gn_light *l = &pose->scene->lights[light];
     if (l->type == GN_LIGHT_POINT || opts->technique == GN_TECHNIQUE_NONE) return false;
     struct fitter f = {.pose = pose, .eye = eye, .memory = memory, .view = view};
-    f.scene_size_m = fmaxf(glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max), 1e-6f);
+    f.scene_size_m =
+        fmaxf(glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max), 1e-6f);
     place_light(&f, l);
     remember(&f);
     struct gn_shadow_region window, depths;

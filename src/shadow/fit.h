@@ -1,8 +1,10 @@
-/* From a light, a pose and an eye to a shadow view: what a shadow map shows and how it is read. Pure.
+/* From a light, a pose and an eye to a shadow view: what a shadow map shows and how it is read.
+ * Pure.
  *
- * Plane coordinates: for a directional light metres across the light's direction, for a spot tangents (x/z, y/z). The map is a
- * window in them: as small as holds every place where a caster can darken something that the eye sees, of a width from a
- * geometric series and with its corner on a whole texel, so that it moves by whole texels when the eye moves. */
+ * Plane coordinates: for a directional light metres across the light's direction, for a spot
+ * tangents (x/z, y/z). The map is a window in them: as small as holds every place where a caster
+ * can darken something that the eye sees, of a width from a geometric series and with its corner on
+ * a whole texel, so that it moves by whole texels when the eye moves. */
 #ifndef GN_SHADOW_FIT_H
 #define GN_SHADOW_FIT_H
 
@@ -25,15 +27,16 @@ struct gn_shadow_view {
     vec3 to_light_ws;      /* unit (directional) */
     mat4 light_from_world; /* rigid; looks along -Z */
     mat4 clip_from_world;  /* draws the map */
-    /* Reads the map: xy / w in 0..1 over the map, z / w in the encoding's own unit for a directional light, and for a spot with
-     * encoding depth; for other spot encodings z = |p - light_ws| * distance_scale + distance_offset. */
+    /* Reads the map: xy / w in 0..1 over the map, z / w in the encoding's own unit for a
+     * directional light, and for a spot with encoding depth; for other spot encodings z = |p -
+     * light_ws| * distance_scale + distance_offset. */
     mat4 map_from_world;
     float distance_scale, distance_offset;
-    float far_code;        /* the far end in the encoding's unit: what the map is cleared to */
+    float far_code; /* the far end in the encoding's unit: what the map is cleared to */
     float near_m, far_m;
-    float texel;           /* plane units: metres, or metres per metre of depth */
-    float normal_offset;   /* texels, times sin(theta) */
-    float slope_offset;    /* texels towards the light, times tan(theta) clamped at slope_max */
+    float texel;         /* plane units: metres, or metres per metre of depth */
+    float normal_offset; /* texels, times sin(theta) */
+    float slope_offset;  /* texels towards the light, times tan(theta) clamped at slope_max */
     float slope_max;
     float ulp_m;           /* added towards the light: the encoding's rounding at the far end */
     uint64_t content_hash; /* of all that decides the map's content, casters included */
@@ -48,9 +51,10 @@ struct gn_eye {
 void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world);
 bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box); /* conservative */
 
-/* What fitting remembers of a light from frame to frame, so that what stands still costs nothing, and what it found out. One
- * per shadow map; any scene of as many items, any light. */
-struct gn_shadow_region { /* in plane coordinates and depth along the light's axis; empty when min > max */
+/* What fitting remembers of a light from frame to frame, so that what stands still costs nothing,
+ * and what it found out. One per shadow map; any scene of as many items, any light. */
+struct gn_shadow_region { /* in plane coordinates and depth along the light's axis; empty when min >
+                             max */
     float min[2], max[2];
     float near, far;
     float far_radial; /* farthest point from the light's origin */
@@ -60,15 +64,17 @@ struct gn_shadow_memory {
     uint8_t *casts;                 /* per item: 1 = draw it into the map */
     uint8_t *seen;                  /* per item: how much of it the eye sees; private */
     struct gn_shadow_region *whole; /* per item: all that it covers; private */
+    struct gn_shadow_region *part;  /* per item seen partly: what of it is seen; private */
     uint64_t *pose_hash;            /* per item: of the pose that `whole` is of; private */
-    uint64_t light_hash;
+    uint64_t light_hash, eye_hash;  /* private */
 };
 void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count);
 void gn_shadow_memory_finish(struct gn_shadow_memory *memory);
 
-/* Fits the light's view and fills memory->casts. False: nothing that is seen can be in this light's shadow; no map is needed.
- * Point lights: false. Allocates nothing. */
-bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye, const struct gn_shadow_opts *opts,
-                   struct gn_shadow_memory *memory, struct gn_shadow_view *view);
+/* Fits the light's view and fills memory->casts. False: nothing that is seen can be in this light's
+ * shadow; no map is needed. Point lights: false. Allocates nothing. */
+bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
+                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
+                   struct gn_shadow_view *view);
 
 #endif

@@ -16,7 +16,8 @@ void gn_polygon_clip(struct gn_polygon *polygon, const vec4 plane);
 void gn_box_corners(const struct gn_box *box, mat4 to, vec3 corners[8]);
 /* Face 0..5 of eight such corners. */
 void gn_box_face(vec3 corners[8], int face, struct gn_polygon *out);
-/* The six inward planes of the convex body of eight such corners. A flat body gives planes that cut nothing. */
+/* The six inward planes of the convex body of eight such corners. A flat body gives planes that cut
+ * nothing. */
 void gn_box_planes(vec3 corners[8], vec4 planes[6]);
 
 #endif

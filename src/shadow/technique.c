@@ -80,14 +80,17 @@ bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *er
     return gn_fail_usage(err, "there is no map format '%s'; there are %s", name, names);
 }
 
-enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted, uint32_t proved,
-                                    bool *fell_back) {
-    static const enum gn_encoding by_distance[] = {GN_ENCODING_R16F, GN_ENCODING_R32UI, GN_ENCODING_DEPTH};
-    static const enum gn_encoding by_depth[] = {GN_ENCODING_DEPTH, GN_ENCODING_R32UI, GN_ENCODING_R16F};
+enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted,
+                                    uint32_t proved, bool *fell_back) {
+    static const enum gn_encoding by_distance[] = {GN_ENCODING_R16F, GN_ENCODING_R32UI,
+                                                   GN_ENCODING_DEPTH};
+    static const enum gn_encoding by_depth[] = {GN_ENCODING_DEPTH, GN_ENCODING_R32UI,
+                                                GN_ENCODING_R16F};
     *fell_back = false;
     if (wanted != GN_ENCODING_AUTO && proved & 1u << wanted) return wanted;
     *fell_back = wanted != GN_ENCODING_AUTO;
-    const enum gn_encoding *order = gn_techniques[technique].reads_distance ? by_distance : by_depth;
+    const enum gn_encoding *order =
+        gn_techniques[technique].reads_distance ? by_distance : by_depth;
     for (int i = 0; i < 3; i++)
         if (proved & 1u << order[i]) return order[i];
     return GN_ENCODING_RGBA8; /* core, needs no proof */

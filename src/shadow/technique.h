@@ -1,4 +1,5 @@
-/* The table of shadow techniques and the table of map encodings. One row and one GLSL file add one. */
+/* The table of shadow techniques and the table of map encodings. One row and one GLSL file add one.
+ */
 #ifndef GN_SHADOW_TECHNIQUE_H
 #define GN_SHADOW_TECHNIQUE_H
 
@@ -19,9 +20,9 @@ enum gn_technique {
 
 /* How a map stores the distance from the light. All are cleared to the light's far end. */
 enum gn_encoding {
-    GN_ENCODING_DEPTH,    /* depth texture, hardware compare */
-    GN_ENCODING_R32UI,    /* bits of the float distance in metres */
-    GN_ENCODING_R16F,     /* (d - c) / h over near..far, half float, with its own depth attachment */
+    GN_ENCODING_DEPTH, /* depth texture, hardware compare */
+    GN_ENCODING_R32UI, /* bits of the float distance in metres */
+    GN_ENCODING_R16F,  /* (d - c) / h over near..far, half float, with its own depth attachment */
     GN_ENCODING_R16F_RAW, /* metres, half float, as in the notes */
     GN_ENCODING_RGBA8,    /* (d - near) / (far - near) in four bytes */
     GN_ENCODING_COUNT,
@@ -30,29 +31,33 @@ enum gn_encoding {
 
 struct gn_technique_row {
     const char *name;
-    const char *file;        /* below shaders_es/, NULL for none */
-    bool filters;            /* compares four texels and weighs them: wants a LINEAR compare sampler */
-    bool reads_distance;     /* `auto` gives it a distance map; else a depth map */
-    unsigned radius_texels;  /* how far from the point it reads, rounded up: margin of the map */
-    float bias_texels;       /* what the normal offset and slope grow with: half the width it averages over */
-    const char *what;        /* one line for people */
+    const char *file;    /* below shaders_es/, NULL for none */
+    bool filters;        /* compares four texels and weighs them: wants a LINEAR compare sampler */
+    bool reads_distance; /* `auto` gives it a distance map; else a depth map */
+    unsigned radius_texels; /* how far from the point it reads, rounded up: margin of the map */
+    float bias_texels; /* what the normal offset and slope grow with: half the width it averages
+                          over */
+    const char *what;  /* one line for people */
     const char *source;
 };
 extern const struct gn_technique_row gn_techniques[GN_TECHNIQUE_COUNT];
 
 struct gn_encoding_row {
-    const char *name;        /* as in --map-format */
-    const char *file;        /* below shaders_es/ */
-    unsigned texel_bytes;    /* with its depth attachment */
+    const char *name;     /* as in --map-format */
+    const char *file;     /* below shaders_es/ */
+    unsigned texel_bytes; /* with its depth attachment */
 };
 extern const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT];
 
 /* By name; on failure a usage error that lists the names. */
 bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err);
-bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *err); /* knows "auto" */
+bool gn_encoding_find(const char *name, enum gn_encoding *out,
+                      struct gn_err *err); /* knows "auto" */
 
-/* The encoding that a technique gets: the wanted one, or for AUTO the first in the technique's order that `proved` (a bit per
- * encoding) has. Where the wanted one is missing, *fell_back is set and the automatic one taken. Depth is always there. */
-enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted, uint32_t proved, bool *fell_back);
+/* The encoding that a technique gets: the wanted one, or for AUTO the first in the technique's
+ * order that `proved` (a bit per encoding) has. Where the wanted one is missing, *fell_back is set
+ * and the automatic one taken. Depth is always there. */
+enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted,
+                                    uint32_t proved, bool *fell_back);
 
 #endif

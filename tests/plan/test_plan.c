@@ -1,10 +1,10 @@
-/* Plans as text against goldens, and what must hold between plans: what is drawn again, and when. A change of rendering is
- * reviewed as the difference of a golden: GN_UPDATE=1 writes them anew. */
+/* Plans as text against goldens, and what must hold between plans: what is drawn again, and when. A
+ * change of rendering is reviewed as the difference of a golden: GN_UPDATE=1 writes them anew. */
+#include <cmocka.h>
 #include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
-#include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -36,7 +36,9 @@ static void end(struct fixture *f) {
     gn_scene_destroy(f->scene);
 }
 
-static const struct gn_plan *build(struct fixture *f) { return gn_frame_build(f->frame, &f->pose, &f->opts, NULL); }
+static const struct gn_plan *build(struct fixture *f) {
+    return gn_frame_build(f->frame, &f->pose, &f->opts, NULL);
+}
 
 static const uint32_t everything = (1u << GN_CAP_COUNT) - 1;
 
@@ -108,7 +110,9 @@ static void test_plan_without_float_and_srgb_targets(void **state) {
     end(&f);
 }
 
-static uint64_t hash_of(struct fixture *f, uint32_t slot) { return build(f)->shadows[slot].content_hash; }
+static uint64_t hash_of(struct fixture *f, uint32_t slot) {
+    return build(f)->shadows[slot].content_hash;
+}
 
 static void test_still_scene_keeps_its_maps(void **state) {
     (void)state;
@@ -167,9 +171,11 @@ static void test_map_moves_by_whole_texels(void **state) {
         corner_in_texels(view, corner);
         for (int k = 0; k < 2; k++) assert_true(fabs(corner[k] - round(corner[k])) < 0.02);
         if (view->texel != still.texel) continue;
-        moved += memcmp(view->clip_from_world, still.clip_from_world, sizeof still.clip_from_world) != 0;
+        moved +=
+            memcmp(view->clip_from_world, still.clip_from_world, sizeof still.clip_from_world) != 0;
         assert_true(view->near_m == still.near_m && view->far_m == still.far_m);
-        for (int c = 0; c < 4; c++) assert_true(view->clip_from_world[c][2] == still.clip_from_world[c][2]);
+        for (int c = 0; c < 4; c++)
+            assert_true(view->clip_from_world[c][2] == still.clip_from_world[c][2]);
     }
     assert_true(moved > 0);
     end(&f);
@@ -181,9 +187,11 @@ static void test_an_eye_that_sees_no_shadow_needs_no_caster(void **state) {
     begin(&f, everything);
     f.opts.camera = 1;
     const struct gn_plan *plan = build(&f);
-    assert_int_equal(plan->shadow_count, 2); /* the slots stay: programs do not change with the view */
+    assert_int_equal(plan->shadow_count,
+                     2); /* the slots stay: programs do not change with the view */
     for (uint32_t i = 0; i < plan->pass_count; i++)
-        if (plan->passes[i].target.kind == GN_TARGET_SHADOW && plan->shadows[plan->passes[i].target.slot].content_hash == 1)
+        if (plan->passes[i].target.kind == GN_TARGET_SHADOW &&
+            plan->shadows[plan->passes[i].target.slot].content_hash == 1)
             assert_int_equal(plan->passes[i].draw_count, 0);
     end(&f);
 }
@@ -227,7 +235,8 @@ static void test_exposure(void **state) {
     assert_true(build(&f)->exposure == 0.25f);
     end(&f);
     begin(&f, everything);
-    for (uint32_t i = 0; i < f.scene->light_count; i++) glm_vec3_scale(f.scene->lights[i].color, 40000.0f, f.scene->lights[i].color);
+    for (uint32_t i = 0; i < f.scene->light_count; i++)
+        glm_vec3_scale(f.scene->lights[i].color, 40000.0f, f.scene->lights[i].color);
     float exposure = build(&f)->exposure;
     assert_true(exposure == exp2f(roundf(log2f(exposure)))); /* a power of two */
     float white = 2.5f * 40000.0f / GLM_PIf * exposure;
