@@ -69,7 +69,7 @@ struct gn_geometry {
         index_count;   /* a multiple of 3; indices are absolute, into scene->positions */
     struct gn_box box; /* mesh space */
     bool has_normals_in_file, has_uv0, has_uv1, has_color;
-    bool flat;  /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
+    bool flat;   /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
     bool closed; /* the boundary of solid bodies, front faces outward; false when in doubt */
     vec4 plane; /* mesh space, if flat: n.p + d = 0, |n| = 1, on the side its front faces look to */
 };

@@ -1,9 +1,6 @@
 #include "plan/stage_scene.h"
+#include "unit/check.h"
 
-#include <cmocka.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 
 #include "unit/gltf_maker.h"

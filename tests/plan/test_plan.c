@@ -1,10 +1,6 @@
 /* Plans as text against goldens, and what must hold between plans: what is drawn again, and when. A
  * change of rendering is reviewed as the difference of a golden: GN_UPDATE=1 writes them anew. */
-#include <cmocka.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -13,6 +9,7 @@
 #include "core/file.h"
 #include "frame/plan.h"
 #include "plan/stage_scene.h"
+#include "unit/check.h"
 
 struct fixture {
     struct gn_scene *scene;
