@@ -103,7 +103,7 @@ static void begin_draw(struct gn_frame *frame, uint32_t item, const struct gn_pr
 struct selection {
     const uint8_t *casts;              /* shadow pass: those marked; NULL: what the eye sees */
     const struct gn_shadow_view *view; /* shadow pass */
-    const struct gn_frame_opts *opts;
+    const struct gn_frame_opts *opts;  /* never NULL */
 };
 
 static bool is_blended(const struct gn_frame *frame, uint32_t item) {
@@ -231,7 +231,8 @@ static void end_pass(struct gn_frame *frame) {
     pass->draw_count = frame->draws.count - pass->first_draw;
 }
 
-static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot) {
+static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
+                        const struct gn_frame_opts *opts) {
     struct gn_shadow_view *view = &frame->shadows[slot];
     struct gn_pass *pass = begin_pass(frame);
     snprintf(pass->label, sizeof pass->label, "shadow %u %s", slot,
@@ -245,7 +246,7 @@ static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint
     pass->content_hash = view->content_hash;
     pass->constants = frame->constants + (size_t)slot * GN_PASS_SIZE;
     gn_frame_shadow_constants(view, frame->constants + (size_t)slot * GN_PASS_SIZE);
-    struct selection casters = {.casts = frame->memory[slot].casts, .view = view};
+    struct selection casters = {.casts = frame->memory[slot].casts, .view = view, .opts = opts};
     draw_items(frame, pose, &casters);
     end_pass(frame);
 }
@@ -365,7 +366,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     plan->exposure = gn_frame_exposure(frame, pose, opts);
     gn_frame_choose_lights(frame, pose, opts, warnings);
     gn_frame_fit_shadows(frame, pose, opts);
-    for (uint32_t i = 0; i < frame->shadow_count; i++) shadow_pass(frame, pose, i);
+    for (uint32_t i = 0; i < frame->shadow_count; i++) shadow_pass(frame, pose, i, opts);
     picture_constants(frame, pose, opts, constants);
     picture_passes(frame, pose, opts);
     plan->passes = frame->passes.at;

@@ -12,7 +12,7 @@ static const char *const feature_names[GN_FEATURE_BITS] = {
     "BASE_UV1",     "ROUGHNESS_UV1",     "EMISSIVE_UV1",     "OCCLUSION_UV1",
     "VERTEX_COLOR", "ALPHA_MASK",        "ALPHA_BLEND",      "DOUBLE_SIDED",
     "UNLIT",        "SPECULAR",          "EMISSIVE",         "HEMISPHERE",
-    "ENCODE_SRGB",  "PERSPECTIVE", "FLAT_CONSTANTS",
+    "ENCODE_SRGB",  "PERSPECTIVE",       "FLAT_CONSTANTS",
 };
 _Static_assert(GN_FEATURE_FLAT_CONSTANTS == 1 << (GN_FEATURE_BITS - 1), "a name for each feature");
 

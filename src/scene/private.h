@@ -220,7 +220,8 @@ bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_
                               size_t corner_count, size_t vertex_count, uint32_t **source,
                               float **normals, size_t *made);
 size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geometry *geometry);
-bool gn_geometry_is_closed(const struct gn_scene *scene, const struct gn_geometry *geometry); /* closed.c */
+bool gn_geometry_is_closed(const struct gn_scene *scene,
+                           const struct gn_geometry *geometry); /* closed.c */
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area);
 
 /* gltf_image.c: the scene's texture for one of the file's, made now if need be; -1: none, or
