@@ -11,14 +11,16 @@ static const struct gn_dial dial = {
     .latitude = GN_LATITUDE, .radius = 1.42f, .centre = 0.72f, .length = 0.92f, .thickness = 0.07f};
 static const float DIAL_TOP = 1.245f;
 
+/* Ground casts nothing: one sheet above the other would be fitted into every map, for no shadow. */
 static void add_ground(struct gn_garden *g) {
     struct gn_shape court = gn_garden_begin(COURT), lawn = gn_garden_begin(LAWN);
     gn_shape_paving(&court, 1.4f, 7.1f, 10, 48);
     gn_garden_stand(g, "Court", gn_garden_mesh(g, "court", &court, COURT), (struct gn_place){0},
-                    "{\"gnomon_plane\":true}");
+                    "{\"gnomon_plane\":true,\"gnomon_cast\":false}");
     gn_shape_at(&lawn, 0, -0.02f, 0);
     gn_shape_ring(&lawn, 7.0f, 60, 48);
-    gn_garden_put(g, "Lawn", &lawn, LAWN);
+    gn_garden_stand(g, "Lawn", gn_garden_mesh(g, "lawn", &lawn, LAWN), (struct gn_place){0},
+                    "{\"gnomon_cast\":false}");
 }
 
 static void add_wall(struct gn_garden *g) {
