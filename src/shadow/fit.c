@@ -351,7 +351,8 @@ static float half_float_step(float value) {
 
 /* The encoding's code of a distance is distance * scale + offset; ulp_m is its coarsest step. */
 static void set_code(struct gn_shadow_view *view, float near_depth, float far_depth) {
-    float range = view->far_m - view->near_m, float_step = 4e-7f * view->far_m;
+    float range = view->far_m - view->near_m,
+          float_step = 7e-7f * view->far_m; /* of the interpolation */
     view->distance_scale = 1.0f;
     view->distance_offset = 0.0f;
     view->far_code = view->far_m;
