@@ -106,7 +106,7 @@ EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundi
 EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(suffix $f)),$f))
 
 all: $(BIN) $(SCENES) man
-tests: $(BIN) $(PROGS) $(HOST_ASSETS) $(SCENES)
+tests: $(BIN) $(SCENES) $(PROGS) $(O)/host/make_truth $(HOST_ASSETS) $(SCENES)
 man: $(O)/gnomon.1
 
 $(BIN): $(call OBJ,src/main.c) $(LIB)
@@ -169,7 +169,7 @@ $(O)/gnomon.1: $(O)/host/man
 	$(Q)$< > $@
 
 # ---- checks --------------------------------------------------------------------------------
-programs = $(addprefix $(1)/tests/,$(notdir $(filter-out %/tool_%,$(basename $(PROG_C)))))
+programs = $(addprefix $(1)/tests/,$(filter-out tool_%,$(basename $(notdir $(PROG_C)))))
 SCRIPTS := $(sort $(wildcard tests/check_*.sh tests/*/check_*.sh))
 run: all
 	$(BIN)
@@ -185,7 +185,7 @@ accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	@GN_FULL=1 tests/run.sh BUILD=$(O)/release $(call programs,$(O)/release) \
 	    $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh))
-truth: $(B)/tests/tool_truth
+truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$<
 lint: $(patsubst %.c,$(O)/tidy/%.ok,src/main.c $(SRC))
 $(O)/tidy/%.ok: %.c .clang-tidy $(wildcard src/*/*.h) | $(B)/gen/config.h
