@@ -17,18 +17,24 @@
 struct show {
     struct gn_stage stage;
     int signals, timer; /* descriptors, -1 when not open */
-    sigset_t blocked, before;
     int64_t begun_ns, period_ns;
     uint64_t ticks, most_ticks, frames, missed;
     bool moves;
 };
 
-static bool open_loop(struct show *s, struct gn_err *err) {
-    sigemptyset(&s->blocked);
-    sigaddset(&s->blocked, SIGTERM);
-    sigaddset(&s->blocked, SIGINT);
-    sigprocmask(SIG_BLOCK, &s->blocked, &s->before);
-    s->signals = signalfd(-1, &s->blocked, SFD_CLOEXEC | SFD_NONBLOCK);
+/* Before anything else, and for good: a signal that comes while the scene loads, or a second one at
+ * the end, ends the kiosk as well as any other. */
+static bool open_signals(struct show *s, struct gn_err *err) {
+    sigset_t ends;
+    sigemptyset(&ends);
+    sigaddset(&ends, SIGTERM);
+    sigaddset(&ends, SIGINT);
+    sigprocmask(SIG_BLOCK, &ends, NULL);
+    s->signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
+    return s->signals >= 0 || gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
+}
+
+static bool open_timer(struct show *s, struct gn_err *err) {
     s->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
     int fps = s->stage.options->max_fps > 0 && s->stage.options->max_fps < 60
                   ? s->stage.options->max_fps
@@ -36,16 +42,14 @@ static bool open_loop(struct show *s, struct gn_err *err) {
     s->period_ns = GN_NS_PER_S / fps;
     struct timespec period = {s->period_ns / GN_NS_PER_S, s->period_ns % GN_NS_PER_S};
     struct itimerspec every = {period, period};
-    if (s->signals < 0 || s->timer < 0 || timerfd_settime(s->timer, 0, &every, NULL) < 0)
+    if (s->timer < 0 || timerfd_settime(s->timer, 0, &every, NULL) < 0)
         return gn_fail(err, "show: cannot make a timer: %s", strerror(errno));
-    s->begun_ns = gn_clock_monotonic_ns();
     return true;
 }
 
 static void close_loop(struct show *s) {
     if (s->signals >= 0) close(s->signals);
     if (s->timer >= 0) close(s->timer);
-    sigprocmask(SIG_SETMASK, &s->before, NULL);
 }
 
 static bool draw(struct show *s, struct gn_warnings *warnings, struct gn_err *err) {
@@ -75,7 +79,8 @@ static bool wait_tick(struct show *s) {
 static bool run(struct show *s, struct gn_warnings *warnings, struct gn_err *err) {
     s->most_ticks =
         s->stage.options->frames > 0 ? (uint64_t)s->stage.options->frames - 1 : UINT64_MAX;
-    if (!draw(s, warnings, err)) return false;
+    s->begun_ns = gn_clock_monotonic_ns();
+    if (!draw(s, warnings, err) || !open_timer(s, err)) return false;
     unsigned long allocations = gn_alloc_count();
     uint64_t objects = gn_gl_stats(s->stage.gl).objects_created;
     while (s->ticks < s->most_ticks && wait_tick(s))
@@ -94,13 +99,13 @@ bool gn_cli_show(const struct gn_options *options, struct gn_warnings *warnings,
         return gn_fail(err, "show: this version has no display on a screen; --backend egl or "
                             "osmesa runs the kiosk unseen");
     struct show s = {.signals = -1, .timer = -1};
-    bool ok =
-        gn_stage_load(&s.stage, options, warnings, err) && gn_stage_open(&s.stage, warnings, err);
+    bool ok = open_signals(&s, err) && gn_stage_load(&s.stage, options, warnings, err) &&
+              gn_stage_open(&s.stage, warnings, err);
     if (ok) {
         s.moves = s.stage.pose.animated || options->turntable_deg_s != 0.0;
-        ok = open_loop(&s, err) && run(&s, warnings, err);
-        close_loop(&s);
+        ok = run(&s, warnings, err);
     }
+    close_loop(&s);
     gn_stage_close(&s.stage);
     return ok;
 }

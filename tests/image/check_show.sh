@@ -1,0 +1,32 @@
+#!/bin/sh
+# The kiosk unseen: it ends by a signal or after its frames, with status 0, and without a word.
+set -u
+gnomon=${GNOMON:-build/release/gnomon}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+export XDG_CONFIG_HOME="$folder/none"
+bad=0
+
+# quiet ARGUMENT..: status 0, nothing on stdout and stderr; the end of stdin is no reason to go
+quiet() {
+    "$@" > "$folder/out" 2>&1 < /dev/null
+    status=$?
+    [ "$status" = 0 ] || { echo "FAIL: $*: exit status $status" && bad=1; }
+    [ ! -s "$folder/out" ] || { echo "FAIL: $*: $(cat "$folder/out")" && bad=1; }
+}
+
+# until_signal SIGNAL SECONDS ARGUMENT..: runs as long as that, then ends by that signal
+until_signal() {
+    signal=$1 seconds=$2
+    shift 2
+    before=$(date +%s)
+    quiet timeout --preserve-status --kill-after=20 -s "$signal" "$seconds" "$gnomon" show --backend egl --size 64x64 "$@"
+    [ $(($(date +%s) - before)) -ge "${seconds%.*}" ] || { echo "FAIL: show $* ended by itself" && bad=1; }
+}
+
+until_signal TERM 3
+until_signal INT 3 --no-animation
+until_signal TERM 0.5 # while it still loads
+quiet "$gnomon" show --backend egl --size 64x64 --frames 3
+
+exit $bad
