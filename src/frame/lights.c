@@ -100,6 +100,17 @@ static struct gn_frame_light take_out(struct gn_frame *frame, uint32_t at) {
     return light;
 }
 
+/* Gives the light the place of the weakest of the first `count` if that is weaker; returns the one
+ * that is left without. */
+static struct gn_frame_light trade(struct gn_frame *frame, uint32_t count,
+                                   struct gn_frame_light light) {
+    uint32_t least = weakest(frame, count);
+    if (frame->lights[least].illuminance >= light.illuminance) return light;
+    struct gn_frame_light other = take_out(frame, least);
+    insert(frame, light);
+    return other;
+}
+
 static const char *name_of(const struct gn_frame *frame, const struct gn_frame_light *light) {
     return frame->scene->lights[light->light].name;
 }
@@ -113,24 +124,14 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         if (visibility && (int)i != opts->light) continue;
         struct gn_frame_light light = describe(frame, pose, i, opts, warnings);
         if (light.technique != GN_TECHNIQUE_NONE && frame->shadow_count == GN_SHADOWS_MAX) {
-            uint32_t least = weakest(frame, frame->shadow_count);
-            if (frame->lights[least].illuminance < light.illuminance) {
-                struct gn_frame_light other = take_out(frame, least);
-                insert(frame, light);
-                light = other;
-            }
+            light = trade(frame, frame->shadow_count, light);
             gn_warn(warnings,
                     "light '%s' casts no shadow: %d lights with shadows are the most at once",
                     name_of(frame, &light), GN_SHADOWS_MAX);
             light.technique = GN_TECHNIQUE_NONE;
         }
         if (frame->light_count == GN_LIGHTS_MAX) {
-            uint32_t least = weakest(frame, frame->light_count);
-            if (frame->lights[least].illuminance < light.illuminance) {
-                struct gn_frame_light other = take_out(frame, least);
-                insert(frame, light);
-                light = other;
-            }
+            light = trade(frame, frame->light_count, light);
             gn_warn(warnings, "light '%s' is left out: %d lights are the most at once",
                     name_of(frame, &light), GN_LIGHTS_MAX);
             continue;
