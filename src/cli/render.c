@@ -112,7 +112,7 @@ static bool write_map(struct render *r, const struct gn_plan *plan, const char *
     for (size_t y = 0; ok && y < side; y++)
         for (size_t x = 0; x < side; x++)
             flipped[(side - 1 - y) * side + x] =
-                view->content_hash == 1 ? 1.0f : map_grey(view, codes[y * side + x]);
+                view->empty ? 1.0f : map_grey(view, codes[y * side + x]);
     ok = ok && write_grey(r, path, flipped, (int)side, (int)side, err);
     free(codes);
     free(flipped);

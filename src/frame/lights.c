@@ -149,6 +149,7 @@ static void make_empty(struct gn_shadow_view *view) {
     view->distance_scale = view->distance_offset = 0.0f;
     view->texel = view->normal_offset = view->slope_offset = view->ulp_m = 0.0f;
     view->far_code = view->encoding == GN_ENCODING_RGBA8 ? 0.999999f : 1.0f;
+    view->empty = true;
     view->content_hash = 1;
 }
 

@@ -37,7 +37,7 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
     fprintf(to, "shadow %u: light %u '%s' %s %s/%s %u px", slot, view->light,
             plan->scene->lights[view->light].name, view->perspective ? "spot" : "directional",
             gn_techniques[view->technique].name, gn_encodings[view->encoding].name, view->map_px);
-    if (view->content_hash == 1)
+    if (view->empty)
         fprintf(to, ", empty: it darkens nothing in view\n");
     else
         fprintf(to, ", texel %.4g %s, near %.4g m, far %.4g m\n", (double)view->texel,

@@ -38,8 +38,9 @@ struct gn_shadow_view {
     float normal_offset; /* texels, times sin(theta) */
     float slope_offset;  /* texels towards the light, times tan(theta) clamped at slope_max */
     float slope_max;
-    float ulp_m;           /* added towards the light: the encoding's rounding at the far end */
-    uint64_t content_hash; /* of all that decides the map's content, casters included */
+    float ulp_m; /* added towards the light: the encoding's rounding at the far end */
+    bool empty;  /* nothing in view can be in this light's shadow: the map holds the far end */
+    uint64_t content_hash; /* of all that decides the map's content, casters included; never 0 */
 };
 
 /* What the eye sees, for fitting. */
