@@ -15,8 +15,6 @@ static bool read_perspective(struct gn_gltf *g, const struct gn_at *at, struct g
     camera->yfov_rad = needed(g, at, "yfov");
     camera->near_m = needed(g, at, "znear");
     camera->far_m = gn_at_float(g, at, "zfar", 0);
-    camera->aspect = gn_at_float(g, at, "aspectRatio", 0);
-    if (camera->aspect < 1e-3f || camera->aspect > 1e3f) camera->aspect = 0;
     return camera->yfov_rad > 1e-3f && camera->yfov_rad < GLM_PIf - 1e-3f && camera->near_m > 0;
 }
 

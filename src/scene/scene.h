@@ -118,8 +118,7 @@ struct gn_camera {
     const char *name;
     uint32_t node; /* looks along its -Z */
     bool orthographic;
-    float yfov_rad;       /* perspective */
-    float aspect;         /* 0: the picture's */
+    float yfov_rad;       /* perspective; the aspect is the picture's */
     float xmag_m, ymag_m; /* orthographic half-sizes */
     float near_m, far_m;  /* far 0: infinite */
 };

@@ -139,7 +139,7 @@ static const char *check_camera(const struct gn_scene *scene, const struct gn_ca
     NEED(camera->orthographic
              ? camera->xmag_m > 0 && camera->ymag_m > 0 && camera->near_m >= 0
              : camera->yfov_rad > 0 && camera->yfov_rad < GLM_PIf && camera->near_m > 0);
-    NEED(camera->aspect >= 0 && isfinite(camera->aspect) && isfinite(camera->far_m));
+    NEED(isfinite(camera->far_m));
     return NULL;
 }
 
