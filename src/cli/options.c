@@ -55,7 +55,7 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
      .help = "play only this clip; without it, all that do not collide", .commands = DRAW, .offset = FIELD(animation)},
     {.name = "no-animation", .section = "scene", .kind = GN_KIND_FLAG,
      .help = "leave the nodes as the file places them", .commands = DRAW, .offset = FIELD(no_animation)},
-    {.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e6, .value = "S", .unit = "seconds", .fallback = "0",
+    {.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",
      .help = "start at this time of the animation", .commands = DRAW, .offset = FIELD(time_ns)},
     {.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min = -3600, .max = 3600, .value = "DEG",
      .unit = "degrees per second", .fallback = "0",
