@@ -42,12 +42,12 @@ enum gn_feature { /* bits of gn_program_key.features; each becomes `const bool` 
                   GN_FEATURE_UNLIT = 1 << 12,
                   GN_FEATURE_SPECULAR = 1 << 13,
                   GN_FEATURE_EMISSIVE = 1 << 14,
-                  GN_FEATURE_HEMISPHERE = 1 << 15,     /* sky and ground differ */
-                  GN_FEATURE_ENCODE_SRGB = 1 << 16,    /* no sRGB target: encode in the shader */
-                  GN_FEATURE_FLAT_CONSTANTS = 1 << 18, /* software drivers: the first light's
-                                                          constants come as flat varyings */
+                  GN_FEATURE_HEMISPHERE = 1 << 15,  /* sky and ground differ */
+                  GN_FEATURE_ENCODE_SRGB = 1 << 16, /* no sRGB target: encode in the shader */
                   GN_FEATURE_PERSPECTIVE =
                       1 << 17, /* DISTANCE: radial distance from a point, not along a direction */
+                  GN_FEATURE_FLAT_CONSTANTS = 1 << 18, /* software drivers: the first light's
+                                                          constants come as flat varyings */
 };
 #define GN_FEATURE_BITS 19
 
