@@ -24,7 +24,8 @@ static uint32_t add_node(struct gn_gltf *g, const char *name, vec3 position, vec
     return scene->node_count++;
 }
 
-/* From the upper left, in front: shadows fall to the right and to the back. */
+/* From above, in front, a little left of the camera that is made: all three sides of a box that it
+ * sees are lit, each differently. A white side without light would have the background's colour. */
 static void make_light(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     scene->made_light = true;
@@ -32,7 +33,7 @@ static void make_light(struct gn_gltf *g) {
     glm_vec3_center(scene->box.min, scene->box.max, middle);
     scene->lights[scene->light_count++] = (struct gn_light){
         .name = "key light",
-        .node = add_node(g, "key light", middle, (vec3){.5f, -1, -.6f}),
+        .node = add_node(g, "key light", middle, (vec3){-.2f, -1, -.6f}),
         .type = GN_LIGHT_DIRECTIONAL,
         .color = {2.8f, 2.8f * .95f, 2.8f * .87f},
         .radius = .00465f,
