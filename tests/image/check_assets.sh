@@ -1,0 +1,68 @@
+#!/bin/sh
+# Files as other programs write them: each is drawn, or refused by one line that names what gnomon lacks; what is left out of
+# a picture is named too. GNOMON_SHARED is the folder whose assets/ holds them.
+set -u
+gnomon=${GNOMON:-build/release/gnomon}
+assets=${GNOMON_SHARED:-../shared}/assets
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+bad=0 drawn=0 refused=0
+
+# extensions that a file may be refused for
+lacking='KHR_draco_mesh_compression EXT_meshopt_compression KHR_texture_basisu EXT_texture_webp'
+
+complain() {
+    echo "FAIL: $*"
+    sed 's/^/    /' "$folder/err"
+    bad=1
+}
+
+# A PFM of one colour equals itself without its first pixel.
+is_blank() {
+    header=$(head -n 3 "$1" | wc -c) size=$(wc -c < "$1")
+    cmp -s -n $((size - header - 12)) -i "$header:$((header + 12))" "$1" "$1"
+}
+
+# left_out JSON NAME: a file with that JSON was drawn, so the warning must have the name
+left_out() {
+    tr -d ' \t\r\n' < "$file" | grep -qaF "$1" || return 0
+    grep -q "shown without.*$2" "$folder/err" || complain "$file: does not say that it is shown without $2"
+}
+
+check_drawn() {
+    drawn=$((drawn + 1))
+    is_blank "$folder/picture.pfm" && complain "$file: the picture has one colour"
+    left_out '"skins":[' skins
+    left_out '"targets":[' 'morph targets'
+    left_out '"normalTexture":' 'normal maps'
+    left_out '"KHR_materials_variants":{"variants"' 'material variants'
+}
+
+check_refused() {
+    refused=$((refused + 1))
+    [ "$(wc -l < "$folder/err")" = 1 ] || complain "$file: refused by more or less than one line"
+    for extension in $lacking; do
+        grep -qaF "$extension" "$file" && grep -q "$extension is not supported; [a-z]" "$folder/err" && return
+    done
+    complain "$file: refused, and what is missing is not named"
+}
+
+if [ ! -d "$assets" ]; then
+    echo "no $assets: name its folder by GNOMON_SHARED"
+    exit 77
+fi
+find "$assets" -name '*.gltf' -o -name '*.glb' | sort > "$folder/list"
+while IFS= read -r file; do
+    rm -f "$folder/picture.pfm"
+    timeout 20 "$gnomon" render "$file" -o "$folder/picture.pfm" --size 320x240 > "$folder/out" 2> "$folder/err" < /dev/null
+    status=$?
+    case $status in
+    0) check_drawn ;;
+    1) check_refused ;;
+    *) complain "$file: exit status $status" ;;
+    esac
+done < "$folder/list"
+
+echo "$drawn drawn, $refused refused"
+[ "$drawn" -ge 20 ] || complain "too few to mean anything"
+exit $bad
