@@ -65,13 +65,12 @@ surface surface_make(vec4 base) {
     return s;
 }
 
-// What a light adds to the irradiance (over pi), and to the gloss.
-void surface_light(surface s, light_sample l, float seen, inout vec3 irradiance, inout vec3 gloss) {
+// What a light adds. Without specular the albedo is the same for all light: it is multiplied in once, at the end.
+vec3 surface_light(surface s, light_sample l, float seen) {
     vec3 arriving = l.color * (max(dot(s.normal, l.to_light), 0.0) * seen);
-    irradiance += arriving;
-    if (!SPECULAR) return;
+    if (!SPECULAR) return arriving;
     float n_h = max(dot(s.normal, normalize(l.to_light + s.to_eye)), 0.0001); // pow(0, 0) is undefined
-    gloss += s.specular * pow(n_h, s.exponent) * arriving;
+    return (s.diffuse + s.specular * pow(n_h, s.exponent)) * arriving;
 }
 
 #define ADD_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
@@ -80,23 +79,20 @@ void surface_light(surface s, light_sample l, float seen, inout vec3 irradiance,
         vec3 at = type == LIGHT_DIRECTIONAL ? v_shadow[slot] \
                                             : shadow_point_spot(slot, radial, v_position, s.normal, l.to_light); \
         float seen = visibility(map, at, SHADOW(slot, SHADOW_MAP_SIZE)); \
-        seen = 1.0 - LIGHT(slot, LIGHT_COLOR).w * (1.0 - seen); \
-        surface_light(s, l, seen, irradiance, gloss); \
+        light += surface_light(s, l, 1.0 - LIGHT(slot, LIGHT_COLOR).w * (1.0 - seen)); \
     }
-#define ADD_OPEN_LIGHT(slot, type) \
-    surface_light(s, light_at(slot, type, v_position), 1.0, irradiance, gloss);
+#define ADD_OPEN_LIGHT(slot, type) light += surface_light(s, light_at(slot, type, v_position), 1.0);
 
 void main() {
     vec4 base = surface_base();
     vec3 color = base.rgb;
     if (!UNLIT) {
         surface s = surface_make(base);
-        vec3 ambient = surface_ambient(s.normal);
-        vec3 irradiance = SPECULAR ? vec3(0.0) : ambient, gloss = SPECULAR ? base.rgb * ambient : vec3(0.0);
+        vec3 light = surface_ambient(s.normal);
+        if (SPECULAR) light *= base.rgb;
         EACH_SHADOWED_LIGHT(ADD_SHADOWED_LIGHT)
         EACH_OPEN_LIGHT(ADD_OPEN_LIGHT)
-        color = s.diffuse * irradiance;
-        if (SPECULAR) color += gloss;
+        color = SPECULAR ? light : light * base.rgb;
         if (EMISSIVE) color += surface_emission();
     }
     if (ENCODE_SRGB) color = srgb_from_linear(color);

@@ -1,0 +1,126 @@
+/* Every kind of program compiles and links: each technique with each encoding and type of light,
+ * each feature alone and all together, each way to fill a map, and as many lights as there may be.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "unit/check.h"
+#include "unit/gl_help.h"
+
+static struct gn_display display;
+static struct gn_gl *gl;
+
+static void open_backend(const char *name) {
+    help_open(&display, name);
+    gl = help_gl(&display, NULL, NULL);
+}
+
+static int open_egl(void **state) {
+    (void)state;
+    open_backend("egl");
+    return 0;
+}
+
+static int open_osmesa(void **state) {
+    (void)state;
+    open_backend("osmesa");
+    return 0;
+}
+
+static int close_all(void **state) {
+    (void)state;
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+    return 0;
+}
+
+static struct gn_program_key key_of(enum gn_program_kind kind) {
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = (uint8_t)kind;
+    return key;
+}
+
+static void add_light(struct gn_program_key *key, int type, int technique, int encoding) {
+    struct gn_light_key *light = &key->lights[key->light_count++];
+    light->type = (uint8_t)type;
+    light->technique = (uint8_t)technique;
+    light->encoding = (uint8_t)(technique ? encoding : 0);
+    key->shadow_count += technique != GN_TECHNIQUE_NONE;
+}
+
+static void compiles(const struct gn_program_key *key) {
+    struct gn_err err = {0};
+    char *log = NULL;
+    if (!gn_gl_try_program(gl, key, &log, &err)) fail_msg("%s\n%s", err.text, log ? log : "");
+    free(log);
+}
+
+static void test_techniques(void **state) {
+    (void)state;
+    for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
+        for (int e = 0; e < GN_ENCODING_COUNT; e++)
+            for (int type = GN_LIGHT_DIRECTIONAL; type <= GN_LIGHT_SPOT; type += 2) {
+                struct gn_program_key key = key_of(GN_PROGRAM_LIT);
+                add_light(&key, type, t, e);
+                compiles(&key);
+                key.kind = GN_PROGRAM_AOV;
+                key.aov = GN_AOV_VISIBILITY;
+                compiles(&key);
+            }
+}
+
+static void test_features(void **state) {
+    (void)state;
+    for (int bit = 0; bit <= GN_FEATURE_BITS; bit++) {
+        struct gn_program_key key = key_of(GN_PROGRAM_LIT);
+        key.features = bit == GN_FEATURE_BITS ? (1u << GN_FEATURE_BITS) - 1 : 1u << bit;
+        add_light(&key, GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_PCF, GN_ENCODING_DEPTH);
+        add_light(&key, GN_LIGHT_POINT, GN_TECHNIQUE_NONE, 0);
+        compiles(&key);
+        key.kind = GN_PROGRAM_AOV;
+        key.aov = GN_AOV_NORMAL;
+        compiles(&key);
+    }
+}
+
+static void test_casters(void **state) {
+    (void)state;
+    const uint32_t mask = GN_FEATURE_ALPHA_MASK | GN_FEATURE_BASE_TEXTURE;
+    const uint32_t features[] = {0, GN_FEATURE_ALPHA_MASK, mask, mask | GN_FEATURE_BASE_UV1,
+                                 mask | GN_FEATURE_VERTEX_COLOR};
+    for (size_t i = 0; i < sizeof features / sizeof *features; i++)
+        for (int e = 0; e < GN_ENCODING_COUNT; e++)
+            for (int spot = 0; spot < 2; spot++) {
+                struct gn_program_key key =
+                    key_of(e == GN_ENCODING_DEPTH ? GN_PROGRAM_DEPTH : GN_PROGRAM_DISTANCE);
+                key.encoding = (uint8_t)e;
+                key.features = features[i] | (spot ? GN_FEATURE_PERSPECTIVE : 0);
+                compiles(&key);
+            }
+}
+
+static void test_many_lights(void **state) {
+    (void)state;
+    struct gn_program_key key = key_of(GN_PROGRAM_LIT);
+    key.features = GN_FEATURE_SPECULAR | GN_FEATURE_HEMISPHERE;
+    for (int i = 0; i < GN_SHADOWS_MAX; i++)
+        add_light(&key, i % 2 ? GN_LIGHT_SPOT : GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_HARD + i, i);
+    for (int i = GN_SHADOWS_MAX; i < GN_LIGHTS_MAX; i++)
+        add_light(&key, i % 3, GN_TECHNIQUE_NONE, 0);
+    compiles(&key);
+    key.features |= (1u << GN_FEATURE_BITS) - 1;
+    compiles(&key);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_techniques, open_egl, close_all),
+        cmocka_unit_test_setup_teardown(test_features, open_egl, close_all),
+        cmocka_unit_test_setup_teardown(test_casters, open_egl, close_all),
+        cmocka_unit_test_setup_teardown(test_many_lights, open_egl, close_all),
+        cmocka_unit_test_setup_teardown(test_techniques, open_osmesa, close_all),
+        cmocka_unit_test_setup_teardown(test_many_lights, open_osmesa, close_all),
+    };
+    return RUN(tests);
+}

@@ -1,0 +1,113 @@
+/* Writes the composed sources of the programs whose cost is worth knowing, for offline compilers:
+ * DIR/NAME.vert and NAME.frag.
+ * "//@" comments say what an offline compiler has to bind: formats of maps and of the target. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/file.h"
+#include "gl/private.h"
+
+static struct gn_program_key lit(uint32_t features, enum gn_light_type type, const char *technique,
+                                 const char *encoding) {
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = GN_PROGRAM_LIT;
+    key.features = features;
+    key.light_count = 1;
+    key.lights[0].type = (uint8_t)type;
+    enum gn_technique t = GN_TECHNIQUE_NONE;
+    enum gn_encoding e = GN_ENCODING_DEPTH;
+    gn_technique_find(technique, &t, NULL);
+    gn_encoding_find(encoding, &e, NULL);
+    key.shadow_count = t != GN_TECHNIQUE_NONE;
+    key.lights[0].technique = (uint8_t)t;
+    key.lights[0].encoding = (uint8_t)e;
+    return key;
+}
+
+static struct gn_program_key caster(enum gn_program_kind kind, uint32_t features,
+                                    enum gn_encoding encoding) {
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = (uint8_t)kind;
+    key.features = features;
+    key.encoding = (uint8_t)encoding;
+    return key;
+}
+
+static const char *target_of(const struct gn_program_key *key) {
+    static const char *const maps[GN_ENCODING_COUNT] = {"none", "R32UI", "R16F", "R16F", "RGBA8"};
+    if (key->kind == GN_PROGRAM_DEPTH) return "none";
+    return key->kind == GN_PROGRAM_DISTANCE ? maps[key->encoding] : "SRGB8A8";
+}
+
+static bool write(const char *folder, const char *name, const struct gn_program_key *key,
+                  struct gn_err *err) {
+    static const char *const formats[GN_ENCODING_COUNT] = {"D24", "R32UI", "R16F", "R16F", "RGBA8"};
+    static const char *const endings[] = {"vert", "frag"};
+    for (int stage = GN_GL_VERTEX; stage <= GN_GL_FRAGMENT; stage++) {
+        struct gn_gl_text text = {0};
+        char path[1024], head[256];
+        if (!gn_gl_compose("shaders_es", key, (enum gn_gl_stage)stage, &text, err)) return false;
+        char *rest = strchr(text.data, '\n') + 1; /* after #version */
+        snprintf(head, sizeof head, "%.*s//@ target %s\n", (int)(rest - text.data), text.data,
+                 target_of(key));
+        if (key->shadow_count)
+            snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_map_0 %s\n",
+                     formats[key->lights[0].encoding]);
+        size_t size = strlen(head) + strlen(rest);
+        char *whole = malloc(size + 1);
+        if (!whole) abort();
+        snprintf(whole, size + 1, "%s%s", head, rest);
+        snprintf(path, sizeof path, "%s/%s.%s", folder, name, endings[stage]);
+        bool ok = gn_file_write(path, whole, size, err);
+        free(whole);
+        free(text.data);
+        if (!ok) return false;
+    }
+    return true;
+}
+
+/* The shader that the figures are about: base texture, hemisphere, Blinn-Phong, an sRGB target. */
+enum {
+    DIFFUSE = GN_FEATURE_BASE_TEXTURE | GN_FEATURE_HEMISPHERE,
+    FULL = DIFFUSE | GN_FEATURE_SPECULAR,
+};
+
+int main(int argc, char **argv) {
+    const struct {
+        const char *name;
+        struct gn_program_key key;
+    } programs[] = {
+        {"none", lit(FULL, GN_LIGHT_DIRECTIONAL, "none", "depth")},
+        {"hard", lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "r16f")},
+        {"hard-depth", lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "depth")},
+        {"hard-r32ui", lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "r32ui")},
+        {"hard-rgba8", lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "rgba8")},
+        {"pcf", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"pcf-diffuse", lit(DIFFUSE, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"pcf-encode", lit(FULL | GN_FEATURE_ENCODE_SRGB, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"pcf2", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf2", "depth")},
+        {"pcf3", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf3", "depth")},
+        {"pcf5", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf5", "depth")},
+        {"pcf-r16f", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "r16f")},
+        {"pcf-spot", lit(FULL, GN_LIGHT_SPOT, "pcf", "depth")},
+        {"hard-spot", lit(FULL, GN_LIGHT_SPOT, "hard", "r16f")},
+        {"map-depth", caster(GN_PROGRAM_DEPTH, 0, GN_ENCODING_DEPTH)},
+        {"map-r16f", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_R16F)},
+        {"map-r16f-spot", caster(GN_PROGRAM_DISTANCE, GN_FEATURE_PERSPECTIVE, GN_ENCODING_R16F)},
+        {"map-rgba8", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_RGBA8)},
+    };
+    struct gn_err err = {0};
+    if (argc != 2) {
+        fprintf(stderr, "usage: tool_shaders DIR\n");
+        return 2;
+    }
+    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
+        if (!write(argv[1], programs[i].name, &programs[i].key, &err)) {
+            fprintf(stderr, "tool_shaders: %s\n", err.text);
+            return 1;
+        }
+    return 0;
+}
