@@ -216,6 +216,12 @@ static bool apply_mode(struct gn_options *options, struct gn_err *err) {
            gn_options_apply_mode(options, options->mode, err);
 }
 
+static bool check_shadow(const struct gn_options *options, struct gn_err *err) {
+    return options->command == GN_COMMAND_BENCH || !strchr(options->shadow, ',') ||
+           gn_fail_usage(err, "--shadow %s: one technique at a time; only bench takes a list",
+                         options->shadow);
+}
+
 static bool understand(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_options *options = args->options;
     if (!split(args, err)) return false;
@@ -224,7 +230,7 @@ static bool understand(struct args *args, struct gn_warnings *warnings, struct g
     if (options->help && args->words[0]) options->command = command_of(args->words[0]);
     if (options->help || options->version) return true;
     return find_command(args, err) && check_flags(args, err) && read_config(args, warnings, err) &&
-           apply_flags(args, err) && apply_mode(options, err);
+           apply_flags(args, err) && apply_mode(options, err) && check_shadow(options, err);
 }
 
 bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "shadow/technique.h"
+
 #define COLUMN 26 /* where the phrases of --help begin */
 #define WIDTH  96
 
@@ -41,6 +43,9 @@ static void phrase(const struct gn_option_row *row, char *out, size_t size) {
     for (const struct gn_choice *c = row->choices; c && c->name && used < size; c++)
         used += (size_t)snprintf(out + used, size - used, "%s%s", c == row->choices ? ": " : ", ",
                                  c->name);
+    for (int i = 0; row->kind == GN_KIND_TECHNIQUES && i < GN_TECHNIQUE_COUNT && used < size; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i ? ", " : ": ",
+                                 gn_techniques[i].name);
     if (row->fallback && used < size)
         snprintf(out + used, size - used, " (%s%s%s)", row->fallback, choices_or_unit[0] ? " " : "",
                  choices_or_unit);

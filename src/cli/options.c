@@ -63,8 +63,8 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
     /* the picture */
     {.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
      .fallback = "1280x720", .help = "size of the picture", .commands = DRAW, .offset = FIELD(size)},
-    {.name = "shadow", .section = "render", .kind = GN_KIND_TEXT, .value = "TECHNIQUE", .fallback = "pcf",
-     .help = "shadow technique; bench takes a list: pcf,hard", .commands = DRAW, .offset = FIELD(shadow)},
+    {.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
+     .help = "shadow technique, for bench also a list with commas", .commands = DRAW, .offset = FIELD(shadow)},
     {.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
      .fallback = "1024", .help = "side of a shadow map", .commands = DRAW, .offset = FIELD(map_px)},
     {.name = "map-format", .section = "render", .kind = GN_KIND_WORD, .choices = map_formats, .value = "FORMAT", .fallback = "auto",

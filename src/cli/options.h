@@ -47,18 +47,19 @@ struct gn_limits {
 enum gn_picture { GN_PICTURE_SRGB, GN_PICTURE_LINEAR }; /* --output */
 
 enum gn_option_kind {
-    GN_KIND_FLAG,    /* bool; INI: yes or no */
-    GN_KIND_INT,     /* int, min..max */
-    GN_KIND_NUMBER,  /* double, min..max */
-    GN_KIND_SECONDS, /* int64_t nanoseconds; decimal seconds, min..max */
-    GN_KIND_SIZE,    /* struct gn_size, each min..max */
-    GN_KIND_MODE,    /* struct gn_display_mode: WxH or WxH@HZ, each side min..max */
-    GN_KIND_EV,      /* double, min..max, or NAN for "auto" */
-    GN_KIND_CHOICE,  /* int: the value of a choice */
-    GN_KIND_WORD,    /* const char *: the name of a choice; another room knows what it means */
-    GN_KIND_TEXT,    /* const char *: anything but nothing */
-    GN_KIND_PATH,    /* const char *: in an INI file seen from the file's folder */
-    GN_KIND_LIMIT,   /* struct gn_limits: NAME=VALUE, given again it adds */
+    GN_KIND_FLAG,       /* bool; INI: yes or no */
+    GN_KIND_INT,        /* int, min..max */
+    GN_KIND_NUMBER,     /* double, min..max */
+    GN_KIND_SECONDS,    /* int64_t nanoseconds; decimal seconds, min..max */
+    GN_KIND_SIZE,       /* struct gn_size, each min..max */
+    GN_KIND_MODE,       /* struct gn_display_mode: WxH or WxH@HZ, each side min..max */
+    GN_KIND_EV,         /* double, min..max, or NAN for "auto" */
+    GN_KIND_CHOICE,     /* int: the value of a choice */
+    GN_KIND_WORD,       /* const char *: the name of a choice; another room knows what it means */
+    GN_KIND_TECHNIQUES, /* const char *: names of shadow techniques, a comma between two */
+    GN_KIND_TEXT,       /* const char *: anything but nothing */
+    GN_KIND_PATH,       /* const char *: in an INI file seen from the file's folder */
+    GN_KIND_LIMIT,      /* struct gn_limits: NAME=VALUE, given again it adds */
     GN_KIND_COUNT,
 };
 struct gn_choice { /* rows end with a NULL name */

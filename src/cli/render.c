@@ -39,9 +39,6 @@ static bool check_options(const struct gn_options *o, struct render *r, struct g
             err, "-o %s: only one %%d, as in frame-%%04d.png, can stand in the name", o->out);
     if (o->aov == GN_AOV_DISTANCE && r->format != GN_PICTURE_PFM)
         return gn_fail_usage(err, "-o %s: distances are metres and need a .pfm file", o->out);
-    if (o->shadow && strchr(o->shadow, ','))
-        return gn_fail_usage(err, "--shadow %s: render takes one technique; bench takes a list",
-                             o->shadow);
     r->map = o->aov == GN_AOV_COUNT;
     return true;
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/clock.h"
+#include "shadow/technique.h"
 
 bool gn_parse_int(const char *text, int64_t *out) {
     const char *digits = text[0] == '-' ? text + 1 : text;
@@ -143,6 +144,24 @@ static bool parse_text(const struct gn_option_row *row, const char *text, void *
     return copy;
 }
 
+static bool is_technique(const char *name, size_t length) {
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
+        if (strlen(gn_techniques[i].name) == length &&
+            memcmp(gn_techniques[i].name, name, length) == 0)
+            return true;
+    return false;
+}
+
+static bool parse_techniques(const struct gn_option_row *row, const char *text, void *field,
+                             struct gn_arena *arena) {
+    for (const char *at = text;; at++) {
+        size_t length = strcspn(at, ",");
+        if (!is_technique(at, length)) return false;
+        at += length;
+        if (!*at) return parse_text(row, text, field, arena);
+    }
+}
+
 static bool parse_limit(const struct gn_option_row *row, const char *text, void *field,
                         struct gn_arena *arena) {
     struct gn_limits *limits = field;
@@ -191,6 +210,14 @@ static void expect_choice(const struct gn_option_row *row, char *out, size_t siz
                                  c->name);
 }
 
+static void expect_techniques(const struct gn_option_row *row, char *out, size_t size) {
+    size_t used = (size_t)snprintf(out, size, "one of");
+    (void)row;
+    for (int i = 0; i < GN_TECHNIQUE_COUNT && used < size; i++)
+        used +=
+            (size_t)snprintf(out + used, size - used, "%s %s", i ? "," : "", gn_techniques[i].name);
+}
+
 static void expect_text(const struct gn_option_row *row, char *out, size_t size) {
     snprintf(out, size, "%s (it is empty)", row->value);
 }
@@ -214,6 +241,7 @@ static const struct {
     [GN_KIND_EV] = {sizeof(double), parse_ev, expect_ev},
     [GN_KIND_CHOICE] = {sizeof(int), parse_choice, expect_choice},
     [GN_KIND_WORD] = {sizeof(const char *), parse_word, expect_choice},
+    [GN_KIND_TECHNIQUES] = {sizeof(const char *), parse_techniques, expect_techniques},
     [GN_KIND_TEXT] = {sizeof(const char *), parse_text, expect_text},
     [GN_KIND_PATH] = {sizeof(const char *), parse_text, expect_text},
     [GN_KIND_LIMIT] = {sizeof(struct gn_limits), parse_limit, expect_limit},

@@ -221,6 +221,8 @@ static void what_a_file_may_not_say(void **state) {
     assert_file_refused("[render]\n\nmap = 8\n",
                         "bad.ini:3: map: \"8\" is not a whole number from 16 to 16384");
     assert_file_refused("[render]\nmap =\n", "bad.ini:2: map: \"\"");
+    assert_file_refused("[render]\nshadow = nosuch\n",
+                        "bad.ini:2: shadow: \"nosuch\" is not one of none, hard,");
     assert_file_refused("[render]\nshow_lights = maybe\n", "is not yes or no");
     assert_file_refused("[display]\nmode = big\n", "bad.ini:2: mode: \"big\" is not WxH");
     assert_file_refused("[render]\nmap = 64\nmap = 64\n",

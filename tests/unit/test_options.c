@@ -131,6 +131,10 @@ static void a_wrong_value_names_option_value_and_range(void **state) {
     assert_wrong("render --msaa 3", "one of 0, 2, 4");
     assert_wrong("render --backend EGL", "one of auto, kms, window, egl, osmesa");
     assert_wrong("render --shadow=", "--shadow");
+    assert_wrong("render --shadow nosuch", "--shadow: \"nosuch\" is not one of none, hard, pcf,");
+    assert_wrong("bench --shadow pcf,,hard", "--shadow: \"pcf,,hard\" is not");
+    assert_wrong("bench --shadow pcf,", "--shadow: \"pcf,\" is not");
+    assert_wrong("show --shadow pcf,hard", "only bench takes a list");
     assert_wrong("render --limit nodes", "NAME=VALUE");
     assert_wrong("render --limit =5", "NAME=VALUE");
     assert_wrong("render --limit nodes=0", "NAME=VALUE");
