@@ -67,14 +67,23 @@ static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_ligh
     return !g->failed;
 }
 
+/* Its own, else its node's, else by its number: messages have to call it something. */
+static const char *name_light(struct gn_gltf *g, const struct gn_at *definition, uint32_t node) {
+    const char *own = gn_at_text(g, definition, "name"), *of_node = g->scene->nodes[node].name;
+    char number[32];
+    if (own && *own) return gn_gltf_strdup(g, own);
+    if (*of_node) return of_node;
+    snprintf(number, sizeof number, "light %u", g->scene->light_count);
+    return gn_gltf_strdup(g, number);
+}
+
 static void add(struct gn_gltf *g, const struct gn_at *definition, const struct gn_at *node,
                 uint32_t index) {
     struct gn_light light = {.node = index};
     if (!read_light(g, definition, &light)) return;
     gn_extras_light(g, definition, &light);
     gn_extras_light(g, node, &light);
-    const char *name = gn_at_text(g, definition, "name");
-    light.name = name && *name ? gn_gltf_strdup(g, name) : g->scene->nodes[index].name;
+    light.name = name_light(g, definition, index);
     if (!g->failed) g->scene->lights[g->scene->light_count++] = light;
 }
 
