@@ -222,6 +222,16 @@ static bool check_shadow(const struct gn_options *options, struct gn_err *err) {
                          options->shadow);
 }
 
+/* What the table promises and this version does not do yet is said, not swallowed. */
+static void warn_idle(const struct gn_options *o, struct gn_warnings *warnings) {
+    bool kiosk = o->command == GN_COMMAND_AUTO || o->command == GN_COMMAND_SHOW;
+    if (o->show_lights) gn_warn(warnings, "--show-lights: this version draws no marks of lights");
+    if (kiosk && (gn_options_given(o, connector) || gn_options_given(o, display_mode) ||
+                  gn_options_given(o, rotate_deg)))
+        gn_warn(warnings, "connector, display mode and rotation are for a display on a screen, "
+                          "which this version does not have");
+}
+
 static bool understand(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_options *options = args->options;
     if (!split(args, err)) return false;
@@ -229,8 +239,11 @@ static bool understand(struct args *args, struct gn_warnings *warnings, struct g
     options->version = find_flag(args, "version");
     if (options->help && args->words[0]) options->command = command_of(args->words[0]);
     if (options->help || options->version) return true;
-    return find_command(args, err) && check_flags(args, err) && read_config(args, warnings, err) &&
-           apply_flags(args, err) && apply_mode(options, err) && check_shadow(options, err);
+    if (!find_command(args, err) || !check_flags(args, err) || !read_config(args, warnings, err) ||
+        !apply_flags(args, err) || !apply_mode(options, err) || !check_shadow(options, err))
+        return false;
+    warn_idle(options, warnings);
+    return true;
 }
 
 bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,

@@ -112,7 +112,7 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
     {.name = "fps", .kind = GN_KIND_NUMBER, .min = .001, .max = 1000, .value = "F", .unit = "frames per second", .fallback = "60",
      .help = "step of time between frames", .commands = BIT(RENDER), .offset = FIELD(fps)},
     {.name = "plan", .kind = GN_KIND_FLAG,
-     .help = "print the plan of the frame instead of drawing it", .commands = BIT(RENDER), .offset = FIELD(plan)},
+     .help = "also print the plan of the first frame", .commands = BIT(RENDER), .offset = FIELD(plan)},
     {.name = "json", .kind = GN_KIND_FLAG,
      .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR), .offset = FIELD(json)},
     {.name = "self-test", .kind = GN_KIND_FLAG,

@@ -238,6 +238,17 @@ static void every_key_finds_its_row(void **state) {
     assert_null(gn_option_find("siz", 3));
 }
 
+static void what_this_version_does_not_do_is_said(void **state) {
+    (void)state;
+    assert_true(parse("show --backend egl --max-fps 30"));
+    assert_int_equal(warnings.count, 0);
+    assert_true(parse("show --backend egl --rotate 90"));
+    assert_int_equal(warnings.count, 1);
+    assert_true(parse("render --show-lights -o x.png"));
+    assert_int_equal(warnings.count, 1);
+    gn_options_finish(&options);
+}
+
 /* ---- --help and the man page --------------------------------------------------------------- */
 
 static char *help_of(enum gn_command command) {
@@ -329,6 +340,7 @@ int main(void) {
         cmocka_unit_test(rows_are_complete_and_different),
         cmocka_unit_test(every_key_finds_its_row),
         cmocka_unit_test(help_lists_what_the_parser_takes_and_nothing_else),
+        cmocka_unit_test(what_this_version_does_not_do_is_said),
         cmocka_unit_test(the_man_page_lists_every_option_default_and_key),
         cmocka_unit_test(help_fits_a_hundred_columns),
     };
