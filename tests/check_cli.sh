@@ -44,6 +44,12 @@ printf '[render]\nmap = 1\n' > "$folder/bad.ini"
 expect 2 "$folder/bad.ini:2: map: \"1\" is not a whole number from 16 to 16384" render -c "$folder/bad.ini" -o "$folder/a.png"
 [ ! -e "$folder/a.png" ] || complain 'a failure left a picture'
 
+# the ground of the default scene is in no map: it would only coarsen them
+"$gnomon" render assets/sundial.glb --plan -o "$folder/a.png" > "$folder/out" || complain 'the plan of the default scene'
+sed -n "/^pass 'shadow/,/^pass 'opaque/p" "$folder/out" > "$folder/maps"
+grep -q "'stone'" "$folder/maps" || complain 'the sundial casts nothing'
+! grep -qE "'(court|lawn)'" "$folder/maps" || complain 'the ground is drawn into a map'
+
 # decimal points are points, whatever the locale
 LC_ALL=de_DE.UTF-8 "$gnomon" render --time 1.5 --help > /dev/null || complain 'numbers in a German locale'
 
