@@ -29,10 +29,10 @@ static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"2
 const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
     [GN_COMMAND_AUTO] =
         {NULL, "[OPTION..] [SCENE]",
-         "shows a scene in the best way there is: full screen, or as gnomon.png in this folder"},
+         "draws a scene as gnomon.png into this folder; on the screen in a later version"},
     [GN_COMMAND_SHOW] =
         {"show", "show [OPTION..] [SCENE]",
-         "the kiosk: runs until it is told to end, and waits for a display where there is none"},
+         "the kiosk, unseen so far (--backend egl or osmesa): runs until it is told to end"},
     [GN_COMMAND_RENDER] = {"render", "render [OPTION..] [SCENE] -o FILE",
                            "draws into a file: .png, .pfm, or frame-%04d.png with --frames"},
     [GN_COMMAND_BENCH] =
