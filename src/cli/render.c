@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/picture.h"
 #include "cli/stage.h"
+#include "cli/stop.h"
 #include "core/arena.h"
 #include "core/clock.h"
 
@@ -136,7 +137,7 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
     const struct gn_options *o = r->stage.options;
     int64_t begun_ns = gn_clock_monotonic_ns();
     int frames = o->frames > 0 ? o->frames : 1;
-    for (int i = 0; i < frames; i++) {
+    for (int i = 0; i < frames && !gn_stop_asked(); i++) {
         char path[4096];
         int length = is_pattern(o->out) ? snprintf(path, sizeof path, o->out, i)
                                         : snprintf(path, sizeof path, "%s", o->out);
@@ -162,6 +163,7 @@ static void make_room(struct render *r) {
 bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warnings,
                    struct gn_err *err) {
     struct render r = {0};
+    gn_stop_block(NULL);
     bool ok = check_options(options, &r, err) && gn_stage_load(&r.stage, options, warnings, err);
     r.stage.frame_opts.output_float = options->aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
     ok = ok && gn_stage_open(&r.stage, warnings, err);

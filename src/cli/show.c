@@ -2,7 +2,6 @@
  * animates, draws nothing while nothing changes, and ends cleanly on SIGTERM or SIGINT. */
 #include <errno.h>
 #include <poll.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/signalfd.h>
@@ -11,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/stage.h"
+#include "cli/stop.h"
 #include "core/arena.h"
 #include "core/clock.h"
 
@@ -26,10 +26,7 @@ struct show {
  * the end, ends the kiosk as well as any other. */
 static bool open_signals(struct show *s, struct gn_err *err) {
     sigset_t ends;
-    sigemptyset(&ends);
-    sigaddset(&ends, SIGTERM);
-    sigaddset(&ends, SIGINT);
-    sigprocmask(SIG_BLOCK, &ends, NULL);
+    gn_stop_block(&ends);
     s->signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
     return s->signals >= 0 || gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
 }

@@ -38,7 +38,14 @@ static bool open_any(struct gn_display *display, struct gn_warnings *warnings, s
     return gn_fail(err, "no display opens: %s", reasons);
 }
 
+/* Names that the design has and this build has not. */
+static const char *const absent[] = {"kms", "window"};
+
 static bool fail_unknown(const char *name, struct gn_err *err) {
+    for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
+        if (strcmp(name, absent[i]) == 0)
+            return gn_fail(err, "backend %s is not in this build; egl and osmesa draw unseen",
+                           name);
     char names[sizeof err->text] = "auto";
     for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
         append(names, sizeof names, ", ");

@@ -22,6 +22,9 @@ static void test_unknown_name(void **state) {
     assert_false(gn_display_open(&display, "teletype", NULL, &err));
     assert_int_equal(err.status, GN_EXIT_USAGE);
     assert_non_null(strstr(err.text, "auto, egl, osmesa"));
+    assert_false(gn_display_open(&display, "kms", NULL, &err));
+    assert_int_equal(err.status, GN_EXIT_WORLD);
+    assert_non_null(strstr(err.text, "not in this build"));
     gn_display_close(&display);
 }
 
