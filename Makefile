@@ -186,8 +186,8 @@ accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
 	@GN_FULL=1 tests/run.sh BUILD=$(O)/release $(call programs,$(O)/release) \
-	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan)) \
-	    $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh))
+	    $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh)) \
+	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan))
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$<
 lint: $(patsubst %.c,$(O)/tidy/%.ok,src/main.c $(SRC))

@@ -1,6 +1,6 @@
 #!/bin/sh
 # accept_bench.sh [ROUNDS]: the bench scenes against the floor, the shortest program that draws them
-# (FLOOR=floor.c, ../shared/tools/floor/floor.c). The two take turns, ROUNDS times (8); compared is
+# (FLOOR=floor.c, ../shared/tools/floor/floor.c). The two take turns, ROUNDS times (4); compared is
 # the least CPU time per frame of each, which is the figure that other work on the machine disturbs
 # least. A line a limit. Time on a busy machine is no test: only with LIMITS=1 does a passed limit fail.
 set -eu
@@ -8,7 +8,7 @@ set -eu
 gnomon=${GNOMON:-build/release/gnomon}
 build=${BUILD:-build/release}
 floor_c=${FLOOR:-../shared/tools/floor/floor.c}
-rounds=${1:-8}
+rounds=${1:-4}
 frames=${FRAMES:-60}
 width=1280 height=720
 work=$build/accept-bench
