@@ -86,6 +86,7 @@ bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct 
         .shaders = o->shaders,
         .without = o->without,
         .desktop = stage->display.ops->desktop,
+        .prove_later = true,
     };
     stage->gl = gn_gl_create(&opts, warnings, err);
     if (!stage->gl || !gn_gl_load(stage->gl, stage->scene, err)) return false;
@@ -98,15 +99,25 @@ bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct 
     return true;
 }
 
+const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *warnings,
+                                    struct gn_err *err) {
+    const struct gn_plan *plan =
+        gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
+    while (!gn_gl_prove(stage->gl, plan)) {
+        gn_frame_destroy(stage->frame);
+        stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
+        plan = gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
+    }
+    return gn_gl_prepare(stage->gl, plan, err) ? plan : NULL;
+}
+
 const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
                                     struct gn_warnings *warnings, struct gn_err *err) {
     gn_pose_step(&stage->pose, time_ns);
     stage->frame_opts.turntable_rad = (float)glm_rad(
         (float)fmod(stage->options->turntable_deg_s * ((double)time_ns * 1e-9), 360.0));
-    const struct gn_plan *plan =
-        gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
-    if (!gn_gl_prepare(stage->gl, plan, err) || !gn_gl_run(stage->gl, plan, NULL, err)) return NULL;
-    return plan;
+    const struct gn_plan *plan = gn_stage_plan(stage, warnings, err);
+    return plan && gn_gl_run(stage->gl, plan, NULL, err) ? plan : NULL;
 }
 
 void gn_stage_close(struct gn_stage *stage) {

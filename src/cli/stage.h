@@ -29,6 +29,11 @@ bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options,
                    struct gn_warnings *warnings, struct gn_err *err);
 /* Opens the display of --backend, makes the context current, loads the scene into it. */
 bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err);
+/* Builds the plan of the pose and frame_opts as they are and makes what it needs. What the GPU
+ * turns out not to have, against its own word, is done without, as if it stood in --without; a
+ * warning says so. NULL on failure. */
+const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *warnings,
+                                    struct gn_err *err);
 /* Poses at a time, builds the plan, makes what it needs and draws it. NULL on failure. */
 const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
                                     struct gn_warnings *warnings, struct gn_err *err);

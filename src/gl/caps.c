@@ -86,8 +86,55 @@ static bool has_debug(struct gn_gl *gl) {
            has_extension(gl, "GL_KHR_debug");
 }
 
+/* ---- proof ---- */
+
+/* These fit into one draw, which costs hardly more than one of them alone: with the first go all.
+ */
+static const uint32_t together =
+    1u << GN_CAP_R16F | 1u << GN_CAP_R32UI | 1u << GN_CAP_SRGB | 1u << GN_CAP_DEPTH_COMPARE;
+
+/* False when one fails, of these or of those tried with them: it is claimed no more. */
+static bool prove(struct gn_gl *gl, uint32_t caps) {
+    const uint32_t open = gl->caps.has & ~gl->probed;
+    if (!(caps & open)) return true;
+    const uint32_t wanted = open & (caps | (caps & open & together ? together : 0));
+    const uint32_t failed = wanted & ~gn_gl_probe(gl, wanted);
+    gl->probed |= wanted;
+    gl->caps.has &= ~failed;
+    for (int i = 0; i < GN_CAP_COUNT; i++)
+        if (failed >> i & 1)
+            gn_warn(gl->warnings, "this GPU says that it has %s and fails at it: not used",
+                    gn_cap_names[i]);
+    return !failed;
+}
+
+static uint32_t cap_of_encoding(enum gn_encoding encoding) {
+    switch (encoding) {
+    case GN_ENCODING_DEPTH: return 1u << GN_CAP_DEPTH_COMPARE;
+    case GN_ENCODING_R32UI: return 1u << GN_CAP_R32UI;
+    case GN_ENCODING_R16F:
+    case GN_ENCODING_R16F_RAW: return 1u << GN_CAP_R16F;
+    default: return 0;
+    }
+}
+
+static uint32_t needs(const struct gn_plan *plan) {
+    uint32_t caps = plan->msaa > 1 ? 1u << GN_CAP_MSAA4 : 0;
+    if (plan->output == GN_OUTPUT_SRGB8) caps |= 1u << GN_CAP_SRGB;
+    if (plan->output == GN_OUTPUT_FLOAT) caps |= 1u << GN_CAP_RGBA16F;
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        if (plan->passes[i].target.kind == GN_TARGET_SHADOW)
+            caps |= cap_of_encoding(plan->passes[i].target.encoding);
+    return caps;
+}
+
+bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan) { return prove(gl, needs(plan)); }
+
+/* ---- all of it ---- */
+
 bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err *err) {
     struct gn_caps *caps = &gl->caps;
+    const uint32_t asked_only = 1u << GN_CAP_TIMER | 1u << GN_CAP_DEBUG;
     uint32_t without;
     if (!parse_without(opts->without, &without, err)) return false;
     copy_string(gl, GL_VENDOR, caps->vendor, sizeof caps->vendor);
@@ -98,10 +145,9 @@ bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn
     GL(gl, GetIntegerv)(GL_MAX_TEXTURE_IMAGE_UNITS, &caps->max_texture_units);
     if (has_timer(gl)) caps->has |= 1u << GN_CAP_TIMER;
     if (has_debug(gl)) caps->has |= 1u << GN_CAP_DEBUG;
-    caps->has |= gn_gl_probe(gl, ~without);
-    gl->msaa_proved = opts->prove_all;
-    if (opts->prove_all ? gn_gl_probe_msaa(gl) : gn_gl_has_samples(gl))
-        caps->has |= 1u << GN_CAP_MSAA4;
+    caps->has |= gn_gl_probe_claims(gl);
     caps->has &= ~without;
+    gl->probed = asked_only;
+    if (!opts->prove_later) prove(gl, caps->has);
     return gn_gl_error_check(gl, "learning what the GPU can do", err);
 }

@@ -18,15 +18,15 @@ struct gn_gl_opts {
     const char *without; /* comma list of capabilities to pretend missing, or NULL; unknown names
                             are a usage error */
     bool desktop;        /* a desktop GL context (OSMesa): switch GL_FRAMEBUFFER_SRGB on */
-    bool prove_all; /* prove at once also what else is proved when first asked for: msaa4 (slow to
-                       compile) */
-    bool debug;     /* KHR_debug messages become errors that gn_gl_error() reports */
+    bool prove_later;    /* leave proofs to gn_gl_prove(): the first picture is there sooner */
+    bool debug;          /* KHR_debug messages become errors that gn_gl_error() reports */
 };
 
 struct gn_gl;
 /* Loads the function table, learns and proves what the GPU can do (by a draw and a read-back),
- * makes what every plan needs. NULL when the context is not OpenGL ES 3.0 or more: the error names
- * the GPU and what it has. */
+ * makes what every plan needs. What the driver claims and the GPU fails at is missing from then on,
+ * with a warning. NULL when the context is not OpenGL ES 3.0 or more: the error names the GPU and
+ * what it has. */
 struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *warnings,
                            struct gn_err *err);
 void gn_gl_destroy(struct gn_gl *gl);
@@ -35,6 +35,9 @@ const struct gn_caps *gn_gl_caps(const struct gn_gl *gl);
 /* Uploads a scene, replacing the one before. The scene must outlive its use here. */
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err);
 
+/* Proves what the plan needs of the GPU and nothing has proved yet. False when the GPU fails at
+ * some of it: gn_gl_caps() has lost that, and the plan is to be built again from what is left. */
+bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan);
 /* Makes the programs and targets that a plan needs, if they are not there: after this gn_gl_run()
  * of the plan, and of plans with the same keys and sizes, allocates nothing and makes no GL object.
  */

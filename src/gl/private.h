@@ -223,19 +223,18 @@ bool gn_gl_error_check(struct gn_gl *gl, const char *what, struct gn_err *err);
 /* False, and a line that names the GPU, when the context is too old. Needs no table. */
 bool gn_gl_version_check(const struct gn_gl_opts *opts, struct gn_err *err);
 bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err *err);
-/* Of the gn_cap bits wanted, those that a draw and a read-back prove; others are left alone. */
+/* gn_cap bits of what the driver calls complete: no proof, but what to start from. */
+uint32_t gn_gl_probe_claims(struct gn_gl *gl);
+/* Of the gn_cap bits wanted, those that a draw and a read-back prove. A proof compiles a program:
+ * 5-10 ms each with software drivers. */
 uint32_t gn_gl_probe(struct gn_gl *gl, uint32_t wanted);
-/* Four samples: what the driver says, and the proof, which software drivers take 40 ms to compile:
- * it is put off until a plan asks for them. */
-bool gn_gl_has_samples(struct gn_gl *gl);
-bool gn_gl_probe_msaa(struct gn_gl *gl);
 
 struct gn_gl {
     struct gn_gl_table fn;
     uint32_t calls;
     bool desktop, debug;
-    bool msaa_proved;
-    char *shaders; /* folder, or NULL */
+    uint32_t probed; /* gn_cap bits that were tried: caps holds how it ended */
+    char *shaders;   /* folder, or NULL */
     struct gn_warnings *warnings;
     struct gn_caps caps;
     struct gn_gl_state state;
@@ -247,7 +246,8 @@ struct gn_gl {
     uint32_t plan_programs_room;
     struct gn_gl_stats stats;
     uint64_t objects_created;
-    char debug_text[256]; /* the driver's first complaint since the last check */
+    uint64_t programs_made; /* tried ones too */
+    char debug_text[256];   /* the driver's first complaint since the last check */
 };
 
 #define GL(gl, name) ((gl)->calls++, (gl)->fn.name)

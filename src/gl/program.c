@@ -64,6 +64,7 @@ static GLuint build(struct gn_gl *gl, const char *const sources[2], int *failed,
                     struct gn_err *err) {
     GLuint program = GL(gl, CreateProgram)();
     gl->objects_created++;
+    gl->programs_made++;
     for (*failed = 0; *failed < 2; ++*failed)
         if (!compile(gl, program, *failed, sources[*failed], err)) goto fail;
     if (link(gl, program, err)) return program;

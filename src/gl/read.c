@@ -14,12 +14,13 @@ static bool has_output(struct gn_gl *gl, struct gn_err *err) {
 }
 
 static void flip_rows(void *pixels, size_t row_bytes, uint32_t rows) {
-    uint8_t *top = pixels, *bottom = top + row_bytes * (rows - 1);
+    uint8_t *top = pixels, *bottom = top + row_bytes * (rows - 1), piece[1024];
     for (; top < bottom; top += row_bytes, bottom -= row_bytes)
-        for (size_t i = 0; i < row_bytes; i++) {
-            uint8_t swapped = top[i];
-            top[i] = bottom[i];
-            bottom[i] = swapped;
+        for (size_t at = 0, n; at < row_bytes; at += n) {
+            n = row_bytes - at < sizeof piece ? row_bytes - at : sizeof piece;
+            memcpy(piece, top + at, n);
+            memcpy(top + at, bottom + at, n);
+            memcpy(bottom + at, piece, n);
         }
 }
 

@@ -207,13 +207,23 @@ static void grow_plan_programs(struct gn_gl *gl, uint32_t count) {
         gn_xrealloc(gl->plan_programs, gl->plan_programs_room, sizeof(struct gn_gl_program *));
 }
 
-bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
+static bool make_programs(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     grow_plan_programs(gl, plan->program_count);
     for (uint32_t i = 0; i < plan->program_count; i++) {
         if (!gn_gl_program_ensure(gl, &plan->programs[i], err)) return false;
         const struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[i]);
         if (!gn_gl_vertices_ensure(gl, p->attributes, err)) return false;
     }
-    return gn_gl_targets_ensure(gl, plan, err);
+    return true;
+}
+
+/* Between plans the driver need not keep its compiler: to Mesa that is 3 MB. */
+bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
+    const uint64_t made = gl->programs_made;
+    if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
+    if (!gn_gl_prove(gl, plan))
+        return gn_fail(err, "this GPU fails at what it says it has; try again, or see --without");
+    const bool ok = make_programs(gl, plan, err) && gn_gl_targets_ensure(gl, plan, err);
+    if (made != gl->programs_made) GL(gl, ReleaseShaderCompiler)();
+    return ok;
 }

@@ -99,7 +99,6 @@ void gn_gl_state_init(struct gn_gl *gl) {
     gl->state = (struct gn_gl_state){.depth_write = true, .cull = GN_CULL_BACK};
     GL(gl, DepthFunc)(GL_LEQUAL);
     GL(gl, BlendFunc)(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    GL(gl, VertexAttrib4f)(GN_GL_COLOR, 1.0f, 1.0f, 1.0f, 1.0f);
     if (gl->desktop) GL(gl, Enable)(framebuffer_srgb);
 }
 

@@ -76,6 +76,7 @@
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                           \
     X(PFNGLREADBUFFERPROC, ReadBuffer)                                                             \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                             \
+    X(PFNGLRELEASESHADERCOMPILERPROC, ReleaseShaderCompiler)                                       \
     X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)                                           \
     X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample)                     \
     X(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri)                                               \

@@ -40,19 +40,10 @@ static const struct {
     [GN_OUTPUT_AOV] = {GL_RGBA32UI, 16},
 };
 
-static bool has_msaa(struct gn_gl *gl) {
-    if (!(gl->caps.has & 1u << GN_CAP_MSAA4)) return false;
-    if (gl->msaa_proved) return true;
-    gl->msaa_proved = true;
-    if (gn_gl_probe_msaa(gl)) return true;
-    gl->caps.has &= ~(1u << GN_CAP_MSAA4);
-    gn_warn(gl->warnings, "this GPU says that it has antialiasing and fails at it: --msaa is off");
-    return false;
-}
-
 static uint32_t possible_samples(struct gn_gl *gl, const struct gn_plan *plan) {
     GLint most = 0;
-    if (plan->msaa < 2 || plan->output == GN_OUTPUT_AOV || !has_msaa(gl)) return 0;
+    if (plan->msaa < 2 || plan->output == GN_OUTPUT_AOV) return 0;
+    if (!(gl->caps.has & 1u << GN_CAP_MSAA4)) return 0;
     GL(gl, GetInternalformativ)
     (GL_RENDERBUFFER, output_formats[plan->output].format, GL_SAMPLES, 1,
      &most); /* largest first */

@@ -124,8 +124,8 @@ static void make_sampler(struct gn_gl *gl, const struct gn_texture *t) {
 bool gn_gl_textures_upload(struct gn_gl *gl, struct gn_err *err) {
     struct gn_gl_scene *s = &gl->scene;
     struct gn_gl_curve curve;
-    gn_gl_curve_init(&curve);
     s->image_count = s->scene->image_count;
+    if (s->image_count) gn_gl_curve_init(&curve);
     for (int i = 0; i < 2; i++)
         s->images[i] = gn_xalloc(s->scene->image_count + 1, sizeof *s->images[i]);
     for (uint32_t i = 0; i < s->scene->material_count; i++)

@@ -175,6 +175,8 @@ static void point_to_scene(struct gn_gl *gl, uint32_t attributes) {
     GL(gl, EnableVertexAttribArray)(GN_GL_POSITION);
     point(gl, GN_GL_POSITION, 3, GL_FLOAT, 0, 0);
     gn_gl_bind_array_buffer(gl, s->attributes);
+    if (reads(attributes, GN_GL_COLOR) && s->attribute_at[GN_GL_COLOR] < 0)
+        GL(gl, VertexAttrib4f)(GN_GL_COLOR, 1.0f, 1.0f, 1.0f, 1.0f);
     for (int i = GN_GL_NORMAL; i <= GN_GL_COLOR; i++) {
         if (!reads(attributes, i) || s->attribute_at[i] < 0) continue;
         GL(gl, EnableVertexAttribArray)((GLuint)i);

@@ -19,11 +19,83 @@ static struct gn_gl_opts opts_of(struct gn_display *display) {
 static void test_proved(void **state) {
     struct gn_display display;
     help_open(&display, *state);
-    struct gn_gl *gl = help_gl(&display, &(struct gn_gl_opts){.prove_all = true}, NULL);
+    struct gn_gl *gl = help_gl(&display, NULL, NULL);
     const struct gn_caps *caps = gn_gl_caps(gl);
     assert_true(caps->max_texture_px >= 2048 && caps->max_texture_units >= 16);
     assert_true(*caps->vendor && *caps->renderer && *caps->version);
     if (caps->software) assert_int_equal(caps->has & 0x3f, 0x3f);
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+}
+
+/* ---- a driver that says more than it can ---- */
+
+static PFNGLREADPIXELSPROC read_pixels;
+
+/* Half floats come back as zeros. */
+static void GL_APIENTRY read_no_halves(GLint x, GLint y, GLsizei width, GLsizei height,
+                                       GLenum format, GLenum type, void *out) {
+    read_pixels(x, y, width, height, format, type, out);
+    if (type == GL_FLOAT) memset(out, 0, 16ul * (size_t)width * (size_t)height);
+    if (type == GL_HALF_FLOAT) memset(out, 0, 8ul * (size_t)width * (size_t)height);
+}
+
+static gn_gl_proc get_liar(void *display, const char *name) {
+    gn_gl_proc proc = gn_display_get_proc(display, name);
+    if (strcmp(name, "glReadPixels") != 0) return proc;
+    read_pixels = (PFNGLREADPIXELSPROC)proc;
+    return (gn_gl_proc)read_no_halves;
+}
+
+static const uint32_t halves = 1u << GN_CAP_R16F | 1u << GN_CAP_RGBA16F;
+
+static void test_liar(void **state) {
+    struct gn_display display;
+    struct gn_warnings warnings = {0};
+    struct gn_err err = {0};
+    help_open(&display, *state);
+    struct gn_gl_opts opts = opts_of(&display);
+    opts.get_proc = get_liar;
+    struct gn_gl *gl = gn_gl_create(&opts, &warnings, &err);
+    assert_non_null(gl);
+    const struct gn_caps *caps = gn_gl_caps(gl);
+    assert_int_equal(caps->has & halves, 0);
+    if (caps->software) assert_int_equal(caps->has & 0x3f, 0x3f & ~halves);
+    assert_int_equal(warnings.count, 2);
+    assert_non_null(strstr(warnings.text[0], "r16f"));
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+}
+
+/* The same, found out when a plan first asks: the plan built after that has another map format. */
+static void test_liar_found_late(void **state) {
+    struct gn_display display;
+    struct gn_warnings warnings = {0};
+    struct gn_err err = {0};
+    help_open(&display, *state);
+    struct gn_gl_opts opts = opts_of(&display);
+    opts.get_proc = get_liar;
+    opts.prove_later = true;
+    struct gn_gl *gl = gn_gl_create(&opts, &warnings, &err);
+    assert_non_null(gl);
+    if (!gn_gl_caps(gl)->software) skip();
+    assert_int_equal(gn_gl_caps(gl)->has & halves, halves);
+    struct gn_pass pass = {.target = {.kind = GN_TARGET_SHADOW, .encoding = GN_ENCODING_R16F}};
+    struct gn_plan plan = {.passes = &pass, .pass_count = 1, .output = GN_OUTPUT_SRGB8};
+    assert_false(gn_gl_prove(gl, &plan));
+    assert_int_equal(gn_gl_caps(gl)->has & halves, 1u << GN_CAP_RGBA16F);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.text[0], "says that it has r16f and fails at it"));
+    bool fell_back;
+    const uint32_t encodings = gn_caps_encodings(gn_gl_caps(gl));
+    pass.target.encoding =
+        gn_encoding_choose(GN_TECHNIQUE_HARD, GN_ENCODING_AUTO, encodings, &fell_back);
+    assert_int_equal(pass.target.encoding, GN_ENCODING_R32UI);
+    assert_true(gn_gl_prove(gl, &plan));
+    plan.output = GN_OUTPUT_FLOAT;
+    assert_false(gn_gl_prove(gl, &plan));
+    assert_int_equal(gn_gl_caps(gl)->has & halves, 0);
+    assert_int_equal(warnings.count, 2);
     gn_gl_destroy(gl);
     gn_display_close(&display);
 }
@@ -101,8 +173,13 @@ static void test_embedded(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_destroy_null), TEST(test_proved),   TEST(test_without),
-        TEST(test_failed_program),           TEST(test_embedded),
+        cmocka_unit_test(test_destroy_null),
+        TEST(test_proved),
+        TEST(test_without),
+        TEST(test_liar),
+        TEST(test_liar_found_late),
+        TEST(test_failed_program),
+        TEST(test_embedded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
