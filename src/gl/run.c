@@ -217,8 +217,8 @@ static bool make_programs(struct gn_gl *gl, const struct gn_plan *plan, struct g
     return true;
 }
 
-/* Between plans the driver need not keep its compiler. In Mesa it holds 3 MB, 1.4 ms to free and 5 to
- * make again; released later, after the first picture, its memory is not given back any more. */
+/* Between plans the driver need not keep its compiler. In Mesa it holds 3 MB, 1.4 ms to free and 5
+ * to make again; released later, after the first picture, its memory is not given back any more. */
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     const uint64_t made = gl->programs_made;
     if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
