@@ -93,13 +93,8 @@ static const struct gn_plan *prepare_frame(struct bench *b, const struct entry *
                                            struct gn_err *err) {
     struct gn_stage *stage = &b->stage;
     stage->frame_opts = e->opts;
-    int64_t time_ns = time_of(b, frame);
-    double turn_deg = fmod(b->options->turntable_deg_s * ((double)time_ns * 1e-9), 360.0);
-    stage->frame_opts.turntable_rad = glm_rad((float)turn_deg);
-    gn_pose_step(&stage->pose, time_ns);
-    const struct gn_plan *plan =
-        gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, b->warnings);
-    return gn_gl_prepare(stage->gl, plan, err) ? plan : NULL;
+    gn_stage_pose(stage, time_of(b, frame));
+    return gn_stage_plan(stage, b->warnings, err);
 }
 
 static bool draw_frame(struct bench *b, const struct entry *e, uint32_t frame, struct gn_err *err) {

@@ -47,7 +47,8 @@ static bool choose_frame(struct gn_stage *stage, struct gn_err *err) {
     *f = (struct gn_frame_opts){
         .width_px = (uint32_t)o->size.width_px,
         .height_px = (uint32_t)o->size.height_px,
-        .aov = o->aov == GN_AOV_COUNT ? GN_AOV_COLOR : (enum gn_aov)o->aov,
+        .aov =
+            o->aov == GN_AOV_COUNT ? GN_AOV_VISIBILITY /* this light alone */ : (enum gn_aov)o->aov,
         .light = o->light,
         .output_linear = o->output == GN_PICTURE_LINEAR,
         .exposure_given = !isnan(o->exposure_ev),
@@ -87,6 +88,7 @@ bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct 
         .without = o->without,
         .desktop = stage->display.ops->desktop,
         .prove_later = true,
+        .debug = o->verbose,
     };
     stage->gl = gn_gl_create(&opts, warnings, err);
     if (!stage->gl || !gn_gl_load(stage->gl, stage->scene, err)) return false;
@@ -111,11 +113,15 @@ const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *
     return gn_gl_prepare(stage->gl, plan, err) ? plan : NULL;
 }
 
+void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
+    gn_pose_step(&stage->pose, time_ns);
+    double turned_deg = fmod(stage->options->turntable_deg_s * ((double)time_ns * 1e-9), 360.0);
+    stage->frame_opts.turntable_rad = glm_rad((float)turned_deg);
+}
+
 const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
                                     struct gn_warnings *warnings, struct gn_err *err) {
-    gn_pose_step(&stage->pose, time_ns);
-    stage->frame_opts.turntable_rad = (float)glm_rad(
-        (float)fmod(stage->options->turntable_deg_s * ((double)time_ns * 1e-9), 360.0));
+    gn_stage_pose(stage, time_ns);
     const struct gn_plan *plan = gn_stage_plan(stage, warnings, err);
     return plan && gn_gl_run(stage->gl, plan, NULL, err) ? plan : NULL;
 }
