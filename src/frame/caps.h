@@ -1,4 +1,5 @@
-/* What a GPU was proved to do at start-up, as plain data. */
+/* What a GPU says that it can do, until a plan first asks for it; then what was proved by a draw
+ * and a read-back. Plain data. */
 #ifndef GN_FRAME_CAPS_H
 #define GN_FRAME_CAPS_H
 
