@@ -35,8 +35,9 @@ struct gn_technique_row {
     bool filters;        /* compares four texels and weighs them: wants a LINEAR compare sampler */
     bool reads_distance; /* `auto` gives it a distance map; else a depth map */
     unsigned radius_texels; /* how far from the point it reads, rounded up: margin of the map */
-    float bias_texels; /* what the normal offset and slope grow with: half the width it averages
-                          over */
+    float bias_texels; /* what the normal offset and slope grow with. Of a flat surface what is read
+                          up to 1.7 times as far away stays lit; beyond that lie under 2 % of the
+                          filter's weight */
     const char *what;  /* one line for people */
     const char *source;
 };

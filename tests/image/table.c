@@ -94,7 +94,9 @@ static void note_progress(struct job *job) {
     pthread_mutex_lock(&job->lock);
     job->done++;
     if (job->table->progress)
-        fprintf(stderr, "\r%d of %d%s", job->done, job->total, job->done < job->total ? "" : "\n");
+        if (isatty(STDERR_FILENO))
+            fprintf(stderr, "\r%d of %d%s", job->done, job->total,
+                    job->done < job->total ? "" : "\n");
     pthread_mutex_unlock(&job->lock);
 }
 
