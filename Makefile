@@ -22,7 +22,8 @@ help:
 	    'make check      every quick test: gcc, clang, ASan and UBSan, lint' \
 	    'make accept     the long tests' \
 	    'make truth      shadows against ray-traced truth, as a table' \
-	    'make deps       install the packages that building, running and testing need (apt)' \
+	    'make deps       install the packages that building, running and testing need (apt);' \
+    '                with CROSS= those that building for it needs' \
 	    'make lint       clang-tidy; make format: clang-format, in place' \
 	    'make install    DESTDIR= PREFIX=/usr/local; make uninstall takes it away again' \
 	    'make tests, man, compile_commands.json, clean' \
@@ -30,7 +31,7 @@ help:
 clean:
 	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb
 deps:
-	@sh board/deps.sh build run test
+	@sh board/deps.sh $(if $(CROSS),build cross,build run test)
 
 DEPS_run := build run
 DEPS_check := build run test
@@ -57,7 +58,7 @@ PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm
 MISSING := $(shell for p in $(PKGS) $(HEADERS); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
-$(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps))
+$(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 
 takes    = $(shell $(CC) -Werror -O2 $(1) -x c -c -o /dev/null -include stdlib.h /dev/null \
              2> /dev/null && echo $(1))

@@ -1,34 +1,62 @@
 #!/bin/sh
 # deps.sh SET..: installs the Debian packages of the sets that are missing. Says nothing when none is.
+# build, run and test are for this machine; cross is what building for CROSS=aarch64-linux-gnu adds.
 set -eu
 
-build='gcc libc6-dev make pkgconf libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libegl-dev
-    libgles-dev libcglm-dev'
+libraries='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libegl-dev libgles-dev
+    libcglm-dev'
+build="gcc make pkgconf $libraries"
 run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri'
 test='libcmocka-dev clang clang-format clang-tidy'
 optional_test='libosmesa6-dev' # not in every Debian
 
 command -v dpkg-query > /dev/null || exit 0 # not Debian: the Makefile says what pkg-config does not find
 
+own=$(dpkg --print-architecture)
+# a package's name stands for this machine's architecture, name:arm64 for that one
 missing() {
-    dpkg-query -W -f='${db:Status-Abbrev} ${Package}\n' "$@" 2> /dev/null |
-        awk -v all="$*" '$1 == "ii" { have[$2] = 1 }
+    dpkg-query -W -f='${db:Status-Abbrev} ${Package}:${Architecture}\n' "$@" 2> /dev/null |
+        awk -v all="$*" -v own=":$own" '
+            $1 == "ii" { have[$2] = 1; sub(own "$|:all$", "", $2); have[$2] = 1 }
             END { n = split(all, p, " "); for (i = 1; i <= n; i++) if (!(p[i] in have)) printf " %s", p[i] }'
 }
 
-wanted='' extra=''
+architecture_of() {
+    case $1 in
+    aarch64-linux-gnu) echo arm64 ;;
+    arm-linux-gnueabihf) echo armhf ;;
+    riscv64-linux-gnu) echo riscv64 ;;
+    x86_64-linux-gnu) echo amd64 ;;
+    *) echo "deps.sh: CROSS=$1 is unknown here; for example aarch64-linux-gnu" >&2 && return 2 ;;
+    esac
+}
+
+# the packages $2.. of the architecture $1
+foreign() {
+    architecture=$1
+    shift
+    for package in "$@"; do printf ' %s:%s' "$package" "$architecture"; done
+}
+
+wanted='' extra='' added=''
 for set in "$@"; do
     case $set in
     build) wanted="$wanted $build" ;;
     run) wanted="$wanted $run" ;;
     test) wanted="$wanted $test" extra="$extra $optional_test" ;;
+    cross)
+        added=$(architecture_of "${CROSS:-}")
+        compiler=gcc-$(echo "$CROSS" | tr _ -)
+        wanted="$wanted $compiler $(foreign "$added" $libraries)"
+        extra="$extra $(foreign "$added" $optional_test)"
+        ;;
     *) echo "deps.sh: no set of packages is called $set" >&2 && exit 2 ;;
     esac
 done
 
 needed=$(missing $wanted)
 # what could not be had once is not asked for again: the stamp remembers
-stamp=${O:-build}/deps-optional
+stamp=${O:-build}/deps-optional${added:+-$added}
 [ -e "$stamp" ] || [ -z "$extra" ] || extra=$(missing $extra)
 [ ! -e "$stamp" ] || extra=''
 [ -n "$needed$extra" ] || exit 0
@@ -38,7 +66,8 @@ if [ "$(id -u)" != 0 ]; then
     as_root='sudo'
     if ! command -v sudo > /dev/null || { [ ! -t 0 ] && ! sudo -n true 2> /dev/null; }; then
         [ -n "$needed" ] || exit 0
-        echo "gnomon needs packages and cannot install them itself; as root: apt-get install$needed" >&2
+        first=${added:+"dpkg --add-architecture $added && apt-get update && "}
+        echo "gnomon needs packages and cannot install them itself; as root: ${first}apt-get install$needed" >&2
         exit 1
     fi
 fi
@@ -48,6 +77,7 @@ export DEBIAN_FRONTEND=noninteractive
 apt() { $as_root apt-get -q -y -o Dpkg::Use-Pty=0 "$@" < /dev/null > "$log" 2>&1; }
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
+[ -z "$added" ] || $as_root dpkg --add-architecture "$added"
 apt update || true # a list that is old may do
 if [ -n "$needed" ] && ! apt install --no-install-recommends $needed; then
     tail -n 5 "$log" >&2

@@ -2,7 +2,8 @@
 # run.sh [NAME=VALUE | PROGRAM]..: runs programs and scripts one after another and counts. NAME=VALUE
 # goes into the environment of those that follow (BUILD=build/asan). Each has its own time limit
 # (tests/timeouts, else LIMIT seconds). Exit status 77 is a skip, whose last line says why; the tests
-# inside a cmocka program count one by one. STRICT=1 makes a skip a failure.
+# inside a cmocka program count one by one. STRICT=1 makes a skip a failure. A script that ends well
+# with a line "not applicable: why" has nothing to do on this kind of machine and is not counted.
 set -u
 passed=0 failed=0 skipped=0 failures=''
 
@@ -32,6 +33,10 @@ judge() {
     good=$(count_of "$log" PASSED) bad=$(count_of "$log" FAILED) left=$(count_of "$log" SKIPPED)
     if [ "$status" = 77 ]; then
         skip "$name" 1 "$(tail -n 1 "$log")"
+        return
+    fi
+    if [ "$status" = 0 ] && grep -q '^not applicable: ' "$log"; then
+        echo "n/a   $name: $(tail -n 1 "$log")"
         return
     fi
     [ -z "$good$bad" ] && [ "$status" = 0 ] && good=1

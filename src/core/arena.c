@@ -35,7 +35,11 @@ struct gn_arena_block {
 static _Atomic unsigned long requests;
 static unsigned long fail_countdown;
 
-static bool must_fail(void) { return fail_countdown && --fail_countdown == 0; }
+static bool must_fail(void) {
+    if (fail_countdown == 0) return false;
+    fail_countdown--;
+    return fail_countdown == 0;
+}
 
 static size_t room(const struct gn_arena_block *block) {
     return block ? block->size - block->used : 0;
