@@ -14,9 +14,11 @@
 #define LIGHT_AXIS 2      /* spot: xyz unit vector along which it shines; w: cosine of the outer angle */
 #define PASS_CONES 32     /* GN_LIGHTS_MAX in two vec4: 1 / (cos inner - cos outer) of light i in [i / 4][i % 4] */
 #define PASS_SHADOWS 34   /* GN_SHADOWS_MAX x SHADOW_SIZE; slot i belongs to light i */
-#define SHADOW_SIZE 7
+#define SHADOW_SIZE 9
 #define SHADOW_MAP 0      /* 4 columns of map_from_world */
 #define SHADOW_BIAS 4     /* x: normal offset, y: slope offset, both in plane units (texel times texels); z: slope_max; w: ulp, metres */
 #define SHADOW_PLACE 5    /* xyz: position of the light; w: distance_scale */
-#define SHADOW_MAP_SIZE 6 /* x: distance_offset; y: side in texels; z: 1 / side; w: far_code */
-#define PASS_SIZE 62
+#define SHADOW_MAP_SIZE 6 /* xy: width and height of the map in texels; zw: 1 / width, 1 / height */
+#define SHADOW_CODE 7     /* x: distance_offset; y: far_code */
+#define SHADOW_SOFT 8     /* how wide a penumbra is: lib/shadow_place.glsl */
+#define PASS_SIZE 70

@@ -3,7 +3,7 @@
 #include "lib/flat_constants.glsl"
 #include "lib/surface.glsl"
 #include "lib/light.glsl"
-#include "lib/shadow_point.glsl"
+#include "lib/shadow_place.glsl"
 #include "lib/srgb.glsl"
 
 #ifdef WITH_ROUGHNESS_TEXTURE
@@ -76,14 +76,14 @@ vec3 surface_light(surface s, light_sample l, float seen) {
 #define ADD_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
     { \
         light_sample l = light_at(slot, type, v_position); \
-        vec3 at = type == LIGHT_DIRECTIONAL ? v_shadow[slot] \
-                                            : shadow_point_spot(slot, radial, v_position, s.normal, l.to_light); \
-        float seen = visibility(map, at, SHADOW(slot, SHADOW_MAP_SIZE)); \
+        float seen = visibility( \
+            map, shadow_place_of(slot, type, radial, v_shadow[slot], v_position, s.normal, face, l.to_light)); \
         light += surface_light(s, l, 1.0 - LIGHT(slot, LIGHT_COLOR).w * (1.0 - seen)); \
     }
 #define ADD_OPEN_LIGHT(slot, type) light += surface_light(s, light_at(slot, type, v_position), 1.0);
 
 void main() {
+    vec3 face = surface_face_normal();
     vec4 base = surface_base();
     vec3 color = base.rgb;
     if (!UNLIT) {

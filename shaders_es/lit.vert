@@ -14,7 +14,7 @@ out vec2 v_uv_base, v_uv_roughness, v_uv_emissive, v_uv_occlusion;
 flat out vec4 v_surface;
 flat out vec4 v_emissive;
 #ifdef WITH_FLAT_CONSTANTS
-flat out vec4 v_constant[6]; // lib/flat_constants.glsl
+flat out vec4 v_constant[7]; // lib/flat_constants.glsl
 #endif
 #ifdef WITH_SHADOWS
 out vec3 v_shadow[SHADOW_COUNT];
@@ -38,8 +38,9 @@ void main() {
     v_uv_emissive = slot_uv(2, EMISSIVE_UV1);
     v_uv_occlusion = slot_uv(3, OCCLUSION_UV1);
 #ifdef WITH_FLAT_CONSTANTS
-    v_constant = vec4[6](u_pass[PASS_SKY], u_pass[PASS_GROUND], u_pass[PASS_EYE], u_pass[PASS_LIGHTS + LIGHT_COLOR],
-                         u_pass[PASS_LIGHTS + LIGHT_PLACE], u_pass[PASS_SHADOWS + SHADOW_MAP_SIZE]);
+    v_constant = vec4[7](u_pass[PASS_SKY], u_pass[PASS_GROUND], u_pass[PASS_EYE], u_pass[PASS_LIGHTS + LIGHT_COLOR],
+                         u_pass[PASS_LIGHTS + LIGHT_PLACE], u_pass[PASS_SHADOWS + SHADOW_MAP_SIZE],
+                         u_pass[PASS_SHADOWS + SHADOW_CODE]);
 #endif
     EACH_SHADOWED_LIGHT_VERTEX(PLACE_SHADOW)
 }

@@ -7,7 +7,7 @@
 #include "lib/pass.glsl"
 
 #ifdef WITH_FLAT_CONSTANTS
-flat in vec4 v_constant[6]; // in the order of pass_constant()
+flat in vec4 v_constant[7]; // in the order of pass_constant()
 
 vec4 pass_constant(const int i) {
     if (i == PASS_SKY) return v_constant[0];
@@ -16,6 +16,7 @@ vec4 pass_constant(const int i) {
     if (i == PASS_LIGHTS + LIGHT_COLOR) return v_constant[3];
     if (i == PASS_LIGHTS + LIGHT_PLACE) return v_constant[4];
     if (i == PASS_SHADOWS + SHADOW_MAP_SIZE) return v_constant[5];
+    if (i == PASS_SHADOWS + SHADOW_CODE) return v_constant[6];
     return u_pass[i];
 }
 #endif

@@ -5,7 +5,7 @@
 #undef MAP_OUT
 #define MAP_SAMPLER sampler2DShadow
 
-float map_lit(MAP_SAMPLER map, vec3 at, vec4 size) { return texture(map, at); }
+float map_lit(MAP_SAMPLER map, vec3 at, shadow_place s) { return texture(map, at); }
 
 // Weighs four texels: the sampler is LINEAR.
-float map_lit_linear(MAP_SAMPLER map, vec3 at, vec4 size) { return texture(map, at); }
+float map_lit_linear(MAP_SAMPLER map, vec3 at, shadow_place s) { return texture(map, at); }

@@ -1,11 +1,10 @@
-//@ names map_encode map_code map_lit map_lit_linear
+//@ names map_encode map_code
 // Distance 0 (near) .. 1 (far) in four bytes, most significant first. Each channel is rounded again before it is put together:
-// V3D returns RGBA8 as half floats, which would cost all but the first 11 bits. size.w: the far end, a little under 1.
+// V3D returns RGBA8 as half floats, which would cost all but the first 11 bits. The far end is a little under 1.
 #undef MAP_SAMPLER
 #undef MAP_OUT
 #define MAP_SAMPLER sampler2D
 #define MAP_OUT vec4
-#include "lib/compare.glsl"
 
 #ifndef MAP_BYTES
 #define MAP_BYTES (vec4(1.0 / 256.0, 1.0 / 65536.0, 1.0 / 16777216.0, 1.0 / 4294967296.0))
@@ -17,15 +16,3 @@ vec4 map_encode(float code) {
 }
 
 float map_code(MAP_SAMPLER map, vec2 uv) { return dot(floor(texture(map, uv) * 255.0 + 0.5), MAP_BYTES); }
-
-float map_lit(MAP_SAMPLER map, vec3 at, vec4 size) {
-    return step(min(at.z, size.w), map_code(map, at.xy));
-}
-
-float map_lit_linear(MAP_SAMPLER map, vec3 at, vec4 size) {
-    vec2 uv = compare_corner(at.xy, size);
-    vec2 next = uv + size.z;
-    vec4 codes = vec4(map_code(map, uv), map_code(map, vec2(next.x, uv.y)),
-                      map_code(map, vec2(uv.x, next.y)), map_code(map, next));
-    return compare_four(codes, at, size);
-}

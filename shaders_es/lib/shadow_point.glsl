@@ -34,6 +34,6 @@ vec3 shadow_point_spot(const int slot, const bool radial, vec3 p, vec3 n, vec3 l
     vec4 h = m * vec4(q, 1.0);
     vec4 place = SHADOW(slot, SHADOW_PLACE);
     vec3 at = h.xyz / h.w;
-    if (radial) at.z = length(q - place.xyz) * place.w + SHADOW(slot, SHADOW_MAP_SIZE).x;
+    if (radial) at.z = length(q - place.xyz) * place.w + SHADOW(slot, SHADOW_CODE).x;
     return at;
 }

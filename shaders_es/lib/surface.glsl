@@ -37,3 +37,9 @@ vec3 surface_normal() {
 
 // Unit vector towards the eye.
 vec3 surface_to_eye() { return normalize(PASS(PASS_EYE).xyz - v_position * PASS(PASS_EYE).w); }
+
+// Of the triangle itself, towards the viewer; unit. Takes derivatives: not behind a branch.
+vec3 surface_face_normal() {
+    vec3 n = normalize(cross(dFdx(v_position), dFdy(v_position)));
+    return dot(n, surface_to_eye()) < 0.0 ? -n : n;
+}

@@ -1,10 +1,11 @@
 //@ names shadow_visibility
 // Four taps half a texel away along both diagonals: a 3 x 3 texel tent.
-float shadow_visibility(MAP_SAMPLER map, vec3 at, vec4 size) {
-    float h = 0.5 * size.z;
-    float lit = map_lit_linear(map, at + vec3(-h, -h, 0.0), size);
-    lit += map_lit_linear(map, at + vec3(h, -h, 0.0), size);
-    lit += map_lit_linear(map, at + vec3(-h, h, 0.0), size);
-    lit += map_lit_linear(map, at + vec3(h, h, 0.0), size);
+float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
+    vec2 a = s.at.xy - 0.5 * s.size.zw;
+    vec2 b = s.at.xy + 0.5 * s.size.zw;
+    float lit = map_lit_linear(map, vec3(a, s.at.z), s);
+    lit += map_lit_linear(map, vec3(b.x, a.y, s.at.z), s);
+    lit += map_lit_linear(map, vec3(a.x, b.y, s.at.z), s);
+    lit += map_lit_linear(map, vec3(b, s.at.z), s);
     return 0.25 * lit;
 }

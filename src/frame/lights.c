@@ -180,10 +180,13 @@ static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
     c[SHADOW_BIAS][3] = view->ulp_m;
     put3(c[SHADOW_PLACE], view->light_ws);
     c[SHADOW_PLACE][3] = view->distance_scale;
-    c[SHADOW_MAP_SIZE][0] = view->distance_offset;
-    c[SHADOW_MAP_SIZE][1] = (float)view->map_px;
-    c[SHADOW_MAP_SIZE][2] = 1.0f / (float)view->map_px;
-    c[SHADOW_MAP_SIZE][3] = view->far_code;
+    for (int k = 0; k < 2; k++) {
+        c[SHADOW_MAP_SIZE][k] = (float)view->map_px;
+        c[SHADOW_MAP_SIZE][k + 2] = 1.0f / (float)view->map_px;
+    }
+    c[SHADOW_CODE][0] = view->distance_offset;
+    c[SHADOW_CODE][1] = view->far_code;
+    memcpy(c[SHADOW_SOFT], view->soft, sizeof view->soft);
 }
 
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,

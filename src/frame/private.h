@@ -51,7 +51,7 @@ struct gn_frame {
 };
 
 /* Room of the constants of one pass, in vec4. */
-enum { GN_PASS_SIZE = 62 };
+enum { GN_PASS_SIZE = 70 };
 
 /* lights.c: which lights, with what; then what they say to the shaders. */
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,

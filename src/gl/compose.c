@@ -40,12 +40,13 @@ static const char *const kind_files[GN_PROGRAM_KIND_COUNT][2] = {
     [GN_PROGRAM_AOV] = {"lit.vert", "aov.frag"},
 };
 
-static const char *sampler_type(enum gn_encoding encoding) {
-    switch (encoding) {
-    case GN_ENCODING_DEPTH: return "sampler2DShadow";
-    case GN_ENCODING_R32UI: return "usampler2D";
-    default: return "sampler2D";
-    }
+static bool compares_in_sampler(const struct gn_light_key *light) {
+    return light->encoding == GN_ENCODING_DEPTH && !gn_techniques[light->technique].searches;
+}
+
+static const char *sampler_type(const struct gn_light_key *light) {
+    if (compares_in_sampler(light)) return "sampler2DShadow";
+    return light->encoding == GN_ENCODING_R32UI ? "usampler2D" : "sampler2D";
 }
 
 static void add_constants(const struct gn_program_key *key, struct gn_gl_text *out) {
@@ -89,18 +90,22 @@ static void drop_suffixes(char names[GN_GL_NAMES_MAX][64], int count, struct gn_
 
 static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *light, int suffix,
                      struct gn_gl_text *out, struct gn_err *err) {
-    const char *encoding = gn_encodings[light->encoding].file;
-    const char *technique = gn_techniques[light->technique].file;
-    char ours[GN_GL_NAMES_MAX][64], theirs[GN_GL_NAMES_MAX][64];
-    int our_count = gn_gl_source_names(source, encoding, ours, err);
-    int their_count = our_count < 0 ? -1 : gn_gl_source_names(source, technique, theirs, err);
-    if (their_count < 0) return false;
-    add_suffixes(ours, our_count, suffix, out);
-    add_suffixes(theirs, their_count, suffix, out);
-    if (!gn_gl_source_add(source, encoding, out, err)) return false;
-    if (!gn_gl_source_add(source, technique, out, err)) return false;
-    drop_suffixes(ours, our_count, out);
-    drop_suffixes(theirs, their_count, out);
+    const bool compares = compares_in_sampler(light);
+    const char *const files[] = {
+        compares ? "lib/map_depth.glsl" : gn_encodings[light->encoding].file,
+        compares ? NULL : "lib/map_lit.glsl", gn_techniques[light->technique].file};
+    enum { FILE_COUNT = sizeof files / sizeof *files };
+    char names[FILE_COUNT][GN_GL_NAMES_MAX][64];
+    int counts[FILE_COUNT] = {0};
+    for (int i = 0; i < FILE_COUNT; i++) {
+        if (!files[i]) continue;
+        counts[i] = gn_gl_source_names(source, files[i], names[i], err);
+        if (counts[i] < 0) return false;
+        add_suffixes(names[i], counts[i], suffix, out);
+    }
+    for (int i = 0; i < FILE_COUNT; i++)
+        if (files[i] && !gn_gl_source_add(source, files[i], out, err)) return false;
+    for (int i = 0; i < FILE_COUNT; i++) drop_suffixes(names[i], counts[i], out);
     gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n");
     return true;
 }
@@ -108,7 +113,7 @@ static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *lig
 static bool add_maps(struct gn_gl_source *source, const struct gn_program_key *key,
                      struct gn_gl_text *out, struct gn_err *err) {
     for (int i = 0; i < key->shadow_count; i++)
-        gn_gl_text_add(out, "uniform %s u_map_%d;\n", sampler_type(key->lights[i].encoding), i);
+        gn_gl_text_add(out, "uniform %s u_map_%d;\n", sampler_type(&key->lights[i]), i);
     for (int i = 0; i < key->shadow_count; i++)
         if (pair_of(key, i) == i && !add_pair(source, &key->lights[i], i, out, err)) return false;
     return true;
@@ -118,7 +123,7 @@ static void add_light_loops(const struct gn_program_key *key, struct gn_gl_text 
     gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT(F)");
     for (int i = 0; i < key->shadow_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
-        bool radial = light->type == GN_LIGHT_SPOT && light->encoding != GN_ENCODING_DEPTH;
+        bool radial = light->type != GN_LIGHT_DIRECTIONAL && light->encoding != GN_ENCODING_DEPTH;
         gn_gl_text_add(out, " F(%d, %s, %s, shadow_visibility_%d, u_map_%d)", i,
                        light_names[light->type], radial ? "true" : "false", pair_of(key, i), i);
     }
@@ -143,6 +148,8 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
     if (!gn_gl_source_add(&source, "blocks.glsl", out, err)) return false;
     if (lit && stage == GN_GL_VERTEX) add_vertex_loop(key, out);
     if (lit && stage == GN_GL_FRAGMENT) {
+        if (key->shadow_count && !gn_gl_source_add(&source, "lib/shadow_place.glsl", out, err))
+            return false;
         if (!add_maps(&source, key, out, err)) return false;
         add_light_loops(key, out);
     }

@@ -81,7 +81,8 @@ static void resolve(struct gn_gl *gl) {
 
 static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
     const GLuint *samplers = gl->targets.map_samplers;
-    if (view->encoding != GN_ENCODING_DEPTH) return samplers[GN_GL_MAP_NEAREST];
+    if (view->encoding != GN_ENCODING_DEPTH || gn_techniques[view->technique].searches)
+        return samplers[GN_GL_MAP_NEAREST];
     return samplers[gn_techniques[view->technique].filters ? GN_GL_MAP_COMPARE_LINEAR
                                                            : GN_GL_MAP_COMPARE];
 }

@@ -119,6 +119,7 @@ static bool add_file(struct gn_gl_source *source, const char *name, int depth,
 
 bool gn_gl_source_add(struct gn_gl_source *source, const char *name, struct gn_gl_text *out,
                       struct gn_err *err) {
+    if (!seen_before(source, name) && !remember(source, name, err)) return false;
     return add_file(source, name, 0, out, err);
 }
 

@@ -419,6 +419,22 @@ static void set_depths(struct gn_shadow_view *view, const struct gn_shadow_regio
     view->far_m = view->perspective ? depths->far_radial + pad : *far_depth - *near_depth;
 }
 
+/* Similar triangles (Fernando, "Percentage-Closer Soft Shadows", 2005): in plane units a blocker at
+ * b throws on a receiver at r a penumbra of radius (r - b) tan(sun's radius), or radius (1/b - 1/r)
+ * of a lamp. */
+static void set_soft(struct gn_shadow_view *view, float radius, float near_depth, float far_depth) {
+    view->soft[0] = radius / view->texel;
+    if (view->perspective && view->encoding == GN_ENCODING_DEPTH) { /* linear in 1 / depth */
+        view->soft[1] = -1.0f / near_depth;
+        view->soft[2] = 1.0f / near_depth - 1.0f / far_depth;
+        view->soft[3] = -1.0f / near_depth;
+        return;
+    }
+    view->soft[1] = view->perspective ? -1.0f / near_depth : 0.0f;
+    view->soft[2] = view->encoding == GN_ENCODING_DEPTH ? view->far_m : 1.0f / view->distance_scale;
+    view->soft[3] = -view->distance_offset / view->distance_scale;
+}
+
 /* Normal offset and slope by the width that the technique averages over; figures measured by `make
  * truth`. */
 static void set_bias(struct gn_shadow_view *view) {
@@ -465,6 +481,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
     set_code(view, near_depth, far_depth);
     set_matrices(view, low, near_depth, far_depth);
     set_bias(view);
+    set_soft(view, l->radius, near_depth, far_depth);
     view->content_hash = hash_content(pose, memory->casts, view);
     return true;
 }

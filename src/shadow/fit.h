@@ -38,6 +38,10 @@ struct gn_shadow_view {
     float normal_offset; /* texels, times sin(theta) */
     float slope_offset;  /* texels towards the light, times tan(theta) clamped at slope_max */
     float slope_max;
+    /* How wide penumbrae are (shaders_es/lib/shadow_place.glsl): the emitter's radius in texels per
+     * unit of e, e of the nearest caster, and e = code * [2] + [3], or its negative inverse for
+     * distances from a spot. */
+    float soft[4];
     float ulp_m; /* added towards the light: the encoding's rounding at the far end */
     bool empty;  /* nothing in view can be in this light's shadow: the map holds the far end */
     uint64_t content_hash; /* of all that decides the map's content, casters included; never 0 */

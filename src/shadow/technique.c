@@ -43,7 +43,7 @@ const struct gn_technique_row gn_techniques[GN_TECHNIQUE_COUNT] = {
 };
 
 const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
-    [GN_ENCODING_DEPTH] = {"depth", "lib/map_depth.glsl", 4},
+    [GN_ENCODING_DEPTH] = {"depth", "lib/map_depth_code.glsl", 4},
     [GN_ENCODING_R32UI] = {"r32ui", "lib/map_r32ui.glsl", 8},
     [GN_ENCODING_R16F] = {"r16f", "lib/map_r16f.glsl", 6},
     [GN_ENCODING_R16F_RAW] = {"r16f-raw", "lib/map_r16f.glsl", 6},

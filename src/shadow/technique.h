@@ -31,9 +31,10 @@ enum gn_encoding {
 
 struct gn_technique_row {
     const char *name;
-    const char *file;    /* below shaders_es/, NULL for none */
-    bool filters;        /* compares four texels and weighs them: wants a LINEAR compare sampler */
-    bool reads_distance; /* `auto` gives it a distance map; else a depth map */
+    const char *file; /* below shaders_es/, NULL for none */
+    bool filters;     /* compares four texels and weighs them: wants a LINEAR compare sampler */
+    bool searches; /* asks how far a blocker is: a depth map behind a sampler that compares not */
+    bool reads_distance;    /* `auto` gives it a distance map; else a depth map */
     unsigned radius_texels; /* how far from the point it reads, rounded up: margin of the map */
     float bias_texels; /* what the normal offset and slope grow with. Of a flat surface what is read
                           up to 1.7 times as far away stays lit; beyond that lie under 2 % of the

@@ -78,7 +78,7 @@ never '"map_format": "r16f"'
 # a wrong shader is found: everything lit
 mkdir "$work/shaders"
 cp -r shaders_es/. "$work/shaders"
-sed 's/return map_lit(map, at, size)/return 1.0/' shaders_es/shadow/hard.glsl \
+sed 's/return map_lit(map, s.at, s)/return 1.0/' shaders_es/shadow/hard.glsl \
     > "$work/shaders/shadow/hard.glsl"
 if ! cmp -s shaders_es/shadow/hard.glsl "$work/shaders/shadow/hard.glsl"; then
     run 1 --self-test --shaders "$work/shaders"

@@ -167,6 +167,8 @@ const char *help_shaders(void) {
         "//@ names tap map_encode\n#define MAP_SAMPLER usampler2D\n#define MAP_OUT uvec4\n"
         "uvec4 map_encode(float x) { return uvec4(floatBitsToUint(x), 0u, 0u, 1u); }\n"
         "float tap(MAP_SAMPLER map) { return uintBitsToFloat(texture(map, vec2(0.5)).r); }\n");
+    help_write(folder, "lib/shadow_place.glsl", "");
+    help_write(folder, "lib/map_lit.glsl", "");
     help_write(folder, "shadow/hard.glsl",
                "//@ names shadow_visibility\n"
                "float shadow_visibility(MAP_SAMPLER map) { return tap(map); }\n");

@@ -1,0 +1,60 @@
+// Where a shadow is looked up, and what a technique may ask about the place. What it does not ask for costs nothing: compilers
+// drop it.
+#include "lib/flat_constants.glsl"
+#include "lib/shadow_point.glsl"
+
+struct shadow_place {
+    vec3 at;    // uv over the map (0..1) and code, pushed off the surface
+    vec4 size;  // xy: width and height of the map in texels; zw: their inverse
+    float far;  // the far end's code: what the map is cleared to
+    vec2 slope; // how the code of the receiver's plane changes, per uv
+    // How wide a penumbra is. e(code), growing with the distance from the light, is soft.z * code + soft.w, or its negative
+    // inverse where `inverse`; a blocker at e_b throws on a receiver at e_r a penumbra of radius soft.x * (e_r - e_b) texels, and
+    // none is nearer than soft.y. The tangents of a lamp's radius grow with 1 / distance, of the sun's with the distance itself.
+    vec4 soft;
+    bool inverse;
+};
+
+// How the code changes on the plane with normal n, per uv; u, v, code: their gradients there, world space. On a plane seen edge-on
+// by the light it has no end: n is turned to the light by then. Solves gradient(code) = slope.x grad(u) + slope.y grad(v) + c n.
+vec2 shadow_slope(vec3 u, vec3 v, vec3 code, vec3 n, vec3 l) {
+    float c = dot(n, l);
+    n += l * (c < 0.0 ? min(-0.1 - c, 0.0) : max(0.1 - c, 0.0));
+    return vec2(dot(cross(code, v), n), dot(cross(u, code), n)) / dot(cross(u, v), n);
+}
+
+vec2 shadow_slope_directional(const int slot, vec3 face, vec3 l) {
+    mat4 m = shadow_matrix(slot);
+    return shadow_slope(vec3(m[0].x, m[1].x, m[2].x), vec3(m[0].y, m[1].y, m[2].y), vec3(m[0].z, m[1].z, m[2].z), face, l);
+}
+
+// Of a projection, at p: the gradient of x / w is (grad x - (x / w) grad w) / w.
+vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 face, vec3 l) {
+    mat4 m = shadow_matrix(slot);
+    vec3 axis = vec3(m[0].w, m[1].w, m[2].w);
+    float w = dot(axis, p) + m[3].w;
+    vec3 u = (vec3(m[0].x, m[1].x, m[2].x) - at.x * axis) / w;
+    vec3 v = (vec3(m[0].y, m[1].y, m[2].y) - at.y * axis) / w;
+    vec3 code = radial ? -l * SHADOW(slot, SHADOW_PLACE).w : (vec3(m[0].z, m[1].z, m[2].z) - at.z * axis) / w;
+    return shadow_slope(u, v, code, face, l);
+}
+
+// p, n, l: the surface, its normal and the direction to the light, world space; face: normal of the triangle itself; from_vertex:
+// what the vertex shader found for a directional light. radial: the map of this spot holds distances, not depths.
+shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
+    shadow_place s;
+    s.size = SHADOW(slot, SHADOW_MAP_SIZE);
+    s.far = SHADOW(slot, SHADOW_CODE).y;
+    s.soft = SHADOW(slot, SHADOW_SOFT);
+    s.inverse = type != LIGHT_DIRECTIONAL && radial;
+    if (type == LIGHT_DIRECTIONAL) {
+        s.at = from_vertex;
+        s.slope = shadow_slope_directional(slot, face, l);
+    } else {
+        s.at = shadow_point_spot(slot, radial, p, n, l);
+        s.slope = shadow_slope_spot(slot, radial, s.at, p, face, l);
+        mat4 m = shadow_matrix(slot); // tangents grow off the axis: by distance over depth
+        if (radial) s.soft.x *= distance(p, SHADOW(slot, SHADOW_PLACE).xyz) / (dot(vec3(m[0].w, m[1].w, m[2].w), p) + m[3].w);
+    }
+    return s;
+}
