@@ -117,7 +117,7 @@ $(LIB): $(call OBJ,$(SRC)) $(B)/obj/gen/embedded.o
 $(TESTLIB): $(call OBJ,$(filter-out $(PROG_C),$(TESTS_C)))
 $(LIB) $(TESTLIB): $(B)/sources
 	$(Q)rm -f $@.new && $(AR) rcs $@.new $(filter %.o,$^) && mv $@.new $@
-$(B)/obj/%.o: %.c $(B)/flags | $(B)/gen/config.h
+$(B)/obj/%.o: %.c $(B)/flags | $(B)/gen/config.h $(B)/gen/poisson.h
 	@mkdir -p $(@D) && echo "cc   $<"
 	$(Q)$(COMPILE) $(if $(filter tests/%,$<),-Itests) -c -o $@ $<
 $(B)/obj/gen/embedded.o: $(B)/gen/embedded.c $(B)/flags
@@ -141,6 +141,9 @@ $(B)/sources: FORCE
 $(B)/gen/config.h: FORCE
 	$(call keep,#define GN_VERSION "$(VERSION)"\n#define GN_HAVE_OSMESA $(if \
 	    $(filter %/osmesa.c,$(without)),0,1))
+$(B)/gen/poisson.h: $(O)/host/make_poisson
+	@mkdir -p $(@D)
+	$(Q)$< > $@
 $(B)/gen/embedded.c: $(O)/host/embed $(B)/sources $(EMBED)
 	$(Q)$< $(foreach f,$(EMBED),$(patsubst $(O)/%,%,$(patsubst shaders_es/%,%,\
 	    $(patsubst assets/%,%,$f)))=$f) > $@
@@ -192,7 +195,7 @@ accept:
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$<
 lint: $(patsubst %.c,$(O)/tidy/%.ok,src/main.c $(SRC))
-$(O)/tidy/%.ok: %.c .clang-tidy $(wildcard src/*/*.h) | $(B)/gen/config.h
+$(O)/tidy/%.ok: %.c .clang-tidy $(wildcard src/*/*.h) | $(B)/gen/config.h $(B)/gen/poisson.h
 	@mkdir -p $(@D) && echo "tidy $<"
 	$(Q)clang-tidy --quiet --warnings-as-errors='*' $< -- $(filter-out -f% -Wno%,$(ALL_CFLAGS)) 2> $@.log || { cat $@.log; false; } && touch $@
 format:

@@ -15,6 +15,11 @@ struct shadow_place {
     bool inverse;
 };
 
+float shadow_e(shadow_place s, float code) {
+    float x = s.soft.z * code + s.soft.w;
+    return s.inverse ? -1.0 / x : x;
+}
+
 // How the code changes on the plane with normal n, per uv; u, v, code: their gradients there, world space. On a plane seen edge-on
 // by the light it has no end: n is turned to the light by then. Solves gradient(code) = slope.x grad(u) + slope.y grad(v) + c n.
 vec2 shadow_slope(vec3 u, vec3 v, vec3 code, vec3 n, vec3 l) {

@@ -24,6 +24,7 @@ static const struct gn_choice aovs[] = {
 static const struct gn_choice outputs[] = {
     {"srgb", GN_PICTURE_SRGB}, {"linear", GN_PICTURE_LINEAR}, {0}};
 static const struct gn_choice samples[] = {{"0", 0}, {"2", 2}, {"4", 4}, {0}};
+static const struct gn_choice tap_counts[] = {{"8", 8}, {"16", 16}, {"32", 32}, {0}};
 static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};
 
 const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
@@ -69,6 +70,10 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
      .fallback = "1024", .help = "side of a shadow map", .commands = DRAW, .offset = FIELD(map_px)},
     {.name = "map-format", .section = "render", .kind = GN_KIND_WORD, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
      .help = "how a shadow map stores distance", .commands = DRAW, .offset = FIELD(map_format)},
+    {.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "16",
+     .help = "how many samples disk, poisson and pcss take", .commands = DRAW, .offset = FIELD(taps)},
+    {.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,
+     .help = "take them alike in every pixel: bands instead of grain", .commands = DRAW, .offset = FIELD(taps_fixed)},
     {.name = "shadow-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1, .value = "X", .fallback = "1",
      .help = "how much direct light a shadow takes away", .commands = DRAW, .offset = FIELD(shadow_strength)},
     {.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,

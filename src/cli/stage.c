@@ -54,6 +54,8 @@ static bool choose_frame(struct gn_stage *stage, struct gn_err *err) {
         .exposure_given = !isnan(o->exposure_ev),
         .exposure_ev = isnan(o->exposure_ev) ? 0.0f : (float)o->exposure_ev,
         .map_px = gn_options_given(o, map_px) ? (uint32_t)o->map_px : 0,
+        .taps = (unsigned)o->taps,
+        .taps_fixed = o->taps_fixed,
         .strength_given = gn_options_given(o, shadow_strength),
         .strength = (float)o->shadow_strength,
         .msaa = (uint32_t)o->msaa,

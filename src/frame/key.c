@@ -72,6 +72,11 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
     key.light_count = (uint8_t)frame->light_count;
     key.shadow_count =
         item->receives || opts->aov == GN_AOV_VISIBILITY ? (uint8_t)frame->shadow_count : 0;
+    for (uint32_t i = 0; i < key.shadow_count; i++)
+        if (gn_techniques[frame->lights[i].technique].taps) {
+            key.taps = (uint8_t)(opts->taps ? opts->taps : GN_TAPS_DEFAULT);
+            key.taps_turn = !opts->taps_fixed;
+        }
     for (uint32_t i = 0; i < frame->light_count; i++) {
         const struct gn_frame_light *light = &frame->lights[i];
         key.lights[i].type = (uint8_t)frame->scene->lights[light->light].type;

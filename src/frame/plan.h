@@ -60,8 +60,10 @@ struct gn_light_key {  /* one light of a LIT or visibility program */
 struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps come first. */
     uint32_t features;
     uint8_t kind, aov, light_count, shadow_count;
-    uint8_t encoding; /* DISTANCE: what it writes */
-    uint8_t pad[3];
+    uint8_t encoding;  /* DISTANCE: what it writes */
+    uint8_t taps;      /* LIT, visibility: of techniques that take them; 0: none does */
+    uint8_t taps_turn; /* they are turned from pixel to pixel */
+    uint8_t pad;
     struct gn_light_key lights[GN_LIGHTS_MAX];
 };
 
@@ -145,6 +147,8 @@ struct gn_frame_opts {            /* zero means the default written beside */
     enum gn_technique technique;
     enum gn_encoding encoding; /* GN_ENCODING_AUTO must be set for the automatic choice */
     uint32_t map_px;           /* 0: the light's, else 1024 */
+    unsigned taps;             /* of disk, poisson, pcss: 8, 16, 32; 16 */
+    bool taps_fixed;           /* the same for every pixel */
     enum gn_aov aov;
     int light; /* for visibility: which */
     bool output_linear, output_float;

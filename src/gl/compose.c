@@ -40,6 +40,9 @@ static const char *const kind_files[GN_PROGRAM_KIND_COUNT][2] = {
     [GN_PROGRAM_AOV] = {"lit.vert", "aov.frag"},
 };
 
+static const char *const taps_names[] = {
+    [GN_TAPS_DISK] = "TAPS_DISK", [GN_TAPS_POISSON] = "TAPS_POISSON"};
+
 static bool compares_in_sampler(const struct gn_light_key *light) {
     return light->encoding == GN_ENCODING_DEPTH && !gn_techniques[light->technique].searches;
 }
@@ -91,9 +94,13 @@ static void drop_suffixes(char names[GN_GL_NAMES_MAX][64], int count, struct gn_
 static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *light, int suffix,
                      struct gn_gl_text *out, struct gn_err *err) {
     const bool compares = compares_in_sampler(light);
-    const char *const files[] = {
-        compares ? "lib/map_depth.glsl" : gn_encodings[light->encoding].file,
-        compares ? NULL : "lib/map_lit.glsl", gn_techniques[light->technique].file};
+    const struct gn_technique_row *technique = &gn_techniques[light->technique];
+    const char *const files[] = {compares ? "lib/map_depth.glsl"
+                                          : gn_encodings[light->encoding].file,
+                                 compares ? NULL : "lib/map_lit.glsl",
+                                 technique->taps ? "lib/taps.glsl" : NULL, technique->file};
+    if (technique->taps)
+        gn_gl_text_add(out, "#define SHADOW_TAPS %s\n", taps_names[technique->taps]);
     enum { FILE_COUNT = sizeof files / sizeof *files };
     char names[FILE_COUNT][GN_GL_NAMES_MAX][64];
     int counts[FILE_COUNT] = {0};
@@ -106,8 +113,23 @@ static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *lig
     for (int i = 0; i < FILE_COUNT; i++)
         if (files[i] && !gn_gl_source_add(source, files[i], out, err)) return false;
     for (int i = 0; i < FILE_COUNT; i++) drop_suffixes(names[i], counts[i], out);
-    gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n");
+    gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n#undef SHADOW_TAPS\n");
     return true;
+}
+
+static void add_taps(const struct gn_program_key *key, struct gn_gl_text *out) {
+    if (!key->taps) return;
+    gn_gl_text_add(out, "const int TAPS = %d;\nconst bool TAPS_TURN = %s;\n", key->taps,
+                   key->taps_turn ? "true" : "false");
+    for (int kind = GN_TAPS_DISK; kind <= GN_TAPS_POISSON; kind++) {
+        float taps[GN_TAPS_MAX / 2][2];
+        gn_taps_build(kind, key->taps, taps);
+        gn_gl_text_add(out, "const vec2 %s[TAPS / 2] = vec2[TAPS / 2](", taps_names[kind]);
+        for (int i = 0; i < key->taps / 2; i++)
+            gn_gl_text_add(out, "%svec2(%.6f, %.6f)", i ? ", " : "", (double)taps[i][0],
+                           (double)taps[i][1]);
+        gn_gl_text_add(out, ");\n");
+    }
 }
 
 static bool add_maps(struct gn_gl_source *source, const struct gn_program_key *key,
@@ -150,6 +172,7 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
     if (lit && stage == GN_GL_FRAGMENT) {
         if (key->shadow_count && !gn_gl_source_add(&source, "lib/shadow_place.glsl", out, err))
             return false;
+        add_taps(key, out);
         if (!add_maps(&source, key, out, err)) return false;
         add_light_loops(key, out);
     }

@@ -32,6 +32,7 @@ struct fitter {
     int cone_count;
     float tan_cone;
     float scene_size_m;
+    float light_radius; /* as in gn_light */
 };
 
 void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count) {
@@ -265,6 +266,22 @@ static struct gn_shadow_region caster_region(const struct fitter *f, uint32_t it
     return !region_is_empty(r) && is_large_flat(f, item) ? useful_region(f, item, r) : *r;
 }
 
+/* How far off, in plane units, a caster can reach by its penumbra: as its like in set_soft(). */
+static float reach(const struct fitter *f, float near, float far) {
+    if (!gn_techniques[f->view->technique].soft || far <= near) return 0.0f;
+    float spread = f->view->perspective ? 1.0f / most(near, 1e-6f) - 1.0f / far : far - near;
+    return f->light_radius * spread;
+}
+
+static struct gn_shadow_region grown(const struct gn_shadow_region *region, float by) {
+    struct gn_shadow_region r = *region;
+    for (int k = 0; k < 2; k++) {
+        r.min[k] -= by;
+        r.max[k] += by;
+    }
+    return r;
+}
+
 /* The window before snapping, and the depths of all casters. */
 static bool find_window(const struct fitter *f, struct gn_shadow_region *window,
                         struct gn_shadow_region *depths) {
@@ -282,19 +299,23 @@ static bool find_window(const struct fitter *f, struct gn_shadow_region *window,
         struct gn_shadow_region r = caster_region(f, i);
         if (region_is_empty(&r)) continue;
         unite(depths, &r);
-        if (!regions_meet(&r, &receivers) || r.near > receivers.far) continue;
+        struct gn_shadow_region reached = grown(&receivers, reach(f, r.near, receivers.far));
+        if (!regions_meet(&r, &reached) || r.near > receivers.far) continue;
         casts[i] = 1;
-        r = intersect(&r, &receivers);
+        r = intersect(&r, &reached);
         unite(&casters, &r);
     }
     if (region_is_empty(&casters)) return false;
     for (uint32_t i = 0; i < count; i++) { /* receivers once more, now that the casters are known */
         if (!item_receives(f, i) || f->memory->seen[i] == SEEN_NOT) continue;
-        if (!regions_meet(whole_region(f, i), &casters)) continue;
+        const struct gn_shadow_region *whole = whole_region(f, i);
+        struct gn_shadow_region reached = grown(whole, reach(f, casters.near, whole->far));
+        if (!regions_meet(&reached, &casters)) continue;
         const struct gn_shadow_region *seen = seen_region(f, i);
-        if (region_is_empty(seen) || !regions_meet(seen, &casters) || seen->far < casters.near)
-            continue;
-        struct gn_shadow_region r = intersect(seen, &casters);
+        if (region_is_empty(seen) || seen->far < casters.near) continue;
+        reached = grown(seen, reach(f, casters.near, seen->far));
+        if (!regions_meet(&reached, &casters)) continue;
+        struct gn_shadow_region r = intersect(&reached, &casters);
         unite(&again, &r);
     }
     *window = intersect(&casters, &again);
@@ -467,7 +488,8 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                                     .map_px = opts->map_px};
     const struct gn_light *l = &pose->scene->lights[light];
     if (l->type == GN_LIGHT_POINT || opts->technique == GN_TECHNIQUE_NONE) return false;
-    struct fitter f = {.pose = pose, .eye = eye, .memory = memory, .view = view};
+    struct fitter f = {
+        .pose = pose, .eye = eye, .memory = memory, .view = view, .light_radius = l->radius};
     f.scene_size_m =
         fmaxf(glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max), 1e-6f);
     place_light(&f, l);

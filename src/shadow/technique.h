@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "core/err.h"
+#include "shadow/taps.h"
 
 enum gn_technique {
     GN_TECHNIQUE_NONE,
@@ -15,6 +16,9 @@ enum gn_technique {
     GN_TECHNIQUE_PCF2,
     GN_TECHNIQUE_PCF3,
     GN_TECHNIQUE_PCF5,
+    GN_TECHNIQUE_DISK,
+    GN_TECHNIQUE_POISSON,
+    GN_TECHNIQUE_PCSS,
     GN_TECHNIQUE_COUNT,
 };
 
@@ -34,7 +38,9 @@ struct gn_technique_row {
     const char *file; /* below shaders_es/, NULL for none */
     bool filters;     /* compares four texels and weighs them: wants a LINEAR compare sampler */
     bool searches; /* asks how far a blocker is: a depth map behind a sampler that compares not */
-    bool reads_distance;    /* `auto` gives it a distance map; else a depth map */
+    bool reads_distance; /* `auto` gives it a distance map; else a depth map */
+    bool soft; /* its penumbrae are as wide as the light is large: the map reaches as far */
+    enum gn_taps taps;
     unsigned radius_texels; /* how far from the point it reads, rounded up: margin of the map */
     float bias_texels; /* what the normal offset and slope grow with. Of a flat surface what is read
                           up to 1.7 times as far away stays lit; beyond that lie under 2 % of the

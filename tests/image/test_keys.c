@@ -47,6 +47,7 @@ static void add_light(struct gn_program_key *key, int type, int technique, int e
     light->technique = (uint8_t)technique;
     light->encoding = (uint8_t)(technique ? encoding : 0);
     key->shadow_count += technique != GN_TECHNIQUE_NONE;
+    if (gn_techniques[technique].taps) key->taps = GN_TAPS_DEFAULT, key->taps_turn = 1;
 }
 
 static void compiles(const struct gn_program_key *key) {

@@ -23,6 +23,7 @@ static struct gn_program_key lit(uint32_t features, enum gn_light_type type, con
     key.shadow_count = t != GN_TECHNIQUE_NONE;
     key.lights[0].technique = (uint8_t)t;
     key.lights[0].encoding = (uint8_t)e;
+    if (gn_techniques[t].taps) key.taps = GN_TAPS_DEFAULT, key.taps_turn = 1;
     return key;
 }
 
@@ -91,6 +92,12 @@ int main(int argc, char **argv) {
         {"pcf2", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf2", "depth")},
         {"pcf3", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf3", "depth")},
         {"pcf5", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf5", "depth")},
+        {"disk", lit(FULL, GN_LIGHT_DIRECTIONAL, "disk", "r16f")},
+        {"disk-depth", lit(FULL, GN_LIGHT_DIRECTIONAL, "disk", "depth")},
+        {"poisson", lit(FULL, GN_LIGHT_DIRECTIONAL, "poisson", "r16f")},
+        {"pcss", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcss", "r16f")},
+        {"pcss-depth", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcss", "depth")},
+        {"pcss-spot", lit(FULL, GN_LIGHT_SPOT, "pcss", "r16f")},
         {"pcf-r16f", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "r16f")},
         {"pcf-spot", lit(FULL, GN_LIGHT_SPOT, "pcf", "depth")},
         {"hard-spot", lit(FULL, GN_LIGHT_SPOT, "hard", "r16f")},

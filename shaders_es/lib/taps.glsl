@@ -1,0 +1,21 @@
+//@ names taps_lit taps_to_map
+// The share of taps, spread over a disk, that see the light: TAPS / 2 points of the unit disk in SHADOW_TAPS, and their opposites.
+// radius: texels. Each tap compares with the receiver's plane at its own place, so that a wide filter shadows no surface that it lies on.
+#include "lib/noise.glsl"
+
+// From the unit disk to uv and code.
+mat2x3 taps_to_map(shadow_place s, float radius, mat2 turn) {
+    vec2 scale = radius * s.size.zw;
+    vec2 x = turn[0] * scale, y = turn[1] * scale;
+    return mat2x3(vec3(x, dot(s.slope, x)), vec3(y, dot(s.slope, y)));
+}
+
+float taps_lit(MAP_SAMPLER map, shadow_place s, float radius, mat2 turn) {
+    mat2x3 to_map = taps_to_map(s, radius, turn);
+    float lit = 0.0;
+    for (int i = 0; i < TAPS / 2; i++) {
+        vec3 d = to_map * SHADOW_TAPS[i];
+        lit += map_lit(map, s.at + d, s) + map_lit(map, s.at - d, s);
+    }
+    return lit * (1.0 / float(TAPS));
+}

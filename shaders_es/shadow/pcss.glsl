@@ -1,0 +1,20 @@
+//@ names shadow_visibility
+// Penumbrae as wide as the light makes them (Fernando, "Percentage-Closer Soft Shadows", 2005): how far the blockers are on average
+// over all of the map that could hold one, then a filter as wide as their penumbra is at the receiver.
+float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
+    mat2 turn = noise_turn();
+    float e = shadow_e(s, s.at.z);
+    mat2x3 to_map = taps_to_map(s, max(s.soft.x * (e - s.soft.y), 1.0), turn);
+    float blocked = 0.0, codes = 0.0;
+    for (int i = 0; i < TAPS / 2; i++) {
+        vec3 d = to_map * SHADOW_TAPS[i];
+        vec3 a = s.at + d, b = s.at - d;
+        vec2 code = vec2(map_code(map, a.xy), map_code(map, b.xy));
+        vec2 blocks = 1.0 - step(min(vec2(a.z, b.z), s.far), code);
+        blocked += blocks.x + blocks.y;
+        codes += dot(blocks, code);
+    }
+    if (blocked < 0.5) return 1.0;
+    float radius = s.soft.x * (e - shadow_e(s, codes / blocked));
+    return taps_lit(map, s, max(radius, 1.0), turn);
+}

@@ -1,0 +1,17 @@
+/* Where the techniques that take many samples take them: points in the unit disk, evenly spread,
+ * each with its opposite: a shader then works out half of them, and their middle is the disk's.
+ * Pure. */
+#ifndef GN_SHADOW_TAPS_H
+#define GN_SHADOW_TAPS_H
+
+enum gn_taps {
+    GN_TAPS_NONE,
+    GN_TAPS_DISK, /* uniform: radius by the square root, turned by the golden angle (Vogel 1979) */
+    GN_TAPS_POISSON, /* no two closer than a distance: Bridson 2007, assets/make_poisson.c */
+};
+enum { GN_TAPS_MAX = 32, GN_TAPS_DEFAULT = 16 };
+
+/* count: 8, 16 or 32 samples. Fills out with half as many points. */
+void gn_taps_build(enum gn_taps kind, int count, float (*out)[2]);
+
+#endif

@@ -1,0 +1,257 @@
+#include "image/penumbra.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "core/file.h"
+#include "image/raycast.h"
+#include "image/shot.h"
+#include "unit/gltf_maker.h"
+
+/* ---- scenes ---- */
+
+/* Nodes with mesh 0 (a square of 2 m) or 1 (a cube of 2 m). */
+static const struct {
+    const char *name, *nodes, *light;
+    float light_up_m; /* 0: a sun */
+} scenes[GN_PENUMBRA_COUNT] = {
+    [GN_PENUMBRA_LOW] = {"low", "{'mesh':0,'translation':[0,1,0],'scale':[1.2,1,0.8]}",
+                         "'extras':{'gnomon_radius':0.3}", 9},
+    [GN_PENUMBRA_MIDDLE] = {"middle",
+                            "{'mesh':0,'translation':[0,2,0],'rotation':[0,0.2588,0,0.9659],"
+                            "'scale':[1,1,1]}",
+                            "'extras':{'gnomon_radius':0.8}", 9},
+    [GN_PENUMBRA_HIGH] = {"high", "{'mesh':0,'translation':[0,4,0],'scale':[1.5,1,1]}",
+                          "'extras':{'gnomon_radius':1.5}", 9},
+    [GN_PENUMBRA_BOX] = {"box",
+                         "{'mesh':1,'translation':[0,2.5,0],'rotation':[0.2,0.3,0.1,0.9274],"
+                         "'scale':[0.8,0.5,0.6]}",
+                         "'extras':{'gnomon_radius':0.6}", 9},
+    [GN_PENUMBRA_BARS] = {"bars",
+                          "{'mesh':1,'translation':[-1.5,1,0],'scale':[0.2,0.2,2]},"
+                          "{'mesh':1,'translation':[0,2,0],'scale':[0.2,0.2,2]},"
+                          "{'mesh':1,'translation':[1.5,3,0],'scale':[0.2,0.2,2]}",
+                          "'extras':{'gnomon_radius':0.08}", 0},
+    [GN_PENUMBRA_LEAN] = {"lean",
+                          "{'mesh':0,'translation':[0,1,0],'rotation':[0,0,0.4226,0.9063],"
+                          "'scale':[1.3054,1,1.5]}",
+                          "'extras':{'gnomon_radius':0.6}", 9},
+    [GN_PENUMBRA_EDGE] = {"edge", "{'mesh':0,'translation':[-6,3,0],'scale':[6,1,20]}",
+                          "'extras':{'gnomon_radius':0.15}", 0},
+};
+const char *const gn_penumbra_names[GN_PENUMBRA_COUNT] = {"low",  "middle", "high", "box",
+                                                          "bars", "lean",   "edge"};
+
+static void add_cube(struct gn_maker *maker) {
+    float positions[72];
+    uint16_t indices[36];
+    int n = 0;
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = -1; side <= 1; side += 2)
+            for (int i = 0; i < 4; i++, n++) { /* anticlockwise seen from outside */
+                float u = i == 1 || i == 2 ? 1 : -1, v = i > 1 ? 1 : -1;
+                positions[3 * n + axis] = (float)side;
+                positions[3 * n + (axis + 1) % 3] = u * (float)side;
+                positions[3 * n + (axis + 2) % 3] = v;
+            }
+    for (int f = 0; f < 6; f++)
+        for (int i = 0; i < 6; i++)
+            indices[6 * f + i] = (uint16_t)(4 * f + (const int[]){0, 1, 2, 0, 2, 3}[i]);
+    char mesh[200];
+    int p = gn_maker_accessor(maker, "VEC3", 5126, 24, positions, sizeof positions,
+                              "'min':[-1,-1,-1],'max':[1,1,1]");
+    int i = gn_maker_accessor(maker, "SCALAR", 5123, 36, indices, sizeof indices, NULL);
+    snprintf(mesh, sizeof mesh, "{'primitives':[{'attributes':{'POSITION':%d},'indices':%d}]}", p,
+             i);
+    gn_maker_add(maker, "meshes", mesh);
+}
+
+/* The edge is seen straight from above, the others from the side; all on a ground of 24 m. */
+static void add_nodes(struct gn_maker *maker, int scene) {
+    static const char aside[] = "'translation':[0,7,9],'rotation':[-0.3584,0,0,0.9336]";
+    static const char above[] = "'translation':[0,2.5,0],'rotation':[-0.70710678,0,0,0.70710678]";
+    static const char straight_down[] = "-0.70710678,0,0,0.70710678";
+    static const char slanting[] = "-0.5577,-0.1494,-0.1002,0.8102"; /* a sun 40 degrees off */
+    char nodes[2000];
+    snprintf(nodes, sizeof nodes,
+             "[{'mesh':0,'scale':[12,1,12]},{'camera':0,%s},"
+             "{'translation':[0.5,%g,0.3],'rotation':[%s],"
+             "'extensions':{'KHR_lights_punctual':{'light':0}}},%s]",
+             scene == GN_PENUMBRA_EDGE ? above : aside, (double)scenes[scene].light_up_m,
+             scene == GN_PENUMBRA_BARS ? slanting : straight_down, scenes[scene].nodes);
+    gn_maker_set(maker, "nodes", nodes);
+    gn_maker_set(maker, "scenes",
+                 scene == GN_PENUMBRA_BARS ? "[{'nodes':[0,1,2,3,4,5]}]" : "[{'nodes':[0,1,2,3]}]");
+}
+
+static void add_light(struct gn_maker *maker, int scene) {
+    char light[600];
+    snprintf(light, sizeof light, "{'KHR_lights_punctual':{'lights':[{'type':'%s',%s,%s}]}}",
+             scenes[scene].light_up_m > 0 ? "spot" : "directional",
+             scenes[scene].light_up_m > 0
+                 ? "'intensity':300,'spot':{'innerConeAngle':0.9,'outerConeAngle':1.0}"
+                 : "'intensity':3",
+             scenes[scene].light);
+    gn_maker_set(maker, "extensionsUsed", "['KHR_lights_punctual']");
+    gn_maker_set(maker, "extensions", light);
+}
+
+char *gn_penumbra_write(int scene, struct gn_err *err) {
+    struct gn_maker maker;
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    add_cube(&maker);
+    add_nodes(&maker, scene);
+    add_light(&maker, scene);
+    gn_maker_set(&maker, "cameras",
+                 "[{'type':'perspective','perspective':{'yfov':0.7,'znear':0.1,'zfar':60}}]");
+    struct gn_made made = gn_maker_glb(&maker);
+    gn_maker_finish(&maker);
+    char *path = NULL;
+    if (asprintf(&path, "%s/penumbra-%s.glb", gn_shot_build(), scenes[scene].name) < 0) abort();
+    bool ok = gn_file_write(path, made.data, made.size, err);
+    free(made.data);
+    if (ok) return path;
+    free(path);
+    return NULL;
+}
+
+/* ---- truth ---- */
+
+enum { FEW = 24, MANY = 768 };
+
+struct caster {
+    struct gn_raycast rays;
+    struct gn_ray_eye eye;
+    struct gn_ray_lamp lamp;
+};
+
+static float share_at(const struct caster *c, int x, int y, int samples) {
+    struct gn_ray_surface surface;
+    if (!gn_raycast_eye(&c->rays, &c->eye, x, y, &surface)) return 1;
+    return (float)gn_raycast_share(&c->rays, &c->lamp, &surface, samples);
+}
+
+/* Few rays first; many where they or those of a neighbour do not agree. */
+static bool is_mixed(const struct gn_picture *few, int x, int y) {
+    float first = *gn_picture_at(few, x, y);
+    if (first > 0 && first < 1) return true;
+    for (int dy = -3; dy <= 3; dy++)
+        for (int dx = -3; dx <= 3; dx++) {
+            int nx = x + dx, ny = y + dy;
+            if (nx < 0 || ny < 0 || nx >= few->width_px || ny >= few->height_px) continue;
+            if (*gn_picture_at(few, nx, ny) != first) return true;
+        }
+    return false;
+}
+
+static void cast_all(const struct caster *c, struct gn_picture *truth) {
+    struct gn_picture few;
+    gn_picture_init(&few, truth->width_px, truth->height_px, 1);
+    for (int y = 0; y < few.height_px; y++)
+        for (int x = 0; x < few.width_px; x++) *gn_picture_at(&few, x, y) = share_at(c, x, y, FEW);
+    for (int y = 0; y < few.height_px; y++)
+        for (int x = 0; x < few.width_px; x++)
+            *gn_picture_at(truth, x, y) =
+                is_mixed(&few, x, y) ? share_at(c, x, y, MANY) : *gn_picture_at(&few, x, y);
+    gn_picture_finish(&few);
+}
+
+bool gn_penumbra_truth(struct gn_picture *truth, const char *path, int width_px, int height_px,
+                       struct gn_err *err) {
+    struct gn_scene *scene = gn_scene_load(path, NULL, NULL, err);
+    if (!scene) return false;
+    struct gn_pose pose;
+    struct caster c;
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    gn_pose_step(&pose, 0);
+    gn_raycast_init(&c.rays, scene, &pose);
+    gn_ray_eye_init(&c.eye, &pose, 0, width_px, height_px);
+    gn_ray_lamp_init(&c.lamp, &pose, 0);
+    gn_picture_init(truth, width_px, height_px, 1);
+    cast_all(&c, truth);
+    gn_raycast_finish(&c.rays);
+    gn_pose_finish(&pose);
+    gn_scene_destroy(scene);
+    return true;
+}
+
+/* ---- measures ---- */
+
+static bool is_soft(const struct gn_picture *truth, int x, int y) {
+    for (int dy = -2; dy <= 2; dy++)
+        for (int dx = -2; dx <= 2; dx++) {
+            int nx = x + dx, ny = y + dy;
+            if (nx < 0 || ny < 0 || nx >= truth->width_px || ny >= truth->height_px) continue;
+            float v = *gn_picture_at(truth, nx, ny);
+            if (v > .01f && v < .99f) return true;
+        }
+    return false;
+}
+
+void gn_penumbra_score(const struct gn_picture *truth, const struct gn_picture *shot,
+                       struct gn_penumbra_score *score) {
+    double sum[2] = {0}, square[2] = {0};
+    long count[2] = {0};
+    for (int y = 0; y < truth->height_px; y++)
+        for (int x = 0; x < truth->width_px; x++) {
+            double d = (double)*gn_picture_at(shot, x, y) - (double)*gn_picture_at(truth, x, y);
+            int soft = is_soft(truth, x, y);
+            sum[soft] += d;
+            square[soft] += d * d;
+            count[soft]++;
+        }
+    double n = count[1] ? (double)count[1] : 1;
+    score->soft_pixels = count[1];
+    score->soft = sqrt(square[1] / n);
+    score->rest = sqrt(square[0] / (count[0] ? (double)count[0] : 1));
+    score->bias = sum[1] / n;
+    score->grain = sqrt(fmax(square[1] / n - score->bias * score->bias, 0));
+}
+
+/* Means of the columns: the edge runs along the picture's height. */
+static void profile(const struct gn_picture *picture, double *mean, double *deviation) {
+    for (int x = 0; x < picture->width_px; x++) {
+        double sum = 0, square = 0;
+        for (int y = 0; y < picture->height_px; y++) {
+            double v = *gn_picture_at(picture, x, y);
+            sum += v;
+            square += v * v;
+        }
+        mean[x] = sum / picture->height_px;
+        deviation[x] = sqrt(fmax(square / picture->height_px - mean[x] * mean[x], 0));
+    }
+}
+
+/* Where a profile crosses a level for the first time, in pixels. */
+static double crossing(const double *mean, int count, double level) {
+    for (int x = 1; x < count; x++)
+        if ((mean[x - 1] - level) * (mean[x] - level) <= 0 && mean[x] != mean[x - 1])
+            return x - 1 + (level - mean[x - 1]) / (mean[x] - mean[x - 1]);
+    return NAN;
+}
+
+void gn_penumbra_edge(const struct gn_picture *truth, const struct gn_picture *shot,
+                      struct gn_penumbra_edge *edge) {
+    int count = truth->width_px;
+    double *mean = gn_xalloc((size_t)count * 4, sizeof *mean);
+    double *expected = mean + count, *deviation = mean + 2 * count, *none = mean + 3 * count;
+    profile(shot, mean, deviation);
+    profile(truth, expected, none);
+    double pixel_m = 2 * 2.5 * tan(0.35) / truth->height_px, sum = 0;
+    *edge = (struct gn_penumbra_edge){0};
+    edge->width = fabs(crossing(mean, count, .9) - crossing(mean, count, .1)) * pixel_m;
+    edge->width_truth =
+        fabs(crossing(expected, count, .9) - crossing(expected, count, .1)) * pixel_m;
+    double direction = expected[count - 1] > expected[0] ? 1 : -1;
+    for (int x = 0; x < count; x++) {
+        sum += mean[x] - expected[x];
+        edge->grain = fmax(edge->grain, deviation[x]);
+        if (x > 0) edge->rise = fmax(edge->rise, direction * (mean[x - 1] - mean[x]));
+    }
+    edge->energy = sum * pixel_m / (2 * GN_PENUMBRA_EDGE_M);
+    free(mean);
+}

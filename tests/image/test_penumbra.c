@@ -1,0 +1,124 @@
+/* Penumbrae against truth: pcss is as wide as the light makes it, disk and poisson are monotone and
+ * not too grainy. The quick form is smaller and leaves out some formats. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/compare.h"
+#include "image/penumbra.h"
+#include "image/shot.h"
+#include "unit/check.h"
+
+enum { QUICK_W = 240, QUICK_H = 180, FULL_W = 640, FULL_H = 480 };
+
+static int width(void) { return gn_shot_full() ? FULL_W : QUICK_W; }
+static int height(void) { return gn_shot_full() ? FULL_H : QUICK_H; }
+
+static struct gn_picture shoot(const char *path, const char *technique, const char *format,
+                               const char *taps) {
+    struct gn_err err = {0};
+    struct gn_picture shot;
+    char size[32];
+    snprintf(size, sizeof size, "%dx%d", width(), height());
+    const char *const args[] = {"--aov",  "visibility", "--size",  size,           "--backend",
+                                "egl",    "--shadow",   technique, "--map-format", format,
+                                "--taps", taps,         NULL};
+    if (!gn_shot(&shot, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
+    return shot;
+}
+
+static char *make(int scene, struct gn_picture *truth) {
+    struct gn_err err = {0};
+    char *path = gn_penumbra_write(scene, &err);
+    if (!path || !gn_penumbra_truth(truth, path, width(), height(), &err)) fail_msg("%s", err.text);
+    return path;
+}
+
+static struct gn_penumbra_score score_of(const char *path, const struct gn_picture *truth,
+                                         const char *technique, const char *format) {
+    struct gn_picture shot = shoot(path, technique, format, "16");
+    struct gn_penumbra_score score;
+    gn_penumbra_score(truth, &shot, &score);
+    gn_picture_finish(&shot);
+    return score;
+}
+
+static void check_scene(int scene) {
+    static const char *const formats[] = {"r16f", "depth", "r32ui", "rgba8", "r16f-raw"};
+    struct gn_picture truth;
+    char *path = make(scene, &truth);
+    struct gn_penumbra_score hard = score_of(path, &truth, "hard", "r16f");
+    for (int f = 0; f < (gn_shot_full() ? 5 : 2); f++) {
+        struct gn_penumbra_score pcss = score_of(path, &truth, "pcss", formats[f]);
+        print_message("%-7s %-8s soft %.4f (hard %.4f, %.2f of it), rest %.4f\n",
+                      gn_penumbra_names[scene], formats[f], pcss.soft, hard.soft,
+                      pcss.soft / hard.soft, pcss.rest);
+        assert_true(pcss.soft_pixels > 200);
+        assert_true(pcss.soft <= .06);
+        assert_true(pcss.soft <= .3 * hard.soft);
+        assert_true(pcss.rest <= .02);
+    }
+    gn_picture_finish(&truth);
+    free(path);
+}
+
+static void test_pcss(void **state) {
+    (void)state;
+    for (int scene = 0; scene < GN_PENUMBRA_EDGE; scene++) check_scene(scene);
+}
+
+static void test_the_edge_of_a_half_plane_is_exact(void **state) {
+    (void)state;
+    struct gn_picture truth;
+    char *path = make(GN_PENUMBRA_EDGE, &truth);
+    struct gn_picture shot = shoot(path, "pcss", "auto", "16");
+    struct gn_penumbra_edge edge;
+    gn_penumbra_edge(&truth, &shot, &edge);
+    print_message("width %.3f of %.3f m, energy %+.4f, grain %.3f, back %.4f\n", edge.width,
+                  edge.width_truth, edge.energy, edge.grain, edge.rise);
+    assert_true(fabs(edge.width - edge.width_truth) <= .1 * edge.width_truth);
+    assert_true(fabs(edge.energy) <= .02);
+    assert_true(edge.rise <= .01);
+    gn_picture_finish(&shot);
+    gn_picture_finish(&truth);
+    free(path);
+}
+
+/* A filter three texels wide: the map is coarse, so that its penumbra is many pixels wide. */
+static void test_disks_are_monotone_and_hardly_grainy(void **state) {
+    (void)state;
+    static const char *const techniques[] = {"disk", "poisson"};
+    struct gn_picture truth;
+    char *path = make(GN_PENUMBRA_EDGE, &truth);
+    for (int t = 0; t < 2; t++) {
+        struct gn_err err = {0};
+        struct gn_picture shot, again;
+        const char *const args[] = {"--aov",     "visibility", "--size",   "480x360",
+                                    "--backend", "egl",        "--shadow", techniques[t],
+                                    "--map",     "32",         NULL};
+        if (!gn_shot(&shot, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
+        if (!gn_shot(&again, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
+        struct gn_penumbra_edge edge;
+        gn_penumbra_edge(&shot, &shot, &edge);
+        print_message("%s: %.3f m wide, grain %.3f, back %.4f\n", techniques[t], edge.width,
+                      edge.grain, edge.rise);
+        assert_true(edge.width > .05); /* it is wide enough to be looked at */
+        assert_true(edge.grain <= .08);
+        assert_true(edge.rise <= .01);
+        assert_memory_equal(shot.data, again.data, 480ul * 360 * sizeof(float));
+        gn_picture_finish(&shot);
+        gn_picture_finish(&again);
+    }
+    gn_picture_finish(&truth);
+    free(path);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_pcss),
+        cmocka_unit_test(test_the_edge_of_a_half_plane_is_exact),
+        cmocka_unit_test(test_disks_are_monotone_and_hardly_grainy),
+    };
+    return cmocka_run_group_tests_name("penumbra", tests, NULL, NULL);
+}
