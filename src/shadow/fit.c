@@ -13,15 +13,13 @@
 #include "core/arena.h"
 #include "core/hash.h"
 #include "shadow/private.h"
+#include "shadow/region.h"
 
 #define SPOT_MAX_RAD 1.3962634f /* 80 degrees: beyond it a spot's map does not reach */
 #define EXACT_TRIANGLES                                                                            \
     32 /* geometries up to this many are clipped triangle by triangle, larger ones as boxes */
 #define STEPS_PER_OCTAVE 8 /* of the texel's size: the window's width moves in steps of 9 % */
 #define RIM_TEXELS       2 /* cleared rim, and the texel that snapping takes */
-
-static const struct gn_shadow_region nothing = {
-    {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, INFINITY, -INFINITY, 0.0f};
 
 struct fitter {
     const struct gn_pose *pose;
@@ -52,40 +50,6 @@ void gn_shadow_memory_finish(struct gn_shadow_memory *memory) {
     free(memory->part);
     free(memory->pose_hash);
     *memory = (struct gn_shadow_memory){0};
-}
-
-/* As fminf and fmaxf, which are calls, for numbers. */
-static float least(float a, float b) { return a < b ? a : b; }
-static float most(float a, float b) { return a > b ? a : b; }
-
-static bool region_is_empty(const struct gn_shadow_region *r) {
-    return r->min[0] > r->max[0] || r->min[1] > r->max[1];
-}
-
-static bool regions_meet(const struct gn_shadow_region *a, const struct gn_shadow_region *b) {
-    return a->min[0] <= b->max[0] && b->min[0] <= a->max[0] && a->min[1] <= b->max[1] &&
-           b->min[1] <= a->max[1];
-}
-
-static struct gn_shadow_region intersect(const struct gn_shadow_region *a,
-                                         const struct gn_shadow_region *b) {
-    struct gn_shadow_region r = *a;
-    for (int k = 0; k < 2; k++) {
-        r.min[k] = most(a->min[k], b->min[k]);
-        r.max[k] = least(a->max[k], b->max[k]);
-    }
-    return r;
-}
-
-static void unite(struct gn_shadow_region *a, const struct gn_shadow_region *b) {
-    if (region_is_empty(b)) return;
-    for (int k = 0; k < 2; k++) {
-        a->min[k] = least(a->min[k], b->min[k]);
-        a->max[k] = most(a->max[k], b->max[k]);
-    }
-    a->near = least(a->near, b->near);
-    a->far = most(a->far, b->far);
-    a->far_radial = most(a->far_radial, b->far_radial);
 }
 
 static void add_point(const struct fitter *f, struct gn_shadow_region *r, vec3 p_ws) {
@@ -271,15 +235,6 @@ static float reach(const struct fitter *f, float near, float far) {
     if (!gn_techniques[f->view->technique].soft || far <= near) return 0.0f;
     float spread = f->view->perspective ? 1.0f / most(near, 1e-6f) - 1.0f / far : far - near;
     return f->light_radius * spread;
-}
-
-static struct gn_shadow_region grown(const struct gn_shadow_region *region, float by) {
-    struct gn_shadow_region r = *region;
-    for (int k = 0; k < 2; k++) {
-        r.min[k] -= by;
-        r.max[k] += by;
-    }
-    return r;
 }
 
 /* The window before snapping, and the depths of all casters. */
