@@ -70,7 +70,8 @@ static bool light_is_outside(const struct gn_box *box, const struct gn_shadow_vi
     return false;
 }
 
-/* Casting from both sides, a solid body needs only the faces that look to a light outside it. */
+/* Casting from both sides, a solid body needs only the faces that look to a light outside it;
+ * `auto` gives it the others (second depth: Wang, Molnar 1994), and what is open both. */
 static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_pose *pose,
                                 uint32_t index, const struct gn_shadow_view *view) {
     const struct gn_item *item = &scene->items[index];
@@ -78,8 +79,8 @@ static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_po
     if (item->cast_faces == GN_CAST_BACK) return GN_CULL_FRONT;
     bool solid = scene->geometries[item->geometry].closed &&
                  scene->materials[item->material].alpha != GN_ALPHA_MASK;
-    return solid && light_is_outside(&pose->items[index].box_ws, view) ? GN_CULL_BACK
-                                                                       : GN_CULL_NONE;
+    if (!solid || !light_is_outside(&pose->items[index].box_ws, view)) return GN_CULL_NONE;
+    return item->cast_faces == GN_CAST_AUTO ? GN_CULL_FRONT : GN_CULL_BACK;
 }
 
 static enum gn_cull eye_cull(const struct gn_frame *frame, const struct gn_item *item) {

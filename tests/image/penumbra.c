@@ -45,30 +45,6 @@ static const struct {
 const char *const gn_penumbra_names[GN_PENUMBRA_COUNT] = {"low",  "middle", "high", "box",
                                                           "bars", "lean",   "edge"};
 
-static void add_cube(struct gn_maker *maker) {
-    float positions[72];
-    uint16_t indices[36];
-    int n = 0;
-    for (int axis = 0; axis < 3; axis++)
-        for (int side = -1; side <= 1; side += 2)
-            for (int i = 0; i < 4; i++, n++) { /* anticlockwise seen from outside */
-                float u = i == 1 || i == 2 ? 1 : -1, v = i > 1 ? 1 : -1;
-                positions[3 * n + axis] = (float)side;
-                positions[3 * n + (axis + 1) % 3] = u * (float)side;
-                positions[3 * n + (axis + 2) % 3] = v;
-            }
-    for (int f = 0; f < 6; f++)
-        for (int i = 0; i < 6; i++)
-            indices[6 * f + i] = (uint16_t)(4 * f + (const int[]){0, 1, 2, 0, 2, 3}[i]);
-    char mesh[200];
-    int p = gn_maker_accessor(maker, "VEC3", 5126, 24, positions, sizeof positions,
-                              "'min':[-1,-1,-1],'max':[1,1,1]");
-    int i = gn_maker_accessor(maker, "SCALAR", 5123, 36, indices, sizeof indices, NULL);
-    snprintf(mesh, sizeof mesh, "{'primitives':[{'attributes':{'POSITION':%d},'indices':%d}]}", p,
-             i);
-    gn_maker_add(maker, "meshes", mesh);
-}
-
 /* The edge is seen straight from above, the others from the side; all on a ground of 24 m. */
 static void add_nodes(struct gn_maker *maker, int scene) {
     static const char aside[] = "'translation':[0,7,9],'rotation':[-0.3584,0,0,0.9336]";
@@ -103,7 +79,7 @@ char *gn_penumbra_write(int scene, struct gn_err *err) {
     struct gn_maker maker;
     gn_maker_init(&maker);
     gn_maker_square(&maker);
-    add_cube(&maker);
+    gn_maker_cube(&maker);
     add_nodes(&maker, scene);
     add_light(&maker, scene);
     gn_maker_set(&maker, "cameras",

@@ -17,12 +17,12 @@ static void quick_rows(struct gn_table *table) {
 
 static void full_rows(struct gn_table *table) {
     static const char *const formats[] = {"r16f", "depth", "r16f-raw", "r32ui", "rgba8"};
-    static const char *const filters[] = {"pcf", "pcf2", "pcf3", "pcf5"};
+    static const char *const filters[] = {"pcf", "pcf2", "pcf3", "pcf5", "disk", "poisson", "pcss"};
     static const unsigned maps[] = {1024, 256};
     for (int i = 0; i < GN_TABLE_SCENES; i++) table->scenes[i] = true;
     for (int m = 0; m < 2; m++) {
         for (int f = 0; f < 5; f++) gn_table_add(table, "hard", formats[f], maps[m]);
-        for (int t = 0; t < 4; t++)
+        for (int t = 0; t < 7; t++)
             for (int f = 0; f < 2; f++) gn_table_add(table, filters[t], formats[f], maps[m]);
     }
 }

@@ -81,6 +81,30 @@ void gn_maker_square(struct gn_maker *maker) {
     gn_maker_set(maker, "scene", "0");
 }
 
+void gn_maker_cube(struct gn_maker *maker) {
+    float positions[72];
+    uint16_t indices[36];
+    int n = 0;
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = -1; side <= 1; side += 2)
+            for (int i = 0; i < 4; i++, n++) { /* anticlockwise seen from outside */
+                float u = i == 1 || i == 2 ? 1 : -1, v = i > 1 ? 1 : -1;
+                positions[3 * n + axis] = (float)side;
+                positions[3 * n + (axis + 1) % 3] = u * (float)side;
+                positions[3 * n + (axis + 2) % 3] = v;
+            }
+    for (int f = 0; f < 6; f++)
+        for (int i = 0; i < 6; i++)
+            indices[6 * f + i] = (uint16_t)(4 * f + (const int[]){0, 1, 2, 0, 2, 3}[i]);
+    char mesh[200];
+    int p = gn_maker_accessor(maker, "VEC3", 5126, 24, positions, sizeof positions,
+                              "'min':[-1,-1,-1],'max':[1,1,1]");
+    int i = gn_maker_accessor(maker, "SCALAR", 5123, 36, indices, sizeof indices, NULL);
+    snprintf(mesh, sizeof mesh, "{'primitives':[{'attributes':{'POSITION':%d},'indices':%d}]}", p,
+             i);
+    gn_maker_add(maker, "meshes", mesh);
+}
+
 static void put_u32(uint8_t *out, size_t value) {
     for (int i = 0; i < 4; i++) out[i] = (uint8_t)(value >> (8 * i));
 }

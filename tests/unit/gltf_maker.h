@@ -35,6 +35,8 @@ int gn_maker_accessor(struct gn_maker *maker, const char *type, int component, s
 /* A 2 x 2 square in y = 0, facing up, as mesh 0 (accessors 0 and 1, no normals), node 0 with it,
  * and a scene. */
 void gn_maker_square(struct gn_maker *maker);
+/* A cube from -1 to 1 as the next mesh: closed, flat normals left to the loader. */
+void gn_maker_cube(struct gn_maker *maker);
 
 struct gn_made gn_maker_glb(struct gn_maker *maker);
 /* Buffer 0 as a data URI. */
