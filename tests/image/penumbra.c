@@ -136,8 +136,8 @@ static void cast_all(const struct caster *c, struct gn_picture *truth) {
     gn_picture_finish(&few);
 }
 
-bool gn_penumbra_truth(struct gn_picture *truth, const char *path, int width_px, int height_px,
-                       struct gn_err *err) {
+bool gn_penumbra_truth(struct gn_picture *truth, const char *path, bool point, int width_px,
+                       int height_px, struct gn_err *err) {
     struct gn_scene *scene = gn_scene_load(path, NULL, NULL, err);
     if (!scene) return false;
     struct gn_pose pose;
@@ -147,6 +147,7 @@ bool gn_penumbra_truth(struct gn_picture *truth, const char *path, int width_px,
     gn_raycast_init(&c.rays, scene, &pose);
     gn_ray_eye_init(&c.eye, &pose, 0, width_px, height_px);
     gn_ray_lamp_init(&c.lamp, &pose, 0);
+    if (point) c.lamp.radius = 0;
     gn_picture_init(truth, width_px, height_px, 1);
     cast_all(&c, truth);
     gn_raycast_finish(&c.rays);

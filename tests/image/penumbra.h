@@ -22,8 +22,9 @@ extern const char *const gn_penumbra_names[GN_PENUMBRA_COUNT];
 /* Writes the scene; free() the path. */
 char *gn_penumbra_write(int scene, struct gn_err *err);
 /* The share, 0..1, one channel; 1 on the background. */
-bool gn_penumbra_truth(struct gn_picture *truth, const char *path, int width_px, int height_px,
-                       struct gn_err *err);
+/* Of light 0 and camera 0 of any scene; a light of no size when `point`. */
+bool gn_penumbra_truth(struct gn_picture *truth, const char *path, bool point, int width_px,
+                       int height_px, struct gn_err *err);
 
 struct gn_penumbra_score {
     double soft, rest; /* RMSE over pixels partly lit in truth (.01-.99, grown by 2 px), and over

@@ -31,7 +31,8 @@ static struct gn_picture shoot(const char *path, const char *technique, const ch
 static char *make(int scene, struct gn_picture *truth) {
     struct gn_err err = {0};
     char *path = gn_penumbra_write(scene, &err);
-    if (!path || !gn_penumbra_truth(truth, path, width(), height(), &err)) fail_msg("%s", err.text);
+    if (!path || !gn_penumbra_truth(truth, path, false, width(), height(), &err))
+        fail_msg("%s", err.text);
     return path;
 }
 

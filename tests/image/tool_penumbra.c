@@ -26,7 +26,7 @@ int main(int argc, char **argv) {
     for (int s = 0; s < GN_PENUMBRA_COUNT; s++) {
         char *path = gn_penumbra_write(s, &err);
         struct gn_picture truth, shot;
-        if (!path || !gn_penumbra_truth(&truth, path, 480, 360, &err)) fail(&err);
+        if (!path || !gn_penumbra_truth(&truth, path, false, 480, 360, &err)) fail(&err);
         if (!gn_shot(&shot, NULL, &err, "pfm", path, args)) fail(&err);
         struct gn_penumbra_score score;
         gn_penumbra_score(&truth, &shot, &score);
