@@ -1,0 +1,27 @@
+/* How far a light reaches: a ball round it (its range, or all of the scene), for a spot the part of
+ * the ball that its cone cuts out. Pure; every answer errs towards "it reaches". */
+#ifndef GN_SHADOW_REACH_H
+#define GN_SHADOW_REACH_H
+
+#include "shadow/fit.h"
+
+struct gn_reach {
+    bool everywhere; /* directional */
+    bool cone;
+    vec3 place_ws, axis_ws;
+    float range_m;            /* to the scene's farthest corner, or less */
+    float sin_cone, cos_cone; /* of the outer half-angle */
+};
+struct gn_reach_rect { /* pixels, first row at the bottom, ends not included; empty: x0 >= x1 */
+    int x0, y0, x1, y1;
+};
+
+void gn_reach_build(struct gn_reach *reach, const struct gn_pose *pose, uint32_t light);
+/* Can the light shine on anything in the box? */
+bool gn_reach_touches(const struct gn_reach *reach, const struct gn_box *box_ws);
+/* Where in a picture of that size the eye may see what the light shines on. */
+struct gn_reach_rect gn_reach_rect(const struct gn_reach *reach, const struct gn_eye *eye,
+                                   uint32_t width_px, uint32_t height_px);
+struct gn_reach_rect gn_reach_rect_unite(struct gn_reach_rect a, struct gn_reach_rect b);
+
+#endif
