@@ -1,5 +1,5 @@
 // colour = ambient x albedo x occlusion + sum over lights of (1 - strength (1 - visibility)) x (diffuse + specular) + emissive,
-// in linear space, after exposure.
+// in linear space, after exposure. ADDITIVE: the sum over lights alone.
 #include "lib/flat_constants.glsl"
 #include "lib/surface.glsl"
 #include "lib/light.glsl"
@@ -88,7 +88,7 @@ void main() {
     vec3 color = base.rgb;
     if (!UNLIT) {
         surface s = surface_make(base);
-        vec3 light = surface_ambient(s.normal);
+        vec3 light = ADDITIVE ? vec3(0.0) : surface_ambient(s.normal);
         if (SPECULAR) light *= base.rgb;
         EACH_SHADOWED_LIGHT(ADD_SHADOWED_LIGHT)
         EACH_OPEN_LIGHT(ADD_OPEN_LIGHT)
@@ -97,4 +97,5 @@ void main() {
     }
     if (ENCODE_SRGB) color = srgb_from_linear(color);
     o_color = ALPHA_BLEND ? vec4(color * base.a, base.a) : vec4(color, 1.0);
+    if (ADDITIVE) o_color.a = 0.0; // blended as premultiplied, it is added
 }

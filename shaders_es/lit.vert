@@ -3,6 +3,8 @@
 #include "lib/vertex.glsl"
 #include "lib/shadow_point.glsl"
 
+invariant gl_Position; // what is added finds its own depth
+
 #ifdef WITH_VERTEX_COLOR
 out vec4 v_color;
 #else

@@ -153,12 +153,12 @@ static void check_lights(struct gn_inspection *in) {
         check_light(in, &s->lights[i]);
         shadows += s->lights[i].type != GN_LIGHT_POINT && wants_shadow(&s->lights[i]);
     }
-    if (shadows > GN_SHADOWS_MAX)
+    if (shadows > GN_ALL_SHADOWS_MAX)
         advise(in, "set gnomon_shadow to none on those that matter least",
-               "%u lights want shadows: the %d strongest get them", shadows, GN_SHADOWS_MAX);
-    if (s->light_count > GN_LIGHTS_MAX)
+               "%u lights want shadows: the %d strongest get them", shadows, GN_ALL_SHADOWS_MAX);
+    if (s->light_count > GN_ALL_LIGHTS_MAX)
         advise(in, "take out the weakest, or bake them", "%u lights: the %d strongest are used",
-               s->light_count, GN_LIGHTS_MAX);
+               s->light_count, GN_ALL_LIGHTS_MAX);
     if (s->made_light)
         advise(in, "export lights (KHR_lights_punctual; Blender: Include > Punctual Lights)",
                "the file has no light: a sun was made");

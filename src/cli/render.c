@@ -101,7 +101,7 @@ static bool write_map(struct render *r, const struct gn_plan *plan, const char *
         slot++;
     if (slot == plan->shadow_count)
         return gn_fail(err, "light %d has no map: it casts no shadow, or %d stronger lights do",
-                       r->stage.options->light, GN_SHADOWS_MAX);
+                       r->stage.options->light, GN_ALL_SHADOWS_MAX);
     const struct gn_shadow_view *view = &plan->shadows[slot];
     size_t side = view->map_px;
     float *codes = gn_xalloc(side * side, sizeof *codes),

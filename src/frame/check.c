@@ -9,8 +9,10 @@
 
 static const char *check_draw(const struct gn_plan *plan, const struct gn_draw *draw) {
     REQUIRE(draw->program < plan->program_count);
-    REQUIRE(draw->geometry < plan->scene->geometry_count);
-    REQUIRE(draw->material < plan->scene->material_count);
+    const bool bare = plan->programs[draw->program].kind > GN_PROGRAM_AOV;
+    REQUIRE(bare == (draw->geometry == GN_NO_GEOMETRY));
+    REQUIRE(bare ? draw->vertex_count > 0 : draw->geometry < plan->scene->geometry_count);
+    REQUIRE(bare || draw->material < plan->scene->material_count);
     REQUIRE(draw->instance_count > 0);
     REQUIRE(draw->first_instance <= plan->instance_count);
     REQUIRE(draw->instance_count <= plan->instance_count - draw->first_instance);
@@ -34,28 +36,59 @@ static const char *check_key(const struct gn_program_key *key) {
     return NULL;
 }
 
+/* What a program needs of the pass that draws with it. */
+static const char *check_use(const struct gn_pass *pass, const struct gn_program_key *key) {
+    const bool adds = key->features & GN_FEATURE_ADDITIVE;
+    REQUIRE((key->kind <= GN_PROGRAM_DISTANCE) == (pass->target.kind == GN_TARGET_SHADOW));
+    REQUIRE((key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
+    REQUIRE(adds == (pass->blend == GN_BLEND_ADD));
+    REQUIRE(key->light_count <= pass->light_count);
+    REQUIRE(key->shadow_count <= pass->shadow_count);
+    return NULL;
+}
+
+static bool rect_is_inside(const struct gn_rect *rect, const struct gn_target *target) {
+    return rect->x <= target->width_px && rect->width <= target->width_px - rect->x &&
+           rect->y <= target->height_px && rect->height <= target->height_px - rect->y;
+}
+
+/* The lights and maps that a pass reads; what is added finds the depth of what it is added to. */
+static const char *check_lights(const struct gn_plan *plan, const struct gn_pass *pass) {
+    REQUIRE(pass->light_count <= GN_LIGHTS_MAX && pass->first_light <= plan->light_count);
+    REQUIRE(pass->light_count <= plan->light_count - pass->first_light);
+    REQUIRE(pass->shadow_count <= GN_SHADOWS_MAX && pass->first_shadow <= plan->shadow_count);
+    REQUIRE(pass->shadow_count <= plan->shadow_count - pass->first_shadow);
+    REQUIRE(pass->blend != GN_BLEND_ADD || (!pass->depth_write && !pass->clear));
+    REQUIRE(pass->blend != GN_BLEND_ADD || plan->output != GN_OUTPUT_LINEAR8 || !plan->encode_srgb);
+    return NULL;
+}
+
 static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *pass) {
     REQUIRE(pass->target.width_px > 0 && pass->target.height_px > 0);
-    REQUIRE(pass->target.kind == GN_TARGET_OUTPUT || pass->target.slot < plan->shadow_count);
-    REQUIRE(pass->target.kind == GN_TARGET_OUTPUT || (pass->clear && pass->content_hash != 0));
+    const bool shadow = pass->target.kind == GN_TARGET_SHADOW;
+    REQUIRE(!shadow || pass->target.slot < plan->shadow_count);
+    REQUIRE(!shadow || (pass->clear && pass->content_hash != 0));
+    REQUIRE(rect_is_inside(&pass->rect, &pass->target));
     REQUIRE(pass->first_draw <= plan->draw_count);
     REQUIRE(pass->draw_count <= plan->draw_count - pass->first_draw);
     REQUIRE(pass->constants != NULL && pass->constant_count > 0);
-    for (uint32_t i = 0; i < pass->draw_count; i++) {
+    const char *broken = check_lights(plan, pass);
+    for (uint32_t i = 0; i < pass->draw_count && !broken; i++) {
         const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
-        const char *broken = check_draw(plan, draw);
-        if (broken) return broken;
-        bool caster = plan->programs[draw->program].kind <= GN_PROGRAM_DISTANCE;
-        REQUIRE(caster == (pass->target.kind == GN_TARGET_SHADOW));
+        broken = check_draw(plan, draw);
+        if (!broken) broken = check_use(pass, &plan->programs[draw->program]);
     }
-    return NULL;
+    return broken;
 }
 
 const char *gn_plan_check(const struct gn_plan *plan) {
     REQUIRE(plan->scene != NULL);
     REQUIRE(plan->width_px > 0 && plan->height_px > 0);
     REQUIRE(plan->pass_count > 0);
-    REQUIRE(plan->shadow_count <= GN_SHADOWS_MAX);
+    REQUIRE(plan->shadow_count <= GN_ALL_SHADOWS_MAX);
+    REQUIRE(plan->light_count <= GN_ALL_LIGHTS_MAX);
+    REQUIRE((plan->passes[plan->pass_count - 1].target.kind == GN_TARGET_ENCODED) ==
+            (plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT));
     REQUIRE(plan->passes[0].clear);
     REQUIRE(isfinite(plan->exposure) && plan->exposure > 0.0f);
     const char *broken = NULL;

@@ -20,10 +20,12 @@ struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_c
     struct gn_frame *frame = gn_xalloc(1, sizeof *frame);
     frame->scene = scene;
     frame->caps = *caps;
-    for (int i = 0; i < GN_SHADOWS_MAX; i++)
-        gn_shadow_memory_init(&frame->memory[i], scene->item_count);
-    frame->constants = gn_xalloc((GN_SHADOWS_MAX + 1) * GN_PASS_SIZE, sizeof *frame->constants);
+    frame->constants = gn_xalloc(GN_CONSTANTS_COUNT * GN_PASS_SIZE, sizeof *frame->constants);
     return frame;
+}
+
+float (*gn_frame_constants(const struct gn_frame *frame, uint32_t which))[4] {
+    return frame->constants + (size_t)which * GN_PASS_SIZE;
 }
 
 void gn_frame_destroy(struct gn_frame *frame) {
@@ -35,12 +37,12 @@ void gn_frame_destroy(struct gn_frame *frame) {
     free(frame->run.at);
     free(frame->sorted.at);
     free(frame->passes.at);
-    for (int i = 0; i < GN_SHADOWS_MAX; i++) gn_shadow_memory_finish(&frame->memory[i]);
+    for (uint32_t i = 0; i < frame->memory_count; i++) gn_shadow_memory_finish(&frame->memory[i]);
     free(frame->constants);
     free(frame);
 }
 
-static uint32_t program_index(struct gn_frame *frame, const struct gn_program_key *key) {
+uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *key) {
     for (uint32_t i = 0; i < frame->programs.count; i++)
         if (memcmp(&frame->programs.at[i], key, sizeof *key) == 0) return i;
     GN_LIST_PUSH(&frame->programs) = *key;
@@ -89,7 +91,7 @@ static enum gn_cull eye_cull(const struct gn_frame *frame, const struct gn_item 
 
 static void begin_draw(struct gn_frame *frame, uint32_t item, const struct gn_program_key *key,
                        enum gn_cull cull, bool mirrored) {
-    uint32_t program = program_index(frame, key);
+    uint32_t program = gn_frame_program(frame, key);
     GN_LIST_PUSH(&frame->draws) = (struct gn_draw){
         .program = program,
         .geometry = frame->scene->items[item].geometry,
@@ -99,13 +101,6 @@ static void begin_draw(struct gn_frame *frame, uint32_t item, const struct gn_pr
         .mirrored = mirrored,
     };
 }
-
-/* Which items a pass takes, and with which program. */
-struct selection {
-    const uint8_t *casts;              /* shadow pass: those marked; NULL: what the eye sees */
-    const struct gn_shadow_view *view; /* shadow pass */
-    const struct gn_frame_opts *opts;  /* never NULL */
-};
 
 static bool is_blended(const struct gn_frame *frame, uint32_t item) {
     return frame->scene->materials[frame->scene->items[item].material].alpha == GN_ALPHA_BLEND;
@@ -122,9 +117,19 @@ static float depth_of(const struct gn_frame *frame, const struct gn_box *box, bo
     return depth;
 }
 
-static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s,
+/* Of what the eye sees, opaque: what the lights that are added reach. */
+static bool takes_light(const struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_light_group *group, uint32_t item) {
+    const struct gn_material *m = &frame->scene->materials[frame->scene->items[item].material];
+    const struct gn_pose_item *posed = &pose->items[item];
+    return posed->visible && !m->unlit && m->alpha != GN_ALPHA_BLEND &&
+           gn_eye_sees(&frame->eye, &posed->box_ws) && gn_group_touches(group, &posed->box_ws);
+}
+
+static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_selection *s,
                   uint32_t item) {
     if (s->casts) return s->casts[item];
+    if (s->group) return takes_light(frame, pose, s->group, item);
     const struct gn_box *box = &pose->items[item].box_ws;
     if (!pose->items[item].visible || !gn_eye_sees(&frame->eye, box)) {
         frame->plan.culled++;
@@ -136,15 +141,24 @@ static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const stru
     return false;
 }
 
-static void draw_item(struct gn_frame *frame, const struct gn_pose *pose, const struct selection *s,
-                      uint32_t item, bool *open) {
+static struct gn_program_key key_of(const struct gn_frame *frame, const struct gn_selection *s,
+                                    uint32_t item) {
+    if (s->casts) return gn_key_caster(frame, item, s->view);
+    struct gn_program_key lit = gn_key_lit(frame, item, s->opts);
+    return s->group ? gn_key_additive(frame, &lit, s->group, s->opts) : lit;
+}
+
+void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_selection *s, uint32_t item, bool *open) {
     bool mirrored = pose->items[item].mirrored;
     enum gn_cull cull = s->casts ? caster_cull(frame->scene, pose, item, s->view)
                                  : eye_cull(frame, &frame->scene->items[item]);
-    const struct gn_draw *last = *open ? &frame->draws.at[frame->draws.count - 1] : NULL;
-    if (!last || last->mirrored != mirrored || last->cull != cull) {
-        struct gn_program_key key =
-            s->casts ? gn_key_caster(frame, item, s->view) : gn_key_lit(frame, item, s->opts);
+    if (*open) { /* one more of the last? */
+        const struct gn_draw *last = &frame->draws.at[frame->draws.count - 1];
+        *open = last->mirrored == mirrored && last->cull == cull;
+    }
+    if (!*open) {
+        struct gn_program_key key = key_of(frame, s, item);
         begin_draw(frame, item, &key, cull, mirrored);
         *open = true;
     }
@@ -168,7 +182,7 @@ static uint32_t bin_of(const struct gn_pose *pose, const struct gn_placed *place
 /* Draws the gathered run of items of one batch roughly nearest first (a counting sort, so that
  * thousands cost little). */
 static void draw_run(struct gn_frame *frame, const struct gn_pose *pose,
-                     const struct selection *s) {
+                     const struct gn_selection *s) {
     uint32_t count = frame->run.count, start[2 * DEPTH_STEPS + 1] = {0};
     float least = INFINITY, most = -INFINITY;
     frame->sorted.count = 0;
@@ -182,12 +196,13 @@ static void draw_run(struct gn_frame *frame, const struct gn_pose *pose,
     for (uint32_t i = 0; i < count; i++)
         frame->sorted.at[start[bin_of(pose, &frame->run.at[i], least, most)]++] = frame->run.at[i];
     bool open = false;
-    for (uint32_t i = 0; i < count; i++) draw_item(frame, pose, s, frame->sorted.at[i].item, &open);
+    for (uint32_t i = 0; i < count; i++)
+        gn_frame_draw_item(frame, pose, s, frame->sorted.at[i].item, &open);
     frame->run.count = 0;
 }
 
-static void draw_items(struct gn_frame *frame, const struct gn_pose *pose,
-                       const struct selection *s) {
+void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct gn_selection *s) {
     uint32_t batch = UINT32_MAX;
     frame->run.count = 0;
     for (uint32_t i = 0; i < frame->scene->item_count; i++) {
@@ -208,7 +223,7 @@ static float draw_order(const struct gn_frame *frame, const struct gn_draw *draw
 }
 
 /* Few draws, nearly sorted from frame to frame: insertion. */
-static void sort_draws(struct gn_frame *frame, uint32_t first) {
+void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first) {
     struct gn_draw *draws = frame->draws.at;
     for (uint32_t i = first + 1; i < frame->draws.count; i++) {
         struct gn_draw draw = draws[i];
@@ -220,14 +235,14 @@ static void sort_draws(struct gn_frame *frame, uint32_t first) {
     }
 }
 
-static struct gn_pass *begin_pass(struct gn_frame *frame) {
+struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame) {
     struct gn_pass *pass = &GN_LIST_PUSH(&frame->passes);
     *pass = (struct gn_pass){
         .first_draw = frame->draws.count, .depth_write = true, .constant_count = GN_PASS_SIZE};
     return pass;
 }
 
-static void end_pass(struct gn_frame *frame) {
+void gn_frame_end_pass(struct gn_frame *frame) {
     struct gn_pass *pass = &frame->passes.at[frame->passes.count - 1];
     pass->draw_count = frame->draws.count - pass->first_draw;
 }
@@ -235,7 +250,7 @@ static void end_pass(struct gn_frame *frame) {
 static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
                         const struct gn_frame_opts *opts) {
     struct gn_shadow_view *view = &frame->shadows[slot];
-    struct gn_pass *pass = begin_pass(frame);
+    struct gn_pass *pass = gn_frame_begin_pass(frame);
     snprintf(pass->label, sizeof pass->label, "shadow %u %s", slot,
              frame->scene->lights[view->light].name);
     pass->target =
@@ -245,74 +260,11 @@ static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint
     pass->discard_depth = view->encoding != GN_ENCODING_DEPTH;
     pass->border_px = 1;
     pass->content_hash = view->content_hash;
-    pass->constants = frame->constants + (size_t)slot * GN_PASS_SIZE;
-    gn_frame_shadow_constants(view, frame->constants + (size_t)slot * GN_PASS_SIZE);
-    struct selection casters = {.casts = frame->memory[slot].casts, .view = view, .opts = opts};
-    draw_items(frame, pose, &casters);
-    end_pass(frame);
-}
-
-static float srgb_from_linear(float c) {
-    c = glm_clamp_zo(c);
-    return c <= 0.0031308f ? 12.92f * c : 1.055f * powf(c, 1.0f / 2.4f) - 0.055f;
-}
-
-static void set_clear(const struct gn_frame *frame, enum gn_aov aov, float color[4]) {
-    static const float aov_clear[GN_AOV_COUNT] = {
-        [GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY};
-    for (int k = 0; k < 3; k++) {
-        color[k] = aov == GN_AOV_COLOR ? frame->scene->background[k] : aov_clear[aov];
-        if (frame->plan.encode_srgb) color[k] = srgb_from_linear(color[k]);
-    }
-    color[3] = 1.0f;
-}
-
-static struct gn_pass *picture_pass(struct gn_frame *frame, const char *label) {
-    struct gn_pass *pass = begin_pass(frame);
-    snprintf(pass->label, sizeof pass->label, "%s", label);
-    pass->target = (struct gn_target){.kind = GN_TARGET_OUTPUT,
-                                      .width_px = frame->plan.width_px,
-                                      .height_px = frame->plan.height_px};
-    pass->constants = frame->constants + (size_t)GN_SHADOWS_MAX * GN_PASS_SIZE;
-    return pass;
-}
-
-static int by_depth(const void *a, const void *b) {
-    const struct gn_placed *x = a, *y = b;
-    if (x->depth != y->depth) return x->depth < y->depth ? 1 : -1;
-    return x->item < y->item ? -1 : 1;
-}
-
-static void blend_pass(struct gn_frame *frame, const struct gn_pose *pose,
-                       const struct selection *s) {
-    struct gn_pass *pass = picture_pass(frame, "blend");
-    pass->blend = GN_BLEND_ALPHA;
-    pass->depth_write = false;
-    pass->discard_depth = true;
-    qsort(frame->blended.at, frame->blended.count, sizeof *frame->blended.at, by_depth);
-    for (uint32_t i = 0; i < frame->blended.count; i++) {
-        bool open = i > 0 && frame->scene->items[frame->blended.at[i].item].batch ==
-                                 frame->scene->items[frame->blended.at[i - 1].item].batch;
-        draw_item(frame, pose, s, frame->blended.at[i].item, &open);
-    }
-    end_pass(frame);
-}
-
-static void picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
-                           const struct gn_frame_opts *opts) {
-    struct selection seen = {.opts = opts};
-    struct gn_pass *pass = picture_pass(frame, opts->aov == GN_AOV_COLOR ? "opaque" : "aov");
-    uint32_t first = pass->first_draw, index = frame->passes.count - 1;
-    pass->clear = true;
-    set_clear(frame, opts->aov, pass->clear_color);
-    frame->blended.count = 0;
-    draw_items(frame, pose, &seen);
-    sort_draws(frame, first);
-    end_pass(frame);
-    if (frame->blended.count > 0)
-        blend_pass(frame, pose, &seen);
-    else
-        frame->passes.at[index].discard_depth = true;
+    pass->constants = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot);
+    gn_frame_shadow_constants(view, gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot));
+    struct gn_selection casters = {.casts = frame->memory[slot].casts, .view = view, .opts = opts};
+    gn_frame_draw_items(frame, pose, &casters);
+    gn_frame_end_pass(frame);
 }
 
 static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *opts,
@@ -342,13 +294,18 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
 }
 
 static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose,
-                              const struct gn_frame_opts *opts, float (*c)[4]) {
+                              const struct gn_frame_opts *opts) {
+    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PICTURE);
     memcpy(c[PASS_SKY], frame->scene->sky, sizeof(vec3));
     memcpy(c[PASS_GROUND], frame->scene->ground, sizeof(vec3));
     /* What glows is given as it shall look, as the hemisphere is: an automatic exposure for lux
      * would put it out. */
     c[PASS_EXPOSURE][0] = opts->exposure_given ? frame->plan.exposure : 1.0f;
-    gn_frame_light_constants(frame, pose, c);
+    for (uint32_t i = 0; i < frame->group_count; i++) {
+        float(*of_group)[4] = gn_frame_constants(frame, GN_CONSTANTS_PICTURE + i);
+        if (i > 0) memcpy(of_group, c, PASS_LIGHTS * sizeof *c);
+        gn_frame_light_constants(frame, pose, &frame->groups[i], of_group);
+    }
 }
 
 static void reset(struct gn_frame *frame, const struct gn_frame_opts *opts) {
@@ -358,30 +315,37 @@ static void reset(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     frame->plan.height_px = opts->height_px ? opts->height_px : 720;
 }
 
-const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
-                                     const struct gn_frame_opts *opts,
-                                     struct gn_warnings *warnings) {
+static void publish(struct gn_frame *frame) {
     struct gn_plan *plan = &frame->plan;
-    float(*constants)[4] = frame->constants + (size_t)GN_SHADOWS_MAX * GN_PASS_SIZE;
-    reset(frame, opts);
-    choose_output(frame, opts, warnings);
-    gn_frame_eye(frame, pose, opts, constants);
-    plan->exposure = gn_frame_exposure(frame, pose, opts);
-    gn_frame_choose_lights(frame, pose, opts, warnings);
-    gn_frame_fit_shadows(frame, pose, opts);
-    for (uint32_t i = 0; i < frame->shadow_count; i++) shadow_pass(frame, pose, i, opts);
-    picture_constants(frame, pose, opts, constants);
-    picture_passes(frame, pose, opts);
     plan->passes = frame->passes.at;
     plan->draws = frame->draws.at;
     plan->instances = frame->instances.at;
     plan->programs = frame->programs.at;
     plan->shadows = frame->shadows;
+    plan->lights = frame->scene_lights;
     plan->pass_count = frame->passes.count;
     plan->draw_count = frame->draws.count;
     plan->instance_count = frame->instances.count;
     plan->program_count = frame->programs.count;
     plan->shadow_count = frame->shadow_count;
+    plan->light_count = frame->light_count;
+}
+
+const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
+                                     const struct gn_frame_opts *opts,
+                                     struct gn_warnings *warnings) {
+    struct gn_plan *plan = &frame->plan;
+    reset(frame, opts);
+    choose_output(frame, opts, warnings);
+    gn_frame_eye(frame, pose, opts, gn_frame_constants(frame, GN_CONSTANTS_PICTURE));
+    plan->exposure = gn_frame_exposure(frame, pose, opts);
+    gn_frame_choose_lights(frame, pose, opts, warnings);
+    if (plan->encode_srgb && frame->group_count > 1) plan->output = GN_OUTPUT_FLOAT;
+    gn_frame_fit_shadows(frame, pose, opts);
+    for (uint32_t i = 0; i < frame->shadow_count; i++) shadow_pass(frame, pose, i, opts);
+    picture_constants(frame, pose, opts);
+    gn_frame_picture_passes(frame, pose, opts);
+    publish(frame);
     assert(gn_plan_check(plan) == NULL);
     return plan;
 }

@@ -57,6 +57,24 @@ static uint32_t color_features(const struct gn_frame *frame, const struct gn_ite
     return features | texture_features(scene, item, slots);
 }
 
+/* The lights of a group, and what their techniques take. */
+static void set_lights(const struct gn_frame *frame, const struct gn_light_group *group,
+                       const struct gn_frame_opts *opts, bool receives,
+                       struct gn_program_key *key) {
+    key->light_count = (uint8_t)group->count;
+    key->shadow_count = receives ? (uint8_t)group->shadow_count : 0;
+    for (uint32_t i = 0; i < group->count; i++) {
+        const struct gn_frame_light *light = &frame->lights[group->first + i];
+        key->lights[i].type = (uint8_t)frame->scene->lights[light->light].type;
+        if (i >= key->shadow_count) continue;
+        key->lights[i].technique = (uint8_t)light->technique;
+        key->lights[i].encoding = (uint8_t)light->encoding;
+        if (!gn_techniques[light->technique].taps) continue;
+        key->taps = (uint8_t)(opts->taps ? opts->taps : GN_TAPS_DEFAULT);
+        key->taps_turn = !opts->taps_fixed;
+    }
+}
+
 struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
                                  const struct gn_frame_opts *opts) {
     const struct gn_item *item = &frame->scene->items[index];
@@ -69,21 +87,23 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
                                              : alpha_features(frame->scene, item);
     if (opts->aov != GN_AOV_COLOR && m->double_sided) key.features |= GN_FEATURE_DOUBLE_SIDED;
     if (opts->aov == GN_AOV_COLOR ? m->unlit : opts->aov != GN_AOV_VISIBILITY) return key;
-    key.light_count = (uint8_t)frame->light_count;
-    key.shadow_count =
-        item->receives || opts->aov == GN_AOV_VISIBILITY ? (uint8_t)frame->shadow_count : 0;
-    for (uint32_t i = 0; i < key.shadow_count; i++)
-        if (gn_techniques[frame->lights[i].technique].taps) {
-            key.taps = (uint8_t)(opts->taps ? opts->taps : GN_TAPS_DEFAULT);
-            key.taps_turn = !opts->taps_fixed;
-        }
-    for (uint32_t i = 0; i < frame->light_count; i++) {
-        const struct gn_frame_light *light = &frame->lights[i];
-        key.lights[i].type = (uint8_t)frame->scene->lights[light->light].type;
-        if (i >= key.shadow_count) continue;
-        key.lights[i].technique = (uint8_t)light->technique;
-        key.lights[i].encoding = (uint8_t)light->encoding;
-    }
+    bool receives = item->receives || opts->aov == GN_AOV_VISIBILITY;
+    set_lights(frame, &frame->groups[0], opts, receives, &key);
+    return key;
+}
+
+struct gn_program_key gn_key_additive(const struct gn_frame *frame,
+                                      const struct gn_program_key *lit,
+                                      const struct gn_light_group *group,
+                                      const struct gn_frame_opts *opts) {
+    const uint32_t once = GN_FEATURE_HEMISPHERE | GN_FEATURE_EMISSIVE |
+                          GN_FEATURE_EMISSIVE_TEXTURE | GN_FEATURE_EMISSIVE_UV1 |
+                          GN_FEATURE_OCCLUSION_TEXTURE | GN_FEATURE_OCCLUSION_UV1;
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = lit->kind;
+    key.features = (lit->features & ~once) | GN_FEATURE_ADDITIVE;
+    set_lights(frame, group, opts, lit->shadow_count > 0, &key);
     return key;
 }
 

@@ -115,29 +115,43 @@ static const char *name_of(const struct gn_frame *frame, const struct gn_frame_l
     return frame->scene->lights[light->light].name;
 }
 
+/* Light is added to light: a picture that the shaders encode, of which there is no linear one,
+ * holds the lights of one pass. */
+static bool adds(const struct gn_frame *frame) {
+    return !frame->plan.encode_srgb || frame->caps.has & 1u << GN_CAP_RGBA16F;
+}
+
+static void drop_shadow(const struct gn_frame *frame, struct gn_frame_light *light, uint32_t most,
+                        struct gn_warnings *warnings) {
+    gn_warn(warnings, "light '%s' casts no shadow: %u lights with shadows are the most at once%s",
+            name_of(frame, light), most,
+            adds(frame) ? "" : " on a GPU without srgb and rgba16f targets");
+    light->technique = GN_TECHNIQUE_NONE;
+}
+
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     bool visibility = opts->aov == GN_AOV_VISIBILITY;
+    const uint32_t most = adds(frame) ? GN_ALL_LIGHTS_MAX : GN_LIGHTS_MAX,
+                   most_shadows = adds(frame) ? GN_ALL_SHADOWS_MAX : GN_SHADOWS_MAX;
     frame->light_count = frame->shadow_count = 0;
-    if (opts->aov != GN_AOV_COLOR && !visibility) return;
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
-        if (visibility && (int)i != opts->light) continue;
+        if (visibility ? (int)i != opts->light : opts->aov != GN_AOV_COLOR) continue;
         struct gn_frame_light light = describe(frame, pose, i, opts, warnings);
-        if (light.technique != GN_TECHNIQUE_NONE && frame->shadow_count == GN_SHADOWS_MAX) {
+        if (light.technique != GN_TECHNIQUE_NONE && frame->shadow_count == most_shadows) {
             light = trade(frame, frame->shadow_count, light);
-            gn_warn(warnings,
-                    "light '%s' casts no shadow: %d lights with shadows are the most at once",
-                    name_of(frame, &light), GN_SHADOWS_MAX);
-            light.technique = GN_TECHNIQUE_NONE;
+            drop_shadow(frame, &light, most_shadows, warnings);
         }
-        if (frame->light_count == GN_LIGHTS_MAX) {
+        if (frame->light_count == most) {
             light = trade(frame, frame->light_count, light);
-            gn_warn(warnings, "light '%s' is left out: %d lights are the most at once",
-                    name_of(frame, &light), GN_LIGHTS_MAX);
+            gn_warn(warnings, "light '%s' is left out: %u lights are the most at once%s",
+                    name_of(frame, &light), most,
+                    adds(frame) ? "" : " on a GPU without srgb and rgba16f targets");
             continue;
         }
         insert(frame, light);
     }
+    gn_frame_group_lights(frame, pose);
 }
 
 /* A map that stays empty: everything reads it as lit. The slot stays, so that programs do not
@@ -156,8 +170,10 @@ static void make_empty(struct gn_shadow_view *view) {
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts) {
     for (uint32_t i = 0; i < frame->shadow_count; i++) {
-        const struct gn_frame_light *light = &frame->lights[i];
+        const struct gn_frame_light *light = gn_frame_light_of_slot(frame, i);
         const struct gn_light *l = &frame->scene->lights[light->light];
+        if (i == frame->memory_count)
+            gn_shadow_memory_init(&frame->memory[frame->memory_count++], frame->scene->item_count);
         uint32_t map_px = opts->map_px ? opts->map_px : l->map_px ? l->map_px : 1024;
         if (map_px > (uint32_t)frame->caps.max_texture_px)
             map_px = (uint32_t)frame->caps.max_texture_px;
@@ -190,24 +206,26 @@ static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
 }
 
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
-                              float (*constants)[4]) {
-    for (uint32_t i = 0; i < frame->light_count; i++) {
-        const struct gn_light *light = &frame->scene->lights[frame->lights[i].light];
+                              const struct gn_light_group *group, float (*constants)[4]) {
+    for (uint32_t i = 0; i < group->count; i++) {
+        const struct gn_frame_light *chosen = &frame->lights[group->first + i];
+        const struct gn_light *light = &frame->scene->lights[chosen->light];
         float(*c)[4] = constants + PASS_LIGHTS + i * LIGHT_SIZE;
         vec3 place, direction;
-        gn_pose_light(pose, frame->lights[i].light, place, direction);
+        gn_pose_light(pose, chosen->light, place, direction);
         for (int k = 0; k < 3; k++) {
             c[LIGHT_COLOR][k] = light->color[k] * frame->plan.exposure / GLM_PIf;
             c[LIGHT_PLACE][k] = light->type == GN_LIGHT_DIRECTIONAL ? -direction[k] : place[k];
         }
-        c[LIGHT_COLOR][3] = frame->lights[i].strength;
+        c[LIGHT_COLOR][3] = chosen->strength;
         c[LIGHT_PLACE][3] = light->range_m > 0.0f ? 1.0f / light->range_m : 0.0f;
         put3(c[LIGHT_AXIS], direction);
         float outer = cosf(light->outer_rad), inner = cosf(light->inner_rad);
         c[LIGHT_AXIS][3] = outer;
         constants[PASS_CONES + i / 4][i % 4] = 1.0f / fmaxf(inner - outer, 1e-4f);
-        if (i < frame->shadow_count)
-            shadow_slot(&frame->shadows[i], constants + PASS_SHADOWS + i * SHADOW_SIZE);
+        if (i < group->shadow_count)
+            shadow_slot(&frame->shadows[group->first_shadow + i],
+                        constants + PASS_SHADOWS + i * SHADOW_SIZE);
     }
 }
 

@@ -10,8 +10,11 @@
 #include "scene/pose.h"
 #include "shadow/fit.h"
 
-#define GN_LIGHTS_MAX  8 /* lights in one pass */
-#define GN_SHADOWS_MAX 4 /* of them with a map */
+#define GN_LIGHTS_MAX      8  /* lights in one pass */
+#define GN_SHADOWS_MAX     4  /* of them with a map */
+#define GN_ALL_LIGHTS_MAX  32 /* lights in one frame: passes beyond the first add to the picture */
+#define GN_ALL_SHADOWS_MAX 16 /* of them with a map */
+#define GN_GROUPS_MAX      4  /* of lights that share a pass */
 
 enum gn_aov { GN_AOV_COLOR, GN_AOV_VISIBILITY, GN_AOV_DISTANCE, GN_AOV_NORMAL, GN_AOV_COUNT };
 
@@ -22,6 +25,7 @@ enum gn_program_kind {
     GN_PROGRAM_DISTANCE, /* casters into a distance map */
     GN_PROGRAM_LIT,      /* colour */
     GN_PROGRAM_AOV,      /* what of it is in `aov` */
+    GN_PROGRAM_ENCODE,   /* the linear picture, encoded */
     GN_PROGRAM_KIND_COUNT,
 };
 enum gn_feature { /* bits of gn_program_key.features; each becomes `const bool` of that name in GLSL
@@ -48,8 +52,10 @@ enum gn_feature { /* bits of gn_program_key.features; each becomes `const bool` 
                       1 << 17, /* DISTANCE: radial distance from a point, not along a direction */
                   GN_FEATURE_FLAT_CONSTANTS = 1 << 18, /* software drivers: the first light's
                                                           constants come as flat varyings */
+                  GN_FEATURE_ADDITIVE =
+                      1 << 19, /* LIT: light alone, to be added: no ambient, emission, alpha */
 };
-#define GN_FEATURE_BITS 19
+#define GN_FEATURE_BITS 20
 
 struct gn_light_key {  /* one light of a LIT or visibility program */
     uint8_t type;      /* gn_light_type */
@@ -75,9 +81,11 @@ struct gn_instance {     /* instance attributes, locations 5..10 */
     float surface[4];    /* roughness, metalness, occlusion strength, alpha cutoff */
     float emissive[4];   /* linear radiance; w unused */
 };
-struct gn_draw {                 /* one instanced call */
-    uint32_t program;            /* index into plan->programs */
-    uint32_t geometry, material; /* material: for textures, transforms */
+#define GN_NO_GEOMETRY UINT32_MAX /* a draw of bare vertices: gl_VertexID is all they have */
+struct gn_draw {                  /* one instanced call */
+    uint32_t program;             /* index into plan->programs */
+    uint32_t geometry, material;  /* material: for textures, transforms */
+    uint32_t vertex_count;        /* with GN_NO_GEOMETRY; triangles */
     uint32_t first_instance, instance_count;
     uint8_t cull;  /* gn_cull */
     bool mirrored; /* front faces wind clockwise */
@@ -86,11 +94,22 @@ struct gn_draw {                 /* one instanced call */
 };
 
 enum gn_cull { GN_CULL_NONE, GN_CULL_BACK, GN_CULL_FRONT };
-enum gn_blend { GN_BLEND_OFF, GN_BLEND_ALPHA /* premultiplied: ONE, ONE_MINUS_SRC_ALPHA */ };
+enum gn_blend {
+    GN_BLEND_OFF,
+    GN_BLEND_ALPHA, /* premultiplied: ONE, ONE_MINUS_SRC_ALPHA */
+    GN_BLEND_ADD,   /* the same with an alpha of 0: adds, and leaves the picture's alpha */
+};
 
 /* ---- passes: each carries all its state ---- */
 
-enum gn_target_kind { GN_TARGET_OUTPUT, GN_TARGET_SHADOW };
+enum gn_target_kind {
+    GN_TARGET_OUTPUT,
+    GN_TARGET_SHADOW,
+    GN_TARGET_ENCODED, /* bytes beside a linear output, which the pass reads */
+};
+struct gn_rect { /* pixels of a target, first row at the bottom */
+    uint32_t x, y, width, height;
+};
 struct gn_target {
     enum gn_target_kind kind;
     uint32_t slot; /* SHADOW: which of plan->shadows; its map */
@@ -104,8 +123,11 @@ struct gn_pass {
     float clear_color[4]; /* OUTPUT: linear; SHADOW: far_code in [0] */
     bool depth_write;     /* the depth test is always LEQUAL */
     enum gn_blend blend;
-    bool discard_depth; /* nobody reads the depth after this pass: invalidate */
-    uint32_t border_px; /* this many texels at the target's rim stay cleared (scissor) */
+    bool discard_depth;  /* nobody reads the depth after this pass: invalidate */
+    uint32_t border_px;  /* this many texels at the target's rim stay cleared (scissor) */
+    struct gn_rect rect; /* draws nothing outside (scissor); width 0: no such bound */
+    uint32_t first_light, light_count;   /* of plan->lights: those that its LIT programs know */
+    uint32_t first_shadow, shadow_count; /* plan->shadows[first_shadow + i] is behind sampler i */
     uint64_t
         content_hash; /* SHADOW: skip the pass when the target already holds this; 0: always draw */
     uint32_t first_draw, draw_count;
@@ -123,16 +145,19 @@ enum gn_output_format {
 struct gn_plan {
     uint32_t width_px, height_px;
     enum gn_output_format output;
-    bool encode_srgb; /* sRGB wanted of a GPU without such a target */
+    bool encode_srgb; /* sRGB wanted of a GPU without such a target: shaders encode, or, where
+                         output is FLOAT because passes add to it, the last pass does */
     uint32_t msaa;    /* samples: 0, 2, 4 */
     enum gn_aov aov;
     const struct gn_scene *scene;
     struct gn_pass *passes;
     struct gn_draw *draws;
     struct gn_instance *instances;
-    struct gn_program_key *programs; /* those that the draws use, each once */
-    struct gn_shadow_view *shadows;  /* slot i: sampler i of LIT programs */
-    uint32_t pass_count, draw_count, instance_count, program_count, shadow_count;
+    struct gn_program_key *programs; /* those that the draws use, each once, and those that they
+                                        will when an additive light comes near */
+    struct gn_shadow_view *shadows;  /* one per slot: a map each */
+    const uint32_t *lights;          /* of the scene: the lights of the frame, group by group */
+    uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
     uint32_t culled; /* items that the eye does not see */
     float exposure;
 };

@@ -2,19 +2,20 @@
 
 #include "frame/plan.h"
 
-static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {"depth", "distance", "lit", "aov"};
+static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {"depth", "distance", "lit", "aov",
+                                                         "encode"};
 static const char *const outputs[] = {"srgb8", "linear8", "float", "bits"};
 static const char *const aovs[GN_AOV_COUNT] = {"color", "visibility", "distance", "normal"};
 static const char *const light_types[] = {"directional", "point", "spot"};
 static const char *const culls[] = {"none", "back", "front"};
 static const char *const features[GN_FEATURE_BITS] = {
-    "base",          "roughness",     "emissive-texture",
-    "occlusion",     "base-uv1",      "roughness-uv1",
-    "emissive-uv1",  "occlusion-uv1", "vertex-color",
-    "mask",          "blend",         "double-sided",
-    "unlit",         "specular",      "emissive",
-    "hemisphere",    "encode-srgb",   "perspective",
-    "flat-constants"};
+    "base",           "roughness",     "emissive-texture",
+    "occlusion",      "base-uv1",      "roughness-uv1",
+    "emissive-uv1",   "occlusion-uv1", "vertex-color",
+    "mask",           "blend",         "double-sided",
+    "unlit",          "specular",      "emissive",
+    "hemisphere",     "encode-srgb",   "perspective",
+    "flat-constants", "additive"};
 
 static void print_key(const struct gn_program_key *key, FILE *to) {
     fprintf(to, "%s", kinds[key->kind]);
@@ -45,6 +46,11 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
 }
 
 static void print_draw(const struct gn_plan *plan, const struct gn_draw *draw, FILE *to) {
+    if (draw->geometry == GN_NO_GEOMETRY) {
+        fprintf(to, "    draw program %u, %u vertices x %u\n", draw->program, draw->vertex_count,
+                draw->instance_count);
+        return;
+    }
     const struct gn_geometry *g = &plan->scene->geometries[draw->geometry];
     const char *material = plan->scene->materials[draw->material].name;
     fprintf(to,
@@ -53,19 +59,39 @@ static void print_draw(const struct gn_plan *plan, const struct gn_draw *draw, F
             material, culls[draw->cull], draw->mirrored ? ", mirrored" : "");
 }
 
-static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
+static void print_target(const struct gn_pass *pass, FILE *to) {
     fprintf(to, "pass '%s' -> ", pass->label);
-    if (pass->target.kind == GN_TARGET_SHADOW)
+    switch (pass->target.kind) {
+    case GN_TARGET_OUTPUT: fprintf(to, "picture"); break;
+    case GN_TARGET_ENCODED: fprintf(to, "picture in bytes"); break;
+    case GN_TARGET_SHADOW:
         fprintf(to, "map %u (%s, rim %u px)", pass->target.slot,
                 gn_encodings[pass->target.encoding].name, pass->border_px);
-    else
-        fprintf(to, "picture");
+        break;
+    }
+}
+
+/* The lights that a pass adds, by name. */
+static void print_added(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
+    for (uint32_t i = 0; i < pass->light_count; i++) {
+        const uint32_t light = plan->lights[pass->first_light + i];
+        fprintf(to, "%s'%s'", i ? " " : ", adds ", plan->scene->lights[light].name);
+        if (i < pass->shadow_count) fprintf(to, " (map %u)", pass->first_shadow + i);
+    }
+}
+
+static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
+    print_target(pass, to);
     if (pass->clear && pass->target.kind == GN_TARGET_SHADOW)
         fprintf(to, ", clear %.4g", (double)pass->clear_color[0]);
     if (pass->clear && pass->target.kind == GN_TARGET_OUTPUT)
         fprintf(to, ", clear %.3f %.3f %.3f", (double)pass->clear_color[0],
                 (double)pass->clear_color[1], (double)pass->clear_color[2]);
     if (pass->blend == GN_BLEND_ALPHA) fprintf(to, ", blend");
+    if (pass->blend == GN_BLEND_ADD) print_added(plan, pass, to);
+    if (pass->rect.width > 0)
+        fprintf(to, ", within %u x %u at %u, %u", pass->rect.width, pass->rect.height, pass->rect.x,
+                pass->rect.y);
     if (!pass->depth_write) fprintf(to, ", depth read-only");
     if (pass->discard_depth) fprintf(to, ", depth discarded");
     fprintf(to, "\n");

@@ -3,6 +3,7 @@
 #define GN_FRAME_PRIVATE_H
 
 #include "frame/plan.h"
+#include "shadow/reach.h"
 
 /* A growing array: keeps its memory, allocates only while growing. */
 #define GN_LIST(type)                                                                              \
@@ -31,27 +32,83 @@ struct gn_frame_light {
                           many */
 };
 
+/* Lights that share a pass: those with maps first. The first group is drawn with the picture, each
+ * other one is added to it. */
+struct gn_light_group {
+    uint32_t first, count, first_shadow, shadow_count;
+    struct gn_reach reaches[GN_LIGHTS_MAX]; /* of groups that are added */
+    bool seen;                              /* by the eye; without, it has no pass */
+    struct gn_rect rect;                    /* of the picture; width 0: all of it */
+};
+
 struct gn_frame {
     const struct gn_scene *scene;
     struct gn_caps caps;
     bool exposure_known;
-    float auto_exposure;                         /* fixed at the first build */
-    struct gn_frame_light lights[GN_LIGHTS_MAX]; /* those with maps first */
+    float auto_exposure;                             /* fixed at the first build */
+    struct gn_frame_light lights[GN_ALL_LIGHTS_MAX]; /* group by group */
+    uint32_t scene_lights[GN_ALL_LIGHTS_MAX];        /* the same, as the plan shows them */
     uint32_t light_count, shadow_count;
-    struct gn_shadow_view shadows[GN_SHADOWS_MAX];
-    struct gn_shadow_memory memory[GN_SHADOWS_MAX];
+    struct gn_light_group groups[GN_GROUPS_MAX];
+    uint32_t group_count; /* 1 at least */
+    struct gn_shadow_view shadows[GN_ALL_SHADOWS_MAX];
+    struct gn_shadow_memory memory[GN_ALL_SHADOWS_MAX];
+    uint32_t memory_count; /* made so far */
     GN_LIST(struct gn_draw) draws;
     GN_LIST(struct gn_instance) instances;
     GN_LIST(struct gn_program_key) programs;
     GN_LIST(struct gn_placed) blended, run, sorted;
     GN_LIST(struct gn_pass) passes;
-    float (*constants)[4]; /* one set per shadow slot, then one for the picture */
+    float (*constants)[4]; /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
     struct gn_eye eye;
     struct gn_plan plan;
 };
 
 /* Room of the constants of one pass, in vec4. */
 enum { GN_PASS_SIZE = 70 };
+/* Whose constants stand where. */
+enum gn_frame_constants {
+    GN_CONSTANTS_SHADOW,                       /* a slot each */
+    GN_CONSTANTS_PICTURE = GN_ALL_SHADOWS_MAX, /* a group each */
+    GN_CONSTANTS_COUNT = GN_CONSTANTS_PICTURE + GN_GROUPS_MAX,
+};
+float (*gn_frame_constants(const struct gn_frame *frame, uint32_t which))[4];
+
+/* Which items a pass takes, and with which program. */
+struct gn_selection {
+    const uint8_t *casts;               /* shadow pass: those marked; NULL: what the eye sees */
+    const struct gn_shadow_view *view;  /* shadow pass */
+    const struct gn_light_group *group; /* what is added: to items that it reaches; NULL: first */
+    const struct gn_frame_opts *opts;   /* never NULL */
+};
+
+/* frame.c: passes and draws. */
+struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame);
+void gn_frame_end_pass(struct gn_frame *frame);
+/* Blended items that a picture sees are not drawn but gathered in frame->blended. */
+void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct gn_selection *s);
+/* As a draw of its own, or one more instance of the last draw, if that is *open and fits. */
+void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_selection *s, uint32_t item, bool *open);
+/* Opaque before masked, then nearest first. */
+void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first);
+uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *key);
+
+/* picture.c: the passes that draw the picture. */
+void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                             const struct gn_frame_opts *opts);
+/* A draw of bare vertices. */
+void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key,
+                        uint32_t vertex_count, uint32_t first_instance, uint32_t instance_count);
+struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label);
+
+/* group.c: lights into groups, once they are chosen. */
+void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose);
+const struct gn_frame_light *gn_frame_light_of_slot(const struct gn_frame *frame, uint32_t slot);
+/* Where each group's light can fall in the picture. */
+void gn_frame_bound_groups(struct gn_frame *frame);
+bool gn_group_touches(const struct gn_light_group *group, const struct gn_box *box_ws);
 
 /* lights.c: which lights, with what; then what they say to the shaders. */
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
@@ -61,7 +118,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
 float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_frame_opts *opts);
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
-                              float (*constants)[4]);
+                              const struct gn_light_group *group, float (*constants)[4]);
 void gn_frame_shadow_constants(const struct gn_shadow_view *view, float (*constants)[4]);
 
 /* key.c: the program that draws an item. */
@@ -69,6 +126,11 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t item,
                                  const struct gn_frame_opts *opts);
 struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
                                     const struct gn_shadow_view *view);
+/* What adds a group's light to what `lit` draws. */
+struct gn_program_key gn_key_additive(const struct gn_frame *frame,
+                                      const struct gn_program_key *lit,
+                                      const struct gn_light_group *group,
+                                      const struct gn_frame_opts *opts);
 
 /* eye.c: clip_from_world of the camera, its place and the constants that tell of it. */
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,

@@ -12,9 +12,9 @@ static const char *const feature_names[GN_FEATURE_BITS] = {
     "BASE_UV1",     "ROUGHNESS_UV1",     "EMISSIVE_UV1",     "OCCLUSION_UV1",
     "VERTEX_COLOR", "ALPHA_MASK",        "ALPHA_BLEND",      "DOUBLE_SIDED",
     "UNLIT",        "SPECULAR",          "EMISSIVE",         "HEMISPHERE",
-    "ENCODE_SRGB",  "PERSPECTIVE",       "FLAT_CONSTANTS",
+    "ENCODE_SRGB",  "PERSPECTIVE",       "FLAT_CONSTANTS",   "ADDITIVE",
 };
-_Static_assert(GN_FEATURE_FLAT_CONSTANTS == 1 << (GN_FEATURE_BITS - 1), "a name for each feature");
+_Static_assert(GN_FEATURE_ADDITIVE == 1 << (GN_FEATURE_BITS - 1), "a name for each feature");
 
 static const char *const light_names[] = {
     [GN_LIGHT_DIRECTIONAL] = "LIGHT_DIRECTIONAL",
@@ -28,16 +28,15 @@ static const char *const aov_names[GN_AOV_COUNT] = {
     [GN_AOV_NORMAL] = "AOV_NORMAL",
 };
 static const char *const kind_names[GN_PROGRAM_KIND_COUNT] = {
-    [GN_PROGRAM_DEPTH] = "depth",
-    [GN_PROGRAM_DISTANCE] = "distance",
-    [GN_PROGRAM_LIT] = "lit",
-    [GN_PROGRAM_AOV] = "aov",
+    [GN_PROGRAM_DEPTH] = "depth", [GN_PROGRAM_DISTANCE] = "distance", [GN_PROGRAM_LIT] = "lit",
+    [GN_PROGRAM_AOV] = "aov",     [GN_PROGRAM_ENCODE] = "encode",
 };
 static const char *const kind_files[GN_PROGRAM_KIND_COUNT][2] = {
     [GN_PROGRAM_DEPTH] = {"depth.vert", "depth.frag"},
     [GN_PROGRAM_DISTANCE] = {"distance.vert", "distance.frag"},
     [GN_PROGRAM_LIT] = {"lit.vert", "lit.frag"},
     [GN_PROGRAM_AOV] = {"lit.vert", "aov.frag"},
+    [GN_PROGRAM_ENCODE] = {"encode.vert", "encode.frag"},
 };
 
 static const char *const taps_names[] = {

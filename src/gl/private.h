@@ -181,7 +181,10 @@ struct gn_gl_output {
     uint32_t width_px, height_px, msaa, msaa_wanted;
     enum gn_output_format format;
     GLuint framebuffer, color, depth;
-    GLuint resolved, resolved_color; /* what is read; the same as framebuffer without msaa */
+    GLuint resolved, resolved_color; /* without msaa the same as framebuffer, and 0 */
+    /* Of a linear picture that is encoded at the end: itself, to be read by a shader, and its
+     * bytes. */
+    GLuint texture, encoded, encoded_color;
     uint64_t bytes;
 };
 struct gn_gl_map {
@@ -192,7 +195,9 @@ struct gn_gl_map {
     uint64_t content_hash; /* 0: nothing */
     uint64_t bytes, last_used;
 };
-enum { GN_GL_MAPS_MAX = 8 }; /* kept: plans that take turns find their maps again */
+enum {
+    GN_GL_MAPS_MAX = 2 * GN_ALL_SHADOWS_MAX
+}; /* kept: plans that take turns find their maps again */
 struct gn_gl_targets {
     struct gn_gl_output output;
     struct gn_gl_map maps[GN_GL_MAPS_MAX];
@@ -201,6 +206,9 @@ struct gn_gl_targets {
 };
 enum gn_gl_map_sampler { GN_GL_MAP_NEAREST, GN_GL_MAP_COMPARE, GN_GL_MAP_COMPARE_LINEAR };
 bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
+/* Where the finished picture is to be read, and what of. */
+GLuint gn_gl_output_finished(const struct gn_gl_output *output);
+enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output);
 struct gn_gl_map *gn_gl_map_find(struct gn_gl *gl, const struct gn_target *target);
 struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot); /* used last; NULL if none */
 void gn_gl_targets_forget(struct gn_gl *gl); /* maps hold nothing any more */

@@ -9,7 +9,7 @@
 
 static bool has_output(struct gn_gl *gl, struct gn_err *err) {
     if (!gl->targets.output.framebuffer) return gn_fail(err, "there is no picture to read yet");
-    gn_gl_bind_framebuffer(gl, gl->targets.output.resolved);
+    gn_gl_bind_framebuffer(gl, gn_gl_output_finished(&gl->targets.output));
     return true;
 }
 
@@ -32,8 +32,9 @@ static void read_pixels(struct gn_gl *gl, uint32_t width, uint32_t height, GLenu
 
 bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err) {
     const struct gn_gl_output *o = &gl->targets.output;
+    const enum gn_output_format format = gn_gl_output_format(o);
     if (!has_output(gl, err)) return false;
-    if (o->format == GN_OUTPUT_FLOAT || o->format == GN_OUTPUT_AOV)
+    if (format == GN_OUTPUT_FLOAT || format == GN_OUTPUT_AOV)
         return gn_fail(err, "the picture is not of bytes");
     read_pixels(gl, o->width_px, o->height_px, GL_RGBA, GL_UNSIGNED_BYTE, out);
     flip_rows(out, 4ul * o->width_px, o->height_px);
@@ -68,10 +69,11 @@ void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float 
 
 bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err) {
     const struct gn_gl_output *o = &gl->targets.output;
+    const enum gn_output_format format = gn_gl_output_format(o);
     if (!has_output(gl, err)) return false;
-    if (o->format == GN_OUTPUT_AOV)
+    if (format == GN_OUTPUT_AOV)
         read_pixels(gl, o->width_px, o->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, out);
-    else if (o->format == GN_OUTPUT_FLOAT)
+    else if (format == GN_OUTPUT_FLOAT)
         gn_gl_read_floats(gl, o->width_px, o->height_px, out);
     else
         return gn_fail(err, "the picture is not of floats");
@@ -84,11 +86,12 @@ bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err) {
 void gn_gl_finish_frame(struct gn_gl *gl) {
     const struct gn_gl_output *o = &gl->targets.output;
     uint32_t pixel[4];
+    const enum gn_output_format format = gn_gl_output_format(o);
     if (!o->framebuffer) return;
-    gn_gl_bind_framebuffer(gl, o->resolved);
-    if (o->format == GN_OUTPUT_AOV)
+    gn_gl_bind_framebuffer(gl, gn_gl_output_finished(o));
+    if (format == GN_OUTPUT_AOV)
         read_pixels(gl, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, pixel);
-    else if (o->format == GN_OUTPUT_FLOAT)
+    else if (format == GN_OUTPUT_FLOAT)
         gn_gl_read_floats(gl, 1, 1, (float *)pixel);
     else
         read_pixels(gl, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);

@@ -38,10 +38,20 @@ static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     GL(gl, ClearBufferfv)(GL_DEPTH, 0, ones);
 }
 
+/* What a pass may draw on, where that is not all of the target. */
+static bool scissor_of(const struct gn_pass *pass, struct gn_gl_rect *out) {
+    const struct gn_rect *r = &pass->rect;
+    const GLint border = (GLint)pass->border_px;
+    *out = (struct gn_gl_rect){(GLint)r->x, (GLint)r->y, (GLsizei)r->width, (GLsizei)r->height};
+    if (r->width > 0) return true;
+    *out = (struct gn_gl_rect){border, border, (GLsizei)pass->target.width_px - 2 * border,
+                               (GLsizei)pass->target.height_px - 2 * border};
+    return border > 0;
+}
+
 static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer) {
     const GLsizei width = (GLsizei)pass->target.width_px, height = (GLsizei)pass->target.height_px;
-    const GLint border = (GLint)pass->border_px;
-    const struct gn_gl_rect inner = {border, border, width - 2 * border, height - 2 * border};
+    struct gn_gl_rect inner;
     gn_gl_bind_framebuffer(gl, framebuffer);
     gn_gl_set_viewport(gl, (struct gn_gl_rect){0, 0, width, height});
     if (pass->clear) {
@@ -52,8 +62,8 @@ static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint fr
         else
             clear_output(gl, pass);
     }
-    gn_gl_set_scissor(gl, border ? &inner : NULL);
-    gn_gl_set_depth(gl, true, pass->depth_write);
+    gn_gl_set_scissor(gl, scissor_of(pass, &inner) ? &inner : NULL);
+    gn_gl_set_depth(gl, pass->target.kind != GN_TARGET_ENCODED, pass->depth_write);
     gn_gl_set_blend(gl, pass->blend);
 }
 
@@ -87,14 +97,23 @@ static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *v
                                                            : GN_GL_MAP_COMPARE];
 }
 
-static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan) {
-    for (uint32_t i = 0; i < plan->shadow_count; i++) {
-        const struct gn_shadow_view *view = &plan->shadows[i];
-        const struct gn_target target = {GN_TARGET_SHADOW, i, view->map_px, view->map_px,
+static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
+    for (uint32_t i = 0; i < pass->shadow_count; i++) {
+        const uint32_t slot = pass->first_shadow + i;
+        const struct gn_shadow_view *view = &plan->shadows[slot];
+        const struct gn_target target = {GN_TARGET_SHADOW, slot, view->map_px, view->map_px,
                                          view->encoding};
         const struct gn_gl_map *map = gn_gl_map_find(gl, &target);
         if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, map_sampler(gl, view));
     }
+}
+
+/* What a pass reads beside materials. */
+static void bind_sources(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
+    if (pass->target.kind == GN_TARGET_OUTPUT) bind_maps(gl, plan, pass);
+    if (pass->target.kind == GN_TARGET_ENCODED)
+        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output.texture,
+                           gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
 }
 
 static void set_constants(struct gn_gl *gl, struct gn_gl_program *program,
@@ -116,8 +135,24 @@ static void set_material(struct gn_gl *gl, struct gn_gl_program *program, uint32
     GL(gl, Uniform4fv)(program->u_uv, 2 * GN_TEXTURE_SLOT_COUNT, gl->scene.uv[uv][0]);
 }
 
+static void draw_bare(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
+                      uint64_t constants_hash) {
+    struct gn_gl_program *program = gl->plan_programs[d->program];
+    set_constants(gl, program, pass, constants_hash);
+    gn_gl_set_cull(gl, GN_CULL_NONE, false);
+    gn_gl_vertices_bind(gl, program->attributes, d->first_instance);
+    GL(gl, DrawArraysInstanced)
+    (GL_TRIANGLES, 0, (GLsizei)d->vertex_count, (GLsizei)d->instance_count);
+    gl->stats.draws++;
+    gl->stats.triangles += (uint64_t)d->vertex_count / 3 * d->instance_count;
+}
+
 static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
                  uint64_t constants_hash) {
+    if (d->geometry == GN_NO_GEOMETRY) {
+        draw_bare(gl, pass, d, constants_hash);
+        return;
+    }
     struct gn_gl_program *program = gl->plan_programs[d->program];
     const struct gn_geometry *geometry = &gl->scene.scene->geometries[d->geometry];
     const size_t first = geometry->first_index * gl->scene.index_size;
@@ -142,7 +177,7 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
         gn_hash(GN_HASH_INIT, pass->constants, pass->constant_count * sizeof *pass->constants);
     if (grouped) GL(gl, PushDebugGroup)(GL_DEBUG_SOURCE_APPLICATION_KHR, 0, -1, pass->label);
     begin_target(gl, pass, framebuffer);
-    if (pass->target.kind == GN_TARGET_OUTPUT) bind_maps(gl, plan);
+    bind_sources(gl, plan, pass);
     for (uint32_t i = 0; i < pass->draw_count; i++)
         draw(gl, pass, &plan->draws[pass->first_draw + i], hash);
     end_target(gl, pass);
@@ -154,6 +189,8 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
                      struct gn_err *err) {
     if (pass->target.kind == GN_TARGET_OUTPUT)
         return draw_pass(gl, plan, pass, gl->targets.output.framebuffer, err);
+    if (pass->target.kind == GN_TARGET_ENCODED)
+        return draw_pass(gl, plan, pass, gl->targets.output.encoded, err);
     struct gn_gl_map *map = gn_gl_map_find(gl, &pass->target);
     if (!map) return gn_fail(err, "%s: the plan was not prepared", pass->label);
     if (pass->content_hash && map->content_hash == pass->content_hash) {
@@ -165,13 +202,19 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
     return ok;
 }
 
+/* Nothing is drawn to the picture after this pass. */
+static bool is_last_of_picture(const struct gn_plan *plan, uint32_t pass) {
+    return pass + 1 == plan->pass_count ? plan->passes[pass].target.kind != GN_TARGET_ENCODED
+                                        : plan->passes[pass + 1].target.kind == GN_TARGET_ENCODED;
+}
+
 static bool run_passes(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms,
                        struct gn_err *err) {
     if (pass_ms) gn_gl_wait(gl);
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const int64_t start_ns = pass_ms ? gn_clock_monotonic_ns() : 0;
         if (!run_pass(gl, plan, &plan->passes[i], err)) return false;
-        if (i + 1 == plan->pass_count) resolve(gl);
+        if (is_last_of_picture(plan, i)) resolve(gl);
         if (!pass_ms) continue;
         gn_gl_wait(gl);
         pass_ms[i] = (double)(gn_clock_monotonic_ns() - start_ns) * 1e-6;

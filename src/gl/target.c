@@ -59,44 +59,94 @@ static void output_finish(struct gn_gl *gl) {
     gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &o->color);
     gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &o->depth);
     gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &o->resolved_color);
+    gn_gl_object_destroy(gl, GN_GL_TEXTURE, &o->texture);
+    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->encoded);
+    gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &o->encoded_color);
     *o = (struct gn_gl_output){0};
+}
+
+/* A shader turns the linear picture into bytes. */
+static bool is_encoded(const struct gn_plan *plan) {
+    return plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT;
 }
 
 static bool output_is(const struct gn_gl_output *o, const struct gn_plan *plan) {
     return o->framebuffer && o->width_px == plan->width_px && o->height_px == plan->height_px &&
-           o->format == plan->output && o->msaa_wanted == plan->msaa;
+           o->format == plan->output && o->msaa_wanted == plan->msaa &&
+           (o->encoded != 0) == is_encoded(plan);
 }
 
-static bool make_resolved(struct gn_gl *gl, struct gn_gl_output *o, GLenum format,
+/* The one colour of the framebuffer that is bound: as a texture, if shaders are to read it. */
+static void attach_color(struct gn_gl *gl, struct gn_gl_output *o, GLuint *color, GLsizei samples,
+                         bool readable) {
+    const GLenum format = output_formats[o->format].format;
+    if (!readable) {
+        *color = make_renderbuffer(gl, format, samples, o->width_px, o->height_px);
+        attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, *color);
+        return;
+    }
+    o->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
+    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, o->texture, 0);
+    GL(gl, TexStorage2D)
+    (GL_TEXTURE_2D, 1, format, (GLsizei)o->width_px, (GLsizei)o->height_px);
+    GL(gl, FramebufferTexture2D)
+    (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, o->texture, 0);
+}
+
+static bool make_resolved(struct gn_gl *gl, struct gn_gl_output *o, bool readable,
                           struct gn_err *err) {
     o->resolved = o->framebuffer;
     if (!o->msaa) return true;
-    o->resolved_color = make_renderbuffer(gl, format, 0, o->width_px, o->height_px);
     o->resolved = make_framebuffer(gl);
-    attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->resolved_color);
+    attach_color(gl, o, &o->resolved_color, 0, readable);
     return gn_gl_framebuffer_check(gl, "resolved output", err);
+}
+
+static bool make_encoded(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err *err) {
+    o->encoded_color = make_renderbuffer(gl, GL_RGBA8, 0, o->width_px, o->height_px);
+    o->encoded = make_framebuffer(gl);
+    attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->encoded_color);
+    return gn_gl_framebuffer_check(gl, "encoded output", err);
+}
+
+GLuint gn_gl_output_finished(const struct gn_gl_output *output) {
+    return output->encoded ? output->encoded : output->resolved;
+}
+
+enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output) {
+    return output->encoded ? GN_OUTPUT_LINEAR8 : output->format;
+}
+
+static uint64_t bytes_of(const struct gn_gl_output *o, bool encoded) {
+    const uint64_t pixels = (uint64_t)o->width_px * o->height_px;
+    const unsigned color = output_formats[o->format].bytes;
+    return pixels * (color + 4) * (o->msaa ? o->msaa : 1) + (o->msaa ? pixels * color : 0) +
+           (encoded ? 4 * pixels : 0);
+}
+
+static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, bool encoded,
+                        struct gn_err *err) {
+    o->depth =
+        make_renderbuffer(gl, GL_DEPTH_COMPONENT24, (GLsizei)o->msaa, o->width_px, o->height_px);
+    o->framebuffer = make_framebuffer(gl);
+    attach_color(gl, o, &o->color, (GLsizei)o->msaa, encoded && !o->msaa);
+    attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, o->depth);
+    o->bytes = bytes_of(o, encoded);
+    return gn_gl_framebuffer_check(gl, "output", err) && make_resolved(gl, o, encoded, err) &&
+           (!encoded || make_encoded(gl, o, err)) &&
+           gn_gl_error_check(gl, "making the output", err);
 }
 
 static bool output_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     struct gn_gl_output *o = &gl->targets.output;
     if (output_is(o, plan)) return true;
     output_finish(gl);
-    const GLenum format = output_formats[plan->output].format;
-    const uint64_t pixels = (uint64_t)plan->width_px * plan->height_px;
-    const uint32_t msaa = possible_samples(gl, plan);
-    o->width_px = plan->width_px, o->height_px = plan->height_px;
-    o->format = plan->output, o->msaa = msaa, o->msaa_wanted = plan->msaa;
-    o->color = make_renderbuffer(gl, format, (GLsizei)msaa, o->width_px, o->height_px);
-    o->depth =
-        make_renderbuffer(gl, GL_DEPTH_COMPONENT24, (GLsizei)msaa, o->width_px, o->height_px);
-    o->framebuffer = make_framebuffer(gl);
-    attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->color);
-    attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, o->depth);
-    o->bytes = pixels * (output_formats[plan->output].bytes + 4) * (msaa ? msaa : 1);
-    if (msaa) o->bytes += pixels * output_formats[plan->output].bytes;
-    if (gn_gl_framebuffer_check(gl, "output", err) && make_resolved(gl, o, format, err) &&
-        gn_gl_error_check(gl, "making the output", err))
-        return true;
+    *o = (struct gn_gl_output){.width_px = plan->width_px,
+                               .height_px = plan->height_px,
+                               .format = plan->output,
+                               .msaa = possible_samples(gl, plan),
+                               .msaa_wanted = plan->msaa};
+    if (output_make(gl, o, is_encoded(plan), err)) return true;
     output_finish(gl);
     return false;
 }
@@ -169,8 +219,8 @@ struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot) {
     return latest;
 }
 
-/* An empty place, else the one unused for longest: never one of this plan, which has four at most.
- */
+/* An empty place, else the one unused for longest: never one of this plan, which has half as many
+ * at most. */
 static struct gn_gl_map *free_place(struct gn_gl *gl) {
     struct gn_gl_map *oldest = &gl->targets.maps[0];
     for (int i = 1; i < GN_GL_MAPS_MAX; i++)

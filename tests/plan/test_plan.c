@@ -209,6 +209,64 @@ static void test_flat_ground_is_not_in_the_map(void **state) {
     end(&f);
 }
 
+/* Ten more spots and bulbs along a row, most of them of short range. */
+static void add_lights(struct fixture *f, struct gn_light lights[13]) {
+    static const char *const names[] = {"Lamp 1", "Lamp 2", "Lamp 3", "Lamp 4", "Lamp 5",
+                                        "Lamp 6", "Lamp 7", "Lamp 8", "Lamp 9", "Lamp 10"};
+    memcpy(lights, f->scene->lights, 3 * sizeof *lights);
+    for (int i = 0; i < 10; i++) {
+        lights[3 + i] = lights[i % 2 ? 1 : 2];
+        lights[3 + i].name = names[i];
+        lights[3 + i].range_m = i < 2 ? 0.0f : i % 2 ? 5.5f : 0.8f + 0.1f * (float)i;
+    }
+    for (int i = 5; i < 13; i++) lights[i].outer_rad = 0.25f, lights[i].inner_rad = 0.2f;
+    f->scene->lights = lights;
+    f->scene->light_count = 13;
+}
+
+static void test_many_lights_plan(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_light lights[13];
+    begin(&f, everything);
+    add_lights(&f, lights);
+    expect_golden(build(&f), "many");
+    end(&f);
+}
+
+/* Encoding shaders cannot add: the picture is linear, and bytes are made of it at the end. */
+static void test_many_lights_without_srgb_plan(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_light lights[13];
+    begin(&f, everything & ~(1u << GN_CAP_SRGB));
+    add_lights(&f, lights);
+    const struct gn_plan *plan = build(&f);
+    assert_int_equal(plan->output, GN_OUTPUT_FLOAT);
+    const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
+    assert_int_equal(last->target.kind, GN_TARGET_ENCODED);
+    for (uint32_t i = 0; i < plan->program_count; i++)
+        assert_false(plan->programs[i].features & GN_FEATURE_ENCODE_SRGB);
+    end(&f);
+}
+
+/* What a light comes near is known before: no program is made while things move. */
+static void test_programs_do_not_change_with_what_is_reached(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_light lights[13];
+    begin(&f, everything);
+    add_lights(&f, lights);
+    const struct gn_plan *plan = build(&f);
+    uint32_t programs = plan->program_count, passes = plan->pass_count;
+    for (int i = 0; i < 13; i++)
+        if (lights[i].range_m > 0.0f) lights[i].range_m = 0.001f;
+    plan = build(&f);
+    assert_true(plan->pass_count < passes);
+    assert_int_equal(plan->program_count, programs);
+    end(&f);
+}
+
 static void test_check_finds_what_is_broken(void **state) {
     (void)state;
     struct fixture f;
@@ -222,6 +280,18 @@ static void test_check_finds_what_is_broken(void **state) {
     assert_non_null(gn_plan_check(&plan));
     plan = *build(&f);
     plan.passes[0].clear = false;
+    assert_non_null(gn_plan_check(&plan));
+    plan = *build(&f);
+    plan.passes[plan.pass_count - 1].blend = GN_BLEND_ADD; /* with programs that do not add */
+    assert_non_null(gn_plan_check(&plan));
+    plan = *build(&f);
+    plan.passes[plan.pass_count - 1].rect = (struct gn_rect){1, 0, plan.width_px, 1};
+    assert_non_null(gn_plan_check(&plan));
+    plan = *build(&f);
+    plan.passes[plan.pass_count - 1].shadow_count = 1; /* its programs read two */
+    assert_non_null(gn_plan_check(&plan));
+    plan = *build(&f);
+    plan.draws[0].geometry = GN_NO_GEOMETRY;
     assert_non_null(gn_plan_check(&plan));
     end(&f);
 }
@@ -257,6 +327,9 @@ int main(void) {
         cmocka_unit_test(test_map_moves_by_whole_texels),
         cmocka_unit_test(test_an_eye_that_sees_no_shadow_needs_no_caster),
         cmocka_unit_test(test_flat_ground_is_not_in_the_map),
+        cmocka_unit_test(test_many_lights_plan),
+        cmocka_unit_test(test_many_lights_without_srgb_plan),
+        cmocka_unit_test(test_programs_do_not_change_with_what_is_reached),
         cmocka_unit_test(test_check_finds_what_is_broken),
         cmocka_unit_test(test_exposure),
     };

@@ -264,6 +264,7 @@ static void plan_map(enum gn_encoding encoding, float code, float far_code) {
     s.passes[0].content_hash = 77;
     s.constants[1][0][0] = code;
     s.passes[0].constants = (const float(*)[4])s.constants[1];
+    s.passes[1].shadow_count = 1;
     s.plan.pass_count = 2, s.plan.program_count = 2, s.plan.shadow_count = 1;
     s.shadows[0] = (struct gn_shadow_view){
         .technique = GN_TECHNIQUE_HARD, .encoding = encoding, .map_px = MAP};

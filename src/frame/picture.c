@@ -1,0 +1,182 @@
+/* The passes that draw the picture. With more lights than one pass takes, the first pass draws all
+ * with the first group of them, and each other group is added to it: the same surfaces at the same
+ * depth, in linear light, within the bounds of its lights on the screen. Blended items come last,
+ * farthest first, each followed by what is added to it: what lies before it must dim that, too. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame/private.h"
+
+static float srgb_from_linear(float c) {
+    c = glm_clamp_zo(c);
+    return c <= 0.0031308f ? 12.92f * c : 1.055f * powf(c, 1.0f / 2.4f) - 0.055f;
+}
+
+static void set_clear(const struct gn_frame *frame, enum gn_aov aov, float color[4]) {
+    static const float aov_clear[GN_AOV_COUNT] = {
+        [GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY};
+    const bool encode = frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_LINEAR8;
+    for (int k = 0; k < 3; k++) {
+        color[k] = aov == GN_AOV_COLOR ? frame->scene->background[k] : aov_clear[aov];
+        if (encode) color[k] = srgb_from_linear(color[k]);
+    }
+    color[3] = 1.0f;
+}
+
+struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label) {
+    struct gn_pass *pass = gn_frame_begin_pass(frame);
+    snprintf(pass->label, sizeof pass->label, "%s", label);
+    pass->target = (struct gn_target){.kind = GN_TARGET_OUTPUT,
+                                      .width_px = frame->plan.width_px,
+                                      .height_px = frame->plan.height_px};
+    return pass;
+}
+
+/* A pass with what a group's programs read. */
+static struct gn_pass *lit_pass(struct gn_frame *frame, const char *label, uint32_t group) {
+    const struct gn_light_group *g = &frame->groups[group];
+    struct gn_pass *pass = gn_frame_picture_pass(frame, label);
+    pass->constants = gn_frame_constants(frame, GN_CONSTANTS_PICTURE + group);
+    pass->first_light = g->first;
+    pass->light_count = g->count;
+    pass->first_shadow = g->first_shadow;
+    pass->shadow_count = g->shadow_count;
+    return pass;
+}
+
+static void additive_pass(struct gn_frame *frame, const char *prefix, uint32_t group) {
+    const struct gn_light_group *g = &frame->groups[group];
+    char label[48];
+    snprintf(label, sizeof label, "%slights %u-%u", prefix, g->first + 1, g->first + g->count);
+    struct gn_pass *pass = lit_pass(frame, label, group);
+    pass->blend = GN_BLEND_ADD;
+    pass->depth_write = false;
+    pass->rect = g->rect;
+}
+
+static void add_to_opaque(struct gn_frame *frame, const struct gn_pose *pose,
+                          const struct gn_frame_opts *opts, uint32_t group) {
+    struct gn_selection reached = {.group = &frame->groups[group], .opts = opts};
+    additive_pass(frame, "", group);
+    gn_frame_draw_items(frame, pose, &reached);
+    gn_frame_end_pass(frame);
+    if (frame->passes.at[frame->passes.count - 1].draw_count == 0) frame->passes.count--;
+}
+
+/* ---- blended items ---- */
+
+static int by_depth(const void *a, const void *b) {
+    const struct gn_placed *x = a, *y = b;
+    if (x->depth != y->depth) return x->depth < y->depth ? 1 : -1;
+    return x->item < y->item ? -1 : 1;
+}
+
+static bool group_adds_to(const struct gn_frame *frame, const struct gn_pose *pose, uint32_t group,
+                          uint32_t item) {
+    const struct gn_light_group *g = &frame->groups[group];
+    return !frame->scene->materials[frame->scene->items[item].material].unlit && g->seen &&
+           gn_group_touches(g, &pose->items[item].box_ws);
+}
+
+/* Adds the other groups' light to one blended item; true if there was any. */
+static bool add_to_blended(struct gn_frame *frame, const struct gn_pose *pose,
+                           const struct gn_frame_opts *opts, uint32_t item) {
+    bool added = false;
+    for (uint32_t i = 1; i < frame->group_count; i++) {
+        if (!group_adds_to(frame, pose, i, item)) continue;
+        struct gn_selection reached = {.group = &frame->groups[i], .opts = opts};
+        bool open = false;
+        if (!added) gn_frame_end_pass(frame);
+        added = true;
+        additive_pass(frame, "blend ", i);
+        gn_frame_draw_item(frame, pose, &reached, item, &open);
+        gn_frame_end_pass(frame);
+    }
+    return added;
+}
+
+static void begin_blend(struct gn_frame *frame) {
+    struct gn_pass *pass = lit_pass(frame, "blend", 0);
+    pass->blend = GN_BLEND_ALPHA;
+    pass->depth_write = false;
+}
+
+static void blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct gn_frame_opts *opts) {
+    const struct gn_selection seen = {.opts = opts};
+    const struct gn_placed *placed = frame->blended.at;
+    bool begun = false, open = false;
+    qsort(frame->blended.at, frame->blended.count, sizeof *placed, by_depth);
+    for (uint32_t i = 0; i < frame->blended.count; i++) {
+        if (!begun) begin_blend(frame);
+        open = begun && frame->scene->items[placed[i].item].batch ==
+                            frame->scene->items[placed[i - 1].item].batch;
+        gn_frame_draw_item(frame, pose, &seen, placed[i].item, &open);
+        begun = !add_to_blended(frame, pose, opts, placed[i].item);
+    }
+    if (begun) gn_frame_end_pass(frame);
+}
+
+/* ---- all of them ---- */
+
+/* Programs are made before they are needed: a light that comes near asks for none. */
+static void keep_additive_programs(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+    const uint32_t count = frame->programs.count;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t g = 1; g < frame->group_count; g++) {
+            const struct gn_program_key lit = frame->programs.at[i];
+            if (lit.kind != GN_PROGRAM_LIT) continue;
+            if (lit.features & (GN_FEATURE_UNLIT | GN_FEATURE_ADDITIVE)) continue;
+            struct gn_program_key key = gn_key_additive(frame, &lit, &frame->groups[g], opts);
+            gn_frame_program(frame, &key);
+        }
+}
+
+static void opaque_pass(struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_frame_opts *opts) {
+    struct gn_selection seen = {.opts = opts};
+    struct gn_pass *pass = lit_pass(frame, opts->aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
+    uint32_t first = pass->first_draw;
+    pass->clear = true;
+    set_clear(frame, opts->aov, pass->clear_color);
+    frame->blended.count = 0;
+    gn_frame_draw_items(frame, pose, &seen);
+    gn_frame_sort_draws(frame, first);
+    gn_frame_end_pass(frame);
+}
+
+void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key,
+                        uint32_t vertex_count, uint32_t first_instance, uint32_t instance_count) {
+    uint32_t program = gn_frame_program(frame, key);
+    GN_LIST_PUSH(&frame->draws) = (struct gn_draw){.program = program,
+                                                   .geometry = GN_NO_GEOMETRY,
+                                                   .vertex_count = vertex_count,
+                                                   .first_instance = first_instance,
+                                                   .instance_count = instance_count};
+}
+
+/* Light was added in linear halves, and there is no target that encodes. */
+static void encode_pass(struct gn_frame *frame) {
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = GN_PROGRAM_ENCODE;
+    struct gn_pass *pass = gn_frame_picture_pass(frame, "encode");
+    pass->target.kind = GN_TARGET_ENCODED;
+    pass->depth_write = false;
+    pass->constants = gn_frame_constants(frame, GN_CONSTANTS_PICTURE);
+    gn_frame_draw_bare(frame, &key, 3, 0, 1);
+    gn_frame_end_pass(frame);
+}
+
+void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                             const struct gn_frame_opts *opts) {
+    gn_frame_bound_groups(frame);
+    opaque_pass(frame, pose, opts);
+    for (uint32_t i = 1; i < frame->group_count; i++)
+        if (frame->groups[i].seen) add_to_opaque(frame, pose, opts, i);
+    blend_passes(frame, pose, opts);
+    keep_additive_programs(frame, opts);
+    frame->passes.at[frame->passes.count - 1].discard_depth = true;
+    if (frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_FLOAT) encode_pass(frame);
+}

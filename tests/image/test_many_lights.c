@@ -1,0 +1,352 @@
+/* More lights than one pass takes: N lights of an Nth of the strength are one light, whatever
+ * passes they fall in; and what many lights cost when nothing, or one of them, changes. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "frame/plan.h"
+#include "plan/stage_scene.h"
+#include "unit/check.h"
+#include "unit/gl_help.h"
+
+enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT, SUN = 0, SPOT = 1, BULB = 2 };
+
+static struct gn_display display;
+static struct gn_gl *gl;
+static struct gn_scene *scene;
+static struct gn_light own[3], lights[GN_ALL_LIGHTS_MAX + 8];
+static struct gn_pose pose;
+static struct gn_frame *frame;
+static struct gn_frame_opts opts;
+static struct gn_warnings warnings;
+static struct gn_gl_stats stats;
+static struct gn_err err;
+
+static void open_with(const char *backend, const char *without) {
+    help_open(&display, backend);
+    warnings = (struct gn_warnings){0};
+    gl = help_gl(&display, &(struct gn_gl_opts){.without = without}, &warnings);
+    scene = gn_stage_scene_make();
+    memcpy(own, scene->lights, sizeof own);
+    scene->lights = lights;
+    if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    gn_pose_step(&pose, 0);
+    frame = gn_frame_create(scene, gn_gl_caps(gl));
+    opts = (struct gn_frame_opts){.width_px = WIDTH,
+                                  .height_px = HEIGHT,
+                                  .encoding = GN_ENCODING_AUTO,
+                                  .map_px = 256,
+                                  .exposure_given = true};
+}
+
+static int open_egl(void **state) {
+    (void)state;
+    open_with("egl", NULL);
+    return 0;
+}
+
+static int open_osmesa(void **state) {
+    (void)state;
+    open_with("osmesa", NULL);
+    return 0;
+}
+
+static int open_egl_without_srgb(void **state) {
+    (void)state;
+    open_with("egl", "srgb");
+    return 0;
+}
+
+static int open_osmesa_without_srgb(void **state) {
+    (void)state;
+    open_with("osmesa", "srgb");
+    return 0;
+}
+
+static int open_egl_poor(void **state) {
+    (void)state;
+    open_with("egl", "srgb,rgba16f");
+    return 0;
+}
+
+static int close_all(void **state) {
+    (void)state;
+    gn_frame_destroy(frame);
+    gn_pose_finish(&pose);
+    gn_gl_destroy(gl);
+    gn_scene_destroy(scene);
+    gn_display_close(&display);
+    return 0;
+}
+
+/* Every light an equal part of the same. */
+static void share(int light, uint32_t count) {
+    scene->light_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        lights[i] = own[light];
+        glm_vec3_scale(own[light].color, 1.0f / (float)count, lights[i].color);
+    }
+}
+
+static const struct gn_plan *draw(uint8_t *rgba) {
+    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, &warnings);
+    const char *broken = gn_plan_check(plan);
+    if (broken) fail_msg("plan: %s", broken);
+    if (!gn_gl_prepare(gl, plan, &err) || !gn_gl_run(gl, plan, NULL, &err))
+        fail_msg("%s", err.text);
+    stats = gn_gl_stats(gl);
+    if (rgba && !gn_gl_read_rgba8(gl, rgba, &err)) fail_msg("%s", err.text);
+    return plan;
+}
+
+/* The share of the pixels that differ by more than `codes`, in thousandths. */
+static double apart(const uint8_t *a, const uint8_t *b, int codes) {
+    int count = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        bool alike = true;
+        for (int k = 0; k < 3; k++) alike = alike && abs(a[4 * i + k] - b[4 * i + k]) <= codes;
+        count += !alike;
+    }
+    return 1000.0 * count / PIXELS;
+}
+
+static uint8_t one[4 * PIXELS], many[4 * PIXELS];
+
+static uint32_t passes_that_add(const struct gn_plan *plan) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        count += plan->passes[i].blend == GN_BLEND_ADD &&
+                 strncmp(plan->passes[i].label, "lights", 6) == 0;
+    return count;
+}
+
+/* Each pass rounds to bytes: with more than two, or what is blended, a code more is lost. */
+static void expect_one(int light, const uint32_t counts[4], uint32_t each_pass, int codes) {
+    const bool all = getenv("GN_FULL"); /* a program each: quickly, only four */
+    share(light, 1);
+    draw(one);
+    for (uint32_t k = 0, count; k < (all ? 11 : 4) && (count = all ? k + 2 : counts[k]); k++) {
+        share(light, count);
+        const struct gn_plan *plan = draw(many);
+        assert_int_equal(passes_that_add(plan), (count - 1) / each_pass);
+        double thousandths = apart(one, many, passes_that_add(plan) > 1 ? 2 : codes);
+        if (thousandths <= 1.0) continue;
+        fail_msg("light %d x %u: %.2f thousandths of the pixels differ", light, count, thousandths);
+    }
+}
+
+/* Where shaders encode, one pass blends in bytes: then it is not comparable with light that is
+ * added. */
+static void close_the_pane(void) { scene->materials[4].alpha = GN_ALPHA_OPAQUE; }
+
+static void test_many_open_lights_are_one(void **state) {
+    (void)state;
+    static const uint32_t counts[3][4] = {{9}, {2, 8, 9, 12}, {12}};
+    close_the_pane();
+    opts.technique_given = true;
+    opts.technique = GN_TECHNIQUE_NONE;
+    for (int light = SUN; light <= BULB; light++)
+        expect_one(light, counts[light], GN_LIGHTS_MAX, 1);
+}
+
+static void test_many_casting_lights_are_one(void **state) {
+    (void)state;
+    static const uint32_t counts[2][4] = {{8}, {4, 5, 8, 12}};
+    close_the_pane();
+    for (int light = SUN; light <= SPOT; light++)
+        expect_one(light, counts[light], GN_SHADOWS_MAX, 1);
+}
+
+static void test_strength_holds_in_every_pass(void **state) {
+    (void)state;
+    close_the_pane();
+    share(SPOT, 1);
+    draw(many);
+    opts.strength_given = true;
+    opts.strength = 0.7f;
+    draw(one);
+    assert_true(apart(one, many, 1) > 2.0); /* shadows are paler */
+    expect_one(SPOT, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 1);
+}
+
+static void test_a_short_range_is_one_too(void **state) {
+    (void)state;
+    close_the_pane();
+    own[BULB].range_m = 3.0f;
+    own[SPOT].range_m = 6.5f;
+    own[SPOT].outer_rad = 0.3f;
+    own[SPOT].inner_rad = 0.1f;
+    expect_one(BULB, (const uint32_t[4]){10}, GN_LIGHTS_MAX, 1);
+    expect_one(SPOT, (const uint32_t[4]){5}, GN_SHADOWS_MAX, 1);
+    const struct gn_plan *plan = draw(NULL);
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        if (plan->passes[i].blend == GN_BLEND_ADD)
+            assert_in_range(plan->passes[i].rect.width * plan->passes[i].rect.height, 1,
+                            PIXELS * 3 / 4);
+}
+
+static void test_blended_things_in_a_row(void **state) {
+    (void)state;
+    for (int i = 1; i <= 2; i++) { /* the boxes, red and blue */
+        scene->materials[i].alpha = GN_ALPHA_BLEND;
+        scene->materials[i].base_color[3] = 0.4f;
+    }
+    opts.technique_given = true;
+    opts.technique = GN_TECHNIQUE_NONE;
+    opts.turntable_rad = 1.4f; /* one behind the other */
+    expect_one(SPOT, (const uint32_t[4]){9, 12}, GN_LIGHTS_MAX, 2);
+}
+
+static void test_antialiased(void **state) {
+    (void)state;
+    if (!(gn_gl_caps(gl)->has & 1u << GN_CAP_MSAA4)) skip();
+    opts.msaa = 4;
+    close_the_pane();
+    expect_one(SPOT, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 1);
+}
+
+/* The samples of linear light are resolved, then encoded. */
+static void test_antialiased_without_srgb(void **state) {
+    (void)state;
+    if (!(gn_gl_caps(gl)->has & 1u << GN_CAP_MSAA4)) skip();
+    opts.msaa = 4;
+    share(SPOT, 5);
+    assert_int_equal(draw(one)->output, GN_OUTPUT_FLOAT);
+    share(SPOT, 8);
+    draw(many);
+    assert_true(apart(one, many, 1) <= 1.0);
+    opts.msaa = 0;
+    draw(many);
+    assert_true(apart(one, many, 1) > 2.0);
+}
+
+static void test_light_adds_up_in_linear_bytes_too(void **state) {
+    (void)state;
+    opts.output_linear = true;
+    expect_one(SUN, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 2);
+}
+
+/* ---- too many ---- */
+
+static void test_the_weakest_are_left_out_by_name(void **state) {
+    (void)state;
+    share(BULB, GN_ALL_LIGHTS_MAX + 2);
+    lights[5].name = "Faint";
+    glm_vec3_scale(lights[5].color, 0.5f, lights[5].color);
+    opts.technique_given = true;
+    opts.technique = GN_TECHNIQUE_NONE;
+    const struct gn_plan *plan = draw(NULL);
+    assert_int_equal(plan->light_count, GN_ALL_LIGHTS_MAX);
+    assert_true(warnings.count > 0);
+    assert_non_null(strstr(warnings.text[0], "'Faint' is left out: 32 lights"));
+    for (uint32_t i = 0; i < plan->light_count; i++) assert_true(plan->lights[i] != 5);
+}
+
+static void test_a_gpu_without_linear_targets_has_one_pass(void **state) {
+    (void)state;
+    share(SPOT, 9);
+    const struct gn_plan *plan = draw(NULL);
+    assert_int_equal(plan->light_count, GN_LIGHTS_MAX);
+    assert_int_equal(plan->shadow_count, GN_SHADOWS_MAX);
+    assert_int_equal(plan->output, GN_OUTPUT_LINEAR8);
+    assert_non_null(strstr(warnings.text[0], "on a GPU without srgb and rgba16f targets"));
+}
+
+/* ---- what is drawn again ---- */
+
+/* Eight lights, each with a map, at three nodes. */
+static void mix(void) {
+    scene->light_count = 8;
+    for (uint32_t i = 0; i < 8; i++) {
+        lights[i] = own[i % 2 ? SPOT : SUN];
+        glm_vec3_scale(lights[i].color, 0.125f, lights[i].color);
+        lights[i].outer_rad = 0.4f + 0.05f * (float)i;
+    }
+}
+
+static void test_a_still_scene_draws_no_map(void **state) {
+    (void)state;
+    mix();
+    draw(NULL);
+    assert_int_equal(stats.shadow_passes_skipped, 0);
+    const uint64_t objects = stats.objects_created;
+    draw(NULL);
+    assert_int_equal(stats.shadow_passes_skipped, 8);
+    assert_int_equal(stats.shadow_draws, 0);
+    assert_int_equal(stats.objects_created, objects);
+}
+
+static void test_a_light_that_moves_draws_its_own_map(void **state) {
+    (void)state;
+    mix();
+    draw(NULL);
+    lights[5].node = own[BULB].node;
+    draw(NULL);
+    assert_int_equal(stats.shadow_passes_skipped, 7);
+}
+
+static void test_a_caster_moved_a_millimetre_draws_again(void **state) {
+    (void)state;
+    mix();
+    draw(NULL);
+    gn_pose_step(&pose, 1000000); /* the mover goes 1 m/s */
+    draw(NULL);
+    assert_int_equal(stats.shadow_passes_skipped, 0);
+    const unsigned long allocated = gn_alloc_count();
+    const uint64_t objects = stats.objects_created;
+    for (int i = 2; i < 8; i++) {
+        gn_pose_step(&pose, i * 1000000);
+        draw(NULL);
+    }
+    assert_int_equal(gn_alloc_count(), allocated);
+    assert_int_equal(stats.objects_created, objects);
+}
+
+/* Mixed types, techniques and encodings, as many as there may be: nothing that the driver minds. */
+static void test_everything_at_once(void **state) {
+    (void)state;
+    static const char *const techniques[] = {"pcf", "hard", "pcf3", "pcss", "disk"};
+    scene->light_count = GN_ALL_LIGHTS_MAX;
+    for (uint32_t i = 0; i < GN_ALL_LIGHTS_MAX; i++) {
+        lights[i] = own[i % 3];
+        lights[i].technique = techniques[i % 5];
+    }
+    opts.width_px = 1280;
+    opts.height_px = 720;
+    for (int encoding = 0; encoding <= GN_ENCODING_AUTO; encoding++) {
+        opts.encoding = (enum gn_encoding)encoding;
+        const struct gn_plan *plan = draw(NULL);
+        assert_int_equal(plan->shadow_count, GN_ALL_SHADOWS_MAX);
+        assert_int_equal(plan->light_count, GN_ALL_LIGHTS_MAX);
+    }
+}
+
+#define ON(name, open)                                                                             \
+    { #name " " #open, name, open, close_all, NULL }
+#define TEST(name) ON(name, open_egl), ON(name, open_osmesa)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(test_many_open_lights_are_one),
+        ON(test_many_open_lights_are_one, open_egl_without_srgb),
+        ON(test_many_open_lights_are_one, open_osmesa_without_srgb),
+        TEST(test_many_casting_lights_are_one),
+        ON(test_many_casting_lights_are_one, open_egl_without_srgb),
+        ON(test_many_casting_lights_are_one, open_osmesa_without_srgb),
+        TEST(test_strength_holds_in_every_pass),
+        TEST(test_a_short_range_is_one_too),
+        TEST(test_blended_things_in_a_row),
+        TEST(test_antialiased),
+        ON(test_antialiased_without_srgb, open_egl_without_srgb),
+        TEST(test_light_adds_up_in_linear_bytes_too),
+        TEST(test_the_weakest_are_left_out_by_name),
+        ON(test_a_gpu_without_linear_targets_has_one_pass, open_egl_poor),
+        TEST(test_a_still_scene_draws_no_map),
+        TEST(test_a_light_that_moves_draws_its_own_map),
+        TEST(test_a_caster_moved_a_millimetre_draws_again),
+        TEST(test_everything_at_once),
+    };
+    return RUN(tests);
+}
