@@ -13,7 +13,7 @@ GOALS   := $(or $(MAKECMDGOALS),all)
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all tests run check accept truth gallery deps lint format man install uninstall help clean FORCE
+.PHONY: all tests run check accept truth gallery readme deps lint format man install uninstall help clean FORCE
 
 help:
 	@printf '%s\n' \
@@ -22,6 +22,7 @@ help:
 	    'make check      every quick test: gcc, clang, ASan and UBSan, lint' \
 	    'make accept     the long tests' \
 	    'make truth      shadows against ray-traced truth, as a table' \
+	    'make readme     the table of techniques in README.md, measured' \
 	    'make gallery    one scene with every technique and the truth, into assets/gallery' \
 	    'make deps       install the packages that building, running and testing need (apt);' \
     '                with CROSS= those that building for it needs' \
@@ -39,7 +40,8 @@ DEPS_check := build run test
 DEPS_accept := build run test
 DEPS_truth := build run test
 DEPS_gallery := build run test
-BOOT := $(if $(READY),,$(filter run check accept truth gallery,$(GOALS)))
+DEPS_readme := build run test
+BOOT := $(if $(READY),,$(filter run check accept truth gallery readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -194,6 +196,8 @@ accept:
 	@GN_FULL=1 tests/run.sh BUILD=$(O)/release $(call programs,$(O)/release) \
 	    $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh)) \
 	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan))
+readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
+	sh tests/image/readme.sh $<
 gallery: $(B)/tests/tool_gallery $(BIN)
 	@mkdir -p assets/gallery
 	$< assets/gallery

@@ -76,6 +76,22 @@ enum {
     FULL = DIFFUSE | GN_FEATURE_SPECULAR,
 };
 
+/* Every technique with every light and encoding, as TECHNIQUE-LIGHT-FORMAT. */
+static bool write_all(const char *folder, struct gn_err *err) {
+    static const char *const lights[] = {"sun", "point", "spot"};
+    for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
+        for (int type = GN_LIGHT_DIRECTIONAL; type <= GN_LIGHT_SPOT; type++)
+            for (int e = 0; e < GN_ENCODING_COUNT; e++) {
+                char name[80];
+                snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, lights[type],
+                         gn_encodings[e].name);
+                struct gn_program_key key =
+                    lit(FULL, type, gn_techniques[t].name, gn_encodings[e].name);
+                if (!write(folder, name, &key, err)) return false;
+            }
+    return true;
+}
+
 int main(int argc, char **argv) {
     const struct {
         const char *name;
@@ -111,10 +127,9 @@ int main(int argc, char **argv) {
         fprintf(stderr, "usage: tool_shaders DIR\n");
         return 2;
     }
-    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
-        if (!write(argv[1], programs[i].name, &programs[i].key, &err)) {
-            fprintf(stderr, "tool_shaders: %s\n", err.text);
-            return 1;
-        }
-    return 0;
+    bool ok = write_all(argv[1], &err);
+    for (size_t i = 0; ok && i < sizeof programs / sizeof *programs; i++)
+        ok = write(argv[1], programs[i].name, &programs[i].key, &err);
+    if (!ok) fprintf(stderr, "tool_shaders: %s\n", err.text);
+    return ok ? 0 : 1;
 }

@@ -1,0 +1,212 @@
+/* `make readme`: the README's table of techniques, measured: tool_readme INSTRUCTIONS. A row for
+ * each technique, kind of light and map encoding: errors against truth, of the penumbra too;
+ * processor time on the software driver; instructions of the lit program on real GPUs, out of a
+ * file that tests/image/instructions.sh writes; bytes. Markdown, on stdout. */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/penumbra.h"
+#include "image/shot.h"
+#include "image/table.h"
+#include "shadow/technique.h"
+
+static void quit(const char *what) {
+    fprintf(stderr, "tool_readme: %s\n", what);
+    exit(1);
+}
+
+static const struct {
+    const char *name, *shader; /* how the instructions' file calls its programs: "pcf-spot-r16f" */
+    int first, last;           /* scenes */
+} lights[] = {{"sun", "sun", 0, 11}, {"spot", "spot", 12, 23}, {"point", "point", 24, 29}};
+enum { LIGHTS = sizeof lights / sizeof *lights };
+
+/* ---- errors ---- */
+
+static double mean_of(const struct gn_table_row *row, int light,
+                      double fault(const struct gn_mask_score *)) {
+    double sum = 0;
+    int count = 0;
+    for (int i = lights[light].first; i <= lights[light].last && i < GN_TABLE_SCENES; i++) {
+        if (!row->measured[i]) continue;
+        sum += fault(&row->scores[i]);
+        count++;
+    }
+    return count ? sum / count : NAN;
+}
+
+/* Two digits that count. */
+static void print_share(double value) {
+    if (isnan(value))
+        printf(" | ");
+    else if (value < .00005)
+        printf(" | 0");
+    else
+        printf(" | %.*f", value < .001 ? 4 : value < .1 ? 3 : 2, value);
+}
+
+static struct gn_picture shoot(const char *path, const char *technique, const char *format) {
+    struct gn_err err = {0};
+    struct gn_picture shot;
+    const char *const args[] = {"--aov",        "visibility", "--size",   "480x360",
+                                "--backend",    "egl",        "--shadow", technique,
+                                "--map-format", format,       NULL};
+    if (!gn_shot(&shot, NULL, &err, "pfm", path, args)) quit(err.text);
+    return shot;
+}
+
+struct penumbra {
+    char *path[GN_PENUMBRA_COUNT];
+    struct gn_picture truth[GN_PENUMBRA_COUNT];
+};
+
+static void make_penumbrae(struct penumbra *p) {
+    struct gn_err err = {0};
+    for (int i = 0; i < GN_PENUMBRA_COUNT; i++) {
+        p->path[i] = gn_penumbra_write(i, &err);
+        if (!p->path[i] || !gn_penumbra_truth(&p->truth[i], p->path[i], false, 480, 360, &err))
+            quit(err.text);
+    }
+}
+
+/* RMSE over the penumbrae of this light's scenes; of a sun also the half-plane's width and energy.
+ */
+static void print_penumbra(const struct penumbra *p, const struct gn_table_row *row, int light) {
+    double sum = 0;
+    int count = 0;
+    struct gn_penumbra_edge edge = {0};
+    for (int i = 0; i < GN_PENUMBRA_COUNT && light < 2; i++) {
+        bool sun = i == GN_PENUMBRA_BARS || i == GN_PENUMBRA_EDGE;
+        if (sun != (light == 0)) continue;
+        struct gn_picture shot = shoot(p->path[i], row->technique, row->format);
+        struct gn_penumbra_score score;
+        gn_penumbra_score(&p->truth[i], &shot, &score);
+        if (i == GN_PENUMBRA_EDGE) gn_penumbra_edge(&p->truth[i], &shot, &edge);
+        gn_picture_finish(&shot);
+        sum += score.soft;
+        count++;
+    }
+    print_share(count ? sum / count : NAN);
+    if (light == 0)
+        printf(" | %+.0f %% | %+.1f %%", 100 * (edge.width / edge.width_truth - 1),
+               100 * edge.energy);
+    else
+        printf(" | | ");
+}
+
+/* ---- cost ---- */
+
+/* Processor time of S1 (a sun and a spot) over that without shadows. */
+static double cost_of(const struct gn_table_row *row) {
+    struct gn_err err = {0};
+    char list[64];
+    snprintf(list, sizeof list, "none,%s", row->technique);
+    const char *const argv[] = {gn_shot_program(),
+                                "bench",
+                                "assets/bench/s1.glb",
+                                "--shadow",
+                                list,
+                                "--map-format",
+                                row->format,
+                                "--backend",
+                                "egl",
+                                "--frames",
+                                "60",
+                                "--json",
+                                NULL};
+    struct gn_run *run = malloc(sizeof *run);
+    if (!run || !gn_run(run, argv, 300, &err) || run->status) quit("bench failed");
+    json_t *json = json_loads(run->out, 0, NULL);
+    json_t *runs = json_object_get(json, "runs");
+    double none = json_number_value(json_object_get(json_array_get(runs, 0), "cpu_ms"));
+    double with = json_number_value(json_object_get(json_array_get(runs, 1), "cpu_ms"));
+    json_decref(json);
+    free(run);
+    return with / none;
+}
+
+enum { GPUS = 3 };
+static const char *const gpus[GPUS] = {"pi4", "g52", "a618"};
+
+/* Lines "PROGRAM GPU INSTRUCTIONS". */
+static void print_instructions(const char *file, const struct gn_table_row *row, int light) {
+    char wanted[80], program[80], gpu[16];
+    int count, found[GPUS] = {0};
+    snprintf(wanted, sizeof wanted, "%s-%s-%s", row->technique, lights[light].shader, row->format);
+    FILE *from = fopen(file, "r");
+    while (from && fscanf(from, "%79s %15s %d", program, gpu, &count) == 3)
+        for (int i = 0; i < GPUS; i++)
+            if (strcmp(program, wanted) == 0 && strcmp(gpu, gpus[i]) == 0) found[i] = count;
+    if (from) fclose(from);
+    for (int i = 0; i < GPUS; i++)
+        if (found[i])
+            printf(" | %d", found[i]);
+        else
+            printf(" | ");
+}
+
+static double megabytes_of(const struct gn_table_row *row, int light) {
+    enum gn_encoding encoding = GN_ENCODING_AUTO;
+    gn_encoding_find(row->format, &encoding, NULL);
+    return gn_encodings[encoding].texel_bytes * (light == 2 ? 6.0 : 1.0) * 1024 * 1024 / 1e6;
+}
+
+/* ---- all ---- */
+
+static void print_row(const char *file, const struct penumbra *p, const struct gn_table_row *row,
+                      int light, double cost) {
+    printf("| %s%s%s | %s | %s", light ? "" : "`", light ? "" : row->technique, light ? "" : "`",
+           lights[light].name, row->format);
+    print_share(mean_of(row, light, gn_mask_acne));
+    print_share(mean_of(row, light, gn_mask_leak));
+    print_share(mean_of(row, light, gn_mask_gap));
+    print_share(mean_of(row, light, gn_mask_wrong));
+    print_penumbra(p, row, light);
+    if (light == 0)
+        printf(" | %.2f", cost);
+    else
+        printf(" | ");
+    print_instructions(file, row, light);
+    printf(" | %.1f |\n", megabytes_of(row, light));
+}
+
+static void add_rows(struct gn_table *table) {
+    static const char *const by_hand[] = {"r16f", "depth", "r32ui", "rgba8", "r16f-raw"};
+    for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++) {
+        const struct gn_technique_row *row = &gn_techniques[t];
+        if (strcmp(row->name, "planar") == 0) continue; /* measured on its plane alone */
+        for (int f = 0; f < 5; f++)
+            if (t == GN_TECHNIQUE_HARD || f == (row->reads_distance ? 0 : 1))
+                gn_table_add(table, row->name, by_hand[f], 1024);
+    }
+}
+
+int main(int argc, char **argv) {
+    static struct gn_table table;
+    static struct penumbra penumbra;
+    struct gn_err err = {0};
+    if (argc != 2) quit("usage: tool_readme INSTRUCTIONS");
+    char *folder = gn_table_scenes(false, &err);
+    if (!folder) quit(err.text);
+    table.folder = folder;
+    for (int i = 0; i < GN_TABLE_SCENES; i++) table.scenes[i] = true;
+    add_rows(&table);
+    gn_table_run(&table);
+    if (table.failures) quit(table.failure);
+    make_penumbrae(&penumbra);
+    printf(
+        "| technique | light | map | acne | leak | gap | wrong | penumbra | width | energy | time |"
+        " Pi 4 | G52 | A618 | MB "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (int i = 0; i < table.row_count; i++) {
+        double cost = cost_of(&table.rows[i]);
+        for (int light = 0; light < LIGHTS; light++)
+            if (lights[light].first < GN_TABLE_SCENES)
+                print_row(argv[1], &penumbra, &table.rows[i], light, cost);
+    }
+    free(folder);
+    return 0;
+}
