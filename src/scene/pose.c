@@ -249,22 +249,31 @@ static void position_of(vec4 *world_from_node, vec3 out) {
     }
 }
 
-void gn_pose_view(const struct gn_pose *pose, uint32_t camera, mat4 view_from_world, vec3 eye_ws) {
-    vec4 *world = pose->world_from_node[pose->scene->cameras[camera].node];
-    vec3 axes[3], eye, side;
+/* Without the node's scale; the sense of its X axis is made right. */
+static void rigid_inverse(vec4 *world, mat4 out) {
+    vec3 axes[3], origin, side;
     unit_or(world[2], (vec3){0, 0, 1}, axes[2]);
     unit_or(world[1], (vec3){0, 1, 0}, side);
     glm_vec3_cross(side, axes[2], side);
     if (glm_vec3_norm(side) < 1e-6f) glm_vec3_ortho(axes[2], side);
     unit_or(side, (vec3){1, 0, 0}, axes[0]);
     glm_vec3_cross(axes[2], axes[0], axes[1]);
-    position_of(world, eye);
-    glm_mat4_identity(view_from_world);
+    position_of(world, origin);
+    glm_mat4_identity(out);
     for (int row = 0; row < 3; row++) {
-        for (int k = 0; k < 3; k++) view_from_world[k][row] = axes[row][k];
-        view_from_world[3][row] = -glm_vec3_dot(axes[row], eye);
+        for (int k = 0; k < 3; k++) out[k][row] = axes[row][k];
+        out[3][row] = -glm_vec3_dot(axes[row], origin);
     }
-    if (eye_ws) glm_vec3_copy(eye, eye_ws);
+}
+
+void gn_pose_view(const struct gn_pose *pose, uint32_t camera, mat4 view_from_world, vec3 eye_ws) {
+    vec4 *world = pose->world_from_node[pose->scene->cameras[camera].node];
+    rigid_inverse(world, view_from_world);
+    if (eye_ws) position_of(world, eye_ws);
+}
+
+void gn_pose_light_view(const struct gn_pose *pose, uint32_t light, mat4 light_from_world) {
+    rigid_inverse(pose->world_from_node[pose->scene->lights[light].node], light_from_world);
 }
 
 void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws,

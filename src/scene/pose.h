@@ -39,6 +39,8 @@ void gn_pose_finish(struct gn_pose *pose);
 /* view_from_world of a camera at this pose, rigid (scale is dropped); eye_ws gets its position if
  * not NULL. */
 void gn_pose_view(const struct gn_pose *pose, uint32_t camera, mat4 view_from_world, vec3 eye_ws);
+/* The same of a light, which looks along its -Z. */
+void gn_pose_light_view(const struct gn_pose *pose, uint32_t light, mat4 light_from_world);
 /* Where a light is and the unit vector along which it shines, world space. */
 void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws, vec3 direction_ws);
 

@@ -110,7 +110,7 @@ struct gn_light { /* one per node that carries one, in the order of a depth-firs
     float shadow_strength;      /* 1 */
     int32_t slide;              /* texture, or -1 */
     float slide_size_m[2];      /* 0, 0: as large as the cone is there */
-    float slide_distance_m;     /* 0: at the near plane */
+    float slide_distance_m;     /* 0: where its longer side spans the cone */
     bool slide_lit_outside;     /* a film; false: a projector, dark outside */
 };
 

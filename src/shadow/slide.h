@@ -1,0 +1,32 @@
+/* A slide in the beam of a spot: where a point of the world falls on its picture. Pure.
+ *
+ * The slide stands upright across the light's axis, its middle on it: seen from the lamp its right
+ * is the node's +X and its top the node's +Y, so it rolls with the node. */
+#ifndef GN_SHADOW_SLIDE_H
+#define GN_SHADOW_SLIDE_H
+
+#include "scene/pose.h"
+
+enum gn_slide { /* what is outside the slide's frame, and between the lamp and the slide */
+                GN_SLIDE_NONE,
+                GN_SLIDE_DARK, /* a projector: no light, its housing takes it */
+                GN_SLIDE_LIT,  /* a film held before a lamp: the light that did not pass through it
+                                */
+                GN_SLIDE_COUNT,
+};
+
+struct gn_slide_view {
+    /* Of a point (p, 1), world space: u w, v w and w. (u, v) are 0..1 over the slide from its upper
+     * left corner, as glTF has them; w is the depth along the light's axis in metres. */
+    vec4 u, v, w;
+    float near_m; /* depth of the slide, over 0: only what is farther is behind it */
+};
+
+/* GN_SLIDE_NONE if the light throws none. */
+enum gn_slide gn_slide_of(const struct gn_light *light);
+/* Of a spot. Size 0, 0: as large as the cone is there, square (cones are cut at 80 degrees, as maps
+ * are). Distance 0: at the lamp itself, or, if it has a size, where its longer side spans the cone.
+ */
+void gn_slide_build(const struct gn_pose *pose, uint32_t light, struct gn_slide_view *view);
+
+#endif
