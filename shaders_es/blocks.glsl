@@ -21,4 +21,10 @@
 #define SHADOW_MAP_SIZE 6 /* xy: width and height of the map in texels; zw: 1 / width, 1 / height */
 #define SHADOW_CODE 7     /* x: distance_offset; y: far_code */
 #define SHADOW_SOFT 8     /* how wide a penumbra is: lib/shadow_place.glsl */
-#define PASS_SIZE 70
+#define PASS_SLIDES 70    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides ends here */
+#define SLIDE_SIZE 4
+#define SLIDE_U 0         /* of a point (p, 1), world space: u times w, 0..1 over the slide from its left edge */
+#define SLIDE_V 1         /* v times w, from its top edge */
+#define SLIDE_W 2         /* w: depth along the light's axis, metres */
+#define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide, over 0: what is nearer has not passed it */
+#define PASS_SIZE 86

@@ -73,14 +73,23 @@ vec3 surface_light(surface s, light_sample l, float seen) {
     return (s.diffuse + s.specular * pow(n_h, s.exponent)) * arriving;
 }
 
+// Light number `slot` of the pass as it arrives here, if nothing but a slide is in between.
+light_sample light_here(const int slot, const int type) {
+    light_sample l = light_at(slot, type, v_position);
+#ifdef WITH_SLIDES
+    l.color *= slide_of(slot, v_position);
+#endif
+    return l;
+}
+
 #define ADD_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
     { \
-        light_sample l = light_at(slot, type, v_position); \
+        light_sample l = light_here(slot, type); \
         float seen = visibility( \
             map, shadow_place_of(slot, type, radial, v_shadow[slot], v_position, s.normal, face, l.to_light)); \
         light += surface_light(s, l, 1.0 - LIGHT(slot, LIGHT_COLOR).w * (1.0 - seen)); \
     }
-#define ADD_OPEN_LIGHT(slot, type) light += surface_light(s, light_at(slot, type, v_position), 1.0);
+#define ADD_OPEN_LIGHT(slot, type) light += surface_light(s, light_here(slot, type), 1.0);
 
 void main() {
     vec3 face = surface_face_normal();

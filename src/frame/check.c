@@ -32,8 +32,16 @@ static const char *check_key(const struct gn_program_key *key) {
         REQUIRE((key->lights[i].technique != GN_TECHNIQUE_NONE) == (i < key->shadow_count));
         REQUIRE(key->lights[i].technique < GN_TECHNIQUE_COUNT);
         REQUIRE(key->lights[i].encoding < GN_ENCODING_COUNT);
+        REQUIRE(key->lights[i].slide < GN_SLIDE_COUNT);
+        REQUIRE(key->lights[i].slide == GN_SLIDE_NONE || key->lights[i].type == GN_LIGHT_SPOT);
     }
     return NULL;
+}
+
+static uint32_t slide_count(const struct gn_program_key *key) {
+    uint32_t count = 0;
+    for (int i = 0; i < key->light_count; i++) count += key->lights[i].slide != GN_SLIDE_NONE;
+    return count;
 }
 
 /* What a program needs of the pass that draws with it. */
@@ -44,6 +52,7 @@ static const char *check_use(const struct gn_pass *pass, const struct gn_program
     REQUIRE(adds == (pass->blend == GN_BLEND_ADD));
     REQUIRE(key->light_count <= pass->light_count);
     REQUIRE(key->shadow_count <= pass->shadow_count);
+    REQUIRE(slide_count(key) <= pass->slide_count);
     return NULL;
 }
 
@@ -58,6 +67,9 @@ static const char *check_lights(const struct gn_plan *plan, const struct gn_pass
     REQUIRE(pass->light_count <= plan->light_count - pass->first_light);
     REQUIRE(pass->shadow_count <= GN_SHADOWS_MAX && pass->first_shadow <= plan->shadow_count);
     REQUIRE(pass->shadow_count <= plan->shadow_count - pass->first_shadow);
+    REQUIRE(pass->slide_count <= GN_SLIDES_MAX);
+    for (uint32_t i = 0; i < pass->slide_count; i++)
+        REQUIRE(pass->slides[i] < plan->scene->texture_count);
     REQUIRE(pass->blend != GN_BLEND_ADD || (!pass->depth_write && !pass->clear));
     REQUIRE(pass->blend != GN_BLEND_ADD || plan->output != GN_OUTPUT_LINEAR8 || !plan->encode_srgb);
     return NULL;

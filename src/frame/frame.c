@@ -238,7 +238,7 @@ void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first) {
 struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame) {
     struct gn_pass *pass = &GN_LIST_PUSH(&frame->passes);
     *pass = (struct gn_pass){
-        .first_draw = frame->draws.count, .depth_write = true, .constant_count = GN_PASS_SIZE};
+        .first_draw = frame->draws.count, .depth_write = true, .constant_count = PASS_SLIDES};
     return pass;
 }
 
@@ -305,6 +305,7 @@ static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose
         float(*of_group)[4] = gn_frame_constants(frame, GN_CONSTANTS_PICTURE + i);
         if (i > 0) memcpy(of_group, c, PASS_LIGHTS * sizeof *c);
         gn_frame_light_constants(frame, pose, &frame->groups[i], of_group);
+        gn_frame_slide_constants(frame, pose, &frame->groups[i], of_group);
     }
 }
 

@@ -66,6 +66,7 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
     for (uint32_t i = 0; i < group->count; i++) {
         const struct gn_frame_light *light = &frame->lights[group->first + i];
         key->lights[i].type = (uint8_t)frame->scene->lights[light->light].type;
+        key->lights[i].slide = (uint8_t)light->slide;
         if (i >= key->shadow_count) continue;
         key->lights[i].technique = (uint8_t)light->technique;
         key->lights[i].encoding = (uint8_t)light->encoding;

@@ -6,7 +6,8 @@
 
 _Static_assert(GN_PASS_SIZE == PASS_SIZE, "room for the constants of a pass");
 _Static_assert(PASS_LIGHTS + GN_LIGHTS_MAX * LIGHT_SIZE <= PASS_CONES, "lights");
-_Static_assert(PASS_SHADOWS + GN_SHADOWS_MAX * SHADOW_SIZE == PASS_SIZE, "shadows");
+_Static_assert(PASS_SHADOWS + GN_SHADOWS_MAX * SHADOW_SIZE == PASS_SLIDES, "shadows");
+_Static_assert(PASS_SLIDES + GN_SLIDES_MAX * SLIDE_SIZE == PASS_SIZE, "slides");
 
 static float luminance(const vec3 c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
 
@@ -151,6 +152,7 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         }
         insert(frame, light);
     }
+    gn_frame_choose_slides(frame, opts, warnings);
     gn_frame_group_lights(frame, pose);
 }
 

@@ -42,6 +42,7 @@ static struct gn_pass *lit_pass(struct gn_frame *frame, const char *label, uint3
     pass->light_count = g->count;
     pass->first_shadow = g->first_shadow;
     pass->shadow_count = g->shadow_count;
+    gn_frame_pass_slides(frame, g, pass);
     return pass;
 }
 

@@ -9,9 +9,11 @@
 #include "frame/caps.h"
 #include "scene/pose.h"
 #include "shadow/fit.h"
+#include "shadow/slide.h"
 
 #define GN_LIGHTS_MAX      8  /* lights in one pass */
 #define GN_SHADOWS_MAX     4  /* of them with a map */
+#define GN_SLIDES_MAX      4  /* of them with a slide, in one frame too */
 #define GN_ALL_LIGHTS_MAX  32 /* lights in one frame: passes beyond the first add to the picture */
 #define GN_ALL_SHADOWS_MAX 16 /* of them with a map */
 #define GN_GROUPS_MAX      4  /* of lights that share a pass */
@@ -61,7 +63,7 @@ struct gn_light_key {  /* one light of a LIT or visibility program */
     uint8_t type;      /* gn_light_type */
     uint8_t technique; /* gn_technique; NONE: no map */
     uint8_t encoding;  /* gn_encoding, 0 when technique is NONE */
-    uint8_t pad;
+    uint8_t slide;     /* gn_slide */
 };
 struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps come first. */
     uint32_t features;
@@ -131,6 +133,7 @@ struct gn_pass {
     uint64_t
         content_hash; /* SHADOW: skip the pass when the target already holds this; 0: always draw */
     uint32_t first_draw, draw_count;
+    uint32_t slide_count, slides[GN_SLIDES_MAX]; /* OUTPUT: textures; slide i: sampler i */
     /* Constants of the pass's programs, laid out by shaders_es/blocks.glsl; counts in vec4. */
     const float (*constants)[4];
     uint32_t constant_count;

@@ -7,6 +7,7 @@ static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {"depth", "distance", "l
 static const char *const outputs[] = {"srgb8", "linear8", "float", "bits"};
 static const char *const aovs[GN_AOV_COUNT] = {"color", "visibility", "distance", "normal"};
 static const char *const light_types[] = {"directional", "point", "spot"};
+static const char *const slides[GN_SLIDE_COUNT] = {"", "+slide", "+film"};
 static const char *const culls[] = {"none", "back", "front"};
 static const char *const features[GN_FEATURE_BITS] = {
     "base",           "roughness",     "emissive-texture",
@@ -29,6 +30,7 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
         if (i < key->shadow_count)
             fprintf(to, ":%s/%s", gn_techniques[light->technique].name,
                     gn_encodings[light->encoding].name);
+        fprintf(to, "%s", slides[light->slide]);
     }
     fprintf(to, "\n");
 }
@@ -87,6 +89,8 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
     if (pass->clear && pass->target.kind == GN_TARGET_OUTPUT)
         fprintf(to, ", clear %.3f %.3f %.3f", (double)pass->clear_color[0],
                 (double)pass->clear_color[1], (double)pass->clear_color[2]);
+    for (uint32_t i = 0; i < pass->slide_count; i++)
+        fprintf(to, ", slide %u: texture %u", i, pass->slides[i]);
     if (pass->blend == GN_BLEND_ALPHA) fprintf(to, ", blend");
     if (pass->blend == GN_BLEND_ADD) print_added(plan, pass, to);
     if (pass->rect.width > 0)

@@ -27,6 +27,7 @@ struct gn_frame_light {
     uint32_t light;              /* of the scene */
     enum gn_technique technique; /* NONE: no map */
     enum gn_encoding encoding;
+    enum gn_slide slide;
     float strength;
     float illuminance; /* of its light on the scene's centre, lux; orders them when there are too
                           many */
@@ -65,7 +66,7 @@ struct gn_frame {
 };
 
 /* Room of the constants of one pass, in vec4. */
-enum { GN_PASS_SIZE = 70 };
+enum { GN_PASS_SIZE = 86 };
 /* Whose constants stand where. */
 enum gn_frame_constants {
     GN_CONSTANTS_SHADOW,                       /* a slot each */
@@ -120,6 +121,16 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
                               const struct gn_light_group *group, float (*constants)[4]);
 void gn_frame_shadow_constants(const struct gn_shadow_view *view, float (*constants)[4]);
+
+/* slides.c: which of the chosen lights throw a slide; then what the shaders and the pass get. The
+ * slides of a pass stand in the order of its lights. */
+void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *opts,
+                            struct gn_warnings *warnings);
+void gn_frame_slide_constants(const struct gn_frame *frame, const struct gn_pose *pose,
+                              const struct gn_light_group *group, float (*constants)[4]);
+/* Also lets the constants of a pass with slides go on to theirs. */
+void gn_frame_pass_slides(const struct gn_frame *frame, const struct gn_light_group *group,
+                          struct gn_pass *pass);
 
 /* key.c: the program that draws an item. */
 struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t item,

@@ -161,6 +161,23 @@ static void add_vertex_loop(const struct gn_program_key *key, struct gn_gl_text 
     gn_gl_text_add(out, "\n");
 }
 
+/* Slide k is that of the k-th light that has one. */
+static bool add_slides(struct gn_gl_source *source, const struct gn_program_key *key,
+                       struct gn_gl_text *out, struct gn_err *err) {
+    struct gn_gl_text each = {0};
+    int count = 0;
+    for (int i = 0; i < key->light_count; i++) {
+        if (key->lights[i].slide == GN_SLIDE_NONE) continue;
+        gn_gl_text_add(out, "uniform mediump sampler2D u_slide_%d;\n", count);
+        gn_gl_text_add(&each, " F(%d, %d, %s, u_slide_%d)", i, count,
+                       key->lights[i].slide == GN_SLIDE_LIT ? "true" : "false", count);
+        count++;
+    }
+    if (count) gn_gl_text_add(out, "#define WITH_SLIDES 1\n#define EACH_SLIDE(F)%s\n", each.data);
+    gn_gl_text_finish(&each);
+    return !count || gn_gl_source_add(source, "lib/slide.glsl", out, err);
+}
+
 bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_stage stage,
                    struct gn_gl_text *out, struct gn_err *err) {
     struct gn_gl_source source = {.folder = folder};
@@ -173,6 +190,7 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
             return false;
         add_taps(key, out);
         if (!add_maps(&source, key, out, err)) return false;
+        if (!add_slides(&source, key, out, err)) return false;
         add_light_loops(key, out);
     }
     if (key->kind == GN_PROGRAM_DISTANCE && stage == GN_GL_FRAGMENT)
@@ -198,6 +216,7 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
     for (int i = 0; i < key->light_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
         append(out, size, ", ", light_names[light->type] + sizeof "LIGHT_" - 1);
+        if (light->slide) append(out, size, " ", light->slide == GN_SLIDE_LIT ? "film" : "slide");
         if (i >= key->shadow_count) continue;
         append(out, size, " ", gn_techniques[light->technique].name);
         append(out, size, " ", gn_encodings[light->encoding].name);

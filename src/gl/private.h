@@ -53,10 +53,12 @@ enum gn_gl_attribute { /* locations in the shaders */
                        GN_GL_EMISSIVE,
                        GN_GL_ATTRIBUTE_COUNT,
 };
-enum { /* texture units: maps first, then one a gn_texture_slot; the last is for work of our own */
+enum { /* texture units: maps first, then one a gn_texture_slot, then slides; the last is for work
+          of our own. ES 3.0 promises 16. */
        GN_GL_UNIT_MAP = 0,
        GN_GL_UNIT_TEXTURE = GN_SHADOWS_MAX,
-       GN_GL_UNIT_WORK = GN_GL_UNIT_TEXTURE + GN_TEXTURE_SLOT_COUNT,
+       GN_GL_UNIT_SLIDE = GN_GL_UNIT_TEXTURE + GN_TEXTURE_SLOT_COUNT,
+       GN_GL_UNIT_WORK = GN_GL_UNIT_SLIDE + GN_SLIDES_MAX,
        GN_GL_UNIT_COUNT,
 };
 
@@ -166,6 +168,7 @@ void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_i
 bool gn_gl_textures_upload(struct gn_gl *gl, struct gn_err *err);
 void gn_gl_textures_finish(struct gn_gl *gl);
 void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref);
+void gn_gl_slide_bind(struct gn_gl *gl, uint32_t slide, uint32_t texture);
 
 struct gn_gl_instances { /* a ring, so that a frame does not wait for the one before */
     GLuint buffers[GN_GL_INSTANCE_RING];

@@ -132,9 +132,13 @@ static void set_units(struct gn_gl *gl, struct gn_gl_program *program) {
         [GN_TEXTURE_OCCLUSION] = "u_texture_occlusion",
     };
     static const char *const maps[GN_SHADOWS_MAX] = {"u_map_0", "u_map_1", "u_map_2", "u_map_3"};
+    static const char *const slides[GN_SLIDES_MAX] = {"u_slide_0", "u_slide_1", "u_slide_2",
+                                                      "u_slide_3"};
     gn_gl_use_program(gl, program->name);
     for (int i = 0; i < GN_SHADOWS_MAX; i++)
         set_unit(gl, program->name, maps[i], GN_GL_UNIT_MAP + i);
+    for (int i = 0; i < GN_SLIDES_MAX; i++)
+        set_unit(gl, program->name, slides[i], GN_GL_UNIT_SLIDE + i);
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
         if (set_unit(gl, program->name, textures[i], GN_GL_UNIT_TEXTURE + i))
             program->texture_slots |= 1u << i;

@@ -114,6 +114,7 @@ static void bind_sources(struct gn_gl *gl, const struct gn_plan *plan, const str
     if (pass->target.kind == GN_TARGET_ENCODED)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output.texture,
                            gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
+    for (uint32_t i = 0; i < pass->slide_count; i++) gn_gl_slide_bind(gl, i, pass->slides[i]);
 }
 
 static void set_constants(struct gn_gl *gl, struct gn_gl_program *program,

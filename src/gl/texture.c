@@ -80,10 +80,10 @@ static bool wants_mipmaps(const struct gn_scene *scene, uint32_t image) {
     return false;
 }
 
-static void upload_once(struct gn_gl *gl, const struct gn_gl_curve *curve,
-                        const struct gn_texture_ref *ref, bool srgb) {
-    if (ref->texture < 0) return;
-    uint32_t image = gl->scene.scene->textures[ref->texture].image;
+static void upload_once(struct gn_gl *gl, const struct gn_gl_curve *curve, int32_t texture,
+                        bool srgb) {
+    if (texture < 0) return;
+    uint32_t image = gl->scene.scene->textures[texture].image;
     if (!gl->scene.images[srgb][image])
         upload(gl, curve, image, srgb, wants_mipmaps(gl->scene.scene, image));
 }
@@ -130,7 +130,10 @@ bool gn_gl_textures_upload(struct gn_gl *gl, struct gn_err *err) {
         s->images[i] = gn_xalloc(s->scene->image_count + 1, sizeof *s->images[i]);
     for (uint32_t i = 0; i < s->scene->material_count; i++)
         for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
-            upload_once(gl, &curve, &s->scene->materials[i].textures[slot], slot_is_srgb(slot));
+            upload_once(gl, &curve, s->scene->materials[i].textures[slot].texture,
+                        slot_is_srgb(slot));
+    for (uint32_t i = 0; i < s->scene->light_count; i++)
+        upload_once(gl, &curve, s->scene->lights[i].slide, true);
     for (uint32_t i = 0; i < s->scene->texture_count; i++) make_sampler(gl, &s->scene->textures[i]);
     return gn_gl_error_check(gl, "uploading the pictures", err);
 }
@@ -147,9 +150,16 @@ void gn_gl_textures_finish(struct gn_gl *gl) {
         gn_gl_object_destroy(gl, GN_GL_SAMPLER, &s->samplers[i]);
 }
 
-void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref) {
+static void bind(struct gn_gl *gl, GLuint unit, uint32_t texture, bool srgb) {
     const struct gn_gl_scene *s = &gl->scene;
-    const struct gn_texture *t = &s->scene->textures[ref->texture];
-    gn_gl_bind_texture(gl, GN_GL_UNIT_TEXTURE + slot, s->images[slot_is_srgb((int)slot)][t->image],
-                       s->samplers[sampler_kind(t)]);
+    const struct gn_texture *t = &s->scene->textures[texture];
+    gn_gl_bind_texture(gl, unit, s->images[srgb][t->image], s->samplers[sampler_kind(t)]);
+}
+
+void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref) {
+    bind(gl, GN_GL_UNIT_TEXTURE + slot, (uint32_t)ref->texture, slot_is_srgb((int)slot));
+}
+
+void gn_gl_slide_bind(struct gn_gl *gl, uint32_t slide, uint32_t texture) {
+    bind(gl, GN_GL_UNIT_SLIDE + slide, texture, true);
 }

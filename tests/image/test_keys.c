@@ -114,14 +114,41 @@ static void test_many_lights(void **state) {
     compiles(&key);
 }
 
+static void test_slides(void **state) {
+    (void)state;
+    for (int slide = GN_SLIDE_DARK; slide < GN_SLIDE_COUNT; slide++)
+        for (int t = GN_TECHNIQUE_NONE; t < GN_TECHNIQUE_COUNT; t++) {
+            struct gn_program_key key = key_of(GN_PROGRAM_LIT);
+            key.features = t % 2 ? GN_FEATURE_SPECULAR : GN_FEATURE_FLAT_CONSTANTS;
+            add_light(&key, GN_LIGHT_SPOT, t, GN_ENCODING_DEPTH);
+            key.lights[0].slide = (uint8_t)slide;
+            compiles(&key);
+        }
+}
+
+static void test_as_many_slides_as_may_be(void **state) {
+    (void)state;
+    struct gn_program_key key = key_of(GN_PROGRAM_LIT);
+    key.features = (1u << GN_FEATURE_BITS) - 1 - GN_FEATURE_UNLIT;
+    for (int i = 0; i < GN_LIGHTS_MAX; i++) {
+        add_light(&key, GN_LIGHT_SPOT, i < GN_SHADOWS_MAX ? GN_TECHNIQUE_PCF : GN_TECHNIQUE_NONE,
+                  i % GN_ENCODING_COUNT);
+        if (i % 2) key.lights[i].slide = i % 4 == 1 ? GN_SLIDE_DARK : GN_SLIDE_LIT;
+    }
+    compiles(&key);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_techniques, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_features, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_casters, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_many_lights, open_egl, close_all),
+        cmocka_unit_test_setup_teardown(test_slides, open_egl, close_all),
+        cmocka_unit_test_setup_teardown(test_as_many_slides_as_may_be, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_techniques, open_osmesa, close_all),
         cmocka_unit_test_setup_teardown(test_many_lights, open_osmesa, close_all),
+        cmocka_unit_test_setup_teardown(test_as_many_slides_as_may_be, open_osmesa, close_all),
     };
     return RUN(tests);
 }

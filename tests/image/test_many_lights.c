@@ -29,8 +29,8 @@ static void open_with(const char *backend, const char *without) {
     gl = help_gl(&display, &(struct gn_gl_opts){.without = without}, &warnings);
     scene = gn_stage_scene_make();
     memcpy(own, scene->lights, sizeof own);
-    scene->lights = lights;
     if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
+    scene->lights = lights; /* none of them is made yet */
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     gn_pose_step(&pose, 0);
     frame = gn_frame_create(scene, gn_gl_caps(gl));

@@ -27,6 +27,11 @@ static struct gn_program_key lit(uint32_t features, enum gn_light_type type, con
     return key;
 }
 
+static struct gn_program_key with_slide(struct gn_program_key key, enum gn_slide slide) {
+    key.lights[0].slide = (uint8_t)slide;
+    return key;
+}
+
 static struct gn_program_key caster(enum gn_program_kind kind, uint32_t features,
                                     enum gn_encoding encoding) {
     struct gn_program_key key;
@@ -57,6 +62,9 @@ static bool write(const char *folder, const char *name, const struct gn_program_
         if (key->shadow_count)
             snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_map_0 %s\n",
                      formats[key->lights[0].encoding]);
+        if (key->lights[0].slide)
+            snprintf(head + strlen(head), sizeof head - strlen(head),
+                     "//@ tex u_slide_0 SRGB8A8\n");
         size_t size = strlen(head) + strlen(rest);
         char *whole = malloc(size + 1);
         if (!whole) abort();
@@ -116,6 +124,9 @@ int main(int argc, char **argv) {
         {"pcss-spot", lit(FULL, GN_LIGHT_SPOT, "pcss", "r16f")},
         {"pcf-r16f", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "r16f")},
         {"pcf-spot", lit(FULL, GN_LIGHT_SPOT, "pcf", "depth")},
+        {"pcf-spot-slide", with_slide(lit(FULL, GN_LIGHT_SPOT, "pcf", "depth"), GN_SLIDE_DARK)},
+        {"none-spot", lit(FULL, GN_LIGHT_SPOT, "none", "depth")},
+        {"none-spot-slide", with_slide(lit(FULL, GN_LIGHT_SPOT, "none", "depth"), GN_SLIDE_DARK)},
         {"hard-spot", lit(FULL, GN_LIGHT_SPOT, "hard", "r16f")},
         {"map-depth", caster(GN_PROGRAM_DEPTH, 0, GN_ENCODING_DEPTH)},
         {"map-r16f", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_R16F)},

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "blocks.glsl"
 #include "core/arena.h"
 #include "core/file.h"
 #include "frame/plan.h"
@@ -104,6 +105,107 @@ static void test_plan_without_float_and_srgb_targets(void **state) {
     assert_true(warnings.count > 0);
     assert_non_null(strstr(warnings.text[0], "r16f"));
     expect_golden(plan, "poor");
+    end(&f);
+}
+
+/* ---- slides ---- */
+
+static struct gn_image slide_image = {.width_px = 300, .height_px = 200};
+static struct gn_texture slide_texture;
+
+/* The spot of the stage, `count` times, each with a slide. */
+static void make_spots(struct fixture *f, struct gn_light *lights, uint32_t count) {
+    static char names[8][8];
+    for (uint32_t i = 0; i < count; i++) {
+        lights[i] = f->scene->lights[1];
+        lights[i].name = names[i];
+        snprintf(names[i], sizeof names[i], "Spot %u", i);
+        lights[i].slide = 0;
+        lights[i].slide_lit_outside = i == 1;
+    }
+    f->scene->lights = lights;
+    f->scene->light_count = count;
+    f->scene->images = &slide_image;
+    f->scene->textures = &slide_texture;
+    f->scene->image_count = f->scene->texture_count = 1;
+}
+
+static void test_slide_plan(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_light lights[2];
+    begin(&f, everything);
+    make_spots(&f, lights, 2);
+    lights[1].technique = "none";
+    expect_golden(build(&f), "slide");
+    end(&f);
+}
+
+static void test_visibility_has_no_slide(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_light lights[1];
+    begin(&f, everything);
+    make_spots(&f, lights, 1);
+    f.opts.aov = GN_AOV_VISIBILITY;
+    const struct gn_plan *plan = build(&f);
+    for (uint32_t i = 0; i < plan->program_count; i++)
+        assert_int_equal(plan->programs[i].lights[0].slide, GN_SLIDE_NONE);
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        assert_int_equal(plan->passes[i].slide_count, 0);
+    end(&f);
+}
+
+static void test_slides_over_four_are_left_out_by_order(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_light lights[6];
+    struct gn_warnings warnings = {0};
+    begin(&f, everything);
+    make_spots(&f, lights, 6);
+    lights[0].technique = lights[1].technique = "none"; /* they go last, and keep theirs */
+    const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+    assert_int_equal(plan->passes[plan->pass_count - 1].slide_count, 4);
+    assert_int_equal(warnings.count, 2);
+    assert_non_null(strstr(warnings.text[0], "light 'Spot 4' shines without its slide"));
+    assert_non_null(strstr(warnings.text[1], "light 'Spot 5' shines without its slide"));
+    end(&f);
+}
+
+static void test_a_slide_goes_with_its_light_into_an_added_pass(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_light lights[5];
+    begin(&f, everything);
+    make_spots(&f, lights, 5);
+    for (int i = 0; i < 4; i++) lights[i].slide = -1;
+    const struct gn_plan *plan = build(&f);
+    int added = 0;
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const struct gn_pass *pass = &plan->passes[i];
+        bool adds = pass->blend == GN_BLEND_ADD;
+        assert_int_equal(pass->slide_count, adds);
+        assert_int_equal(pass->constant_count, adds ? PASS_SIZE : PASS_SLIDES);
+        if (adds) assert_true(pass->constants[PASS_SLIDES + SLIDE_PLACE][0] == 300);
+        added += adds;
+    }
+    assert_true(added > 0);
+    end(&f);
+}
+
+/* The shader weighs a pixel in texels: of the picture that this GPU can hold. */
+static void test_a_large_slide_counts_the_texels_that_the_gpu_holds(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_light lights[1];
+    begin(&f, everything);
+    gn_frame_destroy(f.frame);
+    struct gn_caps small = {.has = everything, .max_texture_px = 128};
+    f.frame = gn_frame_create(f.scene, &small);
+    make_spots(&f, lights, 1);
+    const struct gn_plan *plan = build(&f);
+    const float *size = plan->passes[plan->pass_count - 1].constants[PASS_SLIDES + SLIDE_PLACE];
+    assert_true(size[0] == 75 && size[1] == 50);
     end(&f);
 }
 
@@ -321,6 +423,11 @@ int main(void) {
         cmocka_unit_test(test_hard_plan),
         cmocka_unit_test(test_visibility_plan),
         cmocka_unit_test(test_plan_without_float_and_srgb_targets),
+        cmocka_unit_test(test_slide_plan),
+        cmocka_unit_test(test_visibility_has_no_slide),
+        cmocka_unit_test(test_slides_over_four_are_left_out_by_order),
+        cmocka_unit_test(test_a_slide_goes_with_its_light_into_an_added_pass),
+        cmocka_unit_test(test_a_large_slide_counts_the_texels_that_the_gpu_holds),
         cmocka_unit_test(test_still_scene_keeps_its_maps),
         cmocka_unit_test(test_a_millimetre_draws_again),
         cmocka_unit_test(test_no_allocation_once_grown),

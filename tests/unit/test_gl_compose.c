@@ -95,6 +95,26 @@ static void test_lights(void **state) {
     free(text);
 }
 
+static void test_slides_go_with_their_lights(void **state) {
+    (void)state;
+    help_write(folder, "lib/slide.glsl", "// slide\n");
+    struct gn_program_key key = lit_key();
+    key.light_count = 3, key.shadow_count = 1;
+    key.lights[0] = (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0};
+    key.lights[1] = (struct gn_light_key){GN_LIGHT_SPOT, 0, 0, GN_SLIDE_LIT};
+    key.lights[2] = (struct gn_light_key){GN_LIGHT_SPOT, 0, 0, GN_SLIDE_DARK};
+    char *text = compose(&key, GN_GL_FRAGMENT);
+    has(text, "uniform mediump sampler2D u_slide_0;\nuniform mediump sampler2D u_slide_1;\n");
+    has(text, "#define WITH_SLIDES 1\n#define EACH_SLIDE(F)"
+              " F(1, 0, true, u_slide_0) F(2, 1, false, u_slide_1)\n");
+    assert_int_equal(count(text, "// slide\n"), 1);
+    free(text);
+    key.lights[1].slide = key.lights[2].slide = GN_SLIDE_NONE;
+    text = compose(&key, GN_GL_FRAGMENT);
+    assert_null(strstr(text, "slide"));
+    free(text);
+}
+
 static void test_distance_has_its_encoding(void **state) {
     (void)state;
     struct gn_program_key key = lit_key();
@@ -175,9 +195,14 @@ static void test_key_text(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(test_constants),    TEST(test_lights),        TEST(test_distance_has_its_encoding),
-        TEST(test_include_once), TEST(test_include_fails), TEST(test_numbered),
+        TEST(test_constants),
+        TEST(test_lights),
+        TEST(test_distance_has_its_encoding),
+        TEST(test_include_once),
+        TEST(test_include_fails),
+        TEST(test_numbered),
         TEST(test_key_text),
+        TEST(test_slides_go_with_their_lights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
