@@ -7,7 +7,7 @@
 
 static void paint(struct gn_garden *g) {
     static const char *const names[PICTURES] = {"",     "grain",   "paving", "timber",
-                                                "bush", "lattice", "branch"};
+                                                "bush", "lattice", "branch", "window"};
     struct gn_image images[PICTURES] = {{0}};
     gn_paint_grain(&images[GRAIN], 256, 0.25f, 11);
     gn_paint_paving(&images[PAVING], 512, 5);
@@ -15,8 +15,9 @@ static void paint(struct gn_garden *g) {
     gn_paint_hedge(&images[BUSH], 128, 8);
     gn_paint_lattice(&images[LATTICE], 128, 6, 4);
     gn_paint_branch(&images[BRANCH], 256, 21);
+    gn_paint_window(&images[WINDOW], 192, 17);
     for (int i = GRAIN; i < PICTURES; i++) {
-        enum gn_glb_wrap wrap = i == BRANCH ? GN_GLB_CLAMP : GN_GLB_REPEAT;
+        enum gn_glb_wrap wrap = i >= BRANCH ? GN_GLB_CLAMP : GN_GLB_REPEAT;
         g->pictures[i] = gn_glb_texture(g->glb, names[i], &images[i], wrap);
         gn_image_finish(&images[i]);
     }

@@ -9,7 +9,7 @@
 #define GN_LATITUDE 50.0f /* degrees north */
 #define GN_COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
-enum gn_picture { NO_PICTURE, GRAIN, PAVING, TIMBER, BUSH, LATTICE, BRANCH, PICTURES };
+enum gn_picture { NO_PICTURE, GRAIN, PAVING, TIMBER, BUSH, LATTICE, BRANCH, WINDOW, PICTURES };
 enum gn_surface {
     COURT,
     LAWN,

@@ -130,15 +130,21 @@ static void add_lights(struct gn_garden *g) {
     node.light = gn_glb_light(g->glb, &sun);
     gn_glb_node(g->glb, &node);
 
+    char slide[160]; /* a leaded window, held a hand's breadth before the flame */
+    snprintf(slide, sizeof slide,
+             "{\"gnomon_slide\":%d,\"gnomon_slide_size_m\":[0.084,0.126],"
+             "\"gnomon_slide_distance_m\":0.13,\"gnomon_slide_outside\":\"dark\"}",
+             g->pictures[WINDOW] - 1);
     struct gn_glb_light spot = {.name = "Lantern",
                                 .kind = GN_GLB_SPOT,
-                                .rgb = {1, .42f, .12f},
-                                .intensity = 30,
+                                .rgb = {1, .62f, .3f},
+                                .intensity = 60,
                                 .range = 14,
-                                .inner = 26 * GN_RADIANS,
-                                .outer = 46 * GN_RADIANS};
+                                .inner = 36 * GN_RADIANS,
+                                .outer = 46 * GN_RADIANS,
+                                .extras = slide};
     struct gn_glb_node hung = {.name = "Lantern", .move = {lamp[0], lamp[1] - .08f, lamp[2]}};
-    gn_glb_look(hung.move, (float[3]){2.35f, 0, -1.55f}, hung.turn);
+    gn_glb_look(hung.move, (float[3]){3.05f, 0, -1.2f}, hung.turn);
     hung.light = gn_glb_light(g->glb, &spot);
     gn_glb_node(g->glb, &hung);
 }

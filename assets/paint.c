@@ -237,3 +237,56 @@ void gn_paint_branch(struct gn_image *image, int size_px, unsigned seed) {
     }
     draw_leaf(image, &(struct leaf){0.5f, 0.84f, 1.57f, 0.16f, 0.95f});
 }
+
+/* ---- light through a window ---- */
+
+/* x from -.5 to .5, y from -.75 up to .75; the head is a half circle about (0, SPRING). */
+static const float HALF = 0.43f, SILL = -0.68f, SPRING = 0.25f, BAR = 0.02f, SOFT = 0.012f;
+enum { ROWS = 3, QUARRIES = 3 /* diamonds across */ };
+
+/* How far inside the opening. */
+static float opening(float x, float y) {
+    return y > SPRING ? HALF - hypotf(x, y - SPRING) : fminf(HALF - fabsf(x), y - SILL);
+}
+
+/* How far from the middle of the nearest bar of stone: mullion, transoms, the spokes of the head.
+ */
+static float bars(float x, float y) {
+    float row = (SPRING - SILL) / ROWS, r = hypotf(x, y - SPRING);
+    float transom = fabsf(y - SILL - row * roundf((y - SILL) / row));
+    if (y < SPRING + BAR) return fminf(fabsf(x), y < SILL + 0.5f * row ? 1 : transom);
+    float turn = atan2f(y - SPRING, x) / 0.78539816f;
+    float spoke = r < 0.5f * HALF ? 1 : r * 0.78539816f * fabsf(turn - roundf(turn));
+    return fminf(fminf(spoke, fabsf(r - 0.5f * HALF)), y - SPRING);
+}
+
+/* How far from the nearest lead, and which piece of glass. */
+static float leads(float x, float y, int piece[2]) {
+    float a = (x * 1.35f + y) * QUARRIES, b = (x * 1.35f - y) * QUARRIES;
+    piece[0] = (int)floorf(a), piece[1] = (int)floorf(b);
+    return fminf(fabsf(a - roundf(a)), fabsf(b - roundf(b))) / (QUARRIES * 1.68f);
+}
+
+static void glass(const int piece[2], unsigned seed, float rgb[3]) {
+    static const float tints[][3] = {
+        {1, .86f, .58f}, {1, .78f, .42f}, {1, .93f, .76f}, {1, .66f, .30f}, {.62f, .86f, .84f}};
+    float pick = hash(piece[0], piece[1], seed),
+          tone = 0.8f + 0.2f * hash(piece[1], piece[0], seed);
+    const float *tint = tints[(int)(pick * 4.99f)];
+    for (int c = 0; c < 3; c++) rgb[c] = tint[c] * tone;
+}
+
+void gn_paint_window(struct gn_image *image, int width_px, unsigned seed) {
+    gn_image_init(image, width_px, width_px * 3 / 2, 3);
+    for (int i = 0; i < width_px * image->height; i++) {
+        float u = ((float)(i % width_px) + 0.5f) / (float)width_px,
+              v = ((float)(i / width_px) + 0.5f) / (float)width_px;
+        float x = u - 0.5f, y = 0.75f - v, rgb[3];
+        int piece[2];
+        float lead = ramp(0.003f, 0.010f, leads(x, y, piece));
+        float light = ramp(0, 2.5f * SOFT, opening(x, y)) *
+                      ramp(BAR - SOFT, BAR + SOFT, bars(x, y)) * (0.25f + 0.75f * lead);
+        glass(piece, seed, rgb);
+        for (int c = 0; c < 3; c++) image->pixels[3 * i + c] = level(light * rgb[c]);
+    }
+}

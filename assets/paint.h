@@ -1,4 +1,5 @@
-/* Small pictures painted by arithmetic, for the generators of this folder. All of them tile. */
+/* Small pictures painted by arithmetic, for the generators of this folder. All but the window tile.
+ */
 #ifndef GN_ASSETS_PAINT_H
 #define GN_ASSETS_PAINT_H
 
@@ -27,5 +28,8 @@ void gn_paint_hedge(struct gn_image *image, int size_px, unsigned seed);
 void gn_paint_lattice(struct gn_image *image, int size_px, int meshes, unsigned seed);
 /* RGBA: a twig with leaves, growing from the middle of the bottom edge. */
 void gn_paint_branch(struct gn_image *image, int size_px, unsigned seed);
+/* RGB: a round-headed window of leaded glass with a mullion and transoms, black round it; half as
+ * high again as wide. For the light that falls through it. */
+void gn_paint_window(struct gn_image *image, int width_px, unsigned seed);
 
 #endif
