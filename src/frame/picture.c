@@ -108,6 +108,7 @@ static void blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
     const struct gn_selection seen = {.opts = opts};
     const struct gn_placed *placed = frame->blended.at;
     bool begun = false, open = false;
+    if (frame->blended.count == 0) return; /* nor is there a list yet */
     qsort(frame->blended.at, frame->blended.count, sizeof *placed, by_depth);
     for (uint32_t i = 0; i < frame->blended.count; i++) {
         if (!begun) begin_blend(frame);
