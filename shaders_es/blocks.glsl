@@ -28,3 +28,12 @@
 #define SLIDE_W 2         /* w: depth along the light's axis, metres */
 #define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide, over 0: what is nearer has not passed it */
 #define PASS_SIZE 86
+/* Marks: PASS_CLIP, and */
+#define MARK_PIXEL 4      /* xy: a pixel of the mark, of 2 x 2 */
+#define MARK_QUADS 105    /* a disc and 104 lines */
+/* Panels */
+#define PANEL_RECT 0      /* xy: lower left corner, zw: upper right one, -1..1 */
+#define PANEL_GREY 1      /* grey = clamp(code * x + y, 0, 1) ^ z */
+#define PANEL_FRAME 2     /* rgb: linear; w: width, pixels */
+#define PANEL_PX 3        /* xy: width and height, pixels */
+#define PANEL_SIZE 4

@@ -3,3 +3,8 @@ vec3 srgb_from_linear(vec3 color) {
     vec3 c = clamp(color, 0.0, 1.0);
     return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThanEqual(c, vec3(0.0031308)));
 }
+
+// color: encoded, 0..1.
+vec3 linear_from_srgb(vec3 c) {
+    return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThanEqual(c, vec3(0.04045)));
+}

@@ -225,7 +225,6 @@ static bool check_shadow(const struct gn_options *options, struct gn_err *err) {
 /* What the table promises and this version does not do yet is said, not swallowed. */
 static void warn_idle(const struct gn_options *o, struct gn_warnings *warnings) {
     bool kiosk = o->command == GN_COMMAND_AUTO || o->command == GN_COMMAND_SHOW;
-    if (o->show_lights) gn_warn(warnings, "--show-lights: this version draws no marks of lights");
     if (kiosk && (gn_options_given(o, connector) || gn_options_given(o, display_mode) ||
                   gn_options_given(o, rotate_deg)))
         gn_warn(warnings, "connector, display mode and rotation are for a display on a screen, "

@@ -78,6 +78,8 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
      .help = "how much direct light a shadow takes away", .commands = DRAW, .offset = FIELD(shadow_strength)},
     {.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
      .help = "draw a mark where each light stands", .commands = DRAW, .offset = FIELD(show_lights)},
+    {.name = "show-maps", .section = "render", .kind = GN_KIND_FLAG,
+     .help = "show the lights' shadow maps along the lower edge of the picture", .commands = DRAW, .offset = FIELD(show_maps)},
     {.name = "light", .section = "render", .kind = GN_KIND_INT, .max = 65535, .value = "N", .fallback = "0",
      .help = "the light that --aov visibility and map show", .commands = BIT(RENDER), .offset = FIELD(light)},
     {.name = "aov", .section = "render", .kind = GN_KIND_CHOICE, .choices = aovs, .value = "WHAT", .fallback = "color",

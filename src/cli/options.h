@@ -84,7 +84,7 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     size_t offset;        /* of its field in struct gn_options */
 };
-enum { GN_OPTION_COUNT = 38 };
+enum { GN_OPTION_COUNT = 39 };
 extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
 
 const struct gn_option_row *gn_option_find(const char *name,
@@ -134,7 +134,7 @@ struct gn_options {
     int taps;
     bool taps_fixed;
     double shadow_strength; /* given it beats what a light says */
-    bool show_lights;
+    bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */
     int aov;   /* enum gn_aov, or GN_AOV_COUNT: the light's map */
     enum gn_picture output;

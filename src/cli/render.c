@@ -11,6 +11,7 @@
 #include "cli/stop.h"
 #include "core/arena.h"
 #include "core/clock.h"
+#include "shadow/grey.h"
 
 struct render {
     struct gn_stage stage;
@@ -86,14 +87,6 @@ static bool write_grey(const struct render *r, const char *path, const float *gr
                                        : gn_picture_write_png16_grey(path, grey, w, h, err);
 }
 
-/* 0 near .. 1 far. Hardware depth crowds at the far end, so its contrast is raised by the fourth
- * power. */
-static float map_grey(const struct gn_shadow_view *view, float code) {
-    if (view->encoding == GN_ENCODING_DEPTH) return powf(code, 4.0f);
-    float distance = (code - view->distance_offset) / view->distance_scale;
-    return (distance - view->near_m) / (view->far_m - view->near_m);
-}
-
 static bool write_map(struct render *r, const struct gn_plan *plan, const char *path,
                       struct gn_err *err) {
     uint32_t slot = 0;
@@ -103,14 +96,14 @@ static bool write_map(struct render *r, const struct gn_plan *plan, const char *
         return gn_fail(err, "light %d has no map: it casts no shadow, or %d stronger lights do",
                        r->stage.options->light, GN_ALL_SHADOWS_MAX);
     const struct gn_shadow_view *view = &plan->shadows[slot];
+    const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
     size_t side = view->map_px;
     float *codes = gn_xalloc(side * side, sizeof *codes),
           *flipped = gn_xalloc(side * side, sizeof *flipped);
     bool ok = gn_gl_read_map(r->stage.gl, slot, codes, err);
     for (size_t y = 0; ok && y < side; y++)
         for (size_t x = 0; x < side; x++)
-            flipped[(side - 1 - y) * side + x] =
-                view->empty ? 1.0f : map_grey(view, codes[y * side + x]);
+            flipped[(side - 1 - y) * side + x] = gn_shadow_grey_at(&grey, codes[y * side + x]);
     ok = ok && write_grey(r, path, flipped, (int)side, (int)side, err);
     free(codes);
     free(flipped);

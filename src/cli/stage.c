@@ -59,6 +59,8 @@ static bool choose_frame(struct gn_stage *stage, struct gn_err *err) {
         .strength_given = gn_options_given(o, shadow_strength),
         .strength = (float)o->shadow_strength,
         .msaa = (uint32_t)o->msaa,
+        .show_lights = o->show_lights,
+        .show_maps = o->show_maps,
     };
     f->technique_given = gn_options_given(o, shadow) && o->shadow;
     f->camera = gn_scene_find_camera(stage->scene, o->camera, err);

@@ -47,12 +47,14 @@ static uint32_t slide_count(const struct gn_program_key *key) {
 /* What a program needs of the pass that draws with it. */
 static const char *check_use(const struct gn_pass *pass, const struct gn_program_key *key) {
     const bool adds = key->features & GN_FEATURE_ADDITIVE;
+    const bool panel = key->kind == GN_PROGRAM_PANEL;
     REQUIRE((key->kind <= GN_PROGRAM_DISTANCE) == (pass->target.kind == GN_TARGET_SHADOW));
     REQUIRE((key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
     REQUIRE(adds == (pass->blend == GN_BLEND_ADD));
     REQUIRE(key->light_count <= pass->light_count);
     REQUIRE(key->shadow_count <= pass->shadow_count);
     REQUIRE(slide_count(key) <= pass->slide_count);
+    REQUIRE(panel == pass->reads_codes && (!panel || pass->shadow_count == 1));
     return NULL;
 }
 

@@ -346,6 +346,8 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     for (uint32_t i = 0; i < frame->shadow_count; i++) shadow_pass(frame, pose, i, opts);
     picture_constants(frame, pose, opts);
     gn_frame_picture_passes(frame, pose, opts);
+    gn_frame_overlay_passes(frame, pose, opts);
+    gn_frame_finish_picture(frame);
     publish(frame);
     assert(gn_plan_check(plan) == NULL);
     return plan;

@@ -179,6 +179,9 @@ void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
         if (frame->groups[i].seen) add_to_opaque(frame, pose, opts, i);
     blend_passes(frame, pose, opts);
     keep_additive_programs(frame, opts);
+}
+
+void gn_frame_finish_picture(struct gn_frame *frame) {
     frame->passes.at[frame->passes.count - 1].discard_depth = true;
     if (frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_FLOAT) encode_pass(frame);
 }

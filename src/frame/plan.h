@@ -27,6 +27,8 @@ enum gn_program_kind {
     GN_PROGRAM_DISTANCE, /* casters into a distance map */
     GN_PROGRAM_LIT,      /* colour */
     GN_PROGRAM_AOV,      /* what of it is in `aov` */
+    GN_PROGRAM_MARK,     /* the mark of a light */
+    GN_PROGRAM_PANEL,    /* a map, as a panel on the picture */
     GN_PROGRAM_ENCODE,   /* the linear picture, encoded */
     GN_PROGRAM_KIND_COUNT,
 };
@@ -68,7 +70,7 @@ struct gn_light_key {  /* one light of a LIT or visibility program */
 struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps come first. */
     uint32_t features;
     uint8_t kind, aov, light_count, shadow_count;
-    uint8_t encoding;  /* DISTANCE: what it writes */
+    uint8_t encoding;  /* DISTANCE: what it writes; PANEL: what it shows */
     uint8_t taps;      /* LIT, visibility: of techniques that take them; 0: none does */
     uint8_t taps_turn; /* they are turned from pixel to pixel */
     uint8_t pad;
@@ -132,6 +134,7 @@ struct gn_pass {
     uint32_t first_shadow, shadow_count; /* plan->shadows[first_shadow + i] is behind sampler i */
     uint64_t
         content_hash; /* SHADOW: skip the pass when the target already holds this; 0: always draw */
+    bool reads_codes; /* those samplers compare not */
     uint32_t first_draw, draw_count;
     uint32_t slide_count, slides[GN_SLIDES_MAX]; /* OUTPUT: textures; slide i: sampler i */
     /* Constants of the pass's programs, laid out by shaders_es/blocks.glsl; counts in vec4. */
@@ -186,6 +189,8 @@ struct gn_frame_opts {            /* zero means the default written beside */
     float strength; /* overrides the lights' gnomon_shadow_strength */
     uint32_t msaa;
     float turntable_rad; /* the eye goes round the scene's centre by this, about +Y */
+    bool show_lights;    /* a mark where each light stands */
+    bool show_maps;      /* the maps as panels along the lower edge */
 };
 
 struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing

@@ -2,8 +2,8 @@
 
 #include "frame/plan.h"
 
-static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {"depth", "distance", "lit", "aov",
-                                                         "encode"};
+static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {"depth", "distance", "lit",   "aov",
+                                                         "mark",  "panel",    "encode"};
 static const char *const outputs[] = {"srgb8", "linear8", "float", "bits"};
 static const char *const aovs[GN_AOV_COUNT] = {"color", "visibility", "distance", "normal"};
 static const char *const light_types[] = {"directional", "point", "spot"};
@@ -21,7 +21,8 @@ static const char *const features[GN_FEATURE_BITS] = {
 static void print_key(const struct gn_program_key *key, FILE *to) {
     fprintf(to, "%s", kinds[key->kind]);
     if (key->kind == GN_PROGRAM_AOV) fprintf(to, " %s", aovs[key->aov]);
-    if (key->kind == GN_PROGRAM_DISTANCE) fprintf(to, " %s", gn_encodings[key->encoding].name);
+    if (key->kind == GN_PROGRAM_DISTANCE || key->kind == GN_PROGRAM_PANEL)
+        fprintf(to, " %s", gn_encodings[key->encoding].name);
     for (int bit = 0; bit < GN_FEATURE_BITS; bit++)
         if (key->features & 1u << bit) fprintf(to, " +%s", features[bit]);
     for (int i = 0; i < key->light_count; i++) {
@@ -92,6 +93,7 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
     for (uint32_t i = 0; i < pass->slide_count; i++)
         fprintf(to, ", slide %u: texture %u", i, pass->slides[i]);
     if (pass->blend == GN_BLEND_ALPHA) fprintf(to, ", blend");
+    if (pass->reads_codes) fprintf(to, ", shows map %u", pass->first_shadow);
     if (pass->blend == GN_BLEND_ADD) print_added(plan, pass, to);
     if (pass->rect.width > 0)
         fprintf(to, ", within %u x %u at %u, %u", pass->rect.width, pass->rect.height, pass->rect.x,

@@ -71,7 +71,9 @@ enum { GN_PASS_SIZE = 86 };
 enum gn_frame_constants {
     GN_CONSTANTS_SHADOW,                       /* a slot each */
     GN_CONSTANTS_PICTURE = GN_ALL_SHADOWS_MAX, /* a group each */
-    GN_CONSTANTS_COUNT = GN_CONSTANTS_PICTURE + GN_GROUPS_MAX,
+    GN_CONSTANTS_MARKS = GN_CONSTANTS_PICTURE + GN_GROUPS_MAX,
+    GN_CONSTANTS_PANELS, /* of all panels, one after another */
+    GN_CONSTANTS_COUNT,
 };
 float (*gn_frame_constants(const struct gn_frame *frame, uint32_t which))[4];
 
@@ -99,6 +101,13 @@ uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *k
 /* picture.c: the passes that draw the picture. */
 void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts);
+/* Once all is drawn: the depth is of no more use; where no target encodes, a pass does. */
+void gn_frame_finish_picture(struct gn_frame *frame);
+
+/* overlay.c: marks and panels over the picture. */
+void gn_frame_overlay_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                             const struct gn_frame_opts *opts);
+
 /* A draw of bare vertices. */
 void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key,
                         uint32_t vertex_count, uint32_t first_instance, uint32_t instance_count);

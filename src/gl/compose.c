@@ -28,14 +28,18 @@ static const char *const aov_names[GN_AOV_COUNT] = {
     [GN_AOV_NORMAL] = "AOV_NORMAL",
 };
 static const char *const kind_names[GN_PROGRAM_KIND_COUNT] = {
-    [GN_PROGRAM_DEPTH] = "depth", [GN_PROGRAM_DISTANCE] = "distance", [GN_PROGRAM_LIT] = "lit",
-    [GN_PROGRAM_AOV] = "aov",     [GN_PROGRAM_ENCODE] = "encode",
+    [GN_PROGRAM_DEPTH] = "depth",   [GN_PROGRAM_DISTANCE] = "distance",
+    [GN_PROGRAM_LIT] = "lit",       [GN_PROGRAM_AOV] = "aov",
+    [GN_PROGRAM_MARK] = "mark",     [GN_PROGRAM_PANEL] = "panel",
+    [GN_PROGRAM_ENCODE] = "encode",
 };
 static const char *const kind_files[GN_PROGRAM_KIND_COUNT][2] = {
     [GN_PROGRAM_DEPTH] = {"depth.vert", "depth.frag"},
     [GN_PROGRAM_DISTANCE] = {"distance.vert", "distance.frag"},
     [GN_PROGRAM_LIT] = {"lit.vert", "lit.frag"},
     [GN_PROGRAM_AOV] = {"lit.vert", "aov.frag"},
+    [GN_PROGRAM_MARK] = {"mark.vert", "mark.frag"},
+    [GN_PROGRAM_PANEL] = {"panel.vert", "panel.frag"},
     [GN_PROGRAM_ENCODE] = {"encode.vert", "encode.frag"},
 };
 
@@ -193,7 +197,8 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
         if (!add_slides(&source, key, out, err)) return false;
         add_light_loops(key, out);
     }
-    if (key->kind == GN_PROGRAM_DISTANCE && stage == GN_GL_FRAGMENT)
+    if ((key->kind == GN_PROGRAM_DISTANCE || key->kind == GN_PROGRAM_PANEL) &&
+        stage == GN_GL_FRAGMENT)
         if (!gn_gl_source_add(&source, gn_encodings[key->encoding].file, out, err)) return false;
     return gn_gl_source_add(&source, kind_files[key->kind][stage], out, err);
 }
@@ -206,7 +211,8 @@ static void append(char *out, size_t size, const char *separator, const char *wo
 void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
     snprintf(out, size, "%s", kind_names[key->kind]);
     if (key->kind == GN_PROGRAM_AOV) append(out, size, " ", aov_names[key->aov]);
-    if (key->kind == GN_PROGRAM_DISTANCE) append(out, size, " ", gn_encodings[key->encoding].name);
+    if (key->kind == GN_PROGRAM_DISTANCE || key->kind == GN_PROGRAM_PANEL)
+        append(out, size, " ", gn_encodings[key->encoding].name);
     const char *separator = " ";
     for (int i = 0; i < GN_FEATURE_BITS; i++) {
         if (!(key->features >> i & 1)) continue;

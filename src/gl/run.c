@@ -104,7 +104,9 @@ static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan, const struct
         const struct gn_target target = {GN_TARGET_SHADOW, slot, view->map_px, view->map_px,
                                          view->encoding};
         const struct gn_gl_map *map = gn_gl_map_find(gl, &target);
-        if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, map_sampler(gl, view));
+        const GLuint sampler =
+            pass->reads_codes ? gl->targets.map_samplers[GN_GL_MAP_NEAREST] : map_sampler(gl, view);
+        if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, sampler);
     }
 }
 

@@ -352,6 +352,15 @@ static void test_many_lights_without_srgb_plan(void **state) {
     end(&f);
 }
 
+static void test_overlay_plan(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    f.opts.show_lights = f.opts.show_maps = true;
+    expect_golden(build(&f), "overlay");
+    end(&f);
+}
+
 /* What a light comes near is known before: no program is made while things move. */
 static void test_programs_do_not_change_with_what_is_reached(void **state) {
     (void)state;
@@ -436,6 +445,7 @@ int main(void) {
         cmocka_unit_test(test_flat_ground_is_not_in_the_map),
         cmocka_unit_test(test_many_lights_plan),
         cmocka_unit_test(test_many_lights_without_srgb_plan),
+        cmocka_unit_test(test_overlay_plan),
         cmocka_unit_test(test_programs_do_not_change_with_what_is_reached),
         cmocka_unit_test(test_check_finds_what_is_broken),
         cmocka_unit_test(test_exposure),

@@ -172,6 +172,18 @@ static void a_flag_beats_a_mode_beats_the_file(void **state) {
     assert_string_equal(options.scene, "x.glb");
 }
 
+static void a_mode_may_show_the_maps(void **state) {
+    (void)state;
+    write_file("k.ini", "[mode \"Plain\"]\nshadow = pcf\n[mode \"Maps\"]\nshow_maps = yes\n");
+    char *path = (char *)in_folder("k.ini");
+    assert_true(PARSE("gnomon", "show", "-c", path));
+    assert_false(options.show_maps);
+    assert_true(gn_options_apply_mode(&options, "Maps", &err));
+    assert_true(options.show_maps);
+    assert_true(gn_options_apply_mode(&options, "Plain", &err));
+    assert_false(options.show_maps);
+}
+
 static void a_mode_is_undone_by_the_next(void **state) {
     (void)state;
     write_file("k.ini", full);
@@ -317,6 +329,7 @@ int main(void) {
         cmocka_unit_test(the_first_failure_stops),
         cmocka_unit_test(the_file_of_the_manual_is_read),
         cmocka_unit_test(a_flag_beats_a_mode_beats_the_file),
+        cmocka_unit_test(a_mode_may_show_the_maps),
         cmocka_unit_test(a_mode_is_undone_by_the_next),
         cmocka_unit_test(what_a_file_may_not_say),
         cmocka_unit_test(every_line_broken_in_turn_is_found),

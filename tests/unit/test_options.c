@@ -244,8 +244,8 @@ static void what_this_version_does_not_do_is_said(void **state) {
     assert_int_equal(warnings.count, 0);
     assert_true(parse("show --backend egl --rotate 90"));
     assert_int_equal(warnings.count, 1);
-    assert_true(parse("render --show-lights -o x.png"));
-    assert_int_equal(warnings.count, 1);
+    assert_true(parse("render --show-lights --show-maps -o x.png"));
+    assert_int_equal(warnings.count, 0);
     gn_options_finish(&options);
 }
 

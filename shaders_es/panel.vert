@@ -1,0 +1,10 @@
+// A panel: a rectangle of the picture, in front of everything.
+#include "lib/pass.glsl"
+
+out vec2 v_uv;
+
+void main() {
+    int corner = gl_VertexID < 3 ? gl_VertexID : gl_VertexID - 2; // two triangles: 0 1 2, 1 2 3
+    v_uv = vec2(corner % 2, corner / 2);
+    gl_Position = vec4(mix(u_pass[PANEL_RECT].xy, u_pass[PANEL_RECT].zw, v_uv), -1.0, 1.0);
+}
