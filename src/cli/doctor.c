@@ -4,9 +4,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/child.h"
 #include "cli/commands.h"
 #include "cli/doctor_report.h"
+#include "core/child.h"
 #include "core/clock.h"
 #include "display/display.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/child.h"
+#include "core/child.h"
 
 struct shared {
     uint32_t progress;

@@ -1,7 +1,7 @@
 /* Work that may not end well, such as waking up a driver, is done by a child: what the libraries
  * say there is not heard, and a crash or a hang is an answer like any other. */
-#ifndef GN_CLI_CHILD_H
-#define GN_CLI_CHILD_H
+#ifndef GN_CORE_CHILD_H
+#define GN_CORE_CHILD_H
 
 #include <stdbool.h>
 #include <stddef.h>
