@@ -2,13 +2,14 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "core/clock.h"
@@ -35,13 +36,21 @@ static bool fail_end(int status, struct gn_err *err) {
            gn_fail(err, "ends the process (status %d)", WEXITSTATUS(status));
 }
 
-/* A tenth of a second, less at the start: most work is short. */
-static void nap(int round) {
-    long ms = round < 20 ? 5 : 100;
-    nanosleep(&(struct timespec){.tv_nsec = ms * 1000000}, NULL);
+/* A tenth of a second, less at the start: most work is short. The child's end wakes us where the
+ * kernel has such descriptors (5.3); without one poll() just sleeps. */
+static void nap(int round, int end) {
+    struct pollfd wake = {.fd = end, .events = POLLIN};
+    poll(&wake, 1, round < 20 ? 5 : 100);
 }
 
-static bool wait_for(pid_t pid, const struct gn_child *child, void *shared, struct gn_err *err) {
+static bool end_child(pid_t pid) {
+    kill(pid, SIGKILL);
+    waitpid(pid, NULL, 0);
+    return false;
+}
+
+static bool wait_for(pid_t pid, int end, const struct gn_child *child, void *shared,
+                     struct gn_err *err) {
     int stall_s = child->stall_s ? child->stall_s : 60, status = 0;
     int64_t since_ns = gn_clock_monotonic_ns();
     uint32_t seen = 0;
@@ -50,22 +59,29 @@ static bool wait_for(pid_t pid, const struct gn_child *child, void *shared, stru
         if (child->watch) child->watch(shared, child->argument);
         if (ended == pid) return fail_end(status, err);
         if (ended < 0 && errno != EINTR) return gn_fail(err, "is lost: %s", strerror(errno));
+        if (child->stop && child->stop()) return end_child(pid) || gn_fail(err, "was stopped");
         uint32_t now = child->progress ? *(const volatile uint32_t *)child->progress : 0;
         if (now != seen) since_ns = gn_clock_monotonic_ns();
         seen = now;
-        if (gn_clock_monotonic_ns() - since_ns > stall_s * GN_NS_PER_S) break;
-        nap(round);
+        if (gn_clock_monotonic_ns() - since_ns > stall_s * GN_NS_PER_S)
+            return end_child(pid) || gn_fail(err, "hangs (nothing for %d s)", stall_s);
+        nap(round, end);
     }
-    kill(pid, SIGKILL);
-    waitpid(pid, &status, 0);
-    return gn_fail(err, "hangs (nothing for %d s)", stall_s);
+}
+
+static bool wait_and_close(pid_t pid, const struct gn_child *child, void *shared,
+                           struct gn_err *err) {
+    int end = (int)syscall(SYS_pidfd_open, pid, 0);
+    bool ok = wait_for(pid, end, child, shared, err);
+    if (end >= 0) close(end);
+    return ok;
 }
 
 bool gn_child_run(const struct gn_child *child, void *shared, struct gn_err *err) {
     fflush(NULL);
     pid_t pid = fork();
     if (pid < 0) return gn_fail(err, "cannot be tried: %s", strerror(errno));
-    if (pid > 0) return wait_for(pid, child, shared, err);
+    if (pid > 0) return wait_and_close(pid, child, shared, err);
     prctl(PR_SET_PDEATHSIG, SIGKILL); /* it would outlive a parent that is interrupted */
     silence();
     child->work(shared, child->argument);

@@ -12,6 +12,7 @@
 struct gn_child {
     void (*work)(void *shared, const void *argument);  /* runs in the child */
     void (*watch)(void *shared, const void *argument); /* about ten times a second here; or NULL */
+    bool (*stop)(void); /* asked as often; true: the child is killed; or NULL */
     const void *argument;
     const uint32_t *progress; /* inside shared; NULL: none. See stall_s */
     int stall_s;              /* killed when so many seconds brought no progress; 0: 60 */

@@ -71,6 +71,14 @@ static void test_a_hang_ends(void **state) {
     assert_string_equal(err.text, "hangs (nothing for 1 s)");
 }
 
+static bool at_once(void) { return true; }
+static void test_a_child_is_killed_when_asked_to_stop(void **state) {
+    (void)state;
+    const struct gn_child child = {.work = hang, .stop = at_once};
+    assert_false(gn_child_run(&child, NULL, &err));
+    assert_string_equal(err.text, "was stopped");
+}
+
 static void plod(void *shared, const void *argument) {
     for (int i = 0; i < 6; i++) {
         usleep(300000);
@@ -113,6 +121,7 @@ int main(void) {
         cmocka_unit_test(test_a_crash_is_an_answer),
         cmocka_unit_test(test_an_early_end_is_an_answer),
         cmocka_unit_test(test_a_hang_ends),
+        cmocka_unit_test(test_a_child_is_killed_when_asked_to_stop),
         cmocka_unit_test(test_progress_is_no_hang),
         cmocka_unit_test(test_a_child_is_not_heard),
     };
