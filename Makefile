@@ -13,11 +13,11 @@ GOALS   := $(or $(MAKECMDGOALS),all)
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all tests run check accept truth gallery readme deps lint format man install uninstall help clean FORCE
+.PHONY: all no-import tests run check accept truth gallery readme deps lint format man install uninstall help clean FORCE
 
 help:
 	@printf '%s\n' \
-	    'make            build/release/gnomon, the default scene and assets/bench' \
+	    'make            build/release/gnomon, gnomon-import, the default scene and assets/bench' \
 	    'make run        install what is missing, build, show the default scene' \
 	    'make check      every quick test: gcc, clang, ASan and UBSan, lint' \
 	    'make accept     the long tests' \
@@ -63,6 +63,8 @@ PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm
 MISSING := $(shell for p in $(PKGS) $(HEADERS); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
+# gnomon-import is a program of its own, for those who have assimp
+IMPORT_C := $(if $(shell $(PKG) --exists assimp 2> /dev/null && echo y),$(sort $(wildcard src/import/*.c)))
 
 takes    = $(shell $(CC) -Werror -O2 $(1) -x c -c -o /dev/null -include stdlib.h /dev/null \
              2> /dev/null && echo $(1))
@@ -84,7 +86,7 @@ WARN    := -Wall -Wextra -Wstrict-prototypes -Wmissing-prototypes -Wvla \
            $(call takes,-Wno-format-truncation)
 ALL_CFLAGS := -std=c11 -D_GNU_SOURCE -DGL_GLES_PROTOTYPES=0 -DCGLM_ALL_UNALIGNED \
            -Isrc -Ishaders_es -I$(B)/gen $(WARN) -ffp-contract=off -fno-math-errno $(CFLAGS_$(CONFIG)) \
-           $(shell $(PKG) --cflags $(PKGS) $(HEADERS)) $(CPPFLAGS) $(CFLAGS)
+           $(shell $(PKG) --cflags $(PKGS) $(HEADERS) $(if $(IMPORT_C),assimp)) $(CPPFLAGS) $(CFLAGS)
 ALL_LDFLAGS := $(LDFLAGS_$(CONFIG)) $(LDFLAGS)
 LIBS    := $(shell $(PKG) --libs $(PKGS)) -ldl -lm -lpthread
 COMPILE  = $(CC) $(ALL_CFLAGS) $(if $(WERROR),-Werror) -MMD -MP
@@ -95,13 +97,14 @@ OPTIONAL := src/display/osmesa:osmesa
 without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(subst :, ,$(p))) \
              2> /dev/null && echo y),$(firstword $(subst :, ,$(p)))_none.c,\
              $(firstword $(subst :, ,$(p))).c))
-SRC     := $(filter-out $(without),$(sort $(wildcard src/*/*.c)))
+SRC     := $(filter-out $(without) src/import/%,$(sort $(wildcard src/*/*.c)))
 TESTS_C := $(sort $(wildcard tests/*/*.c))
 PROG_C  := $(foreach d,unit plan image fuzz,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
 LIB     := $(B)/libgnomon.a
 TESTLIB := $(B)/libgntest.a
 BIN     := $(B)/gnomon
+IMPORT  := $(if $(IMPORT_C),$(B)/gnomon-import,no-import)
 OBJ      = $(patsubst %.c,$(B)/obj/%.o,$(1))
 SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb) \
            $(if $(wildcard assets/make_bench.c),assets/bench/s1.glb assets/bench/s2.glb)
@@ -110,13 +113,18 @@ EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundi
            $(SELFTEST)
 EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(suffix $f)),$f))
 
-all: $(BIN) $(SCENES) man
-tests: $(BIN) $(SCENES) $(PROGS) $(O)/host/make_truth $(HOST_ASSETS) $(SCENES)
+all: $(BIN) $(IMPORT) $(SCENES) man
+tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(O)/host/make_truth $(HOST_ASSETS) $(SCENES)
 man: $(O)/gnomon.1
 
 $(BIN): $(call OBJ,src/main.c) $(LIB)
 	@echo "link $@"
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+$(B)/gnomon-import: $(call OBJ,$(IMPORT_C)) $(LIB)
+	@echo "link $@"
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(shell $(PKG) --libs assimp) $(LIBS)
+no-import:
+	@echo 'no gnomon-import, so no OBJ, FBX, STL, PLY, DAE: it needs libassimp-dev (make deps)'
 $(LIB): $(call OBJ,$(SRC)) $(B)/obj/gen/embedded.o
 $(TESTLIB): $(call OBJ,$(filter-out $(PROG_C),$(TESTS_C)))
 $(LIB) $(TESTLIB): $(B)/sources
@@ -141,9 +149,9 @@ endef
 $(B)/flags: FORCE
 	$(call keep,$(shell $(CC) --version | head -n 1) $(CC) $(ALL_CFLAGS))
 $(B)/sources: FORCE
-	$(call keep,$(SRC) $(TESTS_C) $(EMBED))
+	$(call keep,$(SRC) $(IMPORT_C) $(TESTS_C) $(EMBED))
 $(B)/gen/config.h: FORCE
-	$(call keep,#define GN_VERSION "$(VERSION)"\n#define GN_HAVE_OSMESA $(if \
+	$(call keep,#define GN_VERSION "$(VERSION)"\n#define GN_PREFIX "$(PREFIX)"\n#define GN_HAVE_OSMESA $(if \
 	    $(filter %/osmesa.c,$(without)),0,1))
 $(B)/gen/poisson.h: $(O)/host/make_poisson
 	@mkdir -p $(@D)
@@ -203,14 +211,14 @@ gallery: $(B)/tests/tool_gallery $(BIN)
 	$< assets/gallery
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$<
-lint: $(patsubst %.c,$(O)/tidy/%.ok,src/main.c $(SRC))
+lint: $(patsubst %.c,$(O)/tidy/%.ok,src/main.c $(SRC) $(IMPORT_C))
 $(O)/tidy/%.ok: %.c .clang-tidy $(wildcard src/*/*.h) | $(B)/gen/config.h $(B)/gen/poisson.h
 	@mkdir -p $(@D) && echo "tidy $<"
 	$(Q)clang-tidy --quiet --warnings-as-errors='*' $< -- $(filter-out -f% -Wno%,$(ALL_CFLAGS)) 2> $@.log || { cat $@.log; false; } && touch $@
 format:
 	clang-format -i $(wildcard src/*.c src/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*.c)
 compile_commands.json: FORCE
-	@for f in src/main.c $(SRC) $(TESTS_C); do printf \
+	@for f in src/main.c $(SRC) $(IMPORT_C) $(TESTS_C); do printf \
 	    '{"directory": "$(CURDIR)", "file": "%s", "command": "$(CC) $(ALL_CFLAGS) -Itests -c %s"},\n' \
 	    $$f $$f; done | sed '1s/^/[\n/; $$s/,$$/\n]/' > $@
 
@@ -218,10 +226,11 @@ compile_commands.json: FORCE
 INTO := $(DESTDIR)$(PREFIX)
 install: all
 	install -D -m 755 $(BIN) $(INTO)/bin/gnomon
+	$(if $(IMPORT_C),install -D -m 755 $(IMPORT) $(INTO)/bin/gnomon-import)
 	install -D -m 644 $(O)/gnomon.1 $(INTO)/share/man/man1/gnomon.1
 	install -D -m 644 LICENSE $(INTO)/share/doc/gnomon/LICENSE
 uninstall:
-	rm -f $(INTO)/bin/gnomon $(INTO)/share/man/man1/gnomon.1
+	rm -f $(INTO)/bin/gnomon $(INTO)/bin/gnomon-import $(INTO)/share/man/man1/gnomon.1
 	rm -rf $(INTO)/share/doc/gnomon
 
 -include $(shell find $(B)/obj -name '*.d' 2> /dev/null)

@@ -8,6 +8,7 @@ libraries='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev lib
 build="gcc make pkgconf $libraries"
 run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri'
 test='libcmocka-dev clang clang-format clang-tidy'
+optional_build='libassimp-dev' # for gnomon-import
 optional_test='libosmesa6-dev' # not in every Debian
 
 command -v dpkg-query > /dev/null || exit 0 # not Debian: the Makefile says what pkg-config does not find
@@ -41,14 +42,14 @@ foreign() {
 wanted='' extra='' added=''
 for set in "$@"; do
     case $set in
-    build) wanted="$wanted $build" ;;
+    build) wanted="$wanted $build" extra="$extra $optional_build" ;;
     run) wanted="$wanted $run" ;;
     test) wanted="$wanted $test" extra="$extra $optional_test" ;;
     cross)
         added=$(architecture_of "${CROSS:-}")
         compiler=gcc-$(echo "$CROSS" | tr _ -)
         wanted="$wanted $compiler $(foreign "$added" $libraries)"
-        extra="$extra $(foreign "$added" $optional_test)"
+        extra="$extra $(foreign "$added" $optional_build $optional_test)"
         ;;
     *) echo "deps.sh: no set of packages is called $set" >&2 && exit 2 ;;
     esac
@@ -57,8 +58,10 @@ done
 needed=$(missing $wanted)
 # what could not be had once is not asked for again: the stamp remembers
 stamp=${O:-build}/deps-optional${added:+-$added}
-[ -e "$stamp" ] || [ -z "$extra" ] || extra=$(missing $extra)
-[ ! -e "$stamp" ] || extra=''
+wished=${extra:+$(missing $extra)} extra=''
+for package in $wished; do
+    grep -qsxF "$package" "$stamp" || extra="$extra $package"
+done
 [ -n "$needed$extra" ] || exit 0
 
 as_root=''
@@ -85,6 +88,7 @@ if [ -n "$needed" ] && ! apt install --no-install-recommends $needed; then
     exit 1
 fi
 for package in $extra; do
-    apt install --no-install-recommends "$package" || echo "without $package: apt-get has none" >&2
+    apt install --no-install-recommends "$package" && continue
+    echo "without $package: apt-get has none" >&2
+    mkdir -p "$(dirname "$stamp")" && echo "$package" >> "$stamp"
 done
-[ -z "$extra" ] || { mkdir -p "$(dirname "$stamp")" && : > "$stamp"; }

@@ -10,7 +10,7 @@ BEGIN {
     may["shadow"] = "core scene"
     may["frame"] = "core scene shadow"
     may["gl"] = "core scene shadow frame"
-    may["display"] = may["input"] = "core"
+    may["display"] = may["input"] = may["import"] = "core" # import is a program of its own
     may["kiosk"] = "core scene shadow frame gl display input"
     may["cli"] = "core scene shadow frame gl display input kiosk"
     # which rooms may include <KEY..>
@@ -19,7 +19,8 @@ BEGIN {
     foreign["drm"] = foreign["libdrm/"] = foreign["GLFW/"] = foreign["wayland"] = "display"
     foreign["gpiod.h"] = foreign["linux/input"] = "input"
     foreign["ini.h"] = "cli"
-    foreign["jansson.h"] = "scene cli kiosk"
+    foreign["jansson.h"] = "scene cli kiosk import"
+    foreign["assimp/"] = "import"
     foreign["cmocka.h"] = "none"
 }
 function complain(what) { printf "%s:%d: %s\n", FILENAME, FNR, what; bad = 1 }

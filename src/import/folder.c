@@ -1,0 +1,148 @@
+/* The model's folder, and nothing else. A model names its materials and pictures by paths of the
+ * machine on which it was made: what leads out of the folder is looked for in it by its last part,
+ * and is else not there. */
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "import/private.h"
+
+bool gn_import_folder_open(struct gn_import *import) {
+    const char *path = import->opts->model, *slash = strrchr(path, '/');
+    char folder[PATH_MAX];
+    int length = slash ? (int)(slash - path + 1) : 2;
+    int all = snprintf(folder, sizeof folder, "%.*s", length, slash ? path : "./");
+    if (all >= (int)sizeof folder || !realpath(folder, import->folder))
+        return gn_fail(import->err, "%s: cannot open its folder", path);
+    if (strcmp(import->folder, "/") == 0) import->folder[0] = 0;
+    all = snprintf(import->name, sizeof import->name, "%s/%s", import->folder,
+                   slash ? slash + 1 : path);
+    return all < (int)sizeof import->name || gn_fail(import->err, "%s: the path is too long", path);
+}
+
+static size_t limit(const struct gn_import *import) { return (size_t)import->opts->file_mb << 20; }
+
+/* The real path, or NULL where it is not in the folder. */
+static char *confine(const struct gn_import *import, const char *relative) {
+    char path[2 * PATH_MAX];
+    size_t length = strlen(import->folder);
+    int all = snprintf(path, sizeof path, "%s/%s", import->folder, relative);
+    char *real = all < (int)sizeof path ? realpath(path, NULL) : NULL;
+    if (real && strncmp(real, import->folder, length) == 0 && real[length] == '/') return real;
+    free(real);
+    return NULL;
+}
+
+static bool read_in(const struct gn_import *import, const char *relative, struct gn_bytes *bytes) {
+    char *real = confine(import, relative);
+    bool ok = real && gn_file_read(real, limit(import), bytes, NULL);
+    free(real);
+    return ok;
+}
+
+/* What follows the folder, if the name begins with it; "./" and "file://" are skipped. */
+static const char *strip(const struct gn_import *import, const char *name) {
+    size_t length = strlen(import->folder);
+    if (strncmp(name, "file://", 7) == 0) name += 7;
+    if (strncmp(name, import->folder, length) == 0 && name[length] == '/') name += length + 1;
+    while (strncmp(name, "./", 2) == 0) name += 2;
+    return name;
+}
+
+bool gn_import_folder_read(const struct gn_import *import, const char *name,
+                           struct gn_bytes *bytes) {
+    char plain[PATH_MAX];
+    *bytes = (struct gn_bytes){0};
+    if (!*name || snprintf(plain, sizeof plain, "%s", name) >= (int)sizeof plain) return false;
+    for (char *c = plain; *c; c++)
+        if (*c == '\\') *c = '/';
+    const char *relative = strip(import, plain), *slash = strrchr(relative, '/');
+    if (*relative != '/' && read_in(import, relative, bytes)) return true;
+    return slash && slash[1] && read_in(import, slash + 1, bytes);
+}
+
+/* ---- as assimp wants it: a file is read when it is opened ---- */
+
+struct opened {
+    struct aiFile file;
+    struct gn_bytes bytes;
+    size_t at;
+};
+
+static struct opened *opened_of(struct aiFile *file) {
+    return (struct opened *)(void *)file->UserData;
+}
+
+static size_t read_some(struct aiFile *file, char *to, size_t size, size_t count) {
+    struct opened *o = opened_of(file);
+    size_t left = o->bytes.size - o->at, whole = size ? left / size : 0;
+    if (count > whole) count = whole;
+    memcpy(to, o->bytes.data + o->at, size * count);
+    o->at += size * count;
+    return count;
+}
+
+static size_t write_none(struct aiFile *file, const char *from, size_t size, size_t count) {
+    (void)file, (void)from, (void)size, (void)count;
+    return 0;
+}
+
+static size_t tell(struct aiFile *file) { return opened_of(file)->at; }
+
+static size_t size_of(struct aiFile *file) { return opened_of(file)->bytes.size; }
+
+static enum aiReturn seek(struct aiFile *file, size_t offset, enum aiOrigin origin) {
+    struct opened *o = opened_of(file);
+    size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? o->at : o->bytes.size;
+    size_t at = from + offset; /* a negative offset wraps round */
+    if (at > o->bytes.size) return aiReturn_FAILURE;
+    o->at = at;
+    return aiReturn_SUCCESS;
+}
+
+static void flush(struct aiFile *file) { (void)file; }
+
+static bool is_material_file(const char *name) {
+    size_t length = strlen(name);
+    return length > 4 && strcasecmp(name + length - 4, ".mtl") == 0;
+}
+
+static bool read_any(struct gn_import *import, const char *name, struct gn_bytes *bytes) {
+    if (strcmp(name, import->name) == 0)
+        return gn_file_read(import->opts->model, limit(import), bytes, NULL);
+    if (gn_import_folder_read(import, name, bytes)) return true;
+    if (is_material_file(name) && !import->warned_materials) /* others are guesses of assimp's */
+        gn_warn(import->warnings, "%s: the materials %.100s are not in its folder; shown without",
+                import->opts->model, strip(import, name));
+    import->warned_materials |= is_material_file(name);
+    return false;
+}
+
+static struct aiFile *open_one(struct aiFileIO *io, const char *name, const char *mode) {
+    struct gn_bytes bytes;
+    if (*mode != 'r' || !read_any((struct gn_import *)(void *)io->UserData, name, &bytes))
+        return NULL;
+    struct opened *o = gn_import_alloc(sizeof *o);
+    *o = (struct opened){.bytes = bytes};
+    o->file = (struct aiFile){.ReadProc = read_some,
+                              .WriteProc = write_none,
+                              .TellProc = tell,
+                              .FileSizeProc = size_of,
+                              .SeekProc = seek,
+                              .FlushProc = flush,
+                              .UserData = (char *)o};
+    return &o->file;
+}
+
+static void close_one(struct aiFileIO *io, struct aiFile *file) {
+    (void)io;
+    struct opened *o = opened_of(file);
+    gn_bytes_finish(&o->bytes);
+    free(o);
+}
+
+struct aiFileIO gn_import_folder_io(struct gn_import *import) {
+    return (struct aiFileIO){
+        .OpenProc = open_one, .CloseProc = close_one, .UserData = (char *)import};
+}

@@ -1,0 +1,179 @@
+/* Lights and cameras. They stand in the file's root, where they are in the world: their nodes'
+ * scale and axes differ from program to program, and nothing moves. */
+#include <math.h>
+#include <string.h>
+
+#include "import/private.h"
+
+#define PI 3.14159265f
+
+static const struct gn_import_node *find_node(const struct gn_import *import, const char *name) {
+    for (size_t i = 0; i < import->node_count; i++)
+        if (strcmp(import->nodes[i].node->mName.data, name) == 0) return &import->nodes[i];
+    return NULL;
+}
+
+static struct aiVector3D turn(const struct aiMatrix4x4 *m, struct aiVector3D v) {
+    return (struct aiVector3D){m->a1 * v.x + m->a2 * v.y + m->a3 * v.z,
+                               m->b1 * v.x + m->b2 * v.y + m->b3 * v.z,
+                               m->c1 * v.x + m->c2 * v.y + m->c3 * v.z};
+}
+
+static float length_of(struct aiVector3D v) { return sqrtf(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+static bool normalise(struct aiVector3D *v) {
+    float length = length_of(*v);
+    if (!isfinite(length) || length < 1e-12f) return false;
+    *v = (struct aiVector3D){v->x / length, v->y / length, v->z / length};
+    return true;
+}
+
+static struct aiVector3D cross(struct aiVector3D a, struct aiVector3D b) {
+    return (struct aiVector3D){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* What stands at a place of its node and looks along a direction of it, with a scale of 1. */
+static struct aiMatrix4x4 place(const struct gn_import_node *at, struct aiVector3D position,
+                                struct aiVector3D along, struct aiVector3D up) {
+    const struct aiMatrix4x4 *m = &at->world_from_node;
+    struct aiVector3D p = turn(m, position), z = turn(m, along), y = turn(m, up), x;
+    if (!normalise(&z)) z = (struct aiVector3D){0.0f, -1.0f, 0.0f};
+    z = (struct aiVector3D){-z.x, -z.y, -z.z};
+    x = cross(y, z);
+    if (!normalise(&x)) x = cross((struct aiVector3D){0.0f, 1.0f, 0.0f}, z);
+    if (!normalise(&x)) x = (struct aiVector3D){1.0f, 0.0f, 0.0f};
+    y = cross(z, x);
+    return (struct aiMatrix4x4){x.x, y.x, z.x, p.x + m->a4, x.y,  y.y,  z.y,  p.y + m->b4,
+                                x.z, y.z, z.z, p.z + m->c4, 0.0f, 0.0f, 0.0f, 1.0f};
+}
+
+static json_t *add_node(struct gn_import *import, const char *name,
+                        const struct aiMatrix4x4 *placed) {
+    json_t *object =
+        json_pack("{s:o,s:o}", "name", gn_glb_text(name), "matrix", gn_import_matrix(placed));
+    int index = gn_glb_add(&import->glb, "nodes", object);
+    json_t *scene = json_array_get(json_object_get(import->glb.root, "scenes"), 0);
+    json_array_append_new(json_object_get(scene, "nodes"), json_integer(index));
+    return object;
+}
+
+/* ---- lights ---- */
+
+static float distance_to_centre(const struct gn_import *import, const struct aiMatrix4x4 *placed) {
+    struct aiVector3D d = {placed->a4 - 0.5f * (import->low[0] + import->high[0]),
+                           placed->b4 - 0.5f * (import->low[1] + import->high[1]),
+                           placed->c4 - 0.5f * (import->low[2] + import->high[2])};
+    float distance = length_of(d);
+    return isfinite(distance) && distance > 1e-3f ? distance : 1e-3f;
+}
+
+/* How many metres one unit of the light's node is. */
+static float unit_of(const struct gn_import_node *at) {
+    float unit = length_of(turn(&at->world_from_node, (struct aiVector3D){1.0f, 0.0f, 0.0f}));
+    return isfinite(unit) && unit > 0.0f ? unit : 1.0f;
+}
+
+/* Lux or candela per unit of colour. Elsewhere a light of 1 shows white paper as white: pi lux. The
+ * other falloffs become inverse-square such that it is as bright at the scene's centre as the file
+ * says. */
+static float strength_of(const struct gn_import *import, const struct aiLight *light,
+                         const struct gn_import_node *at, const struct aiMatrix4x4 *placed) {
+    if (light->mType == aiLightSource_DIRECTIONAL) return PI;
+    float distance_m = distance_to_centre(import, placed), distance = distance_m / unit_of(at);
+    float divisor = light->mAttenuationConstant + light->mAttenuationLinear * distance +
+                    light->mAttenuationQuadratic * distance * distance;
+    if (!isfinite(divisor) || divisor <= 0.0f) divisor = 1.0f;
+    return PI * distance_m * distance_m / divisor;
+}
+
+/* assimp gives the whole angles of a cone; for Collada, which has but one, it makes the outer up.
+ */
+static void set_cone(const struct gn_import *import, json_t *object, const struct aiLight *light) {
+    float outer = 0.5f * light->mAngleOuterCone, inner = 0.5f * light->mAngleInnerCone;
+    if (import->format == GN_IMPORT_DAE || !(outer > 0.01f)) outer = inner;
+    if (!(outer > 0.01f)) outer = 0.25f * PI;
+    outer = fminf(outer, 0.5f * PI);
+    if (!(inner >= 0.0f) || inner >= outer) inner = 0.85f * outer;
+    json_object_set_new(
+        object, "spot",
+        json_pack("{s:f,s:f}", "innerConeAngle", (double)inner, "outerConeAngle", (double)outer));
+}
+
+static const char *type_of(const struct aiLight *light) {
+    switch (light->mType) {
+    case aiLightSource_DIRECTIONAL: return "directional";
+    case aiLightSource_POINT:
+    case aiLightSource_AREA: return "point";
+    case aiLightSource_SPOT: return "spot";
+    default: return NULL; /* an ambient one is no light here */
+    }
+}
+
+static void add_light(struct gn_import *import, const struct aiLight *light) {
+    const struct gn_import_node *at = find_node(import, light->mName.data);
+    const char *type = type_of(light);
+    float rgb[3] = {light->mColorDiffuse.r, light->mColorDiffuse.g, light->mColorDiffuse.b};
+    float most = fmaxf(fmaxf(rgb[0], rgb[1]), rgb[2]);
+    if (!at || !type || !isfinite(rgb[0] + rgb[1] + rgb[2]) || most <= 0.0f) return;
+    struct aiMatrix4x4 placed = place(at, light->mPosition, light->mDirection, light->mUp);
+    float strength = most * strength_of(import, light, at, &placed);
+    if (!isfinite(strength)) return;
+    for (int k = 0; k < 3; k++) rgb[k] = fmaxf(rgb[k], 0.0f) / most;
+    json_t *object = json_pack("{s:o,s:s,s:o,s:f}", "name", gn_glb_text(light->mName.data), "type",
+                               type, "color", gn_glb_floats(rgb, 3), "intensity", (double)strength);
+    if (light->mType == aiLightSource_SPOT) set_cone(import, object, light);
+    json_t *extension = gn_glb_extension(&import->glb, "KHR_lights_punctual");
+    json_t *lights = json_object_get(extension, "lights");
+    if (!lights) json_object_set_new(extension, "lights", lights = json_array());
+    json_array_append_new(lights, object);
+    json_object_set_new(
+        add_node(import, light->mName.data, &placed), "extensions",
+        json_pack("{s:{s:i}}", "KHR_lights_punctual", "light", (int)json_array_size(lights) - 1));
+}
+
+void gn_import_lights(struct gn_import *import) {
+    for (unsigned i = 0; i < import->scene->mNumLights; i++)
+        add_light(import, import->scene->mLights[i]);
+}
+
+/* ---- cameras ---- */
+
+/* Near planes are in units that nobody agrees on; ours lies where it cuts nothing. */
+static float near_of(const struct gn_import *import) {
+    struct aiVector3D size = {import->high[0] - import->low[0], import->high[1] - import->low[1],
+                              import->high[2] - import->low[2]};
+    float near_m = 1e-3f * length_of(size);
+    return isfinite(near_m) && near_m > 1e-5f ? near_m : 1e-2f;
+}
+
+static json_t *lens_of(const struct gn_import *import, const struct aiCamera *camera, float unit) {
+    float aspect = camera->mAspect;
+    if (!isfinite(aspect) || aspect <= 0.0f) aspect = 16.0f / 9.0f;
+    double near_m = (double)near_of(import);
+    if (camera->mOrthographicWidth > 0.0f) {
+        double half = (double)(camera->mOrthographicWidth * unit);
+        return json_pack("{s:s,s:{s:f,s:f,s:f,s:f}}", "type", "orthographic", "orthographic",
+                         "xmag", half, "ymag", half / (double)aspect, "znear", near_m, "zfar",
+                         4000.0 * near_m);
+    }
+    float yfov = 2.0f * atanf(tanf(0.5f * camera->mHorizontalFOV) / aspect);
+    if (!(yfov > 0.01f && yfov < 3.1f)) yfov = 0.7f;
+    return json_pack("{s:s,s:{s:f,s:f}}", "type", "perspective", "perspective", "yfov",
+                     (double)yfov, "znear", near_m);
+}
+
+static void add_camera(struct gn_import *import, const struct aiCamera *camera) {
+    const struct gn_import_node *at = find_node(import, camera->mName.data);
+    if (!at) return;
+    json_t *object = lens_of(import, camera, unit_of(at));
+    json_object_set_new(object, "name", gn_glb_text(camera->mName.data));
+    int index = gn_glb_add(&import->glb, "cameras", object);
+    struct aiMatrix4x4 placed = place(at, camera->mPosition, camera->mLookAt, camera->mUp);
+    json_object_set_new(add_node(import, camera->mName.data, &placed), "camera",
+                        json_integer(index));
+}
+
+void gn_import_cameras(struct gn_import *import) {
+    for (unsigned i = 0; i < import->scene->mNumCameras; i++)
+        add_camera(import, import->scene->mCameras[i]);
+}

@@ -1,0 +1,206 @@
+/* gnomon-import: arguments, a child that reads the model under limits, and what became of it in one
+ * line. This process never calls assimp. */
+#include <errno.h>
+#include <fcntl.h>
+#include <getopt.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/child.h"
+#include "import/private.h"
+
+static const char help[] =
+    "usage: gnomon-import [OPTION..] MODEL [-o OUT.glb]\n"
+    "\n"
+    "Turns a model (.obj .fbx .stl .ply .dae) into a .glb for gnomon, which calls this program by\n"
+    "itself when such a file is named. Materials and pictures are read from the model's folder.\n"
+    "\n"
+    "options:\n"
+    "  -o, --output FILE      where to (MODEL's name with .glb, if there is no such file yet)\n"
+    "      --up auto|y|z      which axis of the model is up (auto: what FBX and Collada files "
+    "say;\n"
+    "                         z for STL and PLY; y for OBJ)\n"
+    "      --memory MB        most memory to use (2048, at most 3/4 of the machine's)\n"
+    "      --time S           longest time to take (60 seconds)\n"
+    "      --file MB          largest file to read or write (512)\n"
+    "  -h, --help             this text\n"
+    "      --version          the version\n"
+    "\n"
+    "Exit status: 0 done, 1 the model is not read or not written, 2 wrong usage.\n";
+
+/* ---- arguments ---- */
+
+enum { OPTION_UP = 256, OPTION_MEMORY, OPTION_TIME, OPTION_FILE, OPTION_VERSION };
+
+static bool parse_number(const char *name, const char *text, int most, int *value,
+                         struct gn_err *err) {
+    char *end;
+    long number = strtol(text, &end, 10);
+    if (!*text || *end || number < 1 || number > most)
+        return gn_fail_usage(err, "--%s: \"%s\" is not a whole number from 1 to %d", name, text,
+                             most);
+    *value = (int)number;
+    return true;
+}
+
+static bool parse_up(const char *text, enum gn_import_up *up, struct gn_err *err) {
+    static const char *const words[] = {"auto", "y", "z"};
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(text, words[i]) != 0) continue;
+        *up = (enum gn_import_up)i;
+        return true;
+    }
+    return gn_fail_usage(err, "--up: \"%s\" is not auto, y or z", text);
+}
+
+static bool take(int option, struct gn_import_opts *opts, struct gn_err *err) {
+    switch (option) {
+    case 'o': opts->out = optarg; return true;
+    case OPTION_UP: return parse_up(optarg, &opts->up, err);
+    case OPTION_MEMORY: return parse_number("memory", optarg, 1 << 20, &opts->memory_mb, err);
+    case OPTION_TIME: return parse_number("time", optarg, 86400, &opts->time_s, err);
+    default: return parse_number("file", optarg, 4095, &opts->file_mb, err);
+    }
+}
+
+static int memory_default_mb(void) {
+    long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    long machine_mb = pages > 0 && page > 0 ? (long)((long long)pages * page >> 20) : 4096;
+    long most_mb = machine_mb / 4 * 3;
+    return most_mb < 256 ? 256 : most_mb < 2048 ? (int)most_mb : 2048;
+}
+
+/* The model stays NULL when help or the version was printed. */
+static bool parse(int argc, char **argv, struct gn_import_opts *opts, struct gn_err *err) {
+    static const struct option options[] = {{"output", required_argument, NULL, 'o'},
+                                            {"up", required_argument, NULL, OPTION_UP},
+                                            {"memory", required_argument, NULL, OPTION_MEMORY},
+                                            {"time", required_argument, NULL, OPTION_TIME},
+                                            {"file", required_argument, NULL, OPTION_FILE},
+                                            {"help", no_argument, NULL, 'h'},
+                                            {"version", no_argument, NULL, OPTION_VERSION},
+                                            {0}};
+    opterr = 0;
+    for (int c; (c = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
+        if (c == 'h' || c == OPTION_VERSION) {
+            fputs(c == 'h' ? help : "gnomon-import " GN_VERSION "\n", stdout);
+            return true;
+        }
+        if (c == '?')
+            return gn_fail_usage(err, "%s: unknown option, or one without its value; see --help",
+                                 argv[optind - 1]);
+        if (!take(c, opts, err)) return false;
+    }
+    if (argc - optind != 1)
+        return gn_fail_usage(err, argc == optind ? "which model? See --help"
+                                                 : "one model at a time, please");
+    opts->model = argv[optind];
+    if (gn_import_format_of(opts->model) == GN_IMPORT_FORMAT_COUNT)
+        return gn_fail_usage(err, "%s: not a name that ends in .obj, .fbx, .stl, .ply or .dae",
+                             opts->model);
+    return true;
+}
+
+/* MODEL.obj to MODEL.glb, which must not be there yet. */
+static bool choose_out(struct gn_import_opts *opts, struct gn_err *err) {
+    static char out[PATH_MAX];
+    if (opts->out) return true;
+    int stem = (int)(strrchr(opts->model, '.') - opts->model);
+    if (snprintf(out, sizeof out, "%.*s.glb", stem, opts->model) >= (int)sizeof out)
+        return gn_fail(err, "%s: the name is too long; name another by -o", opts->model);
+    if (access(out, F_OK) == 0)
+        return gn_fail(err, "%s is there already; -o %s writes over it", out, out);
+    opts->out = out;
+    return true;
+}
+
+/* ---- the child ---- */
+
+struct job {
+    const struct gn_import_opts *opts;
+    int fd; /* of memory: it goes with the last who holds it, however that ends */
+};
+
+static void work(void *shared, const void *argument) {
+    const struct job *job = argument;
+    gn_import_work(job->opts, job->fd, shared);
+}
+
+static bool run(const struct job *job, struct gn_import_report *report, struct gn_err *err) {
+    const struct gn_import_opts *o = job->opts;
+    struct gn_child child = {.work = work, .argument = job, .stall_s = o->time_s};
+    struct gn_err end = {0};
+    if (gn_child_run(&child, report, &end)) {
+        *err = report->err;
+        return report->done || err->text[0] ||
+               gn_fail(err, "%s: the importer gave up without a reason", o->model);
+    }
+    if (strncmp(end.text, "hangs", 5) == 0)
+        return gn_fail(err, "%s: not read within %d s; gnomon-import --time S allows more",
+                       o->model, o->time_s);
+    return gn_fail(err, "%s: the importer %s on it; export it as .glb where it was made", o->model,
+                   end.text);
+}
+
+static bool deliver(const struct job *job, struct gn_err *err) {
+    struct stat info;
+    void *data = fstat(job->fd, &info) == 0
+                     ? mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, job->fd, 0)
+                     : MAP_FAILED;
+    if (data == MAP_FAILED)
+        return gn_fail(err, "%s: no memory for its .glb: %s", job->opts->model, strerror(errno));
+    bool ok = gn_file_write(job->opts->out, data, (size_t)info.st_size, err);
+    munmap(data, (size_t)info.st_size);
+    return ok;
+}
+
+static bool convert(const struct gn_import_opts *opts, struct gn_import_report *report,
+                    struct gn_err *err) {
+    struct job job = {.opts = opts, .fd = memfd_create("gnomon-import", MFD_CLOEXEC)};
+    if (job.fd < 0)
+        return gn_fail(err, "%s: no memory for its .glb: %s", opts->model, strerror(errno));
+    bool ok = run(&job, report, err) && report->done && deliver(&job, err);
+    close(job.fd);
+    return ok;
+}
+
+static void print_warnings(const struct gn_warnings *warnings) {
+    for (int i = 0; i < warnings->count && i < GN_WARN_MAX; i++)
+        fprintf(stderr, "gnomon-import: warning: %.255s\n", warnings->text[i]);
+    if (warnings->dropped)
+        fprintf(stderr, "gnomon-import: warning: and %d more\n", warnings->dropped);
+}
+
+static bool import(int argc, char **argv, struct gn_err *err) {
+    struct gn_import_opts opts = {.memory_mb = memory_default_mb(), .time_s = 60, .file_mb = 512};
+    if (!parse(argc, argv, &opts, err)) return false;
+    if (!opts.model) return true;
+    if (!choose_out(&opts, err)) return false;
+    struct gn_import_report *report = gn_child_share(sizeof *report, err);
+    if (!report) return false;
+    bool ok = convert(&opts, report, err);
+    if (ok) print_warnings(&report->warnings);
+    gn_child_unshare(report, sizeof *report);
+    return ok;
+}
+
+/* A closed descriptor 0, 1 or 2 would be given to the next file that is opened. */
+static void fill_standard_descriptors(void) {
+    int fd;
+    do fd = open("/dev/null", O_RDWR | O_CLOEXEC);
+    while (fd >= 0 && fd <= STDERR_FILENO);
+    if (fd >= 0) close(fd);
+}
+
+int main(int argc, char **argv) {
+    struct gn_err err = {0};
+    fill_standard_descriptors();
+    signal(SIGPIPE, SIG_IGN);
+    if (import(argc, argv, &err)) return GN_EXIT_OK;
+    fprintf(stderr, "gnomon-import: %s\n", err.text);
+    return err.status == GN_EXIT_USAGE ? GN_EXIT_USAGE : GN_EXIT_WORLD;
+}

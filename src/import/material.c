@@ -1,0 +1,163 @@
+/* Materials: what Phong says, as metal and roughness. */
+#include <math.h>
+#include <string.h>
+
+#include "import/private.h"
+
+struct look {
+    float rgba[4], emissive[3], rough, metal;
+};
+
+/* Keys of assimp are three arguments each. */
+static bool get_color(const struct aiMaterial *material, const char *key, unsigned type, unsigned n,
+                      float rgb[3]) {
+    struct aiColor4D color;
+    if (aiGetMaterialColor(material, key, type, n, &color) != aiReturn_SUCCESS) return false;
+    if (!isfinite(color.r + color.g + color.b)) return false;
+    rgb[0] = fmaxf(color.r, 0.0f);
+    rgb[1] = fmaxf(color.g, 0.0f);
+    rgb[2] = fmaxf(color.b, 0.0f);
+    return true;
+}
+
+static float get_number(const struct aiMaterial *material, const char *key, unsigned type,
+                        unsigned n, float fallback) {
+    float value = fallback;
+    unsigned count = 1;
+    if (aiGetMaterialFloatArray(material, key, type, n, &value, &count) != aiReturn_SUCCESS ||
+        count < 1 || !isfinite(value))
+        return fallback;
+    return value;
+}
+
+static float clamp_unit(float value) { return fminf(fmaxf(value, 0.0f), 1.0f); }
+
+/* The exponent's highlight, by the renderer's own rule (exponent = 2 / roughness^4 - 2). What has
+ * no highlight is rough. */
+static float rough_from_phong(const struct aiMaterial *material) {
+    float specular[3] = {0.0f, 0.0f, 0.0f};
+    get_color(material, AI_MATKEY_COLOR_SPECULAR, specular);
+    float strength = get_number(material, AI_MATKEY_SHININESS_STRENGTH, 1.0f);
+    float shine = fmaxf(fmaxf(specular[0], specular[1]), specular[2]) * strength;
+    float exponent = get_number(material, AI_MATKEY_SHININESS, 0.0f);
+    if (shine < 0.01f || exponent <= 0.0f) return 1.0f;
+    return powf(2.0f / (exponent + 2.0f), 0.25f);
+}
+
+/* 0 is what some exporters write for "not transparent", and nobody sends a model that is not to be
+ * seen. */
+static float opacity_of(struct gn_import *import, const struct aiMaterial *material) {
+    float opacity = clamp_unit(get_number(material, AI_MATKEY_OPACITY, 1.0f));
+    if (opacity > 0.0f) return opacity;
+    gn_warn(import->warnings, "%s: materials with an opacity of 0 are shown opaque",
+            import->opts->model);
+    return 1.0f;
+}
+
+static bool has_vertex_colors(const struct gn_import *import, unsigned material) {
+    for (unsigned i = 0; i < import->scene->mNumMeshes; i++)
+        if (import->scene->mMeshes[i]->mMaterialIndex == material &&
+            import->scene->mMeshes[i]->mColors[0])
+            return true;
+    return false;
+}
+
+static bool is_black(const float rgb[3]) { return rgb[0] + rgb[1] + rgb[2] <= 0.0f; }
+
+static void set_white(float rgb[3]) { rgb[0] = rgb[1] = rgb[2] = 1.0f; }
+
+/* With a picture the factor is white, except in OBJ, whose files say that both are multiplied. */
+static void read_base(struct gn_import *import, unsigned index, const char *name, bool textured,
+                      struct look *look) {
+    const struct aiMaterial *material = import->scene->mMaterials[index];
+    set_white(look->rgba);
+    if (!get_color(material, AI_MATKEY_BASE_COLOR, look->rgba))
+        get_color(material, AI_MATKEY_COLOR_DIFFUSE, look->rgba);
+    bool made_up = strcmp(name, AI_DEFAULT_MATERIAL_NAME) == 0;
+    if ((textured && (import->format != GN_IMPORT_OBJ || is_black(look->rgba))) ||
+        (made_up && has_vertex_colors(import, index)))
+        set_white(look->rgba);
+    for (int k = 0; k < 3; k++) look->rgba[k] = clamp_unit(look->rgba[k]);
+    look->rgba[3] = opacity_of(import, material);
+}
+
+static json_t *texture_info(const struct gn_import_texture *texture, int uv_set) {
+    json_t *info = json_pack("{s:i}", "index", texture->index);
+    if (uv_set) json_object_set_new(info, "texCoord", json_integer(uv_set));
+    return info;
+}
+
+static struct gn_import_texture base_texture(struct gn_import *import,
+                                             const struct aiMaterial *material, int *uv_set) {
+    enum aiTextureType type = aiGetMaterialTextureCount(material, aiTextureType_BASE_COLOR)
+                                  ? aiTextureType_BASE_COLOR
+                                  : aiTextureType_DIFFUSE;
+    return gn_import_texture(import, material, type, true, uv_set);
+}
+
+/* Factors over 1 need an extension that the loader knows. */
+static void set_emissive(struct gn_import *import, const struct aiMaterial *material,
+                         json_t *object) {
+    int uv_set;
+    struct gn_import_texture texture =
+        gn_import_texture(import, material, aiTextureType_EMISSIVE, false, &uv_set);
+    float rgb[3] = {0.0f, 0.0f, 0.0f};
+    get_color(material, AI_MATKEY_COLOR_EMISSIVE, rgb);
+    if (texture.index >= 0) {
+        if (is_black(rgb)) set_white(rgb);
+        json_object_set_new(object, "emissiveTexture", texture_info(&texture, uv_set));
+    }
+    float strength = fmaxf(fmaxf(rgb[0], rgb[1]), rgb[2]);
+    if (strength <= 0.0f) return;
+    for (int k = 0; k < 3 && strength > 1.0f; k++) rgb[k] /= strength;
+    json_object_set_new(object, "emissiveFactor", gn_glb_floats(rgb, 3));
+    if (strength <= 1.0f) return;
+    gn_glb_extension(&import->glb, "KHR_materials_emissive_strength");
+    json_object_set_new(object, "extensions",
+                        json_pack("{s:{s:f}}", "KHR_materials_emissive_strength",
+                                  "emissiveStrength", (double)strength));
+}
+
+/* OBJ, STL and PLY cannot say it, and their triangles are often wound either way. */
+static bool is_double_sided(const struct aiMaterial *material) {
+    int value = 1;
+    unsigned count = 1;
+    return aiGetMaterialIntegerArray(material, AI_MATKEY_TWOSIDED, &value, &count) !=
+               aiReturn_SUCCESS ||
+           value != 0;
+}
+
+static json_t *make(struct gn_import *import, unsigned index) {
+    const struct aiMaterial *material = import->scene->mMaterials[index];
+    struct aiString name = {0};
+    struct look look = {0};
+    int uv_set;
+    aiGetMaterialString(material, AI_MATKEY_NAME, &name);
+    struct gn_import_texture base = base_texture(import, material, &uv_set);
+    read_base(import, index, name.data, base.index >= 0, &look);
+    look.metal = clamp_unit(get_number(material, AI_MATKEY_METALLIC_FACTOR, 0.0f));
+    look.rough =
+        clamp_unit(get_number(material, AI_MATKEY_ROUGHNESS_FACTOR, rough_from_phong(material)));
+    json_t *surface =
+        json_pack("{s:o,s:f,s:f}", "baseColorFactor", gn_glb_floats(look.rgba, 4), "metallicFactor",
+                  (double)look.metal, "roughnessFactor", (double)look.rough);
+    if (base.index >= 0)
+        json_object_set_new(surface, "baseColorTexture", texture_info(&base, uv_set));
+    json_t *object =
+        json_pack("{s:o,s:o}", "name", gn_glb_text(name.data), "pbrMetallicRoughness", surface);
+    if (look.rgba[3] < 1.0f || (base.has_alpha && base.soft))
+        json_object_set_new(object, "alphaMode", json_string("BLEND"));
+    else if (base.has_alpha)
+        json_object_set_new(object, "alphaMode", json_string("MASK"));
+    set_emissive(import, material, object);
+    if (is_double_sided(material)) json_object_set_new(object, "doubleSided", json_true());
+    return object;
+}
+
+int gn_import_material(struct gn_import *import, unsigned index) {
+    if (index >= import->scene->mNumMaterials) return -1;
+    int *known = &import->materials[index];
+    if (*known == GN_IMPORT_UNSEEN)
+        *known = gn_glb_add(&import->glb, "materials", make(import, index));
+    return *known;
+}

@@ -1,0 +1,193 @@
+/* Triangles. What a mesh holds is written once, whoever shows it. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/private.h"
+
+static float finite_or_0(float value) { return isfinite(value) ? value : 0.0f; }
+
+static int add_positions(struct gn_import *import, const struct gn_import_shape *shape) {
+    float *values = gn_import_alloc(3 * (size_t)shape->vertex_count * sizeof *values);
+    for (size_t i = 0; i < shape->vertex_count; i++) {
+        struct aiVector3D p = shape->mesh->mVertices[shape->origin[i]];
+        values[3 * i] = finite_or_0(p.x);
+        values[3 * i + 1] = finite_or_0(p.y);
+        values[3 * i + 2] = finite_or_0(p.z);
+    }
+    int index =
+        gn_glb_accessor(&import->glb, &(struct gn_glb_accessor){.data = values,
+                                                                .count = shape->vertex_count,
+                                                                .width = 3,
+                                                                .component = GN_GLB_F32,
+                                                                .bounds = true});
+    free(values);
+    return index;
+}
+
+static int add_normals(struct gn_import *import, const struct gn_import_shape *shape) {
+    float *values = gn_import_alloc(3 * (size_t)shape->vertex_count * sizeof *values);
+    for (size_t i = 0; i < shape->vertex_count; i++) {
+        values[3 * i] = finite_or_0(shape->normals[i].x);
+        values[3 * i + 1] = finite_or_0(shape->normals[i].y);
+        values[3 * i + 2] = finite_or_0(shape->normals[i].z);
+    }
+    int index = gn_glb_accessor(
+        &import->glb,
+        &(struct gn_glb_accessor){
+            .data = values, .count = shape->vertex_count, .width = 3, .component = GN_GLB_F32});
+    free(values);
+    return index;
+}
+
+/* assimp's v grows upwards, glTF's downwards. */
+static int add_uvs(struct gn_import *import, const struct gn_import_shape *shape, int set) {
+    float *values = gn_import_alloc(2 * (size_t)shape->vertex_count * sizeof *values);
+    for (size_t i = 0; i < shape->vertex_count; i++) {
+        struct aiVector3D uv = shape->mesh->mTextureCoords[set][shape->origin[i]];
+        values[2 * i] = finite_or_0(uv.x);
+        values[2 * i + 1] = 1.0f - finite_or_0(uv.y);
+    }
+    int index = gn_glb_accessor(
+        &import->glb,
+        &(struct gn_glb_accessor){
+            .data = values, .count = shape->vertex_count, .width = 2, .component = GN_GLB_F32});
+    free(values);
+    return index;
+}
+
+static float clamp_unit(float value) { return value > 0.0f ? fminf(value, 1.0f) : 0.0f; }
+
+/* The other formats hold colours as screens do, glTF linear ones: IEC 61966-2-1. */
+static uint16_t linear_from_srgb(float value) {
+    float c = clamp_unit(value);
+    return (uint16_t)lrintf(65535.0f *
+                            (c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f)));
+}
+
+static int add_colors(struct gn_import *import, const struct gn_import_shape *shape) {
+    uint16_t *values = gn_import_alloc(4 * (size_t)shape->vertex_count * sizeof *values);
+    for (size_t i = 0; i < shape->vertex_count; i++) {
+        struct aiColor4D color = shape->mesh->mColors[0][shape->origin[i]];
+        values[4 * i] = linear_from_srgb(color.r);
+        values[4 * i + 1] = linear_from_srgb(color.g);
+        values[4 * i + 2] = linear_from_srgb(color.b);
+        values[4 * i + 3] = (uint16_t)lrintf(65535.0f * clamp_unit(color.a));
+    }
+    int index =
+        gn_glb_accessor(&import->glb, &(struct gn_glb_accessor){.data = values,
+                                                                .count = shape->vertex_count,
+                                                                .width = 4,
+                                                                .component = GN_GLB_U16,
+                                                                .normalized = true});
+    free(values);
+    return index;
+}
+
+static int add_indices(struct gn_import *import, const struct gn_import_shape *shape) {
+    struct gn_glb_accessor a = {.data = shape->indices,
+                                .count = shape->index_count,
+                                .width = 1,
+                                .component = GN_GLB_U32,
+                                .indices = true};
+    if (shape->vertex_count > 65535) return gn_glb_accessor(&import->glb, &a);
+    uint16_t *narrow = gn_import_alloc(a.count * sizeof *narrow);
+    for (size_t i = 0; i < a.count; i++) narrow[i] = (uint16_t)shape->indices[i];
+    a.data = narrow;
+    a.component = GN_GLB_U16;
+    int index = gn_glb_accessor(&import->glb, &a);
+    free(narrow);
+    return index;
+}
+
+/* ---- shapes ---- */
+
+static bool is_triangle(const struct aiMesh *mesh, const struct aiFace *face) {
+    if (face->mNumIndices != 3) return false;
+    for (int k = 0; k < 3; k++)
+        if (face->mIndices[k] >= mesh->mNumVertices) return false;
+    return true;
+}
+
+static void read_triangles(struct gn_import_shape *shape) {
+    const struct aiMesh *mesh = shape->mesh;
+    shape->indices = gn_import_alloc(3 * (size_t)mesh->mNumFaces * sizeof *shape->indices);
+    for (unsigned i = 0; i < mesh->mNumFaces && mesh->mVertices; i++)
+        for (int k = 0; k < 3 && is_triangle(mesh, &mesh->mFaces[i]); k++)
+            shape->indices[shape->index_count++] = mesh->mFaces[i].mIndices[k];
+}
+
+static void read_normals(struct gn_import_shape *shape) {
+    size_t count = shape->vertex_count = shape->mesh->mNumVertices;
+    shape->origin = gn_import_alloc(count * sizeof *shape->origin);
+    shape->normals = gn_import_alloc(count * sizeof *shape->normals);
+    for (uint32_t i = 0; i < count; i++) shape->origin[i] = i;
+    memcpy(shape->normals, shape->mesh->mNormals, count * sizeof *shape->normals);
+}
+
+static json_t *write_primitive(struct gn_import *import, const struct gn_import_shape *shape) {
+    const struct aiMesh *mesh = shape->mesh;
+    json_t *attributes = json_pack("{s:i,s:i}", "POSITION", add_positions(import, shape), "NORMAL",
+                                   add_normals(import, shape));
+    static const char *const sets[] = {"TEXCOORD_0", "TEXCOORD_1"};
+    for (int i = 0; i < 2 && mesh->mTextureCoords[i]; i++)
+        json_object_set_new(attributes, sets[i], json_integer(add_uvs(import, shape, i)));
+    if (mesh->mColors[0])
+        json_object_set_new(attributes, "COLOR_0", json_integer(add_colors(import, shape)));
+    json_t *object =
+        json_pack("{s:o,s:i}", "attributes", attributes, "indices", add_indices(import, shape));
+    int material = gn_import_material(import, mesh->mMaterialIndex);
+    if (material >= 0) json_object_set_new(object, "material", json_integer(material));
+    return object;
+}
+
+static json_t *make_primitive(struct gn_import *import, const struct aiMesh *mesh) {
+    struct gn_import_shape shape = {.mesh = mesh};
+    json_t *object = NULL;
+    read_triangles(&shape);
+    if (shape.index_count) {
+        if (mesh->mNormals)
+            read_normals(&shape);
+        else
+            gn_import_normals(&shape);
+        object = write_primitive(import, &shape);
+    }
+    free(shape.indices);
+    free(shape.origin);
+    free(shape.normals);
+    return object ? object : json_null();
+}
+
+static json_t *primitive(struct gn_import *import, unsigned index) {
+    if (!import->primitives[index])
+        import->primitives[index] = make_primitive(import, import->scene->mMeshes[index]);
+    return import->primitives[index];
+}
+
+static int add_mesh(struct gn_import *import, const struct aiNode *node) {
+    json_t *primitives = json_array();
+    const char *name = "";
+    for (unsigned i = 0; i < node->mNumMeshes; i++) {
+        unsigned index = node->mMeshes[i];
+        json_t *one = index < import->scene->mNumMeshes ? primitive(import, index) : NULL;
+        if (!one || json_is_null(one)) continue;
+        json_array_append(primitives, one);
+        name = import->scene->mMeshes[index]->mName.data;
+    }
+    if (json_array_size(primitives))
+        return gn_glb_add(
+            &import->glb, "meshes",
+            json_pack("{s:o,s:o}", "name", gn_glb_text(name), "primitives", primitives));
+    json_decref(primitives);
+    return -1;
+}
+
+/* Nodes that show one and the same mesh share ours; those with several share what these hold. */
+int gn_import_mesh(struct gn_import *import, const struct aiNode *node) {
+    if (node->mNumMeshes == 0) return -1;
+    if (node->mNumMeshes > 1 || node->mMeshes[0] >= import->scene->mNumMeshes)
+        return add_mesh(import, node);
+    int *known = &import->meshes[node->mMeshes[0]];
+    if (*known == GN_IMPORT_UNSEEN) *known = add_mesh(import, node);
+    return *known;
+}

@@ -1,0 +1,139 @@
+/* Normals for meshes that have none: smooth, except where faces meet at an angle. Neighbours count
+ * by their angle at the vertex (Thuermer and Wuethrich 1998), so that it does not matter how a
+ * polygon was cut into triangles. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/private.h"
+
+static const float CREASE_COS =
+    0.766f; /* 40 degrees: a cylinder of ten sides is smooth, a box not */
+
+struct place {           /* what is at one position, across the seams of texture coordinates */
+    uint32_t *of_vertex; /* per vertex of the mesh */
+    uint32_t *first;     /* per place, and one more: where its corners begin in `corners` */
+    uint32_t *corners;   /* numbers of indices: 3 x face + 0, 1 or 2 */
+    size_t count;
+};
+
+struct faces {
+    struct aiVector3D *normals; /* per face: unit, or 0 */
+    float *angles;              /* per corner: radians */
+};
+
+static int compare(const void *a, const void *b, void *positions) {
+    const struct aiVector3D *p = positions;
+    return memcmp(&p[*(const uint32_t *)a], &p[*(const uint32_t *)b], sizeof *p);
+}
+
+static void find_places(struct place *place, const struct aiMesh *mesh) {
+    uint32_t *order = gn_import_alloc(mesh->mNumVertices * sizeof *order);
+    place->of_vertex = gn_import_alloc(mesh->mNumVertices * sizeof *order);
+    for (uint32_t i = 0; i < mesh->mNumVertices; i++) order[i] = i;
+    qsort_r(order, mesh->mNumVertices, sizeof *order, compare, mesh->mVertices);
+    for (uint32_t i = 0; i < mesh->mNumVertices; i++) {
+        if (i == 0 || compare(&order[i - 1], &order[i], mesh->mVertices) != 0) place->count++;
+        place->of_vertex[order[i]] = (uint32_t)place->count - 1;
+    }
+    free(order);
+}
+
+static void list_corners(struct place *place, const struct gn_import_shape *shape) {
+    uint32_t *next = gn_import_alloc((place->count + 2) * sizeof *next);
+    place->first = next;
+    place->corners = gn_import_alloc(shape->index_count * sizeof *place->corners);
+    memset(next, 0, (place->count + 2) * sizeof *next);
+    for (size_t i = 0; i < shape->index_count; i++) next[place->of_vertex[shape->indices[i]] + 2]++;
+    for (size_t i = 2; i < place->count + 2; i++) next[i] += next[i - 1];
+    for (size_t i = 0; i < shape->index_count; i++)
+        place->corners[next[place->of_vertex[shape->indices[i]] + 1]++] = (uint32_t)i;
+}
+
+static float dot(struct aiVector3D a, struct aiVector3D b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static struct aiVector3D unit(struct aiVector3D v) {
+    float length = sqrtf(dot(v, v));
+    if (!isfinite(length) || length <= 0.0f) return (struct aiVector3D){0.0f, 0.0f, 0.0f};
+    return (struct aiVector3D){v.x / length, v.y / length, v.z / length};
+}
+
+static struct aiVector3D towards(const struct gn_import_shape *shape, size_t from, size_t to) {
+    const struct aiVector3D *a = &shape->mesh->mVertices[shape->indices[from]],
+                            *b = &shape->mesh->mVertices[shape->indices[to]];
+    return unit((struct aiVector3D){b->x - a->x, b->y - a->y, b->z - a->z});
+}
+
+static struct faces measure_faces(const struct gn_import_shape *shape) {
+    struct faces f = {
+        .normals = gn_import_alloc(shape->index_count / 3 * sizeof *f.normals),
+        .angles = gn_import_alloc(shape->index_count * sizeof *f.angles),
+    };
+    for (size_t i = 0; i < shape->index_count; i += 3) {
+        struct aiVector3D u = towards(shape, i, i + 1), v = towards(shape, i, i + 2),
+                          w = towards(shape, i + 1, i + 2);
+        f.normals[i / 3] = unit((struct aiVector3D){u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z,
+                                                    u.x * v.y - u.y * v.x});
+        f.angles[i] = acosf(fminf(fmaxf(dot(u, v), -1.0f), 1.0f));
+        f.angles[i + 1] = acosf(fminf(fmaxf(-dot(u, w), -1.0f), 1.0f));
+        f.angles[i + 2] = acosf(fminf(fmaxf(dot(v, w), -1.0f), 1.0f));
+    }
+    return f;
+}
+
+static struct aiVector3D corner_normal(const struct place *place, const struct faces *faces,
+                                       uint32_t at, struct aiVector3D own) {
+    struct aiVector3D sum = {0.0f, 0.0f, 0.0f};
+    for (uint32_t i = place->first[at]; i < place->first[at + 1]; i++) {
+        struct aiVector3D n = faces->normals[place->corners[i] / 3];
+        float weight = dot(own, n) >= CREASE_COS ? faces->angles[place->corners[i]] : 0.0f;
+        sum = (struct aiVector3D){sum.x + weight * n.x, sum.y + weight * n.y, sum.z + weight * n.z};
+    }
+    sum = unit(sum);
+    return dot(sum, sum) > 0.0f ? sum : (struct aiVector3D){0.0f, 1.0f, 0.0f};
+}
+
+/* A vertex of the mesh becomes as many as it has normals; next chains them. */
+static uint32_t vertex_with(struct gn_import_shape *shape, uint32_t *heads, uint32_t *next,
+                            uint32_t vertex, struct aiVector3D normal) {
+    for (uint32_t i = heads[vertex]; i != UINT32_MAX; i = next[i])
+        if (memcmp(&shape->normals[i], &normal, sizeof normal) == 0) return i;
+    uint32_t made = shape->vertex_count++;
+    shape->origin[made] = vertex;
+    shape->normals[made] = normal;
+    next[made] = heads[vertex];
+    return heads[vertex] = made;
+}
+
+static void split(struct gn_import_shape *shape, const struct place *place,
+                  const struct faces *faces) {
+    uint32_t *heads = gn_import_alloc(shape->mesh->mNumVertices * sizeof *heads);
+    uint32_t *next = gn_import_alloc(shape->index_count * sizeof *next);
+    memset(heads, 0xff, shape->mesh->mNumVertices * sizeof *heads);
+    shape->origin = gn_import_alloc(shape->index_count * sizeof *shape->origin);
+    shape->normals = gn_import_alloc(shape->index_count * sizeof *shape->normals);
+    shape->vertex_count = 0;
+    for (size_t i = 0; i < shape->index_count; i++) {
+        uint32_t vertex = shape->indices[i];
+        struct aiVector3D normal =
+            corner_normal(place, faces, place->of_vertex[vertex], faces->normals[i / 3]);
+        shape->indices[i] = vertex_with(shape, heads, next, vertex, normal);
+    }
+    free(heads);
+    free(next);
+}
+
+void gn_import_normals(struct gn_import_shape *shape) {
+    struct place place = {0};
+    find_places(&place, shape->mesh);
+    list_corners(&place, shape);
+    struct faces faces = measure_faces(shape);
+    split(shape, &place, &faces);
+    free(faces.normals);
+    free(faces.angles);
+    free(place.of_vertex);
+    free(place.first);
+    free(place.corners);
+}

@@ -1,0 +1,140 @@
+/* Pictures are passed on as they are; only their alpha is looked at, and an opacity picture of its
+ * own becomes the alpha of the base picture, which is where glTF has it. */
+#include <png.h>
+#include <stdlib.h>
+#include <string.h>
+#include <turbojpeg.h>
+
+#include "import/private.h"
+
+enum { MOST_TEXELS = 67108864 };
+
+struct pixels {
+    uint32_t width_px, height_px;
+    uint8_t *rgba;
+    bool has_alpha;
+};
+
+const char *gn_import_picture_type(const struct gn_bytes *picture) {
+    if (picture->size >= 8 && memcmp(picture->data, "\x89PNG\r\n\x1a\n", 8) == 0)
+        return "image/png";
+    if (picture->size >= 3 && memcmp(picture->data, "\xff\xd8\xff", 3) == 0) return "image/jpeg";
+    return NULL;
+}
+
+static bool fits(uint64_t width, uint64_t height) {
+    return width && height && width * height <= MOST_TEXELS;
+}
+
+static bool read_png(const struct gn_bytes *picture, struct pixels *out) {
+    png_image png = {.version = PNG_IMAGE_VERSION};
+    bool ok = png_image_begin_read_from_memory(&png, picture->data, picture->size) &&
+              fits(png.width, png.height);
+    if (ok) {
+        *out = (struct pixels){.width_px = png.width,
+                               .height_px = png.height,
+                               .has_alpha = (png.format & PNG_FORMAT_FLAG_ALPHA) != 0};
+        png.format = PNG_FORMAT_RGBA;
+        out->rgba = gn_import_alloc(4 * (size_t)png.width * png.height);
+        ok = png_image_finish_read(&png, NULL, out->rgba, 0, NULL);
+    }
+    png_image_free(&png);
+    return ok;
+}
+
+static bool read_jpeg(const struct gn_bytes *picture, struct pixels *out) {
+    tjhandle jpeg = tjInitDecompress();
+    int width = 0, height = 0, sampling, space;
+    bool ok = jpeg &&
+              tjDecompressHeader3(jpeg, picture->data, picture->size, &width, &height, &sampling,
+                                  &space) == 0 &&
+              width > 0 && height > 0 && fits((uint64_t)width, (uint64_t)height);
+    if (ok) {
+        *out = (struct pixels){.width_px = (uint32_t)width, .height_px = (uint32_t)height};
+        out->rgba = gn_import_alloc(4 * (size_t)width * (size_t)height);
+        ok = tjDecompress2(jpeg, picture->data, picture->size, out->rgba, width, 0, height,
+                           TJPF_RGBA, 0) == 0;
+    }
+    if (jpeg) tjDestroy(jpeg);
+    return ok;
+}
+
+static bool read_pixels(const struct gn_bytes *picture, struct pixels *out) {
+    *out = (struct pixels){0};
+    const char *type = gn_import_picture_type(picture);
+    bool ok =
+        type && (strcmp(type, "image/png") == 0 ? read_png(picture, out) : read_jpeg(picture, out));
+    if (ok) return true;
+    free(out->rgba);
+    *out = (struct pixels){0};
+    return false;
+}
+
+/* Leaves and fences have a rim of soft texels around holes, glass is soft all over. */
+static struct gn_import_alpha judge(const struct pixels *pixels) {
+    size_t count = (size_t)pixels->width_px * pixels->height_px, clear = 0, soft = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint8_t alpha = pixels->rgba[4 * i + 3];
+        clear += alpha < 25;
+        soft += alpha >= 25 && alpha < 230;
+    }
+    return (struct gn_import_alpha){.has_alpha = clear + soft > 0, .soft = 2 * soft > clear};
+}
+
+struct gn_import_alpha gn_import_picture_alpha(const struct gn_bytes *picture) {
+    struct pixels pixels = {0};
+    struct gn_import_alpha alpha = {0};
+    const char *type = gn_import_picture_type(picture);
+    if (type && strcmp(type, "image/png") == 0 && read_pixels(picture, &pixels) && pixels.has_alpha)
+        alpha = judge(&pixels);
+    free(pixels.rgba);
+    return alpha;
+}
+
+/* Both at the size of the larger one, nearest texels. */
+static struct pixels merge(const struct pixels *base, const struct pixels *opacity) {
+    bool larger = opacity->width_px > base->width_px;
+    struct pixels out = {.width_px = (larger ? opacity : base)->width_px,
+                         .height_px = (larger ? opacity : base)->height_px};
+    out.rgba = gn_import_alloc(4 * (size_t)out.width_px * out.height_px);
+    for (size_t y = 0; y < out.height_px; y++)
+        for (size_t x = 0; x < out.width_px; x++) {
+            size_t bx = x * base->width_px / out.width_px, by = y * base->height_px / out.height_px;
+            size_t ox = x * opacity->width_px / out.width_px,
+                   oy = y * opacity->height_px / out.height_px;
+            uint8_t *to = out.rgba + 4 * (y * out.width_px + x);
+            memcpy(to, base->rgba + 4 * (by * base->width_px + bx), 3);
+            to[3] = opacity->rgba[4 * (oy * opacity->width_px + ox) + (opacity->has_alpha ? 3 : 0)];
+        }
+    return out;
+}
+
+static bool write_png(const struct pixels *pixels, struct gn_bytes *out) {
+    png_image png = {.version = PNG_IMAGE_VERSION,
+                     .width = pixels->width_px,
+                     .height = pixels->height_px,
+                     .format = PNG_FORMAT_RGBA,
+                     .flags = PNG_IMAGE_FLAG_FAST};
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+    out->data = gn_import_alloc(size);
+    bool ok = png_image_write_to_memory(&png, out->data, &size, 0, pixels->rgba, 0, NULL);
+    out->size = ok ? size : 0;
+    return ok;
+}
+
+bool gn_import_picture_merge(const struct gn_bytes *base, const struct gn_bytes *opacity,
+                             struct gn_bytes *png) {
+    uint8_t white[4] = {255, 255, 255, 255};
+    struct pixels alpha, colour = {.width_px = 1, .height_px = 1, .rgba = white};
+    *png = (struct gn_bytes){0};
+    if (!read_pixels(opacity, &alpha)) return false;
+    bool ok = !base || read_pixels(base, &colour);
+    if (ok) {
+        struct pixels both = merge(&colour, &alpha);
+        ok = write_png(&both, png);
+        free(both.rgba);
+    }
+    free(alpha.rgba);
+    if (colour.rgba != white) free(colour.rgba);
+    return ok;
+}

@@ -1,0 +1,254 @@
+/* The steps of a conversion: assimp reads, the tree of nodes is walked, the rest hangs on it. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "import/private.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+
+/* Up: Blender writes and reads STL and PLY with Z up, f3d shows STL so; OBJ is Y up by convention;
+ * Collada says it and assimp obeys; FBX says it and we obey, because assimp does so only since 5.3.
+ */
+static const struct {
+    const char *name, *suffix;
+    enum gn_import_up up;
+} formats[GN_IMPORT_FORMAT_COUNT] = {
+    [GN_IMPORT_OBJ] = {"OBJ", ".obj", GN_IMPORT_UP_Y},
+    [GN_IMPORT_FBX] = {"FBX", ".fbx", GN_IMPORT_UP_AUTO},
+    [GN_IMPORT_STL] = {"STL", ".stl", GN_IMPORT_UP_Z},
+    [GN_IMPORT_PLY] = {"PLY", ".ply", GN_IMPORT_UP_Z},
+    [GN_IMPORT_DAE] = {"Collada", ".dae", GN_IMPORT_UP_Y},
+};
+
+enum gn_import_format gn_import_format_of(const char *path) {
+    const char *dot = strrchr(path, '.');
+    int i = 0;
+    while (i < GN_IMPORT_FORMAT_COUNT && (!dot || strcasecmp(dot, formats[i].suffix) != 0)) i++;
+    return (enum gn_import_format)i;
+}
+
+const char *gn_import_format_name(enum gn_import_format format) { return formats[format].name; }
+
+/* ---- reading ---- */
+
+static struct aiPropertyStore *choose(const struct gn_import *import) {
+    struct aiPropertyStore *p = aiCreatePropertyStore();
+    if (!p) gn_import_no_memory();
+    bool forced = import->opts->up != GN_IMPORT_UP_AUTO;
+    aiSetImportPropertyInteger(p, AI_CONFIG_PP_SBP_REMOVE,
+                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
+    aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, 0);
+    aiSetImportPropertyInteger(p, "AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION", 1); /* since 5.3 */
+    aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, forced);
+    return p;
+}
+
+static bool fail_empty(const struct gn_import *import) {
+    return gn_fail(import->err, "%s: has no triangles; points and lines are not shown",
+                   import->opts->model);
+}
+
+static bool fail_read(const struct gn_import *import) {
+    const char *why = aiGetErrorString();
+    if (why && strstr(why, "bad_alloc")) gn_import_no_memory();
+    if (why && strcmp(why, "No meshes remaining") == 0) return fail_empty(import);
+    return gn_fail(import->err,
+                   "%s: is not read as %s (%.160s); export it again, or as .glb where it was made",
+                   import->opts->model, formats[import->format].name,
+                   why && *why ? why : "no reason is given");
+}
+
+static bool read_scene(struct gn_import *import) {
+    struct aiFileIO io = gn_import_folder_io(import);
+    struct aiPropertyStore *properties = choose(import);
+    import->scene = aiImportFileExWithProperties(
+        import->name,
+        aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_FindInvalidData |
+            aiProcess_TransformUVCoords | aiProcess_JoinIdenticalVertices |
+            aiProcess_GenBoundingBoxes,
+        &io, properties);
+    aiReleasePropertyStore(properties);
+    return import->scene || fail_read(import);
+}
+
+/* ---- axes and units ---- */
+
+static const struct aiMetadataEntry *find_meta(const struct gn_import *import, const char *key) {
+    const struct aiMetadata *meta = import->scene->mMetaData;
+    for (unsigned i = 0; meta && i < meta->mNumProperties; i++)
+        if (strcmp(meta->mKeys[i].data, key) == 0 && meta->mValues[i].mData)
+            return &meta->mValues[i];
+    return NULL;
+}
+
+static float meta_number(const struct gn_import *import, const char *key, float fallback) {
+    const struct aiMetadataEntry *entry = find_meta(import, key);
+    if (!entry) return fallback;
+    if (entry->mType == AI_INT32) return (float)*(const int32_t *)entry->mData;
+    if (entry->mType == AI_FLOAT) return *(const float *)entry->mData;
+    if (entry->mType == AI_DOUBLE) return (float)*(const double *)entry->mData;
+    return fallback;
+}
+
+static float meta_sign(const struct gn_import *import, const char *key) {
+    return meta_number(import, key, 1.0f) < 0.0f ? -1.0f : 1.0f;
+}
+
+/* Rows of the matrix: which axis of an FBX file is our X, Y, Z. Left alone when it is no rotation.
+ */
+static void set_fbx_axes(const struct gn_import *import, float m[3][3]) {
+    int axis[3] = {(int)meta_number(import, "CoordAxis", 0.0f),
+                   (int)meta_number(import, "UpAxis", 1.0f),
+                   (int)meta_number(import, "FrontAxis", 2.0f)};
+    int seen = 0;
+    for (int i = 0; i < 3; i++) seen |= axis[i] >= 0 && axis[i] < 3 ? 1 << axis[i] : 0;
+    if (seen != 7) return;
+    memset(m, 0, 9 * sizeof m[0][0]);
+    m[0][axis[0]] = meta_sign(import, "CoordAxisSign");
+    m[1][axis[1]] = meta_sign(import, "UpAxisSign");
+    m[2][axis[2]] = meta_sign(import, "FrontAxisSign");
+    bool even = axis[1] == (axis[0] + 1) % 3;
+    float determinant = m[0][axis[0]] * m[1][axis[1]] * m[2][axis[2]] * (even ? 1.0f : -1.0f);
+    if (determinant < 0.0f) m[2][axis[2]] = -m[2][axis[2]]; /* no mirrored worlds */
+}
+
+static struct aiMatrix4x4 world_from_model(const struct gn_import *import) {
+    enum gn_import_up up =
+        import->opts->up == GN_IMPORT_UP_AUTO ? formats[import->format].up : import->opts->up;
+    float m[3][3] = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}}, scale = 1.0f;
+    if (up == GN_IMPORT_UP_AUTO) set_fbx_axes(import, m);
+    if (up == GN_IMPORT_UP_Z) {
+        m[1][1] = m[2][2] = 0.0f;
+        m[1][2] = 1.0f;
+        m[2][1] = -1.0f;
+    }
+    if (import->format == GN_IMPORT_FBX) /* centimetres per unit */
+        scale = 0.01f * meta_number(import, "UnitScaleFactor", 1.0f);
+    if (!isfinite(scale) || scale <= 0.0f) scale = 0.01f;
+    return (struct aiMatrix4x4){scale * m[0][0],
+                                scale * m[0][1],
+                                scale * m[0][2],
+                                0.0f,
+                                scale * m[1][0],
+                                scale * m[1][1],
+                                scale * m[1][2],
+                                0.0f,
+                                scale * m[2][0],
+                                scale * m[2][1],
+                                scale * m[2][2],
+                                0.0f,
+                                0.0f,
+                                0.0f,
+                                0.0f,
+                                1.0f};
+}
+
+/* ---- nodes ---- */
+
+json_t *gn_import_matrix(const struct aiMatrix4x4 *m) {
+    float values[16] = {m->a1, m->b1, m->c1, 0.0f, m->a2, m->b2, m->c2, 0.0f,
+                        m->a3, m->b3, m->c3, 0.0f, m->a4, m->b4, m->c4, 1.0f};
+    for (int i = 0; i < 16; i++)
+        if (!isfinite(values[i])) values[i] = i % 5 == 0 ? 1.0f : 0.0f;
+    return gn_glb_floats(values, 16);
+}
+
+static void grow_box(struct gn_import *import, const struct aiMatrix4x4 *m,
+                     const struct aiAABB *box) {
+    for (int corner = 0; corner < 8; corner++) {
+        struct aiVector3D p = {corner & 1 ? box->mMax.x : box->mMin.x,
+                               corner & 2 ? box->mMax.y : box->mMin.y,
+                               corner & 4 ? box->mMax.z : box->mMin.z};
+        float at[3] = {m->a1 * p.x + m->a2 * p.y + m->a3 * p.z + m->a4,
+                       m->b1 * p.x + m->b2 * p.y + m->b3 * p.z + m->b4,
+                       m->c1 * p.x + m->c2 * p.y + m->c3 * p.z + m->c4};
+        for (int k = 0; k < 3 && isfinite(at[0] + at[1] + at[2]); k++) {
+            import->low[k] = fminf(import->low[k], at[k]);
+            import->high[k] = fmaxf(import->high[k], at[k]);
+        }
+    }
+}
+
+static json_t *make_node(struct gn_import *import, const struct gn_import_node *at) {
+    const struct aiNode *node = at->node;
+    json_t *object =
+        json_pack("{s:o,s:o}", "name", gn_glb_text(node->mName.data), "matrix",
+                  gn_import_matrix(node->mParent ? &node->mTransformation : &at->world_from_node));
+    int mesh = gn_import_mesh(import, node);
+    if (mesh >= 0) json_object_set_new(object, "mesh", json_integer(mesh));
+    for (unsigned i = 0; mesh >= 0 && i < node->mNumMeshes; i++)
+        if (node->mMeshes[i] < import->scene->mNumMeshes)
+            grow_box(import, &at->world_from_node,
+                     &import->scene->mMeshes[node->mMeshes[i]]->mAABB);
+    return object;
+}
+
+static void queue_node(struct gn_import *import, const struct aiNode *node,
+                       struct aiMatrix4x4 world_from_parent) {
+    if (import->node_count == import->node_room) {
+        import->node_room = 2 * import->node_room + 64;
+        import->nodes = realloc(import->nodes, import->node_room * sizeof *import->nodes);
+        if (!import->nodes) gn_import_no_memory();
+    }
+    aiMultiplyMatrix4(&world_from_parent, &node->mTransformation);
+    import->nodes[import->node_count++] = (struct gn_import_node){node, world_from_parent};
+}
+
+/* Breadth first, so a node's place in the queue is its number in the file; and no recursion, since
+ * the tree may be as deep as the file is long. */
+static void walk(struct gn_import *import) {
+    queue_node(import, import->scene->mRootNode, world_from_model(import));
+    for (size_t i = 0; i < import->node_count; i++) {
+        const struct gn_import_node at = import->nodes[i];
+        json_t *object = make_node(import, &at), *children = json_array();
+        for (unsigned k = 0; k < at.node->mNumChildren; k++) {
+            json_array_append_new(children, json_integer((json_int_t)import->node_count));
+            queue_node(import, at.node->mChildren[k], at.world_from_node);
+        }
+        if (at.node->mNumChildren) json_object_set(object, "children", children);
+        json_decref(children);
+        gn_glb_add(&import->glb, "nodes", object);
+    }
+}
+
+/* ---- the whole ---- */
+
+static void prepare(struct gn_import *import) {
+    import->primitives = gn_import_alloc((import->scene->mNumMeshes + 1) * sizeof(json_t *));
+    import->meshes = gn_import_alloc((import->scene->mNumMeshes + 1) * sizeof(int));
+    import->materials = gn_import_alloc((import->scene->mNumMaterials + 1) * sizeof(int));
+    for (unsigned i = 0; i < import->scene->mNumMeshes; i++) {
+        import->primitives[i] = NULL;
+        import->meshes[i] = GN_IMPORT_UNSEEN;
+    }
+    for (unsigned i = 0; i < import->scene->mNumMaterials; i++)
+        import->materials[i] = GN_IMPORT_UNSEEN;
+    for (int k = 0; k < 3; k++) {
+        import->low[k] = INFINITY;
+        import->high[k] = -INFINITY;
+    }
+}
+
+bool gn_import_scene_build(struct gn_import *import) {
+    struct gn_bytes probe;
+    if (!gn_import_folder_open(import)) return false;
+    if (!gn_file_read(import->opts->model, (size_t)import->opts->file_mb << 20, &probe,
+                      import->err))
+        return false;
+    gn_bytes_finish(&probe);
+    if (!read_scene(import)) return false;
+    if (!import->scene->mRootNode)
+        return gn_fail(import->err, "%s: holds no scene", import->opts->model);
+    prepare(import);
+    json_object_set_new(import->glb.root, "scene", json_integer(0));
+    gn_glb_add(&import->glb, "scenes", json_pack("{s:[i]}", "nodes", 0));
+    walk(import);
+    if (!json_object_get(import->glb.root, "meshes")) return fail_empty(import);
+    gn_import_lights(import);
+    gn_import_cameras(import);
+    return true;
+}

@@ -1,0 +1,153 @@
+/* Textures: found in the model or in its folder, put into the file as they are. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/private.h"
+
+enum { NAME_BYTES = sizeof(((struct aiString *)NULL)->data) }; /* its macro changed names */
+
+struct request {
+    char base[NAME_BYTES], opacity[NAME_BYTES]; /* names, "" for none */
+    enum aiTextureMapMode wrap[2];
+    unsigned uv_set, flags;
+};
+
+static bool ask(const struct aiMaterial *material, enum aiTextureType type, char *name,
+                struct request *request) {
+    struct aiString path = {0};
+    unsigned uv_set = 0, flags = 0;
+    enum aiTextureMapMode wrap[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+    if (aiGetMaterialTexture(material, type, 0, &path, NULL, &uv_set, NULL, NULL, wrap, &flags) !=
+            aiReturn_SUCCESS ||
+        !path.data[0])
+        return false;
+    memcpy(name, path.data, NAME_BYTES);
+    name[NAME_BYTES - 1] = 0;
+    if (name == request->base || !request->base[0]) {
+        memcpy(request->wrap, wrap, sizeof wrap);
+        request->uv_set = uv_set;
+        request->flags = flags;
+    }
+    return true;
+}
+
+static const char *last_part(const char *path) {
+    const char *at = path;
+    for (const char *c = path; *c; c++)
+        if (*c == '/' || *c == '\\') at = c + 1;
+    return at;
+}
+
+/* A picture inside the model: "*3", or one that has the name. */
+static const struct aiTexture *find_inside(const struct gn_import *import, const char *name) {
+    unsigned count = import->scene->mNumTextures;
+    struct aiTexture *const *all = import->scene->mTextures;
+    if (name[0] == '*') {
+        unsigned long number = strtoul(name + 1, NULL, 10);
+        return number < count ? all[number] : NULL;
+    }
+    for (unsigned i = 0; i < count; i++)
+        if (strcmp(last_part(all[i]->mFilename.data), last_part(name)) == 0) return all[i];
+    return NULL;
+}
+
+static bool copy_inside(const struct aiTexture *texture, struct gn_bytes *bytes) {
+    if (texture->mHeight != 0 || !texture->mWidth || !texture->pcData) return false;
+    bytes->size = texture->mWidth;
+    bytes->data = gn_import_alloc(bytes->size);
+    memcpy(bytes->data, texture->pcData, bytes->size);
+    return true;
+}
+
+/* False, and a warning, unless it is a PNG or JPEG. */
+static bool fetch(struct gn_import *import, const char *name, struct gn_bytes *bytes) {
+    const struct aiTexture *inside = find_inside(import, name);
+    const char *model = import->opts->model;
+    *bytes = (struct gn_bytes){0};
+    bool found = inside ? copy_inside(inside, bytes) : gn_import_folder_read(import, name, bytes);
+    if (!found)
+        gn_warn(import->warnings, "%s: the picture %.100s is not in its folder; shown without it",
+                model, name);
+    else if (!gn_import_picture_type(bytes))
+        gn_warn(import->warnings, "%s: the picture %.100s is no PNG or JPEG; shown without it",
+                model, last_part(name));
+    if (found && gn_import_picture_type(bytes)) return true;
+    gn_bytes_finish(bytes);
+    return false;
+}
+
+static int wrap_of(enum aiTextureMapMode mode) {
+    enum { REPEAT = 10497, CLAMP = 33071, MIRROR = 33648 };
+    return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? CLAMP
+           : mode == aiTextureMapMode_Mirror                                ? MIRROR
+                                                                            : REPEAT;
+}
+
+static int add(struct gn_import *import, const struct request *request,
+               const struct gn_bytes *picture) {
+    struct gn_glb *glb = &import->glb;
+    int view = gn_glb_view(glb, picture->data, picture->size);
+    int image =
+        gn_glb_add(glb, "images",
+                   json_pack("{s:o,s:s,s:i}", "name", gn_glb_text(last_part(request->base)),
+                             "mimeType", gn_import_picture_type(picture), "bufferView", view));
+    int sampler =
+        gn_glb_add(glb, "samplers",
+                   json_pack("{s:i,s:i,s:i,s:i}", "magFilter", 9729, "minFilter", 9987, "wrapS",
+                             wrap_of(request->wrap[0]), "wrapT", wrap_of(request->wrap[1])));
+    return gn_glb_add(glb, "textures", json_pack("{s:i,s:i}", "sampler", sampler, "source", image));
+}
+
+/* The base picture, the opacity picture, or one made of both; empty if there is nothing. */
+static struct gn_bytes gather(struct gn_import *import, const struct request *request) {
+    struct gn_bytes base = {0}, opacity = {0}, both = {0};
+    bool has_base = request->base[0] && fetch(import, request->base, &base);
+    bool has_opacity = request->opacity[0] && strcmp(request->base, request->opacity) != 0 &&
+                       fetch(import, request->opacity, &opacity);
+    if (!has_opacity) return base;
+    bool merged = gn_import_picture_merge(has_base ? &base : NULL, &opacity, &both);
+    if (!merged)
+        gn_warn(import->warnings, "%s: the picture %.100s cannot be read; shown without it",
+                import->opts->model, request->opacity);
+    gn_bytes_finish(&opacity);
+    if (!merged) return base;
+    gn_bytes_finish(&base);
+    return both;
+}
+
+static struct gn_import_texture make(struct gn_import *import, const struct request *request) {
+    struct gn_import_texture made = {.index = -1};
+    struct gn_bytes picture = gather(import, request);
+    if (picture.size) {
+        made.index = add(import, request, &picture);
+        struct gn_import_alpha alpha = gn_import_picture_alpha(&picture);
+        made.has_alpha = alpha.has_alpha && !(request->flags & aiTextureFlags_IgnoreAlpha);
+        made.soft = alpha.soft;
+    }
+    gn_bytes_finish(&picture);
+    made.base = strdup(request->base);
+    made.opacity = strdup(request->opacity);
+    if (!made.base || !made.opacity) gn_import_no_memory();
+    return made;
+}
+
+struct gn_import_texture gn_import_texture(struct gn_import *import,
+                                           const struct aiMaterial *material,
+                                           enum aiTextureType type, bool with_opacity,
+                                           int *uv_set) {
+    struct request request = {0};
+    bool any = ask(material, type, request.base, &request);
+    if (with_opacity) any |= ask(material, aiTextureType_OPACITY, request.opacity, &request);
+    *uv_set = request.uv_set == 1 ? 1 : 0;
+    if (!any) return (struct gn_import_texture){.index = -1};
+    for (size_t i = 0; i < import->texture_count; i++)
+        if (strcmp(import->textures[i].base, request.base) == 0 &&
+            strcmp(import->textures[i].opacity, request.opacity) == 0)
+            return import->textures[i];
+    size_t count = import->texture_count + 1;
+    struct gn_import_texture *more = realloc(import->textures, count * sizeof *more);
+    if (!more) gn_import_no_memory();
+    import->textures = more;
+    import->texture_count = count;
+    return more[count - 1] = make(import, &request);
+}

@@ -1,0 +1,68 @@
+/* The child in which a model is read: what it may take of the machine, and what it leaves. All its
+ * memory ends with it; nothing is freed one by one. */
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "import/private.h"
+
+/* The sanitizers reserve more addresses than any limit. */
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#define UNBOUNDED
+#endif
+#endif
+#if defined(UNBOUNDED) || defined(__SANITIZE_ADDRESS__)
+enum { BOUND_MEMORY = 0 };
+#else
+enum { BOUND_MEMORY = 1 };
+#endif
+
+static struct gn_import_report *the_report;
+static const struct gn_import_opts *the_opts;
+
+void gn_import_no_memory(void) {
+    gn_fail(&the_report->err,
+            "%s: needs more than %d MB of memory to be read; gnomon-import --memory MB allows more",
+            the_opts->model, the_opts->memory_mb);
+    _exit(0);
+}
+
+void *gn_import_alloc(size_t size) {
+    void *memory = malloc(size ? size : 1);
+    if (!memory) gn_import_no_memory();
+    return memory;
+}
+
+static void bound(int what, rlim_t most) {
+    struct rlimit limit = {most, most};
+    setrlimit(what, &limit);
+}
+
+/* The time is the parent's to watch; the CPU's limit is for the day on which it cannot. */
+static void set_limits(const struct gn_import_opts *opts) {
+    if (BOUND_MEMORY) bound(RLIMIT_AS, (rlim_t)opts->memory_mb << 20);
+    bound(RLIMIT_CPU, (rlim_t)opts->time_s + 2);
+    bound(RLIMIT_FSIZE, (rlim_t)opts->file_mb << 20);
+    bound(RLIMIT_CORE, 0);
+    prctl(PR_SET_DUMPABLE, 0); /* nor a core by way of a pipe */
+    signal(SIGXFSZ, SIG_IGN);
+    setenv("LIBC_FATAL_STDERR_", "1", 1); /* else glibc complains to the terminal */
+}
+
+void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_report *report) {
+    static struct gn_import import;
+    the_report = report;
+    the_opts = opts;
+    set_limits(opts);
+    import = (struct gn_import){.opts = opts,
+                                .format = gn_import_format_of(opts->model),
+                                .warnings = &report->warnings,
+                                .err = &report->err};
+    gn_glb_init(&import.glb);
+    if (!gn_import_scene_build(&import)) return;
+    report->done = gn_glb_write(&import.glb, fd, &report->err);
+    if (!report->done) gn_fail_prefix(&report->err, "%s", opts->model);
+}
