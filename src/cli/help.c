@@ -85,6 +85,7 @@ void gn_help_print(FILE *to, enum gn_command command) {
         fprintf(to, "  gnomon %s\n      %s\n", gn_commands[i].usage, gn_commands[i].what);
     fputs(
         "\nA SCENE is a .glb or .gltf file; without one, the sundial inside the program is shown.\n"
+        "An .obj, .fbx, .stl, .ply or .dae is turned into one by gnomon-import, if that is there.\n"
         "`gnomon COMMAND --help` lists what that command takes.\n",
         to);
     print_options(to, ~0u);
@@ -175,7 +176,10 @@ void gn_help_print_man(FILE *to, const char *version) {
             version);
     print_man_synopsis(to);
     fputs(".SH DESCRIPTION\nA SCENE is a glTF 2.0 file, .glb or .gltf; without one, the sundial "
-          "inside the program is shown.\n",
+          "inside the program is shown.\nAn .obj, .fbx, .stl, .ply or .dae is turned into one by\n"
+          "\\fBgnomon\\-import\\fP, a program of its own with limits on memory and time, which is "
+          "looked for beside gnomon,\nin libexec and bin, and in PATH; "
+          "\\fBgnomon\\-import \\-\\-help\\fP lists what it takes by hand.\n",
           to);
     print_man_commands(to);
     print_man_options(to);

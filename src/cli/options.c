@@ -49,7 +49,7 @@ const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
 const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
     /* the scene, and how it stands */
     {.name = "scene", .key = "file", .section = "scene", .kind = GN_KIND_PATH, .value = "FILE",
-     .help = "the scene (.glb, .gltf); on the command line it needs no flag", .offset = FIELD(scene)},
+     .help = "the scene (.glb, .gltf, .obj, .fbx, .stl, .ply, .dae); on the command line it needs no flag", .offset = FIELD(scene)},
     {.name = "camera", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N",
      .help = "look through this camera of the scene", .commands = DRAW, .offset = FIELD(camera)},
     {.name = "animation", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|none",

@@ -167,5 +167,5 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
     free(r.rgba);
     free(r.floats);
     gn_stage_close(&r.stage);
-    return ok;
+    return ok || gn_stop_asked(); /* what that broke off is no failure */
 }

@@ -104,5 +104,5 @@ bool gn_cli_show(const struct gn_options *options, struct gn_warnings *warnings,
     }
     close_loop(&s);
     gn_stage_close(&s.stage);
-    return ok;
+    return ok || gn_stop_asked(); /* what that broke off is no failure */
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/import.h"
 #include "core/embedded.h"
 
 struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings,
@@ -12,6 +13,8 @@ struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warn
         if (!gn_scene_limits_set(&limits, options->limits.items[i].name,
                                  (uint64_t)options->limits.items[i].value, err))
             return NULL;
+    if (options->scene && gn_import_wants(options->scene))
+        return gn_import_load(options->scene, &limits, warnings, err);
     if (options->scene) return gn_scene_load(options->scene, &limits, warnings, err);
     const struct gn_embedded *sundial = gn_embedded_find("sundial.glb");
     if (!sundial) {

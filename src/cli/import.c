@@ -1,0 +1,172 @@
+#include "cli/import.h"
+
+#include <config.h> /* the generated one, not this room's */
+#include <errno.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/stop.h"
+#include "core/child.h"
+
+enum { LONGEST_S = 75 }; /* it ends by itself after 60 */
+#define PROGRAM "gnomon-import"
+
+bool gn_import_wants(const char *path) {
+    static const char *const suffixes[] = {".obj", ".fbx", ".stl", ".ply", ".dae"};
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof suffixes / sizeof suffixes[0]; i++)
+        if (strcasecmp(dot, suffixes[i]) == 0) return true;
+    return false;
+}
+
+/* ---- where it is ---- */
+
+static bool is_there(char *out, size_t size, int length, const char *folder, const char *more) {
+    struct stat info;
+    int all = snprintf(out, size, "%.*s%s/" PROGRAM, length, folder, more);
+    return all < (int)size && stat(out, &info) == 0 && S_ISREG(info.st_mode) &&
+           access(out, X_OK) == 0;
+}
+
+static bool find_beside(char *out, size_t size) {
+    char own[4096];
+    ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
+    if (length <= 0) return false;
+    own[length] = 0;
+    int folder = (int)(strrchr(own, '/') - own);
+    return is_there(out, size, folder, own, "") || is_there(out, size, folder, own, "/../libexec");
+}
+
+static bool find_in_path(char *out, size_t size) {
+    const char *at = getenv("PATH");
+    while (at && *at) {
+        int length = (int)strcspn(at, ":");
+        if (length > 0 && is_there(out, size, length, at, "")) return true;
+        at += length + (at[length] == ':');
+    }
+    return false;
+}
+
+static bool find_program(char *out, size_t size) {
+    static const char prefix[] = GN_PREFIX;
+    return find_beside(out, size) || is_there(out, size, INT32_MAX, prefix, "/libexec") ||
+           is_there(out, size, INT32_MAX, prefix, "/bin") || find_in_path(out, size);
+}
+
+/* ---- running it ---- */
+
+struct job {
+    const char *program, *path;
+    uint64_t file_mb, memory_mb; /* 0: as it likes */
+    int glb, log;                /* descriptors of memory, which goes with their last holder */
+};
+
+static void exec(void *shared, const void *argument) {
+    (void)shared;
+    const struct job *job = argument;
+    char file[24], memory[24];
+    const char *line[12] = {PROGRAM, "-o", "/dev/stdout"};
+    int n = 3;
+    if (job->file_mb) {
+        snprintf(file, sizeof file, "%llu", (unsigned long long)job->file_mb);
+        line[n++] = "--file";
+        line[n++] = file;
+    }
+    if (job->memory_mb) {
+        snprintf(memory, sizeof memory, "%llu", (unsigned long long)job->memory_mb);
+        line[n++] = "--memory";
+        line[n++] = memory;
+    }
+    line[n++] = "--";
+    line[n] = job->path;
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+    dup2(job->glb, STDOUT_FILENO);
+    dup2(job->log, STDERR_FILENO);
+    execv(job->program, (char *const *)(uintptr_t)line);
+    _exit(127);
+}
+
+/* All that a descriptor of memory holds, or NULL; munmap it. */
+static char *map(int fd, size_t *size) {
+    struct stat info;
+    if (fstat(fd, &info) != 0 || info.st_size <= 0) return NULL;
+    void *data = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
+    *size = (size_t)info.st_size;
+    return data == MAP_FAILED ? NULL : data;
+}
+
+/* Lines of "gnomon-import: warning: .." and the one of "gnomon-import: ..", which is why it failed.
+ */
+static void read_log(int fd, struct gn_warnings *warnings, struct gn_err *err) {
+    static const char start[] = PROGRAM ": ", warning[] = PROGRAM ": warning: ";
+    size_t size = 0;
+    char *text = map(fd, &size);
+    for (size_t at = 0, end; text && at < size; at = end + 1) {
+        const char *line = text + at, *newline = memchr(line, '\n', size - at);
+        end = newline ? (size_t)(newline - text) : size;
+        int length = (int)(end - at < 1000 ? end - at : 1000);
+        if (end - at > sizeof warning && strncmp(line, warning, sizeof warning - 1) == 0)
+            gn_warn(warnings, "%.*s", length - (int)sizeof warning + 1, line + sizeof warning - 1);
+        else if (end - at > sizeof start && strncmp(line, start, sizeof start - 1) == 0)
+            gn_fail(err, "%.*s", length - (int)sizeof start + 1, line + sizeof start - 1);
+    }
+    if (text) munmap(text, size);
+}
+
+static bool run(const struct job *job, struct gn_warnings *warnings, struct gn_err *err) {
+    const struct gn_child child = {
+        .work = exec, .argument = job, .stop = gn_stop_asked, .stall_s = LONGEST_S};
+    struct gn_err end = {0}, said = {0};
+    bool ok = gn_child_run(&child, NULL, &end);
+    read_log(job->log, warnings, &said);
+    if (ok) return true;
+    if (said.text[0]) return gn_fail(err, "%s", said.text);
+    return gn_fail(err, "%s: " PROGRAM " %s; export it as .glb where it was made", job->path,
+                   end.text);
+}
+
+static struct gn_scene *load(const struct job *job, const struct gn_scene_limits *limits,
+                             struct gn_warnings *warnings, struct gn_err *err) {
+    size_t size = 0;
+    char *glb = map(job->glb, &size);
+    struct gn_scene *scene = NULL;
+    if (glb)
+        scene = gn_scene_load_bytes(job->path, glb, size, limits, warnings, err);
+    else
+        gn_fail(err, "%s: " PROGRAM " made nothing of it", job->path);
+    if (glb) munmap(glb, size);
+    return scene;
+}
+
+struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *limits,
+                                struct gn_warnings *warnings, struct gn_err *err) {
+    char program[4096];
+    if (!find_program(program, sizeof program)) {
+        gn_fail(err,
+                "%s: such files are read by " PROGRAM ", which is not installed: put it beside "
+                "gnomon, or name a .glb",
+                path);
+        return NULL;
+    }
+    struct job job = {.program = program,
+                      .path = path,
+                      .file_mb = limits->file_mb,
+                      .memory_mb = 2 * limits->memory_mb,
+                      .glb = memfd_create("gnomon-glb", MFD_CLOEXEC),
+                      .log = memfd_create("gnomon-log", MFD_CLOEXEC)};
+    struct gn_scene *scene = NULL;
+    if (job.glb < 0 || job.log < 0)
+        gn_fail(err, "%s: no memory to import it: %s", path, strerror(errno));
+    else if (run(&job, warnings, err))
+        scene = load(&job, limits, warnings, err);
+    if (job.glb >= 0) close(job.glb);
+    if (job.log >= 0) close(job.log);
+    return scene;
+}

@@ -1,0 +1,127 @@
+#!/bin/sh
+# Models of other formats as a user meets them: gnomon-import by hand and by gnomon, its limits, its
+# death; and every such file of GNOMON_SHARED (../shared) is shown, or refused by one line.
+set -u
+gnomon=${GNOMON:-build/release/gnomon}
+import=$(dirname "$gnomon")/gnomon-import
+shared=${GNOMON_SHARED:-../shared}
+if [ ! -x "$import" ]; then
+    echo "no $import: it needs libassimp-dev (make deps)"
+    exit 77
+fi
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+bad=0
+
+complain() {
+    echo "FAIL: $*"
+    bad=1
+}
+
+# expect STATUS TEXT COMMAND..: that status, and one line on stderr that has the text ('' = none)
+expect() {
+    status=$1 text=$2
+    shift 2
+    timeout 60 "$@" > "$folder/out" 2> "$folder/err" < /dev/null
+    got=$?
+    [ "$got" = "$status" ] || complain "$*: exit status $got, not $status: $(cat "$folder/err")"
+    lines=$(wc -l < "$folder/err")
+    [ "$lines" = "$([ -n "$text" ] && echo 1 || echo 0)" ] || complain "$*: $lines lines on stderr: $(cat "$folder/err")"
+    [ -z "$text" ] || grep -qF -- "$text" "$folder/err" || complain "$*: $(cat "$folder/err")"
+}
+
+# ---- by hand ----
+
+expect 0 '' "$import" --version
+grep -q '^gnomon-import [0-9]' "$folder/out" || complain 'the version'
+expect 0 '' "$import" --help
+grep -q -- '--memory' "$folder/out" || complain 'the help'
+expect 2 'which model?' "$import"
+expect 2 'a.3ds: not a name that ends in' "$import" a.3ds
+expect 2 '--up: "x"' "$import" --up x a.obj
+expect 2 '--time: "0"' "$import" --time 0 a.obj
+expect 2 'unknown option' "$import" --nonsense a.obj
+
+mkdir "$folder/m"
+model=$folder/m/a.obj
+printf 'v 0 0 0\nv 1 0 0\nv 1 2 0\nf 1 2 3\n' > "$model"
+expect 0 '' "$import" "$model"
+expect 1 'a.glb is there already; -o' "$import" "$model"
+expect 0 '' "$import" "$model" -o "$folder/b.glb"
+cmp -s "$folder/m/a.glb" "$folder/b.glb" || complain 'the same model gives other bytes'
+expect 1 'cannot write' "$import" "$model" -o "$folder/none/b.glb"
+expect 0 '' "$gnomon" render "$model" --size 64x64 -o "$folder/obj.pfm"
+expect 0 '' "$gnomon" render "$folder/b.glb" --size 64x64 -o "$folder/glb.pfm"
+cmp -s "$folder/obj.pfm" "$folder/glb.pfm" || complain 'named as .obj and as .glb, two pictures'
+expect 0 '' "$gnomon" inspect --json "$model"
+[ "$(ls "$folder/m")" = "$(printf 'a.glb\na.obj')" ] || complain 'something is left beside the model'
+expect 0 '' "$import" --up z "$model" -o "$folder/b.glb"
+"$gnomon" inspect "$folder/b.glb" | grep -q 'size  *1 x 0 x 2 m' || complain '--up z'
+
+# ---- limits: the fan costs time by the square of its triangles ----
+
+awk 'BEGIN { n = 150000; print "v 0 0 0"; for (i = 0; i < n; i++) printf "v %d 1 0\n", i
+             for (i = 2; i < n; i++) printf "f 1 %d %d\n", i, i + 1 }' > "$folder/m/fan.obj"
+expect 1 'fan.obj: not read within 1 s; gnomon-import --time' "$import" --time 1 "$folder/m/fan.obj" -o "$folder/f.glb"
+expect 1 'fan.obj: needs more than 100 MB of memory' "$import" --memory 100 "$folder/m/fan.obj" -o "$folder/f.glb"
+expect 1 'needs more than 80 MB of memory' "$gnomon" inspect --limit memory_mb=40 "$folder/m/fan.obj"
+expect 1 'fan.obj: larger than the limit' "$import" --file 1 "$folder/m/fan.obj" -o "$folder/f.glb"
+[ ! -e "$folder/f.glb" ] || complain 'a failure left a file'
+
+# ---- an importer that misbehaves, beside a copy of gnomon ----
+
+mkdir "$folder/bin"
+cp "$gnomon" "$folder/bin/gnomon"
+fake() {
+    printf '#!/bin/sh\n%s\n' "$1" > "$folder/bin/gnomon-import"
+    chmod +x "$folder/bin/gnomon-import"
+}
+if [ ! -e /usr/local/bin/gnomon-import ]; then
+    expect 1 'a.obj: such files are read by gnomon-import, which is not' env PATH=/nowhere "$folder/bin/gnomon" inspect "$model"
+fi
+fake 'echo chatter; echo more >&2; kill -SEGV $$'
+expect 1 'a.obj: gnomon-import crashes (Segmentation fault)' "$folder/bin/gnomon" inspect "$model"
+fake 'echo "gnomon-import: $4: no" >&2; echo "gnomon-import: warning: not told" >&2; exit 1'
+expect 1 'a.obj: no' "$folder/bin/gnomon" inspect "$model"
+fake 'echo garbage, and more than a header of it'
+expect 1 'a.obj: byte 0: neither .glb' "$folder/bin/gnomon" inspect "$model"
+fake 'exit 0'
+expect 1 'a.obj: gnomon-import made nothing of it' "$folder/bin/gnomon" inspect "$model"
+fake "echo 'gnomon-import: warning: of a kind' >&2; exec cat '$folder/m/a.glb'"
+expect 0 'gnomon: warning: of a kind' "$folder/bin/gnomon" render "$model" --size 64x64 -o "$folder/a.png"
+
+# told to end while it waits, gnomon ends with 0 at once and takes the importer along
+fake "echo \$\$ > '$folder/pid'; exec sleep 50"
+"$folder/bin/gnomon" render "$model" -o "$folder/c.png" 2> "$folder/err" &
+for _ in 1 2 3 4 5 6 7 8 9 10; do [ -s "$folder/pid" ] || sleep .2; done
+kill -TERM $!
+wait $! || complain "SIGTERM during an import: exit status $? $(cat "$folder/err")"
+[ -s "$folder/pid" ] && ! kill -0 "$(cat "$folder/pid")" 2> /dev/null || complain 'an importer that outlives gnomon'
+[ ! -e "$folder/c.png" ] || complain 'a picture of nothing'
+
+# ---- what others wrote ----
+
+if [ ! -d "$shared/malformed" ]; then
+    echo "no $shared/malformed, so its models were not tried: name the folder by GNOMON_SHARED"
+    [ "$bad" = 0 ] && exit 77
+    exit 1
+fi
+shown=0 refused=0
+find "$shared/malformed" "$shared/assets" -type f | grep -iE '\.(obj|fbx|stl|ply|dae)$' | sort > "$folder/list"
+while IFS= read -r file; do
+    timeout 10 "$gnomon" inspect --json "$file" > "$folder/out" 2> "$folder/err" < /dev/null
+    case $? in
+    0)
+        shown=$((shown + 1))
+        [ ! -s "$folder/err" ] || complain "$file: shown, and says $(cat "$folder/err")"
+        ;;
+    1)
+        refused=$((refused + 1))
+        [ "$(wc -l < "$folder/err")" = 1 ] && grep -qF "gnomon: $file: " "$folder/err" || complain "$file: refused by: $(cat "$folder/err")"
+        ;;
+    *) complain "$file: neither shown nor refused: $(cat "$folder/err")" ;;
+    esac
+done < "$folder/list"
+echo "$shown shown, $refused refused"
+[ "$shown" -ge 60 ] || complain 'too few to mean anything'
+exit $bad
