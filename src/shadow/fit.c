@@ -7,177 +7,28 @@
 #include "shadow/fit.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "core/arena.h"
 #include "core/hash.h"
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define SPOT_MAX_RAD 1.3962634f /* 80 degrees: beyond it a spot's map does not reach */
-#define EXACT_TRIANGLES                                                                            \
-    32 /* geometries up to this many are clipped triangle by triangle, larger ones as boxes */
+#define SPOT_MAX_RAD     1.3962634f /* 80 degrees: beyond it a spot's map does not reach */
 #define STEPS_PER_OCTAVE 8 /* of the texel's size: the window's width moves in steps of 9 % */
 #define RIM_TEXELS       2 /* cleared rim, and the texel that snapping takes */
 
-struct fitter {
-    const struct gn_pose *pose;
-    const struct gn_eye *eye;
-    struct gn_shadow_memory *memory;
-    struct gn_shadow_view *view;
-    vec4 cone[5]; /* spot: planes in world space that hold what its map can show */
-    int cone_count;
-    float tan_cone;
-    float scene_size_m;
-    float light_radius; /* as in gn_light */
-};
-
-void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count) {
-    memory->item_count = item_count;
-    memory->casts = gn_xalloc(item_count, sizeof *memory->casts);
-    memory->seen = gn_xalloc(item_count, sizeof *memory->seen);
-    memory->whole = gn_xalloc(item_count, sizeof *memory->whole);
-    memory->part = gn_xalloc(item_count, sizeof *memory->part);
-    memory->pose_hash = gn_xalloc(item_count, sizeof *memory->pose_hash);
-    memory->light_hash = memory->eye_hash = 0;
-}
-
-void gn_shadow_memory_finish(struct gn_shadow_memory *memory) {
-    free(memory->casts);
-    free(memory->seen);
-    free(memory->whole);
-    free(memory->part);
-    free(memory->pose_hash);
-    *memory = (struct gn_shadow_memory){0};
-}
-
-static void add_point(const struct fitter *f, struct gn_shadow_region *r, vec3 p_ws) {
-    vec3 p;
-    glm_mat4_mulv3(f->view->light_from_world, p_ws, 1.0f, p);
-    float depth = -p[2];
-    float scale = f->view->perspective ? 1.0f / most(depth, 1e-6f) : 1.0f;
-    struct gn_shadow_region point = {
-        {p[0] * scale, p[1] * scale}, {p[0] * scale, p[1] * scale}, depth, depth, glm_vec3_norm(p)};
-    unite(r, &point);
-}
-
-static void add_polygon(const struct fitter *f, struct gn_shadow_region *r,
-                        struct gn_polygon *polygon, bool seen_only) {
-    if (seen_only)
-        for (int i = 0; i < 6 && polygon->count; i++) gn_polygon_clip(polygon, f->eye->planes[i]);
-    for (int i = 0; i < f->cone_count && polygon->count; i++) gn_polygon_clip(polygon, f->cone[i]);
-    for (int i = 0; i < polygon->count; i++) add_point(f, r, polygon->at[i]);
-}
-
-static bool planes_hold(vec4 *planes, int count, const struct gn_box *box) {
-    for (int i = 0; i < count; i++) {
-        float nearest = planes[i][3];
-        for (int k = 0; k < 3; k++)
-            nearest += planes[i][k] * (planes[i][k] >= 0.0f ? box->min[k] : box->max[k]);
-        if (nearest < 0.0f) return false;
-    }
-    return true;
-}
-
-static void add_triangles(const struct fitter *f, struct gn_shadow_region *r, uint32_t item,
-                          bool seen_only) {
-    const struct gn_scene *scene = f->pose->scene;
-    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
-    for (uint32_t i = 0; i < g->index_count; i += 3) {
-        struct gn_polygon triangle = {.count = 3};
-        for (int k = 0; k < 3; k++)
-            glm_mat4_mulv3(f->pose->items[item].world_from_item,
-                           scene->positions + 3 * (size_t)scene->indices[g->first_index + i + k],
-                           1.0f, triangle.at[k]);
-        add_polygon(f, r, &triangle, seen_only);
-    }
-}
-
-/* The hull of box and frustum: clipped faces of each by the other. */
-static void add_body(const struct fitter *f, struct gn_shadow_region *r, vec3 corners[8],
-                     bool seen_only) {
-    struct gn_polygon face;
-    for (int i = 0; i < 6; i++) {
-        gn_box_face(corners, i, &face);
-        add_polygon(f, r, &face, seen_only);
-    }
-    if (!seen_only) return;
-    vec4 planes[6];
-    gn_box_planes(corners, planes);
-    for (int i = 0; i < 6; i++) {
-        gn_box_face((vec3 *)f->eye->corners, i, &face);
-        for (int k = 0; k < 6 && face.count; k++) gn_polygon_clip(&face, planes[k]);
-        add_polygon(f, r, &face, false);
-    }
-}
-
-/* What an item covers, of that what the light can show, and of that - if so wanted - what the eye
- * sees. */
-static struct gn_shadow_region measure(const struct fitter *f, uint32_t item, bool seen_only) {
-    struct gn_shadow_region r = nothing;
-    const struct gn_pose_item *posed = &f->pose->items[item];
-    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
-    vec3 corners[8];
-    gn_box_corners(&g->box, (vec4 *)posed->world_from_item, corners);
-    if (!seen_only && planes_hold((vec4 *)f->cone, f->cone_count, &posed->box_ws))
-        for (int i = 0; i < 8; i++) add_point(f, &r, corners[i]);
-    else if (g->index_count <= 3 * EXACT_TRIANGLES)
-        add_triangles(f, &r, item, seen_only);
-    else
-        add_body(f, &r, corners, seen_only);
-    return r;
-}
-
-static const struct gn_shadow_region *whole_region(const struct fitter *f, uint32_t item) {
-    return &f->memory->whole[item];
-}
-
-enum { SEEN_NOT, SEEN_PARTLY, SEEN_WHOLE };
-
-static const struct gn_shadow_region *seen_region(const struct fitter *f, uint32_t item) {
-    return f->memory->seen[item] == SEEN_WHOLE ? whole_region(f, item) : &f->memory->part[item];
-}
-
-/* Brings the memory up to this pose, light and eye. */
-static void remember(const struct fitter *f) {
-    struct gn_shadow_memory *m = f->memory;
-    uint64_t light =
-        gn_hash(GN_HASH_INIT, f->view->light_from_world, sizeof f->view->light_from_world);
-    light = gn_hash(light, &f->tan_cone, sizeof f->tan_cone);
-    uint64_t eye = gn_hash(GN_HASH_INIT, f->eye->clip_from_world, sizeof f->eye->clip_from_world);
-    for (uint32_t i = 0; i < m->item_count; i++) {
-        const struct gn_pose_item *posed = &f->pose->items[i];
-        if (!posed->visible) {
-            m->seen[i] = SEEN_NOT;
-            m->pose_hash[i] = 0;
-            continue;
-        }
-        bool same = m->light_hash == light && m->pose_hash[i] == posed->hash;
-        if (!same) m->whole[i] = measure(f, i, false);
-        m->pose_hash[i] = posed->hash;
-        if (same && m->eye_hash == eye) continue;
-        m->seen[i] = !gn_eye_sees(f->eye, &posed->box_ws)                     ? SEEN_NOT
-                     : planes_hold((vec4 *)f->eye->planes, 6, &posed->box_ws) ? SEEN_WHOLE
-                                                                              : SEEN_PARTLY;
-        if (m->seen[i] == SEEN_PARTLY) m->part[i] = measure(f, i, true);
-    }
-    m->light_hash = light;
-    m->eye_hash = eye;
-}
-
-static bool item_receives(const struct fitter *f, uint32_t item) {
+static bool item_receives(const struct gn_fitter *f, uint32_t item) {
     return f->pose->items[item].visible && f->pose->scene->items[item].receives;
 }
 
-static bool item_casts(const struct fitter *f, uint32_t item) {
+static bool item_casts(const struct gn_fitter *f, uint32_t item) {
     const struct gn_item *it = &f->pose->scene->items[item];
     return f->pose->items[item].visible && it->casts &&
            f->pose->scene->materials[it->material].alpha != GN_ALPHA_BLEND;
 }
 
 /* Only large flat casters are worth the walk. */
-static bool is_large_flat(const struct fitter *f, uint32_t item) {
+static bool is_large_flat(const struct gn_fitter *f, uint32_t item) {
     const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
     const struct gn_box *box = &f->pose->items[item].box_ws;
     return g->flat &&
@@ -186,7 +37,7 @@ static bool is_large_flat(const struct fitter *f, uint32_t item) {
 
 /* The flat item's plane in world space, its light's side positive. False when it is seen edge-on by
  * the light. */
-static bool lit_plane(const struct fitter *f, uint32_t item, vec4 plane) {
+static bool lit_plane(const struct gn_fitter *f, uint32_t item, vec4 plane) {
     const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
     vec4 *world_from_item = (vec4 *)f->pose->items[item].world_from_item;
     vec3 on_plane, n, p = {0.0f, 0.0f, 0.0f};
@@ -207,7 +58,7 @@ static bool lit_plane(const struct fitter *f, uint32_t item, vec4 plane) {
 }
 
 /* The part of a large flat caster's region that has any receiver behind its plane, seen or not. */
-static struct gn_shadow_region useful_region(const struct fitter *f, uint32_t item,
+static struct gn_shadow_region useful_region(const struct gn_fitter *f, uint32_t item,
                                              const struct gn_shadow_region *whole) {
     vec4 plane;
     if (!lit_plane(f, item, plane)) return *whole;
@@ -219,34 +70,34 @@ static struct gn_shadow_region useful_region(const struct fitter *f, uint32_t it
         for (int k = 0; k < 3; k++)
             nearest += plane[k] * (plane[k] >= 0.0f ? box->min[k] : box->max[k]);
         if (nearest >= -1e-4f * f->scene_size_m) continue;
-        unite(&behind, whole_region(f, i));
+        unite(&behind, gn_fitter_whole(f, i));
     }
     struct gn_shadow_region r = intersect(whole, &behind);
     return region_is_empty(&r) ? nothing : r;
 }
 
-static struct gn_shadow_region caster_region(const struct fitter *f, uint32_t item) {
-    const struct gn_shadow_region *r = whole_region(f, item);
+static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t item) {
+    const struct gn_shadow_region *r = gn_fitter_whole(f, item);
     return !region_is_empty(r) && is_large_flat(f, item) ? useful_region(f, item, r) : *r;
 }
 
 /* How far off, in plane units, a caster can reach by its penumbra: as its like in set_soft(). */
-static float reach(const struct fitter *f, float near, float far) {
+static float reach(const struct gn_fitter *f, float near, float far) {
     if (!gn_techniques[f->view->technique].soft || far <= near) return 0.0f;
     float spread = f->view->perspective ? 1.0f / most(near, 1e-6f) - 1.0f / far : far - near;
     return f->light_radius * spread;
 }
 
 /* The window before snapping, and the depths of all casters. */
-static bool find_window(const struct fitter *f, struct gn_shadow_region *window,
+static bool find_window(const struct gn_fitter *f, struct gn_shadow_region *window,
                         struct gn_shadow_region *depths) {
     uint32_t count = f->memory->item_count;
     uint8_t *casts = f->memory->casts;
     struct gn_shadow_region receivers = nothing, casters = nothing, again = nothing;
     *depths = nothing;
     for (uint32_t i = 0; i < count; i++) {
-        if (!item_receives(f, i) || f->memory->seen[i] == SEEN_NOT) continue;
-        unite(&receivers, seen_region(f, i));
+        if (!item_receives(f, i) || f->memory->seen[i] == GN_SEEN_NOT) continue;
+        unite(&receivers, gn_fitter_seen(f, i));
     }
     memset(casts, 0, count);
     for (uint32_t i = 0; i < count; i++) {
@@ -262,11 +113,11 @@ static bool find_window(const struct fitter *f, struct gn_shadow_region *window,
     }
     if (region_is_empty(&casters)) return false;
     for (uint32_t i = 0; i < count; i++) { /* receivers once more, now that the casters are known */
-        if (!item_receives(f, i) || f->memory->seen[i] == SEEN_NOT) continue;
-        const struct gn_shadow_region *whole = whole_region(f, i);
+        if (!item_receives(f, i) || f->memory->seen[i] == GN_SEEN_NOT) continue;
+        const struct gn_shadow_region *whole = gn_fitter_whole(f, i);
         struct gn_shadow_region reached = grown(whole, reach(f, casters.near, whole->far));
         if (!regions_meet(&reached, &casters)) continue;
-        const struct gn_shadow_region *seen = seen_region(f, i);
+        const struct gn_shadow_region *seen = gn_fitter_seen(f, i);
         if (region_is_empty(seen) || seen->far < casters.near) continue;
         reached = grown(seen, reach(f, casters.near, seen->far));
         if (!regions_meet(&reached, &casters)) continue;
@@ -282,7 +133,7 @@ static void look_along(vec3 eye, vec3 direction, mat4 out) {
     glm_look(eye, direction, fabsf(direction[1]) > 0.99f ? across : up, out);
 }
 
-static void place_light(struct fitter *f, const struct gn_light *light) {
+static void place_light(struct gn_fitter *f, const struct gn_light *light) {
     struct gn_shadow_view *view = f->view;
     vec3 direction, origin = {0.0f, 0.0f, 0.0f};
     gn_pose_light(f->pose, view->light, view->light_ws, direction);
@@ -310,7 +161,7 @@ static float ceil_to_step(float size) {
 }
 
 /* Snaps the window to whole texels of a size from a geometric series; returns its low corner. */
-static void snap_window(const struct fitter *f, const struct gn_shadow_region *window,
+static void snap_window(const struct gn_fitter *f, const struct gn_shadow_region *window,
                         double low[2]) {
     struct gn_shadow_view *view = f->view;
     uint32_t margin = gn_techniques[view->technique].radius_texels + RIM_TEXELS;
@@ -443,12 +294,12 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                                     .map_px = opts->map_px};
     const struct gn_light *l = &pose->scene->lights[light];
     if (l->type == GN_LIGHT_POINT || opts->technique == GN_TECHNIQUE_NONE) return false;
-    struct fitter f = {
+    struct gn_fitter f = {
         .pose = pose, .eye = eye, .memory = memory, .view = view, .light_radius = l->radius};
     f.scene_size_m =
         fmaxf(glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max), 1e-6f);
     place_light(&f, l);
-    remember(&f);
+    gn_fitter_remember(&f);
     struct gn_shadow_region window, depths;
     if (!find_window(&f, &window, &depths)) return false;
     float near_depth, far_depth;

@@ -1,4 +1,5 @@
-/* Shapes for fitting: boxes, convex polygons and the eye's frustum. */
+/* Inside the shadow room: shapes for fitting - boxes, convex polygons and the eye's frustum - and
+ * what items cover of what a light can show. */
 #ifndef GN_SHADOW_PRIVATE_H
 #define GN_SHADOW_PRIVATE_H
 
@@ -19,5 +20,27 @@ void gn_box_face(vec3 corners[8], int face, struct gn_polygon *out);
 /* The six inward planes of the convex body of eight such corners. A flat body gives planes that cut
  * nothing. */
 void gn_box_planes(vec3 corners[8], vec4 planes[6]);
+
+/* ---- measure.c ---- */
+
+struct gn_fitter {
+    const struct gn_pose *pose;
+    const struct gn_eye *eye;
+    struct gn_shadow_memory *memory;
+    struct gn_shadow_view *view;
+    vec4 cone[5]; /* spot: planes in world space that hold what its map can show */
+    int cone_count;
+    float tan_cone;
+    float scene_size_m;
+    float light_radius; /* as in gn_light */
+};
+
+/* Brings the memory up to this pose, light and eye. */
+void gn_fitter_remember(const struct gn_fitter *f);
+/* All that an item covers of what the light can show; and of that what the eye sees, unless it sees
+ * nothing of the item. */
+const struct gn_shadow_region *gn_fitter_whole(const struct gn_fitter *f, uint32_t item);
+const struct gn_shadow_region *gn_fitter_seen(const struct gn_fitter *f, uint32_t item);
+enum { GN_SEEN_NOT, GN_SEEN_PARTLY, GN_SEEN_WHOLE }; /* gn_shadow_memory.seen */
 
 #endif

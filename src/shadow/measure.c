@@ -1,0 +1,144 @@
+/* What items cover of what a light can show, and of that what the eye sees: kept from frame to
+ * frame, so that what stands still costs nothing. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/arena.h"
+#include "core/hash.h"
+#include "shadow/private.h"
+#include "shadow/region.h"
+
+#define EXACT_TRIANGLES                                                                            \
+    32 /* geometries up to this many are clipped triangle by triangle, larger ones as boxes */
+
+void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count) {
+    memory->item_count = item_count;
+    memory->casts = gn_xalloc(item_count, sizeof *memory->casts);
+    memory->seen = gn_xalloc(item_count, sizeof *memory->seen);
+    memory->whole = gn_xalloc(item_count, sizeof *memory->whole);
+    memory->part = gn_xalloc(item_count, sizeof *memory->part);
+    memory->pose_hash = gn_xalloc(item_count, sizeof *memory->pose_hash);
+    memory->light_hash = memory->eye_hash = 0;
+}
+
+void gn_shadow_memory_finish(struct gn_shadow_memory *memory) {
+    free(memory->casts);
+    free(memory->seen);
+    free(memory->whole);
+    free(memory->part);
+    free(memory->pose_hash);
+    *memory = (struct gn_shadow_memory){0};
+}
+
+static void add_point(const struct gn_fitter *f, struct gn_shadow_region *r, vec3 p_ws) {
+    vec3 p;
+    glm_mat4_mulv3(f->view->light_from_world, p_ws, 1.0f, p);
+    float depth = -p[2];
+    float scale = f->view->perspective ? 1.0f / most(depth, 1e-6f) : 1.0f;
+    struct gn_shadow_region point = {
+        {p[0] * scale, p[1] * scale}, {p[0] * scale, p[1] * scale}, depth, depth, glm_vec3_norm(p)};
+    unite(r, &point);
+}
+
+static void add_polygon(const struct gn_fitter *f, struct gn_shadow_region *r,
+                        struct gn_polygon *polygon, bool seen_only) {
+    if (seen_only)
+        for (int i = 0; i < 6 && polygon->count; i++) gn_polygon_clip(polygon, f->eye->planes[i]);
+    for (int i = 0; i < f->cone_count && polygon->count; i++) gn_polygon_clip(polygon, f->cone[i]);
+    for (int i = 0; i < polygon->count; i++) add_point(f, r, polygon->at[i]);
+}
+
+static bool planes_hold(vec4 *planes, int count, const struct gn_box *box) {
+    for (int i = 0; i < count; i++) {
+        float nearest = planes[i][3];
+        for (int k = 0; k < 3; k++)
+            nearest += planes[i][k] * (planes[i][k] >= 0.0f ? box->min[k] : box->max[k]);
+        if (nearest < 0.0f) return false;
+    }
+    return true;
+}
+
+static void add_triangles(const struct gn_fitter *f, struct gn_shadow_region *r, uint32_t item,
+                          bool seen_only) {
+    const struct gn_scene *scene = f->pose->scene;
+    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
+    for (uint32_t i = 0; i < g->index_count; i += 3) {
+        struct gn_polygon triangle = {.count = 3};
+        for (int k = 0; k < 3; k++)
+            glm_mat4_mulv3(f->pose->items[item].world_from_item,
+                           scene->positions + 3 * (size_t)scene->indices[g->first_index + i + k],
+                           1.0f, triangle.at[k]);
+        add_polygon(f, r, &triangle, seen_only);
+    }
+}
+
+/* The hull of box and frustum: clipped faces of each by the other. */
+static void add_body(const struct gn_fitter *f, struct gn_shadow_region *r, vec3 corners[8],
+                     bool seen_only) {
+    struct gn_polygon face;
+    for (int i = 0; i < 6; i++) {
+        gn_box_face(corners, i, &face);
+        add_polygon(f, r, &face, seen_only);
+    }
+    if (!seen_only) return;
+    vec4 planes[6];
+    gn_box_planes(corners, planes);
+    for (int i = 0; i < 6; i++) {
+        gn_box_face((vec3 *)f->eye->corners, i, &face);
+        for (int k = 0; k < 6 && face.count; k++) gn_polygon_clip(&face, planes[k]);
+        add_polygon(f, r, &face, false);
+    }
+}
+
+/* What an item covers, of that what the light can show, and of that - if so wanted - what the eye
+ * sees. */
+static struct gn_shadow_region measure(const struct gn_fitter *f, uint32_t item, bool seen_only) {
+    struct gn_shadow_region r = nothing;
+    const struct gn_pose_item *posed = &f->pose->items[item];
+    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
+    vec3 corners[8];
+    gn_box_corners(&g->box, (vec4 *)posed->world_from_item, corners);
+    if (!seen_only && planes_hold((vec4 *)f->cone, f->cone_count, &posed->box_ws))
+        for (int i = 0; i < 8; i++) add_point(f, &r, corners[i]);
+    else if (g->index_count <= 3 * EXACT_TRIANGLES)
+        add_triangles(f, &r, item, seen_only);
+    else
+        add_body(f, &r, corners, seen_only);
+    return r;
+}
+
+const struct gn_shadow_region *gn_fitter_whole(const struct gn_fitter *f, uint32_t item) {
+    return &f->memory->whole[item];
+}
+
+const struct gn_shadow_region *gn_fitter_seen(const struct gn_fitter *f, uint32_t item) {
+    return f->memory->seen[item] == GN_SEEN_WHOLE ? gn_fitter_whole(f, item)
+                                                  : &f->memory->part[item];
+}
+
+/* Brings the memory up to this pose, light and eye. */
+void gn_fitter_remember(const struct gn_fitter *f) {
+    struct gn_shadow_memory *m = f->memory;
+    uint64_t light =
+        gn_hash(GN_HASH_INIT, f->view->light_from_world, sizeof f->view->light_from_world);
+    light = gn_hash(light, &f->tan_cone, sizeof f->tan_cone);
+    uint64_t eye = gn_hash(GN_HASH_INIT, f->eye->clip_from_world, sizeof f->eye->clip_from_world);
+    for (uint32_t i = 0; i < m->item_count; i++) {
+        const struct gn_pose_item *posed = &f->pose->items[i];
+        if (!posed->visible) {
+            m->seen[i] = GN_SEEN_NOT;
+            m->pose_hash[i] = 0;
+            continue;
+        }
+        bool same = m->light_hash == light && m->pose_hash[i] == posed->hash;
+        if (!same) m->whole[i] = measure(f, i, false);
+        m->pose_hash[i] = posed->hash;
+        if (same && m->eye_hash == eye) continue;
+        m->seen[i] = !gn_eye_sees(f->eye, &posed->box_ws)                     ? GN_SEEN_NOT
+                     : planes_hold((vec4 *)f->eye->planes, 6, &posed->box_ws) ? GN_SEEN_WHOLE
+                                                                              : GN_SEEN_PARTLY;
+        if (m->seen[i] == GN_SEEN_PARTLY) m->part[i] = measure(f, i, true);
+    }
+    m->light_hash = light;
+    m->eye_hash = eye;
+}
