@@ -44,8 +44,10 @@ vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 
     return shadow_slope(u, v, code, face, l);
 }
 
+#include "lib/shadow_tile.glsl"
+
 // p, n, l: the surface, its normal and the direction to the light, world space; face: normal of the triangle itself; from_vertex:
-// what the vertex shader found for a directional light. radial: the map of this spot holds distances, not depths.
+// what the vertex shader found for a directional light. radial: the map of this lamp holds distances, not depths.
 shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
     shadow_place s;
     s.size = SHADOW(slot, SHADOW_MAP_SIZE);
@@ -55,6 +57,12 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     if (type == LIGHT_DIRECTIONAL) {
         s.at = from_vertex;
         s.slope = shadow_slope_directional(slot, face, l);
+    } else if (type == LIGHT_POINT) {
+        shadow_tile t = shadow_tile_pushed(slot, radial, p, n, l);
+        s.at = shadow_tile_at(slot, radial, t);
+        s.slope = shadow_tile_slope(slot, radial, t, face);
+        if (radial) s.soft.x *= length(t.q) / t.q.z;
+        s.soft.y = max(s.soft.y, shadow_e(s, s.at.z) - SHADOW(slot, SHADOW_CODE).z / s.soft.x); // no wider than the gutter
     } else {
         s.at = shadow_point_spot(slot, radial, p, n, l);
         s.slope = shadow_slope_spot(slot, radial, s.at, p, face, l);

@@ -4,7 +4,8 @@
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
     mat2 turn = noise_turn();
     float e = shadow_e(s, s.at.z);
-    mat2x3 to_map = taps_to_map(s, max(s.soft.x * (e - s.soft.y), 1.0), turn);
+    float widest = max(s.soft.x * (e - s.soft.y), 1.0);
+    mat2x3 to_map = taps_to_map(s, widest, turn);
     float blocked = 0.0, codes = 0.0;
     for (int i = 0; i < TAPS / 2; i++) {
         vec3 d = to_map * SHADOW_TAPS[i];
@@ -16,5 +17,5 @@ float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
     }
     if (blocked < 0.5) return 1.0;
     float radius = s.soft.x * (e - shadow_e(s, codes / blocked));
-    return taps_lit(map, s, max(radius, 1.0), turn);
+    return taps_lit(map, s, clamp(radius, 1.0, widest), turn);
 }

@@ -134,16 +134,16 @@ static void check_light(struct gn_inspection *in, const struct gn_light *light) 
         advise(in, "make the cone narrower, or use two spots",
                "spot '%s' opens to %.0f degrees: beyond 80 its shadows end", light->name,
                DEG(light->outer_rad));
-    if (light->map_px > TEXTURE_MAX_PX)
-        advise(in, "set gnomon_map_px to 4096 at most: a Raspberry Pi draws no larger ones",
+    bool point = light->type == GN_LIGHT_POINT; /* three tiles lie side by side */
+    if (light->map_px > (point ? TEXTURE_MAX_PX / 3 : TEXTURE_MAX_PX))
+        advise(in,
+               point ? "set gnomon_map_px to 1365 at most: a Raspberry Pi draws no larger tiles"
+                     : "set gnomon_map_px to 4096 at most: a Raspberry Pi draws no larger ones",
                "light '%s' asks for a map of %u pixels", light->name, light->map_px);
     if (light->technique && !gn_technique_find(light->technique, &technique, NULL))
         advise(in, "choose one that --shadow knows, or none",
                "light '%s': gnomon_shadow '%s' is not a technique of this version: it gets pcf",
                light->name, light->technique);
-    if (light->type == GN_LIGHT_POINT && wants_shadow(light))
-        advise(in, "use a spot, or set gnomon_shadow to none",
-               "point light '%s' casts no shadow in this version", light->name);
 }
 
 static void check_lights(struct gn_inspection *in) {
@@ -151,7 +151,7 @@ static void check_lights(struct gn_inspection *in) {
     uint32_t shadows = 0;
     for (uint32_t i = 0; i < s->light_count; i++) {
         check_light(in, &s->lights[i]);
-        shadows += s->lights[i].type != GN_LIGHT_POINT && wants_shadow(&s->lights[i]);
+        shadows += wants_shadow(&s->lights[i]);
     }
     if (shadows > GN_ALL_SHADOWS_MAX)
         advise(in, "set gnomon_shadow to none on those that matter least",

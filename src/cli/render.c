@@ -97,14 +97,14 @@ static bool write_map(struct render *r, const struct gn_plan *plan, const char *
                        r->stage.options->light, GN_ALL_SHADOWS_MAX);
     const struct gn_shadow_view *view = &plan->shadows[slot];
     const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
-    size_t side = view->map_px;
-    float *codes = gn_xalloc(side * side, sizeof *codes),
-          *flipped = gn_xalloc(side * side, sizeof *flipped);
+    size_t width = view->width_px, height = view->height_px;
+    float *codes = gn_xalloc(width * height, sizeof *codes),
+          *flipped = gn_xalloc(width * height, sizeof *flipped);
     bool ok = gn_gl_read_map(r->stage.gl, slot, codes, err);
-    for (size_t y = 0; ok && y < side; y++)
-        for (size_t x = 0; x < side; x++)
-            flipped[(side - 1 - y) * side + x] = gn_shadow_grey_at(&grey, codes[y * side + x]);
-    ok = ok && write_grey(r, path, flipped, (int)side, (int)side, err);
+    for (size_t y = 0; ok && y < height; y++)
+        for (size_t x = 0; x < width; x++)
+            flipped[(height - 1 - y) * width + x] = gn_shadow_grey_at(&grey, codes[y * width + x]);
+    ok = ok && write_grey(r, path, flipped, (int)width, (int)height, err);
     free(codes);
     free(flipped);
     return ok;

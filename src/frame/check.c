@@ -83,6 +83,7 @@ static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *
     REQUIRE(!shadow || pass->target.slot < plan->shadow_count);
     REQUIRE(!shadow || (pass->clear && pass->content_hash != 0));
     REQUIRE(rect_is_inside(&pass->rect, &pass->target));
+    REQUIRE(pass->tile < GN_SHADOW_TILES_MAX);
     REQUIRE(pass->first_draw <= plan->draw_count);
     REQUIRE(pass->draw_count <= plan->draw_count - pass->first_draw);
     REQUIRE(pass->constants != NULL && pass->constant_count > 0);

@@ -37,7 +37,8 @@ void gn_frame_destroy(struct gn_frame *frame) {
     free(frame->run.at);
     free(frame->sorted.at);
     free(frame->passes.at);
-    for (uint32_t i = 0; i < frame->memory_count; i++) gn_shadow_memory_finish(&frame->memory[i]);
+    for (int i = 0; i < GN_ALL_SHADOWS_MAX * GN_SHADOW_TILES_MAX; i++)
+        gn_shadow_memory_finish(&frame->memory[0][i]);
     free(frame->constants);
     free(frame);
 }
@@ -150,7 +151,7 @@ static struct gn_program_key key_of(const struct gn_frame *frame, const struct g
 
 void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_selection *s, uint32_t item, bool *open) {
-    bool mirrored = pose->items[item].mirrored;
+    bool mirrored = pose->items[item].mirrored != s->mirrored;
     enum gn_cull cull = s->casts ? caster_cull(frame->scene, pose, item, s->view)
                                  : eye_cull(frame, &frame->scene->items[item]);
     if (*open) { /* one more of the last? */
@@ -247,24 +248,50 @@ void gn_frame_end_pass(struct gn_frame *frame) {
     pass->draw_count = frame->draws.count - pass->first_draw;
 }
 
+static void label_shadow(const struct gn_frame *frame, uint32_t slot, uint32_t tile,
+                         struct gn_pass *pass) {
+    static const char *const sides[GN_SHADOW_TILES_MAX] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+    const struct gn_shadow_view *view = &frame->shadows[slot];
+    bool point = view->tile_count > 1;
+    snprintf(pass->label, sizeof pass->label, "shadow %u %s%s%.*s", slot, point ? sides[tile] : "",
+             point ? " " : "", 36, frame->scene->lights[view->light].name);
+}
+
 static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
-                        const struct gn_frame_opts *opts) {
+                        uint32_t index, const struct gn_frame_opts *opts) {
     struct gn_shadow_view *view = &frame->shadows[slot];
+    const struct gn_shadow_tile *tile = &view->tiles[index];
     struct gn_pass *pass = gn_frame_begin_pass(frame);
-    snprintf(pass->label, sizeof pass->label, "shadow %u %s", slot,
-             frame->scene->lights[view->light].name);
+    label_shadow(frame, slot, index, pass);
     pass->target =
-        (struct gn_target){GN_TARGET_SHADOW, slot, view->map_px, view->map_px, view->encoding};
+        (struct gn_target){GN_TARGET_SHADOW, slot, view->width_px, view->height_px, view->encoding};
     pass->clear = true;
     pass->clear_color[0] = view->far_code;
     pass->discard_depth = view->encoding != GN_ENCODING_DEPTH;
     pass->border_px = 1;
-    pass->content_hash = view->content_hash;
-    pass->constants = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot);
-    gn_frame_shadow_constants(view, gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot));
-    struct gn_selection casters = {.casts = frame->memory[slot].casts, .view = view, .opts = opts};
-    gn_frame_draw_items(frame, pose, &casters);
+    if (view->tile_count > 1) {
+        pass->border_px = 0;
+        pass->rect = (struct gn_rect){tile->x_px, tile->y_px, view->map_px, view->map_px};
+    }
+    pass->tile = index;
+    pass->content_hash = tile->content_hash;
+    float(*constants)[4] =
+        gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SHADOW_TILES_MAX + index);
+    pass->constants = constants;
+    gn_frame_shadow_constants(view, index, constants);
+    struct gn_selection casters = {.casts = frame->memory[slot][index].casts,
+                                   .view = view,
+                                   .mirrored = tile->mirrored,
+                                   .opts = opts};
+    if (!tile->empty) gn_frame_draw_items(frame, pose, &casters);
     gn_frame_end_pass(frame);
+}
+
+static void shadow_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                          const struct gn_frame_opts *opts) {
+    for (uint32_t slot = 0; slot < frame->shadow_count; slot++)
+        for (uint32_t tile = 0; tile < frame->shadows[slot].tile_count; tile++)
+            shadow_pass(frame, pose, slot, tile, opts);
 }
 
 static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *opts,
@@ -343,7 +370,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     gn_frame_choose_lights(frame, pose, opts, warnings);
     if (plan->encode_srgb && frame->group_count > 1) plan->output = GN_OUTPUT_FLOAT;
     gn_frame_fit_shadows(frame, pose, opts);
-    for (uint32_t i = 0; i < frame->shadow_count; i++) shadow_pass(frame, pose, i, opts);
+    shadow_passes(frame, pose, opts);
     picture_constants(frame, pose, opts);
     gn_frame_picture_passes(frame, pose, opts);
     gn_frame_overlay_passes(frame, pose, opts);

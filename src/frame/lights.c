@@ -60,11 +60,6 @@ static struct gn_frame_light describe(const struct gn_frame *frame, const struct
     struct gn_frame_light l = {.light = index, .technique = technique_of(light, opts, warnings)};
     l.strength = opts->strength_given ? opts->strength : light->shadow_strength;
     l.illuminance = illuminance(pose, index);
-    if (light->type == GN_LIGHT_POINT && l.technique != GN_TECHNIQUE_NONE) {
-        gn_warn(warnings, "light '%s': a point light casts no shadow in this version; a spot would",
-                light->name);
-        l.technique = GN_TECHNIQUE_NONE;
-    }
     if (l.technique == GN_TECHNIQUE_NONE) return l;
     bool fell_back;
     l.encoding = gn_encoding_choose(l.technique, opts->encoding, gn_caps_encodings(&frame->caps),
@@ -161,12 +156,31 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
 static void make_empty(struct gn_shadow_view *view) {
     static const mat4 nowhere = {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.5f, 0.5f, 0, 1}};
     memcpy(view->map_from_world, nowhere, sizeof nowhere);
-    memcpy(view->clip_from_world, nowhere, sizeof nowhere);
     view->distance_scale = view->distance_offset = 0.0f;
+    for (int k = 0; k < 2; k++) view->tangent_uv[k] = view->depth_code[k] = 0.0f;
     view->texel = view->normal_offset = view->slope_offset = view->ulp_m = 0.0f;
     view->far_code = view->encoding == GN_ENCODING_RGBA8 ? 0.999999f : 1.0f;
     view->empty = true;
-    view->content_hash = 1;
+    for (uint32_t i = 0; i < view->tile_count; i++) {
+        struct gn_shadow_tile *tile = &view->tiles[i];
+        memcpy(tile->clip_from_world, nowhere, sizeof nowhere);
+        tile->empty = true;
+        tile->content_hash = 1;
+    }
+}
+
+/* The side of a light's map, or of its tiles, such that all of it is a texture. */
+static uint32_t map_px_of(const struct gn_frame *frame, const struct gn_light *light,
+                          const struct gn_frame_opts *opts) {
+    uint32_t map_px = opts->map_px ? opts->map_px : light->map_px ? light->map_px : 1024;
+    uint32_t one_px[2], most_px = (uint32_t)frame->caps.max_texture_px;
+    gn_shadow_map_size(light->type, 1, one_px);
+    return map_px * one_px[0] > most_px ? most_px / one_px[0] : map_px;
+}
+
+static void make_memories(struct gn_shadow_memory *memory, uint32_t count, uint32_t item_count) {
+    for (uint32_t i = 0; i < count; i++)
+        if (!memory[i].casts) gn_shadow_memory_init(&memory[i], item_count);
 }
 
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
@@ -174,17 +188,12 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
     for (uint32_t i = 0; i < frame->shadow_count; i++) {
         const struct gn_frame_light *light = gn_frame_light_of_slot(frame, i);
         const struct gn_light *l = &frame->scene->lights[light->light];
-        if (i == frame->memory_count)
-            gn_shadow_memory_init(&frame->memory[frame->memory_count++], frame->scene->item_count);
-        uint32_t map_px = opts->map_px ? opts->map_px : l->map_px ? l->map_px : 1024;
-        if (map_px > (uint32_t)frame->caps.max_texture_px)
-            map_px = (uint32_t)frame->caps.max_texture_px;
-        struct gn_shadow_opts shadow = {light->technique, light->encoding, map_px};
-        if (!gn_shadow_fit(pose, light->light, &frame->eye, &shadow, &frame->memory[i],
-                           &frame->shadows[i])) {
-            memset(frame->memory[i].casts, 0, frame->scene->item_count);
+        struct gn_shadow_opts shadow = {light->technique, light->encoding,
+                                        map_px_of(frame, l, opts)};
+        make_memories(frame->memory[i], gn_shadow_tile_count(l->type), frame->scene->item_count);
+        if (!gn_shadow_fit(pose, light->light, &frame->eye, &shadow, frame->memory[i],
+                           &frame->shadows[i]))
             make_empty(&frame->shadows[i]);
-        }
     }
 }
 
@@ -192,18 +201,24 @@ static void put3(float to[4], const float *v) { memcpy(to, v, sizeof(vec3)); }
 
 static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
     memcpy(c[SHADOW_MAP], view->map_from_world, sizeof view->map_from_world);
+    if (view->tile_count > 1) {
+        memcpy(c[SHADOW_TILES], view->tangent_uv, sizeof view->tangent_uv);
+        memcpy(&c[SHADOW_TILES][2], view->depth_code, sizeof view->depth_code);
+    }
     c[SHADOW_BIAS][0] = view->normal_offset * view->texel;
     c[SHADOW_BIAS][1] = view->slope_offset * view->texel;
     c[SHADOW_BIAS][2] = view->slope_max;
     c[SHADOW_BIAS][3] = view->ulp_m;
     put3(c[SHADOW_PLACE], view->light_ws);
     c[SHADOW_PLACE][3] = view->distance_scale;
+    const float size[2] = {(float)view->width_px, (float)view->height_px};
     for (int k = 0; k < 2; k++) {
-        c[SHADOW_MAP_SIZE][k] = (float)view->map_px;
-        c[SHADOW_MAP_SIZE][k + 2] = 1.0f / (float)view->map_px;
+        c[SHADOW_MAP_SIZE][k] = size[k];
+        c[SHADOW_MAP_SIZE][k + 2] = 1.0f / size[k];
     }
     c[SHADOW_CODE][0] = view->distance_offset;
     c[SHADOW_CODE][1] = view->far_code;
+    c[SHADOW_CODE][2] = (float)view->gutter_px - 1.0f;
     memcpy(c[SHADOW_SOFT], view->soft, sizeof view->soft);
 }
 
@@ -231,8 +246,9 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
     }
 }
 
-void gn_frame_shadow_constants(const struct gn_shadow_view *view, float (*constants)[4]) {
-    memcpy(constants[PASS_CLIP], view->clip_from_world, sizeof view->clip_from_world);
+void gn_frame_shadow_constants(const struct gn_shadow_view *view, uint32_t tile,
+                               float (*constants)[4]) {
+    memcpy(constants[PASS_CLIP], view->tiles[tile].clip_from_world, sizeof(mat4));
     put3(constants[PASS_CODE], view->light_ws);
     constants[PASS_CODE][3] =
         view->perspective ? view->distance_scale : view->distance_scale * view->far_m;

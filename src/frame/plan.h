@@ -129,11 +129,13 @@ struct gn_pass {
     enum gn_blend blend;
     bool discard_depth;  /* nobody reads the depth after this pass: invalidate */
     uint32_t border_px;  /* this many texels at the target's rim stay cleared (scissor) */
-    struct gn_rect rect; /* draws nothing outside (scissor); width 0: no such bound */
+    struct gn_rect rect; /* draws nothing outside (scissor); width 0: no such bound. SHADOW: a tile,
+                            which is all that the pass clears and sees */
+    uint32_t tile;       /* SHADOW: which of the map's; the passes of a map follow each other */
     uint32_t first_light, light_count;   /* of plan->lights: those that its LIT programs know */
     uint32_t first_shadow, shadow_count; /* plan->shadows[first_shadow + i] is behind sampler i */
     uint64_t
-        content_hash; /* SHADOW: skip the pass when the target already holds this; 0: always draw */
+        content_hash; /* SHADOW: skip the pass when the tile already holds this; 0: always draw */
     bool reads_codes; /* those samplers compare not */
     uint32_t first_draw, draw_count;
     uint32_t slide_count, slides[GN_SLIDES_MAX]; /* OUTPUT: textures; slide i: sampler i */

@@ -39,8 +39,11 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
 static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
     const struct gn_shadow_view *view = &plan->shadows[slot];
     fprintf(to, "shadow %u: light %u '%s' %s %s/%s %u px", slot, view->light,
-            plan->scene->lights[view->light].name, view->perspective ? "spot" : "directional",
-            gn_techniques[view->technique].name, gn_encodings[view->encoding].name, view->map_px);
+            plan->scene->lights[view->light].name,
+            light_types[plan->scene->lights[view->light].type], gn_techniques[view->technique].name,
+            gn_encodings[view->encoding].name, view->map_px);
+    if (view->tile_count > 1)
+        fprintf(to, " x %u, gutters %u px", view->tile_count, view->gutter_px);
     if (view->empty)
         fprintf(to, ", empty: it darkens nothing in view\n");
     else

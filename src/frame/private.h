@@ -53,8 +53,7 @@ struct gn_frame {
     struct gn_light_group groups[GN_GROUPS_MAX];
     uint32_t group_count; /* 1 at least */
     struct gn_shadow_view shadows[GN_ALL_SHADOWS_MAX];
-    struct gn_shadow_memory memory[GN_ALL_SHADOWS_MAX];
-    uint32_t memory_count; /* made so far */
+    struct gn_shadow_memory memory[GN_ALL_SHADOWS_MAX][GN_SHADOW_TILES_MAX]; /* once in use */
     GN_LIST(struct gn_draw) draws;
     GN_LIST(struct gn_instance) instances;
     GN_LIST(struct gn_program_key) programs;
@@ -69,8 +68,8 @@ struct gn_frame {
 enum { GN_PASS_SIZE = 86 };
 /* Whose constants stand where. */
 enum gn_frame_constants {
-    GN_CONSTANTS_SHADOW,                       /* a slot each */
-    GN_CONSTANTS_PICTURE = GN_ALL_SHADOWS_MAX, /* a group each */
+    GN_CONSTANTS_SHADOW,                                             /* a tile of a slot each */
+    GN_CONSTANTS_PICTURE = GN_ALL_SHADOWS_MAX * GN_SHADOW_TILES_MAX, /* a group each */
     GN_CONSTANTS_MARKS = GN_CONSTANTS_PICTURE + GN_GROUPS_MAX,
     GN_CONSTANTS_PANELS, /* of all panels, one after another */
     GN_CONSTANTS_COUNT,
@@ -81,6 +80,7 @@ float (*gn_frame_constants(const struct gn_frame *frame, uint32_t which))[4];
 struct gn_selection {
     const uint8_t *casts;               /* shadow pass: those marked; NULL: what the eye sees */
     const struct gn_shadow_view *view;  /* shadow pass */
+    bool mirrored;                      /* it is drawn as in a mirror */
     const struct gn_light_group *group; /* what is added: to items that it reaches; NULL: first */
     const struct gn_frame_opts *opts;   /* never NULL */
 };
@@ -129,7 +129,8 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_frame_opts *opts);
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
                               const struct gn_light_group *group, float (*constants)[4]);
-void gn_frame_shadow_constants(const struct gn_shadow_view *view, float (*constants)[4]);
+void gn_frame_shadow_constants(const struct gn_shadow_view *view, uint32_t tile,
+                               float (*constants)[4]);
 
 /* slides.c: which of the chosen lights throw a slide; then what the shaders and the pass get. The
  * slides of a pass stand in the order of its lights. */

@@ -53,7 +53,7 @@ bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err);
 bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err);
 void gn_gl_finish_frame(struct gn_gl *gl); /* a 1-pixel read-back: ends a timed frame */
 /* A shadow map as codes in its encoding's unit (metres for r32ui and r16f-raw, -1..1 for r16f, 0..1
- * else), map_px x map_px floats, first row at v = 0. For tests and --aov map. */
+ * else), width_px x height_px floats of the view, first row at v = 0. For tests and --aov map. */
 bool gn_gl_read_map(struct gn_gl *gl, uint32_t slot, float *out, struct gn_err *err);
 
 struct gn_gl_stats { /* of the last frame, but for the last three */

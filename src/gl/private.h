@@ -195,7 +195,8 @@ struct gn_gl_map {
     enum gn_encoding encoding;
     uint32_t width_px, height_px;
     GLuint framebuffer, texture, depth;
-    uint64_t content_hash; /* 0: nothing */
+    uint64_t content_hash[GN_SHADOW_TILES_MAX]; /* of each tile; 0: nothing */
+    bool cleared; /* all of it, before the tiles that are being drawn */
     uint64_t bytes, last_used;
 };
 enum {

@@ -38,6 +38,11 @@ static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     GL(gl, ClearBufferfv)(GL_DEPTH, 0, ones);
 }
 
+static struct gn_gl_rect target_rect(const struct gn_pass *pass) {
+    return (struct gn_gl_rect){0, 0, (GLsizei)pass->target.width_px,
+                               (GLsizei)pass->target.height_px};
+}
+
 /* What a pass may draw on, where that is not all of the target. */
 static bool scissor_of(const struct gn_pass *pass, struct gn_gl_rect *out) {
     const struct gn_rect *r = &pass->rect;
@@ -49,29 +54,33 @@ static bool scissor_of(const struct gn_pass *pass, struct gn_gl_rect *out) {
     return border > 0;
 }
 
-static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer) {
-    const GLsizei width = (GLsizei)pass->target.width_px, height = (GLsizei)pass->target.height_px;
+enum clear { CLEAR_NOT, CLEAR_RECT, CLEAR_ALL };
+
+static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer,
+                         enum clear clear) {
+    const bool tile = pass->target.kind == GN_TARGET_SHADOW && pass->rect.width > 0;
     struct gn_gl_rect inner;
+    const bool bound = scissor_of(pass, &inner);
     gn_gl_bind_framebuffer(gl, framebuffer);
-    gn_gl_set_viewport(gl, (struct gn_gl_rect){0, 0, width, height});
-    if (pass->clear) {
-        gn_gl_set_scissor(gl, NULL);
+    gn_gl_set_viewport(gl, tile ? inner : target_rect(pass));
+    if (clear != CLEAR_NOT) {
+        gn_gl_set_scissor(gl, tile && clear == CLEAR_RECT ? &inner : NULL);
         gn_gl_set_depth(gl, true, true);
         if (pass->target.kind == GN_TARGET_SHADOW)
             clear_map(gl, pass);
         else
             clear_output(gl, pass);
     }
-    gn_gl_set_scissor(gl, scissor_of(pass, &inner) ? &inner : NULL);
+    gn_gl_set_scissor(gl, bound ? &inner : NULL);
     gn_gl_set_depth(gl, pass->target.kind != GN_TARGET_ENCODED, pass->depth_write);
     gn_gl_set_blend(gl, pass->blend);
 }
 
-static void end_target(struct gn_gl *gl, const struct gn_pass *pass) {
+static void end_target(struct gn_gl *gl, const struct gn_pass *pass, bool last) {
     static const GLenum depth = GL_DEPTH_ATTACHMENT;
     const bool is_map = pass->target.kind == GN_TARGET_SHADOW;
     if (is_map && pass->target.encoding == GN_ENCODING_DEPTH) return; /* it is what was wanted */
-    if (pass->discard_depth) GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, 1, &depth);
+    if (pass->discard_depth && last) GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, 1, &depth);
 }
 
 static void resolve(struct gn_gl *gl) {
@@ -101,7 +110,7 @@ static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan, const struct
     for (uint32_t i = 0; i < pass->shadow_count; i++) {
         const uint32_t slot = pass->first_shadow + i;
         const struct gn_shadow_view *view = &plan->shadows[slot];
-        const struct gn_target target = {GN_TARGET_SHADOW, slot, view->map_px, view->map_px,
+        const struct gn_target target = {GN_TARGET_SHADOW, slot, view->width_px, view->height_px,
                                          view->encoding};
         const struct gn_gl_map *map = gn_gl_map_find(gl, &target);
         const GLuint sampler =
@@ -173,35 +182,68 @@ static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_d
 
 /* ---- passes ---- */
 
+static bool is_stale(const struct gn_gl_map *map, const struct gn_pass *pass) {
+    return !pass->content_hash || map->content_hash[pass->tile] != pass->content_hash;
+}
+
+/* The next tile of the same map that is drawn in this frame, right after this one; else NULL. */
+static const struct gn_pass *next_tile(const struct gn_plan *plan, const struct gn_gl_map *map,
+                                       const struct gn_pass *pass) {
+    const struct gn_pass *next = pass + 1;
+    bool same = next < plan->passes + plan->pass_count && next->target.kind == GN_TARGET_SHADOW &&
+                next->target.slot == pass->target.slot;
+    return same && is_stale(map, next) ? next : NULL;
+}
+
+static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
+                             const struct gn_gl_map *map) {
+    if (map) return map->framebuffer;
+    return pass->target.kind == GN_TARGET_ENCODED ? gl->targets.output.encoded
+                                                  : gl->targets.output.framebuffer;
+}
+
+/* To clear all of a map costs a tiler nothing, and a part of it a load and a draw: when all its
+ * tiles are drawn, one clear does. */
+static enum clear clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
+                           const struct gn_pass *pass) {
+    if (!map) return pass->clear ? CLEAR_ALL : CLEAR_NOT;
+    if (pass->tile == 0) {
+        const struct gn_pass *last = pass, *next;
+        while ((next = next_tile(plan, map, last))) last = next;
+        map->cleared = last->tile + 1 == plan->shadows[pass->target.slot].tile_count;
+        if (map->cleared) return CLEAR_ALL;
+    }
+    return map->cleared ? CLEAR_NOT : CLEAR_RECT;
+}
+
+/* map: NULL for what is no shadow pass. */
 static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
-                      GLuint framebuffer, struct gn_err *err) {
+                      struct gn_gl_map *map, struct gn_err *err) {
     const bool grouped = gl->debug && gl->fn.PushDebugGroup;
     const uint64_t hash =
         gn_hash(GN_HASH_INIT, pass->constants, pass->constant_count * sizeof *pass->constants);
     if (grouped) GL(gl, PushDebugGroup)(GL_DEBUG_SOURCE_APPLICATION_KHR, 0, -1, pass->label);
-    begin_target(gl, pass, framebuffer);
+    begin_target(gl, pass, framebuffer_of(gl, pass, map), clear_of(plan, map, pass));
     bind_sources(gl, plan, pass);
     for (uint32_t i = 0; i < pass->draw_count; i++)
         draw(gl, pass, &plan->draws[pass->first_draw + i], hash);
-    end_target(gl, pass);
+    end_target(gl, pass, !map || !next_tile(plan, map, pass));
     if (grouped) GL(gl, PopDebugGroup)();
     return !gl->debug || gn_gl_error_check(gl, pass->label, err);
 }
 
 static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                      struct gn_err *err) {
-    if (pass->target.kind == GN_TARGET_OUTPUT)
-        return draw_pass(gl, plan, pass, gl->targets.output.framebuffer, err);
-    if (pass->target.kind == GN_TARGET_ENCODED)
-        return draw_pass(gl, plan, pass, gl->targets.output.encoded, err);
+    if (pass->target.kind != GN_TARGET_SHADOW) return draw_pass(gl, plan, pass, NULL, err);
     struct gn_gl_map *map = gn_gl_map_find(gl, &pass->target);
     if (!map) return gn_fail(err, "%s: the plan was not prepared", pass->label);
-    if (pass->content_hash && map->content_hash == pass->content_hash) {
+    if (!is_stale(map, pass)) {
+        map->cleared = false;
         gl->stats.shadow_passes_skipped++;
         return true;
     }
-    bool ok = draw_pass(gl, plan, pass, map->framebuffer, err);
-    map->content_hash = ok ? pass->content_hash : 0;
+    bool ok = draw_pass(gl, plan, pass, map, err);
+    map->content_hash[pass->tile] = ok ? pass->content_hash : 0;
     return ok;
 }
 

@@ -1,5 +1,7 @@
 /* What passes draw to: one output, and a map per shadow slot. Made again when a plan asks for
  * another size or format; maps of plans that take turns are kept. */
+#include <string.h>
+
 #include "gl/private.h"
 
 static GLuint make_renderbuffer(struct gn_gl *gl, GLenum format, GLsizei samples, uint32_t width,
@@ -255,7 +257,8 @@ bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct g
 }
 
 void gn_gl_targets_forget(struct gn_gl *gl) {
-    for (int i = 0; i < GN_GL_MAPS_MAX; i++) gl->targets.maps[i].content_hash = 0;
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++)
+        memset(gl->targets.maps[i].content_hash, 0, sizeof gl->targets.maps[i].content_hash);
 }
 
 uint64_t gn_gl_targets_bytes(const struct gn_gl *gl) {

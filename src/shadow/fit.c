@@ -106,8 +106,9 @@ static bool find_window(const struct gn_fitter *f, struct gn_shadow_region *wind
         if (region_is_empty(&r)) continue;
         unite(depths, &r);
         struct gn_shadow_region reached = grown(&receivers, reach(f, r.near, receivers.far));
-        if (!regions_meet(&r, &reached) || r.near > receivers.far) continue;
-        casts[i] = 1;
+        bool matters = regions_meet(&r, &reached) && r.near <= receivers.far;
+        casts[i] = matters || f->view->tile_count > 1; /* a whole tile does not go with the eye */
+        if (!matters) continue;
         r = intersect(&r, &reached);
         unite(&casters, &r);
     }
@@ -133,27 +134,29 @@ static void look_along(vec3 eye, vec3 direction, mat4 out) {
     glm_look(eye, direction, fabsf(direction[1]) > 0.99f ? across : up, out);
 }
 
+/* Five planes of a pyramid round the cone; its near plane is a ten-thousandth of the scene away. */
+static void set_cone(struct gn_fitter *f, float tan_cone) {
+    f->tan_cone = tan_cone;
+    f->near_m = fmaxf(1e-4f * f->scene_size_m, 1e-4f);
+    vec4 planes[5] = {{1, 0, -tan_cone, 0},
+                      {-1, 0, -tan_cone, 0},
+                      {0, 1, -tan_cone, 0},
+                      {0, -1, -tan_cone, 0},
+                      {0, 0, -1, -f->near_m}};
+    f->cone_count = 5;
+    for (int i = 0; i < 5; i++) /* a plane goes by the transpose: world from light */
+        for (int c = 0; c < 4; c++)
+            f->cone[i][c] = glm_vec4_dot(planes[i], f->tile->light_from_world[c]);
+}
+
 static void place_light(struct gn_fitter *f, const struct gn_light *light) {
     struct gn_shadow_view *view = f->view;
     vec3 direction, origin = {0.0f, 0.0f, 0.0f};
     gn_pose_light(f->pose, view->light, view->light_ws, direction);
     glm_vec3_negate_to(direction, view->to_light_ws);
-    view->perspective = light->type == GN_LIGHT_SPOT;
-    look_along(view->perspective ? view->light_ws : origin, direction, view->light_from_world);
-    if (!view->perspective) return;
-    /* Five planes of a pyramid round the cone; its near plane is a ten-thousandth of the scene
-     * away. */
-    f->tan_cone = tanf(fminf(light->outer_rad, SPOT_MAX_RAD));
-    float near_m = fmaxf(1e-4f * f->scene_size_m, 1e-4f);
-    vec4 planes[5] = {{1, 0, -f->tan_cone, 0},
-                      {-1, 0, -f->tan_cone, 0},
-                      {0, 1, -f->tan_cone, 0},
-                      {0, -1, -f->tan_cone, 0},
-                      {0, 0, -1, -near_m}};
-    f->cone_count = 5;
-    for (int i = 0; i < 5; i++) /* a plane goes by the transpose: world from light */
-        for (int c = 0; c < 4; c++)
-            f->cone[i][c] = glm_vec4_dot(planes[i], view->light_from_world[c]);
+    view->perspective = light->type != GN_LIGHT_DIRECTIONAL;
+    look_along(view->perspective ? view->light_ws : origin, direction, f->tile->light_from_world);
+    if (light->type == GN_LIGHT_SPOT) set_cone(f, tanf(fminf(light->outer_rad, SPOT_MAX_RAD)));
 }
 
 static float ceil_to_step(float size) {
@@ -213,8 +216,8 @@ static void set_code(struct gn_shadow_view *view, float near_depth, float far_de
     }
 }
 
-static void set_matrices(struct gn_shadow_view *view, const double low[2], float near_depth,
-                         float far_depth) {
+static void set_clip(struct gn_shadow_view *view, const double low[2], float near_depth,
+                     float far_depth) {
     double side = (double)view->texel * view->map_px;
     float left = (float)low[0], right = (float)(low[0] + side), bottom = (float)low[1],
           top = (float)(low[1] + side);
@@ -224,13 +227,18 @@ static void set_matrices(struct gn_shadow_view *view, const double low[2], float
                     near_depth, far_depth, clip_from_light);
     else
         glm_ortho(left, right, bottom, top, near_depth, far_depth, clip_from_light);
-    glm_mat4_mul(clip_from_light, view->light_from_world, view->clip_from_world);
+    for (uint32_t i = 0; i < view->tile_count; i++)
+        glm_mat4_mul(clip_from_light, view->tiles[i].light_from_world,
+                     view->tiles[i].clip_from_world);
+}
+
+static void set_lookup(struct gn_shadow_view *view, float near_depth) {
     mat4 map_from_clip = {{0.5f, 0, 0, 0}, {0, 0.5f, 0, 0}, {0, 0, 0.5f, 0}, {0.5f, 0.5f, 0.5f, 1}};
-    glm_mat4_mul(map_from_clip, view->clip_from_world, view->map_from_world);
+    glm_mat4_mul(map_from_clip, view->tiles[0].clip_from_world, view->map_from_world);
     if (view->perspective || view->encoding == GN_ENCODING_DEPTH) return;
     for (int c = 0; c < 4;
          c++) { /* z is the code itself: distance from the near plane is -z_ls - near */
-        float depth = -view->light_from_world[c][2] - (c == 3 ? near_depth : 0.0f);
+        float depth = -view->tiles[0].light_from_world[c][2] - (c == 3 ? near_depth : 0.0f);
         view->map_from_world[c][2] =
             depth * view->distance_scale + (c == 3 ? view->distance_offset : 0.0f);
     }
@@ -271,13 +279,13 @@ static void set_bias(struct gn_shadow_view *view) {
     view->slope_max = 4.0f;
 }
 
-static uint64_t hash_content(const struct gn_pose *pose, const uint8_t *casts,
-                             const struct gn_shadow_view *view) {
-    uint64_t h = gn_hash(GN_HASH_INIT, view->clip_from_world, sizeof view->clip_from_world);
+static uint64_t hash_content(const struct gn_pose *pose, const struct gn_shadow_view *view,
+                             const struct gn_shadow_tile *tile, const uint8_t *casts) {
     float code[] = {view->distance_scale, view->distance_offset, view->far_code,
                     (float)view->map_px, (float)view->encoding};
-    h = gn_hash(h, code, sizeof code);
-    for (uint32_t i = 0; i < pose->scene->item_count; i++)
+    uint64_t h = gn_hash(GN_HASH_INIT, code, sizeof code);
+    if (!tile->empty) h = gn_hash(h, tile->clip_from_world, sizeof tile->clip_from_world);
+    for (uint32_t i = 0; i < pose->scene->item_count && !tile->empty; i++)
         if (casts[i]) {
             uint64_t item[2] = {i, pose->items[i].hash};
             h = gn_hash(h, item, sizeof item);
@@ -285,31 +293,128 @@ static uint64_t hash_content(const struct gn_pose *pose, const uint8_t *casts,
     return h ? h : 1;
 }
 
+/* ---- one tile: directional lights and spots ---- */
+
+static bool fit_window(struct gn_fitter *f, float radius) {
+    struct gn_shadow_region window, depths;
+    gn_fitter_remember(f);
+    if (!find_window(f, &window, &depths)) return false;
+    float near_depth, far_depth;
+    double low[2];
+    snap_window(f, &window, low);
+    set_depths(f->view, &depths, &near_depth, &far_depth);
+    set_code(f->view, near_depth, far_depth);
+    set_clip(f->view, low, near_depth, far_depth);
+    set_lookup(f->view, near_depth);
+    set_soft(f->view, radius, near_depth, far_depth);
+    return true;
+}
+
+/* ---- six tiles: point lights ---- */
+
+static void aim_tile(struct gn_fitter *f, uint32_t index) {
+    struct gn_shadow_view *view = f->view;
+    struct gn_shadow_tile *tile = f->tile = &view->tiles[index];
+    uint32_t axis = index / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+    float side = index % 2 ? -1.0f : 1.0f;
+    vec4 *m = tile->light_from_world;
+    glm_mat4_zero(m);
+    m[u][0] = m[v][1] = m[3][3] = 1.0f;
+    m[axis][2] = -side;
+    m[3][0] = -view->light_ws[u];
+    m[3][1] = -view->light_ws[v];
+    m[3][2] = side * view->light_ws[axis];
+    tile->mirrored = (axis == 1) == (side < 0.0f);
+    tile->x_px = axis * view->map_px;
+    tile->y_px = index % 2 * view->map_px;
+    set_cone(f, 0.5f * view->texel * (float)view->map_px);
+}
+
+/* Measures all tiles: the depths of the casters in any of them. False when all are empty. */
+static bool find_tiles(struct gn_fitter *f, struct gn_shadow_region *depths) {
+    struct gn_shadow_memory *memories = f->memory;
+    bool found = false;
+    *depths = nothing;
+    for (uint32_t i = 0; i < f->view->tile_count; i++) {
+        struct gn_shadow_region window, own;
+        f->memory = &memories[i];
+        aim_tile(f, i);
+        gn_fitter_remember(f);
+        f->tile->empty = !find_window(f, &window, &own);
+        found |= !f->tile->empty;
+        unite(depths, &own);
+    }
+    f->memory = memories;
+    return found;
+}
+
+/* What moves shall change the tiles that it is in: near and far, which are for all, go by steps. */
+static void widen_depths(struct gn_shadow_region *depths) {
+    depths->near = exp2f(floorf(4.0f * log2f(depths->near)) / 4.0f);
+    depths->far = exp2f(ceilf(4.0f * log2f(depths->far)) / 4.0f);
+    depths->far_radial = exp2f(ceilf(4.0f * log2f(depths->far_radial)) / 4.0f);
+}
+
+static bool fit_tiles(struct gn_fitter *f, float radius) {
+    struct gn_shadow_view *view = f->view;
+    struct gn_shadow_region depths;
+    const struct gn_technique_row *row = &gn_techniques[view->technique];
+    uint32_t wanted = row->radius_texels + 1, most_px = view->map_px / 8;
+    view->gutter_px = row->soft || wanted > most_px ? most_px : wanted;
+    view->texel = 2.0f / (float)(view->map_px - 2 * view->gutter_px);
+    if (!find_tiles(f, &depths)) return false;
+    float near_depth, far_depth;
+    double edge = -0.5 * (double)view->texel * view->map_px;
+    widen_depths(&depths);
+    set_depths(view, &depths, &near_depth, &far_depth);
+    set_code(view, near_depth, far_depth);
+    set_clip(view, (double[2]){edge, edge}, near_depth, far_depth);
+    set_soft(view, radius, near_depth, far_depth);
+    view->tangent_uv[0] = 1.0f / (view->texel * (float)view->width_px);
+    view->tangent_uv[1] = 1.0f / (view->texel * (float)view->height_px);
+    view->depth_code[0] = far_depth / (far_depth - near_depth);
+    view->depth_code[1] = -near_depth * far_depth / (far_depth - near_depth);
+    return true;
+}
+
+/* ---- either ---- */
+
+uint32_t gn_shadow_tile_count(enum gn_light_type type) {
+    return type == GN_LIGHT_POINT ? GN_SHADOW_TILES_MAX : 1;
+}
+
+void gn_shadow_map_size(enum gn_light_type type, uint32_t map_px, uint32_t size_px[2]) {
+    size_px[0] = type == GN_LIGHT_POINT ? 3 * map_px : map_px;
+    size_px[1] = type == GN_LIGHT_POINT ? 2 * map_px : map_px;
+}
+
 bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                    const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
                    struct gn_shadow_view *view) {
+    const struct gn_light *l = &pose->scene->lights[light];
+    uint32_t size_px[2];
+    gn_shadow_map_size(l->type, opts->map_px, size_px);
     *view = (struct gn_shadow_view){.light = light,
                                     .technique = opts->technique,
                                     .encoding = opts->encoding,
-                                    .map_px = opts->map_px};
-    const struct gn_light *l = &pose->scene->lights[light];
-    if (l->type == GN_LIGHT_POINT || opts->technique == GN_TECHNIQUE_NONE) return false;
-    struct gn_fitter f = {
-        .pose = pose, .eye = eye, .memory = memory, .view = view, .light_radius = l->radius};
+                                    .map_px = opts->map_px,
+                                    .width_px = size_px[0],
+                                    .height_px = size_px[1],
+                                    .tile_count = gn_shadow_tile_count(l->type)};
+    if (opts->technique == GN_TECHNIQUE_NONE) return false;
+    struct gn_fitter f = {.pose = pose,
+                          .eye = eye,
+                          .memory = memory,
+                          .view = view,
+                          .tile = view->tiles,
+                          .light_radius = l->radius};
     f.scene_size_m =
         fmaxf(glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max), 1e-6f);
     place_light(&f, l);
-    gn_fitter_remember(&f);
-    struct gn_shadow_region window, depths;
-    if (!find_window(&f, &window, &depths)) return false;
-    float near_depth, far_depth;
-    double low[2];
-    snap_window(&f, &window, low);
-    set_depths(view, &depths, &near_depth, &far_depth);
-    set_code(view, near_depth, far_depth);
-    set_matrices(view, low, near_depth, far_depth);
+    if (!(view->tile_count > 1 ? fit_tiles(&f, l->radius) : fit_window(&f, l->radius)))
+        return false;
     set_bias(view);
-    set_soft(view, l->radius, near_depth, far_depth);
-    view->content_hash = hash_content(pose, memory->casts, view);
+    for (uint32_t i = 0; i < view->tile_count; i++)
+        view->tiles[i].content_hash = hash_content(pose, view, &view->tiles[i], memory[i].casts);
     return true;
 }

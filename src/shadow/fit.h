@@ -4,7 +4,13 @@
  * Plane coordinates: for a directional light metres across the light's direction, for a spot
  * tangents (x/z, y/z). The map is a window in them: as small as holds every place where a caster
  * can darken something that the eye sees, of a width from a geometric series and with its corner on
- * a whole texel, so that it moves by whole texels when the eye moves. */
+ * a whole texel, so that it moves by whole texels when the eye moves.
+ *
+ * A point light has six such maps, the tiles of an atlas: each looks along an axis of the world, 45
+ * degrees to each side and a gutter more, as wide as the technique's filter, so that what is read
+ * beside a place near a tile's edge is right and a technique need not know of tiles. Tile 2 a + s
+ * looks along axis a, to its negative end if s is 1, and lies in column a and row s of the atlas.
+ */
 #ifndef GN_SHADOW_FIT_H
 #define GN_SHADOW_FIT_H
 
@@ -14,23 +20,38 @@
 struct gn_shadow_opts {
     enum gn_technique technique;
     enum gn_encoding encoding; /* a proved one, never AUTO */
-    uint32_t map_px;           /* side of the map */
+    uint32_t map_px;           /* side of the map, or of a tile */
+};
+
+enum { GN_SHADOW_TILES_MAX = 6 };
+struct gn_shadow_tile {
+    mat4 light_from_world; /* rigid, but mirrored where it says so; looks along -Z */
+    mat4 clip_from_world;  /* draws the tile */
+    uint32_t x_px, y_px;   /* its corner in the map */
+    bool mirrored;
+    bool empty;            /* nothing in view can be in its shadow: it holds the far end */
+    uint64_t content_hash; /* of all that decides what it holds, casters included; never 0 */
 };
 
 struct gn_shadow_view {
     uint32_t light;
     enum gn_technique technique;
     enum gn_encoding encoding;
-    uint32_t map_px;
-    bool perspective;      /* spot */
-    vec3 light_ws;         /* position (spot) */
-    vec3 to_light_ws;      /* unit (directional) */
-    mat4 light_from_world; /* rigid; looks along -Z */
-    mat4 clip_from_world;  /* draws the map */
+    uint32_t map_px;              /* side of a tile */
+    uint32_t width_px, height_px; /* of the map: all tiles */
+    uint32_t gutter_px;           /* point: of a tile, to each side */
+    uint32_t tile_count;          /* 1, point: 6 */
+    struct gn_shadow_tile tiles[GN_SHADOW_TILES_MAX];
+    bool perspective; /* spot, point */
+    vec3 light_ws;    /* position (spot, point) */
+    vec3 to_light_ws; /* unit (directional) */
     /* Reads the map: xy / w in 0..1 over the map, z / w in the encoding's own unit for a
      * directional light, and for a spot with encoding depth; for other spot encodings z = |p -
-     * light_ws| * distance_scale + distance_offset. */
+     * light_ws| * distance_scale + distance_offset. Not for a point light: there a tangent (from a
+     * tile's middle) times tangent_uv is uv, and with encoding depth the code at depth d along the
+     * tile's axis is depth_code[0] + depth_code[1] / d. */
     mat4 map_from_world;
+    float tangent_uv[2], depth_code[2];
     float distance_scale, distance_offset;
     float far_code; /* the far end in the encoding's unit: what the map is cleared to */
     float near_m, far_m;
@@ -44,7 +65,6 @@ struct gn_shadow_view {
     float soft[4];
     float ulp_m; /* added towards the light: the encoding's rounding at the far end */
     bool empty;  /* nothing in view can be in this light's shadow: the map holds the far end */
-    uint64_t content_hash; /* of all that decides the map's content, casters included; never 0 */
 };
 
 /* What the eye sees, for fitting. */
@@ -57,7 +77,7 @@ void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world);
 bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box); /* conservative */
 
 /* What fitting remembers of a light from frame to frame, so that what stands still costs nothing,
- * and what it found out. One per shadow map; any scene of as many items, any light. */
+ * and what it found out. One per tile; any scene of as many items, any light. */
 struct gn_shadow_region { /* in plane coordinates and depth along the light's axis; empty when min >
                              max */
     float min[2], max[2];
@@ -76,8 +96,13 @@ struct gn_shadow_memory {
 void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count);
 void gn_shadow_memory_finish(struct gn_shadow_memory *memory);
 
-/* Fits the light's view and fills memory->casts. False: nothing that is seen can be in this light's
- * shadow; no map is needed. Point lights: false. Allocates nothing. */
+/* How many tiles a light's map has, and the size of the map for a tile of so many pixels. */
+uint32_t gn_shadow_tile_count(enum gn_light_type type);
+void gn_shadow_map_size(enum gn_light_type type, uint32_t map_px, uint32_t size_px[2]);
+
+/* Fits the light's view and fills memory->casts, for each tile (as many memories). False: nothing
+ * that is seen can be in this light's shadow; no map is needed, but its size is right. Allocates
+ * nothing. */
 bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                    const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
                    struct gn_shadow_view *view);

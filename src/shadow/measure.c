@@ -10,6 +10,8 @@
 
 #define EXACT_TRIANGLES                                                                            \
     32 /* geometries up to this many are clipped triangle by triangle, larger ones as boxes */
+#define NEAREST_TRIANGLES                                                                          \
+    10000 /* of up to this many round the light it is asked which is nearest */
 
 void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count) {
     memory->item_count = item_count;
@@ -32,7 +34,7 @@ void gn_shadow_memory_finish(struct gn_shadow_memory *memory) {
 
 static void add_point(const struct gn_fitter *f, struct gn_shadow_region *r, vec3 p_ws) {
     vec3 p;
-    glm_mat4_mulv3(f->view->light_from_world, p_ws, 1.0f, p);
+    glm_mat4_mulv3(f->tile->light_from_world, p_ws, 1.0f, p);
     float depth = -p[2];
     float scale = f->view->perspective ? 1.0f / most(depth, 1e-6f) : 1.0f;
     struct gn_shadow_region point = {
@@ -56,6 +58,16 @@ static bool planes_hold(vec4 *planes, int count, const struct gn_box *box) {
         if (nearest < 0.0f) return false;
     }
     return true;
+}
+
+static bool planes_miss(const vec4 *planes, int count, const struct gn_box *box) {
+    for (int i = 0; i < count; i++) {
+        float farthest = planes[i][3];
+        for (int k = 0; k < 3; k++)
+            farthest += planes[i][k] * (planes[i][k] >= 0.0f ? box->max[k] : box->min[k]);
+        if (farthest < 0.0f) return true;
+    }
+    return false;
 }
 
 static void add_triangles(const struct gn_fitter *f, struct gn_shadow_region *r, uint32_t item,
@@ -90,12 +102,49 @@ static void add_body(const struct gn_fitter *f, struct gn_shadow_region *r, vec3
     }
 }
 
+/* How far from the light a triangle's box begins, by the largest coordinate. */
+static float triangle_from(const struct gn_fitter *f, mat4 light_from_item,
+                           const uint32_t *indices) {
+    vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    for (int k = 0; k < 3; k++) {
+        vec3 p;
+        glm_mat4_mulv3(light_from_item, f->pose->scene->positions + 3 * (size_t)indices[k], 1.0f,
+                       p);
+        glm_vec3_minv(low, p, low);
+        glm_vec3_maxv(high, p, high);
+    }
+    float from = 0.0f;
+    for (int k = 0; k < 3; k++) from = most(from, most(low[k], -high[k]));
+    return from;
+}
+
+/* A body whose box the light is in may come nearer than the box does. */
+static void add_nearest(const struct gn_fitter *f, struct gn_shadow_region *r, uint32_t item) {
+    const struct gn_scene *scene = f->pose->scene;
+    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
+    const struct gn_box *box = &f->pose->items[item].box_ws;
+    for (int k = 0; k < 3; k++)
+        if (f->view->light_ws[k] < box->min[k] || f->view->light_ws[k] > box->max[k]) return;
+    if (g->index_count > 3 * NEAREST_TRIANGLES) {
+        r->near = f->near_m;
+        return;
+    }
+    mat4 light_from_item;
+    glm_mat4_mul((vec4 *)f->tile->light_from_world, (vec4 *)f->pose->items[item].world_from_item,
+                 light_from_item);
+    for (uint32_t i = 0; i < g->index_count; i += 3) {
+        float from = triangle_from(f, light_from_item, scene->indices + g->first_index + i);
+        r->near = least(r->near, most(from / most(f->tan_cone, 1.0f), f->near_m));
+    }
+}
+
 /* What an item covers, of that what the light can show, and of that - if so wanted - what the eye
  * sees. */
 static struct gn_shadow_region measure(const struct gn_fitter *f, uint32_t item, bool seen_only) {
     struct gn_shadow_region r = nothing;
     const struct gn_pose_item *posed = &f->pose->items[item];
     const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
+    if (planes_miss((const vec4 *)f->cone, f->cone_count, &posed->box_ws)) return r;
     vec3 corners[8];
     gn_box_corners(&g->box, (vec4 *)posed->world_from_item, corners);
     if (!seen_only && planes_hold((vec4 *)f->cone, f->cone_count, &posed->box_ws))
@@ -104,6 +153,8 @@ static struct gn_shadow_region measure(const struct gn_fitter *f, uint32_t item,
         add_triangles(f, &r, item, seen_only);
     else
         add_body(f, &r, corners, seen_only);
+    if (f->view->perspective && g->index_count > 3 * EXACT_TRIANGLES && !seen_only)
+        add_nearest(f, &r, item);
     return r;
 }
 
@@ -120,7 +171,7 @@ const struct gn_shadow_region *gn_fitter_seen(const struct gn_fitter *f, uint32_
 void gn_fitter_remember(const struct gn_fitter *f) {
     struct gn_shadow_memory *m = f->memory;
     uint64_t light =
-        gn_hash(GN_HASH_INIT, f->view->light_from_world, sizeof f->view->light_from_world);
+        gn_hash(GN_HASH_INIT, f->tile->light_from_world, sizeof f->tile->light_from_world);
     light = gn_hash(light, &f->tan_cone, sizeof f->tan_cone);
     uint64_t eye = gn_hash(GN_HASH_INIT, f->eye->clip_from_world, sizeof f->eye->clip_from_world);
     for (uint32_t i = 0; i < m->item_count; i++) {
@@ -134,6 +185,10 @@ void gn_fitter_remember(const struct gn_fitter *f) {
         if (!same) m->whole[i] = measure(f, i, false);
         m->pose_hash[i] = posed->hash;
         if (same && m->eye_hash == eye) continue;
+        if (region_is_empty(&m->whole[i])) {
+            m->seen[i] = GN_SEEN_NOT;
+            continue;
+        }
         m->seen[i] = !gn_eye_sees(f->eye, &posed->box_ws)                     ? GN_SEEN_NOT
                      : planes_hold((vec4 *)f->eye->planes, 6, &posed->box_ws) ? GN_SEEN_WHOLE
                                                                               : GN_SEEN_PARTLY;

@@ -28,9 +28,10 @@ struct gn_fitter {
     const struct gn_eye *eye;
     struct gn_shadow_memory *memory;
     struct gn_shadow_view *view;
-    vec4 cone[5]; /* spot: planes in world space that hold what its map can show */
+    struct gn_shadow_tile *tile; /* of the view; `memory` is of this one */
+    vec4 cone[5]; /* spot, point: planes in world space that hold what the tile can show */
     int cone_count;
-    float tan_cone;
+    float tan_cone, near_m; /* of the cone */
     float scene_size_m;
     float light_radius; /* as in gn_light */
 };

@@ -210,7 +210,7 @@ static void test_a_large_slide_counts_the_texels_that_the_gpu_holds(void **state
 }
 
 static uint64_t hash_of(struct fixture *f, uint32_t slot) {
-    return build(f)->shadows[slot].content_hash;
+    return build(f)->shadows[slot].tiles[0].content_hash;
 }
 
 static void test_still_scene_keeps_its_maps(void **state) {
@@ -251,7 +251,7 @@ static void test_no_allocation_once_grown(void **state) {
 /* The window's corner in texels from the world's origin, which must be whole, and its texel. */
 static void corner_in_texels(const struct gn_shadow_view *view, double out[2]) {
     mat4 map_from_light, light_inverse;
-    glm_mat4_inv_precise((vec4 *)view->light_from_world, light_inverse);
+    glm_mat4_inv_precise((vec4 *)view->tiles[0].light_from_world, light_inverse);
     glm_mat4_mul((vec4 *)view->map_from_world, light_inverse, map_from_light);
     for (int k = 0; k < 2; k++) out[k] = -(double)map_from_light[3][k] * view->map_px;
 }
@@ -270,11 +270,12 @@ static void test_map_moves_by_whole_texels(void **state) {
         corner_in_texels(view, corner);
         for (int k = 0; k < 2; k++) assert_true(fabs(corner[k] - round(corner[k])) < 0.02);
         if (view->texel != still.texel) continue;
-        moved +=
-            memcmp(view->clip_from_world, still.clip_from_world, sizeof still.clip_from_world) != 0;
+        moved += memcmp(view->tiles[0].clip_from_world, still.tiles[0].clip_from_world,
+                        sizeof(mat4)) != 0;
         assert_true(view->near_m == still.near_m && view->far_m == still.far_m);
         for (int c = 0; c < 4; c++)
-            assert_true(view->clip_from_world[c][2] == still.clip_from_world[c][2]);
+            assert_true(view->tiles[0].clip_from_world[c][2] ==
+                        still.tiles[0].clip_from_world[c][2]);
     }
     assert_true(moved > 0);
     end(&f);
@@ -287,7 +288,7 @@ static void test_an_eye_that_sees_no_shadow_needs_no_caster(void **state) {
     f.opts.camera = 1;
     const struct gn_plan *plan = build(&f);
     assert_int_equal(plan->shadow_count,
-                     2); /* the slots stay: programs do not change with the view */
+                     3); /* the slots stay: programs do not change with the view */
     uint32_t empty = 0;
     for (uint32_t i = 0; i < plan->pass_count; i++)
         if (plan->passes[i].target.kind == GN_TARGET_SHADOW &&
@@ -311,11 +312,12 @@ static void test_flat_ground_is_not_in_the_map(void **state) {
     end(&f);
 }
 
-/* Ten more spots and bulbs along a row, most of them of short range. */
+/* Ten more spots and bulbs along a row, most of them of short range; the bulbs cast nothing. */
 static void add_lights(struct fixture *f, struct gn_light lights[13]) {
     static const char *const names[] = {"Lamp 1", "Lamp 2", "Lamp 3", "Lamp 4", "Lamp 5",
                                         "Lamp 6", "Lamp 7", "Lamp 8", "Lamp 9", "Lamp 10"};
     memcpy(lights, f->scene->lights, 3 * sizeof *lights);
+    lights[2].technique = "none";
     for (int i = 0; i < 10; i++) {
         lights[3 + i] = lights[i % 2 ? 1 : 2];
         lights[3 + i].name = names[i];

@@ -155,11 +155,12 @@ static void test_too_many_lights_are_counted(void **state) {
     assert_int_equal(in.cost.shadow_passes <= 16, 1);
 }
 
-static void test_a_point_light_casts_none(void **state) {
+static void test_a_map_of_a_point_light_has_six_tiles(void **state) {
     (void)state;
-    set_lights(1, "{'type':'point','intensity':9}", 2);
+    set_lights(2, "{'type':'point','intensity':9,'extras':{'gnomon_map_px':2048}}", 2);
     inspect();
-    assert_advice("point light 'light 0'");
+    assert_advice("'light 0' asks for a map of 2048 pixels");
+    assert_no_advice("casts no shadow");
 }
 
 static void test_millimetres_are_noticed(void **state) {
@@ -269,7 +270,7 @@ int main(void) {
         TEST(test_faults_of_a_light_are_named),
         TEST(test_a_right_light_gets_no_advice),
         TEST(test_too_many_lights_are_counted),
-        TEST(test_a_point_light_casts_none),
+        TEST(test_a_map_of_a_point_light_has_six_tiles),
         TEST(test_millimetres_are_noticed),
         TEST(test_a_doll_house_is_noticed),
         TEST(test_a_deep_camera_is_noticed),

@@ -1,0 +1,57 @@
+// Point lights: the map is an atlas of 3 x 2 tiles. Each looks along an axis of the world (x, y, z are columns, the negative ends
+// the upper row), 45 degrees to each side and a gutter more, for what is read beside a place near its edge.
+
+struct shadow_tile {
+    bool along_x, along_z; // its axis; neither: y
+    float side;            // 1 or -1: which end of it
+    vec3 q;                // from the light to the point: across the tile in the order of the other axes, and depth
+};
+
+// v: from the light to the point, world space. The same place in the tile's frame, with depth times side last.
+vec3 shadow_tile_turn(shadow_tile t, vec3 v) {
+    return vec3(t.along_x ? v.y : v.x, t.along_z ? v.y : v.z, t.along_x ? v.x : t.along_z ? v.z : v.y);
+}
+
+// Selects cost 13 instructions less than branches on a Pi 4 (of 180 for all of pcf with a point light), and 20 less than rows of
+// constants by the tile's number.
+shadow_tile shadow_tile_of(vec3 v) {
+    vec3 a = abs(v);
+    shadow_tile t;
+    float depth = max(a.x, a.y);
+    t.along_z = a.z > depth;
+    depth = max(depth, a.z);
+    t.along_x = a.x >= depth; // not both: then z would not be the larger
+    t.q = shadow_tile_turn(t, v);
+    t.side = t.q.z < 0.0 ? -1.0 : 1.0;
+    t.q.z = depth;
+    return t;
+}
+
+// Where to look it up: uv and code. radial: the map holds distances.
+vec3 shadow_tile_at(const int slot, const bool radial, shadow_tile t) {
+    vec4 tiles = SHADOW(slot, SHADOW_TILES);
+    vec2 middle = t.along_x ? vec2(1.0 / 6.0, 0.5) : t.along_z ? vec2(5.0 / 6.0, 0.5) : vec2(0.5);
+    middle.y = t.side < 0.0 ? 0.75 : 0.25;
+    float inverse = 1.0 / t.q.z;
+    float code = radial ? length(t.q) * SHADOW(slot, SHADOW_PLACE).w + SHADOW(slot, SHADOW_CODE).x : tiles.w * inverse + tiles.z;
+    return vec3(t.q.xy * inverse * tiles.xy + middle, code);
+}
+
+// The tile is that of the pushed point: all that is asked about a point just beside an edge lies on one side of it.
+shadow_tile shadow_tile_pushed(const int slot, const bool radial, vec3 p, vec3 n, vec3 l) {
+    vec3 v = p - SHADOW(slot, SHADOW_PLACE).xyz;
+    shadow_tile t = shadow_tile_of(v);
+    return shadow_tile_of(v + shadow_push(slot, n, l, radial ? dot(n, l) : shadow_tile_turn(t, n).z, t.q.z));
+}
+
+// As shadow_slope_spot, in the tile's frame.
+vec2 shadow_tile_slope(const int slot, const bool radial, shadow_tile t, vec3 face) {
+    vec4 tiles = SHADOW(slot, SHADOW_TILES);
+    float inverse = 1.0 / t.q.z;
+    vec3 l = -normalize(t.q);
+    vec3 n = shadow_tile_turn(t, face) * vec3(1.0, 1.0, t.side);
+    vec3 u = vec3(1.0, 0.0, -t.q.x * inverse) * (tiles.x * inverse);
+    vec3 v = vec3(0.0, 1.0, -t.q.y * inverse) * (tiles.y * inverse);
+    vec3 code = radial ? -l * SHADOW(slot, SHADOW_PLACE).w : vec3(0.0, 0.0, -tiles.w * inverse * inverse);
+    return shadow_slope(u, v, code, n, l);
+}
