@@ -1,5 +1,5 @@
 /* The scenes in which shadows are measured against ray-traced truth: a ground and casters of every
- * kind under one light. They are generated from a table and a seed; `--contact` writes the two
+ * kind under one light. They are generated from tables and a seed; `--contact` writes the two
  * scenes of the contact test instead. */
 #include "glb.h"
 #include "outline.h"
@@ -27,8 +27,23 @@ static const struct scene scenes[] = {
     {60, 38, 160, 70},  {120, 57, 325, 130}, {13, 24, 60, 100}, {13, 50, 190, 100},
     {13, 77, 280, 100}, {13, 30, 145, 400},  {13, 58, 10, 400}, {13, 72, 235, 400},
 };
-enum { SCENES = sizeof scenes / sizeof *scenes, CASTERS_MAX = 16 };
-_Static_assert(SCENES == 24, "the table is part of the contract");
+enum site { OPEN, ROOM, PEN, WALLED };
+static const char *const sites[] = {"in the open", "in a room", "inside a fence", "near a wall"};
+
+/* Point lights, after those. */
+static const struct lamp {
+    float size;    /* side of the ground, metres */
+    float azimuth; /* what the camera goes by */
+    float at[3];   /* in tenths of the ground */
+    enum site site;
+} lamps[] = {
+    {5, 40, {.4f, 2.6f, -.3f}, ROOM},       {13, 150, {.2f, 2.0f, .3f}, PEN},
+    {8, 275, {-1.2f, 2.9f, -4.3f}, WALLED}, {25, 15, {1.5f, 6.0f, 1.0f}, OPEN},
+    {60, 225, {3.6f, 3.8f, -3.7f}, ROOM},   {13, 330, {-.4f, 1.4f, .6f}, OPEN},
+};
+enum { SCENES = sizeof scenes / sizeof *scenes, LAMPS = sizeof lamps / sizeof *lamps };
+enum { CASTERS_MAX = 16 };
+_Static_assert(SCENES == 24 && LAMPS == 6, "the table is part of the contract");
 
 enum kind { BOX, WALL, BALL, FENCE, TILT, KINDS };
 
@@ -39,6 +54,7 @@ struct spot { /* a caster's place on the ground, in units of the scene's scale *
 struct build {
     struct gn_glb *glb;
     const struct scene *scene;
+    const struct lamp *lamp; /* instead of the scene's light; NULL: none */
     uint32_t seed;
     float unit; /* metres of what would be one metre in a scene of 10 m */
     struct spot placed[CASTERS_MAX];
@@ -164,6 +180,73 @@ static void add_ground(struct build *b) {
     gn_shape_finish(&shape);
 }
 
+/* Something of one grey that stays where its shape puts it. */
+static void add_fixed(struct build *b, const char *name, const struct gn_shape *shape) {
+    int material =
+        gn_glb_material(b->glb, &(struct gn_glb_material){.rgba = {.6f, .6f, .6f}, .rough = 1});
+    gn_glb_node(b->glb,
+                &(struct gn_glb_node){
+                    .name = name,
+                    .mesh = gn_glb_mesh(b->glb, name, gn_glb_geometry(b->glb, shape), material)});
+}
+
+/* Walls and a ceiling, seen from inside only; they are one mesh. */
+static void add_room(struct build *b) {
+    float size = b->scene->size, height = .5f * size;
+    struct gn_shape shape;
+    gn_shape_init(&shape, 0);
+    for (int i = 0; i < 4; i++) {
+        gn_shape_home(&shape);
+        gn_shape_turn(&shape, 'y', 90.0f * (float)i);
+        gn_shape_move(&shape, 0, height / 2, -size / 2);
+        gn_shape_turn(&shape, 'x', 90);
+        gn_shape_plane(&shape, size, height);
+    }
+    gn_shape_at(&shape, 0, height, 0);
+    gn_shape_turn(&shape, 'x', 180);
+    gn_shape_plane(&shape, size, size);
+    add_fixed(b, "room", &shape);
+    gn_shape_finish(&shape);
+}
+
+/* Four fences round the middle, which stays free. */
+static void add_pen(struct build *b) {
+    struct gn_shape shape;
+    gn_shape_init(&shape, 0);
+    for (int i = 0; i < 4; i++) {
+        gn_shape_home(&shape);
+        gn_shape_turn(&shape, 'y', 90.0f * (float)i + 10);
+        gn_shape_move(&shape, -b->unit, 0, 1.02f * b->unit);
+        gn_shape_fence(&shape, &(struct gn_fence){.length = 2 * b->unit,
+                                                  .height = .9f * b->unit,
+                                                  .pitch = .4f * b->unit,
+                                                  .pale = .15f * b->unit,
+                                                  .depth = .03f * b->unit});
+    }
+    add_fixed(b, "pen", &shape);
+    gn_shape_finish(&shape);
+}
+
+static void add_wall(struct build *b) {
+    struct gn_shape shape;
+    gn_shape_init(&shape, 0);
+    gn_shape_at(&shape, 0, 0, -.49f * b->scene->size);
+    gn_shape_block(&shape, .9f * b->scene->size, .4f * b->scene->size, .01f * b->scene->size);
+    add_fixed(b, "long wall", &shape);
+    gn_shape_finish(&shape);
+}
+
+/* Keeps casters off the lamp and off what stands in the middle. */
+static void add_site(struct build *b) {
+    const struct lamp *lamp = b->lamp;
+    b->placed[b->count++] = (struct spot){lamp->at[0], lamp->at[2], .4f};
+    if (lamp->site == ROOM) add_room(b);
+    if (lamp->site == WALLED) add_wall(b);
+    if (lamp->site != PEN) return;
+    add_pen(b);
+    b->placed[b->count++] = (struct spot){0, 0, 1.6f};
+}
+
 static void towards(float elevation, float azimuth, float distance, float out[3]) {
     float e = elevation * RADIANS, a = azimuth * RADIANS;
     out[0] = distance * cosf(e) * cosf(a);
@@ -186,6 +269,14 @@ static float cover(const float eye[3], float size) {
         widest = fmaxf(widest, acosf(along / sqrtf(length)));
     }
     return widest;
+}
+
+static void add_lamp(struct build *b) {
+    struct gn_glb_light light = {
+        .name = "light", .kind = GN_GLB_POINT, .intensity = .6f * b->scene->size * b->scene->size};
+    struct gn_glb_node node = {.name = "light", .light = gn_glb_light(b->glb, &light)};
+    for (int i = 0; i < 3; i++) node.move[i] = b->lamp->at[i] * b->unit;
+    gn_glb_node(b->glb, &node);
 }
 
 static void add_light(struct build *b) {
@@ -237,12 +328,16 @@ static bool write_note(const struct build *b, const char *path) {
         perror(path);
         return false;
     }
-    fprintf(file,
-            "%d boxes, %d walls, %d spheres, %d fences, %d tilted planes on %g m; %s%s, elevation "
-            "%g, azimuth %g\n",
+    fprintf(file, "%d boxes, %d walls, %d spheres, %d fences, %d tilted planes on %g m; ",
             b->counts[BOX], b->counts[WALL], b->counts[BALL], b->counts[FENCE], b->counts[TILT],
-            (double)s->size, s->distance > 0 ? "spot" : "directional", far, (double)s->elevation,
-            (double)s->azimuth);
+            (double)s->size);
+    if (b->lamp)
+        fprintf(file, "point %s at %g %g %g\n", sites[b->lamp->site],
+                (double)(b->lamp->at[0] * b->unit), (double)(b->lamp->at[1] * b->unit),
+                (double)(b->lamp->at[2] * b->unit));
+    else
+        fprintf(file, "%s%s, elevation %g, azimuth %g\n", s->distance > 0 ? "spot" : "directional",
+                far, (double)s->elevation, (double)s->azimuth);
     return !fclose(file);
 }
 
@@ -257,10 +352,18 @@ static bool write_scene(struct build *b, const char *folder, const char *name) {
 }
 
 static bool write_truth(const char *folder, int index) {
+    const struct lamp *lamp = index < SCENES ? NULL : &lamps[index - SCENES];
+    const struct scene around =
+        lamp ? (struct scene){lamp->size, 0, lamp->azimuth, 0} : scenes[index];
     struct build b;
-    init_build(&b, &scenes[index], (uint32_t)index + 1);
-    add_light(&b);
+    init_build(&b, &around, (uint32_t)index + 1);
+    b.lamp = lamp;
+    if (lamp)
+        add_lamp(&b);
+    else
+        add_light(&b);
     add_ground(&b);
+    if (lamp) add_site(&b);
     add_casters(&b);
     add_camera(&b);
     char name[32];
@@ -301,6 +404,6 @@ int main(int argc, char **argv) {
                        write_contact(argv[2], "contact-spot", 12)
                    ? 0
                    : 1;
-    for (int i = 0; ok && i < SCENES; i++) ok = write_truth(argv[1], i);
+    for (int i = 0; ok && i < SCENES + LAMPS; i++) ok = write_truth(argv[1], i);
     return ok ? 0 : 1;
 }

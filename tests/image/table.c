@@ -12,6 +12,11 @@
 #include "core/hash.h"
 #include "image/shot.h"
 
+const struct gn_table_range gn_table_kinds[GN_TABLE_KINDS] = {
+    [GN_TABLE_SUN_AND_SPOT] = {"directional lights and spots", 0, 23},
+    [GN_TABLE_POINT] = {"point lights", 24, 29},
+};
+
 /* --- scenes --- */
 
 static bool generate(const char *generator, bool contact, const char *folder, struct gn_err *err) {
@@ -60,6 +65,16 @@ void gn_table_add(struct gn_table *table, const char *technique, const char *for
     if (table->row_count == GN_TABLE_ROWS) return;
     table->rows[table->row_count++] =
         (struct gn_table_row){.technique = technique, .format = format, .map_px = map_px};
+}
+
+bool gn_table_keep(struct gn_table *table, enum gn_table_kind kind) {
+    bool any = false;
+    table->title = gn_table_kinds[kind].name;
+    for (int i = 0; i < GN_TABLE_SCENES; i++) {
+        table->scenes[i] &= i >= gn_table_kinds[kind].first && i <= gn_table_kinds[kind].last;
+        any |= table->scenes[i];
+    }
+    return any;
 }
 
 static bool take_shot(struct gn_picture *shot, const struct gn_table_row *row, const char *scene,
@@ -210,6 +225,7 @@ static bool is_over(const struct gn_table_row *row, enum gn_fault fault) {
 }
 
 void gn_table_print(const struct gn_table *table, FILE *to) {
+    if (table->title) fprintf(to, "%s\n", table->title);
     fprintf(to, "per cent: mean over the scenes, worst scene (its number); ! over a limit\n");
     fprintf(to, "%-6s %-9s %5s | %-23s | %-23s | %-23s | %-23s\n", "", "map", "px",
             "acne: lit but dark", "leak: dark but lit", "gap: the same, edges in",

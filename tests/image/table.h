@@ -8,9 +8,18 @@
 
 #include "image/truth.h"
 
-enum { GN_TABLE_SCENES = 24, GN_TABLE_ROWS = 64 };
+enum { GN_TABLE_SCENES = 30, GN_TABLE_ROWS = 64 };
 
-/* Folder with truth-00.glb .. truth-23.glb (or the contact scenes), made by <parent of
+/* The scenes go by kinds of light, each with a table of its own: what is asked of one kind must not
+ * hide behind another. */
+enum gn_table_kind { GN_TABLE_SUN_AND_SPOT, GN_TABLE_POINT, GN_TABLE_KINDS };
+struct gn_table_range {
+    const char *name;
+    int first, last;
+};
+extern const struct gn_table_range gn_table_kinds[GN_TABLE_KINDS];
+
+/* Folder with truth-00.glb .. truth-29.glb (or the contact scenes), made by <parent of
  * BUILD>/host/make_truth when it is not there yet; a new generator makes a new folder. NULL and a
  * message on failure; free() it. */
 char *gn_table_scenes(bool contact, struct gn_err *err);
@@ -24,6 +33,7 @@ struct gn_table_row {
 
 struct gn_table {
     const char *folder;
+    const char *title;            /* or NULL */
     bool scenes[GN_TABLE_SCENES]; /* which to measure */
     int row_count;
     struct gn_table_row rows[GN_TABLE_ROWS];
@@ -38,6 +48,9 @@ struct gn_table {
 
 void gn_table_add(struct gn_table *table, const char *technique, const char *format,
                   unsigned map_px);
+/* Leaves out the scenes of other kinds and takes this one's name as title; false if none is left.
+ */
+bool gn_table_keep(struct gn_table *table, enum gn_table_kind kind);
 /* Renders and compares everything, two scenes at a time. */
 void gn_table_run(struct gn_table *table);
 

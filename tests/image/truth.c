@@ -82,9 +82,11 @@ static void plane_axes(struct gn_truth_frame *frame) {
         u[k] = r[(k + 1) % 3] * f[(k + 2) % 3] - r[(k + 2) % 3] * f[(k + 1) % 3];
 }
 
+/* Along a spot's axis; from a point light, along the axis of the cube's face. */
 static double lamp_depth(const struct gn_ray_lamp *lamp, const double point[3]) {
     double v[3];
     for (int k = 0; k < 3; k++) v[k] = point[k] - lamp->position_ws[k];
+    if (lamp->type == GN_LIGHT_POINT) return fmax(fmax(fabs(v[0]), fabs(v[1])), fabs(v[2]));
     return dot(v, lamp->direction_ws);
 }
 
