@@ -108,7 +108,7 @@ IMPORT  := $(if $(IMPORT_C),$(B)/gnomon-import,no-import)
 OBJ      = $(patsubst %.c,$(B)/obj/%.o,$(1))
 SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb) \
            $(if $(wildcard assets/make_bench.c),assets/bench/s1.glb assets/bench/s2.glb)
-SELFTEST := $(foreach s,box ball fence lattice tilt stack,$(addprefix $(O)/selftest/$s,.glb .truth))
+SELFTEST := $(foreach s,box ball fence lattice tilt stack lamp,$(addprefix $(O)/selftest/$s,.glb .truth))
 EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES)) \
            $(SELFTEST)
 EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(suffix $f)),$f))

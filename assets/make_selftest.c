@@ -18,7 +18,7 @@
 
 #define RADIANS (M_PI / 180)
 
-enum { WIDTH = 128, HEIGHT = 96, PARTS_MAX = 4, LATTICE_PX = 60, BAND_PX = 2 };
+enum { WIDTH = 128, HEIGHT = 96, PARTS_MAX = 5, LATTICE_PX = 60, BAND_PX = 2, ALL_ROUND = 180 };
 
 struct part {
     const char *name;
@@ -31,7 +31,7 @@ struct scene {
     void (*make)(struct scene *scene);
     float light[3]; /* place of the spot, or where a directional light comes from */
     float aim[3];   /* what the light looks at */
-    float cone;     /* half angle of the spot, degrees; 0: directional */
+    float cone;     /* half angle of the spot, degrees; 0: directional; ALL_ROUND: a point */
     struct part parts[PARTS_MAX];
     int part_count;
 };
@@ -110,6 +110,21 @@ static void make_stack(struct scene *scene) {
     gn_shape_box(high, 1.5f, .1f, 1.5f);
 }
 
+/* A lamp among boxes, and a wall behind. */
+static void make_lamp(struct scene *scene) {
+    static const float at[3][3] = {{-1.3f, -.9f, 20}, {1.2f, -.7f, 50}, {-.3f, 1.3f, 5}};
+    add_ground(scene);
+    for (int i = 0; i < 3; i++) {
+        struct gn_shape *box = add(scene, "box");
+        gn_shape_at(box, at[i][0], 0, at[i][1]);
+        gn_shape_turn(box, 'y', at[i][2]);
+        gn_shape_block(box, .5f, .6f, .4f);
+    }
+    struct gn_shape *wall = add(scene, "wall");
+    gn_shape_at(wall, 0, 0, -2.2f);
+    gn_shape_block(wall, 5, 2, .1f);
+}
+
 static struct scene scenes[] = {
     {.name = "box", .make = make_box, .light = {3, 4.2f, -1.5f}},
     {.name = "ball",
@@ -121,6 +136,7 @@ static struct scene scenes[] = {
     {.name = "lattice", .make = make_lattice, .light = {-1.2f, 3.6f, -3.4f}},
     {.name = "tilt", .make = make_tilt, .light = {-1.5f, 4, -2.2f}},
     {.name = "stack", .make = make_stack, .light = {2.2f, 6, -2.4f}, .cone = 38},
+    {.name = "lamp", .make = make_lamp, .light = {.1f, 1.6f, .2f}, .cone = ALL_ROUND},
 };
 
 /* ---- the lattice: two by two holes ---- */
@@ -157,11 +173,15 @@ static int add_material(struct gn_glb *glb, const struct part *part) {
 }
 
 static void add_light(struct gn_glb *glb, const struct scene *scene) {
-    bool spot = scene->cone > 0;
+    bool spot = scene->cone > 0, point = scene->cone == ALL_ROUND;
     float outer = (float)(scene->cone * RADIANS);
     struct gn_glb_light light = {.name = "light",
-                                 .kind = spot ? GN_GLB_SPOT : GN_GLB_DIRECTIONAL,
-                                 .intensity = spot ? 90 : 3,
+                                 .kind = point  ? GN_GLB_POINT
+                                         : spot ? GN_GLB_SPOT
+                                                : GN_GLB_DIRECTIONAL,
+                                 .intensity = point  ? 9
+                                              : spot ? 90
+                                                     : 3,
                                  .inner = .9f * outer,
                                  .outer = outer};
     struct gn_glb_node node = {.name = "light", .light = gn_glb_light(glb, &light)};

@@ -66,7 +66,7 @@ says 'has only OpenGL ES 2.0'
 
 run 0 --self-test
 quiet
-says '^Self-test: 6 scenes at 128x96'
+says '^Self-test: 7 scenes at 128x96'
 says 'hard *r16f *PASS'
 says 'pcf *depth *PASS'
 never FAIL
