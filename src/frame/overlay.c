@@ -143,8 +143,9 @@ static void panel_constants(const struct gn_frame *frame, const struct gn_shadow
 
 static void panel_pass(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
-    const struct gn_rect rect = panel_rect(frame, slot);
-    if (rect.width == 0) return;
+    struct gn_rect rect = panel_rect(frame, slot);
+    rect.height = rect.height * view->height_px / view->width_px;
+    if (rect.height == 0) return;
     char label[48];
     snprintf(label, sizeof label, "panel %u %s", slot, frame->scene->lights[view->light].name);
     struct gn_program_key key = key_of(frame, GN_PROGRAM_PANEL);
