@@ -27,9 +27,20 @@ static double seen_along(const struct gn_box *box, vec3 n) {
            fabs((double)n[2]) * s[0] * s[1];
 }
 
-static bool take_named(struct gn_gltf *g) {
+static bool is_coplanar(const struct gn_pose *pose, uint32_t a, uint32_t b) {
+    float size = glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max);
+    vec4 p, q;
+    gn_pose_plane(pose, a, p);
+    gn_pose_plane(pose, b, q);
+    if (glm_vec3_dot(p, q) < 0) glm_vec4_negate(q);
+    return glm_vec3_distance(p, q) < 1e-4f && fabsf(p[3] - q[3]) < 1e-4f * size;
+}
+
+/* All that is named has to lie in the plane of the first: there is one. */
+static bool take_named(struct gn_gltf *g, const struct gn_pose *pose) {
     struct gn_scene *scene = g->scene;
     bool named = false;
+    int64_t first = -1;
     for (uint32_t i = 0; i < scene->item_count; i++) {
         struct gn_item *item = &scene->items[i];
         if (g->placed[item->node].plane != GN_YES) continue;
@@ -38,13 +49,20 @@ static bool take_named(struct gn_gltf *g) {
         if (!item->plane)
             gn_gltf_warn(g, NULL, "gnomon_plane: node '%.60s' is not flat; ignored",
                          scene->nodes[item->node].name);
+        if (!item->plane || !pose->items[i].visible) continue;
+        if (first < 0) first = i;
+        item->plane = is_coplanar(pose, (uint32_t)first, i);
+        if (!item->plane)
+            gn_gltf_warn(
+                g, NULL, "gnomon_plane: node '%.60s' lies in another plane than '%.60s'; ignored",
+                scene->nodes[item->node].name, scene->nodes[scene->items[first].node].name);
     }
     return named;
 }
 
 void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose) {
     struct gn_scene *scene = g->scene;
-    if (take_named(g)) return;
+    if (take_named(g, pose)) return;
     double best = 0;
     struct gn_item *found = NULL;
     for (uint32_t i = 0; i < scene->item_count; i++) {

@@ -283,3 +283,17 @@ void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws,
     glm_vec3_negate(direction_ws);
     position_of(world, position_ws);
 }
+
+void gn_pose_plane(const struct gn_pose *pose, uint32_t item, vec4 plane_ws) {
+    const struct gn_geometry *g = &pose->scene->geometries[pose->scene->items[item].geometry];
+    vec4 *world_from_item = pose->items[item].world_from_item;
+    mat3 cofactor;
+    vec3 p = {0, 0, 0};
+    glm_vec3_muladds((float *)g->plane, -g->plane[3], p);
+    glm_mat4_mulv3(world_from_item, p, 1, p);
+    gn_cofactor(world_from_item, cofactor);
+    glm_mat3_mulv(cofactor, (float *)g->plane, plane_ws);
+    if (pose->items[item].mirrored) glm_vec3_negate(plane_ws);
+    glm_vec3_normalize(plane_ws);
+    plane_ws[3] = -glm_vec3_dot(plane_ws, p);
+}

@@ -198,6 +198,24 @@ static void test_plane(void **state) {
         "wall");
 }
 
+static void test_planes_named_apart_are_not_one(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "nodes",
+                 "[{'mesh':0,'name':'a','extras':{'gnomon_plane':true}},"
+                 "{'mesh':0,'name':'b','translation':[3,0,0],'extras':{'gnomon_plane':true}},"
+                 "{'mesh':0,'name':'step','translation':[0,1,0],'extras':{'gnomon_plane':true}},"
+                 "{'mesh':0,'name':'ceiling','rotation':[1,0,0,0],"
+                 "'extras':{'gnomon_plane':true}}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3]}]");
+    struct gn_scene *scene = load();
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        bool step = !strcmp(scene->nodes[scene->items[i].node].name, "step");
+        assert_true(scene->items[i].plane == !step);
+    }
+    assert_warned("t: gnomon_plane: node 'step' lies in another plane than 'a'; ignored");
+    gn_scene_destroy(scene);
+}
+
 /* ---- cameras, and what is made ---- */
 
 static void test_cameras(void **state) {
@@ -275,6 +293,7 @@ int main(void) {
         cmocka_unit_test_setup(test_scene_extras, setup),
         cmocka_unit_test_setup(test_node_extras, setup),
         cmocka_unit_test_setup(test_plane, setup),
+        cmocka_unit_test_setup(test_planes_named_apart_are_not_one, setup),
         cmocka_unit_test_setup(test_cameras, setup),
         cmocka_unit_test_setup(test_made_camera_and_light, setup),
     };
