@@ -23,7 +23,7 @@ out vec3 v_shadow[SHADOW_COUNT];
 #endif
 
 #define PLACE_SHADOW(slot, type) \
-    v_shadow[slot] = type == LIGHT_DIRECTIONAL \
+    v_shadow[slot] = SHADOW_LINEAR[slot] \
         ? shadow_point_directional(slot, p, n, u_pass[PASS_LIGHTS + slot * LIGHT_SIZE + LIGHT_PLACE].xyz) : vec3(0.0);
 
 void main() {

@@ -47,14 +47,14 @@ vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 
 #include "lib/shadow_tile.glsl"
 
 // p, n, l: the surface, its normal and the direction to the light, world space; face: normal of the triangle itself; from_vertex:
-// what the vertex shader found for a directional light. radial: the map of this lamp holds distances, not depths.
+// what the vertex shader found where SHADOW_LINEAR. radial: the map of this lamp holds distances, not depths.
 shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
     shadow_place s;
     s.size = SHADOW(slot, SHADOW_MAP_SIZE);
     s.far = SHADOW(slot, SHADOW_CODE).y;
     s.soft = SHADOW(slot, SHADOW_SOFT);
     s.inverse = type != LIGHT_DIRECTIONAL && radial;
-    if (type == LIGHT_DIRECTIONAL) {
+    if (SHADOW_LINEAR[slot]) {
         s.at = from_vertex;
         s.slope = shadow_slope_directional(slot, face, l);
     } else if (type == LIGHT_POINT) {

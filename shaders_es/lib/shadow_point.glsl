@@ -21,7 +21,8 @@ vec3 shadow_push(const int slot, vec3 n, vec3 l, float n_a, float texel) {
     return n * (side * bias.x * s * texel) + l * (bias.y * slope * texel + bias.w);
 }
 
-// Directional: linear in p, so it may be made per vertex. uv and code.
+// Directional: linear in p, so it may be made per vertex. uv and code. On a plane with any light: then nothing is pushed, and l
+// may be anything.
 vec3 shadow_point_directional(const int slot, vec3 p, vec3 n, vec3 l) {
     return (shadow_matrix(slot) * vec4(p + shadow_push(slot, n, l, dot(n, l), 1.0), 1.0)).xyz;
 }

@@ -12,7 +12,7 @@ in vec2 v_uv_base, v_uv_roughness, v_uv_emissive, v_uv_occlusion;
 flat in vec4 v_surface;  // roughness, metalness, occlusion strength, alpha cutoff
 flat in vec4 v_emissive; // radiance; w: 1 = casts
 #ifdef WITH_SHADOWS
-in vec3 v_shadow[SHADOW_COUNT]; // directional lights with a map: uv and code
+in vec3 v_shadow[SHADOW_COUNT]; // where SHADOW_LINEAR: uv and code
 #endif
 
 #ifdef WITH_BASE_TEXTURE

@@ -27,6 +27,7 @@ static const char *check_key(const struct gn_program_key *key) {
     REQUIRE(key->shadow_count <= key->light_count);
     REQUIRE(key->encoding < GN_ENCODING_COUNT);
     REQUIRE(key->taps == 0 || key->taps == 8 || key->taps == 16 || key->taps == 32);
+    REQUIRE(key->receiver <= GN_RECEIVES_ALL);
     REQUIRE(key->features < 1u << GN_FEATURE_BITS);
     for (int i = 0; i < key->light_count; i++) {
         REQUIRE((key->lights[i].technique != GN_TECHNIQUE_NONE) == (i < key->shadow_count));

@@ -267,7 +267,8 @@ static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint
         (struct gn_target){GN_TARGET_SHADOW, slot, view->width_px, view->height_px, view->encoding};
     pass->clear = true;
     pass->clear_color[0] = view->far_code;
-    pass->discard_depth = view->encoding != GN_ENCODING_DEPTH;
+    pass->depth_write = view->encoding != GN_ENCODING_MASK;
+    pass->discard_depth = pass->depth_write && view->encoding != GN_ENCODING_DEPTH;
     pass->border_px = 1;
     if (view->tile_count > 1) {
         pass->border_px = 0;

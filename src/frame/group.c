@@ -16,12 +16,19 @@ static int rank_of(const struct gn_frame *frame, const struct gn_frame_light *li
     return (l->type == GN_LIGHT_SPOT) + (l->type != GN_LIGHT_DIRECTIONAL && l->range_m > 0.0f);
 }
 
+/* 1: for the plane alone. Last of those with maps, so that other items can leave it out. */
+static int is_for_plane(const struct gn_frame *frame, const struct gn_frame_light *light) {
+    (void)frame;
+    return gn_techniques[light->technique].on_plane;
+}
+
 /* Insertion: stable, and they are few. */
-static void sort_by_rank(struct gn_frame *frame, uint32_t first, uint32_t end) {
+static void sort_by(struct gn_frame *frame, uint32_t first, uint32_t end,
+                    int (*rank)(const struct gn_frame *, const struct gn_frame_light *)) {
     for (uint32_t i = first + 1; i < end; i++) {
         struct gn_frame_light light = frame->lights[i];
         uint32_t at = i;
-        for (; at > first && rank_of(frame, &frame->lights[at - 1]) > rank_of(frame, &light); at--)
+        for (; at > first && rank(frame, &frame->lights[at - 1]) > rank(frame, &light); at--)
             frame->lights[at] = frame->lights[at - 1];
         frame->lights[at] = light;
     }
@@ -50,13 +57,17 @@ void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose) {
     memset(frame->groups, 0, sizeof frame->groups);
     frame->group_count = 0;
     if (!fits_one(frame)) {
-        sort_by_rank(frame, 0, frame->shadow_count);
-        sort_by_rank(frame, frame->shadow_count, frame->light_count);
+        sort_by(frame, 0, frame->shadow_count, rank_of);
+        sort_by(frame, frame->shadow_count, frame->light_count, rank_of);
     }
     if (frame->light_count > 0)
         deal(frame);
     else
         frame->group_count = 1;
+    for (uint32_t g = 0; g < frame->group_count; g++) {
+        const uint32_t first = frame->groups[g].first;
+        sort_by(frame, first, first + frame->groups[g].shadow_count, is_for_plane);
+    }
     for (uint32_t i = 0; i < frame->light_count; i++)
         frame->scene_lights[i] = frame->lights[i].light;
     for (uint32_t g = 1; g < frame->group_count; g++)

@@ -57,12 +57,34 @@ static uint32_t color_features(const struct gn_frame *frame, const struct gn_ite
     return features | texture_features(scene, item, slots);
 }
 
+static bool has_planar_lights(const struct gn_frame *frame) {
+    for (uint32_t i = 0; i < frame->light_count; i++)
+        if (gn_techniques[frame->lights[i].technique].on_plane) return true;
+    return false;
+}
+
+static enum gn_receiver receiver_of(const struct gn_frame *frame, const struct gn_item *item,
+                                    enum gn_aov aov) {
+    if (!item->receives && aov != GN_AOV_VISIBILITY) return GN_RECEIVES_NOTHING;
+    return item->plane && has_planar_lights(frame) ? GN_RECEIVES_ALL : GN_RECEIVES_MAPS;
+}
+
+/* How many of the lights with maps are asked about their shadows: those for the plane come last. */
+static uint32_t shadows_on(const struct gn_frame *frame, const struct gn_light_group *group,
+                           enum gn_receiver receiver) {
+    uint32_t count = receiver == GN_RECEIVES_NOTHING ? 0 : group->shadow_count;
+    while (receiver == GN_RECEIVES_MAPS && count > 0 &&
+           gn_techniques[frame->lights[group->first + count - 1].technique].on_plane)
+        count--;
+    return count;
+}
+
 /* The lights of a group, and what their techniques take. */
 static void set_lights(const struct gn_frame *frame, const struct gn_light_group *group,
-                       const struct gn_frame_opts *opts, bool receives,
+                       const struct gn_frame_opts *opts, enum gn_receiver receiver,
                        struct gn_program_key *key) {
     key->light_count = (uint8_t)group->count;
-    key->shadow_count = receives ? (uint8_t)group->shadow_count : 0;
+    key->shadow_count = (uint8_t)shadows_on(frame, group, receiver);
     for (uint32_t i = 0; i < group->count; i++) {
         const struct gn_frame_light *light = &frame->lights[group->first + i];
         key->lights[i].type = (uint8_t)frame->scene->lights[light->light].type;
@@ -88,8 +110,9 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
                                              : alpha_features(frame->scene, item);
     if (opts->aov != GN_AOV_COLOR && m->double_sided) key.features |= GN_FEATURE_DOUBLE_SIDED;
     if (opts->aov == GN_AOV_COLOR ? m->unlit : opts->aov != GN_AOV_VISIBILITY) return key;
-    bool receives = item->receives || opts->aov == GN_AOV_VISIBILITY;
-    set_lights(frame, &frame->groups[0], opts, receives, &key);
+    enum gn_receiver receiver = receiver_of(frame, item, opts->aov);
+    set_lights(frame, &frame->groups[0], opts, receiver, &key);
+    if (frame->group_count > 1) key.receiver = (uint8_t)receiver;
     return key;
 }
 
@@ -104,7 +127,7 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
     memset(&key, 0, sizeof key);
     key.kind = lit->kind;
     key.features = (lit->features & ~once) | GN_FEATURE_ADDITIVE;
-    set_lights(frame, group, opts, lit->shadow_count > 0, &key);
+    set_lights(frame, group, opts, (enum gn_receiver)lit->receiver, &key);
     return key;
 }
 
@@ -116,6 +139,7 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
     key.features = alpha_features(frame->scene, &frame->scene->items[item]);
     if (key.kind == GN_PROGRAM_DEPTH) return key;
     key.encoding = (uint8_t)view->encoding;
-    if (view->perspective) key.features |= GN_FEATURE_PERSPECTIVE;
+    if (view->perspective && view->encoding != GN_ENCODING_MASK)
+        key.features |= GN_FEATURE_PERSPECTIVE;
     return key;
 }

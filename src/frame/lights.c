@@ -3,6 +3,7 @@
 
 #include "blocks.glsl"
 #include "frame/private.h"
+#include "shadow/planar.h"
 
 _Static_assert(GN_PASS_SIZE == PASS_SIZE, "room for the constants of a pass");
 _Static_assert(PASS_LIGHTS + GN_LIGHTS_MAX * LIGHT_SIZE <= PASS_CONES, "lights");
@@ -60,6 +61,13 @@ static struct gn_frame_light describe(const struct gn_frame *frame, const struct
     struct gn_frame_light l = {.light = index, .technique = technique_of(light, opts, warnings)};
     l.strength = opts->strength_given ? opts->strength : light->shadow_strength;
     l.illuminance = illuminance(pose, index);
+    if (gn_techniques[l.technique].on_plane && !gn_planar_has_plane(frame->scene)) {
+        gn_warn(warnings,
+                "light '%s' casts no shadow: %s needs a plane, and nothing in the scene is one; "
+                "gnomon_plane would name it",
+                light->name, gn_techniques[l.technique].name);
+        l.technique = GN_TECHNIQUE_NONE;
+    }
     if (l.technique == GN_TECHNIQUE_NONE) return l;
     bool fell_back;
     l.encoding = gn_encoding_choose(l.technique, opts->encoding, gn_caps_encodings(&frame->caps),
@@ -171,10 +179,10 @@ static void make_empty(struct gn_shadow_view *view) {
 
 /* The side of a light's map, or of its tiles, such that all of it is a texture. */
 static uint32_t map_px_of(const struct gn_frame *frame, const struct gn_light *light,
-                          const struct gn_frame_opts *opts) {
+                          enum gn_technique technique, const struct gn_frame_opts *opts) {
     uint32_t map_px = opts->map_px ? opts->map_px : light->map_px ? light->map_px : 1024;
     uint32_t one_px[2], most_px = (uint32_t)frame->caps.max_texture_px;
-    gn_shadow_map_size(light->type, 1, one_px);
+    gn_shadow_map_size(light->type, technique, 1, one_px);
     return map_px * one_px[0] > most_px ? most_px / one_px[0] : map_px;
 }
 
@@ -189,8 +197,9 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         const struct gn_frame_light *light = gn_frame_light_of_slot(frame, i);
         const struct gn_light *l = &frame->scene->lights[light->light];
         struct gn_shadow_opts shadow = {light->technique, light->encoding,
-                                        map_px_of(frame, l, opts)};
-        make_memories(frame->memory[i], gn_shadow_tile_count(l->type), frame->scene->item_count);
+                                        map_px_of(frame, l, light->technique, opts)};
+        make_memories(frame->memory[i], gn_shadow_tile_count(l->type, light->technique),
+                      frame->scene->item_count);
         if (!gn_shadow_fit(pose, light->light, &frame->eye, &shadow, frame->memory[i],
                            &frame->shadows[i]))
             make_empty(&frame->shadows[i]);

@@ -67,13 +67,18 @@ struct gn_light_key {  /* one light of a LIT or visibility program */
     uint8_t encoding;  /* gn_encoding, 0 when technique is NONE */
     uint8_t slide;     /* gn_slide */
 };
+enum gn_receiver { /* whose shadows an item receives */
+                   GN_RECEIVES_MAPS,
+                   GN_RECEIVES_NOTHING,
+                   GN_RECEIVES_ALL, /* of what is for the plane, too */
+};
 struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps come first. */
     uint32_t features;
     uint8_t kind, aov, light_count, shadow_count;
     uint8_t encoding;  /* DISTANCE: what it writes; PANEL: what it shows */
     uint8_t taps;      /* LIT, visibility: of techniques that take them; 0: none does */
     uint8_t taps_turn; /* they are turned from pixel to pixel */
-    uint8_t pad;
+    uint8_t receiver;  /* gn_receiver, of LIT to which more light is added */
     struct gn_light_key lights[GN_LIGHTS_MAX];
 };
 

@@ -6,6 +6,7 @@ static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {"depth", "distance", "l
                                                          "mark",  "panel",    "encode"};
 static const char *const outputs[] = {"srgb8", "linear8", "float", "bits"};
 static const char *const aovs[GN_AOV_COUNT] = {"color", "visibility", "distance", "normal"};
+static const char *const receivers[] = {"", ", receives nothing", ", receives all"};
 static const char *const light_types[] = {"directional", "point", "spot"};
 static const char *const slides[GN_SLIDE_COUNT] = {"", "+slide", "+film"};
 static const char *const culls[] = {"none", "back", "front"};
@@ -33,7 +34,7 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
                     gn_encodings[light->encoding].name);
         fprintf(to, "%s", slides[light->slide]);
     }
-    fprintf(to, "\n");
+    fprintf(to, "%s\n", receivers[key->receiver]);
 }
 
 static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
@@ -46,6 +47,8 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
         fprintf(to, " x %u, gutters %u px", view->tile_count, view->gutter_px);
     if (view->empty)
         fprintf(to, ", empty: it darkens nothing in view\n");
+    else if (view->encoding == GN_ENCODING_MASK)
+        fprintf(to, ", texel %.4g m\n", (double)view->texel);
     else
         fprintf(to, ", texel %.4g %s, near %.4g m, far %.4g m\n", (double)view->texel,
                 view->perspective ? "m per metre" : "m", (double)view->near_m, (double)view->far_m);

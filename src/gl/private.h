@@ -202,13 +202,19 @@ struct gn_gl_map {
 enum {
     GN_GL_MAPS_MAX = 2 * GN_ALL_SHADOWS_MAX
 }; /* kept: plans that take turns find their maps again */
+enum gn_gl_map_sampler {
+    GN_GL_MAP_NEAREST,
+    GN_GL_MAP_LINEAR,
+    GN_GL_MAP_COMPARE,
+    GN_GL_MAP_COMPARE_LINEAR,
+    GN_GL_MAP_SAMPLER_COUNT,
+};
 struct gn_gl_targets {
     struct gn_gl_output output;
     struct gn_gl_map maps[GN_GL_MAPS_MAX];
-    GLuint map_samplers[3]; /* enum gn_gl_map_sampler */
+    GLuint map_samplers[GN_GL_MAP_SAMPLER_COUNT];
     uint64_t prepares;
 };
-enum gn_gl_map_sampler { GN_GL_MAP_NEAREST, GN_GL_MAP_COMPARE, GN_GL_MAP_COMPARE_LINEAR };
 bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
 /* Where the finished picture is to be read, and what of. */
 GLuint gn_gl_output_finished(const struct gn_gl_output *output);

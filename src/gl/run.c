@@ -33,6 +33,7 @@ static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     case GN_ENCODING_RGBA8: GL(gl, ClearBufferfv)(GL_COLOR, 0, ones); break;
     case GN_ENCODING_R16F:
     case GN_ENCODING_R16F_RAW: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); break;
+    case GN_ENCODING_MASK: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); return; /* no depth */
     default: break;
     }
     GL(gl, ClearBufferfv)(GL_DEPTH, 0, ones);
@@ -100,6 +101,7 @@ static void resolve(struct gn_gl *gl) {
 
 static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
     const GLuint *samplers = gl->targets.map_samplers;
+    if (view->encoding == GN_ENCODING_MASK) return samplers[GN_GL_MAP_LINEAR];
     if (view->encoding != GN_ENCODING_DEPTH || gn_techniques[view->technique].searches)
         return samplers[GN_GL_MAP_NEAREST];
     return samplers[gn_techniques[view->technique].filters ? GN_GL_MAP_COMPARE_LINEAR

@@ -161,6 +161,7 @@ static const GLenum map_formats[GN_ENCODING_COUNT] = {
     [GN_ENCODING_R16F] = GL_R16F,
     [GN_ENCODING_R16F_RAW] = GL_R16F,
     [GN_ENCODING_RGBA8] = GL_RGBA8,
+    [GN_ENCODING_MASK] = GL_R8,
 };
 
 static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {
@@ -181,6 +182,7 @@ static void attach_map(struct gn_gl *gl, struct gn_gl_map *map) {
         GL(gl, ReadBuffer)(GL_NONE);
         return;
     }
+    if (map->encoding == GN_ENCODING_MASK) return; /* the order of casters is all the same to it */
     map->depth = make_renderbuffer(gl, GL_DEPTH_COMPONENT24, 0, map->width_px, map->height_px);
     attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, map->depth);
 }
@@ -270,25 +272,27 @@ uint64_t gn_gl_targets_bytes(const struct gn_gl *gl) {
 }
 
 static GLuint make_map_sampler(struct gn_gl *gl, enum gn_gl_map_sampler kind) {
-    const GLint filter = kind == GN_GL_MAP_COMPARE_LINEAR ? GL_LINEAR : GL_NEAREST;
+    const bool linear = kind == GN_GL_MAP_COMPARE_LINEAR || kind == GN_GL_MAP_LINEAR;
+    const GLint filter = linear ? GL_LINEAR : GL_NEAREST;
     GLuint s = gn_gl_object_create(gl, GN_GL_SAMPLER);
     GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     GL(gl, SamplerParameteri)(s, GL_TEXTURE_MIN_FILTER, filter);
     GL(gl, SamplerParameteri)(s, GL_TEXTURE_MAG_FILTER, filter);
-    if (kind == GN_GL_MAP_NEAREST) return s;
+    if (kind < GN_GL_MAP_COMPARE) return s;
     GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     return s;
 }
 
 void gn_gl_targets_init(struct gn_gl *gl) {
-    for (int i = 0; i < 3; i++) gl->targets.map_samplers[i] = make_map_sampler(gl, i);
+    for (int i = 0; i < GN_GL_MAP_SAMPLER_COUNT; i++)
+        gl->targets.map_samplers[i] = make_map_sampler(gl, i);
 }
 
 void gn_gl_targets_finish(struct gn_gl *gl) {
     output_finish(gl);
     for (int i = 0; i < GN_GL_MAPS_MAX; i++) map_finish(gl, &gl->targets.maps[i]);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < GN_GL_MAP_SAMPLER_COUNT; i++)
         gn_gl_object_destroy(gl, GN_GL_SAMPLER, &gl->targets.map_samplers[i]);
 }

@@ -75,3 +75,7 @@ void gn_box_planes(vec3 corners[8], vec4 planes[6]) {
         if (inside < 0.0f) glm_vec4_negate(planes[i]);
     }
 }
+
+float gn_scene_size_m(const struct gn_pose *pose) {
+    return fmaxf(glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max), 1e-6f);
+}

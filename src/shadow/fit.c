@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/hash.h"
+#include "shadow/planar.h"
 #include "shadow/private.h"
 #include "shadow/region.h"
 
@@ -38,21 +39,10 @@ static bool is_large_flat(const struct gn_fitter *f, uint32_t item) {
 /* The flat item's plane in world space, its light's side positive. False when it is seen edge-on by
  * the light. */
 static bool lit_plane(const struct gn_fitter *f, uint32_t item, vec4 plane) {
-    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
-    vec4 *world_from_item = (vec4 *)f->pose->items[item].world_from_item;
-    vec3 on_plane, n, p = {0.0f, 0.0f, 0.0f};
-    glm_vec3_muladds((float *)g->plane, -g->plane[3], p);
-    glm_mat4_mulv3(world_from_item, p, 1.0f, on_plane);
-    mat4 inverse;
-    glm_mat4_inv_precise(world_from_item, inverse);
-    for (int k = 0; k < 3; k++)
-        n[k] =
-            inverse[k][0] * g->plane[0] + inverse[k][1] * g->plane[1] + inverse[k][2] * g->plane[2];
-    glm_vec3_normalize(n);
-    glm_vec3_copy(n, plane);
-    plane[3] = -glm_vec3_dot(n, on_plane);
-    float towards = f->view->perspective ? glm_vec3_dot(n, f->view->light_ws) + plane[3]
-                                         : glm_vec3_dot(n, f->view->to_light_ws) * f->scene_size_m;
+    gn_pose_plane(f->pose, item, plane);
+    float towards = f->view->perspective
+                        ? glm_vec3_dot(plane, f->view->light_ws) + plane[3]
+                        : glm_vec3_dot(plane, f->view->to_light_ws) * f->scene_size_m;
     if (towards < 0.0f) glm_vec4_negate(plane);
     return fabsf(towards) > 1e-4f * f->scene_size_m;
 }
@@ -163,16 +153,14 @@ static float ceil_to_step(float size) {
     return exp2f(ceilf(log2f(size) * STEPS_PER_OCTAVE) / STEPS_PER_OCTAVE);
 }
 
-/* Snaps the window to whole texels of a size from a geometric series; returns its low corner. */
-static void snap_window(const struct gn_fitter *f, const struct gn_shadow_region *window,
-                        double low[2]) {
-    struct gn_shadow_view *view = f->view;
+void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float max[2],
+                    float least, double low[2]) {
     uint32_t margin = gn_techniques[view->technique].radius_texels + RIM_TEXELS;
     uint32_t usable = view->map_px > 2 * margin + 2 ? view->map_px - 2 * margin : 2;
-    float span = fmaxf(window->max[0] - window->min[0], window->max[1] - window->min[1]);
-    view->texel = ceil_to_step(fmaxf(span, 1e-6f * f->scene_size_m) / (float)(usable - 1));
+    float span = fmaxf(max[0] - min[0], max[1] - min[1]);
+    view->texel = ceil_to_step(fmaxf(span, least) / (float)(usable - 1));
     for (int k = 0; k < 2; k++)
-        low[k] = (floor((double)window->min[k] / view->texel) - margin) * view->texel;
+        low[k] = (floor((double)min[k] / view->texel) - margin) * view->texel;
 }
 
 static float half_float_step(float value) {
@@ -212,6 +200,7 @@ static void set_code(struct gn_shadow_view *view, float near_depth, float far_de
                                          : range * exp2f(-22.0f);
         return;
     case GN_ENCODING_R32UI:
+    case GN_ENCODING_MASK:
     case GN_ENCODING_COUNT: return;
     }
 }
@@ -279,8 +268,8 @@ static void set_bias(struct gn_shadow_view *view) {
     view->slope_max = 4.0f;
 }
 
-static uint64_t hash_content(const struct gn_pose *pose, const struct gn_shadow_view *view,
-                             const struct gn_shadow_tile *tile, const uint8_t *casts) {
+uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view *view,
+                        const struct gn_shadow_tile *tile, const uint8_t *casts) {
     float code[] = {view->distance_scale, view->distance_offset, view->far_code,
                     (float)view->map_px, (float)view->encoding};
     uint64_t h = gn_hash(GN_HASH_INIT, code, sizeof code);
@@ -301,7 +290,7 @@ static bool fit_window(struct gn_fitter *f, float radius) {
     if (!find_window(f, &window, &depths)) return false;
     float near_depth, far_depth;
     double low[2];
-    snap_window(f, &window, low);
+    gn_shadow_snap(f->view, window.min, window.max, 1e-6f * f->scene_size_m, low);
     set_depths(f->view, &depths, &near_depth, &far_depth);
     set_code(f->view, near_depth, far_depth);
     set_clip(f->view, low, near_depth, far_depth);
@@ -379,28 +368,32 @@ static bool fit_tiles(struct gn_fitter *f, float radius) {
 
 /* ---- either ---- */
 
-uint32_t gn_shadow_tile_count(enum gn_light_type type) {
-    return type == GN_LIGHT_POINT ? GN_SHADOW_TILES_MAX : 1;
+uint32_t gn_shadow_tile_count(enum gn_light_type type, enum gn_technique technique) {
+    return type == GN_LIGHT_POINT && !gn_techniques[technique].on_plane ? GN_SHADOW_TILES_MAX : 1;
 }
 
-void gn_shadow_map_size(enum gn_light_type type, uint32_t map_px, uint32_t size_px[2]) {
-    size_px[0] = type == GN_LIGHT_POINT ? 3 * map_px : map_px;
-    size_px[1] = type == GN_LIGHT_POINT ? 2 * map_px : map_px;
+void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, uint32_t map_px,
+                        uint32_t size_px[2]) {
+    const bool atlas = gn_shadow_tile_count(type, technique) > 1;
+    size_px[0] = atlas ? 3 * map_px : map_px;
+    size_px[1] = atlas ? 2 * map_px : map_px;
 }
 
 bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                    const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
                    struct gn_shadow_view *view) {
+    if (gn_techniques[opts->technique].on_plane)
+        return gn_planar_fit(pose, light, eye, opts, memory, view);
     const struct gn_light *l = &pose->scene->lights[light];
     uint32_t size_px[2];
-    gn_shadow_map_size(l->type, opts->map_px, size_px);
+    gn_shadow_map_size(l->type, opts->technique, opts->map_px, size_px);
     *view = (struct gn_shadow_view){.light = light,
                                     .technique = opts->technique,
                                     .encoding = opts->encoding,
                                     .map_px = opts->map_px,
                                     .width_px = size_px[0],
                                     .height_px = size_px[1],
-                                    .tile_count = gn_shadow_tile_count(l->type)};
+                                    .tile_count = gn_shadow_tile_count(l->type, opts->technique)};
     if (opts->technique == GN_TECHNIQUE_NONE) return false;
     struct gn_fitter f = {.pose = pose,
                           .eye = eye,
@@ -408,13 +401,12 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                           .view = view,
                           .tile = view->tiles,
                           .light_radius = l->radius};
-    f.scene_size_m =
-        fmaxf(glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max), 1e-6f);
+    f.scene_size_m = gn_scene_size_m(pose);
     place_light(&f, l);
     if (!(view->tile_count > 1 ? fit_tiles(&f, l->radius) : fit_window(&f, l->radius)))
         return false;
     set_bias(view);
     for (uint32_t i = 0; i < view->tile_count; i++)
-        view->tiles[i].content_hash = hash_content(pose, view, &view->tiles[i], memory[i].casts);
+        view->tiles[i].content_hash = gn_shadow_hash(pose, view, &view->tiles[i], memory[i].casts);
     return true;
 }

@@ -97,8 +97,9 @@ void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count)
 void gn_shadow_memory_finish(struct gn_shadow_memory *memory);
 
 /* How many tiles a light's map has, and the size of the map for a tile of so many pixels. */
-uint32_t gn_shadow_tile_count(enum gn_light_type type);
-void gn_shadow_map_size(enum gn_light_type type, uint32_t map_px, uint32_t size_px[2]);
+uint32_t gn_shadow_tile_count(enum gn_light_type type, enum gn_technique technique);
+void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, uint32_t map_px,
+                        uint32_t size_px[2]);
 
 /* Fits the light's view and fills memory->casts, for each tile (as many memories). False: nothing
  * that is seen can be in this light's shadow; no map is needed, but its size is right. Allocates

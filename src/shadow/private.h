@@ -1,5 +1,5 @@
-/* Inside the shadow room: shapes for fitting - boxes, convex polygons and the eye's frustum - and
- * what items cover of what a light can show. */
+/* Inside the shadow room: shapes for fitting - boxes, convex polygons and the eye's frustum - what
+ * items cover of what a light can show, and what fits of all kinds share. */
 #ifndef GN_SHADOW_PRIVATE_H
 #define GN_SHADOW_PRIVATE_H
 
@@ -20,6 +20,18 @@ void gn_box_face(vec3 corners[8], int face, struct gn_polygon *out);
 /* The six inward planes of the convex body of eight such corners. A flat body gives planes that cut
  * nothing. */
 void gn_box_planes(vec3 corners[8], vec4 planes[6]);
+/* The diagonal of all that is visible; never 0. */
+float gn_scene_size_m(const struct gn_pose *pose);
+
+/* ---- fit.c ---- */
+
+/* Lays the map round a window in plane coordinates, on whole texels of a size from a geometric
+ * series: sets view->texel and the map's low corner. least: of the window's side. */
+void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float max[2],
+                    float least, double low[2]);
+/* Of all that decides the map's content; never 0. */
+uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view *view,
+                        const struct gn_shadow_tile *tile, const uint8_t *casts);
 
 /* ---- measure.c ---- */
 

@@ -68,6 +68,12 @@ const struct gn_technique_row gn_techniques[GN_TECHNIQUE_COUNT] = {
                            .bias_texels = 0.7f,
                            .what = "finds the blockers, then filters as wide as their penumbra is",
                            .source = "Fernando 2005"},
+    [GN_TECHNIQUE_PLANAR] = {.name = "planar",
+                             .file = "shadow/planar.glsl",
+                             .on_plane = true,
+                             .radius_texels = 2,
+                             .what = "casters flattened on the scene's plane, nowhere else",
+                             .source = "Blinn 1988"},
 };
 
 const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
@@ -76,6 +82,7 @@ const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
     [GN_ENCODING_R16F] = {"r16f", "lib/map_r16f.glsl", 6},
     [GN_ENCODING_R16F_RAW] = {"r16f-raw", "lib/map_r16f.glsl", 6},
     [GN_ENCODING_RGBA8] = {"rgba8", "lib/map_rgba8.glsl", 8},
+    [GN_ENCODING_MASK] = {"mask", "lib/map_mask.glsl", 1},
 };
 
 bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err) {
@@ -98,6 +105,7 @@ bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *er
     }
     char names[160] = "auto";
     for (int i = 0; i < GN_ENCODING_COUNT; i++) {
+        if (i == GN_ENCODING_MASK) continue;
         if (strcmp(name, gn_encodings[i].name) == 0) {
             *out = (enum gn_encoding)i;
             return true;
@@ -115,6 +123,7 @@ enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encodin
     static const enum gn_encoding by_depth[] = {GN_ENCODING_DEPTH, GN_ENCODING_R32UI,
                                                 GN_ENCODING_R16F};
     *fell_back = false;
+    if (gn_techniques[technique].on_plane) return GN_ENCODING_MASK;
     if (wanted != GN_ENCODING_AUTO && proved & 1u << wanted) return wanted;
     *fell_back = wanted != GN_ENCODING_AUTO;
     const enum gn_encoding *order =

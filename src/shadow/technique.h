@@ -19,6 +19,7 @@ enum gn_technique {
     GN_TECHNIQUE_DISK,
     GN_TECHNIQUE_POISSON,
     GN_TECHNIQUE_PCSS,
+    GN_TECHNIQUE_PLANAR,
     GN_TECHNIQUE_COUNT,
 };
 
@@ -29,6 +30,8 @@ enum gn_encoding {
     GN_ENCODING_R16F,  /* (d - c) / h over near..far, half float, with its own depth attachment */
     GN_ENCODING_R16F_RAW, /* metres, half float, as in the notes */
     GN_ENCODING_RGBA8,    /* (d - near) / (far - near) in four bytes */
+    GN_ENCODING_MASK,     /* of a plane: how much light arrives, 0..1. Only for techniques that are
+                             on_plane, which have no other; nobody can ask for it */
     GN_ENCODING_COUNT,
     GN_ENCODING_AUTO = GN_ENCODING_COUNT,
 };
@@ -39,6 +42,7 @@ struct gn_technique_row {
     bool filters;     /* compares four texels and weighs them: wants a LINEAR compare sampler */
     bool searches; /* asks how far a blocker is: a depth map behind a sampler that compares not */
     bool reads_distance; /* `auto` gives it a distance map; else a depth map */
+    bool on_plane;       /* what the scene's plane receives, and nothing else: planar.h */
     bool soft; /* its penumbrae are as wide as the light is large: the map reaches as far */
     enum gn_taps taps;
     unsigned radius_texels; /* how far from the point it reads, rounded up: margin of the map */

@@ -19,7 +19,10 @@ static struct gn_program_key lit(uint32_t features, enum gn_light_type type, con
     enum gn_technique t = GN_TECHNIQUE_NONE;
     enum gn_encoding e = GN_ENCODING_DEPTH;
     gn_technique_find(technique, &t, NULL);
-    gn_encoding_find(encoding, &e, NULL);
+    if (gn_techniques[t].on_plane)
+        e = GN_ENCODING_MASK;
+    else
+        gn_encoding_find(encoding, &e, NULL);
     key.shadow_count = t != GN_TECHNIQUE_NONE;
     key.lights[0].technique = (uint8_t)t;
     key.lights[0].encoding = (uint8_t)e;
@@ -43,14 +46,16 @@ static struct gn_program_key caster(enum gn_program_kind kind, uint32_t features
 }
 
 static const char *target_of(const struct gn_program_key *key) {
-    static const char *const maps[GN_ENCODING_COUNT] = {"none", "R32UI", "R16F", "R16F", "RGBA8"};
+    static const char *const maps[GN_ENCODING_COUNT] = {"none", "R32UI", "R16F",
+                                                        "R16F", "RGBA8", "R8"};
     if (key->kind == GN_PROGRAM_DEPTH) return "none";
     return key->kind == GN_PROGRAM_DISTANCE ? maps[key->encoding] : "SRGB8A8";
 }
 
 static bool write(const char *folder, const char *name, const struct gn_program_key *key,
                   struct gn_err *err) {
-    static const char *const formats[GN_ENCODING_COUNT] = {"D24", "R32UI", "R16F", "R16F", "RGBA8"};
+    static const char *const formats[GN_ENCODING_COUNT] = {"D24",  "R32UI", "R16F",
+                                                           "R16F", "RGBA8", "R8"};
     static const char *const endings[] = {"vert", "frag"};
     for (int stage = GN_GL_VERTEX; stage <= GN_GL_FRAGMENT; stage++) {
         struct gn_gl_text text = {0};
@@ -128,10 +133,13 @@ int main(int argc, char **argv) {
         {"none-spot", lit(FULL, GN_LIGHT_SPOT, "none", "depth")},
         {"none-spot-slide", with_slide(lit(FULL, GN_LIGHT_SPOT, "none", "depth"), GN_SLIDE_DARK)},
         {"hard-spot", lit(FULL, GN_LIGHT_SPOT, "hard", "r16f")},
+        {"planar", lit(FULL, GN_LIGHT_DIRECTIONAL, "planar", "auto")},
+        {"planar-point", lit(FULL, GN_LIGHT_POINT, "planar", "auto")},
         {"map-depth", caster(GN_PROGRAM_DEPTH, 0, GN_ENCODING_DEPTH)},
         {"map-r16f", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_R16F)},
         {"map-r16f-spot", caster(GN_PROGRAM_DISTANCE, GN_FEATURE_PERSPECTIVE, GN_ENCODING_R16F)},
         {"map-rgba8", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_RGBA8)},
+        {"map-mask", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_MASK)},
     };
     struct gn_err err = {0};
     if (argc != 2) {

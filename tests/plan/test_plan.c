@@ -82,6 +82,52 @@ static void test_hard_plan(void **state) {
     end(&f);
 }
 
+static void test_planar_plan(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    f.opts.technique_given = true;
+    f.opts.technique = GN_TECHNIQUE_PLANAR;
+    expect_golden(build(&f), "planar");
+    end(&f);
+}
+
+/* Beside others: what is not on the plane does not ask about it. */
+static void test_planar_light_among_others(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    f.scene->lights[0].technique = "planar"; /* the sun */
+    const struct gn_plan *plan = build(&f);
+    assert_int_equal(plan->shadow_count, 2);
+    assert_int_equal(plan->shadows[0].encoding, GN_ENCODING_DEPTH); /* the spot goes first */
+    assert_int_equal(plan->shadows[1].encoding, GN_ENCODING_MASK);
+    int on_plane = 0;
+    for (uint32_t i = 0; i < plan->program_count; i++) {
+        const struct gn_program_key *key = &plan->programs[i];
+        if (key->kind != GN_PROGRAM_LIT || key->features & GN_FEATURE_UNLIT) continue;
+        assert_int_equal(key->light_count, 3);
+        on_plane += key->shadow_count == 2;
+    }
+    assert_int_equal(on_plane, 1);
+    end(&f);
+}
+
+static void test_planar_needs_a_plane(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_warnings warnings = {0};
+    begin(&f, everything);
+    for (uint32_t i = 0; i < f.scene->item_count; i++) f.scene->items[i].plane = false;
+    f.opts.technique_given = true;
+    f.opts.technique = GN_TECHNIQUE_PLANAR;
+    const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+    assert_int_equal(plan->shadow_count, 0);
+    assert_int_equal(warnings.count, 3); /* each light */
+    assert_non_null(strstr(warnings.text[0], "gnomon_plane"));
+    end(&f);
+}
+
 static void test_visibility_plan(void **state) {
     (void)state;
     struct fixture f;
@@ -256,11 +302,12 @@ static void corner_in_texels(const struct gn_shadow_view *view, double out[2]) {
     for (int k = 0; k < 2; k++) out[k] = -(double)map_from_light[3][k] * view->map_px;
 }
 
-static void test_map_moves_by_whole_texels(void **state) {
-    (void)state;
+static void expect_whole_texels(enum gn_technique technique) {
     struct fixture f;
     begin(&f, everything);
     f.opts.width_px = 100; /* a narrow view limits the window */
+    f.opts.technique_given = true;
+    f.opts.technique = technique;
     struct gn_shadow_view still = build(&f)->shadows[0];
     int moved = 0;
     for (int step = 1; step <= 40; step++) {
@@ -279,6 +326,12 @@ static void test_map_moves_by_whole_texels(void **state) {
     }
     assert_true(moved > 0);
     end(&f);
+}
+
+static void test_map_moves_by_whole_texels(void **state) {
+    (void)state;
+    expect_whole_texels(GN_TECHNIQUE_PCF);
+    expect_whole_texels(GN_TECHNIQUE_PLANAR);
 }
 
 static void test_an_eye_that_sees_no_shadow_needs_no_caster(void **state) {
@@ -432,6 +485,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_default_plan),
         cmocka_unit_test(test_hard_plan),
+        cmocka_unit_test(test_planar_plan),
+        cmocka_unit_test(test_planar_light_among_others),
+        cmocka_unit_test(test_planar_needs_a_plane),
         cmocka_unit_test(test_visibility_plan),
         cmocka_unit_test(test_plan_without_float_and_srgb_targets),
         cmocka_unit_test(test_slide_plan),

@@ -84,6 +84,7 @@ static void test_lights(void **state) {
               " F(1, LIGHT_DIRECTIONAL, false, shadow_visibility_1, u_map_1)"
               " F(2, LIGHT_DIRECTIONAL, false, shadow_visibility_0, u_map_2)\n");
     has(text, "#define EACH_OPEN_LIGHT(F) F(3, LIGHT_POINT)\n");
+    has(text, "const bool[3] SHADOW_LINEAR = bool[3](false, true, true);\n");
     assert_int_equal(count(text, "#define tap tap_0\n"), 1);
     assert_int_equal(count(text, "#define tap tap_1\n"), 1);
     assert_int_equal(count(text, "#undef tap\n"), 2);

@@ -1,0 +1,10 @@
+//@ names map_encode map_code
+// How much of the light arrives at a plane: R8, cleared to 1, LINEAR. Casters write the same whatever their order.
+#undef MAP_SAMPLER
+#undef MAP_OUT
+#define MAP_SAMPLER sampler2D
+#define MAP_OUT vec4
+
+vec4 map_encode(float distance) { return vec4(0.0); }
+
+float map_code(MAP_SAMPLER map, vec2 uv) { return texture(map, uv).r; }

@@ -1,0 +1,302 @@
+/* Fitting a planar shadow. With the plane n.p + d = 0 and the light at L = (xyz, 1), or towards
+ * (xyz, 0), the matrix (P.L) I - L P^T of P = (n, d) takes a point to where its shadow falls on the
+ * plane, in homogeneous coordinates (Blinn, "Me and My (Fake) Shadow", 1988). Its w is the light's
+ * height over the plane less the point's, so the near plane can be laid just below the light and
+ * the far plane a hair above the receiver: what pierces either is cut there by the rasteriser, and
+ * what stands on the plane, or lies in it, does not darken it by its foot. */
+#include "shadow/planar.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "shadow/private.h"
+#include "shadow/region.h"
+
+#define HAIR            3e-5f /* of the scene's size: so high over the plane a caster begins */
+#define LIGHT_SHARE     (1.0f / 128.0f) /* of the light's height: so far below it they end */
+#define EXACT_TRIANGLES 32 /* planes up to this many are clipped triangle by triangle */
+#define CONE_MAX_RAD    1.48f
+
+struct planar {
+    const struct gn_pose *pose;
+    const struct gn_eye *eye;
+    struct gn_shadow_view *view;
+    vec4 plane;             /* world space; the light's side is positive */
+    vec4 light;             /* xyz, 1; or towards it, 0, so long that plane.light = 1 */
+    mat4 shadow_from_world; /* plane coordinates times w; height over the plane; w */
+    float low_m, high_m;    /* heights between which a thing casts */
+    float scene_size_m;
+};
+
+/* ---- regions of the plane ---- */
+
+static void add_point(struct gn_shadow_region *r, mat4 to, vec3 p_ws) {
+    vec4 p = {p_ws[0], p_ws[1], p_ws[2], 1.0f};
+    glm_mat4_mulv(to, p, p);
+    float x = p[0] / p[3], y = p[1] / p[3];
+    unite(r, &(struct gn_shadow_region){.min = {x, y}, .max = {x, y}});
+}
+
+static void add_polygon(struct gn_shadow_region *r, mat4 to, struct gn_polygon *polygon,
+                        vec4 *planes, int count) {
+    for (int i = 0; i < count && polygon->count; i++) gn_polygon_clip(polygon, planes[i]);
+    for (int i = 0; i < polygon->count; i++) add_point(r, to, polygon->at[i]);
+}
+
+static void add_body(struct gn_shadow_region *r, mat4 to, vec3 corners[8], vec4 *planes,
+                     int count) {
+    for (int i = 0; i < 6; i++) {
+        struct gn_polygon face;
+        gn_box_face(corners, i, &face);
+        add_polygon(r, to, &face, planes, count);
+    }
+}
+
+/* Least and greatest height of an item over the plane. */
+static void heights_of(const struct planar *f, const struct gn_box *box, float out[2]) {
+    float middle = f->plane[3], reach = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        middle += f->plane[k] * 0.5f * (box->min[k] + box->max[k]);
+        reach += fabsf(f->plane[k]) * 0.5f * (box->max[k] - box->min[k]);
+    }
+    out[0] = middle - reach;
+    out[1] = middle + reach;
+}
+
+/* ---- plane and light ---- */
+
+static const struct gn_geometry *geometry_of(const struct planar *f, uint32_t item) {
+    return &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
+}
+
+bool gn_planar_has_plane(const struct gn_scene *scene) {
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (scene->items[i].plane && scene->items[i].receives) return true;
+    return false;
+}
+
+static bool is_receiver(const struct planar *f, uint32_t item) {
+    const struct gn_item *it = &f->pose->scene->items[item];
+    return it->plane && it->receives && f->pose->items[item].visible;
+}
+
+static bool find_plane(struct planar *f) {
+    for (uint32_t i = 0; i < f->pose->scene->item_count; i++)
+        if (is_receiver(f, i)) {
+            gn_pose_plane(f->pose, i, f->plane);
+            return true;
+        }
+    return false;
+}
+
+/* False when the light lies in the plane or shines along it. */
+static bool place_light(struct planar *f, const struct gn_light *light) {
+    struct gn_shadow_view *view = f->view;
+    vec3 direction;
+    gn_pose_light(f->pose, view->light, view->light_ws, direction);
+    glm_vec3_negate_to(direction, view->to_light_ws);
+    view->perspective = light->type != GN_LIGHT_DIRECTIONAL;
+    glm_vec4(view->perspective ? view->light_ws : view->to_light_ws,
+             view->perspective ? 1.0f : 0.0f, f->light);
+    float height = glm_vec4_dot(f->plane, f->light);
+    if (height < 0.0f) glm_vec4_negate(f->plane);
+    height = fabsf(height);
+    if (height < 1e-3f * (view->perspective ? f->scene_size_m : 1.0f)) return false;
+    if (!view->perspective) glm_vec4_scale(f->light, 1.0f / height, f->light);
+    return true;
+}
+
+/* Axes in the plane, right-handed with its normal: seen from the light, front faces keep their
+ * winding. */
+static void set_matrices(struct planar *f) {
+    vec3 x, y, up = {0.0f, 1.0f, 0.0f}, across = {0.0f, 0.0f, -1.0f};
+    glm_vec3_crossn(fabsf(f->plane[1]) > 0.99f ? across : up, f->plane, x);
+    glm_vec3_cross(f->plane, x, y);
+    mat4 plane_from_world, shadow;
+    float height = glm_vec4_dot(f->plane, f->light);
+    for (int c = 0; c < 4; c++) {
+        vec4 column = {c < 3 ? x[c] : 0.0f, c < 3 ? y[c] : 0.0f, f->plane[c], c == 3};
+        glm_vec4_copy(column, plane_from_world[c]);
+        for (int r = 0; r < 4; r++)
+            shadow[c][r] = (c == r ? height : 0.0f) - f->light[r] * f->plane[c];
+    }
+    glm_mat4_mul(plane_from_world, shadow, f->shadow_from_world);
+    for (int c = 0; c < 4; c++) f->shadow_from_world[c][2] = f->plane[c];
+    glm_mat4_copy(plane_from_world, f->view->tiles[0].light_from_world);
+}
+
+/* ---- casters and receivers ---- */
+
+static bool is_caster(const struct planar *f, uint32_t item) {
+    const struct gn_item *it = &f->pose->scene->items[item];
+    return f->pose->items[item].visible && it->casts && !it->plane &&
+           f->pose->scene->materials[it->material].alpha != GN_ALPHA_BLEND;
+}
+
+static void set_heights(struct planar *f) {
+    float highest = 0.0f, farthest = 0.0f;
+    for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
+        float height[2];
+        if (!is_caster(f, i)) continue;
+        heights_of(f, &f->pose->items[i].box_ws, height);
+        highest = fmaxf(highest, height[1]);
+    }
+    for (int k = 0; k < 3; k++)
+        farthest =
+            fmaxf(farthest, fmaxf(fabsf(f->pose->box_ws.min[k]), fabsf(f->pose->box_ws.max[k])));
+    f->low_m = HAIR * f->scene_size_m + 1e-6f * farthest;
+    f->high_m = 1.01f * highest + 2.0f * f->low_m;
+    if (!f->view->perspective) return;
+    float light_m = glm_vec4_dot(f->plane, f->light);
+    f->high_m = light_m - fmaxf(0.5f * (light_m - highest), LIGHT_SHARE * light_m);
+}
+
+/* Where the shadow of an item falls; empty if it has none. */
+static struct gn_shadow_region shadow_of(const struct planar *f, uint32_t item) {
+    struct gn_shadow_region r = nothing;
+    vec4 *shadow_from_world = (vec4 *)f->shadow_from_world;
+    vec3 corners[8];
+    float height[2];
+    heights_of(f, &f->pose->items[item].box_ws, height);
+    if (height[1] <= f->low_m || height[0] >= f->high_m) return nothing;
+    gn_box_corners(&geometry_of(f, item)->box, f->pose->items[item].world_from_item, corners);
+    if (height[0] >= f->low_m && height[1] <= f->high_m) {
+        for (int i = 0; i < 8; i++) add_point(&r, shadow_from_world, corners[i]);
+        return r;
+    }
+    vec4 slab[2];
+    for (int k = 0; k < 4; k++) {
+        slab[0][k] = f->plane[k] - (k == 3 ? f->low_m : 0.0f);
+        slab[1][k] = -f->plane[k] + (k == 3 ? f->high_m : 0.0f);
+    }
+    add_body(&r, shadow_from_world, corners, slab, 2);
+    return r;
+}
+
+/* The planes that hold what can be seen to be dark: the eye's, and those of a pyramid round a
+ * spot's cone. Returns how many. */
+static int seen_planes(const struct planar *f, const struct gn_light *light, vec4 planes[12]) {
+    memcpy(planes, f->eye->planes, sizeof f->eye->planes);
+    if (light->type != GN_LIGHT_SPOT) return 6;
+    mat4 look, lens;
+    vec3 direction, up = {0.0f, 1.0f, 0.0f}, across = {0.0f, 0.0f, 1.0f};
+    glm_vec3_negate_to(f->view->to_light_ws, direction);
+    glm_look(f->view->light_ws, direction, fabsf(direction[1]) > 0.99f ? across : up, look);
+    glm_perspective(2.0f * fminf(light->outer_rad, CONE_MAX_RAD), 1.0f, 1e-3f * f->scene_size_m,
+                    f->scene_size_m, lens);
+    glm_mat4_mul(lens, look, look);
+    glm_frustum_planes(look, planes + 6); /* left, right, bottom, top; near and far are not asked */
+    return 10;
+}
+
+static void add_receiver(const struct planar *f, uint32_t item, vec4 *planes, int count,
+                         struct gn_shadow_region *r) {
+    const struct gn_scene *scene = f->pose->scene;
+    const struct gn_geometry *g = geometry_of(f, item);
+    vec4 *world_from_item = f->pose->items[item].world_from_item;
+    if (g->index_count > 3 * EXACT_TRIANGLES) {
+        vec3 corners[8];
+        gn_box_corners(&g->box, world_from_item, corners);
+        add_body(r, f->view->tiles[0].light_from_world, corners, planes, count);
+        return;
+    }
+    for (uint32_t i = 0; i < g->index_count; i += 3) {
+        struct gn_polygon triangle = {.count = 3};
+        for (int k = 0; k < 3; k++)
+            glm_mat4_mulv3(world_from_item,
+                           scene->positions + 3 * (size_t)scene->indices[g->first_index + i + k],
+                           1.0f, triangle.at[k]);
+        add_polygon(r, f->view->tiles[0].light_from_world, &triangle, planes, count);
+    }
+}
+
+/* What of the plane can be seen to be dark. */
+static struct gn_shadow_region receivers_of(const struct planar *f, const struct gn_light *light) {
+    struct gn_shadow_region r = nothing, in_range = nothing;
+    vec4 planes[12];
+    int count = seen_planes(f, light, planes);
+    for (uint32_t i = 0; i < f->pose->scene->item_count; i++)
+        if (is_receiver(f, i)) add_receiver(f, i, planes, count, &r);
+    if (light->range_m <= 0.0f || !f->view->perspective) return r;
+    vec3 foot; /* of the light, round which its range ends */
+    glm_mat4_mulv3(f->view->tiles[0].light_from_world, f->view->light_ws, 1.0f, foot);
+    float radius = sqrtf(fmaxf(light->range_m * light->range_m - foot[2] * foot[2], 0.0f));
+    for (int k = 0; k < 2; k++) {
+        in_range.min[k] = foot[k] - radius;
+        in_range.max[k] = foot[k] + radius;
+    }
+    return intersect(&r, &in_range);
+}
+
+/* The part of the plane that is both seen and reached by shadows, empty if there is none; marks the
+ * casters that reach it. */
+static struct gn_shadow_region find_window(const struct planar *f, const struct gn_light *light,
+                                           uint8_t *casts) {
+    struct gn_shadow_region receivers = receivers_of(f, light), window = nothing;
+    memset(casts, 0, f->pose->scene->item_count);
+    if (region_is_empty(&receivers)) return nothing;
+    for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
+        if (!is_caster(f, i)) continue;
+        struct gn_shadow_region shadow = shadow_of(f, i);
+        if (region_is_empty(&shadow) || !regions_meet(&shadow, &receivers)) continue;
+        casts[i] = 1;
+        unite(&window, &shadow);
+    }
+    return intersect(&window, &receivers);
+}
+
+/* ---- the view ---- */
+
+/* Linear in height over the plane: -w where casters end, w where they begin. */
+static void set_clip(struct planar *f, const double low[2]) {
+    struct gn_shadow_view *view = f->view;
+    vec4 *m = f->shadow_from_world;
+    float side = view->texel * (float)view->map_px;
+    float light_m = glm_vec4_dot(f->plane, f->light);
+    float w_low = view->perspective ? light_m - f->low_m : 1.0f;
+    float w_high = view->perspective ? light_m - f->high_m : 1.0f;
+    float slope = -(w_high + w_low) / (f->high_m - f->low_m);
+    float at_0 = w_low - slope * f->low_m;
+    for (int c = 0; c < 4; c++) {
+        for (int k = 0; k < 2; k++) {
+            float from = (float)low[k];
+            view->tiles[0].clip_from_world[c][k] =
+                (2.0f * (m[c][k] - from * m[c][3]) - side * m[c][3]) / side;
+            view->map_from_world[c][k] =
+                (view->tiles[0].light_from_world[c][k] - (c == 3 ? from : 0.0f)) / side;
+        }
+        view->tiles[0].clip_from_world[c][2] = slope * m[c][2] + (c == 3 ? at_0 : 0.0f);
+        view->tiles[0].clip_from_world[c][3] = m[c][3];
+        view->map_from_world[c][2] = 0.0f;
+        view->map_from_world[c][3] = c == 3 ? 1.0f : 0.0f;
+    }
+}
+
+bool gn_planar_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
+                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
+                   struct gn_shadow_view *view) {
+    const struct gn_light *l = &pose->scene->lights[light];
+    struct planar f = {.pose = pose, .eye = eye, .view = view};
+    double low[2];
+    *view = (struct gn_shadow_view){.light = light,
+                                    .technique = opts->technique,
+                                    .encoding = opts->encoding,
+                                    .map_px = opts->map_px,
+                                    .width_px = opts->map_px,
+                                    .height_px = opts->map_px,
+                                    .tile_count = 1,
+                                    .distance_scale = 1.0f,
+                                    .far_code = 1.0f,
+                                    .far_m = 1.0f};
+    f.scene_size_m = gn_scene_size_m(pose);
+    if (!find_plane(&f) || !place_light(&f, l)) return false;
+    set_matrices(&f);
+    set_heights(&f);
+    if (f.high_m <= f.low_m) return false;
+    struct gn_shadow_region window = find_window(&f, l, memory->casts);
+    if (region_is_empty(&window)) return false;
+    gn_shadow_snap(view, window.min, window.max, 1e-6f * f.scene_size_m, low);
+    set_clip(&f, low);
+    view->tiles[0].content_hash = gn_shadow_hash(pose, view, view->tiles, memory->casts);
+    return true;
+}

@@ -1,0 +1,21 @@
+/* Planar shadows: the map lies in the receiver's plane, and casters are drawn into it as they fall
+ * on it, seen from the light. Each texel says whether light arrives, so that a pixel is darkened
+ * once however many casters overlap, and only what stands between light and plane is drawn. Pure.
+ *
+ * Plane coordinates are metres in the plane, from where the world's origin stands over it. */
+#ifndef GN_SHADOW_PLANAR_H
+#define GN_SHADOW_PLANAR_H
+
+#include "shadow/fit.h"
+
+/* Whether anything in the scene receives planar shadows. */
+bool gn_planar_has_plane(const struct gn_scene *scene);
+
+/* gn_shadow_fit for a technique that is on_plane: every kind of light. In the view light_from_world
+ * leads to plane coordinates and height over the plane, map_from_world is affine and right for
+ * points of the plane only, and codes are visibilities. */
+bool gn_planar_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
+                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
+                   struct gn_shadow_view *view);
+
+#endif
