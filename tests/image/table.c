@@ -119,8 +119,45 @@ static void cell_name(const struct gn_table_row *row, int scene, char *out, size
     snprintf(out, size, "truth-%02d-%s-%s-%u", scene, row->technique, row->format, row->map_px);
 }
 
-static void measure(struct job *job, struct gn_truth *truth, struct gn_table_row *row, int scene,
+static bool is_planar(const struct gn_table_row *row) { return !strcmp(row->technique, "planar"); }
+
+/* A scene's truth, and that of planar shadows, which are on its plane alone. */
+struct sight {
+    struct gn_truth truth;
+    uint8_t *planar_lit; /* per pixel */
+    uint64_t plane_pixels;
+};
+
+static bool sight_load(struct sight *sight, const char *path, const struct gn_truth_opts *opts,
+                       struct gn_err *err) {
+    const struct gn_mask_truth *mask = &sight->truth.mask;
+    *sight = (struct sight){0};
+    struct gn_scene *scene = gn_scene_load(path, NULL, NULL, err);
+    if (!scene || !gn_truth_load(&sight->truth, path, opts, err)) {
+        gn_scene_destroy(scene);
+        return false;
+    }
+    size_t count = (size_t)mask->width_px * mask->height_px;
+    sight->planar_lit = malloc(count);
+    if (!sight->planar_lit) abort();
+    for (size_t i = 0; i < count; i++) {
+        bool on_plane = mask->item[i] >= 0 && scene->items[mask->item[i]].plane;
+        sight->planar_lit[i] = mask->lit[i] || !on_plane;
+        sight->plane_pixels += on_plane;
+    }
+    gn_scene_destroy(scene);
+    return true;
+}
+
+static void sight_finish(struct sight *sight) {
+    free(sight->planar_lit);
+    gn_truth_finish(&sight->truth);
+}
+
+/* Planar shadows: off the plane all is lit, and shares are of the plane's pixels. */
+static void measure(struct job *job, struct sight *sight, struct gn_table_row *row, int scene,
                     const char *path) {
+    struct gn_truth *truth = &sight->truth;
     struct gn_picture shot;
     struct gn_err err = {{0}, GN_EXIT_WORLD};
     char name[100];
@@ -129,10 +166,13 @@ static void measure(struct job *job, struct gn_truth *truth, struct gn_table_row
         note_failure(job, &err);
         return;
     }
-    gn_mask_compare(&truth->mask, &shot, &row->scores[scene]);
+    struct gn_mask_truth mask = truth->mask;
+    if (is_planar(row)) mask.lit = sight->planar_lit;
+    gn_mask_compare(&mask, &shot, &row->scores[scene]);
+    if (is_planar(row)) row->scores[scene].pixels = sight->plane_pixels;
     row->measured[scene] = true;
     cell_name(row, scene, name, sizeof name);
-    if (job->table->save) gn_mask_save(job->table->save, name, &truth->mask, &shot);
+    if (job->table->save) gn_mask_save(job->table->save, name, &mask, &shot);
     gn_picture_finish(&shot);
 }
 
@@ -142,22 +182,24 @@ static void scene_path(const struct gn_table *table, int scene, char *out, size_
 
 static void measure_scene(struct job *job, int scene) {
     struct gn_table *table = job->table;
-    struct gn_truth truth;
+    struct sight sight;
     struct gn_err err = {{0}, GN_EXIT_WORLD};
     char path[600];
     scene_path(table, scene, path, sizeof path);
-    if (!gn_truth_load(&truth, path, &(struct gn_truth_opts){.threads = 1}, &err)) {
+    if (!sight_load(&sight, path, &(struct gn_truth_opts){.threads = 1}, &err)) {
         note_failure(job, &err);
         return;
     }
-    table->band_px[scene] = table->row_count ? gn_truth_band(&truth, table->rows[0].map_px) : 2;
+    table->band_px[scene] =
+        table->row_count ? gn_truth_band(&sight.truth, table->rows[0].map_px) : 2;
     for (int r = 0; r < table->row_count; r++) {
-        measure(job, &truth, &table->rows[r], scene, path);
+        measure(job, &sight, &table->rows[r], scene, path);
         note_progress(job);
     }
     const struct gn_mask_score *s = &table->rows[0].scores[scene];
-    if (s->pixels) table->away[scene] = (double)(s->away_lit + s->away_dark) / (double)s->pixels;
-    gn_truth_finish(&truth);
+    if (s->pixels)
+        table->away[scene] = (double)(s->away_lit + s->away_dark) / (double)(s->lit + s->dark);
+    sight_finish(&sight);
 }
 
 static void *work(void *data) {
@@ -213,7 +255,8 @@ struct gn_limit_row gn_table_limit(const struct gn_table_row *row, enum gn_fault
     bool small = row->map_px < 1024;
     if (fault <= GN_FAULT_LEAK)
         return small ? (struct gn_limit_row){.05, INFINITY} : (struct gn_limit_row){.02, .3};
-    if (small || !is_hard(row)) return (struct gn_limit_row){INFINITY, INFINITY};
+    if (small || !(is_hard(row) || is_planar(row)))
+        return (struct gn_limit_row){INFINITY, INFINITY};
     return fault == GN_FAULT_GAP ? (struct gn_limit_row){3, 5}
                                  : (struct gn_limit_row){.15, INFINITY};
 }
@@ -282,19 +325,21 @@ int gn_table_check(const struct gn_table *table, FILE *to) {
 }
 
 static void save_cell(const struct gn_table *table, const struct gn_table_row *row, int scene) {
-    struct gn_truth truth;
+    struct sight sight;
     struct gn_picture shot;
     struct gn_err err = {{0}, GN_EXIT_WORLD};
     char path[600], name[100];
     scene_path(table, scene, path, sizeof path);
-    if (!gn_truth_load(&truth, path, NULL, &err)) return;
-    gn_truth_band(&truth, row->map_px);
-    if (take_shot(&shot, row, path, truth.mask.width_px, truth.mask.height_px, &err)) {
+    if (!sight_load(&sight, path, NULL, &err)) return;
+    gn_truth_band(&sight.truth, row->map_px);
+    struct gn_mask_truth mask = sight.truth.mask;
+    if (is_planar(row)) mask.lit = sight.planar_lit;
+    if (take_shot(&shot, row, path, mask.width_px, mask.height_px, &err)) {
         cell_name(row, scene, name, sizeof name);
-        gn_mask_save(NULL, name, &truth.mask, &shot);
+        gn_mask_save(NULL, name, &mask, &shot);
         gn_picture_finish(&shot);
     }
-    gn_truth_finish(&truth);
+    sight_finish(&sight);
 }
 
 void gn_table_save_failures(const struct gn_table *table) {

@@ -63,8 +63,8 @@ struct gn_fault_sum {
 struct gn_fault_sum gn_table_sum(const struct gn_table_row *row, enum gn_fault fault);
 
 /* The limits that the project has set itself, in per cent; INFINITY: none. Acne and leaks bind
- * every technique, the rest those with a hard edge. With maps under 1024 only acne and leaks are
- * limited. */
+ * every technique, the rest those with a hard edge (and planar, which is measured on its plane and
+ * has to be lit elsewhere). With maps under 1024 only acne and leaks are limited. */
 struct gn_limit_row {
     double mean, worst;
 };

@@ -14,6 +14,7 @@ static void quick_rows(struct gn_table *table) {
     gn_table_add(table, "hard", "r16f", 1024);
     gn_table_add(table, "hard", "depth", 1024);
     gn_table_add(table, "pcf3", "depth", 1024);
+    gn_table_add(table, "planar", "auto", 1024);
 }
 
 /* A tile of a point light sees 90 degrees, whatever there is: 256 texels are too few for limits. */
@@ -24,6 +25,7 @@ static void full_rows(struct gn_table *table, enum gn_table_kind kind) {
     for (int i = 0; i < GN_TABLE_SCENES; i++) table->scenes[i] = true;
     for (int m = 0; m < (kind == GN_TABLE_POINT ? 1 : 2); m++) {
         for (int f = 0; f < 5; f++) gn_table_add(table, "hard", formats[f], maps[m]);
+        gn_table_add(table, "planar", "auto", maps[m]);
         for (int t = 0; t < 7; t++)
             for (int f = 0; f < 2; f++) gn_table_add(table, filters[t], formats[f], maps[m]);
     }

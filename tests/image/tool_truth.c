@@ -11,8 +11,9 @@
 static const char usage[] =
     "usage: tool_truth [options]\n"
     "  --scenes A-B[,C..]  which of 0-29 (all; 24-29: point lights)\n"
-    "  --technique LIST    of hard,pcf,pcf2,pcf3,pcf5,.. (those five)\n"
-    "  --format LIST       of depth,r16f,r16f-raw,r32ui,rgba8 (hard: all; others: depth,r16f)\n"
+    "  --technique LIST    of hard,pcf,pcf2,pcf3,pcf5,planar,.. (those six)\n"
+    "  --format LIST       of depth,r16f,r16f-raw,r32ui,rgba8 (hard: all; others: depth,r16f;\n"
+    "                      planar has its own)\n"
     "  --map LIST          of sizes in pixels (1024,256)\n"
     "  --save DIR          shot, truth and diff of every cell, as PNG\n"
     "  --no-contact        leave out the gaps at contacts\n"
@@ -76,17 +77,21 @@ static int split(char *list, const char *out[], int room) {
 }
 
 static void add_rows(struct gn_table *table, const struct arguments *a, unsigned map_px) {
-    const char *techniques[] = {"hard", "pcf", "pcf2", "pcf3", "pcf5", NULL, NULL, NULL};
+    const char *techniques[] = {"hard", "pcf", "pcf2", "pcf3", "pcf5", "planar", NULL, NULL};
     const char *all[] = {"depth", "r16f", "r16f-raw", "r32ui", "rgba8"};
     const char *given[8], *given_techniques[16];
     char formats[200], list[200];
-    int format_count = 0, technique_count = 5;
+    int format_count = 0, technique_count = 6;
     snprintf(formats, sizeof formats, "%s", a->formats ? a->formats : "");
     snprintf(list, sizeof list, "%s", a->techniques ? a->techniques : "");
     if (a->formats) format_count = split(formats, given, 8);
     if (a->techniques) technique_count = split(list, given_techniques, 16);
     for (int t = 0; t < technique_count; t++) {
         const char *technique = a->techniques ? given_techniques[t] : techniques[t];
+        if (!strcmp(technique, "planar")) {
+            gn_table_add(table, "planar", "auto", map_px);
+            continue;
+        }
         int count = a->formats ? format_count : !strcmp(technique, "hard") ? 5 : 2;
         for (int f = 0; f < count; f++)
             gn_table_add(table, strdup(technique), strdup(a->formats ? given[f] : all[f]), map_px);
