@@ -98,6 +98,7 @@ static void test_planar_light_among_others(void **state) {
     struct fixture f;
     begin(&f, everything);
     f.scene->lights[0].technique = "planar"; /* the sun */
+    f.scene->lights[2].technique = "none";   /* the bulb */
     const struct gn_plan *plan = build(&f);
     assert_int_equal(plan->shadow_count, 2);
     assert_int_equal(plan->shadows[0].encoding, GN_ENCODING_DEPTH); /* the spot goes first */
