@@ -172,9 +172,8 @@ int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, 
 bool gn_json_number(const json_t *json, double *out);
 bool gn_json_whole(const json_t *json, int64_t *out);
 
-/* ---- limits.c ---- */
+/* ---- gltf_memory.c ---- */
 
-struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *limits);
 /* Zeroed memory within memory_mb over all arenas; NULL fails the load. */
 void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, size_t size);
 char *gn_gltf_strdup(struct gn_gltf *g, const char *text); /* "" for NULL; into the scene */

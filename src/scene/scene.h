@@ -188,6 +188,8 @@ struct gn_scene_limits {
 /* Sets one limit by its name; false and a usage error that lists the names if there is no such. */
 bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,
                          struct gn_err *err);
+/* With each default filled in; limits may be NULL. */
+struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *limits);
 
 /* Loads a .glb or .gltf (by content, not by name) with the files it names, which must lie in its
  * folder or below. NULL and one line with the file and the JSON path or byte offset on failure.

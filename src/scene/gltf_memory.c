@@ -1,0 +1,31 @@
+/* What a load may allocate: never more than the limit memory_mb. */
+#include "scene/private.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+size_t gn_gltf_room(const struct gn_gltf *g) {
+    uint64_t limit = g->limits.memory_mb << 20;
+    uint64_t used = (uint64_t)g->arena->used + g->scratch.used + g->work.used + g->other_bytes;
+    return used < limit ? (size_t)(limit - used) : 0;
+}
+
+void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, size_t size) {
+    if (g->failed) return NULL;
+    uint64_t bytes = 0;
+    void *memory = NULL;
+    if (!__builtin_mul_overflow(count, size, &bytes) && bytes <= gn_gltf_room(g))
+        memory = gn_arena_alloc(arena, (size_t)count, size);
+    if (!memory)
+        gn_gltf_fail(g, NULL,
+                     "needs more memory than there is or than memory_mb=%" PRIu64 " allows",
+                     g->limits.memory_mb);
+    return memory;
+}
+
+char *gn_gltf_strdup(struct gn_gltf *g, const char *text) {
+    size_t size = text ? strlen(text) + 1 : 1;
+    char *copy = gn_gltf_alloc(g, g->arena, size, 1);
+    if (copy && text) memcpy(copy, text, size);
+    return copy;
+}
