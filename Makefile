@@ -166,7 +166,7 @@ HOST     = $(HOSTCC) -std=c11 -D_GNU_SOURCE -O2 -Wall -Wextra -Isrc -Iassets -I$
 ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c))
 HOST_ASSETS := $(patsubst assets/%.c,$(O)/host/%,$(wildcard assets/make_*.c))
 MAN_C   := $(addprefix src/,cli/help.c cli/options.c cli/value.c core/arena.c core/err.c core/text.c \
-           shadow/technique.c)
+           frame/caps.c scene/limits.c shadow/technique.c)
 $(O)/host/embed: board/embed.c
 $(O)/host/man: board/man.c $(MAN_C) $(wildcard src/cli/*.h src/core/*.h src/shadow/*.h) | $(B)/gen/config.h
 $(HOST_ASSETS): HOST_LIBS = $(shell pkg-config --cflags --libs jansson libpng)

@@ -92,7 +92,7 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
      .help = "antialiasing", .commands = DRAW, .offset = FIELD(msaa)},
     {.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value = "DIR",
      .help = "read the shaders from this folder", .commands = DRAW | BIT(DOCTOR), .offset = FIELD(shaders)},
-    {.name = "without", .section = "render", .kind = GN_KIND_TEXT, .value = "CAP,..",
+    {.name = "without", .section = "render", .kind = GN_KIND_CAPS, .value = "CAP,..",
      .help = "pretend that these capabilities, named as doctor prints them, are missing", .commands = DRAW | BIT(DOCTOR), .offset = FIELD(without)},
     {.name = "limit", .section = "render", .kind = GN_KIND_LIMIT, .min = 1, .max = 1099511627776.0, .value = "NAME=VALUE",
      .help = "a bound on what a scene may ask for; may be given again", .commands = DRAW | BIT(INSPECT), .offset = FIELD(limits)},

@@ -60,6 +60,7 @@ enum gn_option_kind {
     GN_KIND_TEXT,       /* const char *: anything but nothing */
     GN_KIND_PATH,       /* const char *: in an INI file seen from the file's folder */
     GN_KIND_LIMIT,      /* struct gn_limits: NAME=VALUE, given again it adds */
+    GN_KIND_CAPS,       /* const char *: names of gn_cap, a comma between two */
     GN_KIND_COUNT,
 };
 struct gn_choice { /* rows end with a NULL name */

@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "core/clock.h"
+#include "frame/caps.h"
+#include "scene/scene.h"
 #include "shadow/technique.h"
 
 bool gn_parse_int(const char *text, int64_t *out) {
@@ -227,6 +229,21 @@ static void expect_limit(const struct gn_option_row *row, char *out, size_t size
              row->min, row->max, GN_LIMITS_MAX);
 }
 
+/* Names that another room knows, which also says which there are. */
+typedef bool check_fn(const void *field, struct gn_err *err);
+
+static bool check_limit(const void *field, struct gn_err *err) {
+    const struct gn_limits *limits = field;
+    const struct gn_limit *last = &limits->items[limits->count - 1];
+    struct gn_scene_limits unused = {0};
+    return gn_scene_limits_set(&unused, last->name, (uint64_t)last->value, err);
+}
+
+static bool check_caps(const void *field, struct gn_err *err) {
+    uint32_t unused;
+    return gn_caps_parse(*(const char *const *)field, &unused, err);
+}
+
 static const struct {
     size_t size;
     parse_fn *parse;
@@ -245,8 +262,15 @@ static const struct {
     [GN_KIND_TEXT] = {sizeof(const char *), parse_text, expect_text},
     [GN_KIND_PATH] = {sizeof(const char *), parse_text, expect_text},
     [GN_KIND_LIMIT] = {sizeof(struct gn_limits), parse_limit, expect_limit},
+    [GN_KIND_CAPS] = {sizeof(const char *), parse_text, expect_text},
 };
 _Static_assert(sizeof kinds / sizeof kinds[0] == GN_KIND_COUNT, "a row per kind");
+
+static check_fn *const checks[GN_KIND_COUNT] = {
+    /* or NULL */
+    [GN_KIND_LIMIT] = check_limit,
+    [GN_KIND_CAPS] = check_caps,
+};
 
 size_t gn_value_size(enum gn_option_kind kind) { return kinds[kind].size; }
 
@@ -257,7 +281,9 @@ void gn_value_expected(const struct gn_option_row *row, char *out, size_t size) 
 bool gn_value_parse(const struct gn_option_row *row, const char *text, void *field,
                     struct gn_arena *arena, const char *label, struct gn_err *err) {
     char expected[160];
-    if (kinds[row->kind].parse(row, text, field, arena)) return true;
+    check_fn *check = checks[row->kind];
+    if (kinds[row->kind].parse(row, text, field, arena))
+        return !check || check(field, err) || gn_fail_prefix(err, "%s", label);
     gn_value_expected(row, expected, sizeof expected);
     return gn_fail_usage(err, "%s: \"%.80s\" is not %s", label, text, expected);
 }

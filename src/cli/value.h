@@ -6,7 +6,7 @@
 
 /* Parses text into the field (of gn_value_size bytes); all of text must be the value. Texts are
  * kept in the arena. GN_KIND_LIMIT adds to what is in the field. A failure is a usage error:
- * `LABEL: "TEXT" is not EXPECTED`. */
+ * `LABEL: "TEXT" is not EXPECTED`, or `LABEL: ` and what the room says that knows such names. */
 bool gn_value_parse(const struct gn_option_row *row, const char *text, void *field,
                     struct gn_arena *arena, const char *label, struct gn_err *err);
 size_t gn_value_size(enum gn_option_kind kind);

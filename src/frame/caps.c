@@ -1,5 +1,8 @@
 #include "frame/caps.h"
 
+#include <stdio.h>
+#include <string.h>
+
 const char *const gn_cap_names[GN_CAP_COUNT] = {
     [GN_CAP_DEPTH_COMPARE] = "depth-compare",
     [GN_CAP_R32UI] = "r32ui",
@@ -18,4 +21,34 @@ uint32_t gn_caps_encodings(const struct gn_caps *caps) {
     if (caps->has & 1u << GN_CAP_R16F)
         proved |= 1u << GN_ENCODING_R16F | 1u << GN_ENCODING_R16F_RAW;
     return proved;
+}
+
+/* The bit of the name at the start of list, up to a comma; -1: no such name. */
+static int find_cap(const char *list, size_t length) {
+    for (int i = 0; i < GN_CAP_COUNT; i++)
+        if (strlen(gn_cap_names[i]) == length && memcmp(gn_cap_names[i], list, length) == 0)
+            return i;
+    return -1;
+}
+
+static bool fail_unknown(const char *name, size_t length, struct gn_err *err) {
+    char names[200] = "";
+    for (int i = 0; i < GN_CAP_COUNT; i++) {
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", gn_cap_names[i]);
+    }
+    return gn_fail_usage(err, "there is no capability \"%.*s\"; there are %s",
+                         (int)(length < 80 ? length : 80), name, names);
+}
+
+bool gn_caps_parse(const char *list, uint32_t *out, struct gn_err *err) {
+    *out = 0;
+    while (list && *list) {
+        size_t length = strcspn(list, ",");
+        int cap = find_cap(list, length);
+        if (cap < 0) return fail_unknown(list, length, err);
+        *out |= 1u << cap;
+        list += length + (list[length] == ',');
+    }
+    return true;
 }

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "core/err.h"
 #include "shadow/technique.h"
 
 enum gn_cap {                       /* named in --without and by doctor: see gn_cap_names */
@@ -31,5 +32,8 @@ struct gn_caps {
 };
 /* The encodings that caps prove, as gn_encoding_choose wants them. */
 uint32_t gn_caps_encodings(const struct gn_caps *caps);
+/* A comma list of names to bits of gn_cap; NULL and "" are none. A name that is not there is a
+ * usage error that lists those that are. */
+bool gn_caps_parse(const char *list, uint32_t *out, struct gn_err *err);
 
 #endif

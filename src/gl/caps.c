@@ -42,36 +42,6 @@ static bool is_software(const char *renderer) {
            strstr(renderer, "swrast") || strstr(renderer, "Software Rasterizer");
 }
 
-/* The bit of the name at the start of list, up to a comma; -1: no such name. */
-static int find_cap(const char *list, size_t length) {
-    for (int i = 0; i < GN_CAP_COUNT; i++)
-        if (strlen(gn_cap_names[i]) == length && memcmp(gn_cap_names[i], list, length) == 0)
-            return i;
-    return -1;
-}
-
-static bool fail_unknown(const char *name, size_t length, struct gn_err *err) {
-    char names[200] = "";
-    for (int i = 0; i < GN_CAP_COUNT; i++) {
-        size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", gn_cap_names[i]);
-    }
-    return gn_fail_usage(err, "--without: there is no capability \"%.*s\"; there are %s",
-                         (int)length, name, names);
-}
-
-static bool parse_without(const char *list, uint32_t *out, struct gn_err *err) {
-    *out = 0;
-    while (list && *list) {
-        size_t length = strcspn(list, ",");
-        int cap = find_cap(list, length);
-        if (cap < 0) return fail_unknown(list, length, err);
-        *out |= 1u << cap;
-        list += length + (list[length] == ',');
-    }
-    return true;
-}
-
 static bool has_timer(struct gn_gl *gl) {
     static const GLenum time_elapsed = GL_TIME_ELAPSED_EXT;
     GLint bits = 0;
@@ -136,7 +106,7 @@ bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn
     struct gn_caps *caps = &gl->caps;
     const uint32_t asked_only = 1u << GN_CAP_TIMER | 1u << GN_CAP_DEBUG;
     uint32_t without;
-    if (!parse_without(opts->without, &without, err)) return false;
+    if (!gn_caps_parse(opts->without, &without, err)) return false;
     copy_string(gl, GL_VENDOR, caps->vendor, sizeof caps->vendor);
     copy_string(gl, GL_RENDERER, caps->renderer, sizeof caps->renderer);
     copy_string(gl, GL_VERSION, caps->version, sizeof caps->version);

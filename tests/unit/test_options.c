@@ -138,6 +138,11 @@ static void a_wrong_value_names_option_value_and_range(void **state) {
     assert_wrong("render --limit nodes", "NAME=VALUE");
     assert_wrong("render --limit =5", "NAME=VALUE");
     assert_wrong("render --limit nodes=0", "NAME=VALUE");
+    assert_wrong("render --limit verts=1",
+                 "--limit: no limit is called 'verts'; there are: file_mb");
+    assert_wrong("render --limit nodes=1099511627776", "--limit: limit nodes: 1099511627776");
+    assert_wrong("render --without wings",
+                 "--without: there is no capability \"wings\"; there are");
     assert_wrong("show --display-mode 1920x1080@", "WxH@HZ");
     assert_wrong("show --rotate 45", "one of 0, 90, 180, 270");
 }
