@@ -70,7 +70,8 @@ static bool add_letters(struct args *args, const char *letters, struct gn_err *e
         const struct gn_option_row *row = gn_option_find_letter(*letters);
         char label[] = {'-', *letters, '\0'};
         if (!row)
-            return gn_fail_usage(err, "unknown option -%c; --help lists those there are", *letters);
+            return gn_fail_usage(err, "unknown option -%.*s; --help lists those there are",
+                                 *letters & 0x80 ? 4 : 1, letters);
         bool takes_rest = row->kind != GN_KIND_FLAG && letters[1];
         if (!add_flag(args, row, takes_rest ? letters + 1 : NULL, label, err)) return false;
         if (takes_rest) break;
@@ -213,13 +214,31 @@ static bool apply_flags(struct args *args, struct gn_err *err) {
 
 static bool apply_mode(struct gn_options *options, struct gn_err *err) {
     return !options->mode || options->config_error ||
-           gn_options_apply_mode(options, options->mode, err);
+           gn_options_apply_mode(options, options->mode, err) ||
+           gn_fail_prefix(err, "%s", gn_options_label(options, mode));
 }
 
+/* An INI file has been looked at as it was read. */
 static bool check_shadow(const struct gn_options *options, struct gn_err *err) {
     return options->command == GN_COMMAND_BENCH || !strchr(options->shadow, ',') ||
            gn_fail_usage(err, "--shadow %s: one technique at a time; only bench takes a list",
                          options->shadow);
+}
+
+/* Said by one and the same, it is not for us to choose. A file that says it is read as it was: only
+ * a warning, or a kiosk would end. */
+static bool check_animation(const struct gn_options *o, struct gn_warnings *warnings,
+                            struct gn_err *err) {
+    enum gn_source source = gn_options_source(o, offsetof(struct gn_options, animation));
+    if (!o->animation || !o->no_animation || strcmp(o->animation, "none") == 0 ||
+        source != gn_options_source(o, offsetof(struct gn_options, no_animation)))
+        return true;
+    if (source == GN_SOURCE_FLAG)
+        return gn_fail_usage(err, "--animation %s and --no-animation exclude each other: drop one",
+                             o->animation);
+    gn_warn(warnings, "%s: %s is not played, since %s holds", gn_options_label(o, animation),
+            o->animation, gn_options_label(o, no_animation));
+    return true;
 }
 
 /* What the table promises and this version does not do yet is said, not swallowed. */
@@ -239,7 +258,8 @@ static bool understand(struct args *args, struct gn_warnings *warnings, struct g
     if (options->help && args->words[0]) options->command = command_of(args->words[0]);
     if (options->help || options->version) return true;
     if (!find_command(args, err) || !check_flags(args, err) || !read_config(args, warnings, err) ||
-        !apply_flags(args, err) || !apply_mode(options, err) || !check_shadow(options, err))
+        !apply_flags(args, err) || !apply_mode(options, err) || !check_shadow(options, err) ||
+        !check_animation(options, warnings, err))
         return false;
     warn_idle(options, warnings);
     return true;

@@ -191,11 +191,12 @@ void gn_options_finish(struct gn_options *options) {
 }
 
 void gn_options_put(struct gn_options *options, const struct gn_option_row *row, const void *value,
-                    enum gn_source source) {
+                    enum gn_source source, const char *label) {
     uint8_t *from = &options->source[index_of(row)];
     if (*from > source) return;
     memcpy(field_of(options, row), value, gn_value_size(row->kind));
     *from = (uint8_t)source;
+    options->label[index_of(row)] = label;
 }
 
 bool gn_options_set(struct gn_options *options, const struct gn_option_row *row, const char *text,
@@ -204,15 +205,26 @@ bool gn_options_set(struct gn_options *options, const struct gn_option_row *row,
     if (options->source[index_of(row)] == source) /* NAME=VALUE adds */
         memcpy(value, field_of(options, row), gn_value_size(row->kind));
     if (!gn_value_parse(row, text, value, &options->arena, label, err)) return false;
-    gn_options_put(options, row, value, source);
+    const char *kept = gn_arena_strdup(&options->arena, label);
+    if (!kept) return gn_fail(err, "%s: no memory left", label);
+    gn_options_put(options, row, value, source, kept);
     return true;
 }
 
+static size_t index_of_field(size_t offset) {
+    size_t i = 0;
+    while (i < GN_OPTION_COUNT && gn_option_rows[i].offset != offset) i++;
+    assert(i < GN_OPTION_COUNT && "a field of the table");
+    return i;
+}
+
 enum gn_source gn_options_source(const struct gn_options *options, size_t offset) {
-    for (size_t i = 0; i < GN_OPTION_COUNT; i++)
-        if (gn_option_rows[i].offset == offset) return options->source[i];
-    assert(!"a field of the table");
-    return GN_SOURCE_DEFAULT;
+    return options->source[index_of_field(offset)];
+}
+
+const char *gn_options_label_at(const struct gn_options *options, size_t offset) {
+    const char *label = options->label[index_of_field(offset)];
+    return label ? label : gn_option_rows[index_of_field(offset)].name;
 }
 
 /* ---- modes --------------------------------------------------------------------------------- */
@@ -223,6 +235,7 @@ static void undo_mode(struct gn_options *options) {
         if (options->source[i] != GN_SOURCE_MODE) continue;
         memcpy(field_of(options, row), field_of(options->base, row), gn_value_size(row->kind));
         options->source[i] = options->base->source[i];
+        options->label[i] = options->base->label[i];
     }
     options->mode_now = NULL;
 }
@@ -244,13 +257,15 @@ static bool fail_no_mode(const struct gn_options *options, const char *name, str
 
 static void apply_found(struct gn_options *options, const struct gn_mode *mode) {
     for (int i = 0; i < mode->count; i++)
-        gn_options_put(options, mode->settings[i].row, mode->settings[i].value, GN_SOURCE_MODE);
+        gn_options_put(options, mode->settings[i].row, mode->settings[i].value, GN_SOURCE_MODE,
+                       mode->settings[i].label);
     options->mode_now = mode->name;
 }
 
-/* Without modes in an INI file each technique is one; the shadow room knows which there are. */
+/* Without modes in an INI file each technique is one. */
 static void apply_technique(struct gn_options *options, const char *name) {
-    gn_options_put(options, gn_option_find("shadow", strlen("shadow")), &name, GN_SOURCE_MODE);
+    gn_options_put(options, gn_option_find("shadow", strlen("shadow")), &name, GN_SOURCE_MODE,
+                   "--mode");
     options->mode_now = name;
 }
 
@@ -262,7 +277,9 @@ static const struct gn_mode *find_mode(const struct gn_options *options, const c
 
 bool gn_options_apply_mode(struct gn_options *options, const char *name, struct gn_err *err) {
     const struct gn_mode *mode = find_mode(options, name);
+    enum gn_technique unused;
     if (!mode && options->mode_count) return fail_no_mode(options, name, err);
+    if (!mode && !gn_technique_find(name, &unused, err)) return false;
     undo_mode(options);
     if (!remember_base(options)) return gn_fail(err, "mode \"%s\": no memory left", name);
     if (mode)

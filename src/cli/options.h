@@ -107,6 +107,7 @@ enum gn_source {
 struct gn_setting { /* of a mode: read once, applied whenever the mode is */
     const struct gn_option_row *row;
     const void *value; /* as in the field */
+    const char *label; /* "kiosk.ini:31: camera" */
     int line;
 };
 struct gn_mode {
@@ -156,8 +157,9 @@ struct gn_options {
     bool plan, json, self_test, verbose, version, help;
 
     /* bookkeeping */
-    uint8_t source[GN_OPTION_COUNT]; /* enum gn_source of each row */
-    const struct gn_mode *modes;     /* of the INI file, in its order */
+    uint8_t source[GN_OPTION_COUNT];    /* enum gn_source of each row */
+    const char *label[GN_OPTION_COUNT]; /* see gn_options_label(); NULL: at its default */
+    const struct gn_mode *modes;        /* of the INI file, in its order */
     int mode_count;
     const char *mode_now;    /* the mode that is applied, or NULL */
     const char *config_path; /* the INI file that was read, or NULL */
@@ -175,12 +177,16 @@ void gn_options_finish(struct gn_options *options);
  * "--size", "kiosk.ini:3: size". */
 bool gn_options_set(struct gn_options *options, const struct gn_option_row *row, const char *text,
                     enum gn_source source, const char *label, struct gn_err *err);
-/* The same from a value that has been read before. */
+/* The same from a value that has been read before; the label must outlive the options. */
 void gn_options_put(struct gn_options *options, const struct gn_option_row *row, const void *value,
-                    enum gn_source source);
+                    enum gn_source source, const char *label);
 /* Where a field's value comes from, by the field: gn_options_source(o, offsetof(struct gn_options,
  * shadow)). */
 enum gn_source gn_options_source(const struct gn_options *options, size_t offset);
+/* How a message names a field, by where its value comes from: "--camera", "kiosk.ini:9: camera". */
+const char *gn_options_label_at(const struct gn_options *options, size_t offset);
+#define gn_options_label(options, field)                                                           \
+    gn_options_label_at(options, offsetof(struct gn_options, field))
 #define gn_options_given(options, field)                                                           \
     (gn_options_source(options, offsetof(struct gn_options, field)) != GN_SOURCE_DEFAULT)
 

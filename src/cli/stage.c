@@ -6,6 +6,19 @@
 #include "cli/import.h"
 #include "core/embedded.h"
 
+/* Where the name comes from is said if it does not stand on the command line. */
+static struct gn_scene *load_named(const struct gn_options *options,
+                                   const struct gn_scene_limits *limits,
+                                   struct gn_warnings *warnings, struct gn_err *err) {
+    struct gn_scene *scene = gn_import_wants(options->scene)
+                                 ? gn_import_load(options->scene, limits, warnings, err)
+                                 : gn_scene_load(options->scene, limits, warnings, err);
+    size_t offset = offsetof(struct gn_options, scene);
+    if (!scene && gn_options_source(options, offset) != GN_SOURCE_FLAG)
+        gn_fail_prefix(err, "%s", gn_options_label(options, scene));
+    return scene;
+}
+
 struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings,
                                 struct gn_err *err) {
     struct gn_scene_limits limits = {0};
@@ -13,9 +26,7 @@ struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warn
         if (!gn_scene_limits_set(&limits, options->limits.items[i].name,
                                  (uint64_t)options->limits.items[i].value, err))
             return NULL;
-    if (options->scene && gn_import_wants(options->scene))
-        return gn_import_load(options->scene, &limits, warnings, err);
-    if (options->scene) return gn_scene_load(options->scene, &limits, warnings, err);
+    if (options->scene) return load_named(options, &limits, warnings, err);
     const struct gn_embedded *sundial = gn_embedded_find("sundial.glb");
     if (!sundial) {
         gn_fail(err, "this build has no scene inside: name one");
@@ -25,26 +36,56 @@ struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warn
                                err);
 }
 
-/* The clip selection of --animation and --no-animation. */
-static bool choose_clips(const struct gn_stage *stage, int *clips, struct gn_err *err) {
+/* What the scene does not have. A kiosk whose file names it runs on without, as it does with any
+ * bad file; else false, and err says where it stands. */
+static bool do_without(const struct gn_options *o, size_t offset, struct gn_warnings *warnings,
+                       struct gn_err *err) {
+    gn_fail_prefix(err, "%s", gn_options_label_at(o, offset));
+    enum gn_source source = gn_options_source(o, offset);
+    if (o->command != GN_COMMAND_SHOW || source == GN_SOURCE_FLAG) return false;
+    gn_warn(warnings, "%s (running without it)", err->text);
+    *err = (struct gn_err){0};
+    return true;
+}
+
+/* Of --animation and --no-animation the stronger one holds: command line, mode, file. */
+static bool stands_still(const struct gn_options *o) {
+    if (o->animation && strcmp(o->animation, "none") == 0) return true;
+    size_t still = offsetof(struct gn_options, no_animation),
+           clip = offsetof(struct gn_options, animation);
+    return o->no_animation && gn_options_source(o, still) >= gn_options_source(o, clip);
+}
+
+static bool choose_clips(const struct gn_stage *stage, int *clips, struct gn_warnings *warnings,
+                         struct gn_err *err) {
     const struct gn_options *o = stage->options;
+    *clips = stands_still(o) ? GN_POSE_NONE : GN_POSE_DEFAULT;
+    if (!o->animation || *clips == GN_POSE_NONE) return true;
+    *clips = gn_scene_find_clip(stage->scene, o->animation, err);
+    if (*clips >= 0) return true;
     *clips = GN_POSE_DEFAULT;
-    if (o->no_animation || (o->animation && strcmp(o->animation, "none") == 0))
-        *clips = GN_POSE_NONE;
-    else if (o->animation)
-        *clips = gn_scene_find_clip(stage->scene, o->animation, err);
-    return !o->animation || *clips != -1 || *clips == GN_POSE_NONE;
+    return do_without(o, offsetof(struct gn_options, animation), warnings, err);
+}
+
+static bool choose_camera(struct gn_stage *stage, struct gn_warnings *warnings,
+                          struct gn_err *err) {
+    const struct gn_options *o = stage->options;
+    stage->frame_opts.camera = gn_scene_find_camera(stage->scene, o->camera, err);
+    if (stage->frame_opts.camera >= 0) return true;
+    stage->frame_opts.camera = 0;
+    return do_without(o, offsetof(struct gn_options, camera), warnings, err);
 }
 
 static bool check_light(const struct gn_stage *stage, struct gn_err *err) {
     const struct gn_options *o = stage->options;
     if (o->aov == GN_AOV_COLOR || o->aov == GN_AOV_DISTANCE || o->aov == GN_AOV_NORMAL) return true;
     if (o->light >= 0 && (uint32_t)o->light < stage->scene->light_count) return true;
-    return gn_fail_usage(err, "--light %d: the scene has %u light%s, counted from 0", o->light,
-                         stage->scene->light_count, stage->scene->light_count == 1 ? "" : "s");
+    return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
+                         gn_options_label(o, light), o->light, stage->scene->light_count,
+                         stage->scene->light_count == 1 ? "" : "s");
 }
 
-static bool choose_frame(struct gn_stage *stage, struct gn_err *err) {
+static bool choose_frame(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_options *o = stage->options;
     struct gn_frame_opts *f = &stage->frame_opts;
     *f = (struct gn_frame_opts){
@@ -66,8 +107,8 @@ static bool choose_frame(struct gn_stage *stage, struct gn_err *err) {
         .show_maps = o->show_maps,
     };
     f->technique_given = gn_options_given(o, shadow) && o->shadow;
-    f->camera = gn_scene_find_camera(stage->scene, o->camera, err);
-    return f->camera >= 0 && gn_encoding_find(o->map_format, &f->encoding, err) &&
+    return choose_camera(stage, warnings, err) &&
+           gn_encoding_find(o->map_format, &f->encoding, err) &&
            (!f->technique_given || strchr(o->shadow, ',') ||
             gn_technique_find(o->shadow, &f->technique, err));
 }
@@ -78,7 +119,8 @@ bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options,
     stage->scene = gn_stage_scene(options, warnings, err);
     if (!stage->scene) return false;
     int clips;
-    if (!choose_clips(stage, &clips, err) || !check_light(stage, err) || !choose_frame(stage, err))
+    if (!choose_clips(stage, &clips, warnings, err) || !check_light(stage, err) ||
+        !choose_frame(stage, warnings, err))
         return false;
     gn_pose_init(&stage->pose, stage->scene, clips);
     gn_pose_step(&stage->pose, options->time_ns);
@@ -102,8 +144,8 @@ bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct 
     const struct gn_caps *caps = gn_gl_caps(stage->gl);
     int most = caps->max_texture_px;
     if (o->size.width_px > most || o->size.height_px > most)
-        return gn_fail(err, "--size %dx%d: %s draws at most %dx%d", o->size.width_px,
-                       o->size.height_px, caps->renderer, most, most);
+        return gn_fail(err, "%s %dx%d: %s draws at most %dx%d", gn_options_label(o, size),
+                       o->size.width_px, o->size.height_px, caps->renderer, most, most);
     stage->frame = gn_frame_create(stage->scene, caps);
     return true;
 }

@@ -86,6 +86,21 @@ static void the_last_of_two_wins(void **state) {
     assert_int_equal(options.map_px, 128);
 }
 
+static void a_value_knows_where_it_comes_from(void **state) {
+    (void)state;
+    assert_true(parse("render --camera Top --mode hard"));
+    assert_string_equal(gn_options_label(&options, camera), "--camera");
+    assert_string_equal(gn_options_label(&options, shadow), "--mode");
+    assert_string_equal(gn_options_label(&options, size), "size");
+    assert_wrong("render --mode nosuch", "--mode: there is no shadow technique 'nosuch'");
+}
+
+static void contradictions_are_not_guessed_at(void **state) {
+    (void)state;
+    assert_wrong("render --animation a --no-animation", "exclude each other");
+    assert_true(parse("render --animation none --no-animation"));
+}
+
 static void every_kind_is_read(void **state) {
     (void)state;
     assert_true(parse(
@@ -336,6 +351,8 @@ int main(void) {
         cmocka_unit_test_teardown(values_come_in_three_ways, clean),
         cmocka_unit_test_teardown(the_last_of_two_wins, clean),
         cmocka_unit_test_teardown(every_kind_is_read, clean),
+        cmocka_unit_test_teardown(a_value_knows_where_it_comes_from, clean),
+        cmocka_unit_test_teardown(contradictions_are_not_guessed_at, clean),
         cmocka_unit_test_teardown(a_wrong_value_names_option_value_and_range, clean),
         cmocka_unit_test_teardown(wrong_words_are_explained, clean),
         cmocka_unit_test_teardown(a_missing_file_is_not_a_wrong_command, clean),
