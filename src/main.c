@@ -9,6 +9,7 @@
 #include "cli/args.h"
 #include "cli/commands.h"
 #include "cli/help.h"
+#include "cli/stop.h"
 #include "config.h"
 
 static gn_cli_command *const commands[] = {
@@ -59,6 +60,7 @@ int main(int argc, char **argv) {
     struct gn_err err = {0};
     fill_standard_descriptors();
     signal(SIGPIPE, SIG_IGN);
+    gn_stop_at_once();
     bool ok =
         gn_args_parse(&options, argc, argv, &warnings, &err) && run(&options, &warnings, &err);
     if (ok) ok = flush_output(&err);

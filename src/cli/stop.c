@@ -1,6 +1,9 @@
 #include "cli/stop.h"
 
 #include <stddef.h>
+#include <unistd.h>
+
+#include "core/err.h"
 
 static void ends(sigset_t *signals) {
     sigemptyset(signals);
@@ -13,6 +16,19 @@ void gn_stop_block(sigset_t *signals) {
     ends(&both);
     sigprocmask(SIG_BLOCK, &both, NULL);
     if (signals) *signals = both;
+}
+
+static void end(int signal) {
+    (void)signal;
+    _exit(GN_EXIT_OK);
+}
+
+void gn_stop_at_once(void) {
+    static const int signals[] = {SIGTERM, SIGINT};
+    struct sigaction old, now = {.sa_handler = end};
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
+        if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
+            sigaction(signals[i], &now, NULL);
 }
 
 bool gn_stop_asked(void) {
