@@ -60,6 +60,7 @@ int main(int argc, char **argv) {
     struct gn_err err = {0};
     fill_standard_descriptors();
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN); /* a write past the limit fails and is reported like a full disk */
     gn_stop_at_once();
     bool ok =
         gn_args_parse(&options, argc, argv, &warnings, &err) && run(&options, &warnings, &err);
