@@ -1,6 +1,7 @@
 /* Arguments -> a command; the one error line; the exit status. */
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -39,11 +40,17 @@ static bool run(const struct gn_options *options, struct gn_warnings *warnings,
     return true;
 }
 
-/* A reader that had enough (`| head`) is no failure. */
+static bool reader_has_gone(void) {
+    struct pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    return poll(&output, 1, 0) == 1 && output.revents & (POLLERR | POLLHUP);
+}
+
+/* A reader that had enough (`| head`) is no failure. What went wrong long ago has left no errno. */
 static bool flush_output(struct gn_err *err) {
-    bool bad = ferror(stdout);
-    if (fflush(stdout) == 0 && !bad) return true;
-    return errno == EPIPE || gn_fail(err, "standard output: cannot write: %s", strerror(errno));
+    bool bad = ferror(stdout), flushed = fflush(stdout) == 0;
+    if ((flushed && !bad) || reader_has_gone()) return true;
+    return gn_fail(err, "standard output: cannot write%s%s", flushed ? " all of it" : ": ",
+                   flushed ? "" : strerror(errno));
 }
 
 static int report(bool ok, const struct gn_options *options, const struct gn_warnings *warnings,

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/json_print.h"
 #include "core/arena.h"
 
 static int by_value(const void *a, const void *b) {
@@ -134,8 +135,5 @@ static json_t *report_json(const struct gn_bench_report *r) {
 }
 
 bool gn_bench_print_json(const struct gn_bench_report *report, FILE *to, struct gn_err *err) {
-    json_t *object = report_json(report);
-    bool ok = json_dumpf(object, to, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
-    json_decref(object);
-    return ok && fputc('\n', to) != EOF ? true : gn_fail(err, "cannot write the JSON");
+    return gn_json_print(report_json(report), 9, to, err);
 }

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "cli/json_print.h"
 #include "core/text.h"
 #include <config.h> /* made by the build; not cli/config.h */
 
@@ -321,8 +322,5 @@ bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struc
                   devices_json(m, true), "problems", problems_json(report));
     if (all && report->self_test)
         json_object_set_new(all, "self_test", gn_selftest_json(report->self_test));
-    bool ok = all && json_dumpf(all, to, JSON_INDENT(2) | JSON_REAL_PRECISION(7)) == 0 &&
-              fputc('\n', to) != EOF;
-    json_decref(all);
-    return ok || gn_fail(err, "the report cannot be written");
+    return gn_json_print(all, 7, to, err);
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "cli/inspect.h"
+#include "cli/json_print.h"
 #include "core/text.h"
 
 #define DEG(radians) ((double)(radians) * (180.0 / 3.14159265358979323846))
@@ -280,8 +281,5 @@ bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_e
         "clips", list(s, s->clip_count, clip_json), "hemisphere", "sky", vector(s->sky), "ground",
         vector(s->ground), "background", vector(s->background), "cost", cost_json(in));
     if (all) add_faults(all, in);
-    bool ok = all && json_dumpf(all, to, JSON_INDENT(2) | JSON_REAL_PRECISION(7)) == 0 &&
-              fputc('\n', to) != EOF;
-    json_decref(all);
-    return ok || gn_fail(err, "the report cannot be written");
+    return gn_json_print(all, 7, to, err);
 }
