@@ -125,7 +125,7 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
     {.name = "self-test", .kind = GN_KIND_FLAG,
      .help = "draw small scenes with every technique and compare them with the truth", .commands = BIT(DOCTOR), .offset = FIELD(self_test)},
     {.name = "verbose", .letter = 'v', .kind = GN_KIND_FLAG,
-     .help = "print warnings also when the command fails", .commands = ANY, .offset = FIELD(verbose)},
+     .help = "when the command fails, print warnings and the source of a failed shader too", .commands = ANY, .offset = FIELD(verbose)},
     {.name = "version", .kind = GN_KIND_FLAG,
      .help = "print the version", .commands = ANY, .offset = FIELD(version)},
     {.name = "help", .letter = 'h', .kind = GN_KIND_FLAG,

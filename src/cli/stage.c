@@ -1,6 +1,7 @@
 #include "cli/stage.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "cli/import.h"
@@ -159,7 +160,10 @@ const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *
         stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
         plan = gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
     }
-    return gn_gl_prepare(stage->gl, plan, err) ? plan : NULL;
+    if (gn_gl_prepare(stage->gl, plan, err)) return plan;
+    const char *source = gn_gl_failed_source(stage->gl);
+    if (source) fputs(source, stderr);
+    return NULL;
 }
 
 void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {

@@ -33,7 +33,8 @@ bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct 
 void gn_stage_pose(struct gn_stage *stage, int64_t time_ns);
 /* Builds the plan of the pose and frame_opts as they are and makes what it needs. What the GPU
  * turns out not to have, against its own word, is done without, as if it stood in --without; a
- * warning says so. NULL on failure. */
+ * warning says so. NULL on failure; with -v the source of a shader that does not compile has then
+ * been printed, for it is too long for any other way. */
 const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *warnings,
                                     struct gn_err *err);
 /* Poses at a time, builds the plan, makes what it needs and draws it. NULL on failure. */

@@ -77,10 +77,12 @@ void gn_gl_destroy(struct gn_gl *gl) {
     }
     free(gl->plan_programs);
     free(gl->shaders);
+    free(gl->failed_source);
     free(gl);
 }
 
 const struct gn_caps *gn_gl_caps(const struct gn_gl *gl) { return &gl->caps; }
+const char *gn_gl_failed_source(const struct gn_gl *gl) { return gl->failed_source; }
 
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err) {
     gn_gl_targets_forget(gl);

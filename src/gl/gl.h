@@ -19,7 +19,8 @@ struct gn_gl_opts {
                             are a usage error */
     bool desktop;        /* a desktop GL context (OSMesa): switch GL_FRAMEBUFFER_SRGB on */
     bool prove_later;    /* leave proofs to gn_gl_prove(): the first picture is there sooner */
-    bool debug;          /* KHR_debug messages become errors that gn_gl_error() reports */
+    bool debug;          /* KHR_debug messages become errors that gn_gl_error() reports, and the
+                            source of a program that fails is kept */
 };
 
 struct gn_gl;
@@ -42,6 +43,9 @@ bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan);
  * of the plan, and of plans with the same keys and sizes, allocates nothing and makes no GL object.
  */
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
+/* The composed source of the stage that failed last in a program of gn_gl_prepare(), its lines
+ * numbered as the driver counts them; NULL when none did, or without `debug`. */
+const char *gn_gl_failed_source(const struct gn_gl *gl);
 /* Draws. Shadow passes whose target holds their content_hash are skipped. pass_ms, if not NULL,
  * gets the time of each pass (CPU wall clock around the pass and a 1-pixel read-back: slow, for
  * bench). */

@@ -14,7 +14,7 @@ void gn_gl_text_add(struct gn_gl_text *text, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void gn_gl_text_add_bytes(struct gn_gl_text *text, const char *data, size_t size);
 void gn_gl_text_finish(struct gn_gl_text *text);
-/* The same text with a number before each line; malloc'ed. */
+/* The same text with a number before each line and ? for control characters; malloc'ed. */
 char *gn_gl_text_numbered(const struct gn_gl_text *text);
 
 /* Adds the shader file `name` (a path below shaders_es), from the folder or, if that is NULL, from
@@ -267,6 +267,7 @@ struct gn_gl {
     uint64_t objects_created;
     uint64_t programs_made; /* tried ones too */
     char debug_text[256];   /* the driver's first complaint since the last check */
+    char *failed_source;    /* see gn_gl_failed_source() */
 };
 
 #define GL(gl, name) ((gl)->calls++, (gl)->fn.name)

@@ -10,7 +10,8 @@
 
 struct sources { /* of one program, and the stage that failed */
     struct gn_gl_text stage[2];
-    int failed; /* enum gn_gl_stage; 2: linking */
+    int failed;    /* enum gn_gl_stage; 2: linking */
+    bool composed; /* both: it was the driver that refused */
 };
 
 static const char *const stage_names[] = {"vertex", "fragment", "link"};
@@ -85,6 +86,7 @@ static GLuint compose_and_build(struct gn_gl *gl, const struct gn_program_key *k
         sources->failed = i;
         if (!gn_gl_compose(gl->shaders, key, i, &sources->stage[i], err)) return 0;
     }
+    sources->composed = true;
     const char *const text[2] = {sources->stage[0].data, sources->stage[1].data};
     GLuint program = build(gl, text, &sources->failed, err);
     if (program) return program;
@@ -179,13 +181,22 @@ static void add(struct gn_gl *gl, const struct gn_program_key *key, GLuint name)
     gl->programs.count++;
 }
 
+static void keep_failed(struct gn_gl *gl, const struct sources *sources, struct gn_err *err) {
+    free(gl->failed_source);
+    gl->failed_source = gl->debug ? sources_log(sources) : NULL;
+    if (gl->debug || !err) return;
+    const struct gn_err said = *err;
+    gn_fail(err, "%.440s (-v prints the source)", said.text);
+}
+
 bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err) {
     if (gn_gl_program_find(gl, key)) return true;
     if (2 * (gl->programs.count + 1) > gl->programs.room) grow(&gl->programs);
     struct sources sources = {0};
     GLuint name = compose_and_build(gl, key, &sources, err);
-    sources_finish(&sources);
     if (name) add(gl, key, name);
+    if (!name && sources.composed) keep_failed(gl, &sources, err);
+    sources_finish(&sources);
     return name;
 }
 

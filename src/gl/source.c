@@ -46,6 +46,8 @@ char *gn_gl_text_numbered(const struct gn_gl_text *text) {
         gn_gl_text_add_bytes(&out, "\n", 1);
         at += length + (at[length] == '\n');
     }
+    for (char *c = out.data; c && *c; c++)
+        if (((unsigned char)*c < 0x20 && *c != '\n' && *c != '\t') || *c == 0x7f) *c = '?';
     return out.data;
 }
 
