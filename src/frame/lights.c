@@ -36,7 +36,9 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
     frame->exposure_known = true;
     frame->auto_exposure = 1.0f;
     if (strongest > 0.0f && isfinite(strongest) && (sum < 0.3f || sum > 30.0f))
-        frame->auto_exposure = exp2f(roundf(log2f(0.8f * GLM_PIf / strongest)));
+        /* not farther than a float can be scaled and stay a normal one */
+        frame->auto_exposure =
+            exp2f(glm_clamp(roundf(log2f(0.8f * GLM_PIf / strongest)), -126.0f, 126.0f));
     return frame->auto_exposure;
 }
 

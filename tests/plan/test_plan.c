@@ -482,6 +482,18 @@ static void test_exposure(void **state) {
     end(&f);
 }
 
+static void test_no_light_is_too_weak_for_an_exposure(void **state) {
+    (void)state;
+    for (float scale = 1e-36f; scale > 0.0f; scale *= 1e-2f) {
+        struct fixture f;
+        begin(&f, everything);
+        for (uint32_t i = 0; i < f.scene->light_count; i++)
+            glm_vec3_scale(f.scene->lights[i].color, scale, f.scene->lights[i].color);
+        assert_null(gn_plan_check(build(&f)));
+        end(&f);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_default_plan),
@@ -508,6 +520,7 @@ int main(void) {
         cmocka_unit_test(test_programs_do_not_change_with_what_is_reached),
         cmocka_unit_test(test_check_finds_what_is_broken),
         cmocka_unit_test(test_exposure),
+        cmocka_unit_test(test_no_light_is_too_weak_for_an_exposure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
