@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/driver_cache.h"
 #include "cli/memory.h"
+#include "cli/picture.h"
 #include "cli/stage.h"
 #include "core/arena.h"
 #include "core/clock.h"
@@ -209,8 +210,9 @@ static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
 
 static bool draw_first_picture(struct bench *b, struct gn_err *err) {
     size_t pixels = (size_t)b->options->size.width_px * (size_t)b->options->size.height_px;
-    uint8_t *rgba = gn_xalloc(pixels, 4);
-    bool ok = draw_frame(b, &b->entries[0], 0, err) && gn_gl_read_rgba8(b->stage.gl, rgba, err);
+    uint8_t *rgba = gn_picture_alloc(pixels, 4, err);
+    bool ok =
+        rgba && draw_frame(b, &b->entries[0], 0, err) && gn_gl_read_rgba8(b->stage.gl, rgba, err);
     b->report.start_ms = (double)(gn_clock_monotonic_ns() - b->start_ns) / MS_NS;
     free(rgba);
     return ok;

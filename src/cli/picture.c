@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/arena.h"
 #include "core/file.h"
 
 bool gn_picture_format_of(const char *path, enum gn_picture_format *format, struct gn_err *err) {
@@ -16,17 +15,28 @@ bool gn_picture_format_of(const char *path, enum gn_picture_format *format, stru
     return gn_fail_usage(err, "-o %s: a picture ends in .png or .pfm", path);
 }
 
+void *gn_picture_alloc(size_t pixels, size_t bytes, struct gn_err *err) {
+    void *memory = calloc(pixels ? pixels : 1, bytes);
+    if (!memory)
+        gn_fail(err, "no memory for a picture of %zu pixels: use a smaller --size or --map",
+                pixels);
+    return memory;
+}
+
 struct buffer {
     uint8_t *data;
     size_t size, room;
+    bool full; /* no memory for the rest */
 };
 
 static void append(png_structp png, png_bytep data, png_size_t size) {
     struct buffer *b = png_get_io_ptr(png);
-    if (b->size + size > b->room) {
-        b->room = 2 * (b->size + size);
-        b->data = gn_xrealloc(b->data, b->room, 1);
+    if (b->size + size > b->room && !b->full) {
+        uint8_t *more = realloc(b->data, 2 * (b->size + size));
+        if (more) b->data = more, b->room = 2 * (b->size + size);
+        b->full = !more;
     }
+    if (b->full) return;
     memcpy(b->data + b->size, data, size);
     b->size += size;
 }
@@ -34,8 +44,8 @@ static void append(png_structp png, png_bytep data, png_size_t size) {
 static void no_flush(png_structp png) { (void)png; }
 static void say_nothing(png_structp png, png_const_charp text) { (void)png, (void)text; }
 
-/* rows: bit depth 8 RGB or 16 grey, big-endian, tightly packed. Only want of memory makes libpng
- * fail here: it aborts. */
+/* rows: bit depth 8 RGB or 16 grey, big-endian, tightly packed. Only want of memory for its own few
+ * tables makes libpng fail here: it aborts. */
 static bool write_png(const char *path, const uint8_t *rows, int color_type, int depth,
                       size_t stride, int width_px, int height_px, bool srgb, struct gn_err *err) {
     struct buffer buffer = {0};
@@ -52,7 +62,8 @@ static bool write_png(const char *path, const uint8_t *rows, int color_type, int
     for (int y = 0; y < height_px; y++) png_write_row(png, rows + (size_t)y * stride);
     png_write_end(png, info);
     png_destroy_write_struct(&png, &info);
-    bool ok = gn_file_write(path, buffer.data, buffer.size, err);
+    bool ok = buffer.full ? gn_fail(err, "%s: no memory for it: use a smaller --size", path)
+                          : gn_file_write(path, buffer.data, buffer.size, err);
     free(buffer.data);
     return ok;
 }
@@ -60,7 +71,8 @@ static bool write_png(const char *path, const uint8_t *rows, int color_type, int
 bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px,
                            bool srgb, struct gn_err *err) {
     size_t count = (size_t)width_px * (size_t)height_px;
-    uint8_t *rgb = gn_xalloc(count, 3);
+    uint8_t *rgb = gn_picture_alloc(count, 3, err);
+    if (!rgb) return false;
     for (size_t i = 0; i < count; i++) memcpy(rgb + 3 * i, rgba + 4 * i, 3);
     bool ok = write_png(path, rgb, PNG_COLOR_TYPE_RGB, 8, (size_t)width_px * 3, width_px, height_px,
                         srgb, err);
@@ -71,7 +83,8 @@ bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, 
 bool gn_picture_write_png16_grey(const char *path, const float *grey, int width_px, int height_px,
                                  struct gn_err *err) {
     size_t count = (size_t)width_px * (size_t)height_px;
-    uint8_t *rows = gn_xalloc(count, 2);
+    uint8_t *rows = gn_picture_alloc(count, 2, err);
+    if (!rows) return false;
     for (size_t i = 0; i < count; i++) {
         float clamped = grey[i] > 0.0f ? fminf(grey[i], 1.0f) : 0.0f;
         unsigned code = (unsigned)lrintf(clamped * 65535.0f);
@@ -96,7 +109,8 @@ bool gn_picture_write_pfm(const char *path, const float *values, int channels, i
     int length = snprintf(header, sizeof header, "%s\n%d %d\n-1.0\n", channels == 1 ? "Pf" : "PF",
                           width_px, height_px);
     size_t row = (size_t)width_px * (size_t)channels, count = row * (size_t)height_px;
-    uint8_t *file = gn_xalloc((size_t)length + 4 * count, 1);
+    uint8_t *file = gn_picture_alloc((size_t)length + count, 4, err);
+    if (!file) return false;
     memcpy(file, header, (size_t)length);
     for (int y = 0; y < height_px; y++)
         for (size_t x = 0; x < row; x++)

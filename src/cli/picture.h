@@ -4,6 +4,7 @@
 #define GN_CLI_PICTURE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "core/err.h"
@@ -11,6 +12,10 @@
 enum gn_picture_format { GN_PICTURE_PNG, GN_PICTURE_PFM };
 /* By the name's ending; a usage error for another one. */
 bool gn_picture_format_of(const char *path, enum gn_picture_format *format, struct gn_err *err);
+
+/* Zeroed memory for that many pixels of so many bytes, for free(). Its size is what somebody asked
+ * for, so want of it is a failure like any other: NULL. */
+void *gn_picture_alloc(size_t pixels, size_t bytes, struct gn_err *err);
 
 /* All take the top row first. srgb: says in the file that the values are sRGB-encoded. */
 bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px,

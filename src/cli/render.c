@@ -9,7 +9,6 @@
 #include "cli/picture.h"
 #include "cli/stage.h"
 #include "cli/stop.h"
-#include "core/arena.h"
 #include "core/clock.h"
 #include "shadow/grey.h"
 
@@ -98,9 +97,9 @@ static bool write_map(struct render *r, const struct gn_plan *plan, const char *
     const struct gn_shadow_view *view = &plan->shadows[slot];
     const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
     size_t width = view->width_px, height = view->height_px;
-    float *codes = gn_xalloc(width * height, sizeof *codes),
-          *flipped = gn_xalloc(width * height, sizeof *flipped);
-    bool ok = gn_gl_read_map(r->stage.gl, slot, codes, err);
+    float *codes = gn_picture_alloc(width * height, sizeof *codes, err),
+          *flipped = codes ? gn_picture_alloc(width * height, sizeof *flipped, err) : NULL;
+    bool ok = flipped && gn_gl_read_map(r->stage.gl, slot, codes, err);
     for (size_t y = 0; ok && y < height; y++)
         for (size_t x = 0; x < width; x++)
             flipped[(height - 1 - y) * width + x] = gn_shadow_grey_at(&grey, codes[y * width + x]);
@@ -145,12 +144,14 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
     return true;
 }
 
-static void make_room(struct render *r) {
+static bool make_room(struct render *r, struct gn_err *err) {
     size_t pixels =
         (size_t)r->stage.options->size.width_px * (size_t)r->stage.options->size.height_px;
-    r->rgba = gn_xalloc(pixels, 4);
-    if (r->stage.frame_opts.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM)
-        r->floats = gn_xalloc(4 * pixels, sizeof(float));
+    bool wants_floats = r->stage.frame_opts.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM;
+    r->rgba = gn_picture_alloc(pixels, 4, err);
+    if (!r->rgba) return false;
+    if (wants_floats) r->floats = gn_picture_alloc(pixels, 4 * sizeof(float), err);
+    return !wants_floats || r->floats;
 }
 
 bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warnings,
@@ -160,10 +161,7 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
     bool ok = check_options(options, &r, err) && gn_stage_load(&r.stage, options, warnings, err);
     r.stage.frame_opts.output_float = options->aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
     ok = ok && gn_stage_open(&r.stage, warnings, err);
-    if (ok) {
-        make_room(&r);
-        ok = draw_frames(&r, warnings, err);
-    }
+    ok = ok && make_room(&r, err) && draw_frames(&r, warnings, err);
     free(r.rgba);
     free(r.floats);
     gn_stage_close(&r.stage);
