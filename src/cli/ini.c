@@ -60,7 +60,11 @@ static bool check_setting(struct reader *r, const char *line) {
     if (is_blank(line[0]))
         return refuse(r,
                       "begins with a space; a setting is one line and begins at its first column");
-    if (line[length] != '=') return refuse(r, "expected KEY = VALUE or [section]");
+    if (line[length] != '=') {
+        r->failed = true;
+        return gn_fail_usage(r->err, "%s: expected KEY = VALUE or [section], not \"%.60s\"",
+                             r->where, line);
+    }
     while (length > 0 && is_blank(line[length - 1])) length--;
     if (length == 0) return refuse(r, "expected a key before the =");
     if (length > GN_INI_NAME_MAX) return refuse(r, "a key of more than 48 characters");
