@@ -86,7 +86,11 @@ static bool check_backend(struct gn_doctor_backend *b, const struct gn_options *
     bool ended = gn_child_run(&child, answer, &end);
     b->opens = ended && answer->opens;
     b->caps = answer->caps;
-    if (!b->opens) snprintf(b->why, sizeof b->why, "%.319s", ended ? answer->err.text : end.text);
+    const char *why = ended ? answer->err.text : end.text;
+    char prefix[64]; /* the report names it already */
+    snprintf(prefix, sizeof prefix, "backend %s: ", b->name);
+    if (strncmp(why, prefix, strlen(prefix)) == 0) why += strlen(prefix);
+    if (!b->opens) snprintf(b->why, sizeof b->why, "%.319s", why);
     if (!ended || answer->err.status != GN_EXIT_USAGE) return true;
     *err = answer->err;
     return false;
