@@ -1,9 +1,11 @@
 #include "core/text.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define DISTANCE_MAX 31
+#define ENDS_MIN     64 /* shorter texts have no middle that could be spared */
 
 static int is_control(const unsigned char *c) {
     return *c < 0x20 || *c == 0x7f || (c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0);
@@ -33,11 +35,31 @@ static void cut_at_character(char *text, size_t length) {
     if (start - 1 + utf8_length((unsigned char)text[start - 1]) > length) text[start - 1] = '\0';
 }
 
+/* out, which is full, becomes the beginning and the end of text. */
+static void join_ends(char *out, size_t size, const char *text, size_t length) {
+    static const char gap[] = "...";
+    out[size / 2] = '\0';
+    cut_at_character(out, size / 2);
+    size_t start = strlen(out), room = size - 1 - start - strlen(gap);
+    const char *end = text + length - room;
+    while (((unsigned char)*end & 0xc0) == 0x80) end++;
+    snprintf(out + start, size - start, "%s%s", gap, end);
+}
+
 void gn_text_vformat(char *out, size_t size, const char *format, va_list args) {
+    va_list again;
+    va_copy(again, args);
     int wanted = vsnprintf(out, size, format, args);
     if (wanted < 0) out[0] = '\0';
-    size_t length = strlen(out);
-    if (wanted >= (int)size) cut_at_character(out, length);
+    if (wanted >= (int)size) {
+        char *all = size >= ENDS_MIN ? malloc((size_t)wanted + 1) : NULL;
+        if (all && vsnprintf(all, (size_t)wanted + 1, format, again) == wanted)
+            join_ends(out, size, all, (size_t)wanted);
+        else
+            cut_at_character(out, strlen(out));
+        free(all);
+    }
+    va_end(again);
     drop_control(out);
 }
 

@@ -52,6 +52,20 @@ static void a_long_text_is_cut_at_a_whole_character(void **state) {
     }
 }
 
+static void a_long_name_does_not_push_the_reason_out(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    char name[4096];
+    memset(name, 'x', sizeof name - 1);
+    name[sizeof name - 1] = '\0';
+    gn_fail(&err, "first/%s: cannot write: disk full", name);
+    assert_memory_equal(err.text, "first/xxx", 9);
+    assert_non_null(strstr(err.text, "x...x"));
+    assert_string_equal(err.text + strlen(err.text) - 26, "x: cannot write: disk full");
+    gn_fail_prefix(&err, "%s", name);
+    assert_string_equal(err.text + strlen(err.text) - 26, "x: cannot write: disk full");
+}
+
 static void a_text_that_just_fits_is_whole(void **state) {
     (void)state;
     struct gn_err err = {0};
@@ -81,6 +95,7 @@ int main(void) {
         cmocka_unit_test(a_prefix_keeps_the_status),
         cmocka_unit_test(control_characters_are_dropped),
         cmocka_unit_test(a_long_text_is_cut_at_a_whole_character),
+        cmocka_unit_test(a_long_name_does_not_push_the_reason_out),
         cmocka_unit_test(a_text_that_just_fits_is_whole),
         cmocka_unit_test(a_prefix_on_a_full_text_cuts_the_end),
     };
