@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/import.h"
+#include "cli/wake.h"
 #include "core/embedded.h"
 
 /* Where the name comes from is said if it does not stand on the command line. */
@@ -130,7 +131,7 @@ bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options,
 
 bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_options *o = stage->options;
-    if (!gn_display_open(&stage->display, o->backend, warnings, err)) return false;
+    if (!gn_wake_display(&stage->display, o, warnings, err)) return false;
     struct gn_gl_opts opts = {
         .get_proc = gn_display_get_proc,
         .display = &stage->display,
