@@ -197,7 +197,7 @@ check:
 	+$(SUB) lint
 	@tests/run.sh tests/layers.sh tests/format.sh \
 	    BUILD=$(O)/release $(call programs,$(O)/release) $(SCRIPTS) \
-	    BUILD=$(O)/asan $(call programs,$(O)/asan)
+	    BUILD=$(O)/asan $(call programs,$(O)/asan) tests/check_hostile.sh
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
