@@ -25,7 +25,7 @@ help:
 	    'make readme     the table of techniques in README.md, measured' \
 	    'make gallery    one scene with every technique and the truth, into assets/gallery' \
 	    'make deps       install the packages that building, running and testing need (apt);' \
-    '                with CROSS= those that building for it needs' \
+	    '                with CROSS= those that building for it needs' \
 	    'make lint       clang-tidy; make format: clang-format, in place' \
 	    'make install    DESTDIR= PREFIX=/usr/local; make uninstall takes it away again' \
 	    'make tests, man, compile_commands.json, clean' \
