@@ -4,11 +4,13 @@ VERSION := 0.1.0
 CONFIG  ?= release
 O       ?= build
 PREFIX  ?= /usr/local
+INTO    := $(DESTDIR)$(PREFIX)
 HOSTCC  ?= cc
 SUB      = $(MAKE) --no-print-directory \
            $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc)) READY=1
 Q       := $(if $(V),,@)
 GOALS   := $(or $(MAKECMDGOALS),all)
+BARE    := help clean deps format uninstall # goals that need neither a compiler nor a library
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
@@ -34,6 +36,11 @@ clean:
 	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb
 deps:
 	@sh board/deps.sh $(if $(CROSS),build cross,build run test)
+format:
+	clang-format -i $(wildcard src/*.c src/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*.c)
+uninstall:
+	rm -f $(INTO)/bin/gnomon $(INTO)/bin/gnomon-import $(INTO)/share/man/man1/gnomon.1
+	rm -rf $(INTO)/share/doc/gnomon
 
 DEPS_run := build run
 DEPS_check := build run test
@@ -46,9 +53,9 @@ ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
 	@+$(SUB) $@
-$(filter-out $(BOOT) help clean deps,$(GOALS)):
+$(filter-out $(BOOT) $(BARE),$(GOALS)):
 	@+$(SUB) $@
-else ifneq ($(filter-out help clean deps,$(GOALS)),)
+else ifneq ($(filter-out $(BARE),$(GOALS)),)
 
 # ---- the compiler and its flags ------------------------------------------------------------
 CC      := $(if $(filter default undefined,$(origin CC)),$(if $(CROSS),$(CROSS)-)gcc,$(CC))
@@ -61,7 +68,8 @@ endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm
-MISSING := $(shell for p in $(PKGS) $(HEADERS); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
+NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests truth gallery readme,$(GOALS)),cmocka)
+MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # gnomon-import is a program of its own, for those who have assimp
 IMPORT_C := $(if $(shell $(PKG) --exists assimp 2> /dev/null && echo y),$(sort $(wildcard src/import/*.c)))
@@ -215,23 +223,17 @@ lint: $(patsubst %.c,$(O)/tidy/%.ok,src/main.c $(SRC) $(IMPORT_C))
 $(O)/tidy/%.ok: %.c .clang-tidy $(wildcard src/*/*.h) | $(B)/gen/config.h $(B)/gen/poisson.h
 	@mkdir -p $(@D) && echo "tidy $<"
 	$(Q)clang-tidy --quiet --warnings-as-errors='*' $< -- $(filter-out -f% -Wno%,$(ALL_CFLAGS)) 2> $@.log || { cat $@.log; false; } && touch $@
-format:
-	clang-format -i $(wildcard src/*.c src/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*.c)
 compile_commands.json: FORCE
 	@for f in src/main.c $(SRC) $(IMPORT_C) $(TESTS_C); do printf \
 	    '{"directory": "$(CURDIR)", "file": "%s", "command": "$(CC) $(ALL_CFLAGS) -Itests -c %s"},\n' \
 	    $$f $$f; done | sed '1s/^/[\n/; $$s/,$$/\n]/' > $@
 
 # ---- installation --------------------------------------------------------------------------
-INTO := $(DESTDIR)$(PREFIX)
 install: all
 	install -D -m 755 $(BIN) $(INTO)/bin/gnomon
 	$(if $(IMPORT_C),install -D -m 755 $(IMPORT) $(INTO)/bin/gnomon-import)
 	install -D -m 644 $(O)/gnomon.1 $(INTO)/share/man/man1/gnomon.1
 	install -D -m 644 LICENSE $(INTO)/share/doc/gnomon/LICENSE
-uninstall:
-	rm -f $(INTO)/bin/gnomon $(INTO)/bin/gnomon-import $(INTO)/share/man/man1/gnomon.1
-	rm -rf $(INTO)/share/doc/gnomon
 
 -include $(shell find $(B)/obj -name '*.d' 2> /dev/null)
 endif

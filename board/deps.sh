@@ -7,7 +7,8 @@ libraries='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev lib
     libcglm-dev'
 build="gcc make pkgconf $libraries"
 run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri'
-test='libcmocka-dev clang clang-format clang-tidy'
+test_libraries='libcmocka-dev'
+test="clang clang-format clang-tidy $test_libraries"
 optional_build='libassimp-dev' # for gnomon-import
 optional_test='libosmesa6-dev' # not in every Debian
 
@@ -48,7 +49,7 @@ for set in "$@"; do
     cross)
         added=$(architecture_of "${CROSS:-}")
         compiler=gcc-$(echo "$CROSS" | tr _ -)
-        wanted="$wanted $compiler $(foreign "$added" $libraries)"
+        wanted="$wanted $compiler $(foreign "$added" $libraries $test_libraries)"
         extra="$extra $(foreign "$added" $optional_build $optional_test)"
         ;;
     *) echo "deps.sh: no set of packages is called $set" >&2 && exit 2 ;;
