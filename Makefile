@@ -5,6 +5,7 @@ CONFIG  ?= release
 O       ?= build
 PREFIX  ?= /usr/local
 INTO    := $(DESTDIR)$(PREFIX)
+$(if $(word 2,$(O)),$(error O= is one folder without a space in its name, not "$(O)"))
 HOSTCC  ?= cc
 SUB      = $(MAKE) --no-print-directory \
            $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc)) READY=1
@@ -39,8 +40,8 @@ deps:
 format:
 	clang-format -i $(wildcard src/*.c src/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*.c)
 uninstall:
-	rm -f $(INTO)/bin/gnomon $(INTO)/bin/gnomon-import $(INTO)/share/man/man1/gnomon.1
-	rm -rf $(INTO)/share/doc/gnomon
+	rm -f "$(INTO)/bin/gnomon" "$(INTO)/bin/gnomon-import" "$(INTO)/share/man/man1/gnomon.1"
+	rm -rf "$(INTO)/share/doc/gnomon"
 
 DEPS_run := build run
 DEPS_check := build run test
@@ -230,10 +231,10 @@ compile_commands.json: FORCE
 
 # ---- installation --------------------------------------------------------------------------
 install: all
-	install -D -m 755 $(BIN) $(INTO)/bin/gnomon
-	$(if $(IMPORT_C),install -D -m 755 $(IMPORT) $(INTO)/bin/gnomon-import)
-	install -D -m 644 $(O)/gnomon.1 $(INTO)/share/man/man1/gnomon.1
-	install -D -m 644 LICENSE $(INTO)/share/doc/gnomon/LICENSE
+	install -D -m 755 $(BIN) "$(INTO)/bin/gnomon"
+	$(if $(IMPORT_C),install -D -m 755 $(IMPORT) "$(INTO)/bin/gnomon-import")
+	install -D -m 644 $(O)/gnomon.1 "$(INTO)/share/man/man1/gnomon.1"
+	install -D -m 644 LICENSE "$(INTO)/share/doc/gnomon/LICENSE"
 
 -include $(shell find $(B)/obj -name '*.d' 2> /dev/null)
 endif
