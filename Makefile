@@ -156,7 +156,7 @@ define keep
 @mkdir -p $(@D) && printf '%b\n' '$(1)' | cmp -s - $@ || printf '%b\n' '$(1)' > $@
 endef
 $(B)/flags: FORCE
-	$(call keep,$(shell $(CC) --version | head -n 1) $(CC) $(ALL_CFLAGS))
+	$(call keep,$(shell $(CC) --version | head -n 1) $(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $(LIBS))
 $(B)/sources: FORCE
 	$(call keep,$(SRC) $(IMPORT_C) $(TESTS_C) $(EMBED))
 $(B)/gen/config.h: FORCE
