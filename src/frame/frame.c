@@ -37,8 +37,9 @@ void gn_frame_destroy(struct gn_frame *frame) {
     free(frame->run.at);
     free(frame->sorted.at);
     free(frame->passes.at);
-    for (int i = 0; i < GN_ALL_SHADOWS_MAX * GN_SHADOW_TILES_MAX; i++)
-        gn_shadow_memory_finish(&frame->memory[0][i]);
+    for (int i = 0; i < GN_ALL_SHADOWS_MAX; i++)
+        for (int tile = 0; tile < GN_SHADOW_TILES_MAX; tile++)
+            gn_shadow_memory_finish(&frame->memory[i][tile]);
     free(frame->constants);
     free(frame);
 }
