@@ -18,9 +18,10 @@ static void count_pass(struct gn_scene_cost *cost, const struct gn_plan *plan,
     *(shadow ? &cost->shadow_passes : &cost->passes) += 1;
     *(shadow ? &cost->shadow_draws : &cost->draws) += pass->draw_count;
     *(shadow ? &cost->shadow_triangles : &cost->triangles) += triangles;
-    if (shadow)
-        cost->map_bytes += (uint64_t)pass->target.width_px * pass->target.height_px *
-                           gn_encodings[pass->target.encoding].texel_bytes;
+}
+
+static uint64_t map_bytes(const struct gn_shadow_view *view) {
+    return (uint64_t)view->width_px * view->height_px * gn_encodings[view->encoding].texel_bytes;
 }
 
 static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene) {
@@ -34,6 +35,8 @@ static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene)
     struct gn_frame *frame = gn_frame_create(scene, &caps);
     const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
     for (uint32_t i = 0; i < plan->pass_count; i++) count_pass(cost, plan, &plan->passes[i]);
+    for (uint32_t i = 0; i < plan->shadow_count; i++)
+        cost->map_bytes += map_bytes(&plan->shadows[i]);
     cost->programs = plan->program_count;
     cost->culled = plan->culled;
     cost->target_bytes = (uint64_t)GN_INSPECT_WIDTH_PX * GN_INSPECT_HEIGHT_PX * 8;

@@ -15,7 +15,8 @@ struct gn_advice { /* one line together: "what: cure" */
 };
 
 struct gn_scene_cost { /* of the default view: first camera, 1280x720, time 0, a GPU that can all */
-    uint32_t passes, shadow_passes, draws, shadow_draws, programs, culled;
+    uint32_t passes, shadow_passes; /* a map of several tiles has a pass for each */
+    uint32_t draws, shadow_draws, programs, culled;
     uint64_t triangles, shadow_triangles;
     uint64_t vertex_bytes, index_bytes, texture_bytes; /* on the GPU, with mip-maps */
     uint64_t map_bytes, target_bytes;                  /* shadow maps; the picture with its depth */

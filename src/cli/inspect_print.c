@@ -133,7 +133,7 @@ static void print_cost(const struct gn_inspection *in, FILE *to) {
             GN_INSPECT_HEIGHT_PX);
     line(to, "%-11s %u passes, %u draw calls, %llu triangles; %u items out of sight", "picture",
          c->passes, c->draws, (unsigned long long)c->triangles, c->culled);
-    line(to, "%-11s %u maps, %u draw calls, %llu triangles, when something moves", "shadows",
+    line(to, "%-11s %u passes, %u draw calls, %llu triangles, when something moves", "shadows",
          c->shadow_passes, c->shadow_draws, (unsigned long long)c->shadow_triangles);
     line(to, "%-11s %u", "programs", c->programs);
     line(to, "%-11s %.2f MB vertices, %.2f indices, %.2f textures, %.2f maps, %.2f picture",
