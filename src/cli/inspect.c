@@ -52,17 +52,28 @@ static void count_buffers(struct gn_scene_cost *cost, const struct gn_scene *sce
     cost->index_bytes = (uint64_t)scene->index_count * (scene->vertex_count > 65536 ? 4 : 2);
 }
 
+struct image_use {
+    bool as[2]; /* data, colour */
+    bool mipmaps;
+};
+
+static void use_image(struct image_use *use, const struct gn_scene *scene, uint32_t image,
+                      int32_t texture, bool color) {
+    if (texture < 0 || scene->textures[texture].image != image) return;
+    use->as[color] = true;
+    use->mipmaps |= scene->textures[texture].mipmaps;
+}
+
 uint64_t gn_inspect_image_bytes(const struct gn_scene *scene, uint32_t image) {
-    bool used[2] = {false, false}, mipmaps = false; /* as data, as colour */
+    struct image_use use = {0};
     for (uint32_t i = 0; i < scene->material_count; i++)
-        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-            int32_t texture = scene->materials[i].textures[slot].texture;
-            if (texture < 0 || scene->textures[texture].image != image) continue;
-            used[slot == GN_TEXTURE_BASE || slot == GN_TEXTURE_EMISSIVE] = true;
-            mipmaps |= scene->textures[texture].mipmaps;
-        }
+        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
+            use_image(&use, scene, image, scene->materials[i].textures[slot].texture,
+                      slot == GN_TEXTURE_BASE || slot == GN_TEXTURE_EMISSIVE);
+    for (uint32_t i = 0; i < scene->light_count; i++)
+        use_image(&use, scene, image, scene->lights[i].slide, true);
     uint64_t pixels = (uint64_t)scene->images[image].width_px * scene->images[image].height_px;
-    return (uint64_t)(used[0] + used[1]) * (pixels * 4 * (mipmaps ? 4 : 3) / 3);
+    return (uint64_t)(use.as[0] + use.as[1]) * (pixels * 4 * (use.mipmaps ? 4 : 3) / 3);
 }
 
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,

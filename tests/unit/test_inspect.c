@@ -96,8 +96,8 @@ static void test_a_square_costs_what_it_weighs(void **state) {
     assert_int_equal(in.cost.target_bytes, 1280 * 720 * (4 + 4));
 }
 
-static void test_a_picture_costs_its_mipmaps_once_a_use(void **state) {
-    (void)state;
+/* 16 x 8, as texture 0. */
+static void add_texture(void) {
     uint8_t rgba[16 * 8 * 4];
     memset(rgba, 255, sizeof rgba);
     struct gn_made png = gn_maker_png(16, 8, rgba);
@@ -107,11 +107,24 @@ static void test_a_picture_costs_its_mipmaps_once_a_use(void **state) {
     free(png.data);
     gn_maker_add(&maker, "images", json);
     gn_maker_add(&maker, "textures", "{'source':0}");
+}
+
+static void test_a_picture_costs_its_mipmaps_once_a_use(void **state) {
+    (void)state;
+    add_texture();
     set_material("{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}},"
                  "'occlusionTexture':{'index':0}}");
     inspect();
     assert_int_equal(gn_inspect_image_bytes(scene, 0), 2 * (16 * 8 * 4 * 4 / 3));
     assert_int_equal(in.cost.texture_bytes, gn_inspect_image_bytes(scene, 0));
+}
+
+static void test_a_slide_costs_what_a_picture_does(void **state) {
+    (void)state;
+    add_texture();
+    set_lights(1, "{'type':'spot','extras':{'gnomon_slide':0}}", 2);
+    inspect();
+    assert_int_equal(in.cost.texture_bytes, 16 * 8 * 4 * 4 / 3);
 }
 
 /* ---- faults ---- */
@@ -268,6 +281,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(test_a_square_costs_what_it_weighs),
         TEST(test_a_picture_costs_its_mipmaps_once_a_use),
+        TEST(test_a_slide_costs_what_a_picture_does),
         TEST(test_what_the_file_lacks_is_said),
         TEST(test_faults_of_a_light_are_named),
         TEST(test_a_right_light_gets_no_advice),
