@@ -13,7 +13,11 @@
 #include "cli/stop.h"
 #include "core/child.h"
 
-enum { LONGEST_S = 75 }; /* it ends by itself after 60 */
+enum {
+    LONGEST_S = 75, /* it ends by itself after 60 */
+    MOST_FILE_MB = 4095,
+    MOST_MEMORY_MB = 1 << 20, /* it takes no larger numbers */
+};
 #define PROGRAM "gnomon-import"
 
 bool gn_import_wants(const char *path) {
@@ -65,6 +69,8 @@ struct job {
     uint64_t file_mb, memory_mb; /* 0: as it likes */
     int glb, log;                /* descriptors of memory, which goes with their last holder */
 };
+
+static uint64_t at_most(uint64_t value, uint64_t most) { return value < most ? value : most; }
 
 static void exec(void *shared, const void *argument) {
     (void)shared;
@@ -157,8 +163,8 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
     }
     struct job job = {.program = program,
                       .path = path,
-                      .file_mb = limits->file_mb,
-                      .memory_mb = 2 * limits->memory_mb,
+                      .file_mb = at_most(limits->file_mb, MOST_FILE_MB),
+                      .memory_mb = at_most(2 * limits->memory_mb, MOST_MEMORY_MB),
                       .glb = memfd_create("gnomon-glb", MFD_CLOEXEC),
                       .log = memfd_create("gnomon-log", MFD_CLOEXEC)};
     struct gn_scene *scene = NULL;
