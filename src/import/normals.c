@@ -23,8 +23,11 @@ struct faces {
 };
 
 static int compare(const void *a, const void *b, void *positions) {
-    const struct aiVector3D *p = positions;
-    return memcmp(&p[*(const uint32_t *)a], &p[*(const uint32_t *)b], sizeof *p);
+    const struct aiVector3D *p = (struct aiVector3D *)positions + *(const uint32_t *)a,
+                            *q = (struct aiVector3D *)positions + *(const uint32_t *)b;
+    const float from[3] = {p->x + 0.0f, p->y + 0.0f, p->z + 0.0f}; /* -0 is 0 */
+    const float to[3] = {q->x + 0.0f, q->y + 0.0f, q->z + 0.0f};
+    return memcmp(from, to, sizeof from);
 }
 
 static void find_places(struct place *place, const struct aiMesh *mesh) {

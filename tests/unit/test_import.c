@@ -280,6 +280,24 @@ static void test_a_cylinder_without_normals_is_smooth_round_and_sharp_at_its_rim
     gn_scene_destroy(scene);
 }
 
+/* Two halves of a roof, each with its own ridge, since their pictures differ: -0 in one of them. */
+static void test_a_place_is_one_whatever_the_sign_of_its_zeros(void **state) {
+    (void)state;
+    put("roof.obj", "v -1 0 0\nv 0 0.1 0\nv 0 0.1 -1\nv -1 0 -1\nvt 0 0\nvt 1 1\n"
+                    "v 1 0 0\nv -0 0.1 -0\nv -0 0.1 -1\nv 1 0 -1\n"
+                    "f 1/1 2/1 3/1 4/1\nf 5/2 8/2 7/2 6/2\n");
+    struct gn_scene *scene = load("roof.obj");
+    int ridge = 0;
+    for (uint32_t i = 0; i < scene->vertex_count; i++) {
+        if (scene->positions[3 * i] != 0) continue;
+        assert_near(scene->normals[3 * i], 0);
+        assert_near(scene->normals[3 * i + 1], 1);
+        ridge++;
+    }
+    assert_int_equal(ridge, 4);
+    gn_scene_destroy(scene);
+}
+
 /* ---- STL, PLY ---- */
 
 static void test_an_stl_has_z_up_in_either_form(void **state) {
@@ -468,6 +486,7 @@ int main(void) {
         cmocka_unit_test(test_missing_materials_are_told),
         cmocka_unit_test(test_a_box_without_normals_gets_flat_ones_that_look_out),
         cmocka_unit_test(test_a_cylinder_without_normals_is_smooth_round_and_sharp_at_its_rim),
+        cmocka_unit_test(test_a_place_is_one_whatever_the_sign_of_its_zeros),
         cmocka_unit_test(test_an_stl_has_z_up_in_either_form),
         cmocka_unit_test(test_vertex_colours_become_linear_on_white),
         cmocka_unit_test(test_a_collada_scene_keeps_its_unit_axis_and_instances),
