@@ -133,13 +133,13 @@ static void self_test(struct gn_doctor_report *report, const struct gn_options *
     struct gn_err end = {0};
     memset(answer, 0, sizeof *answer);
     bool ended = gn_child_run(&child, answer, &end);
+    if (!ended) answer->err = end;
     end_progress(&attempt);
     if (answer->self_test.row_count) report->self_test = &answer->self_test;
     if (!ended || !answer->self_tested)
         gn_doctor_add(report, "send this report to those who make gnomon or the GPU's driver",
                       "the self-test on %s stopped after %u of %u pictures: %s", name,
-                      answer->self_test.done, answer->self_test.all,
-                      ended ? answer->err.text : end.text);
+                      answer->self_test.done, answer->self_test.all, answer->err.text);
 }
 
 static bool verdict(const struct gn_doctor_report *report, const struct gn_options *options,
