@@ -40,7 +40,9 @@ expect 2 'which model?' "$import"
 expect 2 'a.3ds: not a name that ends in' "$import" a.3ds
 expect 2 '--up: "x"' "$import" --up x a.obj
 expect 2 '--time: "0"' "$import" --time 0 a.obj
-expect 2 'unknown option' "$import" --nonsense a.obj
+expect 2 '--nonsense: unknown option' "$import" --nonsense a.obj
+expect 2 '-x: unknown option' "$import" -xy a.obj
+expect 2 '--up: unknown option, or one without its value' "$import" a.obj --up
 
 mkdir "$folder/m"
 model=$folder/m/a.obj

@@ -67,6 +67,14 @@ static bool take(int option, struct gn_import_opts *opts, struct gn_err *err) {
     }
 }
 
+/* last: the argument that getopt has left behind; it is still in that of a letter with more behind
+ * it. */
+static bool fail_option(const char *last, struct gn_err *err) {
+    const char letter[] = {'-', (char)optopt, 0};
+    return gn_fail_usage(err, "%s: unknown option, or one without its value; see --help",
+                         strncmp(last, "--", 2) == 0 ? last : letter);
+}
+
 static int memory_default_mb(void) {
     long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     long machine_mb = pages > 0 && page > 0 ? (long)((long long)pages * page >> 20) : 4096;
@@ -90,9 +98,7 @@ static bool parse(int argc, char **argv, struct gn_import_opts *opts, struct gn_
             fputs(c == 'h' ? help : "gnomon-import " GN_VERSION "\n", stdout);
             return true;
         }
-        if (c == '?')
-            return gn_fail_usage(err, "%s: unknown option, or one without its value; see --help",
-                                 argv[optind - 1]);
+        if (c == '?') return fail_option(argv[optind - 1], err);
         if (!take(c, opts, err)) return false;
     }
     if (argc - optind != 1)
@@ -135,7 +141,7 @@ static bool run(const struct job *job, struct gn_import_report *report, struct g
     struct gn_child child = {.work = work, .argument = job, .stall_s = o->time_s};
     struct gn_err end = {0};
     if (gn_child_run(&child, report, &end)) {
-        *err = report->err;
+        gn_fail(err, "%.511s", report->err.text); /* who knows what a model has made of it */
         return report->done || err->text[0] ||
                gn_fail(err, "%s: the importer gave up without a reason", o->model);
     }
