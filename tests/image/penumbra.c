@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "core/file.h"
 #include "image/raycast.h"
 #include "image/shot.h"
 #include "unit/gltf_maker.h"
@@ -84,13 +83,9 @@ char *gn_penumbra_write(int scene, struct gn_err *err) {
     add_light(&maker, scene);
     gn_maker_set(&maker, "cameras",
                  "[{'type':'perspective','perspective':{'yfov':0.7,'znear':0.1,'zfar':60}}]");
-    struct gn_made made = gn_maker_glb(&maker);
-    gn_maker_finish(&maker);
     char *path = NULL;
     if (asprintf(&path, "%s/penumbra-%s.glb", gn_shot_build(), scenes[scene].name) < 0) abort();
-    bool ok = gn_file_write(path, made.data, made.size, err);
-    free(made.data);
-    if (ok) return path;
+    if (gn_maker_write(&maker, path, err)) return path;
     free(path);
     return NULL;
 }

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/file.h"
 #include "image/shot.h"
 #include "image/truth.h"
 #include "unit/check.h"
@@ -50,13 +49,10 @@ static char *write_scene(const char *faces, bool with_open, bool spot) {
                      ? "{'KHR_lights_punctual':{'lights':[{'type':'spot','intensity':300,"
                        "'spot':{'innerConeAngle':0.8,'outerConeAngle':0.9}}]}}"
                      : "{'KHR_lights_punctual':{'lights':[{'type':'directional','intensity':3}]}}");
-    struct gn_made made = gn_maker_glb(&maker);
-    gn_maker_finish(&maker);
     char *path = malloc(400);
     if (!path) abort();
     snprintf(path, 400, "%s/faces-%s-%d-%d.glb", gn_shot_build(), faces, with_open, spot);
-    if (!gn_file_write(path, made.data, made.size, &err)) fail_msg("%s", err.text);
-    free(made.data);
+    if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
     return path;
 }
 

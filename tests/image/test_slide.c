@@ -95,6 +95,7 @@ static void add_lamp(struct gn_maker *maker, const struct beam *beam, bool with_
 static const char *make_scene(const struct beam *beam, bool with_slide) {
     static char path[600];
     struct gn_maker maker;
+    struct gn_err err = {0};
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     add_picture(&maker, beam);
@@ -114,14 +115,8 @@ static const char *make_scene(const struct beam *beam, bool with_slide) {
                  "'extras':{'gnomon_sky':0,'gnomon_ground':0,'gnomon_background':0}}]");
     gn_maker_set(&maker, "cameras",
                  "[{'type':'perspective','perspective':{'yfov':0.8,'znear':0.1,'zfar':40}}]");
-    struct gn_made made = gn_maker_glb(&maker);
-    gn_maker_finish(&maker);
     snprintf(path, sizeof path, "%s/slide.glb", gn_shot_build());
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(made.data, 1, made.size, file), made.size);
-    assert_int_equal(fclose(file), 0);
-    free(made.data);
+    if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
     return path;
 }
 

@@ -18,6 +18,7 @@ static char scene[600];
 static int make_scene(void **state) {
     (void)state;
     struct gn_maker maker;
+    struct gn_err err = {0};
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     gn_maker_set(&maker, "nodes",
@@ -36,14 +37,8 @@ static int make_scene(void **state) {
     gn_maker_set(&maker, "extensions",
                  "{'KHR_lights_punctual':{'lights':[{'type':'spot','intensity':100,"
                  "'spot':{'innerConeAngle':1.2,'outerConeAngle':1.309}}]}}");
-    struct gn_made made = gn_maker_glb(&maker);
-    gn_maker_finish(&maker);
     snprintf(scene, sizeof scene, "%s/wide-spot.glb", gn_shot_build());
-    FILE *file = fopen(scene, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(made.data, 1, made.size, file), made.size);
-    assert_int_equal(fclose(file), 0);
-    free(made.data);
+    if (!gn_maker_write(&maker, scene, &err)) fail_msg("%s", err.text);
     return 0;
 }
 

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/file.h"
 #include "image/penumbra.h"
 #include "image/shot.h"
 #include "shadow/technique.h"
@@ -79,10 +78,7 @@ static void write_scene(const char *path, int intensity) {
              "{'innerConeAngle':0.5,'outerConeAngle':0.7},'extras':{'gnomon_radius':0.5}}]}}",
              intensity);
     gn_maker_set(&maker, "extensions", lights);
-    struct gn_made made = gn_maker_glb(&maker);
-    gn_maker_finish(&maker);
-    if (!gn_file_write(path, made.data, made.size, &err)) quit(&err);
-    free(made.data);
+    if (!gn_maker_write(&maker, path, &err)) quit(&err);
 }
 
 static struct gn_picture shoot(const char *scene, const char *technique) {

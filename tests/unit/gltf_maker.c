@@ -7,6 +7,7 @@
 #include <turbojpeg.h>
 
 #include "core/arena.h"
+#include "core/file.h"
 #include "scene_check.h"
 
 static json_t *parse(const char *json) {
@@ -159,6 +160,14 @@ struct gn_made gn_maker_gltf(struct gn_maker *maker) {
     struct gn_made made = {.data = (uint8_t *)json_dumps(maker->root, JSON_COMPACT)};
     made.size = strlen((char *)made.data);
     return made;
+}
+
+bool gn_maker_write(struct gn_maker *maker, const char *path, struct gn_err *err) {
+    struct gn_made made = gn_maker_glb(maker);
+    bool ok = gn_file_write(path, made.data, made.size, err);
+    free(made.data);
+    gn_maker_finish(maker);
+    return ok;
 }
 
 struct gn_scene *gn_maker_load(struct gn_maker *maker, struct gn_warnings *warnings,

@@ -41,6 +41,8 @@ void gn_maker_cube(struct gn_maker *maker);
 struct gn_made gn_maker_glb(struct gn_maker *maker);
 /* Buffer 0 as a data URI. */
 struct gn_made gn_maker_gltf(struct gn_maker *maker);
+/* As .glb, into that file; finishes the maker. */
+bool gn_maker_write(struct gn_maker *maker, const char *path, struct gn_err *err);
 /* As .glb, called "t" in messages; finishes the maker. A scene has passed gn_scene_check. */
 struct gn_scene *gn_maker_load(struct gn_maker *maker, struct gn_warnings *warnings,
                                struct gn_err *err);
