@@ -1,17 +1,13 @@
 /* `gnomon bench` as a user runs it: the fields of its JSON and their types, what must hold between
  * them, and what it refuses. Nothing here depends on how fast the machine is. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image/shot.h"
+#include "unit/check.h"
 
 #define SCENE "assets/bench/s1.glb"
 
@@ -199,5 +195,5 @@ int main(void) {
         cmocka_unit_test(test_bad_lists_are_usage_errors_of_one_line),
         cmocka_unit_test(test_a_missing_scene_is_the_world_saying_no),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

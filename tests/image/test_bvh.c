@@ -1,18 +1,13 @@
 /* The tree against every triangle in turn, and the triangle test against slipping through. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "core/arena.h"
 #include "image/bvh.h"
 #include "image/dice.h"
+#include "unit/check.h"
 
 static struct gn_dice dice;
 static double between(double low, double high) { return gn_dice_between(&dice, low, high); }

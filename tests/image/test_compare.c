@@ -1,19 +1,14 @@
 /* The comparison must see what it is for, and must not see what it is not for. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "image/compare.h"
 #include "image/dice.h"
 #include "image/shot.h"
+#include "unit/check.h"
 
 enum { W = 60, H = 40 };
 

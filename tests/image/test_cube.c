@@ -1,16 +1,11 @@
 /* The whole way of the oracle, from the bytes of a file to a mask, against formulas. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "image/truth.h"
+#include "unit/check.h"
 
 /* A ground of 20 m, a unit cube standing on it, a camera on (0, 6, 0) that looks straight down, a
  * sun from +X, 45 degrees high. Positions are 8-bit so that the buffer is short: the ground's 4

@@ -1,18 +1,13 @@
 /* The oracle against what can be written down: boxes by intervals, disks by segments of a circle,
  * holes by arithmetic. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "image/dice.h"
 #include "image/raycast.h"
+#include "unit/check.h"
 
 static struct gn_dice dice;
 static double between(double low, double high) { return gn_dice_between(&dice, low, high); }

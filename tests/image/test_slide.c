@@ -2,18 +2,13 @@
  * from the ray caster, the slide's from its definition (where the ray from the lamp crosses the
  * film), the light's from the contract. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "image/raycast.h"
 #include "image/shot.h"
+#include "unit/check.h"
 #include "unit/gltf_maker.h"
 
 enum { WIDTH = 640, HEIGHT = 480, TEXELS_X = 8, TEXELS_Y = 6, REPEAT = 10497, CLAMP = 33071 };

@@ -1,14 +1,10 @@
 /* A wide spot and plates that face it from near the rim of its cone: a surface that the light meets
  * at a right angle, whose depth along the light's axis still changes from texel to texel. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "image/shot.h"
+#include "unit/check.h"
 #include "unit/gltf_maker.h"
 
 static char scene[600];

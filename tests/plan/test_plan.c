@@ -522,5 +522,5 @@ int main(void) {
         cmocka_unit_test(test_exposure),
         cmocka_unit_test(test_no_light_is_too_weak_for_an_exposure),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

@@ -1,15 +1,12 @@
 #include "unit/gl_help.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-/* after what it needs */
-#include <cmocka.h>
+
+#include "unit/check.h"
 
 void help_open(struct gn_display *display, const char *name) {
     struct gn_err err = {0};

@@ -1,10 +1,5 @@
 /* Private dirty pages, and the driver's cache as a folder. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,6 +10,7 @@
 
 #include "cli/driver_cache.h"
 #include "cli/memory.h"
+#include "unit/check.h"
 
 static void test_what_is_written_to_is_counted(void **state) {
     (void)state;

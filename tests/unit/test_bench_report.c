@@ -1,16 +1,12 @@
 /* Quantiles, the sum of passes, and that the JSON has the contract's fields with their types. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/bench_report.h"
+#include "unit/check.h"
 
 static void test_the_median_of_an_odd_count_is_the_middle(void **state) {
     (void)state;
@@ -161,5 +157,5 @@ int main(void) {
         cmocka_unit_test(test_a_name_that_is_not_utf8_still_makes_json),
         cmocka_unit_test(test_the_table_has_a_row_a_technique),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

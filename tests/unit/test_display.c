@@ -1,12 +1,7 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
-/* after what it needs */
-#include <cmocka.h>
 
 #include "display/display.h"
+#include "unit/check.h"
 
 static void test_names(void **state) {
     (void)state;
@@ -70,5 +65,5 @@ int main(void) {
         cmocka_unit_test(test_close_zeroed), cmocka_unit_test(test_open),
         cmocka_unit_test(test_auto),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

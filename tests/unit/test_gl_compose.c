@@ -1,13 +1,8 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-/* after what it needs */
-#include <cmocka.h>
 
 #include "gl/private.h"
+#include "unit/check.h"
 #include "unit/gl_help.h"
 
 static const char *folder;
@@ -205,5 +200,5 @@ int main(void) {
         TEST(test_key_text),
         TEST(test_slides_go_with_their_lights),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

@@ -1,13 +1,8 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-/* after what it needs */
-#include <cmocka.h>
 
 #include "gl/private.h"
+#include "unit/check.h"
 #include "unit/gl_help.h"
 
 static struct gn_gl_opts opts_of(struct gn_display *display) {
@@ -181,5 +176,5 @@ int main(void) {
         TEST(test_failed_program),
         TEST(test_embedded),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

@@ -1,13 +1,8 @@
 /* Alone in its process: a driver looks at the override once. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-/* after what it needs */
-#include <cmocka.h>
 
+#include "unit/check.h"
 #include "unit/gl_help.h"
 
 static void test_es2(void **state) {
@@ -28,5 +23,5 @@ static void test_es2(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_es2)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

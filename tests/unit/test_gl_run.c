@@ -1,15 +1,10 @@
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-/* after what it needs */
-#include <cmocka.h>
 
 #include "core/arena.h"
 #include "gl/private.h"
+#include "unit/check.h"
 #include "unit/gl_help.h"
 
 enum { SIDE = 16, MAP = 8 };
@@ -451,5 +446,5 @@ int main(void) {
         TEST(test_not_prepared),   TEST(test_wide_indices),        TEST(test_large_image),
         TEST(test_mipmaps),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

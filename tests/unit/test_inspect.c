@@ -1,16 +1,13 @@
 /* What inspect finds in a scene: amounts, bytes, and each fault with its cure. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include <jansson.h>
 
 #include "cli/inspect.h"
 #include "gltf_maker.h"
+#include "unit/check.h"
 
 static struct gn_maker maker;
 static struct gn_err err;
@@ -296,5 +293,5 @@ int main(void) {
         TEST(test_warnings_stand_in_the_report),
         TEST(test_text_moves_no_cursor),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

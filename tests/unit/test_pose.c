@@ -1,16 +1,13 @@
 /* The scene at a time. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "core/arena.h"
 #include "core/clock.h"
 #include "gltf_maker.h"
 #include "scene/pose.h"
+#include "unit/check.h"
 
 static struct gn_maker maker;
 static struct gn_err err;
@@ -242,5 +239,5 @@ int main(void) {
         TEST(test_a_matrix_that_is_animated),
         TEST(test_view_and_light),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

@@ -1,19 +1,16 @@
 /* Containers, JSON, buffers, URIs, versions, limits: what comes in, and what is said about it when
  * it cannot. */
 #include <limits.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "core/file.h"
 #include "gltf_maker.h"
 #include "scene/scene.h"
+#include "unit/check.h"
 
 static struct gn_err err;
 static struct gn_warnings warnings;
@@ -343,5 +340,5 @@ int main(void) {
         cmocka_unit_test(test_memory_names_no_files),
         cmocka_unit_test(test_limits),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

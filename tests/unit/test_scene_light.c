@@ -1,14 +1,11 @@
 /* Lights, cameras, extras, the plane, and what is made where the file has none. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "gltf_maker.h"
 #include "scene/pose.h"
+#include "unit/check.h"
 
 static struct gn_maker maker;
 static struct gn_err err;
@@ -297,5 +294,5 @@ int main(void) {
         cmocka_unit_test_setup(test_cameras, setup),
         cmocka_unit_test_setup(test_made_camera_and_light, setup),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

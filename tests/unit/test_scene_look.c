@@ -1,14 +1,11 @@
 /* Materials, textures, pictures, batches. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "gltf_maker.h"
+#include "unit/check.h"
 
 static struct gn_maker maker;
 static struct gn_err err;
@@ -261,5 +258,5 @@ int main(void) {
         cmocka_unit_test_setup(test_later_work_is_named_once, setup),
         cmocka_unit_test_setup(test_batches, setup),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }

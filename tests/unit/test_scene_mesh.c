@@ -1,14 +1,11 @@
 /* Accessors to vertices: formats, sharing, triangles, normals, bounds, nodes, copies. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "gltf_maker.h"
 #include "scene/pose.h"
+#include "unit/check.h"
 
 static struct gn_maker maker;
 static struct gn_err err;
@@ -354,5 +351,5 @@ int main(void) {
         cmocka_unit_test_setup(test_deep_chain, setup),
         cmocka_unit_test_setup(test_copies, setup),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN(tests);
 }
