@@ -12,28 +12,18 @@
 
 enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT, SUN = 0, SPOT = 1, BULB = 2 };
 
-static struct gn_display display;
-static struct gn_gl *gl;
-static struct gn_scene *scene;
+static struct help_stage stage;
 static struct gn_light own[3], lights[GN_ALL_LIGHTS_MAX + 8];
-static struct gn_pose pose;
-static struct gn_frame *frame;
 static struct gn_frame_opts opts;
 static struct gn_warnings warnings;
 static struct gn_gl_stats stats;
 static struct gn_err err;
 
 static void open_with(const char *backend, const char *without) {
-    help_open(&display, backend);
     warnings = (struct gn_warnings){0};
-    gl = help_gl(&display, &(struct gn_gl_opts){.without = without}, &warnings);
-    scene = gn_stage_scene_make();
-    memcpy(own, scene->lights, sizeof own);
-    if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
-    scene->lights = lights; /* none of them is made yet */
-    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
-    gn_pose_step(&pose, 0);
-    frame = gn_frame_create(scene, gn_gl_caps(gl));
+    help_stage_open(&stage, gn_stage_scene_make, backend, without, &warnings);
+    memcpy(own, stage.scene->lights, sizeof own);
+    stage.scene->lights = lights; /* none of them is made yet */
     opts = (struct gn_frame_opts){.width_px = WIDTH,
                                   .height_px = HEIGHT,
                                   .encoding = GN_ENCODING_AUTO,
@@ -73,17 +63,13 @@ static int open_egl_poor(void **state) {
 
 static int close_all(void **state) {
     (void)state;
-    gn_frame_destroy(frame);
-    gn_pose_finish(&pose);
-    gn_gl_destroy(gl);
-    gn_scene_destroy(scene);
-    gn_display_close(&display);
+    help_stage_close(&stage);
     return 0;
 }
 
 /* Every light an equal part of the same. */
 static void share(int light, uint32_t count) {
-    scene->light_count = count;
+    stage.scene->light_count = count;
     for (uint32_t i = 0; i < count; i++) {
         lights[i] = own[light];
         glm_vec3_scale(own[light].color, 1.0f / (float)count, lights[i].color);
@@ -91,13 +77,9 @@ static void share(int light, uint32_t count) {
 }
 
 static const struct gn_plan *draw(uint8_t *rgba) {
-    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, &warnings);
-    const char *broken = gn_plan_check(plan);
-    if (broken) fail_msg("plan: %s", broken);
-    if (!gn_gl_prepare(gl, plan, &err) || !gn_gl_run(gl, plan, NULL, &err))
-        fail_msg("%s", err.text);
-    stats = gn_gl_stats(gl);
-    if (rgba && !gn_gl_read_rgba8(gl, rgba, &err)) fail_msg("%s", err.text);
+    const struct gn_plan *plan = help_stage_draw(&stage, &opts, &warnings);
+    stats = gn_gl_stats(stage.gl);
+    if (rgba && !gn_gl_read_rgba8(stage.gl, rgba, &err)) fail_msg("%s", err.text);
     return plan;
 }
 
@@ -139,7 +121,7 @@ static void expect_one(int light, const uint32_t counts[4], uint32_t each_pass, 
 
 /* Where shaders encode, one pass blends in bytes: then it is not comparable with light that is
  * added. */
-static void close_the_pane(void) { scene->materials[4].alpha = GN_ALPHA_OPAQUE; }
+static void close_the_pane(void) { stage.scene->materials[4].alpha = GN_ALPHA_OPAQUE; }
 
 static void test_many_open_lights_are_one(void **state) {
     (void)state;
@@ -190,8 +172,8 @@ static void test_a_short_range_is_one_too(void **state) {
 static void test_blended_things_in_a_row(void **state) {
     (void)state;
     for (int i = 1; i <= 2; i++) { /* the boxes, red and blue */
-        scene->materials[i].alpha = GN_ALPHA_BLEND;
-        scene->materials[i].base_color[3] = 0.4f;
+        stage.scene->materials[i].alpha = GN_ALPHA_BLEND;
+        stage.scene->materials[i].base_color[3] = 0.4f;
     }
     opts.technique_given = true;
     opts.technique = GN_TECHNIQUE_NONE;
@@ -201,7 +183,7 @@ static void test_blended_things_in_a_row(void **state) {
 
 static void test_antialiased(void **state) {
     (void)state;
-    if (!(gn_gl_caps(gl)->has & 1u << GN_CAP_MSAA4)) skip();
+    if (!(gn_gl_caps(stage.gl)->has & 1u << GN_CAP_MSAA4)) skip();
     opts.msaa = 4;
     close_the_pane();
     expect_one(SPOT, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 1);
@@ -210,7 +192,7 @@ static void test_antialiased(void **state) {
 /* The samples of linear light are resolved, then encoded. */
 static void test_antialiased_without_srgb(void **state) {
     (void)state;
-    if (!(gn_gl_caps(gl)->has & 1u << GN_CAP_MSAA4)) skip();
+    if (!(gn_gl_caps(stage.gl)->has & 1u << GN_CAP_MSAA4)) skip();
     opts.msaa = 4;
     share(SPOT, 5);
     assert_int_equal(draw(one)->output, GN_OUTPUT_FLOAT);
@@ -258,7 +240,7 @@ static void test_a_gpu_without_linear_targets_has_one_pass(void **state) {
 
 /* Eight lights, each with a map, at three nodes. */
 static void mix(void) {
-    scene->light_count = 8;
+    stage.scene->light_count = 8;
     for (uint32_t i = 0; i < 8; i++) {
         lights[i] = own[i % 2 ? SPOT : SUN];
         glm_vec3_scale(lights[i].color, 0.125f, lights[i].color);
@@ -291,13 +273,13 @@ static void test_a_caster_moved_a_millimetre_draws_again(void **state) {
     (void)state;
     mix();
     draw(NULL);
-    gn_pose_step(&pose, 1000000); /* the mover goes 1 m/s */
+    gn_pose_step(&stage.pose, 1000000); /* the mover goes 1 m/s */
     draw(NULL);
     assert_int_equal(stats.shadow_passes_skipped, 0);
     const unsigned long allocated = gn_alloc_count();
     const uint64_t objects = stats.objects_created;
     for (int i = 2; i < 8; i++) {
-        gn_pose_step(&pose, i * 1000000);
+        gn_pose_step(&stage.pose, i * 1000000);
         draw(NULL);
     }
     assert_int_equal(gn_alloc_count(), allocated);
@@ -308,7 +290,7 @@ static void test_a_caster_moved_a_millimetre_draws_again(void **state) {
 static void test_everything_at_once(void **state) {
     (void)state;
     static const char *const techniques[] = {"pcf", "hard", "pcf3", "pcss", "disk"};
-    scene->light_count = GN_ALL_LIGHTS_MAX;
+    stage.scene->light_count = GN_ALL_LIGHTS_MAX;
     for (uint32_t i = 0; i < GN_ALL_LIGHTS_MAX; i++) {
         lights[i] = own[i % 3];
         lights[i].technique = techniques[i % 5];

@@ -12,32 +12,17 @@
 
 enum { MAP_PX = 512, RIM = 1 };
 
-static struct gn_display display;
-static struct gn_gl *gl;
-static struct gn_scene *scene;
-static struct gn_pose pose;
-static struct gn_frame *frame;
+static struct help_stage stage;
 
 static int open_all(void **state) {
     (void)state;
-    struct gn_err err = {0};
-    help_open(&display, "egl");
-    gl = help_gl(&display, NULL, NULL);
-    scene = gn_stage_scene_make();
-    if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
-    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
-    gn_pose_step(&pose, 0);
-    frame = gn_frame_create(scene, gn_gl_caps(gl));
+    help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
     return 0;
 }
 
 static int close_all(void **state) {
     (void)state;
-    gn_frame_destroy(frame);
-    gn_pose_finish(&pose);
-    gn_gl_destroy(gl);
-    gn_scene_destroy(scene);
-    gn_display_close(&display);
+    help_stage_close(&stage);
     return 0;
 }
 
@@ -52,10 +37,8 @@ static struct gn_shadow_view draw_map(enum gn_encoding encoding, float turn_rad,
                                  .map_px = MAP_PX,
                                  .turntable_rad = turn_rad};
     struct gn_err err = {0};
-    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
-    if (!gn_gl_prepare(gl, plan, &err) || !gn_gl_run(gl, plan, NULL, &err) ||
-        !gn_gl_read_map(gl, 0, codes, &err))
-        fail_msg("%s", err.text);
+    const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
+    if (!gn_gl_read_map(stage.gl, 0, codes, &err)) fail_msg("%s", err.text);
     assert_int_equal(plan->shadows[0].encoding, encoding);
     return plan->shadows[0];
 }

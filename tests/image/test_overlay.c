@@ -12,25 +12,21 @@
 
 enum { WIDTH = 640, HEIGHT = 512, PIXELS = WIDTH * HEIGHT, MAP = 120 };
 
-static struct gn_display display;
-static struct gn_gl *gl;
-static struct gn_scene *scene;
-static struct gn_pose pose;
-static struct gn_frame *frame;
+static struct help_stage stage;
 static struct gn_frame_opts opts;
 static struct gn_err err;
 static uint8_t bare[HEIGHT][WIDTH][4], shown[HEIGHT][WIDTH][4];
 
+static struct gn_scene *make_scene(void) {
+    struct gn_scene *scene = gn_stage_scene_make();
+    struct gn_light *bulb = &scene->lights[2];
+    glm_vec3_copy((vec3){-2, 3, 3}, scene->nodes[bulb->node].translation); /* in view */
+    bulb->technique = "none"; /* two maps are enough here */
+    return scene;
+}
+
 static void open_with(const char *backend, const char *without) {
-    help_open(&display, backend);
-    gl = help_gl(&display, &(struct gn_gl_opts){.without = without}, NULL);
-    scene = gn_stage_scene_make();
-    glm_vec3_copy((vec3){-2, 3, 3}, scene->nodes[scene->lights[2].node].translation); /* in view */
-    if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
-    scene->lights[2].technique = "none"; /* the bulb: two maps are enough here */
-    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
-    gn_pose_step(&pose, 0);
-    frame = gn_frame_create(scene, gn_gl_caps(gl));
+    help_stage_open(&stage, make_scene, backend, without, NULL);
     opts = (struct gn_frame_opts){
         .width_px = WIDTH, .height_px = HEIGHT, .encoding = GN_ENCODING_AUTO, .map_px = MAP};
 }
@@ -55,21 +51,13 @@ static int open_egl_without_srgb(void **state) {
 
 static int close_all(void **state) {
     (void)state;
-    gn_frame_destroy(frame);
-    gn_pose_finish(&pose);
-    gn_gl_destroy(gl);
-    gn_scene_destroy(scene);
-    gn_display_close(&display);
+    help_stage_close(&stage);
     return 0;
 }
 
 static const struct gn_plan *draw(uint8_t picture[HEIGHT][WIDTH][4]) {
-    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
-    const char *broken = gn_plan_check(plan);
-    if (broken) fail_msg("plan: %s", broken);
-    if (!gn_gl_prepare(gl, plan, &err) || !gn_gl_run(gl, plan, NULL, &err) ||
-        !gn_gl_read_rgba8(gl, &picture[0][0][0], &err))
-        fail_msg("%s", err.text);
+    const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
+    if (!gn_gl_read_rgba8(stage.gl, &picture[0][0][0], &err)) fail_msg("%s", err.text);
     return plan;
 }
 
@@ -87,7 +75,7 @@ static bool differs(int x, int y) { return memcmp(bare[y][x], shown[y][x], 3) !=
 /* A panel as large as its map shows it texel by texel, inside its frame. */
 static void expect_map(const struct gn_plan *plan, uint32_t slot, const struct gn_rect *r) {
     static float codes[MAP][MAP];
-    if (!gn_gl_read_map(gl, slot, &codes[0][0], &err)) fail_msg("%s", err.text);
+    if (!gn_gl_read_map(stage.gl, slot, &codes[0][0], &err)) fail_msg("%s", err.text);
     const struct gn_shadow_grey grey = gn_shadow_grey_of(&plan->shadows[slot]);
     int least = 255, most = 0;
     assert_true(r->width == MAP && r->height == MAP);
@@ -144,10 +132,10 @@ static void test_maps_are_not_drawn_again_for_panels(void **state) {
     draw(bare);
     opts.show_maps = true;
     draw(shown);
-    assert_int_equal(gn_gl_stats(gl).shadow_passes_skipped, 2);
-    const uint64_t objects = gn_gl_stats(gl).objects_created;
+    assert_int_equal(gn_gl_stats(stage.gl).shadow_passes_skipped, 2);
+    const uint64_t objects = gn_gl_stats(stage.gl).objects_created;
     draw(shown);
-    assert_int_equal(gn_gl_stats(gl).objects_created, objects);
+    assert_int_equal(gn_gl_stats(stage.gl).objects_created, objects);
 }
 
 /* ---- marks ---- */
@@ -166,14 +154,14 @@ static bool project(const struct gn_plan *plan, const vec3 place, int pixel[2]) 
 
 static void light_place(uint32_t light, vec3 place) {
     vec3 direction;
-    gn_pose_light(&pose, light, place, direction);
+    gn_pose_light(&stage.pose, light, place, direction);
 }
 
 static void test_marks_stand_where_lights_do(void **state) {
     (void)state;
     vec3 place;
     int p[2];
-    scene->lights[2].color[0] = 0; /* the bulb: blue-green */
+    stage.scene->lights[2].color[0] = 0; /* the bulb: blue-green */
     draw(bare);
     opts.show_lights = true;
     const struct gn_plan *plan = draw(shown);
@@ -192,10 +180,10 @@ static void test_a_hidden_mark_is_pale(void **state) {
     (void)state;
     vec3 place;
     int p[2];
-    scene->lights[2].color[1] = scene->lights[2].color[2] = 0;
-    for (uint32_t i = 0; i < scene->item_count; i++) /* in the middle of a box: hidden */
-        if (strcmp(scene->nodes[scene->items[i].node].name, "A") == 0)
-            scene->lights[2].node = scene->items[i].node;
+    stage.scene->lights[2].color[1] = stage.scene->lights[2].color[2] = 0;
+    for (uint32_t i = 0; i < stage.scene->item_count; i++) /* in the middle of a box: hidden */
+        if (strcmp(stage.scene->nodes[stage.scene->items[i].node].name, "A") == 0)
+            stage.scene->lights[2].node = stage.scene->items[i].node;
     draw(bare);
     opts.show_lights = true;
     const struct gn_plan *plan = draw(shown);
@@ -211,7 +199,7 @@ static void test_a_range_is_a_ring(void **state) {
     (void)state;
     vec3 place, at;
     int p[2];
-    scene->lights[2].range_m = 1.0f;
+    stage.scene->lights[2].range_m = 1.0f;
     draw(bare);
     opts.show_lights = true;
     const struct gn_plan *plan = draw(shown);
@@ -227,7 +215,7 @@ static void test_other_pictures_have_neither(void **state) {
     (void)state;
     opts.show_lights = opts.show_maps = true;
     opts.aov = GN_AOV_NORMAL;
-    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
+    const struct gn_plan *plan = gn_frame_build(stage.frame, &stage.pose, &opts, NULL);
     assert_int_equal(plan->pass_count, 1);
 }
 

@@ -28,6 +28,37 @@ struct gn_gl *help_gl(struct gn_display *display, const struct gn_gl_opts *extra
     return gl;
 }
 
+void help_stage_open(struct help_stage *stage, struct gn_scene *(*make)(void), const char *backend,
+                     const char *without, struct gn_warnings *warnings) {
+    struct gn_err err = {0};
+    *stage = (struct help_stage){0};
+    help_open(&stage->display, backend);
+    stage->gl = help_gl(&stage->display, &(struct gn_gl_opts){.without = without}, warnings);
+    stage->scene = make();
+    if (!gn_gl_load(stage->gl, stage->scene, &err)) fail_msg("%s", err.text);
+    gn_pose_init(&stage->pose, stage->scene, GN_POSE_DEFAULT);
+    stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
+}
+
+void help_stage_close(struct help_stage *stage) {
+    gn_frame_destroy(stage->frame);
+    gn_pose_finish(&stage->pose);
+    gn_gl_destroy(stage->gl);
+    gn_scene_destroy(stage->scene);
+    gn_display_close(&stage->display);
+}
+
+const struct gn_plan *help_stage_draw(struct help_stage *stage, const struct gn_frame_opts *opts,
+                                      struct gn_warnings *warnings) {
+    struct gn_err err = {0};
+    const struct gn_plan *plan = gn_frame_build(stage->frame, &stage->pose, opts, warnings);
+    const char *broken = gn_plan_check(plan);
+    if (broken) fail_msg("plan: %s", broken);
+    if (!gn_gl_prepare(stage->gl, plan, &err) || !gn_gl_run(stage->gl, plan, NULL, &err))
+        fail_msg("%s", err.text);
+    return plan;
+}
+
 const char *help_folder(void) {
     static char path[64];
     snprintf(path, sizeof path, "/tmp/gnomon-test-XXXXXX");

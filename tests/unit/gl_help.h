@@ -3,12 +3,29 @@
 #define GN_TESTS_GL_HELP_H
 
 #include "display/display.h"
+#include "frame/plan.h"
 #include "gl/gl.h"
 
 /* Opens the display, or skips the test where there is none. */
 void help_open(struct gn_display *display, const char *name);
 struct gn_gl *help_gl(struct gn_display *display, const struct gn_gl_opts *extra,
                       struct gn_warnings *warnings);
+
+struct help_stage { /* a scene that is ready to be drawn, at 0 s */
+    struct gn_display display;
+    struct gn_gl *gl;
+    struct gn_scene *scene; /* owned */
+    struct gn_pose pose;
+    struct gn_frame *frame;
+};
+/* Of what make() returns. Skips the test where there is no such display. without, warnings: as in
+ * gl.h. */
+void help_stage_open(struct help_stage *stage, struct gn_scene *(*make)(void), const char *backend,
+                     const char *without, struct gn_warnings *warnings);
+void help_stage_close(struct help_stage *stage);
+/* Builds, checks, prepares and runs the plan of the pose as it is; fails the test if one fails. */
+const struct gn_plan *help_stage_draw(struct help_stage *stage, const struct gn_frame_opts *opts,
+                                      struct gn_warnings *warnings);
 
 /* Writes name (a path of at most one folder) below a new temporary folder and returns the folder.
  */
