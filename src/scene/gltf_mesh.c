@@ -93,6 +93,10 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
         gn_gltf_warn(g, primitive, "has no POSITION; not shown");
         return 0;
     }
+    if ((uint64_t)positions->count > UINT32_MAX) {
+        gn_gltf_fail(g, primitive, "%zu vertices are more than can be drawn", positions->count);
+        return 0;
+    }
     for (int i = 0; i < GN_ATTRIBUTES; i++)
         if (!check_attribute(g, &attributes, i, out[i], positions->count)) return 0;
     return positions->count;
