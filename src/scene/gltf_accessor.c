@@ -8,7 +8,7 @@
 
 static const uint8_t ZEROS[64]; /* one element of an accessor without data */
 
-size_t gn_component_size(enum gn_component component) {
+static size_t component_size(enum gn_component component) {
     switch (component) {
     case GN_I8:
     case GN_U8: return 1;
@@ -26,7 +26,7 @@ static const struct shape {
 
 /* Bytes of an element; the columns of a matrix start at multiples of four. */
 static size_t element_size(const struct shape *shape, enum gn_component component) {
-    size_t column = shape->components / shape->columns * gn_component_size(component);
+    size_t column = shape->components / shape->columns * component_size(component);
     if (shape->columns > 1) column = (column + 3) / 4 * 4;
     return column * shape->columns;
 }
@@ -119,7 +119,7 @@ static bool apply_sparse(struct gn_gltf *g, const struct gn_at *sparse, struct g
                  values = gn_at_object(g, sparse, "values");
     struct gn_accessor index = {.count = (size_t)count, .components = 1, .backed = true};
     if (!read_component(g, &indices, &index.component)) return false;
-    index.stride = gn_component_size(index.component);
+    index.stride = component_size(index.component);
     struct span index_span = {
         .view = gn_at_ref(g, &indices, "bufferView", g->view_count, "bufferViews"),
         .offset = gn_at_uint(g, &indices, "byteOffset", 0),
@@ -169,10 +169,6 @@ static bool resolve(struct gn_gltf *g, const struct gn_at *at, struct gn_accesso
     return !g->failed;
 }
 
-struct gn_at gn_at_accessor(const struct gn_at *accessors, int32_t index) {
-    return gn_at_element(accessors, (size_t)index);
-}
-
 const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index) {
     if (index < 0 || g->failed) return NULL;
     struct gn_accessor *a = &g->accessors[index];
@@ -216,7 +212,7 @@ static float component_float(const uint8_t *p, enum gn_component component, bool
 
 void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *out) {
     size_t n = a->components < components ? a->components : components;
-    size_t size = gn_component_size(a->component);
+    size_t size = component_size(a->component);
     for (size_t i = 0; i < a->count; i++) {
         const uint8_t *element = a->data + i * a->stride;
         float *to = out + i * components;

@@ -204,14 +204,13 @@ bool gn_scene_batch(struct gn_gltf *g);     /* batch.c */
 bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err);
 void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob);
 
-/* gltf_accessor.c. The accessor named by up[key], or NULL (absent or failed); sparse ones are made
- * dense here. */
+/* gltf_accessor.c. The file's accessor of that number, checked, or NULL (-1 or failed); sparse ones
+ * are made dense here. */
 const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index);
-struct gn_at gn_at_accessor(const struct gn_at *accessors, int32_t index);
-size_t gn_component_size(enum gn_component component);
-/* count elements from first on as floats, normalised as the accessor says; missing components stay
- * as they are in out. */
+/* All elements as floats, normalised as the accessor says, into out: components x count of them;
+ * missing components stay as they are. */
 void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *out);
+/* All elements as numbers, into out: count of them. The accessor is of unsigned scalars. */
 void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out);
 
 /* geometry_finish.c: the parts of making a geometry that need its triangles only. */
