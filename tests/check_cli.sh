@@ -60,7 +60,7 @@ wait $! || complain "render by SIGTERM: exit status $?"
 [ ! -e "$folder/frames/9998.png" ] || complain 'a run that was not stopped'
 
 # decimal points are points, whatever the locale
-LC_ALL=de_DE.UTF-8 "$gnomon" render --time 1.5 --help > /dev/null || complain 'numbers in a German locale'
+LC_ALL=de_DE.UTF-8 "$gnomon" render --time 1.5 --size 8x8 -o "$folder/a.png" || complain 'numbers in a German locale'
 
 # a closed or full descriptor is no crash
 "$gnomon" --help | head -n 1 > /dev/null

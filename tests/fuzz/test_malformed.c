@@ -88,5 +88,5 @@ int main(int argc, char **argv) {
     }
     printf("%d files: %d shown, %d refused, %d wrong; slowest %" PRId64 " ms\n", count.files,
            count.shown, count.refused, count.failures, count.slowest_ns / 1000000);
-    return count.failures > 0;
+    return count.failures > 0 || count.files == 0;
 }

@@ -29,4 +29,14 @@ until_signal INT 3 --no-animation
 until_signal TERM 0.5 # while it still loads
 quiet "$gnomon" show --backend egl --size 64x64 --frames 3
 
+# with -v it counts: a frame a tick, only one while nothing changes, and nothing made after the first
+says() {
+    text=$1
+    shift
+    "$gnomon" show -v --backend egl --size 64x64 --frames 10 "$@" 2> /dev/null > "$folder/out" < /dev/null
+    grep -q "$text" "$folder/out" || { echo "FAIL: show -v $*: $(cat "$folder/out")" && bad=1; }
+}
+says '^\([2-9]\|10\) frames, [0-9]* late, 0 allocations and 0 GL objects'
+says '^1 frames, 0 late, 0 allocations and 0 GL objects' --no-animation
+
 exit $bad
