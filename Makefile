@@ -123,7 +123,7 @@ EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundi
 EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(suffix $f)),$f))
 
 all: $(BIN) $(IMPORT) $(SCENES) man
-tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(O)/host/make_truth $(HOST_ASSETS) $(SCENES)
+tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(O)/host/make_truth
 man: $(O)/gnomon.1
 
 $(BIN): $(call OBJ,src/main.c) $(LIB)
