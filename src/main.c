@@ -1,6 +1,5 @@
 /* Arguments -> a command; the one error line; the exit status. */
 #include <errno.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -12,6 +11,7 @@
 #include "cli/help.h"
 #include "cli/stop.h"
 #include "config.h"
+#include "core/file.h"
 
 static gn_cli_command *const commands[] = {
     [GN_COMMAND_AUTO] = gn_cli_auto,       [GN_COMMAND_SHOW] = gn_cli_show,
@@ -19,15 +19,6 @@ static gn_cli_command *const commands[] = {
     [GN_COMMAND_INSPECT] = gn_cli_inspect, [GN_COMMAND_DOCTOR] = gn_cli_doctor,
 };
 _Static_assert(sizeof commands / sizeof commands[0] == GN_COMMAND_COUNT, "a row per command");
-
-/* A closed descriptor 0, 1 or 2 would be given to the next file that is opened, and libraries print
- * there. */
-static void fill_standard_descriptors(void) {
-    int fd;
-    do fd = open("/dev/null", O_RDWR);
-    while (fd >= 0 && fd <= STDERR_FILENO);
-    if (fd >= 0) close(fd);
-}
 
 static bool run(const struct gn_options *options, struct gn_warnings *warnings,
                 struct gn_err *err) {
@@ -65,7 +56,7 @@ int main(int argc, char **argv) {
     static struct gn_warnings warnings;
     struct gn_options options;
     struct gn_err err = {0};
-    fill_standard_descriptors();
+    gn_file_fill_standard();
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN); /* a write past the limit fails and is reported like a full disk */
     gn_stop_at_once();

@@ -23,4 +23,8 @@ void gn_bytes_finish(struct gn_bytes *bytes);
  * behind on failure. A path that is a device, a FIFO or /dev/stdout is written to directly. */
 bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err);
 
+/* Opens /dev/null on those of the descriptors 0, 1 and 2 that are closed: one would be given to the
+ * next file that is opened, and libraries print there. */
+void gn_file_fill_standard(void);
+
 #endif

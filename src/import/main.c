@@ -1,7 +1,6 @@
 /* gnomon-import: arguments, a child that reads the model under limits, and what became of it in one
  * line. This process never calls assimp. */
 #include <errno.h>
-#include <fcntl.h>
 #include <getopt.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -194,17 +193,9 @@ static bool import(int argc, char **argv, struct gn_err *err) {
     return ok;
 }
 
-/* A closed descriptor 0, 1 or 2 would be given to the next file that is opened. */
-static void fill_standard_descriptors(void) {
-    int fd;
-    do fd = open("/dev/null", O_RDWR | O_CLOEXEC);
-    while (fd >= 0 && fd <= STDERR_FILENO);
-    if (fd >= 0) close(fd);
-}
-
 int main(int argc, char **argv) {
     struct gn_err err = {0};
-    fill_standard_descriptors();
+    gn_file_fill_standard();
     signal(SIGPIPE, SIG_IGN);
     if (import(argc, argv, &err)) return GN_EXIT_OK;
     fprintf(stderr, "gnomon-import: %s\n", err.text);
