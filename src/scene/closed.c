@@ -103,9 +103,10 @@ static bool bodies_are_outward(struct welder *w) {
     return true;
 }
 
-bool gn_geometry_is_closed(const struct gn_scene *scene, const struct gn_geometry *geometry) {
-    struct gn_arena arena = {0};
-    struct welder w = {.scene = scene, .geometry = geometry};
+bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *geometry) {
+    size_t room = gn_gltf_room(g);
+    struct gn_arena arena = {.limit = room ? room : 1};
+    struct welder w = {.scene = g->scene, .geometry = geometry};
     bool closed = false;
     if (geometry->index_count >= 12 && !geometry->flat && make_room(&w, &arena)) {
         weld(&w);

@@ -236,7 +236,7 @@ static bool fill(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *
     /* Its cost goes with the vertices, which many geometries may share: only where most are its
      * own. */
     if (geometry->vertex_count <= 2 * (uint64_t)geometry->index_count)
-        geometry->closed = gn_geometry_is_closed(g->scene, geometry);
+        geometry->closed = gn_geometry_is_closed(g, geometry);
     return true;
 }
 

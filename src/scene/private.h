@@ -214,12 +214,17 @@ void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *o
 void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out);
 
 /* geometry_finish.c: the parts of making a geometry that need its triangles only. */
+/* Flat normals for triangles that have none. positions: 3 x vertex_count. corners: corner_count
+ * indices into them, which become indices into the *made vertices; of these *source[i] is the
+ * position and 3 floats of *normals the normal. Both are in work memory. */
 bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_t *corners,
                               size_t corner_count, size_t vertex_count, uint32_t **source,
                               float **normals, size_t *made);
+/* Gives normals of no length that of a face; how many there were. */
 size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geometry *geometry);
-bool gn_geometry_is_closed(const struct gn_scene *scene,
-                           const struct gn_geometry *geometry); /* closed.c */
+/* closed.c. False also when what memory_mb leaves is too little to find out. */
+bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *geometry);
+/* Sets box, flat and plane; *area: of all triangles, square units of mesh space. */
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area);
 
 /* gltf_image.c: the scene's texture for one of the file's, made now if need be; -1: none, or
@@ -243,8 +248,8 @@ void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene);
 /* gltf_instance.c: EXT_mesh_gpu_instancing of all placed nodes. */
 bool gn_gltf_instances(struct gn_gltf *g);
 
-/* plane.c: sets item->plane, by gnomon_plane or by finding one large flat face. world: of the nodes
- * as placed. */
+/* plane.c: sets item->plane, by gnomon_plane or by finding one large flat face. pose: as the file
+ * places the nodes. */
 struct gn_pose;
 void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose);
 
