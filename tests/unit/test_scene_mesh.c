@@ -332,6 +332,77 @@ static void test_copies(void **state) {
     gn_scene_destroy(scene);
 }
 
+/* ---- closed bodies ---- */
+
+enum { CORNERS = 36 };
+
+/* Of a cube whose corners and positions (x y z each, -1 or 1, in 24 vertices) are changed first. */
+static bool cube_is_closed(void (*change)(uint16_t *corners, float *positions)) {
+    struct gn_warnings none = {0};
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_cube(&maker);
+    gn_maker_set(&maker, "nodes", "[{'mesh':1}]");
+    uint16_t corners[CORNERS];
+    float positions[3 * 24];
+    uint8_t *at = maker.bin + maker.size - sizeof corners;
+    memcpy(corners, at, sizeof corners);
+    memcpy(positions, at - sizeof positions, sizeof positions);
+    change(corners, positions);
+    memcpy(at, corners, sizeof corners);
+    memcpy(at - sizeof positions, positions, sizeof positions);
+    struct gn_scene *scene = gn_maker_load(&maker, &none, &err);
+    if (!scene) fail_msg("%s", err.text);
+    bool closed = scene->geometries[0].closed;
+    gn_scene_destroy(scene);
+    return closed;
+}
+
+static void leave(uint16_t *corners, float *positions) { (void)corners, (void)positions; }
+
+static void turn_triangle(uint16_t *corners) {
+    uint16_t second = corners[1];
+    corners[1] = corners[2];
+    corners[2] = second;
+}
+
+static void turn_one(uint16_t *corners, float *positions) {
+    (void)positions;
+    turn_triangle(corners + 12);
+}
+
+static void turn_all(uint16_t *corners, float *positions) {
+    (void)positions;
+    for (int i = 0; i < CORNERS; i += 3) turn_triangle(corners + i);
+}
+
+static void take_out_one(uint16_t *corners, float *positions) {
+    (void)positions;
+    corners[4] = corners[3];
+}
+
+static void open_a_seam(uint16_t *corners, float *positions) {
+    (void)corners;
+    positions[0] += 1e-6f;
+}
+
+/* What was at x = -1 is at 0, with either sign. */
+static void mix_zeros(uint16_t *corners, float *positions) {
+    (void)corners;
+    for (int i = 0; i < 24; i++)
+        if (positions[3 * i] < 0) positions[3 * i] = i % 2 ? 0.0f : -0.0f;
+}
+
+static void test_only_what_is_whole_and_looks_out_is_closed(void **state) {
+    (void)state;
+    assert_true(cube_is_closed(leave));
+    assert_true(cube_is_closed(mix_zeros));
+    assert_false(cube_is_closed(turn_one));
+    assert_false(cube_is_closed(turn_all));
+    assert_false(cube_is_closed(take_out_one));
+    assert_false(cube_is_closed(open_a_seam));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_same_accessors_share_a_geometry, setup),
@@ -350,6 +421,7 @@ int main(void) {
         cmocka_unit_test_setup(test_no_scene_shows_all_roots, setup),
         cmocka_unit_test_setup(test_deep_chain, setup),
         cmocka_unit_test_setup(test_copies, setup),
+        cmocka_unit_test(test_only_what_is_whole_and_looks_out_is_closed),
     };
     return RUN(tests);
 }
