@@ -145,9 +145,10 @@ static json_t *make(struct gn_import *import, unsigned index) {
         json_object_set_new(surface, "baseColorTexture", texture_info(&base, uv_set));
     json_t *object =
         json_pack("{s:o,s:o}", "name", gn_glb_text(name.data), "pbrMetallicRoughness", surface);
-    if (look.rgba[3] < 1.0f || (base.has_alpha && base.soft))
+    bool has_alpha = base.alpha.has_alpha && !base.opaque;
+    if (look.rgba[3] < 1.0f || (has_alpha && base.alpha.soft))
         json_object_set_new(object, "alphaMode", json_string("BLEND"));
-    else if (base.has_alpha)
+    else if (has_alpha)
         json_object_set_new(object, "alphaMode", json_string("MASK"));
     set_emissive(import, material, object);
     if (is_double_sided(material)) json_object_set_new(object, "doubleSided", json_true());

@@ -42,10 +42,15 @@ struct gn_import_report { /* shared between the child and its parent */
     struct gn_warnings warnings;
 };
 
-struct gn_import_texture { /* seen before: a base picture with an opacity picture */
+struct gn_import_alpha { /* some texel is not opaque; many are neither opaque nor clear */
+    bool has_alpha, soft;
+};
+struct gn_import_texture { /* seen before: a base picture with an opacity picture, and its use */
     char *base, *opacity;  /* names, "" for none */
-    int index;             /* in the file, or -1 */
-    bool has_alpha, soft;  /* some texel is not opaque; many are neither opaque nor clear */
+    int image, index;      /* in the file: of the picture, of the texture; or -1 */
+    int wrap[2];           /* as glTF has it */
+    bool opaque;           /* its alpha is to be ignored */
+    struct gn_import_alpha alpha;
 };
 
 struct gn_import_shape { /* what is written of a mesh */
@@ -119,9 +124,6 @@ json_t *gn_import_matrix(const struct aiMatrix4x4 *matrix);
 
 /* ---- picture.c: alpha ---- */
 
-struct gn_import_alpha {
-    bool has_alpha, soft;
-};
 /* What a PNG's alpha is like; JPEGs and what cannot be read have none. */
 struct gn_import_alpha gn_import_picture_alpha(const struct gn_bytes *picture);
 /* A PNG with the base's colour (white if NULL) and the other's alpha, or its red where it has none.

@@ -8,9 +8,17 @@ enum { NAME_BYTES = sizeof(((struct aiString *)NULL)->data) }; /* its macro chan
 
 struct request {
     char base[NAME_BYTES], opacity[NAME_BYTES]; /* names, "" for none */
-    enum aiTextureMapMode wrap[2];
-    unsigned uv_set, flags;
+    int wrap[2];                                /* as glTF has it */
+    bool opaque;                                /* its alpha is to be ignored */
+    unsigned uv_set;
 };
+
+static int wrap_of(enum aiTextureMapMode mode) {
+    enum { REPEAT = 10497, CLAMP = 33071, MIRROR = 33648 };
+    return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? CLAMP
+           : mode == aiTextureMapMode_Mirror                                ? MIRROR
+                                                                            : REPEAT;
+}
 
 static bool ask(const struct aiMaterial *material, enum aiTextureType type, char *name,
                 struct request *request) {
@@ -24,9 +32,9 @@ static bool ask(const struct aiMaterial *material, enum aiTextureType type, char
     memcpy(name, path.data, NAME_BYTES);
     name[NAME_BYTES - 1] = 0;
     if (name == request->base || !request->base[0]) {
-        memcpy(request->wrap, wrap, sizeof wrap);
+        for (int k = 0; k < 2; k++) request->wrap[k] = wrap_of(wrap[k]);
         request->uv_set = uv_set;
-        request->flags = flags;
+        request->opaque = flags & aiTextureFlags_IgnoreAlpha;
     }
     return true;
 }
@@ -76,26 +84,20 @@ static bool fetch(struct gn_import *import, const char *name, struct gn_bytes *b
     return false;
 }
 
-static int wrap_of(enum aiTextureMapMode mode) {
-    enum { REPEAT = 10497, CLAMP = 33071, MIRROR = 33648 };
-    return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? CLAMP
-           : mode == aiTextureMapMode_Mirror                                ? MIRROR
-                                                                            : REPEAT;
+static int add_image(struct gn_import *import, const struct request *request,
+                     const struct gn_bytes *picture) {
+    int view = gn_glb_view(&import->glb, picture->data, picture->size);
+    return gn_glb_add(&import->glb, "images",
+                      json_pack("{s:o,s:s,s:i}", "name", gn_glb_text(last_part(request->base)),
+                                "mimeType", gn_import_picture_type(picture), "bufferView", view));
 }
 
-static int add(struct gn_import *import, const struct request *request,
-               const struct gn_bytes *picture) {
-    struct gn_glb *glb = &import->glb;
-    int view = gn_glb_view(glb, picture->data, picture->size);
-    int image =
-        gn_glb_add(glb, "images",
-                   json_pack("{s:o,s:s,s:i}", "name", gn_glb_text(last_part(request->base)),
-                             "mimeType", gn_import_picture_type(picture), "bufferView", view));
-    int sampler =
-        gn_glb_add(glb, "samplers",
-                   json_pack("{s:i,s:i,s:i,s:i}", "magFilter", 9729, "minFilter", 9987, "wrapS",
-                             wrap_of(request->wrap[0]), "wrapT", wrap_of(request->wrap[1])));
-    return gn_glb_add(glb, "textures", json_pack("{s:i,s:i}", "sampler", sampler, "source", image));
+static int add_texture(struct gn_import *import, const struct request *request, int image) {
+    int sampler = gn_glb_add(&import->glb, "samplers",
+                             json_pack("{s:i,s:i,s:i,s:i}", "magFilter", 9729, "minFilter", 9987,
+                                       "wrapS", request->wrap[0], "wrapT", request->wrap[1]));
+    return gn_glb_add(&import->glb, "textures",
+                      json_pack("{s:i,s:i}", "sampler", sampler, "source", image));
 }
 
 /* The base picture, the opacity picture, or one made of both; empty if there is nothing. */
@@ -115,20 +117,37 @@ static struct gn_bytes gather(struct gn_import *import, const struct request *re
     return both;
 }
 
+/* The picture alone. */
 static struct gn_import_texture make(struct gn_import *import, const struct request *request) {
-    struct gn_import_texture made = {.index = -1};
+    struct gn_import_texture made = {.image = -1};
     struct gn_bytes picture = gather(import, request);
     if (picture.size) {
-        made.index = add(import, request, &picture);
-        struct gn_import_alpha alpha = gn_import_picture_alpha(&picture);
-        made.has_alpha = alpha.has_alpha && !(request->flags & aiTextureFlags_IgnoreAlpha);
-        made.soft = alpha.soft;
+        made.image = add_image(import, request, &picture);
+        made.alpha = gn_import_picture_alpha(&picture);
     }
     gn_bytes_finish(&picture);
     made.base = strdup(request->base);
     made.opacity = strdup(request->opacity);
     if (!made.base || !made.opacity) gn_import_no_memory();
     return made;
+}
+
+static bool same_picture(const struct gn_import_texture *known, const struct request *request) {
+    return strcmp(known->base, request->base) == 0 && strcmp(known->opacity, request->opacity) == 0;
+}
+
+static bool same_use(const struct gn_import_texture *known, const struct request *request) {
+    return known->wrap[0] == request->wrap[0] && known->wrap[1] == request->wrap[1] &&
+           known->opaque == request->opaque;
+}
+
+static struct gn_import_texture keep(struct gn_import *import, struct gn_import_texture made) {
+    size_t count = import->texture_count + 1;
+    struct gn_import_texture *more = realloc(import->textures, count * sizeof *more);
+    if (!more) gn_import_no_memory();
+    import->textures = more;
+    import->texture_count = count;
+    return more[count - 1] = made;
 }
 
 struct gn_import_texture gn_import_texture(struct gn_import *import,
@@ -140,14 +159,15 @@ struct gn_import_texture gn_import_texture(struct gn_import *import,
     if (with_opacity) any |= ask(material, aiTextureType_OPACITY, request.opacity, &request);
     *uv_set = request.uv_set == 1 ? 1 : 0;
     if (!any) return (struct gn_import_texture){.index = -1};
-    for (size_t i = 0; i < import->texture_count; i++)
-        if (strcmp(import->textures[i].base, request.base) == 0 &&
-            strcmp(import->textures[i].opacity, request.opacity) == 0)
-            return import->textures[i];
-    size_t count = import->texture_count + 1;
-    struct gn_import_texture *more = realloc(import->textures, count * sizeof *more);
-    if (!more) gn_import_no_memory();
-    import->textures = more;
-    import->texture_count = count;
-    return more[count - 1] = make(import, &request);
+    const struct gn_import_texture *known = NULL;
+    for (size_t i = 0; i < import->texture_count; i++) {
+        if (!same_picture(&import->textures[i], &request)) continue;
+        known = &import->textures[i];
+        if (same_use(known, &request)) return *known;
+    }
+    struct gn_import_texture made = known ? *known : make(import, &request);
+    memcpy(made.wrap, request.wrap, sizeof made.wrap);
+    made.opaque = request.opaque;
+    made.index = made.image < 0 ? -1 : add_texture(import, &request, made.image);
+    return keep(import, made);
 }

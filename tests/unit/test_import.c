@@ -173,6 +173,22 @@ static void test_an_opacity_picture_becomes_the_alpha(void **state) {
     gn_scene_destroy(scene);
 }
 
+static void test_a_picture_is_there_once_however_it_is_repeated(void **state) {
+    (void)state;
+    put("a.obj", SQUARE_OBJ "usemtl n\nf 1/1 2/2 3/3\nusemtl o\nf 1/1 3/3 4/4\n");
+    put("a.mtl", "newmtl m\nKd 1 1 1\nmap_Kd a.png\nnewmtl n\nKd 1 1 1\nmap_Kd -clamp on a.png\n"
+                 "newmtl o\nKd 1 0 0\nmap_Kd a.png\n");
+    put_picture("a.png", 255, 255, 255, 255);
+    struct gn_scene *scene = load("a.obj");
+    assert_int_equal(scene->item_count, 3);
+    assert_int_equal(scene->image_count, 1);
+    assert_int_equal(scene->texture_count, 2);
+    int clamped = 0;
+    for (uint32_t i = 0; i < 2; i++) clamped += scene->textures[i].wrap_s == GN_WRAP_CLAMP;
+    assert_int_equal(clamped, 1);
+    gn_scene_destroy(scene);
+}
+
 static void put_outside(const char *name, char *path, size_t size) {
     snprintf(path, size, "%s-%s", folder, name);
     const uint8_t rgba[4] = {1, 2, 3, 255};
@@ -481,6 +497,7 @@ int main(void) {
         cmocka_unit_test(test_opacity_blends_and_none_at_all_is_not_believed),
         cmocka_unit_test(test_holes_in_a_picture_mask_and_glass_blends),
         cmocka_unit_test(test_an_opacity_picture_becomes_the_alpha),
+        cmocka_unit_test(test_a_picture_is_there_once_however_it_is_repeated),
         cmocka_unit_test(test_pictures_outside_the_folder_are_not_read),
         cmocka_unit_test(test_a_path_of_another_machine_is_found_by_its_last_part),
         cmocka_unit_test(test_missing_materials_are_told),
