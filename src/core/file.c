@@ -143,9 +143,11 @@ static bool write_and_rename(const char *path, const char *target, const struct 
     return fail_errno(err, path, "write");
 }
 
+/* What is no file, and what may name a descriptor. /dev/shm holds files like any other folder. */
 static bool is_direct(const char *path, const struct stat *info) {
-    return strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0 ||
-           (info && !S_ISREG(info->st_mode));
+    if (info && !S_ISREG(info->st_mode)) return true;
+    if (strncmp(path, "/dev/shm/", 9) == 0) return false;
+    return strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
 }
 
 bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err) {

@@ -134,6 +134,18 @@ static void a_write_leaves_no_other_file(void **state) {
     assert_int_equal(files_here(), before);
 }
 
+static void a_file_in_shared_memory_is_a_file(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    char path[64];
+    if (access("/dev/shm", W_OK) != 0) skip();
+    snprintf(path, sizeof path, "/dev/shm/gnomon-test-%ld", (long)getpid());
+    assert_true(gn_file_write(path, "long", 4, &err));
+    assert_true(gn_file_write(path, "abc", 3, &err));
+    assert_holds(path, "abc");
+    unlink(path);
+}
+
 static void an_old_reader_keeps_the_old_file(void **state) {
     (void)state;
     struct gn_err err = {0};
@@ -193,6 +205,7 @@ int main(void) {
         cmocka_unit_test(what_is_no_file_is_refused_at_once),
         cmocka_unit_test(a_failed_write_leaves_nothing),
         cmocka_unit_test(a_write_leaves_no_other_file),
+        cmocka_unit_test(a_file_in_shared_memory_is_a_file),
         cmocka_unit_test(an_old_reader_keeps_the_old_file),
         cmocka_unit_test(the_mode_of_a_file_stays),
         cmocka_unit_test(a_link_stays_a_link),
