@@ -1,65 +1,31 @@
 /* The whole way of the oracle, from the bytes of a file to a mask, against formulas. */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "image/truth.h"
 #include "unit/check.h"
+#include "unit/gltf_maker.h"
 
 /* A ground of 20 m, a unit cube standing on it, a camera on (0, 6, 0) that looks straight down, a
- * sun from +X, 45 degrees high. Positions are 8-bit so that the buffer is short: the ground's 4
- * corners, then the cube's 8. */
-static const char cube_scene[] =
-    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2,3]}],"
-    "\"extensionsUsed\":[\"KHR_lights_punctual\",\"KHR_mesh_quantization\"],"
-    "\"extensionsRequired\":[\"KHR_mesh_quantization\"],"
-    "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"directional\"}]}},"
-    "\"nodes\":[{\"mesh\":0,\"scale\":[10,1,10]},{\"mesh\":1,\"translation\":[0,0.5,0],"
-    "\"scale\":[0.5,0.5,0.5]},{\"camera\":0,\"translation\":[0,6,0],"
-    "\"rotation\":[-0.70710678,0,0,0.70710678]},{\"rotation\":[-0.27059805,0.65328148,"
-    "0.27059805,0.65328148],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],"
-    "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.9272952180016122,"
-    "\"znear\":0.1}}],"
-    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2}]},"
-    "{\"primitives\":[{\"attributes\":{\"POSITION\":1},\"indices\":3}]}],"
-    "\"accessors\":[{\"bufferView\":0,\"componentType\":5120,\"count\":4,\"type\":\"VEC3\","
-    "\"min\":[-1,0,-1],\"max\":[1,0,1]},{\"bufferView\":0,\"byteOffset\":16,"
-    "\"componentType\":5120,\"count\":8,\"type\":\"VEC3\",\"min\":[-1,-1,-1],\"max\":[1,1,1]},"
-    "{\"bufferView\":1,\"componentType\":5121,\"count\":6,\"type\":\"SCALAR\"},"
-    "{\"bufferView\":1,\"byteOffset\":6,\"componentType\":5121,\"count\":36,\"type\":\"SCALAR\"}],"
-    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48,\"byteStride\":4,\"target\":34962},"
-    "{\"buffer\":0,\"byteOffset\":48,\"byteLength\":42,\"target\":34963}],"
-    "\"buffers\":[{\"byteLength\":90,\"uri\":\"data:application/octet-stream;base64,%s\"}]}";
-
-static void base64(const uint8_t *in, int size, char *out) {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (int i = 0; i < size; i += 3) { /* size is a multiple of 3 */
-        uint32_t v = (uint32_t)in[i] << 16 | (uint32_t)in[i + 1] << 8 | in[i + 2];
-        for (int k = 18; k >= 0; k -= 6) *out++ = digits[v >> k & 63];
-    }
-    *out = 0;
-}
-
+ * sun from +X, 45 degrees high. */
 static struct gn_scene *load_cube(void) {
-    static const int8_t ground[4][2] = {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}};
-    static const uint8_t faces[42] = {0, 1, 2, 0, 2, 3, /* ground, up */
-                                      0, 4, 6, 0, 6, 2, /* -x; corner = x + 2 y + 4 z */
-                                      1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7,
-                                      2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
-    uint8_t bytes[90] = {0};
-    for (int i = 0; i < 4; i++) {
-        bytes[4 * i] = (uint8_t)ground[i][0];
-        bytes[4 * i + 2] = (uint8_t)ground[i][1];
-    }
-    for (int i = 0; i < 8; i++)
-        for (int k = 0; k < 3; k++) bytes[16 + 4 * i + k] = i >> k & 1 ? 1 : 255;
-    memcpy(bytes + 48, faces, 42);
-    char data[128], text[4096];
-    base64(bytes, 90, data);
-    int size = snprintf(text, sizeof text, cube_scene, data);
+    struct gn_maker maker;
     struct gn_err err = {{0}, GN_EXIT_WORLD};
-    struct gn_scene *scene = gn_scene_load_bytes("cube", text, (size_t)size, NULL, NULL, &err);
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_cube(&maker);
+    gn_maker_set(&maker, "nodes",
+                 "[{'mesh':0,'scale':[10,1,10]},"
+                 "{'mesh':1,'translation':[0,0.5,0],'scale':[0.5,0.5,0.5]},"
+                 "{'camera':0,'translation':[0,6,0],'rotation':[-0.70710678,0,0,0.70710678]},"
+                 "{'rotation':[-0.27059805,0.65328148,0.27059805,0.65328148],"
+                 "'extensions':{'KHR_lights_punctual':{'light':0}}}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3]}]");
+    gn_maker_set(&maker, "cameras",
+                 "[{'type':'perspective','perspective':{'yfov':0.9272952180016122,'znear':0.1}}]");
+    gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual']");
+    gn_maker_set(&maker, "extensions",
+                 "{'KHR_lights_punctual':{'lights':[{'type':'directional'}]}}");
+    struct gn_scene *scene = gn_maker_load(&maker, NULL, &err);
     if (!scene) fail_msg("%s", err.text);
     return scene;
 }

@@ -36,23 +36,15 @@ static int close_gl(void **state) {
 
 /* Beside mesh 0, a square: mesh 1 is a cube, of 2 m as well, mesh 2 a square with square holes. */
 static void add_meshes(struct gn_maker *m) {
-    static const uint16_t cube[36] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
-                                      2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
     static const float uv[8] = {0, 0, 0, 1, 1, 1, 1, 0};
-    float corners[24];
-    for (int i = 0; i < 24; i++) corners[i] = i / 3 >> i % 3 & 1 ? 1 : -1;
-    gn_maker_accessor(m, "VEC3", 5126, 8, corners, sizeof corners, NULL);
-    gn_maker_accessor(m, "SCALAR", 5123, 36, cube, sizeof cube, NULL);
+    gn_maker_cube(m);
     gn_maker_accessor(m, "VEC2", 5126, 4, uv, sizeof uv, NULL);
     gn_maker_add(m, "meshes",
-                 "{'primitives':[{'attributes':{'POSITION':2},'indices':3,'material':0}]}");
-    gn_maker_add(m, "meshes",
                  "{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':4},'indices':1,"
-                 "'material':1}]}");
+                 "'material':0}]}");
     gn_maker_set(m, "materials",
-                 "[{'pbrMetallicRoughness':{'metallicFactor':0}},{'alphaMode':'MASK',"
-                 "'doubleSided':true,'pbrMetallicRoughness':{'metallicFactor':0,"
-                 "'baseColorTexture':{'index':0}}}]");
+                 "[{'alphaMode':'MASK','doubleSided':true,'pbrMetallicRoughness':{"
+                 "'metallicFactor':0,'baseColorTexture':{'index':0}}}]");
 }
 
 static void add_holes(struct gn_maker *m) {
