@@ -50,16 +50,19 @@ static void try_backend(void *shared, const void *argument) {
 /* ---- here ---------------------------------------------------------------------------------- */
 
 /* On a terminal, once the work has taken a second. */
+static bool has_progress(const struct attempt *attempt) {
+    return gn_clock_monotonic_ns() - attempt->begun_ns >= GN_NS_PER_S && isatty(STDERR_FILENO);
+}
+
 static void show_progress(void *shared, const void *argument) {
     const struct attempt *attempt = argument;
     const volatile struct gn_selftest *test = &((const struct answer *)shared)->self_test;
-    if (gn_clock_monotonic_ns() - attempt->begun_ns < GN_NS_PER_S || !isatty(STDERR_FILENO)) return;
-    fprintf(stderr, "\rself-test: picture %u of %u ", test->done, test->all);
+    if (has_progress(attempt))
+        fprintf(stderr, "\rself-test: picture %u of %u ", test->done, test->all);
 }
 
 static void end_progress(const struct attempt *attempt) {
-    if (gn_clock_monotonic_ns() - attempt->begun_ns < GN_NS_PER_S || !isatty(STDERR_FILENO)) return;
-    fprintf(stderr, "\r\33[K");
+    if (has_progress(attempt)) fprintf(stderr, "\r\33[K");
 }
 
 static const struct gn_display_ops *find_built(const char *name) {
