@@ -75,7 +75,8 @@ struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *l
     struct gn_gltf g = {.path = path, .warnings = warnings, .err = err};
     g.limits = gn_scene_limits_or_default(limits);
     struct gn_bytes bytes = {0};
-    if (!gn_file_read(path, (size_t)g.limits.file_mb << 20, &bytes, err)) return NULL;
+    uint64_t most = g.limits.file_mb << 20;
+    if (!gn_file_read(path, most < SIZE_MAX ? (size_t)most : SIZE_MAX, &bytes, err)) return NULL;
     g.folder = folder_of(path);
     struct gn_scene *scene = load(&g, bytes.data, bytes.size);
     gn_bytes_finish(&bytes);
