@@ -150,6 +150,18 @@ static bool is_direct(const char *path, const struct stat *info) {
     return strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
 }
 
+/* Where a link leads, also if nothing is there yet; else NULL. To be freed. */
+static char *follow(const char *path) {
+    char *real = realpath(path, NULL), link[PATH_MAX], *target = NULL;
+    if (real) return real;
+    ssize_t length = readlink(path, link, sizeof link - 1);
+    if (length <= 0) return NULL;
+    link[length] = 0;
+    const char *slash = link[0] == '/' ? NULL : strrchr(path, '/');
+    int folder = slash ? (int)(slash - path + 1) : 0;
+    return asprintf(&target, "%.*s%s", folder, path, link) < 0 ? NULL : target;
+}
+
 bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err) {
     struct stat info;
     bool exists = stat(path, &info) == 0;
@@ -157,7 +169,7 @@ bool gn_file_write(const char *path, const void *data, size_t size, struct gn_er
     if (!path[0]) return gn_fail(err, "cannot write to a file without a name");
     if (is_direct(path, exists ? &info : NULL)) return write_direct(path, data, size, err);
     if (exists && access(path, W_OK) != 0) return fail_errno(err, path, "write");
-    char *real = exists ? realpath(path, NULL) : NULL; /* a link stays a link */
+    char *real = follow(path); /* a link stays a link */
     bool ok = write_and_rename(path, real ? real : path, exists ? &info : NULL, data, size, err);
     free(real);
     return ok;

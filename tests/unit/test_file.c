@@ -180,6 +180,12 @@ static void a_link_stays_a_link(void **state) {
     lstat("link", &info);
     assert_true(S_ISLNK(info.st_mode));
     assert_holds("target", "y");
+    assert_int_equal(mkdir("away", 0700), 0);
+    assert_int_equal(symlink("../later", "away/link"), 0); /* leads to nothing yet */
+    assert_true(gn_file_write("away/link", "z", 1, &err));
+    lstat("away/link", &info);
+    assert_true(S_ISLNK(info.st_mode));
+    assert_holds("later", "z");
 }
 
 static void a_pipe_is_written_to_directly(void **state) {
