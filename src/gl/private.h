@@ -164,6 +164,7 @@ bool gn_gl_scene_upload(struct gn_gl *gl, const struct gn_scene *scene, struct g
 void gn_gl_scene_finish(struct gn_gl *gl);
 /* The vertex array for a set of attributes, made if need be; false when there are too many. */
 bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err *err);
+bool gn_gl_vertices_known(struct gn_gl *gl, uint32_t attributes);
 void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_instance);
 bool gn_gl_textures_upload(struct gn_gl *gl, struct gn_err *err);
 void gn_gl_textures_finish(struct gn_gl *gl);

@@ -273,8 +273,10 @@ static bool find_programs(struct gn_gl *gl, const struct gn_plan *plan, struct g
     if (plan->program_count > gl->plan_programs_room || plan->scene != gl->scene.scene)
         return gn_fail(err, "the plan was not prepared");
     for (uint32_t i = 0; i < plan->program_count; i++) {
-        gl->plan_programs[i] = gn_gl_program_find(gl, &plan->programs[i]);
-        if (!gl->plan_programs[i]) return gn_fail(err, "program %u was not prepared", i);
+        const struct gn_gl_program *p = gl->plan_programs[i] =
+            gn_gl_program_find(gl, &plan->programs[i]);
+        if (!p || !gn_gl_vertices_known(gl, p->attributes))
+            return gn_fail(err, "program %u was not prepared", i);
     }
     return true;
 }

@@ -191,6 +191,10 @@ static struct gn_gl_vertices *find_vertices(struct gn_gl_scene *s, uint32_t attr
     return NULL;
 }
 
+bool gn_gl_vertices_known(struct gn_gl *gl, uint32_t attributes) {
+    return find_vertices(&gl->scene, attributes);
+}
+
 bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err *err) {
     struct gn_gl_scene *s = &gl->scene;
     if (find_vertices(s, attributes)) return true;

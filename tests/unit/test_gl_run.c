@@ -368,6 +368,9 @@ static void test_not_prepared(void **state) {
     begin_plan(GN_OUTPUT_LINEAR8);
     add_draw(HELP_FAR, instance(1, 1, 1, 1));
     show();
+    assert_true(gn_gl_load(gl, &help_scene, &err)); /* its vertices are new */
+    assert_false(gn_gl_run(gl, &s.plan, NULL, &err));
+    show();
     s.programs[0].features = GN_FEATURE_UNLIT;
     assert_false(gn_gl_run(gl, &s.plan, NULL, &err));
     s.plan.scene = NULL;
