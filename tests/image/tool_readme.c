@@ -24,6 +24,18 @@ static const struct {
 } lights[] = {{"sun", "sun", 0, 11}, {"spot", "spot", 12, 23}, {"point", "point", 24, 29}};
 enum { LIGHTS = sizeof lights / sizeof *lights };
 
+static const struct gn_technique_row *technique_of(const struct gn_table_row *row) {
+    enum gn_technique technique = GN_TECHNIQUE_NONE;
+    gn_technique_find(row->technique, &technique, NULL);
+    return &gn_techniques[technique];
+}
+
+static enum gn_encoding encoding_of(const struct gn_table_row *row) {
+    enum gn_encoding encoding = GN_ENCODING_MASK;
+    if (!technique_of(row)->on_plane) gn_encoding_find(row->format, &encoding, NULL);
+    return encoding;
+}
+
 /* ---- errors ---- */
 
 static double mean_of(const struct gn_table_row *row, int light,
@@ -78,7 +90,8 @@ static void print_penumbra(const struct penumbra *p, const struct gn_table_row *
     double sum = 0;
     int count = 0;
     struct gn_penumbra_edge edge = {0};
-    for (int i = 0; i < GN_PENUMBRA_COUNT && light < 2; i++) {
+    bool everywhere = !technique_of(row)->on_plane; /* what others see on all surfaces */
+    for (int i = 0; i < GN_PENUMBRA_COUNT && light < 2 && everywhere; i++) {
         bool sun = i == GN_PENUMBRA_BARS || i == GN_PENUMBRA_EDGE;
         if (sun != (light == 0)) continue;
         struct gn_picture shot = shoot(p->path[i], row->technique, row->format);
@@ -90,7 +103,7 @@ static void print_penumbra(const struct penumbra *p, const struct gn_table_row *
         count++;
     }
     print_share(count ? sum / count : NAN);
-    if (light == 0)
+    if (light == 0 && everywhere)
         printf(" | %+.0f %% | %+.1f %%", 100 * (edge.width / edge.width_truth - 1),
                100 * edge.energy);
     else
@@ -135,7 +148,8 @@ static const char *const gpus[GPUS] = {"pi4", "g52", "a618"};
 static void print_instructions(const char *file, const struct gn_table_row *row, int light) {
     char wanted[80], program[80], gpu[16];
     int count, found[GPUS] = {0};
-    snprintf(wanted, sizeof wanted, "%s-%s-%s", row->technique, lights[light].shader, row->format);
+    snprintf(wanted, sizeof wanted, "%s-%s-%s", row->technique, lights[light].shader,
+             gn_encodings[encoding_of(row)].name);
     FILE *from = fopen(file, "r");
     while (from && fscanf(from, "%79s %15s %d", program, gpu, &count) == 3)
         for (int i = 0; i < GPUS; i++)
@@ -149,9 +163,9 @@ static void print_instructions(const char *file, const struct gn_table_row *row,
 }
 
 static double megabytes_of(const struct gn_table_row *row, int light) {
-    enum gn_encoding encoding = GN_ENCODING_AUTO;
-    gn_encoding_find(row->format, &encoding, NULL);
-    return gn_encodings[encoding].texel_bytes * (light == 2 ? 6.0 : 1.0) * 1024 * 1024 / 1e6;
+    enum gn_encoding encoding = encoding_of(row);
+    double tiles = light == 2 && encoding != GN_ENCODING_MASK ? 6 : 1;
+    return gn_encodings[encoding].texel_bytes * tiles * 1024 * 1024 / 1e6;
 }
 
 /* ---- all ---- */
@@ -159,7 +173,7 @@ static double megabytes_of(const struct gn_table_row *row, int light) {
 static void print_row(const char *file, const struct penumbra *p, const struct gn_table_row *row,
                       int light, double cost) {
     printf("| %s%s%s | %s | %s", light ? "" : "`", light ? "" : row->technique, light ? "" : "`",
-           lights[light].name, row->format);
+           lights[light].name, gn_encodings[encoding_of(row)].name);
     print_share(mean_of(row, light, gn_mask_acne));
     print_share(mean_of(row, light, gn_mask_leak));
     print_share(mean_of(row, light, gn_mask_gap));
@@ -177,8 +191,8 @@ static void add_rows(struct gn_table *table) {
     static const char *const by_hand[] = {"r16f", "depth", "r32ui", "rgba8", "r16f-raw"};
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++) {
         const struct gn_technique_row *row = &gn_techniques[t];
-        if (strcmp(row->name, "planar") == 0) continue; /* measured on its plane alone */
-        for (int f = 0; f < 5; f++)
+        if (row->on_plane) gn_table_add(table, row->name, "auto", 1024);
+        for (int f = 0; f < 5 && !row->on_plane; f++)
             if (t == GN_TECHNIQUE_HARD || f == (row->reads_distance ? 0 : 1))
                 gn_table_add(table, row->name, by_hand[f], 1024);
     }

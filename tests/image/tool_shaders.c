@@ -89,12 +89,13 @@ enum {
     FULL = DIFFUSE | GN_FEATURE_SPECULAR,
 };
 
-/* Every technique with every light and encoding, as TECHNIQUE-LIGHT-FORMAT. */
+/* Every technique with every light and encoding that it can have, as TECHNIQUE-LIGHT-FORMAT. */
 static bool write_all(const char *folder, struct gn_err *err) {
     static const char *const lights[] = {"sun", "point", "spot"};
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
         for (int type = GN_LIGHT_DIRECTIONAL; type <= GN_LIGHT_SPOT; type++)
             for (int e = 0; e < GN_ENCODING_COUNT; e++) {
+                if (gn_techniques[t].on_plane != (e == GN_ENCODING_MASK)) continue;
                 char name[80];
                 snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, lights[type],
                          gn_encodings[e].name);
