@@ -89,13 +89,17 @@ enum {
     FULL = DIFFUSE | GN_FEATURE_SPECULAR,
 };
 
-/* Every technique with every light and encoding that it can have, as TECHNIQUE-LIGHT-FORMAT. */
+/* What the README's table lists, as TECHNIQUE-LIGHT-FORMAT: every technique with every light and
+ * the encoding that it gets by itself, hard with all. */
 static bool write_all(const char *folder, struct gn_err *err) {
     static const char *const lights[] = {"sun", "point", "spot"};
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
         for (int type = GN_LIGHT_DIRECTIONAL; type <= GN_LIGHT_SPOT; type++)
             for (int e = 0; e < GN_ENCODING_COUNT; e++) {
-                if (gn_techniques[t].on_plane != (e == GN_ENCODING_MASK)) continue;
+                bool fell_back;
+                enum gn_encoding own = gn_encoding_choose((enum gn_technique)t, GN_ENCODING_AUTO,
+                                                          UINT32_MAX, &fell_back);
+                if (e != (int)own && (t != GN_TECHNIQUE_HARD || e == GN_ENCODING_MASK)) continue;
                 char name[80];
                 snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, lights[type],
                          gn_encodings[e].name);
