@@ -168,9 +168,12 @@ static float half_float_step(float value) {
 }
 
 /* The encoding's code of a distance is distance * scale + offset; ulp_m is its coarsest step. */
-static void set_code(struct gn_shadow_view *view, float near_depth, float far_depth) {
-    float range = view->far_m - view->near_m,
-          float_step = 7e-7f * view->far_m; /* of the interpolation */
+static void set_code(const struct gn_fitter *f, float near_depth, float far_depth) {
+    struct gn_shadow_view *view = f->view;
+    float range = view->far_m - view->near_m;
+    float float_step = 7e-7f * view->far_m; /* of the interpolation */
+    /* A sun's depths may span less than the scene: then places themselves are coarser. */
+    if (!view->perspective) float_step = fmaxf(float_step, 2e-7f * f->scene_size_m);
     view->distance_scale = 1.0f;
     view->distance_offset = 0.0f;
     view->far_code = view->far_m;
@@ -233,9 +236,13 @@ static void set_lookup(struct gn_shadow_view *view, float near_depth) {
     }
 }
 
-static void set_depths(struct gn_shadow_view *view, const struct gn_shadow_region *depths,
+/* With some room on each side. Of a sun never none: casters in one plane across its light span no
+ * depth, and in a plane through the world's origin that depth is 0. */
+static void set_depths(const struct gn_fitter *f, const struct gn_shadow_region *depths,
                        float *near_depth, float *far_depth) {
+    struct gn_shadow_view *view = f->view;
     float pad = 1e-3f * (depths->far - depths->near) + 1e-5f * fabsf(depths->far);
+    if (!view->perspective) pad = fmaxf(pad, 1e-6f * f->scene_size_m);
     *near_depth =
         view->perspective ? fmaxf(depths->near - pad, 0.5f * depths->near) : depths->near - pad;
     *far_depth = depths->far + pad;
@@ -291,8 +298,8 @@ static bool fit_window(struct gn_fitter *f, float radius) {
     float near_depth, far_depth;
     double low[2];
     gn_shadow_snap(f->view, window.min, window.max, 1e-6f * f->scene_size_m, low);
-    set_depths(f->view, &depths, &near_depth, &far_depth);
-    set_code(f->view, near_depth, far_depth);
+    set_depths(f, &depths, &near_depth, &far_depth);
+    set_code(f, near_depth, far_depth);
     set_clip(f->view, low, near_depth, far_depth);
     set_lookup(f->view, near_depth);
     set_soft(f->view, radius, near_depth, far_depth);
@@ -355,8 +362,8 @@ static bool fit_tiles(struct gn_fitter *f, float radius) {
     float near_depth, far_depth;
     double edge = -0.5 * (double)view->texel * view->map_px;
     widen_depths(&depths);
-    set_depths(view, &depths, &near_depth, &far_depth);
-    set_code(view, near_depth, far_depth);
+    set_depths(f, &depths, &near_depth, &far_depth);
+    set_code(f, near_depth, far_depth);
     set_clip(view, (double[2]){edge, edge}, near_depth, far_depth);
     set_soft(view, radius, near_depth, far_depth);
     view->tangent_uv[0] = 1.0f / (view->texel * (float)view->width_px);

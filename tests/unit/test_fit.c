@@ -1,0 +1,92 @@
+#include <math.h>
+#include <string.h>
+
+#include "shadow/fit.h"
+#include "unit/check.h"
+#include "unit/gltf_maker.h"
+
+/* A table top, 2 x 2 at y = 0, over a floor of 10 x 10 at y = -1; a light 3 over it that shines
+ * straight down. An eye sees all of it. */
+struct stage {
+    struct gn_scene *scene;
+    struct gn_pose pose;
+    struct gn_eye eye;
+    struct gn_shadow_opts opts;
+    struct gn_shadow_memory memory[GN_SHADOW_TILES_MAX];
+    struct gn_shadow_view view;
+};
+
+static void load(struct stage *s, const char *light, float scale) {
+    char text[160];
+    struct gn_maker maker;
+    struct gn_err err = {0};
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    snprintf(text, sizeof text, "{'KHR_lights_punctual':{'lights':[%s]}}", light);
+    gn_maker_set(&maker, "extensions", text);
+    gn_maker_add(&maker, "nodes",
+                 "{'name':'floor','mesh':0,'translation':[0,-1,0],'scale':[5,5,5]}");
+    gn_maker_add(&maker, "nodes",
+                 "{'matrix':[1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,3,0,1],"
+                 "'extensions':{'KHR_lights_punctual':{'light':0}}}");
+    snprintf(text, sizeof text, "{'name':'all','scale':[%g,%g,%g],'children':[0,1,2]}",
+             (double)scale, (double)scale, (double)scale);
+    gn_maker_add(&maker, "nodes", text);
+    gn_maker_set(&maker, "scenes", "[{'nodes':[3]}]");
+    s->scene = gn_maker_load(&maker, NULL, &err);
+    if (!s->scene) fail_msg("%s", err.text);
+}
+
+static void begin(struct stage *s, const char *light, float scale) {
+    mat4 view_from_world, clip_from_view, clip_from_world;
+    *s = (struct stage){.opts = {GN_TECHNIQUE_PCF, GN_ENCODING_DEPTH, 1024}};
+    load(s, light, scale);
+    gn_pose_init(&s->pose, s->scene, GN_POSE_NONE);
+    glm_lookat((vec3){0, 8 * scale, 12 * scale}, GLM_VEC3_ZERO, GLM_YUP, view_from_world);
+    glm_perspective(1.0f, 1.0f, 0.1f * scale, 100.0f * scale, clip_from_view);
+    glm_mat4_mul(clip_from_view, view_from_world, clip_from_world);
+    gn_eye_build(&s->eye, clip_from_world);
+    for (int i = 0; i < GN_SHADOW_TILES_MAX; i++)
+        gn_shadow_memory_init(&s->memory[i], s->scene->item_count);
+}
+
+static void end(struct stage *s) {
+    for (int i = 0; i < GN_SHADOW_TILES_MAX; i++) gn_shadow_memory_finish(&s->memory[i]);
+    gn_pose_finish(&s->pose);
+    gn_scene_destroy(s->scene);
+}
+
+static bool fit(struct stage *s) {
+    return gn_shadow_fit(&s->pose, 0, &s->eye, &s->opts, s->memory, &s->view);
+}
+
+/* ---- */
+
+static void expect_finite(mat4 m) {
+    for (int c = 0; c < 4; c++)
+        for (int r = 0; r < 4; r++) assert_true(isfinite(m[c][r]));
+}
+
+static void test_casters_in_one_plane_across_the_sun_have_a_depth(void **state) {
+    (void)state;
+    struct stage s;
+    begin(&s, "{'type':'directional'}", 1);
+    for (int encoding = 0; encoding < GN_ENCODING_MASK; encoding++) {
+        s.opts.encoding = (enum gn_encoding)encoding;
+        assert_true(fit(&s));
+        expect_finite(s.view.tiles[0].clip_from_world);
+        expect_finite(s.view.map_from_world);
+        vec4 on_table = {0.5f, 0.0f, 0.5f, 1.0f}, clip;
+        glm_mat4_mulv(s.view.tiles[0].clip_from_world, on_table, clip);
+        assert_true(fabsf(clip[2]) < 0.9f);
+        assert_true(s.view.ulp_m > 1e-7f); /* what a float says of a place some metres off */
+    }
+    end(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_casters_in_one_plane_across_the_sun_have_a_depth),
+    };
+    return RUN(tests);
+}
