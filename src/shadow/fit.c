@@ -15,8 +15,9 @@
 #include "shadow/region.h"
 
 #define SPOT_MAX_RAD     1.3962634f /* 80 degrees: beyond it a spot's map does not reach */
-#define STEPS_PER_OCTAVE 8 /* of the texel's size: the window's width moves in steps of 9 % */
-#define RIM_TEXELS       2 /* cleared rim, and the texel that snapping takes */
+#define STEPS_PER_OCTAVE 8     /* of the texel's size: the window's width moves in steps of 9 % */
+#define RIM_TEXELS       2     /* cleared rim, and the texel that snapping takes */
+#define LEAST_TANGENT    1e-6f /* side of a spot's window; a sun's: as much of the scene's size */
 
 static bool item_receives(const struct gn_fitter *f, uint32_t item) {
     return f->pose->items[item].visible && f->pose->scene->items[item].receives;
@@ -297,7 +298,8 @@ static bool fit_window(struct gn_fitter *f, float radius) {
     if (!find_window(f, &window, &depths)) return false;
     float near_depth, far_depth;
     double low[2];
-    gn_shadow_snap(f->view, window.min, window.max, 1e-6f * f->scene_size_m, low);
+    gn_shadow_snap(f->view, window.min, window.max,
+                   f->view->perspective ? LEAST_TANGENT : 1e-6f * f->scene_size_m, low);
     set_depths(f, &depths, &near_depth, &far_depth);
     set_code(f, near_depth, far_depth);
     set_clip(f->view, low, near_depth, far_depth);

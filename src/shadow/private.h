@@ -26,7 +26,8 @@ float gn_scene_size_m(const struct gn_pose *pose);
 /* ---- fit.c ---- */
 
 /* Lays the map round a window in plane coordinates, on whole texels of a size from a geometric
- * series: sets view->texel and the map's low corner. least: of the window's side. */
+ * series: sets view->texel and the map's low corner. min, max, least (of the window's side), low:
+ * plane units. */
 void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float max[2],
                     float least, double low[2]);
 /* Of all that decides the map's content; never 0. */

@@ -84,9 +84,26 @@ static void test_casters_in_one_plane_across_the_sun_have_a_depth(void **state) 
     end(&s);
 }
 
+static float spot_texel(float scale) {
+    struct stage s;
+    begin(&s, "{'type':'spot'}", scale);
+    assert_true(fit(&s));
+    float texel = s.view.texel;
+    end(&s);
+    return texel;
+}
+
+static void test_a_spots_window_does_not_grow_with_the_scene(void **state) {
+    (void)state;
+    float texel = spot_texel(1);
+    assert_true(texel > 0.6f / 1024 && texel < 0.8f / 1024); /* the table is 2 wide, 3 away */
+    assert_true(spot_texel(0x1p-8f) == texel && spot_texel(0x1p20f) == texel);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_casters_in_one_plane_across_the_sun_have_a_depth),
+        cmocka_unit_test(test_a_spots_window_does_not_grow_with_the_scene),
     };
     return RUN(tests);
 }
