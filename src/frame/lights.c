@@ -161,24 +161,6 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_group_lights(frame, pose);
 }
 
-/* A map that stays empty: everything reads it as lit. The slot stays, so that programs do not
- * change with what is in view. */
-static void make_empty(struct gn_shadow_view *view) {
-    static const mat4 nowhere = {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.5f, 0.5f, 0, 1}};
-    memcpy(view->map_from_world, nowhere, sizeof nowhere);
-    view->distance_scale = view->distance_offset = 0.0f;
-    for (int k = 0; k < 2; k++) view->tangent_uv[k] = view->depth_code[k] = 0.0f;
-    view->texel = view->normal_offset = view->slope_offset = view->ulp_m = 0.0f;
-    view->far_code = view->encoding == GN_ENCODING_RGBA8 ? 0.999999f : 1.0f;
-    view->empty = true;
-    for (uint32_t i = 0; i < view->tile_count; i++) {
-        struct gn_shadow_tile *tile = &view->tiles[i];
-        memcpy(tile->clip_from_world, nowhere, sizeof nowhere);
-        tile->empty = true;
-        tile->content_hash = 1;
-    }
-}
-
 /* The side of a light's map, or of its tiles, such that all of it is a texture. */
 static uint32_t map_px_of(const struct gn_frame *frame, const struct gn_light *light,
                           enum gn_technique technique, const struct gn_frame_opts *opts) {
@@ -202,9 +184,9 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                                         map_px_of(frame, l, light->technique, opts)};
         make_memories(frame->memory[i], gn_shadow_tile_count(l->type, light->technique),
                       frame->scene->item_count);
-        if (!gn_shadow_fit(pose, light->light, &frame->eye, &shadow, frame->memory[i],
-                           &frame->shadows[i]))
-            make_empty(&frame->shadows[i]);
+        /* An empty one keeps its slot: programs do not change with what is in view. */
+        gn_shadow_fit(pose, light->light, &frame->eye, &shadow, frame->memory[i],
+                      &frame->shadows[i]);
     }
 }
 

@@ -6,6 +6,7 @@
  * darken nothing, and what is not in the map can neither shadow itself nor cost resolution. */
 #include "shadow/fit.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -15,8 +16,9 @@
 #include "shadow/region.h"
 
 #define SPOT_MAX_RAD     1.3962634f /* 80 degrees: beyond it a spot's map does not reach */
-#define STEPS_PER_OCTAVE 8     /* of the texel's size: the window's width moves in steps of 9 % */
-#define RIM_TEXELS       2     /* cleared rim, and the texel that snapping takes */
+#define STEPS_PER_OCTAVE 8 /* of the texel's size: the window's width moves in steps of 9 % */
+#define RIM_TEXELS       2 /* cleared rim, and the texel that snapping takes */
+#define RGBA8_FAR        0.999999f /* lib/map_rgba8.glsl */
 #define LEAST_TANGENT    1e-6f /* side of a spot's window; a sun's: as much of the scene's size */
 
 static bool item_receives(const struct gn_fitter *f, uint32_t item) {
@@ -120,9 +122,11 @@ static bool find_window(const struct gn_fitter *f, struct gn_shadow_region *wind
     return !region_is_empty(window);
 }
 
-static void look_along(vec3 eye, vec3 direction, mat4 out) {
-    vec3 up = {0.0f, 1.0f, 0.0f}, across = {0.0f, 0.0f, 1.0f};
-    glm_look(eye, direction, fabsf(direction[1]) > 0.99f ? across : up, out);
+void gn_shadow_look(const struct gn_shadow_view *view, mat4 light_from_world) {
+    vec3 up = {0.0f, 1.0f, 0.0f}, across = {0.0f, 0.0f, 1.0f}, origin = {0.0f, 0.0f, 0.0f}, forward;
+    glm_vec3_negate_to((float *)view->to_light_ws, forward);
+    glm_look(view->perspective ? (float *)view->light_ws : origin, forward,
+             fabsf(forward[1]) > 0.99f ? across : up, light_from_world);
 }
 
 /* Five planes of a pyramid round the cone; its near plane is a ten-thousandth of the scene away. */
@@ -138,16 +142,6 @@ static void set_cone(struct gn_fitter *f, float tan_cone) {
     for (int i = 0; i < 5; i++) /* a plane goes by the transpose: world from light */
         for (int c = 0; c < 4; c++)
             f->cone[i][c] = glm_vec4_dot(planes[i], f->tile->light_from_world[c]);
-}
-
-static void place_light(struct gn_fitter *f, const struct gn_light *light) {
-    struct gn_shadow_view *view = f->view;
-    vec3 direction, origin = {0.0f, 0.0f, 0.0f};
-    gn_pose_light(f->pose, view->light, view->light_ws, direction);
-    glm_vec3_negate_to(direction, view->to_light_ws);
-    view->perspective = light->type != GN_LIGHT_DIRECTIONAL;
-    look_along(view->perspective ? view->light_ws : origin, direction, f->tile->light_from_world);
-    if (light->type == GN_LIGHT_SPOT) set_cone(f, tanf(fminf(light->outer_rad, SPOT_MAX_RAD)));
 }
 
 static float ceil_to_step(float size) {
@@ -195,7 +189,7 @@ static void set_code(const struct gn_fitter *f, float near_depth, float far_dept
     case GN_ENCODING_RGBA8:
         view->distance_scale = 1.0f / range;
         view->distance_offset = -view->near_m / range;
-        view->far_code = 0.999999f;
+        view->far_code = RGBA8_FAR;
         view->ulp_m = range * exp2f(-22.0f) + float_step;
         return;
     case GN_ENCODING_DEPTH:
@@ -254,8 +248,9 @@ static void set_depths(const struct gn_fitter *f, const struct gn_shadow_region 
 /* Similar triangles (Fernando, "Percentage-Closer Soft Shadows", 2005): in plane units a blocker at
  * b throws on a receiver at r a penumbra of radius (r - b) tan(sun's radius), or radius (1/b - 1/r)
  * of a lamp. */
-static void set_soft(struct gn_shadow_view *view, float radius, float near_depth, float far_depth) {
-    view->soft[0] = radius / view->texel;
+static void set_soft(const struct gn_fitter *f, float near_depth, float far_depth) {
+    struct gn_shadow_view *view = f->view;
+    view->soft[0] = f->light_radius / view->texel;
     if (view->perspective && view->encoding == GN_ENCODING_DEPTH) { /* linear in 1 / depth */
         view->soft[1] = -1.0f / near_depth;
         view->soft[2] = 1.0f / near_depth - 1.0f / far_depth;
@@ -292,8 +287,11 @@ uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view 
 
 /* ---- one tile: directional lights and spots ---- */
 
-static bool fit_window(struct gn_fitter *f, float radius) {
+static bool fit_window(struct gn_fitter *f) {
+    const struct gn_light *light = &f->pose->scene->lights[f->view->light];
     struct gn_shadow_region window, depths;
+    gn_shadow_look(f->view, f->tile->light_from_world);
+    if (light->type == GN_LIGHT_SPOT) set_cone(f, tanf(fminf(light->outer_rad, SPOT_MAX_RAD)));
     gn_fitter_remember(f);
     if (!find_window(f, &window, &depths)) return false;
     float near_depth, far_depth;
@@ -304,7 +302,7 @@ static bool fit_window(struct gn_fitter *f, float radius) {
     set_code(f, near_depth, far_depth);
     set_clip(f->view, low, near_depth, far_depth);
     set_lookup(f->view, near_depth);
-    set_soft(f->view, radius, near_depth, far_depth);
+    set_soft(f, near_depth, far_depth);
     return true;
 }
 
@@ -353,7 +351,7 @@ static void widen_depths(struct gn_shadow_region *depths) {
     depths->far_radial = exp2f(ceilf(4.0f * log2f(depths->far_radial)) / 4.0f);
 }
 
-static bool fit_tiles(struct gn_fitter *f, float radius) {
+static bool fit_tiles(struct gn_fitter *f) {
     struct gn_shadow_view *view = f->view;
     struct gn_shadow_region depths;
     const struct gn_technique_row *row = &gn_techniques[view->technique];
@@ -367,7 +365,7 @@ static bool fit_tiles(struct gn_fitter *f, float radius) {
     set_depths(f, &depths, &near_depth, &far_depth);
     set_code(f, near_depth, far_depth);
     set_clip(view, (double[2]){edge, edge}, near_depth, far_depth);
-    set_soft(view, radius, near_depth, far_depth);
+    set_soft(f, near_depth, far_depth);
     view->tangent_uv[0] = 1.0f / (view->texel * (float)view->width_px);
     view->tangent_uv[1] = 1.0f / (view->texel * (float)view->height_px);
     view->depth_code[0] = far_depth / (far_depth - near_depth);
@@ -388,34 +386,71 @@ void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, ui
     size_px[1] = atlas ? 2 * map_px : map_px;
 }
 
-bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
-                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
-                   struct gn_shadow_view *view) {
-    if (gn_techniques[opts->technique].on_plane)
-        return gn_planar_fit(pose, light, eye, opts, memory, view);
-    const struct gn_light *l = &pose->scene->lights[light];
+/* All that does not depend on what casts or is seen. */
+static void begin_view(const struct gn_pose *pose, uint32_t light,
+                       const struct gn_shadow_opts *opts, struct gn_shadow_view *view) {
+    const enum gn_light_type type = pose->scene->lights[light].type;
     uint32_t size_px[2];
-    gn_shadow_map_size(l->type, opts->technique, opts->map_px, size_px);
+    vec3 direction;
+    gn_shadow_map_size(type, opts->technique, opts->map_px, size_px);
     *view = (struct gn_shadow_view){.light = light,
                                     .technique = opts->technique,
                                     .encoding = opts->encoding,
                                     .map_px = opts->map_px,
                                     .width_px = size_px[0],
                                     .height_px = size_px[1],
-                                    .tile_count = gn_shadow_tile_count(l->type, opts->technique)};
-    if (opts->technique == GN_TECHNIQUE_NONE) return false;
+                                    .tile_count = gn_shadow_tile_count(type, opts->technique),
+                                    .perspective = type != GN_LIGHT_DIRECTIONAL};
+    gn_pose_light(pose, light, view->light_ws, direction);
+    glm_vec3_negate_to(direction, view->to_light_ws);
+}
+
+/* All of the map is the far end, so wherever it is read there is light. But techniques ask how the
+ * code changes across the map: it must have two directions. It is the light's frame, one unit wide,
+ * with a code of 0 everywhere. */
+static void make_empty(struct gn_shadow_view *view) {
+    mat4 m;
+    gn_shadow_look(view, m);
+    for (int c = 0; c < 4; c++) {
+        vec4 column = {m[c][0], m[c][1], 0.0f, view->perspective ? -m[c][2] : c == 3};
+        glm_vec4_copy(column, view->map_from_world[c]);
+    }
+    for (int k = 0; k < 2; k++) view->tangent_uv[k] = 1.0f, view->depth_code[k] = 0.0f;
+    view->distance_scale = view->distance_offset = 0.0f;
+    view->texel = view->normal_offset = view->slope_offset = view->ulp_m = 0.0f;
+    glm_vec4_copy((vec4){0.0f, -1.0f, 0.0f, 1.0f}, view->soft); /* no penumbra */
+    view->far_code = view->encoding == GN_ENCODING_RGBA8 ? RGBA8_FAR : 1.0f;
+    view->empty = true;
+    for (uint32_t i = 0; i < view->tile_count; i++) {
+        view->tiles[i].empty = true;
+        view->tiles[i].content_hash = 1;
+    }
+}
+
+static bool fit_map(const struct gn_pose *pose, const struct gn_eye *eye,
+                    struct gn_shadow_memory *memory, struct gn_shadow_view *view) {
+    const struct gn_light *light = &pose->scene->lights[view->light];
     struct gn_fitter f = {.pose = pose,
                           .eye = eye,
                           .memory = memory,
                           .view = view,
                           .tile = view->tiles,
-                          .light_radius = l->radius};
-    f.scene_size_m = gn_scene_size_m(pose);
-    place_light(&f, l);
-    if (!(view->tile_count > 1 ? fit_tiles(&f, l->radius) : fit_window(&f, l->radius)))
-        return false;
+                          .scene_size_m = gn_scene_size_m(pose),
+                          .light_radius = light->radius};
+    if (!(view->tile_count > 1 ? fit_tiles(&f) : fit_window(&f))) return false;
     set_bias(view);
     for (uint32_t i = 0; i < view->tile_count; i++)
         view->tiles[i].content_hash = gn_shadow_hash(pose, view, &view->tiles[i], memory[i].casts);
     return true;
+}
+
+bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
+                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
+                   struct gn_shadow_view *view) {
+    assert(opts->technique != GN_TECHNIQUE_NONE);
+    begin_view(pose, light, opts, view);
+    bool found = gn_techniques[opts->technique].on_plane ? gn_planar_fit(pose, eye, memory, view)
+                                                         : fit_map(pose, eye, memory, view);
+    if (!found) make_empty(view);
+    return found;
 }

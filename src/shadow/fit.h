@@ -18,9 +18,9 @@
 #include "shadow/technique.h"
 
 struct gn_shadow_opts {
-    enum gn_technique technique;
-    enum gn_encoding encoding; /* a proved one, never AUTO */
-    uint32_t map_px;           /* side of the map, or of a tile */
+    enum gn_technique technique; /* not NONE */
+    enum gn_encoding encoding;   /* a proved one, never AUTO */
+    uint32_t map_px;             /* side of the map, or of a tile */
 };
 
 enum { GN_SHADOW_TILES_MAX = 6 };
@@ -102,8 +102,8 @@ void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, ui
                         uint32_t size_px[2]);
 
 /* Fits the light's view and fills memory->casts, for each tile (as many memories). False: nothing
- * that is seen can be in this light's shadow; no map is needed, but its size is right. Allocates
- * nothing. */
+ * that is seen can be in this light's shadow; the view is empty: its size is right, and a map that
+ * holds nothing but far_code is read as lit by it. Allocates nothing. */
 bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                    const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
                    struct gn_shadow_view *view);

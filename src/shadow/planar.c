@@ -90,12 +90,8 @@ static bool find_plane(struct planar *f) {
 }
 
 /* False when the light lies in the plane or shines along it. */
-static bool place_light(struct planar *f, const struct gn_light *light) {
+static bool place_light(struct planar *f) {
     struct gn_shadow_view *view = f->view;
-    vec3 direction;
-    gn_pose_light(f->pose, view->light, view->light_ws, direction);
-    glm_vec3_negate_to(direction, view->to_light_ws);
-    view->perspective = light->type != GN_LIGHT_DIRECTIONAL;
     glm_vec4(view->perspective ? view->light_ws : view->to_light_ws,
              view->perspective ? 1.0f : 0.0f, f->light);
     float height = glm_vec4_dot(f->plane, f->light);
@@ -179,9 +175,7 @@ static int seen_planes(const struct planar *f, const struct gn_light *light, vec
     memcpy(planes, f->eye->planes, sizeof f->eye->planes);
     if (light->type != GN_LIGHT_SPOT) return 6;
     mat4 look, lens;
-    vec3 direction, up = {0.0f, 1.0f, 0.0f}, across = {0.0f, 0.0f, 1.0f};
-    glm_vec3_negate_to(f->view->to_light_ws, direction);
-    glm_look(f->view->light_ws, direction, fabsf(direction[1]) > 0.99f ? across : up, look);
+    gn_shadow_look(f->view, look);
     glm_perspective(2.0f * fminf(light->outer_rad, CONE_MAX_RAD), 1.0f, 1e-3f * f->scene_size_m,
                     f->scene_size_m, lens);
     glm_mat4_mul(lens, look, look);
@@ -272,24 +266,14 @@ static void set_clip(struct planar *f, const double low[2]) {
     }
 }
 
-bool gn_planar_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
-                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
-                   struct gn_shadow_view *view) {
-    const struct gn_light *l = &pose->scene->lights[light];
-    struct planar f = {.pose = pose, .eye = eye, .view = view};
+bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
+                   struct gn_shadow_memory *memory, struct gn_shadow_view *view) {
+    const struct gn_light *l = &pose->scene->lights[view->light];
+    struct planar f = {
+        .pose = pose, .eye = eye, .view = view, .scene_size_m = gn_scene_size_m(pose)};
     double low[2];
-    *view = (struct gn_shadow_view){.light = light,
-                                    .technique = opts->technique,
-                                    .encoding = opts->encoding,
-                                    .map_px = opts->map_px,
-                                    .width_px = opts->map_px,
-                                    .height_px = opts->map_px,
-                                    .tile_count = 1,
-                                    .distance_scale = 1.0f,
-                                    .far_code = 1.0f,
-                                    .far_m = 1.0f};
-    f.scene_size_m = gn_scene_size_m(pose);
-    if (!find_plane(&f) || !place_light(&f, l)) return false;
+    view->distance_scale = view->far_code = view->far_m = 1.0f;
+    if (!find_plane(&f) || !place_light(&f)) return false;
     set_matrices(&f);
     set_heights(&f);
     if (f.high_m <= f.low_m) return false;

@@ -11,11 +11,11 @@
 /* Whether anything in the scene receives planar shadows. */
 bool gn_planar_has_plane(const struct gn_scene *scene);
 
-/* gn_shadow_fit for a technique that is on_plane: every kind of light. In the view light_from_world
- * leads to plane coordinates and height over the plane, map_from_world is affine and right for
- * points of the plane only, and codes are visibilities. */
-bool gn_planar_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
-                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
-                   struct gn_shadow_view *view);
+/* gn_shadow_fit for a technique that is on_plane: every kind of light. view: as gn_shadow_fit has
+ * begun it, with the light's place. In it light_from_world leads to plane coordinates and height
+ * over the plane, map_from_world is affine and right for points of the plane only, and codes are
+ * visibilities. */
+bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
+                   struct gn_shadow_memory *memory, struct gn_shadow_view *view);
 
 #endif

@@ -25,6 +25,9 @@ float gn_scene_size_m(const struct gn_pose *pose);
 
 /* ---- fit.c ---- */
 
+/* light_from_world along the light's direction, which is -Z; of a directional light about the
+ * world's origin. Rigid. */
+void gn_shadow_look(const struct gn_shadow_view *view, mat4 light_from_world);
 /* Lays the map round a window in plane coordinates, on whole texels of a size from a geometric
  * series: sets view->texel and the map's low corner. min, max, least (of the window's side), low:
  * plane units. */

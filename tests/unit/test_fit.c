@@ -100,10 +100,50 @@ static void test_a_spots_window_does_not_grow_with_the_scene(void **state) {
     assert_true(spot_texel(0x1p-8f) == texel && spot_texel(0x1p20f) == texel);
 }
 
+/* Where the map is read for a place beside the table: uv and code. */
+static void look_up(struct stage *s, float x, float z, vec3 out) {
+    vec4 p = {x, -0.5f, z, 1.0f};
+    glm_mat4_mulv(s->view.map_from_world, p, p);
+    glm_vec3_scale(p, 1.0f / p[3], out);
+}
+
+/* Techniques divide by the area that a step along x and one along z make on the map. */
+static void expect_empty(const char *light, enum gn_technique technique) {
+    struct stage s;
+    begin(&s, light, 1);
+    s.opts.technique = technique;
+    for (int i = 0; i < 6; i++) glm_vec4_copy((vec4){0, 0, 0, -1}, s.eye.planes[i]);
+    assert_false(fit(&s));
+    assert_true(s.view.empty);
+    for (uint32_t i = 0; i < s.view.tile_count; i++) assert_true(s.view.tiles[i].empty);
+    assert_true(s.view.depth_code[0] == 0 && s.view.depth_code[1] == 0);
+    assert_true(s.view.tangent_uv[0] > 0 && s.view.tangent_uv[1] > 0);
+    if (s.view.tile_count == 1) {
+        vec3 at, right, near;
+        look_up(&s, 0.5f, 0.5f, at);
+        look_up(&s, 0.75f, 0.5f, right);
+        look_up(&s, 0.5f, 0.75f, near);
+        assert_true(at[2] == 0 && right[2] == 0 && near[2] == 0);
+        assert_true(fabsf((right[0] - at[0]) * (near[1] - at[1]) -
+                          (right[1] - at[1]) * (near[0] - at[0])) > 1e-3f);
+    }
+    end(&s);
+}
+
+static void test_an_empty_view_has_no_slope_and_two_directions(void **state) {
+    (void)state;
+    static const char *const lights[] = {"{'type':'directional'}", "{'type':'spot'}",
+                                         "{'type':'point'}"};
+    for (int i = 0; i < 3; i++)
+        for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
+            expect_empty(lights[i], (enum gn_technique)t);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_casters_in_one_plane_across_the_sun_have_a_depth),
         cmocka_unit_test(test_a_spots_window_does_not_grow_with_the_scene),
+        cmocka_unit_test(test_an_empty_view_has_no_slope_and_two_directions),
     };
     return RUN(tests);
 }
