@@ -64,7 +64,7 @@ static void add_instance(struct gn_frame *frame, const struct gn_pose *pose, uin
     instance->surface[2] = m->occlusion_strength;
     instance->surface[3] = m->alpha_cutoff;
     memcpy(instance->emissive, m->emissive, sizeof m->emissive);
-    instance->emissive[3] = item->casts && m->alpha != GN_ALPHA_BLEND ? 1.0f : 0.0f;
+    instance->emissive[3] = gn_shadow_item_casts(frame->scene, index) ? 1.0f : 0.0f;
 }
 
 static bool light_is_outside(const struct gn_box *box, const struct gn_shadow_view *view) {

@@ -22,13 +22,42 @@ void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world) {
 }
 
 bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box) {
-    for (int i = 0; i < 6; i++) {
-        const float *n = eye->planes[i];
-        float farthest = n[3];
-        for (int k = 0; k < 3; k++) farthest += n[k] * (n[k] >= 0.0f ? box->max[k] : box->min[k]);
-        if (farthest < 0.0f) return false;
-    }
+    return !gn_planes_miss(eye->planes, 6, box);
+}
+
+float gn_box_least(const vec4 plane, const struct gn_box *box) {
+    float least = plane[3];
+    for (int k = 0; k < 3; k++) least += plane[k] * (plane[k] >= 0.0f ? box->min[k] : box->max[k]);
+    return least;
+}
+
+float gn_box_most(const vec4 plane, const struct gn_box *box) {
+    float most = plane[3];
+    for (int k = 0; k < 3; k++) most += plane[k] * (plane[k] >= 0.0f ? box->max[k] : box->min[k]);
+    return most;
+}
+
+bool gn_planes_hold(const vec4 *planes, int count, const struct gn_box *box) {
+    for (int i = 0; i < count; i++)
+        if (gn_box_least(planes[i], box) < 0.0f) return false;
     return true;
+}
+
+bool gn_planes_miss(const vec4 *planes, int count, const struct gn_box *box) {
+    for (int i = 0; i < count; i++)
+        if (!(gn_box_most(planes[i], box) >= 0.0f)) return true;
+    return false;
+}
+
+void gn_item_triangle(const struct gn_pose *pose, uint32_t item, uint32_t index,
+                      struct gn_polygon *out) {
+    const struct gn_scene *scene = pose->scene;
+    const uint32_t *indices =
+        scene->indices + scene->geometries[scene->items[item].geometry].first_index + index;
+    out->count = 3;
+    for (int k = 0; k < 3; k++)
+        glm_mat4_mulv3(pose->items[item].world_from_item, scene->positions + 3 * (size_t)indices[k],
+                       1.0f, out->at[k]);
 }
 
 void gn_polygon_clip(struct gn_polygon *polygon, const vec4 plane) {

@@ -15,20 +15,22 @@
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define SPOT_MAX_RAD     1.3962634f /* 80 degrees: beyond it a spot's map does not reach */
 #define STEPS_PER_OCTAVE 8 /* of the texel's size: the window's width moves in steps of 9 % */
 #define RIM_TEXELS       2 /* cleared rim, and the texel that snapping takes */
 #define RGBA8_FAR        0.999999f /* lib/map_rgba8.glsl */
 #define LEAST_TANGENT    1e-6f /* side of a spot's window; a sun's: as much of the scene's size */
+
+bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item) {
+    const struct gn_item *it = &scene->items[item];
+    return it->casts && scene->materials[it->material].alpha != GN_ALPHA_BLEND;
+}
 
 static bool item_receives(const struct gn_fitter *f, uint32_t item) {
     return f->pose->items[item].visible && f->pose->scene->items[item].receives;
 }
 
 static bool item_casts(const struct gn_fitter *f, uint32_t item) {
-    const struct gn_item *it = &f->pose->scene->items[item];
-    return f->pose->items[item].visible && it->casts &&
-           f->pose->scene->materials[it->material].alpha != GN_ALPHA_BLEND;
+    return f->pose->items[item].visible && gn_shadow_item_casts(f->pose->scene, item);
 }
 
 /* Only large flat casters are worth the walk. */
@@ -58,11 +60,7 @@ static struct gn_shadow_region useful_region(const struct gn_fitter *f, uint32_t
     struct gn_shadow_region behind = nothing;
     for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
         if (i == item || !item_receives(f, i)) continue;
-        const struct gn_box *box = &f->pose->items[i].box_ws;
-        float nearest = plane[3];
-        for (int k = 0; k < 3; k++)
-            nearest += plane[k] * (plane[k] >= 0.0f ? box->min[k] : box->max[k]);
-        if (nearest >= -1e-4f * f->scene_size_m) continue;
+        if (gn_box_least(plane, &f->pose->items[i].box_ws) >= -1e-4f * f->scene_size_m) continue;
         unite(&behind, gn_fitter_whole(f, i));
     }
     struct gn_shadow_region r = intersect(whole, &behind);
@@ -291,7 +289,7 @@ static bool fit_window(struct gn_fitter *f) {
     const struct gn_light *light = &f->pose->scene->lights[f->view->light];
     struct gn_shadow_region window, depths;
     gn_shadow_look(f->view, f->tile->light_from_world);
-    if (light->type == GN_LIGHT_SPOT) set_cone(f, tanf(fminf(light->outer_rad, SPOT_MAX_RAD)));
+    if (light->type == GN_LIGHT_SPOT) set_cone(f, tanf(fminf(light->outer_rad, GN_SPOT_MAX_RAD)));
     gn_fitter_remember(f);
     if (!find_window(f, &window, &depths)) return false;
     float near_depth, far_depth;

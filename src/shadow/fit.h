@@ -17,6 +17,8 @@
 #include "scene/pose.h"
 #include "shadow/technique.h"
 
+#define GN_SPOT_MAX_RAD 1.3962634f /* 80 degrees: a spot's map does not reach beyond */
+
 struct gn_shadow_opts {
     enum gn_technique technique; /* not NONE */
     enum gn_encoding encoding;   /* a proved one, never AUTO */
@@ -95,6 +97,9 @@ struct gn_shadow_memory {
 };
 void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count);
 void gn_shadow_memory_finish(struct gn_shadow_memory *memory);
+
+/* Whether an item is drawn into maps at all: what is blended casts no shadow. */
+bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item);
 
 /* How many tiles a light's map has, and the size of the map for a tile of so many pixels. */
 uint32_t gn_shadow_tile_count(enum gn_light_type type, enum gn_technique technique);

@@ -8,8 +8,6 @@
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define EXACT_TRIANGLES                                                                            \
-    32 /* geometries up to this many are clipped triangle by triangle, larger ones as boxes */
 #define NEAREST_TRIANGLES                                                                          \
     10000 /* of up to this many round the light it is asked which is nearest */
 
@@ -50,36 +48,11 @@ static void add_polygon(const struct gn_fitter *f, struct gn_shadow_region *r,
     for (int i = 0; i < polygon->count; i++) add_point(f, r, polygon->at[i]);
 }
 
-static bool planes_hold(vec4 *planes, int count, const struct gn_box *box) {
-    for (int i = 0; i < count; i++) {
-        float nearest = planes[i][3];
-        for (int k = 0; k < 3; k++)
-            nearest += planes[i][k] * (planes[i][k] >= 0.0f ? box->min[k] : box->max[k]);
-        if (nearest < 0.0f) return false;
-    }
-    return true;
-}
-
-static bool planes_miss(const vec4 *planes, int count, const struct gn_box *box) {
-    for (int i = 0; i < count; i++) {
-        float farthest = planes[i][3];
-        for (int k = 0; k < 3; k++)
-            farthest += planes[i][k] * (planes[i][k] >= 0.0f ? box->max[k] : box->min[k]);
-        if (farthest < 0.0f) return true;
-    }
-    return false;
-}
-
 static void add_triangles(const struct gn_fitter *f, struct gn_shadow_region *r, uint32_t item,
-                          bool seen_only) {
-    const struct gn_scene *scene = f->pose->scene;
-    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
-    for (uint32_t i = 0; i < g->index_count; i += 3) {
-        struct gn_polygon triangle = {.count = 3};
-        for (int k = 0; k < 3; k++)
-            glm_mat4_mulv3(f->pose->items[item].world_from_item,
-                           scene->positions + 3 * (size_t)scene->indices[g->first_index + i + k],
-                           1.0f, triangle.at[k]);
+                          uint32_t index_count, bool seen_only) {
+    struct gn_polygon triangle;
+    for (uint32_t i = 0; i < index_count; i += 3) {
+        gn_item_triangle(f->pose, item, i, &triangle);
         add_polygon(f, r, &triangle, seen_only);
     }
 }
@@ -144,16 +117,16 @@ static struct gn_shadow_region measure(const struct gn_fitter *f, uint32_t item,
     struct gn_shadow_region r = nothing;
     const struct gn_pose_item *posed = &f->pose->items[item];
     const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
-    if (planes_miss((const vec4 *)f->cone, f->cone_count, &posed->box_ws)) return r;
+    if (gn_planes_miss(f->cone, f->cone_count, &posed->box_ws)) return r;
     vec3 corners[8];
     gn_box_corners(&g->box, (vec4 *)posed->world_from_item, corners);
-    if (!seen_only && planes_hold((vec4 *)f->cone, f->cone_count, &posed->box_ws))
+    if (!seen_only && gn_planes_hold(f->cone, f->cone_count, &posed->box_ws))
         for (int i = 0; i < 8; i++) add_point(f, &r, corners[i]);
-    else if (g->index_count <= 3 * EXACT_TRIANGLES)
-        add_triangles(f, &r, item, seen_only);
+    else if (g->index_count <= 3 * GN_EXACT_TRIANGLES)
+        add_triangles(f, &r, item, g->index_count, seen_only);
     else
         add_body(f, &r, corners, seen_only);
-    if (f->view->perspective && g->index_count > 3 * EXACT_TRIANGLES && !seen_only)
+    if (f->view->perspective && g->index_count > 3 * GN_EXACT_TRIANGLES && !seen_only)
         add_nearest(f, &r, item);
     return r;
 }
@@ -167,7 +140,6 @@ const struct gn_shadow_region *gn_fitter_seen(const struct gn_fitter *f, uint32_
                                                   : &f->memory->part[item];
 }
 
-/* Brings the memory up to this pose, light and eye. */
 void gn_fitter_remember(const struct gn_fitter *f) {
     struct gn_shadow_memory *m = f->memory;
     uint64_t light =
@@ -189,9 +161,9 @@ void gn_fitter_remember(const struct gn_fitter *f) {
             m->seen[i] = GN_SEEN_NOT;
             continue;
         }
-        m->seen[i] = !gn_eye_sees(f->eye, &posed->box_ws)                     ? GN_SEEN_NOT
-                     : planes_hold((vec4 *)f->eye->planes, 6, &posed->box_ws) ? GN_SEEN_WHOLE
-                                                                              : GN_SEEN_PARTLY;
+        m->seen[i] = !gn_eye_sees(f->eye, &posed->box_ws)                ? GN_SEEN_NOT
+                     : gn_planes_hold(f->eye->planes, 6, &posed->box_ws) ? GN_SEEN_WHOLE
+                                                                         : GN_SEEN_PARTLY;
         if (m->seen[i] == GN_SEEN_PARTLY) m->part[i] = measure(f, i, true);
     }
     m->light_hash = light;

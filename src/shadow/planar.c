@@ -12,10 +12,9 @@
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define HAIR            3e-5f /* of the scene's size: so high over the plane a caster begins */
-#define LIGHT_SHARE     (1.0f / 128.0f) /* of the light's height: so far below it they end */
-#define EXACT_TRIANGLES 32 /* planes up to this many are clipped triangle by triangle */
-#define CONE_MAX_RAD    1.48f
+#define HAIR         3e-5f /* of the scene's size: so high over the plane a caster begins */
+#define LIGHT_SHARE  (1.0f / 128.0f) /* of the light's height: so far below it they end */
+#define CONE_MAX_RAD 1.48f
 
 struct planar {
     const struct gn_pose *pose;
@@ -50,17 +49,6 @@ static void add_body(struct gn_shadow_region *r, mat4 to, vec3 corners[8], vec4 
         gn_box_face(corners, i, &face);
         add_polygon(r, to, &face, planes, count);
     }
-}
-
-/* Least and greatest height of an item over the plane. */
-static void heights_of(const struct planar *f, const struct gn_box *box, float out[2]) {
-    float middle = f->plane[3], reach = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        middle += f->plane[k] * 0.5f * (box->min[k] + box->max[k]);
-        reach += fabsf(f->plane[k]) * 0.5f * (box->max[k] - box->min[k]);
-    }
-    out[0] = middle - reach;
-    out[1] = middle + reach;
 }
 
 /* ---- plane and light ---- */
@@ -124,19 +112,15 @@ static void set_matrices(struct planar *f) {
 /* ---- casters and receivers ---- */
 
 static bool is_caster(const struct planar *f, uint32_t item) {
-    const struct gn_item *it = &f->pose->scene->items[item];
-    return f->pose->items[item].visible && it->casts && !it->plane &&
-           f->pose->scene->materials[it->material].alpha != GN_ALPHA_BLEND;
+    return f->pose->items[item].visible && !f->pose->scene->items[item].plane &&
+           gn_shadow_item_casts(f->pose->scene, item);
 }
 
 static void set_heights(struct planar *f) {
     float highest = 0.0f, farthest = 0.0f;
-    for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
-        float height[2];
-        if (!is_caster(f, i)) continue;
-        heights_of(f, &f->pose->items[i].box_ws, height);
-        highest = fmaxf(highest, height[1]);
-    }
+    for (uint32_t i = 0; i < f->pose->scene->item_count; i++)
+        if (is_caster(f, i))
+            highest = fmaxf(highest, gn_box_most(f->plane, &f->pose->items[i].box_ws));
     for (int k = 0; k < 3; k++)
         farthest =
             fmaxf(farthest, fmaxf(fabsf(f->pose->box_ws.min[k]), fabsf(f->pose->box_ws.max[k])));
@@ -152,11 +136,11 @@ static struct gn_shadow_region shadow_of(const struct planar *f, uint32_t item) 
     struct gn_shadow_region r = nothing;
     vec4 *shadow_from_world = (vec4 *)f->shadow_from_world;
     vec3 corners[8];
-    float height[2];
-    heights_of(f, &f->pose->items[item].box_ws, height);
-    if (height[1] <= f->low_m || height[0] >= f->high_m) return nothing;
+    const struct gn_box *box = &f->pose->items[item].box_ws;
+    const float lowest = gn_box_least(f->plane, box), highest = gn_box_most(f->plane, box);
+    if (highest <= f->low_m || lowest >= f->high_m) return nothing;
     gn_box_corners(&geometry_of(f, item)->box, f->pose->items[item].world_from_item, corners);
-    if (height[0] >= f->low_m && height[1] <= f->high_m) {
+    if (lowest >= f->low_m && highest <= f->high_m) {
         for (int i = 0; i < 8; i++) add_point(&r, shadow_from_world, corners[i]);
         return r;
     }
@@ -185,21 +169,16 @@ static int seen_planes(const struct planar *f, const struct gn_light *light, vec
 
 static void add_receiver(const struct planar *f, uint32_t item, vec4 *planes, int count,
                          struct gn_shadow_region *r) {
-    const struct gn_scene *scene = f->pose->scene;
     const struct gn_geometry *g = geometry_of(f, item);
-    vec4 *world_from_item = f->pose->items[item].world_from_item;
-    if (g->index_count > 3 * EXACT_TRIANGLES) {
+    if (g->index_count > 3 * GN_EXACT_TRIANGLES) {
         vec3 corners[8];
-        gn_box_corners(&g->box, world_from_item, corners);
+        gn_box_corners(&g->box, f->pose->items[item].world_from_item, corners);
         add_body(r, f->view->tiles[0].light_from_world, corners, planes, count);
         return;
     }
     for (uint32_t i = 0; i < g->index_count; i += 3) {
-        struct gn_polygon triangle = {.count = 3};
-        for (int k = 0; k < 3; k++)
-            glm_mat4_mulv3(world_from_item,
-                           scene->positions + 3 * (size_t)scene->indices[g->first_index + i + k],
-                           1.0f, triangle.at[k]);
+        struct gn_polygon triangle;
+        gn_item_triangle(f->pose, item, i, &triangle);
         add_polygon(r, f->view->tiles[0].light_from_world, &triangle, planes, count);
     }
 }

@@ -20,6 +20,20 @@ void gn_box_face(vec3 corners[8], int face, struct gn_polygon *out);
 /* The six inward planes of the convex body of eight such corners. A flat body gives planes that cut
  * nothing. */
 void gn_box_planes(vec3 corners[8], vec4 planes[6]);
+/* Least and greatest of dot(plane, (p,1)) over a box. */
+float gn_box_least(const vec4 plane, const struct gn_box *box);
+float gn_box_most(const vec4 plane, const struct gn_box *box);
+/* Whether a box lies wholly inside all planes, or wholly outside one of them (or one that is not a
+ * number); may be neither. */
+bool gn_planes_hold(const vec4 *planes, int count, const struct gn_box *box);
+bool gn_planes_miss(const vec4 *planes, int count, const struct gn_box *box);
+
+/* Geometries up to this many triangles are clipped triangle by triangle, larger ones as boxes. */
+enum { GN_EXACT_TRIANGLES = 32 };
+/* Three corners of an item, from this index of its geometry on, world space. */
+void gn_item_triangle(const struct gn_pose *pose, uint32_t item, uint32_t index,
+                      struct gn_polygon *out);
+
 /* The diagonal of all that is visible; never 0. */
 float gn_scene_size_m(const struct gn_pose *pose);
 

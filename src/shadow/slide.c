@@ -2,8 +2,9 @@
 
 #include <math.h>
 
-#define SPOT_MAX_RAD 1.3962634f /* 80 degrees */
-#define LEAST_M      1e-4f      /* what is nearer to the lamp has no place on a slide */
+#include "shadow/fit.h"
+
+#define LEAST_M 1e-4f /* what is nearer to the lamp has no place on a slide */
 
 enum gn_slide gn_slide_of(const struct gn_light *light) {
     if (light->type != GN_LIGHT_SPOT || light->slide < 0) return GN_SLIDE_NONE;
@@ -13,7 +14,7 @@ enum gn_slide gn_slide_of(const struct gn_light *light) {
 /* Width and height of the slide one metre from the lamp; returns how far away it is. */
 static float spread(const struct gn_light *light, float size[2]) {
     const float *given = light->slide_size_m;
-    float cone = 2.0f * tanf(fminf(light->outer_rad, SPOT_MAX_RAD));
+    float cone = 2.0f * tanf(fminf(light->outer_rad, GN_SPOT_MAX_RAD));
     float distance = light->slide_distance_m;
     size[0] = size[1] = cone;
     if (given[0] <= 0.0f || given[1] <= 0.0f) return distance;
