@@ -108,3 +108,10 @@ void gn_box_planes(vec3 corners[8], vec4 planes[6]) {
 float gn_scene_size_m(const struct gn_pose *pose) {
     return fmaxf(glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max), 1e-6f);
 }
+
+float gn_scene_reach_m(const struct gn_pose *pose) {
+    float reach = 0.0f;
+    for (int k = 0; k < 3; k++)
+        reach = fmaxf(reach, fmaxf(fabsf(pose->box_ws.min[k]), fabsf(pose->box_ws.max[k])));
+    return fmaxf(reach, 1e-6f);
+}

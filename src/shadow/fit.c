@@ -166,7 +166,7 @@ static void set_code(const struct gn_fitter *f, float near_depth, float far_dept
     float range = view->far_m - view->near_m;
     float float_step = 7e-7f * view->far_m; /* of the interpolation */
     /* A sun's depths may span less than the scene: then places themselves are coarser. */
-    if (!view->perspective) float_step = fmaxf(float_step, 2e-7f * f->scene_size_m);
+    if (!view->perspective) float_step = fmaxf(float_step, 2e-7f * gn_scene_reach_m(f->pose));
     view->distance_scale = 1.0f;
     view->distance_offset = 0.0f;
     view->far_code = view->far_m;
@@ -235,7 +235,7 @@ static void set_depths(const struct gn_fitter *f, const struct gn_shadow_region 
                        float *near_depth, float *far_depth) {
     struct gn_shadow_view *view = f->view;
     float pad = 1e-3f * (depths->far - depths->near) + 1e-5f * fabsf(depths->far);
-    if (!view->perspective) pad = fmaxf(pad, 1e-6f * f->scene_size_m);
+    if (!view->perspective) pad = fmaxf(pad, 1e-6f * gn_scene_reach_m(f->pose));
     *near_depth =
         view->perspective ? fmaxf(depths->near - pad, 0.5f * depths->near) : depths->near - pad;
     *far_depth = depths->far + pad;

@@ -117,14 +117,11 @@ static bool is_caster(const struct planar *f, uint32_t item) {
 }
 
 static void set_heights(struct planar *f) {
-    float highest = 0.0f, farthest = 0.0f;
+    float highest = 0.0f;
     for (uint32_t i = 0; i < f->pose->scene->item_count; i++)
         if (is_caster(f, i))
             highest = fmaxf(highest, gn_box_most(f->plane, &f->pose->items[i].box_ws));
-    for (int k = 0; k < 3; k++)
-        farthest =
-            fmaxf(farthest, fmaxf(fabsf(f->pose->box_ws.min[k]), fabsf(f->pose->box_ws.max[k])));
-    f->low_m = HAIR * f->scene_size_m + 1e-6f * farthest;
+    f->low_m = HAIR * f->scene_size_m + 1e-6f * gn_scene_reach_m(f->pose);
     f->high_m = 1.01f * highest + 2.0f * f->low_m;
     if (!f->view->perspective) return;
     float light_m = glm_vec4_dot(f->plane, f->light);

@@ -36,6 +36,8 @@ void gn_item_triangle(const struct gn_pose *pose, uint32_t item, uint32_t index,
 
 /* The diagonal of all that is visible; never 0. */
 float gn_scene_size_m(const struct gn_pose *pose);
+/* The largest coordinate in it, which says how fine places are. */
+float gn_scene_reach_m(const struct gn_pose *pose);
 
 /* ---- fit.c ---- */
 
