@@ -127,10 +127,15 @@ void gn_shadow_look(const struct gn_shadow_view *view, mat4 light_from_world) {
              fabsf(forward[1]) > 0.99f ? across : up, light_from_world);
 }
 
-/* Five planes of a pyramid round the cone; its near plane is a ten-thousandth of the scene away. */
+static float ceil_to_step(float size) {
+    return exp2f(ceilf(log2f(size) * STEPS_PER_OCTAVE) / STEPS_PER_OCTAVE);
+}
+
+/* Five planes of a pyramid round the cone; its near plane is a ten-thousandth of the scene away, by
+ * steps: while the scene grows by little, what was measured holds. */
 static void set_cone(struct gn_fitter *f, float tan_cone) {
     f->tan_cone = tan_cone;
-    f->near_m = fmaxf(1e-4f * f->scene_size_m, 1e-4f);
+    f->near_m = ceil_to_step(fmaxf(1e-4f * f->scene_size_m, 1e-4f));
     vec4 planes[5] = {{1, 0, -tan_cone, 0},
                       {-1, 0, -tan_cone, 0},
                       {0, 1, -tan_cone, 0},
@@ -140,10 +145,6 @@ static void set_cone(struct gn_fitter *f, float tan_cone) {
     for (int i = 0; i < 5; i++) /* a plane goes by the transpose: world from light */
         for (int c = 0; c < 4; c++)
             f->cone[i][c] = glm_vec4_dot(planes[i], f->tile->light_from_world[c]);
-}
-
-static float ceil_to_step(float size) {
-    return exp2f(ceilf(log2f(size) * STEPS_PER_OCTAVE) / STEPS_PER_OCTAVE);
 }
 
 void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float max[2],

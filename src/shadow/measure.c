@@ -144,7 +144,8 @@ void gn_fitter_remember(const struct gn_fitter *f) {
     struct gn_shadow_memory *m = f->memory;
     uint64_t light =
         gn_hash(GN_HASH_INIT, f->tile->light_from_world, sizeof f->tile->light_from_world);
-    light = gn_hash(light, &f->tan_cone, sizeof f->tan_cone);
+    const float cone[2] = {f->tan_cone, f->near_m};
+    light = gn_hash(light, cone, sizeof cone);
     uint64_t eye = gn_hash(GN_HASH_INIT, f->eye->clip_from_world, sizeof f->eye->clip_from_world);
     for (uint32_t i = 0; i < m->item_count; i++) {
         const struct gn_pose_item *posed = &f->pose->items[i];

@@ -100,6 +100,24 @@ static void test_a_spots_window_does_not_grow_with_the_scene(void **state) {
     assert_true(spot_texel(0x1p-8f) == texel && spot_texel(0x1p20f) == texel);
 }
 
+/* A lamp in a room that grows: its near plane goes with the room. */
+static void test_a_kept_memory_fits_as_a_new_one(void **state) {
+    (void)state;
+    struct stage s;
+    begin(&s, "{'type':'spot'}", 1);
+    s.scene->items[1].casts = false;
+    s.pose.items[0].world_from_item[3][1] = 2.99f; /* the table, before the lamp */
+    s.pose.items[0].box_ws.min[1] = s.pose.items[0].box_ws.max[1] = 2.99f;
+    s.pose.items[0].hash++;
+    assert_true(fit(&s));
+    const float near_m = s.view.near_m;
+    s.pose.box_ws.max[0] = 300; /* the plane is 3 cm away by now: nothing is before it */
+    assert_false(fit(&s));
+    s.pose.box_ws.max[0] = 5;
+    assert_true(fit(&s) && s.view.near_m == near_m);
+    end(&s);
+}
+
 /* Where the map is read for a place beside the table: uv and code. */
 static void look_up(struct stage *s, float x, float z, vec3 out) {
     vec4 p = {x, -0.5f, z, 1.0f};
@@ -143,6 +161,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_casters_in_one_plane_across_the_sun_have_a_depth),
         cmocka_unit_test(test_a_spots_window_does_not_grow_with_the_scene),
+        cmocka_unit_test(test_a_kept_memory_fits_as_a_new_one),
         cmocka_unit_test(test_an_empty_view_has_no_slope_and_two_directions),
     };
     return RUN(tests);
