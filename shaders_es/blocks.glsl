@@ -32,6 +32,7 @@
 /* Marks: PASS_CLIP, and */
 #define MARK_PIXEL 4      /* xy: a pixel of the mark, of 2 x 2 */
 #define MARK_QUADS 105    /* a disc and 104 lines */
+#define MARK_HALO 1.5     /* pixels: dark edge round everything */
 /* Panels */
 #define PANEL_RECT 0      /* xy: lower left corner, zw: upper right one, -1..1 */
 #define PANEL_GREY 1      /* grey = clamp(code * x + y, 0, 1) ^ z */

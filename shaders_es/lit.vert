@@ -22,7 +22,7 @@ flat out vec4 v_constant[7]; // lib/flat_constants.glsl
 out vec3 v_shadow[SHADOW_COUNT];
 #endif
 
-#define PLACE_SHADOW(slot, type) \
+#define PLACE_SHADOW(slot) \
     v_shadow[slot] = SHADOW_LINEAR[slot] \
         ? shadow_point_directional(slot, p, n, u_pass[PASS_LIGHTS + slot * LIGHT_SIZE + LIGHT_PLACE].xyz) : vec3(0.0);
 

@@ -12,7 +12,6 @@ flat out float v_disc;      // 1: the disc, 0: a line
 
 const float DISC_PX = 7.0;
 const float LINE_PX = 1.1;
-const float HALO_PX = 1.5;  // dark edge round everything
 const float TURN = 6.2831853;
 const int ROUND = 32;       // lines of a circle
 
@@ -95,7 +94,7 @@ void main() {
     v_half = disc ? DISC_PX : LINE_PX;
     v_fades = !disc && int(a_surface.x) == LIGHT_SPOT && a_surface.w < 0.5 ? 1.0 : 0.0;
     v_hue = a_base_color;
-    float reach = v_half + HALO_PX;
+    float reach = v_half + MARK_HALO;
     along = disc ? vec2(0.0, 1.0) : along / max(length_px, 1e-6);
     vec2 across = vec2(along.y, -along.x) * side * reach;
     v_local = vec3(side * reach, disc ? (last ? reach : -reach) : 0.0, last ? 1.0 : 0.0);

@@ -5,6 +5,6 @@
 #define MAP_SAMPLER sampler2D
 #define MAP_OUT vec4
 
-vec4 map_encode(float distance) { return vec4(0.0); }
+vec4 map_encode(float code) { return vec4(0.0); }
 
 float map_code(MAP_SAMPLER map, vec2 uv) { return texture(map, uv).r; }

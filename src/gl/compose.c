@@ -174,8 +174,7 @@ static void add_light_loops(const struct gn_program_key *key, struct gn_gl_text 
 
 static void add_vertex_loop(const struct gn_program_key *key, struct gn_gl_text *out) {
     gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT_VERTEX(F)");
-    for (int i = 0; i < key->shadow_count; i++)
-        gn_gl_text_add(out, " F(%d, %s)", i, light_names[key->lights[i].type]);
+    for (int i = 0; i < key->shadow_count; i++) gn_gl_text_add(out, " F(%d)", i);
     gn_gl_text_add(out, "\n");
 }
 

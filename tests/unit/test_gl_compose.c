@@ -86,7 +86,7 @@ static void test_lights(void **state) {
     assert_int_equal(count(text, "#undef MAP_SAMPLER\n"), 2);
     free(text);
     text = compose(&key, GN_GL_VERTEX);
-    has(text, "#define EACH_SHADOWED_LIGHT_VERTEX(F) F(0, LIGHT_SPOT)");
+    has(text, "#define EACH_SHADOWED_LIGHT_VERTEX(F) F(0)");
     assert_null(strstr(text, "u_map_0"));
     free(text);
 }
