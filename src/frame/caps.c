@@ -23,7 +23,7 @@ uint32_t gn_caps_encodings(const struct gn_caps *caps) {
     return proved;
 }
 
-/* The bit of the name at the start of list, up to a comma; -1: no such name. */
+/* The capability whose name is the first `length` characters of list; -1: none. */
 static int find_cap(const char *list, size_t length) {
     for (int i = 0; i < GN_CAP_COUNT; i++)
         if (strlen(gn_cap_names[i]) == length && memcmp(gn_cap_names[i], list, length) == 0)

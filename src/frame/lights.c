@@ -165,9 +165,10 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
 static uint32_t map_px_of(const struct gn_frame *frame, const struct gn_light *light,
                           enum gn_technique technique, const struct gn_frame_opts *opts) {
     uint32_t map_px = opts->map_px ? opts->map_px : light->map_px ? light->map_px : 1024;
-    uint32_t one_px[2], most_px = (uint32_t)frame->caps.max_texture_px;
+    uint32_t one_px[2];
     gn_shadow_map_size(light->type, technique, 1, one_px);
-    return map_px * one_px[0] > most_px ? most_px / one_px[0] : map_px;
+    const uint32_t most_px = (uint32_t)frame->caps.max_texture_px / one_px[0];
+    return map_px > most_px ? most_px : map_px;
 }
 
 static void make_memories(struct gn_shadow_memory *memory, uint32_t count, uint32_t item_count) {

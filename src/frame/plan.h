@@ -179,7 +179,7 @@ struct gn_plan {
 
 struct gn_frame_opts {            /* zero means the default written beside */
     uint32_t width_px, height_px; /* 1280 x 720 */
-    int camera;                   /* 0 */
+    int camera;                   /* 0; of the scene, there */
     bool technique_given; /* `technique` overrides the lights' own and the default pcf; a light's
                              own none holds */
     enum gn_technique technique;
@@ -188,7 +188,7 @@ struct gn_frame_opts {            /* zero means the default written beside */
     unsigned taps;             /* of disk, poisson, pcss: 8, 16, 32; 16 */
     bool taps_fixed;           /* the same for every pixel */
     enum gn_aov aov;
-    int light; /* for visibility: which */
+    int light; /* for visibility: which of the scene; one that is not there leaves all lit */
     bool output_linear, output_float;
     bool exposure_given;
     float exposure_ev; /* stops, when given; else automatic */

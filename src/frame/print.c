@@ -4,12 +4,20 @@
 
 static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {"depth", "distance", "lit",   "aov",
                                                          "mark",  "panel",    "encode"};
-static const char *const outputs[] = {"srgb8", "linear8", "float", "bits"};
+static const char *const outputs[] = {[GN_OUTPUT_SRGB8] = "srgb8",
+                                      [GN_OUTPUT_LINEAR8] = "linear8",
+                                      [GN_OUTPUT_FLOAT] = "float",
+                                      [GN_OUTPUT_AOV] = "bits"};
 static const char *const aovs[GN_AOV_COUNT] = {"color", "visibility", "distance", "normal"};
-static const char *const receivers[] = {"", ", receives nothing", ", receives all"};
-static const char *const light_types[] = {"directional", "point", "spot"};
-static const char *const slides[GN_SLIDE_COUNT] = {"", "+slide", "+film"};
-static const char *const culls[] = {"none", "back", "front"};
+static const char *const receivers[] = {[GN_RECEIVES_MAPS] = "",
+                                        [GN_RECEIVES_NOTHING] = ", receives nothing",
+                                        [GN_RECEIVES_ALL] = ", receives all"};
+static const char *const light_types[] = {
+    [GN_LIGHT_DIRECTIONAL] = "directional", [GN_LIGHT_POINT] = "point", [GN_LIGHT_SPOT] = "spot"};
+static const char *const slides[GN_SLIDE_COUNT] = {
+    [GN_SLIDE_NONE] = "", [GN_SLIDE_DARK] = "+slide", [GN_SLIDE_LIT] = "+film"};
+static const char *const culls[] = {
+    [GN_CULL_NONE] = "none", [GN_CULL_BACK] = "back", [GN_CULL_FRONT] = "front"};
 static const char *const features[GN_FEATURE_BITS] = {
     "base",           "roughness",     "emissive-texture",
     "occlusion",      "base-uv1",      "roughness-uv1",
