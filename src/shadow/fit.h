@@ -56,6 +56,8 @@ struct gn_shadow_view {
     float tangent_uv[2], depth_code[2];
     float distance_scale, distance_offset;
     float far_code; /* the far end in the encoding's unit: what the map is cleared to */
+    /* What the codes span: directional 0 and the depth between the clip planes, spot and point the
+     * near plane's depth and the greatest distance from the light; on_plane 0 and 1. */
     float near_m, far_m;
     float texel;         /* plane units: metres, or metres per metre of depth */
     float normal_offset; /* texels, times sin(theta) */

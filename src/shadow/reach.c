@@ -102,10 +102,10 @@ static void pyramid_corners(const struct gn_reach *reach, vec3 corners[8]) {
     glm_vec3_normalize(side[0]);
     glm_vec3_cross(axis, side[0], side[1]);
     for (int i = 0; i < 8; i++) {
-        float depth = (i & 4 ? 1.0f : 1e-3f) * reach->range_m;
+        float depth = i & 4 ? reach->range_m : 0.0f;
         float half = (i & 4 ? 1.0f : 1e-3f) * reach->range_m * reach->sin_cone / reach->cos_cone;
         glm_vec3_copy((float *)reach->place_ws, corners[i]);
-        glm_vec3_muladds(axis, i & 4 ? depth : 0.0f, corners[i]);
+        glm_vec3_muladds(axis, depth, corners[i]);
         glm_vec3_muladds(side[0], i & 1 ? half : -half, corners[i]);
         glm_vec3_muladds(side[1], i & 2 ? half : -half, corners[i]);
     }

@@ -157,12 +157,26 @@ static void test_an_empty_view_has_no_slope_and_two_directions(void **state) {
             expect_empty(lights[i], (enum gn_technique)t);
 }
 
+static void test_an_eye_that_is_not_a_number_sees_nothing(void **state) {
+    (void)state;
+    mat4 clip_from_world;
+    struct gn_eye eye;
+    const struct gn_box box = {{-1, -1, -1}, {1, 1, 1}};
+    glm_perspective(1.0f, 1.0f, 2e38f, 3e38f, clip_from_world); /* their sum overflows */
+    gn_eye_build(&eye, clip_from_world);
+    assert_false(gn_eye_sees(&eye, &box));
+    glm_perspective(1.0f, 1.0f, 0.1f, 10.0f, clip_from_world);
+    gn_eye_build(&eye, clip_from_world);
+    assert_true(gn_eye_sees(&eye, &box));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_casters_in_one_plane_across_the_sun_have_a_depth),
         cmocka_unit_test(test_a_spots_window_does_not_grow_with_the_scene),
         cmocka_unit_test(test_a_kept_memory_fits_as_a_new_one),
         cmocka_unit_test(test_an_empty_view_has_no_slope_and_two_directions),
+        cmocka_unit_test(test_an_eye_that_is_not_a_number_sees_nothing),
     };
     return RUN(tests);
 }
