@@ -1,6 +1,7 @@
 #include "shadow/fit.h"
 #include "shadow/private.h"
 
+#include <math.h>
 #include <string.h>
 
 void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world) {
@@ -47,6 +48,15 @@ bool gn_planes_miss(const vec4 *planes, int count, const struct gn_box *box) {
     for (int i = 0; i < count; i++)
         if (!(gn_box_most(planes[i], box) >= 0.0f)) return true;
     return false;
+}
+
+bool gn_box_is_near(const struct gn_box *box, const vec3 place, float range_m) {
+    float d2 = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        float d = fmaxf(fmaxf(box->min[k] - place[k], place[k] - box->max[k]), 0.0f);
+        d2 += d * d;
+    }
+    return d2 <= range_m * range_m * 1.0001f;
 }
 
 void gn_item_triangle(const struct gn_pose *pose, uint32_t item, uint32_t index,

@@ -3,7 +3,9 @@
  * coordinates, narrowed twice, since each limits the other; near and far are those of the casters
  * alone and do not depend on the eye (a receiver beyond the last caster compares against the far
  * end). A large flat caster with nothing behind it - the ground - is left out altogether: it can
- * darken nothing, and what is not in the map can neither shadow itself nor cost resolution. */
+ * darken nothing, and what is not in the map can neither shadow itself nor cost resolution. What
+ * lies beyond the light's range is left out too: nothing is lit there, and it stands before nothing
+ * that is. */
 #include "shadow/fit.h"
 
 #include <assert.h>
@@ -131,18 +133,16 @@ static float ceil_to_step(float size) {
     return exp2f(ceilf(log2f(size) * STEPS_PER_OCTAVE) / STEPS_PER_OCTAVE);
 }
 
-/* Five planes of a pyramid round the cone; its near plane is a ten-thousandth of the scene away, by
- * steps: while the scene grows by little, what was measured holds. */
+/* The planes of a pyramid round the cone, that of the range if the light has one. Its near plane is
+ * a ten-thousandth of the scene away, by steps: while the scene grows by little, what was measured
+ * holds. */
 static void set_cone(struct gn_fitter *f, float tan_cone) {
     f->tan_cone = tan_cone;
     f->near_m = ceil_to_step(fmaxf(1e-4f * f->scene_size_m, 1e-4f));
-    vec4 planes[5] = {{1, 0, -tan_cone, 0},
-                      {-1, 0, -tan_cone, 0},
-                      {0, 1, -tan_cone, 0},
-                      {0, -1, -tan_cone, 0},
-                      {0, 0, -1, -f->near_m}};
-    f->cone_count = 5;
-    for (int i = 0; i < 5; i++) /* a plane goes by the transpose: world from light */
+    vec4 planes[6] = {{1, 0, -tan_cone, 0},  {-1, 0, -tan_cone, 0},  {0, 1, -tan_cone, 0},
+                      {0, -1, -tan_cone, 0}, {0, 0, -1, -f->near_m}, {0, 0, 1, f->range_m}};
+    f->cone_count = isfinite(f->range_m) ? 6 : 5;
+    for (int i = 0; i < f->cone_count; i++) /* a plane goes by the transpose: world from light */
         for (int c = 0; c < 4; c++)
             f->cone[i][c] = glm_vec4_dot(planes[i], f->tile->light_from_world[c]);
 }
@@ -435,7 +435,8 @@ static bool fit_map(const struct gn_pose *pose, const struct gn_eye *eye,
                           .view = view,
                           .tile = view->tiles,
                           .scene_size_m = gn_scene_size_m(pose),
-                          .light_radius = light->radius};
+                          .light_radius = light->radius,
+                          .range_m = light->range_m > 0.0f ? light->range_m : INFINITY};
     if (!(view->tile_count > 1 ? fit_tiles(&f) : fit_window(&f))) return false;
     set_bias(view);
     for (uint32_t i = 0; i < view->tile_count; i++)

@@ -118,6 +118,8 @@ static struct gn_shadow_region measure(const struct gn_fitter *f, uint32_t item,
     const struct gn_pose_item *posed = &f->pose->items[item];
     const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
     if (gn_planes_miss(f->cone, f->cone_count, &posed->box_ws)) return r;
+    if (f->view->perspective && !gn_box_is_near(&posed->box_ws, f->view->light_ws, f->range_m))
+        return r;
     vec3 corners[8];
     gn_box_corners(&g->box, (vec4 *)posed->world_from_item, corners);
     if (!seen_only && gn_planes_hold(f->cone, f->cone_count, &posed->box_ws))
@@ -144,7 +146,7 @@ void gn_fitter_remember(const struct gn_fitter *f) {
     struct gn_shadow_memory *m = f->memory;
     uint64_t light =
         gn_hash(GN_HASH_INIT, f->tile->light_from_world, sizeof f->tile->light_from_world);
-    const float cone[2] = {f->tan_cone, f->near_m};
+    const float cone[3] = {f->tan_cone, f->near_m, f->range_m};
     light = gn_hash(light, cone, sizeof cone);
     uint64_t eye = gn_hash(GN_HASH_INIT, f->eye->clip_from_world, sizeof f->eye->clip_from_world);
     for (uint32_t i = 0; i < m->item_count; i++) {

@@ -27,6 +27,8 @@ float gn_box_most(const vec4 plane, const struct gn_box *box);
  * number); may be neither. */
 bool gn_planes_hold(const vec4 *planes, int count, const struct gn_box *box);
 bool gn_planes_miss(const vec4 *planes, int count, const struct gn_box *box);
+/* Whether anything in a box is this near to a place; errs towards yes. range_m may be INFINITY. */
+bool gn_box_is_near(const struct gn_box *box, const vec3 place, float range_m);
 
 /* Geometries up to this many triangles are clipped triangle by triangle, larger ones as boxes. */
 enum { GN_EXACT_TRIANGLES = 32 };
@@ -61,9 +63,10 @@ struct gn_fitter {
     struct gn_shadow_memory *memory;
     struct gn_shadow_view *view;
     struct gn_shadow_tile *tile; /* of the view; `memory` is of this one */
-    vec4 cone[5]; /* spot, point: planes in world space that hold what the tile can show */
+    vec4 cone[6]; /* spot, point: planes in world space that hold what the tile can show */
     int cone_count;
     float tan_cone, near_m; /* of the cone */
+    float range_m;          /* INFINITY: unlimited; not asked of a directional light */
     float scene_size_m;
     float light_radius; /* as in gn_light */
 };

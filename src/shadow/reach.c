@@ -24,16 +24,6 @@ void gn_reach_build(struct gn_reach *reach, const struct gn_pose *pose, uint32_t
     if (l->range_m > 0.0f) reach->range_m = fminf(reach->range_m, l->range_m);
 }
 
-static bool box_is_near(const struct gn_reach *reach, const struct gn_box *box) {
-    float d2 = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        float p = reach->place_ws[k];
-        float d = fmaxf(fmaxf(box->min[k] - p, p - box->max[k]), 0.0f);
-        d2 += d * d;
-    }
-    return d2 <= reach->range_m * reach->range_m * 1.0001f;
-}
-
 /* Of the ball round the box: its centre's distance from the cone's surface. */
 static bool ball_meets_cone(const struct gn_reach *reach, const struct gn_box *box) {
     vec3 centre, v;
@@ -47,7 +37,8 @@ static bool ball_meets_cone(const struct gn_reach *reach, const struct gn_box *b
 
 bool gn_reach_touches(const struct gn_reach *reach, const struct gn_box *box_ws) {
     if (reach->everywhere) return true;
-    return box_is_near(reach, box_ws) && (!reach->cone || ball_meets_cone(reach, box_ws));
+    return gn_box_is_near(box_ws, reach->place_ws, reach->range_m) &&
+           (!reach->cone || ball_meets_cone(reach, box_ws));
 }
 
 /* ---- screen bounds ---- */

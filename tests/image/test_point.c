@@ -213,6 +213,38 @@ static void test_there_is_no_seam_between_tiles(void **state) {
     }
 }
 
+/* The range ends on the squares: of what throws and takes shadows a part lies beyond it. */
+static void test_shadows_end_where_the_range_does(void **state) {
+    (void)state;
+    static const int encodings[] = {GN_ENCODING_R16F, GN_ENCODING_DEPTH, GN_ENCODING_RGBA8};
+    static float picture[4 * SIDE_PX * SIDE_PX], edges[SIDE_PX * SIDE_PX];
+    int dark = 0, beyond = 0, wrong = 0;
+    scene->lights[0].range_m = 3.1f;
+    for (uint32_t view = 0; view < VIEWS; view += 5) {
+        struct gn_truth truth;
+        struct gn_truth_opts opts = {.width_px = SIDE_PX, .height_px = SIDE_PX, .camera = view};
+        struct gn_err err = {0};
+        if (!gn_truth_make(&truth, scene, &opts, &err)) fail_msg("%s", err.text);
+        gn_mask_edges(&truth.mask, edges);
+        for (int e = 0; e < 3; e++) {
+            draw((int)view, GN_TECHNIQUE_HARD, (enum gn_encoding)encodings[e]);
+            if (!gn_gl_read_f32(gl, picture, &err)) fail_msg("%s", err.text);
+            for (int i = 0; i < SIDE_PX * SIDE_PX; i++) {
+                if (edges[i] <= 24) continue;
+                const float *p = truth.mask.point_ws + 3 * (size_t)i;
+                double from[3] = {(double)p[0], (double)p[1], (double)p[2]};
+                for (int k = 0; k < 3; k++) from[k] -= truth.frame.lamp.position_ws[k];
+                dark += !truth.mask.lit[i];
+                beyond += sqrt(from[0] * from[0] + from[1] * from[1] + from[2] * from[2]) > 3.1;
+                wrong += fabsf(picture[4 * i] - (float)truth.mask.lit[i]) > 0.05f;
+            }
+        }
+        gn_truth_finish(&truth);
+    }
+    assert_true(dark > 1000 && beyond > 1000);
+    assert_int_equal(wrong, 0);
+}
+
 /* ---- what is drawn again ---- */
 
 /* Six squares of 6 m round the light, one of .4 m before each; that before +x moves along y. Camera
@@ -346,6 +378,7 @@ static void test_what_a_mesh_round_the_light_has_near_it_casts(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_there_is_no_seam_between_tiles, load_seams, unload),
+        cmocka_unit_test_setup_teardown(test_shadows_end_where_the_range_does, load_seams, unload),
         cmocka_unit_test_setup_teardown(test_what_moves_draws_its_tiles_alone, load_box, unload),
         cmocka_unit_test_setup_teardown(test_a_tile_whose_shadows_are_not_seen_is_not_drawn,
                                         load_box, unload),

@@ -118,6 +118,30 @@ static void test_a_kept_memory_fits_as_a_new_one(void **state) {
     end(&s);
 }
 
+static void test_what_is_beyond_the_range_takes_no_part(void **state) {
+    (void)state;
+    struct stage s;
+    begin(&s, "{'type':'point'}", 1);
+    struct gn_light *light = &s.scene->lights[0];
+    light->range_m = 4.5f; /* the table is 3 away, the floor 4 */
+    assert_true(fit(&s) && !s.view.tiles[3].empty);
+    for (uint32_t i = 0; i < 6; i++)
+        if (i != 3) assert_true(s.view.tiles[i].empty);
+    light->range_m = 2.9f;
+    assert_false(fit(&s));
+    end(&s);
+    begin(&s, "{'type':'spot'}", 1);
+    light = &s.scene->lights[0];
+    light->range_m = 2.9f;
+    assert_false(fit(&s));
+    light->range_m = 4.5f;
+    assert_true(fit(&s));
+    const float near_m = s.view.near_m, texel = s.view.texel;
+    light->range_m = 0;
+    assert_true(fit(&s) && s.view.near_m == near_m && s.view.texel == texel);
+    end(&s);
+}
+
 /* Where the map is read for a place beside the table: uv and code. */
 static void look_up(struct stage *s, float x, float z, vec3 out) {
     vec4 p = {x, -0.5f, z, 1.0f};
@@ -175,6 +199,7 @@ int main(void) {
         cmocka_unit_test(test_casters_in_one_plane_across_the_sun_have_a_depth),
         cmocka_unit_test(test_a_spots_window_does_not_grow_with_the_scene),
         cmocka_unit_test(test_a_kept_memory_fits_as_a_new_one),
+        cmocka_unit_test(test_what_is_beyond_the_range_takes_no_part),
         cmocka_unit_test(test_an_empty_view_has_no_slope_and_two_directions),
         cmocka_unit_test(test_an_eye_that_is_not_a_number_sees_nothing),
     };
