@@ -181,8 +181,10 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
     for (uint32_t i = 0; i < frame->shadow_count; i++) {
         const struct gn_frame_light *light = gn_frame_light_of_slot(frame, i);
         const struct gn_light *l = &frame->scene->lights[light->light];
-        struct gn_shadow_opts shadow = {light->technique, light->encoding,
-                                        map_px_of(frame, l, light->technique, opts)};
+        struct gn_shadow_opts shadow = {.technique = light->technique,
+                                        .encoding = light->encoding,
+                                        .map_px = map_px_of(frame, l, light->technique, opts),
+                                        .all_receive = opts->aov == GN_AOV_VISIBILITY};
         make_memories(frame->memory[i], gn_shadow_tile_count(l->type, light->technique),
                       frame->scene->item_count);
         /* An empty one keeps its slot: programs do not change with what is in view. */

@@ -27,8 +27,13 @@ bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item) {
     return it->casts && scene->materials[it->material].alpha != GN_ALPHA_BLEND;
 }
 
+bool gn_shadow_item_receives(const struct gn_pose *pose, uint32_t item,
+                             const struct gn_shadow_view *view) {
+    return pose->items[item].visible && (pose->scene->items[item].receives || view->all_receive);
+}
+
 static bool item_receives(const struct gn_fitter *f, uint32_t item) {
-    return f->pose->items[item].visible && f->pose->scene->items[item].receives;
+    return gn_shadow_item_receives(f->pose, item, f->view);
 }
 
 static bool item_casts(const struct gn_fitter *f, uint32_t item) {
@@ -396,6 +401,7 @@ static void begin_view(const struct gn_pose *pose, uint32_t light,
                                     .technique = opts->technique,
                                     .encoding = opts->encoding,
                                     .map_px = opts->map_px,
+                                    .all_receive = opts->all_receive,
                                     .width_px = size_px[0],
                                     .height_px = size_px[1],
                                     .tile_count = gn_shadow_tile_count(type, opts->technique),

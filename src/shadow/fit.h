@@ -23,6 +23,7 @@ struct gn_shadow_opts {
     enum gn_technique technique; /* not NONE */
     enum gn_encoding encoding;   /* a proved one, never AUTO */
     uint32_t map_px;             /* side of the map, or of a tile */
+    bool all_receive;            /* gnomon_receive is not asked: for pictures of visibility */
 };
 
 enum { GN_SHADOW_TILES_MAX = 6 };
@@ -44,6 +45,7 @@ struct gn_shadow_view {
     uint32_t gutter_px;           /* point: of a tile, to each side */
     uint32_t tile_count;          /* 1, point: 6 */
     struct gn_shadow_tile tiles[GN_SHADOW_TILES_MAX];
+    bool all_receive; /* as in gn_shadow_opts */
     bool perspective; /* spot, point */
     vec3 light_ws;    /* position (spot, point) */
     vec3 to_light_ws; /* unit (directional) */

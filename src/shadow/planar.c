@@ -64,8 +64,7 @@ bool gn_planar_has_plane(const struct gn_scene *scene) {
 }
 
 static bool is_receiver(const struct planar *f, uint32_t item) {
-    const struct gn_item *it = &f->pose->scene->items[item];
-    return it->plane && it->receives && f->pose->items[item].visible;
+    return f->pose->scene->items[item].plane && gn_shadow_item_receives(f->pose, item, f->view);
 }
 
 static bool find_plane(struct planar *f) {

@@ -43,6 +43,10 @@ float gn_scene_reach_m(const struct gn_pose *pose);
 
 /* ---- fit.c ---- */
 
+/* Whether shadows on an item matter. */
+bool gn_shadow_item_receives(const struct gn_pose *pose, uint32_t item,
+                             const struct gn_shadow_view *view);
+
 /* light_from_world along the light's direction, which is -Z; of a directional light about the
  * world's origin. Rigid. */
 void gn_shadow_look(const struct gn_shadow_view *view, mat4 light_from_world);

@@ -142,6 +142,24 @@ static void test_what_is_beyond_the_range_takes_no_part(void **state) {
     end(&s);
 }
 
+/* Nothing below the table takes its shadow, unless nobody asks. */
+static void test_all_receive_where_visibility_is_the_picture(void **state) {
+    (void)state;
+    static const enum gn_technique techniques[] = {GN_TECHNIQUE_PCF, GN_TECHNIQUE_PLANAR};
+    for (int t = 0; t < 2; t++) {
+        struct stage s;
+        begin(&s, "{'type':'spot'}", 1);
+        s.opts.technique = techniques[t];
+        assert_true(fit(&s));
+        const float texel = s.view.texel;
+        for (uint32_t i = 0; i < s.scene->item_count; i++) s.scene->items[i].receives = false;
+        assert_false(fit(&s));
+        s.opts.all_receive = true;
+        assert_true(fit(&s) && s.view.texel == texel);
+        end(&s);
+    }
+}
+
 /* Where the map is read for a place beside the table: uv and code. */
 static void look_up(struct stage *s, float x, float z, vec3 out) {
     vec4 p = {x, -0.5f, z, 1.0f};
@@ -200,6 +218,7 @@ int main(void) {
         cmocka_unit_test(test_a_spots_window_does_not_grow_with_the_scene),
         cmocka_unit_test(test_a_kept_memory_fits_as_a_new_one),
         cmocka_unit_test(test_what_is_beyond_the_range_takes_no_part),
+        cmocka_unit_test(test_all_receive_where_visibility_is_the_picture),
         cmocka_unit_test(test_an_empty_view_has_no_slope_and_two_directions),
         cmocka_unit_test(test_an_eye_that_is_not_a_number_sees_nothing),
     };
