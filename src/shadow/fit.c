@@ -82,7 +82,7 @@ static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t
 /* How far off, in plane units, a caster can reach by its penumbra: as its like in set_soft(). */
 static float reach(const struct gn_fitter *f, float near, float far) {
     if (!gn_techniques[f->view->technique].soft || far <= near) return 0.0f;
-    float spread = f->view->perspective ? 1.0f / most(near, 1e-6f) - 1.0f / far : far - near;
+    float spread = f->view->perspective ? 1.0f / most(near, f->near_m) - 1.0f / far : far - near;
     return f->light_radius * spread;
 }
 
@@ -143,7 +143,7 @@ static float ceil_to_step(float size) {
  * holds. */
 static void set_cone(struct gn_fitter *f, float tan_cone) {
     f->tan_cone = tan_cone;
-    f->near_m = ceil_to_step(fmaxf(1e-4f * f->scene_size_m, 1e-4f));
+    f->near_m = ceil_to_step(1e-4f * f->scene_size_m);
     vec4 planes[6] = {{1, 0, -tan_cone, 0},  {-1, 0, -tan_cone, 0},  {0, 1, -tan_cone, 0},
                       {0, -1, -tan_cone, 0}, {0, 0, -1, -f->near_m}, {0, 0, 1, f->range_m}};
     f->cone_count = isfinite(f->range_m) ? 6 : 5;

@@ -34,7 +34,7 @@ static void add_point(const struct gn_fitter *f, struct gn_shadow_region *r, vec
     vec3 p;
     glm_mat4_mulv3(f->tile->light_from_world, p_ws, 1.0f, p);
     float depth = -p[2];
-    float scale = f->view->perspective ? 1.0f / most(depth, 1e-6f) : 1.0f;
+    float scale = f->view->perspective ? 1.0f / most(depth, f->near_m) : 1.0f;
     struct gn_shadow_region point = {
         {p[0] * scale, p[1] * scale}, {p[0] * scale, p[1] * scale}, depth, depth, glm_vec3_norm(p)};
     unite(r, &point);

@@ -98,6 +98,7 @@ static void test_a_spots_window_does_not_grow_with_the_scene(void **state) {
     float texel = spot_texel(1);
     assert_true(texel > 0.6f / 1024 && texel < 0.8f / 1024); /* the table is 2 wide, 3 away */
     assert_true(spot_texel(0x1p-8f) == texel && spot_texel(0x1p20f) == texel);
+    assert_true(spot_texel(0x1p-16f) == texel); /* the table is 46 um away */
 }
 
 /* A lamp in a room that grows: its near plane goes with the room. */
