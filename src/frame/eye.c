@@ -4,6 +4,8 @@
 #include "blocks.glsl"
 #include "frame/private.h"
 
+#define FAR_TIMES 1e4f /* the scene's reach */
+
 /* The orthographic half-sizes that show all of the camera's rectangle in a picture of this aspect.
  */
 static void ortho_half(const struct gn_camera *camera, float aspect, float half[2]) {
@@ -23,6 +25,13 @@ static float farthest(const struct gn_pose *pose, vec3 eye_ws, float near_m) {
             fmaxf(fabsf(pose->box_ws.min[k] - eye_ws[k]), fabsf(pose->box_ws.max[k] - eye_ws[k]));
     float far_m = glm_vec3_norm(reach) * 1.01f;
     return isfinite(far_m) && far_m > 2.0f * near_m ? far_m : 2.0f * near_m;
+}
+
+/* A far plane out of all proportion to what there is to see shows nothing more, and costs the depth
+ * its precision, or its range. */
+static float far_of(const struct gn_camera *camera, const struct gn_pose *pose, vec3 eye_ws) {
+    float scene_m = farthest(pose, eye_ws, camera->near_m);
+    return camera->far_m > 0.0f && camera->far_m < FAR_TIMES * scene_m ? camera->far_m : scene_m;
 }
 
 /* Carries the eye round the vertical through the scene's centre. */
@@ -49,13 +58,12 @@ void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
     vec3 eye_ws;
     gn_pose_view(pose, (uint32_t)opts->camera, view_from_world, eye_ws);
     turn(pose, opts->turntable_rad, view_from_world, eye_ws);
+    float far_m = far_of(camera, pose, eye_ws);
     if (camera->orthographic) {
         float half[2];
         ortho_half(camera, aspect, half);
-        glm_ortho(-half[0], half[0], -half[1], half[1], camera->near_m, camera->far_m,
-                  clip_from_view);
+        glm_ortho(-half[0], half[0], -half[1], half[1], camera->near_m, far_m, clip_from_view);
     } else {
-        float far_m = camera->far_m > 0.0f ? camera->far_m : farthest(pose, eye_ws, camera->near_m);
         glm_perspective(camera->yfov_rad, aspect, camera->near_m, far_m, clip_from_view);
     }
     glm_mat4_mul(clip_from_view, view_from_world, clip_from_world);

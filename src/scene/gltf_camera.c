@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#define NEAR_MOST_M 1e16f /* near times far has to be a float */
+
 /* A number that has to be there. */
 static float needed(struct gn_gltf *g, const struct gn_at *up, const char *key) {
     struct gn_at at = gn_at_any(up, key);
@@ -15,7 +17,8 @@ static bool read_perspective(struct gn_gltf *g, const struct gn_at *at, struct g
     camera->yfov_rad = needed(g, at, "yfov");
     camera->near_m = needed(g, at, "znear");
     camera->far_m = gn_at_float(g, at, "zfar", 0);
-    return camera->yfov_rad > 1e-3f && camera->yfov_rad < GLM_PIf - 1e-3f && camera->near_m > 0;
+    return camera->yfov_rad > 1e-3f && camera->yfov_rad < GLM_PIf - 1e-3f && camera->near_m > 0 &&
+           camera->near_m < NEAR_MOST_M;
 }
 
 static bool read_orthographic(struct gn_gltf *g, const struct gn_at *at, struct gn_camera *camera) {
@@ -24,7 +27,8 @@ static bool read_orthographic(struct gn_gltf *g, const struct gn_at *at, struct 
     camera->ymag_m = fabsf(needed(g, at, "ymag"));
     camera->near_m = needed(g, at, "znear");
     camera->far_m = needed(g, at, "zfar");
-    return camera->xmag_m > 0 && camera->ymag_m > 0 && camera->near_m >= 0 && camera->far_m > 0;
+    return camera->xmag_m > 0 && camera->ymag_m > 0 && camera->near_m >= 0 &&
+           camera->near_m < NEAR_MOST_M && camera->far_m > 0;
 }
 
 static void add(struct gn_gltf *g, const struct gn_at *at, uint32_t node) {

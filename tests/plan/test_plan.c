@@ -366,6 +366,24 @@ static void test_flat_ground_is_not_in_the_map(void **state) {
     end(&f);
 }
 
+static void test_a_far_plane_may_be_as_far_as_numbers_go(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    uint32_t culled = build(&f)->culled;
+    f.scene->cameras[0].near_m = 1; /* twice their product would be no float */
+    for (float far_m = 3e3f; isfinite(far_m); far_m *= 1e5f) {
+        f.scene->cameras[0].far_m = far_m;
+        assert_int_equal(build(&f)->culled, culled);
+    }
+    f.scene->cameras[0].orthographic = true;
+    f.scene->cameras[0].xmag_m = f.scene->cameras[0].ymag_m = 5;
+    culled = build(&f)->culled;
+    f.scene->cameras[0].far_m = 50;
+    assert_int_equal(build(&f)->culled, culled);
+    end(&f);
+}
+
 /* Ten more spots and bulbs along a row, most of them of short range; the bulbs cast nothing. */
 static void add_lights(struct fixture *f, struct gn_light lights[13]) {
     static const char *const names[] = {"Lamp 1", "Lamp 2", "Lamp 3", "Lamp 4", "Lamp 5",
@@ -514,6 +532,7 @@ int main(void) {
         cmocka_unit_test(test_map_moves_by_whole_texels),
         cmocka_unit_test(test_an_eye_that_sees_no_shadow_needs_no_caster),
         cmocka_unit_test(test_flat_ground_is_not_in_the_map),
+        cmocka_unit_test(test_a_far_plane_may_be_as_far_as_numbers_go),
         cmocka_unit_test(test_many_lights_plan),
         cmocka_unit_test(test_many_lights_without_srgb_plan),
         cmocka_unit_test(test_overlay_plan),

@@ -220,15 +220,17 @@ static void test_cameras(void **state) {
     gn_maker_set(&maker, "cameras",
                  "[{'name':'Front','type':'perspective','perspective':{'yfov':0.5,'znear':0.1}},"
                  "{'type':'orthographic','orthographic':{'xmag':-2,'ymag':1,'znear':0,'zfar':10}},"
-                 "{'type':'perspective','perspective':{'yfov':0.5,'znear':1,'zfar':0.5}}]");
+                 "{'type':'perspective','perspective':{'yfov':0.5,'znear':1,'zfar':0.5}},"
+                 "{'type':'perspective','perspective':{'yfov':0.5,'znear':1e20,'zfar':3e38}}]");
     gn_maker_set(&maker, "nodes",
-                 "[{'mesh':0},{'camera':0},{'camera':1,'name':'Top'},{'camera':2}]");
-    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3]}]");
+                 "[{'mesh':0},{'camera':0},{'camera':1,'name':'Top'},{'camera':2},{'camera':3}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3,4]}]");
     struct gn_scene *scene = load();
     assert_int_equal(scene->camera_count, 2);
     assert_near(scene->cameras[0].far_m, 0);
     assert_true(scene->cameras[1].orthographic && scene->cameras[1].xmag_m == 2);
     assert_warned("t: cameras[2]: sees nothing: zfar is not beyond znear; ignored");
+    assert_warned("t: cameras[3]: sees nothing: its field or near plane is out of range; ignored");
     assert_int_equal(gn_scene_find_camera(scene, "Top", &err), 1);
     assert_int_equal(gn_scene_find_camera(scene, "1", &err), 1);
     assert_int_equal(gn_scene_find_camera(scene, NULL, &err), 0);
