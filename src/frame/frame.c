@@ -37,6 +37,7 @@ void gn_frame_destroy(struct gn_frame *frame) {
     free(frame->run.at);
     free(frame->sorted.at);
     free(frame->passes.at);
+    free(frame->notes.at);
     for (int i = 0; i < GN_ALL_SHADOWS_MAX; i++)
         for (int tile = 0; tile < GN_SHADOW_TILES_MAX; tile++)
             gn_shadow_memory_finish(&frame->memory[i][tile]);
@@ -314,11 +315,13 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
         plan->output = GN_OUTPUT_LINEAR8;
         plan->encode_srgb = true;
     }
-    if (opts->aov == GN_AOV_COLOR && opts->output_float && plan->output != GN_OUTPUT_FLOAT)
+    if (opts->aov == GN_AOV_COLOR && opts->output_float && plan->output != GN_OUTPUT_FLOAT &&
+        gn_frame_notice(&frame->said, GN_NOTICE_FLOAT, warnings))
         gn_warn(warnings, "this GPU cannot draw to half floats: colour has 8 bits and ends at 1");
     if (plan->msaa && !(frame->caps.has & 1u << GN_CAP_MSAA4)) {
-        gn_warn(warnings, "this GPU cannot antialias by multisampling: --msaa 0 is used");
         plan->msaa = 0;
+        if (gn_frame_notice(&frame->said, GN_NOTICE_MSAA, warnings))
+            gn_warn(warnings, "this GPU cannot antialias by multisampling: --msaa 0 is used");
     }
 }
 
@@ -366,6 +369,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
                                      struct gn_warnings *warnings) {
     struct gn_plan *plan = &frame->plan;
     reset(frame, opts);
+    gn_frame_take_note(frame, opts);
     choose_output(frame, opts, warnings);
     gn_frame_eye(frame, pose, opts, gn_frame_constants(frame, GN_CONSTANTS_PICTURE));
     plan->exposure = gn_frame_exposure(frame, pose, opts);

@@ -3,7 +3,6 @@
 
 #include "blocks.glsl"
 #include "frame/private.h"
-#include "shadow/planar.h"
 
 _Static_assert(GN_PASS_SIZE == PASS_SIZE, "room for the constants of a pass");
 _Static_assert(PASS_LIGHTS + GN_LIGHTS_MAX * LIGHT_SIZE <= PASS_CONES, "lights");
@@ -42,83 +41,57 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
     return frame->auto_exposure;
 }
 
-static enum gn_technique technique_of(const struct gn_light *light,
+static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
                                       const struct gn_frame_opts *opts,
                                       struct gn_warnings *warnings) {
-    enum gn_technique own = GN_TECHNIQUE_PCF;
-    if (light->technique && !gn_technique_find(light->technique, &own, NULL)) {
+    const struct gn_light *light = &frame->scene->lights[index];
+    struct gn_light_note *note = &frame->notes.at[index];
+    if (note->unknown && gn_frame_notice(&note->said, GN_NOTICE_TECHNIQUE, warnings))
         gn_warn(warnings,
                 "light '%s': gnomon_shadow '%s' is not a technique of this version; it gets pcf",
                 light->name, light->technique);
-        own = GN_TECHNIQUE_PCF;
-    }
-    if (own == GN_TECHNIQUE_NONE || !opts->technique_given) return own;
-    return opts->technique;
-}
-
-static struct gn_frame_light describe(const struct gn_frame *frame, const struct gn_pose *pose,
-                                      uint32_t index, const struct gn_frame_opts *opts,
-                                      struct gn_warnings *warnings) {
-    const struct gn_light *light = &frame->scene->lights[index];
-    struct gn_frame_light l = {.light = index, .technique = technique_of(light, opts, warnings)};
-    l.strength = opts->strength_given ? opts->strength : light->shadow_strength;
-    l.illuminance = illuminance(pose, index);
-    if (gn_techniques[l.technique].on_plane && !gn_planar_has_plane(frame->scene)) {
+    bool own = note->technique == GN_TECHNIQUE_NONE || !opts->technique_given;
+    enum gn_technique technique = own ? note->technique : opts->technique;
+    if (!gn_techniques[technique].on_plane || frame->has_plane) return technique;
+    if (gn_frame_notice(&note->said, GN_NOTICE_PLANE, warnings))
         gn_warn(warnings,
                 "light '%s' casts no shadow: %s needs a plane, and nothing in the scene is one; "
                 "gnomon_plane would name it",
-                light->name, gn_techniques[l.technique].name);
-        l.technique = GN_TECHNIQUE_NONE;
-    }
+                light->name, gn_techniques[technique].name);
+    return GN_TECHNIQUE_NONE;
+}
+
+static struct gn_frame_light describe(struct gn_frame *frame, const struct gn_pose *pose,
+                                      uint32_t index, const struct gn_frame_opts *opts,
+                                      struct gn_warnings *warnings) {
+    const struct gn_light *light = &frame->scene->lights[index];
+    struct gn_frame_light l = {.light = index,
+                               .technique = technique_of(frame, index, opts, warnings)};
+    l.strength = opts->strength_given ? opts->strength : light->shadow_strength;
+    l.illuminance = illuminance(pose, index);
     if (l.technique == GN_TECHNIQUE_NONE) return l;
     bool fell_back;
     l.encoding = gn_encoding_choose(l.technique, opts->encoding, gn_caps_encodings(&frame->caps),
                                     &fell_back);
-    if (fell_back)
+    if (fell_back && gn_frame_notice(&frame->notes.at[index].said, GN_NOTICE_ENCODING, warnings))
         gn_warn(warnings, "this GPU cannot draw map format %s; %s is used",
                 gn_encodings[opts->encoding].name, gn_encodings[l.encoding].name);
     return l;
 }
 
-/* Puts a light in its place: those with maps first, then by the scene's order. Full: the weakest
- * goes. */
-static void insert(struct gn_frame *frame, struct gn_frame_light light) {
-    uint32_t at = light.technique == GN_TECHNIQUE_NONE ? frame->light_count : frame->shadow_count;
-    memmove(&frame->lights[at + 1], &frame->lights[at], (frame->light_count - at) * sizeof light);
-    frame->lights[at] = light;
-    frame->light_count++;
-    if (light.technique != GN_TECHNIQUE_NONE) frame->shadow_count++;
+static bool has_map(const struct gn_frame_light *light) {
+    return light->technique != GN_TECHNIQUE_NONE;
 }
 
-static uint32_t weakest(const struct gn_frame *frame, uint32_t count) {
-    uint32_t found = 0;
-    for (uint32_t i = 1; i < count; i++)
-        if (frame->lights[i].illuminance <= frame->lights[found].illuminance) found = i;
+/* Of equals the last. There is one. */
+static uint32_t weakest(const struct gn_frame *frame, bool with_map) {
+    uint32_t found = UINT32_MAX;
+    for (uint32_t i = 0; i < frame->light_count; i++) {
+        if (with_map && !has_map(&frame->lights[i])) continue;
+        if (found == UINT32_MAX || frame->lights[i].illuminance <= frame->lights[found].illuminance)
+            found = i;
+    }
     return found;
-}
-
-static struct gn_frame_light take_out(struct gn_frame *frame, uint32_t at) {
-    struct gn_frame_light light = frame->lights[at];
-    memmove(&frame->lights[at], &frame->lights[at + 1],
-            (frame->light_count - at - 1) * sizeof light);
-    frame->light_count--;
-    if (light.technique != GN_TECHNIQUE_NONE) frame->shadow_count--;
-    return light;
-}
-
-/* Gives the light the place of the weakest of the first `count` if that is weaker; returns the one
- * that is left without. */
-static struct gn_frame_light trade(struct gn_frame *frame, uint32_t count,
-                                   struct gn_frame_light light) {
-    uint32_t least = weakest(frame, count);
-    if (frame->lights[least].illuminance >= light.illuminance) return light;
-    struct gn_frame_light other = take_out(frame, least);
-    insert(frame, light);
-    return other;
-}
-
-static const char *name_of(const struct gn_frame *frame, const struct gn_frame_light *light) {
-    return frame->scene->lights[light->light].name;
 }
 
 /* Light is added to light: a picture that the shaders encode, of which there is no linear one,
@@ -127,36 +100,65 @@ static bool adds(const struct gn_frame *frame) {
     return !frame->plan.encode_srgb || frame->caps.has & 1u << GN_CAP_RGBA16F;
 }
 
-static void drop_shadow(const struct gn_frame *frame, struct gn_frame_light *light, uint32_t most,
-                        struct gn_warnings *warnings) {
-    gn_warn(warnings, "light '%s' casts no shadow: %u lights with shadows are the most at once%s",
-            name_of(frame, light), most,
+static void warn_of_most(struct gn_frame *frame, uint32_t light, enum gn_notice notice,
+                         uint32_t most, struct gn_warnings *warnings) {
+    if (!gn_frame_notice(&frame->notes.at[light].said, notice, warnings)) return;
+    gn_warn(warnings, "light '%s' %s: %u lights %sare the most at once%s",
+            frame->scene->lights[light].name,
+            notice == GN_NOTICE_MAPS ? "casts no shadow" : "is left out", most,
+            notice == GN_NOTICE_MAPS ? "with shadows " : "",
             adds(frame) ? "" : " on a GPU without srgb and rgba16f targets");
-    light->technique = GN_TECHNIQUE_NONE;
+}
+
+/* Full: the weakest goes. */
+static void add(struct gn_frame *frame, struct gn_frame_light light, uint32_t most,
+                struct gn_warnings *warnings) {
+    if (frame->light_count == most) {
+        uint32_t least = weakest(frame, false);
+        struct gn_frame_light *at = &frame->lights[least];
+        bool stays = at->illuminance >= light.illuminance;
+        warn_of_most(frame, stays ? light.light : at->light, GN_NOTICE_LIGHTS, most, warnings);
+        if (stays) return;
+        memmove(at, at + 1, (--frame->light_count - least) * sizeof *at);
+    }
+    frame->lights[frame->light_count++] = light;
+}
+
+/* Those with maps first, else by the scene's order. */
+static void order(struct gn_frame *frame) {
+    struct gn_frame_light open[GN_ALL_LIGHTS_MAX];
+    uint32_t open_count = 0;
+    frame->shadow_count = 0;
+    for (uint32_t i = 0; i < frame->light_count; i++)
+        if (has_map(&frame->lights[i]))
+            frame->lights[frame->shadow_count++] = frame->lights[i];
+        else
+            open[open_count++] = frame->lights[i];
+    memcpy(&frame->lights[frame->shadow_count], open, open_count * sizeof *open);
+}
+
+static uint32_t count_maps(const struct gn_frame *frame) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < frame->light_count; i++) count += has_map(&frame->lights[i]);
+    return count;
 }
 
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     bool visibility = opts->aov == GN_AOV_VISIBILITY;
     const uint32_t most = adds(frame) ? GN_ALL_LIGHTS_MAX : GN_LIGHTS_MAX,
-                   most_shadows = adds(frame) ? GN_ALL_SHADOWS_MAX : GN_SHADOWS_MAX;
-    frame->light_count = frame->shadow_count = 0;
+                   most_maps = adds(frame) ? GN_ALL_SHADOWS_MAX : GN_SHADOWS_MAX;
+    frame->light_count = 0;
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
         if (visibility ? (int)i != opts->light : opts->aov != GN_AOV_COLOR) continue;
-        struct gn_frame_light light = describe(frame, pose, i, opts, warnings);
-        if (light.technique != GN_TECHNIQUE_NONE && frame->shadow_count == most_shadows) {
-            light = trade(frame, frame->shadow_count, light);
-            drop_shadow(frame, &light, most_shadows, warnings);
-        }
-        if (frame->light_count == most) {
-            light = trade(frame, frame->light_count, light);
-            gn_warn(warnings, "light '%s' is left out: %u lights are the most at once%s",
-                    name_of(frame, &light), most,
-                    adds(frame) ? "" : " on a GPU without srgb and rgba16f targets");
-            continue;
-        }
-        insert(frame, light);
+        add(frame, describe(frame, pose, i, opts, warnings), most, warnings);
     }
+    for (uint32_t count = count_maps(frame); count > most_maps; count--) {
+        struct gn_frame_light *light = &frame->lights[weakest(frame, true)];
+        warn_of_most(frame, light->light, GN_NOTICE_MAPS, most_maps, warnings);
+        light->technique = GN_TECHNIQUE_NONE;
+    }
+    order(frame);
     gn_frame_choose_slides(frame, opts, warnings);
     gn_frame_group_lights(frame, pose);
 }

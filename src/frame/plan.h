@@ -204,8 +204,8 @@ struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates
                   */
 struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_caps *caps);
 void gn_frame_destroy(struct gn_frame *frame);
-/* Builds the plan of this pose. Never fails: what cannot be is left out with a warning (the same
- * text once). */
+/* Builds the plan of this pose. Never fails: what cannot be is left out with a warning, which a
+ * builder gives once, and once more when options change. */
 const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
                                      const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings);

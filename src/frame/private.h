@@ -42,9 +42,32 @@ struct gn_light_group {
     struct gn_rect rect;                    /* of the picture; width 0: all of it */
 };
 
+/* What a warning is about. */
+enum gn_notice {
+    GN_NOTICE_TECHNIQUE,
+    GN_NOTICE_PLANE,
+    GN_NOTICE_ENCODING,
+    GN_NOTICE_MAPS,
+    GN_NOTICE_LIGHTS,
+    GN_NOTICE_SLIDES,
+    GN_NOTICE_FLOAT,
+    GN_NOTICE_MSAA,
+};
+enum { GN_NOTICE_ABOUT = 7 }; /* options that a warning may be about */
+
+/* What is known of a light of the scene, and was said of it. */
+struct gn_light_note {
+    enum gn_technique technique; /* its own, or pcf */
+    bool unknown;                /* it names one that there is not */
+    uint32_t said;               /* bits: enum gn_notice */
+};
+
 struct gn_frame {
     const struct gn_scene *scene;
     struct gn_caps caps;
+    GN_LIST(struct gn_light_note) notes; /* by the scene's lights */
+    bool has_plane;                      /* the scene */
+    uint32_t said, said_about[GN_NOTICE_ABOUT];
     bool exposure_known;
     float auto_exposure;                             /* fixed at the first build */
     struct gn_frame_light lights[GN_ALL_LIGHTS_MAX]; /* group by group */
@@ -119,6 +142,11 @@ const struct gn_frame_light *gn_frame_light_of_slot(const struct gn_frame *frame
 /* Where each group's light can fall in the picture. */
 void gn_frame_bound_groups(struct gn_frame *frame);
 bool gn_group_touches(const struct gn_light_group *group, const struct gn_box *box_ws);
+
+/* notice.c: first of all in a build. Notices are said again when options change. */
+void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts);
+/* Whether this is to be said now: it was not yet, and somebody listens. Then it has been. */
+bool gn_frame_notice(uint32_t *said, enum gn_notice notice, const struct gn_warnings *warnings);
 
 /* lights.c: which lights, with what; then what they say to the shaders. */
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,

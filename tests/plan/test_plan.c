@@ -155,6 +155,59 @@ static void test_plan_without_float_and_srgb_targets(void **state) {
     end(&f);
 }
 
+/* ---- too many lights ---- */
+
+/* The bulb of the stage, `count` times, each stronger than those before it. */
+static void make_bulbs(struct fixture *f, struct gn_light *lights, uint32_t count) {
+    static char names[64][8];
+    for (uint32_t i = 0; i < count; i++) {
+        lights[i] = f->scene->lights[2];
+        lights[i].name = names[i];
+        snprintf(names[i], sizeof names[i], "Bulb %u", i);
+        glm_vec3_scale(f->scene->lights[2].color, (float)(i + 1), lights[i].color);
+    }
+    f->scene->lights = lights;
+    f->scene->light_count = count;
+}
+
+static void test_a_warning_is_given_once(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_light lights[36];
+    struct gn_warnings first = {0}, second = {0}, third = {0};
+    begin(&f, everything);
+    make_bulbs(&f, lights, 36);
+    lights[35].technique = "fog";
+    build(&f); /* nobody listens */
+    gn_frame_build(f.frame, &f.pose, &f.opts, &first);
+    assert_int_equal(first.count, 4 + 16 + 1); /* left out, without a map, fog */
+    assert_non_null(strstr(first.text[0], "'Bulb 0' is left out: 32 lights are the most"));
+    gn_frame_build(f.frame, &f.pose, &f.opts, &second);
+    assert_int_equal(second.count, 0);
+    f.opts.technique_given = true;
+    f.opts.technique = GN_TECHNIQUE_HARD;
+    gn_frame_build(f.frame, &f.pose, &f.opts, &third);
+    assert_int_equal(third.count, first.count);
+    end(&f);
+}
+
+static void test_the_strongest_that_are_shown_have_the_maps(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_light lights[40];
+    struct gn_warnings warnings = {0};
+    begin(&f, everything);
+    make_bulbs(&f, lights, 40);
+    for (int i = 20; i < 40; i++) lights[i].technique = "none";
+    const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+    assert_int_equal(plan->light_count, 32);
+    assert_int_equal(plan->shadow_count, 12); /* 8 to 19 */
+    for (uint32_t i = 0; i < plan->shadow_count; i++)
+        assert_in_range(plan->shadows[i].light, 8, 19);
+    assert_int_equal(warnings.count, 8); /* who is left out is not said to cast no shadow as well */
+    end(&f);
+}
+
 /* ---- slides ---- */
 
 static struct gn_image slide_image = {.width_px = 300, .height_px = 200};
@@ -521,6 +574,8 @@ int main(void) {
         cmocka_unit_test(test_planar_needs_a_plane),
         cmocka_unit_test(test_visibility_plan),
         cmocka_unit_test(test_plan_without_float_and_srgb_targets),
+        cmocka_unit_test(test_a_warning_is_given_once),
+        cmocka_unit_test(test_the_strongest_that_are_shown_have_the_maps),
         cmocka_unit_test(test_slide_plan),
         cmocka_unit_test(test_visibility_has_no_slide),
         cmocka_unit_test(test_slides_over_four_are_left_out_by_order),

@@ -1,0 +1,34 @@
+/* What is asked and said once: names of techniques are looked up at the first build, and a warning
+ * is worded again only when the options that it is about have changed. A frame is built from
+ * numbers. */
+#include <string.h>
+
+#include "frame/private.h"
+#include "shadow/planar.h"
+
+static struct gn_light_note note_of(const struct gn_light *light) {
+    enum gn_technique technique = GN_TECHNIQUE_PCF;
+    bool unknown = light->technique && !gn_technique_find(light->technique, &technique, NULL);
+    return (struct gn_light_note){.technique = unknown ? GN_TECHNIQUE_PCF : technique,
+                                  .unknown = unknown};
+}
+
+void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+    if (frame->notes.count < frame->scene->light_count)
+        frame->has_plane = gn_planar_has_plane(frame->scene);
+    for (uint32_t i = frame->notes.count; i < frame->scene->light_count; i++)
+        GN_LIST_PUSH(&frame->notes) = note_of(&frame->scene->lights[i]);
+    const uint32_t about[GN_NOTICE_ABOUT] = {
+        opts->technique_given, opts->technique,     opts->encoding, opts->aov,
+        opts->output_float,    opts->output_linear, opts->msaa};
+    if (memcmp(frame->said_about, about, sizeof about) == 0) return;
+    memcpy(frame->said_about, about, sizeof about);
+    frame->said = 0;
+    for (uint32_t i = 0; i < frame->notes.count; i++) frame->notes.at[i].said = 0;
+}
+
+bool gn_frame_notice(uint32_t *said, enum gn_notice notice, const struct gn_warnings *warnings) {
+    if (!warnings || *said & 1u << notice) return false;
+    *said |= 1u << notice;
+    return true;
+}
