@@ -1,5 +1,6 @@
 #include "core/arena.h"
 
+#include <assert.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -84,14 +85,17 @@ static bool find_room(struct gn_arena *arena, size_t size) {
     return block != NULL;
 }
 
+static size_t padded(size_t bytes) {
+    return (bytes + RED_ZONE + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+}
+
 void *gn_arena_alloc(struct gn_arena *arena, size_t count, size_t size) {
     size_t bytes;
     if (must_fail() || __builtin_mul_overflow(count, size, &bytes)) return NULL;
     if (bytes > SIZE_MAX / 2 || (arena->limit && bytes > arena->limit - arena->used)) return NULL;
-    size_t padded = (bytes + RED_ZONE + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    if (!find_room(arena, padded)) return NULL;
+    if (!find_room(arena, padded(bytes))) return NULL;
     unsigned char *data = arena->current->data + arena->current->used;
-    arena->current->used += padded;
+    arena->current->used += padded(bytes);
     arena->used += bytes;
     ALLOW(data, bytes);
     return data;
@@ -101,6 +105,25 @@ char *gn_arena_strdup(struct gn_arena *arena, const char *text) {
     size_t size = strlen(text) + 1;
     char *copy = gn_arena_alloc(arena, size, 1);
     return copy ? memcpy(copy, text, size) : NULL;
+}
+
+/* A block that is empty then goes back to the system: it was made for the piece, and may be large.
+ */
+void gn_arena_undo(struct gn_arena *arena, void *piece, size_t bytes) {
+    struct gn_arena_block *block = arena->current, *before = NULL;
+    block->used -= padded(bytes);
+    arena->used -= bytes;
+    assert(piece == block->data + block->used);
+    if (block->used > 0) {
+        memset(piece, 0, bytes);
+        FORBID(piece, bytes);
+        return;
+    }
+    for (struct gn_arena_block *at = arena->first; at != block; at = at->next) before = at;
+    *(before ? &before->next : &arena->first) = block->next;
+    arena->current = before ? before : arena->first;
+    ALLOW(block->data, block->size);
+    free(block);
 }
 
 void gn_arena_reset(struct gn_arena *arena) {

@@ -19,6 +19,8 @@ struct gn_arena {
  * not abort. count 0 gives a valid pointer. */
 void *gn_arena_alloc(struct gn_arena *arena, size_t count, size_t size);
 char *gn_arena_strdup(struct gn_arena *arena, const char *text);
+/* Takes back the piece of so many bytes that was handed out last. */
+void gn_arena_undo(struct gn_arena *arena, void *piece, size_t bytes);
 /* Forgets everything handed out, keeps the blocks: what follows allocates nothing until the old
  * peak is passed. */
 void gn_arena_reset(struct gn_arena *arena);

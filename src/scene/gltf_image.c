@@ -39,7 +39,11 @@ static bool decode(struct gn_gltf *g, const struct gn_blob *blob, struct gn_imag
                        px[1], g->limits.texels);
     if (4 * texels > gn_gltf_room(g)) return gn_fail(err, "no room for it in memory_mb");
     uint8_t *rgba = gn_gltf_alloc(g, g->arena, texels, 4);
-    if (!rgba || !format->read(blob->data, blob->size, px, rgba, err)) return false;
+    if (!rgba) return false;
+    if (!format->read(blob->data, blob->size, px, rgba, err)) {
+        gn_arena_undo(g->arena, rgba, 4 * texels);
+        return false;
+    }
     *image = (struct gn_image){.width_px = px[0], .height_px = px[1], .rgba = rgba};
     for (uint64_t i = 0; i < texels && !image->has_alpha; i++)
         image->has_alpha = rgba[4 * i + 3] != 255;

@@ -85,6 +85,24 @@ static void a_larger_block_behind_is_used_again(void **state) {
     gn_arena_finish(&arena);
 }
 
+static void the_last_piece_can_be_taken_back(void **state) {
+    (void)state;
+    struct gn_arena arena = {.limit = 6000, .block = 256};
+    char *kept = gn_arena_strdup(&arena, "sun");
+    for (size_t size = 100; size < 5000; size += 300) { /* in the block, and in one of its own */
+        unsigned char *piece = gn_arena_alloc(&arena, size, 1);
+        for (size_t i = 0; i < size; i++) assert_int_equal(piece[i], 0);
+        memset(piece, 1, size);
+        gn_arena_undo(&arena, piece, size);
+        assert_int_equal(arena.used, 4);
+    }
+    assert_string_equal(kept, "sun");
+    gn_arena_finish(&arena);
+    gn_arena_undo(&arena, gn_arena_alloc(&arena, 5000, 1), 5000);
+    assert_non_null(gn_arena_alloc(&arena, 6000, 1));
+    gn_arena_finish(&arena);
+}
+
 static void the_nth_request_can_be_made_to_fail(void **state) {
     (void)state;
     struct gn_arena arena = {0};
@@ -117,6 +135,7 @@ int main(void) {
         cmocka_unit_test(the_limit_is_exact),
         cmocka_unit_test(after_a_reset_nothing_is_allocated_and_all_is_zero),
         cmocka_unit_test(a_larger_block_behind_is_used_again),
+        cmocka_unit_test(the_last_piece_can_be_taken_back),
         cmocka_unit_test(the_nth_request_can_be_made_to_fail),
         cmocka_unit_test(a_finished_arena_may_be_used_again),
     };

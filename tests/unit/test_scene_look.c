@@ -187,6 +187,30 @@ static void test_broken_pictures_cost_a_warning(void **state) {
     free(png.data);
 }
 
+/* 4 MB each, once decoded; 8 are allowed. */
+static void test_broken_pictures_keep_no_memory(void **state) {
+    (void)state;
+    uint8_t *rgba = calloc(1024 * 1024, 4);
+    struct gn_made png = gn_maker_png(1024, 1024, rgba);
+    for (int i = 0; i < 4; i++) add_picture(png.data, i < 3 ? png.size - 30 : png.size);
+    gn_maker_set(&maker, "materials",
+                 "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0},"
+                 "'metallicRoughnessTexture':{'index':1}},'emissiveTexture':{'index':2},"
+                 "'emissiveFactor':[1,1,1],'occlusionTexture':{'index':3}}]");
+    struct gn_made glb = gn_maker_glb(&maker);
+    const struct gn_scene_limits limits = {.memory_mb = 8};
+    struct gn_scene *scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
+    if (!scene) fail_msg("%s", err.text);
+    for (int i = 0; i < warnings.count; i++)
+        assert_non_null(strstr(warnings.text[i], "PNG: cut short"));
+    assert_int_equal(scene->image_count, 1);
+    gn_scene_destroy(scene);
+    gn_maker_finish(&maker);
+    free(glb.data);
+    free(png.data);
+    free(rgba);
+}
+
 static void test_missing_picture_file(void **state) {
     (void)state;
     gn_maker_set(&maker, "images", "[{'uri':'gone.png'},{'uri':'also.png'}]");
@@ -254,6 +278,7 @@ int main(void) {
         cmocka_unit_test_setup(test_png_of_16_bits, setup),
         cmocka_unit_test_setup(test_jpeg, setup),
         cmocka_unit_test_setup(test_broken_pictures_cost_a_warning, setup),
+        cmocka_unit_test_setup(test_broken_pictures_keep_no_memory, setup),
         cmocka_unit_test_setup(test_missing_picture_file, setup),
         cmocka_unit_test_setup(test_later_work_is_named_once, setup),
         cmocka_unit_test_setup(test_batches, setup),
