@@ -33,6 +33,12 @@ static const char *error_name(GLenum error) {
     }
 }
 
+void gn_gl_error_keep(struct gn_gl *gl) {
+    GLenum error = GL(gl, GetError)();
+    if (error != GL_NO_ERROR && !gl->debug_text[0])
+        snprintf(gl->debug_text, sizeof gl->debug_text, "%s", error_name(error));
+}
+
 bool gn_gl_error_check(struct gn_gl *gl, const char *what, struct gn_err *err) {
     GLenum error = GL(gl, GetError)();
     if (error == GL_NO_ERROR && !gl->debug_text[0]) return true;

@@ -237,6 +237,9 @@ void gn_gl_wait(struct gn_gl *gl);
 void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float *out);
 /* What the driver said since the last time; true when nothing. */
 bool gn_gl_error_check(struct gn_gl *gl, const char *what, struct gn_err *err);
+/* Takes a pending error out of the driver's hands, for the next gn_gl_error_check: what GetError
+ * says then is about what comes between. */
+void gn_gl_error_keep(struct gn_gl *gl);
 
 /* ---- capabilities (caps.c, probe.c) ---- */
 

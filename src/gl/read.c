@@ -61,6 +61,7 @@ static void widen(float *out, size_t count) {
 
 /* A driver with only EXT_color_buffer_half_float may hand out halves alone. */
 void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float *out) {
+    gn_gl_error_keep(gl); /* it says nothing about floats */
     read_pixels(gl, width, height, GL_RGBA, GL_FLOAT, out);
     if (GL(gl, GetError)() == GL_NO_ERROR) return;
     read_pixels(gl, width, height, GL_RGBA, GL_HALF_FLOAT, out);

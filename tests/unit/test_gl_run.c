@@ -243,6 +243,24 @@ static void test_float_and_aov(void **state) {
     assert_false(gn_gl_read_rgba8(gl, &picture[0][0][0], &err));
 }
 
+static void test_an_error_before_reading_is_told(void **state) {
+    (void)state;
+    static const enum gn_output_format formats[] = {GN_OUTPUT_FLOAT, GN_OUTPUT_AOV};
+    float out[SIDE][SIDE][4];
+    for (int i = 0; i < 2; i++) {
+        begin_plan(formats[i]);
+        add_draw(HELP_NEAR, instance(2, 0.5f, 0.25f, 1));
+        prepare();
+        run();
+        if (gl->caps.has & 1u << GN_CAP_DEBUG) GL(gl, Disable)(GL_DEBUG_OUTPUT_KHR);
+        GL(gl, Enable)(0); /* no capability */
+        assert_false(gn_gl_read_f32(gl, &out[0][0][0], &err));
+        assert_string_equal(err.text, "reading the picture: invalid enum");
+        assert_true(out[8][8][0] == 2 && out[8][8][1] == 0.5f);
+        assert_true(gn_gl_read_f32(gl, &out[0][0][0], &err));
+    }
+}
+
 /* ---- maps ---- */
 
 /* Pass 0 draws a map with its rim left clear, pass 1 shows what the middle of it says. */
@@ -442,11 +460,22 @@ static void test_mipmaps(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(test_depth_and_srgb), TEST(test_clear_and_constants), TEST(test_cull_and_mirror),
-        TEST(test_blend),          TEST(test_texture_and_rows),    TEST(test_instances),
-        TEST(test_msaa),           TEST(test_float_and_aov),       TEST(test_maps),
-        TEST(test_map_skipped),    TEST(test_maps_take_turns),     TEST(test_steady),
-        TEST(test_not_prepared),   TEST(test_wide_indices),        TEST(test_large_image),
+        TEST(test_depth_and_srgb),
+        TEST(test_clear_and_constants),
+        TEST(test_cull_and_mirror),
+        TEST(test_blend),
+        TEST(test_texture_and_rows),
+        TEST(test_instances),
+        TEST(test_msaa),
+        TEST(test_float_and_aov),
+        TEST(test_an_error_before_reading_is_told),
+        TEST(test_maps),
+        TEST(test_map_skipped),
+        TEST(test_maps_take_turns),
+        TEST(test_steady),
+        TEST(test_not_prepared),
+        TEST(test_wide_indices),
+        TEST(test_large_image),
         TEST(test_mipmaps),
     };
     return RUN(tests);
