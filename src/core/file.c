@@ -93,17 +93,38 @@ static bool write_all(int fd, const void *data, size_t size) {
     return true;
 }
 
-/* The descriptor that a path of /dev names, with the position it already has, or a new one. */
+/* -1: the path names none of ours. */
+static int descriptor_of(const char *path) {
+    static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
+    if (strcmp(path, "/dev/stdout") == 0) return STDOUT_FILENO;
+    if (strcmp(path, "/dev/stderr") == 0) return STDERR_FILENO;
+    for (int i = 0; i < 2; i++) {
+        const char *number = path + strlen(folders[i]);
+        if (strncmp(path, folders[i], strlen(folders[i])) != 0) continue;
+        if (*number && strlen(number) < 9 && !number[strspn(number, "0123456789")])
+            return atoi(number);
+    }
+    return -1;
+}
+
+/* The descriptor that a path names, with the position it already has, or a new one. */
 static int open_direct(const char *path) {
-    if (strcmp(path, "/dev/stdout") == 0) return dup(STDOUT_FILENO);
-    if (strcmp(path, "/dev/stderr") == 0) return dup(STDERR_FILENO);
-    return open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
+    int fd = descriptor_of(path);
+    return fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
+}
+
+/* What is behind a descriptor may be a file after all, with more in it. */
+static bool cut_tail(int fd) {
+    struct stat info;
+    if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) return true;
+    off_t end = lseek(fd, 0, SEEK_CUR);
+    return end >= 0 && ftruncate(fd, end) == 0;
 }
 
 static bool write_direct(const char *path, const void *data, size_t size, struct gn_err *err) {
     int fd = open_direct(path);
     if (fd < 0) return fail_errno(err, path, "write");
-    bool ok = write_all(fd, data, size);
+    bool ok = write_all(fd, data, size) && cut_tail(fd);
     if (!ok) fail_errno(err, path, "write");
     if (close(fd) != 0 && ok) ok = fail_errno(err, path, "write");
     return ok;

@@ -21,7 +21,8 @@ void gn_bytes_finish(struct gn_bytes *bytes);
 
 /* Writes path atomically: a temporary file in the same folder, fsync'd and renamed; nothing is left
  * behind on failure. What is a device or a FIFO, or lies in /proc or /dev (but not in /dev/shm),
- * such as /dev/stdout, is written to directly. */
+ * such as /dev/stdout, is written to directly: through the descriptor that it names, from where
+ * that stands, and a file behind it ends there. */
 bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err);
 
 /* Opens /dev/null on those of the descriptors 0, 1 and 2 that are closed: one would be given to the

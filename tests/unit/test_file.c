@@ -134,6 +134,25 @@ static void a_write_leaves_no_other_file(void **state) {
     assert_int_equal(files_here(), before);
 }
 
+static void an_older_file_behind_a_descriptor_keeps_no_tail(void **state) {
+    (void)state;
+    static const char *const names[] = {"/dev/fd/%d", "/proc/self/fd/%d"};
+    struct gn_err err = {0};
+    for (int i = 0; i < 2; i++) {
+        char path[64];
+        struct gn_bytes bytes;
+        assert_true(gn_file_write("tail", "something long", 14, &err));
+        int fd = open("tail", O_RDWR);
+        snprintf(path, sizeof path, names[i], fd);
+        assert_true(gn_file_write(path, "short", 5, &err));
+        assert_true(gn_file_write(path, "er", 2, &err)); /* where the first ended */
+        close(fd);
+        assert_true(gn_file_read("tail", 0, &bytes, &err));
+        assert_string_equal((char *)bytes.data, "shorter");
+        gn_bytes_finish(&bytes);
+    }
+}
+
 static void a_file_in_shared_memory_is_a_file(void **state) {
     (void)state;
     struct gn_err err = {0};
@@ -211,6 +230,7 @@ int main(void) {
         cmocka_unit_test(what_is_no_file_is_refused_at_once),
         cmocka_unit_test(a_failed_write_leaves_nothing),
         cmocka_unit_test(a_write_leaves_no_other_file),
+        cmocka_unit_test(an_older_file_behind_a_descriptor_keeps_no_tail),
         cmocka_unit_test(a_file_in_shared_memory_is_a_file),
         cmocka_unit_test(an_old_reader_keeps_the_old_file),
         cmocka_unit_test(the_mode_of_a_file_stays),
