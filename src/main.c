@@ -1,10 +1,6 @@
 /* Arguments -> a command; the one error line; the exit status. */
-#include <errno.h>
-#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
 #include "cli/args.h"
 #include "cli/commands.h"
@@ -31,19 +27,6 @@ static bool run(const struct gn_options *options, struct gn_warnings *warnings,
     return true;
 }
 
-static bool reader_has_gone(void) {
-    struct pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT};
-    return poll(&output, 1, 0) == 1 && output.revents & (POLLERR | POLLHUP);
-}
-
-/* A reader that had enough (`| head`) is no failure. What went wrong long ago has left no errno. */
-static bool flush_output(struct gn_err *err) {
-    bool bad = ferror(stdout), flushed = fflush(stdout) == 0;
-    if ((flushed && !bad) || reader_has_gone()) return true;
-    return gn_fail(err, "standard output: cannot write%s%s", flushed ? " all of it" : ": ",
-                   flushed ? "" : strerror(errno));
-}
-
 static int report(bool ok, const struct gn_options *options, const struct gn_warnings *warnings,
                   const struct gn_err *err) {
     if (ok || options->verbose) gn_warn_print(warnings, stderr);
@@ -62,7 +45,7 @@ int main(int argc, char **argv) {
     gn_stop_at_once();
     bool ok =
         gn_args_parse(&options, argc, argv, &warnings, &err) && run(&options, &warnings, &err);
-    if (ok) ok = flush_output(&err);
+    if (ok) ok = gn_file_flush_output(&err);
     int status = report(ok, &options, &warnings, &err);
     gn_options_finish(&options);
     return status;

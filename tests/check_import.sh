@@ -36,6 +36,9 @@ expect 0 '' "$import" --version
 grep -q '^gnomon-import [0-9]' "$folder/out" || complain 'the version'
 expect 0 '' "$import" --help
 grep -q -- '--memory' "$folder/out" || complain 'the help'
+for option in --version --help; do
+    expect 1 'standard output: cannot write: No space left' sh -c '"$0" "$1" > /dev/full' "$import" $option
+done
 expect 2 'which model?' "$import"
 expect 2 'a.3ds: not a name that ends in' "$import" a.3ds
 expect 2 '--up: "x"' "$import" --up x a.obj

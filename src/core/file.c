@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -201,4 +202,17 @@ void gn_file_fill_standard(void) {
     do fd = open("/dev/null", O_RDWR);
     while (fd >= 0 && fd <= STDERR_FILENO);
     close_quietly(fd);
+}
+
+static bool reader_has_gone(void) {
+    struct pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    return poll(&output, 1, 0) == 1 && output.revents & (POLLERR | POLLHUP);
+}
+
+/* What went wrong long ago has left no errno. */
+bool gn_file_flush_output(struct gn_err *err) {
+    bool bad = ferror(stdout), flushed = fflush(stdout) == 0;
+    if ((flushed && !bad) || reader_has_gone()) return true;
+    return gn_fail(err, "standard output: cannot write%s%s", flushed ? " all of it" : ": ",
+                   flushed ? "" : strerror(errno));
 }

@@ -28,5 +28,8 @@ bool gn_file_write(const char *path, const void *data, size_t size, struct gn_er
 /* Opens /dev/null on those of the descriptors 0, 1 and 2 that are closed: one would be given to the
  * next file that is opened, and libraries print there. */
 void gn_file_fill_standard(void);
+/* Flushes standard output; fails if not all that was printed has arrived. A reader that had enough
+ * (`| head`) is no failure. */
+bool gn_file_flush_output(struct gn_err *err);
 
 #endif

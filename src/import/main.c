@@ -197,7 +197,7 @@ int main(int argc, char **argv) {
     struct gn_err err = {0};
     gn_file_fill_standard();
     signal(SIGPIPE, SIG_IGN);
-    if (import(argc, argv, &err)) return GN_EXIT_OK;
+    if (import(argc, argv, &err) && gn_file_flush_output(&err)) return GN_EXIT_OK;
     fprintf(stderr, "gnomon-import: %s\n", err.text);
     return err.status == GN_EXIT_USAGE ? GN_EXIT_USAGE : GN_EXIT_WORLD;
 }
