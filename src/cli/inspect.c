@@ -12,8 +12,10 @@ static void count_pass(struct gn_scene_cost *cost, const struct gn_plan *plan,
     uint64_t triangles = 0;
     for (uint32_t i = 0; i < pass->draw_count; i++) {
         const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
-        triangles += (uint64_t)plan->scene->geometries[draw->geometry].index_count / 3 *
-                     draw->instance_count;
+        uint32_t corners = draw->geometry == GN_NO_GEOMETRY
+                               ? draw->vertex_count
+                               : plan->scene->geometries[draw->geometry].index_count;
+        triangles += (uint64_t)corners / 3 * draw->instance_count;
     }
     *(shadow ? &cost->shadow_passes : &cost->passes) += 1;
     *(shadow ? &cost->shadow_draws : &cost->draws) += pass->draw_count;
