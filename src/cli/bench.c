@@ -168,26 +168,18 @@ static bool time_passes(struct bench *b, struct gn_err *err) {
 
 /* ---- what was found out ---- */
 
-/* Adds "+name" unless it is there. */
-static void add_name(char *list, size_t size, const char *name) {
-    size_t length = strlen(name), used = strlen(list);
-    for (const char *at = list; *at; at += strcspn(at, "+"), at += *at == '+')
-        if (strncmp(at, name, length) == 0 && (at[length] == '+' || !at[length])) return;
-    snprintf(list + used, size - used, "%s%s", used ? "+" : "", name);
-}
-
 /* What the lights of the picture really use. */
 static void describe(struct gn_bench_run *run, const struct entry *e, const struct gn_plan *plan) {
     for (uint32_t i = 0; i < plan->shadow_count; i++) {
         const struct gn_shadow_view *view = &plan->shadows[i];
-        add_name(run->map_format, sizeof run->map_format, gn_encodings[view->encoding].name);
+        gn_bench_add_name(run->map_format, gn_encodings[view->encoding].name);
         if (!e->opts.technique_given)
-            add_name(run->technique, sizeof run->technique, gn_techniques[view->technique].name);
+            gn_bench_add_name(run->technique, gn_techniques[view->technique].name);
     }
     if (e->opts.technique_given)
-        add_name(run->technique, sizeof run->technique, gn_techniques[e->opts.technique].name);
-    if (!run->technique[0]) add_name(run->technique, sizeof run->technique, "none");
-    if (!run->map_format[0]) add_name(run->map_format, sizeof run->map_format, "none");
+        gn_bench_add_name(run->technique, gn_techniques[e->opts.technique].name);
+    if (!run->technique[0]) gn_bench_add_name(run->technique, "none");
+    if (!run->map_format[0]) gn_bench_add_name(run->map_format, "none");
 }
 
 static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {

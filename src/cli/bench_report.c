@@ -32,6 +32,14 @@ void gn_bench_add_pass(struct gn_bench_run *run, const char *label, double ms) {
     snprintf(pass->label, sizeof pass->label, "%s", label);
 }
 
+void gn_bench_add_name(char *list, const char *name) {
+    size_t length = strlen(name), used = strlen(list);
+    for (const char *at = list; *at; at += strcspn(at, "+"), at += *at == '+')
+        if (strncmp(at, name, length) == 0 && (at[length] == '+' || !at[length])) return;
+    if (used + length + 2 > GN_BENCH_NAMES) return;
+    snprintf(list + used, GN_BENCH_NAMES - used, "%s%s", used ? "+" : "", name);
+}
+
 /* ---- for people ---- */
 
 static void print_mb(FILE *to, const char *what, double mb) {

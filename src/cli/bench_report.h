@@ -13,10 +13,12 @@ struct gn_bench_pass {
     double ms; /* per frame: wall clock around the pass and a read-back, from a run of its own */
 };
 
-struct gn_bench_run { /* one technique */
-    char technique[32];
-    char map_format[32]; /* what its maps were, "none" without any; "depth+r16f" if they differ */
-    const char *output;  /* "srgb", "linear" */
+enum { GN_BENCH_NAMES = 64 }; /* room for all that there are, joined */
+struct gn_bench_run {         /* one technique */
+    char technique[GN_BENCH_NAMES];
+    char map_format[GN_BENCH_NAMES]; /* what its maps were, "none" without any; "depth+r16f" if they
+                                        differ */
+    const char *output;              /* "srgb", "linear" */
     uint32_t frames;
     double ms_median, ms_p95;     /* wall clock of a frame, read-back included */
     double cpu_ms;                /* CPU time of the process, all threads, per frame */
@@ -40,6 +42,9 @@ struct gn_bench_report {
 double gn_bench_quantile(double *values, uint32_t count, double share);
 /* Adds ms to the pass of that label, which is made if it is not there. */
 void gn_bench_add_pass(struct gn_bench_run *run, const char *label, double ms);
+/* Adds a name to a list joined by '+', of GN_BENCH_NAMES bytes, unless it is there; never a part of
+ * one. */
+void gn_bench_add_name(char *list, const char *name);
 
 /* Aligned, for people: one row a technique; the ratio is that of cpu_ms to the first row's. */
 void gn_bench_print(const struct gn_bench_report *report, FILE *to);

@@ -41,6 +41,24 @@ static void test_passes_of_one_label_are_one(void **state) {
     free(run.passes);
 }
 
+static void test_names_are_joined_whole_and_once(void **state) {
+    (void)state;
+    char list[GN_BENCH_NAMES] = "", whole[512] = "";
+    for (int again = 0; again < 2; again++)
+        for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) gn_bench_add_name(list, gn_techniques[i].name);
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
+        if (i) strcat(whole, "+");
+        strcat(whole, gn_techniques[i].name);
+    }
+    assert_string_equal(list, whole);
+    char full[GN_BENCH_NAMES] = "";
+    memset(full, 'x', GN_BENCH_NAMES - 5);
+    gn_bench_add_name(full, "pcss");
+    assert_int_equal(strlen(full), GN_BENCH_NAMES - 5);
+    gn_bench_add_name(full, "pcf");
+    assert_string_equal(full + GN_BENCH_NAMES - 5, "+pcf");
+}
+
 static struct gn_bench_report sample(struct gn_bench_run *run) {
     *run = (struct gn_bench_run){
         .technique = "pcf3",
@@ -152,6 +170,7 @@ int main(void) {
         cmocka_unit_test(test_one_value_is_every_quantile),
         cmocka_unit_test(test_five_of_a_hundred_lie_above_p95),
         cmocka_unit_test(test_passes_of_one_label_are_one),
+        cmocka_unit_test(test_names_are_joined_whole_and_once),
         cmocka_unit_test(test_the_json_has_the_fields_of_the_contract),
         cmocka_unit_test(test_values_are_said_as_they_are),
         cmocka_unit_test(test_a_name_that_is_not_utf8_still_makes_json),
