@@ -106,19 +106,22 @@ static void test_open_things_by_both_and_auto(void **state) {
     }
 }
 
-/* One that faces the sun is gone from a map of back faces: the word means what it says. */
-static void test_back_faces_of_a_sheet_throw_no_shadow(void **state) {
+/* A sheet that faces the sun is gone from a map of back faces, one that shows it its back from a
+ * map of front faces: the words mean what they say. */
+static void test_one_side_of_a_sheet_throws_no_shadow(void **state) {
     (void)state;
     struct gn_mask_score back = measure("back", true, false, "hard");
+    struct gn_mask_score front = measure("front", true, false, "hard");
     struct gn_mask_score both = measure("both", true, false, "hard");
     assert_true(back.leak > both.leak + 300);
+    assert_true(front.leak > both.leak + 300);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_solid_things_by_any_faces),
         cmocka_unit_test(test_open_things_by_both_and_auto),
-        cmocka_unit_test(test_back_faces_of_a_sheet_throw_no_shadow),
+        cmocka_unit_test(test_one_side_of_a_sheet_throws_no_shadow),
     };
     return cmocka_run_group_tests_name("cast faces", tests, NULL, NULL);
 }
