@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cli/json_print.h"
+#include "cli/units.h"
 #include "core/arena.h"
 
 static int by_value(const void *a, const void *b) {
@@ -63,8 +64,8 @@ static void print_run(const struct gn_bench_report *r, const struct gn_bench_run
     fprintf(to, "%-9s %-8s %-6s %7.2f %7.2f %7.2f ", run->technique, run->map_format, run->output,
             run->ms_median, run->ms_p95, run->cpu_ms);
     fprintf(to, "%6.2f %6u %7u %6u %9" PRIu64 " %7.1f %s\n", run->cpu_ms / r->runs[0].cpu_ms,
-            s->draws, s->shadow_draws, s->gl_calls, s->triangles,
-            (double)s->target_bytes / 1048576.0, run->idle ? "yes" : "no");
+            s->draws, s->shadow_draws, s->gl_calls, s->triangles, GN_MB(s->target_bytes),
+            run->idle ? "yes" : "no");
 }
 
 static void print_passes(const struct gn_bench_run *run, FILE *to) {
@@ -85,42 +86,33 @@ void gn_bench_print(const struct gn_bench_report *report, FILE *to) {
 /* ---- for programs ---- */
 
 /* To the microsecond. */
-static json_t *number(double value) {
-    return isfinite(value) ? json_real(round(value * 1000.0) / 1000.0) : json_null();
-}
-
-static json_t *count(uint64_t value) { return json_integer((json_int_t)value); }
-
-/* Names come out of files: what is not UTF-8 is not JSON. */
-static json_t *text(const char *value) {
-    json_t *string = json_string(value);
-    return string ? string : json_string("?");
-}
+static json_t *number(double value) { return gn_json_make_number(round(value * 1000.0) / 1000.0); }
 
 static json_t *passes_json(const struct gn_bench_run *run) {
     json_t *list = json_array();
     for (uint32_t i = 0; i < run->pass_count; i++)
-        json_array_append_new(list, json_pack("{s:o, s:o}", "label", text(run->passes[i].label),
-                                              "ms", number(run->passes[i].ms)));
+        json_array_append_new(list, json_pack("{s:o, s:o}", "label",
+                                              gn_json_make_text(run->passes[i].label), "ms",
+                                              number(run->passes[i].ms)));
     return list;
 }
 
 static json_t *run_json(const struct gn_bench_run *run) {
     const struct gn_gl_stats *s = &run->stats;
     json_t *object = json_object();
-    json_object_set_new(object, "technique", text(run->technique));
-    json_object_set_new(object, "map_format", text(run->map_format));
-    json_object_set_new(object, "output", text(run->output));
-    json_object_set_new(object, "frames", count(run->frames));
+    json_object_set_new(object, "technique", gn_json_make_text(run->technique));
+    json_object_set_new(object, "map_format", gn_json_make_text(run->map_format));
+    json_object_set_new(object, "output", gn_json_make_text(run->output));
+    json_object_set_new(object, "frames", gn_json_make_count(run->frames));
     json_object_set_new(object, "ms_median", number(run->ms_median));
     json_object_set_new(object, "ms_p95", number(run->ms_p95));
     json_object_set_new(object, "cpu_ms", number(run->cpu_ms));
     json_object_set_new(object, "passes", passes_json(run));
-    json_object_set_new(object, "draws", count(s->draws));
-    json_object_set_new(object, "gl_calls", count(s->gl_calls));
-    json_object_set_new(object, "triangles", count(s->triangles));
-    json_object_set_new(object, "shadow_draws", count(s->shadow_draws));
-    json_object_set_new(object, "target_bytes", count(s->target_bytes));
+    json_object_set_new(object, "draws", gn_json_make_count(s->draws));
+    json_object_set_new(object, "gl_calls", gn_json_make_count(s->gl_calls));
+    json_object_set_new(object, "triangles", gn_json_make_count(s->triangles));
+    json_object_set_new(object, "shadow_draws", gn_json_make_count(s->shadow_draws));
+    json_object_set_new(object, "target_bytes", gn_json_make_count(s->target_bytes));
     json_object_set_new(object, "idle", json_boolean(run->idle));
     return object;
 }
@@ -129,11 +121,11 @@ static json_t *report_json(const struct gn_bench_report *r) {
     char size[32];
     snprintf(size, sizeof size, "%ux%u", r->width_px, r->height_px);
     json_t *object = json_object(), *runs = json_array();
-    json_object_set_new(object, "gl_renderer", text(r->renderer));
-    json_object_set_new(object, "scene", text(r->scene));
-    json_object_set_new(object, "size", text(size));
+    json_object_set_new(object, "gl_renderer", gn_json_make_text(r->renderer));
+    json_object_set_new(object, "scene", gn_json_make_text(r->scene));
+    json_object_set_new(object, "size", gn_json_make_text(size));
     json_object_set_new(object, "start_to_first_picture_ms", number(r->start_ms));
-    json_object_set_new(object, "cache", text(r->cache_warm ? "warm" : "cold"));
+    json_object_set_new(object, "cache", gn_json_make_text(r->cache_warm ? "warm" : "cold"));
     json_object_set_new(object, "private_dirty_mb", number(r->private_dirty_mb));
     json_object_set_new(object, "private_dirty_empty_context_mb",
                         number(r->private_dirty_empty_context_mb));

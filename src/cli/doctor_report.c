@@ -212,10 +212,9 @@ void gn_doctor_print(const struct gn_doctor_report *report, FILE *to) {
 
 /* ---- for programs -------------------------------------------------------------------------- */
 
-/* What the kernel and drivers say may be anything; what is not UTF-8 is null. */
+/* What is not known is empty. */
 static json_t *text(const char *value) {
-    json_t *string = value && value[0] ? json_string(value) : NULL;
-    return string ? string : json_null();
+    return gn_json_make_text(value && value[0] ? value : NULL);
 }
 
 static json_t *machine_json(const struct gn_machine *m) {

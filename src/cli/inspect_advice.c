@@ -3,6 +3,7 @@
 #include <stdarg.h>
 
 #include "cli/inspect.h"
+#include "cli/units.h"
 #include "core/text.h"
 #include "frame/plan.h"
 
@@ -11,8 +12,6 @@ enum { TEXTURE_MAX_PX = 4096, TRIANGLES_MAX = 500000, DRAWS_MAX = 500, TEXTURES_
 #define SIZE_MAX_M   2000.0f
 #define CONE_MAX_DEG 80.0f
 #define DEPTH_RATIO  1e6f
-#define DEG(radians) ((double)(radians) * (180.0 / 3.14159265358979323846))
-#define MB(bytes)    ((double)(bytes) / (1024.0 * 1024.0))
 #define PLURAL(n)    ((n) == 1 ? "" : "s")
 
 __attribute__((format(printf, 3, 4))) static void advise(struct gn_inspection *in, const char *cure,
@@ -54,9 +53,9 @@ static void check_amounts(struct gn_inspection *in) {
     if (in->cost.draws > DRAWS_MAX)
         advise(in, "join meshes, or let equal ones share their mesh (Blender: Alt+D)",
                "%u draw calls in one picture", in->cost.draws);
-    if (MB(in->cost.texture_bytes) > TEXTURES_MAX_MB)
+    if (GN_MB(in->cost.texture_bytes) > TEXTURES_MAX_MB)
         advise(in, "make the largest textures smaller", "textures take %.0f MB of GPU memory",
-               MB(in->cost.texture_bytes));
+               GN_MB(in->cost.texture_bytes));
 }
 
 static void check_clips(struct gn_inspection *in) {
@@ -130,10 +129,10 @@ static void check_light(struct gn_inspection *in, const struct gn_light *light) 
     enum gn_technique technique;
     if (light->color[0] + light->color[1] + light->color[2] <= 0.0f)
         advise(in, "give it an intensity, or take it out", "light '%s' is dark", light->name);
-    if (light->type == GN_LIGHT_SPOT && DEG(light->outer_rad) > (double)CONE_MAX_DEG)
+    if (light->type == GN_LIGHT_SPOT && GN_DEG(light->outer_rad) > (double)CONE_MAX_DEG)
         advise(in, "make the cone narrower, or use two spots",
                "spot '%s' opens to %.0f degrees: beyond 80 its shadows end", light->name,
-               DEG(light->outer_rad));
+               GN_DEG(light->outer_rad));
     bool point = light->type == GN_LIGHT_POINT; /* three tiles lie side by side */
     if (light->map_px > (point ? TEXTURE_MAX_PX / 3 : TEXTURE_MAX_PX))
         advise(in,

@@ -5,10 +5,8 @@
 
 #include "cli/inspect.h"
 #include "cli/json_print.h"
+#include "cli/units.h"
 #include "core/text.h"
-
-#define DEG(radians) ((double)(radians) * (180.0 / 3.14159265358979323846))
-#define MB(bytes)    ((double)(bytes) / (1024.0 * 1024.0))
 
 static const char *const light_types[] = {
     [GN_LIGHT_DIRECTIONAL] = "directional", [GN_LIGHT_POINT] = "point", [GN_LIGHT_SPOT] = "spot"};
@@ -83,15 +81,15 @@ static void print_images(const struct gn_scene *s, FILE *to) {
         fprintf(to, "\nTextures: %u of %u images\n", s->texture_count, s->image_count);
     for (uint32_t i = 0; i < s->image_count; i++)
         line(to, "%-3u %ux%u%s, %.2f MB", i, s->images[i].width_px, s->images[i].height_px,
-             s->images[i].has_alpha ? " with alpha" : "", MB(gn_inspect_image_bytes(s, i)));
+             s->images[i].has_alpha ? " with alpha" : "", GN_MB(gn_inspect_image_bytes(s, i)));
 }
 
 static void print_light(const struct gn_scene *s, uint32_t i, FILE *to) {
     const struct gn_light *light = &s->lights[i];
     char cone[64] = "", range[32] = "", map[32] = "", slide[32] = "";
     if (light->type == GN_LIGHT_SPOT)
-        snprintf(cone, sizeof cone, ", cone %.3g to %.3g degrees", DEG(light->inner_rad),
-                 DEG(light->outer_rad));
+        snprintf(cone, sizeof cone, ", cone %.3g to %.3g degrees", GN_DEG(light->inner_rad),
+                 GN_DEG(light->outer_rad));
     if (light->range_m > 0) snprintf(range, sizeof range, ", range %.4g m", (double)light->range_m);
     if (light->map_px) snprintf(map, sizeof map, ", map %u px", light->map_px);
     if (light->slide >= 0) snprintf(slide, sizeof slide, ", slide texture %d", light->slide);
@@ -108,7 +106,7 @@ static void print_camera(const struct gn_scene *s, uint32_t i, FILE *to) {
     if (c->orthographic)
         snprintf(lens, sizeof lens, "orthographic, %.4g m high", 2 * (double)c->ymag_m);
     else
-        snprintf(lens, sizeof lens, "perspective, %.3g degrees high", DEG(c->yfov_rad));
+        snprintf(lens, sizeof lens, "perspective, %.3g degrees high", GN_DEG(c->yfov_rad));
     if (c->far_m > 0) snprintf(far, sizeof far, "%.4g m", (double)c->far_m);
     line(to, "%-3u %s: %s, from %.4g m to %s%s", i, c->name, lens, (double)c->near_m, far,
          is_made(s->made_camera, i, s->camera_count) ? " (made: the file has none)" : "");
@@ -137,9 +135,9 @@ static void print_cost(const struct gn_inspection *in, FILE *to) {
          c->shadow_passes, c->shadow_draws, (unsigned long long)c->shadow_triangles);
     line(to, "%-11s %u", "programs", c->programs);
     line(to, "%-11s %.2f MB vertices, %.2f indices, %.2f textures, %.2f maps, %.2f picture",
-         "GPU memory", MB(c->vertex_bytes), MB(c->index_bytes), MB(c->texture_bytes),
-         MB(c->map_bytes), MB(c->target_bytes));
-    line(to, "%-11s %.2f MB", "memory", MB(in->scene->bytes));
+         "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
+         GN_MB(c->map_bytes), GN_MB(c->target_bytes));
+    line(to, "%-11s %.2f MB", "memory", GN_MB(in->scene->bytes));
 }
 
 static void print_faults(const struct gn_inspection *in, FILE *to) {
@@ -165,40 +163,39 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
 
 /* ---- for programs -------------------------------------------------------------------------- */
 
-static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 static json_t *number_or_null(bool present, double value) {
-    return present ? number(value) : json_null();
-}
-static json_t *count(uint64_t value) { return json_integer((json_int_t)value); }
-static json_t *text(const char *value) {
-    json_t *string = value ? json_string(value) : NULL;
-    return string ? string : json_null();
+    return present ? gn_json_make_number(value) : json_null();
 }
 static json_t *vector(const float *v) {
-    return json_pack("[ooo]", number((double)v[0]), number((double)v[1]), number((double)v[2]));
+    return json_pack("[ooo]", gn_json_make_number((double)v[0]), gn_json_make_number((double)v[1]),
+                     gn_json_make_number((double)v[2]));
 }
 
 static json_t *counts_json(const struct gn_scene *s) {
-    return json_pack("{so so so so so so so so}", "nodes", count(s->node_count), "items",
-                     count(s->item_count), "instances", count(s->instance_count), "batches",
-                     count(s->batch_count), "geometries", count(s->geometry_count), "vertices",
-                     count(s->vertex_count), "triangles", count(s->triangle_count), "textures",
-                     count(s->texture_count));
+    return json_pack(
+        "{so so so so so so so so}", "nodes", gn_json_make_count(s->node_count), "items",
+        gn_json_make_count(s->item_count), "instances", gn_json_make_count(s->instance_count),
+        "batches", gn_json_make_count(s->batch_count), "geometries",
+        gn_json_make_count(s->geometry_count), "vertices", gn_json_make_count(s->vertex_count),
+        "triangles", gn_json_make_count(s->triangle_count), "textures",
+        gn_json_make_count(s->texture_count));
 }
 
 static json_t *materials_json(const struct gn_scene *s) {
     struct kinds k = count_kinds(s);
-    return json_pack("{so so so so so so}", "count", count(s->material_count), "opaque",
-                     count(k.alpha[GN_ALPHA_OPAQUE]), "mask", count(k.alpha[GN_ALPHA_MASK]),
-                     "blend", count(k.alpha[GN_ALPHA_BLEND]), "unlit", count(k.unlit),
-                     "double_sided", count(k.double_sided));
+    return json_pack("{so so so so so so}", "count", gn_json_make_count(s->material_count),
+                     "opaque", gn_json_make_count(k.alpha[GN_ALPHA_OPAQUE]), "mask",
+                     gn_json_make_count(k.alpha[GN_ALPHA_MASK]), "blend",
+                     gn_json_make_count(k.alpha[GN_ALPHA_BLEND]), "unlit",
+                     gn_json_make_count(k.unlit), "double_sided",
+                     gn_json_make_count(k.double_sided));
 }
 
 static json_t *image_json(const struct gn_scene *s, uint32_t i) {
     const struct gn_image *image = &s->images[i];
-    return json_pack("{so so sb so}", "width_px", count(image->width_px), "height_px",
-                     count(image->height_px), "alpha", image->has_alpha, "bytes",
-                     count(gn_inspect_image_bytes(s, i)));
+    return json_pack("{so so sb so}", "width_px", gn_json_make_count(image->width_px), "height_px",
+                     gn_json_make_count(image->height_px), "alpha", image->has_alpha, "bytes",
+                     gn_json_make_count(gn_inspect_image_bytes(s, i)));
 }
 
 static json_t *light_json(const struct gn_scene *s, uint32_t i) {
@@ -207,32 +204,36 @@ static json_t *light_json(const struct gn_scene *s, uint32_t i) {
     bool spot = l->type == GN_LIGHT_SPOT;
     vec3 color;
     for (int k = 0; k < 3; k++) color[k] = strongest > 0 ? l->color[k] / (float)strongest : 0.0f;
-    return json_pack("{so ss so ss so so so so so so so so so sb}", "name", text(l->name), "type",
-                     light_types[l->type], "intensity", number(strongest), "unit", unit(l), "color",
-                     vector(color), "range_m", number_or_null(l->range_m > 0, l->range_m),
-                     "inner_deg", number_or_null(spot, DEG(l->inner_rad)), "outer_deg",
-                     number_or_null(spot, DEG(l->outer_rad)), "gnomon_shadow", text(l->technique),
-                     "gnomon_map_px", l->map_px ? count(l->map_px) : json_null(), "gnomon_radius",
-                     number(l->radius), "gnomon_shadow_strength", number(l->shadow_strength),
-                     "gnomon_slide", l->slide >= 0 ? count((uint64_t)l->slide) : json_null(),
-                     "made", is_made(s->made_light, i, s->light_count));
+    return json_pack("{so ss so ss so so so so so so so so so sb}", "name",
+                     gn_json_make_text(l->name), "type", light_types[l->type], "intensity",
+                     gn_json_make_number(strongest), "unit", unit(l), "color", vector(color),
+                     "range_m", number_or_null(l->range_m > 0, l->range_m), "inner_deg",
+                     number_or_null(spot, GN_DEG(l->inner_rad)), "outer_deg",
+                     number_or_null(spot, GN_DEG(l->outer_rad)), "gnomon_shadow",
+                     gn_json_make_text(l->technique), "gnomon_map_px",
+                     l->map_px ? gn_json_make_count(l->map_px) : json_null(), "gnomon_radius",
+                     gn_json_make_number(l->radius), "gnomon_shadow_strength",
+                     gn_json_make_number(l->shadow_strength), "gnomon_slide",
+                     l->slide >= 0 ? gn_json_make_count((uint64_t)l->slide) : json_null(), "made",
+                     is_made(s->made_light, i, s->light_count));
 }
 
 static json_t *camera_json(const struct gn_scene *s, uint32_t i) {
     const struct gn_camera *c = &s->cameras[i];
-    return json_pack("{so ss so so so so sb}", "name", text(c->name), "type",
+    return json_pack("{so ss so so so so sb}", "name", gn_json_make_text(c->name), "type",
                      c->orthographic ? "orthographic" : "perspective", "yfov_deg",
-                     number_or_null(!c->orthographic, DEG(c->yfov_rad)), "half_height_m",
-                     number_or_null(c->orthographic, c->ymag_m), "near_m", number(c->near_m),
-                     "far_m", number_or_null(c->far_m > 0, c->far_m), "made",
+                     number_or_null(!c->orthographic, GN_DEG(c->yfov_rad)), "half_height_m",
+                     number_or_null(c->orthographic, c->ymag_m), "near_m",
+                     gn_json_make_number(c->near_m), "far_m",
+                     number_or_null(c->far_m > 0, c->far_m), "made",
                      is_made(s->made_camera, i, s->camera_count));
 }
 
 static json_t *clip_json(const struct gn_scene *s, uint32_t i) {
     const struct gn_clip *c = &s->clips[i];
-    return json_pack("{so so so sb}", "name", text(c->name), "duration_s",
-                     number((double)c->duration_ns * 1e-9), "channels", count(c->channel_count),
-                     "on", c->on_by_default);
+    return json_pack("{so so so sb}", "name", gn_json_make_text(c->name), "duration_s",
+                     gn_json_make_number((double)c->duration_ns * 1e-9), "channels",
+                     gn_json_make_count(c->channel_count), "on", c->on_by_default);
 }
 
 static json_t *list(const struct gn_scene *s, uint32_t n,
@@ -246,27 +247,30 @@ static json_t *cost_json(const struct gn_inspection *in) {
     const struct gn_scene_cost *c = &in->cost;
     return json_pack(
         "{si si so so so so so so so so so so so so so so}", "width_px", GN_INSPECT_WIDTH_PX,
-        "height_px", GN_INSPECT_HEIGHT_PX, "passes", count(c->passes), "shadow_passes",
-        count(c->shadow_passes), "draws", count(c->draws), "shadow_draws", count(c->shadow_draws),
-        "programs", count(c->programs), "culled", count(c->culled), "triangles",
-        count(c->triangles), "shadow_triangles", count(c->shadow_triangles), "vertex_bytes",
-        count(c->vertex_bytes), "index_bytes", count(c->index_bytes), "texture_bytes",
-        count(c->texture_bytes), "map_bytes", count(c->map_bytes), "target_bytes",
-        count(c->target_bytes), "memory_bytes", count(in->scene->bytes));
+        "height_px", GN_INSPECT_HEIGHT_PX, "passes", gn_json_make_count(c->passes), "shadow_passes",
+        gn_json_make_count(c->shadow_passes), "draws", gn_json_make_count(c->draws), "shadow_draws",
+        gn_json_make_count(c->shadow_draws), "programs", gn_json_make_count(c->programs), "culled",
+        gn_json_make_count(c->culled), "triangles", gn_json_make_count(c->triangles),
+        "shadow_triangles", gn_json_make_count(c->shadow_triangles), "vertex_bytes",
+        gn_json_make_count(c->vertex_bytes), "index_bytes", gn_json_make_count(c->index_bytes),
+        "texture_bytes", gn_json_make_count(c->texture_bytes), "map_bytes",
+        gn_json_make_count(c->map_bytes), "target_bytes", gn_json_make_count(c->target_bytes),
+        "memory_bytes", gn_json_make_count(in->scene->bytes));
 }
 
 static void add_faults(json_t *all, const struct gn_inspection *in) {
     json_t *warnings = json_array(), *advice = json_array();
     for (int i = 0; in->warnings && i < in->warnings->count; i++)
-        json_array_append_new(warnings, text(in->warnings->text[i]));
+        json_array_append_new(warnings, gn_json_make_text(in->warnings->text[i]));
     for (uint32_t i = 0; i < in->advice_count; i++)
-        json_array_append_new(advice, json_pack("{so so}", "what", text(in->advice[i].what), "cure",
-                                                text(in->advice[i].cure)));
+        json_array_append_new(advice,
+                              json_pack("{so so}", "what", gn_json_make_text(in->advice[i].what),
+                                        "cure", gn_json_make_text(in->advice[i].cure)));
     json_object_set_new(all, "warnings", warnings);
     json_object_set_new(all, "warnings_dropped",
                         json_integer(in->warnings ? in->warnings->dropped : 0));
     json_object_set_new(all, "advice", advice);
-    json_object_set_new(all, "advice_dropped", count(in->advice_dropped));
+    json_object_set_new(all, "advice_dropped", gn_json_make_count(in->advice_dropped));
 }
 
 bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_err *err) {
@@ -274,8 +278,8 @@ bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_e
     vec3 size;
     size_of(s, size);
     json_t *all = json_pack(
-        "{so so so so so so so so so s{so so so} so}", "file", text(in->file), "name",
-        text(s->name), "size_m", vector(size), "counts", counts_json(s), "materials",
+        "{so so so so so so so so so s{so so so} so}", "file", gn_json_make_text(in->file), "name",
+        gn_json_make_text(s->name), "size_m", vector(size), "counts", counts_json(s), "materials",
         materials_json(s), "images", list(s, s->image_count, image_json), "lights",
         list(s, s->light_count, light_json), "cameras", list(s, s->camera_count, camera_json),
         "clips", list(s, s->clip_count, clip_json), "hemisphere", "sky", vector(s->sky), "ground",

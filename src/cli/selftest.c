@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/json_print.h"
 #include "core/arena.h"
 #include "core/embedded.h"
 
@@ -237,11 +238,9 @@ void gn_selftest_print(const struct gn_selftest *test, FILE *to) {
             GN_SELFTEST_WRONG_MAX);
 }
 
-static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
-
 static json_t *sum_json(const struct gn_selftest *test, struct gn_selftest_sum s) {
-    return json_pack("{so so ss}", "mean", number(s.mean), "worst", number(s.worst), "scene",
-                     test->scenes[s.worst_scene]);
+    return json_pack("{so so ss}", "mean", gn_json_make_number(s.mean), "worst",
+                     gn_json_make_number(s.worst), "scene", test->scenes[s.worst_scene]);
 }
 
 static json_t *row_json(const struct gn_selftest *test, const struct gn_selftest_row *row) {
