@@ -1,0 +1,271 @@
+/* Plans of many lights, of too many, of slides and of strong and weak ones. */
+#include <math.h>
+#include <string.h>
+
+#include "blocks.glsl"
+#include "plan/fixture.h"
+#include "unit/check.h"
+
+/* Ten more spots and bulbs along a row, most of them of short range; the bulbs cast nothing. */
+static void add_lights(struct gn_plan_fixture *f, struct gn_light lights[13]) {
+    static const char *const names[] = {"Lamp 1", "Lamp 2", "Lamp 3", "Lamp 4", "Lamp 5",
+                                        "Lamp 6", "Lamp 7", "Lamp 8", "Lamp 9", "Lamp 10"};
+    memcpy(lights, f->scene->lights, 3 * sizeof *lights);
+    lights[2].technique = "none";
+    for (int i = 0; i < 10; i++) {
+        lights[3 + i] = lights[i % 2 ? 1 : 2];
+        lights[3 + i].name = names[i];
+        lights[3 + i].range_m = i < 2 ? 0.0f : i % 2 ? 5.5f : 0.8f + 0.1f * (float)i;
+    }
+    for (int i = 5; i < 13; i++) lights[i].outer_rad = 0.25f, lights[i].inner_rad = 0.2f;
+    f->scene->lights = lights;
+    f->scene->light_count = 13;
+}
+
+static void test_many_lights_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[13];
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    add_lights(&f, lights);
+    gn_plan_expect(gn_plan_make(&f), "many");
+    gn_plan_end(&f);
+}
+
+/* Encoding shaders cannot add: the picture is linear, and bytes are made of it at the end. */
+static void test_many_lights_without_srgb_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[13];
+    gn_plan_begin(&f, GN_EVERY_CAP & ~(1u << GN_CAP_SRGB));
+    add_lights(&f, lights);
+    const struct gn_plan *plan = gn_plan_make(&f);
+    assert_int_equal(plan->output, GN_OUTPUT_FLOAT);
+    const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
+    assert_int_equal(last->target.kind, GN_TARGET_ENCODED);
+    for (uint32_t i = 0; i < plan->program_count; i++)
+        assert_false(plan->programs[i].features & GN_FEATURE_ENCODE_SRGB);
+    gn_plan_end(&f);
+}
+
+/* What a light comes near is known before: no program is made while things move. */
+static void test_programs_do_not_change_with_what_is_reached(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[13];
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    add_lights(&f, lights);
+    const struct gn_plan *plan = gn_plan_make(&f);
+    uint32_t programs = plan->program_count, passes = plan->pass_count;
+    for (int i = 0; i < 13; i++)
+        if (lights[i].range_m > 0.0f) lights[i].range_m = 0.001f;
+    plan = gn_plan_make(&f);
+    assert_true(plan->pass_count < passes);
+    assert_int_equal(plan->program_count, programs);
+    gn_plan_end(&f);
+}
+
+/* ---- too many lights ---- */
+
+/* The bulb of the stage, `count` times, each stronger than those before it. */
+static void make_bulbs(struct gn_plan_fixture *f, struct gn_light *lights, uint32_t count) {
+    static char names[64][8];
+    for (uint32_t i = 0; i < count; i++) {
+        lights[i] = f->scene->lights[2];
+        lights[i].name = names[i];
+        snprintf(names[i], sizeof names[i], "Bulb %u", i);
+        glm_vec3_scale(f->scene->lights[2].color, (float)(i + 1), lights[i].color);
+    }
+    f->scene->lights = lights;
+    f->scene->light_count = count;
+}
+
+static void test_a_warning_is_given_once(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[36];
+    struct gn_warnings first = {0}, second = {0}, third = {0};
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    make_bulbs(&f, lights, 36);
+    lights[35].technique = "fog";
+    gn_plan_make(&f); /* nobody listens */
+    gn_frame_build(f.frame, &f.pose, &f.opts, &first);
+    assert_int_equal(first.count, 4 + 16 + 1); /* left out, without a map, fog */
+    assert_non_null(strstr(first.text[0], "'Bulb 0' is left out: 32 lights are the most"));
+    gn_frame_build(f.frame, &f.pose, &f.opts, &second);
+    assert_int_equal(second.count, 0);
+    f.opts.technique_given = true;
+    f.opts.technique = GN_TECHNIQUE_HARD;
+    gn_frame_build(f.frame, &f.pose, &f.opts, &third);
+    assert_int_equal(third.count, first.count);
+    gn_plan_end(&f);
+}
+
+static void test_the_strongest_that_are_shown_have_the_maps(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[40];
+    struct gn_warnings warnings = {0};
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    make_bulbs(&f, lights, 40);
+    for (int i = 20; i < 40; i++) lights[i].technique = "none";
+    const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+    assert_int_equal(plan->light_count, 32);
+    assert_int_equal(plan->shadow_count, 12); /* 8 to 19 */
+    for (uint32_t i = 0; i < plan->shadow_count; i++)
+        assert_in_range(plan->shadows[i].light, 8, 19);
+    assert_int_equal(warnings.count, 8); /* who is left out is not said to cast no shadow as well */
+    gn_plan_end(&f);
+}
+
+/* ---- slides ---- */
+
+static struct gn_image slide_image = {.width_px = 300, .height_px = 200};
+static struct gn_texture slide_texture;
+
+/* The spot of the stage, `count` times, each with a slide. */
+static void make_spots(struct gn_plan_fixture *f, struct gn_light *lights, uint32_t count) {
+    static char names[8][8];
+    for (uint32_t i = 0; i < count; i++) {
+        lights[i] = f->scene->lights[1];
+        lights[i].name = names[i];
+        snprintf(names[i], sizeof names[i], "Spot %u", i);
+        lights[i].slide = 0;
+        lights[i].slide_lit_outside = i == 1;
+    }
+    f->scene->lights = lights;
+    f->scene->light_count = count;
+    f->scene->images = &slide_image;
+    f->scene->textures = &slide_texture;
+    f->scene->image_count = f->scene->texture_count = 1;
+}
+
+static void test_slide_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[2];
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    make_spots(&f, lights, 2);
+    lights[1].technique = "none";
+    gn_plan_expect(gn_plan_make(&f), "slide");
+    gn_plan_end(&f);
+}
+
+static void test_visibility_has_no_slide(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[1];
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    make_spots(&f, lights, 1);
+    f.opts.aov = GN_AOV_VISIBILITY;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    for (uint32_t i = 0; i < plan->program_count; i++)
+        assert_int_equal(plan->programs[i].lights[0].slide, GN_SLIDE_NONE);
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        assert_int_equal(plan->passes[i].slide_count, 0);
+    gn_plan_end(&f);
+}
+
+static void test_slides_over_four_are_left_out_by_order(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[6];
+    struct gn_warnings warnings = {0};
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    make_spots(&f, lights, 6);
+    lights[0].technique = lights[1].technique = "none"; /* they go last, and keep theirs */
+    const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+    assert_int_equal(plan->passes[plan->pass_count - 1].slide_count, 4);
+    assert_int_equal(warnings.count, 2);
+    assert_non_null(strstr(warnings.text[0], "light 'Spot 4' shines without its slide"));
+    assert_non_null(strstr(warnings.text[1], "light 'Spot 5' shines without its slide"));
+    gn_plan_end(&f);
+}
+
+static void test_a_slide_goes_with_its_light_into_an_added_pass(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[5];
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    make_spots(&f, lights, 5);
+    for (int i = 0; i < 4; i++) lights[i].slide = -1;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    int added = 0;
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const struct gn_pass *pass = &plan->passes[i];
+        bool adds = pass->blend == GN_BLEND_ADD;
+        assert_int_equal(pass->slide_count, adds);
+        assert_int_equal(pass->constant_count, adds ? PASS_SIZE : PASS_SLIDES);
+        if (adds) assert_true(pass->constants[PASS_SLIDES + SLIDE_PLACE][0] == 300);
+        added += adds;
+    }
+    assert_true(added > 0);
+    gn_plan_end(&f);
+}
+
+/* The shader weighs a pixel in texels: of the picture that this GPU can hold. */
+static void test_a_large_slide_counts_the_texels_that_the_gpu_holds(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[1];
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    gn_frame_destroy(f.frame);
+    struct gn_caps small = {.has = GN_EVERY_CAP, .max_texture_px = 128};
+    f.frame = gn_frame_create(f.scene, &small);
+    make_spots(&f, lights, 1);
+    const struct gn_plan *plan = gn_plan_make(&f);
+    const float *size = plan->passes[plan->pass_count - 1].constants[PASS_SLIDES + SLIDE_PLACE];
+    assert_true(size[0] == 75 && size[1] == 50);
+    gn_plan_end(&f);
+}
+
+/* ---- exposure ---- */
+
+static void test_exposure(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    assert_true(gn_plan_make(&f)->exposure == 1.0f); /* 2.5 lux and a little */
+    f.opts.exposure_given = true;
+    f.opts.exposure_ev = -2.0f;
+    assert_true(gn_plan_make(&f)->exposure == 0.25f);
+    gn_plan_end(&f);
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    for (uint32_t i = 0; i < f.scene->light_count; i++)
+        glm_vec3_scale(f.scene->lights[i].color, 40000.0f, f.scene->lights[i].color);
+    float exposure = gn_plan_make(&f)->exposure;
+    assert_true(exposure == exp2f(roundf(log2f(exposure)))); /* a power of two */
+    float white = 2.5f * 40000.0f / GLM_PIf * exposure;
+    assert_true(white > 0.5f && white < 1.2f);
+    gn_plan_end(&f);
+}
+
+static void test_no_light_is_too_weak_for_an_exposure(void **state) {
+    (void)state;
+    for (float scale = 1e-36f; scale > 0.0f; scale *= 1e-2f) {
+        struct gn_plan_fixture f;
+        gn_plan_begin(&f, GN_EVERY_CAP);
+        for (uint32_t i = 0; i < f.scene->light_count; i++)
+            glm_vec3_scale(f.scene->lights[i].color, scale, f.scene->lights[i].color);
+        assert_null(gn_plan_check(gn_plan_make(&f)));
+        gn_plan_end(&f);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_many_lights_plan),
+        cmocka_unit_test(test_many_lights_without_srgb_plan),
+        cmocka_unit_test(test_programs_do_not_change_with_what_is_reached),
+        cmocka_unit_test(test_a_warning_is_given_once),
+        cmocka_unit_test(test_the_strongest_that_are_shown_have_the_maps),
+        cmocka_unit_test(test_slide_plan),
+        cmocka_unit_test(test_visibility_has_no_slide),
+        cmocka_unit_test(test_slides_over_four_are_left_out_by_order),
+        cmocka_unit_test(test_a_slide_goes_with_its_light_into_an_added_pass),
+        cmocka_unit_test(test_a_large_slide_counts_the_texels_that_the_gpu_holds),
+        cmocka_unit_test(test_exposure),
+        cmocka_unit_test(test_no_light_is_too_weak_for_an_exposure),
+    };
+    return RUN(tests);
+}
