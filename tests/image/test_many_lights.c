@@ -18,8 +18,11 @@ static struct gn_frame_opts opts;
 static struct gn_warnings warnings;
 static struct gn_gl_stats stats;
 static struct gn_err err;
+static bool full, main_context; /* GN_FULL; the context that has everything, by EGL */
 
 static void open_with(const char *backend, const char *without) {
+    full = getenv("GN_FULL") != NULL;
+    main_context = !strcmp(backend, "egl") && !without;
     warnings = (struct gn_warnings){0};
     help_stage_open(&stage, gn_stage_scene_make, backend, without, &warnings);
     memcpy(own, stage.scene->lights, sizeof own);
@@ -106,10 +109,10 @@ static uint32_t passes_that_add(const struct gn_plan *plan) {
 
 /* Each pass rounds to bytes: with more than two, or what is blended, a code more is lost. */
 static void expect_one(int light, const uint32_t counts[4], uint32_t each_pass, int codes) {
-    const bool all = getenv("GN_FULL"); /* a program each: quickly, only four */
     share(light, 1);
     draw(one);
-    for (uint32_t k = 0, count; k < (all ? 11 : 4) && (count = all ? k + 2 : counts[k]); k++) {
+    /* a program each: quickly, only four */
+    for (uint32_t k = 0, count; k < (full ? 11 : 4) && (count = full ? k + 2 : counts[k]); k++) {
         share(light, count);
         const struct gn_plan *plan = draw(many);
         assert_int_equal(passes_that_add(plan), (count - 1) / each_pass);
@@ -123,10 +126,28 @@ static void expect_one(int light, const uint32_t counts[4], uint32_t each_pass, 
  * added. */
 static void close_the_pane(void) { stage.scene->materials[4].alpha = GN_ALPHA_OPAQUE; }
 
+/* Drivers take most of the time to compile. Quickly, all that is shown is of one kind, so that it
+ * shares its programs, but for where a test asks about kinds. */
+static void one_kind(void) {
+    for (uint32_t i = 0; i < stage.scene->material_count && !full; i++) {
+        struct gn_material *m = &stage.scene->materials[i];
+        m->alpha = GN_ALPHA_OPAQUE;
+        m->roughness = 1;
+        m->metalness = 0;
+        m->unlit = m->double_sided = false;
+    }
+}
+
+/* All kinds in one context, one kind in the others. */
+static void kinds(void) {
+    if (!main_context) one_kind();
+}
+
 static void test_many_open_lights_are_one(void **state) {
     (void)state;
     static const uint32_t counts[3][4] = {{9}, {2, 8, 9, 12}, {12}};
     close_the_pane();
+    kinds();
     opts.technique_given = true;
     opts.technique = GN_TECHNIQUE_NONE;
     for (int light = SUN; light <= BULB; light++)
@@ -137,6 +158,7 @@ static void test_many_casting_lights_are_one(void **state) {
     (void)state;
     static const uint32_t counts[3][4] = {{8}, {4, 5, 8, 12}, {5}};
     close_the_pane();
+    kinds();
     for (int light = SUN; light <= BULB; light++)
         expect_one(light, counts[light], GN_SHADOWS_MAX, 1);
 }
@@ -144,6 +166,7 @@ static void test_many_casting_lights_are_one(void **state) {
 static void test_strength_holds_in_every_pass(void **state) {
     (void)state;
     close_the_pane();
+    one_kind();
     share(SPOT, 1);
     draw(many);
     opts.strength_given = true;
@@ -156,6 +179,7 @@ static void test_strength_holds_in_every_pass(void **state) {
 static void test_a_short_range_is_one_too(void **state) {
     (void)state;
     close_the_pane();
+    one_kind();
     own[BULB].range_m = 3.0f;
     own[SPOT].range_m = 6.5f;
     own[SPOT].outer_rad = 0.3f;
@@ -186,6 +210,7 @@ static void test_antialiased(void **state) {
     if (!(gn_gl_caps(stage.gl)->has & 1u << GN_CAP_MSAA4)) skip();
     opts.msaa = 4;
     close_the_pane();
+    one_kind();
     expect_one(SPOT, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 1);
 }
 
@@ -194,6 +219,7 @@ static void test_antialiased_without_srgb(void **state) {
     (void)state;
     if (!(gn_gl_caps(stage.gl)->has & 1u << GN_CAP_MSAA4)) skip();
     opts.msaa = 4;
+    one_kind();
     share(SPOT, 5);
     assert_int_equal(draw(one)->output, GN_OUTPUT_FLOAT);
     share(SPOT, 8);
@@ -206,6 +232,7 @@ static void test_antialiased_without_srgb(void **state) {
 
 static void test_light_adds_up_in_linear_bytes_too(void **state) {
     (void)state;
+    one_kind();
     opts.output_linear = true;
     expect_one(SUN, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 2);
 }
@@ -214,6 +241,7 @@ static void test_light_adds_up_in_linear_bytes_too(void **state) {
 
 static void test_the_weakest_are_left_out_by_name(void **state) {
     (void)state;
+    one_kind();
     share(BULB, GN_ALL_LIGHTS_MAX + 2);
     lights[5].name = "Faint";
     glm_vec3_scale(lights[5].color, 0.5f, lights[5].color);
@@ -228,6 +256,7 @@ static void test_the_weakest_are_left_out_by_name(void **state) {
 
 static void test_a_gpu_without_linear_targets_has_one_pass(void **state) {
     (void)state;
+    one_kind();
     share(SPOT, 9);
     const struct gn_plan *plan = draw(NULL);
     assert_int_equal(plan->light_count, GN_LIGHTS_MAX);
@@ -240,6 +269,7 @@ static void test_a_gpu_without_linear_targets_has_one_pass(void **state) {
 
 /* Eight lights, each with a map, at three nodes. */
 static void mix(void) {
+    one_kind();
     stage.scene->light_count = 8;
     for (uint32_t i = 0; i < 8; i++) {
         lights[i] = own[i % 2 ? SPOT : SUN];
@@ -295,8 +325,8 @@ static void test_everything_at_once(void **state) {
         lights[i] = own[i % 3];
         lights[i].technique = techniques[i % 5];
     }
-    opts.width_px = 1280;
-    opts.height_px = 720;
+    kinds();
+    if (full) opts.width_px = 1280, opts.height_px = 720;
     for (int encoding = 0; encoding <= GN_ENCODING_AUTO; encoding++) {
         opts.encoding = (enum gn_encoding)encoding;
         const struct gn_plan *plan = draw(NULL);
