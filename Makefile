@@ -68,7 +68,7 @@ PKG     := PKG_CONFIG_LIBDIR=$(PKG_CONFIG_LIBDIR) pkg-config
 endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
-HEADERS := egl glesv2 cglm
+HEADERS := egl glesv2 cglm libdrm gbm
 NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests truth gallery readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))

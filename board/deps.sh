@@ -4,9 +4,9 @@
 set -eu
 
 libraries='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libegl-dev libgles-dev
-    libcglm-dev'
+    libcglm-dev libdrm-dev libgbm-dev'
 build="gcc make pkgconf $libraries"
-run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri'
+run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri libgbm1 libdrm2'
 test_libraries='libcmocka-dev'
 test="clang clang-format clang-tidy $test_libraries"
 optional_build='libassimp-dev' # for gnomon-import
