@@ -28,6 +28,7 @@
     X(drmModeGetResources, ModeGetResources)                                                       \
     X(drmModeFreeResources, ModeFreeResources)                                                     \
     X(drmModeGetConnector, ModeGetConnector)                                                       \
+    X(drmModeGetConnectorCurrent, ModeGetConnectorCurrent)                                         \
     X(drmModeFreeConnector, ModeFreeConnector)                                                     \
     X(drmModeGetEncoder, ModeGetEncoder)                                                           \
     X(drmModeFreeEncoder, ModeFreeEncoder)                                                         \

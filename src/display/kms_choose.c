@@ -1,0 +1,187 @@
+/* What is chosen from a card's snapshot. */
+#include <string.h>
+
+#include "display/kms_card.h"
+
+/* ---- connectors and CRTCs ---- */
+
+static bool will_do(const struct gn_kms_connector *c) {
+    return (c->connected || c->unknown) && c->mode_count > 0 && c->crtcs;
+}
+
+/* A monitor that is certainly there goes before one that may be. */
+static bool is_better(const struct gn_kms_connector *a, const struct gn_kms_connector *b) {
+    if (a->connected != b->connected) return a->connected;
+    return a->id < b->id;
+}
+
+int gn_kms_choose_connector(const struct gn_kms_card *card, const char *name) {
+    int best = -1;
+    for (int i = 0; i < card->connector_count; i++) {
+        const struct gn_kms_connector *c = &card->connectors[i];
+        if (name && strcmp(c->name, name) != 0) continue;
+        if (!will_do(c)) continue;
+        if (best < 0 || is_better(c, &card->connectors[best])) best = i;
+    }
+    return best;
+}
+
+int gn_kms_card_score(const struct gn_kms_card *card, const char *connector) {
+    const int chosen = gn_kms_choose_connector(card, connector);
+    if (chosen < 0) return 0;
+    const struct gn_kms_connector *c = &card->connectors[chosen];
+    return 1 + 2 * c->connected + (c->crtc >= 0);
+}
+
+int gn_kms_choose_crtc(const struct gn_kms_card *card, int connector) {
+    const struct gn_kms_connector *c = &card->connectors[connector];
+    int dark = -1, any = -1;
+    if (c->crtc >= 0) return c->crtc;
+    for (int i = card->crtc_count - 1; i >= 0; i--) {
+        if (!(c->crtcs >> i & 1)) continue;
+        any = i;
+        if (!card->crtcs[i].lit) dark = i;
+    }
+    return dark >= 0 ? dark : any;
+}
+
+/* ---- modes ---- */
+
+enum { MOST_MHZ = 60500, LEAST_MHZ = 49500 };
+
+uint32_t gn_kms_mode_mhz(const drmModeModeInfo *m) {
+    if (m->clock == 0 || m->htotal == 0 || m->vtotal == 0) return m->vrefresh * 1000;
+    uint64_t mhz = (uint64_t)m->clock * 1000000 / ((uint64_t)m->htotal * m->vtotal);
+    if (m->flags & DRM_MODE_FLAG_INTERLACE) mhz *= 2;
+    if (m->flags & DRM_MODE_FLAG_DBLSCAN) mhz /= 2;
+    return (uint32_t)mhz;
+}
+
+bool gn_kms_mode_equal(const drmModeModeInfo *a, const drmModeModeInfo *b) {
+    return a->clock == b->clock && a->hdisplay == b->hdisplay && a->hsync_start == b->hsync_start &&
+           a->hsync_end == b->hsync_end && a->htotal == b->htotal && a->vdisplay == b->vdisplay &&
+           a->vsync_start == b->vsync_start && a->vsync_end == b->vsync_end &&
+           a->vtotal == b->vtotal && a->flags == b->flags;
+}
+
+static bool is_progressive(const drmModeModeInfo *m) {
+    return !(m->flags & (DRM_MODE_FLAG_INTERLACE | DRM_MODE_FLAG_DBLSCAN));
+}
+
+static uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
+static uint32_t most(uint32_t a, uint32_t b) { return a < b ? b : a; }
+
+/* A panel on its side is as large as one that is not. */
+static bool within(const drmModeModeInfo *m, const struct gn_screen_opts *o) {
+    const uint32_t w = o->cap_width ? o->cap_width : 1920, h = o->cap_height ? o->cap_height : 1080;
+    return most(m->hdisplay, m->vdisplay) <= most(w, h) &&
+           least(m->hdisplay, m->vdisplay) <= least(w, h) && gn_kms_mode_mhz(m) <= MOST_MHZ;
+}
+
+static double distance_hz(const drmModeModeInfo *m, double hz) {
+    const double d = gn_kms_mode_mhz(m) / 1000.0 - hz;
+    return d < 0 ? -d : d;
+}
+
+/* Of two listed modes of the size that was asked for. */
+static bool fits_better(const drmModeModeInfo *a, const drmModeModeInfo *b, double hz) {
+    if (hz > 0 && distance_hz(a, hz) != distance_hz(b, hz))
+        return distance_hz(a, hz) < distance_hz(b, hz);
+    if (is_progressive(a) != is_progressive(b)) return is_progressive(a);
+    if ((a->type ^ b->type) & DRM_MODE_TYPE_PREFERRED) return a->type & DRM_MODE_TYPE_PREFERRED;
+    return distance_hz(a, 60) < distance_hz(b, 60);
+}
+
+static const drmModeModeInfo *find_asked(const struct gn_kms_connector *c,
+                                         const struct gn_screen_opts *o) {
+    const drmModeModeInfo *best = NULL;
+    for (int i = 0; i < c->mode_count; i++) {
+        const drmModeModeInfo *m = &c->modes[i];
+        if (m->hdisplay != o->mode_width || m->vdisplay != o->mode_height) continue;
+        if (o->mode_hz > 0 && distance_hz(m, o->mode_hz) > 0.6) continue;
+        if (!best || fits_better(m, best, o->mode_hz)) best = m;
+    }
+    return best;
+}
+
+static const drmModeModeInfo *find_preferred(const struct gn_kms_connector *c,
+                                             const struct gn_screen_opts *o) {
+    for (int i = 0; i < c->mode_count; i++)
+        if (c->modes[i].type & DRM_MODE_TYPE_PREFERRED && is_progressive(&c->modes[i]) &&
+            within(&c->modes[i], o))
+            return &c->modes[i];
+    return NULL;
+}
+
+static bool is_larger(const drmModeModeInfo *a, const drmModeModeInfo *b) {
+    const uint32_t pixels_a = (uint32_t)a->hdisplay * a->vdisplay,
+                   pixels_b = (uint32_t)b->hdisplay * b->vdisplay;
+    if (pixels_a != pixels_b) return pixels_a > pixels_b;
+    return distance_hz(a, 60) < distance_hz(b, 60);
+}
+
+static const drmModeModeInfo *find_largest(const struct gn_kms_connector *c,
+                                           const struct gn_screen_opts *o) {
+    const drmModeModeInfo *best = NULL;
+    for (int i = 0; i < c->mode_count; i++) {
+        const drmModeModeInfo *m = &c->modes[i];
+        if (!is_progressive(m) || !within(m, o) || gn_kms_mode_mhz(m) < LEAST_MHZ) continue;
+        if (!best || is_larger(m, best)) best = m;
+    }
+    return best;
+}
+
+static const drmModeModeInfo *find_first(const struct gn_kms_connector *c) {
+    for (int i = 0; i < c->mode_count; i++)
+        if (is_progressive(&c->modes[i])) return &c->modes[i];
+    return NULL;
+}
+
+static const drmModeModeInfo *find_vga(const struct gn_kms_connector *c) {
+    for (int i = 0; i < c->mode_count; i++)
+        if (is_progressive(&c->modes[i]) && c->modes[i].hdisplay == 640 &&
+            c->modes[i].vdisplay == 480)
+            return &c->modes[i];
+    return NULL;
+}
+
+struct ladder {
+    drmModeModeInfo *out;
+    int count;
+};
+
+static void push(struct ladder *l, const drmModeModeInfo *mode) {
+    for (int i = 0; mode && i < l->count; i++)
+        if (gn_kms_mode_equal(&l->out[i], mode)) return;
+    if (mode && l->count < GN_KMS_LADDER_MAX) l->out[l->count++] = *mode;
+}
+
+static void push_asked(struct ladder *l, const struct gn_kms_connector *c,
+                       const struct gn_screen_opts *o) {
+    drmModeModeInfo made;
+    if (o->modeline && gn_kms_modeline_parse(o->modeline, &made)) push(l, &made);
+    if (o->mode_width == 0) return;
+    const drmModeModeInfo *listed = find_asked(c, o);
+    if (listed) {
+        push(l, listed);
+        return;
+    }
+    made = gn_kms_mode_cvt(o->mode_width, o->mode_height, o->mode_hz > 0 ? o->mode_hz : 60);
+    push(l, &made);
+}
+
+int gn_kms_mode_ladder(const struct gn_kms_card *card, int connector, int crtc,
+                       const struct gn_screen_opts *opts, drmModeModeInfo *out) {
+    const struct gn_kms_connector *c = &card->connectors[connector];
+    const struct gn_kms_crtc *now = &card->crtcs[crtc];
+    struct ladder l = {out, 0};
+    push_asked(&l, c, opts);
+    if (c->crtc == crtc && now->lit && is_progressive(&now->mode) && within(&now->mode, opts))
+        push(&l, &now->mode);
+    push(&l, find_preferred(c, opts));
+    push(&l, find_largest(c, opts));
+    push(&l, find_first(c));
+    push(&l, find_vga(c));
+    if (l.count == 0 && c->mode_count > 0) push(&l, &c->modes[0]);
+    return l.count;
+}

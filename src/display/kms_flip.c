@@ -1,0 +1,119 @@
+#include "display/kms_flip.h"
+
+#include <errno.h>
+
+#define NS_PER_MS  INT64_C(1000000)
+#define STALLED_NS (250 * NS_PER_MS)
+#define DRAIN_NS   (2000 * NS_PER_MS)
+#define LOST_NS    (12000 * NS_PER_MS) /* the kernel's own wait is 10 s */
+
+enum { REFRESHES_MAX = 8 }; /* a longer pause says nothing about the next frame */
+
+enum gn_flip_error gn_flip_error_of(int error) {
+    switch (error) {
+    case EBUSY:
+    case EINTR:
+    case EAGAIN: return GN_FLIP_BUSY;
+    case EACCES:
+    case EPERM: return GN_FLIP_NO_MASTER;
+    case ENODEV:
+    case ENXIO:
+    case EIO:
+    case EBADF: return GN_FLIP_CARD_GONE;
+    case ENOMEM: return GN_FLIP_NO_MEMORY;
+    default: return GN_FLIP_CHANGED;
+    }
+}
+
+/* The first refresh after a time. */
+static int64_t refresh_after(const struct gn_flip *f, int64_t now_ns) {
+    if (f->blind || f->shown_ns == 0 || now_ns < f->shown_ns) return now_ns + f->period_ns;
+    return f->shown_ns + ((now_ns - f->shown_ns) / f->period_ns + 1) * f->period_ns;
+}
+
+void gn_flip_begun(struct gn_flip *f, int64_t now_ns) {
+    f->begun_ns = now_ns;
+    f->due_ns = refresh_after(f, now_ns);
+}
+
+void gn_flip_committed(struct gn_flip *f, int64_t now_ns) {
+    if (f->begun_ns == 0) gn_flip_begun(f, now_ns);
+    f->pending = true;
+    f->stalled = f->drained = false;
+    f->committed_ns = now_ns;
+}
+
+/* Where a timer paces, on a grid of its own, which a late frame moves. */
+static void pace_by_timer(struct gn_flip *f, int64_t now_ns) {
+    const int64_t interval = f->shortest_ns > f->period_ns ? f->shortest_ns : f->period_ns;
+    const bool on_grid = f->next_ns > 0 && f->begun_ns - f->next_ns < interval;
+    f->next_ns = (on_grid ? f->next_ns : f->begun_ns) + interval;
+    if (f->next_ns < now_ns) f->next_ns = now_ns;
+}
+
+/* Where the screen paces: every kth refresh, drawing from the one before on. */
+static void pace_by_refresh(struct gn_flip *f) {
+    const int64_t k = (f->shortest_ns - f->period_ns / 10 + f->period_ns - 1) / f->period_ns;
+    f->next_ns = k > 1 ? f->shown_ns + (k - 1) * f->period_ns : 0;
+}
+
+void gn_flip_done(struct gn_flip *f, int64_t shown_ns, int64_t now_ns) {
+    if (!f->pending) return;
+    const bool possible = shown_ns > f->begun_ns - f->period_ns && shown_ns <= now_ns;
+    f->shown_ns = possible ? shown_ns : now_ns;
+    const int64_t late_ns = f->shown_ns - f->due_ns + f->period_ns / 2;
+    const int64_t late = late_ns > 0 ? late_ns / f->period_ns : 0;
+    f->missed += (uint64_t)late;
+    f->refreshes = (unsigned)(late < REFRESHES_MAX ? late + 1 : 1);
+    f->shown++;
+    f->rung = 0;
+    if (f->blind)
+        pace_by_timer(f, now_ns);
+    else
+        pace_by_refresh(f);
+    gn_flip_forget(f);
+}
+
+void gn_flip_forget(struct gn_flip *f) {
+    f->pending = false;
+    f->begun_ns = 0;
+}
+
+void gn_flip_refused(struct gn_flip *f, int64_t now_ns) { f->next_ns = now_ns + f->period_ns; }
+
+static enum gn_flip_act lost(struct gn_flip *f) {
+    static const enum gn_flip_act rungs[] = {GN_FLIP_RELIGHT, GN_FLIP_REOPEN, GN_FLIP_GIVE_UP};
+    const int last = (int)(sizeof rungs / sizeof *rungs) - 1;
+    const enum gn_flip_act act = rungs[f->rung < last ? f->rung : last];
+    f->rung++;
+    gn_flip_forget(f);
+    return act;
+}
+
+enum gn_flip_act gn_flip_step(struct gn_flip *f, int64_t now_ns) {
+    if (!f->pending) return GN_FLIP_WAIT;
+    const int64_t age_ns = now_ns - f->committed_ns;
+    if (age_ns >= STALLED_NS && !f->stalled) {
+        f->stalled = true;
+        f->stalls++;
+    }
+    if (age_ns >= LOST_NS) return lost(f);
+    if (age_ns < DRAIN_NS || f->drained) return GN_FLIP_WAIT;
+    f->drained = true;
+    return GN_FLIP_DRAIN;
+}
+
+bool gn_flip_may_draw(const struct gn_flip *f, int64_t now_ns) {
+    return !f->pending && now_ns >= f->next_ns;
+}
+
+int64_t gn_flip_seen_ns(const struct gn_flip *f, int64_t now_ns) {
+    const int64_t more = f->blind || f->refreshes < 2 ? 0 : f->refreshes - 1;
+    return refresh_after(f, now_ns) + more * f->period_ns;
+}
+
+int64_t gn_flip_deadline(const struct gn_flip *f, int64_t now_ns) {
+    if (!f->pending) return f->next_ns > now_ns ? f->next_ns : INT64_MAX;
+    if (!f->stalled) return f->committed_ns + STALLED_NS;
+    return f->committed_ns + (f->drained ? LOST_NS : DRAIN_NS);
+}

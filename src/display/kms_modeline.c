@@ -1,0 +1,90 @@
+/* Modes that no monitor has listed. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "display/kms_card.h"
+
+static void finish(drmModeModeInfo *m) {
+    m->type = DRM_MODE_TYPE_USERDEF;
+    m->vrefresh = (gn_kms_mode_mhz(m) + 500) / 1000;
+    snprintf(m->name, sizeof m->name, "%ux%u", m->hdisplay, m->vdisplay);
+}
+
+static bool read_flag(const char *word, uint32_t *flags) {
+    static const struct {
+        const char *word;
+        uint32_t flag;
+    } known[] = {{"+hsync", DRM_MODE_FLAG_PHSYNC},       {"-hsync", DRM_MODE_FLAG_NHSYNC},
+                 {"+vsync", DRM_MODE_FLAG_PVSYNC},       {"-vsync", DRM_MODE_FLAG_NVSYNC},
+                 {"interlace", DRM_MODE_FLAG_INTERLACE}, {"doublescan", DRM_MODE_FLAG_DBLSCAN}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcasecmp(word, known[i].word) == 0) {
+            *flags |= known[i].flag;
+            return true;
+        }
+    return false;
+}
+
+static bool read_flags(const char *text, uint32_t *flags) {
+    char copy[64], *rest = NULL;
+    if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy) return false;
+    for (char *word = strtok_r(copy, " \t", &rest); word; word = strtok_r(NULL, " \t", &rest))
+        if (!read_flag(word, flags)) return false;
+    return true;
+}
+
+static bool rises(const unsigned t[4]) {
+    return t[0] > 0 && t[0] <= t[1] && t[1] < t[2] && t[2] <= t[3] && t[3] < 65536;
+}
+
+bool gn_kms_modeline_parse(const char *text, drmModeModeInfo *out) {
+    double mhz;
+    unsigned h[4], v[4];
+    int used = 0;
+    memset(out, 0, sizeof *out);
+    if (sscanf(text, "%lf %u %u %u %u %u %u %u %u%n", &mhz, &h[0], &h[1], &h[2], &h[3], &v[0],
+               &v[1], &v[2], &v[3], &used) < 9)
+        return false;
+    if (!(mhz > 0 && mhz < 10000) || !rises(h) || !rises(v)) return false;
+    out->clock = (uint32_t)lround(mhz * 1000);
+    out->hdisplay = (uint16_t)h[0], out->hsync_start = (uint16_t)h[1];
+    out->hsync_end = (uint16_t)h[2], out->htotal = (uint16_t)h[3];
+    out->vdisplay = (uint16_t)v[0], out->vsync_start = (uint16_t)v[1];
+    out->vsync_end = (uint16_t)v[2], out->vtotal = (uint16_t)v[3];
+    if (!read_flags(text + used, &out->flags)) return false;
+    finish(out);
+    return true;
+}
+
+/* CVT tells the aspect by the width of the vertical sync. */
+static unsigned vsync_lines(uint32_t w, uint32_t h) {
+    if (w * 3 == h * 4) return 4;
+    if (w * 9 == h * 16) return 5;
+    if (w * 10 == h * 16) return 6;
+    if (w * 4 == h * 5 || w * 9 == h * 15) return 7;
+    return 10;
+}
+
+/* VESA Coordinated Video Timings 1.2, 5.4: reduced blanking. */
+drmModeModeInfo gn_kms_mode_cvt(uint32_t width_px, uint32_t height_px, double hz) {
+    enum { H_BLANK = 160, H_FRONT = 48, H_SYNC = 32, V_FRONT = 3, V_BACK_LEAST = 6 };
+    const double blank_us = 460.0, step_khz = 250.0;
+    const uint32_t w = width_px & ~7u, h = height_px, sync = vsync_lines(width_px, height_px);
+    const double line_us = (1e6 / hz - blank_us) / h;
+    uint32_t blank = (uint32_t)(blank_us / line_us) + 1;
+    if (blank < V_FRONT + sync + V_BACK_LEAST) blank = V_FRONT + sync + V_BACK_LEAST;
+    drmModeModeInfo m = {.hdisplay = (uint16_t)w,
+                         .hsync_start = (uint16_t)(w + H_FRONT),
+                         .hsync_end = (uint16_t)(w + H_FRONT + H_SYNC),
+                         .htotal = (uint16_t)(w + H_BLANK),
+                         .vdisplay = (uint16_t)h,
+                         .vsync_start = (uint16_t)(h + V_FRONT),
+                         .vsync_end = (uint16_t)(h + V_FRONT + sync),
+                         .vtotal = (uint16_t)(h + blank),
+                         .flags = DRM_MODE_FLAG_PHSYNC | DRM_MODE_FLAG_NVSYNC};
+    m.clock = (uint32_t)(floor(hz * (w + H_BLANK) * (h + blank) / 1000.0 / step_khz) * step_khz);
+    finish(&m);
+    return m;
+}
