@@ -37,5 +37,5 @@
 #define PANEL_RECT 0      /* xy: lower left corner, zw: upper right one, -1..1 */
 #define PANEL_GREY 1      /* grey = clamp(code * x + y, 0, 1) ^ z */
 #define PANEL_FRAME 2     /* rgb: linear; w: width, pixels */
-#define PANEL_PX 3        /* xy: width and height, pixels */
+#define PANEL_PX 3        /* xy: width and height, pixels; zw: cosine and sine of its turn, clockwise */
 #define PANEL_SIZE 4

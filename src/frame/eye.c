@@ -50,10 +50,20 @@ static void turn(const struct gn_pose *pose, float angle_rad, mat4 view_from_wor
     glm_vec3_add(eye_ws, centre, eye_ws);
 }
 
+/* Turned in the output: to a screen on its side it costs nothing. */
+static void turn_picture(const struct gn_frame *frame, mat4 clip_from_view) {
+    const float c = frame->turn[0], s = frame->turn[1];
+    for (int k = 0; k < 4; k++) {
+        const float x = clip_from_view[k][0], y = clip_from_view[k][1];
+        clip_from_view[k][0] = c * x + s * y;
+        clip_from_view[k][1] = c * y - s * x;
+    }
+}
+
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]) {
     const struct gn_camera *camera = &frame->scene->cameras[opts->camera];
-    float aspect = (float)frame->plan.width_px / (float)frame->plan.height_px;
+    float aspect = (float)frame->picture_width_px / (float)frame->picture_height_px;
     mat4 view_from_world, clip_from_view, clip_from_world;
     vec3 eye_ws;
     gn_pose_view(pose, (uint32_t)opts->camera, view_from_world, eye_ws);
@@ -66,6 +76,7 @@ void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
     } else {
         glm_perspective(camera->yfov_rad, aspect, camera->near_m, far_m, clip_from_view);
     }
+    turn_picture(frame, clip_from_view);
     glm_mat4_mul(clip_from_view, view_from_world, clip_from_world);
     gn_eye_build(&frame->eye, clip_from_world);
     memcpy(constants[PASS_CLIP], clip_from_world, sizeof clip_from_world);

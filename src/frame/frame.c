@@ -301,6 +301,7 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
                           struct gn_warnings *warnings) {
     struct gn_plan *plan = &frame->plan;
     plan->aov = opts->aov;
+    const bool encodes = frame->caps.has & 1u << GN_CAP_SRGB && !opts->unencoded;
     plan->msaa = opts->aov == GN_AOV_COLOR ? opts->msaa : 0;
     plan->encode_srgb = false;
     if (opts->aov != GN_AOV_COLOR)
@@ -309,7 +310,7 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
         plan->output = GN_OUTPUT_FLOAT;
     else if (opts->output_linear || opts->output_float)
         plan->output = GN_OUTPUT_LINEAR8;
-    else if (frame->caps.has & 1u << GN_CAP_SRGB)
+    else if (encodes)
         plan->output = GN_OUTPUT_SRGB8;
     else {
         plan->output = GN_OUTPUT_LINEAR8;
@@ -341,11 +342,20 @@ static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose
     }
 }
 
+static void turn(struct gn_frame *frame, unsigned deg) {
+    static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const bool on_side = deg / 90 % 2;
+    frame->picture_width_px = on_side ? frame->plan.height_px : frame->plan.width_px;
+    frame->picture_height_px = on_side ? frame->plan.width_px : frame->plan.height_px;
+    memcpy(frame->turn, turns[deg / 90 % 4], sizeof frame->turn);
+}
+
 static void reset(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
     frame->plan = (struct gn_plan){.scene = frame->scene};
     frame->plan.width_px = opts->width_px ? opts->width_px : 1280;
     frame->plan.height_px = opts->height_px ? opts->height_px : 720;
+    turn(frame, opts->turn_deg);
 }
 
 static void publish(struct gn_frame *frame) {

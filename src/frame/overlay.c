@@ -26,7 +26,7 @@ static void hue_of(const struct gn_light *light, float out[3]) {
 
 /* Pixels of the picture as large as one of 720 rows. */
 static float pixel_scale(const struct gn_frame *frame) {
-    return fmaxf((float)frame->plan.height_px / 720.0f, 1.0f);
+    return fmaxf((float)frame->picture_height_px / 720.0f, 1.0f);
 }
 
 /* ---- marks ---- */
@@ -113,7 +113,7 @@ static void marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
 
 /* Along the lower edge, from the left, as large as a quarter of the height and as all have room. */
 static struct gn_rect panel_rect(const struct gn_frame *frame, uint32_t slot) {
-    const uint32_t width = frame->plan.width_px, height = frame->plan.height_px;
+    const uint32_t width = frame->picture_width_px, height = frame->picture_height_px;
     const uint32_t gap = (uint32_t)(GAP_PX * pixel_scale(frame)),
                    each = width / frame->shadow_count;
     uint32_t side = height / 4 < each ? height / 4 : each;
@@ -123,9 +123,19 @@ static struct gn_rect panel_rect(const struct gn_frame *frame, uint32_t slot) {
     return (struct gn_rect){space / 2 + slot * (side + space), space / 2, side, side};
 }
 
+/* Where it is in the output. */
+static struct gn_rect turned_rect(const struct gn_frame *frame, struct gn_rect r) {
+    const uint32_t w = frame->picture_width_px, h = frame->picture_height_px;
+    const float c = frame->turn[0], s = frame->turn[1];
+    if (s > 0) return (struct gn_rect){r.y, w - r.x - r.width, r.height, r.width};
+    if (s < 0) return (struct gn_rect){h - r.y - r.height, r.x, r.height, r.width};
+    if (c < 0) return (struct gn_rect){w - r.x - r.width, h - r.y - r.height, r.width, r.height};
+    return r;
+}
+
 static void panel_constants(const struct gn_frame *frame, const struct gn_shadow_view *view,
                             const struct gn_rect *rect, float (*c)[4]) {
-    const float size[2] = {(float)frame->plan.width_px, (float)frame->plan.height_px};
+    const float size[2] = {(float)frame->picture_width_px, (float)frame->picture_height_px};
     const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
     const float rectangle[4] = {2.0f * (float)rect->x / size[0] - 1.0f,
                                 2.0f * (float)rect->y / size[1] - 1.0f,
@@ -139,6 +149,8 @@ static void panel_constants(const struct gn_frame *frame, const struct gn_shadow
     c[PANEL_FRAME][3] = rect->width > 24 ? FRAME_PX * pixel_scale(frame) : 1.0f;
     c[PANEL_PX][0] = (float)rect->width;
     c[PANEL_PX][1] = (float)rect->height;
+    c[PANEL_PX][2] = frame->turn[0];
+    c[PANEL_PX][3] = frame->turn[1];
 }
 
 static void panel_pass(struct gn_frame *frame, uint32_t slot) {
@@ -154,7 +166,7 @@ static void panel_pass(struct gn_frame *frame, uint32_t slot) {
     panel_constants(frame, view, &rect, c);
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     pass->depth_write = false;
-    pass->rect = rect;
+    pass->rect = turned_rect(frame, rect);
     pass->first_shadow = slot;
     pass->shadow_count = 1;
     pass->reads_codes = true;

@@ -178,7 +178,10 @@ struct gn_plan {
 /* ---- building ---- */
 
 struct gn_frame_opts {            /* zero means the default written beside */
-    uint32_t width_px, height_px; /* 1280 x 720 */
+    uint32_t width_px, height_px; /* of the output; 1280 x 720 */
+    unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
+                                     clockwise by this; by 90 it is height_px wide */
+    bool unencoded;               /* the output's framebuffer does not encode: shaders do */
     int camera;                   /* 0; of the scene, there */
     bool technique_given; /* `technique` overrides the lights' own and the default pcf; a light's
                              own none holds */

@@ -84,6 +84,8 @@ struct gn_frame {
     GN_LIST(struct gn_pass) passes;
     float (*constants)[4]; /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
     struct gn_eye eye;
+    uint32_t picture_width_px, picture_height_px; /* before it is turned */
+    float turn[2];                                /* its cosine and sine, clockwise */
     struct gn_plan plan;
 };
 

@@ -84,6 +84,7 @@ void gn_gl_destroy(struct gn_gl *gl) {
     free(gl->plan_programs);
     free(gl->shaders);
     free(gl->failed_source);
+    free(gl->read_buffer);
     free(gl);
 }
 

@@ -46,6 +46,14 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
 /* The composed source of the stage that failed last in a program of gn_gl_prepare(), its lines
  * numbered as the driver counts them; NULL when none did, or without `debug`. */
 const char *gn_gl_failed_source(const struct gn_gl *gl);
+/* The window: the framebuffer that the display gives the context. A picture of its size goes
+ * straight there, with its antialiasing; all others are drawn off screen. NULL: there is none. */
+struct gn_gl_window {
+    uint32_t width_px, height_px;
+    bool srgb; /* it encodes; else a plan must be unencoded to go there */
+};
+void gn_gl_set_window(struct gn_gl *gl, const struct gn_gl_window *window);
+
 /* Draws. Shadow passes whose target holds their content_hash are skipped. pass_ms, if not NULL,
  * gets the time of each pass (CPU wall clock around the pass and a 1-pixel read-back: slow, for
  * bench). */
@@ -55,6 +63,8 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
  * RGBA floats from GN_OUTPUT_FLOAT or GN_OUTPUT_AOV. The buffer holds width x height x 4. */
 bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err);
 bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err);
+/* The same picture as XRGB8888, top row first, `stride` bytes from row to row. */
+bool gn_gl_read_xrgb8888(struct gn_gl *gl, uint8_t *out, size_t stride, struct gn_err *err);
 void gn_gl_finish_frame(struct gn_gl *gl); /* a 1-pixel read-back: ends a timed frame */
 /* A shadow map as codes in its encoding's unit (metres for r32ui and r16f-raw, -1..1 for r16f, 0..1
  * else), width_px x height_px floats of the view, first row at v = 0. For tests and --aov map. */

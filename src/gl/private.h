@@ -184,6 +184,9 @@ void gn_gl_instances_upload(struct gn_gl *gl, const struct gn_instance *instance
 struct gn_gl_output {
     uint32_t width_px, height_px, msaa, msaa_wanted;
     enum gn_output_format format;
+    bool made;
+    bool window;  /* the finished picture goes to the display's framebuffer, whose name is 0 */
+    bool encodes; /* a last pass does */
     GLuint framebuffer, color, depth;
     GLuint resolved, resolved_color; /* without msaa the same as framebuffer, and 0 */
     /* Of a linear picture that is encoded at the end: itself, to be read by a shader, and its
@@ -265,6 +268,9 @@ struct gn_gl {
     struct gn_gl_scene scene;
     struct gn_gl_instances instances;
     struct gn_gl_targets targets;
+    struct gn_gl_window window; /* width 0: none */
+    uint8_t *read_buffer;       /* of gn_gl_read_xrgb8888() */
+    size_t read_size;
     struct gn_gl_program **plan_programs; /* of the plan that runs; room grows in prepare */
     uint32_t plan_programs_room;
     struct gn_gl_stats stats;

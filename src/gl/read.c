@@ -8,7 +8,7 @@
 #include "gl/private.h"
 
 static bool has_output(struct gn_gl *gl, struct gn_err *err) {
-    if (!gl->targets.output.framebuffer) return gn_fail(err, "there is no picture to read yet");
+    if (!gl->targets.output.made) return gn_fail(err, "there is no picture to read yet");
     gn_gl_bind_framebuffer(gl, gn_gl_output_finished(&gl->targets.output));
     return true;
 }
@@ -39,6 +39,29 @@ bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err) {
     read_pixels(gl, o->width_px, o->height_px, GL_RGBA, GL_UNSIGNED_BYTE, out);
     flip_rows(out, 4ul * o->width_px, o->height_px);
     return gn_gl_error_check(gl, "reading the picture", err);
+}
+
+/* Red and blue change places, and the rows. */
+static void reorder(const uint8_t *from, uint8_t *to, uint32_t width) {
+    for (uint32_t i = 0; i < width; i++) {
+        to[4 * i] = from[4 * i + 2];
+        to[4 * i + 1] = from[4 * i + 1];
+        to[4 * i + 2] = from[4 * i];
+        to[4 * i + 3] = 255;
+    }
+}
+
+bool gn_gl_read_xrgb8888(struct gn_gl *gl, uint8_t *out, size_t stride, struct gn_err *err) {
+    const struct gn_gl_output *o = &gl->targets.output;
+    const size_t row = 4ul * o->width_px, size = row * o->height_px;
+    if (gl->read_size < size) {
+        gl->read_buffer = gn_xrealloc(gl->read_buffer, size, 1);
+        gl->read_size = size;
+    }
+    if (!gn_gl_read_rgba8(gl, gl->read_buffer, err)) return false;
+    for (uint32_t y = 0; y < o->height_px; y++)
+        reorder(gl->read_buffer + y * row, out + y * stride, o->width_px);
+    return true;
 }
 
 static float float_from_half(uint16_t h) {
@@ -88,7 +111,7 @@ void gn_gl_finish_frame(struct gn_gl *gl) {
     const struct gn_gl_output *o = &gl->targets.output;
     uint32_t pixel[4];
     const enum gn_output_format format = gn_gl_output_format(o);
-    if (!o->framebuffer) return;
+    if (!o->made) return;
     gn_gl_bind_framebuffer(gl, gn_gl_output_finished(o));
     if (format == GN_OUTPUT_AOV)
         read_pixels(gl, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, pixel);

@@ -78,10 +78,11 @@ static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint fr
 }
 
 static void end_target(struct gn_gl *gl, const struct gn_pass *pass, bool last) {
-    static const GLenum depth = GL_DEPTH_ATTACHMENT;
+    static const GLenum attachment = GL_DEPTH_ATTACHMENT, window = GL_DEPTH;
+    const GLenum *depth = gl->state.framebuffer ? &attachment : &window;
     const bool is_map = pass->target.kind == GN_TARGET_SHADOW;
     if (is_map && pass->target.encoding == GN_ENCODING_DEPTH) return; /* it is what was wanted */
-    if (pass->discard_depth && last) GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, 1, &depth);
+    if (pass->discard_depth && last) GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, 1, depth);
 }
 
 static void resolve(struct gn_gl *gl) {

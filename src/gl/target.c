@@ -24,6 +24,10 @@ static void attach_renderbuffer(struct gn_gl *gl, GLenum where, GLuint renderbuf
     GL(gl, FramebufferRenderbuffer)(GL_FRAMEBUFFER, where, GL_RENDERBUFFER, renderbuffer);
 }
 
+void gn_gl_set_window(struct gn_gl *gl, const struct gn_gl_window *window) {
+    gl->window = window ? *window : (struct gn_gl_window){0};
+}
+
 bool gn_gl_framebuffer_check(struct gn_gl *gl, const char *what, struct gn_err *err) {
     GLenum status = GL(gl, CheckFramebufferStatus)(GL_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE) return true;
@@ -73,10 +77,17 @@ static bool is_encoded(const struct gn_plan *plan) {
     return plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT;
 }
 
-static bool output_is(const struct gn_gl_output *o, const struct gn_plan *plan) {
-    return o->framebuffer && o->width_px == plan->width_px && o->height_px == plan->height_px &&
-           o->format == plan->output && o->msaa_wanted == plan->msaa &&
-           (o->encoded != 0) == is_encoded(plan);
+static bool goes_to_window(const struct gn_gl *gl, const struct gn_plan *plan) {
+    if (plan->width_px != gl->window.width_px || plan->height_px != gl->window.height_px)
+        return false;
+    return gl->window.srgb ? plan->output == GN_OUTPUT_SRGB8 : plan->encode_srgb;
+}
+
+static bool output_is(const struct gn_gl *gl, const struct gn_gl_output *o,
+                      const struct gn_plan *plan) {
+    return o->made && o->window == goes_to_window(gl, plan) && o->width_px == plan->width_px &&
+           o->height_px == plan->height_px && o->format == plan->output &&
+           o->msaa_wanted == plan->msaa && o->encodes == is_encoded(plan);
 }
 
 /* The one colour of the framebuffer that is bound: as a texture, if shaders are to read it. */
@@ -113,11 +124,11 @@ static bool make_encoded(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err
 }
 
 GLuint gn_gl_output_finished(const struct gn_gl_output *output) {
-    return output->encoded ? output->encoded : output->resolved;
+    return output->encodes ? output->encoded : output->resolved;
 }
 
 enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output) {
-    return output->encoded ? GN_OUTPUT_LINEAR8 : output->format;
+    return output->encodes ? GN_OUTPUT_LINEAR8 : output->format;
 }
 
 static uint64_t bytes_of(const struct gn_gl_output *o, bool encoded) {
@@ -127,8 +138,9 @@ static uint64_t bytes_of(const struct gn_gl_output *o, bool encoded) {
            (encoded ? 4 * pixels : 0);
 }
 
-static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, bool encoded,
-                        struct gn_err *err) {
+static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err *err) {
+    const bool encoded = o->encodes;
+    if (o->window && !encoded) return true; /* all of it is the display's */
     o->depth =
         make_renderbuffer(gl, GL_DEPTH_COMPONENT24, (GLsizei)o->msaa, o->width_px, o->height_px);
     o->framebuffer = make_framebuffer(gl);
@@ -136,20 +148,23 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, bool encoded,
     attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, o->depth);
     o->bytes = bytes_of(o, encoded);
     return gn_gl_framebuffer_check(gl, "output", err) && make_resolved(gl, o, encoded, err) &&
-           (!encoded || make_encoded(gl, o, err)) &&
+           (!encoded || o->window || make_encoded(gl, o, err)) &&
            gn_gl_error_check(gl, "making the output", err);
 }
 
 static bool output_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     struct gn_gl_output *o = &gl->targets.output;
-    if (output_is(o, plan)) return true;
+    if (output_is(gl, o, plan)) return true;
     output_finish(gl);
     *o = (struct gn_gl_output){.width_px = plan->width_px,
                                .height_px = plan->height_px,
                                .format = plan->output,
                                .msaa = possible_samples(gl, plan),
-                               .msaa_wanted = plan->msaa};
-    if (output_make(gl, o, is_encoded(plan), err)) return true;
+                               .msaa_wanted = plan->msaa,
+                               .window = goes_to_window(gl, plan),
+                               .encodes = is_encoded(plan),
+                               .made = true};
+    if (output_make(gl, o, err)) return true;
     output_finish(gl);
     return false;
 }
