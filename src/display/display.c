@@ -7,12 +7,13 @@
 const struct gn_display_ops *const gn_displays[] = {
     &gn_display_surfaceless,
     &gn_display_osmesa,
+    &gn_display_kms,
     NULL,
 };
 
 static bool open_row(struct gn_display *display, const struct gn_display_ops *ops,
                      struct gn_warnings *warnings, struct gn_err *err) {
-    *display = (struct gn_display){.ops = ops};
+    *display = (struct gn_display){.ops = ops, .screen.fd = -1};
     if (ops->open(display, warnings, err)) return true;
     *display = (struct gn_display){0};
     return false;
@@ -39,13 +40,15 @@ static bool open_any(struct gn_display *display, struct gn_warnings *warnings, s
 }
 
 /* Names that the design has and this build has not. */
-static const char *const absent[] = {"kms", "window"};
+static const char *const absent[] = {"window"};
 
 static bool fail_unknown(const char *name, struct gn_err *err) {
     for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
         if (strcmp(name, absent[i]) == 0)
-            return gn_fail(err, "backend %s is not in this build; egl and osmesa draw unseen",
-                           name);
+            return gn_fail(
+                err,
+                "backend %s is not in this build; kms needs no desktop, egl and osmesa draw unseen",
+                name);
     char names[sizeof err->text] = "auto";
     for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
         append(names, sizeof names, ", ");
@@ -54,15 +57,59 @@ static bool fail_unknown(const char *name, struct gn_err *err) {
     return gn_fail_usage(err, "there is no backend \"%s\": use one of %s", name, names);
 }
 
+static const struct gn_display_ops *find_row(const char *name) {
+    for (const struct gn_display_ops *const *row = gn_displays; *row; row++)
+        if (strcmp(name, (*row)->name) == 0) return *row;
+    return NULL;
+}
+
 bool gn_display_open(struct gn_display *display, const char *name, struct gn_warnings *warnings,
                      struct gn_err *err) {
     *display = (struct gn_display){0};
     if (strcmp(name, "auto") == 0) return open_any(display, warnings, err);
-    for (const struct gn_display_ops *const *row = gn_displays; *row; row++)
-        if (strcmp(name, (*row)->name) == 0)
-            return open_row(display, *row, warnings, err) ||
-                   gn_fail_prefix(err, "backend %s", name);
-    return fail_unknown(name, err);
+    const struct gn_display_ops *row = find_row(name);
+    if (!row) return fail_unknown(name, err);
+    return open_row(display, row, warnings, err) || gn_fail_prefix(err, "backend %s", name);
+}
+
+static const struct gn_screen_ops *screen_of(const struct gn_display *display) {
+    return display->ops->screen ? display->ops->screen : &gn_screen_unseen;
+}
+
+static bool open_screen(struct gn_display *display, const struct gn_display_ops *row,
+                        const struct gn_screen_opts *opts, int64_t now_ns,
+                        struct gn_warnings *warnings, struct gn_err *err) {
+    *display = (struct gn_display){.ops = row, .screen.fd = -1};
+    if (!row->screen && !open_row(display, row, warnings, err)) return false;
+    if (screen_of(display)->open(display, opts, now_ns, warnings, err)) return true;
+    gn_display_close(display);
+    return false;
+}
+
+bool gn_display_open_screen(struct gn_display *display, const char *name,
+                            const struct gn_screen_opts *opts, int64_t now_ns,
+                            struct gn_warnings *warnings, struct gn_err *err) {
+    *display = (struct gn_display){0};
+    const struct gn_display_ops *row = strcmp(name, "auto") == 0 ? &gn_display_kms : find_row(name);
+    if (!row) return fail_unknown(name, err);
+    return open_screen(display, row, opts, now_ns, warnings, err) ||
+           gn_fail_prefix(err, "backend %s", row->name);
+}
+
+bool gn_display_dispatch(struct gn_display *d, int64_t now_ns, struct gn_err *err) {
+    return screen_of(d)->dispatch(d, now_ns, err);
+}
+
+bool gn_display_renew(struct gn_display *d, int64_t now_ns, struct gn_err *err) {
+    return screen_of(d)->renew(d, now_ns, err);
+}
+
+bool gn_display_begin(struct gn_display *d, int64_t now_ns, struct gn_err *err) {
+    return screen_of(d)->begin(d, now_ns, err);
+}
+
+bool gn_display_present(struct gn_display *d, int64_t now_ns, struct gn_err *err) {
+    return screen_of(d)->present(d, now_ns, err);
 }
 
 gn_display_proc gn_display_get_proc(void *display, const char *name) {
@@ -71,6 +118,7 @@ gn_display_proc gn_display_get_proc(void *display, const char *name) {
 }
 
 void gn_display_close(struct gn_display *display) {
+    gn_screen_unseen_close(display);
     if (display->ops) display->ops->close(display);
     *display = (struct gn_display){0};
 }

@@ -63,6 +63,7 @@ struct gn_screen {
     int64_t period_ns;            /* between two refreshes */
     int64_t seen_ns;              /* monotonic: when a frame that is begun now will be seen */
     struct gn_screen_counts counts;
+    char what[80];    /* "HDMI-A-1 1920x1080@60.00 atomic"; "" while there is nothing */
     char status[160]; /* what it waits for, one line; "" while it shows */
 };
 
@@ -85,7 +86,6 @@ struct gn_screen_ops { /* see the functions of the same names */
     bool (*renew)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*begin)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*present)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
-    bool usable; /* false: not in this build */
 };
 struct gn_display {
     const struct gn_display_ops *ops;

@@ -39,7 +39,7 @@ struct gn_kms_card {
 
 /* False, errno set and err filled, where the node shows no pictures (a GPU alone) or is gone.
  * `probe`: connectors look for a monitor anew (tens of ms), else what the kernel knows. */
-bool gn_kms_card_read(const struct gn_drm_ops *drm, int fd, struct gn_kms_card *out,
+bool gn_kms_card_read(const struct gn_drm_ops *drm, int fd, bool probe, struct gn_kms_card *out,
                       struct gn_err *err);
 
 /* The connector to light: the one of that name, else the first connected: panels after the others

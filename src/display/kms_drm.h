@@ -61,9 +61,8 @@
 enum { GN_KMS_CARDS_MAX = 8 };
 
 struct gn_kms_node {
-    char path[64];   /* "/dev/dri/card1" */
-    char place[96];  /* where it is on the board: "platform-gpu", "pci-0000:00:02.0"; or "" */
-    char render[64]; /* its render node, or "" */
+    char path[64];  /* "/dev/dri/card1" */
+    char place[96]; /* where it is on the board: "platform-gpu", "pci-0000:00:02.0"; or "" */
 };
 
 struct gn_drm_ops {

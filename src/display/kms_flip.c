@@ -59,10 +59,10 @@ static void pace_by_refresh(struct gn_flip *f) {
 
 void gn_flip_done(struct gn_flip *f, int64_t shown_ns, int64_t now_ns) {
     if (!f->pending) return;
-    const bool possible = shown_ns > f->begun_ns - f->period_ns && shown_ns <= now_ns;
+    const bool possible = shown_ns > f->begun_ns - f->period_ns && shown_ns < now_ns + f->period_ns;
     f->shown_ns = possible ? shown_ns : now_ns;
     const int64_t late_ns = f->shown_ns - f->due_ns + f->period_ns / 2;
-    const int64_t late = late_ns > 0 ? late_ns / f->period_ns : 0;
+    const int64_t late = late_ns > 0 && f->shown > 0 ? late_ns / f->period_ns : 0;
     f->missed += (uint64_t)late;
     f->refreshes = (unsigned)(late < REFRESHES_MAX ? late + 1 : 1);
     f->shown++;
@@ -81,7 +81,7 @@ void gn_flip_forget(struct gn_flip *f) {
 
 void gn_flip_refused(struct gn_flip *f, int64_t now_ns) { f->next_ns = now_ns + f->period_ns; }
 
-static enum gn_flip_act lost(struct gn_flip *f) {
+enum gn_flip_act gn_flip_lost(struct gn_flip *f) {
     static const enum gn_flip_act rungs[] = {GN_FLIP_RELIGHT, GN_FLIP_REOPEN, GN_FLIP_GIVE_UP};
     const int last = (int)(sizeof rungs / sizeof *rungs) - 1;
     const enum gn_flip_act act = rungs[f->rung < last ? f->rung : last];
@@ -97,7 +97,7 @@ enum gn_flip_act gn_flip_step(struct gn_flip *f, int64_t now_ns) {
         f->stalled = true;
         f->stalls++;
     }
-    if (age_ns >= LOST_NS) return lost(f);
+    if (age_ns >= LOST_NS) return gn_flip_lost(f);
     if (age_ns < DRAIN_NS || f->drained) return GN_FLIP_WAIT;
     f->drained = true;
     return GN_FLIP_DRAIN;

@@ -46,12 +46,15 @@ enum gn_flip_error gn_flip_error_of(int error);
 /* Drawing begins; the frame's time is gn_flip_seen_ns(). */
 void gn_flip_begun(struct gn_flip *flip, int64_t now_ns);
 void gn_flip_committed(struct gn_flip *flip, int64_t now_ns);
-/* It is seen since shown_ns (the event's own time; 0 or one that cannot be: now). */
+/* It is seen from shown_ns on (the event's own time, which may lie a little ahead; 0 or one that
+ * cannot be: now). */
 void gn_flip_done(struct gn_flip *flip, int64_t shown_ns, int64_t now_ns);
 /* The pending flip will never be told of: the CRTC or the card is gone. */
 void gn_flip_forget(struct gn_flip *flip);
 /* The commit was refused for the moment: not before a frame has gone by. */
 void gn_flip_refused(struct gn_flip *flip, int64_t now_ns);
+/* It is lost, whatever its age: the next rung. */
+enum gn_flip_act gn_flip_lost(struct gn_flip *flip);
 /* What is to be done now; each rung is told once. */
 enum gn_flip_act gn_flip_step(struct gn_flip *flip, int64_t now_ns);
 bool gn_flip_may_draw(const struct gn_flip *flip, int64_t now_ns);

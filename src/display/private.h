@@ -1,4 +1,4 @@
-/* The rows of the table of displays, one a file. */
+/* The rows of the table of displays, one a file, and the screen that nobody sees. */
 #ifndef GN_DISPLAY_PRIVATE_H
 #define GN_DISPLAY_PRIVATE_H
 
@@ -6,5 +6,11 @@
 
 extern const struct gn_display_ops gn_display_surfaceless; /* surfaceless.c */
 extern const struct gn_display_ops gn_display_osmesa;      /* osmesa.c, or osmesa_none.c */
+extern const struct gn_display_ops gn_display_kms;         /* kms_screen.c */
+
+/* A screen for displays that have none: lit from the start, its frames are shown at once, a timer
+ * paces them. */
+extern const struct gn_screen_ops gn_screen_unseen; /* unseen.c */
+void gn_screen_unseen_close(struct gn_display *display);
 
 #endif

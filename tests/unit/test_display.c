@@ -7,7 +7,8 @@ static void test_names(void **state) {
     (void)state;
     assert_string_equal(gn_displays[0]->name, "egl");
     assert_string_equal(gn_displays[1]->name, "osmesa");
-    assert_null(gn_displays[2]);
+    assert_string_equal(gn_displays[2]->name, "kms");
+    assert_null(gn_displays[3]);
 }
 
 static void test_unknown_name(void **state) {
@@ -16,8 +17,8 @@ static void test_unknown_name(void **state) {
     struct gn_err err = {0};
     assert_false(gn_display_open(&display, "teletype", NULL, &err));
     assert_int_equal(err.status, GN_EXIT_USAGE);
-    assert_non_null(strstr(err.text, "auto, egl, osmesa"));
-    assert_false(gn_display_open(&display, "kms", NULL, &err));
+    assert_non_null(strstr(err.text, "auto, egl, osmesa, kms"));
+    assert_false(gn_display_open(&display, "window", NULL, &err));
     assert_int_equal(err.status, GN_EXIT_WORLD);
     assert_non_null(strstr(err.text, "not in this build"));
     gn_display_close(&display);
@@ -59,11 +60,48 @@ static void test_auto(void **state) {
     gn_display_close(&display);
 }
 
+/* A frame at a time, at the pace of a timer. */
+static void test_unseen_screen(void **state) {
+    (void)state;
+    struct gn_display d;
+    struct gn_err err = {0};
+    const struct gn_screen_opts opts = {.width_px = 64, .height_px = 32, .max_fps = 50};
+    if (!gn_display_open_screen(&d, "egl", &opts, 1000, NULL, &err)) skip();
+    assert_true(d.screen.lit && d.screen.may_draw && d.screen.has_context && d.screen.fd >= 0);
+    assert_int_equal(d.screen.width_px, 64);
+    assert_true(gn_display_begin(&d, 2000, &err));
+    assert_true(gn_display_present(&d, 3000, &err));
+    assert_false(d.screen.may_draw);
+    assert_false(gn_display_begin(&d, 4000, &err));
+    assert_true(gn_display_dispatch(&d, 2000 + 20000000, &err));
+    assert_true(d.screen.may_draw);
+    assert_int_equal(d.screen.counts.shown, 1);
+    gn_display_close(&d);
+    gn_display_close(&d);
+}
+
+/* Without a card it waits, and says so; with one, it does whatever the machine lets it. */
+static void test_kms_screen_opens_without_a_card(void **state) {
+    (void)state;
+    struct gn_display d;
+    struct gn_err err = {0};
+    const struct gn_screen_opts opts = {.card = "no such card"};
+    if (!gn_display_open_screen(&d, "kms", &opts, 1000, NULL, &err)) fail_msg("%s", err.text);
+    assert_false(d.screen.has_context || d.screen.lost || d.screen.may_draw || d.screen.lit);
+    assert_non_null(strstr(d.screen.status, "waiting for a card"));
+    for (int64_t s = 0; s < 10; s++) assert_true(gn_display_dispatch(&d, s * 1000000000, &err));
+    gn_display_close(&d);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_names),        cmocka_unit_test(test_unknown_name),
-        cmocka_unit_test(test_close_zeroed), cmocka_unit_test(test_open),
+        cmocka_unit_test(test_names),
+        cmocka_unit_test(test_unknown_name),
+        cmocka_unit_test(test_close_zeroed),
+        cmocka_unit_test(test_open),
         cmocka_unit_test(test_auto),
+        cmocka_unit_test(test_unseen_screen),
+        cmocka_unit_test(test_kms_screen_opens_without_a_card),
     };
     return RUN(tests);
 }

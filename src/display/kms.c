@@ -1,0 +1,190 @@
+#include "display/kms.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "display/kms_state.h"
+
+#define SETTLE_NS (GN_KMS_S / 10) /* a monitor that is plugged in bounces */
+
+/* ---- the screen as others see it ---- */
+
+static void say_status(struct gn_kms *k) {
+    char *out = k->screen.status;
+    const size_t size = sizeof k->screen.status;
+    *out = 0;
+    if (k->fd < 0 || k->screen.lost)
+        snprintf(out, size, "waiting for a card%s%s", k->reason[0] ? ": " : "", k->reason);
+    else if (!k->scanout)
+        snprintf(out, size, "%s", k->reason);
+    else if (k->away)
+        snprintf(out, size, "another console is shown");
+    else if (!k->connected && k->reason[0])
+        snprintf(out, size, "%s", k->reason);
+    else if (!k->connected)
+        snprintf(out, size, "waiting for a monitor%s%s", k->opts->connector ? " on " : "",
+                 k->opts->connector ? k->opts->connector : "");
+    else if (!k->master)
+        snprintf(out, size, "%s has the screen (%s)", k->holder[0] ? k->holder : "another program",
+                 k->node.path);
+}
+
+static void update(struct gn_kms *k, int64_t now_ns) {
+    struct gn_screen *s = &k->screen;
+    const bool copies = k->surface_opts.rung == GN_RUNG_COPY;
+    const bool ready = k->connected && k->master && !k->away && !s->lost && k->scanout;
+    s->lit = ready && k->lit;
+    s->may_draw = ready && !k->waiting.fb && gn_flip_may_draw(&k->flip, now_ns) &&
+                  (copies || k->env.scanout->has_free(k->scanout));
+    s->width_px = k->connected ? k->surface_opts.width_px : 0;
+    s->height_px = k->connected ? k->surface_opts.height_px : 0;
+    s->what[0] = 0;
+    if (k->connected)
+        snprintf(s->what, sizeof s->what, "%s %ux%u@%.2f %s", k->connector, s->width_px,
+                 s->height_px, gn_kms_mode_mhz(&k->ladder[k->mode]) / 1000.0,
+                 k->output.atomic ? "atomic" : "legacy");
+    s->rotate_deg = (k->opts->rotate_deg + k->orientation_deg) % 360;
+    s->srgb = !copies && k->surface.srgb;
+    s->samples = copies ? 0 : k->surface.samples;
+    s->period_ns = k->flip.period_ns;
+    s->seen_ns = k->flip.period_ns > 0 ? gn_flip_seen_ns(&k->flip, now_ns) : now_ns;
+    s->counts.shown = k->flip.shown;
+    s->counts.missed = k->flip.missed;
+    s->counts.stalled = k->flip.stalls;
+    say_status(k);
+}
+
+const struct gn_screen *gn_kms_screen(const struct gn_kms *k) { return &k->screen; }
+
+int gn_kms_fd(const struct gn_kms *k) { return k->screen.lost ? -1 : k->fd; }
+
+gn_display_proc gn_kms_get_proc(struct gn_kms *k, const char *name) {
+    return k->scanout ? k->env.scanout->get_proc(k->scanout, name) : NULL;
+}
+
+static int64_t sooner(int64_t a, int64_t b) { return a < b ? a : b; }
+
+int64_t gn_kms_deadline(const struct gn_kms *k, int64_t now_ns) {
+    int64_t at = k->look_ns;
+    if (k->screen.lost) return GN_KMS_NEVER;
+    if (!k->master && !k->away && k->fd >= 0) at = sooner(at, k->master_ns);
+    if (!k->connected && !k->flip.pending) return at;
+    at = sooner(at, gn_flip_deadline(&k->flip, now_ns));
+    if (k->lit && !k->flip.pending && !k->waiting.fb) at = sooner(at, k->again_ns);
+    return at;
+}
+
+/* ---- steps ---- */
+
+static void leave_console(struct gn_kms *k) {
+    k->away = true;
+    k->lit = false;
+    if (k->fd < 0 || k->screen.lost) return;
+    if (k->master) k->env.drm->DropMaster(k->fd);
+    k->master = false;
+    k->master_ns = GN_KMS_NEVER;
+}
+
+static void enter_console(struct gn_kms *k, int64_t now_ns) {
+    k->away = false;
+    if (k->flip.pending) gn_kms_flip_is_lost(k); /* whoever was there in between ended it */
+    if (k->fd >= 0 && !k->screen.lost) gn_kms_try_master(k, now_ns);
+    k->look_ns = now_ns;
+}
+
+static void hear(struct gn_kms *k, unsigned events, int64_t now_ns) {
+    if (events & GN_KMS_EVENT_VT_LEFT) leave_console(k);
+    if (events & GN_KMS_EVENT_VT_ENTERED) enter_console(k, now_ns);
+    if (events & GN_KMS_EVENT_READABLE && k->fd >= 0 && !k->screen.lost) gn_kms_drain(k, now_ns);
+    if (events & GN_KMS_EVENT_HOTPLUG) k->look_ns = sooner(k->look_ns, now_ns + SETTLE_NS);
+}
+
+/* False: the ladder has ended. */
+static bool act(struct gn_kms *k, enum gn_flip_act what, int64_t now_ns) {
+    switch (what) {
+    case GN_FLIP_WAIT: return true;
+    case GN_FLIP_DRAIN: gn_kms_drain(k, now_ns); return true;
+    case GN_FLIP_RELIGHT:
+        gn_kms_flip_is_lost(k);
+        if (k->master) gn_kms_output_dark(&k->output);
+        return true;
+    case GN_FLIP_REOPEN: gn_kms_leave_card(k, true, now_ns); return true;
+    case GN_FLIP_GIVE_UP: break;
+    }
+    return false;
+}
+
+static bool give_up(struct gn_kms *k, struct gn_err *err) {
+    gn_fail(err, "%s: frames are not shown any more, on %s; the kernel's log may say why",
+            k->connector[0] ? k->connector : "display", k->node.path);
+    if (err) err->status = GN_EXIT_DISPLAY;
+    return false;
+}
+
+/* A picture that the kernel has refused for as long as a flip may take is as bad as one lost. */
+static bool send_again(struct gn_kms *k, int64_t now_ns) {
+    if (!k->waiting.fb || k->flip.pending || !k->master || now_ns < k->flip.next_ns) return true;
+    if (now_ns - k->waiting_ns < 12 * GN_KMS_S) {
+        gn_kms_send(k, k->waiting, now_ns);
+        return true;
+    }
+    k->waiting_ns = now_ns;
+    return act(k, gn_flip_lost(&k->flip), now_ns);
+}
+
+static void show_again(struct gn_kms *k, int64_t now_ns) {
+    const bool idle = !k->flip.pending && !k->waiting.fb;
+    if (k->lit && k->master && idle && k->front.fb && now_ns >= k->again_ns)
+        gn_kms_send(k, k->front, now_ns);
+}
+
+bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_err *err) {
+    bool ok = true;
+    hear(k, events, now_ns);
+    if (!k->screen.lost && k->fd >= 0) {
+        const enum gn_flip_act what = gn_flip_step(&k->flip, now_ns);
+        ok = act(k, what, now_ns) && send_again(k, now_ns);
+        show_again(k, now_ns);
+    }
+    if (!k->screen.lost && !k->master && !k->away && k->fd >= 0 && now_ns >= k->master_ns)
+        gn_kms_try_master(k, now_ns);
+    if (!k->screen.lost && now_ns >= k->look_ns) gn_kms_look(k, true, now_ns);
+    if (k->losses > 3) ok = false;
+    update(k, now_ns);
+    return ok || give_up(k, err);
+}
+
+bool gn_kms_renew(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
+    gn_kms_close_card(k);
+    k->screen.lost = false;
+    k->look_ns = now_ns;
+    return gn_kms_step(k, 0, now_ns, err);
+}
+
+/* ---- life ---- */
+
+struct gn_kms *gn_kms_create(const struct gn_kms_env *env, const struct gn_screen_opts *opts,
+                             int64_t now_ns) {
+    struct gn_kms *k = gn_xalloc(1, sizeof *k);
+    k->env = *env;
+    k->opts = opts;
+    k->fd = k->screen.fd = -1;
+    k->front.fence = k->pending.fence = k->waiting.fence = -1;
+    k->look_ns = now_ns;
+    k->master_ns = k->again_ns = GN_KMS_NEVER;
+    gn_kms_step(k, 0, now_ns, NULL);
+    return k;
+}
+
+void gn_kms_destroy(struct gn_kms *k) {
+    if (!k) return;
+    if (k->fd >= 0 && k->output.drm) {
+        gn_kms_drop_surface(k);
+        gn_kms_output_close(&k->output, k->master);
+    }
+    gn_kms_close_card(k);
+    free(k);
+}

@@ -1,0 +1,136 @@
+/* A card's snapshot, read from the kernel. */
+#include "display/kms_card.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+/* By connector type, as the kernel names them. */
+static const char *const type_names[] = {
+    "Unknown", "VGA",       "DVI-I", "DVI-D", "DVI-A",     "Composite", "SVIDEO",
+    "LVDS",    "Component", "DIN",   "DP",    "HDMI-A",    "HDMI-B",    "TV",
+    "eDP",     "Virtual",   "DSI",   "DPI",   "Writeback", "SPI",       "USB",
+};
+enum { TYPES = sizeof type_names / sizeof *type_names };
+
+struct reader {
+    const struct gn_drm_ops *drm;
+    int fd;
+    struct gn_kms_card *card;
+    const drmModeRes *resources;
+};
+
+static void read_crtcs(struct reader *r) {
+    for (int i = 0; i < r->resources->count_crtcs && i < GN_KMS_CRTCS_MAX; i++) {
+        struct gn_kms_crtc *out = &r->card->crtcs[r->card->crtc_count++];
+        out->id = r->resources->crtcs[i];
+        drmModeCrtc *crtc = r->drm->ModeGetCrtc(r->fd, out->id);
+        if (!crtc) continue;
+        out->lit = crtc->mode_valid;
+        out->mode = crtc->mode;
+        r->drm->ModeFreeCrtc(crtc);
+    }
+}
+
+/* ---- connectors ---- */
+
+static void read_encoders(struct reader *r, const drmModeConnector *from,
+                          struct gn_kms_connector *out) {
+    for (int i = 0; i < from->count_encoders; i++) {
+        drmModeEncoder *e = r->drm->ModeGetEncoder(r->fd, from->encoders[i]);
+        if (!e) continue;
+        out->crtcs |= e->possible_crtcs;
+        for (int k = 0; k < r->card->crtc_count; k++)
+            if (e->encoder_id == from->encoder_id && r->card->crtcs[k].lit &&
+                r->card->crtcs[k].id == e->crtc_id)
+                out->crtc = k;
+        r->drm->ModeFreeEncoder(e);
+    }
+    out->crtcs &= (1u << r->card->crtc_count) - 1;
+}
+
+/* "panel orientation": what of the panel is up, so how the picture is to be turned. */
+static unsigned degrees_of(const char *orientation) {
+    if (strcmp(orientation, "Upside Down") == 0) return 180;
+    if (strcmp(orientation, "Left Side Up") == 0) return 270;
+    return strcmp(orientation, "Right Side Up") == 0 ? 90 : 0;
+}
+
+static void read_property(const drmModePropertyRes *p, uint64_t value,
+                          struct gn_kms_connector *out) {
+    if (strcmp(p->name, "link-status") == 0) out->bad_link = value != 0;
+    if (strcmp(p->name, "non-desktop") == 0 && value != 0) out->connected = out->unknown = false;
+    if (strcmp(p->name, "panel orientation") != 0) return;
+    for (int i = 0; i < p->count_enums; i++)
+        if (p->enums[i].value == value) out->orientation_deg = degrees_of(p->enums[i].name);
+}
+
+static void read_properties(struct reader *r, const drmModeConnector *from,
+                            struct gn_kms_connector *out) {
+    for (int i = 0; i < from->count_props; i++) {
+        drmModePropertyRes *p = r->drm->ModeGetProperty(r->fd, from->props[i]);
+        if (!p) continue;
+        read_property(p, from->prop_values[i], out);
+        r->drm->ModeFreeProperty(p);
+    }
+}
+
+static bool is_internal(uint32_t type) {
+    return type == DRM_MODE_CONNECTOR_LVDS || type == DRM_MODE_CONNECTOR_eDP ||
+           type == DRM_MODE_CONNECTOR_DSI || type == DRM_MODE_CONNECTOR_DPI;
+}
+
+static void read_connector(struct reader *r, const drmModeConnector *from) {
+    struct gn_kms_connector *out = &r->card->connectors[r->card->connector_count++];
+    const uint32_t type = from->connector_type < TYPES ? from->connector_type : 0;
+    out->id = from->connector_id;
+    out->crtc = -1;
+    out->connected = from->connection == DRM_MODE_CONNECTED;
+    out->unknown = from->connection == DRM_MODE_UNKNOWNCONNECTION;
+    out->internal = is_internal(from->connector_type);
+    snprintf(out->name, sizeof out->name, "%s-%u", type_names[type], from->connector_type_id);
+    for (int i = 0; i < from->count_modes && i < GN_KMS_MODES_MAX; i++)
+        out->modes[out->mode_count++] = from->modes[i];
+    read_encoders(r, from, out);
+    read_properties(r, from, out);
+}
+
+static void read_connectors(struct reader *r, bool probe) {
+    const int count = r->resources->count_connectors;
+    for (int i = 0; i < count && r->card->connector_count < GN_KMS_CONNECTORS_MAX; i++) {
+        const uint32_t id = r->resources->connectors[i];
+        drmModeConnector *c = probe ? r->drm->ModeGetConnector(r->fd, id)
+                                    : r->drm->ModeGetConnectorCurrent(r->fd, id);
+        if (!c) continue; /* it went while we looked: as with DisplayPort's branches */
+        if (c->connector_type != DRM_MODE_CONNECTOR_WRITEBACK) read_connector(r, c);
+        r->drm->ModeFreeConnector(c);
+    }
+}
+
+static void read_driver(struct reader *r) {
+    drmVersion *version = r->drm->GetVersion(r->fd);
+    snprintf(r->card->driver, sizeof r->card->driver, "%s", version ? version->name : "unknown");
+    if (version) r->drm->FreeVersion(version);
+}
+
+bool gn_kms_card_read(const struct gn_drm_ops *drm, int fd, bool probe, struct gn_kms_card *out,
+                      struct gn_err *err) {
+    memset(out, 0, sizeof *out);
+    struct reader r = {drm, fd, out, NULL};
+    drmModeRes *resources = drm->ModeGetResources(fd);
+    if (!resources) {
+        const int error = errno;
+        gn_fail(err, "it shows no pictures: %s", strerror(error));
+        errno = error;
+        return false;
+    }
+    r.resources = resources;
+    read_driver(&r);
+    read_crtcs(&r);
+    read_connectors(&r, probe);
+    const bool can = out->crtc_count > 0 && out->connector_count > 0;
+    drm->ModeFreeResources(resources);
+    if (!can) gn_fail(err, "it has nothing to plug a monitor into");
+    errno = ENOTSUP;
+    return can;
+}

@@ -1,0 +1,104 @@
+#include "display/kms_drm.h"
+
+#include <dirent.h>
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+
+/* ---- where a node is on the board ---- */
+
+static bool last_part(const char *link, char *out, size_t size) {
+    char target[PATH_MAX];
+    const ssize_t length = readlink(link, target, sizeof target - 1);
+    if (length <= 0) return false;
+    target[length] = 0;
+    const char *slash = strrchr(target, '/');
+    snprintf(out, size, "%s", slash ? slash + 1 : target);
+    return true;
+}
+
+/* Up the tree of devices to the first on a bus whose names last: as udev's path_id has it. */
+static void find_place(const char *node, char *out, size_t size) {
+    struct stat st;
+    char at[PATH_MAX], link[PATH_MAX + 16], bus[32];
+    *out = 0;
+    if (stat(node, &st) < 0) return;
+    snprintf(link, sizeof link, "/sys/dev/char/%u:%u/device", major(st.st_rdev), minor(st.st_rdev));
+    if (!realpath(link, at)) return;
+    for (char *slash; (slash = strrchr(at, '/')) && slash != at; *slash = 0) {
+        snprintf(link, sizeof link, "%s/subsystem", at);
+        if (!last_part(link, bus, sizeof bus)) continue;
+        if (strcmp(bus, "pci") != 0 && strcmp(bus, "platform") != 0 && strcmp(bus, "usb") != 0)
+            continue;
+        snprintf(out, size, "%s-%.80s", bus, slash + 1);
+        return;
+    }
+}
+
+/* ---- ours ---- */
+
+/* By the names in the folder: what is not the kernel's own numbering of primary nodes is no card.
+ * libdrm's drmGetDevices2 reads much of sysfs, and differs from release to release in what it takes
+ * for a card. */
+static int by_number(const void *a, const void *b) {
+    const struct gn_kms_node *x = a, *y = b;
+    return atoi(x->path + strlen("/dev/dri/card")) - atoi(y->path + strlen("/dev/dri/card"));
+}
+
+static int list_nodes(struct gn_kms_node *out, int most) {
+    DIR *folder = opendir("/dev/dri");
+    int count = 0;
+    if (!folder) return 0;
+    for (struct dirent *entry; count < most && (entry = readdir(folder));) {
+        char end;
+        unsigned number;
+        if (sscanf(entry->d_name, "card%3u%c", &number, &end) != 1) continue;
+        struct gn_kms_node *node = &out[count++];
+        *node = (struct gn_kms_node){0};
+        snprintf(node->path, sizeof node->path, "/dev/dri/card%u", number);
+        find_place(node->path, node->place, sizeof node->place);
+    }
+    closedir(folder);
+    qsort(out, (size_t)count, sizeof *out, by_number);
+    return count;
+}
+
+static int open_node(const char *path) { return open(path, O_RDWR | O_CLOEXEC | O_NONBLOCK); }
+
+static void close_node(int fd) { close(fd); }
+
+static void *map(int fd, uint64_t offset, size_t size) {
+    void *memory = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd, (off_t)offset);
+    return memory == MAP_FAILED ? NULL : memory;
+}
+
+static void unmap(void *memory, size_t size) { munmap(memory, size); }
+
+/* ---- libdrm's ---- */
+
+static bool load(struct gn_drm_ops *ops, struct gn_err *err) {
+    void *library = dlopen("libdrm.so.2", RTLD_NOW | RTLD_LOCAL);
+    if (!library) return gn_fail(err, "libdrm.so.2 is missing; install libdrm2");
+#define X(function, name)                                                                          \
+    *(void **)&ops->name = dlsym(library, #function);                                              \
+    if (!ops->name) return gn_fail(err, "libdrm.so.2 has no " #function "; install libdrm2");
+    GN_DRM_TABLE(X)
+#undef X
+    return true;
+}
+
+const struct gn_drm_ops *gn_drm_real(struct gn_err *err) {
+    static struct gn_drm_ops ops = {
+        .list = list_nodes, .open = open_node, .close = close_node, .map = map, .unmap = unmap};
+    static bool loaded;
+    if (!loaded) loaded = load(&ops, err);
+    return loaded ? &ops : NULL;
+}

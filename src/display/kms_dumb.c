@@ -1,0 +1,44 @@
+#include "display/kms_dumb.h"
+
+#include <drm_fourcc.h>
+#include <errno.h>
+#include <string.h>
+
+static int map(struct gn_dumb *d, const struct gn_drm_ops *drm, int fd) {
+    struct drm_mode_map_dumb where = {.handle = d->handle};
+    if (drm->Ioctl(fd, DRM_IOCTL_MODE_MAP_DUMB, &where) != 0) return errno;
+    d->pixels = drm->map(fd, where.offset, d->size);
+    return d->pixels ? 0 : errno;
+}
+
+int gn_dumb_create(struct gn_dumb *d, const struct gn_drm_ops *drm, int fd, uint32_t width_px,
+                   uint32_t height_px) {
+    struct drm_mode_create_dumb made = {.width = width_px, .height = height_px, .bpp = 32};
+    *d = (struct gn_dumb){.width_px = width_px, .height_px = height_px};
+    if (drm->Ioctl(fd, DRM_IOCTL_MODE_CREATE_DUMB, &made) != 0) return errno;
+    d->handle = made.handle;
+    d->stride = made.pitch;
+    d->size = made.size;
+    const int error = map(d, drm, fd);
+    if (error == 0) memset(d->pixels, 0, d->size);
+    if (error != 0) gn_dumb_destroy(d, drm, fd);
+    return error;
+}
+
+void gn_dumb_destroy(struct gn_dumb *d, const struct gn_drm_ops *drm, int fd) {
+    struct drm_mode_destroy_dumb which = {.handle = d->handle};
+    if (d->pixels) drm->unmap(d->pixels, d->size);
+    if (d->handle) drm->Ioctl(fd, DRM_IOCTL_MODE_DESTROY_DUMB, &which);
+    *d = (struct gn_dumb){0};
+}
+
+struct gn_buffer gn_dumb_buffer(struct gn_dumb *d) {
+    return (struct gn_buffer){.key = d,
+                              .width_px = d->width_px,
+                              .height_px = d->height_px,
+                              .format = DRM_FORMAT_XRGB8888,
+                              .modifier = DRM_FORMAT_MOD_INVALID,
+                              .plane_count = 1,
+                              .handles = {d->handle},
+                              .strides = {(uint32_t)d->stride}};
+}

@@ -1,0 +1,237 @@
+/* Pictures on their way to the screen: one flip in flight, at most two buffers held. */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "display/kms_state.h"
+
+/* ---- buffers ---- */
+
+static bool is_copy(const struct gn_kms *k) { return k->surface_opts.rung == GN_RUNG_COPY; }
+
+static void close_fence(struct gn_kms_shot *shot) {
+    if (shot->fb && shot->fence >= 0) close(shot->fence);
+    shot->fence = -1;
+}
+
+/* Nobody reads it any more. */
+static void retire(struct gn_kms *k, struct gn_kms_shot *shot) {
+    close_fence(shot);
+    if (shot->fb && shot->key && !is_copy(k) && k->scanout)
+        k->env.scanout->release(k->scanout, shot->key);
+    *shot = (struct gn_kms_shot){.fence = -1};
+}
+
+void gn_kms_forget_shots(struct gn_kms *k) {
+    if (k->pending.fb == k->front.fb) k->pending = (struct gn_kms_shot){.fence = -1};
+    if (k->waiting.fb == k->front.fb) k->waiting = (struct gn_kms_shot){.fence = -1};
+    retire(k, &k->waiting);
+    retire(k, &k->pending);
+    retire(k, &k->front);
+}
+
+void gn_kms_drop_surface(struct gn_kms *k) {
+    gn_kms_forget_shots(k);
+    if (k->output.drm) gn_kms_output_orphan_fbs(&k->output);
+    if (k->scanout) k->env.scanout->drop_surface(k->scanout);
+    for (int i = 0; i < 2 && k->fd >= 0; i++) gn_dumb_destroy(&k->copies[i], k->env.drm, k->fd);
+    k->surface = (struct gn_surface){0};
+    k->screen.copy_to = NULL;
+}
+
+bool gn_kms_make_copies(struct gn_kms *k) {
+    for (int i = 0; i < 2; i++)
+        if (gn_dumb_create(&k->copies[i], k->env.drm, k->fd, k->surface_opts.width_px,
+                           k->surface_opts.height_px) != 0)
+            return false;
+    return true;
+}
+
+static struct gn_dumb *free_copy(struct gn_kms *k) {
+    return k->front.key == &k->copies[0] ? &k->copies[1] : &k->copies[0];
+}
+
+/* ---- flips ---- */
+
+/* From now on the front is another; `shot` may be the same once more. */
+static void show(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
+    if (shot.fb != k->front.fb) retire(k, &k->front);
+    if (shot.fb == k->front.fb) k->screen.counts.again++;
+    close_fence(&shot);
+    k->front = shot;
+    k->losses = 0;
+    k->again_ns = now_ns + (k->opts->again_ns > 0 ? k->opts->again_ns : 10 * GN_KMS_S);
+}
+
+static void done(struct gn_kms *k, int64_t shown_ns, int64_t now_ns) {
+    const struct gn_kms_shot shot = k->pending;
+    k->pending = (struct gn_kms_shot){.fence = -1};
+    gn_flip_done(&k->flip, shown_ns, now_ns);
+    show(k, shot, now_ns);
+}
+
+static void on_flip(int fd, unsigned sequence, unsigned s, unsigned us, unsigned crtc, void *user) {
+    (void)fd, (void)sequence, (void)crtc;
+    const struct gn_kms_ticket *ticket = user;
+    struct gn_kms *k = ticket->kms;
+    if (ticket->number == k->ticket) k->event_ns = s * GN_KMS_S + us * INT64_C(1000);
+}
+
+void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
+    drmEventContext context = {.version = 3, .page_flip_handler2 = on_flip};
+    for (int i = 0; i < 8; i++) {
+        k->event_ns = -1;
+        errno = 0;
+        const int result = k->env.drm->HandleEvent(k->fd, &context);
+        const int error = errno;
+        if (k->event_ns >= 0 && k->flip.pending) done(k, k->event_ns, now_ns);
+        if (result == 0) continue;
+        if (error == ENODEV || error == EIO || error == EBADF) gn_kms_leave_card(k, false, now_ns);
+        return;
+    }
+}
+
+void gn_kms_flip_is_lost(struct gn_kms *k) {
+    const struct gn_kms_shot shot = k->pending;
+    gn_flip_forget(&k->flip);
+    k->ticket++; /* its event may come yet */
+    k->pending = (struct gn_kms_shot){.fence = -1};
+    k->lit = false;
+    if (!shot.fb) return;
+    if (shot.fb != k->front.fb) retire(k, &k->front);
+    k->front = shot; /* the kernel may be reading it */
+    close_fence(&k->front);
+}
+
+/* ---- commits ---- */
+
+static int light(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns) {
+    const int error = gn_kms_output_light(&k->output, &k->ladder[k->mode], shot->fb);
+    if (error != 0) return error;
+    k->lit = true;
+    k->screen.counts.relit++;
+    k->flip.blind = gn_kms_output_is_blind(&k->output);
+    gn_flip_committed(&k->flip, now_ns);
+    k->flip.due_ns = now_ns; /* no refresh was missed: there was none */
+    gn_flip_done(&k->flip, 0, now_ns);
+    show(k, *shot, now_ns);
+    return 0;
+}
+
+static int flip(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns) {
+    struct gn_kms_ticket *ticket = &k->tickets[++k->ticket % GN_KMS_TICKETS];
+    *ticket = (struct gn_kms_ticket){k, k->ticket};
+    const int error = gn_kms_output_flip(&k->output, shot->fb, shot->fence, ticket);
+    if (error != 0) return error;
+    k->pending = *shot;
+    gn_flip_committed(&k->flip, now_ns);
+    return 0;
+}
+
+static void discard(struct gn_kms *k, struct gn_kms_shot *shot) {
+    if (shot->fb == k->front.fb)
+        close_fence(shot);
+    else
+        retire(k, shot);
+}
+
+static void wait_a_frame(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns) {
+    if (!k->waiting.fb) k->waiting_ns = now_ns;
+    k->waiting = *shot;
+    k->screen.counts.retried++;
+    gn_flip_refused(&k->flip, now_ns);
+}
+
+static void lose_master(struct gn_kms *k, int64_t now_ns) {
+    k->master = k->lit = false;
+    k->master_ns = now_ns + GN_KMS_S;
+    k->holder[0] = 0;
+    if (k->env.who) k->env.who(k->node.path, k->holder, sizeof k->holder);
+}
+
+static void refuse(struct gn_kms *k, struct gn_kms_shot *shot, int error, int64_t now_ns) {
+    const bool was_lit = k->lit;
+    switch (gn_flip_error_of(error)) {
+    case GN_FLIP_BUSY:
+    case GN_FLIP_NO_MEMORY: wait_a_frame(k, shot, now_ns); return;
+    case GN_FLIP_NO_MASTER:
+        discard(k, shot);
+        lose_master(k, now_ns);
+        return;
+    case GN_FLIP_CARD_GONE:
+        discard(k, shot);
+        gn_kms_leave_card(k, false, now_ns);
+        return;
+    case GN_FLIP_CHANGED: break;
+    }
+    k->lit = false;
+    if (was_lit) { /* the mode or the connector has changed under us: once more with a modeset */
+        wait_a_frame(k, shot, now_ns);
+        k->look_ns = now_ns;
+        return;
+    }
+    discard(k, shot);
+    gn_kms_next_try(k, error, now_ns);
+}
+
+void gn_kms_send(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
+    const int error = k->lit ? flip(k, &shot, now_ns) : light(k, &shot, now_ns);
+    if (error == 0)
+        k->waiting = (struct gn_kms_shot){.fence = -1};
+    else
+        refuse(k, &shot, error, now_ns);
+}
+
+/* ---- drawing ---- */
+
+bool gn_kms_begin(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
+    (void)err;
+    if (!k->screen.may_draw) return false;
+    if (is_copy(k)) {
+        struct gn_dumb *copy = free_copy(k);
+        k->screen.copy_to = copy->pixels;
+        k->screen.copy_stride = copy->stride;
+    }
+    gn_flip_begun(&k->flip, now_ns);
+    return true;
+}
+
+/* The GPU's frame; false: the context has ended. */
+static bool take_frame(struct gn_kms *k, struct gn_buffer *buffer, int *fence) {
+    struct gn_err why = {0};
+    *fence = -1;
+    if (is_copy(k)) {
+        *buffer = gn_dumb_buffer(free_copy(k));
+        return true;
+    }
+    if (k->env.scanout->swap(k->scanout, gn_kms_output_takes_fence(&k->output), buffer, fence,
+                             &why))
+        return true;
+    snprintf(k->reason, sizeof k->reason, "%s", why.text);
+    return false;
+}
+
+bool gn_kms_present(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
+    struct gn_buffer buffer;
+    struct gn_kms_shot shot = {.fence = -1};
+    k->screen.may_draw = false;
+    k->screen.copy_to = NULL;
+    if (!take_frame(k, &buffer, &shot.fence)) {
+        gn_kms_leave_card(k, true, now_ns);
+        return gn_kms_step(k, 0, now_ns, err);
+    }
+    shot.key = buffer.key;
+    const int error = gn_kms_output_fb(&k->output, &buffer, &shot.fb);
+    if (error == 0) {
+        gn_kms_send(k, shot, now_ns);
+        return gn_kms_step(k, 0, now_ns, err);
+    }
+    if (shot.fence >= 0) close(shot.fence);
+    if (!is_copy(k)) k->env.scanout->release(k->scanout, shot.key);
+    if (gn_flip_error_of(error) == GN_FLIP_CARD_GONE)
+        gn_kms_leave_card(k, false, now_ns);
+    else
+        gn_kms_next_try(k, error, now_ns);
+    return gn_kms_step(k, 0, now_ns, err);
+}

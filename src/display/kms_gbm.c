@@ -1,0 +1,341 @@
+/* GBM and EGL on a card. Both libraries are opened at run time. The context is made without a
+ * surface, so that programs are ready before there is a monitor; where the card's GPU is another
+ * device, Mesa finds it by itself. */
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <dlfcn.h>
+#include <drm_fourcc.h>
+#include <gbm.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "display/kms_scanout.h"
+
+#define GBM_TABLE(X)                                                                               \
+    X(gbm_create_device)                                                                           \
+    X(gbm_device_destroy)                                                                          \
+    X(gbm_surface_create)                                                                          \
+    X(gbm_surface_create_with_modifiers)                                                           \
+    X(gbm_surface_destroy)                                                                         \
+    X(gbm_surface_lock_front_buffer)                                                               \
+    X(gbm_surface_release_buffer)                                                                  \
+    X(gbm_surface_has_free_buffers)                                                                \
+    X(gbm_bo_get_width)                                                                            \
+    X(gbm_bo_get_height)                                                                           \
+    X(gbm_bo_get_format)                                                                           \
+    X(gbm_bo_get_modifier)                                                                         \
+    X(gbm_bo_get_plane_count)                                                                      \
+    X(gbm_bo_get_handle_for_plane)                                                                 \
+    X(gbm_bo_get_stride_for_plane)                                                                 \
+    X(gbm_bo_get_offset)
+#define EGL_TABLE(X)                                                                               \
+    X(PFNEGLGETPROCADDRESSPROC, GetProcAddress)                                                    \
+    X(PFNEGLQUERYSTRINGPROC, QueryString)                                                          \
+    X(PFNEGLINITIALIZEPROC, Initialize)                                                            \
+    X(PFNEGLTERMINATEPROC, Terminate)                                                              \
+    X(PFNEGLBINDAPIPROC, BindAPI)                                                                  \
+    X(PFNEGLGETCONFIGSPROC, GetConfigs)                                                            \
+    X(PFNEGLGETCONFIGATTRIBPROC, GetConfigAttrib)                                                  \
+    X(PFNEGLCREATECONTEXTPROC, CreateContext)                                                      \
+    X(PFNEGLDESTROYCONTEXTPROC, DestroyContext)                                                    \
+    X(PFNEGLDESTROYSURFACEPROC, DestroySurface)                                                    \
+    X(PFNEGLMAKECURRENTPROC, MakeCurrent)                                                          \
+    X(PFNEGLSWAPBUFFERSPROC, SwapBuffers)                                                          \
+    X(PFNEGLGETERRORPROC, GetError)
+
+enum { CONFIGS_MAX = 512 };
+
+struct scanout {
+#define X(name) __typeof__(name) *name;
+    GBM_TABLE(X)
+#undef X
+#define X(type, name) type name;
+    EGL_TABLE(X)
+#undef X
+    PFNEGLCREATEPLATFORMWINDOWSURFACEEXTPROC create_window;
+    PFNEGLCREATESYNCKHRPROC create_sync; /* with the next two, or none of them */
+    PFNEGLDESTROYSYNCKHRPROC destroy_sync;
+    PFNEGLDUPNATIVEFENCEFDANDROIDPROC dup_fence;
+    void *gbm_library, *egl_library, *gles_library;
+    struct gbm_device *gbm;
+    EGLDisplay display;
+    EGLContext context;
+    EGLConfig context_config; /* NULL: it goes with any */
+    EGLSurface window;
+    struct gbm_surface *surface;
+    bool tiler, has_colorspace;
+};
+
+static bool has_word(const char *list, const char *word) {
+    size_t length = strlen(word);
+    for (const char *at = list; at && (at = strstr(at, word)); at += length)
+        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == 0)) return true;
+    return false;
+}
+
+/* ---- opening ---- */
+
+static bool load(struct scanout *s, struct gn_err *err) {
+    setenv("EGL_LOG_LEVEL", "fatal", 0); /* or Mesa chats on stderr about what it did not find */
+    s->gbm_library = dlopen("libgbm.so.1", RTLD_NOW | RTLD_LOCAL);
+    s->egl_library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
+    s->gles_library = dlopen("libGLESv2.so.2", RTLD_NOW | RTLD_LOCAL);
+    if (!s->gbm_library) return gn_fail(err, "libgbm.so.1 is missing; install libgbm1");
+    if (!s->egl_library || !s->gles_library)
+        return gn_fail(err, "%s is missing; install libegl1 libgles2",
+                       s->egl_library ? "libGLESv2.so.2" : "libEGL.so.1");
+#define X(name)                                                                                    \
+    *(void **)&s->name = dlsym(s->gbm_library, #name);                                             \
+    if (!s->name) return gn_fail(err, "libgbm.so.1 has no " #name "; install libgbm1");
+    GBM_TABLE(X)
+#undef X
+#define X(type, name)                                                                              \
+    *(void **)&s->name = dlsym(s->egl_library, "egl" #name);                                       \
+    if (!s->name) return gn_fail(err, "libEGL.so.1 has no egl" #name "; install libegl1");
+    EGL_TABLE(X)
+#undef X
+    return true;
+}
+
+static bool open_display(struct scanout *s, int card, struct gn_err *err) {
+    const char *client = s->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    PFNEGLGETPLATFORMDISPLAYEXTPROC get_display =
+        (PFNEGLGETPLATFORMDISPLAYEXTPROC)s->GetProcAddress("eglGetPlatformDisplayEXT");
+    s->create_window = (PFNEGLCREATEPLATFORMWINDOWSURFACEEXTPROC)s->GetProcAddress(
+        "eglCreatePlatformWindowSurfaceEXT");
+    if (!get_display || !s->create_window ||
+        (!has_word(client, "EGL_KHR_platform_gbm") && !has_word(client, "EGL_MESA_platform_gbm")))
+        return gn_fail(err, "this EGL knows no screens (platform gbm); install libegl-mesa0");
+    s->gbm = s->gbm_create_device(card);
+    if (!s->gbm) return gn_fail(err, "there is no driver for it (GBM); install libgl1-mesa-dri");
+    s->display = get_display(EGL_PLATFORM_GBM_KHR, s->gbm, NULL);
+    if (s->display == EGL_NO_DISPLAY || !s->Initialize(s->display, NULL, NULL))
+        return gn_fail(err, "EGL finds no driver for it (0x%x); install libgl1-mesa-dri",
+                       s->GetError());
+    s->BindAPI(EGL_OPENGL_ES_API);
+    return true;
+}
+
+/* GPUs that keep a tile of the picture on chip: there, four samples cost next to nothing. By the
+ * name of the card's driver, with which Mesa pairs such a GPU. */
+static bool is_tiler(struct scanout *s, const char *has) {
+    static const char names[] = "v3d vc4 panfrost panthor msm kgsl rockchip meson mediatek";
+    PFNEGLGETDISPLAYDRIVERNAMEPROC name_of =
+        has_word(has, "EGL_MESA_query_driver")
+            ? (PFNEGLGETDISPLAYDRIVERNAMEPROC)s->GetProcAddress("eglGetDisplayDriverName")
+            : NULL;
+    const char *name = name_of ? name_of(s->display) : NULL;
+    return name && *name && has_word(names, name);
+}
+
+static void learn(struct scanout *s) {
+    const char *has = s->QueryString(s->display, EGL_EXTENSIONS);
+    s->has_colorspace = has_word(has, "EGL_KHR_gl_colorspace");
+    s->tiler = is_tiler(s, has);
+    if (!has_word(has, "EGL_ANDROID_native_fence_sync")) return;
+    s->create_sync = (PFNEGLCREATESYNCKHRPROC)s->GetProcAddress("eglCreateSyncKHR");
+    s->destroy_sync = (PFNEGLDESTROYSYNCKHRPROC)s->GetProcAddress("eglDestroySyncKHR");
+    s->dup_fence =
+        (PFNEGLDUPNATIVEFENCEFDANDROIDPROC)s->GetProcAddress("eglDupNativeFenceFDANDROID");
+    if (!s->destroy_sync || !s->dup_fence) s->create_sync = NULL;
+}
+
+/* ---- configs ---- */
+
+static EGLint attribute(struct scanout *s, EGLConfig config, EGLint name) {
+    EGLint value = 0;
+    s->GetConfigAttrib(s->display, config, name, &value);
+    return value;
+}
+
+/* eglChooseConfig ignores the visual, and that is what counts. */
+static bool fits(struct scanout *s, EGLConfig c, uint32_t format, int samples) {
+    return (uint32_t)attribute(s, c, EGL_NATIVE_VISUAL_ID) == format &&
+           attribute(s, c, EGL_SURFACE_TYPE) & EGL_WINDOW_BIT &&
+           attribute(s, c, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES3_BIT_KHR &&
+           attribute(s, c, EGL_DEPTH_SIZE) == 24 && attribute(s, c, EGL_SAMPLES) == samples;
+}
+
+static EGLConfig find_config(struct scanout *s, uint32_t format, int samples) {
+    EGLConfig *all = gn_xalloc(CONFIGS_MAX, sizeof *all), found = NULL, plain = NULL;
+    EGLint count = 0;
+    s->GetConfigs(s->display, all, CONFIGS_MAX, &count);
+    for (EGLint i = 0; i < count && !plain; i++) {
+        if (!fits(s, all[i], format, samples)) continue;
+        found = all[i];
+        if (attribute(s, all[i], EGL_STENCIL_SIZE) == 0) plain = all[i];
+    }
+    free(all);
+    return plain ? plain : found;
+}
+
+/* ---- the context ---- */
+
+static EGLContext create_context(struct scanout *s, EGLint major, bool robust) {
+    const EGLint tail = robust ? EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT : EGL_NONE;
+    const EGLint list[] = {EGL_CONTEXT_CLIENT_VERSION, major, tail, EGL_LOSE_CONTEXT_ON_RESET_EXT,
+                           EGL_NONE};
+    return s->CreateContext(s->display, s->context_config, EGL_NO_CONTEXT, list);
+}
+
+static bool make_context(struct scanout *s, struct gn_err *err) {
+    const char *has = s->QueryString(s->display, EGL_EXTENSIONS);
+    if (!has_word(has, "EGL_KHR_surfaceless_context"))
+        return gn_fail(err, "its driver draws on surfaces only (EGL_KHR_surfaceless_context)");
+    if (!has_word(has, "EGL_KHR_no_config_context"))
+        s->context_config = find_config(s, DRM_FORMAT_XRGB8888, 0);
+    if (has_word(has, "EGL_EXT_create_context_robustness")) s->context = create_context(s, 3, true);
+    if (s->context == EGL_NO_CONTEXT) s->context = create_context(s, 3, false);
+    if (s->context == EGL_NO_CONTEXT) s->context = create_context(s, 2, false);
+    if (s->context == EGL_NO_CONTEXT)
+        return gn_fail(err, "its driver makes no OpenGL ES context (0x%x)", s->GetError());
+    if (!s->MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context))
+        return gn_fail(err, "its driver does not make its context current (0x%x)", s->GetError());
+    return true;
+}
+
+static void drop_surface(void *state) {
+    struct scanout *s = state;
+    if (s->context) s->MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context);
+    if (s->window != EGL_NO_SURFACE) s->DestroySurface(s->display, s->window);
+    if (s->surface) s->gbm_surface_destroy(s->surface);
+    s->window = EGL_NO_SURFACE;
+    s->surface = NULL;
+}
+
+static void close_all(void *state) {
+    struct scanout *s = state;
+    if (s->display != EGL_NO_DISPLAY) {
+        drop_surface(s);
+        s->MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (s->context != EGL_NO_CONTEXT) s->DestroyContext(s->display, s->context);
+        s->Terminate(s->display);
+    }
+    if (s->gbm) s->gbm_device_destroy(s->gbm);
+    free(s); /* the libraries stay: what they have started does not survive being unloaded */
+}
+
+static void *open_on(int card, struct gn_err *err) {
+    struct scanout *s = gn_xalloc(1, sizeof *s);
+    if (load(s, err) && open_display(s, card, err) && make_context(s, err)) {
+        learn(s);
+        return s;
+    }
+    close_all(s);
+    return NULL;
+}
+
+static gn_display_proc get_proc(void *state, const char *name) {
+    struct scanout *s = state;
+    return (gn_display_proc)s->GetProcAddress(name);
+}
+
+/* ---- the surface ---- */
+
+static struct gbm_surface *create_buffers(struct scanout *s, const struct gn_surface_opts *o,
+                                          uint32_t format) {
+    static const uint64_t linear = DRM_FORMAT_MOD_LINEAR;
+    const bool listed = o->rung == GN_RUNG_MODIFIERS;
+    if (listed && (o->modifier_count == 0 || format != o->formats[0])) return NULL;
+    if (o->rung == GN_RUNG_PLAIN)
+        return s->gbm_surface_create(s->gbm, o->width_px, o->height_px, format,
+                                     GBM_BO_USE_SCANOUT | GBM_BO_USE_RENDERING);
+    return s->gbm_surface_create_with_modifiers(s->gbm, o->width_px, o->height_px, format,
+                                                listed ? o->modifiers : &linear,
+                                                listed ? (unsigned)o->modifier_count : 1);
+}
+
+static bool create_window(struct scanout *s, EGLConfig config, bool *srgb) {
+    static const EGLint encoded[] = {EGL_GL_COLORSPACE_KHR, EGL_GL_COLORSPACE_SRGB_KHR, EGL_NONE};
+    *srgb = s->has_colorspace;
+    if (*srgb) s->window = s->create_window(s->display, config, s->surface, encoded);
+    if (s->window != EGL_NO_SURFACE) return true;
+    *srgb = false;
+    s->window = s->create_window(s->display, config, s->surface, NULL);
+    return s->window != EGL_NO_SURFACE;
+}
+
+static bool try_surface(struct scanout *s, const struct gn_surface_opts *o, uint32_t format,
+                        int samples, bool *srgb) {
+    EGLConfig config = find_config(s, format, samples);
+    if (!config || (s->context_config && config != s->context_config)) return false;
+    s->surface = create_buffers(s, o, format);
+    if (s->surface && create_window(s, config, srgb) &&
+        s->MakeCurrent(s->display, s->window, s->window, s->context))
+        return true;
+    drop_surface(s);
+    return false;
+}
+
+static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_surface *out,
+                        struct gn_err *err) {
+    struct scanout *s = state;
+    const int most = o->samples == GN_SCREEN_MSAA_AUTO ? (s->tiler ? 4 : 0) : o->samples;
+    drop_surface(s);
+    for (int samples = most; samples >= 0; samples -= 2)
+        for (int i = 0; i < o->format_count; i++) {
+            if (!try_surface(s, o, o->formats[i], samples, &out->srgb)) continue;
+            out->format = o->formats[i];
+            out->samples = (unsigned)samples;
+            return true;
+        }
+    return gn_fail(err, "no %ux%u surface that can be shown (0x%x)", o->width_px, o->height_px,
+                   s->GetError());
+}
+
+/* ---- frames ---- */
+
+static void describe(struct scanout *s, struct gbm_bo *bo, struct gn_buffer *out) {
+    *out = (struct gn_buffer){
+        .key = bo,
+        .width_px = s->gbm_bo_get_width(bo),
+        .height_px = s->gbm_bo_get_height(bo),
+        .format = s->gbm_bo_get_format(bo),
+        .modifier = s->gbm_bo_get_modifier(bo),
+        .plane_count = s->gbm_bo_get_plane_count(bo),
+    };
+    for (int i = 0; i < out->plane_count && i < GN_BUFFER_PLANES_MAX; i++) {
+        out->handles[i] = s->gbm_bo_get_handle_for_plane(bo, i).u32;
+        out->strides[i] = s->gbm_bo_get_stride_for_plane(bo, i);
+        out->offsets[i] = s->gbm_bo_get_offset(bo, i);
+    }
+}
+
+static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence,
+                 struct gn_err *err) {
+    struct scanout *s = state;
+    EGLSyncKHR sync = EGL_NO_SYNC_KHR;
+    *fence = -1;
+    if (want_fence && s->create_sync)
+        sync = s->create_sync(s->display, EGL_SYNC_NATIVE_FENCE_ANDROID, NULL);
+    const bool swapped = s->SwapBuffers(s->display, s->window);
+    if (swapped && sync != EGL_NO_SYNC_KHR) *fence = s->dup_fence(s->display, sync);
+    if (sync != EGL_NO_SYNC_KHR) s->destroy_sync(s->display, sync);
+    if (!swapped) return gn_fail(err, "the GPU ends no frame (0x%x)", s->GetError());
+    struct gbm_bo *bo = s->gbm_surface_lock_front_buffer(s->surface);
+    if (!bo) return gn_fail(err, "the GPU hands over no frame");
+    describe(s, bo, out);
+    return true;
+}
+
+static void release(void *state, void *key) {
+    struct scanout *s = state;
+    if (s->surface) s->gbm_surface_release_buffer(s->surface, key);
+}
+
+static bool has_free(void *state) {
+    struct scanout *s = state;
+    return s->surface && s->gbm_surface_has_free_buffers(s->surface);
+}
+
+const struct gn_scanout_ops gn_scanout_gbm = {
+    .open = open_on,
+    .get_proc = get_proc,
+    .set_surface = set_surface,
+    .drop_surface = drop_surface,
+    .swap = swap,
+    .release = release,
+    .has_free = has_free,
+    .close = close_all,
+};

@@ -1,0 +1,285 @@
+/* Looking for something to show on: cards, connectors, modes, and what to do without. */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "display/kms_state.h"
+
+/* ---- cards ---- */
+
+/* "platform-gpu-card" and "platform-gpu" are one place; a path is itself. */
+static bool is_asked_for(const struct gn_kms *k, const struct gn_kms_node *node) {
+    const char *asked = k->opts->card;
+    if (!asked || strcmp(asked, node->path) == 0) return true;
+    const size_t length = strlen(node->place);
+    return length > 0 && strncmp(asked, node->place, length) == 0 &&
+           (asked[length] == 0 || strcmp(asked + length, "-card") == 0);
+}
+
+/* -1: it is no card that shows pictures. The snapshot is left in fresh. */
+static int rate(struct gn_kms *k, const struct gn_kms_node *node, int *fd) {
+    struct gn_err why = {0};
+    if (!is_asked_for(k, node)) return -1;
+    *fd = k->env.drm->open(node->path);
+    if (*fd < 0) {
+        snprintf(k->reason, sizeof k->reason, "%s: %s%s", node->path, strerror(errno),
+                 errno == EACCES ? "; add the user to the group video" : "");
+        return -1;
+    }
+    if (gn_kms_card_read(k->env.drm, *fd, true, &k->fresh, &why))
+        return gn_kms_card_score(&k->fresh, k->opts->connector);
+    k->env.drm->close(*fd);
+    *fd = -1;
+    return -1;
+}
+
+/* The best card that rates at least `least`; its descriptor, or -1. The snapshot goes to card. */
+static int find_card(struct gn_kms *k, int least, struct gn_kms_node *out) {
+    struct gn_kms_node nodes[GN_KMS_CARDS_MAX];
+    const int count = k->env.drm->list(nodes, GN_KMS_CARDS_MAX);
+    int best = least - 1, kept = -1;
+    k->reason[0] = 0;
+    for (int i = 0; i < count; i++) {
+        int fd = -1;
+        if (k->fd >= 0 && strcmp(nodes[i].path, k->node.path) == 0) continue;
+        const int score = rate(k, &nodes[i], &fd);
+        if (score <= best) {
+            if (fd >= 0) k->env.drm->close(fd);
+            continue;
+        }
+        if (kept >= 0) k->env.drm->close(kept);
+        kept = fd, best = score;
+        *out = nodes[i];
+        k->card = k->fresh;
+    }
+    return kept;
+}
+
+static void start_gl(struct gn_kms *k) {
+    struct gn_err why = {0};
+    k->scanout = k->env.scanout->open(k->fd, &why);
+    if (!k->scanout) snprintf(k->reason, sizeof k->reason, "%s: %s", k->node.path, why.text);
+    k->screen.has_context = k->scanout;
+    if (k->scanout) k->screen.generation++;
+}
+
+bool gn_kms_try_master(struct gn_kms *k, int64_t now_ns) {
+    k->master = k->env.drm->IsMaster(k->fd) || k->env.drm->SetMaster(k->fd) == 0;
+    k->lit = false;
+    k->master_ns = k->master ? GN_KMS_NEVER : now_ns + GN_KMS_S;
+    if (!k->master && !k->holder[0] && k->env.who)
+        k->env.who(k->node.path, k->holder, sizeof k->holder);
+    if (k->master) k->holder[0] = 0;
+    return k->master;
+}
+
+static void open_card(struct gn_kms *k, int64_t now_ns) {
+    k->fd = find_card(k, 0, &k->node);
+    if (k->fd < 0) return;
+    k->screen.counts.opened++;
+    k->flip = (struct gn_flip){.rung = k->flip.rung,
+                               .shown = k->flip.shown,
+                               .missed = k->flip.missed,
+                               .stalls = k->flip.stalls};
+    if (!k->away) gn_kms_try_master(k, now_ns);
+    start_gl(k);
+}
+
+void gn_kms_close_card(struct gn_kms *k) {
+    gn_kms_drop_surface(k);
+    gn_kms_output_close(&k->output, false);
+    if (k->scanout) k->env.scanout->close(k->scanout);
+    k->scanout = NULL;
+    k->screen.has_context = false;
+    if (k->fd >= 0) k->env.drm->close(k->fd);
+    k->fd = -1;
+}
+
+/* The context stays until renew: objects in it are to be destroyed first. */
+void gn_kms_leave_card(struct gn_kms *k, bool restore, int64_t now_ns) {
+    if (k->screen.lost || k->fd < 0) return;
+    gn_kms_flip_is_lost(k);
+    gn_kms_drop_surface(k);
+    gn_kms_output_close(&k->output, restore && k->master);
+    k->connected = k->lit = false;
+    k->losses++;
+    k->look_ns = now_ns;
+    k->screen.lost = k->scanout;
+    if (!k->scanout) gn_kms_close_card(k);
+}
+
+/* ---- what to show, and how ---- */
+
+static bool take_surface(struct gn_kms *k) {
+    struct gn_err why = {0};
+    struct gn_surface_opts *o = &k->surface_opts;
+    o->width_px = k->ladder[k->mode].hdisplay;
+    o->height_px = k->ladder[k->mode].vdisplay;
+    for (; o->rung < GN_RUNG_COPY; o->rung++)
+        if (k->env.scanout->set_surface(k->scanout, o, &k->surface, &why)) return true;
+    return gn_kms_make_copies(k);
+}
+
+static enum gn_rung first_rung(const struct gn_kms *k) {
+    return k->surface_opts.modifier_count > 0 ? GN_RUNG_MODIFIERS : GN_RUNG_PLAIN;
+}
+
+/* From this mode on, the first one for which there are buffers. */
+static bool take_mode(struct gn_kms *k) {
+    for (; k->mode < k->ladder_count; k->mode++, k->surface_opts.rung = first_rung(k)) {
+        gn_kms_drop_surface(k);
+        if (!take_surface(k)) continue;
+        const uint32_t mhz = gn_kms_mode_mhz(&k->ladder[k->mode]);
+        k->flip.period_ns = mhz > 0 ? 1000 * GN_KMS_S / mhz : GN_KMS_S / 60;
+        k->flip.shortest_ns = k->opts->max_fps > 0 ? GN_KMS_S / k->opts->max_fps : 0;
+        return true;
+    }
+    gn_kms_drop_surface(k);
+    return false;
+}
+
+static void give_up_connector(struct gn_kms *k, const char *why, int64_t now_ns) {
+    k->connected = k->lit = false;
+    snprintf(k->reason, sizeof k->reason, "%s: no mode can be set (%s)", k->connector, why);
+    k->look_ns = now_ns + 5 * GN_KMS_LOOK_NS;
+}
+
+void gn_kms_next_try(struct gn_kms *k, int error, int64_t now_ns) {
+    k->lit = false;
+    gn_flip_forget(&k->flip);
+    if (k->surface_opts.rung < GN_RUNG_COPY)
+        k->surface_opts.rung++;
+    else {
+        k->mode++;
+        k->surface_opts.rung = first_rung(k);
+    }
+    if (!take_mode(k)) give_up_connector(k, strerror(error), now_ns);
+}
+
+static int find_mode(const struct gn_kms *k, const drmModeModeInfo *mode) {
+    for (int i = 0; i < k->ladder_count; i++)
+        if (gn_kms_mode_equal(&k->ladder[i], mode)) return i;
+    return -1;
+}
+
+static bool is_listed(const struct gn_kms_connector *c, const drmModeModeInfo *mode) {
+    for (int i = 0; i < c->mode_count; i++)
+        if (gn_kms_mode_equal(&c->modes[i], mode)) return true;
+    return false;
+}
+
+/* A monitor that comes back gets the mode that it had, if that is still one of its. */
+static void keep_mode(struct gn_kms *k, const struct gn_kms_connector *c,
+                      const drmModeModeInfo *mode) {
+    if (mode->hdisplay == 0 || (find_mode(k, mode) < 0 && !is_listed(c, mode))) return;
+    int at = find_mode(k, mode);
+    if (at < 0 && k->ladder_count < GN_KMS_LADDER_MAX) k->ladder_count++;
+    if (at < 0) at = k->ladder_count - 1;
+    memmove(&k->ladder[1], &k->ladder[0], (size_t)at * sizeof *mode);
+    k->ladder[0] = *mode;
+}
+
+static bool same_surface(const struct gn_kms *k) {
+    const struct gn_surface_opts *o = &k->surface_opts;
+    const bool is_there = o->rung == GN_RUNG_COPY ? k->copies[0].handle != 0 : k->surface.format;
+    return is_there && o->width_px == k->ladder[0].hdisplay &&
+           o->height_px == k->ladder[0].vdisplay;
+}
+
+static bool open_output(struct gn_kms *k, int connector, int crtc) {
+    struct gn_err why = {0};
+    if (k->output.drm && k->output.connector == k->card.connectors[connector].id &&
+        k->output.crtc == k->card.crtcs[crtc].id)
+        return true;
+    gn_kms_drop_surface(k);
+    gn_kms_output_close(&k->output, k->master);
+    if (!gn_kms_output_open(&k->output, k->env.drm, k->fd, k->opts->legacy, &k->card, connector,
+                            crtc, &why))
+        return false;
+    gn_kms_output_formats(&k->output, &k->surface_opts);
+    k->surface_opts.samples = k->opts->msaa;
+    return true;
+}
+
+static void connect(struct gn_kms *k, int connector, int64_t now_ns) {
+    const struct gn_kms_connector *c = &k->card.connectors[connector];
+    const int crtc = gn_kms_choose_crtc(&k->card, connector);
+    snprintf(k->connector, sizeof k->connector, "%s", c->name);
+    k->orientation_deg = c->orientation_deg;
+    k->lit = false;
+    if (crtc < 0 || !open_output(k, connector, crtc)) {
+        give_up_connector(k, "nothing drives it", now_ns);
+        return;
+    }
+    const drmModeModeInfo had = k->output.mode;
+    k->ladder_count = gn_kms_mode_ladder(&k->card, connector, crtc, k->opts, k->ladder);
+    keep_mode(k, c, &had);
+    k->mode = 0;
+    k->connected = true;
+    k->reason[0] = 0;
+    if (same_surface(k)) return;
+    k->surface_opts.rung = first_rung(k);
+    if (!take_mode(k)) give_up_connector(k, "no buffers", now_ns);
+}
+
+/* ---- looking ---- */
+
+static bool is_ours(const struct gn_kms *k, const struct gn_kms_connector *c) {
+    return k->output.drm && c->id == k->output.connector;
+}
+
+/* The one in use stays in use for as long as it is connected. */
+static int choose(const struct gn_kms *k) {
+    for (int i = 0; i < k->card.connector_count; i++)
+        if (is_ours(k, &k->card.connectors[i]) && k->card.connectors[i].connected &&
+            k->card.connectors[i].mode_count > 0)
+            return i;
+    return gn_kms_choose_connector(&k->card, k->opts->connector);
+}
+
+/* Another card may have a monitor; ours has none. */
+static void look_elsewhere(struct gn_kms *k, int64_t now_ns) {
+    struct gn_kms_node other;
+    const int fd = find_card(k, 1, &other);
+    if (fd < 0) return;
+    k->env.drm->close(fd);
+    gn_kms_leave_card(k, true, now_ns);
+}
+
+static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
+    struct gn_err why = {0};
+    if (!gn_kms_card_read(k->env.drm, k->fd, probe, &k->card, &why)) {
+        gn_kms_leave_card(k, false, now_ns);
+        return;
+    }
+    const int chosen = choose(k);
+    if (chosen < 0) {
+        k->connected = k->lit = false;
+        look_elsewhere(k, now_ns);
+        return;
+    }
+    const struct gn_kms_connector *c = &k->card.connectors[chosen];
+    const bool as_it_was =
+        k->connected && is_ours(k, c) && !c->bad_link && (c->crtc >= 0 || !k->lit) &&
+        (is_listed(c, &k->ladder[k->mode]) || k->opts->mode_width > 0 || k->opts->modeline);
+    if (as_it_was) return;
+    if (k->flip.pending) { /* nothing is changed under a flip */
+        k->connected = false;
+        k->look_ns = now_ns + k->flip.period_ns;
+        return;
+    }
+    connect(k, chosen, now_ns);
+}
+
+void gn_kms_look(struct gn_kms *k, bool probe, int64_t now_ns) {
+    k->look_ns = GN_KMS_NEVER;
+    if (k->fd >= 0 && !k->scanout) gn_kms_close_card(k); /* GL may start by now */
+    if (k->fd < 0) {
+        open_card(k, now_ns);
+        probe = false;
+    }
+    if (k->fd >= 0 && k->scanout) look_at_card(k, probe, now_ns);
+    if (k->connected || k->look_ns != GN_KMS_NEVER) return;
+    k->look_ns = now_ns + (k->fd >= 0 && !k->scanout ? 5 : 1) * GN_KMS_LOOK_NS;
+}

@@ -1,0 +1,381 @@
+#include "display/kms_output.h"
+
+#include <drm_fourcc.h>
+#include <errno.h>
+#include <string.h>
+
+/* libdrm's functions return -errno, and some of them -1 and errno. */
+static int error_of(int result) {
+    if (result == 0) return 0;
+    if (result != -1) return result < 0 ? -result : result;
+    return errno ? errno : EIO;
+}
+
+/* ---- opening ---- */
+
+static void save_old(struct gn_kms_output *o) {
+    drmModeCrtc *crtc = o->drm->ModeGetCrtc(o->fd, o->crtc);
+    if (!crtc) return;
+    o->was_lit = crtc->mode_valid && crtc->buffer_id;
+    o->old_fb = crtc->buffer_id;
+    o->old_x = crtc->x;
+    o->old_y = crtc->y;
+    o->old_mode = crtc->mode;
+    o->drm->ModeFreeCrtc(crtc);
+}
+
+struct plane_values {
+    uint32_t ids[GN_PROP_PLANE_COUNT];
+    uint64_t values[GN_PROP_PLANE_COUNT];
+};
+
+/* Is it a primary plane for this CRTC, and how good: 0 no, 3 it shows there now. */
+static int rate_plane(const struct gn_kms_output *o, uint32_t id, struct plane_values *v) {
+    drmModePlane *plane = o->drm->ModeGetPlane(o->fd, id);
+    if (!plane) return 0;
+    const bool possible = plane->possible_crtcs >> o->crtc_index & 1;
+    const uint32_t now = plane->crtc_id;
+    o->drm->ModeFreePlane(plane);
+    if (!possible) return 0;
+    gn_kms_props_read(o->drm, o->fd, id, DRM_MODE_OBJECT_PLANE, gn_kms_plane_props,
+                      GN_PROP_PLANE_COUNT, v->ids, v->values);
+    if (v->values[GN_PROP_PLANE_TYPE] != DRM_PLANE_TYPE_PRIMARY) return 0;
+    if (now == o->crtc) return 3;
+    return now == 0 ? 2 : 1;
+}
+
+static bool choose_plane(struct gn_kms_output *o) {
+    drmModePlaneRes *all = o->drm->ModeGetPlaneResources(o->fd);
+    int best = 0;
+    for (uint32_t i = 0; all && i < all->count_planes; i++) {
+        struct plane_values v;
+        const int rate = rate_plane(o, all->planes[i], &v);
+        if (rate <= best) continue;
+        best = rate;
+        o->plane = all->planes[i];
+        memcpy(o->plane_props, v.ids, sizeof v.ids);
+    }
+    if (all) o->drm->ModeFreePlaneResources(all);
+    return best > 0;
+}
+
+static bool has_all(const uint32_t *ids, int first, int last) {
+    for (int i = first; i <= last; i++)
+        if (ids[i] == 0) return false;
+    return true;
+}
+
+/* Without it the older interface does all but fences. */
+static bool open_atomic(struct gn_kms_output *o) {
+    if (o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) != 0 ||
+        o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_ATOMIC, 1) != 0 || !choose_plane(o))
+        return false;
+    gn_kms_props_read(o->drm, o->fd, o->connector, DRM_MODE_OBJECT_CONNECTOR,
+                      gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, o->connector_props, NULL);
+    gn_kms_props_read(o->drm, o->fd, o->crtc, DRM_MODE_OBJECT_CRTC, gn_kms_crtc_props,
+                      GN_PROP_CRTC_COUNT, o->crtc_props, NULL);
+    return o->connector_props[GN_PROP_CONNECTOR_CRTC] &&
+           has_all(o->crtc_props, 0, GN_PROP_CRTC_COUNT - 1) &&
+           has_all(o->plane_props, GN_PROP_PLANE_FB, GN_PROP_PLANE_H);
+}
+
+bool gn_kms_output_open(struct gn_kms_output *o, const struct gn_drm_ops *drm, int fd, bool legacy,
+                        const struct gn_kms_card *card, int connector, int crtc,
+                        struct gn_err *err) {
+    if (crtc < 0) return gn_fail(err, "%s: nothing drives it", card->connectors[connector].name);
+    *o = (struct gn_kms_output){.drm = drm,
+                                .fd = fd,
+                                .connector = card->connectors[connector].id,
+                                .crtc = card->crtcs[crtc].id,
+                                .crtc_index = crtc};
+    save_old(o);
+    o->atomic = !legacy && open_atomic(o);
+    if (!o->atomic) { /* events and legacy flips are the same for a client that asked for atomic */
+        drm->SetClientCap(fd, DRM_CLIENT_CAP_ATOMIC, 0);
+        drm->SetClientCap(fd, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 0);
+    }
+    return true;
+}
+
+/* ---- what the plane takes ---- */
+
+static const uint32_t formats[] = {DRM_FORMAT_XRGB8888, DRM_FORMAT_ARGB8888, DRM_FORMAT_XBGR8888,
+                                   DRM_FORMAT_RGB565};
+enum { FORMATS = sizeof formats / sizeof *formats };
+
+static void plane_formats(const struct gn_kms_output *o, struct gn_surface_opts *out) {
+    drmModePlane *plane = o->plane ? o->drm->ModeGetPlane(o->fd, o->plane) : NULL;
+    for (int i = 0; plane && i < FORMATS; i++)
+        for (uint32_t k = 0; k < plane->count_formats; k++)
+            if (plane->formats[k] == formats[i]) {
+                out->formats[out->format_count++] = formats[i];
+                break;
+            }
+    if (plane) o->drm->ModeFreePlane(plane);
+    if (out->format_count > 0) return;
+    memcpy(out->formats, formats, sizeof formats); /* the older interface does not tell */
+    out->format_count = FORMATS;
+}
+
+/* Modifiers of one format: the blob has two tables, and in the second a window of 64 bits on the
+ * first. */
+static void read_modifiers(const drmModePropertyBlobRes *blob, struct gn_surface_opts *out) {
+    const struct drm_format_modifier_blob *head = blob->data;
+    if (blob->length < sizeof *head) return;
+    const uint64_t formats_end = head->formats_offset + 4ull * head->count_formats,
+                   end = head->modifiers_offset +
+                         (uint64_t)sizeof(struct drm_format_modifier) * head->count_modifiers;
+    if (formats_end > blob->length || end > blob->length) return;
+    const char *bytes = blob->data;
+    uint32_t at = 0, format;
+    for (; at < head->count_formats; at++) {
+        memcpy(&format, bytes + head->formats_offset + 4ull * at, sizeof format);
+        if (format == out->formats[0]) break;
+    }
+    for (uint32_t i = 0; i < head->count_modifiers; i++) {
+        struct drm_format_modifier m;
+        memcpy(&m, bytes + head->modifiers_offset + i * sizeof m, sizeof m);
+        if (at < m.offset || at >= m.offset + 64 || !(m.formats >> (at - m.offset) & 1)) continue;
+        if (out->modifier_count < GN_MODIFIERS_MAX)
+            out->modifiers[out->modifier_count++] = m.modifier;
+    }
+}
+
+static void plane_modifiers(const struct gn_kms_output *o, struct gn_surface_opts *out) {
+    uint64_t can = 0, values[GN_PROP_PLANE_COUNT];
+    uint32_t ids[GN_PROP_PLANE_COUNT];
+    if (!o->plane || o->drm->GetCap(o->fd, DRM_CAP_ADDFB2_MODIFIERS, &can) != 0 || !can) return;
+    gn_kms_props_read(o->drm, o->fd, o->plane, DRM_MODE_OBJECT_PLANE, gn_kms_plane_props,
+                      GN_PROP_PLANE_COUNT, ids, values);
+    const uint32_t id = (uint32_t)values[GN_PROP_PLANE_FORMATS];
+    drmModePropertyBlobRes *blob = id ? o->drm->ModeGetPropertyBlob(o->fd, id) : NULL;
+    if (!blob) return;
+    read_modifiers(blob, out);
+    o->drm->ModeFreePropertyBlob(blob);
+}
+
+void gn_kms_output_formats(const struct gn_kms_output *o, struct gn_surface_opts *out) {
+    out->format_count = out->modifier_count = 0;
+    plane_formats(o, out);
+    plane_modifiers(o, out);
+}
+
+bool gn_kms_output_takes_fence(const struct gn_kms_output *o) {
+    return o->atomic && o->plane_props[GN_PROP_PLANE_FENCE];
+}
+
+/* ---- framebuffers ---- */
+
+static void sweep(struct gn_kms_output *o, uint32_t shown) {
+    for (int i = 0; i < GN_KMS_FBS_MAX; i++) {
+        if (!o->fbs[i].id || o->fbs[i].key || o->fbs[i].id == shown) continue;
+        o->drm->ModeRmFB(o->fd, o->fbs[i].id);
+        o->fbs[i].id = 0;
+    }
+}
+
+static int add_fb(struct gn_kms_output *o, const struct gn_buffer *b, uint32_t *out) {
+    uint64_t modifiers[4] = {0};
+    for (int i = 0; i < b->plane_count && i < 4; i++) modifiers[i] = b->modifier;
+    if (b->modifier != DRM_FORMAT_MOD_INVALID) {
+        const int result = o->drm->ModeAddFB2WithModifiers(
+            o->fd, b->width_px, b->height_px, b->format, b->handles, b->strides, b->offsets,
+            modifiers, out, DRM_MODE_FB_MODIFIERS);
+        /* where it is the only layout, nothing needs to be said */
+        if (result == 0 || b->modifier != DRM_FORMAT_MOD_LINEAR) return error_of(result);
+    }
+    return error_of(o->drm->ModeAddFB2(o->fd, b->width_px, b->height_px, b->format, b->handles,
+                                       b->strides, b->offsets, out, 0));
+}
+
+static struct gn_kms_fb *free_place(struct gn_kms_output *o) {
+    for (int i = 0; i < GN_KMS_FBS_MAX; i++)
+        if (!o->fbs[i].id) return &o->fbs[i];
+    return NULL;
+}
+
+int gn_kms_output_fb(struct gn_kms_output *o, const struct gn_buffer *b, uint32_t *out) {
+    for (int i = 0; i < GN_KMS_FBS_MAX; i++) {
+        *out = o->fbs[i].id;
+        if (o->fbs[i].id && o->fbs[i].key == b->key) return 0;
+    }
+    struct gn_kms_fb *place = free_place(o);
+    if (!place) { /* many surfaces, and none could be lit */
+        sweep(o, 0);
+        place = free_place(o);
+    }
+    if (!place) return ENOMEM; /* more buffers than any surface has */
+    const int error = add_fb(o, b, out);
+    if (error == 0) *place = (struct gn_kms_fb){b->key, *out};
+    return error;
+}
+
+void gn_kms_output_orphan_fbs(struct gn_kms_output *o) {
+    for (int i = 0; i < GN_KMS_FBS_MAX; i++) o->fbs[i].key = NULL;
+}
+
+/* ---- commits ---- */
+
+struct request { /* the first failure sticks */
+    drmModeAtomicReq *list;
+    const struct gn_kms_output *o;
+    bool bad;
+};
+
+static void put(struct request *r, uint32_t object, uint32_t property, uint64_t value) {
+    if (property == 0) return; /* an optional one */
+    if (r->o->drm->ModeAtomicAddProperty(r->list, object, property, value) < 0) r->bad = true;
+}
+
+static int commit(struct request *r, uint32_t flags, void *user) {
+    const struct gn_kms_output *o = r->o;
+    if (r->bad) return ENOMEM;
+    return error_of(o->drm->ModeAtomicCommit(o->fd, r->list, flags, user));
+}
+
+static void put_plane(struct request *r, uint32_t fb, const drmModeModeInfo *mode) {
+    const struct gn_kms_output *o = r->o;
+    const uint32_t *p = o->plane_props;
+    put(r, o->plane, p[GN_PROP_PLANE_FB], fb);
+    put(r, o->plane, p[GN_PROP_PLANE_CRTC], o->crtc);
+    put(r, o->plane, p[GN_PROP_PLANE_SRC_X], 0);
+    put(r, o->plane, p[GN_PROP_PLANE_SRC_Y], 0);
+    put(r, o->plane, p[GN_PROP_PLANE_SRC_W], (uint64_t)mode->hdisplay << 16);
+    put(r, o->plane, p[GN_PROP_PLANE_SRC_H], (uint64_t)mode->vdisplay << 16);
+    put(r, o->plane, p[GN_PROP_PLANE_X], 0);
+    put(r, o->plane, p[GN_PROP_PLANE_Y], 0);
+    put(r, o->plane, p[GN_PROP_PLANE_W], mode->hdisplay);
+    put(r, o->plane, p[GN_PROP_PLANE_H], mode->vdisplay);
+    put(r, o->plane, p[GN_PROP_PLANE_ROTATION], DRM_MODE_ROTATE_0);
+}
+
+/* Whoever had the CRTC before may have left more on it: a cursor, an overlay, a second monitor. */
+static void put_others_off(struct request *r) {
+    const struct gn_kms_output *o = r->o;
+    drmModePlaneRes *planes = o->drm->ModeGetPlaneResources(o->fd);
+    for (uint32_t i = 0; planes && i < planes->count_planes; i++) {
+        drmModePlane *p = o->drm->ModeGetPlane(o->fd, planes->planes[i]);
+        if (p && p->crtc_id == o->crtc && p->plane_id != o->plane) {
+            uint32_t ids[GN_PROP_PLANE_COUNT];
+            gn_kms_props_read(o->drm, o->fd, p->plane_id, DRM_MODE_OBJECT_PLANE, gn_kms_plane_props,
+                              GN_PROP_PLANE_COUNT, ids, NULL);
+            put(r, p->plane_id, ids[GN_PROP_PLANE_FB], 0);
+            put(r, p->plane_id, ids[GN_PROP_PLANE_CRTC], 0);
+        }
+        if (p) o->drm->ModeFreePlane(p);
+    }
+    if (planes) o->drm->ModeFreePlaneResources(planes);
+}
+
+static void put_connectors_off(struct request *r, bool ours) {
+    const struct gn_kms_output *o = r->o;
+    drmModeRes *all = o->drm->ModeGetResources(o->fd);
+    for (int i = 0; all && i < all->count_connectors; i++) {
+        uint32_t ids[GN_PROP_CONNECTOR_COUNT];
+        uint64_t values[GN_PROP_CONNECTOR_COUNT];
+        if (!ours && all->connectors[i] == o->connector) continue;
+        gn_kms_props_read(o->drm, o->fd, all->connectors[i], DRM_MODE_OBJECT_CONNECTOR,
+                          gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, ids, values);
+        if (values[GN_PROP_CONNECTOR_CRTC] == o->crtc)
+            put(r, all->connectors[i], ids[GN_PROP_CONNECTOR_CRTC], 0);
+    }
+    if (all) o->drm->ModeFreeResources(all);
+}
+
+static int light_request(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb,
+                         uint32_t blob) {
+    struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
+    if (!r.list) return ENOMEM;
+    put_others_off(&r);
+    put_connectors_off(&r, false);
+    put(&r, o->connector, o->connector_props[GN_PROP_CONNECTOR_CRTC], o->crtc);
+    put(&r, o->connector, o->connector_props[GN_PROP_CONNECTOR_LINK], DRM_MODE_LINK_STATUS_GOOD);
+    put(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_MODE], blob);
+    put(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 1);
+    put_plane(&r, fb, mode);
+    int error = commit(&r, DRM_MODE_ATOMIC_TEST_ONLY | DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
+    if (error == 0) error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
+    o->drm->ModeAtomicFree(r.list);
+    return error;
+}
+
+static int light_atomic(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb) {
+    uint32_t blob = 0;
+    const int error = error_of(o->drm->ModeCreatePropertyBlob(o->fd, mode, sizeof *mode, &blob));
+    if (error != 0) return error;
+    const int lit = light_request(o, mode, fb, blob);
+    o->drm->ModeDestroyPropertyBlob(o->fd, blob); /* the CRTC holds it for as long as it needs */
+    return lit;
+}
+
+static int light_legacy(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb) {
+    drmModeModeInfo copy = *mode;
+    o->drm->ModeSetCursor(o->fd, o->crtc, 0, 0, 0);
+    return error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, fb, 0, 0, &o->connector, 1, &copy));
+}
+
+int gn_kms_output_light(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb) {
+    const int error = o->atomic ? light_atomic(o, mode, fb) : light_legacy(o, mode, fb);
+    if (error != 0) return error;
+    o->mode = *mode;
+    sweep(o, fb);
+    return 0;
+}
+
+static int flip_atomic(struct gn_kms_output *o, uint32_t fb, int fence, void *user) {
+    struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
+    if (!r.list) return ENOMEM;
+    put(&r, o->plane, o->plane_props[GN_PROP_PLANE_FB], fb);
+    if (fence >= 0) put(&r, o->plane, o->plane_props[GN_PROP_PLANE_FENCE], (uint64_t)fence);
+    const int error = commit(&r, DRM_MODE_ATOMIC_NONBLOCK | DRM_MODE_PAGE_FLIP_EVENT, user);
+    o->drm->ModeAtomicFree(r.list);
+    return error;
+}
+
+int gn_kms_output_flip(struct gn_kms_output *o, uint32_t fb, int fence, void *user) {
+    if (o->atomic) return flip_atomic(o, fb, fence, user);
+    return error_of(o->drm->ModePageFlip(o->fd, o->crtc, fb, DRM_MODE_PAGE_FLIP_EVENT, user));
+}
+
+static int dark_atomic(struct gn_kms_output *o) {
+    struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
+    if (!r.list) return ENOMEM;
+    put_others_off(&r);
+    put_connectors_off(&r, true);
+    put(&r, o->plane, o->plane_props[GN_PROP_PLANE_FB], 0);
+    put(&r, o->plane, o->plane_props[GN_PROP_PLANE_CRTC], 0);
+    put(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_MODE], 0);
+    put(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 0);
+    const int error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
+    o->drm->ModeAtomicFree(r.list);
+    return error;
+}
+
+int gn_kms_output_dark(struct gn_kms_output *o) {
+    if (o->atomic) return dark_atomic(o);
+    return error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, 0, 0, 0, NULL, 0, NULL));
+}
+
+/* Asked while it is lit: a dark CRTC has no refreshes either. */
+bool gn_kms_output_is_blind(const struct gn_kms_output *o) {
+    uint64_t sequence, ns;
+    return error_of(o->drm->CrtcGetSequence(o->fd, o->crtc, &sequence, &ns)) == EOPNOTSUPP;
+}
+
+/* ---- closing ---- */
+
+/* The console's framebuffer is still there; another program's may not be. */
+static void put_back(struct gn_kms_output *o) {
+    if (o->was_lit && o->drm->ModeSetCrtc(o->fd, o->crtc, o->old_fb, o->old_x, o->old_y,
+                                          &o->connector, 1, &o->old_mode) == 0)
+        return;
+    gn_kms_output_dark(o);
+}
+
+void gn_kms_output_close(struct gn_kms_output *o, bool restore) {
+    if (!o->drm) return;
+    if (restore && o->mode.hdisplay > 0) put_back(o);
+    gn_kms_output_orphan_fbs(o);
+    sweep(o, 0);
+    *o = (struct gn_kms_output){0};
+}

@@ -1,0 +1,39 @@
+/* Properties by name. Their numbers differ from card to card, and hold as long as it is open. */
+#include <string.h>
+
+#include "display/kms_output.h"
+
+const char *const gn_kms_connector_props[GN_PROP_CONNECTOR_COUNT] = {
+    [GN_PROP_CONNECTOR_CRTC] = "CRTC_ID",
+    [GN_PROP_CONNECTOR_LINK] = "link-status",
+};
+const char *const gn_kms_crtc_props[GN_PROP_CRTC_COUNT] = {
+    [GN_PROP_CRTC_ACTIVE] = "ACTIVE",
+    [GN_PROP_CRTC_MODE] = "MODE_ID",
+};
+const char *const gn_kms_plane_props[GN_PROP_PLANE_COUNT] = {
+    [GN_PROP_PLANE_TYPE] = "type",         [GN_PROP_PLANE_FB] = "FB_ID",
+    [GN_PROP_PLANE_CRTC] = "CRTC_ID",      [GN_PROP_PLANE_SRC_X] = "SRC_X",
+    [GN_PROP_PLANE_SRC_Y] = "SRC_Y",       [GN_PROP_PLANE_SRC_W] = "SRC_W",
+    [GN_PROP_PLANE_SRC_H] = "SRC_H",       [GN_PROP_PLANE_X] = "CRTC_X",
+    [GN_PROP_PLANE_Y] = "CRTC_Y",          [GN_PROP_PLANE_W] = "CRTC_W",
+    [GN_PROP_PLANE_H] = "CRTC_H",          [GN_PROP_PLANE_FENCE] = "IN_FENCE_FD",
+    [GN_PROP_PLANE_ROTATION] = "rotation", [GN_PROP_PLANE_FORMATS] = "IN_FORMATS",
+};
+
+void gn_kms_props_read(const struct gn_drm_ops *drm, int fd, uint32_t object, uint32_t type,
+                       const char *const *names, int count, uint32_t *ids, uint64_t *values) {
+    memset(ids, 0, (size_t)count * sizeof *ids);
+    if (values) memset(values, 0, (size_t)count * sizeof *values);
+    drmModeObjectProperties *all = drm->ModeObjectGetProperties(fd, object, type);
+    for (uint32_t i = 0; all && i < all->count_props; i++) {
+        drmModePropertyRes *p = drm->ModeGetProperty(fd, all->props[i]);
+        for (int k = 0; p && k < count; k++) {
+            if (strcmp(p->name, names[k]) != 0) continue;
+            ids[k] = p->prop_id;
+            if (values) values[k] = all->prop_values[i];
+        }
+        if (p) drm->ModeFreeProperty(p);
+    }
+    if (all) drm->ModeFreeObjectProperties(all);
+}

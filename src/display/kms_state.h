@@ -1,0 +1,79 @@
+/* Inside the screen on the kernel's modesetting: what its files share. */
+#ifndef GN_DISPLAY_KMS_STATE_H
+#define GN_DISPLAY_KMS_STATE_H
+
+#include "display/kms.h"
+#include "display/kms_dumb.h"
+#include "display/kms_output.h"
+
+#define GN_KMS_NEVER   INT64_MAX
+#define GN_KMS_S       INT64_C(1000000000)
+#define GN_KMS_LOOK_NS (2 * GN_KMS_S) /* between two looks while nothing is lit */
+
+enum { GN_KMS_TICKETS = 4 };
+
+struct gn_kms_shot { /* a picture with its framebuffer; fb 0: none */
+    void *key;       /* of its buffer */
+    uint32_t fb;
+    int fence; /* ours to close, -1: none */
+};
+struct gn_kms_ticket { /* what an event brings back: of which flip it tells */
+    struct gn_kms *kms;
+    uint64_t number;
+};
+
+struct gn_kms {
+    struct gn_kms_env env;
+    const struct gn_screen_opts *opts;
+    struct gn_screen screen;
+
+    struct gn_kms_node node; /* of the open card */
+    int fd;                  /* -1: no card */
+    void *scanout;           /* NULL: GL does not start on it, see reason */
+    struct gn_kms_card card, fresh;
+    struct gn_kms_output output; /* drm NULL: none */
+    char reason[128];            /* why nothing is shown, when it is nothing better known */
+    char holder[64];             /* who has the screen */
+
+    char connector[32];       /* its name */
+    unsigned orientation_deg; /* of its panel */
+    bool connected;           /* something to show on is chosen, and a surface for it */
+    drmModeModeInfo ladder[GN_KMS_LADDER_MAX];
+    int ladder_count, mode; /* the mode in use is ladder[mode] */
+    struct gn_surface_opts surface_opts;
+    struct gn_surface surface; /* unless rung is COPY */
+    struct gn_dumb copies[2];
+
+    bool master, away;          /* away: on another console */
+    bool lit;                   /* the CRTC shows what was last flipped; else: a modeset */
+    struct gn_kms_shot front;   /* seen */
+    struct gn_kms_shot pending; /* on its way; the same as front when shown again */
+    struct gn_kms_shot waiting; /* refused for the moment */
+    int64_t waiting_ns;         /* since when */
+    struct gn_flip flip;
+    struct gn_kms_ticket tickets[GN_KMS_TICKETS];
+    uint64_t ticket;                      /* of the pending flip */
+    int64_t event_ns;                     /* the time that its event tells; -1: no event yet */
+    int losses;                           /* of the context, since a frame was last seen */
+    int64_t look_ns, master_ns, again_ns; /* when next; GN_KMS_NEVER */
+};
+
+/* kms_look.c: cards and connectors. */
+void gn_kms_look(struct gn_kms *kms, bool probe, int64_t now_ns);
+/* The card is of no more use; `restore`: but it still listens. */
+void gn_kms_leave_card(struct gn_kms *kms, bool restore, int64_t now_ns);
+/* The context ends, and the card is closed. */
+void gn_kms_close_card(struct gn_kms *kms);
+/* What was tried cannot be lit: other buffers, then another mode. */
+void gn_kms_next_try(struct gn_kms *kms, int error, int64_t now_ns);
+bool gn_kms_try_master(struct gn_kms *kms, int64_t now_ns);
+
+/* kms_frame.c: pictures on their way. */
+void gn_kms_send(struct gn_kms *kms, struct gn_kms_shot shot, int64_t now_ns);
+void gn_kms_forget_shots(struct gn_kms *kms); /* no buffer is in use any more */
+void gn_kms_flip_is_lost(struct gn_kms *kms); /* no event will tell of the pending one */
+void gn_kms_drain(struct gn_kms *kms, int64_t now_ns);
+bool gn_kms_make_copies(struct gn_kms *kms);
+void gn_kms_drop_surface(struct gn_kms *kms);
+
+#endif

@@ -1,0 +1,51 @@
+#include "display/kms_uevent.h"
+
+#include <errno.h>
+#include <linux/netlink.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+enum { FROM_KERNEL = 1 }; /* the group; udevd speaks in group 2 */
+
+int gn_uevent_open(void) {
+    struct sockaddr_nl address = {.nl_family = AF_NETLINK, .nl_groups = FROM_KERNEL};
+    int fd = socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_KOBJECT_UEVENT);
+    if (fd < 0) return -1;
+    if (bind(fd, (struct sockaddr *)&address, sizeof address) == 0) return fd;
+    close(fd);
+    return -1;
+}
+
+bool gn_uevent_is_drm(const char *message, size_t size) {
+    static const char wanted[] = "SUBSYSTEM=drm";
+    for (size_t at = 0; at < size;) {
+        const size_t length = strnlen(message + at, size - at);
+        if (length == sizeof wanted - 1 && memcmp(message + at, wanted, length) == 0) return true;
+        at += length + 1;
+    }
+    return false;
+}
+
+/* Anybody may send to a netlink socket: the kernel's port is 0. */
+static bool is_kernel(const struct sockaddr_nl *from, socklen_t length) {
+    return length == sizeof *from && from->nl_pid == 0;
+}
+
+bool gn_uevent_read(int fd) {
+    bool heard = false;
+    for (;;) {
+        char message[8192];
+        struct sockaddr_nl from;
+        socklen_t length = sizeof from;
+        const ssize_t size =
+            recvfrom(fd, message, sizeof message, 0, (struct sockaddr *)&from, &length);
+        if (size < 0 && errno == EINTR) continue;
+        if (size < 0 && errno == ENOBUFS) { /* too many at once: some are lost */
+            heard = true;
+            continue;
+        }
+        if (size < 0) return heard;
+        if (is_kernel(&from, length)) heard |= gn_uevent_is_drm(message, (size_t)size);
+    }
+}

@@ -1,0 +1,12 @@
+/* Who has a card open. */
+#ifndef GN_DISPLAY_KMS_WHO_H
+#define GN_DISPLAY_KMS_WHO_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* The first other process that has the node open, as "Xorg (pid 612)". Other users' processes can
+ * be seen by root alone. False: none is seen. */
+bool gn_kms_who(const char *node, char *out, size_t size);
+
+#endif
