@@ -241,15 +241,6 @@ static bool check_animation(const struct gn_options *o, struct gn_warnings *warn
     return true;
 }
 
-/* What the table promises and this version does not do yet is said, not swallowed. */
-static void warn_idle(const struct gn_options *o, struct gn_warnings *warnings) {
-    bool kiosk = o->command == GN_COMMAND_AUTO || o->command == GN_COMMAND_SHOW;
-    if (kiosk && (gn_options_given(o, connector) || gn_options_given(o, display_mode) ||
-                  gn_options_given(o, rotate_deg)))
-        gn_warn(warnings, "connector, display mode and rotation are for a display on a screen, "
-                          "which this version does not have");
-}
-
 static bool understand(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_options *options = args->options;
     if (!split(args, err)) return false;
@@ -258,11 +249,9 @@ static bool understand(struct args *args, struct gn_warnings *warnings, struct g
     if (options->help && args->words[0]) options->command = command_of(args->words[0]);
     if (options->help || options->version) return true;
     if (!find_command(args, err) || !check_flags(args, err) || !read_config(args, warnings, err) ||
-        !apply_flags(args, err) || !apply_mode(options, err) || !check_shadow(options, err) ||
-        !check_animation(options, warnings, err))
+        !apply_flags(args, err) || !apply_mode(options, err) || !check_shadow(options, err))
         return false;
-    warn_idle(options, warnings);
-    return true;
+    return check_animation(options, warnings, err);
 }
 
 bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
@@ -273,6 +262,8 @@ bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
     args.flags = gn_xalloc(letters + 1, sizeof *args.flags);
     gn_options_init(options);
     bool ok = understand(&args, warnings, err);
+    options->argc = argc;
+    options->argv = argv;
     free(args.flags);
     return ok;
 }

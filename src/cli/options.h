@@ -85,7 +85,7 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     size_t offset;        /* of its field in struct gn_options */
 };
-enum { GN_OPTION_COUNT = 39 };
+enum { GN_OPTION_COUNT = 43 };
 extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
 
 const struct gn_option_row *gn_option_find(const char *name,
@@ -146,15 +146,17 @@ struct gn_options {
     struct gn_limits limits;
 
     /* [display] */
-    const char *backend, *connector;
+    const char *backend, *card, *connector;
     struct gn_display_mode display_mode; /* 0x0: the display's */
-    int rotate_deg, max_fps;
+    const char *modeline;
+    int rotate_deg, max_fps; /* 0: as fast as the display */
+    bool legacy;
 
     /* the command's own */
     const char *config, *mode, *out;
     int frames;
     double fps;
-    bool plan, json, self_test, verbose, version, help;
+    bool plan, json, self_test, stats, verbose, version, help;
 
     /* bookkeeping */
     uint8_t source[GN_OPTION_COUNT];    /* enum gn_source of each row */
@@ -165,6 +167,8 @@ struct gn_options {
     const char *config_path; /* the INI file that was read, or NULL */
     const char
         *config_error; /* `show` runs on with the defaults when that file is bad: why, or NULL */
+    int argc;          /* as main() has them: to read all of it again */
+    char *const *argv;
     struct gn_options *base; /* as before any mode; private */
     struct gn_arena arena;   /* all texts */
 };

@@ -129,9 +129,8 @@ bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options,
     return true;
 }
 
-bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err) {
+bool gn_stage_start_gl(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_options *o = stage->options;
-    if (!gn_wake_display(&stage->display, o, warnings, err)) return false;
     struct gn_gl_opts opts = {
         .get_proc = gn_display_get_proc,
         .display = &stage->display,
@@ -143,12 +142,26 @@ bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct 
     };
     stage->gl = gn_gl_create(&opts, warnings, err);
     if (!stage->gl || !gn_gl_load(stage->gl, stage->scene, err)) return false;
+    stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
+    return true;
+}
+
+void gn_stage_stop_gl(struct gn_stage *stage) {
+    gn_frame_destroy(stage->frame);
+    gn_gl_destroy(stage->gl);
+    stage->frame = NULL;
+    stage->gl = NULL;
+}
+
+bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err) {
+    const struct gn_options *o = stage->options;
+    if (!gn_wake_display(&stage->display, o, warnings, err)) return false;
+    if (!gn_stage_start_gl(stage, warnings, err)) return false;
     const struct gn_caps *caps = gn_gl_caps(stage->gl);
     int most = caps->max_texture_px;
     if (o->size.width_px > most || o->size.height_px > most)
         return gn_fail(err, "%s %dx%d: %s draws at most %dx%d", gn_options_label(o, size),
                        o->size.width_px, o->size.height_px, caps->renderer, most, most);
-    stage->frame = gn_frame_create(stage->scene, caps);
     return true;
 }
 
@@ -181,8 +194,7 @@ const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
 }
 
 void gn_stage_close(struct gn_stage *stage) {
-    gn_frame_destroy(stage->frame);
-    gn_gl_destroy(stage->gl);
+    gn_stage_stop_gl(stage);
     gn_display_close(&stage->display);
     gn_pose_finish(&stage->pose);
     gn_scene_destroy(stage->scene);

@@ -29,6 +29,9 @@ bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options,
                    struct gn_warnings *warnings, struct gn_err *err);
 /* Opens the display of --backend, makes the context current, loads the scene into it. */
 bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err);
+/* The part of it that lives in the context that is current; stop_gl is legal without, too. */
+bool gn_stage_start_gl(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err);
+void gn_stage_stop_gl(struct gn_stage *stage);
 /* The scene and the turntable at a time. */
 void gn_stage_pose(struct gn_stage *stage, int64_t time_ns);
 /* Builds the plan of the pose and frame_opts as they are and makes what it needs. What the GPU

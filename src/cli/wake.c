@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-static const int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
-enum { CRASHES = sizeof crashes / sizeof *crashes };
+static const int crashes[GN_WAKE_CRASHES] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
 static int heard = STDERR_FILENO; /* where our own line goes */
 
@@ -34,15 +33,23 @@ static void listen_again(int kept) {
     close(kept);
 }
 
+void gn_wake_begin(struct gn_wake *wake, const struct gn_options *options) {
+    const struct sigaction now = {.sa_handler = say_and_end};
+    wake->kept = options->verbose ? -1 : silence();
+    heard = wake->kept >= 0 ? wake->kept : STDERR_FILENO;
+    for (int i = 0; i < GN_WAKE_CRASHES; i++) sigaction(crashes[i], &now, &wake->old[i]);
+}
+
+void gn_wake_end(struct gn_wake *wake) {
+    for (int i = 0; i < GN_WAKE_CRASHES; i++) sigaction(crashes[i], &wake->old[i], NULL);
+    listen_again(wake->kept);
+}
+
 bool gn_wake_display(struct gn_display *display, const struct gn_options *options,
                      struct gn_warnings *warnings, struct gn_err *err) {
-    const struct sigaction now = {.sa_handler = say_and_end};
-    struct sigaction old[CRASHES];
-    int kept = options->verbose ? -1 : silence();
-    heard = kept >= 0 ? kept : STDERR_FILENO;
-    for (int i = 0; i < CRASHES; i++) sigaction(crashes[i], &now, &old[i]);
+    struct gn_wake wake = {0};
+    gn_wake_begin(&wake, options);
     bool ok = gn_display_open(display, options->backend, warnings, err);
-    for (int i = 0; i < CRASHES; i++) sigaction(crashes[i], &old[i], NULL);
-    listen_again(kept);
+    gn_wake_end(&wake);
     return ok;
 }

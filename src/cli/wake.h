@@ -3,9 +3,20 @@
 #ifndef GN_CLI_WAKE_H
 #define GN_CLI_WAKE_H
 
+#include <signal.h>
+
 #include "cli/options.h"
 #include "core/warn.h"
 #include "display/display.h"
+
+enum { GN_WAKE_CRASHES = 5 };
+struct gn_wake { /* zeroed is ready */
+    int kept;    /* the descriptor that stderr had; -1: left as it is */
+    struct sigaction old[GN_WAKE_CRASHES];
+};
+/* Around whatever wakes a driver. */
+void gn_wake_begin(struct gn_wake *wake, const struct gn_options *options);
+void gn_wake_end(struct gn_wake *wake);
 
 /* gn_display_open() of --backend. */
 bool gn_wake_display(struct gn_display *display, const struct gn_options *options,

@@ -258,14 +258,17 @@ static void every_key_finds_its_row(void **state) {
     assert_null(gn_option_find("siz", 3));
 }
 
-static void what_this_version_does_not_do_is_said(void **state) {
+static void options_of_the_display_are_taken(void **state) {
     (void)state;
-    assert_true(parse("show --backend egl --max-fps 30"));
+    assert_true(parse("show --rotate 90 --connector HDMI-A-2 --card platform-gpu-card --legacy "
+                      "--display-mode 1280x720@50"));
     assert_int_equal(warnings.count, 0);
-    assert_true(parse("show --backend egl --rotate 90"));
-    assert_int_equal(warnings.count, 1);
-    assert_true(parse("render --show-lights --show-maps -o x.png"));
-    assert_int_equal(warnings.count, 0);
+    assert_int_equal(options.rotate_deg, 90);
+    assert_string_equal(options.connector, "HDMI-A-2");
+    assert_string_equal(options.card, "platform-gpu-card");
+    assert_true(options.legacy);
+    assert_int_equal(options.display_mode.height_px, 720);
+    assert_int_equal(options.max_fps, 0);
     gn_options_finish(&options);
 }
 
@@ -362,7 +365,7 @@ int main(void) {
         cmocka_unit_test(rows_are_complete_and_different),
         cmocka_unit_test(every_key_finds_its_row),
         cmocka_unit_test(help_lists_what_the_parser_takes_and_nothing_else),
-        cmocka_unit_test(what_this_version_does_not_do_is_said),
+        cmocka_unit_test(options_of_the_display_are_taken),
         cmocka_unit_test(the_man_page_lists_every_option_default_and_key),
         cmocka_unit_test(help_fits_a_hundred_columns),
     };
