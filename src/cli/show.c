@@ -94,12 +94,21 @@ static void fit_to_screen(struct show *s) {
     gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
 }
 
+/* A kiosk that cannot draw shows why, and stays: somebody will come and read it. */
+static bool say(struct show *s, struct gn_err *err) {
+    gn_stage_stop_gl(&s->stage);
+    if (!gn_display_say(&s->stage.display, err->text, gn_clock_monotonic_ns())) return false;
+    fprintf(stderr, "gnomon: warning: %s\n", err->text);
+    *err = (struct gn_err){0};
+    return true;
+}
+
 /* Programs are made before there is a monitor; what size it will have matters not to them. */
 static bool start_gl(struct show *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
     s->generation = screen->generation;
     s->changed = true;
-    if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return false;
+    if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return say(s, err);
     if (screen->may_draw) return true;
     s->stage.frame_opts.width_px = 64;
     s->stage.frame_opts.height_px = 36;

@@ -112,6 +112,15 @@ bool gn_display_present(struct gn_display *d, int64_t now_ns, struct gn_err *err
     return screen_of(d)->present(d, now_ns, err);
 }
 
+bool gn_display_say(struct gn_display *d, const char *text, int64_t now_ns) {
+    return screen_of(d)->say && screen_of(d)->say(d, text, now_ns);
+}
+
+bool gn_display_is_free(const char *name) {
+    const struct gn_display_ops *row = find_row(name);
+    return row && (!row->screen || !row->screen->is_free || row->screen->is_free());
+}
+
 gn_display_proc gn_display_get_proc(void *display, const char *name) {
     struct gn_display *d = display;
     return d->ops->get_proc(d, name);

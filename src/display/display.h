@@ -86,6 +86,8 @@ struct gn_screen_ops { /* see the functions of the same names */
     bool (*renew)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*begin)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*present)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
+    bool (*say)(struct gn_display *display, const char *text, int64_t now_ns); /* NULL: cannot */
+    bool (*is_free)(void);                                                     /* NULL: always */
 };
 struct gn_display {
     const struct gn_display_ops *ops;
@@ -120,5 +122,10 @@ bool gn_display_begin(struct gn_display *display, int64_t now_ns, struct gn_err 
 /* Sends what was drawn on its way. Never waits for it. Fails as dispatch does; what the kernel
  * refuses is tried again by itself. */
 bool gn_display_present(struct gn_display *display, int64_t now_ns, struct gn_err *err);
+/* Shows a text in place of pictures, without GL, from now on until the context is another. False:
+ * this screen cannot. */
+bool gn_display_say(struct gn_display *display, const char *text, int64_t now_ns);
+/* The screen of that name could be seen now: there is a monitor, and nobody else has it. */
+bool gn_display_is_free(const char *name);
 
 #endif

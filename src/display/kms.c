@@ -18,8 +18,6 @@ static void say_status(struct gn_kms *k) {
     *out = 0;
     if (k->fd < 0 || k->screen.lost)
         snprintf(out, size, "waiting for a card%s%s", k->reason[0] ? ": " : "", k->reason);
-    else if (!k->scanout)
-        snprintf(out, size, "%s", k->reason);
     else if (k->away)
         snprintf(out, size, "another console is shown");
     else if (!k->connected && k->reason[0])
@@ -27,6 +25,8 @@ static void say_status(struct gn_kms *k) {
     else if (!k->connected)
         snprintf(out, size, "waiting for a monitor%s%s", k->opts->connector ? " on " : "",
                  k->opts->connector ? k->opts->connector : "");
+    else if (k->notice[0])
+        snprintf(out, size, "%s", k->notice);
     else if (!k->master)
         snprintf(out, size, "%s has the screen (%s)", k->holder[0] ? k->holder : "another program",
                  k->node.path);
@@ -35,7 +35,7 @@ static void say_status(struct gn_kms *k) {
 static void update(struct gn_kms *k, int64_t now_ns) {
     struct gn_screen *s = &k->screen;
     const bool copies = k->surface_opts.rung == GN_RUNG_COPY;
-    const bool ready = k->connected && k->master && !k->away && !s->lost && k->scanout;
+    const bool ready = k->connected && k->master && !k->away && !s->lost && !k->notice[0];
     s->lit = ready && k->lit;
     s->may_draw = ready && !k->waiting.fb && gn_flip_may_draw(&k->flip, now_ns) &&
                   (copies || k->env.scanout->has_free(k->scanout));
@@ -141,6 +141,22 @@ static void show_again(struct gn_kms *k, int64_t now_ns) {
         gn_kms_send(k, k->front, now_ns);
 }
 
+/* Once: what is lit stays. */
+static void show_notice(struct gn_kms *k, int64_t now_ns) {
+    const bool free = !k->flip.pending && !k->waiting.fb && !k->lit;
+    if (k->notice[0] && free && k->connected && k->master && !k->away && k->fd >= 0)
+        gn_kms_show_notice(k, now_ns);
+}
+
+void gn_kms_say(struct gn_kms *k, const char *text, int64_t now_ns) {
+    snprintf(k->notice, sizeof k->notice, "%s", text);
+    if (k->flip.pending) gn_kms_flip_is_lost(k);
+    gn_kms_drop_surface(k);
+    k->connected = k->lit = false;
+    k->look_ns = now_ns;
+    gn_kms_step(k, 0, now_ns, NULL);
+}
+
 bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_err *err) {
     bool ok = true;
     hear(k, events, now_ns);
@@ -152,6 +168,7 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     if (!k->screen.lost && !k->master && !k->away && k->fd >= 0 && now_ns >= k->master_ns)
         gn_kms_try_master(k, now_ns);
     if (!k->screen.lost && now_ns >= k->look_ns) gn_kms_look(k, true, now_ns);
+    if (!k->screen.lost) show_notice(k, now_ns);
     if (k->losses > 3) ok = false;
     update(k, now_ns);
     return ok || give_up(k, err);

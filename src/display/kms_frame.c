@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "display/kms_state.h"
+#include "display/notice.h"
 
 /* ---- buffers ---- */
 
@@ -181,6 +182,22 @@ void gn_kms_send(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
         k->waiting = (struct gn_kms_shot){.fence = -1};
     else
         refuse(k, &shot, error, now_ns);
+}
+
+/* ---- a text instead ---- */
+
+void gn_kms_show_notice(struct gn_kms *k, int64_t now_ns) {
+    struct gn_dumb *copy = free_copy(k);
+    struct gn_kms_shot shot = {.key = copy, .fence = -1};
+    const struct gn_buffer buffer = gn_dumb_buffer(copy);
+    const struct gn_notice_picture picture = {copy->pixels, copy->stride, copy->width_px,
+                                              copy->height_px, k->screen.rotate_deg};
+    gn_notice_draw(&picture, k->notice);
+    const int error = gn_kms_output_fb(&k->output, &buffer, &shot.fb);
+    if (error == 0)
+        gn_kms_send(k, shot, now_ns);
+    else
+        gn_kms_next_try(k, error, now_ns);
 }
 
 /* ---- drawing ---- */

@@ -59,7 +59,11 @@ static int find_card(struct gn_kms *k, int least, struct gn_kms_node *out) {
 static void start_gl(struct gn_kms *k) {
     struct gn_err why = {0};
     k->scanout = k->env.scanout->open(k->fd, &why);
-    if (!k->scanout) snprintf(k->reason, sizeof k->reason, "%s: %s", k->node.path, why.text);
+    k->notice[0] = 0;
+    if (!k->scanout) {
+        snprintf(k->reason, sizeof k->reason, "%s: %s", k->node.path, why.text);
+        snprintf(k->notice, sizeof k->notice, "%s", k->reason);
+    }
     k->screen.has_context = k->scanout;
     if (k->scanout) k->screen.generation++;
 }
@@ -116,6 +120,7 @@ static bool take_surface(struct gn_kms *k) {
     struct gn_surface_opts *o = &k->surface_opts;
     o->width_px = k->ladder[k->mode].hdisplay;
     o->height_px = k->ladder[k->mode].vdisplay;
+    if (k->notice[0]) o->rung = GN_RUNG_COPY;
     for (; o->rung < GN_RUNG_COPY; o->rung++)
         if (k->env.scanout->set_surface(k->scanout, o, &k->surface, &why)) return true;
     return gn_kms_make_copies(k);
@@ -274,12 +279,12 @@ static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
 
 void gn_kms_look(struct gn_kms *k, bool probe, int64_t now_ns) {
     k->look_ns = GN_KMS_NEVER;
-    if (k->fd >= 0 && !k->scanout) gn_kms_close_card(k); /* GL may start by now */
+    if (k->fd >= 0 && !k->scanout && !k->connected) gn_kms_close_card(k); /* GL may start by now */
     if (k->fd < 0) {
         open_card(k, now_ns);
         probe = false;
     }
-    if (k->fd >= 0 && k->scanout) look_at_card(k, probe, now_ns);
+    if (k->fd >= 0) look_at_card(k, probe, now_ns);
     if (k->connected || k->look_ns != GN_KMS_NEVER) return;
     k->look_ns = now_ns + (k->fd >= 0 && !k->scanout ? 5 : 1) * GN_KMS_LOOK_NS;
 }

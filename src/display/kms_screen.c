@@ -180,6 +180,32 @@ static bool kms_present(struct gn_display *display, int64_t now_ns, struct gn_er
     return settle(display, gn_kms_present(s->kms, now_ns, err), now_ns);
 }
 
+static bool kms_say(struct gn_display *display, const char *text, int64_t now_ns) {
+    struct kms_screen *s = display->state;
+    gn_kms_say(s->kms, text, now_ns);
+    return settle(display, true, now_ns);
+}
+
+static bool is_free(const struct gn_drm_ops *drm, const char *path, struct gn_kms_card *card) {
+    const int fd = drm->open(path);
+    const bool is = fd >= 0 && gn_kms_card_read(drm, fd, true, card, NULL) &&
+                    gn_kms_card_score(card, NULL) > 0 &&
+                    (drm->IsMaster(fd) || drm->SetMaster(fd) == 0);
+    if (fd >= 0) drm->close(fd);
+    return is;
+}
+
+static bool kms_is_free(void) {
+    struct gn_kms_node nodes[GN_KMS_CARDS_MAX];
+    const struct gn_drm_ops *drm = gn_drm_real(NULL);
+    struct gn_kms_card *card = gn_xalloc(1, sizeof *card); /* too large for the stack */
+    const int count = drm ? drm->list(nodes, GN_KMS_CARDS_MAX) : 0;
+    bool found = false;
+    for (int i = 0; i < count && !found; i++) found = is_free(drm, nodes[i].path, card);
+    free(card);
+    return found;
+}
+
 static gn_display_proc kms_get_proc(struct gn_display *display, const char *name) {
     struct kms_screen *s = display->state;
     return s->kms ? gn_kms_get_proc(s->kms, name) : gn_scanout_gbm.get_proc(s->scanout, name);
@@ -191,6 +217,8 @@ static const struct gn_screen_ops kms_screen_ops = {
     .renew = kms_renew,
     .begin = kms_begin,
     .present = kms_present,
+    .say = kms_say,
+    .is_free = kms_is_free,
 };
 
 const struct gn_display_ops gn_display_kms = {

@@ -32,6 +32,7 @@ struct gn_kms {
     void *scanout;           /* NULL: GL does not start on it, see reason */
     struct gn_kms_card card, fresh;
     struct gn_kms_output output; /* drm NULL: none */
+    char notice[256];            /* shown in place of pictures; "": none */
     char reason[128];            /* why nothing is shown, when it is nothing better known */
     char holder[64];             /* who has the screen */
 
@@ -71,6 +72,7 @@ bool gn_kms_try_master(struct gn_kms *kms, int64_t now_ns);
 /* kms_frame.c: pictures on their way. */
 void gn_kms_send(struct gn_kms *kms, struct gn_kms_shot shot, int64_t now_ns);
 void gn_kms_forget_shots(struct gn_kms *kms); /* no buffer is in use any more */
+void gn_kms_show_notice(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_flip_is_lost(struct gn_kms *kms); /* no event will tell of the pending one */
 void gn_kms_drain(struct gn_kms *kms, int64_t now_ns);
 bool gn_kms_make_copies(struct gn_kms *kms);
