@@ -166,6 +166,11 @@ static bool verdict(const struct gn_doctor_report *report, const struct gn_optio
 static bool examine(struct gn_doctor_report *report, const struct gn_options *options,
                     struct answer *answer, struct gn_err *err) {
     gn_machine_read(&report->machine, "");
+    for (int i = 0; i < report->machine.device_count; i++) {
+        struct gn_device *device = &report->machine.devices[i];
+        if (device->kind == GN_DEVICE_CARD)
+            gn_display_holder(device->path, device->holder, sizeof device->holder);
+    }
     if (!check_backends(report, options, answer, err)) return false;
     report->chosen = choose(report, options->backend);
     gn_doctor_diagnose(report);

@@ -174,9 +174,10 @@ static void print_gpu(const struct gn_doctor_backend *b, FILE *to) {
 
 static void print_device(const struct gn_device *device, FILE *to) {
     static const char *const may[] = {"no access", "read only", "write only", "read and write"};
-    fprintf(to, "  %-20s %-16s %s (group %s)\n", device->path,
+    fprintf(to, "  %-20s %-16s %s (group %s)%s%s\n", device->path,
             device->driver[0] ? device->driver : "unknown driver",
-            may[device->readable + 2 * device->writable], device->group);
+            may[device->readable + 2 * device->writable], device->group,
+            device->holder[0] ? "; in use by " : "", device->holder);
 }
 
 static void print_devices(const struct gn_machine *m, bool gpio, FILE *to) {
@@ -190,7 +191,7 @@ static void print_devices(const struct gn_machine *m, bool gpio, FILE *to) {
     if (!any) fprintf(to, "  none\n");
     for (int i = 0; i < m->connector_count && !gpio; i++)
         fprintf(to, "  %-20s %s%s%s\n", m->connectors[i].name, m->connectors[i].status,
-                m->connectors[i].mode[0] ? ", " : "", m->connectors[i].mode);
+                m->connectors[i].modes[0] ? ", " : "", m->connectors[i].modes);
 }
 
 static void print_problems(const struct gn_doctor_report *report, FILE *to) {
@@ -287,9 +288,11 @@ static json_t *devices_json(const struct gn_machine *m, bool gpio) {
         json_t *device = json_pack(
             "{so so so sb sb}", "path", text(d->path), gpio ? "device" : "driver", text(d->driver),
             "group", text(d->group), "readable", d->readable, "writable", d->writable);
-        if (!gpio)
+        if (!gpio) {
             json_object_set_new(device, "kind",
                                 json_string(d->kind == GN_DEVICE_CARD ? "card" : "render"));
+            json_object_set_new(device, "holder", text(d->holder));
+        }
         json_array_append_new(all, device);
     }
     return all;
@@ -298,9 +301,10 @@ static json_t *devices_json(const struct gn_machine *m, bool gpio) {
 static json_t *connectors_json(const struct gn_machine *m) {
     json_t *all = json_array();
     for (int i = 0; i < m->connector_count; i++)
-        json_array_append_new(all, json_pack("{so so so}", "name", text(m->connectors[i].name),
+        json_array_append_new(all, json_pack("{so so so so}", "name", text(m->connectors[i].name),
                                              "status", text(m->connectors[i].status), "mode",
-                                             text(m->connectors[i].mode)));
+                                             text(m->connectors[i].mode), "modes",
+                                             text(m->connectors[i].modes)));
     return all;
 }
 

@@ -45,8 +45,8 @@ void gn_doctor_print(const struct gn_doctor_report *report, FILE *to);
  *     software|null}],
  * gpu null or {backend, vendor, renderer, gles, software, max_texture_px, texture_units, proved
  *     [name], not_proved [{name, instead}], map_formats [name], auto {technique: map format}},
- * cards [{path, kind (card, render), driver|null, group, readable, writable}],
- * connectors [{name, status, mode|null}],
+ * cards [{path, kind (card, render), driver|null, group, readable, writable, holder|null}],
+ * connectors [{name, status, mode|null, modes|null}],
  * gpio [{path, device|null, group, readable, writable}],
  * problems [{what, cure}],
  * self_test: see selftest.h; absent if not asked for. */

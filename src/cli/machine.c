@@ -137,6 +137,20 @@ static void add_device(struct gn_machine *m, enum gn_device_kind kind, const cha
     find_driver(device, root);
 }
 
+/* One a line; those that differ in their rate alone stand there more than once. */
+static void copy_modes(struct gn_connector *c, const char *text) {
+    size_t used = 0;
+    while (*text) {
+        const size_t length = strcspn(text, "\n"), room = sizeof c->modes - used;
+        char word[24];
+        snprintf(word, sizeof word, "%.*s", (int)length, text);
+        if (length + 2 > room) return;
+        if (!strstr(c->modes, word))
+            used += (size_t)snprintf(c->modes + used, room, "%s%s", used ? " " : "", word);
+        text += length + (text[length] == '\n');
+    }
+}
+
 /* full: ".../card0-HDMI-A-1/status" */
 static void add_connector(struct gn_machine *m, const char *full, const char *root) {
     char folder[PATH_MAX], path[PATH_MAX + 8], text[4096];
@@ -147,8 +161,9 @@ static void add_connector(struct gn_machine *m, const char *full, const char *ro
     copy_line(connector->status, sizeof connector->status,
               slurp(root, full + strlen(root), text, sizeof text));
     snprintf(path, sizeof path, "%s/modes", folder);
-    copy_line(connector->mode, sizeof connector->mode,
-              slurp(root, path + strlen(root), text, sizeof text));
+    const char *modes = slurp(root, path + strlen(root), text, sizeof text);
+    copy_line(connector->mode, sizeof connector->mode, modes);
+    if (modes) copy_modes(connector, modes);
 }
 
 static void read_devices(struct gn_machine *m, const char *root) {

@@ -18,11 +18,13 @@ struct gn_device {
     char group[32]; /* that owns the node; its number where it has no name */
     bool group_may; /* that group may read and write */
     bool readable, writable; /* by this user */
+    char holder[64];         /* CARD: who has it open, "Xorg (pid 612)"; "": nobody is seen */
 };
 struct gn_connector {
     char name[48];   /* "card0-HDMI-A-1" */
     char status[16]; /* "connected", "disconnected", "unknown" */
     char mode[24];   /* the preferred one, "1920x1080", or "" */
+    char modes[200]; /* all sizes, the preferred one first, a space between two; cut */
 };
 
 struct gn_machine {

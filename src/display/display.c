@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "display/kms_who.h"
 #include "display/private.h"
 
 const struct gn_display_ops *const gn_displays[] = {
@@ -119,6 +120,11 @@ bool gn_display_say(struct gn_display *d, const char *text, int64_t now_ns) {
 bool gn_display_is_free(const char *name) {
     const struct gn_display_ops *row = find_row(name);
     return row && (!row->screen || !row->screen->is_free || row->screen->is_free());
+}
+
+bool gn_display_holder(const char *path, char *out, size_t size) {
+    *out = 0;
+    return gn_kms_who(path, out, size);
 }
 
 gn_display_proc gn_display_get_proc(void *display, const char *name) {

@@ -127,5 +127,8 @@ bool gn_display_present(struct gn_display *display, int64_t now_ns, struct gn_er
 bool gn_display_say(struct gn_display *display, const char *text, int64_t now_ns);
 /* The screen of that name could be seen now: there is a monitor, and nobody else has it. */
 bool gn_display_is_free(const char *name);
+/* The first other process that has a device open, as "Xorg (pid 612)"; "" and false: none that this
+ * user may see. */
+bool gn_display_holder(const char *path, char *out, size_t size);
 
 #endif

@@ -77,7 +77,7 @@ static void test_cards_connectors_and_chips_are_found(void **state) {
     put_link("/sys/class/drm/card1/device/driver", "../../../../bus/platform/drivers/vc4-drm");
     put_link("/sys/bus/gpio/devices/gpiochip0", "../../../devices/soc/fe200000.gpio/gpiochip0");
     put("/sys/class/drm/card1-HDMI-A-1/status", "connected\n");
-    put("/sys/class/drm/card1-HDMI-A-1/modes", "1920x1080\n1280x720\n");
+    put("/sys/class/drm/card1-HDMI-A-1/modes", "1920x1080\n1920x1080\n1280x720\n");
     gn_machine_read(&machine, root);
     assert_int_equal(machine.device_count, 3);
     assert_string_equal(machine.devices[0].path, "/dev/dri/card1");
@@ -88,6 +88,7 @@ static void test_cards_connectors_and_chips_are_found(void **state) {
     assert_string_equal(machine.connectors[0].name, "card1-HDMI-A-1");
     assert_string_equal(machine.connectors[0].status, "connected");
     assert_string_equal(machine.connectors[0].mode, "1920x1080");
+    assert_string_equal(machine.connectors[0].modes, "1920x1080 1280x720");
 }
 
 /* ---- what doctor makes of it ---- */
