@@ -71,11 +71,17 @@ static bool is_progressive(const drmModeModeInfo *m) {
 static uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
 static uint32_t most(uint32_t a, uint32_t b) { return a < b ? b : a; }
 
-/* A panel on its side is as large as one that is not. */
+static uint64_t pixel_rate(const drmModeModeInfo *m) {
+    return (uint64_t)m->hdisplay * m->vdisplay * gn_kms_mode_mhz(m);
+}
+
+/* Neither larger nor more pixels in a second than the cap at 60 Hz: a small monitor may be faster.
+ * A panel on its side is as large as one that is not. */
 static bool within(const drmModeModeInfo *m, const struct gn_screen_opts *o) {
     const uint32_t w = o->cap_width ? o->cap_width : 1920, h = o->cap_height ? o->cap_height : 1080;
     return most(m->hdisplay, m->vdisplay) <= most(w, h) &&
-           least(m->hdisplay, m->vdisplay) <= least(w, h) && gn_kms_mode_mhz(m) <= MOST_MHZ;
+           least(m->hdisplay, m->vdisplay) <= least(w, h) &&
+           pixel_rate(m) <= (uint64_t)w * h * MOST_MHZ;
 }
 
 static double distance_hz(const drmModeModeInfo *m, double hz) {
@@ -125,7 +131,8 @@ static const drmModeModeInfo *find_largest(const struct gn_kms_connector *c,
     const drmModeModeInfo *best = NULL;
     for (int i = 0; i < c->mode_count; i++) {
         const drmModeModeInfo *m = &c->modes[i];
-        if (!is_progressive(m) || !within(m, o) || gn_kms_mode_mhz(m) < LEAST_MHZ) continue;
+        if (!is_progressive(m) || !within(m, o)) continue;
+        if (gn_kms_mode_mhz(m) < LEAST_MHZ || gn_kms_mode_mhz(m) > MOST_MHZ) continue;
         if (!best || is_larger(m, best)) best = m;
     }
     return best;

@@ -136,6 +136,17 @@ static void test_interlaced_only_when_nothing_else_is(void **state) {
                   "1920x1080i60 720x576@50");
 }
 
+/* What the cap saves is pixels in a second. */
+static void test_a_small_monitor_may_be_faster(void **state) {
+    (void)state;
+    struct gn_kms_connector *c = add(&card, "HDMI-A-1", true);
+    c->modes[0] = mode(1280, 1024, 75, DRM_MODE_TYPE_PREFERRED, 0);
+    c->modes[c->mode_count++] = mode(1920, 1080, 60, 0, 0);
+    expect_ladder(&(struct gn_screen_opts){0}, "1280x1024@75 1920x1080@60");
+    c->modes[0] = mode(1920, 1080, 144, DRM_MODE_TYPE_PREFERRED, 0);
+    expect_ladder(&(struct gn_screen_opts){0}, "1920x1080@60 1920x1080@144");
+}
+
 static void test_a_panel_on_its_side_is_within(void **state) {
     (void)state;
     struct gn_kms_connector *c = add(&card, "DSI-1", true);
@@ -179,6 +190,7 @@ int main(void) {
         cmocka_unit_test_setup(test_the_current_mode_is_kept, set_up),
         cmocka_unit_test_setup(test_what_was_asked_for_goes_first, set_up),
         cmocka_unit_test_setup(test_interlaced_only_when_nothing_else_is, set_up),
+        cmocka_unit_test_setup(test_a_small_monitor_may_be_faster, set_up),
         cmocka_unit_test_setup(test_a_panel_on_its_side_is_within, set_up),
         cmocka_unit_test(test_cvt),
         cmocka_unit_test(test_bad_modelines),
