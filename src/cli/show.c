@@ -162,7 +162,12 @@ static bool frame(struct show *s, struct gn_err *err) {
     struct gn_display *display = &s->stage.display;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     if (!gn_display_begin(display, begun_ns, err)) return !err->text[0];
-    if (!draw(s, err)) return false;
+    const bool drawn = draw(s, err);
+    if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_clock_monotonic_ns())) {
+        *err = (struct gn_err){0};
+        return true;
+    }
+    if (!drawn) return false;
     const int64_t drawn_ns = gn_clock_monotonic_ns();
     s->changed = false;
     if (!gn_display_present(display, drawn_ns, err)) return false;

@@ -113,6 +113,11 @@ bool gn_display_present(struct gn_display *d, int64_t now_ns, struct gn_err *err
     return screen_of(d)->present(d, now_ns, err);
 }
 
+bool gn_display_lose(struct gn_display *d, int64_t now_ns) {
+    if (screen_of(d)->lose) screen_of(d)->lose(d, now_ns);
+    return d->screen.lost;
+}
+
 bool gn_display_say(struct gn_display *d, const char *text, int64_t now_ns) {
     return screen_of(d)->say && screen_of(d)->say(d, text, now_ns);
 }

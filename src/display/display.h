@@ -87,6 +87,7 @@ struct gn_screen_ops { /* see the functions of the same names */
     bool (*renew)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*begin)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*present)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
+    void (*lose)(struct gn_display *display, int64_t now_ns);                  /* NULL: cannot */
     bool (*say)(struct gn_display *display, const char *text, int64_t now_ns); /* NULL: cannot */
     bool (*is_free)(void);                                                     /* NULL: always */
 };
@@ -123,6 +124,9 @@ bool gn_display_begin(struct gn_display *display, int64_t now_ns, struct gn_err 
 /* Sends what was drawn on its way. Never waits for it. Fails as dispatch does; what the kernel
  * refuses is tried again by itself. */
 bool gn_display_present(struct gn_display *display, int64_t now_ns, struct gn_err *err);
+/* GL says that its context is of no use any more: from now on the screen is `lost`. False: there is
+ * no other context to be had. */
+bool gn_display_lose(struct gn_display *display, int64_t now_ns);
 /* Shows a text in place of pictures, without GL, from now on until the context is another. False:
  * this screen cannot. */
 bool gn_display_say(struct gn_display *display, const char *text, int64_t now_ns);

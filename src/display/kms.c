@@ -148,6 +148,11 @@ static void show_notice(struct gn_kms *k, int64_t now_ns) {
         gn_kms_show_notice(k, now_ns);
 }
 
+void gn_kms_lose(struct gn_kms *k, int64_t now_ns) {
+    gn_kms_leave_card(k, true, now_ns);
+    update(k, now_ns);
+}
+
 void gn_kms_say(struct gn_kms *k, const char *text, int64_t now_ns) {
     snprintf(k->notice, sizeof k->notice, "%s", text);
     if (k->flip.pending) gn_kms_flip_is_lost(k);

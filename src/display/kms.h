@@ -46,6 +46,7 @@ bool gn_kms_step(struct gn_kms *kms, unsigned events, int64_t now_ns, struct gn_
 bool gn_kms_renew(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
 bool gn_kms_begin(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
 bool gn_kms_present(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
+void gn_kms_lose(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_say(struct gn_kms *kms, const char *text, int64_t now_ns);
 
 #endif

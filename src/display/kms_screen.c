@@ -180,6 +180,12 @@ static bool kms_present(struct gn_display *display, int64_t now_ns, struct gn_er
     return settle(display, gn_kms_present(s->kms, now_ns, err), now_ns);
 }
 
+static void kms_lose(struct gn_display *display, int64_t now_ns) {
+    struct kms_screen *s = display->state;
+    gn_kms_lose(s->kms, now_ns);
+    settle(display, true, now_ns);
+}
+
 static bool kms_say(struct gn_display *display, const char *text, int64_t now_ns) {
     struct kms_screen *s = display->state;
     gn_kms_say(s->kms, text, now_ns);
@@ -217,6 +223,7 @@ static const struct gn_screen_ops kms_screen_ops = {
     .renew = kms_renew,
     .begin = kms_begin,
     .present = kms_present,
+    .lose = kms_lose,
     .say = kms_say,
     .is_free = kms_is_free,
 };

@@ -115,6 +115,7 @@ bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn
     GL(gl, GetIntegerv)(GL_MAX_TEXTURE_IMAGE_UNITS, &caps->max_texture_units);
     if (has_timer(gl)) caps->has |= 1u << GN_CAP_TIMER;
     if (has_debug(gl)) caps->has |= 1u << GN_CAP_DEBUG;
+    gl->robust = gl->fn.GetGraphicsResetStatus && has_extension(gl, "GL_KHR_robustness");
     caps->has |= gn_gl_probe_claims(gl);
     caps->has &= ~without;
     gl->probed = asked_only;

@@ -89,6 +89,10 @@ void gn_gl_destroy(struct gn_gl *gl) {
 }
 
 const struct gn_caps *gn_gl_caps(const struct gn_gl *gl) { return &gl->caps; }
+bool gn_gl_is_lost(struct gn_gl *gl) {
+    return gl->robust && GL(gl, GetGraphicsResetStatus)() != GL_NO_ERROR;
+}
+
 const char *gn_gl_failed_source(const struct gn_gl *gl) { return gl->failed_source; }
 
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err) {

@@ -32,6 +32,8 @@ struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *wa
                            struct gn_err *err);
 void gn_gl_destroy(struct gn_gl *gl);
 const struct gn_caps *gn_gl_caps(const struct gn_gl *gl);
+/* The GPU hung and was reset: all of this is void, and the context with it. */
+bool gn_gl_is_lost(struct gn_gl *gl);
 
 /* Uploads a scene, replacing the one before. The scene must outlive its use here. */
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err);

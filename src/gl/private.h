@@ -258,9 +258,9 @@ uint32_t gn_gl_probe(struct gn_gl *gl, uint32_t wanted);
 struct gn_gl {
     struct gn_gl_table fn;
     uint32_t calls;
-    bool desktop, debug;
-    uint32_t probed; /* gn_cap bits that were tried: caps holds how it ended */
-    char *shaders;   /* folder, or NULL */
+    bool desktop, debug, robust; /* robust: it tells when the GPU was reset */
+    uint32_t probed;             /* gn_cap bits that were tried: caps holds how it ended */
+    char *shaders;               /* folder, or NULL */
     struct gn_warnings *warnings;
     struct gn_caps caps;
     struct gn_gl_state state;

@@ -99,7 +99,8 @@
     X(PFNGLPUSHDEBUGGROUPKHRPROC, PushDebugGroup, "KHR")                                           \
     X(PFNGLPOPDEBUGGROUPKHRPROC, PopDebugGroup, "KHR")                                             \
     X(PFNGLDEBUGMESSAGECALLBACKKHRPROC, DebugMessageCallback, "KHR")                               \
-    X(PFNGLGETQUERYIVEXTPROC, GetQueryiv, "EXT")
+    X(PFNGLGETQUERYIVEXTPROC, GetQueryiv, "EXT")                                                   \
+    X(PFNGLGETGRAPHICSRESETSTATUSKHRPROC, GetGraphicsResetStatus, "KHR")
 
 struct gn_gl_table {
 #define X(type, name) type name;
