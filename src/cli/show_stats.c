@@ -41,6 +41,7 @@ void gn_show_stats_step(struct gn_show_stats *s, const struct gn_display *displa
     const struct gn_screen_counts *c = &screen->counts;
     uint64_t ticks;
     if (s->timer < 0 || read(s->timer, &ticks, sizeof ticks) != sizeof ticks) return;
+    if (c->shown < s->last.shown) s->last = (struct gn_screen_counts){0}; /* opened again */
     const double seconds = (double)(now_ns - s->last_ns) * 1e-9;
     const uint64_t shown = c->shown - s->last.shown, again = c->again - s->last.again;
     printf("%.1f fps, %llu drawn, %llu again, %llu missed, %.1f ms to draw, %s\n",

@@ -66,6 +66,7 @@ struct gn_kms_node {
 };
 
 struct gn_drm_ops {
+/* NOLINTNEXTLINE(bugprone-macro-parentheses): a type and a name */
 #define X(function, name) __typeof__(function) *name;
     GN_DRM_TABLE(X)
 #undef X

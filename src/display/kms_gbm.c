@@ -47,6 +47,7 @@
 enum { CONFIGS_MAX = 512 };
 
 struct scanout {
+/* NOLINTNEXTLINE(bugprone-macro-parentheses): a type and a name */
 #define X(name) __typeof__(name) *name;
     GBM_TABLE(X)
 #undef X
