@@ -11,6 +11,11 @@
 
 static bool is_copy(const struct gn_kms *k) { return k->surface_opts.rung == GN_RUNG_COPY; }
 
+/* By the buffer, not by the rung: that may have changed since. */
+static bool is_gpus(const struct gn_kms *k, const void *key) {
+    return k->scanout && key && key != &k->copies[0] && key != &k->copies[1];
+}
+
 static void close_fence(struct gn_kms_shot *shot) {
     if (shot->fb && shot->fence >= 0) close(shot->fence);
     shot->fence = -1;
@@ -19,7 +24,7 @@ static void close_fence(struct gn_kms_shot *shot) {
 /* Nobody reads it any more. */
 static void retire(struct gn_kms *k, struct gn_kms_shot *shot) {
     close_fence(shot);
-    if (shot->fb && shot->key && !is_copy(k) && k->scanout)
+    if (shot->fb && is_gpus(k, shot->key))
         k->env.scanout->release(k->scanout, shot->key);
     *shot = (struct gn_kms_shot){.fence = -1};
 }
@@ -130,7 +135,9 @@ static int flip(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns
     return 0;
 }
 
+/* It may be the one that waits, which it does no more. */
 static void discard(struct gn_kms *k, struct gn_kms_shot *shot) {
+    k->waiting = (struct gn_kms_shot){.fence = -1};
     if (shot->fb == k->front.fb)
         close_fence(shot);
     else
