@@ -177,13 +177,25 @@ static void push_asked(struct ladder *l, const struct gn_kms_connector *c,
     push(l, &made);
 }
 
+/* The mode in use, as of this monitor; firmware may have rounded its clock otherwise. Without it,
+ * it is that of a monitor that is gone. */
+static bool is_offered(const struct gn_kms_connector *c, const drmModeModeInfo *mode) {
+    for (int i = 0; i < c->mode_count; i++)
+        if (c->modes[i].hdisplay == mode->hdisplay && c->modes[i].vdisplay == mode->vdisplay &&
+            is_progressive(&c->modes[i]) &&
+            distance_hz(mode, gn_kms_mode_mhz(&c->modes[i]) / 1e3) < 0.6)
+            return true;
+    return false;
+}
+
 int gn_kms_mode_ladder(const struct gn_kms_card *card, int connector, int crtc,
                        const struct gn_screen_opts *opts, drmModeModeInfo *out) {
     const struct gn_kms_connector *c = &card->connectors[connector];
     const struct gn_kms_crtc *now = &card->crtcs[crtc];
     struct ladder l = {out, 0};
     push_asked(&l, c, opts);
-    if (c->crtc == crtc && now->lit && is_progressive(&now->mode) && within(&now->mode, opts))
+    if (c->crtc == crtc && now->lit && is_progressive(&now->mode) && within(&now->mode, opts) &&
+        is_offered(c, &now->mode))
         push(&l, &now->mode);
     push(&l, find_preferred(c, opts));
     push(&l, find_largest(c, opts));
