@@ -119,20 +119,21 @@ static const drmModeModeInfo *find_preferred(const struct gn_kms_connector *c,
     return NULL;
 }
 
+static uint32_t pixels(const drmModeModeInfo *m) { return (uint32_t)m->hdisplay * m->vdisplay; }
+
 static bool is_larger(const drmModeModeInfo *a, const drmModeModeInfo *b) {
-    const uint32_t pixels_a = (uint32_t)a->hdisplay * a->vdisplay,
-                   pixels_b = (uint32_t)b->hdisplay * b->vdisplay;
-    if (pixels_a != pixels_b) return pixels_a > pixels_b;
+    if (pixels(a) != pixels(b)) return pixels(a) > pixels(b);
     return distance_hz(a, 60) < distance_hz(b, 60);
 }
 
 static const drmModeModeInfo *find_largest(const struct gn_kms_connector *c,
-                                           const struct gn_screen_opts *o) {
+                                           const struct gn_screen_opts *o, uint32_t below_px) {
     const drmModeModeInfo *best = NULL;
     for (int i = 0; i < c->mode_count; i++) {
         const drmModeModeInfo *m = &c->modes[i];
         if (!is_progressive(m) || !within(m, o)) continue;
         if (gn_kms_mode_mhz(m) < LEAST_MHZ || gn_kms_mode_mhz(m) > MOST_MHZ) continue;
+        if (pixels(m) >= below_px) continue;
         if (!best || is_larger(m, best)) best = m;
     }
     return best;
@@ -198,7 +199,10 @@ int gn_kms_mode_ladder(const struct gn_kms_card *card, int connector, int crtc,
         is_offered(c, &now->mode))
         push(&l, &now->mode);
     push(&l, find_preferred(c, opts));
-    push(&l, find_largest(c, opts));
+    const drmModeModeInfo *large = find_largest(c, opts, UINT32_MAX);
+    push(&l, large);
+    while (large && l.count < GN_KMS_LADDER_MAX - 2)
+        push(&l, large = find_largest(c, opts, pixels(large)));
     push(&l, find_first(c));
     push(&l, find_vga(c));
     if (l.count == 0 && c->mode_count > 0) push(&l, &c->modes[0]);

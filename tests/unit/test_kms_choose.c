@@ -97,9 +97,9 @@ static void set_modes(struct gn_kms_connector *c) {
 static void test_the_largest_within_the_cap(void **state) {
     (void)state;
     set_modes(add(&card, "HDMI-A-1", true));
-    expect_ladder(&(struct gn_screen_opts){0}, "1920x1080@60 3840x2160@60 640x480@60");
+    expect_ladder(&(struct gn_screen_opts){0}, "1920x1080@60 1280x720@60 640x480@60 3840x2160@60");
     expect_ladder(&(struct gn_screen_opts){.cap_width = 3840, .cap_height = 2160},
-                  "3840x2160@60 640x480@60");
+                  "3840x2160@60 1920x1080@60 1280x720@60 640x480@60");
 }
 
 static void test_the_current_mode_is_kept(void **state) {
@@ -109,20 +109,20 @@ static void test_the_current_mode_is_kept(void **state) {
     c->crtc = 1;
     card.crtcs[1].lit = true;
     card.crtcs[1].mode = c->modes[5];
-    expect_ladder(&(struct gn_screen_opts){0}, "1280x720@60 1920x1080@60 3840x2160@60 640x480@60");
+    expect_ladder(&(struct gn_screen_opts){0}, "1280x720@60 1920x1080@60 640x480@60 3840x2160@60");
     card.crtcs[1].mode = c->modes[0]; /* too large */
-    expect_ladder(&(struct gn_screen_opts){0}, "1920x1080@60 3840x2160@60 640x480@60");
+    expect_ladder(&(struct gn_screen_opts){0}, "1920x1080@60 1280x720@60 640x480@60 3840x2160@60");
 }
 
 static void test_what_was_asked_for_goes_first(void **state) {
     (void)state;
     set_modes(add(&card, "HDMI-A-1", true));
     expect_ladder(&(struct gn_screen_opts){.mode_width = 1920, .mode_height = 1080, .mode_hz = 24},
-                  "1920x1080@24 1920x1080@60 3840x2160@60 640x480@60");
+                  "1920x1080@24 1920x1080@60 1280x720@60 640x480@60 3840x2160@60");
     expect_ladder(&(struct gn_screen_opts){.mode_width = 3840, .mode_height = 2160},
-                  "3840x2160@60 1920x1080@60 640x480@60");
+                  "3840x2160@60 1920x1080@60 1280x720@60 640x480@60");
     expect_ladder(&(struct gn_screen_opts){.mode_width = 800, .mode_height = 600},
-                  "800x600@60 1920x1080@60 3840x2160@60 640x480@60");
+                  "800x600@60 1920x1080@60 1280x720@60 640x480@60 3840x2160@60");
 }
 
 static void test_interlaced_only_when_nothing_else_is(void **state) {
