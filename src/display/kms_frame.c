@@ -24,8 +24,7 @@ static void close_fence(struct gn_kms_shot *shot) {
 /* Nobody reads it any more. */
 static void retire(struct gn_kms *k, struct gn_kms_shot *shot) {
     close_fence(shot);
-    if (shot->fb && is_gpus(k, shot->key))
-        k->env.scanout->release(k->scanout, shot->key);
+    if (shot->fb && is_gpus(k, shot->key)) k->env.scanout->release(k->scanout, shot->key);
     *shot = (struct gn_kms_shot){.fence = -1};
 }
 

@@ -277,14 +277,30 @@ static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
     connect(k, chosen, now_ns);
 }
 
+/* It may by now. What it said instead makes room. */
+static void start_gl_again(struct gn_kms *k, int64_t now_ns) {
+    if (k->flip.pending) {
+        k->look_ns = now_ns + k->flip.period_ns;
+        return;
+    }
+    start_gl(k);
+    if (!k->scanout) return;
+    gn_kms_drop_surface(k);
+    k->connected = k->lit = false;
+}
+
 void gn_kms_look(struct gn_kms *k, bool probe, int64_t now_ns) {
     k->look_ns = GN_KMS_NEVER;
-    if (k->fd >= 0 && !k->scanout && !k->connected) gn_kms_close_card(k); /* GL may start by now */
+    if (k->fd >= 0 && !k->scanout && k->connected)
+        start_gl_again(k, now_ns);
+    else if (k->fd >= 0 && !k->scanout)
+        gn_kms_close_card(k); /* another card may do better */
     if (k->fd < 0) {
         open_card(k, now_ns);
         probe = false;
     }
     if (k->fd >= 0) look_at_card(k, probe, now_ns);
-    if (k->connected || k->look_ns != GN_KMS_NEVER) return;
-    k->look_ns = now_ns + (k->fd >= 0 && !k->scanout ? 5 : 1) * GN_KMS_LOOK_NS;
+    const bool dumb = k->fd >= 0 && !k->scanout;
+    if (k->look_ns != GN_KMS_NEVER || (k->connected && !dumb)) return;
+    k->look_ns = now_ns + (dumb ? 5 : 1) * GN_KMS_LOOK_NS;
 }
