@@ -25,6 +25,7 @@ static void read_crtcs(struct reader *r) {
         struct gn_kms_crtc *out = &r->card->crtcs[r->card->crtc_count++];
         out->id = r->resources->crtcs[i];
         drmModeCrtc *crtc = r->drm->ModeGetCrtc(r->fd, out->id);
+        r->card->partial |= !crtc;
         if (!crtc) continue;
         out->lit = crtc->mode_valid;
         out->mode = crtc->mode;
@@ -38,6 +39,7 @@ static void read_encoders(struct reader *r, const drmModeConnector *from,
                           struct gn_kms_connector *out) {
     for (int i = 0; i < from->count_encoders; i++) {
         drmModeEncoder *e = r->drm->ModeGetEncoder(r->fd, from->encoders[i]);
+        r->card->partial |= !e;
         if (!e) continue;
         out->crtcs |= e->possible_crtcs;
         for (int k = 0; k < r->card->crtc_count; k++)
@@ -69,6 +71,7 @@ static void read_properties(struct reader *r, const drmModeConnector *from,
                             struct gn_kms_connector *out) {
     for (int i = 0; i < from->count_props; i++) {
         drmModePropertyRes *p = r->drm->ModeGetProperty(r->fd, from->props[i]);
+        r->card->partial |= !p;
         if (!p) continue;
         read_property(p, from->prop_values[i], out);
         r->drm->ModeFreeProperty(p);
@@ -101,7 +104,8 @@ static void read_connectors(struct reader *r, bool probe) {
         const uint32_t id = r->resources->connectors[i];
         drmModeConnector *c = probe ? r->drm->ModeGetConnector(r->fd, id)
                                     : r->drm->ModeGetConnectorCurrent(r->fd, id);
-        if (!c) continue; /* it went while we looked: as with DisplayPort's branches */
+        r->card->partial |= !c; /* it went while we looked: as with DisplayPort's branches */
+        if (!c) continue;
         if (c->connector_type != DRM_MODE_CONNECTOR_WRITEBACK) read_connector(r, c);
         r->drm->ModeFreeConnector(c);
     }
@@ -128,7 +132,7 @@ bool gn_kms_card_read(const struct gn_drm_ops *drm, int fd, bool probe, struct g
     read_driver(&r);
     read_crtcs(&r);
     read_connectors(&r, probe);
-    const bool can = out->crtc_count > 0 && out->connector_count > 0;
+    const bool can = out->crtc_count > 0 && (out->connector_count > 0 || out->partial);
     drm->ModeFreeResources(resources);
     if (!can) gn_fail(err, "it has nothing to plug a monitor into");
     errno = ENOTSUP;

@@ -35,6 +35,7 @@ struct gn_kms_card {
     struct gn_kms_connector connectors[GN_KMS_CONNECTORS_MAX];
     struct gn_kms_crtc crtcs[GN_KMS_CRTCS_MAX];
     int connector_count, crtc_count;
+    bool partial; /* something could not be read, which may be there all the same */
 };
 
 /* False, errno set and err filled, where the node shows no pictures (a GPU alone) or is gone.
@@ -51,7 +52,8 @@ int gn_kms_card_score(const struct gn_kms_card *card, const char *connector);
 int gn_kms_choose_crtc(const struct gn_kms_card *card, int connector);
 /* What to try, best first, each mode once: configured (listed, else made of the modeline or, last,
  * by CVT), current if listed, preferred within the cap, the largest progressive ones of 50-60 Hz
- * within the cap, first, 640x480. Interlaced only when configured. Returns the count, at most GN_KMS_LADDER_MAX. */
+ * within the cap, first, 640x480. Interlaced only when configured. Returns the count, at most
+ * GN_KMS_LADDER_MAX. */
 int gn_kms_mode_ladder(const struct gn_kms_card *card, int connector, int crtc,
                        const struct gn_screen_opts *opts, drmModeModeInfo *out);
 /* Refreshes in mHz, by the clock where that is known; interlaced: fields. */

@@ -6,6 +6,8 @@
 
 #include "display/kms_state.h"
 
+enum { UNREADABLE_MAX = 4 }; /* then it is how it is */
+
 /* ---- cards ---- */
 
 /* "platform-gpu-card" and "platform-gpu" are one place; a path is itself. */
@@ -192,16 +194,23 @@ static bool same_surface(const struct gn_kms *k) {
            o->height_px == k->ladder[0].vdisplay;
 }
 
+static bool is_unreadable(const struct gn_kms *k) {
+    return k->unreadable > 0 && k->unreadable < UNREADABLE_MAX;
+}
+
 static bool open_output(struct gn_kms *k, int connector, int crtc) {
+    const bool legacy = k->opts->legacy || k->unreadable >= UNREADABLE_MAX;
     struct gn_err why = {0};
     if (k->output.drm && k->output.connector == k->card.connectors[connector].id &&
         k->output.crtc == k->card.crtcs[crtc].id)
         return true;
     gn_kms_drop_surface(k);
     gn_kms_output_close(&k->output, k->master);
-    if (!gn_kms_output_open(&k->output, k->env.drm, k->fd, k->opts->legacy, &k->card, connector,
-                            crtc, &why))
+    if (!gn_kms_output_open(&k->output, k->env.drm, k->fd, legacy, &k->card, connector, crtc,
+                            &why)) {
+        k->unreadable++;
         return false;
+    }
     gn_kms_output_formats(&k->output, &k->surface_opts);
     k->surface_opts.samples = k->opts->msaa;
     return true;
@@ -215,6 +224,7 @@ static void connect(struct gn_kms *k, int connector, int64_t now_ns) {
     k->lit = false;
     if (crtc < 0 || !open_output(k, connector, crtc)) {
         give_up_connector(k, "nothing drives it", now_ns);
+        if (is_unreadable(k)) k->look_ns = now_ns + GN_KMS_LOOK_NS;
         return;
     }
     const drmModeModeInfo had = k->output.mode;
@@ -258,6 +268,11 @@ static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
         gn_kms_leave_card(k, false, now_ns);
         return;
     }
+    k->unreadable = k->card.partial ? k->unreadable + 1 : k->connected ? 0 : k->unreadable;
+    if (k->card.partial && is_unreadable(k)) {
+        k->look_ns = now_ns + GN_KMS_LOOK_NS;
+        if (k->connected) return; /* nothing is put out for that */
+    }
     const int chosen = choose(k);
     if (chosen < 0) {
         k->connected = k->lit = false;
@@ -297,7 +312,7 @@ void gn_kms_look(struct gn_kms *k, bool probe, int64_t now_ns) {
         gn_kms_close_card(k); /* another card may do better */
     if (k->fd < 0) {
         open_card(k, now_ns);
-        probe = false;
+        probe = k->card.partial; /* else it has been */
     }
     if (k->fd >= 0) look_at_card(k, probe, now_ns);
     const bool dumb = k->fd >= 0 && !k->scanout;

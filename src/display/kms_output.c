@@ -65,11 +65,14 @@ static bool has_all(const uint32_t *ids, int first, int last) {
     return true;
 }
 
-/* Without it the older interface does all but fences. */
-static bool open_atomic(struct gn_kms_output *o) {
-    if (o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) != 0 ||
-        o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_ATOMIC, 1) != 0 || !choose_plane(o))
-        return false;
+static bool set_caps(const struct gn_kms_output *o, uint64_t on) {
+    const bool planes = o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_UNIVERSAL_PLANES, on) == 0;
+    return o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_ATOMIC, on) == 0 && planes;
+}
+
+/* What every atomic driver has. */
+static bool find_objects(struct gn_kms_output *o) {
+    if (!choose_plane(o)) return false;
     gn_kms_props_read(o->drm, o->fd, o->connector, DRM_MODE_OBJECT_CONNECTOR,
                       gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, o->connector_props, NULL);
     gn_kms_props_read(o->drm, o->fd, o->crtc, DRM_MODE_OBJECT_CRTC, gn_kms_crtc_props,
@@ -82,19 +85,19 @@ static bool open_atomic(struct gn_kms_output *o) {
 bool gn_kms_output_open(struct gn_kms_output *o, const struct gn_drm_ops *drm, int fd, bool legacy,
                         const struct gn_kms_card *card, int connector, int crtc,
                         struct gn_err *err) {
-    if (crtc < 0) return gn_fail(err, "%s: nothing drives it", card->connectors[connector].name);
+    const char *name = card->connectors[connector].name;
+    if (crtc < 0) return gn_fail(err, "%s: nothing drives it", name);
     *o = (struct gn_kms_output){.drm = drm,
                                 .fd = fd,
                                 .connector = card->connectors[connector].id,
                                 .crtc = card->crtcs[crtc].id,
                                 .crtc_index = crtc};
     save_old(o);
-    o->atomic = !legacy && open_atomic(o);
-    if (!o->atomic) { /* events and legacy flips are the same for a client that asked for atomic */
-        drm->SetClientCap(fd, DRM_CLIENT_CAP_ATOMIC, 0);
-        drm->SetClientCap(fd, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 0);
-    }
-    return true;
+    o->atomic = !legacy && set_caps(o, 1);
+    if (!o->atomic) set_caps(o, 0); /* the older interface does all but fences */
+    if (!o->atomic || find_objects(o)) return true;
+    *o = (struct gn_kms_output){0};
+    return gn_fail(err, "%s: its properties cannot be read", name);
 }
 
 /* ---- what the plane takes ---- */

@@ -55,6 +55,7 @@ struct gn_kms {
     struct gn_kms_ticket tickets[GN_KMS_TICKETS];
     uint64_t ticket;                      /* of the pending flip */
     int64_t event_ns;                     /* the time that its event tells; -1: no event yet */
+    int unreadable;                       /* looks in a row at which not all could be read */
     int losses;                           /* of the context, since a frame was last seen */
     int64_t look_ns, master_ns, again_ns; /* when next; GN_KMS_NEVER */
 };
