@@ -90,7 +90,8 @@ static void leave_console(struct gn_kms *k) {
 
 static void enter_console(struct gn_kms *k, int64_t now_ns) {
     k->away = false;
-    if (k->flip.pending) gn_kms_flip_is_lost(k); /* whoever was there in between ended it */
+    /* whoever was there in between has ended it; but one may be back within a frame */
+    if (k->flip.pending && k->flip.stalled) gn_kms_flip_is_lost(k);
     if (k->fd >= 0 && !k->screen.lost) gn_kms_try_master(k, now_ns);
     k->look_ns = now_ns;
 }
