@@ -29,27 +29,31 @@ struct plane_values {
     uint64_t values[GN_PROP_PLANE_COUNT];
 };
 
-/* Is it a primary plane for this CRTC, and how good: 0 no, 3 it shows there now. */
+/* Is it a primary plane for this CRTC, and how good: 0 no, 3 it shows there now; -1: nobody knows.
+ */
 static int rate_plane(const struct gn_kms_output *o, uint32_t id, struct plane_values *v) {
     drmModePlane *plane = o->drm->ModeGetPlane(o->fd, id);
-    if (!plane) return 0;
+    if (!plane) return -1;
     const bool possible = plane->possible_crtcs >> o->crtc_index & 1;
     const uint32_t now = plane->crtc_id;
     o->drm->ModeFreePlane(plane);
     if (!possible) return 0;
-    gn_kms_props_read(o->drm, o->fd, id, DRM_MODE_OBJECT_PLANE, gn_kms_plane_props,
-                      GN_PROP_PLANE_COUNT, v->ids, v->values);
+    if (!gn_kms_props_read(o->drm, o->fd, id, DRM_MODE_OBJECT_PLANE, gn_kms_plane_props,
+                           GN_PROP_PLANE_COUNT, v->ids, v->values))
+        return -1;
     if (v->values[GN_PROP_PLANE_TYPE] != DRM_PLANE_TYPE_PRIMARY) return 0;
     if (now == o->crtc) return 3;
     return now == 0 ? 2 : 1;
 }
 
+/* False: there is none, or not all can be read. */
 static bool choose_plane(struct gn_kms_output *o) {
     drmModePlaneRes *all = o->drm->ModeGetPlaneResources(o->fd);
     int best = 0;
-    for (uint32_t i = 0; all && i < all->count_planes; i++) {
+    for (uint32_t i = 0; all && i < all->count_planes && best >= 0; i++) {
         struct plane_values v;
         const int rate = rate_plane(o, all->planes[i], &v);
+        if (rate < 0) best = rate;
         if (rate <= best) continue;
         best = rate;
         o->plane = all->planes[i];
@@ -72,12 +76,13 @@ static bool set_caps(const struct gn_kms_output *o, uint64_t on) {
 
 /* What every atomic driver has. */
 static bool find_objects(struct gn_kms_output *o) {
-    if (!choose_plane(o)) return false;
-    gn_kms_props_read(o->drm, o->fd, o->connector, DRM_MODE_OBJECT_CONNECTOR,
-                      gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, o->connector_props, NULL);
-    gn_kms_props_read(o->drm, o->fd, o->crtc, DRM_MODE_OBJECT_CRTC, gn_kms_crtc_props,
-                      GN_PROP_CRTC_COUNT, o->crtc_props, NULL);
-    return o->connector_props[GN_PROP_CONNECTOR_CRTC] &&
+    return choose_plane(o) &&
+           gn_kms_props_read(o->drm, o->fd, o->connector, DRM_MODE_OBJECT_CONNECTOR,
+                             gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, o->connector_props,
+                             NULL) &&
+           gn_kms_props_read(o->drm, o->fd, o->crtc, DRM_MODE_OBJECT_CRTC, gn_kms_crtc_props,
+                             GN_PROP_CRTC_COUNT, o->crtc_props, NULL) &&
+           o->connector_props[GN_PROP_CONNECTOR_CRTC] &&
            has_all(o->crtc_props, 0, GN_PROP_CRTC_COUNT - 1) &&
            has_all(o->plane_props, GN_PROP_PLANE_FB, GN_PROP_PLANE_H);
 }
@@ -252,16 +257,20 @@ static void put_plane(struct request *r, uint32_t fb, const drmModeModeInfo *mod
     put(r, o->plane, p[GN_PROP_PLANE_ROTATION], DRM_MODE_ROTATE_0);
 }
 
-/* Whoever had the CRTC before may have left more on it: a cursor, an overlay, a second monitor. */
+/* Whoever had the CRTC before may have left more on it: a cursor, an overlay, a second monitor.
+ * What cannot be read is in the way, perhaps: not now. */
 static void put_others_off(struct request *r) {
     const struct gn_kms_output *o = r->o;
     drmModePlaneRes *planes = o->drm->ModeGetPlaneResources(o->fd);
+    if (!planes) r->bad = true;
     for (uint32_t i = 0; planes && i < planes->count_planes; i++) {
+        uint32_t ids[GN_PROP_PLANE_COUNT];
         drmModePlane *p = o->drm->ModeGetPlane(o->fd, planes->planes[i]);
+        if (!p) r->bad = true;
         if (p && p->crtc_id == o->crtc && p->plane_id != o->plane) {
-            uint32_t ids[GN_PROP_PLANE_COUNT];
-            gn_kms_props_read(o->drm, o->fd, p->plane_id, DRM_MODE_OBJECT_PLANE, gn_kms_plane_props,
-                              GN_PROP_PLANE_COUNT, ids, NULL);
+            if (!gn_kms_props_read(o->drm, o->fd, p->plane_id, DRM_MODE_OBJECT_PLANE,
+                                   gn_kms_plane_props, GN_PROP_PLANE_COUNT, ids, NULL))
+                r->bad = true;
             put(r, p->plane_id, ids[GN_PROP_PLANE_FB], 0);
             put(r, p->plane_id, ids[GN_PROP_PLANE_CRTC], 0);
         }
@@ -273,12 +282,14 @@ static void put_others_off(struct request *r) {
 static void put_connectors_off(struct request *r, bool ours) {
     const struct gn_kms_output *o = r->o;
     drmModeRes *all = o->drm->ModeGetResources(o->fd);
+    if (!all) r->bad = true;
     for (int i = 0; all && i < all->count_connectors; i++) {
         uint32_t ids[GN_PROP_CONNECTOR_COUNT];
         uint64_t values[GN_PROP_CONNECTOR_COUNT];
         if (!ours && all->connectors[i] == o->connector) continue;
-        gn_kms_props_read(o->drm, o->fd, all->connectors[i], DRM_MODE_OBJECT_CONNECTOR,
-                          gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, ids, values);
+        if (!gn_kms_props_read(o->drm, o->fd, all->connectors[i], DRM_MODE_OBJECT_CONNECTOR,
+                               gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, ids, values))
+            r->bad = true;
         if (values[GN_PROP_CONNECTOR_CRTC] == o->crtc)
             put(r, all->connectors[i], ids[GN_PROP_CONNECTOR_CRTC], 0);
     }

@@ -33,8 +33,9 @@ enum gn_kms_plane_prop {
     GN_PROP_PLANE_COUNT,
 };
 
-/* Ids of an object's properties by name, 0 where there is none; values, if not NULL, likewise. */
-void gn_kms_props_read(const struct gn_drm_ops *drm, int fd, uint32_t object, uint32_t type,
+/* Ids of an object's properties by name, 0 where there is none; values, if not NULL, likewise.
+ * False: some could not be read. */
+bool gn_kms_props_read(const struct gn_drm_ops *drm, int fd, uint32_t object, uint32_t type,
                        const char *const *names, int count, uint32_t *ids, uint64_t *values);
 extern const char *const gn_kms_connector_props[GN_PROP_CONNECTOR_COUNT];
 extern const char *const gn_kms_crtc_props[GN_PROP_CRTC_COUNT];

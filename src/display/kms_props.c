@@ -21,13 +21,15 @@ const char *const gn_kms_plane_props[GN_PROP_PLANE_COUNT] = {
     [GN_PROP_PLANE_ROTATION] = "rotation", [GN_PROP_PLANE_FORMATS] = "IN_FORMATS",
 };
 
-void gn_kms_props_read(const struct gn_drm_ops *drm, int fd, uint32_t object, uint32_t type,
+bool gn_kms_props_read(const struct gn_drm_ops *drm, int fd, uint32_t object, uint32_t type,
                        const char *const *names, int count, uint32_t *ids, uint64_t *values) {
     memset(ids, 0, (size_t)count * sizeof *ids);
     if (values) memset(values, 0, (size_t)count * sizeof *values);
     drmModeObjectProperties *all = drm->ModeObjectGetProperties(fd, object, type);
+    bool complete = all;
     for (uint32_t i = 0; all && i < all->count_props; i++) {
         drmModePropertyRes *p = drm->ModeGetProperty(fd, all->props[i]);
+        complete &= p != NULL;
         for (int k = 0; p && k < count; k++) {
             if (strcmp(p->name, names[k]) != 0) continue;
             ids[k] = p->prop_id;
@@ -36,4 +38,5 @@ void gn_kms_props_read(const struct gn_drm_ops *drm, int fd, uint32_t object, ui
         if (p) drm->ModeFreeProperty(p);
     }
     if (all) drm->ModeFreeObjectProperties(all);
+    return complete;
 }
