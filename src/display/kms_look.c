@@ -269,10 +269,8 @@ static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
         return;
     }
     k->unreadable = k->card.partial ? k->unreadable + 1 : k->connected ? 0 : k->unreadable;
-    if (k->card.partial && is_unreadable(k)) {
-        k->look_ns = now_ns + GN_KMS_LOOK_NS;
-        if (k->connected) return; /* nothing is put out for that */
-    }
+    if (k->card.partial) k->look_ns = now_ns + (is_unreadable(k) ? 1 : 15) * GN_KMS_LOOK_NS;
+    if (k->card.partial && is_unreadable(k) && k->connected) return; /* it puts nothing out */
     const int chosen = choose(k);
     if (chosen < 0) {
         k->connected = k->lit = false;
