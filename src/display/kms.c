@@ -67,12 +67,17 @@ gn_display_proc gn_kms_get_proc(struct gn_kms *k, const char *name) {
 
 static int64_t sooner(int64_t a, int64_t b) { return a < b ? a : b; }
 
+static bool may_send_again(const struct gn_kms *k) {
+    return k->waiting.fb && k->connected && k->master && !k->flip.pending;
+}
+
 int64_t gn_kms_deadline(const struct gn_kms *k, int64_t now_ns) {
     int64_t at = k->look_ns;
     if (k->screen.lost) return GN_KMS_NEVER;
     if (!k->master && !k->away && k->fd >= 0) at = sooner(at, k->master_ns);
     if (!k->connected && !k->flip.pending) return at;
     at = sooner(at, gn_flip_deadline(&k->flip, now_ns));
+    if (may_send_again(k)) at = sooner(at, k->flip.next_ns > now_ns ? k->flip.next_ns : now_ns);
     if (k->lit && !k->flip.pending && !k->waiting.fb) at = sooner(at, k->again_ns);
     return at;
 }
@@ -127,7 +132,7 @@ static bool give_up(struct gn_kms *k, struct gn_err *err) {
 
 /* A picture that the kernel has refused for as long as a flip may take is as bad as one lost. */
 static bool send_again(struct gn_kms *k, int64_t now_ns) {
-    if (!k->waiting.fb || k->flip.pending || !k->master || now_ns < k->flip.next_ns) return true;
+    if (!may_send_again(k) || now_ns < k->flip.next_ns) return true;
     if (now_ns - k->waiting_ns < 12 * GN_KMS_S) {
         gn_kms_send(k, k->waiting, now_ns);
         return true;
