@@ -108,7 +108,7 @@ without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(sub
              $(firstword $(subst :, ,$(p))).c))
 SRC     := $(filter-out $(without) src/import/%,$(sort $(wildcard src/*/*.c)))
 TESTS_C := $(sort $(wildcard tests/*/*.c))
-PROG_C  := $(foreach d,unit plan image fuzz,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
+PROG_C  := $(foreach d,unit plan image fuzz kms,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
 LIB     := $(B)/libgnomon.a
 TESTLIB := $(B)/libgntest.a
@@ -212,7 +212,7 @@ accept:
 	+$(SUB) WERROR=1 CONFIG=asan tests
 	@GN_FULL=1 tests/run.sh BUILD=$(O)/release $(call programs,$(O)/release) \
 	    $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh)) \
-	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan))
+	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan))
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
 gallery: $(B)/tests/tool_gallery $(BIN)

@@ -1,0 +1,257 @@
+#include "scenes.h"
+
+#include <errno.h>
+#include <stdio.h>
+
+#define WITHIN (30 * SIM_S)
+
+/* ---- worlds ---- */
+
+static const struct sim_traits good = {.console = true},
+                               rich = {.console = true, .modifiers = true, .fences = true},
+                               taken = {.console = true, .rotation = true, .overlays = true},
+                               old = {.console = true, .legacy = true}, dark = {0},
+                               virtual = {.blind = true}, alone = {.gpu_alone = true};
+
+static void add(const struct sim_traits *traits, int monitor) {
+    sim_add_card(0, "/dev/dri/card1", traits);
+    sim_plug(0, 0, monitor);
+}
+
+static void build_good(void) { add(&good, SIM_FULL_HD); }
+static void build_rich(void) { add(&rich, SIM_FULL_HD); }
+static void build_taken(void) { add(&taken, SIM_FULL_HD); }
+static void build_old(void) { add(&old, SIM_FULL_HD); }
+static void build_virtual(void) { add(&virtual, SIM_FULL_HD); }
+static void build_no_monitor(void) { add(&good, SIM_NO_MONITOR); }
+static void build_unknown(void) { add(&good, SIM_NO_EDID); }
+
+static void build_refused(void) {
+    add(&dark, SIM_FULL_HD);
+    sim_refuse_mode((struct sim_refusal){96, EINVAL, false});
+}
+
+static void build_refused_late(void) {
+    add(&dark, SIM_FULL_HD);
+    sim_refuse_mode((struct sim_refusal){96, ENOSPC, true});
+}
+
+static void build_copies(void) {
+    add(&good, SIM_FULL_HD);
+    sim_set_gpu(&(struct sim_gpu){.no_surface = {true, true, true}});
+}
+
+static void build_two_cards(void) {
+    sim_add_card(0, "/dev/dri/card0", &alone);
+    sim_add_card(1, "/dev/dri/card1", &good);
+    sim_plug(1, 1, SIM_FULL_HD);
+}
+
+static void build_pair(void) {
+    sim_add_card(0, "/dev/dri/card0", &good);
+    sim_add_card(1, "/dev/dri/card1", &rich);
+    sim_plug(0, 0, SIM_FULL_HD);
+}
+
+static void build_stranger(void) {
+    add(&taken, SIM_FULL_HD);
+    sim_stranger_takes(0);
+}
+
+/* ---- plays ---- */
+
+/* As client_run(), but of a picture that is still: where time shall pass, and not frames. */
+static void rest(struct client *c, int64_t for_ns) {
+    c->moves = false;
+    client_run(c, for_ns);
+    c->moves = true;
+}
+
+static void plug_late(struct client *c) {
+    client_run(c, 5 * SIM_S);
+    sim_plug(0, 0, SIM_FULL_HD);
+    client_frames(c, 3);
+}
+
+static void replug(struct client *c) {
+    client_frames(c, 3);
+    sim_plug(0, 0, SIM_NO_MONITOR);
+    client_run(c, 3 * SIM_S);
+    sim_plug(0, 0, SIM_FULL_HD);
+    client_frames(c, 3);
+}
+
+static void change_monitor(struct client *c) {
+    client_frames(c, 3);
+    sim_plug(0, 0, SIM_SMALL);
+    client_run(c, SIM_S / 2);
+    sim_plug(0, 0, SIM_LARGE);
+    client_run(c, SIM_S / 2);
+    sim_plug(0, 0, SIM_NO_MONITOR);
+    sim_plug(0, 1, SIM_FULL_HD);
+    client_run(c, SIM_S / 2);
+}
+
+static void switch_console(struct client *c) {
+    client_frames(c, 3);
+    client_leave_console(c);
+    client_run(c, SIM_S);
+    client_enter_console(c);
+    client_frames(c, 3);
+}
+
+static void switch_console_fast(struct client *c) {
+    client_frames(c, 3);
+    for (int i = 0; i < 3; i++) {
+        client_leave_console(c);
+        client_run(c, SIM_MS);
+        client_enter_console(c);
+        client_run(c, 3 * SIM_MS);
+    }
+}
+
+static void card_comes_back(struct client *c) {
+    client_frames(c, 3);
+    sim_lose_card(0);
+    client_run(c, 3 * SIM_S);
+    sim_return_card(0, "/dev/dri/card3");
+    client_frames(c, 3);
+}
+
+static void other_card(struct client *c) {
+    client_frames(c, 3);
+    sim_plug(0, 0, SIM_NO_MONITOR);
+    sim_plug(1, 1, SIM_SMALL);
+    rest(c, SIM_S);
+    sim_lose_card(1);
+    sim_plug(0, 1, SIM_FULL_HD);
+    rest(c, SIM_S);
+}
+
+static void bad_link(struct client *c) {
+    client_frames(c, 3);
+    sim_break_link(0, 0);
+    rest(c, SIM_S);
+}
+
+static void stranger_goes(struct client *c) {
+    client_run(c, 3 * SIM_S);
+    sim_stranger_leaves(0, false);
+    client_frames(c, 3);
+    sim_stranger_takes(0);
+    client_run(c, 3 * SIM_S / 2);
+    sim_stranger_leaves(0, true);
+    client_frames(c, 3);
+}
+
+static void stall_until(struct client *c, enum sim_stall how) {
+    client_frames(c, 3);
+    sim_stall(0, how);
+    client_run(c, 13 * SIM_S);
+}
+
+static void stall_relit(struct client *c) { stall_until(c, SIM_STALLS_UNTIL_RELIT); }
+static void stall_reopened(struct client *c) {
+    stall_until(c, SIM_STALLS_UNTIL_REOPENED);
+    rest(c, 14 * SIM_S);
+}
+static void stall_event(struct client *c) { stall_until(c, SIM_LOSES_AN_EVENT); }
+static void stall_short(struct client *c) {
+    client_frames(c, 3);
+    sim_stall(0, SIM_STALLS);
+    rest(c, 3 * SIM_S);
+    sim_stall(0, SIM_FLOWS);
+    client_frames(c, 3);
+}
+static void stall_long(struct client *c) {
+    stall_until(c, SIM_STALLS);
+    rest(c, 40 * SIM_S);
+    sim_stall(0, SIM_FLOWS);
+}
+
+static void modes_come_back(struct client *c) {
+    client_frames(c, 2);
+    sim_refuse_mode((struct sim_refusal){64, EINVAL, false});
+    sim_refuse_mode((struct sim_refusal){96, EINVAL, false});
+    sim_break_link(0, 0);
+    rest(c, 3 * SIM_S);
+    sim_allow_modes();
+    rest(c, 11 * SIM_S);
+}
+
+static void gl_starts_late(struct client *c) {
+    sim_set_gpu(&(struct sim_gpu){.no_gl = true});
+    sim_lose_card(0);
+    sim_return_card(0, NULL);
+    rest(c, 25 * SIM_S);
+    sim_set_gpu(&(struct sim_gpu){0});
+    rest(c, 11 * SIM_S);
+}
+
+const struct scene scenes[] = {
+    {"it starts lit", build_good, NULL, .opts = {0}, .put_back = true},
+    {"fences and modifiers", build_rich, NULL, .opts = {0}, .put_back = true},
+    {"a plane that the console has turned", build_taken, switch_console, .opts = {0},
+     .needs_atomic = true},
+    {"starts without a monitor, which then comes", build_no_monitor, plug_late, .opts = {0}},
+    {"unplugged and plugged", build_good, replug, .opts = {0}},
+    {"another monitor, and another connector", build_good, change_monitor, .opts = {0}},
+    {"a monitor that does not say what it is", build_unknown, NULL, .opts = {0}},
+    {"a mode that cannot be set", build_refused, NULL, .opts = {0}},
+    {"a mode that cannot be set, as is seen late", build_refused_late, NULL, .opts = {0}},
+    {"no mode can be set for a while", build_good, modes_come_back, .opts = {0}},
+    {"another console and back", build_rich, switch_console, .opts = {0}},
+    {"another console and back, three times", build_good, switch_console_fast, .opts = {0}},
+    {"the card goes and comes back with another number", build_good, card_comes_back, .opts = {0}},
+    {"a GPU that shows nothing beside the card", build_two_cards, NULL, .opts = {0}},
+    {"the monitor goes to another card and back", build_pair, other_card, .opts = {0}},
+    {"the older interface", build_old, replug, .opts = {0}, .put_back = true},
+    {"the older interface, asked for", build_good, switch_console, .opts = {.legacy = true}},
+    {"a driver without vblank", build_virtual, replug, .opts = {0}},
+    {"a driver without vblank, 10 frames a second", build_virtual, NULL, .opts = {.max_fps = 10}},
+    {"copied into dumb buffers", build_copies, replug, .opts = {0}},
+    {"a link that goes bad", build_good, bad_link, .opts = {0}},
+    {"a link that goes bad, the older interface", build_old, bad_link, .opts = {0}},
+    {"somebody else is master, twice", build_stranger, stranger_goes, .opts = {0},
+     .needs_atomic = true},
+    {"a stall that ends when relit", build_good, stall_relit, .opts = {0}},
+    {"a stall that ends when reopened", build_good, stall_reopened, .slack_ns = 15 * SIM_S,
+     .opts = {0}},
+    {"a stall that ends by itself", build_rich, stall_short, .opts = {0}},
+    {"a stall that goes on until the program gives up", build_old, stall_long, .opts = {0},
+     .slack_ns = 30 * SIM_S, .may_give_up = true},
+    {"an event that is lost", build_good, stall_event, .opts = {0}},
+    {"GL starts late", build_good, gl_starts_late, .opts = {0}},
+};
+const int scene_count = (int)(sizeof scenes / sizeof *scenes);
+
+/* ---- one of them ---- */
+
+struct ending scene_run(const struct scene *scene, void (*prepare)(void *), void *context) {
+    struct ending e = {0};
+    struct client c;
+    char status[160];
+    sim_begin();
+    scene->build();
+    if (prepare) prepare(context);
+    client_open(&c, &scene->opts);
+    if (scene->play)
+        scene->play(&c);
+    else
+        client_frames(&c, 4);
+    sim_stall(0, SIM_FLOWS);
+    const bool right = client_settle(&c, WITHIN + scene->slack_ns, &e.took_ns);
+    snprintf(status, sizeof status, "%s", client_screen(&c)->status);
+    if (right && !prepare && client_screen(&c)->counts.again == 0)
+        sim_complain("a still picture is not flipped again");
+    e.frames = c.frames;
+    e.gave_up = c.gave_up;
+    client_close(&c);
+    if (scene->put_back && !prepare && !sim_shows_console(0))
+        sim_complain("the console's picture is not put back");
+    e.calls = sim_counts.all_calls;
+    if (!right) sim_complain("no right picture: %s", status[0] ? status : "it says all is well");
+    sim_end();
+    snprintf(e.complaint, sizeof e.complaint, "%s", sim_complaint());
+    return e;
+}

@@ -1,0 +1,148 @@
+/* A kernel and a GPU for tests of the screen on modesetting: libdrm's functions and GBM's behind
+ * the two tables that gn_kms stands on, on a virtual clock. There is one world at a time.
+ *
+ * It knows the kernel's rules: who is master, what an atomic commit must look like, that nothing is
+ * committed while a flip is pending, that to remove a framebuffer that is shown darkens the CRTC.
+ * It counts whatever is handed out, complains of what no program may do, and can let any call fail.
+ * A picture is one colour, a number, so that what is on the screen can be told from what was drawn.
+ */
+#ifndef GN_KMS_SIM_H
+#define GN_KMS_SIM_H
+
+#include "display/kms_drm.h"
+#include "display/kms_scanout.h"
+
+#define SIM_MS INT64_C(1000000)
+#define SIM_S  (1000 * SIM_MS)
+
+enum { SIM_CARDS = 2, SIM_CONNECTORS = 2, SIM_CRTCS = 2, SIM_MODES = 4, SIM_BROKEN = 4 };
+
+enum sim_op { /* what can be made to fail, and is counted */
+#define X(function, name) SIM_##name,
+              GN_DRM_TABLE(X)
+#undef X
+                  SIM_list,
+              SIM_open,
+              SIM_map,
+              SIM_gl_open,
+              SIM_gl_surface,
+              SIM_gl_swap,
+              SIM_OPS
+};
+
+enum sim_stall { /* flips whose event does not come */
+                 SIM_FLOWS,
+                 SIM_STALLS_UNTIL_RELIT,
+                 SIM_STALLS_UNTIL_REOPENED,
+                 SIM_STALLS,
+                 SIM_LOSES_AN_EVENT, /* one; the flip itself is done */
+};
+enum sim_incident { /* what may happen between any two calls, and passes after two seconds */
+                    SIM_CARD_GOES,
+                    SIM_MONITOR_GOES,
+                    SIM_MONITOR_CHANGES, /* another one, with other modes */
+                    SIM_MASTER_GOES,     /* somebody else has it and shows his own picture */
+                    SIM_LINK_GOES_BAD,   /* for ever: only a modeset mends it */
+                    SIM_INCIDENTS
+};
+
+struct sim_traits { /* of a card; zero is a good one */
+    bool gpu_alone; /* it shows nothing */
+    bool legacy;    /* no atomic interface */
+    bool blind;     /* no vblank: flips end at once, as with virtio */
+    bool modifiers, fences;
+    bool rotation; /* its planes turn, and the console leaves one turned */
+    bool overlays; /* strangers leave one */
+    bool console;  /* it is lit with the text console's picture */
+};
+struct sim_gpu { /* of all cards */
+    bool no_gl;
+    bool no_surface[GN_RUNG_COUNT]; /* by rung */
+};
+struct sim_mode {
+    uint16_t width_px, height_px, hz;
+    bool preferred;
+};
+struct sim_refusal { /* a mode of that size cannot be set */
+    uint16_t width_px;
+    int error;
+    bool late; /* although the test of it passes */
+};
+
+extern struct gn_drm_ops sim_drm;
+extern const struct gn_scanout_ops sim_gl;
+
+/* ---- the world ---- */
+
+/* A world without cards, at 100 s. What was left of the one before is freed. */
+void sim_begin(void);
+/* Everything that the program should have given back: 0, or a complaint each. */
+int sim_end(void);
+void sim_add_card(int card, const char *path, const struct sim_traits *traits);
+void sim_set_gpu(const struct sim_gpu *gpu);
+void sim_refuse_mode(struct sim_refusal refusal);
+void sim_allow_modes(void);
+
+/* Monitors: 0 none; `kind` 1.. chooses its modes; SIM_NO_EDID: the connector cannot tell. */
+enum { SIM_NO_MONITOR, SIM_FULL_HD, SIM_SMALL, SIM_LARGE, SIM_NO_EDID, SIM_MONITORS };
+void sim_plug(int card, int connector, int kind);
+void sim_break_link(int card, int connector);
+void sim_lose_card(int card);
+/* With all objects new. NULL: where it was. */
+void sim_return_card(int card, const char *path);
+void sim_stall(int card, enum sim_stall how);
+void sim_console_takes(int card); /* the master is gone, and the text console shows itself */
+void sim_stranger_takes(int card);
+/* `dark`: and switches off what he showed. */
+void sim_stranger_leaves(int card, bool dark);
+
+/* ---- time ---- */
+
+int64_t sim_now(void);
+int64_t sim_next(void); /* when something happens by itself; INT64_MAX: never */
+void sim_run_to(int64_t ns);
+bool sim_readable(int fd);
+bool sim_take_uevent(void); /* there was one since it was last asked */
+
+/* ---- failures ---- */
+
+/* The nth call (from 1, `burst` calls long) of an op fails; 0: none. */
+void sim_fail(enum sim_op op, long nth, int burst, int error);
+/* Each call fails with a probability of 1 in `often`; 0: none. */
+void sim_fail_often(uint64_t seed, unsigned often);
+/* Before the nth call of all. */
+void sim_happen(enum sim_incident what, long nth);
+void sim_trace(bool on); /* prints every call */
+const char *sim_op_name(enum sim_op op);
+/* What it can give, ended with 0. */
+const int *sim_op_errors(enum sim_op op);
+const char *sim_incident_name(enum sim_incident what);
+
+/* ---- what is seen ---- */
+
+/* Of what is drawn now; may be called between begin and present, where it is no copy. */
+void sim_paint(uint32_t colour);
+void sim_paint_copy(uint8_t *pixels, uint32_t colour);
+/* Some monitor that is there shows that colour, and nothing over it. */
+bool sim_shows(uint32_t colour);
+bool sim_shows_console(int card);
+bool sim_is_master(int fd);
+
+/* ---- counts ---- */
+
+struct sim_counts {
+    long calls[SIM_OPS], all_calls;
+    long failed;      /* calls that were made to fail */
+    long flips, sets; /* that were done */
+    long waits;       /* commits that had to wait for a flip */
+    /* alive now, and most at any time */
+    int files, fbs, blobs, buffers, dumbs, maps, replies, fences_given;
+    int most_fbs, most_buffers, most_blobs;
+    int complaints;
+};
+extern struct sim_counts sim_counts;
+/* What no program may do; the first ones are kept in a text. */
+void sim_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+const char *sim_complaint(void); /* the first, "" while there is none */
+
+#endif

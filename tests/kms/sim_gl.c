@@ -1,0 +1,197 @@
+/* A GPU that paints numbers: contexts, surfaces of four buffers, frames. */
+#include <drm_fourcc.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "sim_state.h"
+
+enum { BUFFERS = 4 };
+struct buffer {
+    struct sim_bo *bo;
+    uint32_t handle;
+    bool locked;
+};
+struct context {
+    int fd;
+    bool has_surface;
+    struct gn_surface_opts opts;
+    struct buffer buffers[BUFFERS];
+};
+static struct context *current;
+
+static void *open_context(int fd, struct gn_err *err) {
+    struct sim_file *f = sim_enter(SIM_gl_open, fd);
+    if (!f || sim.gpu.no_gl) {
+        gn_fail(err, "GL does not start");
+        return NULL;
+    }
+    if (current) sim_complain("a second context");
+    current = calloc(1, sizeof *current);
+    if (!current) abort();
+    current->fd = fd;
+    f->scanouts++;
+    return current;
+}
+
+static gn_display_proc get_proc(void *state, const char *name) {
+    (void)state, (void)name;
+    return NULL;
+}
+
+static struct context *check(void *state, const char *what) {
+    if (state && state == current) return current;
+    sim_complain("%s without a context", what);
+    return NULL;
+}
+
+static void drop_surface(void *state) {
+    struct context *c = check(state, "drop_surface");
+    if (!c || !c->has_surface) return;
+    struct sim_file *f = sim_find_file(c->fd);
+    if (!f) sim_complain("a surface outlives its card");
+    for (int i = 0; i < BUFFERS; i++) {
+        if (c->buffers[i].locked) sim_complain("a surface is dropped of which a buffer is held");
+        if (f) sim_handle_close(f, c->buffers[i].handle);
+        sim_bo_unref(c->buffers[i].bo);
+        c->buffers[i] = (struct buffer){0};
+    }
+    c->has_surface = false;
+}
+
+static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_surface *out,
+                        struct gn_err *err) {
+    struct context *c = check(state, "set_surface");
+    if (!c) return gn_fail(err, "no context");
+    drop_surface(c);
+    if (o->rung >= GN_RUNG_COPY || o->width_px == 0 || o->format_count == 0)
+        sim_complain("a surface of nothing");
+    struct sim_file *f = sim_enter(SIM_gl_surface, c->fd);
+    const bool unlisted = o->rung == GN_RUNG_MODIFIERS && o->modifier_count == 0;
+    if (!f || unlisted || sim.gpu.no_surface[o->rung]) return gn_fail(err, "no such surface");
+    for (int i = 0; i < BUFFERS; i++) {
+        c->buffers[i].bo = sim_bo_create(o->width_px, o->height_px, false);
+        c->buffers[i].handle = sim_handle_add(f, c->buffers[i].bo, false);
+    }
+    c->opts = *o;
+    c->has_surface = true;
+    *out = (struct gn_surface){.format = o->formats[0]};
+    return true;
+}
+
+static struct buffer *back_buffer(struct context *c) {
+    for (int i = 0; c->has_surface && i < BUFFERS; i++)
+        if (!c->buffers[i].locked) return &c->buffers[i];
+    return NULL;
+}
+
+static uint64_t modifier_of(const struct gn_surface_opts *o) {
+    if (o->rung == GN_RUNG_MODIFIERS) return o->modifiers[0];
+    return o->rung == GN_RUNG_LINEAR ? DRM_FORMAT_MOD_LINEAR : DRM_FORMAT_MOD_INVALID;
+}
+
+static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence,
+                 struct gn_err *err) {
+    struct context *c = check(state, "swap");
+    struct buffer *b = c ? back_buffer(c) : NULL;
+    *fence = -1;
+    if (!b) sim_complain("a frame without a buffer");
+    if (sim_fails(SIM_gl_swap) || !b) return gn_fail(err, "the GPU ends no frame");
+    b->locked = true;
+    *out = (struct gn_buffer){.key = b,
+                              .width_px = c->opts.width_px,
+                              .height_px = c->opts.height_px,
+                              .format = c->opts.formats[0],
+                              .modifier = modifier_of(&c->opts),
+                              .plane_count = 1,
+                              .handles = {b->handle},
+                              .strides = {4 * c->opts.width_px}};
+    if (want_fence) *fence = open("/dev/null", O_RDWR | O_CLOEXEC);
+    sim_counts.fences_given += want_fence;
+    return true;
+}
+
+static void release(void *state, void *key) {
+    struct context *c = check(state, "release");
+    for (int i = 0; c && i < BUFFERS; i++) {
+        if (key != &c->buffers[i] || !c->buffers[i].locked) continue;
+        c->buffers[i].locked = false;
+        return;
+    }
+    sim_complain("a buffer is released that is not held");
+}
+
+static bool has_free(void *state) {
+    struct context *c = check(state, "has_free");
+    return c && back_buffer(c);
+}
+
+static void close_context(void *state) {
+    struct context *c = check(state, "close");
+    if (!c) return;
+    drop_surface(c);
+    struct sim_file *f = sim_find_file(c->fd);
+    if (f) f->scanouts--;
+    current = NULL;
+    free(c);
+}
+
+const struct gn_scanout_ops sim_gl = {
+    .open = open_context,
+    .get_proc = get_proc,
+    .set_surface = set_surface,
+    .drop_surface = drop_surface,
+    .swap = swap,
+    .release = release,
+    .has_free = has_free,
+    .close = close_context,
+};
+
+void sim_gl_reset(void) {
+    free(current);
+    current = NULL;
+}
+
+/* ---- painting ---- */
+
+/* Where flips do not end in time, nobody knows what is shown. */
+static bool is_stalled(const struct sim_crtc *c) {
+    return c->stall != SIM_FLOWS ||
+           (c->flip.pending && sim.now_ns - c->flip.committed_ns > 250 * SIM_MS);
+}
+
+/* Nobody may be looking at it, and nobody soon. */
+static void check_unseen(const struct sim_bo *bo) {
+    for (int n = 0; n < SIM_CARDS; n++)
+        for (int i = 0; i < SIM_CRTCS; i++) {
+            const struct sim_crtc *c = &sim.cards[n].crtcs[i];
+            if (!sim.cards[n].state.crtcs[i].active || is_stalled(c)) continue;
+            if (c->shown && c->shown->bo == bo) sim_complain("what is shown is painted over");
+            if (c->flip.pending && c->flip.fb && c->flip.fb->bo == bo)
+                sim_complain("what is about to be shown is painted over");
+        }
+}
+
+void sim_paint(uint32_t colour) {
+    struct buffer *b = current ? back_buffer(current) : NULL;
+    if (!b) {
+        sim_complain("painted, and there is no buffer");
+        return;
+    }
+    check_unseen(b->bo);
+    b->bo->colour = colour;
+}
+
+void sim_paint_copy(uint8_t *pixels, uint32_t colour) {
+    for (int i = 0; i < SIM_FILES; i++)
+        for (int k = 0; sim.files[i].fd && k < SIM_HANDLES; k++) {
+            const struct sim_handle *h = &sim.files[i].handles[k];
+            if (!h->number || h->bo->pixels != pixels) continue;
+            check_unseen(h->bo);
+            memcpy(pixels, &colour, sizeof colour);
+            memcpy(pixels + h->bo->size - sizeof colour, &colour, sizeof colour);
+            return;
+        }
+    sim_complain("a copy goes nowhere");
+}

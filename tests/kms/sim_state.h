@@ -1,0 +1,203 @@
+/* Inside the simulator. */
+#ifndef GN_KMS_SIM_STATE_H
+#define GN_KMS_SIM_STATE_H
+
+#include "sim.h"
+
+enum {
+    SIM_PLANES = 2 * SIM_CRTCS, /* a primary and an overlay for each CRTC */
+    SIM_FBS = 48,
+    SIM_BLOBS = 32,
+    SIM_FILES = 8,
+    SIM_HANDLES = 64,
+    SIM_EVENTS = 16,
+    SIM_NOBODY = -1,
+    SIM_STRANGER = -2,
+    SIM_CONSOLE = -3,
+    SIM_FIRST_FD = 1000,
+};
+
+enum sim_prop {
+    SIM_P_LINK = 1,
+    SIM_P_ORIENTATION,
+    SIM_P_NON_DESKTOP,
+    SIM_P_CONNECTOR_CRTC,
+    SIM_P_ACTIVE,
+    SIM_P_MODE,
+    SIM_P_TYPE,
+    SIM_P_FB,
+    SIM_P_CRTC,
+    SIM_P_SRC_X,
+    SIM_P_SRC_Y,
+    SIM_P_SRC_W,
+    SIM_P_SRC_H,
+    SIM_P_X,
+    SIM_P_Y,
+    SIM_P_W,
+    SIM_P_H,
+    SIM_P_FENCE,
+    SIM_P_ROTATION,
+    SIM_P_FORMATS,
+    SIM_PROPS
+};
+enum { SIM_PROP_BASE = 700 };
+
+struct sim_bo { /* memory */
+    int refs;
+    uint32_t colour;
+    uint8_t *pixels; /* a dumb buffer's */
+    size_t size;
+    uint32_t width_px, height_px;
+};
+struct sim_fb {
+    uint32_t id; /* 0: removed, but shown yet */
+    int refs;
+    int file;   /* owner, or SIM_CONSOLE.. */
+    bool asked; /* to be removed, in vain */
+    struct sim_bo *bo;
+    uint32_t width_px, height_px, format;
+};
+struct sim_blob {
+    uint32_t id;
+    int file;
+    bool asked;
+    drmModeModeInfo mode;
+};
+
+struct sim_crtc_state {
+    bool active, has_mode;
+    uint32_t blob; /* that it was set with; the property's value */
+    drmModeModeInfo mode;
+};
+struct sim_plane_state {
+    uint32_t fb;
+    int crtc;
+    uint64_t src[4]; /* x y w h, 16.16 */
+    int64_t dst[4];
+    uint64_t rotation;
+    int fence;
+};
+struct sim_connector_state {
+    int crtc;
+    bool bad_link;
+};
+struct sim_state { /* what has been committed, though a flip may be on its way */
+    struct sim_crtc_state crtcs[SIM_CRTCS];
+    struct sim_plane_state planes[SIM_PLANES];
+    struct sim_connector_state connectors[SIM_CONNECTORS];
+};
+
+struct sim_flip {
+    bool pending;
+    struct sim_fb *fb;
+    int file;
+    void *user;
+    int64_t committed_ns, done_ns;
+};
+struct sim_crtc {
+    struct sim_fb *shown;
+    struct sim_flip flip;
+    enum sim_stall stall;
+    int64_t lit_ns;
+};
+struct sim_card {
+    bool there, present; /* there: it has been added */
+    char path[64], place[96];
+    struct sim_traits traits;
+    unsigned life; /* counts its returns */
+    uint32_t base; /* of its objects' ids */
+    uint32_t next_id;
+    int master;
+    int plugged[SIM_CONNECTORS], known[SIM_CONNECTORS]; /* kinds of monitors */
+    struct sim_state state;
+    struct sim_crtc crtcs[SIM_CRTCS];
+    struct sim_fb fbs[SIM_FBS];
+    struct sim_blob blobs[SIM_BLOBS];
+};
+
+struct sim_event {
+    void *user;
+    int64_t ns;
+    unsigned sequence, crtc;
+};
+struct sim_handle {
+    uint32_t number;
+    struct sim_bo *bo;
+    bool dumb, asked;
+};
+struct sim_file {
+    int fd; /* 0: none */
+    int card;
+    unsigned life;
+    bool atomic, universal, was_master;
+    struct sim_event events[SIM_EVENTS];
+    int event_count;
+    struct sim_handle handles[SIM_HANDLES];
+    uint32_t next_handle;
+    int scanouts;
+};
+
+struct sim_world {
+    int64_t now_ns;
+    struct sim_card cards[SIM_CARDS];
+    struct sim_file files[SIM_FILES];
+    struct sim_gpu gpu;
+    struct sim_refusal refusals[SIM_BROKEN];
+    int refusal_count, next_fd;
+    bool uevent;
+};
+extern struct sim_world sim;
+
+/* sim_call.c: every call goes through one of these; NULL or true: it fails, and errno is set. */
+struct sim_file *sim_enter(enum sim_op op, int fd);
+bool sim_fails(enum sim_op op);
+void sim_call_reset(void);
+int64_t sim_call_next(void);
+void sim_call_pass(void); /* what had happened has passed */
+struct sim_file *sim_find_file(int fd);
+struct sim_card *sim_card_of(const struct sim_file *file);
+int sim_index_of(const struct sim_file *file);
+void *sim_reply(size_t size); /* what libdrm would have allocated */
+void sim_reply_free(void *reply);
+
+/* sim_memory.c */
+struct sim_bo *sim_bo_create(uint32_t width_px, uint32_t height_px, bool dumb);
+void sim_bo_unref(struct sim_bo *bo);
+uint32_t sim_handle_add(struct sim_file *file, struct sim_bo *bo, bool dumb);
+void sim_handle_close(struct sim_file *file, uint32_t number);
+struct sim_fb *sim_fb_find(struct sim_card *card, uint32_t id);
+struct sim_fb *sim_fb_add(struct sim_card *card, int file, struct sim_bo *bo, uint32_t format);
+struct sim_fb *sim_fb_ref(struct sim_fb *fb);
+void sim_fb_unref(struct sim_fb *fb);
+void sim_fb_remove(struct sim_card *card, struct sim_fb *fb);
+struct sim_blob *sim_blob_find(struct sim_card *card, uint32_t id);
+void sim_file_close(struct sim_file *file);
+
+void sim_gl_reset(void); /* sim_gl.c */
+
+/* sim_read.c */
+drmModeModeInfo sim_mode_info(const struct sim_mode *mode);
+int sim_monitor_modes(int kind, drmModeModeInfo *out);
+uint32_t sim_connector_id(const struct sim_card *card, int i);
+uint32_t sim_encoder_id(const struct sim_card *card, int i);
+uint32_t sim_crtc_id(const struct sim_card *card, int i);
+uint32_t sim_plane_id(const struct sim_card *card, int i);
+int sim_index(uint32_t id, uint32_t first, int count); /* -1: none of these */
+
+/* sim_commit.c: 0 or an errno; what is taken becomes the card's state and is seen at once. */
+int sim_check(struct sim_card *card, const struct sim_state *next, bool modeset, bool test);
+void sim_take(struct sim_card *card, const struct sim_state *next);
+void sim_set_console(struct sim_card *card, int owner);
+void sim_start_flip(struct sim_card *card, int crtc, const struct sim_flip *how);
+void sim_finish_flip(struct sim_card *card, int crtc);
+void sim_wait_for_flips(struct sim_card *card);
+struct sim_file *sim_enter_as_master(enum sim_op op, int fd);
+void sim_refresh(struct sim_card *card); /* what is shown is what has been committed */
+
+/* The drm table's functions, by file. */
+void sim_fill_read(struct gn_drm_ops *ops);
+void sim_fill_commit(struct gn_drm_ops *ops);
+void sim_fill_atomic(struct gn_drm_ops *ops);
+void sim_fill_memory(struct gn_drm_ops *ops);
+
+#endif
