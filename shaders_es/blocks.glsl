@@ -29,6 +29,9 @@
 #define SLIDE_W 2         /* w: depth along the light's axis, metres */
 #define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide, over 0: what is nearer has not passed it */
 #define PASS_SIZE 86
+/* Casters fallen on the plane: PASS_CLIP, and */
+#define FLAT_PLANE 4      /* height over the plane: dot with (p, 1), world space */
+#define FLAT_HEIGHTS 5    /* x, y: between these a point casts, metres */
 /* Marks: PASS_CLIP, and */
 #define MARK_PIXEL 4      /* xy: a pixel of the mark, of 2 x 2 */
 #define MARK_QUADS 105    /* a disc and 104 lines */

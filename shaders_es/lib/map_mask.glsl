@@ -1,9 +1,11 @@
-//@ names map_encode map_code
+//@ names map_encode map_code map_in_stencil
 // How much of the light arrives at a plane: R8, cleared to 1, LINEAR. Casters write the same whatever their order.
 #undef MAP_SAMPLER
 #undef MAP_OUT
 #define MAP_SAMPLER sampler2D
 #define MAP_OUT vec4
+
+const bool map_in_stencil = false;
 
 vec4 map_encode(float code) { return vec4(0.0); }
 

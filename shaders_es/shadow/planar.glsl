@@ -1,6 +1,7 @@
 //@ names shadow_visibility
-// The mask of the plane, four taps half a texel away along both diagonals: a 3 x 3 texel tent.
+// The mask of the plane, four taps half a texel away along both diagonals: a 3 x 3 texel tent. Without a mask the pass knows.
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
+    if (map_in_stencil) return s.far;
     vec2 a = s.at.xy - 0.5 * s.size.zw;
     vec2 b = s.at.xy + 0.5 * s.size.zw;
     float lit = map_code(map, a) + map_code(map, vec2(b.x, a.y)) + map_code(map, vec2(a.x, b.y)) + map_code(map, b);

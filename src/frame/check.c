@@ -49,7 +49,7 @@ static uint32_t slide_count(const struct gn_program_key *key) {
 static const char *check_use(const struct gn_pass *pass, const struct gn_program_key *key) {
     const bool adds = key->features & GN_FEATURE_ADDITIVE;
     const bool panel = key->kind == GN_PROGRAM_PANEL;
-    REQUIRE((key->kind <= GN_PROGRAM_DISTANCE) == (pass->target.kind == GN_TARGET_SHADOW));
+    REQUIRE((key->kind < GN_PROGRAM_FLAT) == (pass->target.kind == GN_TARGET_SHADOW));
     REQUIRE((key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
     REQUIRE(adds == (pass->blend == GN_BLEND_ADD));
     REQUIRE(key->light_count <= pass->light_count);

@@ -135,9 +135,11 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
                                     const struct gn_shadow_view *view) {
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
-    key.kind = view->encoding == GN_ENCODING_DEPTH ? GN_PROGRAM_DEPTH : GN_PROGRAM_DISTANCE;
+    key.kind = view->encoding == GN_ENCODING_DEPTH     ? GN_PROGRAM_DEPTH
+               : view->encoding == GN_ENCODING_STENCIL ? GN_PROGRAM_FLAT
+                                                       : GN_PROGRAM_DISTANCE;
     key.features = alpha_features(frame->scene, &frame->scene->items[item]);
-    if (key.kind == GN_PROGRAM_DEPTH) return key;
+    if (key.kind != GN_PROGRAM_DISTANCE) return key;
     key.encoding = (uint8_t)view->encoding;
     if (view->perspective && view->encoding != GN_ENCODING_MASK)
         key.features |= GN_FEATURE_PERSPECTIVE;

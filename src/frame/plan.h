@@ -25,6 +25,7 @@ enum gn_aov { GN_AOV_COLOR, GN_AOV_VISIBILITY, GN_AOV_DISTANCE, GN_AOV_NORMAL, G
 enum gn_program_kind {
     GN_PROGRAM_DEPTH,    /* casters into a depth map: no colour */
     GN_PROGRAM_DISTANCE, /* casters into a distance map */
+    GN_PROGRAM_FLAT,     /* casters fallen on the plane, into the picture's stencil: no colour */
     GN_PROGRAM_LIT,      /* colour */
     GN_PROGRAM_AOV,      /* what of it is in `aov` */
     GN_PROGRAM_MARK,     /* the mark of a light */

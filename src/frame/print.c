@@ -2,8 +2,8 @@
 
 #include "frame/plan.h"
 
-static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {"depth", "distance", "lit",   "aov",
-                                                         "mark",  "panel",    "encode"};
+static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {"depth", "distance", "flat",  "lit",
+                                                         "aov",   "mark",     "panel", "encode"};
 static const char *const outputs[] = {[GN_OUTPUT_SRGB8] = "srgb8",
                                       [GN_OUTPUT_LINEAR8] = "linear8",
                                       [GN_OUTPUT_FLOAT] = "float",

@@ -203,6 +203,7 @@ static void set_code(const struct gn_fitter *f, float near_depth, float far_dept
         return;
     case GN_ENCODING_R32UI:
     case GN_ENCODING_MASK:
+    case GN_ENCODING_STENCIL:
     case GN_ENCODING_COUNT: return;
     }
 }

@@ -22,7 +22,7 @@
 struct gn_shadow_opts {
     enum gn_technique technique; /* not NONE */
     enum gn_encoding encoding;   /* a proved one, never AUTO */
-    uint32_t map_px;             /* side of the map, or of a tile */
+    uint32_t map_px;             /* side of the map, or of a tile; with STENCIL 0 */
     bool all_receive;            /* gnomon_receive is not asked: for pictures of visibility */
 };
 
@@ -59,7 +59,8 @@ struct gn_shadow_view {
     float distance_scale, distance_offset;
     float far_code; /* the far end in the encoding's unit: what the map is cleared to */
     /* What the codes span: directional 0 and the depth between the clip planes, spot and point the
-     * near plane's depth and the greatest distance from the light; on_plane 0 and 1. */
+     * near plane's depth and the greatest distance from the light; on_plane 0 and 1,
+     * encoding STENCIL heights over the plane. */
     float near_m, far_m;
     float texel;         /* plane units: metres, or metres per metre of depth */
     float normal_offset; /* texels, times sin(theta) */

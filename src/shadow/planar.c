@@ -22,6 +22,7 @@ struct planar {
     struct gn_shadow_view *view;
     vec4 plane;             /* world space; the light's side is positive */
     vec4 light;             /* xyz, 1; or towards it, 0, so long that plane.light = 1 */
+    mat4 fallen_from_world; /* to where the shadow falls, world space, times w */
     mat4 shadow_from_world; /* plane coordinates times w; height over the plane; w */
     float low_m, high_m;    /* heights between which a thing casts */
     float scene_size_m;
@@ -95,15 +96,15 @@ static void set_matrices(struct planar *f) {
     vec3 x, y, up = {0.0f, 1.0f, 0.0f}, across = {0.0f, 0.0f, -1.0f};
     glm_vec3_crossn(fabsf(f->plane[1]) > 0.99f ? across : up, f->plane, x);
     glm_vec3_cross(f->plane, x, y);
-    mat4 plane_from_world, shadow;
+    mat4 plane_from_world;
     float height = glm_vec4_dot(f->plane, f->light);
     for (int c = 0; c < 4; c++) {
         vec4 column = {c < 3 ? x[c] : 0.0f, c < 3 ? y[c] : 0.0f, f->plane[c], c == 3};
         glm_vec4_copy(column, plane_from_world[c]);
         for (int r = 0; r < 4; r++)
-            shadow[c][r] = (c == r ? height : 0.0f) - f->light[r] * f->plane[c];
+            f->fallen_from_world[c][r] = (c == r ? height : 0.0f) - f->light[r] * f->plane[c];
     }
-    glm_mat4_mul(plane_from_world, shadow, f->shadow_from_world);
+    glm_mat4_mul(plane_from_world, f->fallen_from_world, f->shadow_from_world);
     for (int c = 0; c < 4; c++) f->shadow_from_world[c][2] = f->plane[c];
     glm_mat4_copy(plane_from_world, f->view->tiles[0].light_from_world);
 }
@@ -241,12 +242,28 @@ static void set_clip(struct planar *f, const double low[2]) {
     }
 }
 
+/* The mask's window, on whole texels, and what leads there. */
+static void set_mask(struct planar *f, const struct gn_shadow_region *window,
+                     const uint8_t *casts) {
+    double low[2];
+    gn_shadow_snap(f->view, window->min, window->max, 1e-6f * f->scene_size_m, low);
+    set_clip(f, low);
+    f->view->tiles[0].content_hash = gn_shadow_hash(f->pose, f->view, f->view->tiles, casts);
+}
+
+/* The eye shall see the casters as they fall; what pierces either height the rasteriser cannot cut
+ * as well, since there w grows with the distance from the eye too: heights are for a shader. */
+static void set_stencil(struct planar *f) {
+    glm_mat4_copy(f->fallen_from_world, f->view->tiles[0].clip_from_world);
+    f->view->near_m = f->low_m;
+    f->view->far_m = f->high_m;
+}
+
 bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
                    struct gn_shadow_memory *memory, struct gn_shadow_view *view) {
     const struct gn_light *l = &pose->scene->lights[view->light];
     struct planar f = {
         .pose = pose, .eye = eye, .view = view, .scene_size_m = gn_scene_size_m(pose)};
-    double low[2];
     view->distance_scale = view->far_code = view->far_m = 1.0f;
     if (!find_plane(&f) || !place_light(&f)) return false;
     set_matrices(&f);
@@ -254,8 +271,9 @@ bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
     if (f.high_m <= f.low_m) return false;
     struct gn_shadow_region window = find_window(&f, l, memory->casts);
     if (region_is_empty(&window)) return false;
-    gn_shadow_snap(view, window.min, window.max, 1e-6f * f.scene_size_m, low);
-    set_clip(&f, low);
-    view->tiles[0].content_hash = gn_shadow_hash(pose, view, view->tiles, memory->casts);
+    if (view->encoding == GN_ENCODING_STENCIL)
+        set_stencil(&f);
+    else
+        set_mask(&f, &window, memory->casts);
     return true;
 }

@@ -2,6 +2,9 @@
  * on it, seen from the light. Each texel says whether light arrives, so that a pixel is darkened
  * once however many casters overlap, and only what stands between light and plane is drawn. Pure.
  *
+ * The other way needs no map: casters are drawn into the picture's stencil as the eye sees them
+ * fallen on the plane, each sample marked once. Edges are exact at any distance.
+ *
  * Plane coordinates are metres in the plane, from where the world's origin stands over it. */
 #ifndef GN_SHADOW_PLANAR_H
 #define GN_SHADOW_PLANAR_H
@@ -14,7 +17,9 @@ bool gn_planar_has_plane(const struct gn_scene *scene);
 /* gn_shadow_fit for a technique that is on_plane: every kind of light. view: as gn_shadow_fit has
  * begun it, with the light's place. In it light_from_world leads to plane coordinates and height
  * over the plane, map_from_world is affine and right for points of the plane only, and codes are
- * visibilities. */
+ * visibilities. With encoding STENCIL the map's size is 0, clip_from_world leads to where a point's
+ * shadow falls, in world space and times a w that is 0 or less behind the light, and near_m and
+ * far_m are the heights over the plane between which a point casts; the rest is not set. */
 bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
                    struct gn_shadow_memory *memory, struct gn_shadow_view *view);
 

@@ -83,6 +83,7 @@ const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
     [GN_ENCODING_R16F_RAW] = {"r16f-raw", "lib/map_r16f.glsl", 6},
     [GN_ENCODING_RGBA8] = {"rgba8", "lib/map_rgba8.glsl", 8},
     [GN_ENCODING_MASK] = {"mask", "lib/map_mask.glsl", 1},
+    [GN_ENCODING_STENCIL] = {"stencil", "lib/map_stencil.glsl", 0},
 };
 
 bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err) {
@@ -104,8 +105,7 @@ bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *er
         return true;
     }
     char names[160] = "auto";
-    for (int i = 0; i < GN_ENCODING_COUNT; i++) {
-        if (i == GN_ENCODING_MASK) continue;
+    for (int i = 0; i < GN_ENCODING_MASK; i++) {
         if (strcmp(name, gn_encodings[i].name) == 0) {
             *out = (enum gn_encoding)i;
             return true;

@@ -30,8 +30,9 @@ enum gn_encoding {
     GN_ENCODING_R16F,  /* (d - c) / h over near..far, half float, with its own depth attachment */
     GN_ENCODING_R16F_RAW, /* metres, half float: coarse far off, shown for comparison */
     GN_ENCODING_RGBA8,    /* (d - near) / (far - near) in four bytes */
-    GN_ENCODING_MASK,     /* of a plane: how much light arrives, 0..1. Only for techniques that are
-                             on_plane, which have no other; nobody can ask for it */
+    GN_ENCODING_MASK,     /* of a plane: how much light arrives, 0..1. From here on only for
+                             techniques that are on_plane; nobody can ask for it by name */
+    GN_ENCODING_STENCIL,  /* of a plane: no map, but marks in the picture's own stencil */
     GN_ENCODING_COUNT,
     GN_ENCODING_AUTO = GN_ENCODING_COUNT,
 };
@@ -68,7 +69,8 @@ bool gn_encoding_find(const char *name, enum gn_encoding *out,
 
 /* The encoding that a technique gets: the wanted one, or for AUTO the first in the technique's
  * order that `proved` (a bit per encoding) has, else RGBA8. Where the wanted one is missing,
- * *fell_back is set and the automatic one taken. On the plane it is MASK, whatever is wanted. */
+ * *fell_back is set and the automatic one taken. On the plane it is MASK, whatever is wanted;
+ * STENCIL is for who draws the picture to choose. */
 enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted,
                                     uint32_t proved, bool *fell_back);
 

@@ -57,10 +57,10 @@ static void compiles(const struct gn_program_key *key) {
     free(log);
 }
 
-/* A mask goes with what is on a plane, and a plane with every light. */
+/* A mask and the stencil go with what is on a plane, and a plane with every light. */
 static bool go_together(int technique, int encoding) {
     bool on_plane = gn_techniques[technique].on_plane;
-    return on_plane == (encoding == GN_ENCODING_MASK);
+    return on_plane == (encoding >= GN_ENCODING_MASK);
 }
 
 static void test_techniques(void **state) {
@@ -101,7 +101,9 @@ static void test_casters(void **state) {
         for (int e = 0; e < GN_ENCODING_COUNT; e++)
             for (int spot = 0; spot < 2; spot++) {
                 struct gn_program_key key =
-                    key_of(e == GN_ENCODING_DEPTH ? GN_PROGRAM_DEPTH : GN_PROGRAM_DISTANCE);
+                    key_of(e == GN_ENCODING_DEPTH     ? GN_PROGRAM_DEPTH
+                           : e == GN_ENCODING_STENCIL ? GN_PROGRAM_FLAT
+                                                      : GN_PROGRAM_DISTANCE);
                 key.encoding = (uint8_t)e;
                 key.features = features[i] | (spot ? GN_FEATURE_PERSPECTIVE : 0);
                 compiles(&key);
@@ -121,6 +123,8 @@ static void test_many_lights(void **state) {
     key.lights[GN_SHADOWS_MAX - 1].type = GN_LIGHT_POINT; /* two ways to be looked up, in one */
     key.lights[GN_SHADOWS_MAX - 1].technique = GN_TECHNIQUE_PLANAR;
     key.lights[GN_SHADOWS_MAX - 1].encoding = GN_ENCODING_MASK;
+    compiles(&key);
+    key.lights[GN_SHADOWS_MAX - 1].encoding = GN_ENCODING_STENCIL;
     compiles(&key);
 }
 

@@ -1,0 +1,11 @@
+// What stands between light and plane; its only output is the stencil.
+#include "lib/pass.glsl"
+#include "lib/caster.frag.glsl"
+
+centroid in float v_height;
+
+void main() {
+    cut_holes();
+    vec4 heights = u_pass[FLAT_HEIGHTS];
+    if (v_height < heights.x || v_height > heights.y) discard;
+}
