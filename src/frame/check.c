@@ -50,6 +50,7 @@ static const char *check_use(const struct gn_pass *pass, const struct gn_program
     const bool adds = key->features & GN_FEATURE_ADDITIVE;
     const bool panel = key->kind == GN_PROGRAM_PANEL;
     REQUIRE((key->kind < GN_PROGRAM_FLAT) == (pass->target.kind == GN_TARGET_SHADOW));
+    REQUIRE((key->kind == GN_PROGRAM_FLAT) == pass->only_stencil);
     REQUIRE((key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
     REQUIRE(adds == (pass->blend == GN_BLEND_ADD));
     REQUIRE(key->light_count <= pass->light_count);
@@ -78,17 +79,31 @@ static const char *check_lights(const struct gn_plan *plan, const struct gn_pass
     return NULL;
 }
 
+/* What stencil a pass may use; where it is all that is drawn to. */
+static const char *check_stencil(const struct gn_plan *plan, const struct gn_pass *pass) {
+    const struct gn_stencil *s = &pass->stencil;
+    const bool used = s->reads || s->writes || s->clears;
+    REQUIRE(!used || (plan->stencil && pass->target.kind == GN_TARGET_OUTPUT));
+    REQUIRE((s->value & ~(s->reads | s->writes)) == 0);
+    REQUIRE(!s->clears || !pass->clear);
+    REQUIRE(!pass->only_stencil || (s->writes && !pass->depth_write && !pass->clear));
+    REQUIRE(!pass->only_stencil || pass->blend == GN_BLEND_OFF);
+    return NULL;
+}
+
 static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *pass) {
     REQUIRE(pass->target.width_px > 0 && pass->target.height_px > 0);
     const bool shadow = pass->target.kind == GN_TARGET_SHADOW;
     REQUIRE(!shadow || pass->target.slot < plan->shadow_count);
     REQUIRE(!shadow || (pass->clear && pass->content_hash != 0));
+    REQUIRE(!shadow || pass->target.encoding != GN_ENCODING_STENCIL);
     REQUIRE(rect_is_inside(&pass->rect, &pass->target));
     REQUIRE(pass->tile < GN_SHADOW_TILES_MAX);
     REQUIRE(pass->first_draw <= plan->draw_count);
     REQUIRE(pass->draw_count <= plan->draw_count - pass->first_draw);
     REQUIRE(pass->constants != NULL && pass->constant_count > 0);
     const char *broken = check_lights(plan, pass);
+    if (!broken) broken = check_stencil(plan, pass);
     for (uint32_t i = 0; i < pass->draw_count && !broken; i++) {
         const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
         broken = check_draw(plan, draw);
@@ -103,6 +118,8 @@ const char *gn_plan_check(const struct gn_plan *plan) {
     REQUIRE(plan->pass_count > 0);
     REQUIRE(plan->shadow_count <= GN_ALL_SHADOWS_MAX);
     REQUIRE(plan->light_count <= GN_ALL_LIGHTS_MAX);
+    for (uint32_t i = 0; i < plan->shadow_count; i++)
+        REQUIRE(plan->stencil || plan->shadows[i].encoding != GN_ENCODING_STENCIL);
     REQUIRE((plan->passes[plan->pass_count - 1].target.kind == GN_TARGET_ENCODED) ==
             (plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT));
     REQUIRE(plan->passes[0].clear);

@@ -112,6 +112,13 @@ enum gn_blend {
 
 /* ---- passes: each carries all its state ---- */
 
+/* What a pass does with the picture's stencil, all bits: draws where, of those it reads, it holds
+ * `value`, and there writes those of `value` that it may. Zeroed: nothing. */
+struct gn_stencil {
+    uint8_t value, reads, writes;
+    uint8_t clears; /* set to 0 at the pass's start, within its rect */
+};
+
 enum gn_target_kind {
     GN_TARGET_OUTPUT,
     GN_TARGET_SHADOW,
@@ -129,9 +136,11 @@ struct gn_target {
 struct gn_pass {
     char label[48]; /* KHR_debug group, timer, error: "shadow 0 Sun", "opaque", "blend" */
     struct gn_target target;
-    bool clear;           /* colour (or code) and depth, at the pass's start */
-    float clear_color[4]; /* OUTPUT: linear; SHADOW: far_code in [0] */
-    bool depth_write;     /* the depth test is always LEQUAL */
+    bool clear;                /* colour (or code) and depth, at the pass's start */
+    float clear_color[4];      /* OUTPUT: linear; SHADOW: far_code in [0] */
+    bool depth_write;          /* the depth test is always LEQUAL */
+    bool only_stencil;         /* draws FLAT programs: no depth test, and colour is left as it is */
+    struct gn_stencil stencil; /* OUTPUT, of a plan with a stencil; `clear` clears that, too */
     enum gn_blend blend;
     bool discard_depth;  /* nobody reads the depth after this pass: invalidate */
     uint32_t border_px;  /* this many texels at the target's rim stay cleared (scissor) */
@@ -162,6 +171,7 @@ struct gn_plan {
     bool encode_srgb; /* sRGB wanted of a GPU without such a target: shaders encode, or, where
                          output is FLOAT because passes add to it, the last pass does */
     uint32_t msaa;    /* samples: 0, 2, 4 */
+    bool stencil;     /* the output has one */
     enum gn_aov aov;
     const struct gn_scene *scene;
     struct gn_pass *passes;

@@ -45,18 +45,27 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
     fprintf(to, "%s\n", receivers[key->receiver]);
 }
 
-static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
-    const struct gn_shadow_view *view = &plan->shadows[slot];
-    fprintf(to, "shadow %u: light %u '%s' %s %s/%s %u px", slot, view->light,
-            plan->scene->lights[view->light].name,
-            light_types[plan->scene->lights[view->light].type], gn_techniques[view->technique].name,
-            gn_encodings[view->encoding].name, view->map_px);
+static void print_shadow_size(const struct gn_shadow_view *view, FILE *to) {
+    if (view->encoding == GN_ENCODING_STENCIL) return;
+    fprintf(to, " %u px", view->map_px);
     if (view->tile_count > 1)
         fprintf(to, " x %u, gutters %u px", view->tile_count, view->gutter_px);
+}
+
+static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
+    const struct gn_shadow_view *view = &plan->shadows[slot];
+    fprintf(to, "shadow %u: light %u '%s' %s %s/%s", slot, view->light,
+            plan->scene->lights[view->light].name,
+            light_types[plan->scene->lights[view->light].type], gn_techniques[view->technique].name,
+            gn_encodings[view->encoding].name);
+    print_shadow_size(view, to);
     if (view->empty)
         fprintf(to, ", empty: it darkens nothing in view\n");
     else if (view->encoding == GN_ENCODING_MASK)
         fprintf(to, ", texel %.4g m\n", (double)view->texel);
+    else if (view->encoding == GN_ENCODING_STENCIL)
+        fprintf(to, ", from %.4g m to %.4g m over the plane\n", (double)view->near_m,
+                (double)view->far_m);
     else
         fprintf(to, ", texel %.4g %s, near %.4g m, far %.4g m\n", (double)view->texel,
                 view->perspective ? "m per metre" : "m", (double)view->near_m, (double)view->far_m);
@@ -97,6 +106,15 @@ static void print_added(const struct gn_plan *plan, const struct gn_pass *pass, 
     }
 }
 
+/* Bits in hexadecimal. */
+static void print_stencil(const struct gn_pass *pass, FILE *to) {
+    const struct gn_stencil *s = &pass->stencil;
+    if (pass->only_stencil) fprintf(to, ", no colour, no depth");
+    if (s->clears) fprintf(to, ", clears stencil %02x", s->clears);
+    if (s->reads) fprintf(to, ", where stencil %02x of %02x", s->value & s->reads, s->reads);
+    if (s->writes) fprintf(to, ", sets stencil %02x of %02x", s->value & s->writes, s->writes);
+}
+
 static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
     print_target(pass, to);
     if (pass->clear && pass->target.kind == GN_TARGET_SHADOW)
@@ -112,7 +130,8 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
     if (pass->rect.width > 0)
         fprintf(to, ", within %u x %u at %u, %u", pass->rect.width, pass->rect.height, pass->rect.x,
                 pass->rect.y);
-    if (!pass->depth_write) fprintf(to, ", depth read-only");
+    print_stencil(pass, to);
+    if (!pass->depth_write && !pass->only_stencil) fprintf(to, ", depth read-only");
     if (pass->discard_depth) fprintf(to, ", depth discarded");
     fprintf(to, "\n");
     for (uint32_t i = 0; i < pass->draw_count; i++)
@@ -120,9 +139,9 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
 }
 
 void gn_plan_print(const struct gn_plan *plan, FILE *to) {
-    fprintf(to, "plan %u x %u, %s %s, msaa %u, exposure %.4g, %u items culled\n", plan->width_px,
-            plan->height_px, aovs[plan->aov], outputs[plan->output], plan->msaa,
-            (double)plan->exposure, plan->culled);
+    fprintf(to, "plan %u x %u, %s %s%s, msaa %u, exposure %.4g, %u items culled\n", plan->width_px,
+            plan->height_px, aovs[plan->aov], outputs[plan->output],
+            plan->stencil ? " + stencil" : "", plan->msaa, (double)plan->exposure, plan->culled);
     for (uint32_t i = 0; i < plan->program_count; i++) {
         fprintf(to, "program %u: ", i);
         print_key(&plan->programs[i], to);

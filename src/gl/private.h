@@ -71,9 +71,10 @@ struct gn_gl_rect {
 struct gn_gl_state {
     GLuint framebuffer, program, vertex_array, array_buffer;
     struct gn_gl_rect viewport, scissor;
-    bool scissor_on, depth_on, depth_write, blend_on, cull_on, mirrored;
-    uint8_t cull; /* gn_cull, when on */
-    GLuint unit;  /* the active one */
+    bool scissor_on, depth_on, depth_write, blend_on, cull_on, mirrored, stencil_on, color_write;
+    struct gn_stencil stencil; /* `clears` unused */
+    uint8_t cull;              /* gn_cull, when on */
+    GLuint unit;               /* the active one */
     GLuint textures[GN_GL_UNIT_COUNT], samplers[GN_GL_UNIT_COUNT];
     float clear_color[4];
 };
@@ -88,6 +89,9 @@ void gn_gl_set_scissor(struct gn_gl *gl, const struct gn_gl_rect *rect); /* NULL
 void gn_gl_set_depth(struct gn_gl *gl, bool test, bool write);
 void gn_gl_set_blend(struct gn_gl *gl, enum gn_blend blend);
 void gn_gl_set_cull(struct gn_gl *gl, enum gn_cull cull, bool mirrored);
+void gn_gl_set_color_write(struct gn_gl *gl, bool write); /* clears heed it, too */
+void gn_gl_set_stencil(struct gn_gl *gl, const struct gn_stencil *stencil);
+void gn_gl_set_stencil_writes(struct gn_gl *gl, uint8_t bits); /* for clears */
 void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]);
 
 /* ---- objects: made here, so that they are counted ---- */
@@ -187,6 +191,7 @@ struct gn_gl_output {
     bool made;
     bool window;  /* the finished picture goes to the display's framebuffer, whose name is 0 */
     bool encodes; /* a last pass does */
+    bool stencil; /* beside the depth, in `depth` */
     GLuint framebuffer, color, depth;
     GLuint resolved, resolved_color; /* without msaa the same as framebuffer, and 0 */
     /* Of a linear picture that is encoded at the end: itself, to be read by a shader, and its

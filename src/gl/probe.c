@@ -205,6 +205,8 @@ static uint32_t prove_at_once(struct gn_gl *gl, uint32_t mask) {
     gn_gl_set_depth(gl, false, true);
     gn_gl_set_blend(gl, GN_BLEND_OFF);
     gn_gl_set_cull(gl, GN_CULL_NONE, false);
+    gn_gl_set_color_write(gl, true);
+    gn_gl_set_stencil(gl, &(struct gn_stencil){0});
     if (mask & rows_of(1u << GN_CAP_DEPTH_COMPARE)) make_depth(gl, &proof);
     make_colors(gl, &proof);
     uint32_t proved = draw_and_read(gl, &proof);
@@ -233,6 +235,7 @@ static bool resolves(struct gn_gl *gl, const GLuint framebuffers[2]) {
     gn_gl_bind_framebuffer(gl, framebuffers[0]);
     if (!complete(gl)) return false;
     gn_gl_set_scissor(gl, NULL);
+    gn_gl_set_color_write(gl, true);
     GL(gl, ClearBufferfv)(GL_COLOR, 0, color);
     GL(gl, BindFramebuffer)(GL_DRAW_FRAMEBUFFER, framebuffers[1]);
     GL(gl, BlitFramebuffer)(0, 0, SIDE, SIDE, 0, 0, SIDE, SIDE, GL_COLOR_BUFFER_BIT, GL_NEAREST);

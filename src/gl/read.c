@@ -159,6 +159,8 @@ static void draw_copy(struct gn_gl *gl, GLuint program, const struct gn_gl_map *
     gn_gl_set_depth(gl, false, false);
     gn_gl_set_blend(gl, GN_BLEND_OFF);
     gn_gl_set_cull(gl, GN_CULL_NONE, false);
+    gn_gl_set_color_write(gl, true);
+    gn_gl_set_stencil(gl, &(struct gn_stencil){0});
     GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
     gn_gl_object_destroy(gl, GN_GL_VERTEX_ARRAY, &array);
 }

@@ -11,15 +11,20 @@
 
 static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
     static const float far_depth = 1.0f;
+    const bool stencil = gl->targets.output.stencil;
     if (gl->targets.output.format == GN_OUTPUT_AOV) {
         GLuint bits[4];
         memcpy(bits, pass->clear_color, sizeof bits);
         GL(gl, ClearBufferuiv)(GL_COLOR, 0, bits);
-        GL(gl, ClearBufferfv)(GL_DEPTH, 0, &far_depth);
+        if (stencil)
+            GL(gl, ClearBufferfi)(GL_DEPTH_STENCIL, 0, far_depth, 0);
+        else
+            GL(gl, ClearBufferfv)(GL_DEPTH, 0, &far_depth);
         return;
     }
     gn_gl_set_clear_color(gl, pass->clear_color);
-    GL(gl, Clear)(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    GL(gl, Clear)
+    (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | (stencil ? GL_STENCIL_BUFFER_BIT : 0u));
 }
 
 /* To the light's far end, in the encoding's own unit. */
@@ -57,6 +62,27 @@ static bool scissor_of(const struct gn_pass *pass, struct gn_gl_rect *out) {
 
 enum clear { CLEAR_NOT, CLEAR_RECT, CLEAR_ALL };
 
+/* All of the target, or a tile of a map. */
+static void clear_target(struct gn_gl *gl, const struct gn_pass *pass) {
+    gn_gl_set_depth(gl, true, true);
+    gn_gl_set_color_write(gl, true);
+    if (pass->target.kind == GN_TARGET_SHADOW) {
+        clear_map(gl, pass);
+        return;
+    }
+    if (gl->targets.output.stencil) gn_gl_set_stencil_writes(gl, 255);
+    clear_output(gl, pass);
+}
+
+/* Within the scissor. */
+static void set_stencil(struct gn_gl *gl, const struct gn_pass *pass) {
+    if (pass->stencil.clears) {
+        gn_gl_set_stencil_writes(gl, pass->stencil.clears);
+        GL(gl, Clear)(GL_STENCIL_BUFFER_BIT);
+    }
+    gn_gl_set_stencil(gl, &pass->stencil);
+}
+
 static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer,
                          enum clear clear) {
     const bool tile = pass->target.kind == GN_TARGET_SHADOW && pass->rect.width > 0;
@@ -66,23 +92,24 @@ static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint fr
     gn_gl_set_viewport(gl, tile ? inner : target_rect(pass));
     if (clear != CLEAR_NOT) {
         gn_gl_set_scissor(gl, tile && clear == CLEAR_RECT ? &inner : NULL);
-        gn_gl_set_depth(gl, true, true);
-        if (pass->target.kind == GN_TARGET_SHADOW)
-            clear_map(gl, pass);
-        else
-            clear_output(gl, pass);
+        clear_target(gl, pass);
     }
     gn_gl_set_scissor(gl, bound ? &inner : NULL);
-    gn_gl_set_depth(gl, pass->target.kind != GN_TARGET_ENCODED, pass->depth_write);
+    gn_gl_set_depth(gl, pass->target.kind != GN_TARGET_ENCODED && !pass->only_stencil,
+                    pass->depth_write);
+    gn_gl_set_color_write(gl, !pass->only_stencil);
+    set_stencil(gl, pass);
     gn_gl_set_blend(gl, pass->blend);
 }
 
 static void end_target(struct gn_gl *gl, const struct gn_pass *pass, bool last) {
-    static const GLenum attachment = GL_DEPTH_ATTACHMENT, window = GL_DEPTH;
-    const GLenum *depth = gl->state.framebuffer ? &attachment : &window;
+    static const GLenum attachment[] = {GL_DEPTH_ATTACHMENT, GL_STENCIL_ATTACHMENT};
+    static const GLenum window[] = {GL_DEPTH, GL_STENCIL};
+    const GLenum *depth = gl->state.framebuffer ? attachment : window;
     const bool is_map = pass->target.kind == GN_TARGET_SHADOW;
+    const GLsizei count = !is_map && gl->targets.output.stencil ? 2 : 1;
     if (is_map && pass->target.encoding == GN_ENCODING_DEPTH) return; /* it is what was wanted */
-    if (pass->discard_depth && last) GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, 1, depth);
+    if (pass->discard_depth && last) GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, count, depth);
 }
 
 static void resolve(struct gn_gl *gl) {
@@ -179,7 +206,7 @@ static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_d
     (GL_TRIANGLES, (GLsizei)geometry->index_count, gl->scene.index_type, (const void *)first,
      (GLsizei)d->instance_count);
     gl->stats.draws++;
-    gl->stats.shadow_draws += pass->target.kind == GN_TARGET_SHADOW;
+    gl->stats.shadow_draws += pass->target.kind == GN_TARGET_SHADOW || pass->only_stencil;
     gl->stats.triangles += (uint64_t)geometry->index_count / 3 * d->instance_count;
 }
 

@@ -86,6 +86,29 @@ void gn_gl_set_cull(struct gn_gl *gl, enum gn_cull cull, bool mirrored) {
     GL(gl, FrontFace)(mirrored ? GL_CW : GL_CCW);
 }
 
+void gn_gl_set_color_write(struct gn_gl *gl, bool write) {
+    if (gl->state.color_write == write) return;
+    gl->state.color_write = write;
+    GL(gl, ColorMask)(write, write, write, write);
+}
+
+void gn_gl_set_stencil_writes(struct gn_gl *gl, uint8_t bits) {
+    if (gl->state.stencil.writes == bits) return;
+    gl->state.stencil.writes = bits;
+    GL(gl, StencilMask)(bits);
+}
+
+void gn_gl_set_stencil(struct gn_gl *gl, const struct gn_stencil *stencil) {
+    struct gn_stencil *s = &gl->state.stencil;
+    enable(gl, GL_STENCIL_TEST, &gl->state.stencil_on, stencil->reads || stencil->writes);
+    if (!gl->state.stencil_on) return;
+    gn_gl_set_stencil_writes(gl, stencil->writes);
+    if (s->value == stencil->value && s->reads == stencil->reads) return;
+    s->value = stencil->value;
+    s->reads = stencil->reads;
+    GL(gl, StencilFunc)(GL_EQUAL, s->value, s->reads); /* of no bits: always */
+}
+
 void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]) {
     const float *c = gl->state.clear_color;
     if (c[0] == rgba[0] && c[1] == rgba[1] && c[2] == rgba[2] && c[3] == rgba[3]) return;
@@ -96,8 +119,11 @@ void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]) {
 /* A context starts with all the rest as a zeroed cache says. */
 void gn_gl_state_init(struct gn_gl *gl) {
     static const GLenum framebuffer_srgb = 0x8DB9; /* desktop GL only: ES always encodes */
-    gl->state = (struct gn_gl_state){.depth_write = true, .cull = GN_CULL_BACK};
+    gl->state = (struct gn_gl_state){
+        .depth_write = true, .cull = GN_CULL_BACK, .color_write = true, .stencil = {.writes = 255}};
     GL(gl, DepthFunc)(GL_LEQUAL);
+    GL(gl, StencilFunc)(GL_EQUAL, 0, 0);
+    GL(gl, StencilOp)(GL_KEEP, GL_KEEP, GL_REPLACE);
     GL(gl, BlendFunc)(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     if (gl->desktop) GL(gl, Enable)(framebuffer_srgb);
 }

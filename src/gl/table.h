@@ -26,9 +26,11 @@
     X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                       \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                     \
     X(PFNGLCLEARPROC, Clear)                                                                       \
+    X(PFNGLCLEARBUFFERFIPROC, ClearBufferfi)                                                       \
     X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                                                       \
     X(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                                                     \
     X(PFNGLCLEARCOLORPROC, ClearColor)                                                             \
+    X(PFNGLCOLORMASKPROC, ColorMask)                                                               \
     X(PFNGLCOMPILESHADERPROC, CompileShader)                                                       \
     X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                       \
     X(PFNGLCREATESHADERPROC, CreateShader)                                                         \
@@ -83,6 +85,9 @@
     X(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri)                                               \
     X(PFNGLSCISSORPROC, Scissor)                                                                   \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                         \
+    X(PFNGLSTENCILFUNCPROC, StencilFunc)                                                           \
+    X(PFNGLSTENCILMASKPROC, StencilMask)                                                           \
+    X(PFNGLSTENCILOPPROC, StencilOp)                                                               \
     X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                       \
     X(PFNGLTEXSTORAGE2DPROC, TexStorage2D)                                                         \
     X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                                       \

@@ -87,7 +87,8 @@ static bool output_is(const struct gn_gl *gl, const struct gn_gl_output *o,
                       const struct gn_plan *plan) {
     return o->made && o->window == goes_to_window(gl, plan) && o->width_px == plan->width_px &&
            o->height_px == plan->height_px && o->format == plan->output &&
-           o->msaa_wanted == plan->msaa && o->encodes == is_encoded(plan);
+           o->msaa_wanted == plan->msaa && o->stencil == plan->stencil &&
+           o->encodes == is_encoded(plan);
 }
 
 /* The one colour of the framebuffer that is bound: as a texture, if shaders are to read it. */
@@ -141,11 +142,12 @@ static uint64_t bytes_of(const struct gn_gl_output *o, bool encoded) {
 static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err *err) {
     const bool encoded = o->encodes;
     if (o->window && !encoded) return true; /* all of it is the display's */
-    o->depth =
-        make_renderbuffer(gl, GL_DEPTH_COMPONENT24, (GLsizei)o->msaa, o->width_px, o->height_px);
+    o->depth = make_renderbuffer(gl, o->stencil ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT24,
+                                 (GLsizei)o->msaa, o->width_px, o->height_px);
     o->framebuffer = make_framebuffer(gl);
     attach_color(gl, o, &o->color, (GLsizei)o->msaa, encoded && !o->msaa);
-    attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, o->depth);
+    attach_renderbuffer(gl, o->stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+                        o->depth);
     o->bytes = bytes_of(o, encoded);
     return gn_gl_framebuffer_check(gl, "output", err) && make_resolved(gl, o, encoded, err) &&
            (!encoded || o->window || make_encoded(gl, o, err)) &&
@@ -159,6 +161,7 @@ static bool output_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct g
     *o = (struct gn_gl_output){.width_px = plan->width_px,
                                .height_px = plan->height_px,
                                .format = plan->output,
+                               .stencil = plan->stencil,
                                .msaa = possible_samples(gl, plan),
                                .msaa_wanted = plan->msaa,
                                .window = goes_to_window(gl, plan),
@@ -178,6 +181,7 @@ static const GLenum map_formats[GN_ENCODING_COUNT] = {
     [GN_ENCODING_R16F_RAW] = GL_R16F,
     [GN_ENCODING_RGBA8] = GL_RGBA8,
     [GN_ENCODING_MASK] = GL_R8,
+    [GN_ENCODING_STENCIL] = GL_NONE, /* no map */
 };
 
 static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {

@@ -176,6 +176,8 @@ const char *help_shaders(void) {
     help_write(folder, "aov.frag", aov);
     help_write(folder, "depth.vert", vertex);
     help_write(folder, "depth.frag", "void main() {}\n");
+    help_write(folder, "flat.vert", vertex);
+    help_write(folder, "flat.frag", "void main() {}\n");
     help_write(folder, "distance.vert", vertex);
     help_write(folder, "distance.frag", distance_stage);
     help_write(folder, "lib/map_depth.glsl",

@@ -49,7 +49,7 @@ static int close_all(void **state) {
 
 static struct scratch {
     struct gn_plan plan;
-    struct gn_pass passes[2];
+    struct gn_pass passes[4];
     struct gn_draw draws[4];
     struct gn_instance instances[4];
     struct gn_program_key programs[2];
@@ -261,6 +261,66 @@ static void test_an_error_before_reading_is_told(void **state) {
     }
 }
 
+/* ---- the stencil ---- */
+
+/* The far square in red, and 80 marks it; the near one, which is half as wide, adds 1 and leaves no
+ * colour; then the far one in green where there are both, and in blue where 1 has gone again. */
+static void plan_stencil(enum gn_output_format output) {
+    begin_plan(output);
+    add_draw(HELP_FAR, instance(1, 0, 0, 1));
+    add_draw(HELP_NEAR, instance(1, 1, 1, 1))->program = 1;
+    add_draw(HELP_FAR, instance(0, 1, 0, 1));
+    add_draw(HELP_FAR, instance(0, 0, 1, 1));
+    s.plan.stencil = true;
+    s.plan.pass_count = 4, s.plan.program_count = 2;
+    s.programs[1].kind = GN_PROGRAM_FLAT;
+    s.passes[0].stencil = (struct gn_stencil){.value = 0x80, .writes = 0xff};
+    s.passes[0].discard_depth = false;
+    for (uint32_t i = 1; i < 4; i++) {
+        s.passes[i] = s.passes[0];
+        s.passes[i].clear = s.passes[i].depth_write = false;
+        s.passes[i].first_draw = i;
+    }
+    for (int i = 0; i < 4; i++) s.passes[i].draw_count = 1;
+    s.passes[1].only_stencil = true;
+    s.passes[1].stencil = (struct gn_stencil){.value = 0x81, .reads = 0x80, .writes = 0x01};
+    s.passes[2].stencil = (struct gn_stencil){.value = 0x81, .reads = 0x8f};
+    s.passes[3].stencil = (struct gn_stencil){.value = 0x80, .reads = 0x81, .clears = 0x01};
+    s.passes[3].rect = (struct gn_rect){8, 0, 2, SIDE};
+    s.passes[3].discard_depth = true;
+}
+
+static void expect_stencil(void) {
+    expect(6, 8, 0, 255, 0);
+    expect(8, 8, 0, 0, 255);
+    expect(9, 0, 0, 0, 255);
+    expect(1, 8, 255, 0, 0);
+    expect(14, 14, 255, 0, 0);
+}
+
+static void test_stencil(void **state) {
+    (void)state;
+    float out[SIDE][SIDE][4];
+    for (int frame = 0; frame < 2; frame++) {
+        plan_stencil(GN_OUTPUT_LINEAR8);
+        if (frame == 1 && gn_gl_caps(gl)->has & 1u << GN_CAP_MSAA4) s.plan.msaa = 4;
+        show();
+        expect_stencil();
+        run(); /* nothing is left over from the frame before */
+        if (!gn_gl_read_rgba8(gl, &picture[0][0][0], &err)) fail_msg("%s", err.text);
+        expect_stencil();
+    }
+    begin_plan(GN_OUTPUT_LINEAR8); /* nor for a picture without */
+    add_draw(HELP_FAR, instance(0, 1, 0, 1));
+    show();
+    expect(1, 8, 0, 255, 0);
+    plan_stencil(GN_OUTPUT_AOV);
+    prepare();
+    run();
+    assert_true(gn_gl_read_f32(gl, &out[0][0][0], &err));
+    assert_true(out[8][6][1] == 1 && out[8][8][2] == 1 && out[8][1][0] == 1);
+}
+
 /* ---- maps ---- */
 
 /* Pass 0 draws a map with its rim left clear, pass 1 shows what the middle of it says. */
@@ -469,6 +529,7 @@ int main(void) {
         TEST(test_msaa),
         TEST(test_float_and_aov),
         TEST(test_an_error_before_reading_is_told),
+        TEST(test_stencil),
         TEST(test_maps),
         TEST(test_map_skipped),
         TEST(test_maps_take_turns),
