@@ -42,6 +42,7 @@ void gn_frame_destroy(struct gn_frame *frame) {
         for (int tile = 0; tile < GN_SHADOW_TILES_MAX; tile++)
             gn_shadow_memory_finish(&frame->memory[i][tile]);
     free(frame->constants);
+    free(frame->sets);
     free(frame);
 }
 
@@ -132,6 +133,8 @@ static bool takes_light(const struct gn_frame *frame, const struct gn_pose *pose
 static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_selection *s,
                   uint32_t item) {
     if (s->casts) return s->casts[item];
+    if (s->part && gn_key_on_plane(frame, item, s->opts) != (s->part == GN_PART_PLANE))
+        return false;
     if (s->group) return takes_light(frame, pose, s->group, item);
     const struct gn_box *box = &pose->items[item].box_ws;
     if (!pose->items[item].visible || !gn_eye_sees(&frame->eye, box)) {
@@ -293,8 +296,9 @@ static void shadow_pass(struct gn_frame *frame, const struct gn_pose *pose, uint
 static void shadow_passes(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts) {
     for (uint32_t slot = 0; slot < frame->shadow_count; slot++)
-        for (uint32_t tile = 0; tile < frame->shadows[slot].tile_count; tile++)
-            shadow_pass(frame, pose, slot, tile, opts);
+        if (frame->shadows[slot].encoding != GN_ENCODING_STENCIL)
+            for (uint32_t tile = 0; tile < frame->shadows[slot].tile_count; tile++)
+                shadow_pass(frame, pose, slot, tile, opts);
 }
 
 static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *opts,

@@ -69,6 +69,11 @@ static enum gn_receiver receiver_of(const struct gn_frame *frame, const struct g
     return item->plane && has_planar_lights(frame) ? GN_RECEIVES_ALL : GN_RECEIVES_MAPS;
 }
 
+bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item,
+                     const struct gn_frame_opts *opts) {
+    return receiver_of(frame, &frame->scene->items[item], opts->aov) == GN_RECEIVES_ALL;
+}
+
 /* How many of the lights with maps are asked about their shadows: those for the plane come last. */
 static uint32_t shadows_on(const struct gn_frame *frame, const struct gn_light_group *group,
                            enum gn_receiver receiver) {

@@ -61,6 +61,22 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
     return GN_TECHNIQUE_NONE;
 }
 
+static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *opts,
+                            struct gn_frame_light *light, struct gn_warnings *warnings) {
+    uint32_t *said = &frame->notes.at[light->light].said;
+    bool fell_back;
+    light->encoding = gn_encoding_choose(light->technique, opts->encoding,
+                                         gn_caps_encodings(&frame->caps), &fell_back);
+    if (fell_back && gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
+        gn_warn(warnings, "this GPU cannot draw map format %s; %s is used",
+                gn_encodings[opts->encoding].name, gn_encodings[light->encoding].name);
+    if (light->encoding != GN_ENCODING_MASK || !opts->planar_in_stencil) return;
+    if (!frame->plane_is_blended)
+        light->encoding = GN_ENCODING_STENCIL;
+    else if (gn_frame_notice(&frame->said, GN_NOTICE_BLENDED, warnings))
+        gn_warn(warnings, "the plane is transparent: its shadows are a mask, not in the stencil");
+}
+
 static struct gn_frame_light describe(struct gn_frame *frame, const struct gn_pose *pose,
                                       uint32_t index, const struct gn_frame_opts *opts,
                                       struct gn_warnings *warnings) {
@@ -69,13 +85,7 @@ static struct gn_frame_light describe(struct gn_frame *frame, const struct gn_po
                                .technique = technique_of(frame, index, opts, warnings)};
     l.strength = opts->strength_given ? opts->strength : light->shadow_strength;
     l.illuminance = illuminance(pose, index);
-    if (l.technique == GN_TECHNIQUE_NONE) return l;
-    bool fell_back;
-    l.encoding = gn_encoding_choose(l.technique, opts->encoding, gn_caps_encodings(&frame->caps),
-                                    &fell_back);
-    if (fell_back && gn_frame_notice(&frame->notes.at[index].said, GN_NOTICE_ENCODING, warnings))
-        gn_warn(warnings, "this GPU cannot draw map format %s; %s is used",
-                gn_encodings[opts->encoding].name, gn_encodings[l.encoding].name);
+    if (l.technique != GN_TECHNIQUE_NONE) choose_encoding(frame, opts, &l, warnings);
     return l;
 }
 
@@ -159,16 +169,20 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         light->technique = GN_TECHNIQUE_NONE;
     }
     order(frame);
+    for (uint32_t i = 0; i < frame->shadow_count; i++) /* whatever is in view */
+        frame->plan.stencil |= frame->lights[i].encoding == GN_ENCODING_STENCIL;
     gn_frame_choose_slides(frame, opts, warnings);
     gn_frame_group_lights(frame, pose);
 }
 
 /* The side of a light's map, or of its tiles, such that all of it is a texture. */
-static uint32_t map_px_of(const struct gn_frame *frame, const struct gn_light *light,
-                          enum gn_technique technique, const struct gn_frame_opts *opts) {
-    uint32_t map_px = opts->map_px ? opts->map_px : light->map_px ? light->map_px : 1024;
+static uint32_t map_px_of(const struct gn_frame *frame, const struct gn_frame_light *light,
+                          const struct gn_frame_opts *opts) {
+    const struct gn_light *l = &frame->scene->lights[light->light];
+    uint32_t map_px = opts->map_px ? opts->map_px : l->map_px ? l->map_px : 1024;
     uint32_t one_px[2];
-    gn_shadow_map_size(light->type, technique, 1, one_px);
+    if (light->encoding == GN_ENCODING_STENCIL) return 0;
+    gn_shadow_map_size(l->type, light->technique, 1, one_px);
     const uint32_t most_px = (uint32_t)frame->caps.max_texture_px / one_px[0];
     return map_px > most_px ? most_px : map_px;
 }
@@ -185,7 +199,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         const struct gn_light *l = &frame->scene->lights[light->light];
         struct gn_shadow_opts shadow = {.technique = light->technique,
                                         .encoding = light->encoding,
-                                        .map_px = map_px_of(frame, l, light->technique, opts),
+                                        .map_px = map_px_of(frame, light, opts),
                                         .all_receive = opts->aov == GN_AOV_VISIBILITY};
         make_memories(frame->memory[i], gn_shadow_tile_count(l->type, light->technique),
                       frame->scene->item_count);
@@ -198,6 +212,8 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
 static void put3(float to[4], const float *v) { memcpy(to, v, sizeof(vec3)); }
 
 static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
+    c[SHADOW_CODE][1] = view->far_code;
+    if (view->encoding == GN_ENCODING_STENCIL) return; /* where it is not marked, all arrives */
     memcpy(c[SHADOW_MAP], view->map_from_world, sizeof view->map_from_world);
     if (view->tile_count > 1) {
         memcpy(c[SHADOW_TILES], view->tangent_uv, sizeof view->tangent_uv);
@@ -215,7 +231,6 @@ static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
         c[SHADOW_MAP_SIZE][k + 2] = 1.0f / size[k];
     }
     c[SHADOW_CODE][0] = view->distance_offset;
-    c[SHADOW_CODE][1] = view->far_code;
     c[SHADOW_CODE][2] = (float)view->gutter_px - 1.0f;
     memcpy(c[SHADOW_SOFT], view->soft, sizeof view->soft);
 }

@@ -13,14 +13,25 @@ static struct gn_light_note note_of(const struct gn_light *light) {
                                   .unknown = unknown};
 }
 
+/* A plane that is blended is not there when marks are made. */
+static bool plane_is_blended(const struct gn_scene *scene) {
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (scene->items[i].plane && scene->items[i].receives &&
+            scene->materials[scene->items[i].material].alpha == GN_ALPHA_BLEND)
+            return true;
+    return false;
+}
+
 void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts) {
-    if (frame->notes.count < frame->scene->light_count)
+    if (frame->notes.count < frame->scene->light_count) {
         frame->has_plane = gn_planar_has_plane(frame->scene);
+        frame->plane_is_blended = plane_is_blended(frame->scene);
+    }
     for (uint32_t i = frame->notes.count; i < frame->scene->light_count; i++)
         GN_LIST_PUSH(&frame->notes) = note_of(&frame->scene->lights[i]);
     const uint32_t about[GN_NOTICE_ABOUT] = {
         opts->technique_given, opts->technique,     opts->encoding, opts->aov,
-        opts->output_float,    opts->output_linear, opts->msaa};
+        opts->output_float,    opts->output_linear, opts->msaa,     opts->planar_in_stencil};
     if (memcmp(frame->said_about, about, sizeof about) == 0) return;
     memcpy(frame->said_about, about, sizeof about);
     frame->said = 0;

@@ -155,6 +155,7 @@ static void panel_constants(const struct gn_frame *frame, const struct gn_shadow
 
 static void panel_pass(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
+    if (view->encoding == GN_ENCODING_STENCIL) return; /* it has no map */
     struct gn_rect rect = panel_rect(frame, slot);
     rect.height = rect.height * view->height_px / view->width_px;
     if (rect.height == 0) return;

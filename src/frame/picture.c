@@ -33,8 +33,7 @@ struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label)
     return pass;
 }
 
-/* A pass with what a group's programs read. */
-static struct gn_pass *lit_pass(struct gn_frame *frame, const char *label, uint32_t group) {
+struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group) {
     const struct gn_light_group *g = &frame->groups[group];
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     pass->constants = gn_frame_constants(frame, GN_CONSTANTS_PICTURE + group);
@@ -43,26 +42,25 @@ static struct gn_pass *lit_pass(struct gn_frame *frame, const char *label, uint3
     pass->first_shadow = g->first_shadow;
     pass->shadow_count = g->shadow_count;
     gn_frame_pass_slides(frame, g, pass);
-    return pass;
-}
-
-static void additive_pass(struct gn_frame *frame, const char *prefix, uint32_t group) {
-    const struct gn_light_group *g = &frame->groups[group];
-    char label[48];
-    snprintf(label, sizeof label, "%slights %u-%u", prefix, g->first + 1, g->first + g->count);
-    struct gn_pass *pass = lit_pass(frame, label, group);
+    if (group == 0) return pass;
+    snprintf(pass->label, sizeof pass->label, "%s%slights %u-%u", label, *label ? " " : "",
+             g->first + 1, g->first + g->count);
     pass->blend = GN_BLEND_ADD;
     pass->depth_write = false;
     pass->rect = g->rect;
+    return pass;
 }
 
 static void add_to_opaque(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts, uint32_t group) {
-    struct gn_selection reached = {.group = &frame->groups[group], .opts = opts};
-    additive_pass(frame, "", group);
+    const bool marks = gn_frame_marks_plane(frame, group);
+    struct gn_selection reached = {
+        .group = &frame->groups[group], .part = marks ? GN_PART_REST : GN_PART_ALL, .opts = opts};
+    gn_frame_lit_pass(frame, "", group);
     gn_frame_draw_items(frame, pose, &reached);
     gn_frame_end_pass(frame);
     if (frame->passes.at[frame->passes.count - 1].draw_count == 0) frame->passes.count--;
+    if (marks) gn_frame_plane_passes(frame, pose, opts, group);
 }
 
 /* ---- blended items ---- */
@@ -90,7 +88,7 @@ static bool add_to_blended(struct gn_frame *frame, const struct gn_pose *pose,
         bool open = false;
         if (!added) gn_frame_end_pass(frame);
         added = true;
-        additive_pass(frame, "blend ", i);
+        gn_frame_lit_pass(frame, "blend", i);
         gn_frame_draw_item(frame, pose, &reached, item, &open);
         gn_frame_end_pass(frame);
     }
@@ -98,7 +96,7 @@ static bool add_to_blended(struct gn_frame *frame, const struct gn_pose *pose,
 }
 
 static void begin_blend(struct gn_frame *frame) {
-    struct gn_pass *pass = lit_pass(frame, "blend", 0);
+    struct gn_pass *pass = gn_frame_lit_pass(frame, "blend", 0);
     pass->blend = GN_BLEND_ALPHA;
     pass->depth_write = false;
 }
@@ -137,8 +135,10 @@ static void keep_additive_programs(struct gn_frame *frame, const struct gn_frame
 
 static void opaque_pass(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_frame_opts *opts) {
-    struct gn_selection seen = {.opts = opts};
-    struct gn_pass *pass = lit_pass(frame, opts->aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
+    struct gn_selection seen = {.part = frame->plan.stencil ? GN_PART_REST : GN_PART_ALL,
+                                .opts = opts};
+    struct gn_pass *pass =
+        gn_frame_lit_pass(frame, opts->aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
     uint32_t first = pass->first_draw;
     pass->clear = true;
     set_clear(frame, opts->aov, pass->clear_color);
@@ -175,6 +175,7 @@ void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts) {
     gn_frame_bound_groups(frame);
     opaque_pass(frame, pose, opts);
+    if (frame->plan.stencil) gn_frame_plane_passes(frame, pose, opts, 0);
     for (uint32_t i = 1; i < frame->group_count; i++)
         if (frame->groups[i].seen) add_to_opaque(frame, pose, opts, i);
     blend_passes(frame, pose, opts);

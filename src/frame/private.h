@@ -52,8 +52,9 @@ enum gn_notice {
     GN_NOTICE_SLIDES,
     GN_NOTICE_FLOAT,
     GN_NOTICE_MSAA,
+    GN_NOTICE_BLENDED,
 };
-enum { GN_NOTICE_ABOUT = 7 }; /* options that a warning may be about */
+enum { GN_NOTICE_ABOUT = 8 }; /* options that a warning may be about */
 
 /* What is known of a light of the scene, and was said of it. */
 struct gn_light_note {
@@ -66,7 +67,7 @@ struct gn_frame {
     const struct gn_scene *scene;
     struct gn_caps caps;
     GN_LIST(struct gn_light_note) notes; /* by the scene's lights */
-    bool has_plane;                      /* the scene */
+    bool has_plane, plane_is_blended;    /* the scene */
     uint32_t said, said_about[GN_NOTICE_ABOUT];
     bool exposure_known;
     float auto_exposure;                             /* fixed at the first build */
@@ -83,6 +84,7 @@ struct gn_frame {
     GN_LIST(struct gn_placed) blended, run, sorted;
     GN_LIST(struct gn_pass) passes;
     float (*constants)[4]; /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
+    float (*sets)[4];      /* stencil.c's, likewise; NULL until there are any */
     struct gn_eye eye;
     uint32_t picture_width_px, picture_height_px; /* before it is turned */
     float turn[2];                                /* its cosine and sine, clockwise */
@@ -101,12 +103,15 @@ enum gn_frame_constants {
 };
 float (*gn_frame_constants(const struct gn_frame *frame, uint32_t which))[4];
 
+/* Of what the eye sees: what is lit by the plane's own shadows, too, or the rest. */
+enum gn_part { GN_PART_ALL, GN_PART_PLANE, GN_PART_REST };
 /* Which items a pass takes, and with which program. */
 struct gn_selection {
     const uint8_t *casts;               /* shadow pass: those marked; NULL: what the eye sees */
     const struct gn_shadow_view *view;  /* shadow pass */
     bool mirrored;                      /* it is drawn as in a mirror */
     const struct gn_light_group *group; /* what is added: to items that it reaches; NULL: first */
+    enum gn_part part;                  /* not of a shadow pass */
     const struct gn_frame_opts *opts;   /* never NULL */
 };
 
@@ -126,8 +131,17 @@ uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *k
 /* picture.c: the passes that draw the picture. */
 void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts);
+/* A pass with what the programs of a group of lights read; what a later group gives is added. */
+struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group);
 /* Once all is drawn: the depth is of no more use; where no target encodes, a pass does. */
 void gn_frame_finish_picture(struct gn_frame *frame);
+
+/* stencil.c: planar shadows without a map. Draws what takes such shadows in a group's light, and
+ * those. */
+void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                           const struct gn_frame_opts *opts, uint32_t group);
+/* Whether the group has any that can be seen. */
+bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group);
 
 /* overlay.c: marks and panels over the picture. */
 void gn_frame_overlay_passes(struct gn_frame *frame, const struct gn_pose *pose,
@@ -173,6 +187,8 @@ void gn_frame_pass_slides(const struct gn_frame *frame, const struct gn_light_gr
                           struct gn_pass *pass);
 
 /* key.c: the program that draws an item. */
+/* Whether that asks about the shadows of lights for the plane alone. */
+bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item, const struct gn_frame_opts *opts);
 struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t item,
                                  const struct gn_frame_opts *opts);
 struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,

@@ -99,7 +99,7 @@ static bool write_all(const char *folder, struct gn_err *err) {
                 bool fell_back;
                 enum gn_encoding own = gn_encoding_choose((enum gn_technique)t, GN_ENCODING_AUTO,
                                                           UINT32_MAX, &fell_back);
-                if (e != (int)own && (t != GN_TECHNIQUE_HARD || e == GN_ENCODING_MASK)) continue;
+                if (e != (int)own && (t != GN_TECHNIQUE_HARD || e >= GN_ENCODING_MASK)) continue;
                 char name[80];
                 snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, lights[type],
                          gn_encodings[e].name);

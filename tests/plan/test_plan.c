@@ -36,6 +36,50 @@ static void test_planar_plan(void **state) {
     gn_plan_end(&f);
 }
 
+static void test_planar_plan_in_stencil(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    f.opts.technique_given = f.opts.planar_in_stencil = true;
+    f.opts.technique = GN_TECHNIQUE_PLANAR;
+    expect_golden(build(&f), "stencil");
+    end(&f);
+}
+
+/* Only a plan with such a light has a stencil; and that whatever is in view. */
+static void test_a_stencil_is_there_where_a_light_needs_it(void **state) {
+    (void)state;
+    struct fixture f;
+    begin(&f, everything);
+    f.opts.planar_in_stencil = true;
+    assert_false(build(&f)->stencil);
+    f.scene->lights[1].technique = "planar"; /* the spot */
+    assert_true(build(&f)->stencil);
+    f.opts.camera = 1;
+    const struct gn_plan *plan = build(&f);
+    assert_true(plan->stencil);
+    for (uint32_t i = 0; i < plan->pass_count; i++) assert_false(plan->passes[i].only_stencil);
+    end(&f);
+}
+
+static void test_a_transparent_plane_has_a_mask(void **state) {
+    (void)state;
+    struct fixture f;
+    struct gn_warnings warnings = {0};
+    begin(&f, everything);
+    for (uint32_t i = 0; i < f.scene->item_count; i++)
+        if (f.scene->items[i].plane)
+            f.scene->materials[f.scene->items[i].material].alpha = GN_ALPHA_BLEND;
+    f.opts.technique_given = f.opts.planar_in_stencil = true;
+    f.opts.technique = GN_TECHNIQUE_PLANAR;
+    const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+    assert_false(plan->stencil);
+    for (uint32_t i = 0; i < plan->shadow_count; i++)
+        assert_int_equal(plan->shadows[i].encoding, GN_ENCODING_MASK);
+    assert_int_equal(warnings.count, 1);
+    end(&f);
+}
+
 /* Beside others: what is not on the plane does not ask about it. */
 static void test_planar_light_among_others(void **state) {
     (void)state;
@@ -270,6 +314,9 @@ int main(void) {
         cmocka_unit_test(test_default_plan),
         cmocka_unit_test(test_hard_plan),
         cmocka_unit_test(test_planar_plan),
+        cmocka_unit_test(test_planar_plan_in_stencil),
+        cmocka_unit_test(test_a_stencil_is_there_where_a_light_needs_it),
+        cmocka_unit_test(test_a_transparent_plane_has_a_mask),
         cmocka_unit_test(test_planar_light_among_others),
         cmocka_unit_test(test_planar_needs_a_plane),
         cmocka_unit_test(test_visibility_plan),

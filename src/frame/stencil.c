@@ -1,0 +1,129 @@
+/* Planar shadows in the picture's stencil. The plane is drawn last of what is opaque, in all light,
+ * and its samples are marked as seen. Then each light's casters, fallen on the plane, set a bit of
+ * these samples, however many overlap; and the plane is drawn again where there are such bits, once
+ * for each set of them, with a constant that says which lights do not arrive. So every sample shows
+ * one shaded value: nothing is blended, and a set costs nothing where it does not occur. A group of
+ * lights that is added has marks of its own, and its sets begin with the one of no shadow. */
+#include <stdio.h>
+#include <string.h>
+
+#include "blocks.glsl"
+#include "core/arena.h"
+#include "frame/private.h"
+
+enum { SEEN = 0x80, SETS = 1 << GN_SHADOWS_MAX }; /* bits below SEEN: a light's shadow each */
+
+/* The lights of a group that can darken what is seen of the plane, as slots. */
+struct marks {
+    uint32_t group, count, slots[GN_SHADOWS_MAX];
+};
+
+static struct marks marks_of(const struct gn_frame *frame, uint32_t group) {
+    const struct gn_light_group *g = &frame->groups[group];
+    struct marks marks = {.group = group};
+    for (uint32_t i = g->first_shadow; i < g->first_shadow + g->shadow_count; i++)
+        if (frame->shadows[i].encoding == GN_ENCODING_STENCIL && !frame->shadows[i].empty)
+            marks.slots[marks.count++] = i;
+    return marks;
+}
+
+bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group) {
+    return marks_of(frame, group).count > 0;
+}
+
+/* ---- casters ---- */
+
+static float (*fall(const struct gn_frame *frame, uint32_t slot))[4] {
+    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SHADOW_TILES_MAX);
+    const struct gn_shadow_view *view = &frame->shadows[slot];
+    mat4 clip_from_world;
+    glm_mat4_mul((vec4 *)frame->eye.clip_from_world, (vec4 *)view->tiles[0].clip_from_world,
+                 clip_from_world);
+    memcpy(c[PASS_CLIP], clip_from_world, sizeof clip_from_world);
+    for (int k = 0; k < 4; k++) c[FLAT_PLANE][k] = view->tiles[0].light_from_world[k][2];
+    c[FLAT_HEIGHTS][0] = view->near_m;
+    c[FLAT_HEIGHTS][1] = view->far_m;
+    return c;
+}
+
+/* From the plane's other side what has fallen is seen as in a mirror. */
+static bool sees_other_side(const struct gn_frame *frame, const float plane[4]) {
+    return glm_vec4_dot(gn_frame_constants(frame, GN_CONSTANTS_PICTURE)[PASS_EYE], (float *)plane) <
+           0.0f;
+}
+
+static void caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_frame_opts *opts, const struct marks *marks,
+                        uint32_t index) {
+    const uint32_t slot = marks->slots[index];
+    const struct gn_shadow_view *view = &frame->shadows[slot];
+    const uint8_t bit = (uint8_t)(1u << index);
+    char label[48];
+    snprintf(label, sizeof label, "shadow %u %.36s", slot, frame->scene->lights[view->light].name);
+    struct gn_pass *pass = gn_frame_picture_pass(frame, label);
+    pass->only_stencil = true;
+    pass->depth_write = false;
+    pass->stencil = (struct gn_stencil){.value = SEEN | bit, .reads = SEEN, .writes = bit};
+    if (marks->group > 0) pass->rect = frame->groups[marks->group].rect;
+    if (marks->group > 0 && index == 0) pass->stencil.clears = SETS - 1;
+    const float(*constants)[4] = pass->constants = fall(frame, slot);
+    pass->constant_count = FLAT_HEIGHTS + 1;
+    struct gn_selection casters = {.casts = frame->memory[slot][0].casts,
+                                   .view = view,
+                                   .mirrored = sees_other_side(frame, constants[FLAT_PLANE]),
+                                   .opts = opts};
+    gn_frame_draw_items(frame, pose, &casters);
+    gn_frame_end_pass(frame);
+}
+
+/* ---- the plane ---- */
+
+/* The group's constants, but no light from where a set says so. */
+static float (*darken(struct gn_frame *frame, const struct marks *marks, uint32_t set))[4] {
+    const size_t of_pass = GN_PASS_SIZE * sizeof *frame->sets;
+    if (!frame->sets) frame->sets = gn_xalloc(GN_GROUPS_MAX * SETS, of_pass);
+    float(*c)[4] = frame->sets + (size_t)(marks->group * SETS + set) * GN_PASS_SIZE;
+    memcpy(c, gn_frame_constants(frame, GN_CONSTANTS_PICTURE + marks->group), of_pass);
+    for (uint32_t i = 0; i < marks->count; i++) {
+        const uint32_t at = marks->slots[i] - frame->groups[marks->group].first_shadow;
+        if (set >> i & 1) c[PASS_SHADOWS + at * SHADOW_SIZE + SHADOW_CODE][1] = 0.0f;
+    }
+    return c;
+}
+
+static void label_set(const struct marks *marks, uint32_t set, struct gn_pass *pass) {
+    size_t used = strlen(pass->label);
+    for (uint32_t i = 0; i < marks->count; i++)
+        if (set >> i & 1 && used < sizeof pass->label)
+            used += (size_t)snprintf(pass->label + used, sizeof pass->label - used, "%s %u",
+                                     set & ((1u << i) - 1) ? "" : ", shadow", marks->slots[i]);
+}
+
+/* The draws of `lit` again, where the marks are this set. */
+static void set_pass(struct gn_frame *frame, const struct marks *marks, uint32_t set,
+                     const struct gn_pass *lit) {
+    struct gn_pass *pass = gn_frame_begin_pass(frame);
+    *pass = *lit;
+    label_set(marks, set, pass);
+    pass->depth_write = false;
+    pass->stencil = (struct gn_stencil){.value = (uint8_t)(SEEN | set),
+                                        .reads = (uint8_t)(SEEN | ((1u << marks->count) - 1))};
+    pass->constants = darken(frame, marks, set);
+}
+
+void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                           const struct gn_frame_opts *opts, uint32_t group) {
+    const struct marks marks = marks_of(frame, group);
+    struct gn_selection plane = {.part = GN_PART_PLANE, .opts = opts};
+    struct gn_pass lit = *gn_frame_lit_pass(frame, "plane", group);
+    if (group > 0) plane.group = &frame->groups[group];
+    gn_frame_draw_items(frame, pose, &plane);
+    lit.draw_count = frame->draws.count - lit.first_draw;
+    lit.stencil = (struct gn_stencil){.value = SEEN, .writes = 0xff};
+    frame->passes.count--;
+    if (lit.draw_count == 0) return;
+    if (group == 0) *gn_frame_begin_pass(frame) = lit;
+    for (uint32_t i = 0; i < marks.count; i++) caster_pass(frame, pose, opts, &marks, i);
+    for (uint32_t set = group == 0; set < 1u << marks.count; set++)
+        set_pass(frame, &marks, set, &lit);
+}
