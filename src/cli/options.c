@@ -23,6 +23,7 @@ static const struct gn_choice aovs[] = {
     {"map", GN_AOV_COUNT},         {0}};
 static const struct gn_choice outputs[] = {
     {"srgb", GN_PICTURE_SRGB}, {"linear", GN_PICTURE_LINEAR}, {0}};
+static const struct gn_choice planar_ways[] = {{"mask", 0}, {"stencil", 1}, {0}};
 static const struct gn_choice samples[] = {{"0", 0}, {"2", 2}, {"4", 4}, {0}};
 static const struct gn_choice tap_counts[] = {{"8", 8}, {"16", 16}, {"32", 32}, {0}};
 static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};
@@ -69,6 +70,8 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
      .fallback = "1024", .help = "side of a shadow map", .commands = DRAW, .offset = FIELD(map_px)},
     {.name = "map-format", .section = "render", .kind = GN_KIND_WORD, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
      .help = "how a shadow map stores distance", .commands = DRAW, .offset = FIELD(map_format)},
+    {.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
+     .help = "planar shadows by a map in the plane, with soft edges, or by the picture's stencil, with exact ones", .commands = DRAW, .offset = FIELD(planar_in_stencil)},
     {.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "16",
      .help = "how many samples disk, poisson and pcss take", .commands = DRAW, .offset = FIELD(taps)},
     {.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,

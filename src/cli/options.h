@@ -85,7 +85,7 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     size_t offset;        /* of its field in struct gn_options */
 };
-enum { GN_OPTION_COUNT = 43 };
+enum { GN_OPTION_COUNT = 44 };
 extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
 
 const struct gn_option_row *gn_option_find(const char *name,
@@ -133,6 +133,7 @@ struct gn_options {
                            light says */
     int map_px;         /* given it beats what a light says */
     const char *map_format;
+    int planar_in_stencil; /* 0, 1 */
     int taps;
     bool taps_fixed;
     double shadow_strength; /* given it beats what a light says */

@@ -95,6 +95,9 @@ static bool write_map(struct render *r, const struct gn_plan *plan, const char *
         return gn_fail(err, "light %d has no map: it casts no shadow, or %d stronger lights do",
                        r->stage.options->light, GN_ALL_SHADOWS_MAX);
     const struct gn_shadow_view *view = &plan->shadows[slot];
+    if (view->encoding == GN_ENCODING_STENCIL)
+        return gn_fail(err, "light %d has no map: its shadow is in the stencil; use --planar mask",
+                       r->stage.options->light);
     const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
     size_t width = view->width_px, height = view->height_px;
     float *codes = gn_picture_alloc(width * height, sizeof *codes, err),

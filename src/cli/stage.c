@@ -100,6 +100,7 @@ static bool choose_frame(struct gn_stage *stage, struct gn_warnings *warnings, s
         .exposure_given = !isnan(o->exposure_ev),
         .exposure_ev = isnan(o->exposure_ev) ? 0.0f : (float)o->exposure_ev,
         .map_px = gn_options_given(o, map_px) ? (uint32_t)o->map_px : 0,
+        .planar_in_stencil = o->planar_in_stencil,
         .taps = (unsigned)o->taps,
         .taps_fixed = o->taps_fixed,
         .strength_given = gn_options_given(o, shadow_strength),

@@ -302,6 +302,13 @@ static bool has_word(const char *text, const char *word) {
     return false;
 }
 
+/* As a word: --plan is not in --planar. */
+static bool has_flag(const char *text, const char *flag) {
+    for (const char *at = text; (at = strstr(at, flag)); at++)
+        if (strchr(" \n", at[strlen(flag)])) return true;
+    return false;
+}
+
 static void help_lists_what_the_parser_takes_and_nothing_else(void **state) {
     (void)state;
     for (int command = 0; command < GN_COMMAND_COUNT; command++) {
@@ -310,11 +317,10 @@ static void help_lists_what_the_parser_takes_and_nothing_else(void **state) {
             const struct gn_option_row *row = &gn_option_rows[i];
             unsigned wanted = command == GN_COMMAND_AUTO ? ~0u : 1u << command;
             char flag[80];
-            snprintf(flag, sizeof flag, "    --%s%s%s\n", row->name, row->value ? " " : "",
+            snprintf(flag, sizeof flag, "    --%s%s%s", row->name, row->value ? " " : "",
                      row->value ? row->value : "");
-            flag[strlen(flag) - 1] = '\0';
-            char *listed = strstr(text, row->letter ? flag + 4 : flag);
-            assert_int_equal(listed != NULL, (row->commands & wanted) != 0);
+            bool listed = has_flag(text, row->letter ? flag + 4 : flag);
+            assert_int_equal(listed, (row->commands & wanted) != 0);
         }
         free(text);
     }
