@@ -80,10 +80,23 @@ bool gn_table_keep(struct gn_table *table, enum gn_table_kind kind) {
 static bool take_shot(struct gn_picture *shot, const struct gn_table_row *row, const char *scene,
                       int width_px, int height_px, struct gn_err *err) {
     char size[32], map[16];
+    const bool stencil = strcmp(row->format, "stencil") == 0;
     snprintf(size, sizeof size, "%dx%d", width_px, height_px);
     snprintf(map, sizeof map, "%u", row->map_px);
-    const char *args[] = {"--aov",    "visibility",   "--light", "0", "--size",       size,
-                          "--shadow", row->technique, "--map",   map, "--map-format", row->format,
+    const char *args[] = {"--aov",
+                          "visibility",
+                          "--light",
+                          "0",
+                          "--size",
+                          size,
+                          "--shadow",
+                          row->technique,
+                          "--map",
+                          map,
+                          "--map-format",
+                          stencil ? "auto" : row->format,
+                          "--planar",
+                          stencil ? "stencil" : "mask",
                           NULL};
     if (!gn_shot(shot, NULL, err, "pfm", scene, args)) return false;
     if (shot->width_px == width_px && shot->height_px == height_px) return true;

@@ -25,7 +25,7 @@ extern const struct gn_table_range gn_table_kinds[GN_TABLE_KINDS];
 char *gn_table_scenes(bool contact, struct gn_err *err);
 
 struct gn_table_row {
-    const char *technique, *format; /* as on the command line */
+    const char *technique, *format; /* as on the command line; planar: auto or stencil */
     unsigned map_px;
     struct gn_mask_score scores[GN_TABLE_SCENES];
     bool measured[GN_TABLE_SCENES];

@@ -1,11 +1,12 @@
-/* Planar shadows: against ray-traced truth on their plane, with every kind of light and whichever
- * way the plane looks; and what must hold to the last pixel. */
+/* Planar shadows, by a mask and by the stencil: against ray-traced truth on their plane, with every
+ * kind of light and whichever way the plane looks; and what must hold to the last pixel. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "frame/plan.h"
+#include "image/shot.h"
 #include "image/truth.h"
 #include "plan/stage_scene.h"
 #include "unit/check.h"
@@ -58,7 +59,8 @@ static void add_holes(struct gn_maker *m) {
              gn_maker_view(m, png.data, png.size));
     free(png.data);
     gn_maker_add(m, "images", image);
-    gn_maker_set(m, "samplers", "[{'magFilter':9728,'minFilter':9728}]");
+    gn_maker_set(m, "samplers",
+                 "[{'magFilter':9728,'minFilter':9728,'wrapS':33071,'wrapT':33071}]");
     gn_maker_set(m, "textures", "[{'source':0,'sampler':0}]");
 }
 
@@ -114,15 +116,24 @@ static struct gn_scene *make(const char *turn, const struct light *light, const 
     return scene;
 }
 
-static void shoot(const struct gn_scene *scene, const struct gn_frame_opts *more) {
+#define PLANAR(...)                                                                                \
+    (struct gn_frame_opts) {                                                                       \
+        .technique_given = true, .technique = GN_TECHNIQUE_PLANAR, __VA_ARGS__                     \
+    }
+
+/* What draws them; the tests go through both. */
+enum { MASK, STENCIL, WAYS };
+static const char *const way_names[WAYS] = {"mask", "stencil"};
+
+/* Into `picture`, of floats. */
+static void shoot(const struct gn_scene *scene, int way, const struct gn_frame_opts *more) {
     struct gn_frame_opts opts = *more;
+    opts.planar_in_stencil = way == STENCIL;
     struct gn_err err = {0};
     struct gn_pose pose;
     opts.width_px = WIDTH;
     opts.height_px = HEIGHT;
     opts.encoding = GN_ENCODING_AUTO;
-    opts.technique_given = true;
-    opts.technique = GN_TECHNIQUE_PLANAR;
     gn_pose_init(&pose, scene, GN_POSE_NONE);
     if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
     struct gn_frame *frame = gn_frame_create(scene, gn_gl_caps(gl));
@@ -146,42 +157,72 @@ static bool is_on_plane(const struct gn_truth *truth, const struct gn_scene *sce
 
 /* ---- against truth ---- */
 
-/* Draws visibility and compares it on the plane; elsewhere, away from where the rasteriser may see
- * something else than the ray, it is 1. Returns how much of the plane is truly dark, in per cent.
- */
-static double compare(const char *name, const struct gn_scene *scene) {
-    static uint8_t lit[PIXELS];
-    static float edges[PIXELS];
-    struct gn_truth truth;
+struct faults {
+    double acne, leak, gap, wrong; /* per cent of what is dark or lit, or of the plane */
+    int astray;                    /* pixels */
+};
+
+/* Of a shot of visibility. Off the plane, away from where the rasteriser may see something else
+ * than the ray, it is 1. lit: of the truth, with all off the plane. */
+static struct faults faults_of(const char *name, struct gn_truth *truth, const uint8_t *on_plane,
+                               const float *edges) {
     struct gn_picture shot;
     struct gn_mask_score score;
-    int plane = 0, astray = 0;
-    shoot(scene, &(struct gn_frame_opts){.aov = GN_AOV_VISIBILITY});
+    struct faults f = {.astray = 0};
+    uint64_t plane = 0;
+    gn_picture_init(&shot, WIDTH, HEIGHT, 1);
+    for (int i = 0; i < PIXELS; i++) {
+        shot.data[i] = picture[4 * i];
+        plane += on_plane[i];
+        f.astray += !on_plane[i] && edges[i] > 1 && shot.data[i] < 1;
+    }
+    gn_mask_compare(&truth->mask, &shot, &score);
+    score.pixels = plane;
+    f.acne = gn_mask_acne(&score), f.leak = gn_mask_leak(&score);
+    f.gap = gn_mask_gap(&score), f.wrong = gn_mask_wrong(&score);
+    printf("%-28s %4.1f %% dark; acne %.4f leak %.4f gap %.3f wrong %.4f; %d px astray\n", name,
+           100.0 * (double)score.dark / (double)plane, f.acne, f.leak, f.gap, f.wrong, f.astray);
+    bool ok = f.acne <= .02 && f.leak <= .02 && f.gap <= 3 && f.wrong <= .15 && f.astray == 0;
+    if (!ok) gn_mask_save(NULL, name, &truth->mask, &shot);
+    gn_picture_finish(&shot);
+    assert_true(ok);
+    return f;
+}
+
+/* Compares visibility with truth on the plane, drawn both ways: the stencil has no texels to be
+ * wrong by. Returns how much of the plane is truly dark, in per cent; where that is none, nothing
+ * may be. */
+static double compare(const char *name, const struct gn_scene *scene) {
+    static uint8_t lit[PIXELS], on_plane[PIXELS];
+    static float edges[PIXELS];
+    struct gn_truth truth;
+    struct faults faults[WAYS];
+    int plane = 0, dark = 0;
     find_truth(&truth, scene);
     gn_truth_band(&truth, 1024);
     gn_mask_edges(&truth.mask, edges);
-    gn_picture_init(&shot, WIDTH, HEIGHT, 1);
     for (int i = 0; i < PIXELS; i++) {
-        bool on_plane = is_on_plane(&truth, scene, i);
-        shot.data[i] = picture[4 * i];
-        lit[i] = truth.mask.lit[i] || !on_plane;
-        plane += on_plane;
-        astray += !on_plane && edges[i] > 1 && shot.data[i] < 1;
+        on_plane[i] = is_on_plane(&truth, scene, i);
+        lit[i] = truth.mask.lit[i] || !on_plane[i];
+        plane += on_plane[i];
+        dark += !lit[i];
     }
-    truth.mask.lit = lit;
-    gn_mask_compare(&truth.mask, &shot, &score);
-    score.pixels = (uint64_t)plane;
-    double acne = gn_mask_acne(&score), leak = gn_mask_leak(&score), gap = gn_mask_gap(&score),
-           wrong = gn_mask_wrong(&score), dark = 100.0 * (double)score.dark / plane;
-    printf("%-20s %4.1f %% dark; acne %.4f leak %.4f gap %.3f wrong %.4f; %d px astray\n", name,
-           dark, acne, leak, gap, wrong, astray);
-    bool ok = acne <= .02 && leak <= .02 && gap <= 3 && wrong <= .15 && astray == 0;
-    if (!ok) gn_mask_save(NULL, name, &truth.mask, &shot);
-    gn_picture_finish(&shot);
-    gn_truth_finish(&truth);
     assert_true(plane > PIXELS / 5);
-    assert_true(ok);
-    return dark;
+    truth.mask.lit = lit;
+    for (int way = 0; way < WAYS; way++) {
+        char full[60];
+        snprintf(full, sizeof full, "%s-%s", name, way_names[way]);
+        shoot(scene, way, &PLANAR(.aov = GN_AOV_VISIBILITY));
+        faults[way] = faults_of(full, &truth, on_plane, edges);
+        for (int i = 0; i < PIXELS && !dark; i++) assert_true(picture[4 * i] == 1);
+        for (int i = 0; i < PIXELS && way == STENCIL; i++)
+            assert_true(picture[4 * i] == 0 || picture[4 * i] == 1);
+    }
+    assert_true(faults[STENCIL].acne == 0 && faults[STENCIL].leak == 0);
+    assert_true(faults[STENCIL].gap <= faults[MASK].gap);
+    assert_true(faults[STENCIL].wrong <= faults[MASK].wrong);
+    gn_truth_finish(&truth);
+    return 100.0 * dark / plane;
 }
 
 /* On the plane, over it, and through it; two that overlap; one with holes. */
@@ -218,7 +259,6 @@ static void test_what_is_not_between_light_and_plane_darkens_nothing(void **stat
                                   ",{'mesh':1,'translation':[-3.5,0,-2],'scale':[0.5,0.4,0.5]}";
     struct gn_scene *scene = make(turns[0].turn, &lights[1], behind);
     assert_true(compare("planar-behind", scene) == 0);
-    for (int i = 0; i < PIXELS; i++) assert_true(picture[4 * i] == 1);
     gn_scene_destroy(scene);
     scene = make(turns[0].turn, &lights[1], through);
     assert_true(compare("planar-through", scene) > 1);
@@ -247,15 +287,14 @@ static const char pile[] = ",{'mesh':0,'translation':[0,1,0],'scale':[2,1,2]}"
 
 /* White, looks up, under so many suns: one colour in the light, also on what casts and is cast on,
  * and one in the shadow on the plane, whether one thing casts it or three. */
-static void expect_two_shades(const char *nodes, int suns) {
+static void expect_two_shades(const char *nodes, int suns, int way) {
     static float edges[PIXELS];
     struct gn_scene *scene = make(turns[0].turn, &lights[0], nodes);
     struct gn_truth truth;
     float shades[2] = {0, 0};
     int counts[2] = {0, 0};
     assert_int_equal(scene->light_count, suns);
-    shoot(scene,
-          &(struct gn_frame_opts){.output_float = true, .strength_given = true, .strength = 0.7f});
+    shoot(scene, way, &PLANAR(.output_float = true, .strength_given = true, .strength = 0.7f));
     find_truth(&truth, scene);
     gn_mask_edges(&truth.mask, edges);
     for (int i = 0; i < PIXELS; i++) {
@@ -274,7 +313,7 @@ static void expect_two_shades(const char *nodes, int suns) {
 
 static void test_overlapping_casters_darken_once(void **state) {
     (void)state;
-    expect_two_shades(pile, 1);
+    for (int way = 0; way < WAYS; way++) expect_two_shades(pile, 1, way);
 }
 
 /* More than one pass takes: what is added knows what is on the plane, too. */
@@ -287,7 +326,126 @@ static void test_more_lights_than_a_pass_takes(void **state) {
                  ",{'mesh':0,'translation':[0,-9,0],%s,'extensions':{'KHR_lights_punctual':{"
                  "'light':0}}}",
                  lights[0].node);
-    expect_two_shades(nodes, 6);
+    for (int way = 0; way < WAYS; way++) expect_two_shades(nodes, 6, way);
+}
+
+/* ---- lights among others ---- */
+
+/* A sun, a lamp and a spot at once, over things that overlap. */
+static struct gn_scene *make_three(const char *turn) {
+    char nodes[3000];
+    snprintf(nodes, sizeof nodes, "%s", things);
+    for (int i = 1; i < 3; i++)
+        snprintf(nodes + strlen(nodes), sizeof nodes - strlen(nodes),
+                 ",{'mesh':0,'scale':[0.001,0.001,0.001],%s,'extensions':{'KHR_lights_punctual':{"
+                 "'light':%d}}}",
+                 lights[i].node, i);
+    struct light three = lights[0];
+    three.light = SUN "," POINT "," SPOT;
+    return make(turn, &three, nodes);
+}
+
+/* Draws with the lights of these bits alone. */
+static void shoot_lights(struct gn_scene *scene, unsigned bits, int way,
+                         const struct gn_frame_opts *opts) {
+    vec3 colors[3];
+    assert_int_equal(scene->light_count, 3);
+    for (int i = 0; i < 3; i++) {
+        glm_vec3_copy(scene->lights[i].color, colors[i]);
+        if (!(bits >> i & 1)) glm_vec3_zero(scene->lights[i].color);
+    }
+    shoot(scene, way, opts);
+    for (int i = 0; i < 3; i++) glm_vec3_copy(colors[i], scene->lights[i].color);
+}
+
+/* All at once is what each adds to none, to less than a byte of the picture shows. */
+static void expect_sum(struct gn_scene *scene, const struct gn_frame_opts *opts) {
+    static float sum[4 * PIXELS], none[4 * PIXELS];
+    shoot_lights(scene, 0, STENCIL, opts);
+    memcpy(none, picture, sizeof none);
+    memcpy(sum, picture, sizeof sum);
+    for (unsigned i = 0; i < 3; i++) {
+        shoot_lights(scene, 1u << i, STENCIL, opts);
+        for (int k = 0; k < 4 * PIXELS; k++) sum[k] += picture[k] - none[k];
+    }
+    shoot_lights(scene, 7, STENCIL, opts);
+    for (int k = 0; k < 4 * PIXELS; k++)
+        assert_true(fabsf(picture[k] - sum[k]) <= fmaxf(1.0f, picture[k]) / 255);
+}
+
+static void test_lights_at_once_are_the_sum_of_single_ones(void **state) {
+    (void)state;
+    static const char *const mixed[3] = {"planar", "pcf", "planar"};
+    struct gn_scene *scene = make_three(turns[1].turn);
+    expect_sum(scene, &PLANAR(.output_float = true, .exposure_given = true));
+    expect_sum(scene, &PLANAR(.output_float = true, .exposure_given = true, .strength_given = true,
+                              .strength = 0.4f));
+    for (int i = 0; i < 3; i++) scene->lights[i].technique = mixed[i];
+    expect_sum(scene, &(struct gn_frame_opts){.output_float = true, .exposure_given = true});
+    gn_scene_destroy(scene);
+}
+
+/* Away from the edges of shadows, where the mask is soft, both ways show one picture; antialiased,
+ * too, and then edges have shades between. */
+static void test_both_ways_show_one_picture(void **state) {
+    (void)state;
+    static float mask[4 * PIXELS], plain[4 * PIXELS];
+    struct gn_scene *scene = make_three(turns[0].turn);
+    int smoothed = 0;
+    for (uint32_t msaa = 0; msaa <= 4; msaa += 4) {
+        const struct gn_frame_opts opts =
+            PLANAR(.output_float = true, .exposure_given = true, .exposure_ev = -3, .msaa = msaa);
+        int apart = 0;
+        shoot(scene, MASK, &opts);
+        memcpy(mask, picture, sizeof mask);
+        shoot(scene, STENCIL, &opts);
+        for (int i = 0; i < PIXELS; i++)
+            apart += fabsf(picture[4 * i] - mask[4 * i]) > fmaxf(1.0f, mask[4 * i]) / 255;
+        printf("msaa %u: %.2f %% of the pixels apart\n", msaa, 100.0 * apart / PIXELS);
+        assert_in_range(apart, PIXELS / 1000, PIXELS / 25);
+        if (msaa == 0) memcpy(plain, picture, sizeof plain);
+    }
+    for (int i = 0; i < PIXELS; i++)
+        smoothed += fabsf(picture[4 * i] - plain[4 * i]) > 0.05f * plain[4 * i];
+    printf("%.2f %% of the pixels smoothed\n", 100.0 * smoothed / PIXELS);
+    if (gn_gl_caps(gl)->has & 1u << GN_CAP_MSAA4) assert_true(smoothed > PIXELS / 200);
+    gn_scene_destroy(scene);
+}
+
+/* Lit from below, where the things are, and seen from above. */
+static void test_the_other_side_of_the_plane(void **state) {
+    (void)state;
+    static const struct light below = {"below", POINT, "'translation':[-1,-4,1.5]"};
+    static const char hanging[] = ",{'mesh':1,'translation':[-3,-0.8,-2],'scale':[0.6,0.6,0.6]}"
+                                  ",{'mesh':0,'translation':[1,-1.5,-1]}"
+                                  ",{'mesh':1,'translation':[2,2,2]}";
+    struct gn_scene *scene = make(turns[0].turn, &below, hanging);
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (scene->items[i].plane) scene->items[i].casts = false;
+    assert_true(compare("planar-below", scene) > 1);
+    gn_scene_destroy(scene);
+}
+
+static bool shot_by(const char *backend, struct gn_picture *shot) {
+    struct gn_err err = {0};
+    const char *args[] = {"--backend", backend,    "--size",  "640x360", "--shadow",
+                          "planar",    "--planar", "stencil", NULL};
+    bool ok = gn_shot(shot, NULL, &err, "png", "assets/sundial.glb", args);
+    if (!ok && !strstr(err.text, "not built in")) fail_msg("%s", err.text);
+    return ok;
+}
+
+static void test_backends_agree_on_the_stencil(void **state) {
+    (void)state;
+    struct gn_picture egl, osmesa;
+    struct gn_difference d;
+    if (!shot_by("osmesa", &osmesa)) skip();
+    assert_true(shot_by("egl", &egl));
+    bool alike = gn_compare(&osmesa, &egl, 1.001 / 255, &d);
+    printf("%.4f %% of the pixels apart, at most %.4f\n", 100 * d.share, d.max);
+    gn_picture_finish(&egl);
+    gn_picture_finish(&osmesa);
+    assert_true(alike && d.share <= .001);
 }
 
 static uint32_t draws_at(struct gn_frame *frame, struct gn_pose *pose, int64_t time_ns) {
@@ -329,6 +487,10 @@ int main(void) {
         cmocka_unit_test(test_a_shadow_ends_with_its_plane),
         cmocka_unit_test(test_overlapping_casters_darken_once),
         cmocka_unit_test(test_more_lights_than_a_pass_takes),
+        cmocka_unit_test(test_lights_at_once_are_the_sum_of_single_ones),
+        cmocka_unit_test(test_both_ways_show_one_picture),
+        cmocka_unit_test(test_the_other_side_of_the_plane),
+        cmocka_unit_test(test_backends_agree_on_the_stencil),
         cmocka_unit_test(test_masks_are_drawn_when_something_moved),
     };
     return cmocka_run_group_tests_name("planar", tests, open_gl, close_gl);

@@ -13,7 +13,7 @@ static const char usage[] =
     "  --scenes A-B[,C..]  which of 0-29 (all; 24-29: point lights)\n"
     "  --technique LIST    of hard,pcf,pcf2,pcf3,pcf5,planar,.. (those six)\n"
     "  --format LIST       of depth,r16f,r16f-raw,r32ui,rgba8 (hard: all; others: depth,r16f;\n"
-    "                      planar has its own)\n"
+    "                      planar has its own: a mask, as auto, and stencil)\n"
     "  --map LIST          of sizes in pixels (1024,256)\n"
     "  --save DIR          shot, truth and diff of every cell, as PNG\n"
     "  --no-contact        leave out the gaps at contacts\n"
@@ -90,6 +90,7 @@ static void add_rows(struct gn_table *table, const struct arguments *a, unsigned
         const char *technique = a->techniques ? given_techniques[t] : techniques[t];
         if (!strcmp(technique, "planar")) {
             gn_table_add(table, "planar", "auto", map_px);
+            gn_table_add(table, "planar", "stencil", map_px);
             continue;
         }
         int count = a->formats ? format_count : !strcmp(technique, "hard") ? 5 : 2;

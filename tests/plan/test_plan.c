@@ -38,35 +38,35 @@ static void test_planar_plan(void **state) {
 
 static void test_planar_plan_in_stencil(void **state) {
     (void)state;
-    struct fixture f;
-    begin(&f, everything);
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
     f.opts.technique_given = f.opts.planar_in_stencil = true;
     f.opts.technique = GN_TECHNIQUE_PLANAR;
-    expect_golden(build(&f), "stencil");
-    end(&f);
+    gn_plan_expect(gn_plan_make(&f), "stencil");
+    gn_plan_end(&f);
 }
 
 /* Only a plan with such a light has a stencil; and that whatever is in view. */
 static void test_a_stencil_is_there_where_a_light_needs_it(void **state) {
     (void)state;
-    struct fixture f;
-    begin(&f, everything);
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
     f.opts.planar_in_stencil = true;
-    assert_false(build(&f)->stencil);
+    assert_false(gn_plan_make(&f)->stencil);
     f.scene->lights[1].technique = "planar"; /* the spot */
-    assert_true(build(&f)->stencil);
+    assert_true(gn_plan_make(&f)->stencil);
     f.opts.camera = 1;
-    const struct gn_plan *plan = build(&f);
+    const struct gn_plan *plan = gn_plan_make(&f);
     assert_true(plan->stencil);
     for (uint32_t i = 0; i < plan->pass_count; i++) assert_false(plan->passes[i].only_stencil);
-    end(&f);
+    gn_plan_end(&f);
 }
 
 static void test_a_transparent_plane_has_a_mask(void **state) {
     (void)state;
-    struct fixture f;
+    struct gn_plan_fixture f;
     struct gn_warnings warnings = {0};
-    begin(&f, everything);
+    gn_plan_begin(&f, GN_EVERY_CAP);
     for (uint32_t i = 0; i < f.scene->item_count; i++)
         if (f.scene->items[i].plane)
             f.scene->materials[f.scene->items[i].material].alpha = GN_ALPHA_BLEND;
@@ -77,7 +77,7 @@ static void test_a_transparent_plane_has_a_mask(void **state) {
     for (uint32_t i = 0; i < plan->shadow_count; i++)
         assert_int_equal(plan->shadows[i].encoding, GN_ENCODING_MASK);
     assert_int_equal(warnings.count, 1);
-    end(&f);
+    gn_plan_end(&f);
 }
 
 /* Beside others: what is not on the plane does not ask about it. */
@@ -305,6 +305,18 @@ static void test_check_finds_what_is_broken(void **state) {
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
     plan.draws[0].geometry = GN_NO_GEOMETRY;
+    assert_non_null(gn_plan_check(&plan));
+    f.opts.technique_given = f.opts.planar_in_stencil = true;
+    f.opts.technique = GN_TECHNIQUE_PLANAR;
+    plan = *gn_plan_make(&f);
+    assert_null(gn_plan_check(&plan));
+    plan.stencil = false;
+    assert_non_null(gn_plan_check(&plan));
+    plan = *gn_plan_make(&f);
+    plan.passes[2].only_stencil = false; /* its programs write nothing else */
+    assert_non_null(gn_plan_check(&plan));
+    plan = *gn_plan_make(&f);
+    plan.passes[1].stencil.value = 0x80, plan.passes[1].stencil.writes = 0x7f;
     assert_non_null(gn_plan_check(&plan));
     gn_plan_end(&f);
 }
