@@ -116,7 +116,7 @@ enum gn_blend {
  * `value`, and there writes those of `value` that it may. Zeroed: nothing. */
 struct gn_stencil {
     uint8_t value, reads, writes;
-    uint8_t clears; /* set to 0 at the pass's start, within its rect */
+    uint8_t clears; /* these are set to 0 everywhere at the pass's start */
 };
 
 enum gn_target_kind {

@@ -2,8 +2,10 @@
  * and its samples are marked as seen. Then each light's casters, fallen on the plane, set a bit of
  * these samples, however many overlap; and the plane is drawn again where there are such bits, once
  * for each set of them, with a constant that says which lights do not arrive. So every sample shows
- * one shaded value: nothing is blended, and a set costs nothing where it does not occur. A group of
- * lights that is added has marks of its own, and its sets begin with the one of no shadow. */
+ * one shaded value: nothing is blended. A light's shadow, and so a set, is looked for only where it
+ * can be. A group of lights that is added has marks of its own, and its sets begin with the one of
+ * no shadow. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -13,18 +15,72 @@
 
 enum { SEEN = 0x80, SETS = 1 << GN_SHADOWS_MAX }; /* bits below SEEN: a light's shadow each */
 
-/* The lights of a group that can darken what is seen of the plane, as slots. */
+/* The lights of a group that can darken what is seen of the plane, as slots, and where. */
 struct marks {
     uint32_t group, count, slots[GN_SHADOWS_MAX];
+    struct gn_rect all, rects[GN_SHADOWS_MAX];
 };
+
+/* ---- where ---- */
+
+static struct gn_rect whole(const struct gn_frame *frame) {
+    return (struct gn_rect){0, 0, frame->plan.width_px, frame->plan.height_px};
+}
+
+static uint32_t pixel(float ndc, float extra_px, uint32_t size_px) {
+    const float at = (0.5f * ndc + 0.5f) * (float)size_px + extra_px;
+    return (uint32_t)fminf(fmaxf(at, 0.0f), (float)size_px);
+}
+
+/* A pixel wider on each side than it is. */
+static struct gn_rect rect_of(const struct gn_frame *frame, const struct gn_shadow_view *view) {
+    const uint32_t size[2] = {frame->plan.width_px, frame->plan.height_px};
+    uint32_t low[2], high[2];
+    for (int k = 0; k < 2; k++) {
+        low[k] = pixel(view->screen_ndc[0][k], -1.0f, size[k]);
+        high[k] = pixel(view->screen_ndc[1][k], 2.0f, size[k]);
+    }
+    return (struct gn_rect){low[0], low[1], high[0] - low[0], high[1] - low[1]};
+}
+
+static uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
+static uint32_t most(uint32_t a, uint32_t b) { return a > b ? a : b; }
+
+/* Width 0: they do not meet. */
+static struct gn_rect meet(struct gn_rect a, struct gn_rect b) {
+    const uint32_t x0 = most(a.x, b.x), x1 = least(a.x + a.width, b.x + b.width),
+                   y0 = most(a.y, b.y), y1 = least(a.y + a.height, b.y + b.height);
+    if (x0 >= x1 || y0 >= y1) return (struct gn_rect){0};
+    return (struct gn_rect){x0, y0, x1 - x0, y1 - y0};
+}
+
+/* As a pass has it. */
+static struct gn_rect bound(const struct gn_frame *frame, struct gn_rect rect) {
+    const struct gn_rect all = whole(frame);
+    return rect.width == all.width && rect.height == all.height ? (struct gn_rect){0} : rect;
+}
 
 static struct marks marks_of(const struct gn_frame *frame, uint32_t group) {
     const struct gn_light_group *g = &frame->groups[group];
-    struct marks marks = {.group = group};
-    for (uint32_t i = g->first_shadow; i < g->first_shadow + g->shadow_count; i++)
-        if (frame->shadows[i].encoding == GN_ENCODING_STENCIL && !frame->shadows[i].empty)
-            marks.slots[marks.count++] = i;
+    struct marks marks = {.group = group, .all = whole(frame)};
+    if (g->rect.width > 0) marks.all = g->rect;
+    for (uint32_t i = g->first_shadow; i < g->first_shadow + g->shadow_count; i++) {
+        const struct gn_shadow_view *view = &frame->shadows[i];
+        if (view->encoding != GN_ENCODING_STENCIL || view->empty) continue;
+        const struct gn_rect rect = meet(marks.all, rect_of(frame, view));
+        if (rect.width == 0) continue;
+        marks.rects[marks.count] = rect;
+        marks.slots[marks.count++] = i;
+    }
     return marks;
+}
+
+/* Where a set can occur. */
+static struct gn_rect rect_of_set(const struct marks *marks, uint32_t set) {
+    struct gn_rect rect = marks->all;
+    for (uint32_t i = 0; i < marks->count; i++)
+        if (set >> i & 1) rect = meet(rect, marks->rects[i]);
+    return rect;
 }
 
 bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group) {
@@ -64,7 +120,7 @@ static void caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
     pass->only_stencil = true;
     pass->depth_write = false;
     pass->stencil = (struct gn_stencil){.value = SEEN | bit, .reads = SEEN, .writes = bit};
-    if (marks->group > 0) pass->rect = frame->groups[marks->group].rect;
+    pass->rect = bound(frame, marks->rects[index]);
     if (marks->group > 0 && index == 0) pass->stencil.clears = SETS - 1;
     const float(*constants)[4] = pass->constants = fall(frame, slot);
     pass->constant_count = FLAT_HEIGHTS + 1;
@@ -102,8 +158,11 @@ static void label_set(const struct marks *marks, uint32_t set, struct gn_pass *p
 /* The draws of `lit` again, where the marks are this set. */
 static void set_pass(struct gn_frame *frame, const struct marks *marks, uint32_t set,
                      const struct gn_pass *lit) {
+    const struct gn_rect rect = rect_of_set(marks, set);
+    if (rect.width == 0) return;
     struct gn_pass *pass = gn_frame_begin_pass(frame);
     *pass = *lit;
+    pass->rect = bound(frame, rect);
     label_set(marks, set, pass);
     pass->depth_write = false;
     pass->stencil = (struct gn_stencil){.value = (uint8_t)(SEEN | set),

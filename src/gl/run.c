@@ -74,13 +74,10 @@ static void clear_target(struct gn_gl *gl, const struct gn_pass *pass) {
     clear_output(gl, pass);
 }
 
-/* Within the scissor. */
-static void set_stencil(struct gn_gl *gl, const struct gn_pass *pass) {
-    if (pass->stencil.clears) {
-        gn_gl_set_stencil_writes(gl, pass->stencil.clears);
-        GL(gl, Clear)(GL_STENCIL_BUFFER_BIT);
-    }
-    gn_gl_set_stencil(gl, &pass->stencil);
+static void clear_stencil(struct gn_gl *gl, uint8_t bits) {
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_set_stencil_writes(gl, bits);
+    GL(gl, Clear)(GL_STENCIL_BUFFER_BIT);
 }
 
 static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer,
@@ -94,11 +91,12 @@ static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint fr
         gn_gl_set_scissor(gl, tile && clear == CLEAR_RECT ? &inner : NULL);
         clear_target(gl, pass);
     }
+    if (pass->stencil.clears) clear_stencil(gl, pass->stencil.clears);
     gn_gl_set_scissor(gl, bound ? &inner : NULL);
     gn_gl_set_depth(gl, pass->target.kind != GN_TARGET_ENCODED && !pass->only_stencil,
                     pass->depth_write);
     gn_gl_set_color_write(gl, !pass->only_stencil);
-    set_stencil(gl, pass);
+    gn_gl_set_stencil(gl, &pass->stencil);
     gn_gl_set_blend(gl, pass->blend);
 }
 

@@ -70,8 +70,10 @@ struct gn_shadow_view {
      * unit of e, e of the nearest caster, and e = code * [2] + [3], or its negative inverse for
      * distances from a spot. */
     float soft[4];
-    float ulp_m; /* added towards the light: the encoding's rounding at the far end */
-    bool empty;  /* nothing in view can be in this light's shadow: the map holds the far end */
+    float screen_ndc[2]
+                    [2]; /* encoding STENCIL: least and greatest place in view that can be dark */
+    float ulp_m;         /* added towards the light: the encoding's rounding at the far end */
+    bool empty; /* nothing in view can be in this light's shadow: the map holds the far end */
 };
 
 /* What the eye sees, for fitting. */

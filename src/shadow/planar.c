@@ -251,12 +251,35 @@ static void set_mask(struct planar *f, const struct gn_shadow_region *window,
     f->view->tiles[0].content_hash = gn_shadow_hash(f->pose, f->view, f->view->tiles, casts);
 }
 
+/* Where the eye sees the window. False if it does not. */
+static bool find_on_screen(const struct planar *f, const struct gn_shadow_region *window,
+                           struct gn_shadow_region *screen) {
+    struct gn_polygon quad = {.count = 4};
+    mat4 world_from_plane;
+    glm_mat4_inv(f->view->tiles[0].light_from_world, world_from_plane);
+    for (int i = 0; i < 4; i++) {
+        vec3 corner = {i == 1 || i == 2 ? window->max[0] : window->min[0],
+                       i >= 2 ? window->max[1] : window->min[1], 0.0f};
+        glm_mat4_mulv3(world_from_plane, corner, 1.0f, quad.at[i]);
+    }
+    *screen = nothing;
+    add_polygon(screen, (vec4 *)f->eye->clip_from_world, &quad, (vec4 *)f->eye->planes, 6);
+    return !region_is_empty(screen);
+}
+
 /* The eye shall see the casters as they fall; what pierces either height the rasteriser cannot cut
  * as well, since there w grows with the distance from the eye too: heights are for a shader. */
-static void set_stencil(struct planar *f) {
+static bool set_stencil(struct planar *f, const struct gn_shadow_region *window) {
+    struct gn_shadow_region screen;
+    if (!find_on_screen(f, window, &screen)) return false;
     glm_mat4_copy(f->fallen_from_world, f->view->tiles[0].clip_from_world);
     f->view->near_m = f->low_m;
     f->view->far_m = f->high_m;
+    for (int k = 0; k < 2; k++) {
+        f->view->screen_ndc[0][k] = screen.min[k];
+        f->view->screen_ndc[1][k] = screen.max[k];
+    }
+    return true;
 }
 
 bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
@@ -271,9 +294,7 @@ bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
     if (f.high_m <= f.low_m) return false;
     struct gn_shadow_region window = find_window(&f, l, memory->casts);
     if (region_is_empty(&window)) return false;
-    if (view->encoding == GN_ENCODING_STENCIL)
-        set_stencil(&f);
-    else
-        set_mask(&f, &window, memory->casts);
+    if (view->encoding == GN_ENCODING_STENCIL) return set_stencil(&f, &window);
+    set_mask(&f, &window, memory->casts);
     return true;
 }
