@@ -4,118 +4,7 @@
 
 #include "core/arena.h"
 #include "gl/private.h"
-#include "unit/check.h"
-#include "unit/gl_help.h"
-
-enum { SIDE = 16, MAP = 8 };
-
-static const char *shaders;
-static struct gn_display display;
-static struct gn_gl *gl;
-static struct gn_warnings warnings;
-static struct gn_err err;
-
-static void open_backend(const char *name) {
-    help_open(&display, name);
-    memset(&warnings, 0, sizeof warnings);
-    gl = help_gl(&display, &(struct gn_gl_opts){.shaders = shaders}, &warnings);
-    if (!gn_gl_load(gl, &help_scene, &err)) fail_msg("%s", err.text);
-}
-
-static int open_egl(void **state) {
-    (void)state;
-    shaders = help_shaders();
-    open_backend("egl");
-    return 0;
-}
-
-static int open_osmesa(void **state) {
-    (void)state;
-    shaders = help_shaders();
-    open_backend("osmesa");
-    return 0;
-}
-
-static int close_all(void **state) {
-    (void)state;
-    gn_gl_destroy(gl);
-    gn_display_close(&display);
-    gl = NULL;
-    help_remove(shaders);
-    return 0;
-}
-
-/* ---- plans by hand ---- */
-
-static struct scratch {
-    struct gn_plan plan;
-    struct gn_pass passes[4];
-    struct gn_draw draws[4];
-    struct gn_instance instances[4];
-    struct gn_program_key programs[2];
-    struct gn_shadow_view shadows[1];
-    float constants[2][2][4];
-} s;
-
-static struct gn_instance instance(float r, float g, float b, float a) {
-    return (struct gn_instance){.world = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}},
-                                .base_color = {r, g, b, a}};
-}
-
-static void begin_plan(enum gn_output_format output) {
-    memset(&s, 0, sizeof s);
-    s.plan = (struct gn_plan){.width_px = SIDE,
-                              .height_px = SIDE,
-                              .output = output,
-                              .scene = &help_scene,
-                              .passes = s.passes,
-                              .draws = s.draws,
-                              .instances = s.instances,
-                              .programs = s.programs,
-                              .shadows = s.shadows,
-                              .pass_count = 1,
-                              .program_count = 1,
-                              .exposure = 1};
-    s.passes[0] = (struct gn_pass){.label = "opaque",
-                                   .target = {.width_px = SIDE, .height_px = SIDE},
-                                   .clear = true,
-                                   .depth_write = true,
-                                   .discard_depth = true,
-                                   .constants = (const float(*)[4])s.constants[0],
-                                   .constant_count = 2};
-    s.programs[0].kind = output == GN_OUTPUT_AOV ? GN_PROGRAM_AOV : GN_PROGRAM_LIT;
-}
-
-static struct gn_draw *add_draw(uint32_t geometry, struct gn_instance what) {
-    uint32_t i = s.plan.draw_count++;
-    s.instances[s.plan.instance_count++] = what;
-    s.draws[i] = (struct gn_draw){
-        .geometry = geometry, .first_instance = i, .instance_count = 1, .cull = GN_CULL_BACK};
-    s.passes[0].draw_count = s.plan.draw_count;
-    return &s.draws[i];
-}
-
-static void prepare(void) {
-    if (!gn_gl_prepare(gl, &s.plan, &err)) fail_msg("%s", err.text);
-}
-
-static void run(void) {
-    if (!gn_gl_run(gl, &s.plan, NULL, &err)) fail_msg("%s", err.text);
-}
-
-static uint8_t picture[SIDE][SIDE][4];
-
-static void show(void) {
-    prepare();
-    run();
-    if (!gn_gl_read_rgba8(gl, &picture[0][0][0], &err)) fail_msg("%s", err.text);
-}
-
-static void expect(int x, int y, int r, int g, int b) {
-    const uint8_t *p = picture[y][x];
-    if (abs(p[0] - r) > 1 || abs(p[1] - g) > 1 || abs(p[2] - b) > 1)
-        fail_msg("pixel %d,%d is %d %d %d, not %d %d %d", x, y, p[0], p[1], p[2], r, g, b);
-}
+#include "unit/gl_hand.h"
 
 /* ---- the output ---- */
 
@@ -455,69 +344,6 @@ static void test_not_prepared(void **state) {
     assert_false(gn_gl_prepare(gl, &s.plan, &err));
 }
 
-/* ---- scenes ---- */
-
-static void test_wide_indices(void **state) {
-    (void)state;
-    enum { FIRST = 70000 };
-    struct gn_scene scene = help_scene;
-    scene.vertex_count = FIRST + 4;
-    scene.positions = calloc(scene.vertex_count, 3 * sizeof(float));
-    scene.normals = calloc(scene.vertex_count, 3 * sizeof(float));
-    scene.uv0 = NULL;
-    scene.colors = calloc(scene.vertex_count, 4);
-    memcpy(scene.positions + 3 * FIRST, help_scene.positions + 12, 12 * sizeof(float));
-    uint32_t indices[12];
-    for (int i = 0; i < 12; i++) indices[i] = help_scene.indices[i] % 4 + FIRST;
-    scene.indices = indices;
-    assert_true(gn_gl_load(gl, &scene, &err));
-    begin_plan(GN_OUTPUT_LINEAR8);
-    s.plan.scene = &scene;
-    add_draw(HELP_FAR, instance(0, 1, 0, 1));
-    show();
-    expect(0, 0, 0, 255, 0);
-    free(scene.positions);
-    free(scene.normals);
-    free(scene.colors);
-}
-
-static void test_large_image(void **state) {
-    (void)state;
-    gl->caps.max_texture_px = 1;
-    assert_true(gn_gl_load(gl, &help_scene, &err));
-    assert_int_equal(warnings.count, 1);
-    begin_plan(GN_OUTPUT_SRGB8);
-    s.programs[0].features = GN_FEATURE_BASE_TEXTURE;
-    add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
-    show();
-    expect(8, 8, 188, 188, 188); /* the mean of light, not of codes */
-}
-
-/* The smallest level of a picture of four colours, made by us or by the driver: their mean. */
-static void test_mipmaps(void **state) {
-    (void)state;
-    struct gn_scene scene = help_scene;
-    struct gn_texture texture = {.image = 0, .mipmaps = true};
-    scene.textures = &texture;
-    for (int software = 0; software < 2; software++) {
-        gl->caps.software = software;
-        assert_true(gn_gl_load(gl, &scene, &err));
-        begin_plan(GN_OUTPUT_SRGB8);
-        s.plan.scene = &scene;
-        s.programs[0].features = GN_FEATURE_BASE_TEXTURE;
-        add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
-        s.instances[0].world[0][0] = s.instances[0].world[1][1] = 0.0625f; /* a pixel */
-        s.instances[0].world[0][3] = s.instances[0].world[1][3] = 0.0625f;
-        show();
-        expect(8, 7, 188, 188, 188);
-    }
-}
-
-#define TEST(name)                                                                                 \
-    {#name " egl", name, open_egl, close_all, NULL}, {                                             \
-#name " osmesa", name, open_osmesa, close_all, NULL                                        \
-    }
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(test_depth_and_srgb),
@@ -535,9 +361,6 @@ int main(void) {
         TEST(test_maps_take_turns),
         TEST(test_steady),
         TEST(test_not_prepared),
-        TEST(test_wide_indices),
-        TEST(test_large_image),
-        TEST(test_mipmaps),
     };
     return RUN(tests);
 }

@@ -1,0 +1,66 @@
+#include "unit/gl_hand.h"
+
+static void test_wide_indices(void **state) {
+    (void)state;
+    enum { FIRST = 70000 };
+    struct gn_scene scene = help_scene;
+    scene.vertex_count = FIRST + 4;
+    scene.positions = calloc(scene.vertex_count, 3 * sizeof(float));
+    scene.normals = calloc(scene.vertex_count, 3 * sizeof(float));
+    scene.uv0 = NULL;
+    scene.colors = calloc(scene.vertex_count, 4);
+    memcpy(scene.positions + 3 * FIRST, help_scene.positions + 12, 12 * sizeof(float));
+    uint32_t indices[12];
+    for (int i = 0; i < 12; i++) indices[i] = help_scene.indices[i] % 4 + FIRST;
+    scene.indices = indices;
+    assert_true(gn_gl_load(gl, &scene, &err));
+    begin_plan(GN_OUTPUT_LINEAR8);
+    s.plan.scene = &scene;
+    add_draw(HELP_FAR, instance(0, 1, 0, 1));
+    show();
+    expect(0, 0, 0, 255, 0);
+    free(scene.positions);
+    free(scene.normals);
+    free(scene.colors);
+}
+
+static void test_large_image(void **state) {
+    (void)state;
+    gl->caps.max_texture_px = 1;
+    assert_true(gn_gl_load(gl, &help_scene, &err));
+    assert_int_equal(warnings.count, 1);
+    begin_plan(GN_OUTPUT_SRGB8);
+    s.programs[0].features = GN_FEATURE_BASE_TEXTURE;
+    add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
+    show();
+    expect(8, 8, 188, 188, 188); /* the mean of light, not of codes */
+}
+
+/* The smallest level of a picture of four colours, made by us or by the driver: their mean. */
+static void test_mipmaps(void **state) {
+    (void)state;
+    struct gn_scene scene = help_scene;
+    struct gn_texture texture = {.image = 0, .mipmaps = true};
+    scene.textures = &texture;
+    for (int software = 0; software < 2; software++) {
+        gl->caps.software = software;
+        assert_true(gn_gl_load(gl, &scene, &err));
+        begin_plan(GN_OUTPUT_SRGB8);
+        s.plan.scene = &scene;
+        s.programs[0].features = GN_FEATURE_BASE_TEXTURE;
+        add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
+        s.instances[0].world[0][0] = s.instances[0].world[1][1] = 0.0625f; /* a pixel */
+        s.instances[0].world[0][3] = s.instances[0].world[1][3] = 0.0625f;
+        show();
+        expect(8, 7, 188, 188, 188);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(test_wide_indices),
+        TEST(test_large_image),
+        TEST(test_mipmaps),
+    };
+    return RUN(tests);
+}
