@@ -53,6 +53,9 @@ static void test_a_stencil_is_there_where_a_light_needs_it(void **state) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     f.opts.planar_in_stencil = true;
     assert_false(gn_plan_make(&f)->stencil);
+    gn_plan_end(&f);
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.planar_in_stencil = true;
     f.scene->lights[1].technique = "planar"; /* the spot */
     assert_true(gn_plan_make(&f)->stencil);
     f.opts.camera = 1;
