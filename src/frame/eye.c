@@ -6,18 +6,7 @@
 
 #define FAR_TIMES 1e4f /* the scene's reach */
 
-/* The orthographic half-sizes that show all of the camera's rectangle in a picture of this aspect.
- */
-static void ortho_half(const struct gn_camera *camera, float aspect, float half[2]) {
-    half[0] = fabsf(camera->xmag_m);
-    half[1] = fabsf(camera->ymag_m);
-    if (half[0] < half[1] * aspect)
-        half[0] = half[1] * aspect;
-    else
-        half[1] = half[0] / aspect;
-}
-
-/* As far as the scene goes, for cameras without a far plane. */
+/* As far as the scene goes. */
 static float farthest(const struct gn_pose *pose, vec3 eye_ws, float near_m) {
     vec3 reach;
     for (int k = 0; k < 3; k++)
@@ -29,8 +18,7 @@ static float farthest(const struct gn_pose *pose, vec3 eye_ws, float near_m) {
 
 /* A far plane out of all proportion to what there is to see shows nothing more, and costs the depth
  * its precision, or its range. */
-static float far_of(const struct gn_camera *camera, const struct gn_pose *pose, vec3 eye_ws) {
-    float scene_m = farthest(pose, eye_ws, camera->near_m);
+static float far_of(const struct gn_camera *camera, float scene_m) {
     return camera->far_m > 0.0f && camera->far_m < FAR_TIMES * scene_m ? camera->far_m : scene_m;
 }
 
@@ -60,22 +48,35 @@ static void turn_picture(const struct gn_frame *frame, mat4 clip_from_view) {
     }
 }
 
+/* A hand that moves the eye expects to see all of the scene from there: then the camera's own near
+ * and far planes only widen what is seen. */
+static void project(const struct gn_camera *camera, const struct gn_orbit *orbit, float aspect,
+                    const float reach_m[2], mat4 clip_from_view) {
+    const bool moved = !gn_orbit_is_zero(orbit);
+    float near_m = camera->near_m, far_m = far_of(camera, reach_m[1]);
+    if (moved) far_m = fmaxf(far_m, reach_m[1]);
+    if (camera->orthographic) {
+        float half[2];
+        gn_orbit_ortho_half(orbit, camera, aspect, half);
+        if (moved) near_m = fminf(near_m, -reach_m[1]);
+        glm_ortho(-half[0], half[0], -half[1], half[1], near_m, far_m, clip_from_view);
+        return;
+    }
+    if (moved) near_m = fminf(near_m, 0.125f * reach_m[0]);
+    glm_perspective(camera->yfov_rad, aspect, near_m, far_m, clip_from_view);
+}
+
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]) {
     const struct gn_camera *camera = &frame->scene->cameras[opts->camera];
     float aspect = (float)frame->picture_width_px / (float)frame->picture_height_px;
     mat4 view_from_world, clip_from_view, clip_from_world;
     vec3 eye_ws;
-    gn_pose_view(pose, (uint32_t)opts->camera, view_from_world, eye_ws);
+    float reach_m[2]; /* to what is looked at, and to the end of the scene */
+    reach_m[0] = gn_orbit_view(&opts->orbit, pose, (uint32_t)opts->camera, view_from_world, eye_ws);
     turn(pose, opts->turntable_rad, view_from_world, eye_ws);
-    float far_m = far_of(camera, pose, eye_ws);
-    if (camera->orthographic) {
-        float half[2];
-        ortho_half(camera, aspect, half);
-        glm_ortho(-half[0], half[0], -half[1], half[1], camera->near_m, far_m, clip_from_view);
-    } else {
-        glm_perspective(camera->yfov_rad, aspect, camera->near_m, far_m, clip_from_view);
-    }
+    reach_m[1] = farthest(pose, eye_ws, camera->near_m);
+    project(camera, &opts->orbit, aspect, reach_m, clip_from_view);
     turn_picture(frame, clip_from_view);
     glm_mat4_mul(clip_from_view, view_from_world, clip_from_world);
     gn_eye_build(&frame->eye, clip_from_world);

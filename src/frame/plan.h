@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "frame/caps.h"
+#include "frame/orbit.h"
 #include "scene/pose.h"
 #include "shadow/fit.h"
 #include "shadow/slide.h"
@@ -210,9 +211,10 @@ struct gn_frame_opts {            /* zero means the default written beside */
     bool strength_given;
     float strength; /* overrides the lights' gnomon_shadow_strength */
     uint32_t msaa;
-    float turntable_rad; /* the eye goes round the scene's centre by this, about +Y */
-    bool show_lights;    /* a mark where each light stands */
-    bool show_maps;      /* the maps as panels along the lower edge */
+    struct gn_orbit orbit; /* the eye, moved by hand */
+    float turntable_rad;   /* the eye goes round the scene's centre by this, about +Y */
+    bool show_lights;      /* a mark where each light stands */
+    bool show_maps;        /* the maps as panels along the lower edge */
 };
 
 struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing

@@ -1,0 +1,127 @@
+#include "frame/orbit.h"
+
+#include <math.h>
+
+static const float HIGHEST_RAD = 1.56f;   /* of the eye over what it looks at: not quite the pole */
+static const float FARTHEST_ZOOM = -3.9f; /* 50 times as far away */
+static const float LARGEST_ZOOM = 6.9f;   /* orthographic: a thousand times as large */
+
+bool gn_orbit_is_zero(const struct gn_orbit *o) {
+    return o->yaw_rad == 0.0f && o->pitch_rad == 0.0f && o->zoom == 0.0f && o->shift_m[0] == 0.0f &&
+           o->shift_m[1] == 0.0f && o->shift_m[2] == 0.0f;
+}
+
+/* The least distance to what is looked at. */
+static float nearest_m(const struct gn_camera *camera) {
+    return camera->orthographic ? 1e-6f : fmaxf(2.0f * camera->near_m, 1e-6f);
+}
+
+/* A camera as it stands: its axes in world space, and how far away is what it looks at. */
+struct stand {
+    vec3 right, up, back, eye_ws;
+    float distance_m, radius_m;
+};
+
+static struct stand stand_of(const struct gn_pose *pose, uint32_t camera) {
+    const struct gn_box *box = &pose->scene->box;
+    struct stand s;
+    mat4 view;
+    vec3 centre, to_centre;
+    gn_pose_view(pose, camera, view, s.eye_ws);
+    for (int k = 0; k < 3; k++) {
+        s.right[k] = view[k][0];
+        s.up[k] = view[k][1];
+        s.back[k] = view[k][2];
+    }
+    glm_vec3_center((float *)box->min, (float *)box->max, centre);
+    glm_vec3_sub(centre, s.eye_ws, to_centre);
+    s.radius_m = 0.5f * glm_vec3_distance((float *)box->min, (float *)box->max);
+    s.distance_m = -glm_vec3_dot(to_centre, s.back);
+    if (s.distance_m < 0.05f * s.radius_m) s.distance_m = s.radius_m; /* it looks elsewhere */
+    s.distance_m = fmaxf(s.distance_m, nearest_m(&pose->scene->cameras[camera]));
+    return s;
+}
+
+/* Turned: up about its own right, then round the vertical. */
+static struct stand turned(const struct stand *at, float yaw_rad, float pitch_rad) {
+    struct stand s = *at;
+    glm_vec3_rotate(s.up, -pitch_rad, s.right);
+    glm_vec3_rotate(s.back, -pitch_rad, s.right);
+    glm_vec3_rotate(s.right, yaw_rad, (vec3){0.0f, 1.0f, 0.0f});
+    glm_vec3_rotate(s.up, yaw_rad, (vec3){0.0f, 1.0f, 0.0f});
+    glm_vec3_rotate(s.back, yaw_rad, (vec3){0.0f, 1.0f, 0.0f});
+    return s;
+}
+
+static float clamped_pitch(const struct stand *s, float pitch_rad) {
+    const float height_rad = asinf(glm_clamp(s->back[1], -1.0f, 1.0f));
+    return glm_clamp(pitch_rad, fminf(-HIGHEST_RAD - height_rad, 0.0f),
+                     fmaxf(HIGHEST_RAD - height_rad, 0.0f));
+}
+
+static float clamped_zoom(const struct stand *s, const struct gn_camera *camera, float zoom) {
+    const float most =
+        camera->orthographic ? LARGEST_ZOOM : logf(s->distance_m / nearest_m(camera));
+    return glm_clamp(zoom, FARTHEST_ZOOM, fmaxf(most, 0.0f));
+}
+
+/* How high what is seen at the distance of what is looked at is. */
+static float seen_height_m(const struct gn_orbit *o, const struct stand *s,
+                           const struct gn_camera *camera, float aspect) {
+    if (!camera->orthographic)
+        return 2.0f * s->distance_m * expf(-o->zoom) * tanf(0.5f * camera->yfov_rad);
+    float half[2];
+    gn_orbit_ortho_half(o, camera, aspect, half);
+    return 2.0f * half[1];
+}
+
+struct gn_orbit gn_orbit_step(const struct gn_orbit *orbit, const struct gn_orbit_hand *hand,
+                              const struct gn_pose *pose, uint32_t camera) {
+    const struct gn_camera *c = &pose->scene->cameras[camera];
+    const struct stand s = stand_of(pose, camera);
+    struct gn_orbit o = *orbit;
+    o.yaw_rad = fmodf(o.yaw_rad - GLM_PIf * hand->turn[0], 2.0f * GLM_PIf);
+    o.pitch_rad = clamped_pitch(&s, o.pitch_rad - GLM_PIf * hand->turn[1]);
+    o.zoom = clamped_zoom(&s, c, o.zoom + hand->zoom);
+    const struct stand now = turned(&s, o.yaw_rad, o.pitch_rad);
+    const float height_m = seen_height_m(&o, &s, c, hand->aspect > 0.0f ? hand->aspect : 1.0f);
+    const float most_m = 100.0f * (s.radius_m + s.distance_m);
+    for (int k = 0; k < 3; k++) {
+        const float by_m = height_m * (now.right[k] * hand->pan[0] + now.up[k] * hand->pan[1]);
+        o.shift_m[k] = glm_clamp(o.shift_m[k] - by_m, -most_m, most_m);
+    }
+    return o;
+}
+
+float gn_orbit_view(const struct gn_orbit *orbit, const struct gn_pose *pose, uint32_t camera,
+                    mat4 view_from_world, vec3 eye_ws) {
+    const bool ortho = pose->scene->cameras[camera].orthographic;
+    const struct stand s = stand_of(pose, camera);
+    const float distance_m = ortho ? s.distance_m : s.distance_m * expf(-orbit->zoom);
+    gn_pose_view(pose, camera, view_from_world, eye_ws);
+    if (gn_orbit_is_zero(orbit)) return distance_m;
+    const struct stand now = turned(&s, orbit->yaw_rad, orbit->pitch_rad);
+    glm_vec3_add(eye_ws, (float *)orbit->shift_m, eye_ws);
+    glm_vec3_muladds((float *)s.back, -s.distance_m, eye_ws);
+    glm_vec3_muladds((float *)now.back, distance_m, eye_ws);
+    for (int k = 0; k < 3; k++) {
+        view_from_world[k][0] = now.right[k];
+        view_from_world[k][1] = now.up[k];
+        view_from_world[k][2] = now.back[k];
+    }
+    view_from_world[3][0] = -glm_vec3_dot((float *)now.right, eye_ws);
+    view_from_world[3][1] = -glm_vec3_dot((float *)now.up, eye_ws);
+    view_from_world[3][2] = -glm_vec3_dot((float *)now.back, eye_ws);
+    return distance_m;
+}
+
+void gn_orbit_ortho_half(const struct gn_orbit *orbit, const struct gn_camera *camera, float aspect,
+                         float half[2]) {
+    half[0] = fabsf(camera->xmag_m);
+    half[1] = fabsf(camera->ymag_m);
+    if (half[0] < half[1] * aspect)
+        half[0] = half[1] * aspect;
+    else
+        half[1] = half[0] / aspect;
+    for (int k = 0; k < 2; k++) half[k] *= expf(-orbit->zoom);
+}

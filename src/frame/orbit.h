@@ -1,0 +1,34 @@
+/* The eye moved by hand, away from where its camera stands. Plain data in the frame's options and
+ * pure steps; nothing here knows of mice. */
+#ifndef GN_FRAME_ORBIT_H
+#define GN_FRAME_ORBIT_H
+
+#include "scene/pose.h"
+
+struct gn_orbit {             /* zeroed: as the camera stands */
+    float yaw_rad, pitch_rad; /* the eye goes round what it looks at: to the right, and up */
+    vec3 shift_m;             /* of what it looks at, world space, before the turntable */
+    float zoom;               /* logarithm of how many times nearer; orthographic: larger */
+};
+struct gn_orbit_hand {     /* what a hand does, zeroed: nothing */
+    float turn[2], pan[2]; /* drags to the right and up, in heights of the picture */
+    float zoom;            /* added to the orbit's */
+    float aspect;          /* of the picture */
+};
+
+bool gn_orbit_is_zero(const struct gn_orbit *orbit);
+/* The next orbit, seen through a camera of the scene at this pose. What is dragged follows the
+ * hand: a pan by its own distance, a turn half round for a height of the picture. The eye never
+ * goes over the poles, nor nearer than twice the near plane, nor 50 times as far away. */
+struct gn_orbit gn_orbit_step(const struct gn_orbit *orbit, const struct gn_orbit_hand *hand,
+                              const struct gn_pose *pose, uint32_t camera);
+/* gn_pose_view() moved by it. What the camera looks at is the point on its axis that is as far away
+ * as the scene's centre. The distance in metres from the eye to it. */
+float gn_orbit_view(const struct gn_orbit *orbit, const struct gn_pose *pose, uint32_t camera,
+                    mat4 view_from_world, vec3 eye_ws);
+/* The orthographic half-sizes in metres that show all of the camera's rectangle in a picture of
+ * this aspect. */
+void gn_orbit_ortho_half(const struct gn_orbit *orbit, const struct gn_camera *camera, float aspect,
+                         float half[2]);
+
+#endif
