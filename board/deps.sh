@@ -7,9 +7,9 @@ libraries='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev lib
     libcglm-dev libdrm-dev libgbm-dev'
 build="gcc make pkgconf $libraries"
 run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri libgbm1 libdrm2'
-test_libraries='libcmocka-dev'
-test="clang clang-format clang-tidy $test_libraries"
-optional_build='libassimp-dev' # for gnomon-import
+test_libraries='libcmocka-dev libx11-dev'
+test="clang clang-format clang-tidy xvfb $test_libraries"
+optional_build='libassimp-dev libglfw3-dev' # for gnomon-import, for a window
 optional_test='libosmesa6-dev' # not in every Debian
 
 command -v dpkg-query > /dev/null || exit 0 # not Debian: the Makefile says what pkg-config does not find

@@ -6,10 +6,7 @@
 #include "display/private.h"
 
 const struct gn_display_ops *const gn_displays[] = {
-    &gn_display_surfaceless,
-    &gn_display_osmesa,
-    &gn_display_kms,
-    NULL,
+    &gn_display_surfaceless, &gn_display_osmesa, &gn_display_kms, &gn_display_window, NULL,
 };
 
 static bool open_row(struct gn_display *display, const struct gn_display_ops *ops,
@@ -40,16 +37,7 @@ static bool open_any(struct gn_display *display, struct gn_warnings *warnings, s
     return gn_fail(err, "no display opens: %s", reasons);
 }
 
-/* Names that the design has and this build has not. */
-static const char *const absent[] = {"window"};
-
 static bool fail_unknown(const char *name, struct gn_err *err) {
-    for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
-        if (strcmp(name, absent[i]) == 0)
-            return gn_fail(
-                err,
-                "backend %s is not in this build; kms needs no desktop, egl and osmesa draw unseen",
-                name);
     char names[sizeof err->text] = "auto";
     for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
         append(names, sizeof names, ", ");

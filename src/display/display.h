@@ -10,6 +10,7 @@
 
 #include "core/err.h"
 #include "core/warn.h"
+#include "display/hand.h"
 
 typedef void (*gn_display_proc)(void);
 struct gn_display;
@@ -54,6 +55,9 @@ struct gn_screen {
     uint32_t generation; /* of the context: another number, another context */
     bool lit;            /* somebody may see it */
     bool may_draw;       /* lit, and no frame is on its way: begin and present are due */
+    bool damaged;        /* what it showed last is gone, or of another size: draw a still picture
+                            again; begin ends it */
+    struct gn_hand hand; /* what somebody did there, added up; whoever reads it zeroes it */
     uint32_t width_px, height_px; /* of what is drawn to; 0 while not lit */
     unsigned rotate_deg;          /* 0, 90, 180, 270: the picture is drawn turned clockwise by it */
     bool srgb;                    /* the window's framebuffer encodes */

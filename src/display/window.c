@@ -1,0 +1,466 @@
+/* A window on a desktop, by GLFW: X11 or Wayland. Its libraries are opened at run time.
+ *
+ * GLFW has no descriptor to wait for, so the window system's connection is asked for its own. A
+ * library below us may read that empty, and keep what is for us: after every call that might have,
+ * events are polled. Frames are paced by a timer: a swap that waits for the screen would wait for
+ * ever in a window that nobody sees. */
+#define GLFW_INCLUDE_NONE
+#define GLFW_EXPOSE_NATIVE_EGL
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GLFW/glfw3.h>
+#include <GLFW/glfw3native.h>
+#include <dlfcn.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/epoll.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include "core/arena.h"
+#include "core/clock.h"
+#include "display/kms_flip.h"
+#include "display/private.h"
+#include "display/window_link.h"
+
+#define GLFW_TABLE(X)                                                                              \
+    X(Init)                                                                                        \
+    X(GetError)                                                                                    \
+    X(WindowHint)                                                                                  \
+    X(WindowHintString)                                                                            \
+    X(CreateWindow)                                                                                \
+    X(DestroyWindow)                                                                               \
+    X(ShowWindow)                                                                                  \
+    X(MakeContextCurrent)                                                                          \
+    X(SwapInterval)                                                                                \
+    X(SwapBuffers)                                                                                 \
+    X(PollEvents)                                                                                  \
+    X(GetProcAddress)                                                                              \
+    X(GetEGLDisplay)                                                                               \
+    X(GetEGLSurface)                                                                               \
+    X(GetFramebufferSize)                                                                          \
+    X(GetWindowSize)                                                                               \
+    X(GetWindowPos)                                                                                \
+    X(GetWindowMonitor)                                                                            \
+    X(SetWindowMonitor)                                                                            \
+    X(GetMonitors)                                                                                 \
+    X(GetMonitorPos)                                                                               \
+    X(GetVideoMode)                                                                                \
+    X(SetWindowUserPointer)                                                                        \
+    X(GetWindowUserPointer)                                                                        \
+    X(SetWindowCloseCallback)                                                                      \
+    X(SetWindowRefreshCallback)                                                                    \
+    X(SetFramebufferSizeCallback)                                                                  \
+    X(SetWindowIconifyCallback)                                                                    \
+    X(SetKeyCallback)                                                                              \
+    X(SetCharCallback)                                                                             \
+    X(SetMouseButtonCallback)                                                                      \
+    X(SetCursorPosCallback)                                                                        \
+    X(SetScrollCallback)
+
+struct glfw {
+    void *library;
+    struct gn_window_link link; /* once initialised */
+#define X(name) __typeof__(glfw##name) *(name);
+    GLFW_TABLE(X)
+#undef X
+};
+/* One in a process, as the library is. It is never terminated: that unloads the driver, and what
+ * that has started does not always survive it. */
+static struct glfw glfw;
+
+struct window {
+    GLFWwindow *handle;
+    bool shown, damaged;
+    bool toggles; /* full screen, when the events have been heard */
+    bool iconified;
+    bool resized; /* since the last swap: the driver may have drawn to a buffer of the old size */
+    int width_px, height_px; /* of the framebuffer, as it was told: to ask is to read events */
+    int epoll, timer;
+    struct gn_flip flip;
+    struct gn_hand hand;
+    struct gn_pointer pointer;
+    int windowed[4]; /* x, y, width, height, before it became full screen */
+};
+
+#define POLL_NS INT64_C(10000000)
+enum { POLLS_MAX = 16 };
+
+/* ---- libraries ---- */
+
+static bool load(struct gn_err *err) {
+    if (glfw.library) return true;
+    void *library = dlopen("libglfw.so.3", RTLD_NOW | RTLD_LOCAL);
+    if (!library) return gn_fail(err, "libglfw.so.3 is missing; install libglfw3");
+#define X(name)                                                                                    \
+    *(void **)&glfw.name = dlsym(library, "glfw" #name);                                           \
+    if (!glfw.name) return gn_fail(err, "libglfw.so.3 has no glfw" #name "; install libglfw3");
+    GLFW_TABLE(X)
+#undef X
+    glfw.library = library;
+    return true;
+}
+
+/* What GLFW says about its last failure; never NULL. */
+static const char *why(void) {
+    const char *text = NULL;
+    glfw.GetError(&text);
+    return text ? text : "no reason given";
+}
+
+/* ---- events ---- */
+
+static void poll_events(void) {
+    for (int i = 0; i < POLLS_MAX && !glfw.link.gone; i++) {
+        glfw.PollEvents();
+        if (!gn_window_link_pending(&glfw.link)) return;
+    }
+}
+
+/* ---- what the hand does ---- */
+
+static struct window *window_of(GLFWwindow *handle) { return glfw.GetWindowUserPointer(handle); }
+
+static void on_close(GLFWwindow *handle) { gn_hand_act(&window_of(handle)->hand, GN_ACTION_QUIT); }
+
+static void on_refresh(GLFWwindow *handle) { window_of(handle)->damaged = true; }
+
+static void on_size(GLFWwindow *handle, int width, int height) {
+    struct window *w = window_of(handle);
+    w->width_px = width;
+    w->height_px = height;
+    w->damaged = w->resized = true;
+}
+
+static void on_iconify(GLFWwindow *handle, int iconified) {
+    window_of(handle)->iconified = iconified;
+    window_of(handle)->damaged = true;
+}
+
+static void on_key(GLFWwindow *handle, int key, int code, int event, int modifiers) {
+    static const struct {
+        int key;
+        enum gn_action action;
+    } keys[] = {{GLFW_KEY_ESCAPE, GN_ACTION_QUIT},
+                {GLFW_KEY_HOME, GN_ACTION_HOME},
+                {GLFW_KEY_F11, GN_ACTION_FULL_SCREEN}};
+    (void)code, (void)modifiers;
+    struct window *w = window_of(handle);
+    for (size_t i = 0; i < sizeof keys / sizeof *keys && event == GLFW_PRESS; i++) {
+        if (keys[i].key != key) continue;
+        gn_hand_act(&w->hand, keys[i].action);
+        w->toggles |= keys[i].action == GN_ACTION_FULL_SCREEN;
+    }
+}
+
+/* Letters by what they print: keyboards differ. */
+static void on_letter(GLFWwindow *handle, unsigned letter) {
+    if (letter == 'q' || letter == 'Q') gn_hand_act(&window_of(handle)->hand, GN_ACTION_QUIT);
+}
+
+static void on_button(GLFWwindow *handle, int button, int event, int modifiers) {
+    if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    const enum gn_button which = button == GLFW_MOUSE_BUTTON_LEFT    ? GN_BUTTON_LEFT
+                                 : button == GLFW_MOUSE_BUTTON_RIGHT ? GN_BUTTON_RIGHT
+                                                                     : GN_BUTTON_MIDDLE;
+    gn_pointer_button(&window_of(handle)->pointer, which, event == GLFW_PRESS,
+                      modifiers & GLFW_MOD_SHIFT);
+}
+
+static void on_move(GLFWwindow *handle, double x, double y) {
+    struct window *w = window_of(handle);
+    int width = 0, height = 0;
+    glfw.GetWindowSize(handle, &width, &height);
+    gn_pointer_move(&w->pointer, x, y, height, &w->hand);
+}
+
+static void on_wheel(GLFWwindow *handle, double x, double y) {
+    (void)x;
+    window_of(handle)->hand.wheel += (float)y;
+}
+
+static void listen_to(struct window *w) {
+    glfw.SetWindowUserPointer(w->handle, w);
+    glfw.SetWindowCloseCallback(w->handle, on_close);
+    glfw.SetWindowRefreshCallback(w->handle, on_refresh);
+    glfw.SetFramebufferSizeCallback(w->handle, on_size);
+    glfw.SetWindowIconifyCallback(w->handle, on_iconify);
+    glfw.SetKeyCallback(w->handle, on_key);
+    glfw.SetCharCallback(w->handle, on_letter);
+    glfw.SetMouseButtonCallback(w->handle, on_button);
+    glfw.SetCursorPosCallback(w->handle, on_move);
+    glfw.SetScrollCallback(w->handle, on_wheel);
+}
+
+/* ---- full screen ---- */
+
+/* The monitor with the middle of the window; where windows do not know their place, the first. */
+static GLFWmonitor *monitor_at(const int at[4]) {
+    int count = 0;
+    GLFWmonitor **all = glfw.GetMonitors(&count);
+    for (int i = 0; i < count; i++) {
+        const GLFWvidmode *mode = glfw.GetVideoMode(all[i]);
+        int x = 0, y = 0;
+        glfw.GetMonitorPos(all[i], &x, &y);
+        const int right = at[0] + at[2] / 2 - x, down = at[1] + at[3] / 2 - y;
+        if (mode && right >= 0 && right < mode->width && down >= 0 && down < mode->height)
+            return all[i];
+    }
+    return count > 0 ? all[0] : NULL;
+}
+
+static void read_place(const struct window *w, int at[4]) {
+    at[0] = at[1] = 0;
+    glfw.GetWindowPos(w->handle, &at[0], &at[1]);
+    glfw.GetWindowSize(w->handle, &at[2], &at[3]);
+}
+
+static int64_t period_of(const struct window *w) {
+    int at[4];
+    read_place(w, at);
+    GLFWmonitor *monitor = monitor_at(at);
+    const GLFWvidmode *mode = monitor ? glfw.GetVideoMode(monitor) : NULL;
+    return GN_NS_PER_S / (mode && mode->refreshRate > 0 ? mode->refreshRate : 60);
+}
+
+static void toggle_full_screen(struct window *w) {
+    int *at = w->windowed;
+    w->toggles = false;
+    w->damaged = true;
+    if (glfw.GetWindowMonitor(w->handle)) {
+        glfw.SetWindowMonitor(w->handle, NULL, at[0], at[1], at[2], at[3], 0);
+        return;
+    }
+    read_place(w, at);
+    GLFWmonitor *monitor = monitor_at(at);
+    const GLFWvidmode *mode = monitor ? glfw.GetVideoMode(monitor) : NULL;
+    if (!mode) return;
+    glfw.SetWindowMonitor(w->handle, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    w->flip.period_ns = period_of(w);
+}
+
+/* ---- the screen as it is ---- */
+
+/* What was heard while a frame was drawn is to be dispatched at once. */
+static void set_timer(struct window *w, bool heard, int64_t now_ns) {
+    int64_t at_ns = heard ? now_ns : gn_flip_deadline(&w->flip, now_ns);
+    if (glfw.link.fd < 0 && at_ns > now_ns + POLL_NS) at_ns = now_ns + POLL_NS;
+    const int64_t ns = at_ns == INT64_MAX ? 0 : at_ns > 0 ? at_ns : 1; /* 0 switches it off */
+    const struct itimerspec when = {.it_value = {ns / GN_NS_PER_S, ns % GN_NS_PER_S}};
+    timerfd_settime(w->timer, TFD_TIMER_ABSTIME, &when, NULL);
+}
+
+/* After every call and whatever reads events: it reads none. */
+static bool settle(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+    struct window *w = display->state;
+    struct gn_screen *s = &display->screen;
+    if (glfw.link.gone) {
+        gn_fail(err, "the X server has ended");
+        err->status = GN_EXIT_DISPLAY;
+        return false;
+    }
+    s->lit = w->width_px > 0 && w->height_px > 0 && !w->iconified;
+    s->width_px = s->lit ? (uint32_t)w->width_px : 0;
+    s->height_px = s->lit ? (uint32_t)w->height_px : 0;
+    s->may_draw = s->lit && gn_flip_may_draw(&w->flip, now_ns);
+    s->damaged = w->damaged;
+    s->period_ns = w->flip.period_ns;
+    s->seen_ns = gn_flip_seen_ns(&w->flip, now_ns);
+    s->counts.shown = w->flip.shown;
+    s->counts.missed = w->flip.missed;
+    gn_hand_add(&s->hand, &w->hand);
+    w->hand = (struct gn_hand){0};
+    snprintf(s->what, sizeof s->what, "window %dx%d %s", w->width_px, w->height_px, glfw.link.name);
+    set_timer(w, w->toggles || !gn_hand_is_zero(&s->hand), now_ns);
+    return true;
+}
+
+/* ---- opening ---- */
+
+static void window_close(struct gn_display *display) {
+    struct window *w = display->state;
+    if (!w) return;
+    if (w->handle) glfw.DestroyWindow(w->handle);
+    if (w->timer >= 0) close(w->timer);
+    if (w->epoll >= 0) close(w->epoll);
+    free(w);
+    display->state = NULL;
+}
+
+static struct window *create(struct gn_display *display, struct gn_err *err) {
+    if (!load(err)) return NULL;
+    struct window *w = display->state = gn_xalloc(1, sizeof *w);
+    w->epoll = w->timer = -1;
+    setenv("EGL_LOG_LEVEL", "fatal", 0); /* or Mesa chats on stderr about what it did not find */
+    if (glfw.Init()) {
+        if (!glfw.link.name) gn_window_link_open(&glfw.link, glfw.library);
+        return w;
+    }
+    gn_fail(err, "no desktop to be reached (%s); see WAYLAND_DISPLAY and DISPLAY", why());
+    window_close(display);
+    return NULL;
+}
+
+/* Hidden: it is shown with its first picture. */
+static bool make(struct window *w, uint32_t width_px, uint32_t height_px, int samples, bool srgb) {
+    const int hints[][2] = {
+        {GLFW_CLIENT_API, GLFW_OPENGL_ES_API},
+        {GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API},
+        {GLFW_CONTEXT_VERSION_MAJOR, 3},
+        {GLFW_CONTEXT_VERSION_MINOR, 0},
+        {GLFW_SRGB_CAPABLE, srgb},
+        {GLFW_SAMPLES, samples},
+        {GLFW_ALPHA_BITS, 0},
+        {GLFW_STENCIL_BITS, 0},
+        {GLFW_VISIBLE, GLFW_FALSE},
+        {GLFW_AUTO_ICONIFY, GLFW_FALSE},
+    };
+    for (size_t i = 0; i < sizeof hints / sizeof *hints; i++)
+        glfw.WindowHint(hints[i][0], hints[i][1]);
+    glfw.WindowHintString(GLFW_X11_CLASS_NAME, "gnomon");
+    glfw.WindowHintString(GLFW_X11_INSTANCE_NAME, "gnomon");
+    w->handle = glfw.CreateWindow((int)width_px, (int)height_px, "gnomon", NULL, NULL);
+    if (w->handle) glfw.MakeContextCurrent(w->handle);
+    return w->handle;
+}
+
+static bool make_either(struct window *w, const struct gn_screen_opts *o, struct gn_err *err) {
+    const uint32_t width_px = o->width_px ? o->width_px : 1280,
+                   height_px = o->height_px ? o->height_px : 720;
+    const int samples = o->msaa == GN_SCREEN_MSAA_AUTO ? 0 : o->msaa;
+    if (make(w, width_px, height_px, samples, true)) return true;
+    if (make(w, width_px, height_px, samples, false)) return true;
+    return gn_fail(err, "the driver makes no window with OpenGL ES 3.0 (%s)", why());
+}
+
+/* Off screen: a window that is never shown. */
+static bool window_open(struct gn_display *display, struct gn_warnings *warnings,
+                        struct gn_err *err) {
+    static const struct gn_screen_opts small = {.width_px = 16, .height_px = 16};
+    (void)warnings;
+    struct window *w = create(display, err);
+    if (!w) return false;
+    if (make_either(w, &small, err)) return true;
+    window_close(display);
+    return false;
+}
+
+/* ---- the window as a screen ---- */
+
+/* What the driver gave of what was asked. */
+static void learn(const struct window *w, struct gn_screen *s) {
+    __typeof__(eglQuerySurface) *query = (__typeof__(query))glfw.GetProcAddress("eglQuerySurface");
+    __typeof__(eglChooseConfig) *choose =
+        (__typeof__(choose))glfw.GetProcAddress("eglChooseConfig");
+    __typeof__(eglGetConfigAttrib) *read =
+        (__typeof__(read))glfw.GetProcAddress("eglGetConfigAttrib");
+    if (!query || !choose || !read) return;
+    const EGLDisplay display = glfw.GetEGLDisplay();
+    const EGLSurface surface = glfw.GetEGLSurface(w->handle);
+    EGLint list[] = {EGL_CONFIG_ID, 0, EGL_NONE}, space = 0, count = 0, samples = 0;
+    EGLConfig config;
+    s->srgb = query(display, surface, EGL_GL_COLORSPACE_KHR, &space) &&
+              space == EGL_GL_COLORSPACE_SRGB_KHR;
+    if (query(display, surface, EGL_CONFIG_ID, &list[1]) &&
+        choose(display, list, &config, 1, &count) && count == 1 &&
+        read(display, config, EGL_SAMPLES, &samples))
+        s->samples = (unsigned)samples;
+}
+
+static bool watch(const struct window *w, int fd) {
+    struct epoll_event event = {.events = EPOLLIN, .data.fd = fd};
+    return epoll_ctl(w->epoll, EPOLL_CTL_ADD, fd, &event) == 0;
+}
+
+static bool open_descriptors(struct window *w, struct gn_err *err) {
+    w->epoll = epoll_create1(EPOLL_CLOEXEC);
+    w->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+    if (w->epoll >= 0 && w->timer >= 0 && watch(w, w->timer) &&
+        (glfw.link.fd < 0 || watch(w, glfw.link.fd)))
+        return true;
+    return gn_fail(err, "cannot wait for the window: %s", strerror(errno));
+}
+
+static bool window_open_screen(struct gn_display *display, const struct gn_screen_opts *opts,
+                               int64_t now_ns, struct gn_warnings *warnings, struct gn_err *err) {
+    (void)warnings;
+    struct window *w = create(display, err);
+    if (!w) return false;
+    if (!open_descriptors(w, err) || !make_either(w, opts, err)) {
+        window_close(display);
+        return false;
+    }
+    listen_to(w);
+    /* On X11 a swap waits for the screen at most as long as it is late, and does not tear. */
+    glfw.SwapInterval(glfw.link.x_pending ? 1 : 0);
+    w->flip = (struct gn_flip){.blind = true, .period_ns = period_of(w)};
+    w->flip.shortest_ns = opts->max_fps > 0 ? GN_NS_PER_S / opts->max_fps : 0;
+    display->screen = (struct gn_screen){
+        .fd = w->epoll, .has_context = true, .generation = 1, .rotate_deg = opts->rotate_deg};
+    learn(w, &display->screen);
+    glfw.GetFramebufferSize(w->handle, &w->width_px, &w->height_px);
+    poll_events();
+    return settle(display, now_ns, err);
+}
+
+static bool window_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+    struct window *w = display->state;
+    poll_events();
+    if (w->toggles) {
+        toggle_full_screen(w);
+        poll_events();
+    }
+    return settle(display, now_ns, err);
+}
+
+static bool window_renew(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+    return settle(display, now_ns, err); /* it is never lost */
+}
+
+static bool window_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+    struct window *w = display->state;
+    if (!display->screen.may_draw) return false;
+    if (!w->shown) {
+        glfw.ShowWindow(w->handle);
+        poll_events();
+        w->shown = true;
+    }
+    w->damaged = false;
+    gn_flip_begun(&w->flip, now_ns);
+    return settle(display, now_ns, err) && display->screen.lit;
+}
+
+static bool window_present(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+    struct window *w = display->state;
+    glfw.SwapBuffers(w->handle);
+    w->damaged |= w->resized;
+    w->resized = false;
+    gn_flip_committed(&w->flip, now_ns);
+    gn_flip_done(&w->flip, now_ns, now_ns);
+    poll_events();
+    return settle(display, now_ns, err);
+}
+
+static gn_display_proc window_get_proc(struct gn_display *display, const char *name) {
+    (void)display;
+    return (gn_display_proc)glfw.GetProcAddress(name);
+}
+
+static const struct gn_screen_ops window_screen_ops = {
+    .open = window_open_screen,
+    .dispatch = window_dispatch,
+    .renew = window_renew,
+    .begin = window_begin,
+    .present = window_present,
+};
+
+const struct gn_display_ops gn_display_window = {
+    .name = "window",
+    .what = "a window on a desktop, X11 or Wayland (GLFW)",
+    .open = window_open,
+    .get_proc = window_get_proc,
+    .close = window_close,
+    .screen = &window_screen_ops,
+};

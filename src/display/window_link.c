@@ -1,0 +1,71 @@
+#include "display/window_link.h"
+
+#include <dlfcn.h>
+#include <stddef.h>
+
+#define X11     "libX11.so.6"
+#define WAYLAND "libwayland-client.so.0"
+
+/* A function of a library that GLFW has loaded already; NULL without. The library stays. */
+static void *function_of(const char *library, const char *name) {
+    void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
+    return handle ? dlsym(handle, name) : NULL;
+}
+
+static void *ask_for_display(void *library, const char *name) {
+    void *(*get)(void);
+    *(void **)&get = dlsym(library, name);
+    return get ? get() : NULL;
+}
+
+static int end_quietly(void *display) {
+    (void)display;
+    return 0;
+}
+
+static void end_later(void *display, void *link) {
+    (void)display;
+    ((struct gn_window_link *)link)->gone = true;
+}
+
+/* Else Xlib ends the program by itself, with a line of its own. */
+static void survive_the_server(struct gn_window_link *link) {
+    void (*set_exit)(void *display, void (*handler)(void *, void *), void *data);
+    void *(*set)(int (*handler)(void *));
+    *(void **)&set_exit = function_of(X11, "XSetIOErrorExitHandler");
+    *(void **)&set = function_of(X11, "XSetIOErrorHandler");
+    if (!set_exit || !set) return;
+    set_exit(link->display, end_later, link);
+    set(end_quietly);
+}
+
+static void link_x11(struct gn_window_link *link) {
+    int (*number)(void *display);
+    *(void **)&number = function_of(X11, "XConnectionNumber");
+    *(void **)&link->x_pending = function_of(X11, "XPending");
+    link->name = "X11";
+    link->fd = number && link->x_pending ? number(link->display) : -1;
+    survive_the_server(link);
+}
+
+static void link_wayland(struct gn_window_link *link) {
+    int (*number)(void *display);
+    *(void **)&number = function_of(WAYLAND, "wl_display_get_fd");
+    link->name = "Wayland";
+    link->fd = number ? number(link->display) : -1;
+}
+
+void gn_window_link_open(struct gn_window_link *link, void *glfw_library) {
+    *link = (struct gn_window_link){.name = "", .fd = -1};
+    link->display = ask_for_display(glfw_library, "glfwGetX11Display");
+    if (link->display) {
+        link_x11(link);
+        return;
+    }
+    link->display = ask_for_display(glfw_library, "glfwGetWaylandDisplay");
+    if (link->display) link_wayland(link);
+}
+
+bool gn_window_link_pending(const struct gn_window_link *link) {
+    return link->x_pending && !link->gone && link->x_pending(link->display) > 0;
+}

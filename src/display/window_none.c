@@ -1,0 +1,22 @@
+/* Stands in for window.c where its package was missing at build time. */
+#include "display/private.h"
+
+static bool refuse(struct gn_display *display, struct gn_warnings *warnings, struct gn_err *err) {
+    (void)display, (void)warnings;
+    return gn_fail(err, "not built in; install libglfw3-dev and build again");
+}
+
+static gn_display_proc no_proc(struct gn_display *display, const char *name) {
+    (void)display, (void)name;
+    return NULL;
+}
+
+static void no_close(struct gn_display *display) { (void)display; }
+
+const struct gn_display_ops gn_display_window = {
+    .name = "window",
+    .what = "a window on a desktop (not built in)",
+    .open = refuse,
+    .get_proc = no_proc,
+    .close = no_close,
+};
