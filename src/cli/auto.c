@@ -1,5 +1,5 @@
-/* Bare `gnomon [SCENE]`: full screen where there is no desktop and a screen that nobody else has;
- * else the picture is written here, and its place printed. */
+/* Bare `gnomon [SCENE]`: a window where there is a desktop; without, full screen where nobody else
+ * has the screen; else the picture is written here, and its place printed. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,13 +10,33 @@
 
 static bool has_desktop(void) { return getenv("WAYLAND_DISPLAY") || getenv("DISPLAY"); }
 
+static bool is(const char *backend, const char *name) { return strcmp(backend, name) == 0; }
+
+/* False: there is none to be had, and err says why only if it was asked for by name. */
+static bool shows_window(const struct gn_options *options, bool *ok, struct gn_warnings *warnings,
+                         struct gn_err *err) {
+    const bool forced = is(options->backend, "window");
+    struct gn_cli_place place = {.backend = "window"};
+    struct gn_err why = {0};
+    if (!forced && (!is(options->backend, "auto") || !has_desktop())) return false;
+    *ok = gn_cli_show_at(options, &place, warnings, &why);
+    const bool shown = *ok || forced || place.opened;
+    if (shown)
+        *err = why;
+    else if (options->verbose)
+        gn_warn(warnings, "no window: %s", why.text);
+    return shown;
+}
+
 static bool goes_to_screen(const struct gn_options *options) {
-    if (strcmp(options->backend, "kms") == 0) return true;
-    return strcmp(options->backend, "auto") == 0 && !has_desktop() && gn_display_is_free("kms");
+    if (is(options->backend, "kms")) return true;
+    return is(options->backend, "auto") && !has_desktop() && gn_display_is_free("kms");
 }
 
 bool gn_cli_auto(const struct gn_options *options, struct gn_warnings *warnings,
                  struct gn_err *err) {
+    bool ok;
+    if (shows_window(options, &ok, warnings, err)) return ok;
     if (goes_to_screen(options)) return gn_cli_show(options, warnings, err);
     struct gn_options here = *options;
     here.out = "gnomon.png";

@@ -9,6 +9,7 @@
 
 #include "cli/args.h"
 #include "cli/commands.h"
+#include "cli/show_hand.h"
 #include "cli/show_stats.h"
 #include "cli/stage.h"
 #include "cli/stop.h"
@@ -18,6 +19,7 @@
 
 struct show {
     struct gn_options *options; /* ours: a reload makes others */
+    struct gn_cli_place *place; /* NULL: the options say where */
     struct gn_stage stage;
     struct gn_screen_opts screen_opts;
     struct gn_show_stats stats;
@@ -75,6 +77,7 @@ static bool open_display(struct show *s, struct gn_err *err) {
     const bool ok = gn_display_open_screen(&s->stage.display, o->backend, &s->screen_opts,
                                            gn_clock_monotonic_ns(), s->warnings, err);
     gn_wake_end(&wake);
+    if (ok && s->place) s->place->opened = true;
     return ok && watch(s, s->stage.display.screen.fd, err);
 }
 
@@ -145,7 +148,8 @@ static bool keep_context(struct show *s, struct gn_err *err) {
 
 static bool wants_frame(const struct show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
-    return screen->may_draw && s->stage.gl && (s->moves || s->changed || !screen->lit);
+    return screen->may_draw && s->stage.gl &&
+           (s->moves || s->changed || screen->damaged || !screen->lit);
 }
 
 static bool draw(struct show *s, struct gn_err *err) {
@@ -201,11 +205,12 @@ static void drop_options(struct gn_options *options) {
     free(options);
 }
 
-static struct gn_options *read_options(const struct gn_options *like, struct gn_warnings *warnings,
-                                       struct gn_err *err) {
+static struct gn_options *read_options(const struct show *s, const struct gn_options *like,
+                                       struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_options *o = gn_xalloc(1, sizeof *o);
     if (gn_args_parse(o, like->argc, like->argv, warnings, err)) {
         o->command = GN_COMMAND_SHOW; /* the bare command, too, is the kiosk by now */
+        if (s->place) o->backend = s->place->backend;
         return o;
     }
     drop_options(o);
@@ -237,7 +242,7 @@ static bool reload(struct show *s, struct gn_err *err) {
     struct gn_err why = {0};
     struct gn_stage fresh = {0};
     s->reloads = false;
-    struct gn_options *options = read_options(s->options, s->warnings, &why);
+    struct gn_options *options = read_options(s, s->options, s->warnings, &why);
     if (options && gn_stage_load(&fresh, options, s->warnings, &why))
         return take_stage(s, &fresh, options, err);
     fprintf(stderr, "gnomon: warning: %s (not reloaded)\n", why.text);
@@ -255,6 +260,14 @@ static void hear(struct show *s) {
     }
 }
 
+static void take_hand(struct show *s) {
+    struct gn_screen *screen = &s->stage.display.screen;
+    const struct gn_hand hand = screen->hand;
+    screen->hand = (struct gn_hand){0};
+    s->ends |= hand.quit;
+    s->changed |= gn_show_hand_turn(&s->stage, &hand);
+}
+
 static bool step(struct show *s, struct gn_err *err) {
     struct epoll_event ready[4];
     const bool busy = wants_frame(s) || is_stale(s);
@@ -264,6 +277,8 @@ static bool step(struct show *s, struct gn_err *err) {
     if (s->ends) return true;
     if (s->reloads && !reload(s, err)) return false;
     if (!gn_display_dispatch(&s->stage.display, gn_clock_monotonic_ns(), err)) return false;
+    take_hand(s);
+    if (s->ends) return true;
     gn_show_stats_step(&s->stats, &s->stage.display, gn_clock_monotonic_ns());
     return keep_context(s, err) && (!wants_frame(s) || frame(s, err));
 }
@@ -291,15 +306,21 @@ static void close_all(struct show *s) {
     drop_options(s->options);
 }
 
-bool gn_cli_show(const struct gn_options *options, struct gn_warnings *warnings,
-                 struct gn_err *err) {
-    struct show s = {.epoll = -1, .signals = -1, .stats.timer = -1, .warnings = warnings};
+bool gn_cli_show_at(const struct gn_options *options, struct gn_cli_place *place,
+                    struct gn_warnings *warnings, struct gn_err *err) {
+    struct show s = {
+        .place = place, .epoll = -1, .signals = -1, .stats.timer = -1, .warnings = warnings};
     bool ok = open_loop(&s, err);
-    s.options = ok ? read_options(options, NULL, err) : NULL;
+    s.options = ok ? read_options(&s, options, NULL, err) : NULL;
     ok = s.options && gn_stage_load(&s.stage, s.options, warnings, err) && open_display(&s, err) &&
          gn_show_stats_open(&s.stats, s.options, err) &&
          (s.stats.timer < 0 || watch(&s, s.stats.timer, err)) && run(&s, err);
     close_all(&s);
     return ok || (err->status != GN_EXIT_DISPLAY &&
                   (s.ends || gn_stop_asked())); /* what that broke off is no failure */
+}
+
+bool gn_cli_show(const struct gn_options *options, struct gn_warnings *warnings,
+                 struct gn_err *err) {
+    return gn_cli_show_at(options, NULL, warnings, err);
 }

@@ -1,0 +1,29 @@
+#include "cli/show_hand.h"
+
+static const float NOTCH = 0.1f; /* of a wheel: that much nearer, as a logarithm */
+
+/* A drag as it is on the picture, which stands in the window turned clockwise. */
+static void turn_back(const struct gn_screen *screen, const float drag[2], float out[2]) {
+    static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const float *t = turns[screen->rotate_deg / 90 % 4];
+    const float height = t[0] == 0.0f ? (float)screen->height_px / (float)screen->width_px : 1.0f;
+    out[0] = height * (t[0] * drag[0] - t[1] * drag[1]);
+    out[1] = height * (t[1] * drag[0] + t[0] * drag[1]);
+}
+
+static float aspect_of(const struct gn_screen *screen) {
+    const float aspect = (float)screen->width_px / (float)screen->height_px;
+    return screen->rotate_deg / 90 % 2 ? 1.0f / aspect : aspect;
+}
+
+bool gn_show_hand_turn(struct gn_stage *stage, const struct gn_hand *hand) {
+    const struct gn_screen *screen = &stage->display.screen;
+    struct gn_frame_opts *f = &stage->frame_opts;
+    if (screen->width_px == 0 || screen->height_px == 0 || gn_hand_is_zero(hand)) return false;
+    struct gn_orbit_hand moves = {.zoom = NOTCH * hand->wheel, .aspect = aspect_of(screen)};
+    turn_back(screen, hand->turn, moves.turn);
+    turn_back(screen, hand->pan, moves.pan);
+    if (hand->home) f->orbit = (struct gn_orbit){0};
+    f->orbit = gn_orbit_step(&f->orbit, &moves, &stage->pose, (uint32_t)f->camera);
+    return true;
+}

@@ -1,0 +1,11 @@
+/* What somebody does at a window becomes a view. */
+#ifndef GN_CLI_SHOW_HAND_H
+#define GN_CLI_SHOW_HAND_H
+
+#include "cli/stage.h"
+
+/* Moves the stage's orbit as the hand on its screen did. True: there is another picture to be seen.
+ */
+bool gn_show_hand_turn(struct gn_stage *stage, const struct gn_hand *hand);
+
+#endif
