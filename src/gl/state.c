@@ -116,11 +116,23 @@ void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]) {
     GL(gl, ClearColor)(rgba[0], rgba[1], rgba[2], rgba[3]);
 }
 
-/* A context starts with all the rest as a zeroed cache says. */
+/* The context may have been another's. What that one has bound went with its objects. */
 void gn_gl_state_init(struct gn_gl *gl) {
     static const GLenum framebuffer_srgb = 0x8DB9; /* desktop GL only: ES always encodes */
+    static const GLenum off[] = {GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE,
+                                 GL_STENCIL_TEST};
     gl->state = (struct gn_gl_state){
         .depth_write = true, .cull = GN_CULL_BACK, .color_write = true, .stencil = {.writes = 255}};
+    for (size_t i = 0; i < sizeof off / sizeof *off; i++) GL(gl, Disable)(off[i]);
+    GL(gl, DepthMask)(GL_TRUE);
+    GL(gl, ColorMask)(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    GL(gl, StencilMask)(255);
+    GL(gl, CullFace)(GL_BACK);
+    GL(gl, FrontFace)(GL_CCW);
+    GL(gl, ClearColor)(0, 0, 0, 0);
+    GL(gl, ActiveTexture)(GL_TEXTURE0);
+    GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, 0);
+    GL(gl, UseProgram)(0);
     GL(gl, DepthFunc)(GL_LEQUAL);
     GL(gl, StencilFunc)(GL_EQUAL, 0, 0);
     GL(gl, StencilOp)(GL_KEEP, GL_KEEP, GL_REPLACE);

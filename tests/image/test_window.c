@@ -208,6 +208,19 @@ static void test_what_was_covered_is_drawn_again(void **state) {
     stop(&s);
 }
 
+/* In the same context, where another picture was drawn before. */
+static void test_a_reload_changes_nothing_that_did_not_change(void **state) {
+    (void)state;
+    struct shown s;
+    show(&s, "320x200");
+    assert_becomes_render(&s, "320x200", "window-loaded");
+    kill(s.pid, SIGHUP);
+    sleep(1);
+    gn_xserver_resize(server, s.window, 300, 200);
+    assert_becomes_render(&s, "300x200", "window-reloaded");
+    stop(&s);
+}
+
 static void test_full_screen_and_back(void **state) {
     (void)state;
     struct shown s;
@@ -369,6 +382,7 @@ int main(void) {
         cmocka_unit_test_teardown(test_a_window_is_antialiased_if_asked, clear_up),
         cmocka_unit_test_teardown(test_the_picture_follows_the_windows_size, clear_up),
         cmocka_unit_test_teardown(test_what_was_covered_is_drawn_again, clear_up),
+        cmocka_unit_test_teardown(test_a_reload_changes_nothing_that_did_not_change, clear_up),
         cmocka_unit_test_teardown(test_full_screen_and_back, clear_up),
         cmocka_unit_test_teardown(test_a_hand_moves_the_view_and_home_puts_it_back, clear_up),
         cmocka_unit_test_teardown(test_a_pan_moves_the_picture_with_the_pointer, clear_up),
