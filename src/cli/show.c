@@ -52,6 +52,11 @@ static bool open_loop(struct show *s, struct gn_err *err) {
     return watch(s, s->signals, err);
 }
 
+static bool encodes(const struct gn_options *o) {
+    uint32_t without = 0;
+    return !gn_caps_parse(o->without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
+}
+
 static struct gn_screen_opts screen_opts_of(const struct gn_options *o) {
     return (struct gn_screen_opts){
         .width_px = (uint32_t)o->size.width_px,
@@ -65,6 +70,7 @@ static struct gn_screen_opts screen_opts_of(const struct gn_options *o) {
         .rotate_deg = (unsigned)o->rotate_deg,
         .max_fps = (unsigned)o->max_fps,
         .msaa = gn_options_given(o, msaa) ? o->msaa : GN_SCREEN_MSAA_AUTO,
+        .unencoded = !encodes(o),
         .legacy = o->legacy,
     };
 }
@@ -197,7 +203,8 @@ static bool same_screen(const struct gn_options *a, const struct gn_options *b) 
            same_text(a->card, b->card) && same_text(a->modeline, b->modeline) &&
            memcmp(&a->display_mode, &b->display_mode, sizeof a->display_mode) == 0 &&
            memcmp(&a->size, &b->size, sizeof a->size) == 0 && a->rotate_deg == b->rotate_deg &&
-           a->max_fps == b->max_fps && a->msaa == b->msaa && a->legacy == b->legacy;
+           a->max_fps == b->max_fps && a->msaa == b->msaa && a->legacy == b->legacy &&
+           encodes(a) == encodes(b);
 }
 
 static void drop_options(struct gn_options *options) {

@@ -31,6 +31,7 @@ struct gn_screen_opts {               /* zero means the default written beside *
     unsigned rotate_deg;              /* 0, 90, 180, 270, clockwise; beside what the panel says */
     unsigned max_fps;                 /* the mode's rate */
     int msaa;                         /* 0, 2, 4 or GN_SCREEN_MSAA_AUTO */
+    bool unencoded;                   /* the window's framebuffer shall not encode */
     bool legacy;                      /* page flips by the old interface even where atomic is */
     int64_t again_ns;                 /* a still picture is flipped again this often; 10 s */
 };

@@ -247,9 +247,9 @@ static struct gbm_surface *create_buffers(struct scanout *s, const struct gn_sur
                                                 listed ? (unsigned)o->modifier_count : 1);
 }
 
+/* srgb: wanted, and whether it came true. */
 static bool create_window(struct scanout *s, EGLConfig config, bool *srgb) {
     static const EGLint encoded[] = {EGL_GL_COLORSPACE_KHR, EGL_GL_COLORSPACE_SRGB_KHR, EGL_NONE};
-    *srgb = s->has_colorspace;
     if (*srgb) s->window = s->create_window(s->display, config, s->surface, encoded);
     if (s->window != EGL_NO_SURFACE) return true;
     *srgb = false;
@@ -262,6 +262,7 @@ static bool try_surface(struct scanout *s, const struct gn_surface_opts *o, uint
     EGLConfig config = find_config(s, format, samples);
     if (!config || (s->context_config && config != s->context_config)) return false;
     s->surface = create_buffers(s, o, format);
+    *srgb = s->has_colorspace && !o->unencoded;
     if (s->surface && create_window(s, config, srgb) &&
         s->MakeCurrent(s->display, s->window, s->window, s->context))
         return true;

@@ -213,6 +213,7 @@ static bool open_output(struct gn_kms *k, int connector, int crtc) {
     }
     gn_kms_output_formats(&k->output, &k->surface_opts);
     k->surface_opts.samples = k->opts->msaa;
+    k->surface_opts.unencoded = k->opts->unencoded;
     return true;
 }
 

@@ -19,6 +19,7 @@ struct gn_surface_opts {
     uint32_t width_px, height_px;
     enum gn_rung rung; /* never COPY */
     int samples;       /* 0, 2, 4; fewer where the GPU has fewer; GN_SCREEN_MSAA_AUTO */
+    bool unencoded;    /* GL shall not encode when it writes */
     uint32_t formats[GN_FORMATS_MAX]; /* DRM fourccs that the plane takes, best first */
     int format_count;
     /* Of the first of them, what the plane lists; count 0 with MODIFIERS: the rung fails. */

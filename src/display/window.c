@@ -330,7 +330,7 @@ static bool make_either(struct window *w, const struct gn_screen_opts *o, struct
     const uint32_t width_px = o->width_px ? o->width_px : 1280,
                    height_px = o->height_px ? o->height_px : 720;
     const int samples = o->msaa == GN_SCREEN_MSAA_AUTO ? 0 : o->msaa;
-    if (make(w, width_px, height_px, samples, true)) return true;
+    if (!o->unencoded && make(w, width_px, height_px, samples, true)) return true;
     if (make(w, width_px, height_px, samples, false)) return true;
     return gn_fail(err, "the driver makes no window with OpenGL ES 3.0 (%s)", why());
 }

@@ -159,6 +159,20 @@ static void test_a_window_shows_what_render_draws(void **state) {
     stop(&s);
 }
 
+static void test_without_srgb_shaders_encode(void **state) {
+    (void)state;
+    struct shown s;
+    struct gn_picture expected = {0};
+    const char *args[] = {"show",           scene,       "--backend", "window", "--size", "320x200",
+                          "--no-animation", "--without", "srgb",      NULL};
+    start(&s, args);
+    find(&s);
+    render(&expected, "320x200", "--without", "srgb");
+    assert_becomes(&s, &expected, false, "window-encoded");
+    gn_picture_finish(&expected);
+    stop(&s);
+}
+
 /* How alike they are; to be compared with another likeness. */
 static double apart(const struct gn_picture *a, const struct gn_picture *b) {
     struct gn_difference d;
@@ -379,6 +393,7 @@ static void test_a_server_that_ends_is_a_display_given_up(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_a_window_shows_what_render_draws, clear_up),
+        cmocka_unit_test_teardown(test_without_srgb_shaders_encode, clear_up),
         cmocka_unit_test_teardown(test_a_window_is_antialiased_if_asked, clear_up),
         cmocka_unit_test_teardown(test_the_picture_follows_the_windows_size, clear_up),
         cmocka_unit_test_teardown(test_what_was_covered_is_drawn_again, clear_up),
