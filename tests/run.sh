@@ -6,6 +6,7 @@
 # with a line "not applicable: why" has nothing to do on this kind of machine and is not counted.
 set -u
 passed=0 failed=0 skipped=0 failures=''
+unset DISPLAY WAYLAND_DISPLAY # no test opens windows before the eyes of whoever runs it
 
 export UBSAN_OPTIONS=${UBSAN_OPTIONS-print_stacktrace=1}
 export LSAN_OPTIONS=${LSAN_OPTIONS-suppressions=tests/lsan.supp:print_suppressions=0}

@@ -23,6 +23,17 @@ static const struct {
     {"/etc/gnomon/kiosk.ini", "else this one"},
 };
 
+static const struct {
+    const char *key, *meaning;
+} keys[] = {
+    {"Escape, q", "end"},
+    {"F11", "full screen, and back"},
+    {"Home", "the view as the camera has it"},
+    {"left button", "drags the scene round"},
+    {"other buttons, shift", "drag it along"},
+    {"wheel", "nearer, farther"},
+};
+
 /* ---- --help -------------------------------------------------------------------------------- */
 
 /* Prints words from column `at` on, wrapped before WIDTH, ends the line. */
@@ -69,10 +80,17 @@ static void print_options(FILE *to, unsigned commands) {
         if (gn_option_rows[i].commands & commands) print_option(to, &gn_option_rows[i]);
 }
 
+static void print_keys(FILE *to) {
+    fputs("\nin a window:\n", to);
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        fprintf(to, "  %-*s%s\n", COLUMN - 2, keys[i].key, keys[i].meaning);
+}
+
 static void print_command(FILE *to, enum gn_command command) {
     fprintf(to, "usage: gnomon %s\n\n  %s\n", gn_commands[command].usage,
             gn_commands[command].what);
     print_options(to, 1u << command);
+    if (command == GN_COMMAND_SHOW) print_keys(to);
 }
 
 void gn_help_print(FILE *to, enum gn_command command) {
@@ -89,6 +107,7 @@ void gn_help_print(FILE *to, enum gn_command command) {
         "`gnomon COMMAND --help` lists what that command takes.\n",
         to);
     print_options(to, ~0u);
+    print_keys(to);
 }
 
 /* ---- the man page -------------------------------------------------------------------------- */
@@ -149,6 +168,12 @@ static void print_man_options(FILE *to) {
         if (gn_option_rows[i].commands) print_man_option(to, &gn_option_rows[i]);
 }
 
+static void print_man_keys(FILE *to) {
+    fputs(".SH KEYS AND MOUSE\nIn a window:\n", to);
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        print_tagged(to, keys[i].key, keys[i].meaning);
+}
+
 static void print_man_files(FILE *to) {
     fputs(".SH FILES\nExactly one configuration file is read: the one that \\-c names, else the "
           "first there is of these,\n"
@@ -183,6 +208,7 @@ void gn_help_print_man(FILE *to, const char *version) {
           to);
     print_man_commands(to);
     print_man_options(to);
+    print_man_keys(to);
     fputs(".SH EXIT STATUS\n", to);
     for (size_t i = 0; i < sizeof exits / sizeof exits[0]; i++)
         print_tagged(to, exits[i].status, exits[i].meaning);
