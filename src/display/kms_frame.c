@@ -100,10 +100,10 @@ void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
 void gn_kms_flip_is_lost(struct gn_kms *k) {
     const struct gn_kms_shot shot = k->pending;
     gn_flip_forget(&k->flip);
-    k->ticket++; /* its event may come yet */
     k->pending = (struct gn_kms_shot){.fence = -1};
     k->lit = false;
     if (!shot.fb) return;
+    k->ticket++; /* its event may come yet, whenever */
     if (shot.fb != k->front.fb) retire(k, &k->front);
     k->front = shot; /* the kernel may be reading it */
     close_fence(&k->front);
@@ -125,7 +125,7 @@ static int light(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_n
 }
 
 static int flip(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns) {
-    struct gn_kms_ticket *ticket = &k->tickets[++k->ticket % GN_KMS_TICKETS];
+    struct gn_kms_ticket *ticket = &k->tickets[k->ticket % GN_KMS_TICKETS];
     *ticket = (struct gn_kms_ticket){k, k->ticket};
     const int error = gn_kms_output_flip(&k->output, shot->fb, shot->fence, ticket);
     if (error != 0) return error;

@@ -17,7 +17,9 @@ struct gn_kms_shot { /* a picture with its framebuffer; fb 0: none */
     uint32_t fb;
     int fence; /* ours to close, -1: none */
 };
-struct gn_kms_ticket { /* what an event brings back: of which flip it tells */
+/* What an event brings back. Flips share one until one of them is lost, whose event may come yet,
+ * and must not be taken for a later one's. */
+struct gn_kms_ticket {
     struct gn_kms *kms;
     uint64_t number;
 };
