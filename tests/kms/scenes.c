@@ -156,6 +156,7 @@ static void stall_reopened(struct client *c) {
     rest(c, 14 * SIM_S);
 }
 static void stall_event(struct client *c) { stall_until(c, SIM_LOSES_AN_EVENT); }
+static void event_too_late(struct client *c) { stall_until(c, SIM_TELLS_LATE); }
 static void stall_short(struct client *c) {
     client_frames(c, 3);
     sim_stall(0, SIM_STALLS);
@@ -221,6 +222,7 @@ const struct scene scenes[] = {
     {"a stall that goes on until the program gives up", build_old, stall_long, .opts = {0},
      .slack_ns = 30 * SIM_S, .may_give_up = true},
     {"an event that is lost", build_good, stall_event, .opts = {0}},
+    {"an event that comes too late", build_good, event_too_late, .opts = {0}},
     {"GL starts late", build_good, gl_starts_late, .opts = {0}},
 };
 const int scene_count = (int)(sizeof scenes / sizeof *scenes);

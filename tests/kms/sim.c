@@ -165,7 +165,7 @@ void sim_stall(int n, enum sim_stall how) {
         card->crtcs[i].stall = how;
         if (!flip->pending) continue;
         if (how == SIM_FLOWS && flip->done_ns == INT64_MAX) flip->done_ns = sim.now_ns + 5 * SIM_MS;
-        if (how != SIM_FLOWS && how != SIM_LOSES_AN_EVENT) flip->done_ns = INT64_MAX;
+        if (sim_is_stalled(&card->crtcs[i])) flip->done_ns = INT64_MAX;
     }
 }
 
@@ -214,10 +214,13 @@ static int64_t next_flip(int *out_card, int *out_crtc) {
     return at_ns;
 }
 
+static int64_t late_ns(void) { return sim.late.flip.pending ? sim.late.flip.done_ns : INT64_MAX; }
+
 int64_t sim_next(void) {
     int card, crtc;
-    const int64_t flip_ns = next_flip(&card, &crtc), pass_ns = sim_call_next();
-    return flip_ns < pass_ns ? flip_ns : pass_ns;
+    int64_t at_ns = next_flip(&card, &crtc);
+    if (sim_call_next() < at_ns) at_ns = sim_call_next();
+    return late_ns() < at_ns ? late_ns() : at_ns;
 }
 
 void sim_run_to(int64_t ns) {
@@ -226,6 +229,8 @@ void sim_run_to(int64_t ns) {
         if (at_ns > sim.now_ns) sim.now_ns = at_ns;
         if (sim_call_next() <= at_ns)
             sim_call_pass();
+        else if (late_ns() <= at_ns)
+            sim_tell_late();
         else if (next_flip(&card, &crtc) <= at_ns)
             sim_finish_flip(&sim.cards[card], crtc);
     }

@@ -36,6 +36,8 @@ enum sim_stall { /* flips whose event does not come */
                  SIM_STALLS_UNTIL_REOPENED,
                  SIM_STALLS,
                  SIM_LOSES_AN_EVENT, /* one; the flip itself is done */
+                 SIM_TELLS_LATE,     /* of one, after 12.1 s */
+                 SIM_STALL_COUNT
 };
 enum sim_incident { /* what may happen between any two calls, and passes after two seconds */
                     SIM_CARD_GOES,

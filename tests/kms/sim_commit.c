@@ -8,6 +8,10 @@
 
 /* ---- flips ---- */
 
+bool sim_is_stalled(const struct sim_crtc *c) {
+    return c->stall != SIM_FLOWS && c->stall != SIM_LOSES_AN_EVENT && c->stall != SIM_TELLS_LATE;
+}
+
 static int64_t period_ns(const drmModeModeInfo *m) {
     return m->clock ? INT64_C(1000000) * m->htotal * m->vtotal / m->clock : SIM_S / 60;
 }
@@ -38,7 +42,18 @@ void sim_finish_flip(struct sim_card *card, int crtc) {
     c->shown = flip.fb;
     sim_counts.flips++;
     if (c->stall == SIM_FLOWS) tell(card, crtc, &flip, sim.now_ns);
-    if (c->stall == SIM_LOSES_AN_EVENT) c->stall = SIM_FLOWS;
+    if (c->stall == SIM_TELLS_LATE) {
+        sim.late.flip = flip;
+        sim.late.flip.done_ns = sim.now_ns + 12100 * SIM_MS;
+        sim.late.card = (int)(card - sim.cards), sim.late.crtc = crtc;
+    }
+    if (c->stall == SIM_LOSES_AN_EVENT || c->stall == SIM_TELLS_LATE) c->stall = SIM_FLOWS;
+}
+
+void sim_tell_late(void) {
+    const struct sim_flip flip = sim.late.flip;
+    sim.late.flip.pending = false;
+    tell(&sim.cards[sim.late.card], sim.late.crtc, &flip, sim.now_ns);
 }
 
 void sim_start_flip(struct sim_card *card, int crtc, const struct sim_flip *how) {
@@ -51,7 +66,7 @@ void sim_start_flip(struct sim_card *card, int crtc, const struct sim_flip *how)
     c->flip.committed_ns = sim.now_ns;
     c->flip.done_ns = c->lit_ns + ((ready_ns - c->lit_ns) / period + 1) * period;
     if (card->traits.blind) c->flip.done_ns = sim.now_ns + SIM_MS / 20;
-    if (c->stall != SIM_FLOWS && c->stall != SIM_LOSES_AN_EVENT) c->flip.done_ns = INT64_MAX;
+    if (sim_is_stalled(c)) c->flip.done_ns = INT64_MAX;
 }
 
 /* A commit that blocks waits for flips, but not longer than 10 s. */

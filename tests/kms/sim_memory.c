@@ -340,6 +340,7 @@ void sim_file_close(struct sim_file *file) {
         sim_handle_close(file, file->handles[i].number);
     }
     if (card && card->master == index) card->master = SIM_NOBODY;
+    if (sim.late.flip.file == index) sim.late.flip.pending = false;
     sim_counts.files--;
     *file = (struct sim_file){0};
 }

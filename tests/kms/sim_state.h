@@ -145,6 +145,10 @@ struct sim_world {
     struct sim_refusal refusals[SIM_BROKEN];
     int refusal_count, next_fd;
     bool uevent;
+    struct { /* an event that comes too late */
+        struct sim_flip flip;
+        int card, crtc;
+    } late;
 };
 extern struct sim_world sim;
 
@@ -190,6 +194,8 @@ void sim_take(struct sim_card *card, const struct sim_state *next);
 void sim_set_console(struct sim_card *card, int owner);
 void sim_start_flip(struct sim_card *card, int crtc, const struct sim_flip *how);
 void sim_finish_flip(struct sim_card *card, int crtc);
+void sim_tell_late(void);
+bool sim_is_stalled(const struct sim_crtc *crtc);
 void sim_wait_for_flips(struct sim_card *card);
 struct sim_file *sim_enter_as_master(enum sim_op op, int fd);
 void sim_refresh(struct sim_card *card); /* what is shown is what has been committed */

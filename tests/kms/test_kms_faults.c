@@ -15,6 +15,8 @@
 #include "core/clock.h"
 #include "scenes.h"
 
+enum { BAD_MAX = 20 }; /* then it says no more */
+
 struct fault {
     enum sim_op op;
     long nth;
@@ -38,7 +40,7 @@ static void prepare(void *context) {
 /* What stands before the colon repeats it. */
 static void tell(const struct scene *scene, const struct fault *f, const char *complaint) {
     const int number = (int)(scene - scenes);
-    if (total.bad++ >= 20) return;
+    total.bad++;
     if (f && f->at > 0)
         printf("FAIL  %d %d %ld: %s; %s: %s\n", number, f->incident, f->at, scene->name,
                sim_incident_name(f->incident), complaint);
@@ -50,6 +52,7 @@ static void tell(const struct scene *scene, const struct fault *f, const char *c
 }
 
 static void run(const struct scene *scene, struct fault *f) {
+    if (total.bad >= BAD_MAX) return;
     const struct ending e = scene_run(scene, f ? prepare : NULL, f);
     total.runs++;
     total.calls += e.calls;
