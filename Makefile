@@ -16,14 +16,16 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests run check accept truth gallery readme deps lint format man install uninstall help clean FORCE
+.PHONY: all no-import tests run check check-board accept truth gallery readme deps lint format man install uninstall help clean FORCE
 
 help:
 	@printf '%s\n' \
 	    'make            build/release/gnomon, gnomon-import, the default scene and assets/bench' \
 	    'make run        install what is missing, build, show the default scene' \
 	    'make check      every quick test: gcc, clang, ASan and UBSan, lint' \
-	    'make accept     the long tests' \
+	    'make check-board' \
+    '                the real kernel in a virtual machine; with GN_FULL=1 all of it' \
+    'make accept     the long tests' \
 	    'make truth      shadows against ray-traced truth, as a table' \
 	    'make readme     the table of techniques in README.md, measured' \
 	    'make gallery    one scene with every technique and the truth, into assets/gallery' \
@@ -45,11 +47,12 @@ uninstall:
 
 DEPS_run := build run
 DEPS_check := build run test
+DEPS_check-board := build run test board
 DEPS_accept := build run test
 DEPS_truth := build run test
 DEPS_gallery := build run test
 DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter run check accept truth gallery readme,$(GOALS)))
+BOOT := $(if $(READY),,$(filter run check check-board accept truth gallery readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -69,7 +72,7 @@ endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm libdrm gbm
-NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests truth gallery readme,$(GOALS)),cmocka)
+NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests check-board truth gallery readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # gnomon-import is a program of its own, for those who have assimp
@@ -107,7 +110,7 @@ without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(sub
              2> /dev/null && echo y),$(firstword $(subst :, ,$(p)))_none.c,\
              $(firstword $(subst :, ,$(p))).c))
 SRC     := $(filter-out $(without) src/import/%,$(sort $(wildcard src/*/*.c)))
-TESTS_C := $(sort $(wildcard tests/*/*.c))
+TESTS_C := $(sort $(filter-out tests/board/%,$(wildcard tests/*/*.c)))
 PROG_C  := $(foreach d,unit plan image fuzz kms,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
 LIB     := $(B)/libgnomon.a
@@ -150,6 +153,11 @@ $(B)/tests/$(basename $(notdir $(1))): $(call OBJ,$(1)) $(TESTLIB) $(LIB)
 	$(Q)$$(CC) $$(ALL_CFLAGS) $$(ALL_LDFLAGS) -o $$@ $$^ -lcmocka $$(LIBS)
 endef
 $(foreach c,$(PROG_C),$(eval $(call program,$(c))))
+
+$(B)/tests/firstflip.so: tests/board/firstflip.c $(B)/flags
+	@mkdir -p $(@D) && echo "link $@"
+	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) -fPIC -shared \
+	    $(shell $(PKG) --cflags libdrm) -o $@ $< -ldl
 
 # files that change only when what they say does: the flags, the list of sources, the configuration
 define keep
@@ -207,6 +215,8 @@ check:
 	@tests/run.sh tests/layers.sh tests/format.sh \
 	    BUILD=$(O)/release $(call programs,$(O)/release) $(SCRIPTS) \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan) tests/check_hostile.sh
+check-board: $(BIN) $(B)/tests/firstflip.so $(B)/tests/tool_compare
+	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(sort $(wildcard tests/board/*.guest)),tests/board/smoke.guest)
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests

@@ -1,0 +1,229 @@
+# Runs inside the machine as root: the words that test scripts are written in, then /out/test.sh.
+# /out is a folder of the host's; /out/env says what the host chose (GNOMON, GN_FULL, ..).
+# shellcheck shell=bash disable=SC1091,SC2154
+set -u
+export LANG=C.UTF-8 XDG_CACHE_HOME=/tmp/cache XDG_CONFIG_HOME=/tmp/config XDG_RUNTIME_DIR=/run
+. /out/env
+cd /tmp || exit 1
+bad=0
+
+say() { echo "$(now) $*"; }
+now() { # milliseconds since power-on
+    local up
+    read -r up _ < /proc/uptime
+    echo "${up/./}0"
+}
+fail() {
+    say "FAIL: $*"
+    bad=1
+}
+require() { "$@" || fail "$*"; }
+
+# within SECONDS COMMAND..: true as soon as the command is
+within() {
+    local until=$(($(now) + $1 * 1000))
+    shift
+    until "$@"; do
+        [ "$(now)" -lt "$until" ] || return 1
+        sleep 0.05
+    done
+}
+
+# ---- the screen --------------------------------------------------------------------------------
+port() { # NAME: the device of this virtio-serial port
+    local file
+    for file in /sys/class/virtio-ports/*/name; do
+        [ "$(cat "$file")" != "$1" ] || { file=${file%/name} && echo "/dev/${file##*/}" && return; }
+    done
+    return 1
+}
+
+# qmp JSON: tells the machine's monitor, and waits for its answer (events pass by)
+qmp() {
+    local line
+    printf '%s\n' "$1" >&"$monitor"
+    while IFS= read -r -t 30 line <&"$monitor"; do
+        case $line in
+        *'"return"'*) return 0 ;;
+        *'"error"'*) say "qmp: $line" && return 1 ;;
+        esac
+    done
+    say "qmp: no answer to $1"
+    return 1
+}
+
+# shot NAME [HEAD]: what the screen shows, into NAME.png. The monitor writes on the host's side.
+shot() {
+    qmp '{"execute":"screendump","arguments":{"filename":"'"$HOST_OUT/$1.png"'","format":"png","device":"gpu0","head":'"${2:-0}"'}}'
+}
+
+same_picture() { shot "$1" && cmp -s "/out/$1.png" "/out/$2.png"; }
+other_picture() { shot "$1" && ! cmp -s "/out/$1.png" "/out/$2.png"; }
+
+# same_as_render NAME ARGUMENT..: after the machine has ended, the host compares NAME.png with what
+# `gnomon render ARGUMENT..` draws there. TURN says how many degrees clockwise the display is turned.
+same_as_render() { echo "${TURN:-0} $*" >> /out/compare; }
+
+# desktop WIDTH HEIGHT: the first head's monitor is of this size now, 0 0: none. The machine's VNC
+# server listens at a port here; this is RFB's message SetDesktopSize (RFC 6143 and the extension
+# 251), with one screen.
+desktop() {
+    local size
+    printf -v size '\\x%02x\\x%02x\\x%02x\\x%02x' $(($1 >> 8)) $(($1 & 255)) $(($2 >> 8)) $(($2 & 255))
+    printf '%b' "\xfb\x00$size\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00$size\x00\x00\x00\x00" >&"$viewer"
+}
+
+# The handshake: version, no security, a shared session, one encoding (ExtendedDesktopSize).
+open_viewer() {
+    exec {viewer}<> "$1"
+    cat <&"$viewer" > /dev/null &
+    disown
+    printf 'RFB 003.008\n\x01\x01\x02\x00\x00\x01\xff\xff\xfe\xcc' >&"$viewer"
+}
+
+# The kernel tells whoever listens that something about the monitor has changed. Looking for oneself
+# (the status in sysfs) would say nothing: it is as old as the last program's question.
+hotplugs() { grep -c HOTPLUG=1 /out/uevents; }
+more_hotplugs() { [ "$(hotplugs)" -gt "$1" ]; }
+announced() { # WIDTH HEIGHT
+    local before
+    before=$(hotplugs)
+    desktop "$1" "$2"
+    within 10 more_hotplugs "$before" || fail "the kernel says nothing about a monitor of $1x$2"
+}
+plug() { announced "${1%x*}" "${1#*x}"; } # WxH
+unplug() { announced 0 0; }
+
+# ---- the card ----------------------------------------------------------------------------------
+gpu_device() { grep -l 0x1050 /sys/bus/pci/devices/*/device | sed 's,/device$,,;s,.*/,,'; }
+gpu() { # bind or unbind
+    gpu_device > "/sys/bus/pci/drivers/virtio-pci/$1" || fail "gpu $1"
+}
+load() { # vkms or gpio: modules that are not loaded at the start
+    local module
+    while read -r module; do
+        /run/busybox insmod "/run/modules/$module" 2> /dev/null
+    done < "/run/modules/$1.order"
+}
+card_of() { # gpu or vkms: /dev/dri/cardN. Some kernels put the card below the virtio device, others do not.
+    local folder device
+    device=$([ "$1" = gpu ] && gpu_device || echo "$1")
+    for folder in /sys/class/drm/card[0-9] /sys/class/drm/card[0-9][0-9]; do
+        [[ $(readlink -f "$folder/device")/ != */"$device"/* ]] || { echo "/dev/dri/${folder##*/}" && return; }
+    done
+    return 1
+}
+
+# ---- buttons -----------------------------------------------------------------------------------
+# buttons N..: a chip with the header's lines, of which GPIOn get their names; all are released
+buttons() {
+    local chip=/sys/kernel/config/gpio-sim/header line
+    load gpio
+    mountpoint -q /sys/kernel/config || mount -t configfs none /sys/kernel/config
+    mkdir -p "$chip/bank0"
+    echo 54 > "$chip/bank0/num_lines"
+    echo pinctrl-bcm2835 > "$chip/bank0/label"
+    for line in "$@"; do
+        mkdir "$chip/bank0/line$line"
+        echo "GPIO$line" > "$chip/bank0/line$line/name"
+    done
+    echo 1 > "$chip/live"
+    simulated=/sys/devices/platform/$(cat "$chip/dev_name")/$(cat "$chip/bank0/chip_name")
+    for line in "$@"; do echo pull-up > "$simulated/sim_gpio$line/pull"; done
+}
+# press LINE [SECONDS]: a short press by default. The kernel drops edges that come in bursts, so
+# none is shorter than 20 ms.
+press() {
+    echo pull-down > "$simulated/sim_gpio$1/pull"
+    sleep "${2:-0.05}"
+    echo pull-up > "$simulated/sim_gpio$1/pull"
+    sleep 0.05
+}
+no_buttons() { echo 0 > /sys/kernel/config/gpio-sim/header/live; }
+
+# ---- the program -------------------------------------------------------------------------------
+# start COMMAND..: in the background, its words in /out/PROGRAM.log; $! and $program are its process
+start() {
+    log=/out/${LOG_NAME:-${1##*/}}.log
+    "$@" >> "$log" 2>&1 <&"$silence" &
+    program=$!
+}
+# timed COMMAND..: start, and NAME.flip gets the milliseconds from exec to its first picture
+timed() {
+    local ns
+    ns=$(date +%s%N) # the clock runs as evenly as the monotonic one
+    LD_PRELOAD=/tmp/firstflip.so FIRST_FLIP=/out/${1##*/}.flip START_NS=$ns start "$@"
+}
+# show ARGUMENT..: gnomon on this machine's screen, a still picture of the default scene; like is what
+# `gnomon render` must be told for the same
+like='--no-animation --msaa 0'
+show() {
+    rm -f /out/gnomon.flip
+    # shellcheck disable=SC2086
+    timed gnomon show --backend kms $like "$@"
+}
+# shown NAME [SECONDS]: waits for the first flip, and then for a screen that stands still
+shown() {
+    within "${2:-60}" test -s /out/gnomon.flip || { fail "nothing on the screen: $(tail -n 3 "$log")" && return 1; }
+    say "gnomon: first flip after $(cat /out/gnomon.flip) ms"
+    still "$1"
+}
+still() {
+    shot "$1-before" && sleep 0.3
+    within 10 stands "$1" || fail "$1: the picture does not stand still"
+    rm -f "/out/$1-before.png"
+}
+stands() {
+    shot "$1" && cmp -s "/out/$1.png" "/out/$1-before.png" && return
+    mv "/out/$1.png" "/out/$1-before.png" && sleep 0.3 && return 1
+}
+# back NAME FIRST WHEN: the picture FIRST is there again
+back() {
+    local begun
+    begun=$(now)
+    within 20 same_picture "$1" "$2" || { fail "no picture again $3: $(tail -n 3 "$log")" && return 1; }
+    say "picture again $3: $(($(now) - begun)) ms"
+}
+alive() { kill -0 "$program" 2> /dev/null; }
+# ended_with STATUS SECONDS: waits for the program's end
+ended_with() {
+    local status
+    within "$2" gone || { fail "still alive after $2 s" && kill -9 "$program"; }
+    wait "$program"
+    status=$?
+    [ "$status" = "$1" ] || fail "exit status $status, not $1: $(tail -n 3 "$log")"
+}
+# a child that has ended stays as a zombie until it is waited for
+gone() { ! alive || grep -q '^State:.*Z' "/proc/$program/status" 2> /dev/null; }
+stop() { kill -TERM "$program" && ended_with 0 "${1:-10}"; }
+said() { grep -q -e "$1" "$log"; }
+cpu_ms() { # of the program: user and system time, ticks of 10 ms
+    local stat
+    stat=$(cat "/proc/$program/stat")
+    # shellcheck disable=SC2086
+    set -- ${stat##*) }
+    echo $(((${12} + ${13}) * 10))
+}
+io_of() { awk -v key="$1:" '$1 == key { print $2 }' "/proc/$program/io"; }
+rss_kib() { awk '$1 == "VmRSS:" { print $2 }' "/proc/$program/status"; }
+descriptors() { find "/proc/$program/fd" -mindepth 1 | wc -l; }
+
+# a keyboard that nobody touches: at the end of stdin some programs go
+mkfifo /run/silence
+exec {silence}<> /run/silence
+
+# ---- the test ----------------------------------------------------------------------------------
+cp /out/bin/* /tmp/ && PATH=/tmp:$PATH
+exec {monitor}<> "$(port qmp)"
+qmp '{"execute":"qmp_capabilities"}' || bad=1
+: > /out/uevents
+# shellcheck disable=SC2016
+/run/busybox uevent /run/busybox sh -c 'echo "$ACTION $SUBSYSTEM $DEVNAME ${HOTPLUG:+HOTPLUG=1}" >> /out/uevents' &
+disown
+open_viewer "$(port vnc)"
+desktop 640 480 # as it is: the first 0 0 would be no change to QEMU, which takes it for the unset size
+say 'the machine is up'
+. /out/test.sh
+say "done, $([ "$bad" = 0 ] && echo passed || echo failed)"
+/run/busybox dmesg > /out/dmesg
+echo "$bad" > /out/rc

@@ -1,0 +1,127 @@
+#!/bin/bash
+# run.sh FILE.guest: boots a virtual machine with the real kernel, runs the file in it, compares the
+# pictures that it asked for with what `gnomon render` draws here, and ends with 0, 77 (skipped, the
+# reason is the last line) or 1. It is the interpreter that a .guest file names, so such a file is a
+# test and is run like one. The machine sees this one's root read-only, and writes into a folder of
+# BUILD alone.
+#   GN_FULL=1     the long form, for the test to look at
+#   GNOMON, BUILD the program, and the folder for files that come and go (build/release)
+#   ARCH          amd64 or arm64: what the machine is
+#   HOST_BUILD    where gnomon and the tools for this machine are, when BUILD is for another one
+#   KEEP=1        leave shots and logs when all is well, too
+#   GUEST_ENV     "NAME=VALUE ..", for the test
+set -u
+here=tests/board # tests run in the top folder
+gnomon=${GNOMON:-build/release/gnomon} build=${BUILD:-build/release} host=${HOST_BUILD:-${BUILD:-build/release}}
+arch=${ARCH:-amd64} script=$1 test=$(basename "$1" .guest)
+began=$EPOCHREALTIME
+
+skip() {
+    echo "$*"
+    exit 77
+}
+
+case $arch in
+amd64) qemu="qemu-system-x86_64" ;;
+arm64) qemu="qemu-system-aarch64" ;;
+*) skip "no machine for $arch" ;;
+esac
+for tool in "$qemu" cpio; do command -v "$tool" > /dev/null || skip "needs $tool: make deps"; done
+[ -x "$gnomon" ] || { echo "$gnomon is not built" && exit 1; }
+
+reason=$(mktemp)
+parts=$("$here/machine.sh" "$arch" 2> "$reason")
+status=$?
+cat "$reason"
+rm -f "$reason"
+[ "$status" = 0 ] || exit "$status"
+root=/
+[ "$arch" = amd64 ] || root=$(cat "$parts/root") || exit 1
+
+out=$(realpath -m "$build/board/$test")
+rm -rf "$out"
+mkdir -p "$out/bin"
+cp "$gnomon" "$out/bin/gnomon"
+cp "$build/tests/firstflip.so" "$out/bin/" || exit 1
+cp "$here/guest.sh" "$out/guest.sh"
+cp "$script" "$out/test.sh" || exit 1
+for setting in HOST_OUT="$out" GN_FULL="${GN_FULL:-}" ${GUEST_ENV:-}; do
+    printf 'export %s=%q\n' "${setting%%=*}" "${setting#*=}"
+done > "$out/env"
+
+mkdir "$out/initrd.d"
+cp -R "$parts/initrd.d/." "$out/initrd.d/"
+install -m 755 "$here/init.sh" "$out/initrd.d/init"
+(cd "$out/initrd.d" && find . | cpio --quiet -o -H newc -R 0:0) > "$out/initrd" || exit 1
+rm -r "$out/initrd.d"
+
+# The sockets' names may have 107 bytes, a folder of build/ may have more.
+sockets=$(mktemp -d)
+trap 'rm -rf "$sockets"' EXIT
+limit=$(sed -n 's/^# limit: \([0-9]*\) s.*/\1/p' "$script")
+[ -z "${GN_FULL:-}" ] || limit=$(sed -n 's/^# limit in full: \([0-9]*\) s.*/\1/p;' "$script")
+limit=${limit:-180}
+
+# shellcheck disable=SC2054
+machine=(-nodefaults -no-user-config -no-reboot -m 2048 -smp 2 -accel tcg,thread=multi -display none)
+case $arch in
+# Not the largest processor: with 256-bit vectors Mesa draws five times slower, since each is emulated.
+amd64) machine+=(-machine pc -cpu qemu64) console=ttyS0 ;;
+arm64) machine+=(-machine virt -cpu cortex-a72) console=ttyAMA0 ;;
+esac
+# shellcheck disable=SC2054
+machine+=(
+    -kernel "$parts/vmlinuz" -initrd "$out/initrd"
+    -append "console=$console quiet panic=-1 mitigations=off audit=0 vt.global_cursor_default=0 ${KERNEL_ARGS:-}"
+    -serial "file:$out/console" -nic none
+    -fsdev "local,id=root,path=$root,security_model=none,readonly=on,multidevs=remap"
+    -device virtio-9p-pci,fsdev=root,mount_tag=root
+    -fsdev "local,id=out,path=$out,security_model=none"
+    -device virtio-9p-pci,fsdev=out,mount_tag=out
+    -object rng-random,id=entropy,filename=/dev/urandom -device virtio-rng-pci,rng=entropy
+    -device "virtio-gpu-pci,id=gpu0,max_outputs=${HEADS:-1},xres=640,yres=480"
+    -vnc "unix:$sockets/vnc,display=gpu0,head=0"
+    # the test itself works the machine: its monitor and its viewer are ports in the machine
+    -chardev "socket,id=monitor,path=$sockets/qmp,server=on,wait=off" -mon chardev=monitor,mode=control
+    -device virtio-serial-pci
+    -chardev "socket,id=qmp,path=$sockets/qmp" -device virtserialport,chardev=qmp,name=qmp
+    -chardev "socket,id=viewer,path=$sockets/vnc,reconnect=1" -device virtserialport,chardev=viewer,name=vnc
+)
+timeout --kill-after=5 "$limit" "$qemu" "${machine[@]}" > "$out/qemu.log" 2>&1 < /dev/null
+status=$?
+cat "$out/log" 2> /dev/null
+bad=0
+complain() {
+    echo "FAIL: $*"
+    bad=1
+}
+if [ "$status" = 124 ]; then
+    complain "the machine was not done after $limit s"
+elif [ ! -e "$out/rc" ]; then
+    complain "the machine ended (status $status) before the test did"
+    tail -n 15 "$out/qemu.log" "$out/console"
+elif [ "$(cat "$out/rc")" = 77 ]; then
+    exit 77
+elif [ "$(cat "$out/rc")" != 0 ]; then
+    bad=1
+fi
+
+# 1/255 in 99.9 % of the pixels: two machines round alike, but for the last bit of a processor's vectors
+compare() { # TURN NAME ARGUMENT..
+    local turn=$1 name=$2
+    shift 2
+    if ! "$host/gnomon" render --backend egl -o "$out/$name-expected.png" "$@"; then
+        complain "gnomon render $*"
+    elif ! "$host/tests/tool_compare" --turn "$turn" "$out/$name.png" "$out/$name-expected.png"; then
+        complain "$name.png is not what gnomon render $* draws"
+    fi
+}
+while read -r turn name arguments; do
+    # shellcheck disable=SC2086
+    compare "$turn" "$name" $arguments
+done < <(cat "$out/compare" 2> /dev/null)
+
+echo "$test: $(echo "$EPOCHREALTIME $began" | awk '{ printf "%.1f", $1 - $2 }') s"
+[ "$bad" = 0 ] || echo "what is left of it: $out"
+[ "$bad" != 0 ] || [ -n "${KEEP:-}" ] || rm -rf "$out"
+exit "$bad"
