@@ -16,7 +16,7 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests run check check-board accept truth gallery readme deps lint format man install uninstall help clean FORCE
+.PHONY: all no-import tests run check check-board check-board-arm64 accept truth gallery readme deps lint format man install uninstall help clean FORCE
 
 help:
 	@printf '%s\n' \
@@ -24,7 +24,8 @@ help:
 	    'make run        install what is missing, build, show the default scene' \
 	    'make check      every quick test: gcc, clang, ASan and UBSan, lint' \
 	    'make check-board' \
-    '                the real kernel in a virtual machine; with GN_FULL=1 all of it' \
+    '                the real kernel in a virtual machine; with GN_FULL=1 all of it, and' \
+    '                check-board-arm64: the arm64 kernel, and gnomon built for it' \
     'make accept     the long tests' \
 	    'make truth      shadows against ray-traced truth, as a table' \
 	    'make readme     the table of techniques in README.md, measured' \
@@ -34,7 +35,7 @@ help:
 	    'make lint       clang-tidy; make format: clang-format, in place' \
 	    'make install    DESTDIR= PREFIX=/usr/local; make uninstall takes it away again' \
 	    'make tests, man, compile_commands.json, clean' \
-	    'CONFIG=release|debug|asan|cov  CROSS=aarch64-linux-gnu  CC=clang  WERROR=1  V=1'
+	    'CONFIG=release|debug|asan|cov  CROSS=aarch64-linux-gnu SYSROOT=DIR  CC=clang  WERROR=1  V=1'
 clean:
 	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb
 deps:
@@ -47,12 +48,13 @@ uninstall:
 
 DEPS_run := build run
 DEPS_check := build run test
-DEPS_check-board := build run test board
+DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
+DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
 DEPS_accept := build run test
 DEPS_truth := build run test
 DEPS_gallery := build run test
 DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter run check check-board accept truth gallery readme,$(GOALS)))
+BOOT := $(if $(READY),,$(filter run check check-board check-board-arm64 accept truth gallery readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -62,17 +64,18 @@ $(filter-out $(BOOT) $(BARE),$(GOALS)):
 else ifneq ($(filter-out $(BARE),$(GOALS)),)
 
 # ---- the compiler and its flags ------------------------------------------------------------
-CC      := $(if $(filter default undefined,$(origin CC)),$(if $(CROSS),$(CROSS)-)gcc,$(CC))
+CC      := $(if $(filter default undefined,$(origin CC)),$(if $(CROSS),$(CROSS)-)gcc,$(CC)) \
+           $(if $(SYSROOT),--sysroot=$(SYSROOT))
 AR      := $(if $(CROSS),$(CROSS)-)ar
 B       := $(O)/$(if $(CROSS),$(CROSS)-)$(if $(findstring clang,$(CC)),clang-)$(CONFIG)
 ifdef CROSS
-PKG_CONFIG_LIBDIR ?= /usr/lib/$(CROSS)/pkgconfig:/usr/share/pkgconfig
-PKG     := PKG_CONFIG_LIBDIR=$(PKG_CONFIG_LIBDIR) pkg-config
+PKG_CONFIG_LIBDIR ?= $(SYSROOT)/usr/lib/$(CROSS)/pkgconfig:$(SYSROOT)/usr/share/pkgconfig
+PKG     := PKG_CONFIG_LIBDIR=$(PKG_CONFIG_LIBDIR) $(if $(SYSROOT),PKG_CONFIG_SYSROOT_DIR=$(SYSROOT)) pkg-config
 endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm libdrm gbm
-NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests check-board truth gallery readme,$(GOALS)),cmocka)
+NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests check-board check-board-arm64 truth gallery readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # gnomon-import is a program of its own, for those who have assimp
@@ -215,8 +218,16 @@ check:
 	@tests/run.sh tests/layers.sh tests/format.sh \
 	    BUILD=$(O)/release $(call programs,$(O)/release) $(SCRIPTS) \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan) tests/check_hostile.sh
-check-board: $(BIN) $(B)/tests/firstflip.so $(B)/tests/tool_compare
+BOARD_NEEDS := gnomon tests/firstflip.so tests/tool_compare
+check-board: $(addprefix $(B)/,$(BOARD_NEEDS))
 	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(sort $(wildcard tests/board/*.guest)),tests/board/smoke.guest)
+	$(if $(GN_FULL),+$(SUB) check-board-arm64)
+# Skipped, and then not built, where the packages to build against cannot be had.
+check-board-arm64: $(addprefix $(B)/,$(BOARD_NEEDS))
+	+@root=$$(tests/board/sysroot.sh arm64) || exit 0; $(SUB) CROSS=aarch64-linux-gnu SYSROOT=$$root \
+	    $(addprefix $(O)/aarch64-linux-gnu-$(CONFIG)/,$(filter-out %/tool_compare,$(BOARD_NEEDS)))
+	@ARCH=arm64 HOST_BUILD=$(B) tests/run.sh BUILD=$(O)/aarch64-linux-gnu-$(CONFIG) \
+	    $(if $(GN_FULL),tests/board/lab.guest tests/board/picture.guest) tests/board/smoke.guest
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests

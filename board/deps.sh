@@ -1,6 +1,6 @@
 #!/bin/sh
 # deps.sh SET..: installs the Debian packages of the sets that are missing. Says nothing when none is.
-# build, run, test and board (the virtual machine) are for this machine; cross is what building for
+# build, run, test, board and board-arm64 (virtual machines) are for this machine; cross is what building for
 # CROSS=aarch64-linux-gnu adds.
 set -eu
 
@@ -12,9 +12,10 @@ test_libraries='libcmocka-dev libx11-dev'
 test="clang clang-format clang-tidy xvfb $test_libraries"
 optional_build='libassimp-dev libglfw3-dev' # for gnomon-import, for a window
 optional_test='libosmesa6-dev' # not in every Debian
-# without them the tests in the virtual machine are skipped; it runs on a PC alone
+# without them the tests in virtual machines are skipped; those run on a PC alone
 optional_board='qemu-system-x86 busybox-static kmod cpio xz-utils linux-source linux-headers-amd64
     kmscube kbd'
+optional_board_arm64='qemu-system-arm gcc-aarch64-linux-gnu'
 
 command -v dpkg-query > /dev/null || exit 0 # not Debian: the Makefile says what pkg-config does not find
 
@@ -51,6 +52,7 @@ for set in "$@"; do
     run) wanted="$wanted $run" ;;
     test) wanted="$wanted $test" extra="$extra $optional_test" ;;
     board) [ "$own" != amd64 ] || extra="$extra $optional_board" ;;
+    board-arm64) [ "$own" != amd64 ] || extra="$extra $optional_board_arm64" ;;
     cross)
         added=$(architecture_of "${CROSS:-}")
         compiler=gcc-$(echo "$CROSS" | tr _ -)

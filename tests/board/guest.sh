@@ -119,7 +119,7 @@ card_of() { # gpu or vkms: /dev/dri/cardN. Some kernels put the card below the v
 buttons() {
     local chip=/sys/kernel/config/gpio-sim/header line
     load gpio
-    mountpoint -q /sys/kernel/config || mount -t configfs none /sys/kernel/config
+    /run/busybox mountpoint -q /sys/kernel/config || /run/busybox mount -t configfs none /sys/kernel/config
     mkdir -p "$chip/bank0"
     echo 54 > "$chip/bank0/num_lines"
     echo pinctrl-bcm2835 > "$chip/bank0/label"

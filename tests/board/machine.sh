@@ -5,6 +5,8 @@
 # takes no time. Exit status 77, with the reason on stderr, where the parts cannot be had.
 set -eu
 architecture=$1
+here=$(cd "$(dirname "$0")" && pwd)
+store=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/board
 
 skip() {
     echo "board: $*" >&2
@@ -17,27 +19,35 @@ arm64) cross=aarch64-linux-gnu- kernel_arch=arm64 ;;
 *) skip "no virtual machine is known for $architecture" ;;
 esac
 
-# The headers that are here decide which kernel it is: modules fit no other.
-release=$(find /usr/src -maxdepth 1 -name "linux-headers-*-$architecture" ! -name '*-cloud-*' ! -name '*-rt-*' |
-    sed 's/.*linux-headers-//' | sort -V | tail -n 1)
-[ -n "$release" ] || skip "needs the headers of Debian's kernel: make deps (linux-headers-$architecture)"
-source=/usr/src/linux-source-$(echo "$release" | cut -d . -f 1,2).tar.xz
-[ -e "$source" ] || skip "needs $source: make deps (linux-source)"
-busybox=$(command -v busybox) || skip 'needs busybox: make deps (busybox-static)'
-! ldd "$busybox" > /dev/null 2>&1 || skip 'needs a static busybox: make deps (busybox-static)'
+# what decides how the parts come out is the kernel and this script
+version=$(sha256sum < "$0" | cut -c 1-12)
+found() {
+    [ -n "$1" ] && [ -e "$1/vmlinuz" ] || return 0
+    touch "$1"
+    echo "$1"
+    exit 0
+}
+
+# The headers that are here decide which kernel it is, since modules fit no other; for another
+# architecture there are none, and both are fetched together.
+release='*' headers=''
+if [ "$architecture" = "$(dpkg --print-architecture 2> /dev/null)" ]; then
+    headers=$(find /usr/src -maxdepth 1 -name "linux-headers-*-$architecture" ! -name '*-cloud-*' ! -name '*-rt-*' |
+        sort -V | tail -n 1)
+    [ -n "$headers" ] || skip "needs the headers of Debian's kernel: make deps (linux-headers-$architecture)"
+    release=${headers##*/linux-headers-}
+fi
+found "$(find "$store" -maxdepth 1 -name "$release-$version" -name "*-$architecture-*" 2> /dev/null | sort -V | tail -n 1)"
 for tool in apt-get dpkg-deb depmod modprobe make "${cross}gcc"; do
     command -v "$tool" > /dev/null || skip "needs $tool: make deps"
 done
-
-# what decides how the parts come out is the kernel and this script
-version=$(sha256sum < "$0" | cut -c 1-12)
-store=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/board
-parts=$store/$release-$version
-if [ -e "$parts/vmlinuz" ]; then
-    touch "$parts"
-    echo "$parts"
-    exit 0
+if [ -n "$headers" ]; then
+    busybox=$(command -v busybox) || skip 'needs busybox: make deps (busybox-static)'
+    ! ldd "$busybox" > /dev/null 2>&1 || skip 'needs a static busybox: make deps (busybox-static)'
+else
+    busybox=$("$here/sysroot.sh" "$architecture")/bin/busybox || exit
 fi
+
 mkdir -p "$store"
 work=$(mktemp -d "$store/new.XXXXXX")
 trap 'rm -rf "$work"' EXIT
@@ -58,11 +68,30 @@ download() {
     skip "apt-get cannot download $1"
 }
 
-unpack_kernel() {
-    download "$1"
-    dpkg-deb -x "$work"/linux-image-*.deb "$work/kernel" >> "$log" 2>&1 || fail "cannot unpack $1"
-    rm "$work"/linux-image-*.deb
+fetch_kernel() {
+    if [ -n "$headers" ]; then
+        download "linux-image-$release"
+    else
+        (cd "$work" && "$here/sysroot.sh" "$architecture" linux-image-newest linux-headers-newest)
+        release=$(cd "$work" && echo linux-image-*.deb | sed 's/linux-image-//;s/_.*//')
+    fi
+    source=/usr/src/linux-source-$(echo "$release" | cut -d . -f 1,2).tar.xz
+    [ -e "$source" ] || skip "needs $source: make deps (linux-source)"
+    [ -n "$headers" ] || fetch_headers >> "$log" 2>&1 || fail 'cannot unpack the headers'
+    dpkg-deb -x "$work"/linux-image-*.deb "$work/kernel" >> "$log" 2>&1 || fail 'cannot unpack the kernel'
+    rm "$work"/linux-*.deb
     [ -e "$work/kernel/lib" ] || ln -s usr/lib "$work/kernel/lib"
+}
+
+# Headers in a folder of their own, with the programs that build modules from this machine's.
+fetch_headers() {
+    common=linux-headers-${release%-*}-common
+    (cd "$work" && "$here/sysroot.sh" "$architecture" "$common") || return
+    for package in "$work"/linux-headers-*.deb; do dpkg-deb -x "$package" "$work/headers" || return; done
+    headers=$work/headers/usr/src/linux-headers-$release
+    mkdir -p "$work/headers/usr/lib"
+    ln -s /usr/lib/linux-kbuild-* "$work/headers/usr/lib/"
+    echo "include $work/headers/usr/src/$common/Makefile" > "$headers/Makefile"
 }
 
 # Debian's kernel comes without three modules that the tests need. Their sources are of the same
@@ -79,7 +108,7 @@ build_modules() {
     sed -i 's/\$(CONFIG_DRM_VKMS)/m/' "$work/build/vkms/Makefile"
     sed -i 's/handle_simple_irq(irq_to_desc(irqnum));/generic_handle_irq(irqnum);/' "$work/build/irq_sim.c"
     printf '#include <linux/module.h>\nMODULE_LICENSE("GPL");\n' >> "$work/build/irq_sim.c"
-    make -C "/usr/src/linux-headers-$release" ARCH="$kernel_arch" CROSS_COMPILE="$cross" \
+    make -C "$headers" ARCH="$kernel_arch" CROSS_COMPILE="$cross" \
         M="$work/build" modules || return
     mkdir -p "$work/kernel/lib/modules/$release/extra"
     find "$work/build" -name '*.ko' -exec cp {} "$work/kernel/lib/modules/$release/extra/" \;
@@ -106,8 +135,9 @@ gather() {
     cp "$busybox" "$work/initrd.d/bin/busybox" && mv "$work/kernel/boot/vmlinuz-$release" "$work/vmlinuz"
 }
 
-echo "board: making the machine for $release, once" >&2
-unpack_kernel "linux-image-$release"
+echo "board: making the $architecture machine, once" >&2
+fetch_kernel
+parts=$store/$release-$version
 build_modules >> "$log" 2>&1 || fail 'the modules do not build'
 gather >> "$log" 2>&1 || fail 'cannot gather the modules'
 find "$store" -maxdepth 1 -mindepth 1 -mtime +60 -exec rm -rf {} + # parts that nobody used for long

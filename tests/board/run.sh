@@ -27,7 +27,6 @@ arm64) qemu="qemu-system-aarch64" ;;
 *) skip "no machine for $arch" ;;
 esac
 for tool in "$qemu" cpio; do command -v "$tool" > /dev/null || skip "needs $tool: make deps"; done
-[ -x "$gnomon" ] || { echo "$gnomon is not built" && exit 1; }
 
 reason=$(mktemp)
 parts=$("$here/machine.sh" "$arch" 2> "$reason")
@@ -36,8 +35,9 @@ cat "$reason"
 rm -f "$reason"
 [ "$status" = 0 ] || exit "$status"
 root=/
-[ "$arch" = amd64 ] || root=$(cat "$parts/root") || exit 1
+[ "$arch" = amd64 ] || root=$("$here/sysroot.sh" "$arch") || exit
 
+[ -x "$gnomon" ] || { echo "$gnomon is not built" && exit 1; }
 out=$(realpath -m "$build/board/$test")
 rm -rf "$out"
 mkdir -p "$out/bin"
@@ -61,6 +61,7 @@ trap 'rm -rf "$sockets"' EXIT
 limit=$(sed -n 's/^# limit: \([0-9]*\) s.*/\1/p' "$script")
 [ -z "${GN_FULL:-}" ] || limit=$(sed -n 's/^# limit in full: \([0-9]*\) s.*/\1/p;' "$script")
 limit=${limit:-180}
+[ "$arch" = amd64 ] || limit=$((2 * limit)) # emulated, the other architecture is slower
 
 # shellcheck disable=SC2054
 machine=(-nodefaults -no-user-config -no-reboot -m 2048 -smp 2 -accel tcg,thread=multi -display none)

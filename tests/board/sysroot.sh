@@ -1,0 +1,91 @@
+#!/bin/sh
+# sysroot.sh ARCHITECTURE [PACKAGE..]: a folder with what gnomon needs of that Debian architecture, to
+# build against and to be a virtual machine's root, made once and kept in the user's cache; prints its
+# name. With packages: downloads those into the folder we are in instead, and nothing that they
+# depend on. This machine's own packages stay as they are: apt works on a state of its own, with the
+# machine's sources. Exit status 77, with the reason on stderr, where they cannot be had.
+set -eu
+architecture=$1
+shift
+# shellcheck disable=SC1091
+codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
+store=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/board
+root=$store/root-$architecture-$codename-$(sha256sum < "$0" | cut -c 1-12)
+state=$store/apt-$architecture-$codename
+
+build='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libegl-dev libgles-dev
+    libcglm-dev libdrm-dev libgbm-dev libudev-dev libcmocka-dev'
+run='bash coreutils findutils grep mawk sed diffutils util-linux kbd kmscube libegl1 libgles2
+    libegl-mesa0 libgl1-mesa-dri busybox-static'
+
+skip() {
+    echo "board: $*" >&2
+    exit 77
+}
+for tool in apt-get dpkg-deb; do
+    command -v "$tool" > /dev/null || skip "needs $tool: this works on Debian alone"
+done
+if [ $# = 0 ] && [ -e "$root" ]; then
+    touch "$root"
+    echo "$root"
+    exit 0
+fi
+
+mkdir -p "$state/lists/partial" "$state/cache/archives/partial"
+: > "$state/status"
+cat > "$state/apt.conf" << END
+APT::Architecture "$architecture";
+APT::Architectures { "$architecture"; };
+APT::Sandbox::User "root";
+Dir::State "$state";
+Dir::State::status "$state/status";
+Dir::Cache "$state/cache";
+END
+log=$state/log
+# Three tries: a mirror may be busy, or change while it is read.
+apt() {
+    for try in 1 2 3; do
+        APT_CONFIG=$state/apt.conf apt-get -q -y "$@" > "$log" 2>&1 < /dev/null && return
+        sleep "$((try * 3))"
+    done
+    tail -n 5 "$log" >&2
+    skip "apt-get $* failed for $architecture"
+}
+
+[ -n "$(find "$state/updated" -mmin -600 2> /dev/null)" ] || { apt update && touch "$state/updated"; }
+if [ $# != 0 ]; then
+    for package in "$@"; do
+        case $package in
+        # the newest kernel that the name without a version stands for
+        linux-*-newest)
+            name=${package%-newest}-$architecture
+            package=$(APT_CONFIG=$state/apt.conf apt-cache depends "$name" |
+                awk '/Depends: linux-[a-z]*-[0-9]/ { print $2; exit }')
+            [ -n "$package" ] || skip "$name is not known"
+            ;;
+        esac
+        apt download "$package"
+    done
+    exit 0
+fi
+
+echo "board: unpacking Debian's $architecture packages, once" >&2
+# shellcheck disable=SC2086
+apt install --download-only --no-install-recommends $build $run
+work=$(mktemp -d "$store/new.XXXXXX")
+trap 'rm -rf "$work"' EXIT
+# what the packages' own scripts would do, which cannot run here
+for folder in bin sbin lib; do
+    mkdir -p "$work/usr/$folder"
+    ln -s "usr/$folder" "$work/$folder"
+done
+for package in "$state"/cache/archives/*.deb; do
+    dpkg-deb --fsys-tarfile "$package" |
+        tar -x -C "$work" --keep-directory-symlink --no-same-owner --exclude='./usr/share/doc/*' \
+            --exclude='./usr/share/man/*' --exclude='./usr/share/locale/*' --exclude='./dev/*'
+done
+ln -sf mawk "$work/usr/bin/awk"
+rm -rf "$state/cache/archives"
+chmod 755 "$work"
+mv "$work" "$root"
+echo "$root"
