@@ -25,7 +25,7 @@ within() {
     shift
     until "$@"; do
         [ "$(now)" -lt "$until" ] || return 1
-        sleep 0.05
+        sleep 0.1
     done
 }
 
@@ -52,30 +52,35 @@ qmp() {
     return 1
 }
 
-# shot NAME [HEAD]: what the screen shows, into NAME.png. The monitor writes on the host's side.
+# shot NAME [HEAD]: what the screen shows, into NAME.png. QEMU writes on the host's side, and counts
+# heads from 0.
 shot() {
-    qmp '{"execute":"screendump","arguments":{"filename":"'"$HOST_OUT/$1.png"'","format":"png","device":"gpu0","head":'"${2:-0}"'}}'
+    qmp '{"execute":"screendump","arguments":{"filename":"'"$HOST_OUT/$1.png"'","format":"png","device":"gpu0","head":'"$((${2:-1} - 1))"'}}'
 }
 
-same_picture() { shot "$1" && cmp -s "/out/$1.png" "/out/$2.png"; }
+same_picture() { shot "$1" "${3:-1}" && cmp -s "/out/$1.png" "/out/$2.png"; }
 other_picture() { shot "$1" && ! cmp -s "/out/$1.png" "/out/$2.png"; }
 
 # same_as_render NAME ARGUMENT..: after the machine has ended, the host compares NAME.png with what
 # `gnomon render ARGUMENT..` draws there. TURN says how many degrees clockwise the display is turned.
 same_as_render() { echo "${TURN:-0} $*" >> /out/compare; }
 
-# desktop WIDTH HEIGHT: the first head's monitor is of this size now, 0 0: none. The machine's VNC
-# server listens at a port here; this is RFB's message SetDesktopSize (RFC 6143 and the extension
-# 251), with one screen.
+# desktop WIDTH HEIGHT [HEAD]: the monitor of head 1 or 2 is of this size now, 0 0: none. The
+# machine's VNC servers listen at ports here; this is RFB's message SetDesktopSize (RFC 6143 and the
+# extension 251), with one screen.
+viewers=()
 desktop() {
     local size
     printf -v size '\\x%02x\\x%02x\\x%02x\\x%02x' $(($1 >> 8)) $(($1 & 255)) $(($2 >> 8)) $(($2 & 255))
-    printf '%b' "\xfb\x00$size\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00$size\x00\x00\x00\x00" >&"$viewer"
+    printf '%b' "\xfb\x00$size\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00$size\x00\x00\x00\x00" >&"${viewers[${3:-1}]}"
 }
 
-# The handshake: version, no security, a shared session, one encoding (ExtendedDesktopSize).
+# open_viewer HEAD PORT: the handshake is version, no security, a shared session, one encoding
+# (ExtendedDesktopSize)
 open_viewer() {
-    exec {viewer}<> "$1"
+    local viewer
+    exec {viewer}<> "$2"
+    viewers[$1]=$viewer
     cat <&"$viewer" > /dev/null &
     disown
     printf 'RFB 003.008\n\x01\x01\x02\x00\x00\x01\xff\xff\xfe\xcc' >&"$viewer"
@@ -85,14 +90,14 @@ open_viewer() {
 # (the status in sysfs) would say nothing: it is as old as the last program's question.
 hotplugs() { grep -c HOTPLUG=1 /out/uevents; }
 more_hotplugs() { [ "$(hotplugs)" -gt "$1" ]; }
-announced() { # WIDTH HEIGHT
+announced() { # WIDTH HEIGHT [HEAD]
     local before
     before=$(hotplugs)
-    desktop "$1" "$2"
+    desktop "$@"
     within 10 more_hotplugs "$before" || fail "the kernel says nothing about a monitor of $1x$2"
 }
-plug() { announced "${1%x*}" "${1#*x}"; } # WxH
-unplug() { announced 0 0; }
+plug() { announced "${1%x*}" "${1#*x}" "${2:-1}"; } # WxH [HEAD]
+unplug() { announced 0 0 "${1:-1}"; }               # [HEAD]
 
 # ---- the card ----------------------------------------------------------------------------------
 gpu_device() { grep -l 0x1050 /sys/bus/pci/devices/*/device | sed 's,/device$,,;s,.*/,,'; }
@@ -164,10 +169,12 @@ show() {
 }
 # shown NAME [SECONDS]: waits for the first flip, and then for a screen that stands still
 shown() {
-    within "${2:-60}" test -s /out/gnomon.flip || { fail "nothing on the screen: $(tail -n 3 "$log")" && return 1; }
+    within "${2:-60}" flipped_or_gone
+    [ -s /out/gnomon.flip ] || { fail "nothing on the screen: $(tail -n 3 "$log")" && return 1; }
     say "gnomon: first flip after $(cat /out/gnomon.flip) ms"
     still "$1"
 }
+flipped_or_gone() { [ -s /out/gnomon.flip ] || gone; }
 still() {
     shot "$1-before" && sleep 0.3
     within 10 stands "$1" || fail "$1: the picture does not stand still"
@@ -177,11 +184,11 @@ stands() {
     shot "$1" && cmp -s "/out/$1.png" "/out/$1-before.png" && return
     mv "/out/$1.png" "/out/$1-before.png" && sleep 0.3 && return 1
 }
-# back NAME FIRST WHEN: the picture FIRST is there again
+# back NAME FIRST WHEN [HEAD]: the picture FIRST is there again
 back() {
     local begun
     begun=$(now)
-    within 20 same_picture "$1" "$2" || { fail "no picture again $3: $(tail -n 3 "$log")" && return 1; }
+    within 20 same_picture "$1" "$2" "${4:-1}" || { fail "no picture again $3: $(tail -n 3 "$log")" && return 1; }
     say "picture again $3: $(($(now) - begun)) ms"
 }
 alive() { kill -0 "$program" 2> /dev/null; }
@@ -220,7 +227,8 @@ qmp '{"execute":"qmp_capabilities"}' || bad=1
 # shellcheck disable=SC2016
 /run/busybox uevent /run/busybox sh -c 'echo "$ACTION $SUBSYSTEM $DEVNAME ${HOTPLUG:+HOTPLUG=1}" >> /out/uevents' &
 disown
-open_viewer "$(port vnc)"
+open_viewer 1 "$(port vnc1)"
+[ "$HEADS" = 1 ] || open_viewer 2 "$(port vnc2)"
 desktop 640 480 # as it is: the first 0 0 would be no change to QEMU, which takes it for the unset size
 say 'the machine is up'
 . /out/test.sh

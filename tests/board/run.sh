@@ -45,7 +45,9 @@ cp "$gnomon" "$out/bin/gnomon"
 cp "$build/tests/firstflip.so" "$out/bin/" || exit 1
 cp "$here/guest.sh" "$out/guest.sh"
 cp "$script" "$out/test.sh" || exit 1
-for setting in HOST_OUT="$out" GN_FULL="${GN_FULL:-}" ${GUEST_ENV:-}; do
+heads=$(sed -n 's/^# heads: \([12]\)$/\1/p' "$script")
+heads=${heads:-1}
+for setting in HOST_OUT="$out" GN_FULL="${GN_FULL:-}" HEADS="$heads" ${GUEST_ENV:-}; do
     printf 'export %s=%q\n' "${setting%%=*}" "${setting#*=}"
 done > "$out/env"
 
@@ -80,14 +82,20 @@ machine+=(
     -fsdev "local,id=out,path=$out,security_model=none"
     -device virtio-9p-pci,fsdev=out,mount_tag=out
     -object rng-random,id=entropy,filename=/dev/urandom -device virtio-rng-pci,rng=entropy
-    -device "virtio-gpu-pci,id=gpu0,max_outputs=${HEADS:-1},xres=640,yres=480"
-    -vnc "unix:$sockets/vnc,display=gpu0,head=0"
+    -device "virtio-gpu-pci,id=gpu0,max_outputs=$heads,xres=640,yres=480"
     # the test itself works the machine: its monitor and its viewer are ports in the machine
     -chardev "socket,id=monitor,path=$sockets/qmp,server=on,wait=off" -mon chardev=monitor,mode=control
     -device virtio-serial-pci
     -chardev "socket,id=qmp,path=$sockets/qmp" -device virtserialport,chardev=qmp,name=qmp
-    -chardev "socket,id=viewer,path=$sockets/vnc,reconnect=1" -device virtserialport,chardev=viewer,name=vnc
 )
+for head in $(seq "$heads"); do
+    # shellcheck disable=SC2054
+    machine+=(
+        -vnc "unix:$sockets/vnc$head,id=vnc$head,display=gpu0,head=$((head - 1))"
+        -chardev "socket,id=viewer$head,path=$sockets/vnc$head,reconnect=1"
+        -device "virtserialport,chardev=viewer$head,name=vnc$head"
+    )
+done
 timeout --kill-after=5 "$limit" "$qemu" "${machine[@]}" > "$out/qemu.log" 2>&1 < /dev/null
 status=$?
 cat "$out/log" 2> /dev/null
