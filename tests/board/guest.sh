@@ -124,7 +124,7 @@ card_of() { # gpu or vkms: /dev/dri/cardN. Some kernels put the card below the v
 buttons() {
     local chip=/sys/kernel/config/gpio-sim/header line
     load gpio
-    /run/busybox mountpoint -q /sys/kernel/config || /run/busybox mount -t configfs none /sys/kernel/config
+    grep -q configfs /proc/mounts || /run/busybox mount -t configfs none /sys/kernel/config
     mkdir -p "$chip/bank0"
     echo 54 > "$chip/bank0/num_lines"
     echo pinctrl-bcm2835 > "$chip/bank0/label"
