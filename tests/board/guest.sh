@@ -169,7 +169,7 @@ show() {
 }
 # shown NAME [SECONDS]: waits for the first flip, and then for a screen that stands still
 shown() {
-    within "${2:-60}" flipped_or_gone
+    within "${2:-120}" flipped_or_gone
     [ -s /out/gnomon.flip ] || { fail "nothing on the screen: $(tail -n 3 "$log")" && return 1; }
     say "gnomon: first flip after $(cat /out/gnomon.flip) ms"
     still "$1"
@@ -220,7 +220,7 @@ mkfifo /run/silence
 exec {silence}<> /run/silence
 
 # ---- the test ----------------------------------------------------------------------------------
-cp /out/bin/* /tmp/ && PATH=/tmp:$PATH
+cp -R /out/cache /tmp/cache && cp /out/bin/* /tmp/ && PATH=/tmp:$PATH
 exec {monitor}<> "$(port qmp)"
 qmp '{"execute":"qmp_capabilities"}' || bad=1
 : > /out/uevents
@@ -234,4 +234,5 @@ say 'the machine is up'
 . /out/test.sh
 say "done, $([ "$bad" = 0 ] && echo passed || echo failed)"
 /run/busybox dmesg > /out/dmesg
+cp -Rn /tmp/cache/. /out/cache/
 echo "$bad" > /out/rc

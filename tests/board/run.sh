@@ -51,6 +51,13 @@ for setting in HOST_OUT="$out" GN_FULL="${GN_FULL:-}" HEADS="$heads" ${GUEST_ENV
     printf 'export %s=%q\n' "${setting%%=*}" "${setting#*=}"
 done > "$out/env"
 
+# Emulated, Mesa takes most of a minute to compile the programs: what it kept the last time is given
+# to it again. Its names for them hold Mesa's version, the program's text and this processor's.
+shaders=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/board/shaders-$arch
+mkdir -p "$shaders" "$out/cache"
+find "$shaders" -type f -mtime +30 -delete
+cp -R "$shaders/." "$out/cache/"
+
 mkdir "$out/initrd.d"
 cp -R "$parts/initrd.d/." "$out/initrd.d/"
 install -m 755 "$here/init.sh" "$out/initrd.d/init"
@@ -99,6 +106,8 @@ done
 timeout --kill-after=5 "$limit" "$qemu" "${machine[@]}" > "$out/qemu.log" 2>&1 < /dev/null
 status=$?
 cat "$out/log" 2> /dev/null
+cp -Rn "$out/cache/." "$shaders/"
+rm -r "$out/cache"
 bad=0
 complain() {
     echo "FAIL: $*"
