@@ -61,6 +61,14 @@ shot() {
 same_picture() { shot "$1" "${3:-1}" && cmp -s "/out/$1.png" "/out/$2.png"; }
 other_picture() { shot "$1" && ! cmp -s "/out/$1.png" "/out/$2.png"; }
 
+# shows NAME WxH: a new shot, and whether the screen is of this size (a PNG says so in bytes 16 to 23)
+shows() {
+    shot "$1" || return
+    # shellcheck disable=SC2046
+    set -- "$2" $(od -An -t u1 -j 16 -N 8 "/out/$1.png")
+    [ "$1" = $(($4 * 256 + $5))x$(($8 * 256 + $9)) ]
+}
+
 # same_as_render NAME ARGUMENT..: after the machine has ended, the host compares NAME.png with what
 # `gnomon render ARGUMENT..` draws there. TURN says how many degrees clockwise the display is turned.
 same_as_render() { echo "${TURN:-0} $*" >> /out/compare; }
@@ -188,7 +196,7 @@ stands() {
 back() {
     local begun
     begun=$(now)
-    within 20 same_picture "$1" "$2" "${4:-1}" || { fail "no picture again $3: $(tail -n 3 "$log")" && return 1; }
+    within 90 same_picture "$1" "$2" "${4:-1}" || { fail "no picture again $3: $(tail -n 3 "$log")" && return 1; }
     say "picture again $3: $(($(now) - begun)) ms"
 }
 alive() { kill -0 "$program" 2> /dev/null; }
@@ -210,6 +218,12 @@ cpu_ms() { # of the program: user and system time, ticks of 10 ms
     # shellcheck disable=SC2086
     set -- ${stat##*) }
     echo $(((${12} + ${13}) * 10))
+}
+# a second in which it does nothing
+idle() {
+    local before
+    before=$(cpu_ms) && sleep 1
+    [ "$(cpu_ms)" = "$before" ]
 }
 io_of() { awk -v key="$1:" '$1 == key { print $2 }' "/proc/$program/io"; }
 rss_kib() { awk '$1 == "VmRSS:" { print $2 }' "/proc/$program/status"; }
