@@ -14,7 +14,7 @@ optional_build='libassimp-dev libglfw3-dev' # for gnomon-import, for a window
 optional_test='libosmesa6-dev' # not in every Debian
 # without them the tests in virtual machines are skipped; those run on a PC alone
 optional_board='qemu-system-x86 busybox-static kmod cpio xz-utils linux-source linux-headers-amd64
-    kmscube kbd'
+    kmscube kbd libdrm-tests'
 optional_board_arm64='qemu-system-arm gcc-aarch64-linux-gnu'
 
 command -v dpkg-query > /dev/null || exit 0 # not Debian: the Makefile says what pkg-config does not find

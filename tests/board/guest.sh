@@ -175,13 +175,13 @@ show() {
     # shellcheck disable=SC2086
     timed gnomon show --backend kms $like "$@"
 }
-# shown NAME [SECONDS]: waits for the first flip, and then for a screen that stands still
-shown() {
-    within "${2:-120}" flipped_or_gone
+# flips: waits for gnomon's first flip; shown NAME: and then for a screen that stands still
+flips() {
+    within 120 flipped_or_gone
     [ -s /out/gnomon.flip ] || { fail "nothing on the screen: $(tail -n 3 "$log")" && return 1; }
     say "gnomon: first flip after $(cat /out/gnomon.flip) ms"
-    still "$1"
 }
+shown() { flips && still "$1"; }
 flipped_or_gone() { [ -s /out/gnomon.flip ] || gone; }
 still() {
     shot "$1-before" && sleep 0.3
