@@ -67,9 +67,10 @@ rm -r "$out/initrd.d"
 # The sockets' names may have 107 bytes, a folder of build/ may have more.
 sockets=$(mktemp -d)
 trap 'rm -rf "$sockets"' EXIT
-limit=$(sed -n 's/^# limit: \([0-9]*\) s.*/\1/p' "$script")
-[ -z "${GN_FULL:-}" ] || limit=$(sed -n 's/^# limit in full: \([0-9]*\) s.*/\1/p;' "$script")
-limit=${limit:-180}
+limit_in() { sed -n "s/^# $1: \([0-9]*\) s.*/\1/p" "$script"; }
+limit=$([ -z "${GN_FULL:-}" ] || limit_in 'limit in full')
+limit=${limit:-$(limit_in limit)}
+limit=${limit:-300}
 [ "$arch" = amd64 ] || limit=$((2 * limit)) # emulated, the other architecture is slower
 
 # shellcheck disable=SC2054
@@ -103,6 +104,7 @@ for head in $(seq "$heads"); do
         -device "virtserialport,chardev=viewer$head,name=vnc$head"
     )
 done
+# Warnings that are none: the viewers connect to QEMU itself, which listens a moment later.
 timeout --kill-after=5 "$limit" "$qemu" "${machine[@]}" > "$out/qemu.log" 2>&1 < /dev/null
 status=$?
 cat "$out/log" 2> /dev/null
