@@ -210,7 +210,7 @@ ended_with() {
 }
 # a child that has ended stays as a zombie until it is waited for
 gone() { ! alive || grep -q '^State:.*Z' "/proc/$program/status" 2> /dev/null; }
-stop() { kill -TERM "$program" && ended_with 0 "${1:-10}"; }
+stop() { kill -TERM "$program" && ended_with 0 "${1:-60}"; } # it ends within a frame, and a frame may take long
 said() { grep -q -e "$1" "$log"; }
 cpu_ms() { # of the program: user and system time, ticks of 10 ms
     local stat
