@@ -23,10 +23,10 @@ help:
 	    'make            build/release/gnomon, gnomon-import, the default scene and assets/bench' \
 	    'make run        install what is missing, build, show the default scene' \
 	    'make check      every quick test: gcc, clang, ASan and UBSan, lint' \
+	    'make accept     the long tests' \
 	    'make check-board' \
-    '                the real kernel in a virtual machine; with GN_FULL=1 all of it, and' \
-    '                check-board-arm64: the arm64 kernel, and gnomon built for it' \
-    'make accept     the long tests' \
+	    '                the real kernel in a virtual machine; with GN_FULL=1 all of it, and' \
+	    '                check-board-arm64: the arm64 kernel, and gnomon built for it' \
 	    'make truth      shadows against ray-traced truth, as a table' \
 	    'make readme     the table of techniques in README.md, measured' \
 	    'make gallery    one scene with every technique and the truth, into assets/gallery' \

@@ -158,17 +158,18 @@ static bool fits(struct scanout *s, EGLConfig c, uint32_t format, int samples) {
            attribute(s, c, EGL_DEPTH_SIZE) == 24 && attribute(s, c, EGL_SAMPLES) == samples;
 }
 
+/* With a stencil, by which some planar shadows are drawn: beside 24 bits of depth it is free. */
 static EGLConfig find_config(struct scanout *s, uint32_t format, int samples) {
-    EGLConfig *all = gn_xalloc(CONFIGS_MAX, sizeof *all), found = NULL, plain = NULL;
+    EGLConfig *all = gn_xalloc(CONFIGS_MAX, sizeof *all), found = NULL, best = NULL;
     EGLint count = 0;
     s->GetConfigs(s->display, all, CONFIGS_MAX, &count);
-    for (EGLint i = 0; i < count && !plain; i++) {
+    for (EGLint i = 0; i < count && !best; i++) {
         if (!fits(s, all[i], format, samples)) continue;
         found = all[i];
-        if (attribute(s, all[i], EGL_STENCIL_SIZE) == 0) plain = all[i];
+        if (attribute(s, all[i], EGL_STENCIL_SIZE) == 8) best = all[i];
     }
     free(all);
-    return plain ? plain : found;
+    return best ? best : found;
 }
 
 /* ---- the context ---- */

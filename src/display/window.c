@@ -313,7 +313,7 @@ static bool make(struct window *w, uint32_t width_px, uint32_t height_px, int sa
         {GLFW_SRGB_CAPABLE, srgb},
         {GLFW_SAMPLES, samples},
         {GLFW_ALPHA_BITS, 0},
-        {GLFW_STENCIL_BITS, 0},
+        {GLFW_STENCIL_BITS, 8},
         {GLFW_VISIBLE, GLFW_FALSE},
         {GLFW_AUTO_ICONIFY, GLFW_FALSE},
     };
