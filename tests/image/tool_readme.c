@@ -30,8 +30,13 @@ static const struct gn_technique_row *technique_of(const struct gn_table_row *ro
     return &gn_techniques[technique];
 }
 
+static bool is_stencil(const struct gn_table_row *row) {
+    return strcmp(row->format, "stencil") == 0;
+}
+
 static enum gn_encoding encoding_of(const struct gn_table_row *row) {
     enum gn_encoding encoding = GN_ENCODING_MASK;
+    if (is_stencil(row)) return GN_ENCODING_STENCIL;
     if (!technique_of(row)->on_plane) gn_encoding_find(row->format, &encoding, NULL);
     return encoding;
 }
@@ -123,7 +128,9 @@ static double cost_of(const struct gn_table_row *row) {
                                 "--shadow",
                                 list,
                                 "--map-format",
-                                row->format,
+                                is_stencil(row) ? "auto" : row->format,
+                                "--planar",
+                                is_stencil(row) ? "stencil" : "mask",
                                 "--backend",
                                 "egl",
                                 "--frames",
@@ -191,7 +198,10 @@ static void add_rows(struct gn_table *table) {
     static const char *const by_hand[] = {"r16f", "depth", "r32ui", "rgba8", "r16f-raw"};
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++) {
         const struct gn_technique_row *row = &gn_techniques[t];
-        if (row->on_plane) gn_table_add(table, row->name, "auto", 1024);
+        if (row->on_plane) {
+            gn_table_add(table, row->name, "auto", 1024);
+            gn_table_add(table, row->name, "stencil", 1024);
+        }
         for (int f = 0; f < 5 && !row->on_plane; f++)
             if (t == GN_TECHNIQUE_HARD || f == (row->reads_distance ? 0 : 1))
                 gn_table_add(table, row->name, by_hand[f], 1024);

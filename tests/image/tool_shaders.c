@@ -20,7 +20,7 @@ static struct gn_program_key lit(uint32_t features, enum gn_light_type type, con
     enum gn_encoding e = GN_ENCODING_DEPTH;
     gn_technique_find(technique, &t, NULL);
     if (gn_techniques[t].on_plane)
-        e = GN_ENCODING_MASK;
+        e = strcmp(encoding, "stencil") == 0 ? GN_ENCODING_STENCIL : GN_ENCODING_MASK;
     else
         gn_encoding_find(encoding, &e, NULL);
     key.shadow_count = t != GN_TECHNIQUE_NONE;
@@ -64,7 +64,7 @@ static bool write(const char *folder, const char *name, const struct gn_program_
         char *rest = strchr(text.data, '\n') + 1; /* after #version */
         snprintf(head, sizeof head, "%.*s//@ target %s\n", (int)(rest - text.data), text.data,
                  target_of(key));
-        if (key->shadow_count)
+        if (key->shadow_count && key->lights[0].encoding != GN_ENCODING_STENCIL)
             snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_map_0 %s\n",
                      formats[key->lights[0].encoding]);
         if (key->lights[0].slide)
@@ -99,7 +99,10 @@ static bool write_all(const char *folder, struct gn_err *err) {
                 bool fell_back;
                 enum gn_encoding own = gn_encoding_choose((enum gn_technique)t, GN_ENCODING_AUTO,
                                                           UINT32_MAX, &fell_back);
-                if (e != (int)own && (t != GN_TECHNIQUE_HARD || e >= GN_ENCODING_MASK)) continue;
+                bool by_hand = gn_techniques[t].on_plane
+                                   ? e == GN_ENCODING_STENCIL
+                                   : t == GN_TECHNIQUE_HARD && e < GN_ENCODING_MASK;
+                if (e != (int)own && !by_hand) continue;
                 char name[80];
                 snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, lights[type],
                          gn_encodings[e].name);
