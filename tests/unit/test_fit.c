@@ -39,7 +39,8 @@ static void load(struct stage *s, const char *light, float scale) {
 
 static void begin(struct stage *s, const char *light, float scale) {
     mat4 view_from_world, clip_from_view, clip_from_world;
-    *s = (struct stage){.opts = {GN_TECHNIQUE_PCF, GN_ENCODING_DEPTH, 1024}};
+    *s = (struct stage){
+        .opts = {.technique = GN_TECHNIQUE_PCF, .encoding = GN_ENCODING_DEPTH, .map_px = 1024}};
     load(s, light, scale);
     gn_pose_init(&s->pose, s->scene, GN_POSE_NONE);
     glm_lookat((vec3){0, 8 * scale, 12 * scale}, GLM_VEC3_ZERO, GLM_YUP, view_from_world);
