@@ -29,10 +29,9 @@ static const struct gn_choice tap_counts[] = {{"8", 8}, {"16", 16}, {"32", 32}, 
 static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};
 
 const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
-    [GN_COMMAND_AUTO] = {NULL, "[OPTION..] [SCENE]",
-                         "shows a scene: in a window where there is a desktop, else full screen, "
-                         "else as gnomon.png in "
-                         "this folder"},
+    [GN_COMMAND_AUTO] =
+        {NULL, "[OPTION..] [SCENE]",
+         "shows a scene: in a window, without a desktop full screen, else as gnomon.png"},
     [GN_COMMAND_SHOW] = {"show", "show [OPTION..] [SCENE]",
                          "the kiosk: full screen without a desktop, runs until it is told to end"},
     [GN_COMMAND_RENDER] = {"render", "render [OPTION..] [SCENE] -o FILE",
