@@ -227,7 +227,7 @@ check-board-arm64: $(addprefix $(B)/,$(BOARD_NEEDS))
 	+@root=$$(tests/board/sysroot.sh arm64) || exit 0; $(SUB) CROSS=aarch64-linux-gnu SYSROOT=$$root \
 	    $(addprefix $(O)/aarch64-linux-gnu-$(CONFIG)/,$(filter-out %/tool_compare,$(BOARD_NEEDS)))
 	@ARCH=arm64 HOST_BUILD=$(B) tests/run.sh BUILD=$(O)/aarch64-linux-gnu-$(CONFIG) \
-	    $(if $(GN_FULL),tests/board/lab.guest tests/board/picture.guest) tests/board/smoke.guest
+	    $(if $(GN_FULL),$(addprefix tests/board/,lab.guest picture.guest monitor.guest card.guest)) tests/board/smoke.guest
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests

@@ -104,8 +104,13 @@ announced() { # WIDTH HEIGHT [HEAD]
     desktop "$@"
     within 10 more_hotplugs "$before" || fail "the kernel says nothing about a monitor of $1x$2"
 }
-plug() { announced "${1%x*}" "${1#*x}" "${2:-1}"; } # WxH [HEAD]
-unplug() { announced 0 0 "${1:-1}"; }               # [HEAD]
+# A monitor that is already so is no news.
+plugged=(0 640x480 0x0)
+plug() { # WxH [HEAD]
+    [ "${plugged[${2:-1}]}" = "$1" ] || announced "${1%x*}" "${1#*x}" "${2:-1}"
+    plugged[${2:-1}]=$1
+}
+unplug() { plug 0x0 "${1:-1}"; } # [HEAD]
 
 # ---- the card ----------------------------------------------------------------------------------
 gpu_device() { grep -l 0x1050 /sys/bus/pci/devices/*/device | sed 's,/device$,,;s,.*/,,'; }
