@@ -42,7 +42,8 @@ static struct aiPropertyStore *choose(const struct gn_import *import) {
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
     aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, 0);
-    aiSetImportPropertyInteger(p, "AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION", 1); /* since 5.3 */
+    aiSetImportPropertyInteger(p, "AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION",
+                               1); /* in newer ones */
     aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, forced);
     return p;
 }
@@ -72,7 +73,11 @@ static bool read_scene(struct gn_import *import) {
             aiProcess_GenBoundingBoxes,
         &io, properties);
     aiReleasePropertyStore(properties);
-    return import->scene || fail_read(import);
+    if (!import->scene) return fail_read(import);
+    /* The root is the importer's own. 5.4.3 turns it, and cannot be asked not to. */
+    if (import->format == GN_IMPORT_FBX)
+        aiIdentityMatrix4(&import->scene->mRootNode->mTransformation);
+    return true;
 }
 
 /* ---- axes and units ---- */
