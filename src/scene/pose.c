@@ -284,6 +284,11 @@ void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws,
     position_of(world, position_ws);
 }
 
+void gn_unit(vec3 v) {
+    const double n = sqrt((double)v[0] * v[0] + (double)v[1] * v[1] + (double)v[2] * v[2]);
+    for (int k = 0; k < 3 && n > 0.0; k++) v[k] = (float)(v[k] / n);
+}
+
 void gn_pose_plane(const struct gn_pose *pose, uint32_t item, vec4 plane_ws) {
     const struct gn_geometry *g = &pose->scene->geometries[pose->scene->items[item].geometry];
     vec4 *world_from_item = pose->items[item].world_from_item;
@@ -294,6 +299,6 @@ void gn_pose_plane(const struct gn_pose *pose, uint32_t item, vec4 plane_ws) {
     gn_cofactor(world_from_item, cofactor);
     glm_mat3_mulv(cofactor, (float *)g->plane, plane_ws);
     if (pose->items[item].mirrored) glm_vec3_negate(plane_ws);
-    glm_vec3_normalize(plane_ws);
+    gn_unit(plane_ws);
     plane_ws[3] = -glm_vec3_dot(plane_ws, p);
 }

@@ -43,6 +43,10 @@ void gn_pose_view(const struct gn_pose *pose, uint32_t camera, mat4 view_from_wo
 void gn_pose_light_view(const struct gn_pose *pose, uint32_t light, mat4 light_from_world);
 /* Where a light is and the unit vector along which it shines, world space. */
 void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws, vec3 direction_ws);
+/* To length 1 however short or long it is; zero stays zero. glm_vec3_normalize() makes zero of what
+ * is shorter than 1.2e-7, from cglm 0.9 on. */
+void gn_unit(vec3 v);
+
 /* The plane of a flat item, world space: n.p + d = 0, |n| = 1, on the side its front faces look to.
  */
 void gn_pose_plane(const struct gn_pose *pose, uint32_t item, vec4 plane_ws);
