@@ -68,7 +68,7 @@ expect 0 '' "$import" --up z "$model" -o "$folder/b.glb"
 awk 'BEGIN { n = 150000; print "v 0 0 0"; for (i = 0; i < n; i++) printf "v %d 1 0\n", i
              for (i = 2; i < n; i++) printf "f 1 %d %d\n", i, i + 1 }' > "$folder/m/fan.obj"
 expect 1 'fan.obj: not read within 1 s; gnomon-import --time' "$import" --time 1 "$folder/m/fan.obj" -o "$folder/f.glb"
-expect 1 'fan.obj: needs more than 100 MB of memory' "$import" --memory 100 "$folder/m/fan.obj" -o "$folder/f.glb"
+expect 1 'fan.obj: needs more than 80 MB of memory' "$import" --memory 80 "$folder/m/fan.obj" -o "$folder/f.glb"
 expect 1 'needs more than 80 MB of memory' "$gnomon" inspect --limit memory_mb=40 "$folder/m/fan.obj"
 expect 0 '' "$gnomon" inspect --limit file_mb=1048576 --limit memory_mb=1048576 "$model"
 expect 1 'fan.obj: larger than the limit' "$import" --file 1 "$folder/m/fan.obj" -o "$folder/f.glb"
