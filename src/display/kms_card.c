@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/hash.h"
+
 /* By connector type, as the kernel names them. */
 static const char *const type_names[] = {
     "Unknown", "VGA",       "DVI-I", "DVI-D", "DVI-A",     "Composite", "SVIDEO",
@@ -67,6 +69,15 @@ static void read_property(const drmModePropertyRes *p, uint64_t value,
         if (p->enums[i].value == value) out->orientation_deg = degrees_of(p->enums[i].name);
 }
 
+/* A monitor's own description of itself, with its serial number. */
+static void read_edid(struct reader *r, uint32_t id, struct gn_kms_connector *out) {
+    drmModePropertyBlobRes *blob = id ? r->drm->ModeGetPropertyBlob(r->fd, id) : NULL;
+    r->card->partial |= id && !blob;
+    if (!blob) return;
+    out->monitor = gn_hash(GN_HASH_INIT, blob->data, blob->length);
+    r->drm->ModeFreePropertyBlob(blob);
+}
+
 static void read_properties(struct reader *r, const drmModeConnector *from,
                             struct gn_kms_connector *out) {
     for (int i = 0; i < from->count_props; i++) {
@@ -74,8 +85,26 @@ static void read_properties(struct reader *r, const drmModeConnector *from,
         r->card->partial |= !p;
         if (!p) continue;
         read_property(p, from->prop_values[i], out);
+        if (strcmp(p->name, "EDID") == 0) read_edid(r, (uint32_t)from->prop_values[i], out);
         r->drm->ModeFreeProperty(p);
     }
+}
+
+/* Of those that do not describe themselves: which one is preferred counts, too. */
+static uint64_t hash_modes(const struct gn_kms_connector *c) {
+    uint64_t hash = GN_HASH_INIT;
+    for (int i = 0; i < c->mode_count; i++) {
+        const drmModeModeInfo *m = &c->modes[i];
+        const uint32_t told[] = {m->clock,
+                                 m->hdisplay,
+                                 m->htotal,
+                                 m->vtotal,
+                                 m->vdisplay,
+                                 m->flags,
+                                 m->type & DRM_MODE_TYPE_PREFERRED};
+        hash = gn_hash(hash, told, sizeof told);
+    }
+    return hash;
 }
 
 static bool is_internal(uint32_t type) {
@@ -96,6 +125,7 @@ static void read_connector(struct reader *r, const drmModeConnector *from) {
         out->modes[out->mode_count++] = from->modes[i];
     read_encoders(r, from, out);
     read_properties(r, from, out);
+    if (out->monitor == 0 && out->mode_count > 0) out->monitor = hash_modes(out);
 }
 
 static void read_connectors(struct reader *r, bool probe) {

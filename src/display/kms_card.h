@@ -22,6 +22,7 @@ struct gn_kms_connector {
     unsigned orientation_deg; /* how the panel is mounted: the picture is to be turned by this */
     uint32_t crtcs;           /* bit i: card->crtcs[i] can drive it */
     int crtc;                 /* the one that drives it now, or -1 */
+    uint64_t monitor;         /* which one: of its EDID, without one of its modes; 0: none */
     drmModeModeInfo modes[GN_KMS_MODES_MAX];
     int mode_count;
 };
@@ -52,8 +53,8 @@ int gn_kms_card_score(const struct gn_kms_card *card, const char *connector);
 int gn_kms_choose_crtc(const struct gn_kms_card *card, int connector);
 /* What to try, best first, each mode once: configured (listed, else made of the modeline or, last,
  * by CVT), current if listed, preferred within the cap, the largest progressive ones of 50-60 Hz
- * within the cap, first, 640x480. Interlaced only when configured. Returns the count, at most
- * GN_KMS_LADDER_MAX. */
+ * within the cap, first, 640x480. Interlaced only when configured. `crtc` -1: whatever is lit now
+ * was meant for another monitor. Returns the count, at most GN_KMS_LADDER_MAX. */
 int gn_kms_mode_ladder(const struct gn_kms_card *card, int connector, int crtc,
                        const struct gn_screen_opts *opts, drmModeModeInfo *out);
 /* Refreshes in mHz, by the clock where that is known; interlaced: fields. */

@@ -192,10 +192,10 @@ static bool is_offered(const struct gn_kms_connector *c, const drmModeModeInfo *
 int gn_kms_mode_ladder(const struct gn_kms_card *card, int connector, int crtc,
                        const struct gn_screen_opts *opts, drmModeModeInfo *out) {
     const struct gn_kms_connector *c = &card->connectors[connector];
-    const struct gn_kms_crtc *now = &card->crtcs[crtc];
+    const struct gn_kms_crtc *now = crtc >= 0 && c->crtc == crtc ? &card->crtcs[crtc] : NULL;
     struct ladder l = {out, 0};
     push_asked(&l, c, opts);
-    if (c->crtc == crtc && now->lit && is_progressive(&now->mode) && within(&now->mode, opts) &&
+    if (now && now->lit && is_progressive(&now->mode) && within(&now->mode, opts) &&
         is_offered(c, &now->mode))
         push(&l, &now->mode);
     push(&l, find_preferred(c, opts));

@@ -115,6 +115,7 @@ static int light(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_n
     const int error = gn_kms_output_light(&k->output, &k->ladder[k->mode], shot->fb);
     if (error != 0) return error;
     k->lit = true;
+    k->lit_for = k->monitor;
     k->screen.counts.relit++;
     k->flip.blind = gn_kms_output_is_blind(&k->output);
     gn_flip_committed(&k->flip, now_ns);

@@ -179,7 +179,7 @@ static bool is_listed(const struct gn_kms_connector *c, const drmModeModeInfo *m
 /* A monitor that comes back gets the mode that it had, if that is still one of its. */
 static void keep_mode(struct gn_kms *k, const struct gn_kms_connector *c,
                       const drmModeModeInfo *mode) {
-    if (mode->hdisplay == 0 || (find_mode(k, mode) < 0 && !is_listed(c, mode))) return;
+    if (find_mode(k, mode) < 0 && !is_listed(c, mode)) return;
     int at = find_mode(k, mode);
     if (at < 0 && k->ladder_count < GN_KMS_LADDER_MAX) k->ladder_count++;
     if (at < 0) at = k->ladder_count - 1;
@@ -222,15 +222,17 @@ static void connect(struct gn_kms *k, int connector, int64_t now_ns) {
     const int crtc = gn_kms_choose_crtc(&k->card, connector);
     snprintf(k->connector, sizeof k->connector, "%s", c->name);
     k->orientation_deg = c->orientation_deg;
+    k->monitor = c->monitor;
     k->lit = false;
     if (crtc < 0 || !open_output(k, connector, crtc)) {
         give_up_connector(k, "nothing drives it", now_ns);
         if (is_unreadable(k)) k->look_ns = now_ns + GN_KMS_LOOK_NS;
         return;
     }
-    const drmModeModeInfo had = k->output.mode;
-    k->ladder_count = gn_kms_mode_ladder(&k->card, connector, crtc, k->opts, k->ladder);
-    keep_mode(k, c, &had);
+    const bool was_lit = k->output.mode.hdisplay > 0, known = was_lit && k->lit_for == c->monitor;
+    k->ladder_count =
+        gn_kms_mode_ladder(&k->card, connector, was_lit && !known ? -1 : crtc, k->opts, k->ladder);
+    if (known) keep_mode(k, c, &k->output.mode);
     k->mode = 0;
     k->connected = true;
     k->reason[0] = 0;
@@ -280,7 +282,8 @@ static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
     }
     const struct gn_kms_connector *c = &k->card.connectors[chosen];
     const bool as_it_was =
-        k->connected && is_ours(k, c) && !c->bad_link && (c->crtc >= 0 || !k->lit) &&
+        k->connected && is_ours(k, c) && c->monitor == k->monitor && !c->bad_link &&
+        (c->crtc >= 0 || !k->lit) &&
         (is_listed(c, &k->ladder[k->mode]) || k->opts->mode_width > 0 || k->opts->modeline);
     if (as_it_was) return;
     if (k->flip.pending) { /* nothing is changed under a flip */

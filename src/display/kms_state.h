@@ -40,6 +40,8 @@ struct gn_kms {
 
     char connector[32];       /* its name */
     unsigned orientation_deg; /* of its panel */
+    uint64_t monitor;         /* that is plugged into it */
+    uint64_t lit_for;         /* the one that output.mode was lit for */
     bool connected;           /* something to show on is chosen, and a surface for it */
     drmModeModeInfo ladder[GN_KMS_LADDER_MAX];
     int ladder_count, mode; /* the mode in use is ladder[mode] */

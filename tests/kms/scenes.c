@@ -92,6 +92,19 @@ static void change_monitor(struct client *c) {
     client_run(c, SIM_S / 2);
 }
 
+/* A twin, whose modes are the same, gets what it prefers and not what the other one had. */
+static void change_twin(struct client *c) {
+    sim_refuse_mode((struct sim_refusal){96, EINVAL, false});
+    client_frames(c, 3);
+    sim_allow_modes();
+    sim_plug(0, 0, SIM_TWIN);
+    client_run(c, SIM_S / 2);
+    sim_plug(0, 0, SIM_VIEWER);
+    client_run(c, SIM_S / 2);
+    sim_plug(0, 0, SIM_WIDE_VIEWER);
+    client_run(c, SIM_S / 2);
+}
+
 static void switch_console(struct client *c) {
     client_frames(c, 3);
     client_leave_console(c);
@@ -197,6 +210,8 @@ const struct scene scenes[] = {
     {"starts without a monitor, which then comes", build_no_monitor, plug_late, .opts = {0}},
     {"unplugged and plugged", build_good, replug, .opts = {0}},
     {"another monitor, and another connector", build_good, change_monitor, .opts = {0}},
+    {"another monitor with the same modes, and a viewer that is resized", build_good, change_twin,
+     .opts = {0}},
     {"a monitor that does not say what it is", build_unknown, NULL, .opts = {0}},
     {"a mode that cannot be set", build_refused, NULL, .opts = {0}},
     {"a mode that cannot be set, as is seen late", build_refused_late, NULL, .opts = {0}},

@@ -85,8 +85,21 @@ void sim_set_gpu(const struct sim_gpu *gpu);
 void sim_refuse_mode(struct sim_refusal refusal);
 void sim_allow_modes(void);
 
-/* Monitors: 0 none; `kind` 1.. chooses its modes; SIM_NO_EDID: the connector cannot tell. */
-enum { SIM_NO_MONITOR, SIM_FULL_HD, SIM_SMALL, SIM_LARGE, SIM_NO_EDID, SIM_MONITORS };
+/* Monitors: 0 none; `kind` 1.. chooses its modes and its EDID. SIM_TWIN: the same modes as
+ * SIM_FULL_HD, another monitor. SIM_NO_EDID: the connector cannot tell. SIM_VIEWER and
+ * SIM_WIDE_VIEWER have no EDID, and the same modes, of which they prefer another: as a virtual
+ * card's when its viewer is resized. */
+enum {
+    SIM_NO_MONITOR,
+    SIM_FULL_HD,
+    SIM_SMALL,
+    SIM_LARGE,
+    SIM_NO_EDID,
+    SIM_TWIN,
+    SIM_VIEWER,
+    SIM_WIDE_VIEWER,
+    SIM_MONITORS
+};
 void sim_plug(int card, int connector, int kind);
 void sim_break_link(int card, int connector);
 void sim_lose_card(int card);
@@ -136,6 +149,7 @@ struct sim_counts {
     long calls[SIM_OPS], all_calls;
     long failed;      /* calls that were made to fail */
     long flips, sets; /* that were done */
+    long blinks;      /* sets that switch a CRTC's mode */
     long waits;       /* commits that had to wait for a flip */
     /* alive now, and most at any time */
     int files, fbs, blobs, buffers, dumbs, maps, replies, fences_given;

@@ -163,6 +163,7 @@ void sim_take(struct sim_card *card, const struct sim_state *next) {
         if (c->flip.pending) sim_finish_flip(card, i);
         if (!needs_modeset(&card->state, next, i)) continue;
         c->lit_ns = sim.now_ns;
+        sim_counts.blinks++;
         if (c->stall == SIM_STALLS_UNTIL_RELIT) c->stall = SIM_FLOWS;
     }
     card->state = *next;

@@ -30,6 +30,9 @@ int sim_monitor_modes(int kind, drmModeModeInfo *out) {
         [SIM_SMALL] = {{48, 32, 60, true}, {32, 24, 60, false}},
         [SIM_LARGE] = {{120, 68, 30, true}, {120, 68, 60, false}, {96, 54, 60, false}},
         [SIM_NO_EDID] = {{64, 48, 60, false}, {32, 24, 60, false}},
+        [SIM_TWIN] = {{96, 54, 60, true}, {64, 48, 60, false}, {64, 48, 50, false}},
+        [SIM_VIEWER] = {{64, 48, 60, true}, {96, 54, 60, false}},
+        [SIM_WIDE_VIEWER] = {{64, 48, 60, false}, {96, 54, 60, true}},
     };
     int count = 0;
     for (; count < SIM_MODES && modes[kind][count].width_px; count++)
@@ -64,6 +67,7 @@ static const char *const prop_names[SIM_PROPS] = {
     [SIM_P_LINK] = "link-status",
     [SIM_P_ORIENTATION] = "panel orientation",
     [SIM_P_NON_DESKTOP] = "non-desktop",
+    [SIM_P_EDID] = "EDID",
     [SIM_P_CONNECTOR_CRTC] = "CRTC_ID",
     [SIM_P_ACTIVE] = "ACTIVE",
     [SIM_P_MODE] = "MODE_ID",
@@ -100,11 +104,18 @@ static uint32_t crtc_or_0(const struct sim_card *card, int crtc) {
 
 static uint32_t formats_id(const struct sim_card *card) { return card->base + 90; }
 
+/* A blob; 0 where the monitor has none. */
+static uint32_t edid_id(const struct sim_card *card, int kind) {
+    const bool has = kind != SIM_NO_MONITOR && kind < SIM_VIEWER && kind != SIM_NO_EDID;
+    return has ? card->base + 50 + (uint32_t)kind : 0;
+}
+
 static void connector_props(const struct sim_file *f, const struct sim_card *card, int i,
                             struct props *p) {
     put(p, SIM_P_LINK, card->state.connectors[i].bad_link);
     put(p, SIM_P_NON_DESKTOP, 0);
     put(p, SIM_P_ORIENTATION, 0);
+    put(p, SIM_P_EDID, edid_id(card, card->known[i]));
     if (f->atomic) put(p, SIM_P_CONNECTOR_CRTC, crtc_or_0(card, card->state.connectors[i].crtc));
 }
 
@@ -160,17 +171,27 @@ static drmModePropertyPtr property(int fd, uint32_t id) {
     return p;
 }
 
+/* All alike but for the serial number. */
+static drmModePropertyBlobPtr edid_blob(uint32_t id, int kind) {
+    struct reply {
+        drmModePropertyBlobRes blob;
+        uint8_t bytes[128];
+    };
+    struct reply *r = sim_reply(sizeof *r);
+    memset(r->bytes + 1, 0xff, 6);
+    r->bytes[12] = (uint8_t)kind;
+    r->blob = (drmModePropertyBlobRes){.id = id, .length = sizeof r->bytes, .data = r->bytes};
+    return &r->blob;
+}
+
 /* One format, with LINEAR and another modifier. */
-static drmModePropertyBlobPtr property_blob(int fd, uint32_t id) {
-    struct sim_file *f = sim_enter(SIM_ModeGetPropertyBlob, fd);
+static drmModePropertyBlobPtr formats_blob(uint32_t id) {
     struct reply {
         drmModePropertyBlobRes blob;
         struct drm_format_modifier_blob head;
         uint32_t formats[2];
         struct drm_format_modifier modifiers[2];
     };
-    errno = f ? ENOENT : errno;
-    if (!f || id != formats_id(sim_card_of(f))) return NULL;
     struct reply *r = sim_reply(sizeof *r);
     r->head.version = FORMAT_BLOB_CURRENT;
     r->head.count_formats = r->head.count_modifiers = 2;
@@ -183,6 +204,17 @@ static drmModePropertyBlobPtr property_blob(int fd, uint32_t id) {
     r->blob.length = (uint32_t)(sizeof *r - offsetof(struct reply, head));
     r->blob.data = &r->head;
     return &r->blob;
+}
+
+static drmModePropertyBlobPtr property_blob(int fd, uint32_t id) {
+    struct sim_file *f = sim_enter(SIM_ModeGetPropertyBlob, fd);
+    if (!f) return NULL;
+    const struct sim_card *card = sim_card_of(f);
+    errno = ENOENT;
+    if (id == formats_id(card)) return formats_blob(id);
+    for (int i = 0; i < SIM_CONNECTORS; i++)
+        if (id && id == edid_id(card, card->known[i])) return edid_blob(id, card->known[i]);
+    return NULL;
 }
 
 /* ---- objects ---- */

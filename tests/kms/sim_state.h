@@ -21,6 +21,7 @@ enum sim_prop {
     SIM_P_LINK = 1,
     SIM_P_ORIENTATION,
     SIM_P_NON_DESKTOP,
+    SIM_P_EDID,
     SIM_P_CONNECTOR_CRTC,
     SIM_P_ACTIVE,
     SIM_P_MODE,

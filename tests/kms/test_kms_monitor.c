@@ -1,0 +1,128 @@
+/* Which mode a monitor gets that comes after another one, or after itself. */
+#include <errno.h>
+
+#include "client.h"
+#include "unit/check.h"
+
+static struct client c;
+
+static void begin(int monitor, const struct gn_screen_opts *opts) {
+    sim_begin();
+    sim_add_card(0, "/dev/dri/card0", &(struct sim_traits){.console = true});
+    sim_plug(0, 0, monitor);
+    client_open(&c, opts);
+    client_frames(&c, 3);
+}
+
+static void end(void) {
+    client_close(&c);
+    assert_int_equal(sim_end(), 0);
+}
+
+static void expect_width(unsigned width_px) {
+    int64_t took_ns;
+    assert_true(client_settle(&c, SIM_S, &took_ns));
+    assert_int_equal(client_screen(&c)->width_px, width_px);
+    c.moves = true;
+}
+
+/* Lit with its second mode, since the first could not be set then. */
+static void begin_with_second_mode(void) {
+    sim_begin();
+    sim_add_card(0, "/dev/dri/card0", &(struct sim_traits){0});
+    sim_plug(0, 0, SIM_FULL_HD);
+    sim_refuse_mode((struct sim_refusal){96, EINVAL, false});
+    client_open(&c, &(struct gn_screen_opts){0});
+    client_frames(&c, 3);
+    sim_allow_modes();
+    expect_width(64);
+}
+
+static void test_the_same_one_keeps_its_mode_and_does_not_blink(void **state) {
+    (void)state;
+    begin_with_second_mode();
+    const long blinks = sim_counts.blinks;
+    sim_plug(0, 0, SIM_NO_MONITOR);
+    client_run(&c, 3 * SIM_S);
+    sim_plug(0, 0, SIM_FULL_HD);
+    expect_width(64);
+    assert_int_equal(sim_counts.blinks, blinks);
+    end();
+}
+
+static void test_another_one_gets_what_it_prefers(void **state) {
+    (void)state;
+    begin_with_second_mode();
+    sim_plug(0, 0, SIM_NO_MONITOR);
+    client_run(&c, 3 * SIM_S);
+    sim_plug(0, 0, SIM_TWIN);
+    expect_width(96);
+    end();
+}
+
+static void test_another_one_in_a_moment(void **state) {
+    (void)state;
+    begin_with_second_mode();
+    sim_plug(0, 0, SIM_TWIN);
+    expect_width(96);
+    end();
+}
+
+/* The twin's mode could not be set either: when it comes back, the first one's is not its own. */
+static void test_a_mode_belongs_to_the_one_it_was_lit_for(void **state) {
+    (void)state;
+    begin_with_second_mode();
+    sim_stranger_takes(0);
+    sim_plug(0, 0, SIM_TWIN);
+    client_run(&c, SIM_S);
+    sim_plug(0, 0, SIM_NO_MONITOR);
+    client_run(&c, 3 * SIM_S);
+    sim_plug(0, 0, SIM_TWIN);
+    client_run(&c, SIM_S);
+    sim_stranger_leaves(0, false);
+    client_run(&c, 2 * SIM_S);
+    expect_width(96);
+    end();
+}
+
+static void test_without_edid_by_what_it_prefers(void **state) {
+    (void)state;
+    begin(SIM_VIEWER, &(struct gn_screen_opts){0});
+    expect_width(64);
+    sim_plug(0, 0, SIM_WIDE_VIEWER);
+    expect_width(96);
+    const long blinks = sim_counts.blinks;
+    sim_plug(0, 0, SIM_NO_MONITOR);
+    client_run(&c, 3 * SIM_S);
+    sim_plug(0, 0, SIM_WIDE_VIEWER);
+    expect_width(96);
+    assert_int_equal(sim_counts.blinks, blinks);
+    sim_plug(0, 0, SIM_VIEWER);
+    expect_width(64);
+    end();
+}
+
+static void test_what_is_configured_holds(void **state) {
+    (void)state;
+    begin(SIM_FULL_HD, &(struct gn_screen_opts){.mode_width = 64, .mode_height = 48});
+    expect_width(64);
+    sim_plug(0, 0, SIM_TWIN);
+    expect_width(64);
+    sim_plug(0, 0, SIM_NO_MONITOR);
+    client_run(&c, 3 * SIM_S);
+    sim_plug(0, 0, SIM_WIDE_VIEWER);
+    expect_width(64);
+    end();
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_same_one_keeps_its_mode_and_does_not_blink),
+        cmocka_unit_test(test_another_one_gets_what_it_prefers),
+        cmocka_unit_test(test_another_one_in_a_moment),
+        cmocka_unit_test(test_a_mode_belongs_to_the_one_it_was_lit_for),
+        cmocka_unit_test(test_without_edid_by_what_it_prefers),
+        cmocka_unit_test(test_what_is_configured_holds),
+    };
+    return RUN(tests);
+}
