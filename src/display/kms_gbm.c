@@ -1,8 +1,6 @@
 /* GBM and EGL on a card. Both libraries are opened at run time. The context is made without a
  * surface, so that programs are ready before there is a monitor; where the card's GPU is another
  * device, Mesa finds it by itself. */
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <dlfcn.h>
 #include <drm_fourcc.h>
 #include <gbm.h>
@@ -10,6 +8,7 @@
 #include <string.h>
 
 #include "core/arena.h"
+#include "display/egl.h"
 #include "display/kms_scanout.h"
 
 #define GBM_TABLE(X)                                                                               \
@@ -29,20 +28,6 @@
     X(gbm_bo_get_handle_for_plane)                                                                 \
     X(gbm_bo_get_stride_for_plane)                                                                 \
     X(gbm_bo_get_offset)
-#define EGL_TABLE(X)                                                                               \
-    X(PFNEGLGETPROCADDRESSPROC, GetProcAddress)                                                    \
-    X(PFNEGLQUERYSTRINGPROC, QueryString)                                                          \
-    X(PFNEGLINITIALIZEPROC, Initialize)                                                            \
-    X(PFNEGLTERMINATEPROC, Terminate)                                                              \
-    X(PFNEGLBINDAPIPROC, BindAPI)                                                                  \
-    X(PFNEGLGETCONFIGSPROC, GetConfigs)                                                            \
-    X(PFNEGLGETCONFIGATTRIBPROC, GetConfigAttrib)                                                  \
-    X(PFNEGLCREATECONTEXTPROC, CreateContext)                                                      \
-    X(PFNEGLDESTROYCONTEXTPROC, DestroyContext)                                                    \
-    X(PFNEGLDESTROYSURFACEPROC, DestroySurface)                                                    \
-    X(PFNEGLMAKECURRENTPROC, MakeCurrent)                                                          \
-    X(PFNEGLSWAPBUFFERSPROC, SwapBuffers)                                                          \
-    X(PFNEGLGETERRORPROC, GetError)
 
 enum { CONFIGS_MAX = 512 };
 
@@ -51,14 +36,11 @@ struct scanout {
 #define X(name) __typeof__(name) *name;
     GBM_TABLE(X)
 #undef X
-#define X(type, name) type name;
-    EGL_TABLE(X)
-#undef X
+    struct gn_egl egl;
     PFNEGLCREATEPLATFORMWINDOWSURFACEEXTPROC create_window;
     PFNEGLCREATESYNCKHRPROC create_sync; /* with the next two, or none of them */
     PFNEGLDESTROYSYNCKHRPROC destroy_sync;
     PFNEGLDUPNATIVEFENCEFDANDROIDPROC dup_fence;
-    void *gbm_library, *egl_library, *gles_library;
     struct gbm_device *gbm;
     EGLDisplay display;
     EGLContext context;
@@ -68,53 +50,36 @@ struct scanout {
     bool tiler, has_colorspace;
 };
 
-static bool has_word(const char *list, const char *word) {
-    size_t length = strlen(word);
-    for (const char *at = list; at && (at = strstr(at, word)); at += length)
-        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == 0)) return true;
-    return false;
-}
-
 /* ---- opening ---- */
 
 static bool load(struct scanout *s, struct gn_err *err) {
-    setenv("EGL_LOG_LEVEL", "fatal", 0); /* or Mesa chats on stderr about what it did not find */
-    s->gbm_library = dlopen("libgbm.so.1", RTLD_NOW | RTLD_LOCAL);
-    s->egl_library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-    s->gles_library = dlopen("libGLESv2.so.2", RTLD_NOW | RTLD_LOCAL);
-    if (!s->gbm_library) return gn_fail(err, "libgbm.so.1 is missing; install libgbm1");
-    if (!s->egl_library || !s->gles_library)
-        return gn_fail(err, "%s is missing; install libegl1 libgles2",
-                       s->egl_library ? "libGLESv2.so.2" : "libEGL.so.1");
+    void *library = dlopen("libgbm.so.1", RTLD_NOW | RTLD_LOCAL);
+    if (!library) return gn_fail(err, "libgbm.so.1 is missing; install libgbm1");
 #define X(name)                                                                                    \
-    *(void **)&s->name = dlsym(s->gbm_library, #name);                                             \
+    *(void **)&s->name = dlsym(library, #name);                                                    \
     if (!s->name) return gn_fail(err, "libgbm.so.1 has no " #name "; install libgbm1");
     GBM_TABLE(X)
 #undef X
-#define X(type, name)                                                                              \
-    *(void **)&s->name = dlsym(s->egl_library, "egl" #name);                                       \
-    if (!s->name) return gn_fail(err, "libEGL.so.1 has no egl" #name "; install libegl1");
-    EGL_TABLE(X)
-#undef X
-    return true;
+    return gn_egl_load(&s->egl, err);
 }
 
 static bool open_display(struct scanout *s, int card, struct gn_err *err) {
-    const char *client = s->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    const char *client = s->egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_display =
-        (PFNEGLGETPLATFORMDISPLAYEXTPROC)s->GetProcAddress("eglGetPlatformDisplayEXT");
-    s->create_window = (PFNEGLCREATEPLATFORMWINDOWSURFACEEXTPROC)s->GetProcAddress(
+        (PFNEGLGETPLATFORMDISPLAYEXTPROC)s->egl.GetProcAddress("eglGetPlatformDisplayEXT");
+    s->create_window = (PFNEGLCREATEPLATFORMWINDOWSURFACEEXTPROC)s->egl.GetProcAddress(
         "eglCreatePlatformWindowSurfaceEXT");
     if (!get_display || !s->create_window ||
-        (!has_word(client, "EGL_KHR_platform_gbm") && !has_word(client, "EGL_MESA_platform_gbm")))
+        (!gn_egl_has(client, "EGL_KHR_platform_gbm") &&
+         !gn_egl_has(client, "EGL_MESA_platform_gbm")))
         return gn_fail(err, "this EGL knows no screens (platform gbm); install libegl-mesa0");
     s->gbm = s->gbm_create_device(card);
     if (!s->gbm) return gn_fail(err, "there is no driver for it (GBM); install libgl1-mesa-dri");
     s->display = get_display(EGL_PLATFORM_GBM_KHR, s->gbm, NULL);
-    if (s->display == EGL_NO_DISPLAY || !s->Initialize(s->display, NULL, NULL))
+    if (s->display == EGL_NO_DISPLAY || !s->egl.Initialize(s->display, NULL, NULL))
         return gn_fail(err, "EGL finds no driver for it (0x%x); install libgl1-mesa-dri",
-                       s->GetError());
-    s->BindAPI(EGL_OPENGL_ES_API);
+                       s->egl.GetError());
+    s->egl.BindAPI(EGL_OPENGL_ES_API);
     return true;
 }
 
@@ -123,22 +88,22 @@ static bool open_display(struct scanout *s, int card, struct gn_err *err) {
 static bool is_tiler(struct scanout *s, const char *has) {
     static const char names[] = "v3d vc4 panfrost panthor msm kgsl rockchip meson mediatek";
     PFNEGLGETDISPLAYDRIVERNAMEPROC name_of =
-        has_word(has, "EGL_MESA_query_driver")
-            ? (PFNEGLGETDISPLAYDRIVERNAMEPROC)s->GetProcAddress("eglGetDisplayDriverName")
+        gn_egl_has(has, "EGL_MESA_query_driver")
+            ? (PFNEGLGETDISPLAYDRIVERNAMEPROC)s->egl.GetProcAddress("eglGetDisplayDriverName")
             : NULL;
     const char *name = name_of ? name_of(s->display) : NULL;
-    return name && *name && has_word(names, name);
+    return name && *name && gn_egl_has(names, name);
 }
 
 static void learn(struct scanout *s) {
-    const char *has = s->QueryString(s->display, EGL_EXTENSIONS);
-    s->has_colorspace = has_word(has, "EGL_KHR_gl_colorspace");
+    const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
+    s->has_colorspace = gn_egl_has(has, "EGL_KHR_gl_colorspace");
     s->tiler = is_tiler(s, has);
-    if (!has_word(has, "EGL_ANDROID_native_fence_sync")) return;
-    s->create_sync = (PFNEGLCREATESYNCKHRPROC)s->GetProcAddress("eglCreateSyncKHR");
-    s->destroy_sync = (PFNEGLDESTROYSYNCKHRPROC)s->GetProcAddress("eglDestroySyncKHR");
+    if (!gn_egl_has(has, "EGL_ANDROID_native_fence_sync")) return;
+    s->create_sync = (PFNEGLCREATESYNCKHRPROC)s->egl.GetProcAddress("eglCreateSyncKHR");
+    s->destroy_sync = (PFNEGLDESTROYSYNCKHRPROC)s->egl.GetProcAddress("eglDestroySyncKHR");
     s->dup_fence =
-        (PFNEGLDUPNATIVEFENCEFDANDROIDPROC)s->GetProcAddress("eglDupNativeFenceFDANDROID");
+        (PFNEGLDUPNATIVEFENCEFDANDROIDPROC)s->egl.GetProcAddress("eglDupNativeFenceFDANDROID");
     if (!s->destroy_sync || !s->dup_fence) s->create_sync = NULL;
 }
 
@@ -146,7 +111,7 @@ static void learn(struct scanout *s) {
 
 static EGLint attribute(struct scanout *s, EGLConfig config, EGLint name) {
     EGLint value = 0;
-    s->GetConfigAttrib(s->display, config, name, &value);
+    s->egl.GetConfigAttrib(s->display, config, name, &value);
     return value;
 }
 
@@ -162,7 +127,7 @@ static bool fits(struct scanout *s, EGLConfig c, uint32_t format, int samples) {
 static EGLConfig find_config(struct scanout *s, uint32_t format, int samples) {
     EGLConfig *all = gn_xalloc(CONFIGS_MAX, sizeof *all), found = NULL, best = NULL;
     EGLint count = 0;
-    s->GetConfigs(s->display, all, CONFIGS_MAX, &count);
+    s->egl.GetConfigs(s->display, all, CONFIGS_MAX, &count);
     for (EGLint i = 0; i < count && !best; i++) {
         if (!fits(s, all[i], format, samples)) continue;
         found = all[i];
@@ -178,29 +143,31 @@ static EGLContext create_context(struct scanout *s, EGLint major, bool robust) {
     const EGLint tail = robust ? EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT : EGL_NONE;
     const EGLint list[] = {EGL_CONTEXT_CLIENT_VERSION, major, tail, EGL_LOSE_CONTEXT_ON_RESET_EXT,
                            EGL_NONE};
-    return s->CreateContext(s->display, s->context_config, EGL_NO_CONTEXT, list);
+    return s->egl.CreateContext(s->display, s->context_config, EGL_NO_CONTEXT, list);
 }
 
 static bool make_context(struct scanout *s, struct gn_err *err) {
-    const char *has = s->QueryString(s->display, EGL_EXTENSIONS);
-    if (!has_word(has, "EGL_KHR_surfaceless_context"))
+    const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
+    if (!gn_egl_has(has, "EGL_KHR_surfaceless_context"))
         return gn_fail(err, "its driver draws on surfaces only (EGL_KHR_surfaceless_context)");
-    if (!has_word(has, "EGL_KHR_no_config_context"))
+    if (!gn_egl_has(has, "EGL_KHR_no_config_context"))
         s->context_config = find_config(s, DRM_FORMAT_XRGB8888, 0);
-    if (has_word(has, "EGL_EXT_create_context_robustness")) s->context = create_context(s, 3, true);
+    if (gn_egl_has(has, "EGL_EXT_create_context_robustness"))
+        s->context = create_context(s, 3, true);
     if (s->context == EGL_NO_CONTEXT) s->context = create_context(s, 3, false);
     if (s->context == EGL_NO_CONTEXT) s->context = create_context(s, 2, false);
     if (s->context == EGL_NO_CONTEXT)
-        return gn_fail(err, "its driver makes no OpenGL ES context (0x%x)", s->GetError());
-    if (!s->MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context))
-        return gn_fail(err, "its driver does not make its context current (0x%x)", s->GetError());
+        return gn_fail(err, "its driver makes no OpenGL ES context (0x%x)", s->egl.GetError());
+    if (!s->egl.MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context))
+        return gn_fail(err, "its driver does not make its context current (0x%x)",
+                       s->egl.GetError());
     return true;
 }
 
 static void drop_surface(void *state) {
     struct scanout *s = state;
-    if (s->context) s->MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context);
-    if (s->window != EGL_NO_SURFACE) s->DestroySurface(s->display, s->window);
+    if (s->context) s->egl.MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context);
+    if (s->window != EGL_NO_SURFACE) s->egl.DestroySurface(s->display, s->window);
     if (s->surface) s->gbm_surface_destroy(s->surface);
     s->window = EGL_NO_SURFACE;
     s->surface = NULL;
@@ -210,9 +177,9 @@ static void close_all(void *state) {
     struct scanout *s = state;
     if (s->display != EGL_NO_DISPLAY) {
         drop_surface(s);
-        s->MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        if (s->context != EGL_NO_CONTEXT) s->DestroyContext(s->display, s->context);
-        s->Terminate(s->display);
+        s->egl.MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (s->context != EGL_NO_CONTEXT) s->egl.DestroyContext(s->display, s->context);
+        s->egl.Terminate(s->display);
     }
     if (s->gbm) s->gbm_device_destroy(s->gbm);
     free(s); /* the libraries stay: what they have started does not survive being unloaded */
@@ -230,7 +197,7 @@ static void *open_on(int card, struct gn_err *err) {
 
 static gn_display_proc get_proc(void *state, const char *name) {
     struct scanout *s = state;
-    return (gn_display_proc)s->GetProcAddress(name);
+    return (gn_display_proc)s->egl.GetProcAddress(name);
 }
 
 /* ---- the surface ---- */
@@ -265,7 +232,7 @@ static bool try_surface(struct scanout *s, const struct gn_surface_opts *o, uint
     s->surface = create_buffers(s, o, format);
     *srgb = s->has_colorspace && !o->unencoded;
     if (s->surface && create_window(s, config, srgb) &&
-        s->MakeCurrent(s->display, s->window, s->window, s->context))
+        s->egl.MakeCurrent(s->display, s->window, s->window, s->context))
         return true;
     drop_surface(s);
     return false;
@@ -284,7 +251,7 @@ static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_
             return true;
         }
     return gn_fail(err, "no %ux%u surface that can be shown (0x%x)", o->width_px, o->height_px,
-                   s->GetError());
+                   s->egl.GetError());
 }
 
 /* ---- frames ---- */
@@ -312,10 +279,10 @@ static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence
     *fence = -1;
     if (want_fence && s->create_sync)
         sync = s->create_sync(s->display, EGL_SYNC_NATIVE_FENCE_ANDROID, NULL);
-    const bool swapped = s->SwapBuffers(s->display, s->window);
+    const bool swapped = s->egl.SwapBuffers(s->display, s->window);
     if (swapped && sync != EGL_NO_SYNC_KHR) *fence = s->dup_fence(s->display, sync);
     if (sync != EGL_NO_SYNC_KHR) s->destroy_sync(s->display, sync);
-    if (!swapped) return gn_fail(err, "the GPU ends no frame (0x%x)", s->GetError());
+    if (!swapped) return gn_fail(err, "the GPU ends no frame (0x%x)", s->egl.GetError());
     struct gbm_bo *bo = s->gbm_surface_lock_front_buffer(s->surface);
     if (!bo) return gn_fail(err, "the GPU hands over no frame");
     describe(s, bo, out);
