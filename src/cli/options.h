@@ -85,7 +85,7 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     size_t offset;        /* of its field in struct gn_options */
 };
-enum { GN_OPTION_COUNT = 44 };
+enum { GN_OPTION_COUNT = 46 };
 extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
 
 const struct gn_option_row *gn_option_find(const char *name,
@@ -147,8 +147,9 @@ struct gn_options {
     struct gn_limits limits;
 
     /* [display] */
-    const char *backend, *card, *connector;
+    const char *backend, *card, *render_node, *connector;
     struct gn_display_mode display_mode; /* 0x0: the display's */
+    struct gn_display_mode max_mode;
     const char *modeline;
     int rotate_deg, max_fps; /* 0: as fast as the display */
     bool legacy;

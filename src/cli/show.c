@@ -63,10 +63,14 @@ static struct gn_screen_opts screen_opts_of(const struct gn_options *o) {
         .height_px = (uint32_t)o->size.height_px,
         .connector = o->connector,
         .card = o->card,
+        .render_node = o->render_node,
         .modeline = o->modeline,
         .mode_width = (uint32_t)o->display_mode.width_px,
         .mode_height = (uint32_t)o->display_mode.height_px,
         .mode_hz = o->display_mode.hz,
+        .cap_width = (uint32_t)o->max_mode.width_px,
+        .cap_height = (uint32_t)o->max_mode.height_px,
+        .cap_hz = o->max_mode.hz,
         .rotate_deg = (unsigned)o->rotate_deg,
         .max_fps = (unsigned)o->max_fps,
         .msaa = gn_options_given(o, msaa) ? o->msaa : GN_SCREEN_MSAA_AUTO,
@@ -200,8 +204,10 @@ static bool same_text(const char *a, const char *b) {
 /* Does the display have to be opened again? */
 static bool same_screen(const struct gn_options *a, const struct gn_options *b) {
     return same_text(a->backend, b->backend) && same_text(a->connector, b->connector) &&
-           same_text(a->card, b->card) && same_text(a->modeline, b->modeline) &&
+           same_text(a->card, b->card) && same_text(a->render_node, b->render_node) &&
+           same_text(a->modeline, b->modeline) &&
            memcmp(&a->display_mode, &b->display_mode, sizeof a->display_mode) == 0 &&
+           memcmp(&a->max_mode, &b->max_mode, sizeof a->max_mode) == 0 &&
            memcmp(&a->size, &b->size, sizeof a->size) == 0 && a->rotate_deg == b->rotate_deg &&
            a->max_fps == b->max_fps && a->msaa == b->msaa && a->legacy == b->legacy &&
            encodes(a) == encodes(b);

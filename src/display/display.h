@@ -23,11 +23,12 @@ struct gn_screen_opts {               /* zero means the default written beside *
     uint32_t width_px, height_px;     /* of a screen that nobody sees: 1280 x 720 */
     const char *connector;            /* "HDMI-A-1"; any that is connected */
     const char *card;                 /* "platform-gpu-card", as in /dev/dri/by-path; any */
+    const char *render_node;          /* "/dev/dri/renderD129": the GPU; the card's own */
     const char *modeline;             /* as in an xorg.conf, without its name; none */
     uint32_t mode_width, mode_height; /* the current mode, else the preferred within the cap */
     double mode_hz;                   /* any */
-    uint32_t cap_width, cap_height;   /* 1920 x 1080: what is chosen unasked is no larger, nor has
-                                         more pixels a second than that at 60 Hz */
+    uint32_t cap_width, cap_height;   /* 1920 x 1080: what is chosen unasked is no larger, */
+    double cap_hz;                    /* nor has more pixels a second than that at 60 */
     unsigned rotate_deg;              /* 0, 90, 180, 270, clockwise; beside what the panel says */
     unsigned max_fps;                 /* the mode's rate */
     int msaa;                         /* 0, 2, 4 or GN_SCREEN_MSAA_AUTO */

@@ -53,8 +53,9 @@ int gn_kms_card_score(const struct gn_kms_card *card, const char *connector);
 int gn_kms_choose_crtc(const struct gn_kms_card *card, int connector);
 /* What to try, best first, each mode once: configured (listed, else made of the modeline or, last,
  * by CVT), current if listed, preferred within the cap, the largest progressive ones of 50-60 Hz
- * within the cap, first, 640x480. Interlaced only when configured. `crtc` -1: whatever is lit now
- * was meant for another monitor. Returns the count, at most GN_KMS_LADDER_MAX. */
+ * (of less where the cap has less) within the cap, first, 640x480. Interlaced only when configured.
+ * `crtc` -1: whatever is lit now was meant for another monitor. Returns the count, at most
+ * GN_KMS_LADDER_MAX. */
 int gn_kms_mode_ladder(const struct gn_kms_card *card, int connector, int crtc,
                        const struct gn_screen_opts *opts, drmModeModeInfo *out);
 /* Refreshes in mHz, by the clock where that is known; interlaced: fields. */

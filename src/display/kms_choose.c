@@ -47,7 +47,7 @@ int gn_kms_choose_crtc(const struct gn_kms_card *card, int connector) {
 
 /* ---- modes ---- */
 
-enum { MOST_MHZ = 60500, LEAST_MHZ = 49500 };
+enum { MOST_MHZ = 60500, LEAST_MHZ = 49500, SLACK_MHZ = 500 };
 
 uint32_t gn_kms_mode_mhz(const drmModeModeInfo *m) {
     if (m->clock == 0 || m->htotal == 0 || m->vtotal == 0) return m->vrefresh * 1000;
@@ -75,13 +75,17 @@ static uint64_t pixel_rate(const drmModeModeInfo *m) {
     return (uint64_t)m->hdisplay * m->vdisplay * gn_kms_mode_mhz(m);
 }
 
-/* Neither larger nor more pixels in a second than the cap at 60 Hz: a small monitor may be faster.
- * A panel on its side is as large as one that is not. */
+static uint32_t cap_mhz(const struct gn_screen_opts *o) {
+    return (uint32_t)((o->cap_hz > 0 ? o->cap_hz : 60) * 1000) + SLACK_MHZ;
+}
+
+/* Neither larger nor more pixels in a second than the cap: a small monitor may be faster. A panel
+ * on its side is as large as one that is not. */
 static bool within(const drmModeModeInfo *m, const struct gn_screen_opts *o) {
     const uint32_t w = o->cap_width ? o->cap_width : 1920, h = o->cap_height ? o->cap_height : 1080;
     return most(m->hdisplay, m->vdisplay) <= most(w, h) &&
            least(m->hdisplay, m->vdisplay) <= least(w, h) &&
-           pixel_rate(m) <= (uint64_t)w * h * MOST_MHZ;
+           pixel_rate(m) <= (uint64_t)w * h * cap_mhz(o);
 }
 
 static double distance_hz(const drmModeModeInfo *m, double hz) {
@@ -129,10 +133,12 @@ static bool is_larger(const drmModeModeInfo *a, const drmModeModeInfo *b) {
 static const drmModeModeInfo *find_largest(const struct gn_kms_connector *c,
                                            const struct gn_screen_opts *o, uint32_t below_px) {
     const drmModeModeInfo *best = NULL;
+    /* a cap of 3840x2160@30 asks for fewer */
+    const uint32_t least_mhz = least(LEAST_MHZ, cap_mhz(o) - 2 * SLACK_MHZ);
     for (int i = 0; i < c->mode_count; i++) {
         const drmModeModeInfo *m = &c->modes[i];
         if (!is_progressive(m) || !within(m, o)) continue;
-        if (gn_kms_mode_mhz(m) < LEAST_MHZ || gn_kms_mode_mhz(m) > MOST_MHZ) continue;
+        if (gn_kms_mode_mhz(m) < least_mhz || gn_kms_mode_mhz(m) > MOST_MHZ) continue;
         if (pixels(m) >= below_px) continue;
         if (!best || is_larger(m, best)) best = m;
     }

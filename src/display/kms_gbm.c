@@ -3,12 +3,16 @@
  * device, Mesa finds it by itself. */
 #include <dlfcn.h>
 #include <drm_fourcc.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <gbm.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "core/arena.h"
 #include "display/egl.h"
+#include "display/kms_import.h"
 #include "display/kms_scanout.h"
 
 #define GBM_TABLE(X)                                                                               \
@@ -20,12 +24,15 @@
     X(gbm_surface_lock_front_buffer)                                                               \
     X(gbm_surface_release_buffer)                                                                  \
     X(gbm_surface_has_free_buffers)                                                                \
+    X(gbm_bo_create)                                                                               \
+    X(gbm_bo_destroy)                                                                              \
     X(gbm_bo_get_width)                                                                            \
     X(gbm_bo_get_height)                                                                           \
     X(gbm_bo_get_format)                                                                           \
     X(gbm_bo_get_modifier)                                                                         \
     X(gbm_bo_get_plane_count)                                                                      \
     X(gbm_bo_get_handle_for_plane)                                                                 \
+    X(gbm_bo_get_fd_for_plane)                                                                     \
     X(gbm_bo_get_stride_for_plane)                                                                 \
     X(gbm_bo_get_offset)
 
@@ -47,8 +54,34 @@ struct scanout {
     EGLConfig context_config; /* NULL: it goes with any */
     EGLSurface window;
     struct gbm_surface *surface;
-    bool tiler, has_colorspace;
+    int node; /* of another GPU than the card's own, else -1 */
+    struct gn_imports imports;
+    bool tiler, has_colorspace, can_show; /* can_show: the card takes this GPU's buffers */
 };
+
+/* ---- a GPU that is another device than the card ---- */
+
+static bool open_node(struct scanout *s, int card, const char *path, struct gn_err *err) {
+    s->imports.card = card;
+    s->node = path ? open(path, O_RDWR | O_CLOEXEC) : -1;
+    return !path || s->node >= 0 ||
+           gn_fail(err, "render node %s: %s%s", path, strerror(errno),
+                   errno == EACCES ? "; add the user to the group render" : "");
+}
+
+static int export_plane(void *state, void *bo, int plane) {
+    return ((struct scanout *)state)->gbm_bo_get_fd_for_plane(bo, plane);
+}
+
+/* By one that nobody will see: where it is refused, pictures are copied. */
+static bool takes_its_buffers(struct scanout *s) {
+    struct gbm_bo *bo = s->gbm_bo_create(s->gbm, 64, 64, DRM_FORMAT_XRGB8888,
+                                         GBM_BO_USE_RENDERING | GBM_BO_USE_LINEAR);
+    const bool takes = bo && gn_import_get(&s->imports, bo, 1, export_plane, s);
+    gn_import_drop(&s->imports);
+    if (bo) s->gbm_bo_destroy(bo);
+    return takes;
+}
 
 /* ---- opening ---- */
 
@@ -63,7 +96,7 @@ static bool load(struct scanout *s, struct gn_err *err) {
     return gn_egl_load(&s->egl, err);
 }
 
-static bool open_display(struct scanout *s, int card, struct gn_err *err) {
+static bool open_display(struct scanout *s, struct gn_err *err) {
     const char *client = s->egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_display =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)s->egl.GetProcAddress("eglGetPlatformDisplayEXT");
@@ -73,7 +106,7 @@ static bool open_display(struct scanout *s, int card, struct gn_err *err) {
         (!gn_egl_has(client, "EGL_KHR_platform_gbm") &&
          !gn_egl_has(client, "EGL_MESA_platform_gbm")))
         return gn_fail(err, "this EGL knows no screens (platform gbm); install libegl-mesa0");
-    s->gbm = s->gbm_create_device(card);
+    s->gbm = s->gbm_create_device(s->node >= 0 ? s->node : s->imports.card);
     if (!s->gbm) return gn_fail(err, "there is no driver for it (GBM); install libgl1-mesa-dri");
     s->display = get_display(EGL_PLATFORM_GBM_KHR, s->gbm, NULL);
     if (s->display == EGL_NO_DISPLAY || !s->egl.Initialize(s->display, NULL, NULL))
@@ -99,6 +132,7 @@ static void learn(struct scanout *s) {
     const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
     s->has_colorspace = gn_egl_has(has, "EGL_KHR_gl_colorspace");
     s->tiler = is_tiler(s, has);
+    s->can_show = s->node < 0 || takes_its_buffers(s);
     if (!gn_egl_has(has, "EGL_ANDROID_native_fence_sync")) return;
     s->create_sync = (PFNEGLCREATESYNCKHRPROC)s->egl.GetProcAddress("eglCreateSyncKHR");
     s->destroy_sync = (PFNEGLDESTROYSYNCKHRPROC)s->egl.GetProcAddress("eglDestroySyncKHR");
@@ -169,6 +203,7 @@ static void drop_surface(void *state) {
     if (s->context) s->egl.MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context);
     if (s->window != EGL_NO_SURFACE) s->egl.DestroySurface(s->display, s->window);
     if (s->surface) s->gbm_surface_destroy(s->surface);
+    gn_import_drop(&s->imports);
     s->window = EGL_NO_SURFACE;
     s->surface = NULL;
 }
@@ -182,12 +217,14 @@ static void close_all(void *state) {
         s->egl.Terminate(s->display);
     }
     if (s->gbm) s->gbm_device_destroy(s->gbm);
+    if (s->node >= 0) close(s->node);
     free(s); /* the libraries stay: what they have started does not survive being unloaded */
 }
 
-static void *open_on(int card, struct gn_err *err) {
+static void *open_on(int card, const char *render_node, struct gn_err *err) {
     struct scanout *s = gn_xalloc(1, sizeof *s);
-    if (load(s, err) && open_display(s, card, err) && make_context(s, err)) {
+    if (open_node(s, card, render_node, err) && load(s, err) && open_display(s, err) &&
+        make_context(s, err)) {
         learn(s);
         return s;
     }
@@ -207,9 +244,10 @@ static struct gbm_surface *create_buffers(struct scanout *s, const struct gn_sur
     static const uint64_t linear = DRM_FORMAT_MOD_LINEAR;
     const bool listed = o->rung == GN_RUNG_MODIFIERS;
     if (listed && (o->modifier_count == 0 || format != o->formats[0])) return NULL;
-    if (o->rung == GN_RUNG_PLAIN)
+    if (o->rung == GN_RUNG_PLAIN) /* without a word about it two devices agree on rows alone */
         return s->gbm_surface_create(s->gbm, o->width_px, o->height_px, format,
-                                     GBM_BO_USE_SCANOUT | GBM_BO_USE_RENDERING);
+                                     GBM_BO_USE_RENDERING |
+                                         (s->node >= 0 ? GBM_BO_USE_LINEAR : GBM_BO_USE_SCANOUT));
     return s->gbm_surface_create_with_modifiers(s->gbm, o->width_px, o->height_px, format,
                                                 listed ? o->modifiers : &linear,
                                                 listed ? (unsigned)o->modifier_count : 1);
@@ -243,6 +281,7 @@ static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_
     struct scanout *s = state;
     const int most = o->samples == GN_SCREEN_MSAA_AUTO ? (s->tiler ? 4 : 0) : o->samples;
     drop_surface(s);
+    if (!s->can_show) return gn_fail(err, "the card takes no buffers of the render node");
     for (int samples = most; samples >= 0; samples -= 2)
         for (int i = 0; i < o->format_count; i++) {
             if (!try_surface(s, o, o->formats[i], samples, &out->srgb)) continue;
@@ -256,7 +295,8 @@ static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_
 
 /* ---- frames ---- */
 
-static void describe(struct scanout *s, struct gbm_bo *bo, struct gn_buffer *out) {
+static bool describe(struct scanout *s, struct gbm_bo *bo, struct gn_buffer *out,
+                     struct gn_err *err) {
     *out = (struct gn_buffer){
         .key = bo,
         .width_px = s->gbm_bo_get_width(bo),
@@ -265,11 +305,16 @@ static void describe(struct scanout *s, struct gbm_bo *bo, struct gn_buffer *out
         .modifier = s->gbm_bo_get_modifier(bo),
         .plane_count = s->gbm_bo_get_plane_count(bo),
     };
+    const struct gn_import *import =
+        s->node >= 0 ? gn_import_get(&s->imports, bo, out->plane_count, export_plane, s) : NULL;
+    if (s->node >= 0 && !import)
+        return gn_fail(err, "the card takes no buffers of the render node: %s", strerror(errno));
     for (int i = 0; i < out->plane_count && i < GN_BUFFER_PLANES_MAX; i++) {
-        out->handles[i] = s->gbm_bo_get_handle_for_plane(bo, i).u32;
+        out->handles[i] = import ? import->handles[i] : s->gbm_bo_get_handle_for_plane(bo, i).u32;
         out->strides[i] = s->gbm_bo_get_stride_for_plane(bo, i);
         out->offsets[i] = s->gbm_bo_get_offset(bo, i);
     }
+    return true;
 }
 
 static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence,
@@ -285,8 +330,9 @@ static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence
     if (!swapped) return gn_fail(err, "the GPU ends no frame (0x%x)", s->egl.GetError());
     struct gbm_bo *bo = s->gbm_surface_lock_front_buffer(s->surface);
     if (!bo) return gn_fail(err, "the GPU hands over no frame");
-    describe(s, bo, out);
-    return true;
+    if (describe(s, bo, out, err)) return true;
+    s->gbm_surface_release_buffer(s->surface, bo);
+    return false;
 }
 
 static void release(void *state, void *key) {

@@ -60,7 +60,7 @@ static int find_card(struct gn_kms *k, int least, struct gn_kms_node *out) {
 
 static void start_gl(struct gn_kms *k) {
     struct gn_err why = {0};
-    k->scanout = k->env.scanout->open(k->fd, &why);
+    k->scanout = k->env.scanout->open(k->fd, k->opts->render_node, &why);
     k->notice[0] = 0;
     if (!k->scanout) {
         snprintf(k->reason, sizeof k->reason, "%s: %s", k->node.path, why.text);

@@ -41,8 +41,9 @@ struct gn_buffer { /* a finished picture */
 
 struct gn_scanout_ops {
     /* A device on an open card, and a context that is current without a surface. NULL on failure.
-     * The descriptor stays the caller's, and open until after close. */
-    void *(*open)(int card, struct gn_err *err);
+     * The descriptor stays the caller's, and open until after close. A render node, if not NULL,
+     * is the GPU in place of the card's own: its buffers are handed to the card. */
+    void *(*open)(int card, const char *render_node, struct gn_err *err);
     gn_display_proc (*get_proc)(void *scanout, const char *name);
     /* Replaces the surface (all of the old one's buffers must have been released) and makes the new
      * one current. On failure there is none, and the context is current without. */

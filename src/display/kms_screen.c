@@ -98,7 +98,7 @@ static bool draw_on(struct kms_screen *s, const char *path, struct gn_err *err) 
         return gn_fail(err, "%s: %s%s", path, strerror(errno),
                        errno == EACCES ? "; add the user to the group video" : "");
     s->drm->DropMaster(s->node); /* whoever shows something is not to be kept from it */
-    s->scanout = gn_scanout_gbm.open(s->node, err);
+    s->scanout = gn_scanout_gbm.open(s->node, NULL, err);
     if (s->scanout) return true;
     s->drm->close(s->node);
     s->node = -1;

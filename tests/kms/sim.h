@@ -57,7 +57,8 @@ struct sim_traits { /* of a card; zero is a good one */
     bool overlays; /* strangers leave one */
     bool console;  /* it is lit with the text console's picture */
 };
-struct sim_gpu { /* of all cards */
+#define SIM_RENDER_NODE "/dev/dri/renderD128" /* the only one */
+struct sim_gpu {                              /* of all cards */
     bool no_gl;
     bool no_surface[GN_RUNG_COUNT]; /* by rung */
 };

@@ -21,8 +21,12 @@ struct context {
 };
 static struct context *current;
 
-static void *open_context(int fd, struct gn_err *err) {
+static void *open_context(int fd, const char *render_node, struct gn_err *err) {
     struct sim_file *f = sim_enter(SIM_gl_open, fd);
+    if (render_node && strcmp(render_node, SIM_RENDER_NODE) != 0) {
+        gn_fail(err, "render node %s: No such file or directory", render_node);
+        return NULL;
+    }
     if (!f || sim.gpu.no_gl) {
         gn_fail(err, "GL does not start");
         return NULL;

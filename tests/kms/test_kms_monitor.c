@@ -115,6 +115,30 @@ static void test_what_is_configured_holds(void **state) {
     end();
 }
 
+static void test_a_cap_on_what_is_chosen_unasked(void **state) {
+    (void)state;
+    begin(SIM_FULL_HD, &(struct gn_screen_opts){.cap_width = 64, .cap_height = 48});
+    expect_width(64);
+    sim_plug(0, 0, SIM_SMALL);
+    expect_width(48);
+    end();
+}
+
+/* It says which, on the screen, too. */
+static void test_a_render_node_that_is_not_there(void **state) {
+    (void)state;
+    begin(SIM_FULL_HD, &(struct gn_screen_opts){.render_node = "/dev/dri/renderD200"});
+    assert_false(client_screen(&c)->has_context);
+    assert_string_equal(
+        client_screen(&c)->status,
+        "/dev/dri/card0: render node /dev/dri/renderD200: No such file or directory");
+    assert_false(sim_shows_console(0));
+    end();
+    begin(SIM_FULL_HD, &(struct gn_screen_opts){.render_node = SIM_RENDER_NODE});
+    expect_width(96);
+    end();
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_same_one_keeps_its_mode_and_does_not_blink),
@@ -123,6 +147,8 @@ int main(void) {
         cmocka_unit_test(test_a_mode_belongs_to_the_one_it_was_lit_for),
         cmocka_unit_test(test_without_edid_by_what_it_prefers),
         cmocka_unit_test(test_what_is_configured_holds),
+        cmocka_unit_test(test_a_cap_on_what_is_chosen_unasked),
+        cmocka_unit_test(test_a_render_node_that_is_not_there),
     };
     return RUN(tests);
 }

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "display/display.h"
+#include "display/kms_scanout.h"
 #include "unit/check.h"
 
 static void test_names(void **state) {
@@ -91,6 +92,14 @@ static void test_kms_screen_opens_without_a_card(void **state) {
     gn_display_close(&d);
 }
 
+/* Asked for before anything of the GPU's is. */
+static void test_a_render_node_that_does_not_open(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    assert_null(gn_scanout_gbm.open(-1, "/nowhere/renderD128", &err));
+    assert_string_equal(err.text, "render node /nowhere/renderD128: No such file or directory");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_names),
@@ -100,6 +109,7 @@ int main(void) {
         cmocka_unit_test(test_auto),
         cmocka_unit_test(test_unseen_screen),
         cmocka_unit_test(test_kms_screen_opens_without_a_card),
+        cmocka_unit_test(test_a_render_node_that_does_not_open),
     };
     return RUN(tests);
 }

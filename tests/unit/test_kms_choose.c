@@ -102,6 +102,34 @@ static void test_the_largest_within_the_cap(void **state) {
                   "3840x2160@60 1920x1080@60 1280x720@60 640x480@60");
 }
 
+static void test_a_cap_of_few_refreshes(void **state) {
+    (void)state;
+    struct gn_kms_connector *c = add(&card, "HDMI-A-1", true);
+    set_modes(c);
+    c->modes[c->mode_count++] = mode(3840, 2160, 30, 0, 0);
+    c->modes[c->mode_count++] = mode(3840, 2160, 24, 0, 0);
+    const struct gn_screen_opts opts = {.cap_width = 3840, .cap_height = 2160, .cap_hz = 30};
+    expect_ladder(&opts, "3840x2160@30 1920x1080@60 1280x720@60 640x480@60 3840x2160@60");
+}
+
+static void test_a_cap_of_many_refreshes(void **state) {
+    (void)state;
+    struct gn_kms_connector *c = add(&card, "DP-1", true);
+    c->modes[0] = mode(1920, 1080, 144, DRM_MODE_TYPE_PREFERRED, 0);
+    c->modes[c->mode_count++] = mode(1920, 1080, 60, 0, 0);
+    expect_ladder(&(struct gn_screen_opts){.cap_hz = 144}, "1920x1080@144 1920x1080@60");
+    expect_ladder(&(struct gn_screen_opts){.cap_hz = 75}, "1920x1080@60 1920x1080@144");
+}
+
+static void test_a_cap_below_all(void **state) {
+    (void)state;
+    set_modes(add(&card, "HDMI-A-1", true));
+    expect_ladder(&(struct gn_screen_opts){.cap_width = 1280, .cap_height = 720},
+                  "1280x720@60 640x480@60 3840x2160@60");
+    expect_ladder(&(struct gn_screen_opts){.cap_width = 320, .cap_height = 240},
+                  "3840x2160@60 640x480@60");
+}
+
 static void test_the_current_mode_is_kept(void **state) {
     (void)state;
     struct gn_kms_connector *c = add(&card, "HDMI-A-1", true);
@@ -187,6 +215,9 @@ int main(void) {
         cmocka_unit_test_setup(test_without_modes_or_crtc_it_is_none, set_up),
         cmocka_unit_test_setup(test_the_crtc_that_is_lit, set_up),
         cmocka_unit_test_setup(test_the_largest_within_the_cap, set_up),
+        cmocka_unit_test_setup(test_a_cap_of_few_refreshes, set_up),
+        cmocka_unit_test_setup(test_a_cap_of_many_refreshes, set_up),
+        cmocka_unit_test_setup(test_a_cap_below_all, set_up),
         cmocka_unit_test_setup(test_the_current_mode_is_kept, set_up),
         cmocka_unit_test_setup(test_what_was_asked_for_goes_first, set_up),
         cmocka_unit_test_setup(test_interlaced_only_when_nothing_else_is, set_up),

@@ -1,0 +1,59 @@
+#include "display/kms_import.h"
+
+#include <drm.h>
+#include <errno.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+static int call(int card, unsigned long request, void *argument) {
+    int result;
+    do result = ioctl(card, request, argument);
+    while (result < 0 && (errno == EINTR || errno == EAGAIN));
+    return result;
+}
+
+static bool import_plane(int card, int dma_buf, uint32_t *handle) {
+    struct drm_prime_handle made = {.fd = dma_buf};
+    if (dma_buf < 0 || call(card, DRM_IOCTL_PRIME_FD_TO_HANDLE, &made) != 0) return false;
+    *handle = made.handle;
+    return true;
+}
+
+/* Planes in the same memory share one. */
+static void drop(int card, struct gn_import *import) {
+    for (int i = 0; i < import->count; i++) {
+        struct drm_gem_close which = {.handle = import->handles[i]};
+        bool closed = false;
+        for (int k = 0; k < i; k++) closed |= import->handles[k] == import->handles[i];
+        if (!closed) call(card, DRM_IOCTL_GEM_CLOSE, &which);
+    }
+    *import = (struct gn_import){0};
+}
+
+const struct gn_import *gn_import_get(struct gn_imports *imports, void *key, int plane_count,
+                                      int (*export)(void *context, void *key, int plane),
+                                      void *context) {
+    struct gn_import *place = NULL;
+    for (int i = 0; i < GN_IMPORTS_MAX; i++) {
+        if (imports->all[i].key == key) return &imports->all[i];
+        if (!place && !imports->all[i].key) place = &imports->all[i];
+    }
+    errno = ENOSPC;
+    if (!place || plane_count > 4) return NULL;
+    place->key = key;
+    for (; place->count < plane_count; place->count++) {
+        const int dma_buf = export(context, key, place->count);
+        const bool ok = import_plane(imports->card, dma_buf, &place->handles[place->count]);
+        const int error = errno;
+        if (dma_buf >= 0) close(dma_buf);
+        if (ok) continue;
+        drop(imports->card, place);
+        errno = error;
+        return NULL;
+    }
+    return place;
+}
+
+void gn_import_drop(struct gn_imports *imports) {
+    for (int i = 0; i < GN_IMPORTS_MAX; i++) drop(imports->card, &imports->all[i]);
+}
