@@ -73,7 +73,6 @@ static struct gn_screen_opts screen_opts_of(const struct gn_options *o) {
         .cap_hz = o->max_mode.hz,
         .rotate_deg = (unsigned)o->rotate_deg,
         .max_fps = (unsigned)o->max_fps,
-        .msaa = gn_options_given(o, msaa) ? o->msaa : GN_SCREEN_MSAA_AUTO,
         .unencoded = !encodes(o),
         .legacy = o->legacy,
     };
@@ -93,6 +92,13 @@ static bool open_display(struct show *s, struct gn_err *err) {
 
 /* ---- the context ---- */
 
+/* What tilers draw on chip costs them next to nothing. */
+static uint32_t samples_of(const struct show *s) {
+    const struct gn_options *o = s->options;
+    if (gn_options_given(o, msaa)) return (uint32_t)o->msaa;
+    return gn_gl_caps(s->stage.gl)->tiler ? 4 : 0;
+}
+
 /* What a frame is drawn with, and how large, follows the screen. */
 static void fit_to_screen(struct show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
@@ -103,7 +109,7 @@ static void fit_to_screen(struct show *s) {
     f->height_px = screen->height_px;
     f->turn_deg = screen->rotate_deg;
     f->unencoded = direct && !screen->srgb;
-    f->msaa = direct ? 0 : (uint32_t)s->options->msaa;
+    f->msaa = samples_of(s);
     gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
 }
 
@@ -209,8 +215,7 @@ static bool same_screen(const struct gn_options *a, const struct gn_options *b) 
            memcmp(&a->display_mode, &b->display_mode, sizeof a->display_mode) == 0 &&
            memcmp(&a->max_mode, &b->max_mode, sizeof a->max_mode) == 0 &&
            memcmp(&a->size, &b->size, sizeof a->size) == 0 && a->rotate_deg == b->rotate_deg &&
-           a->max_fps == b->max_fps && a->msaa == b->msaa && a->legacy == b->legacy &&
-           encodes(a) == encodes(b);
+           a->max_fps == b->max_fps && a->legacy == b->legacy && encodes(a) == encodes(b);
 }
 
 static void drop_options(struct gn_options *options) {

@@ -17,8 +17,6 @@ struct gn_display;
 
 /* ---- screens ------------------------------------------------------------------------------- */
 
-enum gn_screen_msaa { GN_SCREEN_MSAA_AUTO = -1 }; /* 4 where the GPU is a tiler, else none */
-
 struct gn_screen_opts {               /* zero means the default written beside */
     uint32_t width_px, height_px;     /* of a screen that nobody sees: 1280 x 720 */
     const char *connector;            /* "HDMI-A-1"; any that is connected */
@@ -31,7 +29,6 @@ struct gn_screen_opts {               /* zero means the default written beside *
     double cap_hz;                    /* nor has more pixels a second than that at 60 */
     unsigned rotate_deg;              /* 0, 90, 180, 270, clockwise; beside what the panel says */
     unsigned max_fps;                 /* the mode's rate */
-    int msaa;                         /* 0, 2, 4 or GN_SCREEN_MSAA_AUTO */
     bool unencoded;                   /* the window's framebuffer shall not encode */
     bool legacy;                      /* page flips by the old interface even where atomic is */
     int64_t again_ns;                 /* a still picture is flipped again this often; 10 s */
@@ -62,8 +59,7 @@ struct gn_screen {
     struct gn_hand hand; /* what somebody did there, added up; whoever reads it zeroes it */
     uint32_t width_px, height_px; /* of what is drawn to; 0 while not lit */
     unsigned rotate_deg;          /* 0, 90, 180, 270: the picture is drawn turned clockwise by it */
-    bool srgb;                    /* the window's framebuffer encodes */
-    unsigned samples;             /* of the window's framebuffer; 0: one */
+    bool srgb;                    /* the window's framebuffer encodes; it has one sample a pixel */
     uint8_t *copy_to;             /* not NULL between begin and present: the picture is drawn off
                                      screen, and copied there as XRGB8888, top row first */
     size_t copy_stride;           /* bytes */

@@ -48,7 +48,6 @@ static void update(struct gn_kms *k, int64_t now_ns) {
                  k->output.atomic ? "atomic" : "legacy");
     s->rotate_deg = (k->opts->rotate_deg + k->orientation_deg) % 360;
     s->srgb = !copies && k->surface.srgb;
-    s->samples = copies ? 0 : k->surface.samples;
     s->period_ns = k->flip.period_ns;
     s->seen_ns = k->flip.period_ns > 0 ? gn_flip_seen_ns(&k->flip, now_ns) : now_ns;
     s->counts.shown = k->flip.shown;

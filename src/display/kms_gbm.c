@@ -56,7 +56,7 @@ struct scanout {
     struct gbm_surface *surface;
     int node; /* of another GPU than the card's own, else -1 */
     struct gn_imports imports;
-    bool tiler, has_colorspace, can_show; /* can_show: the card takes this GPU's buffers */
+    bool has_colorspace, can_show; /* can_show: the card takes this GPU's buffers */
 };
 
 /* ---- a GPU that is another device than the card ---- */
@@ -116,22 +116,9 @@ static bool open_display(struct scanout *s, struct gn_err *err) {
     return true;
 }
 
-/* GPUs that keep a tile of the picture on chip: there, four samples cost next to nothing. By the
- * name of the card's driver, with which Mesa pairs such a GPU. */
-static bool is_tiler(struct scanout *s, const char *has) {
-    static const char names[] = "v3d vc4 panfrost panthor msm kgsl rockchip meson mediatek";
-    PFNEGLGETDISPLAYDRIVERNAMEPROC name_of =
-        gn_egl_has(has, "EGL_MESA_query_driver")
-            ? (PFNEGLGETDISPLAYDRIVERNAMEPROC)s->egl.GetProcAddress("eglGetDisplayDriverName")
-            : NULL;
-    const char *name = name_of ? name_of(s->display) : NULL;
-    return name && *name && gn_egl_has(names, name);
-}
-
 static void learn(struct scanout *s) {
     const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
     s->has_colorspace = gn_egl_has(has, "EGL_KHR_gl_colorspace");
-    s->tiler = is_tiler(s, has);
     s->can_show = s->node < 0 || takes_its_buffers(s);
     if (!gn_egl_has(has, "EGL_ANDROID_native_fence_sync")) return;
     s->create_sync = (PFNEGLCREATESYNCKHRPROC)s->egl.GetProcAddress("eglCreateSyncKHR");
@@ -149,21 +136,22 @@ static EGLint attribute(struct scanout *s, EGLConfig config, EGLint name) {
     return value;
 }
 
-/* eglChooseConfig ignores the visual, and that is what counts. */
-static bool fits(struct scanout *s, EGLConfig c, uint32_t format, int samples) {
+/* eglChooseConfig ignores the visual, and that is what counts. One sample: a surface with more
+ * averages values as they are encoded, and not as light. */
+static bool fits(struct scanout *s, EGLConfig c, uint32_t format) {
     return (uint32_t)attribute(s, c, EGL_NATIVE_VISUAL_ID) == format &&
            attribute(s, c, EGL_SURFACE_TYPE) & EGL_WINDOW_BIT &&
            attribute(s, c, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES3_BIT_KHR &&
-           attribute(s, c, EGL_DEPTH_SIZE) == 24 && attribute(s, c, EGL_SAMPLES) == samples;
+           attribute(s, c, EGL_DEPTH_SIZE) == 24 && attribute(s, c, EGL_SAMPLES) == 0;
 }
 
 /* With a stencil, by which some planar shadows are drawn: beside 24 bits of depth it is free. */
-static EGLConfig find_config(struct scanout *s, uint32_t format, int samples) {
+static EGLConfig find_config(struct scanout *s, uint32_t format) {
     EGLConfig *all = gn_xalloc(CONFIGS_MAX, sizeof *all), found = NULL, best = NULL;
     EGLint count = 0;
     s->egl.GetConfigs(s->display, all, CONFIGS_MAX, &count);
     for (EGLint i = 0; i < count && !best; i++) {
-        if (!fits(s, all[i], format, samples)) continue;
+        if (!fits(s, all[i], format)) continue;
         found = all[i];
         if (attribute(s, all[i], EGL_STENCIL_SIZE) == 8) best = all[i];
     }
@@ -185,7 +173,7 @@ static bool make_context(struct scanout *s, struct gn_err *err) {
     if (!gn_egl_has(has, "EGL_KHR_surfaceless_context"))
         return gn_fail(err, "its driver draws on surfaces only (EGL_KHR_surfaceless_context)");
     if (!gn_egl_has(has, "EGL_KHR_no_config_context"))
-        s->context_config = find_config(s, DRM_FORMAT_XRGB8888, 0);
+        s->context_config = find_config(s, DRM_FORMAT_XRGB8888);
     if (gn_egl_has(has, "EGL_EXT_create_context_robustness"))
         s->context = create_context(s, 3, true);
     if (s->context == EGL_NO_CONTEXT) s->context = create_context(s, 3, false);
@@ -264,8 +252,8 @@ static bool create_window(struct scanout *s, EGLConfig config, bool *srgb) {
 }
 
 static bool try_surface(struct scanout *s, const struct gn_surface_opts *o, uint32_t format,
-                        int samples, bool *srgb) {
-    EGLConfig config = find_config(s, format, samples);
+                        bool *srgb) {
+    EGLConfig config = find_config(s, format);
     if (!config || (s->context_config && config != s->context_config)) return false;
     s->surface = create_buffers(s, o, format);
     *srgb = s->has_colorspace && !o->unencoded;
@@ -279,16 +267,13 @@ static bool try_surface(struct scanout *s, const struct gn_surface_opts *o, uint
 static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_surface *out,
                         struct gn_err *err) {
     struct scanout *s = state;
-    const int most = o->samples == GN_SCREEN_MSAA_AUTO ? (s->tiler ? 4 : 0) : o->samples;
     drop_surface(s);
     if (!s->can_show) return gn_fail(err, "the card takes no buffers of the render node");
-    for (int samples = most; samples >= 0; samples -= 2)
-        for (int i = 0; i < o->format_count; i++) {
-            if (!try_surface(s, o, o->formats[i], samples, &out->srgb)) continue;
-            out->format = o->formats[i];
-            out->samples = (unsigned)samples;
-            return true;
-        }
+    for (int i = 0; i < o->format_count; i++) {
+        if (!try_surface(s, o, o->formats[i], &out->srgb)) continue;
+        out->format = o->formats[i];
+        return true;
+    }
     return gn_fail(err, "no %ux%u surface that can be shown (0x%x)", o->width_px, o->height_px,
                    s->egl.GetError());
 }

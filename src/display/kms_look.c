@@ -212,7 +212,6 @@ static bool open_output(struct gn_kms *k, int connector, int crtc) {
         return false;
     }
     gn_kms_output_formats(&k->output, &k->surface_opts);
-    k->surface_opts.samples = k->opts->msaa;
     k->surface_opts.unencoded = k->opts->unencoded;
     return true;
 }

@@ -17,9 +17,8 @@ enum { GN_FORMATS_MAX = 8, GN_MODIFIERS_MAX = 64, GN_BUFFER_PLANES_MAX = 4 };
 
 struct gn_surface_opts {
     uint32_t width_px, height_px;
-    enum gn_rung rung; /* never COPY */
-    int samples;       /* 0, 2, 4; fewer where the GPU has fewer; GN_SCREEN_MSAA_AUTO */
-    bool unencoded;    /* GL shall not encode when it writes */
+    enum gn_rung rung;                /* never COPY */
+    bool unencoded;                   /* GL shall not encode when it writes */
     uint32_t formats[GN_FORMATS_MAX]; /* DRM fourccs that the plane takes, best first */
     int format_count;
     /* Of the first of them, what the plane lists; count 0 with MODIFIERS: the rung fails. */
@@ -29,7 +28,6 @@ struct gn_surface_opts {
 struct gn_surface {  /* what came of it */
     uint32_t format; /* of formats */
     bool srgb;       /* GL encodes when it writes */
-    unsigned samples;
 };
 struct gn_buffer { /* a finished picture */
     void *key;     /* the same key is the same memory, as long as the surface lives */

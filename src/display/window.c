@@ -304,14 +304,14 @@ static struct window *create(struct gn_display *display, struct gn_err *err) {
 }
 
 /* Hidden: it is shown with its first picture. */
-static bool make(struct window *w, uint32_t width_px, uint32_t height_px, int samples, bool srgb) {
+static bool make(struct window *w, uint32_t width_px, uint32_t height_px, bool srgb) {
     const int hints[][2] = {
         {GLFW_CLIENT_API, GLFW_OPENGL_ES_API},
         {GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API},
         {GLFW_CONTEXT_VERSION_MAJOR, 3},
         {GLFW_CONTEXT_VERSION_MINOR, 0},
         {GLFW_SRGB_CAPABLE, srgb},
-        {GLFW_SAMPLES, samples},
+        {GLFW_SAMPLES, 0}, /* with more it averages values as they are encoded */
         {GLFW_ALPHA_BITS, 0},
         {GLFW_STENCIL_BITS, 8},
         {GLFW_VISIBLE, GLFW_FALSE},
@@ -329,9 +329,8 @@ static bool make(struct window *w, uint32_t width_px, uint32_t height_px, int sa
 static bool make_either(struct window *w, const struct gn_screen_opts *o, struct gn_err *err) {
     const uint32_t width_px = o->width_px ? o->width_px : 1280,
                    height_px = o->height_px ? o->height_px : 720;
-    const int samples = o->msaa == GN_SCREEN_MSAA_AUTO ? 0 : o->msaa;
-    if (!o->unencoded && make(w, width_px, height_px, samples, true)) return true;
-    if (make(w, width_px, height_px, samples, false)) return true;
+    if (!o->unencoded && make(w, width_px, height_px, true)) return true;
+    if (make(w, width_px, height_px, false)) return true;
     return gn_fail(err, "the driver makes no window with OpenGL ES 3.0 (%s)", why());
 }
 
@@ -350,23 +349,13 @@ static bool window_open(struct gn_display *display, struct gn_warnings *warnings
 /* ---- the window as a screen ---- */
 
 /* What the driver gave of what was asked. */
-static void learn(const struct window *w, struct gn_screen *s) {
+static bool encodes(const struct window *w) {
     __typeof__(eglQuerySurface) *query = (__typeof__(query))glfw.GetProcAddress("eglQuerySurface");
-    __typeof__(eglChooseConfig) *choose =
-        (__typeof__(choose))glfw.GetProcAddress("eglChooseConfig");
-    __typeof__(eglGetConfigAttrib) *read =
-        (__typeof__(read))glfw.GetProcAddress("eglGetConfigAttrib");
-    if (!query || !choose || !read) return;
-    const EGLDisplay display = glfw.GetEGLDisplay();
-    const EGLSurface surface = glfw.GetEGLSurface(w->handle);
-    EGLint list[] = {EGL_CONFIG_ID, 0, EGL_NONE}, space = 0, count = 0, samples = 0;
-    EGLConfig config;
-    s->srgb = query(display, surface, EGL_GL_COLORSPACE_KHR, &space) &&
-              space == EGL_GL_COLORSPACE_SRGB_KHR;
-    if (query(display, surface, EGL_CONFIG_ID, &list[1]) &&
-        choose(display, list, &config, 1, &count) && count == 1 &&
-        read(display, config, EGL_SAMPLES, &samples))
-        s->samples = (unsigned)samples;
+    EGLint space = 0;
+    return query &&
+           query(glfw.GetEGLDisplay(), glfw.GetEGLSurface(w->handle), EGL_GL_COLORSPACE_KHR,
+                 &space) &&
+           space == EGL_GL_COLORSPACE_SRGB_KHR;
 }
 
 static bool watch(const struct window *w, int fd) {
@@ -397,9 +386,11 @@ static bool window_open_screen(struct gn_display *display, const struct gn_scree
     glfw.SwapInterval(glfw.link.x_pending ? 1 : 0);
     w->flip = (struct gn_flip){.blind = true, .period_ns = period_of(w)};
     w->flip.shortest_ns = opts->max_fps > 0 ? GN_NS_PER_S / opts->max_fps : 0;
-    display->screen = (struct gn_screen){
-        .fd = w->epoll, .has_context = true, .generation = 1, .rotate_deg = opts->rotate_deg};
-    learn(w, &display->screen);
+    display->screen = (struct gn_screen){.fd = w->epoll,
+                                         .has_context = true,
+                                         .generation = 1,
+                                         .rotate_deg = opts->rotate_deg,
+                                         .srgb = encodes(w)};
     glfw.GetFramebufferSize(w->handle, &w->width_px, &w->height_px);
     poll_events();
     return settle(display, now_ns, err);

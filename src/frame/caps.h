@@ -29,6 +29,7 @@ struct gn_caps {
     int max_texture_px, max_texture_units;
     char vendor[64], renderer[96], version[96];
     bool software; /* llvmpipe, softpipe, swrast */
+    bool tiler;    /* it keeps a tile of the picture on chip, with all its samples */
 };
 /* The encodings that caps prove, as gn_encoding_choose wants them. */
 uint32_t gn_caps_encodings(const struct gn_caps *caps);

@@ -378,6 +378,11 @@ static void publish(struct gn_frame *frame) {
     plan->light_count = frame->light_count;
 }
 
+/* Samples, which are to be averaged as light, before they are encoded. */
+static bool averages(const struct gn_frame *frame) {
+    return frame->plan.msaa > 1 && frame->caps.has & 1u << GN_CAP_RGBA16F;
+}
+
 const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
                                      const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings) {
@@ -388,7 +393,8 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     gn_frame_eye(frame, pose, opts, gn_frame_constants(frame, GN_CONSTANTS_PICTURE));
     plan->exposure = gn_frame_exposure(frame, pose, opts);
     gn_frame_choose_lights(frame, pose, opts, warnings);
-    if (plan->encode_srgb && frame->group_count > 1) plan->output = GN_OUTPUT_FLOAT;
+    if (plan->encode_srgb && (frame->group_count > 1 || averages(frame)))
+        plan->output = GN_OUTPUT_FLOAT;
     gn_frame_fit_shadows(frame, pose, opts);
     shadow_passes(frame, pose, opts);
     picture_constants(frame, pose, opts);

@@ -42,6 +42,15 @@ static bool is_software(const char *renderer) {
            strstr(renderer, "swrast") || strstr(renderer, "Software Rasterizer");
 }
 
+/* By the names that drivers give, Mesa's and the makers' own; in zink's the GPU's stands too. */
+bool gn_gl_is_tiler(const char *renderer) {
+    static const char *const names[] = {"V3D ", "VideoCore", "Mali", "Adreno", "PowerVR", "Apple "};
+    if (is_software(renderer)) return false;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strstr(renderer, names[i])) return true;
+    return strncmp(renderer, "FD", 2) == 0 && renderer[2] >= '0' && renderer[2] <= '9';
+}
+
 static bool has_timer(struct gn_gl *gl) {
     static const GLenum time_elapsed = GL_TIME_ELAPSED_EXT;
     GLint bits = 0;
@@ -111,6 +120,7 @@ bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn
     copy_string(gl, GL_RENDERER, caps->renderer, sizeof caps->renderer);
     copy_string(gl, GL_VERSION, caps->version, sizeof caps->version);
     caps->software = is_software(caps->renderer);
+    caps->tiler = gn_gl_is_tiler(caps->renderer);
     GL(gl, GetIntegerv)(GL_MAX_TEXTURE_SIZE, &caps->max_texture_px);
     GL(gl, GetIntegerv)(GL_MAX_TEXTURE_IMAGE_UNITS, &caps->max_texture_units);
     if (has_timer(gl)) caps->has |= 1u << GN_CAP_TIMER;

@@ -49,7 +49,8 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
  * numbered as the driver counts them; NULL when none did, or without `debug`. */
 const char *gn_gl_failed_source(const struct gn_gl *gl);
 /* The window: the framebuffer that the display gives the context. A picture of its size goes
- * straight there, with its antialiasing; all others are drawn off screen. NULL: there is none. */
+ * straight there, or, with more samples than one, by way of a target of ours; all others are drawn
+ * off screen. NULL: there is none. */
 struct gn_gl_window {
     uint32_t width_px, height_px;
     bool srgb; /* it encodes; else a plan must be unencoded to go there */

@@ -110,17 +110,25 @@ static void end_target(struct gn_gl *gl, const struct gn_pass *pass, bool last) 
     if (pass->discard_depth && last) GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, count, depth);
 }
 
-static void resolve(struct gn_gl *gl) {
+/* What is read is of no more use. */
+static void blit(struct gn_gl *gl, GLuint from, GLuint to) {
     static const GLenum color = GL_COLOR_ATTACHMENT0;
-    const struct gn_gl_output *o = &gl->targets.output;
-    const GLint w = (GLint)o->width_px, h = (GLint)o->height_px;
-    if (o->resolved == o->framebuffer) return;
+    const GLint w = (GLint)gl->targets.output.width_px, h = (GLint)gl->targets.output.height_px;
     gn_gl_set_scissor(gl, NULL);
-    gn_gl_bind_framebuffer(gl, o->framebuffer);
-    GL(gl, BindFramebuffer)(GL_DRAW_FRAMEBUFFER, o->resolved);
+    gn_gl_bind_framebuffer(gl, from);
+    GL(gl, BindFramebuffer)(GL_DRAW_FRAMEBUFFER, to);
     GL(gl, BlitFramebuffer)(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     GL(gl, InvalidateFramebuffer)(GL_READ_FRAMEBUFFER, 1, &color);
-    GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, o->framebuffer); /* as the cache says */
+    GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, from); /* as the cache says */
+}
+
+/* In linear light: samples are averaged in a target of ours, since a window that has some of its
+ * own averages values as they are encoded. */
+static void resolve(struct gn_gl *gl) {
+    const struct gn_gl_output *o = &gl->targets.output;
+    if (o->resolved == o->framebuffer) return;
+    blit(gl, o->framebuffer, o->resolved);
+    if (o->window && !o->encodes) blit(gl, o->resolved, 0);
 }
 
 /* ---- what draws read ---- */

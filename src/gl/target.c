@@ -125,6 +125,7 @@ static bool make_encoded(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err
 }
 
 GLuint gn_gl_output_finished(const struct gn_gl_output *output) {
+    if (output->window) return 0;
     return output->encodes ? output->encoded : output->resolved;
 }
 
@@ -141,7 +142,7 @@ static uint64_t bytes_of(const struct gn_gl_output *o, bool encoded) {
 
 static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err *err) {
     const bool encoded = o->encodes;
-    if (o->window && !encoded) return true; /* all of it is the display's */
+    if (o->window && !encoded && !o->msaa) return true; /* all of it is the display's */
     o->depth = make_renderbuffer(gl, o->stencil ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT24,
                                  (GLsizei)o->msaa, o->width_px, o->height_px);
     o->framebuffer = make_framebuffer(gl);

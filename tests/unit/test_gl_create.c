@@ -166,6 +166,32 @@ static void test_embedded(void **state) {
 #define TEST(name)                                                                                 \
     {#name " egl", name, NULL, NULL, "egl"}, { #name " osmesa", name, NULL, NULL, "osmesa" }
 
+/* As Mesa's drivers and the makers' own name themselves. */
+static void test_tilers_by_name(void **state) {
+    (void)state;
+    static const char *const tilers[] = {"V3D 4.2.14.0",
+                                         "V3D 7.1.7.0",
+                                         "Mali-G52 r1 (Panfrost)",
+                                         "Mali-G610 (Panfrost)",
+                                         "Mali-G610",
+                                         "FD618",
+                                         "Adreno (TM) 650",
+                                         "PowerVR AXE-1-16M",
+                                         "zink Vulkan 1.3(PowerVR B-Series BXS-4-64 (IMG))"};
+    static const char *const others[] = {"llvmpipe (LLVM 15.0.6, 256 bits)",
+                                         "softpipe",
+                                         "Mesa Intel(R) UHD Graphics 620 (KBL GT2)",
+                                         "AMD Radeon RX 580 Series (polaris10)",
+                                         "NVIDIA H200/PCIe/SSE2",
+                                         "virgl (llvmpipe)",
+                                         "Vivante GC7000 rev 6214",
+                                         "FDO"};
+    for (size_t i = 0; i < sizeof tilers / sizeof *tilers; i++)
+        if (!gn_gl_is_tiler(tilers[i])) fail_msg("%s", tilers[i]);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (gn_gl_is_tiler(others[i])) fail_msg("%s", others[i]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_destroy_null),
@@ -175,6 +201,7 @@ int main(void) {
         TEST(test_liar_found_late),
         TEST(test_failed_program),
         TEST(test_embedded),
+        cmocka_unit_test(test_tilers_by_name),
     };
     return RUN(tests);
 }
