@@ -4,12 +4,6 @@
  * library below us may read that empty, and keep what is for us: after every call that might have,
  * events are polled. Frames are paced by a timer: a swap that waits for the screen would wait for
  * ever in a window that nobody sees. */
-#define GLFW_INCLUDE_NONE
-#define GLFW_EXPOSE_NATIVE_EGL
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-#include <GLFW/glfw3.h>
-#include <GLFW/glfw3native.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <stdio.h>
@@ -23,56 +17,15 @@
 #include "core/clock.h"
 #include "display/kms_flip.h"
 #include "display/private.h"
-#include "display/window_link.h"
+#include "display/window_glfw.h"
 
-#define GLFW_TABLE(X)                                                                              \
-    X(Init)                                                                                        \
-    X(GetError)                                                                                    \
-    X(WindowHint)                                                                                  \
-    X(WindowHintString)                                                                            \
-    X(CreateWindow)                                                                                \
-    X(DestroyWindow)                                                                               \
-    X(ShowWindow)                                                                                  \
-    X(MakeContextCurrent)                                                                          \
-    X(SwapInterval)                                                                                \
-    X(SwapBuffers)                                                                                 \
-    X(PollEvents)                                                                                  \
-    X(GetProcAddress)                                                                              \
-    X(GetEGLDisplay)                                                                               \
-    X(GetEGLSurface)                                                                               \
-    X(GetFramebufferSize)                                                                          \
-    X(GetWindowSize)                                                                               \
-    X(GetWindowPos)                                                                                \
-    X(GetWindowMonitor)                                                                            \
-    X(SetWindowMonitor)                                                                            \
-    X(GetMonitors)                                                                                 \
-    X(GetMonitorPos)                                                                               \
-    X(GetVideoMode)                                                                                \
-    X(SetWindowUserPointer)                                                                        \
-    X(GetWindowUserPointer)                                                                        \
-    X(SetWindowCloseCallback)                                                                      \
-    X(SetWindowRefreshCallback)                                                                    \
-    X(SetFramebufferSizeCallback)                                                                  \
-    X(SetWindowIconifyCallback)                                                                    \
-    X(SetKeyCallback)                                                                              \
-    X(SetCharCallback)                                                                             \
-    X(SetMouseButtonCallback)                                                                      \
-    X(SetCursorPosCallback)                                                                        \
-    X(SetScrollCallback)
-
-struct glfw {
-    void *library;
-    struct gn_window_link link; /* once initialised */
-#define X(name) __typeof__(glfw##name) *(name);
-    GLFW_TABLE(X)
-#undef X
-};
 /* One in a process, as the library is. It is never terminated: that unloads the driver, and what
  * that has started does not always survive it. */
 static struct glfw glfw;
 
 struct window {
     GLFWwindow *handle;
+    struct gn_screen_opts opts;
     bool shown, damaged;
     bool toggles; /* full screen, when the events have been heard */
     bool iconified;
@@ -258,10 +211,10 @@ static bool settle(struct gn_display *display, int64_t now_ns, struct gn_err *er
     struct gn_screen *s = &display->screen;
     if (glfw.link.gone) {
         gn_fail(err, "the X server has ended");
-        err->status = GN_EXIT_DISPLAY;
+        if (err) err->status = GN_EXIT_DISPLAY;
         return false;
     }
-    s->lit = w->width_px > 0 && w->height_px > 0 && !w->iconified;
+    s->lit = w->width_px > 0 && w->height_px > 0 && !w->iconified && !s->lost;
     s->width_px = s->lit ? (uint32_t)w->width_px : 0;
     s->height_px = s->lit ? (uint32_t)w->height_px : 0;
     s->may_draw = s->lit && gn_flip_may_draw(&w->flip, now_ns);
@@ -304,12 +257,13 @@ static struct window *create(struct gn_display *display, struct gn_err *err) {
 }
 
 /* Hidden: it is shown with its first picture. */
-static bool make(struct window *w, uint32_t width_px, uint32_t height_px, bool srgb) {
+static bool make(struct window *w, uint32_t width_px, uint32_t height_px, bool srgb, bool robust) {
     const int hints[][2] = {
         {GLFW_CLIENT_API, GLFW_OPENGL_ES_API},
         {GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API},
         {GLFW_CONTEXT_VERSION_MAJOR, 3},
         {GLFW_CONTEXT_VERSION_MINOR, 0},
+        {GLFW_CONTEXT_ROBUSTNESS, robust ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS},
         {GLFW_SRGB_CAPABLE, srgb},
         {GLFW_SAMPLES, 0}, /* with more it averages values as they are encoded */
         {GLFW_ALPHA_BITS, 0},
@@ -326,22 +280,20 @@ static bool make(struct window *w, uint32_t width_px, uint32_t height_px, bool s
     return w->handle;
 }
 
-static bool make_either(struct window *w, const struct gn_screen_opts *o, struct gn_err *err) {
-    const uint32_t width_px = o->width_px ? o->width_px : 1280,
-                   height_px = o->height_px ? o->height_px : 720;
-    if (!o->unencoded && make(w, width_px, height_px, true)) return true;
-    if (make(w, width_px, height_px, false)) return true;
+/* With an encoding framebuffer and a context that tells of its loss, or without one of them. */
+static bool make_any(struct window *w, uint32_t width_px, uint32_t height_px, struct gn_err *err) {
+    for (int i = w->opts.unencoded ? 2 : 0; i < 4; i++)
+        if (make(w, width_px, height_px, i < 2, i % 2 == 0)) return true;
     return gn_fail(err, "the driver makes no window with OpenGL ES 3.0 (%s)", why());
 }
 
 /* Off screen: a window that is never shown. */
 static bool window_open(struct gn_display *display, struct gn_warnings *warnings,
                         struct gn_err *err) {
-    static const struct gn_screen_opts small = {.width_px = 16, .height_px = 16};
     (void)warnings;
     struct window *w = create(display, err);
     if (!w) return false;
-    if (make_either(w, &small, err)) return true;
+    if (make_any(w, 16, 16, err)) return true;
     window_close(display);
     return false;
 }
@@ -372,28 +324,40 @@ static bool open_descriptors(struct window *w, struct gn_err *err) {
     return gn_fail(err, "cannot wait for the window: %s", strerror(errno));
 }
 
+/* Whatever belongs to the handle, and with it to the context. */
+static bool make_screen(struct gn_display *display, uint32_t width_px, uint32_t height_px,
+                        struct gn_err *err) {
+    struct window *w = display->state;
+    struct gn_screen *s = &display->screen;
+    if (!make_any(w, width_px, height_px, err)) return false;
+    listen_to(w);
+    /* On X11 a swap waits for the screen at most as long as it is late, and does not tear. */
+    glfw.SwapInterval(glfw.link.x_pending ? 1 : 0);
+    w->flip = (struct gn_flip){
+        .blind = true, .period_ns = period_of(w), .shown = w->flip.shown, .missed = w->flip.missed};
+    w->flip.shortest_ns = w->opts.max_fps > 0 ? GN_NS_PER_S / w->opts.max_fps : 0;
+    s->has_context = true;
+    s->generation++;
+    s->srgb = encodes(w);
+    glfw.GetFramebufferSize(w->handle, &w->width_px, &w->height_px);
+    poll_events();
+    return true;
+}
+
 static bool window_open_screen(struct gn_display *display, const struct gn_screen_opts *opts,
                                int64_t now_ns, struct gn_warnings *warnings, struct gn_err *err) {
     (void)warnings;
     struct window *w = create(display, err);
     if (!w) return false;
-    if (!open_descriptors(w, err) || !make_either(w, opts, err)) {
-        window_close(display);
-        return false;
+    w->opts = *opts;
+    if (open_descriptors(w, err)) {
+        display->screen = (struct gn_screen){.fd = w->epoll, .rotate_deg = opts->rotate_deg};
+        if (make_screen(display, opts->width_px ? opts->width_px : 1280,
+                        opts->height_px ? opts->height_px : 720, err))
+            return settle(display, now_ns, err);
     }
-    listen_to(w);
-    /* On X11 a swap waits for the screen at most as long as it is late, and does not tear. */
-    glfw.SwapInterval(glfw.link.x_pending ? 1 : 0);
-    w->flip = (struct gn_flip){.blind = true, .period_ns = period_of(w)};
-    w->flip.shortest_ns = opts->max_fps > 0 ? GN_NS_PER_S / opts->max_fps : 0;
-    display->screen = (struct gn_screen){.fd = w->epoll,
-                                         .has_context = true,
-                                         .generation = 1,
-                                         .rotate_deg = opts->rotate_deg,
-                                         .srgb = encodes(w)};
-    glfw.GetFramebufferSize(w->handle, &w->width_px, &w->height_px);
-    poll_events();
-    return settle(display, now_ns, err);
+    window_close(display);
+    return false;
 }
 
 static bool window_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
@@ -406,8 +370,32 @@ static bool window_dispatch(struct gn_display *display, int64_t now_ns, struct g
     return settle(display, now_ns, err);
 }
 
+static void window_lose(struct gn_display *display, int64_t now_ns) {
+    display->screen.lost = true;
+    settle(display, now_ns, NULL);
+}
+
+/* A window and its context are one: another takes its place. */
 static bool window_renew(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
-    return settle(display, now_ns, err); /* it is never lost */
+    struct window *w = display->state;
+    int at[4];
+    if (!display->screen.lost) return settle(display, now_ns, err);
+    const bool full = glfw.GetWindowMonitor(w->handle);
+    read_place(w, at);
+    if (full) memcpy(at, w->windowed, sizeof at);
+    glfw.DestroyWindow(w->handle);
+    w->handle = NULL;
+    w->shown = w->iconified = false;
+    w->pointer = (struct gn_pointer){0};
+    display->screen.lost = display->screen.has_context = false;
+    if (!make_screen(display, (uint32_t)at[2], (uint32_t)at[3], err)) {
+        if (err) err->status = GN_EXIT_DISPLAY;
+        return false;
+    }
+    if (glfw.link.x_pending) glfw.SetWindowPos(w->handle, at[0], at[1]);
+    if (full) toggle_full_screen(w);
+    w->damaged = true;
+    return settle(display, now_ns, err);
 }
 
 static bool window_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
@@ -445,6 +433,7 @@ static const struct gn_screen_ops window_screen_ops = {
     .renew = window_renew,
     .begin = window_begin,
     .present = window_present,
+    .lose = window_lose,
 };
 
 const struct gn_display_ops gn_display_window = {
