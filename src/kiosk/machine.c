@@ -1,0 +1,224 @@
+#include "kiosk/machine.h"
+
+#include <string.h>
+
+static int modes_of(const struct gn_kiosk_rules *rules) {
+    return rules->mode_count > 0 ? rules->mode_count : 1;
+}
+
+static int scenes_of(const struct gn_kiosk_rules *rules) {
+    return rules->scene_count > 0 ? rules->scene_count : 1;
+}
+
+int gn_kiosk_scene(const struct gn_kiosk_rules *rules, const struct gn_kiosk_place *place) {
+    const int own = rules->own_scene[place->mode];
+    return own > 0 ? own - 1 : place->scene;
+}
+
+static bool same(const struct gn_kiosk_place *a, const struct gn_kiosk_place *b) {
+    return a->mode == b->mode && a->scene == b->scene;
+}
+
+bool gn_kiosk_waits(const struct gn_kiosk *state) { return !same(&state->shown, &state->wanted); }
+
+static void caption(struct gn_kiosk *s, enum gn_caption what, int64_t time_ns) {
+    s->caption = what;
+    s->caption_ns = time_ns;
+}
+
+/* ---- what is wanted ---- */
+
+static bool mode_is_bad(const struct gn_kiosk_rules *rules, const struct gn_kiosk *s, int mode) {
+    const int own = rules->own_scene[mode];
+    return s->bad_modes >> mode & 1 || (own > 0 && s->bad_scenes >> (own - 1) & 1);
+}
+
+/* The next one that can be shown, or the same. */
+static void want_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int by) {
+    const int count = modes_of(rules);
+    int mode = s->wanted.mode;
+    for (int i = 0; i < count; i++) {
+        mode = (mode + by + count) % count;
+        if (!mode_is_bad(rules, s, mode)) break;
+    }
+    s->wanted.mode = mode;
+}
+
+/* When all others are bad they are tried once more: somebody may have mended them. */
+static void want_next_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s) {
+    const int count = scenes_of(rules);
+    int scene = s->wanted.scene;
+    for (int i = 1; i < count; i++) {
+        scene = (scene + 1) % count;
+        if (!(s->bad_scenes >> scene & 1)) {
+            s->wanted.scene = scene;
+            return;
+        }
+    }
+    for (int i = 0; i < count; i++) s->bad_scenes &= ~(UINT64_C(1) << i);
+    s->wanted.scene = (s->wanted.scene + 1) % count;
+}
+
+static void want_named(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int mode) {
+    if (mode < 0 || mode >= modes_of(rules)) return;
+    const int own = rules->own_scene[mode];
+    s->bad_modes &= ~(1u << mode); /* whoever names it may know better */
+    if (own > 0) s->bad_scenes &= ~(UINT64_C(1) << (own - 1));
+    s->wanted.mode = mode;
+}
+
+/* ---- actions ---- */
+
+/* The pause ends where it began: the time between two frames before it and after it is not counted.
+ */
+static void toggle_pause(struct gn_kiosk *s, int64_t time_ns) {
+    s->paused = !s->paused;
+    if (!s->paused && s->seen_ns != 0 && time_ns > s->seen_ns) s->seen_ns = time_ns;
+}
+
+static void act(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                const struct gn_kiosk_event *e) {
+    if (e->action == GN_ACTION_NONE) return;
+    s->used_ns = e->time_ns;
+    if (s->blanked) {
+        s->blanked = false;
+        return;
+    }
+    switch (e->action) {
+    case GN_ACTION_NEXT: want_mode(rules, s, 1); break;
+    case GN_ACTION_PREV: want_mode(rules, s, -1); break;
+    case GN_ACTION_MODE: want_named(rules, s, e->mode); break;
+    case GN_ACTION_NEXT_SCENE: want_next_scene(rules, s); break;
+    case GN_ACTION_NEXT_CAMERA: s->camera++; break;
+    case GN_ACTION_PAUSE: toggle_pause(s, e->time_ns); break;
+    case GN_ACTION_BLANK: s->blanked = true; break;
+    case GN_ACTION_INFO: s->info = !s->info; break;
+    default: return;
+    }
+    static const enum gn_caption captions[GN_ACTION_KIND_COUNT] = {
+        [GN_ACTION_NEXT] = GN_CAPTION_MODE,          [GN_ACTION_PREV] = GN_CAPTION_MODE,
+        [GN_ACTION_MODE] = GN_CAPTION_MODE,          [GN_ACTION_NEXT_SCENE] = GN_CAPTION_SCENE,
+        [GN_ACTION_NEXT_CAMERA] = GN_CAPTION_CAMERA, [GN_ACTION_PAUSE] = GN_CAPTION_PAUSE,
+    };
+    if (captions[e->action]) caption(s, captions[e->action], e->time_ns);
+}
+
+/* ---- other events ---- */
+
+static void frame(struct gn_kiosk *s, int64_t seen_ns) {
+    if (!s->paused && s->seen_ns != 0) s->scene_ns += seen_ns - s->seen_ns;
+    s->seen_ns = seen_ns;
+}
+
+static void tick(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t now_ns) {
+    if (s->used_ns == 0) s->used_ns = now_ns;
+    if (s->fade_ns != 0 && now_ns - s->fade_ns >= rules->fade_ns) s->fade_ns = 0;
+    if (s->caption && now_ns - s->caption_ns >= rules->caption_ns) s->caption = GN_CAPTION_NONE;
+    if (rules->idle == GN_IDLE_NONE || rules->idle_after_ns <= 0 || s->blanked ||
+        now_ns - s->used_ns < rules->idle_after_ns)
+        return;
+    s->used_ns = now_ns;
+    if (s->paused) toggle_pause(s, now_ns);
+    s->info = false;
+    if (rules->idle == GN_IDLE_NEXT) {
+        want_mode(rules, s, 1);
+        return;
+    }
+    s->wanted = (struct gn_kiosk_place){0};
+    s->camera = 0;
+}
+
+static void show(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                 const struct gn_kiosk_event *e) {
+    const int before = gn_kiosk_scene(rules, &s->shown);
+    if (e->mode != s->wanted.mode || e->scene != gn_kiosk_scene(rules, &s->wanted) ||
+        !gn_kiosk_waits(s))
+        return;
+    const bool enters = s->shown.mode != s->wanted.mode;
+    if (e->scene != before || (enters && rules->own_camera >> e->mode & 1)) s->camera = 0;
+    s->fade_ns = rules->fade_ns > 0 ? e->time_ns : 0;
+    s->shown = s->wanted;
+}
+
+static void give_up_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                          const struct gn_kiosk_event *e) {
+    if (e->scene < 0 || e->scene >= GN_KIOSK_SCENES_MAX) return;
+    s->bad_scenes |= UINT64_C(1) << e->scene;
+    if (!gn_kiosk_waits(s) || gn_kiosk_scene(rules, &s->wanted) != e->scene) return;
+    if (rules->own_scene[s->wanted.mode] > 0)
+        s->wanted.mode = s->shown.mode;
+    else
+        s->wanted.scene = s->shown.scene;
+    caption(s, GN_CAPTION_PROBLEM, e->time_ns);
+}
+
+static void give_up_mode(struct gn_kiosk *s, const struct gn_kiosk_event *e) {
+    if (e->mode < 0 || e->mode >= GN_KIOSK_MODES_MAX) return;
+    s->bad_modes |= 1u << e->mode;
+    if (s->wanted.mode != e->mode || s->shown.mode == e->mode) return;
+    s->wanted.mode = s->shown.mode;
+    caption(s, GN_CAPTION_PROBLEM, e->time_ns);
+}
+
+struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state,
+                              const struct gn_kiosk_event *event) {
+    struct gn_kiosk next = *state;
+    switch (event->kind) {
+    case GN_KIOSK_ACTION: act(rules, &next, event); break;
+    case GN_KIOSK_FRAME: frame(&next, event->time_ns); break;
+    case GN_KIOSK_TICK: tick(rules, &next, event->time_ns); break;
+    case GN_KIOSK_READY: show(rules, &next, event); break;
+    case GN_KIOSK_MODE_FAILED: give_up_mode(&next, event); break;
+    case GN_KIOSK_SCENE_FAILED: give_up_scene(rules, &next, event); break;
+    default: break;
+    }
+    return next;
+}
+
+/* ---- what there is to see ---- */
+
+static float share_of_old(const struct gn_kiosk_rules *rules, const struct gn_kiosk *s,
+                          int64_t seen_ns) {
+    if (s->fade_ns == 0 || rules->fade_ns <= 0) return 0.0f;
+    const double share = (double)(seen_ns - s->fade_ns) / (double)rules->fade_ns;
+    return share <= 0.0 ? 1.0f : share >= 1.0 ? 0.0f : (float)(1.0 - share);
+}
+
+struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state,
+                                   int64_t seen_ns) {
+    struct gn_kiosk_view view = {
+        .mode = state->shown.mode,
+        .scene = gn_kiosk_scene(rules, &state->shown),
+        .camera = state->camera,
+        .time_ns = state->scene_ns,
+        .stands = state->paused,
+        .dark = state->blanked,
+        .info = state->info,
+        .old = share_of_old(rules, state, seen_ns),
+        .caption_mode = state->wanted.mode,
+        .caption_scene = gn_kiosk_scene(rules, &state->wanted),
+    };
+    if (!state->paused && state->seen_ns != 0) view.time_ns += seen_ns - state->seen_ns;
+    if (seen_ns - state->caption_ns < rules->caption_ns) view.caption = state->caption;
+    return view;
+}
+
+static int64_t earlier(int64_t a, int64_t b) { return a < b ? a : b; }
+
+int64_t gn_kiosk_deadline(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state) {
+    int64_t at_ns = INT64_MAX;
+    if (state->fade_ns != 0) at_ns = earlier(at_ns, state->fade_ns + rules->fade_ns);
+    if (state->caption) at_ns = earlier(at_ns, state->caption_ns + rules->caption_ns);
+    if (rules->idle != GN_IDLE_NONE && rules->idle_after_ns > 0 && !state->blanked)
+        at_ns = earlier(at_ns, state->used_ns + rules->idle_after_ns);
+    return at_ns;
+}
+
+void gn_kiosk_print(const struct gn_kiosk *s, FILE *to) {
+    static const char *const captions[] = {"", " mode", " scene", " camera", " pause", " problem"};
+    fprintf(to, "mode %d scene %d", s->shown.mode, s->shown.scene);
+    if (gn_kiosk_waits(s)) fprintf(to, " wants mode %d scene %d", s->wanted.mode, s->wanted.scene);
+    fprintf(to, " camera +%u at %.3f s%s%s%s%s%s%s\n", s->camera, (double)s->scene_ns * 1e-9,
+            s->paused ? " paused" : "", s->blanked ? " blanked" : "", s->info ? " info" : "",
+            s->fade_ns ? " fades" : "", s->caption ? " says" : "", captions[s->caption]);
+}
