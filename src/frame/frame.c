@@ -137,7 +137,7 @@ static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const stru
         return false;
     if (s->group) return takes_light(frame, pose, s->group, item);
     const struct gn_box *box = &pose->items[item].box_ws;
-    if (!pose->items[item].visible || !gn_eye_sees(&frame->eye, box)) {
+    if (!pose->items[item].visible || !(s->opts->all_seen || gn_eye_sees(&frame->eye, box))) {
         frame->plan.culled++;
         return false;
     }

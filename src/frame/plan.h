@@ -215,6 +215,7 @@ struct gn_frame_opts {            /* zero means the default written beside */
     float turntable_rad;   /* the eye goes round the scene's centre by this, about +Y */
     bool show_lights;      /* a mark where each light stands */
     bool show_maps;        /* the maps as panels along the lower edge */
+    bool all_seen;         /* the eye sees everything: for programs that will be wanted later */
 };
 
 struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing

@@ -74,6 +74,7 @@ struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *wa
 void gn_gl_destroy(struct gn_gl *gl) {
     if (!gl) return;
     if (gl->fn.Viewport) { /* the last of the table: it was loaded */
+        gn_gl_stage(gl, NULL);
         gn_gl_scene_finish(gl);
         gn_gl_programs_finish(gl);
         gn_gl_targets_finish(gl);
@@ -96,8 +97,10 @@ bool gn_gl_is_lost(struct gn_gl *gl) {
 const char *gn_gl_failed_source(const struct gn_gl *gl) { return gl->failed_source; }
 
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err) {
+    bool done = false;
     gn_gl_targets_forget(gl);
-    return gn_gl_scene_upload(gl, scene, err);
+    gn_gl_scene_begin(gl, scene);
+    return gn_gl_scene_step(gl, SIZE_MAX, &done, err);
 }
 
 struct gn_gl_stats gn_gl_stats(const struct gn_gl *gl) {

@@ -37,6 +37,12 @@ bool gn_gl_is_lost(struct gn_gl *gl);
 
 /* Uploads a scene, replacing the one before. The scene must outlive its use here. */
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err);
+/* The same beside the scene that is shown, a piece at a time. stage() begins; NULL: drops what
+ * there is of one. step() sends about so many bytes, and sets *whole when all of it is there.
+ * show() puts it in the place of the other one, which is gone from then on; only when whole. */
+void gn_gl_stage(struct gn_gl *gl, const struct gn_scene *scene);
+bool gn_gl_stage_step(struct gn_gl *gl, size_t bytes, bool *whole, struct gn_err *err);
+void gn_gl_stage_show(struct gn_gl *gl);
 
 /* Proves what the plan needs of the GPU and nothing has proved yet. False when the GPU fails at
  * some of it: gn_gl_caps() has lost that, and the plan is to be built again from what is left. */
@@ -45,6 +51,19 @@ bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan);
  * of the plan, and of plans with the same keys and sizes, allocates nothing and makes no GL object.
  */
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
+/* The same, a piece a call, for a plan that will be wanted later, of the scene that is shown or of
+ * one that is staged and whole: what is shown stays as it is, but it has to be drawn before it is
+ * shown again. Maps first, then one program a call, which is drawn with once. Build the plan with
+ * all_seen. */
+enum gn_gl_warmth {
+    GN_GL_WARM_FAILED,  /* err says why */
+    GN_GL_WARM_MORE,    /* something was done */
+    GN_GL_WARM_DONE,    /* nothing was left to do */
+    GN_GL_WARM_REBUILD, /* the GPU fails at some of it: build the plan again from what is left */
+};
+enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
+/* For now there is nothing more to make: the driver need not keep its compiler. */
+void gn_gl_warm_end(struct gn_gl *gl);
 /* The composed source of the stage that failed last in a program of gn_gl_prepare(), its lines
  * numbered as the driver counts them; NULL when none did, or without `debug`. */
 const char *gn_gl_failed_source(const struct gn_gl *gl);

@@ -32,19 +32,31 @@ static uint8_t mean_code(const uint8_t *const in[4], int c) {
     return (uint8_t)((in[0][c] + in[1][c] + in[2][c] + in[3][c] + 2) / 4);
 }
 
-uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image, bool srgb) {
-    const uint32_t width = image->width_px > 1 ? image->width_px / 2 : 1;
-    const uint32_t height = image->height_px > 1 ? image->height_px / 2 : 1;
+struct gn_image gn_gl_image_half(const struct gn_image *image) {
+    return (struct gn_image){.width_px = image->width_px > 1 ? image->width_px / 2 : 1,
+                             .height_px = image->height_px > 1 ? image->height_px / 2 : 1};
+}
+
+void gn_gl_image_halve_rows(const struct gn_gl_curve *curve, const struct gn_image *image,
+                            uint32_t first, uint32_t count, bool srgb, uint8_t *out) {
+    const uint32_t width = gn_gl_image_half(image).width_px;
     const size_t right = image->width_px > 1 ? 4 : 0;
     const size_t below = image->height_px > 1 ? 4ul * image->width_px : 0;
-    uint8_t *out = gn_xalloc((size_t)width * height, 4), *to = out;
-    for (uint32_t y = 0; y < height; y++)
+    uint8_t *to = out + 4ul * first * width;
+    for (uint32_t y = first; y < first + count; y++)
         for (uint32_t x = 0; x < width; x++, to += 4) {
             const uint8_t *p = image->rgba + 4 * (2ul * y * image->width_px + 2ul * x);
             const uint8_t *const in[4] = {p, p + right, p + below, p + below + right};
             for (int c = 0; c < 3; c++) to[c] = srgb ? mean_light(curve, in, c) : mean_code(in, c);
             to[3] = mean_code(in, 3);
         }
-    *image = (struct gn_image){.width_px = width, .height_px = height, .rgba = out};
+}
+
+uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image, bool srgb) {
+    struct gn_image half = gn_gl_image_half(image);
+    uint8_t *out = gn_xalloc((size_t)half.width_px * half.height_px, 4);
+    gn_gl_image_halve_rows(curve, image, 0, half.height_px, srgb, out);
+    half.rgba = out;
+    *image = half;
     return out;
 }

@@ -139,6 +139,10 @@ struct gn_gl_curve {   /* sRGB by table (mipmap.c) */
 void gn_gl_curve_init(struct gn_gl_curve *curve);
 /* Makes *image half as large, in new memory that is also returned: the caller frees it. */
 uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image, bool srgb);
+/* The same row by row: the size of the half, then some of its rows. */
+struct gn_image gn_gl_image_half(const struct gn_image *image);
+void gn_gl_image_halve_rows(const struct gn_gl_curve *curve, const struct gn_image *image,
+                            uint32_t first, uint32_t count, bool srgb, uint8_t *out);
 
 struct gn_gl_vertices { /* one vertex array per set of attributes in use */
     GLuint name;
@@ -147,8 +151,32 @@ struct gn_gl_vertices { /* one vertex array per set of attributes in use */
     size_t offset;
 };
 enum { GN_GL_VERTICES_MAX = 32, GN_GL_INSTANCE_RING = 3, GN_GL_SAMPLER_KINDS = 144 };
+struct gn_gl_picture { /* one that is being sent, a few rows at a time */
+    struct gn_image image;
+    uint8_t *owned; /* its pixels, if they are ours; freed when it is sent */
+    bool open, srgb, mipmaps;
+    GLint level;
+    GLsizei levels;
+    uint32_t row; /* of the level: sent so far */
+    struct gn_image half;
+    uint8_t *half_owned; /* the next level, as far as it is made */
+};
+enum gn_gl_upload_phase {
+    GN_GL_UPLOAD_POSITIONS,
+    GN_GL_UPLOAD_ATTRIBUTES,
+    GN_GL_UPLOAD_INDICES,
+    GN_GL_UPLOAD_PICTURES,
+    GN_GL_UPLOAD_DONE,
+};
+struct gn_gl_upload {
+    enum gn_gl_upload_phase phase;
+    uint32_t first; /* vertex, index or use of a texture that comes next */
+    struct gn_gl_curve *curve;
+    struct gn_gl_picture picture;
+};
 struct gn_gl_scene {
     const struct gn_scene *scene;
+    struct gn_gl_upload upload;
     GLuint positions, attributes, indices;
     GLenum index_type;
     size_t index_size;
@@ -164,13 +192,18 @@ struct gn_gl_scene {
     struct gn_gl_vertices vertices[GN_GL_VERTICES_MAX];
     uint32_t vertices_count;
 };
-bool gn_gl_scene_upload(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err);
+void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene);
+/* Sends about so many bytes; *done: that was all of it. After a failure nothing is left. */
+bool gn_gl_scene_step(struct gn_gl *gl, size_t bytes, bool *done, struct gn_err *err);
+/* The staged scene and the one that is shown change places. */
+void gn_gl_stage_swap(struct gn_gl *gl);
 void gn_gl_scene_finish(struct gn_gl *gl);
 /* The vertex array for a set of attributes, made if need be; false when there are too many. */
 bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err *err);
 bool gn_gl_vertices_known(struct gn_gl *gl, uint32_t attributes);
 void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_instance);
-bool gn_gl_textures_upload(struct gn_gl *gl, struct gn_err *err);
+/* Sends about so many bytes; true: that was all of it. */
+bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes);
 void gn_gl_textures_finish(struct gn_gl *gl);
 void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref);
 void gn_gl_slide_bind(struct gn_gl *gl, uint32_t slide, uint32_t texture);
@@ -208,9 +241,10 @@ struct gn_gl_map {
     bool cleared; /* all of it, before the tiles that are being drawn */
     uint64_t bytes, last_used;
 };
-enum {
-    GN_GL_MAPS_MAX = 2 * GN_ALL_SHADOWS_MAX
-}; /* kept: plans that take turns find their maps again */
+enum { /* kept: plans that take turns find their maps again, until they are too much */
+       GN_GL_MAPS_MAX = 8 * GN_ALL_SHADOWS_MAX,
+       GN_GL_MAPS_MB = 256,
+};
 enum gn_gl_map_sampler {
     GN_GL_MAP_NEAREST,
     GN_GL_MAP_LINEAR,
@@ -223,8 +257,14 @@ struct gn_gl_targets {
     struct gn_gl_map maps[GN_GL_MAPS_MAX];
     GLuint map_samplers[GN_GL_MAP_SAMPLER_COUNT];
     uint64_t prepares;
+    bool wants_stencil;        /* some plan will: the output is not made twice for it */
+    struct gn_gl_output pixel; /* 1 x 1, else as a plan's output: what warm draws go to */
 };
 bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
+/* The maps of a plan alone, for one that is not drawn yet. */
+bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
+/* gl->targets.pixel as the plan's output. */
+bool gn_gl_pixel_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
 /* Where the finished picture is to be read, and what of. */
 GLuint gn_gl_output_finished(const struct gn_gl_output *output);
 enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output);
@@ -239,6 +279,11 @@ bool gn_gl_framebuffer_check(struct gn_gl *gl, const char *what, struct gn_err *
 
 /* ---- running and reading (run.c, read.c) ---- */
 
+/* Draws once, a triangle on one pixel, with a program of the plan wherever the plan does. What maps
+ * hold is forgotten where that was in one. */
+bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
+                 struct gn_err *err);
+bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err);
 /* Waits until all is drawn, maps too. */
 void gn_gl_wait(struct gn_gl *gl);
 /* RGBA of the framebuffer that is bound, half floats or floats. out: 4 x width x height. */
@@ -272,7 +317,7 @@ struct gn_gl {
     struct gn_caps caps;
     struct gn_gl_state state;
     struct gn_gl_programs programs;
-    struct gn_gl_scene scene;
+    struct gn_gl_scene scene, *staged; /* staged: NULL, or one beside it */
     struct gn_gl_instances instances;
     struct gn_gl_targets targets;
     struct gn_gl_window window; /* width 0: none */

@@ -196,7 +196,7 @@ static void draw_bare(struct gn_gl *gl, const struct gn_pass *pass, const struct
 }
 
 static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
-                 uint64_t constants_hash) {
+                 uint64_t constants_hash, uint32_t most_indices) {
     if (d->geometry == GN_NO_GEOMETRY) {
         draw_bare(gl, pass, d, constants_hash);
         return;
@@ -204,16 +204,18 @@ static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_d
     struct gn_gl_program *program = gl->plan_programs[d->program];
     const struct gn_geometry *geometry = &gl->scene.scene->geometries[d->geometry];
     const size_t first = geometry->first_index * gl->scene.index_size;
+    const uint32_t count =
+        geometry->index_count < most_indices ? geometry->index_count : most_indices;
     set_constants(gl, program, pass, constants_hash);
     set_material(gl, program, d->material);
     gn_gl_set_cull(gl, d->cull, d->mirrored);
     gn_gl_vertices_bind(gl, program->attributes, d->first_instance);
     GL(gl, DrawElementsInstanced)
-    (GL_TRIANGLES, (GLsizei)geometry->index_count, gl->scene.index_type, (const void *)first,
+    (GL_TRIANGLES, (GLsizei)count, gl->scene.index_type, (const void *)first,
      (GLsizei)d->instance_count);
     gl->stats.draws++;
     gl->stats.shadow_draws += pass->target.kind == GN_TARGET_SHADOW || pass->only_stencil;
-    gl->stats.triangles += (uint64_t)geometry->index_count / 3 * d->instance_count;
+    gl->stats.triangles += (uint64_t)count / 3 * d->instance_count;
 }
 
 /* ---- passes ---- */
@@ -262,7 +264,7 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     begin_target(gl, pass, framebuffer_of(gl, pass, map), clear_of(plan, map, pass));
     bind_sources(gl, plan, pass);
     for (uint32_t i = 0; i < pass->draw_count; i++)
-        draw(gl, pass, &plan->draws[pass->first_draw + i], hash);
+        draw(gl, pass, &plan->draws[pass->first_draw + i], hash, UINT32_MAX);
     end_target(gl, pass, !map || !next_tile(plan, map, pass));
     if (grouped) GL(gl, PopDebugGroup)();
     return !gl->debug || gn_gl_error_check(gl, pass->label, err);
@@ -334,13 +336,15 @@ static void grow_plan_programs(struct gn_gl *gl, uint32_t count) {
         gn_xrealloc(gl->plan_programs, gl->plan_programs_room, sizeof(struct gn_gl_program *));
 }
 
+bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err) {
+    if (!gn_gl_program_ensure(gl, key, err)) return false;
+    return gn_gl_vertices_ensure(gl, gn_gl_program_find(gl, key)->attributes, err);
+}
+
 static bool make_programs(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     grow_plan_programs(gl, plan->program_count);
-    for (uint32_t i = 0; i < plan->program_count; i++) {
-        if (!gn_gl_program_ensure(gl, &plan->programs[i], err)) return false;
-        const struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[i]);
-        if (!gn_gl_vertices_ensure(gl, p->attributes, err)) return false;
-    }
+    for (uint32_t i = 0; i < plan->program_count; i++)
+        if (!gn_gl_program_prepare(gl, &plan->programs[i], err)) return false;
     return true;
 }
 
@@ -354,4 +358,45 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
     const bool ok = make_programs(gl, plan, err) && gn_gl_targets_ensure(gl, plan, err);
     if (made != gl->programs_made) GL(gl, ReleaseShaderCompiler)();
     return ok;
+}
+
+/* ---- one draw ahead of time ---- */
+
+static const struct gn_draw *first_draw_of(const struct gn_plan *plan, const struct gn_pass *pass,
+                                           uint32_t program) {
+    for (uint32_t i = 0; i < pass->draw_count; i++)
+        if (plan->draws[pass->first_draw + i].program == program)
+            return &plan->draws[pass->first_draw + i];
+    return NULL;
+}
+
+static bool touch_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
+                       const struct gn_draw *d, struct gn_err *err) {
+    static const struct gn_gl_rect pixel = {0, 0, 1, 1};
+    struct gn_gl_map *map =
+        pass->target.kind == GN_TARGET_SHADOW ? gn_gl_map_find(gl, &pass->target) : NULL;
+    struct gn_draw one = *d;
+    one.instance_count = 1;
+    if (pass->target.kind == GN_TARGET_SHADOW && !map)
+        return gn_fail(err, "%s: the plan was not prepared", pass->label);
+    begin_target(gl, pass, framebuffer_of(gl, pass, map), CLEAR_NOT);
+    gn_gl_set_scissor(gl, &pixel);
+    bind_sources(gl, plan, pass);
+    draw(gl, pass, &one, 0, 3);
+    if (map) memset(map->content_hash, 0, sizeof map->content_hash);
+    return true;
+}
+
+bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
+                 struct gn_err *err) {
+    struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[program]);
+    grow_plan_programs(gl, plan->program_count);
+    gl->plan_programs[program] = p;
+    p->constants_hash = ~UINT64_C(0); /* so that they are sent, and sent again for a frame */
+    gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const struct gn_draw *d = first_draw_of(plan, &plan->passes[i], program);
+        if (d && !touch_pass(gl, plan, &plan->passes[i], d, err)) return false;
+    }
+    return true;
 }

@@ -58,8 +58,7 @@ static uint32_t possible_samples(struct gn_gl *gl, const struct gn_plan *plan) {
     return samples > 1 ? samples : 0;
 }
 
-static void output_finish(struct gn_gl *gl) {
-    struct gn_gl_output *o = &gl->targets.output;
+static void output_finish(struct gn_gl *gl, struct gn_gl_output *o) {
     if (o->resolved == o->framebuffer) o->resolved = o->resolved_color = 0;
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->framebuffer);
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->resolved);
@@ -83,11 +82,15 @@ static bool goes_to_window(const struct gn_gl *gl, const struct gn_plan *plan) {
     return gl->window.srgb ? plan->output == GN_OUTPUT_SRGB8 : plan->encode_srgb;
 }
 
+static bool wants_stencil(const struct gn_gl *gl, const struct gn_plan *plan) {
+    return plan->stencil || gl->targets.wants_stencil;
+}
+
 static bool output_is(const struct gn_gl *gl, const struct gn_gl_output *o,
                       const struct gn_plan *plan) {
     return o->made && o->window == goes_to_window(gl, plan) && o->width_px == plan->width_px &&
            o->height_px == plan->height_px && o->format == plan->output &&
-           o->msaa_wanted == plan->msaa && o->stencil == plan->stencil &&
+           o->msaa_wanted == plan->msaa && o->stencil == wants_stencil(gl, plan) &&
            o->encodes == is_encoded(plan);
 }
 
@@ -158,18 +161,37 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
 static bool output_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     struct gn_gl_output *o = &gl->targets.output;
     if (output_is(gl, o, plan)) return true;
-    output_finish(gl);
+    output_finish(gl, o);
     *o = (struct gn_gl_output){.width_px = plan->width_px,
                                .height_px = plan->height_px,
                                .format = plan->output,
-                               .stencil = plan->stencil,
+                               .stencil = wants_stencil(gl, plan),
                                .msaa = possible_samples(gl, plan),
                                .msaa_wanted = plan->msaa,
                                .window = goes_to_window(gl, plan),
                                .encodes = is_encoded(plan),
                                .made = true};
     if (output_make(gl, o, err)) return true;
-    output_finish(gl);
+    output_finish(gl, o);
+    return false;
+}
+
+bool gn_gl_pixel_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
+    struct gn_gl_output *o = &gl->targets.pixel;
+    if (o->made && o->format == plan->output && o->msaa_wanted == plan->msaa &&
+        o->stencil == wants_stencil(gl, plan) && o->encodes == is_encoded(plan))
+        return true;
+    output_finish(gl, o);
+    *o = (struct gn_gl_output){.width_px = 1,
+                               .height_px = 1,
+                               .format = plan->output,
+                               .stencil = wants_stencil(gl, plan),
+                               .msaa = possible_samples(gl, plan),
+                               .msaa_wanted = plan->msaa,
+                               .encodes = is_encoded(plan),
+                               .made = true};
+    if (output_make(gl, o, err)) return true;
+    output_finish(gl, o);
     return false;
 }
 
@@ -244,14 +266,30 @@ struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot) {
     return latest;
 }
 
-/* An empty place, else the one unused for longest: never one of this plan, which has half as many
- * at most. */
+/* An empty place, else the one unused for longest: never one of this plan, which has far fewer. */
 static struct gn_gl_map *free_place(struct gn_gl *gl) {
     struct gn_gl_map *oldest = &gl->targets.maps[0];
     for (int i = 1; i < GN_GL_MAPS_MAX; i++)
         if (gl->targets.maps[i].last_used < oldest->last_used) oldest = &gl->targets.maps[i];
     map_finish(gl, oldest);
     return oldest;
+}
+
+/* Of those that no plan of now uses, the ones unused for longest go while all are too much. */
+static void make_room(struct gn_gl *gl) {
+    for (;;) {
+        struct gn_gl_map *oldest = NULL;
+        uint64_t bytes = 0;
+        for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
+            struct gn_gl_map *m = &gl->targets.maps[i];
+            bytes += m->bytes;
+            if (m->framebuffer && m->last_used < gl->targets.prepares &&
+                (!oldest || m->last_used < oldest->last_used))
+                oldest = m;
+        }
+        if (!oldest || bytes <= UINT64_C(1048576) * GN_GL_MAPS_MB) return;
+        map_finish(gl, oldest);
+    }
 }
 
 static bool map_ensure(struct gn_gl *gl, const struct gn_target *target, struct gn_err *err) {
@@ -263,6 +301,8 @@ static bool map_ensure(struct gn_gl *gl, const struct gn_target *target, struct 
                                   .width_px = target->width_px,
                                   .height_px = target->height_px};
         if (!make_map(gl, map, err)) return false;
+        map->last_used = gl->targets.prepares;
+        make_room(gl);
     }
     map->last_used = gl->targets.prepares;
     return true;
@@ -272,7 +312,10 @@ static bool map_ensure(struct gn_gl *gl, const struct gn_target *target, struct 
 
 bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     gl->targets.prepares++;
-    if (!output_ensure(gl, plan, err)) return false;
+    return output_ensure(gl, plan, err) && gn_gl_maps_ensure(gl, plan, err);
+}
+
+bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     for (uint32_t i = 0; i < plan->pass_count; i++)
         if (plan->passes[i].target.kind == GN_TARGET_SHADOW)
             if (!map_ensure(gl, &plan->passes[i].target, err)) return false;
@@ -312,7 +355,8 @@ void gn_gl_targets_init(struct gn_gl *gl) {
 }
 
 void gn_gl_targets_finish(struct gn_gl *gl) {
-    output_finish(gl);
+    output_finish(gl, &gl->targets.output);
+    output_finish(gl, &gl->targets.pixel);
     for (int i = 0; i < GN_GL_MAPS_MAX; i++) map_finish(gl, &gl->targets.maps[i]);
     for (int i = 0; i < GN_GL_MAP_SAMPLER_COUNT; i++)
         gn_gl_object_destroy(gl, GN_GL_SAMPLER, &gl->targets.map_samplers[i]);

@@ -35,57 +35,82 @@ static GLsizei levels_of(const struct gn_image *image) {
     return levels;
 }
 
-static void send_level(struct gn_gl *gl, GLint level, const struct gn_image *image) {
-    const GLsizei width = (GLsizei)image->width_px, height = (GLsizei)image->height_px;
-    GL(gl, TexSubImage2D)
-    (GL_TEXTURE_2D, level, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image->rgba);
-}
-
-static void make_levels(struct gn_gl *gl, const struct gn_gl_curve *curve, struct gn_image image,
-                        bool srgb) {
-    if (!gl->caps.software) {
-        GL(gl, GenerateMipmap)(GL_TEXTURE_2D);
-        return;
-    }
-    const GLsizei count = levels_of(&image);
-    uint8_t *owned = NULL;
-    for (GLint level = 1; level < count; level++) {
-        uint8_t *before = owned;
-        owned = gn_gl_image_halve(curve, &image, srgb);
-        free(before);
-        send_level(gl, level, &image);
-    }
-    free(owned);
-}
-
-static void upload(struct gn_gl *gl, const struct gn_gl_curve *curve, uint32_t index, bool srgb,
-                   bool mipmaps) {
-    struct gn_image image = gl->scene.scene->images[index];
-    uint8_t *owned = shrink(gl, curve, index, &image, srgb);
-    GLuint name = gl->scene.images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, name, 0);
-    GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, mipmaps ? levels_of(&image) : 1, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8,
-     (GLsizei)image.width_px, (GLsizei)image.height_px);
-    send_level(gl, 0, &image);
-    if (mipmaps) make_levels(gl, curve, image, srgb);
-    gl->scene.texture_bytes +=
-        (uint64_t)image.width_px * image.height_px * 4 * (mipmaps ? 4 : 3) / 3;
-    free(owned);
-}
-
 static bool wants_mipmaps(const struct gn_scene *scene, uint32_t image) {
     for (uint32_t i = 0; i < scene->texture_count; i++)
         if (scene->textures[i].image == image && scene->textures[i].mipmaps) return true;
     return false;
 }
 
-static void upload_once(struct gn_gl *gl, const struct gn_gl_curve *curve, int32_t texture,
-                        bool srgb) {
-    if (texture < 0) return;
-    uint32_t image = gl->scene.scene->textures[texture].image;
-    if (!gl->scene.images[srgb][image])
-        upload(gl, curve, image, srgb, wants_mipmaps(gl->scene.scene, image));
+/* Begins to send one; where the driver's own levels would cost a frame, or are slow, they are made
+ * here, a few rows at a time. */
+static void open_picture(struct gn_gl *gl, uint32_t index, bool srgb) {
+    struct gn_gl_scene *s = &gl->scene;
+    struct gn_gl_picture *p = &s->upload.picture;
+    *p = (struct gn_gl_picture){.image = s->scene->images[index], .srgb = srgb, .open = true};
+    p->owned = shrink(gl, s->upload.curve, index, &p->image, srgb);
+    p->mipmaps = wants_mipmaps(s->scene, index);
+    p->levels = p->mipmaps ? levels_of(&p->image) : 1;
+    s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
+    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, s->images[srgb][index], 0);
+    GL(gl, TexStorage2D)
+    (GL_TEXTURE_2D, p->levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)p->image.width_px,
+     (GLsizei)p->image.height_px);
+    s->texture_bytes +=
+        (uint64_t)p->image.width_px * p->image.height_px * 4 * (p->mipmaps ? 4 : 3) / 3;
+}
+
+static void send_rows(struct gn_gl *gl, GLint level, const struct gn_image *image, uint32_t first,
+                      uint32_t count) {
+    GL(gl, TexSubImage2D)
+    (GL_TEXTURE_2D, level, 0, (GLint)first, (GLsizei)image->width_px, (GLsizei)count, GL_RGBA,
+     GL_UNSIGNED_BYTE, image->rgba + 4ul * first * image->width_px);
+}
+
+/* To the level below; false: there is none. */
+static bool next_level(struct gn_gl_picture *p) {
+    if (p->level > 0) {
+        free(p->owned);
+        p->owned = p->half_owned;
+        p->image = p->half;
+        p->half_owned = NULL;
+    }
+    p->row = 0;
+    if (++p->level >= p->levels) return false;
+    p->half = gn_gl_image_half(&p->image);
+    p->half_owned = gn_xalloc((size_t)p->half.width_px * p->half.height_px, 4);
+    p->half.rgba = p->half_owned;
+    return true;
+}
+
+static bool makes_levels(const struct gn_gl *gl, const struct gn_gl_picture *p, size_t bytes) {
+    return gl->caps.software || 4ul * p->image.width_px * p->image.height_px > bytes;
+}
+
+static void close_picture(struct gn_gl_picture *p) {
+    free(p->owned);
+    free(p->half_owned);
+    *p = (struct gn_gl_picture){0};
+}
+
+/* Some rows of the picture that is open. What was sent. */
+static size_t send_some(struct gn_gl *gl, size_t bytes) {
+    struct gn_gl_picture *p = &gl->scene.upload.picture;
+    const struct gn_image *level = p->level > 0 ? &p->half : &p->image;
+    const size_t row = (p->level > 0 ? 16ul : 4ul) * level->width_px; /* a half reads four times */
+    const size_t most = bytes / row > 0 ? bytes / row : 1;
+    const uint32_t left = level->height_px - p->row, count = most < left ? (uint32_t)most : left;
+    if (p->level > 0)
+        gn_gl_image_halve_rows(gl->scene.upload.curve, &p->image, p->row, count, p->srgb,
+                               p->half_owned);
+    send_rows(gl, p->level, level, p->row, count);
+    p->row += count;
+    if (p->row < level->height_px) return count * row;
+    if (p->level == 0 && p->mipmaps && !makes_levels(gl, p, bytes)) {
+        GL(gl, GenerateMipmap)(GL_TEXTURE_2D);
+        p->levels = 1;
+    }
+    if (!next_level(p)) close_picture(p);
+    return count * row;
 }
 
 /* ---- samplers ---- */
@@ -121,25 +146,68 @@ static void make_sampler(struct gn_gl *gl, const struct gn_texture *t) {
 
 /* ---- all of them ---- */
 
-bool gn_gl_textures_upload(struct gn_gl *gl, struct gn_err *err) {
-    struct gn_gl_scene *s = &gl->scene;
-    struct gn_gl_curve curve;
+/* The uses of pictures, by number: slots of materials, then lights' slides. */
+static bool use_of(const struct gn_scene *scene, uint32_t use, int32_t *texture, bool *srgb) {
+    const uint32_t slots = scene->material_count * GN_TEXTURE_SLOT_COUNT;
+    const int slot = (int)(use % GN_TEXTURE_SLOT_COUNT);
+    if (use >= slots + scene->light_count) return false;
+    *srgb = use < slots ? slot_is_srgb(slot) : true;
+    *texture = use < slots ? scene->materials[use / GN_TEXTURE_SLOT_COUNT].textures[slot].texture
+                           : scene->lights[use - slots].slide;
+    return true;
+}
+
+static void begin_pictures(struct gn_gl_scene *s) {
     s->image_count = s->scene->image_count;
-    if (s->image_count) gn_gl_curve_init(&curve);
-    for (int i = 0; i < 2; i++)
-        s->images[i] = gn_xalloc(s->scene->image_count + 1, sizeof *s->images[i]);
-    for (uint32_t i = 0; i < s->scene->material_count; i++)
-        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
-            upload_once(gl, &curve, s->scene->materials[i].textures[slot].texture,
-                        slot_is_srgb(slot));
-    for (uint32_t i = 0; i < s->scene->light_count; i++)
-        upload_once(gl, &curve, s->scene->lights[i].slide, true);
+    for (int i = 0; i < 2; i++) s->images[i] = gn_xalloc(s->image_count + 1, sizeof *s->images[i]);
+    if (s->image_count == 0) return;
+    s->upload.curve = gn_xalloc(1, sizeof *s->upload.curve);
+    gn_gl_curve_init(s->upload.curve);
+}
+
+/* The next use of a picture that is not there yet; false: there is none. */
+static bool open_next(struct gn_gl *gl) {
+    struct gn_gl_scene *s = &gl->scene;
+    int32_t texture;
+    bool srgb;
+    for (; use_of(s->scene, s->upload.first, &texture, &srgb); s->upload.first++) {
+        if (texture < 0) continue;
+        const uint32_t image = s->scene->textures[texture].image;
+        if (s->images[srgb][image]) continue;
+        open_picture(gl, image, srgb);
+        return true;
+    }
+    return false;
+}
+
+static GLuint open_name(const struct gn_gl_scene *s) {
+    int32_t texture = 0;
+    bool srgb = false;
+    use_of(s->scene, s->upload.first, &texture, &srgb);
+    return s->images[srgb][s->scene->textures[texture].image];
+}
+
+bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes) {
+    struct gn_gl_scene *s = &gl->scene;
+    struct gn_gl_picture *p = &s->upload.picture;
+    size_t sent = 0;
+    if (!s->images[0]) begin_pictures(s);
+    while (sent < bytes && (p->open || open_next(gl))) {
+        gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, open_name(s), 0);
+        sent += send_some(gl, bytes - sent);
+    }
+    if (p->open || sent >= bytes) return false;
     for (uint32_t i = 0; i < s->scene->texture_count; i++) make_sampler(gl, &s->scene->textures[i]);
-    return gn_gl_error_check(gl, "uploading the pictures", err);
+    free(s->upload.curve);
+    s->upload.curve = NULL;
+    return true;
 }
 
 void gn_gl_textures_finish(struct gn_gl *gl) {
     struct gn_gl_scene *s = &gl->scene;
+    close_picture(&s->upload.picture);
+    free(s->upload.curve);
+    s->upload.curve = NULL;
     for (int i = 0; i < 2; i++) {
         for (uint32_t k = 0; s->images[i] && k < s->image_count; k++)
             gn_gl_object_destroy(gl, GN_GL_TEXTURE, &s->images[i][k]);

@@ -53,24 +53,49 @@ static void pack_vertex(const struct gn_gl_scene *s, uint32_t i, uint8_t *out) {
         memcpy(out + s->attribute_at[GN_GL_COLOR], s->scene->colors + 4 * (size_t)i, COLOR_BYTES);
 }
 
-/* Packed and sent in pieces, so that a large scene needs no second copy of itself. */
-static void upload_attributes(struct gn_gl *gl) {
-    uint8_t packed[PIECE * (NORMAL_BYTES + 2 * UV_BYTES + COLOR_BYTES)];
-    const uint32_t count = gl->scene.scene->vertex_count;
-    const size_t stride = (size_t)gl->scene.attribute_stride;
-    gl->scene.attributes = make_vertex_buffer(gl, NULL, count * stride);
-    for (uint32_t first = 0; first < count; first += PIECE) {
-        uint32_t n = count - first < PIECE ? count - first : PIECE;
-        for (uint32_t i = 0; i < n; i++) pack_vertex(&gl->scene, first + i, packed + i * stride);
-        GL(gl, BufferSubData)
-        (GL_ARRAY_BUFFER, (GLintptr)(first * stride), (GLsizeiptr)(n * stride), packed);
-    }
+/* How many of what weighs so much, one at least. */
+static uint32_t portion(size_t bytes, size_t each, uint32_t left) {
+    const size_t count = bytes / each > 0 ? bytes / each : 1;
+    return count < left ? (uint32_t)count : left;
 }
 
-static void upload_narrow(struct gn_gl *gl, const uint32_t *indices, uint32_t count) {
+static bool send_positions(struct gn_gl *gl, size_t bytes) {
+    struct gn_gl_scene *s = &gl->scene;
+    const size_t each = 3 * sizeof(float);
+    const uint32_t first = s->upload.first, all = s->scene->vertex_count;
+    if (first == 0) s->positions = make_vertex_buffer(gl, NULL, all * each);
+    const uint32_t n = portion(bytes, each, all - first);
+    gn_gl_bind_array_buffer(gl, s->positions);
+    if (n > 0) GL(gl, BufferSubData)
+    (GL_ARRAY_BUFFER, (GLintptr)(first * each), (GLsizeiptr)(n * each),
+     s->scene->positions + 3 * (size_t)first);
+    s->upload.first += n;
+    return s->upload.first == all;
+}
+
+/* Packed and sent in pieces, so that a large scene needs no second copy of itself. */
+static bool send_attributes(struct gn_gl *gl, size_t bytes) {
+    uint8_t packed[PIECE * (NORMAL_BYTES + 2 * UV_BYTES + COLOR_BYTES)];
+    struct gn_gl_scene *s = &gl->scene;
+    const uint32_t all = s->scene->vertex_count;
+    const size_t stride = (size_t)s->attribute_stride;
+    if (s->upload.first == 0) s->attributes = make_vertex_buffer(gl, NULL, all * stride);
+    gn_gl_bind_array_buffer(gl, s->attributes);
+    const uint32_t end = s->upload.first + portion(bytes, stride, all - s->upload.first);
+    while (s->upload.first < end) {
+        const uint32_t first = s->upload.first, n = end - first < PIECE ? end - first : PIECE;
+        for (uint32_t i = 0; i < n; i++) pack_vertex(s, first + i, packed + i * stride);
+        GL(gl, BufferSubData)
+        (GL_ARRAY_BUFFER, (GLintptr)(first * stride), (GLsizeiptr)(n * stride), packed);
+        s->upload.first += n;
+    }
+    return end == all;
+}
+
+static void send_narrow(struct gn_gl *gl, const uint32_t *indices, uint32_t begin, uint32_t end) {
     uint16_t narrow[PIECE];
-    for (uint32_t first = 0; first < count; first += PIECE) {
-        uint32_t n = count - first < PIECE ? count - first : PIECE;
+    for (uint32_t first = begin; first < end; first += PIECE) {
+        uint32_t n = end - first < PIECE ? end - first : PIECE;
         for (uint32_t i = 0; i < n; i++) narrow[i] = (uint16_t)indices[first + i];
         GL(gl, BufferSubData)
         (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * sizeof *narrow),
@@ -78,16 +103,25 @@ static void upload_narrow(struct gn_gl *gl, const uint32_t *indices, uint32_t co
     }
 }
 
-static void upload_indices(struct gn_gl *gl) {
+static bool send_indices(struct gn_gl *gl, size_t bytes) {
     struct gn_gl_scene *s = &gl->scene;
-    const uint32_t count = s->scene->index_count;
-    bool wide = s->scene->vertex_count > 65536;
+    const uint32_t all = s->scene->index_count, first = s->upload.first;
+    const bool wide = s->scene->vertex_count > 65536;
     s->index_type = wide ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT;
     s->index_size = wide ? sizeof(uint32_t) : sizeof(uint16_t);
     gn_gl_bind_vertex_array(gl, 0);
-    s->indices = make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, wide ? s->scene->indices : NULL,
-                             count * s->index_size);
-    if (!wide) upload_narrow(gl, s->scene->indices, count);
+    if (first == 0)
+        s->indices = make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, NULL, all * s->index_size);
+    GL(gl, BindBuffer)(GL_ELEMENT_ARRAY_BUFFER, s->indices);
+    const uint32_t n = portion(bytes, s->index_size, all - first);
+    if (!wide)
+        send_narrow(gl, s->scene->indices, first, first + n);
+    else if (n > 0)
+        GL(gl, BufferSubData)
+    (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * s->index_size), (GLsizeiptr)(n * s->index_size),
+     s->scene->indices + first);
+    s->upload.first += n;
+    return s->upload.first == all;
 }
 
 static void material_rows(const struct gn_material *material, float rows[][4]) {
@@ -121,18 +155,30 @@ static void forget_programs(struct gn_gl *gl) {
     for (uint32_t i = 0; i < gl->programs.room; i++) gl->programs.table[i].uv = UINT32_MAX;
 }
 
-bool gn_gl_scene_upload(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err) {
+void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene) {
     gn_gl_scene_finish(gl);
     gl->scene.scene = scene;
     lay_out(&gl->scene);
-    gl->scene.positions =
-        make_vertex_buffer(gl, scene->positions, scene->vertex_count * 3 * sizeof(float));
-    upload_attributes(gl);
-    upload_indices(gl);
     collect_uv(&gl->scene);
     forget_programs(gl);
-    if (gn_gl_textures_upload(gl, err) && gn_gl_error_check(gl, "uploading the scene", err))
-        return true;
+}
+
+/* A phase at a time, and of each as many bytes as are asked for. */
+bool gn_gl_scene_step(struct gn_gl *gl, size_t bytes, bool *done, struct gn_err *err) {
+    static bool (*const sends[])(struct gn_gl *, size_t) = {
+        [GN_GL_UPLOAD_POSITIONS] = send_positions,
+        [GN_GL_UPLOAD_ATTRIBUTES] = send_attributes,
+        [GN_GL_UPLOAD_INDICES] = send_indices,
+        [GN_GL_UPLOAD_PICTURES] = gn_gl_textures_step,
+    };
+    struct gn_gl_upload *u = &gl->scene.upload;
+    do {
+        if (!sends[u->phase](gl, bytes)) break;
+        u->phase++;
+        u->first = 0;
+    } while (bytes == SIZE_MAX && u->phase < GN_GL_UPLOAD_DONE);
+    *done = u->phase == GN_GL_UPLOAD_DONE;
+    if (gn_gl_error_check(gl, "uploading the scene", err)) return true;
     gn_gl_scene_finish(gl);
     return false;
 }
@@ -148,6 +194,46 @@ void gn_gl_scene_finish(struct gn_gl *gl) {
     free(s->uv);
     free(s->material_uv);
     *s = (struct gn_gl_scene){0};
+}
+
+/* ---- a second one beside it ---- */
+
+void gn_gl_stage_swap(struct gn_gl *gl) {
+    const struct gn_gl_scene shown = gl->scene;
+    gl->scene = *gl->staged;
+    *gl->staged = shown;
+    forget_programs(gl);
+}
+
+void gn_gl_stage(struct gn_gl *gl, const struct gn_scene *scene) {
+    if (gl->staged) {
+        gn_gl_stage_swap(gl);
+        gn_gl_scene_finish(gl);
+        gn_gl_stage_swap(gl);
+        free(gl->staged);
+        gl->staged = NULL;
+    }
+    if (!scene) return;
+    gl->staged = gn_xalloc(1, sizeof *gl->staged);
+    gn_gl_stage_swap(gl);
+    gn_gl_scene_begin(gl, scene);
+    gn_gl_stage_swap(gl);
+}
+
+bool gn_gl_stage_step(struct gn_gl *gl, size_t bytes, bool *whole, struct gn_err *err) {
+    *whole = gl->staged && gl->staged->upload.phase == GN_GL_UPLOAD_DONE;
+    if (*whole) return true;
+    if (!gl->staged || !gl->staged->scene) return gn_fail(err, "no scene is staged");
+    gn_gl_stage_swap(gl);
+    const bool ok = gn_gl_scene_step(gl, bytes, whole, err);
+    gn_gl_stage_swap(gl);
+    return ok;
+}
+
+void gn_gl_stage_show(struct gn_gl *gl) {
+    gn_gl_stage_swap(gl);
+    gn_gl_stage(gl, NULL);
+    gn_gl_targets_forget(gl);
 }
 
 /* ---- vertex arrays ---- */
