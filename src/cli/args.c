@@ -20,7 +20,7 @@ struct args {
     int argc, at;
     struct flag *flags;
     int flag_count;
-    const char *words[2]; /* command, scene */
+    const char *words[1 + GN_SCENES_MAX]; /* command, scenes */
     int word_count;
 };
 
@@ -79,9 +79,19 @@ static bool add_letters(struct args *args, const char *letters, struct gn_err *e
     return true;
 }
 
+static enum gn_command command_of(const char *word) {
+    for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
+        if (strcmp(word, gn_commands[i].name) == 0) return i;
+    return GN_COMMAND_AUTO;
+}
+
 static bool add_word(struct args *args, const char *word, struct gn_err *err) {
-    if (args->word_count == 2)
-        return gn_fail_usage(err, "one scene at a time; what is \"%.80s\"?", word);
+    const bool is_show = args->word_count > 0 && command_of(args->words[0]) == GN_COMMAND_SHOW;
+    if (args->word_count == (is_show ? 1 + GN_SCENES_MAX : 2))
+        return gn_fail_usage(err,
+                             is_show ? "too many scenes, from \"%.80s\" on"
+                                     : "one scene at a time; what is \"%.80s\"?",
+                             word);
     args->words[args->word_count++] = word;
     return true;
 }
@@ -109,12 +119,6 @@ static const struct flag *find_flag(const struct args *args, const char *name) {
 }
 
 /* ---- the command --------------------------------------------------------------------------- */
-
-static enum gn_command command_of(const char *word) {
-    for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
-        if (strcmp(word, gn_commands[i].name) == 0) return i;
-    return GN_COMMAND_AUTO;
-}
 
 static bool fail_command(const char *word, struct gn_err *err) {
     const char *nearest = NULL;
@@ -207,9 +211,11 @@ static bool apply_flags(struct args *args, struct gn_err *err) {
         if (!gn_options_set(args->options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
             return false;
     }
-    const char *scene = args->words[args->options->command != GN_COMMAND_AUTO];
     const struct gn_option_row *row = gn_option_find_key("scene", "file");
-    return !scene || gn_options_set(args->options, row, scene, GN_SOURCE_FLAG, "SCENE", err);
+    for (int i = args->options->command != GN_COMMAND_AUTO; i < args->word_count; i++)
+        if (!gn_options_set(args->options, row, args->words[i], GN_SOURCE_FLAG, "SCENE", err))
+            return false;
+    return true;
 }
 
 static bool apply_mode(struct gn_options *options, struct gn_err *err) {

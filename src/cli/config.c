@@ -54,7 +54,7 @@ static bool open_mode(struct load *load, const struct gn_ini_line *line, struct 
 }
 
 static bool open_section(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
-    static const char *const plain[] = {"display", "scene", "render"};
+    static const char *const plain[] = {"display", "scene", "render", "kiosk"};
     load->mode = NULL;
     if (strcmp(line->section, "mode") == 0) return open_mode(load, line, err);
     for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
@@ -62,7 +62,9 @@ static bool open_section(struct load *load, const struct gn_ini_line *line, stru
             return !line->name ||
                    gn_fail_usage(err, "%s: [%s] has no name", line->where, line->section);
     return gn_fail_usage(
-        err, "%s: unknown section [%s]; expected [display], [scene], [render] or [mode \"NAME\"]",
+        err,
+        "%s: unknown section [%s]; expected [display], [scene], [render], [kiosk] or "
+        "[mode \"NAME\"]",
         line->where, line->section);
 }
 
@@ -92,7 +94,9 @@ static bool fail_key(const struct gn_ini_line *line, const char *section, struct
 static const char *resolve(const struct load *load, const struct gn_option_row *row,
                            const char *text, char *buffer, size_t size) {
     const char *slash = strrchr(load->path, '/');
-    if (row->kind != GN_KIND_PATH || text[0] == '/' || text[0] == '\0' || !slash) return text;
+    if ((row->kind != GN_KIND_PATH && row->kind != GN_KIND_SCENES) || text[0] == '/' ||
+        text[0] == '\0' || !slash)
+        return text;
     snprintf(buffer, size, "%.*s%s", (int)(slash - load->path + 1), load->path, text);
     return buffer;
 }
@@ -129,7 +133,8 @@ static bool check_list(const struct load *load, const struct gn_option_row *row,
 }
 
 static int line_before(struct load *load, const struct gn_option_row *row) {
-    if (row->kind == GN_KIND_LIMIT) return 0; /* may be given again */
+    if (row->kind == GN_KIND_LIMIT || (row->kind == GN_KIND_SCENES && !load->mode))
+        return 0; /* may be given again */
     if (!load->mode) return load->lines[row - gn_option_rows];
     const struct gn_setting *setting = find_setting(load->mode, row);
     return setting ? setting->line : 0;

@@ -6,6 +6,7 @@
 
 #include "cli/value.h"
 #include "frame/plan.h"
+#include "kiosk/machine.h"
 
 #define BIT(command) (1u << GN_COMMAND_##command)
 #define KIOSK        (BIT(AUTO) | BIT(SHOW))
@@ -26,13 +27,15 @@ static const struct gn_choice outputs[] = {
 static const struct gn_choice planar_ways[] = {{"mask", 0}, {"stencil", 1}, {0}};
 static const struct gn_choice samples[] = {{"0", 0}, {"2", 2}, {"4", 4}, {0}};
 static const struct gn_choice tap_counts[] = {{"8", 8}, {"16", 16}, {"32", 32}, {0}};
+static const struct gn_choice idles[] = {
+    {"none", GN_IDLE_NONE}, {"first", GN_IDLE_FIRST}, {"next", GN_IDLE_NEXT}, {0}};
 static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};
 
 const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
     [GN_COMMAND_AUTO] =
         {NULL, "[OPTION..] [SCENE]",
          "shows a scene: in a window, without a desktop full screen, else as gnomon.png"},
-    [GN_COMMAND_SHOW] = {"show", "show [OPTION..] [SCENE]",
+    [GN_COMMAND_SHOW] = {"show", "show [OPTION..] [SCENE..]",
                          "the kiosk: full screen without a desktop, runs until it is told to end"},
     [GN_COMMAND_RENDER] = {"render", "render [OPTION..] [SCENE] -o FILE",
                            "draws into a file: .png, .pfm, or frame-%04d.png with --frames"},
@@ -48,8 +51,8 @@ const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
 /* clang-format off */
 const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
     /* the scene, and how it stands */
-    {.name = "scene", .key = "file", .section = "scene", .kind = GN_KIND_PATH, .value = "FILE",
-     .help = "the scene (.glb, .gltf, .obj, .fbx, .stl, .ply, .dae); on the command line it needs no flag", .offset = FIELD(scene)},
+    {.name = "scene", .key = "file", .section = "scene", .kind = GN_KIND_SCENES, .value = "FILE",
+     .help = "the scene (.glb, .gltf, .obj, .fbx, .stl, .ply, .dae); given again it adds one that next-scene goes on to; on the command line it needs no flag", .offset = FIELD(scene)},
     {.name = "camera", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N",
      .help = "look through this camera of the scene", .commands = DRAW, .offset = FIELD(camera)},
     {.name = "animation", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|none",
@@ -119,7 +122,16 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
      .help = "draw no faster than this; without it, as fast as the display", .commands = KIOSK, .offset = FIELD(max_fps)},
     {.name = "legacy", .section = "display", .kind = GN_KIND_FLAG,
      .help = "use the kernel's older interface for displays", .commands = KIOSK, .offset = FIELD(legacy)},
+    /* what a kiosk does by itself */
+    {.name = "idle", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = idles, .value = "WHAT", .fallback = "none",
+     .help = "when nobody has done anything for a while, go back to the first mode, or on to the next", .commands = KIOSK, .offset = FIELD(idle)},
+    {.name = "idle-after", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = 1, .max = 86400, .value = "S", .unit = "seconds",
+     .fallback = "60", .help = "how long that while is", .commands = KIOSK, .offset = FIELD(idle_after_ns)},
+    {.name = "fade", .section = "kiosk", .kind = GN_KIND_SECONDS, .max = 10, .value = "S", .unit = "seconds", .fallback = "0",
+     .help = "fade from one mode to the next for so long", .commands = KIOSK, .offset = FIELD(fade_ns)},
     /* the command's own */
+    {.name = "input-script", .kind = GN_KIND_PATH, .value = "FILE",
+     .help = "press keys and buttons as this file says: TIME_S down|up|click NAME a line", .commands = BIT(SHOW), .offset = FIELD(input_script)},
     {.name = "config", .letter = 'c', .kind = GN_KIND_PATH, .value = "FILE",
      .help = "read this INI file", .commands = DRAW | BIT(INSPECT), .offset = FIELD(config)},
     {.name = "mode", .kind = GN_KIND_TEXT, .value = "NAME",
@@ -173,7 +185,8 @@ const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t 
 
 static bool in_section(const struct gn_option_row *row, const char *section) {
     if (!row->section) return false;
-    return section ? strcmp(row->section, section) == 0 : strcmp(row->section, "display") != 0;
+    if (section) return strcmp(row->section, section) == 0;
+    return strcmp(row->section, "scene") == 0 || strcmp(row->section, "render") == 0;
 }
 
 const struct gn_option_row *gn_option_find_key(const char *section, const char *key) {

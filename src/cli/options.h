@@ -44,6 +44,11 @@ struct gn_limits {
     int count;
     struct gn_limit items[GN_LIMITS_MAX];
 };
+#define GN_SCENES_MAX 16
+struct gn_scene_list {
+    const char *paths[GN_SCENES_MAX]; /* [0] NULL: the default scene inside the program */
+    int count;
+};
 enum gn_picture { GN_PICTURE_SRGB, GN_PICTURE_LINEAR }; /* --output */
 
 enum gn_option_kind {
@@ -59,6 +64,7 @@ enum gn_option_kind {
     GN_KIND_TECHNIQUES, /* const char *: names of shadow techniques, a comma between two */
     GN_KIND_TEXT,       /* const char *: anything but nothing */
     GN_KIND_PATH,       /* const char *: in an INI file seen from the file's folder */
+    GN_KIND_SCENES,     /* struct gn_scene_list: a path, given again it adds */
     GN_KIND_LIMIT,      /* struct gn_limits: NAME=VALUE, given again it adds */
     GN_KIND_CAPS,       /* const char *: names of gn_cap, a comma between two */
     GN_KIND_COUNT,
@@ -73,7 +79,8 @@ struct gn_choice { /* rows end with a NULL name */
 struct gn_option_row {
     const char *name;    /* --name; the INI key has _ for - */
     const char *key;     /* INI key where it is another one, else NULL */
-    const char *section; /* of the INI file: "display", "scene", "render"; NULL: only a flag */
+    const char *section; /* of the INI file: "display", "scene", "render", "kiosk"; NULL: only a
+                            flag */
     char letter;         /* -x, or 0 */
     enum gn_option_kind kind;
     double min, max;
@@ -85,7 +92,7 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     size_t offset;        /* of its field in struct gn_options */
 };
-enum { GN_OPTION_COUNT = 46 };
+enum { GN_OPTION_COUNT = 50 };
 extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
 
 const struct gn_option_row *gn_option_find(const char *name,
@@ -121,7 +128,10 @@ struct gn_options {
     enum gn_command command;
 
     /* [scene] */
-    const char *scene;              /* NULL: the default scene inside the program */
+    union {
+        const char *scene;           /* NULL: the default scene inside the program */
+        struct gn_scene_list scenes; /* that one, and what `show` goes on to */
+    };
     const char *camera, *animation; /* NAME or number; NULL: the first; animation may be "none" */
     bool no_animation;
     int64_t time_ns;
@@ -154,7 +164,12 @@ struct gn_options {
     int rotate_deg, max_fps; /* 0: as fast as the display */
     bool legacy;
 
+    /* [kiosk] */
+    int idle; /* enum gn_idle */
+    int64_t idle_after_ns, fade_ns;
+
     /* the command's own */
+    const char *input_script;
     const char *config, *mode, *out;
     int frames;
     double fps;

@@ -8,34 +8,40 @@
 #include "cli/wake.h"
 #include "core/embedded.h"
 
-/* Where the name comes from is said if it does not stand on the command line. */
-static struct gn_scene *load_named(const struct gn_options *options,
-                                   const struct gn_scene_limits *limits,
-                                   struct gn_warnings *warnings, struct gn_err *err) {
-    struct gn_scene *scene = gn_import_wants(options->scene)
-                                 ? gn_import_load(options->scene, limits, warnings, err)
-                                 : gn_scene_load(options->scene, limits, warnings, err);
-    size_t offset = offsetof(struct gn_options, scene);
-    if (!scene && gn_options_source(options, offset) != GN_SOURCE_FLAG)
-        gn_fail_prefix(err, "%s", gn_options_label(options, scene));
-    return scene;
-}
-
-struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings,
-                                struct gn_err *err) {
-    struct gn_scene_limits limits = {0};
-    for (int i = 0; i < options->limits.count; i++)
-        if (!gn_scene_limits_set(&limits, options->limits.items[i].name,
-                                 (uint64_t)options->limits.items[i].value, err))
-            return NULL;
-    if (options->scene) return load_named(options, &limits, warnings, err);
+struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
+                               struct gn_warnings *warnings, struct gn_err *err) {
+    if (path)
+        return gn_import_wants(path) ? gn_import_load(path, limits, warnings, err)
+                                     : gn_scene_load(path, limits, warnings, err);
     const struct gn_embedded *sundial = gn_embedded_find("sundial.glb");
     if (!sundial) {
         gn_fail(err, "this build has no scene inside: name one");
         return NULL;
     }
-    return gn_scene_load_bytes("(default scene)", sundial->data, sundial->size, &limits, warnings,
+    return gn_scene_load_bytes("(default scene)", sundial->data, sundial->size, limits, warnings,
                                err);
+}
+
+bool gn_stage_limits(const struct gn_options *options, struct gn_scene_limits *limits,
+                     struct gn_err *err) {
+    *limits = (struct gn_scene_limits){0};
+    for (int i = 0; i < options->limits.count; i++)
+        if (!gn_scene_limits_set(limits, options->limits.items[i].name,
+                                 (uint64_t)options->limits.items[i].value, err))
+            return false;
+    return true;
+}
+
+/* Where the name comes from is said if it does not stand on the command line. */
+struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings,
+                                struct gn_err *err) {
+    struct gn_scene_limits limits;
+    if (!gn_stage_limits(options, &limits, err)) return NULL;
+    struct gn_scene *scene = gn_stage_read(options->scene, &limits, warnings, err);
+    size_t offset = offsetof(struct gn_options, scene);
+    if (!scene && options->scene && gn_options_source(options, offset) != GN_SOURCE_FLAG)
+        gn_fail_prefix(err, "%s", gn_options_label(options, scene));
+    return scene;
 }
 
 /* What the scene does not have. A kiosk whose file names it runs on without, as it does with any
@@ -58,38 +64,36 @@ static bool stands_still(const struct gn_options *o) {
     return o->no_animation && gn_options_source(o, still) >= gn_options_source(o, clip);
 }
 
-static bool choose_clips(const struct gn_stage *stage, int *clips, struct gn_warnings *warnings,
-                         struct gn_err *err) {
-    const struct gn_options *o = stage->options;
+static bool choose_clips(const struct gn_options *o, const struct gn_scene *scene, int *clips,
+                         struct gn_warnings *warnings, struct gn_err *err) {
     *clips = stands_still(o) ? GN_POSE_NONE : GN_POSE_DEFAULT;
     if (!o->animation || *clips == GN_POSE_NONE) return true;
-    *clips = gn_scene_find_clip(stage->scene, o->animation, err);
+    *clips = gn_scene_find_clip(scene, o->animation, err);
     if (*clips >= 0) return true;
     *clips = GN_POSE_DEFAULT;
     return do_without(o, offsetof(struct gn_options, animation), warnings, err);
 }
 
-static bool choose_camera(struct gn_stage *stage, struct gn_warnings *warnings,
-                          struct gn_err *err) {
-    const struct gn_options *o = stage->options;
-    stage->frame_opts.camera = gn_scene_find_camera(stage->scene, o->camera, err);
-    if (stage->frame_opts.camera >= 0) return true;
-    stage->frame_opts.camera = 0;
+static bool choose_camera(const struct gn_options *o, const struct gn_scene *scene, int *camera,
+                          struct gn_warnings *warnings, struct gn_err *err) {
+    *camera = gn_scene_find_camera(scene, o->camera, err);
+    if (*camera >= 0) return true;
+    *camera = 0;
     return do_without(o, offsetof(struct gn_options, camera), warnings, err);
 }
 
-static bool check_light(const struct gn_stage *stage, struct gn_err *err) {
-    const struct gn_options *o = stage->options;
+static bool check_light(const struct gn_options *o, const struct gn_scene *scene,
+                        struct gn_err *err) {
     if (o->aov == GN_AOV_COLOR || o->aov == GN_AOV_DISTANCE || o->aov == GN_AOV_NORMAL) return true;
-    if (o->light >= 0 && (uint32_t)o->light < stage->scene->light_count) return true;
+    if (o->light >= 0 && (uint32_t)o->light < scene->light_count) return true;
     return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
-                         gn_options_label(o, light), o->light, stage->scene->light_count,
-                         stage->scene->light_count == 1 ? "" : "s");
+                         gn_options_label(o, light), o->light, scene->light_count,
+                         scene->light_count == 1 ? "" : "s");
 }
 
-static bool choose_frame(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err) {
-    const struct gn_options *o = stage->options;
-    struct gn_frame_opts *f = &stage->frame_opts;
+static bool choose_frame(struct gn_frame_opts *f, const struct gn_options *o,
+                         const struct gn_scene *scene, struct gn_warnings *warnings,
+                         struct gn_err *err) {
     *f = (struct gn_frame_opts){
         .width_px = (uint32_t)o->size.width_px,
         .height_px = (uint32_t)o->size.height_px,
@@ -110,22 +114,27 @@ static bool choose_frame(struct gn_stage *stage, struct gn_warnings *warnings, s
         .show_maps = o->show_maps,
     };
     f->technique_given = gn_options_given(o, shadow) && o->shadow;
-    return choose_camera(stage, warnings, err) &&
+    return choose_camera(o, scene, &f->camera, warnings, err) &&
            gn_encoding_find(o->map_format, &f->encoding, err) &&
            (!f->technique_given || strchr(o->shadow, ',') ||
             gn_technique_find(o->shadow, &f->technique, err));
+}
+
+bool gn_stage_look(struct gn_stage_look *look, const struct gn_options *options,
+                   const struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err) {
+    return choose_clips(options, scene, &look->clips, warnings, err) &&
+           check_light(options, scene, err) &&
+           choose_frame(&look->frame_opts, options, scene, warnings, err);
 }
 
 bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options,
                    struct gn_warnings *warnings, struct gn_err *err) {
     *stage = (struct gn_stage){.options = options};
     stage->scene = gn_stage_scene(options, warnings, err);
-    if (!stage->scene) return false;
-    int clips;
-    if (!choose_clips(stage, &clips, warnings, err) || !check_light(stage, err) ||
-        !choose_frame(stage, warnings, err))
-        return false;
-    gn_pose_init(&stage->pose, stage->scene, clips);
+    struct gn_stage_look look;
+    if (!stage->scene || !gn_stage_look(&look, options, stage->scene, warnings, err)) return false;
+    stage->frame_opts = look.frame_opts;
+    gn_pose_init(&stage->pose, stage->scene, look.clips);
     gn_pose_step(&stage->pose, options->time_ns);
     return true;
 }

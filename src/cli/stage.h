@@ -9,6 +9,11 @@
 #include "frame/plan.h"
 #include "gl/gl.h"
 
+/* How a scene is to be drawn, of what options say. */
+struct gn_stage_look {
+    struct gn_frame_opts frame_opts;
+    int clips; /* as gn_pose_init() wants them */
+};
 struct gn_stage {
     const struct gn_options *options; /* must outlive the stage */
     struct gn_scene *scene;
@@ -19,6 +24,16 @@ struct gn_stage {
     struct gn_frame_opts frame_opts;
 };
 
+/* --limit, as the loader wants them. */
+bool gn_stage_limits(const struct gn_options *options, struct gn_scene_limits *limits,
+                     struct gn_err *err);
+/* A scene by its path, or for NULL the default one inside the program. Asks nothing of anybody: it
+ * may run in a thread. */
+struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
+                               struct gn_warnings *warnings, struct gn_err *err);
+/* Checks what the options say about a scene (camera, animation, light, technique). */
+bool gn_stage_look(struct gn_stage_look *look, const struct gn_options *options,
+                   const struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err);
 /* The scene that the options name, or the default one inside the program; limits of --limit hold.
  */
 struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings,

@@ -164,6 +164,12 @@ static bool parse_techniques(const struct gn_option_row *row, const char *text, 
     }
 }
 
+static bool parse_scenes(const struct gn_option_row *row, const char *text, void *field,
+                         struct gn_arena *arena) {
+    struct gn_scene_list *list = field;
+    return list->count < GN_SCENES_MAX && parse_text(row, text, &list->paths[list->count++], arena);
+}
+
 static bool parse_limit(const struct gn_option_row *row, const char *text, void *field,
                         struct gn_arena *arena) {
     struct gn_limits *limits = field;
@@ -224,6 +230,10 @@ static void expect_text(const struct gn_option_row *row, char *out, size_t size)
     snprintf(out, size, "%s (it is empty)", row->value);
 }
 
+static void expect_scenes(const struct gn_option_row *row, char *out, size_t size) {
+    snprintf(out, size, "%s (it is empty, or they are more than %d)", row->value, GN_SCENES_MAX);
+}
+
 static void expect_limit(const struct gn_option_row *row, char *out, size_t size) {
     snprintf(out, size, "NAME=VALUE with a whole number from %.0f to %.0f, at most %d times",
              row->min, row->max, GN_LIMITS_MAX);
@@ -261,6 +271,7 @@ static const struct {
     [GN_KIND_TECHNIQUES] = {sizeof(const char *), parse_techniques, expect_techniques},
     [GN_KIND_TEXT] = {sizeof(const char *), parse_text, expect_text},
     [GN_KIND_PATH] = {sizeof(const char *), parse_text, expect_text},
+    [GN_KIND_SCENES] = {sizeof(struct gn_scene_list), parse_scenes, expect_scenes},
     [GN_KIND_LIMIT] = {sizeof(struct gn_limits), parse_limit, expect_limit},
     [GN_KIND_CAPS] = {sizeof(const char *), parse_text, expect_text},
 };

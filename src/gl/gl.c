@@ -76,6 +76,7 @@ void gn_gl_destroy(struct gn_gl *gl) {
     if (gl->fn.Viewport) { /* the last of the table: it was loaded */
         gn_gl_stage(gl, NULL);
         gn_gl_scene_finish(gl);
+        gn_gl_kept_finish(gl);
         gn_gl_programs_finish(gl);
         gn_gl_targets_finish(gl);
         for (int i = 0; i < GN_GL_INSTANCE_RING; i++)

@@ -81,6 +81,15 @@ void gn_gl_set_window(struct gn_gl *gl, const struct gn_gl_window *window);
  * bench). */
 bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err);
 
+/* Keeps a copy of the last picture, of bytes, to be laid over later ones: between gn_gl_run() and
+ * sending it on its way. prepare() makes what that takes, for the output of the last plan. */
+bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err);
+bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err);
+/* share: 0..1 of what is kept. Nothing happens if that is not of the same size. */
+void gn_gl_lay_over(struct gn_gl *gl, float share);
+/* Makes the last picture black, without drawing it. */
+void gn_gl_blacken(struct gn_gl *gl);
+
 /* The last picture, top row first. rgba8: what is stored (sRGB-encoded for GN_OUTPUT_SRGB8). f32:
  * RGBA floats from GN_OUTPUT_FLOAT or GN_OUTPUT_AOV. The buffer holds width x height x 4. */
 bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err);

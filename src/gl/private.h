@@ -307,6 +307,16 @@ uint32_t gn_gl_probe_claims(struct gn_gl *gl);
  * 5-10 ms each with software drivers. */
 uint32_t gn_gl_probe(struct gn_gl *gl, uint32_t wanted);
 
+/* ---- a picture that is kept (fade.c) ---- */
+
+struct gn_gl_kept {
+    uint32_t width_px, height_px;
+    bool srgb;
+    GLuint framebuffer, texture, vertices, program;
+    GLint u_share;
+};
+void gn_gl_kept_finish(struct gn_gl *gl);
+
 struct gn_gl {
     struct gn_gl_table fn;
     uint32_t calls;
@@ -320,6 +330,7 @@ struct gn_gl {
     struct gn_gl_scene scene, *staged; /* staged: NULL, or one beside it */
     struct gn_gl_instances instances;
     struct gn_gl_targets targets;
+    struct gn_gl_kept kept;
     struct gn_gl_window window; /* width 0: none */
     uint8_t *read_buffer;       /* of gn_gl_read_xrgb8888() */
     size_t read_size;

@@ -196,8 +196,19 @@ void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips)
     memory->local = gn_xalloc(scene->node_count, sizeof *memory->local);
     memory->nodes = gn_xalloc(scene->node_count, sizeof *memory->nodes);
     memory->items = gn_xalloc(scene->item_count, sizeof *memory->items);
-    if (scene->node_count > 0)
+    gn_pose_choose(pose, clips);
+}
+
+void gn_pose_choose(struct gn_pose *pose, int clips) {
+    struct memory *memory = pose->memory;
+    const struct gn_scene *scene = pose->scene;
+    pose->clips = clips;
+    pose->animated = false;
+    memory->node_count = memory->item_count = 0;
+    if (scene->node_count > 0) {
         memcpy(memory->local, scene->nodes, scene->node_count * sizeof *memory->local);
+        memset(pose->node_moves, 0, scene->node_count * sizeof *pose->node_moves);
+    }
     mark_moving(pose);
     list_moving(pose);
     pose_still(pose);

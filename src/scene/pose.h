@@ -31,6 +31,8 @@ struct gn_pose {
 
 /* Makes a pose at time 0. The scene must outlive it. */
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips);
+/* The same pose with other clips, as if it were made anew; allocates nothing. */
+void gn_pose_choose(struct gn_pose *pose, int clips);
 /* Moves it to time_ns (any value; clips loop, negative times too). Allocates nothing; costs nothing
  * for what stands still. */
 void gn_pose_step(struct gn_pose *pose, int64_t time_ns);

@@ -1,0 +1,117 @@
+/* What happens to a finished picture: it is kept, laid over a later one, or gone. */
+#include "gl/private.h"
+
+static const char fade_vertex[] = "#version 300 es\n"
+                                  "void main() {\n"
+                                  "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, "
+                                  "gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
+                                  "}\n";
+/* Premultiplied: what is kept, and how much of it. */
+static const char fade_fragment[] = "#version 300 es\n"
+                                    "precision mediump float;\n"
+                                    "uniform lowp sampler2D u_kept;\n"
+                                    "uniform highp vec4 u_share;\n"
+                                    "layout(location = 0) out mediump vec4 o_color;\n"
+                                    "void main() {\n"
+                                    "    o_color = vec4(texelFetch(u_kept, ivec2(gl_FragCoord.xy), "
+                                    "0).rgb * u_share.x, u_share.x);\n"
+                                    "}\n";
+
+static bool is_srgb(const struct gn_gl_output *o) { return o->format == GN_OUTPUT_SRGB8; }
+
+static bool fits(const struct gn_gl_kept *k, const struct gn_gl_output *o) {
+    return k->framebuffer && k->width_px == o->width_px && k->height_px == o->height_px &&
+           k->srgb == is_srgb(o);
+}
+
+void gn_gl_kept_finish(struct gn_gl *gl) {
+    struct gn_gl_kept *k = &gl->kept;
+    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &k->framebuffer);
+    gn_gl_object_destroy(gl, GN_GL_TEXTURE, &k->texture);
+    gn_gl_object_destroy(gl, GN_GL_VERTEX_ARRAY, &k->vertices);
+    if (k->program && gl->state.program == k->program) gn_gl_use_program(gl, 0);
+    if (k->program) GL(gl, DeleteProgram)(k->program);
+    *k = (struct gn_gl_kept){0};
+}
+
+static bool make_program(struct gn_gl *gl, struct gn_gl_kept *k, struct gn_err *err) {
+    if (k->program) return true;
+    k->program = gn_gl_program_link(gl, fade_vertex, fade_fragment, err);
+    if (!k->program) return false;
+    gn_gl_use_program(gl, k->program);
+    GL(gl, Uniform1i)(GL(gl, GetUniformLocation)(k->program, "u_kept"), GN_GL_UNIT_WORK);
+    k->u_share = GL(gl, GetUniformLocation)(k->program, "u_share");
+    k->vertices = gn_gl_object_create(gl, GN_GL_VERTEX_ARRAY);
+    return true;
+}
+
+bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
+    struct gn_gl_kept *k = &gl->kept;
+    const struct gn_gl_output *o = &gl->targets.output;
+    const enum gn_output_format format = gn_gl_output_format(o);
+    if (!o->made || (format != GN_OUTPUT_SRGB8 && format != GN_OUTPUT_LINEAR8))
+        return gn_fail(err, "there is no picture of bytes to keep");
+    if (fits(k, o)) return true;
+    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &k->framebuffer);
+    gn_gl_object_destroy(gl, GN_GL_TEXTURE, &k->texture);
+    k->width_px = o->width_px;
+    k->height_px = o->height_px;
+    k->srgb = is_srgb(o);
+    k->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
+    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, k->texture, 0);
+    GL(gl, TexStorage2D)
+    (GL_TEXTURE_2D, 1, k->srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)k->width_px,
+     (GLsizei)k->height_px);
+    k->framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
+    gn_gl_bind_framebuffer(gl, k->framebuffer);
+    GL(gl, FramebufferTexture2D)
+    (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, k->texture, 0);
+    return gn_gl_framebuffer_check(gl, "kept picture", err) && make_program(gl, k, err) &&
+           gn_gl_error_check(gl, "keeping a picture", err);
+}
+
+bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err) {
+    if (!gn_gl_keep_prepare(gl, err)) return false;
+    const struct gn_gl_kept *k = &gl->kept;
+    const GLuint from = gn_gl_output_finished(&gl->targets.output);
+    const GLint w = (GLint)k->width_px, h = (GLint)k->height_px;
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_bind_framebuffer(gl, from);
+    GL(gl, BindFramebuffer)(GL_DRAW_FRAMEBUFFER, k->framebuffer);
+    GL(gl, BlitFramebuffer)(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, from); /* as the cache says */
+    return gn_gl_error_check(gl, "keeping a picture", err);
+}
+
+/* The state of a pass that draws over all of the finished picture. */
+static void begin(struct gn_gl *gl) {
+    const struct gn_gl_output *o = &gl->targets.output;
+    gn_gl_bind_framebuffer(gl, gn_gl_output_finished(o));
+    gn_gl_set_viewport(gl, (struct gn_gl_rect){0, 0, (GLsizei)o->width_px, (GLsizei)o->height_px});
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_set_color_write(gl, true);
+}
+
+void gn_gl_lay_over(struct gn_gl *gl, float share) {
+    const struct gn_gl_kept *k = &gl->kept;
+    if (!fits(k, &gl->targets.output) || !k->program) return;
+    begin(gl);
+    gn_gl_set_depth(gl, false, false);
+    gn_gl_set_blend(gl, GN_BLEND_ALPHA);
+    gn_gl_set_cull(gl, GN_CULL_NONE, false);
+    gn_gl_set_stencil(gl, &(struct gn_stencil){0});
+    gn_gl_use_program(gl, k->program);
+    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, k->texture,
+                       gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
+    GL(gl, Uniform4fv)(k->u_share, 1, (const float[4]){share, 0, 0, 0});
+    gn_gl_bind_vertex_array(gl, k->vertices);
+    GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
+}
+
+void gn_gl_blacken(struct gn_gl *gl) {
+    static const float black[4] = {0, 0, 0, 1};
+    if (!gl->targets.output.made) return;
+    begin(gl);
+    gn_gl_set_clear_color(gl, black);
+    GL(gl, Clear)(GL_COLOR_BUFFER_BIT);
+}
