@@ -256,7 +256,7 @@ const char *gn_options_label_at(const struct gn_options *options, size_t offset)
 
 /* ---- modes --------------------------------------------------------------------------------- */
 
-static void undo_mode(struct gn_options *options) {
+void gn_options_drop_mode(struct gn_options *options) {
     for (size_t i = 0; i < GN_OPTION_COUNT && options->base; i++) {
         const struct gn_option_row *row = &gn_option_rows[i];
         if (options->source[i] != GN_SOURCE_MODE) continue;
@@ -307,7 +307,7 @@ bool gn_options_apply_mode(struct gn_options *options, const char *name, struct 
     enum gn_technique unused;
     if (!mode && options->mode_count) return fail_no_mode(options, name, err);
     if (!mode && !gn_technique_find(name, &unused, err)) return false;
-    undo_mode(options);
+    gn_options_drop_mode(options);
     if (!remember_base(options)) return gn_fail(err, "mode \"%s\": no memory left", name);
     if (mode)
         apply_found(options, mode);

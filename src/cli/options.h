@@ -216,5 +216,7 @@ const char *gn_options_label_at(const struct gn_options *options, size_t offset)
  * error that lists those that are, and the mode stays as it was. The name must outlive the options;
  * nothing is allocated after the first call. */
 bool gn_options_apply_mode(struct gn_options *options, const char *name, struct gn_err *err);
+/* As before any mode. */
+void gn_options_drop_mode(struct gn_options *options);
 
 #endif

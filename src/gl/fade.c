@@ -39,7 +39,8 @@ static bool make_program(struct gn_gl *gl, struct gn_gl_kept *k, struct gn_err *
     k->program = gn_gl_program_link(gl, fade_vertex, fade_fragment, err);
     if (!k->program) return false;
     gn_gl_use_program(gl, k->program);
-    GL(gl, Uniform1i)(GL(gl, GetUniformLocation)(k->program, "u_kept"), GN_GL_UNIT_WORK);
+    const GLint u_kept = GL(gl, GetUniformLocation)(k->program, "u_kept");
+    GL(gl, Uniform1i)(u_kept, GN_GL_UNIT_WORK);
     k->u_share = GL(gl, GetUniformLocation)(k->program, "u_share");
     k->vertices = gn_gl_object_create(gl, GN_GL_VERTEX_ARRAY);
     return true;

@@ -124,7 +124,7 @@ static void tick(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t
         want_mode(rules, s, 1);
         return;
     }
-    s->wanted = (struct gn_kiosk_place){0};
+    s->wanted = (struct gn_kiosk_place){.mode = rules->first_mode};
     s->camera = 0;
 }
 

@@ -21,6 +21,7 @@ enum gn_idle { /* what happens when nobody has done anything for a while */
 struct gn_kiosk_rules {                    /* zero means the default written beside */
     int mode_count;                        /* 1 */
     int scene_count;                       /* 1; those that next-scene goes through come first */
+    int first_mode;                        /* 0; where GN_IDLE_FIRST goes back to */
     uint8_t own_scene[GN_KIOSK_MODES_MAX]; /* 1 + the scene that the mode itself names; 0: none */
     uint32_t
         own_camera; /* a bit a mode: it names its camera, so who enters it looks through that */

@@ -1,0 +1,117 @@
+/* What the files of `gnomon show` share. */
+#ifndef GN_CLI_SHOW_H
+#define GN_CLI_SHOW_H
+
+#include "cli/commands.h"
+#include "cli/show_loader.h"
+#include "cli/show_stats.h"
+#include "cli/stage.h"
+#include "kiosk/machine.h"
+
+/* Modes: those of the INI file, else the techniques that there are. */
+struct gn_show_modes {
+    int count, first;
+    const char *names[GN_KIOSK_MODES_MAX];
+    int base; /* the one that overrides nothing; -1: none */
+};
+/* A scene that is drawn or will be: what each mode makes of it, and for which of them all programs
+ * are there. */
+struct gn_show_looks {
+    struct gn_stage_look of[GN_KIOSK_MODES_MAX];
+    uint32_t ready; /* a bit a mode */
+};
+struct gn_show_scenes {
+    const char *paths[GN_KIOSK_SCENES_MAX]; /* NULL: the default scene */
+    int count, listed;                      /* next-scene goes through the listed ones */
+    int shown;                              /* the stage's */
+    struct gn_loader *loader;
+    struct gn_loaded *staged; /* NULL, or the one that will follow */
+    struct gn_frame *frame;   /* of the staged one, while there is a context */
+    bool whole;               /* the staged one is on the GPU */
+    struct gn_show_looks looks;
+};
+
+struct gn_show {
+    struct gn_options *options; /* ours: a reload makes others */
+    struct gn_cli_place *place; /* NULL: the options say where */
+    struct gn_stage stage;
+    struct gn_screen_opts screen_opts;
+    struct gn_show_stats stats;
+    struct gn_warnings *warnings;
+    int epoll, signals;    /* descriptors, -1 when not open */
+    uint32_t generation;   /* of the context that stage.gl lives in */
+    bool fitted_unencoded; /* what frames are drawn with on this screen */
+    uint32_t fitted_msaa;
+
+    struct gn_show_modes modes;
+    struct gn_show_looks looks; /* of the stage's scene */
+    struct gn_show_scenes scenes;
+    struct gn_kiosk_rules rules;
+    struct gn_kiosk kiosk;
+    struct gn_kiosk_view drawn; /* what the last frame showed */
+    char problem[512];          /* what a caption may say of it; "" */
+
+    uint64_t frames, most_frames;
+    unsigned long allocations; /* in frames after the first, but for work ahead */
+    uint64_t objects;
+    int64_t work_ns;  /* when the next piece of work ahead is due, if there is any */
+    bool rests;       /* there was none when it was last looked for */
+    bool keeps, kept; /* the next frame's picture is to be kept for a fade; it was */
+    bool changed;     /* there is another picture to be seen */
+    bool ends, reloads;
+};
+
+/* show.c */
+bool gn_show_watch(struct gn_show *show, int fd, struct gn_err *err);
+struct gn_options *gn_show_read_options(const struct gn_show *show, const struct gn_options *like,
+                                        struct gn_warnings *warnings, struct gn_err *err);
+void gn_show_drop_options(struct gn_options *options);
+bool gn_show_load(struct gn_stage *stage, struct gn_options *options, struct gn_warnings *warnings,
+                  struct gn_err *err);
+/* With options and a stage that was loaded by them: modes, scenes, and the first of both. */
+bool gn_show_begin(struct gn_show *show, struct gn_err *err);
+void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
+/* What went wrong without ending anything: said once, also on the screen. */
+void gn_show_complain(struct gn_show *show, const char *text);
+
+/* show_screen.c: the display and its context */
+bool gn_show_open_display(struct gn_show *show, struct gn_err *err);
+bool gn_show_same_screen(const struct gn_options *a, const struct gn_options *b);
+/* What a frame is drawn with, and how large, follows the screen. */
+void gn_show_fit_to_screen(struct gn_show *show);
+bool gn_show_is_stale(const struct gn_show *show);
+bool gn_show_keep_context(struct gn_show *show, struct gn_err *err);
+void gn_show_stop_gl(struct gn_show *show);
+
+/* show_frame.c */
+bool gn_show_wants_frame(const struct gn_show *show);
+bool gn_show_frame(struct gn_show *show, struct gn_err *err);
+
+/* show_modes.c: the list of modes, and one of them applied */
+/* Of the options, with the scenes that they name; the options have none applied then. */
+void gn_show_list_modes(struct gn_show *show);
+/* -1: none of that name. */
+int gn_show_find_mode(const struct gn_show_modes *modes, const char *name);
+void gn_show_apply_options(struct gn_show *show, int mode);
+/* What each mode makes of a scene; the mode that is applied stays so. */
+bool gn_show_look(struct gn_show *show, const struct gn_scene *scene, struct gn_show_looks *looks,
+                  struct gn_err *err);
+/* The kiosk's mode, on the stage. */
+void gn_show_enter(struct gn_show *show);
+/* The camera of the kiosk's, too; to be called for each frame. */
+void gn_show_take_view(struct gn_show *show, const struct gn_kiosk_view *view);
+
+/* show_ahead.c: what is made ready while other things are shown */
+/* Does a piece of it, if there is any: a program, or a few hundred kilobytes. */
+void gn_show_work(struct gn_show *show);
+bool gn_show_has_work(const struct gn_show *show);
+/* The context is another: programs are to be made again. */
+void gn_show_forget_work(struct gn_show *show);
+/* Loads what the kiosk waits for, and shows it once it is ready. */
+void gn_show_advance(struct gn_show *show);
+void gn_show_drop_staged(struct gn_show *show);
+
+/* show_reload.c: what cannot be loaded leaves the picture as it is */
+bool gn_show_reload(struct gn_show *show, struct gn_err *err);
+
+#endif

@@ -1,0 +1,118 @@
+#include "cli/show_loader.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include "cli/stage.h"
+#include "core/arena.h"
+
+/* Shared by two; the one that comes last frees it. The thread touches nothing else. */
+struct job {
+    struct gn_loaded *loaded;
+    struct gn_scene_limits limits;
+    char *path; /* NULL: the default scene */
+    int event;  /* its own descriptor of the loader's */
+    atomic_int state;
+};
+enum { RUNS, IS_DONE, IS_LEFT };
+
+struct gn_loader {
+    int event;
+    struct job *job; /* NULL: none */
+};
+
+void gn_loaded_destroy(struct gn_loaded *loaded) {
+    if (!loaded) return;
+    gn_pose_finish(&loaded->pose);
+    gn_scene_destroy(loaded->scene);
+    free(loaded);
+}
+
+static void job_destroy(struct job *job) {
+    gn_loaded_destroy(job->loaded);
+    close(job->event);
+    free(job->path);
+    free(job);
+}
+
+static void *work(void *argument) {
+    static const uint64_t one = 1;
+    struct job *job = argument;
+    struct gn_loaded *l = job->loaded;
+    l->scene = gn_stage_read(job->path, &job->limits, &l->warnings, &l->err);
+    if (l->scene) gn_pose_init(&l->pose, l->scene, GN_POSE_DEFAULT);
+    const int event = dup(job->event); /* the job may be gone once it is done */
+    if (atomic_exchange(&job->state, IS_DONE) == IS_LEFT) job_destroy(job);
+    if (event >= 0 && write(event, &one, sizeof one) < 0) {
+    }
+    if (event >= 0) close(event);
+    return NULL;
+}
+
+struct gn_loader *gn_loader_open(struct gn_err *err) {
+    struct gn_loader *loader = gn_xalloc(1, sizeof *loader);
+    loader->event = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    if (loader->event >= 0) return loader;
+    gn_fail(err, "show: cannot wait for scenes: %s", strerror(errno));
+    free(loader);
+    return NULL;
+}
+
+int gn_loader_fd(const struct gn_loader *loader) { return loader->event; }
+
+bool gn_loader_is_busy(const struct gn_loader *loader) { return loader->job; }
+
+static bool start_thread(struct job *job, struct gn_err *err) {
+    pthread_t thread;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+    const int error = pthread_create(&thread, &attributes, work, job);
+    pthread_attr_destroy(&attributes);
+    return error == 0 || gn_fail(err, "no thread to load a scene: %s", strerror(error));
+}
+
+bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
+                     const struct gn_scene_limits *limits, struct gn_err *err) {
+    struct job *job = gn_xalloc(1, sizeof *job);
+    job->loaded = gn_xalloc(1, sizeof *job->loaded);
+    job->loaded->number = number;
+    job->limits = *limits;
+    job->path = path ? strdup(path) : NULL;
+    job->event = fcntl(loader->event, F_DUPFD_CLOEXEC, 0);
+    if (job->event < 0)
+        gn_fail(err, "no descriptor to load a scene: %s", strerror(errno));
+    else if (start_thread(job, err)) {
+        loader->job = job;
+        return true;
+    }
+    job_destroy(job);
+    return false;
+}
+
+struct gn_loaded *gn_loader_take(struct gn_loader *loader) {
+    uint64_t count;
+    struct job *job = loader->job;
+    if (read(loader->event, &count, sizeof count) < 0) {
+    }
+    if (!job || atomic_load(&job->state) != IS_DONE) return NULL;
+    struct gn_loaded *loaded = job->loaded;
+    job->loaded = NULL;
+    loader->job = NULL;
+    job_destroy(job);
+    return loaded;
+}
+
+void gn_loader_close(struct gn_loader *loader) {
+    if (!loader) return;
+    if (loader->job && atomic_exchange(&loader->job->state, IS_LEFT) == IS_DONE)
+        job_destroy(loader->job);
+    close(loader->event);
+    free(loader);
+}

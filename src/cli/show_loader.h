@@ -1,0 +1,29 @@
+/* Scenes loaded in a thread, one at a time, while frames go on. */
+#ifndef GN_CLI_SHOW_LOADER_H
+#define GN_CLI_SHOW_LOADER_H
+
+#include "core/warn.h"
+#include "scene/pose.h"
+
+struct gn_loader;
+struct gn_loaded {
+    int number;             /* as it was given to start */
+    struct gn_scene *scene; /* NULL: it failed, and err says why */
+    struct gn_pose pose;    /* of the scene, with its default clips, at 0 */
+    struct gn_err err;
+    struct gn_warnings warnings;
+};
+
+struct gn_loader *gn_loader_open(struct gn_err *err);
+int gn_loader_fd(const struct gn_loader *loader); /* readable when there is something to take */
+bool gn_loader_is_busy(const struct gn_loader *loader);
+/* Begins; not while it is busy. path is copied, NULL: the default scene. */
+bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
+                     const struct gn_scene_limits *limits, struct gn_err *err);
+/* What was loaded; it is the caller's. NULL: nothing yet. */
+struct gn_loaded *gn_loader_take(struct gn_loader *loader);
+void gn_loaded_destroy(struct gn_loaded *loaded); /* NULL is legal */
+/* Never waits: what still loads is left to itself, and nobody hears of it. */
+void gn_loader_close(struct gn_loader *loader);
+
+#endif

@@ -1,0 +1,132 @@
+/* The modes of a kiosk: which there are, with which scenes, and one of them applied. */
+#include <string.h>
+
+#include "cli/show.h"
+#include "shadow/planar.h"
+
+/* ---- the list ---- */
+
+static void add(struct gn_show_modes *modes, const char *name) {
+    if (modes->count < GN_KIOSK_MODES_MAX) modes->names[modes->count++] = name;
+}
+
+int gn_show_find_mode(const struct gn_show_modes *modes, const char *name) {
+    for (int i = 0; name && i < modes->count; i++)
+        if (strcmp(modes->names[i], name) == 0) return i;
+    return -1;
+}
+
+/* What there is to see of, best first. The one that the options name anyway overrides nothing, so
+ * that lights keep what they name themselves; where a flag names it, it is the only one. */
+static void list_techniques(struct gn_show *s) {
+    static const char *const names[] = {"pcf",  "pcss", "smsm",    "vssm",   "msm",
+                                        "evsm", "vsm",  "poisson", "disk",   "pcf2",
+                                        "pcf3", "pcf5", "hard",    "planar", "none"};
+    const struct gn_options *o = s->options;
+    struct gn_show_modes *modes = &s->modes;
+    const bool only = gn_options_source(o, offsetof(struct gn_options, shadow)) == GN_SOURCE_FLAG;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        enum gn_technique technique;
+        const bool is_base = strcmp(names[i], o->shadow) == 0;
+        if (!gn_technique_find(names[i], &technique, NULL) || (only && !is_base)) continue;
+        if (gn_techniques[technique].on_plane && !is_base && !gn_planar_has_plane(s->stage.scene))
+            continue;
+        add(modes, gn_techniques[technique].name);
+    }
+    modes->base = gn_show_find_mode(modes, o->shadow);
+    if (modes->base < 0) { /* one that the list does not know */
+        modes->base = modes->count;
+        add(modes, o->shadow);
+    }
+}
+
+static bool same_text(const char *a, const char *b) {
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+/* The number of a path, which becomes one of the list if there is room. */
+static int find_scene(struct gn_show_scenes *scenes, const char *path) {
+    for (int i = 0; i < scenes->count; i++)
+        if (same_text(scenes->paths[i], path)) return i;
+    if (scenes->count == GN_KIOSK_SCENES_MAX) return 0;
+    scenes->paths[scenes->count] = path;
+    return scenes->count++;
+}
+
+static void list_scenes(struct gn_show *s) {
+    const struct gn_scene_list *list = &s->options->scenes;
+    s->scenes.count = s->scenes.listed = list->count > 0 ? list->count : 1;
+    for (int i = 0; i < s->scenes.count; i++) s->scenes.paths[i] = list->paths[i];
+}
+
+static bool comes_from_mode(const struct gn_options *o, size_t offset) {
+    return gn_options_source(o, offset) == GN_SOURCE_MODE;
+}
+
+void gn_show_list_modes(struct gn_show *s) {
+    const struct gn_options *o = s->options;
+    const char *first = o->mode_now;
+    s->modes = (struct gn_show_modes){.base = -1};
+    gn_options_drop_mode(s->options);
+    list_scenes(s);
+    for (int i = 0; i < o->mode_count; i++) add(&s->modes, o->modes[i].name);
+    if (o->mode_count == 0) list_techniques(s);
+    const int named = gn_show_find_mode(&s->modes, first);
+    s->modes.first = named >= 0 ? named : s->modes.base >= 0 ? s->modes.base : 0;
+    s->rules = (struct gn_kiosk_rules){.mode_count = s->modes.count,
+                                       .scene_count = s->scenes.listed,
+                                       .first_mode = s->modes.first,
+                                       .idle = (enum gn_idle)o->idle,
+                                       .idle_after_ns = o->idle_after_ns,
+                                       .fade_ns = o->fade_ns,
+                                       .caption_ns = 2000000000};
+    for (int i = 0; i < s->modes.count; i++) {
+        gn_show_apply_options(s, i);
+        if (comes_from_mode(o, offsetof(struct gn_options, scene)))
+            s->rules.own_scene[i] = (uint8_t)(1 + find_scene(&s->scenes, o->scene));
+        if (comes_from_mode(o, offsetof(struct gn_options, camera))) s->rules.own_camera |= 1u << i;
+    }
+    gn_options_drop_mode(s->options);
+}
+
+/* ---- one of them ---- */
+
+/* The names are the options' own, or techniques': it cannot fail. */
+void gn_show_apply_options(struct gn_show *s, int mode) {
+    struct gn_err unused = {0};
+    if (mode == s->modes.base)
+        gn_options_drop_mode(s->options);
+    else
+        gn_options_apply_mode(s->options, s->modes.names[mode], &unused);
+}
+
+bool gn_show_look(struct gn_show *s, const struct gn_scene *scene, struct gn_show_looks *looks,
+                  struct gn_err *err) {
+    bool ok = true;
+    looks->ready = 0;
+    for (int i = 0; i < s->modes.count && ok; i++) {
+        gn_show_apply_options(s, i);
+        ok = gn_stage_look(&looks->of[i], s->options, scene, s->warnings, err);
+    }
+    gn_show_apply_options(s, s->kiosk.shown.mode);
+    return ok;
+}
+
+void gn_show_enter(struct gn_show *s) {
+    const struct gn_stage_look *look = &s->looks.of[s->kiosk.shown.mode];
+    const struct gn_frame_opts before = s->stage.frame_opts;
+    gn_show_apply_options(s, s->kiosk.shown.mode);
+    s->stage.frame_opts = look->frame_opts;
+    if (look->frame_opts.camera == before.camera) s->stage.frame_opts.orbit = before.orbit;
+    if (look->clips != s->stage.pose.clips) gn_pose_choose(&s->stage.pose, look->clips);
+    s->changed = true;
+}
+
+void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view) {
+    const struct gn_stage_look *look = &s->looks.of[view->mode];
+    struct gn_frame_opts *f = &s->stage.frame_opts;
+    const uint32_t camera =
+        ((uint32_t)look->frame_opts.camera + view->camera) % s->stage.scene->camera_count;
+    if ((uint32_t)f->camera != camera) f->orbit = (struct gn_orbit){0};
+    f->camera = (int)camera;
+}

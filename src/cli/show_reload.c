@@ -1,0 +1,60 @@
+/* SIGHUP: all that the options say, once more, from the start. What cannot be loaded leaves the
+ * picture as it is, and a bad file the last good one. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/show.h"
+
+/* The new scene in the old one's place, in the mode of that name if there still is one. */
+static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_options *options,
+                       struct gn_err *err) {
+    const bool keeps_display = gn_show_same_screen(s->options, options);
+    gn_show_drop_staged(s);
+    gn_show_stop_gl(s);
+    if (keeps_display) {
+        fresh->display = s->stage.display;
+        s->stage.display = (struct gn_display){0};
+    }
+    gn_stage_close(&s->stage);
+    gn_show_drop_options(s->options);
+    s->stage = *fresh;
+    s->options = options;
+    s->generation = 0;
+    return gn_show_begin(s, err) && (keeps_display || gn_show_open_display(s, err));
+}
+
+static void keep_mode(const struct gn_show *s, struct gn_options *options) {
+    const char *name = s->modes.names[s->kiosk.wanted.mode];
+    struct gn_err unused = {0};
+    if (s->kiosk.wanted.mode == s->modes.base && options->mode_count == 0) return;
+    for (int i = 0; i < options->mode_count; i++)
+        if (strcmp(options->modes[i].name, name) == 0)
+            gn_options_apply_mode(options, options->modes[i].name, &unused);
+    enum gn_technique technique;
+    if (options->mode_count == 0 && gn_technique_find(name, &technique, NULL))
+        gn_options_apply_mode(options, gn_techniques[technique].name, &unused);
+}
+
+static struct gn_options *read_again(const struct gn_show *s, struct gn_err *why) {
+    struct gn_options *options = gn_show_read_options(s, s->options, NULL, why);
+    if (!options || !options->config_error) return options;
+    gn_fail(why, "%s", options->config_error);
+    gn_show_drop_options(options);
+    return NULL;
+}
+
+bool gn_show_reload(struct gn_show *s, struct gn_err *err) {
+    struct gn_err why = {0};
+    struct gn_stage fresh = {0};
+    s->reloads = false;
+    struct gn_options *options = read_again(s, &why);
+    if (options) keep_mode(s, options);
+    if (options && gn_show_load(&fresh, options, s->warnings, &why))
+        return take_stage(s, &fresh, options, err);
+    char text[sizeof why.text + 32];
+    snprintf(text, sizeof text, "%s (not reloaded)", why.text);
+    gn_show_complain(s, text);
+    gn_stage_close(&fresh);
+    gn_show_drop_options(options);
+    return true;
+}

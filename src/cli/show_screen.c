@@ -1,0 +1,140 @@
+/* The display of a kiosk, and the context that it draws with. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/show.h"
+#include "cli/wake.h"
+#include "core/clock.h"
+
+static bool encodes(const struct gn_options *o) {
+    uint32_t without = 0;
+    return !gn_caps_parse(o->without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
+}
+
+static struct gn_screen_opts screen_opts_of(const struct gn_options *o) {
+    return (struct gn_screen_opts){
+        .width_px = (uint32_t)o->size.width_px,
+        .height_px = (uint32_t)o->size.height_px,
+        .connector = o->connector,
+        .card = o->card,
+        .render_node = o->render_node,
+        .modeline = o->modeline,
+        .mode_width = (uint32_t)o->display_mode.width_px,
+        .mode_height = (uint32_t)o->display_mode.height_px,
+        .mode_hz = o->display_mode.hz,
+        .cap_width = (uint32_t)o->max_mode.width_px,
+        .cap_height = (uint32_t)o->max_mode.height_px,
+        .cap_hz = o->max_mode.hz,
+        .rotate_deg = (unsigned)o->rotate_deg,
+        .max_fps = (unsigned)o->max_fps,
+        .unencoded = !encodes(o),
+        .legacy = o->legacy,
+    };
+}
+
+bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
+    const struct gn_options *o = s->options;
+    struct gn_wake wake = {0};
+    s->screen_opts = screen_opts_of(o);
+    gn_wake_begin(&wake, o);
+    const bool ok = gn_display_open_screen(&s->stage.display, o->backend, &s->screen_opts,
+                                           gn_clock_monotonic_ns(), s->warnings, err);
+    gn_wake_end(&wake);
+    if (ok && s->place) s->place->opened = true;
+    return ok && gn_show_watch(s, s->stage.display.screen.fd, err);
+}
+
+/* What tilers draw on chip costs them next to nothing. */
+static uint32_t samples_of(const struct gn_show *s) {
+    const struct gn_options *o = s->options;
+    if (gn_options_given(o, msaa)) return (uint32_t)o->msaa;
+    return gn_gl_caps(s->stage.gl)->tiler ? 4 : 0;
+}
+
+/* What a frame is drawn with, and how large, follows the screen. */
+void gn_show_fit_to_screen(struct gn_show *s) {
+    const struct gn_screen *screen = &s->stage.display.screen;
+    const bool direct = s->stage.display.ops->screen && !screen->copy_to;
+    struct gn_frame_opts *f = &s->stage.frame_opts;
+    const struct gn_gl_window window = {screen->width_px, screen->height_px, screen->srgb};
+    f->width_px = screen->width_px;
+    f->height_px = screen->height_px;
+    f->turn_deg = screen->rotate_deg;
+    const bool unencoded = direct && !screen->srgb;
+    const uint32_t msaa = samples_of(s);
+    if (s->fitted_unencoded != unencoded || s->fitted_msaa != msaa) { /* other programs */
+        s->looks.ready = s->scenes.looks.ready = 0;
+        s->rests = false;
+    }
+    f->unencoded = s->fitted_unencoded = unencoded;
+    f->msaa = s->fitted_msaa = msaa;
+    gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
+}
+
+/* With it goes all that was made ahead. */
+void gn_show_stop_gl(struct gn_show *s) {
+    gn_show_forget_work(s);
+    gn_stage_stop_gl(&s->stage);
+}
+
+/* A kiosk that cannot draw shows why, and stays: somebody will come and read it. */
+static bool say(struct gn_show *s, struct gn_err *err) {
+    gn_show_stop_gl(s);
+    if (!gn_display_say(&s->stage.display, err->text, gn_clock_monotonic_ns())) return false;
+    fprintf(stderr, "gnomon: warning: %s\n", err->text);
+    *err = (struct gn_err){0};
+    return true;
+}
+
+/* Programs are made before there is a monitor; what size it will have matters not to them. */
+static bool start_gl(struct gn_show *s, struct gn_err *err) {
+    const struct gn_screen *screen = &s->stage.display.screen;
+    s->generation = screen->generation;
+    s->changed = true;
+    if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return say(s, err);
+    if (screen->may_draw) return true;
+    s->stage.frame_opts.width_px = 64;
+    s->stage.frame_opts.height_px = 36;
+    gn_gl_set_window(s->stage.gl, NULL);
+    if (!gn_stage_draw(&s->stage, s->options->time_ns, s->warnings, err)) return say(s, err);
+    gn_gl_finish_frame(s->stage.gl); /* many drivers compile as late as they can */
+    return true;
+}
+
+static bool renew(struct gn_show *s, struct gn_err *err) {
+    struct gn_wake wake = {0};
+    gn_show_stop_gl(s);
+    s->generation = 0;
+    gn_wake_begin(&wake, s->options);
+    const bool ok = gn_display_renew(&s->stage.display, gn_clock_monotonic_ns(), err);
+    gn_wake_end(&wake);
+    return ok;
+}
+
+bool gn_show_is_stale(const struct gn_show *s) {
+    const struct gn_screen *screen = &s->stage.display.screen;
+    return screen->lost || (screen->has_context && screen->generation != s->generation);
+}
+
+bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
+    const struct gn_screen *screen = &s->stage.display.screen;
+    if (screen->lost && !renew(s, err)) return false;
+    if (screen->lost || !screen->has_context || screen->generation == s->generation) return true;
+    gn_show_stop_gl(s);
+    return start_gl(s, err);
+}
+
+static bool same_text(const char *a, const char *b) {
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+/* Does the display have to be opened again? */
+bool gn_show_same_screen(const struct gn_options *a, const struct gn_options *b) {
+    return same_text(a->backend, b->backend) && same_text(a->connector, b->connector) &&
+           same_text(a->card, b->card) && same_text(a->render_node, b->render_node) &&
+           same_text(a->modeline, b->modeline) &&
+           memcmp(&a->display_mode, &b->display_mode, sizeof a->display_mode) == 0 &&
+           memcmp(&a->max_mode, &b->max_mode, sizeof a->max_mode) == 0 &&
+           memcmp(&a->size, &b->size, sizeof a->size) == 0 && a->rotate_deg == b->rotate_deg &&
+           a->max_fps == b->max_fps && a->legacy == b->legacy && encodes(a) == encodes(b);
+}
