@@ -135,7 +135,7 @@ static void work_between_frames(struct gn_show *s) {
     gn_show_work(s);
 }
 
-static bool step(struct gn_show *s, struct gn_err *err) {
+bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     wait_for_something(s);
     hear_signals(s);
     if (s->ends) return true;
@@ -153,10 +153,8 @@ static bool step(struct gn_show *s, struct gn_err *err) {
 }
 
 static bool run(struct gn_show *s, struct gn_err *err) {
-    const struct gn_options *o = s->options;
-    s->most_frames = o->frames > 0 ? (uint64_t)o->frames : UINT64_MAX;
     while (!s->ends && s->frames < s->most_frames)
-        if (!step(s, err)) return false;
+        if (!gn_show_step(s, err)) return false;
     if (s->options->verbose && s->stage.gl)
         printf("%llu frames, %llu late, %lu allocations and %llu GL objects after the first\n",
                (unsigned long long)s->frames,
@@ -165,7 +163,7 @@ static bool run(struct gn_show *s, struct gn_err *err) {
     return true;
 }
 
-static void close_all(struct gn_show *s) {
+void gn_show_close(struct gn_show *s) {
     gn_loader_close(s->scenes.loader);
     gn_show_drop_staged(s);
     gn_stage_close(&s->stage);
@@ -173,23 +171,42 @@ static void close_all(struct gn_show *s) {
     if (s->signals >= 0) close(s->signals);
     if (s->epoll >= 0) close(s->epoll);
     gn_show_drop_options(s->options);
+    free(s);
+}
+
+/* Of what fails half-way the caller asks why it ended, and closes it. */
+static bool open_all(struct gn_show *s, const struct gn_options *options, struct gn_err *err) {
+    if (!open_loop(s, err)) return false;
+    s->options = gn_show_read_options(s, options, NULL, err);
+    if (!s->options || !gn_show_load(&s->stage, s->options, s->warnings, err)) return false;
+    s->most_frames = s->options->frames > 0 ? (uint64_t)s->options->frames : UINT64_MAX;
+    return gn_show_begin(s, err) && gn_show_open_display(s, err) &&
+           gn_show_stats_open(&s->stats, s->options, err) &&
+           (s->stats.timer < 0 || gn_show_watch(s, s->stats.timer, err));
+}
+
+static struct gn_show *create(struct gn_cli_place *place, struct gn_warnings *warnings) {
+    struct gn_show *s = gn_xalloc(1, sizeof *s);
+    *s = (struct gn_show){
+        .place = place, .epoll = -1, .signals = -1, .stats.timer = -1, .warnings = warnings};
+    return s;
+}
+
+struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warnings *warnings,
+                             struct gn_err *err) {
+    struct gn_show *s = create(NULL, warnings);
+    if (open_all(s, options, err)) return s;
+    gn_show_close(s);
+    return NULL;
 }
 
 bool gn_cli_show_at(const struct gn_options *options, struct gn_cli_place *place,
                     struct gn_warnings *warnings, struct gn_err *err) {
-    struct gn_show *s = gn_xalloc(1, sizeof *s);
-    *s = (struct gn_show){
-        .place = place, .epoll = -1, .signals = -1, .stats.timer = -1, .warnings = warnings};
-    bool ok = open_loop(s, err);
-    s->options = ok ? gn_show_read_options(s, options, NULL, err) : NULL;
-    ok = s->options && gn_show_load(&s->stage, s->options, warnings, err) &&
-         gn_show_begin(s, err) && gn_show_open_display(s, err) &&
-         gn_show_stats_open(&s->stats, s->options, err) &&
-         (s->stats.timer < 0 || gn_show_watch(s, s->stats.timer, err)) && run(s, err);
-    ok = ok || (err->status != GN_EXIT_DISPLAY &&
-                (s->ends || gn_stop_asked())); /* what that broke off is no failure */
-    close_all(s);
-    free(s);
+    struct gn_show *s = create(place, warnings);
+    const bool ok = (open_all(s, options, err) && run(s, err)) ||
+                    (err->status != GN_EXIT_DISPLAY &&
+                     (s->ends || gn_stop_asked())); /* what that broke off is no failure */
+    gn_show_close(s);
     return ok;
 }
 

@@ -62,6 +62,11 @@ struct gn_show {
 };
 
 /* show.c */
+struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warnings *warnings,
+                             struct gn_err *err);
+void gn_show_close(struct gn_show *show);
+/* Waits for something, and does what it asks for: at most a frame. */
+bool gn_show_step(struct gn_show *show, struct gn_err *err);
 bool gn_show_watch(struct gn_show *show, int fd, struct gn_err *err);
 struct gn_options *gn_show_read_options(const struct gn_show *show, const struct gn_options *like,
                                         struct gn_warnings *warnings, struct gn_err *err);

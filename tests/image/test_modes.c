@@ -1,0 +1,284 @@
+/* The kiosk's modes and scenes, told what to do from here: what is warm is shown at once and makes
+ * nothing, what is not keeps the old picture, and a bad scene changes nothing. */
+#include "unit/check.h"
+
+#include <malloc.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/args.h"
+#include "cli/show.h"
+#include "core/arena.h"
+#include "core/clock.h"
+#include "gl/private.h"
+#include "unit/gl_help.h"
+
+enum { SIDE = 64, PIXELS = SIDE * SIDE };
+#define PATIENCE_NS (60 * GN_NS_PER_S)
+
+static struct gn_show *open_show(const char *const *more, int more_count) {
+    static struct gn_warnings warnings;
+    struct gn_options options;
+    struct gn_err err = {0};
+    const char *argv[24] = {"gnomon", "show", "--backend", "egl", "--size", "64x64"};
+    struct gn_display display;
+    int argc = 6;
+    help_open(&display, "egl"); /* or the test is skipped */
+    gn_display_close(&display);
+    for (int i = 0; i < more_count; i++) argv[argc++] = more[i];
+    setenv("XDG_CONFIG_HOME", "/nowhere", 1);
+    if (!gn_args_parse(&options, argc, (char *const *)(uintptr_t)argv, &warnings, &err))
+        fail_msg("%s", err.text);
+    struct gn_show *show = gn_show_open(&options, &warnings, &err);
+    gn_options_finish(&options);
+    if (!show) fail_msg("%s", err.text);
+    return show;
+}
+#define OPEN(...)                                                                                  \
+    open_show((const char *const[]){__VA_ARGS__},                                                  \
+              sizeof(const char *const[]){__VA_ARGS__} / sizeof(const char *))
+
+static void step(struct gn_show *show) {
+    struct gn_err err = {0};
+    if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+}
+
+/* Frames, at most a minute's. */
+static void frames(struct gn_show *show, unsigned count) {
+    const uint64_t end = show->frames + count;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (show->frames < end) {
+        step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+}
+
+static void act(struct gn_show *show, enum gn_action_kind kind) {
+    gn_show_act(show, &(struct gn_action){.kind = kind}, gn_clock_monotonic_ns());
+}
+
+static void until_warm(struct gn_show *show) {
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    do {
+        step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < 3 * PATIENCE_NS);
+    } while (show->frames == 0 || gn_show_has_work(show));
+}
+
+static void read_picture(struct gn_show *show, uint8_t out[4 * PIXELS]) {
+    struct gn_err err = {0};
+    if (!gn_gl_read_rgba8(show->stage.gl, out, &err)) fail_msg("%s", err.text);
+}
+
+static unsigned brightest(const uint8_t picture[4 * PIXELS]) {
+    unsigned most = 0;
+    for (int i = 0; i < PIXELS; i++)
+        for (int c = 0; c < 3; c++)
+            if (picture[4 * i + c] > most) most = picture[4 * i + c];
+    return most;
+}
+
+/* ---- modes ---- */
+
+static void one_program_a_frame_is_made_ahead_and_no_more(void **state) {
+    (void)state;
+    struct gn_show *show = OPEN("--no-animation", "--turntable", "10");
+    frames(show, 1);
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    unsigned busy = 0;
+    while (gn_show_has_work(show)) {
+        const uint64_t made = show->stage.gl->programs_made, proofs = show->stage.gl->probed;
+        const uint64_t before = show->frames;
+        step(show);
+        assert_true(show->frames - before <= 1);
+        if (proofs == show->stage.gl->probed)
+            assert_true(show->stage.gl->programs_made - made <= 1);
+        busy += show->stage.gl->programs_made > made;
+        assert_true(gn_clock_monotonic_ns() - begun_ns < 3 * PATIENCE_NS);
+    }
+    assert_true(busy >= 8); /* there was something to do at all */
+    assert_int_equal(show->looks.ready, (1u << show->modes.count) - 1);
+    gn_show_close(show);
+}
+
+static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
+    (void)state;
+    const int switches = getenv("GN_FULL") ? 1000 : 60;
+    struct gn_show *show = OPEN("--turntable", "10");
+    until_warm(show);
+    for (int i = 0; i < show->modes.count; i++) { /* the builder's lists have grown */
+        act(show, GN_ACTION_NEXT);
+        frames(show, 1);
+    }
+    const uint64_t objects = gn_gl_stats(show->stage.gl).objects_created,
+                   made = show->stage.gl->programs_made;
+    const unsigned long allocations = gn_alloc_count();
+    const size_t memory = mallinfo2().uordblks;
+    for (int i = 0; i < switches; i++) {
+        const int next = (show->kiosk.shown.mode + 1) % show->modes.count;
+        act(show, GN_ACTION_NEXT);
+        frames(show, 1);
+        assert_int_equal(show->drawn.mode, next);
+        gn_show_close(show);
+    }
+
+    static void what_is_not_ready_keeps_the_old_picture(void **state) {
+        (void)state;
+        struct gn_show *show = OPEN("--turntable", "10");
+        frames(show, 1);
+        act(show, GN_ACTION_PREV); /* the last of the list: not made yet */
+        const int wanted = show->kiosk.wanted.mode;
+        assert_int_equal(show->looks.ready >> wanted & 1, 0);
+        const int64_t begun_ns = gn_clock_monotonic_ns();
+        while (show->drawn.mode != wanted) {
+            const uint64_t made = show->stage.gl->programs_made;
+            const bool was_ready = show->looks.ready >> wanted & 1;
+            step(show);
+            if (was_ready) assert_int_equal(show->drawn.mode, wanted);
+            if (show->drawn.mode == wanted) /* nothing of it was left to be made for its frame */
+                assert_true(show->stage.gl->programs_made - made <= 1);
+            assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+        }
+        gn_show_close(show);
+    }
+
+    static void flags_leave_one_technique(void **state) {
+        (void)state;
+        struct gn_show *show = OPEN("--shadow", "hard");
+        assert_int_equal(show->modes.count, 1);
+        act(show, GN_ACTION_NEXT);
+        frames(show, 2);
+        assert_int_equal(show->kiosk.shown.mode, 0);
+        gn_show_close(show);
+    }
+
+    /* ---- pause, blank, fade ---- */
+
+    static void pause_stands_and_blank_is_black(void **state) {
+        (void)state;
+        uint8_t before[4 * PIXELS], after[4 * PIXELS];
+        struct gn_show *show = OPEN("--turntable", "90");
+        until_warm(show);
+        frames(show, 2);
+        act(show, GN_ACTION_PAUSE);
+        step(show);
+        read_picture(show, before);
+        const uint64_t count = show->frames;
+        while (show->kiosk.caption) step(show);
+        assert_true(show->frames - count <= 3);
+        read_picture(show, after);
+        assert_memory_equal(before, after, sizeof before);
+        act(show, GN_ACTION_BLANK);
+        frames(show, 1);
+        read_picture(show, after);
+        assert_int_equal(brightest(after), 0);
+        act(show, GN_ACTION_NEXT); /* lights it, and no more */
+        frames(show, 1);
+        read_picture(show, after);
+        assert_memory_equal(before, after, sizeof before);
+        gn_show_close(show);
+    }
+
+    static void a_fade_begins_with_the_old_picture(void **state) {
+        (void)state;
+        static uint8_t old[4 * PIXELS], first[4 * PIXELS], none[4 * PIXELS];
+        struct gn_show *show = OPEN("--no-animation", "--fade", "10");
+        until_warm(show);
+        frames(show, 0);
+        read_picture(show, old);
+        act(show, GN_ACTION_PREV); /* none: no shadows at all */
+        while (show->drawn.mode == show->modes.first) step(show);
+        read_picture(show, first);
+        unsigned worst = 0, all = 0;
+        show->rules.fade_ns = 0; /* over */
+        show->kiosk.fade_ns = 0;
+        show->changed = true;
+        frames(show, 1);
+        read_picture(show, none);
+        for (int i = 0; i < 4 * PIXELS; i++) {
+            const unsigned d = (unsigned)abs(first[i] - old[i]),
+                           e = (unsigned)abs(none[i] - old[i]);
+            worst = d > worst ? d : worst;
+            all = e > all ? e : all;
+        }
+        if (worst > 8) fail_msg("a fade's first frame differs by %u", worst);
+        assert_true(all > 40); /* they do differ */
+        gn_show_close(show);
+    }
+
+    /* ---- scenes ---- */
+
+    static void the_next_scene_comes_when_it_is_whole(void **state) {
+        (void)state;
+        struct gn_show *show =
+            OPEN("assets/bench/s1.glb", "assets/sundial.glb", "--turntable", "10");
+        until_warm(show);
+        const char *name = show->stage.scene->name;
+        act(show, GN_ACTION_NEXT_SCENE);
+        const int64_t begun_ns = gn_clock_monotonic_ns();
+        while (show->drawn.scene == 0) {
+            const uint64_t made = show->stage.gl->programs_made;
+            step(show);
+            assert_true(show->stage.gl->programs_made - made <= 1);
+            if (show->drawn.scene == 0) assert_ptr_equal(show->stage.scene->name, name);
+            assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+        }
+        assert_null(show->scenes.staged);
+        assert_int_equal(show->stage.scene->triangle_count > 0, 1);
+        until_warm(show);
+        act(show, GN_ACTION_NEXT_SCENE); /* and back */
+        while (show->drawn.scene == 1) step(show);
+        gn_show_close(show);
+    }
+
+    static void a_bad_scene_changes_nothing(void **state) {
+        (void)state;
+        const char *folder = help_folder();
+        char path[200];
+        help_write(folder, "x/bad.glb", "this is no scene");
+        snprintf(path, sizeof path, "%s/x/bad.glb", folder);
+        struct gn_show *show = OPEN("assets/bench/s1.glb", path, "--turntable", "10");
+        frames(show, 2);
+        act(show, GN_ACTION_NEXT_SCENE);
+        assert_true(gn_kiosk_waits(&show->kiosk));
+        const int64_t begun_ns = gn_clock_monotonic_ns();
+        while (gn_kiosk_waits(&show->kiosk)) {
+            step(show);
+            assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+        }
+        assert_int_equal(show->drawn.scene, 0);
+        assert_non_null(strstr(show->problem, "bad.glb"));
+        frames(show, 2);
+        gn_show_close(show);
+        help_remove(folder);
+    }
+
+    static void the_end_does_not_wait_for_a_scene(void **state) {
+        (void)state;
+        struct gn_show *show = OPEN("assets/bench/s1.glb", "assets/bench/s2.glb");
+        frames(show, 1);
+        act(show, GN_ACTION_NEXT_SCENE);
+        step(show);
+        assert_true(gn_loader_is_busy(show->scenes.loader) || show->scenes.staged);
+        const int64_t begun_ns = gn_clock_monotonic_ns();
+        gn_show_close(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < 2 * GN_NS_PER_S);
+    }
+
+    int main(int argc, char **argv) {
+        if (argc > 1) cmocka_set_test_filter(argv[1]);
+        const struct CMUnitTest tests[] = {
+            cmocka_unit_test(one_program_a_frame_is_made_ahead_and_no_more),
+            cmocka_unit_test(a_switch_is_seen_in_the_next_frame_and_makes_nothing),
+            cmocka_unit_test(what_is_not_ready_keeps_the_old_picture),
+            cmocka_unit_test(flags_leave_one_technique),
+            cmocka_unit_test(pause_stands_and_blank_is_black),
+            cmocka_unit_test(a_fade_begins_with_the_old_picture),
+            cmocka_unit_test(the_next_scene_comes_when_it_is_whole),
+            cmocka_unit_test(a_bad_scene_changes_nothing),
+            cmocka_unit_test(the_end_does_not_wait_for_a_scene),
+        };
+        return RUN(tests);
+    }
