@@ -121,164 +121,172 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
         act(show, GN_ACTION_NEXT);
         frames(show, 1);
         assert_int_equal(show->drawn.mode, next);
-        gn_show_close(show);
+        const struct gn_frame_opts *opts = &show->stage.frame_opts;
+        assert_string_equal(
+            show->modes.names[next],
+            gn_techniques[opts->technique_given ? opts->technique : GN_TECHNIQUE_PCF].name);
     }
+    assert_int_equal(gn_gl_stats(show->stage.gl).objects_created, objects);
+    assert_int_equal(show->stage.gl->programs_made, made);
+    assert_int_equal(gn_alloc_count(), allocations);
+    const size_t now = mallinfo2().uordblks; /* a software driver's scratch comes and goes */
+    if (now > memory + (3u << 19)) fail_msg("%zu bytes more", now - memory);
+    gn_show_close(show);
+}
 
-    static void what_is_not_ready_keeps_the_old_picture(void **state) {
-        (void)state;
-        struct gn_show *show = OPEN("--turntable", "10");
-        frames(show, 1);
-        act(show, GN_ACTION_PREV); /* the last of the list: not made yet */
-        const int wanted = show->kiosk.wanted.mode;
-        assert_int_equal(show->looks.ready >> wanted & 1, 0);
-        const int64_t begun_ns = gn_clock_monotonic_ns();
-        while (show->drawn.mode != wanted) {
-            const uint64_t made = show->stage.gl->programs_made;
-            const bool was_ready = show->looks.ready >> wanted & 1;
-            step(show);
-            if (was_ready) assert_int_equal(show->drawn.mode, wanted);
-            if (show->drawn.mode == wanted) /* nothing of it was left to be made for its frame */
-                assert_true(show->stage.gl->programs_made - made <= 1);
-            assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
-        }
-        gn_show_close(show);
-    }
-
-    static void flags_leave_one_technique(void **state) {
-        (void)state;
-        struct gn_show *show = OPEN("--shadow", "hard");
-        assert_int_equal(show->modes.count, 1);
-        act(show, GN_ACTION_NEXT);
-        frames(show, 2);
-        assert_int_equal(show->kiosk.shown.mode, 0);
-        gn_show_close(show);
-    }
-
-    /* ---- pause, blank, fade ---- */
-
-    static void pause_stands_and_blank_is_black(void **state) {
-        (void)state;
-        uint8_t before[4 * PIXELS], after[4 * PIXELS];
-        struct gn_show *show = OPEN("--turntable", "90");
-        until_warm(show);
-        frames(show, 2);
-        act(show, GN_ACTION_PAUSE);
+static void what_is_not_ready_keeps_the_old_picture(void **state) {
+    (void)state;
+    struct gn_show *show = OPEN("--turntable", "10");
+    frames(show, 1);
+    act(show, GN_ACTION_PREV); /* the last of the list: not made yet */
+    const int wanted = show->kiosk.wanted.mode;
+    assert_int_equal(show->looks.ready >> wanted & 1, 0);
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (show->drawn.mode != wanted) {
+        const uint64_t made = show->stage.gl->programs_made;
+        const bool was_ready = show->looks.ready >> wanted & 1;
         step(show);
-        read_picture(show, before);
-        const uint64_t count = show->frames;
-        while (show->kiosk.caption) step(show);
-        assert_true(show->frames - count <= 3);
-        read_picture(show, after);
-        assert_memory_equal(before, after, sizeof before);
-        act(show, GN_ACTION_BLANK);
-        frames(show, 1);
-        read_picture(show, after);
-        assert_int_equal(brightest(after), 0);
-        act(show, GN_ACTION_NEXT); /* lights it, and no more */
-        frames(show, 1);
-        read_picture(show, after);
-        assert_memory_equal(before, after, sizeof before);
-        gn_show_close(show);
-    }
-
-    static void a_fade_begins_with_the_old_picture(void **state) {
-        (void)state;
-        static uint8_t old[4 * PIXELS], first[4 * PIXELS], none[4 * PIXELS];
-        struct gn_show *show = OPEN("--no-animation", "--fade", "10");
-        until_warm(show);
-        frames(show, 0);
-        read_picture(show, old);
-        act(show, GN_ACTION_PREV); /* none: no shadows at all */
-        while (show->drawn.mode == show->modes.first) step(show);
-        read_picture(show, first);
-        unsigned worst = 0, all = 0;
-        show->rules.fade_ns = 0; /* over */
-        show->kiosk.fade_ns = 0;
-        show->changed = true;
-        frames(show, 1);
-        read_picture(show, none);
-        for (int i = 0; i < 4 * PIXELS; i++) {
-            const unsigned d = (unsigned)abs(first[i] - old[i]),
-                           e = (unsigned)abs(none[i] - old[i]);
-            worst = d > worst ? d : worst;
-            all = e > all ? e : all;
-        }
-        if (worst > 8) fail_msg("a fade's first frame differs by %u", worst);
-        assert_true(all > 40); /* they do differ */
-        gn_show_close(show);
-    }
-
-    /* ---- scenes ---- */
-
-    static void the_next_scene_comes_when_it_is_whole(void **state) {
-        (void)state;
-        struct gn_show *show =
-            OPEN("assets/bench/s1.glb", "assets/sundial.glb", "--turntable", "10");
-        until_warm(show);
-        const char *name = show->stage.scene->name;
-        act(show, GN_ACTION_NEXT_SCENE);
-        const int64_t begun_ns = gn_clock_monotonic_ns();
-        while (show->drawn.scene == 0) {
-            const uint64_t made = show->stage.gl->programs_made;
-            step(show);
+        if (was_ready) assert_int_equal(show->drawn.mode, wanted);
+        if (show->drawn.mode == wanted) /* nothing of it was left to be made for its frame */
             assert_true(show->stage.gl->programs_made - made <= 1);
-            if (show->drawn.scene == 0) assert_ptr_equal(show->stage.scene->name, name);
-            assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
-        }
-        assert_null(show->scenes.staged);
-        assert_int_equal(show->stage.scene->triangle_count > 0, 1);
-        until_warm(show);
-        act(show, GN_ACTION_NEXT_SCENE); /* and back */
-        while (show->drawn.scene == 1) step(show);
-        gn_show_close(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
+    gn_show_close(show);
+}
 
-    static void a_bad_scene_changes_nothing(void **state) {
-        (void)state;
-        const char *folder = help_folder();
-        char path[200];
-        help_write(folder, "x/bad.glb", "this is no scene");
-        snprintf(path, sizeof path, "%s/x/bad.glb", folder);
-        struct gn_show *show = OPEN("assets/bench/s1.glb", path, "--turntable", "10");
-        frames(show, 2);
-        act(show, GN_ACTION_NEXT_SCENE);
-        assert_true(gn_kiosk_waits(&show->kiosk));
-        const int64_t begun_ns = gn_clock_monotonic_ns();
-        while (gn_kiosk_waits(&show->kiosk)) {
-            step(show);
-            assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
-        }
-        assert_int_equal(show->drawn.scene, 0);
-        assert_non_null(strstr(show->problem, "bad.glb"));
-        frames(show, 2);
-        gn_show_close(show);
-        help_remove(folder);
+static void flags_leave_one_technique(void **state) {
+    (void)state;
+    struct gn_show *show = OPEN("--shadow", "hard");
+    assert_int_equal(show->modes.count, 1);
+    act(show, GN_ACTION_NEXT);
+    frames(show, 2);
+    assert_int_equal(show->kiosk.shown.mode, 0);
+    gn_show_close(show);
+}
+
+/* ---- pause, blank, fade ---- */
+
+static void pause_stands_and_blank_is_black(void **state) {
+    (void)state;
+    uint8_t before[4 * PIXELS], after[4 * PIXELS];
+    struct gn_show *show = OPEN("--turntable", "90");
+    until_warm(show);
+    frames(show, 2);
+    act(show, GN_ACTION_PAUSE);
+    step(show);
+    read_picture(show, before);
+    const uint64_t count = show->frames;
+    while (show->kiosk.caption) step(show);
+    assert_true(show->frames - count <= 3);
+    read_picture(show, after);
+    assert_memory_equal(before, after, sizeof before);
+    act(show, GN_ACTION_BLANK);
+    frames(show, 1);
+    read_picture(show, after);
+    assert_int_equal(brightest(after), 0);
+    act(show, GN_ACTION_NEXT); /* lights it, and no more */
+    frames(show, 1);
+    read_picture(show, after);
+    assert_memory_equal(before, after, sizeof before);
+    gn_show_close(show);
+}
+
+static void a_fade_begins_with_the_old_picture(void **state) {
+    (void)state;
+    static uint8_t old[4 * PIXELS], first[4 * PIXELS], none[4 * PIXELS];
+    struct gn_show *show = OPEN("--no-animation", "--fade", "10");
+    until_warm(show);
+    frames(show, 0);
+    read_picture(show, old);
+    act(show, GN_ACTION_PREV); /* none: no shadows at all */
+    while (show->drawn.mode == show->modes.first) step(show);
+    read_picture(show, first);
+    unsigned worst = 0, all = 0;
+    show->rules.fade_ns = 0; /* over */
+    show->kiosk.fade_ns = 0;
+    show->changed = true;
+    frames(show, 1);
+    read_picture(show, none);
+    for (int i = 0; i < 4 * PIXELS; i++) {
+        const unsigned d = (unsigned)abs(first[i] - old[i]), e = (unsigned)abs(none[i] - old[i]);
+        worst = d > worst ? d : worst;
+        all = e > all ? e : all;
     }
+    if (worst > 8) fail_msg("a fade's first frame differs by %u", worst);
+    assert_true(all > 40); /* they do differ */
+    gn_show_close(show);
+}
 
-    static void the_end_does_not_wait_for_a_scene(void **state) {
-        (void)state;
-        struct gn_show *show = OPEN("assets/bench/s1.glb", "assets/bench/s2.glb");
-        frames(show, 1);
-        act(show, GN_ACTION_NEXT_SCENE);
+/* ---- scenes ---- */
+
+static void the_next_scene_comes_when_it_is_whole(void **state) {
+    (void)state;
+    struct gn_show *show = OPEN("assets/bench/s1.glb", "assets/sundial.glb", "--turntable", "10");
+    until_warm(show);
+    const char *name = show->stage.scene->name;
+    act(show, GN_ACTION_NEXT_SCENE);
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (show->drawn.scene == 0) {
+        const uint64_t made = show->stage.gl->programs_made;
         step(show);
-        assert_true(gn_loader_is_busy(show->scenes.loader) || show->scenes.staged);
-        const int64_t begun_ns = gn_clock_monotonic_ns();
-        gn_show_close(show);
-        assert_true(gn_clock_monotonic_ns() - begun_ns < 2 * GN_NS_PER_S);
+        assert_true(show->stage.gl->programs_made - made <= 1);
+        if (show->drawn.scene == 0) assert_ptr_equal(show->stage.scene->name, name);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
+    assert_null(show->scenes.staged);
+    assert_int_equal(show->stage.scene->triangle_count > 0, 1);
+    until_warm(show);
+    act(show, GN_ACTION_NEXT_SCENE); /* and back */
+    while (show->drawn.scene == 1) step(show);
+    gn_show_close(show);
+}
 
-    int main(int argc, char **argv) {
-        if (argc > 1) cmocka_set_test_filter(argv[1]);
-        const struct CMUnitTest tests[] = {
-            cmocka_unit_test(one_program_a_frame_is_made_ahead_and_no_more),
-            cmocka_unit_test(a_switch_is_seen_in_the_next_frame_and_makes_nothing),
-            cmocka_unit_test(what_is_not_ready_keeps_the_old_picture),
-            cmocka_unit_test(flags_leave_one_technique),
-            cmocka_unit_test(pause_stands_and_blank_is_black),
-            cmocka_unit_test(a_fade_begins_with_the_old_picture),
-            cmocka_unit_test(the_next_scene_comes_when_it_is_whole),
-            cmocka_unit_test(a_bad_scene_changes_nothing),
-            cmocka_unit_test(the_end_does_not_wait_for_a_scene),
-        };
-        return RUN(tests);
+static void a_bad_scene_changes_nothing(void **state) {
+    (void)state;
+    const char *folder = help_folder();
+    char path[200];
+    help_write(folder, "x/bad.glb", "this is no scene");
+    snprintf(path, sizeof path, "%s/x/bad.glb", folder);
+    struct gn_show *show = OPEN("assets/bench/s1.glb", path, "--turntable", "10");
+    frames(show, 2);
+    act(show, GN_ACTION_NEXT_SCENE);
+    assert_true(gn_kiosk_waits(&show->kiosk));
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (gn_kiosk_waits(&show->kiosk)) {
+        step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
+    assert_int_equal(show->drawn.scene, 0);
+    assert_non_null(strstr(show->problem, "bad.glb"));
+    frames(show, 2);
+    gn_show_close(show);
+    help_remove(folder);
+}
+
+static void the_end_does_not_wait_for_a_scene(void **state) {
+    (void)state;
+    struct gn_show *show = OPEN("assets/bench/s1.glb", "assets/bench/s2.glb");
+    frames(show, 1);
+    act(show, GN_ACTION_NEXT_SCENE);
+    step(show);
+    assert_true(gn_loader_is_busy(show->scenes.loader) || show->scenes.staged);
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    gn_show_close(show);
+    assert_true(gn_clock_monotonic_ns() - begun_ns < 2 * GN_NS_PER_S);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) cmocka_set_test_filter(argv[1]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_program_a_frame_is_made_ahead_and_no_more),
+        cmocka_unit_test(a_switch_is_seen_in_the_next_frame_and_makes_nothing),
+        cmocka_unit_test(what_is_not_ready_keeps_the_old_picture),
+        cmocka_unit_test(flags_leave_one_technique),
+        cmocka_unit_test(pause_stands_and_blank_is_black),
+        cmocka_unit_test(a_fade_begins_with_the_old_picture),
+        cmocka_unit_test(the_next_scene_comes_when_it_is_whole),
+        cmocka_unit_test(a_bad_scene_changes_nothing),
+        cmocka_unit_test(the_end_does_not_wait_for_a_scene),
+    };
+    return RUN(tests);
+}
