@@ -6,8 +6,8 @@ bool gn_hand_is_zero(const struct gn_hand *h) {
 }
 
 void gn_hand_add(struct gn_hand *hand, const struct gn_hand *more) {
-    if (more->home) gn_hand_act(hand, GN_ACTION_HOME);
-    if (more->quit) gn_hand_act(hand, GN_ACTION_QUIT);
+    if (more->home) gn_hand_act(hand, GN_HAND_HOME);
+    if (more->quit) gn_hand_act(hand, GN_HAND_QUIT);
     for (int k = 0; k < 2; k++) {
         hand->turn[k] += more->turn[k];
         hand->pan[k] += more->pan[k];
@@ -15,9 +15,9 @@ void gn_hand_add(struct gn_hand *hand, const struct gn_hand *more) {
     hand->wheel += more->wheel;
 }
 
-void gn_hand_act(struct gn_hand *hand, enum gn_action action) {
-    if (action == GN_ACTION_QUIT) hand->quit = true;
-    if (action == GN_ACTION_HOME) *hand = (struct gn_hand){.quit = hand->quit, .home = true};
+void gn_hand_act(struct gn_hand *hand, enum gn_hand_key action) {
+    if (action == GN_HAND_QUIT) hand->quit = true;
+    if (action == GN_HAND_HOME) *hand = (struct gn_hand){.quit = hand->quit, .home = true};
 }
 
 void gn_pointer_button(struct gn_pointer *p, enum gn_button button, bool down, bool shift) {

@@ -5,11 +5,11 @@
 
 #include <stdbool.h>
 
-enum gn_action { /* what a key stands for */
-                 GN_ACTION_NONE,
-                 GN_ACTION_QUIT,
-                 GN_ACTION_HOME,        /* the view as the camera has it */
-                 GN_ACTION_FULL_SCREEN, /* and back; the window's own affair */
+enum gn_hand_key { /* what a key stands for */
+                   GN_HAND_NONE,
+                   GN_HAND_QUIT,
+                   GN_HAND_HOME,        /* the view as the camera has it */
+                   GN_HAND_FULL_SCREEN, /* and back; the window's own affair */
 };
 
 struct gn_hand {           /* zeroed: nothing was done */
@@ -21,7 +21,7 @@ struct gn_hand {           /* zeroed: nothing was done */
 bool gn_hand_is_zero(const struct gn_hand *hand);
 /* What `more` did after `hand`. */
 void gn_hand_add(struct gn_hand *hand, const struct gn_hand *more);
-void gn_hand_act(struct gn_hand *hand, enum gn_action action);
+void gn_hand_act(struct gn_hand *hand, enum gn_hand_key action);
 
 enum gn_button { GN_BUTTON_LEFT, GN_BUTTON_RIGHT, GN_BUTTON_MIDDLE };
 struct gn_pointer { /* zeroed: no button is down */

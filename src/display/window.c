@@ -123,7 +123,7 @@ static void poll_events(void) {
 
 static struct window *window_of(GLFWwindow *handle) { return glfw.GetWindowUserPointer(handle); }
 
-static void on_close(GLFWwindow *handle) { gn_hand_act(&window_of(handle)->hand, GN_ACTION_QUIT); }
+static void on_close(GLFWwindow *handle) { gn_hand_act(&window_of(handle)->hand, GN_HAND_QUIT); }
 
 static void on_refresh(GLFWwindow *handle) { window_of(handle)->damaged = true; }
 
@@ -142,22 +142,22 @@ static void on_iconify(GLFWwindow *handle, int iconified) {
 static void on_key(GLFWwindow *handle, int key, int code, int event, int modifiers) {
     static const struct {
         int key;
-        enum gn_action action;
-    } keys[] = {{GLFW_KEY_ESCAPE, GN_ACTION_QUIT},
-                {GLFW_KEY_HOME, GN_ACTION_HOME},
-                {GLFW_KEY_F11, GN_ACTION_FULL_SCREEN}};
+        enum gn_hand_key action;
+    } keys[] = {{GLFW_KEY_ESCAPE, GN_HAND_QUIT},
+                {GLFW_KEY_HOME, GN_HAND_HOME},
+                {GLFW_KEY_F11, GN_HAND_FULL_SCREEN}};
     (void)code, (void)modifiers;
     struct window *w = window_of(handle);
     for (size_t i = 0; i < sizeof keys / sizeof *keys && event == GLFW_PRESS; i++) {
         if (keys[i].key != key) continue;
         gn_hand_act(&w->hand, keys[i].action);
-        w->toggles |= keys[i].action == GN_ACTION_FULL_SCREEN;
+        w->toggles |= keys[i].action == GN_HAND_FULL_SCREEN;
     }
 }
 
 /* Letters by what they print: keyboards differ. */
 static void on_letter(GLFWwindow *handle, unsigned letter) {
-    if (letter == 'q' || letter == 'Q') gn_hand_act(&window_of(handle)->hand, GN_ACTION_QUIT);
+    if (letter == 'q' || letter == 'Q') gn_hand_act(&window_of(handle)->hand, GN_HAND_QUIT);
 }
 
 static void on_button(GLFWwindow *handle, int button, int event, int modifiers) {

@@ -1,0 +1,46 @@
+/* Keys by the numbers that Linux gives them (linux/input-event-codes.h), whoever tells of them: an
+ * input device, a window, a terminal. */
+#ifndef GN_CORE_KEY_H
+#define GN_CORE_KEY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum gn_key { /* those that are named here and there; the table in key.c has more */
+              GN_KEY_NONE = 0,
+              GN_KEY_ESC = 1,
+              GN_KEY_BACKSPACE = 14,
+              GN_KEY_TAB = 15,
+              GN_KEY_ENTER = 28,
+              GN_KEY_B = 48,
+              GN_KEY_C = 46,
+              GN_KEY_I = 23,
+              GN_KEY_N = 49,
+              GN_KEY_P = 25,
+              GN_KEY_S = 31,
+              GN_KEY_SPACE = 57,
+              GN_KEY_HOME = 102,
+              GN_KEY_UP = 103,
+              GN_KEY_PAGEUP = 104,
+              GN_KEY_LEFT = 105,
+              GN_KEY_RIGHT = 106,
+              GN_KEY_END = 107,
+              GN_KEY_DOWN = 108,
+              GN_KEY_PAGEDOWN = 109,
+              GN_KEY_COUNT = 768, /* numbers are below */
+};
+
+struct gn_key_event {
+    uint16_t key; /* enum gn_key */
+    bool down;
+    int64_t time_ns; /* monotonic */
+};
+
+/* "space", "f1", "a", "btn_0"; "key_600" for one without a name of its own. Never NULL. */
+const char *gn_key_name(unsigned key, char *buffer, size_t size);
+/* By name, in upper or lower case, or by a number as in "key_600"; GN_KEY_NONE: none is called
+ * that. */
+unsigned gn_key_find(const char *name);
+
+#endif

@@ -1,0 +1,58 @@
+/* Keys by name, and what they may be told to do. */
+#include "unit/check.h"
+
+#include "core/key.h"
+#include "kiosk/action.h"
+
+#include <string.h>
+
+static void keys_are_found_by_their_names(void **state) {
+    (void)state;
+    char buffer[16];
+    for (unsigned key = 1; key < GN_KEY_COUNT; key++)
+        assert_int_equal(gn_key_find(gn_key_name(key, buffer, sizeof buffer)), key);
+    assert_int_equal(gn_key_find("KEY_SPACE"), GN_KEY_SPACE);
+    assert_int_equal(gn_key_find("PageDown"), GN_KEY_PAGEDOWN);
+    assert_int_equal(gn_key_find("key_5"), 5);
+    static const char *const none[] = {"", "spaces", "key_", "key_768", "key_5x", "key_-1", "57"};
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
+        assert_int_equal(gn_key_find(none[i]), GN_KEY_NONE);
+}
+
+static void actions_are_read(void **state) {
+    (void)state;
+    struct gn_action action;
+    struct gn_err err = {0};
+    assert_true(gn_action_parse("next", "x", &action, &err));
+    assert_int_equal(action.kind, GN_ACTION_NEXT);
+    assert_null(action.name);
+    assert_true(gn_action_parse("mode  Soft shadows", "x", &action, &err));
+    assert_int_equal(action.kind, GN_ACTION_MODE);
+    assert_string_equal(action.name, "Soft shadows");
+    for (int k = GN_ACTION_NONE; k < GN_ACTION_KIND_COUNT; k++) {
+        if (k == GN_ACTION_MODE) continue;
+        assert_true(gn_action_parse(gn_action_name((enum gn_action_kind)k), "x", &action, &err));
+        assert_int_equal(action.kind, k);
+    }
+}
+
+static void what_is_no_action_is_refused(void **state) {
+    (void)state;
+    static const char *const bad[] = {"", "nex", "nextt", "mode", "mode ", "next 1", "Next"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        struct gn_action action = {0};
+        struct gn_err err = {0};
+        assert_false(gn_action_parse(bad[i], "kiosk.ini:7: press", &action, &err));
+        assert_int_equal(err.status, GN_EXIT_USAGE);
+        assert_int_equal(strncmp(err.text, "kiosk.ini:7: press: ", 20), 0);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(keys_are_found_by_their_names),
+        cmocka_unit_test(actions_are_read),
+        cmocka_unit_test(what_is_no_action_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
