@@ -171,6 +171,10 @@ static bool wants_frame(const struct show *s) {
 static bool draw(struct show *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const int64_t seen_ns = screen->seen_ns, start_ns = s->options->time_ns;
+    if (screen->black) {
+        gn_gl_black(s->stage.gl);
+        return true;
+    }
     if (s->begun_ns == 0) s->begun_ns = seen_ns;
     fit_to_screen(s);
     if (!gn_stage_draw(&s->stage, s->moves ? start_ns + seen_ns - s->begun_ns : start_ns,

@@ -20,6 +20,8 @@ static void say_status(struct gn_kms *k) {
         snprintf(out, size, "waiting for a card%s%s", k->reason[0] ? ": " : "", k->reason);
     else if (k->away)
         snprintf(out, size, "another console is shown");
+    else if (k->blank)
+        snprintf(out, size, "switched off");
     else if (!k->connected && k->reason[0])
         snprintf(out, size, "%s", k->reason);
     else if (!k->connected)
@@ -35,7 +37,9 @@ static void say_status(struct gn_kms *k) {
 static void update(struct gn_kms *k, int64_t now_ns) {
     struct gn_screen *s = &k->screen;
     const bool copies = k->surface_opts.rung == GN_RUNG_COPY;
-    const bool ready = k->connected && k->master && !k->away && !s->lost && !k->notice[0];
+    const bool ready =
+        k->connected && k->master && !k->away && !k->blank && !s->lost && !k->notice[0];
+    s->blank = k->blank;
     s->lit = ready && k->lit;
     s->may_draw = ready && !k->waiting.fb && gn_flip_may_draw(&k->flip, now_ns) &&
                   (copies || k->env.scanout->has_free(k->scanout));
@@ -67,7 +71,7 @@ gn_display_proc gn_kms_get_proc(struct gn_kms *k, const char *name) {
 static int64_t sooner(int64_t a, int64_t b) { return a < b ? a : b; }
 
 static bool may_send_again(const struct gn_kms *k) {
-    return k->waiting.fb && k->connected && k->master && !k->flip.pending;
+    return k->waiting.fb && !k->blank && k->connected && k->master && !k->flip.pending;
 }
 
 int64_t gn_kms_deadline(const struct gn_kms *k, int64_t now_ns) {
@@ -75,6 +79,8 @@ int64_t gn_kms_deadline(const struct gn_kms *k, int64_t now_ns) {
     if (k->screen.lost) return GN_KMS_NEVER;
     if (!k->master && !k->away && k->fd >= 0) at = sooner(at, k->master_ns);
     if (!k->connected && !k->flip.pending) return at;
+    if (gn_kms_may_sleep(k)) return sooner(at, k->sleep_ns > now_ns ? k->sleep_ns : now_ns);
+    if (k->blank && !k->flip.pending) return at;
     at = sooner(at, gn_flip_deadline(&k->flip, now_ns));
     if (may_send_again(k)) at = sooner(at, k->flip.next_ns > now_ns ? k->flip.next_ns : now_ns);
     if (k->lit && !k->flip.pending && !k->waiting.fb) at = sooner(at, k->again_ns);
@@ -109,6 +115,11 @@ static void hear(struct gn_kms *k, unsigned events, int64_t now_ns) {
 
 /* False: the ladder has ended. */
 static bool act(struct gn_kms *k, enum gn_flip_act what, int64_t now_ns) {
+    if (k->blank && what != GN_FLIP_WAIT && what != GN_FLIP_DRAIN) { /* nobody looks */
+        gn_kms_flip_is_lost(k);
+        k->flip.rung--;
+        return true;
+    }
     switch (what) {
     case GN_FLIP_WAIT: return true;
     case GN_FLIP_DRAIN: gn_kms_drain(k, now_ns); return true;
@@ -141,14 +152,14 @@ static bool send_again(struct gn_kms *k, int64_t now_ns) {
 }
 
 static void show_again(struct gn_kms *k, int64_t now_ns) {
-    const bool idle = !k->flip.pending && !k->waiting.fb;
+    const bool idle = !k->flip.pending && !k->waiting.fb && !k->blank;
     if (k->lit && k->master && idle && k->front.fb && now_ns >= k->again_ns)
         gn_kms_send(k, k->front, now_ns);
 }
 
 /* Once: what is lit stays. */
 static void show_notice(struct gn_kms *k, int64_t now_ns) {
-    const bool free = !k->flip.pending && !k->waiting.fb && !k->lit;
+    const bool free = !k->flip.pending && !k->waiting.fb && !k->lit && !k->blank;
     if (k->notice[0] && free && k->connected && k->master && !k->away && k->fd >= 0)
         gn_kms_show_notice(k, now_ns);
 }
@@ -179,6 +190,7 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
         gn_kms_try_master(k, now_ns);
     if (!k->screen.lost && now_ns >= k->look_ns) gn_kms_look(k, true, now_ns);
     if (!k->screen.lost) show_notice(k, now_ns);
+    gn_kms_sleep(k, now_ns);
     if (k->losses > 3) ok = false;
     update(k, now_ns);
     return ok || give_up(k, err);

@@ -73,6 +73,7 @@ static void start_gl(struct gn_kms *k) {
 bool gn_kms_try_master(struct gn_kms *k, int64_t now_ns) {
     k->master = k->env.drm->IsMaster(k->fd) || k->env.drm->SetMaster(k->fd) == 0;
     k->lit = false;
+    k->sleep_ns = now_ns;
     k->master_ns = k->master ? GN_KMS_NEVER : now_ns + GN_KMS_S;
     if (!k->master && !k->holder[0] && k->env.who)
         k->env.who(k->node.path, k->holder, sizeof k->holder);
@@ -223,6 +224,7 @@ static void connect(struct gn_kms *k, int connector, int64_t now_ns) {
     k->orientation_deg = c->orientation_deg;
     k->monitor = c->monitor;
     k->lit = false;
+    k->sleep_ns = now_ns;
     if (crtc < 0 || !open_output(k, connector, crtc)) {
         give_up_connector(k, "nothing drives it", now_ns);
         if (is_unreadable(k)) k->look_ns = now_ns + GN_KMS_LOOK_NS;

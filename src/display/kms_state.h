@@ -50,6 +50,8 @@ struct gn_kms {
     struct gn_dumb copies[2];
 
     bool master, away;          /* away: on another console */
+    bool blank;                 /* to be switched off */
+    int64_t sleep_ns;           /* when it is to be switched off, or once more */
     bool lit;                   /* the CRTC shows what was last flipped; else: a modeset */
     struct gn_kms_shot front;   /* seen */
     struct gn_kms_shot pending; /* on its way; the same as front when shown again */
@@ -79,8 +81,14 @@ void gn_kms_send(struct gn_kms *kms, struct gn_kms_shot shot, int64_t now_ns);
 void gn_kms_forget_shots(struct gn_kms *kms); /* no buffer is in use any more */
 void gn_kms_show_notice(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_flip_is_lost(struct gn_kms *kms); /* no event will tell of the pending one */
+void gn_kms_discard(struct gn_kms *kms, struct gn_kms_shot *shot); /* it will not be shown */
+void gn_kms_lose_master(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_drain(struct gn_kms *kms, int64_t now_ns);
 bool gn_kms_make_copies(struct gn_kms *kms);
 void gn_kms_drop_surface(struct gn_kms *kms);
+
+/* kms_blank.c: switched off on purpose. */
+bool gn_kms_may_sleep(const struct gn_kms *kms);
+void gn_kms_sleep(struct gn_kms *kms, int64_t now_ns);
 
 #endif

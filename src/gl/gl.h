@@ -62,6 +62,9 @@ void gn_gl_set_window(struct gn_gl *gl, const struct gn_gl_window *window);
  * bench). */
 bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err);
 
+/* Makes the window black, in place of a plan. */
+void gn_gl_black(struct gn_gl *gl);
+
 /* The last picture, top row first. rgba8: what is stored (sRGB-encoded for GN_OUTPUT_SRGB8). f32:
  * RGBA floats from GN_OUTPUT_FLOAT or GN_OUTPUT_AOV. The buffer holds width x height x 4. */
 bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err);

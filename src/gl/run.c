@@ -325,6 +325,15 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
     return ok;
 }
 
+void gn_gl_black(struct gn_gl *gl) {
+    static const float black[4] = {0, 0, 0, 1};
+    gn_gl_bind_framebuffer(gl, 0);
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_set_color_write(gl, true);
+    gn_gl_set_clear_color(gl, black);
+    GL(gl, Clear)(GL_COLOR_BUFFER_BIT);
+}
+
 /* ---- preparing ---- */
 
 static void grow_plan_programs(struct gn_gl *gl, uint32_t count) {
