@@ -32,6 +32,7 @@ struct show {
     uint64_t objects;
     bool moves, changed; /* changed: there is another picture to be seen */
     bool ends, reloads;
+    bool says; /* a text, in place of pictures */
 };
 
 /* ---- opening ---- */
@@ -117,6 +118,7 @@ static void fit_to_screen(struct show *s) {
 static bool say(struct show *s, struct gn_err *err) {
     gn_stage_stop_gl(&s->stage);
     if (!gn_display_say(&s->stage.display, err->text, gn_clock_monotonic_ns())) return false;
+    s->says = true;
     fprintf(stderr, "gnomon: warning: %s\n", err->text);
     *err = (struct gn_err){0};
     return true;
@@ -128,6 +130,8 @@ static bool start_gl(struct show *s, struct gn_err *err) {
     s->generation = screen->generation;
     s->changed = true;
     if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return say(s, err);
+    if (s->says) gn_display_say(&s->stage.display, NULL, gn_clock_monotonic_ns());
+    s->says = false;
     if (screen->may_draw) return true;
     s->stage.frame_opts.width_px = 64;
     s->stage.frame_opts.height_px = 36;

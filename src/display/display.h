@@ -136,8 +136,8 @@ bool gn_display_lose(struct gn_display *display, int64_t now_ns);
  * there. Nothing is drawn while it is off, but one black picture where `black`; monitors, consoles
  * and contexts may come and go. Blocks as lighting does. */
 void gn_display_blank(struct gn_display *display, bool on, int64_t now_ns);
-/* Shows a text in place of pictures, without GL, from now on until the context is another. False:
- * this screen cannot. */
+/* Shows a text in place of pictures, without GL, from now on until the context is another, or until
+ * NULL ends it; where GL does not start, the reason is shown instead. False: this screen cannot. */
 bool gn_display_say(struct gn_display *display, const char *text, int64_t now_ns);
 /* The screen of that name could be seen now: there is a monitor, and nobody else has it. */
 bool gn_display_is_free(const char *name);

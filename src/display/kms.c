@@ -38,7 +38,7 @@ static void update(struct gn_kms *k, int64_t now_ns) {
     struct gn_screen *s = &k->screen;
     const bool copies = k->surface_opts.rung == GN_RUNG_COPY;
     const bool ready =
-        k->connected && k->master && !k->away && !k->blank && !s->lost && !k->notice[0];
+        k->connected && k->master && !k->away && !k->blank && !s->lost && !k->notice[0] && !k->says;
     s->blank = k->blank;
     s->lit = ready && k->lit;
     s->may_draw = ready && !k->waiting.fb && gn_flip_may_draw(&k->flip, now_ns) &&
@@ -159,7 +159,7 @@ static void show_again(struct gn_kms *k, int64_t now_ns) {
 
 /* Once: what is lit stays. */
 static void show_notice(struct gn_kms *k, int64_t now_ns) {
-    const bool free = !k->flip.pending && !k->waiting.fb && !k->lit && !k->blank;
+    const bool free = !k->flip.pending && !k->waiting.fb && !k->lit && !k->blank && !k->says;
     if (k->notice[0] && free && k->connected && k->master && !k->away && k->fd >= 0)
         gn_kms_show_notice(k, now_ns);
 }
@@ -169,12 +169,24 @@ void gn_kms_lose(struct gn_kms *k, int64_t now_ns) {
     update(k, now_ns);
 }
 
-void gn_kms_say(struct gn_kms *k, const char *text, int64_t now_ns) {
-    snprintf(k->notice, sizeof k->notice, "%s", text);
-    if (k->flip.pending) gn_kms_flip_is_lost(k);
+/* Nothing is changed under a flip: the text comes, or goes, when that has ended. */
+static void change_notice(struct gn_kms *k, int64_t now_ns) {
+    if (!k->says || k->flip.pending) return;
+    k->says = false;
     gn_kms_drop_surface(k);
     k->connected = k->lit = false;
-    k->look_ns = now_ns;
+    if (k->look_ns > now_ns) k->look_ns = now_ns;
+}
+
+/* Where GL does not start there is a text already, and why it does not matters more. */
+void gn_kms_say(struct gn_kms *k, const char *text, int64_t now_ns) {
+    const bool ends = !text || !*text;
+    if (k->scanout && (!ends || k->notice[0])) {
+        snprintf(k->notice, sizeof k->notice, "%s", ends ? "" : text);
+        struct gn_kms_shot waiting = k->waiting;
+        if (waiting.fb) gn_kms_discard(k, &waiting);
+        k->says = true;
+    }
     gn_kms_step(k, 0, now_ns, NULL);
 }
 
@@ -188,6 +200,7 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     }
     if (!k->screen.lost && !k->master && !k->away && k->fd >= 0 && now_ns >= k->master_ns)
         gn_kms_try_master(k, now_ns);
+    if (!k->screen.lost) change_notice(k, now_ns);
     if (!k->screen.lost && now_ns >= k->look_ns) gn_kms_look(k, true, now_ns);
     if (!k->screen.lost) show_notice(k, now_ns);
     gn_kms_sleep(k, now_ns);

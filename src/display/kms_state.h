@@ -35,6 +35,7 @@ struct gn_kms {
     struct gn_kms_card card, fresh;
     struct gn_kms_output output; /* drm NULL: none */
     char notice[256];            /* shown in place of pictures; "": none */
+    bool says;                   /* it is another, and not yet shown */
     char reason[128];            /* why nothing is shown, when it is nothing better known */
     char holder[64];             /* who has the screen */
 

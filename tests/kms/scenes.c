@@ -222,6 +222,19 @@ static void sleep_and_wake(struct client *c) {
     client_blank(c, false);
 }
 
+static void say(struct client *c, const char *text) {
+    c->told_ns = sim_now();
+    gn_kms_say(c->kms, text, c->told_ns);
+}
+
+static void a_text_and_back(struct client *c) {
+    client_frames(c, 3);
+    client_run(c, 5 * SIM_MS);
+    say(c, "no such scene");
+    client_run(c, SIM_S);
+    say(c, NULL);
+}
+
 const struct scene scenes[] = {
     {"it starts lit", build_good, NULL, .opts = {0}, .put_back = true},
     {"fences and modifiers", build_rich, NULL, .opts = {0}, .put_back = true},
@@ -260,6 +273,7 @@ const struct scene scenes[] = {
     {"an event that comes too late", build_good, event_too_late, .opts = {0}},
     {"switched off and on", build_good, sleep_and_wake, .opts = {0}},
     {"switched off and on, the older interface", build_old, sleep_and_wake, .opts = {0}},
+    {"a text and back", build_rich, a_text_and_back, .opts = {0}},
     {"GL starts late", build_good, gl_starts_late, .opts = {0}},
 };
 const int scene_count = (int)(sizeof scenes / sizeof *scenes);

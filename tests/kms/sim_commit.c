@@ -284,7 +284,12 @@ static int set_connector(int fd, uint32_t id, uint32_t property, uint64_t value)
     const int i = sim_index(id, sim_connector_id(card, 0), SIM_CONNECTORS);
     if (i < 0) return -ENOENT;
     if (property != SIM_PROP_BASE + SIM_P_DPMS) return -EINVAL;
-    card->state.connectors[i].asleep = value != DRM_MODE_DPMS_ON;
+    const bool on = value == DRM_MODE_DPMS_ON;
+    const int crtc = card->state.connectors[i].crtc;
+    if (card->traits.legacy)
+        card->state.connectors[i].asleep = !on;
+    else if (crtc >= 0) /* to drivers with the atomic interface it is that */
+        card->state.crtcs[crtc].active = on;
     return 0;
 }
 
@@ -297,6 +302,7 @@ static int page_flip(int fd, uint32_t id, uint32_t fb_id, uint32_t flags, void *
     if (crtc < 0 || !fb) return -ENOENT;
     const struct sim_fb *old = sim_fb_find(card, card->state.planes[crtc].fb);
     if (!old) return -EBUSY;
+    if (!card->state.crtcs[crtc].active) return -EINVAL;
     if (fb->width_px < card->state.crtcs[crtc].mode.hdisplay) return -ENOSPC;
     if (fb->format != old->format) return -EINVAL;
     for (int i = 0; i < SIM_CONNECTORS; i++)
