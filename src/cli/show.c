@@ -9,6 +9,7 @@
 
 #include "cli/args.h"
 #include "cli/commands.h"
+#include "cli/service.h"
 #include "cli/show_hand.h"
 #include "cli/show_stats.h"
 #include "cli/stage.h"
@@ -23,6 +24,7 @@ struct show {
     struct gn_stage stage;
     struct gn_screen_opts screen_opts;
     struct gn_show_stats stats;
+    struct gn_service service;
     struct gn_warnings *warnings;
     int epoll, signals;  /* descriptors, -1 when not open */
     uint32_t generation; /* of the context that stage.gl lives in */
@@ -306,6 +308,7 @@ static bool step(struct show *s, struct gn_err *err) {
     take_hand(s);
     if (s->ends) return true;
     gn_show_stats_step(&s->stats, &s->stage.display, gn_clock_monotonic_ns());
+    s->changed |= gn_service_step(&s->service, &s->stage.display.screen, gn_clock_monotonic_ns());
     return keep_context(s, err) && (!wants_frame(s) || frame(s, err));
 }
 
@@ -327,6 +330,7 @@ static bool run(struct show *s, struct gn_err *err) {
 static void close_all(struct show *s) {
     gn_stage_close(&s->stage);
     gn_show_stats_close(&s->stats);
+    gn_service_close(&s->service);
     if (s->signals >= 0) close(s->signals);
     if (s->epoll >= 0) close(s->epoll);
     drop_options(s->options);
@@ -334,9 +338,14 @@ static void close_all(struct show *s) {
 
 bool gn_cli_show_at(const struct gn_options *options, struct gn_cli_place *place,
                     struct gn_warnings *warnings, struct gn_err *err) {
-    struct show s = {
-        .place = place, .epoll = -1, .signals = -1, .stats.timer = -1, .warnings = warnings};
-    bool ok = open_loop(&s, err);
+    struct show s = {.place = place,
+                     .epoll = -1,
+                     .signals = -1,
+                     .stats.timer = -1,
+                     .service = {.socket = -1, .timer = -1},
+                     .warnings = warnings};
+    bool ok = open_loop(&s, err) && gn_service_open(&s.service, gn_clock_monotonic_ns(), err) &&
+              (s.service.timer < 0 || watch(&s, s.service.timer, err));
     s.options = ok ? read_options(&s, options, NULL, err) : NULL;
     ok = s.options && gn_stage_load(&s.stage, s.options, warnings, err) && open_display(&s, err) &&
          gn_show_stats_open(&s.stats, s.options, err) &&
