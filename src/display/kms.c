@@ -103,14 +103,16 @@ static void enter_console(struct gn_kms *k, int64_t now_ns) {
     /* whoever was there in between has ended it; but one may be back within a frame */
     if (k->flip.pending && k->flip.stalled) gn_kms_flip_is_lost(k);
     if (k->fd >= 0 && !k->screen.lost) gn_kms_try_master(k, now_ns);
-    k->look_ns = now_ns;
+    k->look_ns = k->probe_ns = now_ns;
 }
 
 static void hear(struct gn_kms *k, unsigned events, int64_t now_ns) {
     if (events & GN_KMS_EVENT_VT_LEFT) leave_console(k);
     if (events & GN_KMS_EVENT_VT_ENTERED) enter_console(k, now_ns);
     if (events & GN_KMS_EVENT_READABLE && k->fd >= 0 && !k->screen.lost) gn_kms_drain(k, now_ns);
-    if (events & GN_KMS_EVENT_HOTPLUG) k->look_ns = sooner(k->look_ns, now_ns + SETTLE_NS);
+    if (!(events & GN_KMS_EVENT_HOTPLUG)) return;
+    k->look_ns = sooner(k->look_ns, now_ns + SETTLE_NS);
+    k->probe_ns = sooner(k->probe_ns, k->look_ns);
 }
 
 /* False: the ladder has ended. */
@@ -201,7 +203,7 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     if (!k->screen.lost && !k->master && !k->away && k->fd >= 0 && now_ns >= k->master_ns)
         gn_kms_try_master(k, now_ns);
     if (!k->screen.lost) change_notice(k, now_ns);
-    if (!k->screen.lost && now_ns >= k->look_ns) gn_kms_look(k, true, now_ns);
+    if (!k->screen.lost && now_ns >= k->look_ns) gn_kms_look(k, now_ns);
     if (!k->screen.lost) show_notice(k, now_ns);
     gn_kms_sleep(k, now_ns);
     if (k->losses > 3) ok = false;

@@ -176,7 +176,7 @@ static void refuse(struct gn_kms *k, struct gn_kms_shot *shot, int error, int64_
     k->lit = false;
     if (was_lit) { /* the mode or the connector has changed under us: once more with a modeset */
         wait_a_frame(k, shot, now_ns);
-        k->look_ns = now_ns;
+        k->look_ns = k->probe_ns = now_ns;
         return;
     }
     gn_kms_discard(k, shot);

@@ -6,9 +6,10 @@
 #include "display/kms_dumb.h"
 #include "display/kms_output.h"
 
-#define GN_KMS_NEVER   INT64_MAX
-#define GN_KMS_S       INT64_C(1000000000)
-#define GN_KMS_LOOK_NS (2 * GN_KMS_S) /* between two looks while nothing is lit */
+#define GN_KMS_NEVER    INT64_MAX
+#define GN_KMS_S        INT64_C(1000000000)
+#define GN_KMS_LOOK_NS  (2 * GN_KMS_S)  /* between two looks while nothing is lit */
+#define GN_KMS_PROBE_NS (10 * GN_KMS_S) /* and between two that ask the wires */
 
 enum { GN_KMS_TICKETS = 4 };
 
@@ -65,10 +66,12 @@ struct gn_kms {
     int unreadable;                       /* looks in a row at which not all could be read */
     int losses;                           /* of the context, since a frame was last seen */
     int64_t look_ns, master_ns, again_ns; /* when next; GN_KMS_NEVER */
+    int64_t probe_ns;                     /* looks from then on ask the wires */
 };
 
-/* kms_look.c: cards and connectors. */
-void gn_kms_look(struct gn_kms *kms, bool probe, int64_t now_ns);
+/* kms_look.c: cards and connectors. To ask the wires takes tens of milliseconds a connector: that
+ * is done when something has happened, and now and then; else the kernel is asked what it knows. */
+void gn_kms_look(struct gn_kms *kms, int64_t now_ns);
 /* The card is of no more use; `restore`: but it still listens. */
 void gn_kms_leave_card(struct gn_kms *kms, bool restore, int64_t now_ns);
 /* The context ends, and the card is closed. */
