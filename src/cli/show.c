@@ -118,6 +118,7 @@ static void fit_to_screen(struct show *s) {
 
 /* A kiosk that cannot draw shows why, and stays: somebody will come and read it. */
 static bool say(struct show *s, struct gn_err *err) {
+    if (gn_stop_asked()) return false;
     gn_stage_stop_gl(&s->stage);
     if (!gn_display_say(&s->stage.display, err->text, gn_clock_monotonic_ns())) return false;
     s->says = true;

@@ -18,6 +18,8 @@ struct gn_gl_opts {
     const char *without; /* comma list of capabilities to pretend missing, or NULL; unknown names
                             are a usage error */
     bool desktop;        /* a desktop GL context (OSMesa): switch GL_FRAMEBUFFER_SRGB on */
+    bool (*stop)(void);  /* asked before each program is made, and before each draw of a plan that
+                            runs first with one: true breaks off, and that is a failure; or NULL */
     bool prove_later;    /* leave proofs to gn_gl_prove(): the first picture is there sooner */
     bool debug;          /* KHR_debug messages become errors that gn_gl_error() reports, and the
                             source of a program that fails is kept */
