@@ -107,6 +107,8 @@ static void take_hand(struct gn_show *s) {
 static void tick(struct gn_show *s) {
     const struct gn_kiosk_event event = {.kind = GN_KIOSK_TICK, .time_ns = gn_clock_monotonic_ns()};
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+    if (s->kiosk.blanked != s->stage.display.screen.blank)
+        gn_display_blank(&s->stage.display, s->kiosk.blanked, event.time_ns);
 }
 
 /* ---- the loop ---- */
@@ -145,6 +147,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     if (s->ends) return true;
     tick(s);
     gn_show_stats_step(&s->stats, &s->stage.display, gn_clock_monotonic_ns());
+    s->changed |= gn_service_step(&s->service, &s->stage.display.screen, gn_clock_monotonic_ns());
     if (!gn_show_keep_context(s, err)) return false;
     gn_show_advance(s);
     if (gn_show_wants_frame(s)) return gn_show_frame(s, err);
@@ -168,6 +171,7 @@ void gn_show_close(struct gn_show *s) {
     gn_show_drop_staged(s);
     gn_stage_close(&s->stage);
     gn_show_stats_close(&s->stats);
+    gn_service_close(&s->service);
     if (s->signals >= 0) close(s->signals);
     if (s->epoll >= 0) close(s->epoll);
     gn_show_drop_options(s->options);
@@ -176,7 +180,9 @@ void gn_show_close(struct gn_show *s) {
 
 /* Of what fails half-way the caller asks why it ended, and closes it. */
 static bool open_all(struct gn_show *s, const struct gn_options *options, struct gn_err *err) {
-    if (!open_loop(s, err)) return false;
+    if (!open_loop(s, err) || !gn_service_open(&s->service, gn_clock_monotonic_ns(), err) ||
+        (s->service.timer >= 0 && !gn_show_watch(s, s->service.timer, err)))
+        return false;
     s->options = gn_show_read_options(s, options, NULL, err);
     if (!s->options || !gn_show_load(&s->stage, s->options, s->warnings, err)) return false;
     s->most_frames = s->options->frames > 0 ? (uint64_t)s->options->frames : UINT64_MAX;
@@ -187,8 +193,12 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
 
 static struct gn_show *create(struct gn_cli_place *place, struct gn_warnings *warnings) {
     struct gn_show *s = gn_xalloc(1, sizeof *s);
-    *s = (struct gn_show){
-        .place = place, .epoll = -1, .signals = -1, .stats.timer = -1, .warnings = warnings};
+    *s = (struct gn_show){.place = place,
+                          .epoll = -1,
+                          .signals = -1,
+                          .stats.timer = -1,
+                          .service = {.socket = -1, .timer = -1},
+                          .warnings = warnings};
     return s;
 }
 

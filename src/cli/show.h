@@ -3,6 +3,7 @@
 #define GN_CLI_SHOW_H
 
 #include "cli/commands.h"
+#include "cli/service.h"
 #include "cli/show_loader.h"
 #include "cli/show_stats.h"
 #include "cli/stage.h"
@@ -37,6 +38,7 @@ struct gn_show {
     struct gn_stage stage;
     struct gn_screen_opts screen_opts;
     struct gn_show_stats stats;
+    struct gn_service service;
     struct gn_warnings *warnings;
     int epoll, signals;    /* descriptors, -1 when not open */
     uint32_t generation;   /* of the context that stage.gl lives in */
@@ -58,6 +60,7 @@ struct gn_show {
     bool rests;       /* there was none when it was last looked for */
     bool keeps, kept; /* the next frame's picture is to be kept for a fade; it was */
     bool changed;     /* there is another picture to be seen */
+    bool says;        /* a text, in place of pictures */
     bool ends, reloads;
 };
 

@@ -10,17 +10,16 @@ static bool is_moving(const struct gn_show *s, const struct gn_kiosk_view *view)
 
 static bool differs(const struct gn_kiosk_view *a, const struct gn_kiosk_view *b) {
     return a->mode != b->mode || a->scene != b->scene || a->camera != b->camera ||
-           a->dark != b->dark || a->info != b->info || a->old > 0.0f || b->old > 0.0f ||
-           a->caption != b->caption || a->caption_mode != b->caption_mode ||
-           a->caption_scene != b->caption_scene || (a->stands && a->time_ns != b->time_ns);
+           a->info != b->info || a->old > 0.0f || b->old > 0.0f || a->caption != b->caption ||
+           a->caption_mode != b->caption_mode || a->caption_scene != b->caption_scene ||
+           (a->stands && a->time_ns != b->time_ns);
 }
 
 bool gn_show_wants_frame(const struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     if (!screen->may_draw || !s->stage.gl) return false;
-    if (s->changed || s->keeps || screen->damaged || !screen->lit) return true;
+    if (screen->black || s->changed || s->keeps || screen->damaged || !screen->lit) return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
-    if (view.dark && s->drawn.dark) return false;
     return is_moving(s, &view) || differs(&view, &s->drawn);
 }
 
@@ -44,27 +43,6 @@ static bool draw_view(struct gn_show *s, const struct gn_kiosk_view *view, struc
     return true;
 }
 
-/* Black is a picture like any other, but that nothing is drawn for it. */
-static bool draw_dark(struct gn_show *s, const struct gn_kiosk_view *view, struct gn_err *err) {
-    gn_show_take_view(s, view);
-    if (!gn_stage_plan(&s->stage, s->warnings, err)) return false;
-    gn_gl_blacken(s->stage.gl);
-    return true;
-}
-
-static bool draw(struct gn_show *s, struct gn_err *err) {
-    const struct gn_screen *screen = &s->stage.display.screen;
-    const int64_t seen_ns = screen->seen_ns;
-    const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, seen_ns);
-    const struct gn_kiosk_event event = {.kind = GN_KIOSK_FRAME, .time_ns = seen_ns};
-    if (!(view.dark ? draw_dark(s, &view, err) : draw_view(s, &view, err))) return false;
-    s->drawn = view;
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
-    if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
-    return !screen->copy_to ||
-           gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
-}
-
 /* What frames cost beside what is made ahead; the first makes what it needs. */
 static void count(struct gn_show *s, unsigned long allocations, uint64_t objects) {
     if (s->frames++ == 0) return;
@@ -72,14 +50,32 @@ static void count(struct gn_show *s, unsigned long allocations, uint64_t objects
     s->objects += gn_gl_stats(s->stage.gl).objects_created - objects;
 }
 
-bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
-    struct gn_display *display = &s->stage.display;
-    const int64_t begun_ns = gn_clock_monotonic_ns();
-    if (!gn_display_begin(display, begun_ns, err)) return !err->text[0];
+static bool draw(struct gn_show *s, struct gn_err *err) {
+    const struct gn_screen *screen = &s->stage.display.screen;
+    const int64_t seen_ns = screen->seen_ns;
+    const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, seen_ns);
+    const struct gn_kiosk_event event = {.kind = GN_KIOSK_FRAME, .time_ns = seen_ns};
+    if (screen->black) {
+        gn_gl_black(s->stage.gl);
+        return true;
+    }
     gn_show_fit_to_screen(s);
     gn_show_work(s);
     const unsigned long allocations = gn_alloc_count();
     const uint64_t objects = gn_gl_stats(s->stage.gl).objects_created;
+    if (!draw_view(s, &view, err)) return false;
+    count(s, allocations, objects);
+    s->drawn = view;
+    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+    if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
+    return !screen->copy_to ||
+           gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
+}
+
+bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
+    struct gn_display *display = &s->stage.display;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    if (!gn_display_begin(display, begun_ns, err)) return !err->text[0];
     const bool drawn = draw(s, err);
     if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_clock_monotonic_ns())) {
         *err = (struct gn_err){0};
@@ -90,6 +86,5 @@ bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     s->changed = false;
     if (!gn_display_present(display, drawn_ns, err)) return false;
     gn_show_stats_frame(&s->stats, display, drawn_ns - begun_ns);
-    count(s, allocations, objects);
     return true;
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/show.h"
+#include "cli/stop.h"
 #include "cli/wake.h"
 #include "core/clock.h"
 
@@ -79,8 +80,10 @@ void gn_show_stop_gl(struct gn_show *s) {
 
 /* A kiosk that cannot draw shows why, and stays: somebody will come and read it. */
 static bool say(struct gn_show *s, struct gn_err *err) {
+    if (gn_stop_asked()) return false;
     gn_show_stop_gl(s);
     if (!gn_display_say(&s->stage.display, err->text, gn_clock_monotonic_ns())) return false;
+    s->says = true;
     fprintf(stderr, "gnomon: warning: %s\n", err->text);
     *err = (struct gn_err){0};
     return true;
@@ -92,6 +95,8 @@ static bool start_gl(struct gn_show *s, struct gn_err *err) {
     s->generation = screen->generation;
     s->changed = true;
     if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return say(s, err);
+    if (s->says) gn_display_say(&s->stage.display, NULL, gn_clock_monotonic_ns());
+    s->says = false;
     if (screen->may_draw) return true;
     s->stage.frame_opts.width_px = 64;
     s->stage.frame_opts.height_px = 36;

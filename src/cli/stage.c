@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/import.h"
+#include "cli/stop.h"
 #include "cli/wake.h"
 #include "core/embedded.h"
 
@@ -147,6 +148,7 @@ bool gn_stage_start_gl(struct gn_stage *stage, struct gn_warnings *warnings, str
         .shaders = o->shaders,
         .without = o->without,
         .desktop = stage->display.ops->desktop,
+        .stop = o->command == GN_COMMAND_SHOW ? gn_stop_asked : NULL,
         .prove_later = true,
         .debug = o->verbose,
     };

@@ -106,6 +106,10 @@ bool gn_display_lose(struct gn_display *d, int64_t now_ns) {
     return d->screen.lost;
 }
 
+void gn_display_blank(struct gn_display *d, bool on, int64_t now_ns) {
+    screen_of(d)->blank(d, on, now_ns);
+}
+
 bool gn_display_say(struct gn_display *d, const char *text, int64_t now_ns) {
     return screen_of(d)->say && screen_of(d)->say(d, text, now_ns);
 }

@@ -52,6 +52,8 @@ struct gn_screen {
     bool has_context;    /* a GL context is current; without, there is no card to draw with */
     bool lost;           /* the context is of no use any more: gn_display_renew() */
     uint32_t generation; /* of the context: another number, another context */
+    bool blank;          /* switched off by gn_display_blank(): not lit, as it should be */
+    bool black;          /* and it can only be black: that is the picture due when may_draw */
     bool lit;            /* somebody may see it */
     bool may_draw;       /* lit, and no frame is on its way: begin and present are due */
     bool damaged;        /* what it showed last is gone, or of another size: draw a still picture
@@ -89,7 +91,8 @@ struct gn_screen_ops { /* see the functions of the same names */
     bool (*renew)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*begin)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*present)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
-    void (*lose)(struct gn_display *display, int64_t now_ns);                  /* NULL: cannot */
+    void (*lose)(struct gn_display *display, int64_t now_ns); /* NULL: cannot */
+    void (*blank)(struct gn_display *display, bool on, int64_t now_ns);
     bool (*say)(struct gn_display *display, const char *text, int64_t now_ns); /* NULL: cannot */
     bool (*is_free)(void);                                                     /* NULL: always */
 };
@@ -129,8 +132,12 @@ bool gn_display_present(struct gn_display *display, int64_t now_ns, struct gn_er
 /* GL says that its context is of no use any more: from now on the screen is `lost`. False: there is
  * no other context to be had. */
 bool gn_display_lose(struct gn_display *display, int64_t now_ns);
-/* Shows a text in place of pictures, without GL, from now on until the context is another. False:
- * this screen cannot. */
+/* Switches the screen off, or on again; on comes with the last picture at once, where it is still
+ * there. Nothing is drawn while it is off, but one black picture where `black`; monitors, consoles
+ * and contexts may come and go. Blocks as lighting does. */
+void gn_display_blank(struct gn_display *display, bool on, int64_t now_ns);
+/* Shows a text in place of pictures, without GL, from now on until the context is another, or until
+ * NULL ends it; where GL does not start, the reason is shown instead. False: this screen cannot. */
 bool gn_display_say(struct gn_display *display, const char *text, int64_t now_ns);
 /* The screen of that name could be seen now: there is a monitor, and nobody else has it. */
 bool gn_display_is_free(const char *name);

@@ -20,6 +20,8 @@ static void say_status(struct gn_kms *k) {
         snprintf(out, size, "waiting for a card%s%s", k->reason[0] ? ": " : "", k->reason);
     else if (k->away)
         snprintf(out, size, "another console is shown");
+    else if (k->blank)
+        snprintf(out, size, "switched off");
     else if (!k->connected && k->reason[0])
         snprintf(out, size, "%s", k->reason);
     else if (!k->connected)
@@ -35,7 +37,9 @@ static void say_status(struct gn_kms *k) {
 static void update(struct gn_kms *k, int64_t now_ns) {
     struct gn_screen *s = &k->screen;
     const bool copies = k->surface_opts.rung == GN_RUNG_COPY;
-    const bool ready = k->connected && k->master && !k->away && !s->lost && !k->notice[0];
+    const bool ready =
+        k->connected && k->master && !k->away && !k->blank && !s->lost && !k->notice[0] && !k->says;
+    s->blank = k->blank;
     s->lit = ready && k->lit;
     s->may_draw = ready && !k->waiting.fb && gn_flip_may_draw(&k->flip, now_ns) &&
                   (copies || k->env.scanout->has_free(k->scanout));
@@ -67,7 +71,7 @@ gn_display_proc gn_kms_get_proc(struct gn_kms *k, const char *name) {
 static int64_t sooner(int64_t a, int64_t b) { return a < b ? a : b; }
 
 static bool may_send_again(const struct gn_kms *k) {
-    return k->waiting.fb && k->connected && k->master && !k->flip.pending;
+    return k->waiting.fb && !k->blank && k->connected && k->master && !k->flip.pending;
 }
 
 int64_t gn_kms_deadline(const struct gn_kms *k, int64_t now_ns) {
@@ -75,6 +79,8 @@ int64_t gn_kms_deadline(const struct gn_kms *k, int64_t now_ns) {
     if (k->screen.lost) return GN_KMS_NEVER;
     if (!k->master && !k->away && k->fd >= 0) at = sooner(at, k->master_ns);
     if (!k->connected && !k->flip.pending) return at;
+    if (gn_kms_may_sleep(k)) return sooner(at, k->sleep_ns > now_ns ? k->sleep_ns : now_ns);
+    if (k->blank && !k->flip.pending) return at;
     at = sooner(at, gn_flip_deadline(&k->flip, now_ns));
     if (may_send_again(k)) at = sooner(at, k->flip.next_ns > now_ns ? k->flip.next_ns : now_ns);
     if (k->lit && !k->flip.pending && !k->waiting.fb) at = sooner(at, k->again_ns);
@@ -97,18 +103,25 @@ static void enter_console(struct gn_kms *k, int64_t now_ns) {
     /* whoever was there in between has ended it; but one may be back within a frame */
     if (k->flip.pending && k->flip.stalled) gn_kms_flip_is_lost(k);
     if (k->fd >= 0 && !k->screen.lost) gn_kms_try_master(k, now_ns);
-    k->look_ns = now_ns;
+    k->look_ns = k->probe_ns = now_ns;
 }
 
 static void hear(struct gn_kms *k, unsigned events, int64_t now_ns) {
     if (events & GN_KMS_EVENT_VT_LEFT) leave_console(k);
     if (events & GN_KMS_EVENT_VT_ENTERED) enter_console(k, now_ns);
     if (events & GN_KMS_EVENT_READABLE && k->fd >= 0 && !k->screen.lost) gn_kms_drain(k, now_ns);
-    if (events & GN_KMS_EVENT_HOTPLUG) k->look_ns = sooner(k->look_ns, now_ns + SETTLE_NS);
+    if (!(events & GN_KMS_EVENT_HOTPLUG)) return;
+    k->look_ns = sooner(k->look_ns, now_ns + SETTLE_NS);
+    k->probe_ns = sooner(k->probe_ns, k->look_ns);
 }
 
 /* False: the ladder has ended. */
 static bool act(struct gn_kms *k, enum gn_flip_act what, int64_t now_ns) {
+    if (k->blank && what != GN_FLIP_WAIT && what != GN_FLIP_DRAIN) { /* nobody looks */
+        gn_kms_flip_is_lost(k);
+        k->flip.rung--;
+        return true;
+    }
     switch (what) {
     case GN_FLIP_WAIT: return true;
     case GN_FLIP_DRAIN: gn_kms_drain(k, now_ns); return true;
@@ -141,14 +154,14 @@ static bool send_again(struct gn_kms *k, int64_t now_ns) {
 }
 
 static void show_again(struct gn_kms *k, int64_t now_ns) {
-    const bool idle = !k->flip.pending && !k->waiting.fb;
+    const bool idle = !k->flip.pending && !k->waiting.fb && !k->blank;
     if (k->lit && k->master && idle && k->front.fb && now_ns >= k->again_ns)
         gn_kms_send(k, k->front, now_ns);
 }
 
 /* Once: what is lit stays. */
 static void show_notice(struct gn_kms *k, int64_t now_ns) {
-    const bool free = !k->flip.pending && !k->waiting.fb && !k->lit;
+    const bool free = !k->flip.pending && !k->waiting.fb && !k->lit && !k->blank && !k->says;
     if (k->notice[0] && free && k->connected && k->master && !k->away && k->fd >= 0)
         gn_kms_show_notice(k, now_ns);
 }
@@ -158,12 +171,24 @@ void gn_kms_lose(struct gn_kms *k, int64_t now_ns) {
     update(k, now_ns);
 }
 
-void gn_kms_say(struct gn_kms *k, const char *text, int64_t now_ns) {
-    snprintf(k->notice, sizeof k->notice, "%s", text);
-    if (k->flip.pending) gn_kms_flip_is_lost(k);
+/* Nothing is changed under a flip: the text comes, or goes, when that has ended. */
+static void change_notice(struct gn_kms *k, int64_t now_ns) {
+    if (!k->says || k->flip.pending) return;
+    k->says = false;
     gn_kms_drop_surface(k);
     k->connected = k->lit = false;
-    k->look_ns = now_ns;
+    if (k->look_ns > now_ns) k->look_ns = now_ns;
+}
+
+/* Where GL does not start there is a text already, and why it does not matters more. */
+void gn_kms_say(struct gn_kms *k, const char *text, int64_t now_ns) {
+    const bool ends = !text || !*text;
+    if (k->scanout && (!ends || k->notice[0])) {
+        snprintf(k->notice, sizeof k->notice, "%s", ends ? "" : text);
+        struct gn_kms_shot waiting = k->waiting;
+        if (waiting.fb) gn_kms_discard(k, &waiting);
+        k->says = true;
+    }
     gn_kms_step(k, 0, now_ns, NULL);
 }
 
@@ -177,8 +202,10 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     }
     if (!k->screen.lost && !k->master && !k->away && k->fd >= 0 && now_ns >= k->master_ns)
         gn_kms_try_master(k, now_ns);
-    if (!k->screen.lost && now_ns >= k->look_ns) gn_kms_look(k, true, now_ns);
+    if (!k->screen.lost) change_notice(k, now_ns);
+    if (!k->screen.lost && now_ns >= k->look_ns) gn_kms_look(k, now_ns);
     if (!k->screen.lost) show_notice(k, now_ns);
+    gn_kms_sleep(k, now_ns);
     if (k->losses > 3) ok = false;
     update(k, now_ns);
     return ok || give_up(k, err);

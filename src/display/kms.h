@@ -47,6 +47,7 @@ bool gn_kms_renew(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
 bool gn_kms_begin(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
 bool gn_kms_present(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
 void gn_kms_lose(struct gn_kms *kms, int64_t now_ns);
+void gn_kms_blank(struct gn_kms *kms, bool on, int64_t now_ns);
 void gn_kms_say(struct gn_kms *kms, const char *text, int64_t now_ns);
 
 #endif

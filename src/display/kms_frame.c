@@ -136,7 +136,7 @@ static int flip(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns
 }
 
 /* It may be the one that waits, which it does no more. */
-static void discard(struct gn_kms *k, struct gn_kms_shot *shot) {
+void gn_kms_discard(struct gn_kms *k, struct gn_kms_shot *shot) {
     k->waiting = (struct gn_kms_shot){.fence = -1};
     if (shot->fb == k->front.fb)
         close_fence(shot);
@@ -151,7 +151,7 @@ static void wait_a_frame(struct gn_kms *k, const struct gn_kms_shot *shot, int64
     gn_flip_refused(&k->flip, now_ns);
 }
 
-static void lose_master(struct gn_kms *k, int64_t now_ns) {
+void gn_kms_lose_master(struct gn_kms *k, int64_t now_ns) {
     k->master = k->lit = false;
     k->master_ns = now_ns + GN_KMS_S;
     k->holder[0] = 0;
@@ -164,11 +164,11 @@ static void refuse(struct gn_kms *k, struct gn_kms_shot *shot, int error, int64_
     case GN_FLIP_BUSY:
     case GN_FLIP_NO_MEMORY: wait_a_frame(k, shot, now_ns); return;
     case GN_FLIP_NO_MASTER:
-        discard(k, shot);
-        lose_master(k, now_ns);
+        gn_kms_discard(k, shot);
+        gn_kms_lose_master(k, now_ns);
         return;
     case GN_FLIP_CARD_GONE:
-        discard(k, shot);
+        gn_kms_discard(k, shot);
         gn_kms_leave_card(k, false, now_ns);
         return;
     case GN_FLIP_CHANGED: break;
@@ -176,14 +176,18 @@ static void refuse(struct gn_kms *k, struct gn_kms_shot *shot, int error, int64_
     k->lit = false;
     if (was_lit) { /* the mode or the connector has changed under us: once more with a modeset */
         wait_a_frame(k, shot, now_ns);
-        k->look_ns = now_ns;
+        k->look_ns = k->probe_ns = now_ns;
         return;
     }
-    discard(k, shot);
+    gn_kms_discard(k, shot);
     gn_kms_next_try(k, error, now_ns);
 }
 
 void gn_kms_send(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
+    if (k->blank) { /* asked for while it was drawn */
+        gn_kms_discard(k, &shot);
+        return;
+    }
     const int error = k->lit ? flip(k, &shot, now_ns) : light(k, &shot, now_ns);
     if (error == 0)
         k->waiting = (struct gn_kms_shot){.fence = -1};

@@ -20,7 +20,7 @@ static bool is_asked_for(const struct gn_kms *k, const struct gn_kms_node *node)
 }
 
 /* -1: it is no card that shows pictures. The snapshot is left in fresh. */
-static int rate(struct gn_kms *k, const struct gn_kms_node *node, int *fd) {
+static int rate(struct gn_kms *k, const struct gn_kms_node *node, bool probe, int *fd) {
     struct gn_err why = {0};
     if (!is_asked_for(k, node)) return -1;
     *fd = k->env.drm->open(node->path);
@@ -29,7 +29,7 @@ static int rate(struct gn_kms *k, const struct gn_kms_node *node, int *fd) {
                  errno == EACCES ? "; add the user to the group video" : "");
         return -1;
     }
-    if (gn_kms_card_read(k->env.drm, *fd, true, &k->fresh, &why))
+    if (gn_kms_card_read(k->env.drm, *fd, probe, &k->fresh, &why))
         return gn_kms_card_score(&k->fresh, k->opts->connector);
     k->env.drm->close(*fd);
     *fd = -1;
@@ -37,7 +37,7 @@ static int rate(struct gn_kms *k, const struct gn_kms_node *node, int *fd) {
 }
 
 /* The best card that rates at least `least`; its descriptor, or -1. The snapshot goes to card. */
-static int find_card(struct gn_kms *k, int least, struct gn_kms_node *out) {
+static int find_card(struct gn_kms *k, int least, bool probe, struct gn_kms_node *out) {
     struct gn_kms_node nodes[GN_KMS_CARDS_MAX];
     const int count = k->env.drm->list(nodes, GN_KMS_CARDS_MAX);
     int best = least - 1, kept = -1;
@@ -45,7 +45,7 @@ static int find_card(struct gn_kms *k, int least, struct gn_kms_node *out) {
     for (int i = 0; i < count; i++) {
         int fd = -1;
         if (k->fd >= 0 && strcmp(nodes[i].path, k->node.path) == 0) continue;
-        const int score = rate(k, &nodes[i], &fd);
+        const int score = rate(k, &nodes[i], probe, &fd);
         if (score <= best) {
             if (fd >= 0) k->env.drm->close(fd);
             continue;
@@ -73,6 +73,7 @@ static void start_gl(struct gn_kms *k) {
 bool gn_kms_try_master(struct gn_kms *k, int64_t now_ns) {
     k->master = k->env.drm->IsMaster(k->fd) || k->env.drm->SetMaster(k->fd) == 0;
     k->lit = false;
+    k->sleep_ns = now_ns;
     k->master_ns = k->master ? GN_KMS_NEVER : now_ns + GN_KMS_S;
     if (!k->master && !k->holder[0] && k->env.who)
         k->env.who(k->node.path, k->holder, sizeof k->holder);
@@ -81,7 +82,7 @@ bool gn_kms_try_master(struct gn_kms *k, int64_t now_ns) {
 }
 
 static void open_card(struct gn_kms *k, int64_t now_ns) {
-    k->fd = find_card(k, 0, &k->node);
+    k->fd = find_card(k, 0, true, &k->node);
     if (k->fd < 0) return;
     k->screen.counts.opened++;
     k->flip = (struct gn_flip){.rung = k->flip.rung,
@@ -223,6 +224,7 @@ static void connect(struct gn_kms *k, int connector, int64_t now_ns) {
     k->orientation_deg = c->orientation_deg;
     k->monitor = c->monitor;
     k->lit = false;
+    k->sleep_ns = now_ns;
     if (crtc < 0 || !open_output(k, connector, crtc)) {
         give_up_connector(k, "nothing drives it", now_ns);
         if (is_unreadable(k)) k->look_ns = now_ns + GN_KMS_LOOK_NS;
@@ -256,9 +258,9 @@ static int choose(const struct gn_kms *k) {
 }
 
 /* Another card may have a monitor; ours has none. */
-static void look_elsewhere(struct gn_kms *k, int64_t now_ns) {
+static void look_elsewhere(struct gn_kms *k, bool probe, int64_t now_ns) {
     struct gn_kms_node other;
-    const int fd = find_card(k, 1, &other);
+    const int fd = find_card(k, 1, probe, &other);
     if (fd < 0) return;
     k->env.drm->close(fd);
     gn_kms_leave_card(k, true, now_ns);
@@ -276,7 +278,7 @@ static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
     const int chosen = choose(k);
     if (chosen < 0) {
         k->connected = k->lit = false;
-        look_elsewhere(k, now_ns);
+        look_elsewhere(k, probe, now_ns);
         return;
     }
     const struct gn_kms_connector *c = &k->card.connectors[chosen];
@@ -305,8 +307,10 @@ static void start_gl_again(struct gn_kms *k, int64_t now_ns) {
     k->connected = k->lit = false;
 }
 
-void gn_kms_look(struct gn_kms *k, bool probe, int64_t now_ns) {
+void gn_kms_look(struct gn_kms *k, int64_t now_ns) {
+    bool probe = now_ns >= k->probe_ns;
     k->look_ns = GN_KMS_NEVER;
+    if (probe) k->probe_ns = now_ns + GN_KMS_PROBE_NS;
     if (k->fd >= 0 && !k->scanout && k->connected)
         start_gl_again(k, now_ns);
     else if (k->fd >= 0 && !k->scanout)
@@ -316,6 +320,7 @@ void gn_kms_look(struct gn_kms *k, bool probe, int64_t now_ns) {
         probe = k->card.partial; /* else it has been */
     }
     if (k->fd >= 0) look_at_card(k, probe, now_ns);
+    if (k->card.partial || k->fresh.partial) k->probe_ns = now_ns; /* not all have answered */
     const bool dumb = k->fd >= 0 && !k->scanout;
     if (k->look_ns != GN_KMS_NEVER || (k->connected && !dumb)) return;
     k->look_ns = now_ns + (dumb ? 5 : 1) * GN_KMS_LOOK_NS;

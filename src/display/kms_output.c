@@ -100,6 +100,7 @@ bool gn_kms_output_open(struct gn_kms_output *o, const struct gn_drm_ops *drm, i
     save_old(o);
     o->atomic = !legacy && set_caps(o, 1);
     if (!o->atomic) set_caps(o, 0); /* the older interface does all but fences */
+    if (!o->atomic) o->dpms = GN_MAY_SLEEP;
     if (!o->atomic || find_objects(o)) return true;
     *o = (struct gn_kms_output){0};
     return gn_fail(err, "%s: its properties cannot be read", name);
@@ -328,8 +329,53 @@ static int light_legacy(struct gn_kms_output *o, const drmModeModeInfo *mode, ui
     return error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, fb, 0, 0, &o->connector, 1, &copy));
 }
 
+/* ---- sleeping ---- */
+
+static int sleep_atomic(struct gn_kms_output *o) {
+    struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
+    if (!r.list) return ENOMEM;
+    put(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 0);
+    const int error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
+    o->drm->ModeAtomicFree(r.list);
+    return error;
+}
+
+/* By the older interface it is the connector that sleeps. 0 where it has no such property. */
+static int set_dpms(struct gn_kms_output *o, uint64_t value) {
+    uint32_t *ids = o->connector_props;
+    if (!ids[GN_PROP_CONNECTOR_DPMS])
+        gn_kms_props_read(o->drm, o->fd, o->connector, DRM_MODE_OBJECT_CONNECTOR,
+                          gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, ids, NULL);
+    if (!ids[GN_PROP_CONNECTOR_DPMS]) return EOPNOTSUPP;
+    return error_of(
+        o->drm->ModeConnectorSetProperty(o->fd, o->connector, ids[GN_PROP_CONNECTOR_DPMS], value));
+}
+
+static int sleep_legacy(struct gn_kms_output *o) {
+    const int error = set_dpms(o, DRM_MODE_DPMS_OFF);
+    if (error == EOPNOTSUPP || error == EINVAL) return gn_kms_output_dark(o);
+    if (error == 0) o->dpms = GN_ASLEEP;
+    return error;
+}
+
+int gn_kms_output_sleep(struct gn_kms_output *o) {
+    return o->atomic ? sleep_atomic(o) : sleep_legacy(o);
+}
+
+/* To set a mode that is set already wakes nobody. Who was here before may have put it to sleep. */
+static int wake(struct gn_kms_output *o) {
+    const int error = o->dpms != GN_AWAKE ? set_dpms(o, DRM_MODE_DPMS_ON) : 0;
+    const bool cannot = error == EOPNOTSUPP || (error == EINVAL && o->dpms == GN_MAY_SLEEP);
+    if (error != 0 && !cannot) return error;
+    o->dpms = GN_AWAKE;
+    return 0;
+}
+
+/* ---- lighting ---- */
+
 int gn_kms_output_light(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb) {
-    const int error = o->atomic ? light_atomic(o, mode, fb) : light_legacy(o, mode, fb);
+    int error = wake(o);
+    if (error == 0) error = o->atomic ? light_atomic(o, mode, fb) : light_legacy(o, mode, fb);
     if (error != 0) return error;
     o->mode = *mode;
     sweep(o, fb);
@@ -380,6 +426,7 @@ bool gn_kms_output_is_blind(const struct gn_kms_output *o) {
 
 /* The console's framebuffer is still there; another program's may not be. */
 static void put_back(struct gn_kms_output *o) {
+    wake(o);
     if (o->was_lit && o->drm->ModeSetCrtc(o->fd, o->crtc, o->old_fb, o->old_x, o->old_y,
                                           &o->connector, 1, &o->old_mode) == 0)
         return;
@@ -388,7 +435,7 @@ static void put_back(struct gn_kms_output *o) {
 
 void gn_kms_output_close(struct gn_kms_output *o, bool restore) {
     if (!o->drm) return;
-    if (restore && o->mode.hdisplay > 0) put_back(o);
+    if (restore && (o->mode.hdisplay > 0 || o->dpms == GN_ASLEEP)) put_back(o);
     gn_kms_output_orphan_fbs(o);
     sweep(o, 0);
     *o = (struct gn_kms_output){0};

@@ -12,6 +12,7 @@ enum { GN_KMS_FBS_MAX = 16 };
 enum gn_kms_connector_prop { /* names in kms_props.c */
                              GN_PROP_CONNECTOR_CRTC,
                              GN_PROP_CONNECTOR_LINK,
+                             GN_PROP_CONNECTOR_DPMS,
                              GN_PROP_CONNECTOR_COUNT,
 };
 enum gn_kms_crtc_prop { GN_PROP_CRTC_ACTIVE, GN_PROP_CRTC_MODE, GN_PROP_CRTC_COUNT };
@@ -55,8 +56,9 @@ struct gn_kms_output {
     uint32_t crtc_props[GN_PROP_CRTC_COUNT];
     uint32_t plane_props[GN_PROP_PLANE_COUNT];
     struct gn_kms_fb fbs[GN_KMS_FBS_MAX];
-    drmModeModeInfo mode; /* lit with */
-    bool was_lit;         /* and what there was before */
+    drmModeModeInfo mode;                            /* lit with */
+    enum { GN_AWAKE, GN_MAY_SLEEP, GN_ASLEEP } dpms; /* before it is lit it is woken */
+    bool was_lit;                                    /* and what there was before */
     uint32_t old_fb, old_x, old_y;
     drmModeModeInfo old_mode;
 };
@@ -85,6 +87,8 @@ int gn_kms_output_light(struct gn_kms_output *output, const drmModeModeInfo *mod
 int gn_kms_output_flip(struct gn_kms_output *output, uint32_t fb, int fence, void *user);
 /* Switches the CRTC off; blocks. */
 int gn_kms_output_dark(struct gn_kms_output *output);
+/* Switches the monitor off, to be lit again soon: mode and framebuffer stay; blocks. */
+int gn_kms_output_sleep(struct gn_kms_output *output);
 /* The driver tells of no refreshes. */
 bool gn_kms_output_is_blind(const struct gn_kms_output *output);
 

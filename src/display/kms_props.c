@@ -6,6 +6,7 @@
 const char *const gn_kms_connector_props[GN_PROP_CONNECTOR_COUNT] = {
     [GN_PROP_CONNECTOR_CRTC] = "CRTC_ID",
     [GN_PROP_CONNECTOR_LINK] = "link-status",
+    [GN_PROP_CONNECTOR_DPMS] = "DPMS",
 };
 const char *const gn_kms_crtc_props[GN_PROP_CRTC_COUNT] = {
     [GN_PROP_CRTC_ACTIVE] = "ACTIVE",

@@ -186,6 +186,12 @@ static void kms_lose(struct gn_display *display, int64_t now_ns) {
     settle(display, true, now_ns);
 }
 
+static void kms_blank(struct gn_display *display, bool on, int64_t now_ns) {
+    struct kms_screen *s = display->state;
+    gn_kms_blank(s->kms, on, now_ns);
+    settle(display, true, now_ns);
+}
+
 static bool kms_say(struct gn_display *display, const char *text, int64_t now_ns) {
     struct kms_screen *s = display->state;
     gn_kms_say(s->kms, text, now_ns);
@@ -224,6 +230,7 @@ static const struct gn_screen_ops kms_screen_ops = {
     .begin = kms_begin,
     .present = kms_present,
     .lose = kms_lose,
+    .blank = kms_blank,
     .say = kms_say,
     .is_free = kms_is_free,
 };

@@ -6,9 +6,10 @@
 #include "display/kms_dumb.h"
 #include "display/kms_output.h"
 
-#define GN_KMS_NEVER   INT64_MAX
-#define GN_KMS_S       INT64_C(1000000000)
-#define GN_KMS_LOOK_NS (2 * GN_KMS_S) /* between two looks while nothing is lit */
+#define GN_KMS_NEVER    INT64_MAX
+#define GN_KMS_S        INT64_C(1000000000)
+#define GN_KMS_LOOK_NS  (2 * GN_KMS_S)  /* between two looks while nothing is lit */
+#define GN_KMS_PROBE_NS (10 * GN_KMS_S) /* and between two that ask the wires */
 
 enum { GN_KMS_TICKETS = 4 };
 
@@ -35,6 +36,7 @@ struct gn_kms {
     struct gn_kms_card card, fresh;
     struct gn_kms_output output; /* drm NULL: none */
     char notice[256];            /* shown in place of pictures; "": none */
+    bool says;                   /* it is another, and not yet shown */
     char reason[128];            /* why nothing is shown, when it is nothing better known */
     char holder[64];             /* who has the screen */
 
@@ -50,6 +52,8 @@ struct gn_kms {
     struct gn_dumb copies[2];
 
     bool master, away;          /* away: on another console */
+    bool blank;                 /* to be switched off */
+    int64_t sleep_ns;           /* when it is to be switched off, or once more */
     bool lit;                   /* the CRTC shows what was last flipped; else: a modeset */
     struct gn_kms_shot front;   /* seen */
     struct gn_kms_shot pending; /* on its way; the same as front when shown again */
@@ -62,10 +66,12 @@ struct gn_kms {
     int unreadable;                       /* looks in a row at which not all could be read */
     int losses;                           /* of the context, since a frame was last seen */
     int64_t look_ns, master_ns, again_ns; /* when next; GN_KMS_NEVER */
+    int64_t probe_ns;                     /* looks from then on ask the wires */
 };
 
-/* kms_look.c: cards and connectors. */
-void gn_kms_look(struct gn_kms *kms, bool probe, int64_t now_ns);
+/* kms_look.c: cards and connectors. To ask the wires takes tens of milliseconds a connector: that
+ * is done when something has happened, and now and then; else the kernel is asked what it knows. */
+void gn_kms_look(struct gn_kms *kms, int64_t now_ns);
 /* The card is of no more use; `restore`: but it still listens. */
 void gn_kms_leave_card(struct gn_kms *kms, bool restore, int64_t now_ns);
 /* The context ends, and the card is closed. */
@@ -79,8 +85,14 @@ void gn_kms_send(struct gn_kms *kms, struct gn_kms_shot shot, int64_t now_ns);
 void gn_kms_forget_shots(struct gn_kms *kms); /* no buffer is in use any more */
 void gn_kms_show_notice(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_flip_is_lost(struct gn_kms *kms); /* no event will tell of the pending one */
+void gn_kms_discard(struct gn_kms *kms, struct gn_kms_shot *shot); /* it will not be shown */
+void gn_kms_lose_master(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_drain(struct gn_kms *kms, int64_t now_ns);
 bool gn_kms_make_copies(struct gn_kms *kms);
 void gn_kms_drop_surface(struct gn_kms *kms);
+
+/* kms_blank.c: switched off on purpose. */
+bool gn_kms_may_sleep(const struct gn_kms *kms);
+void gn_kms_sleep(struct gn_kms *kms, int64_t now_ns);
 
 #endif

@@ -16,7 +16,8 @@ static bool settle(struct gn_display *display, int64_t now_ns) {
     const int64_t at_ns = gn_flip_deadline(flip, now_ns);
     const struct itimerspec never = {0},
                             when = {.it_value = {at_ns / GN_NS_PER_S, at_ns % GN_NS_PER_S}};
-    s->may_draw = gn_flip_may_draw(flip, now_ns);
+    s->lit = !s->blank;
+    s->may_draw = s->lit && gn_flip_may_draw(flip, now_ns);
     s->seen_ns = gn_flip_seen_ns(flip, now_ns);
     s->counts.shown = flip->shown;
     s->counts.missed = flip->missed;
@@ -70,6 +71,11 @@ static bool unseen_present(struct gn_display *display, int64_t now_ns, struct gn
     return settle(display, now_ns);
 }
 
+static void unseen_blank(struct gn_display *display, bool on, int64_t now_ns) {
+    display->screen.blank = on;
+    settle(display, now_ns);
+}
+
 void gn_screen_unseen_close(struct gn_display *display) {
     if (!display->unseen) return;
     if (display->screen.fd >= 0) close(display->screen.fd);
@@ -83,4 +89,5 @@ const struct gn_screen_ops gn_screen_unseen = {
     .renew = unseen_renew,
     .begin = unseen_begin,
     .present = unseen_present,
+    .blank = unseen_blank,
 };

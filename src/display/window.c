@@ -214,10 +214,12 @@ static bool settle(struct gn_display *display, int64_t now_ns, struct gn_err *er
         if (err) err->status = GN_EXIT_DISPLAY;
         return false;
     }
-    s->lit = w->width_px > 0 && w->height_px > 0 && !w->iconified && !s->lost;
-    s->width_px = s->lit ? (uint32_t)w->width_px : 0;
-    s->height_px = s->lit ? (uint32_t)w->height_px : 0;
-    s->may_draw = s->lit && gn_flip_may_draw(&w->flip, now_ns);
+    const bool seen = w->width_px > 0 && w->height_px > 0 && !w->iconified && !s->lost;
+    s->lit = seen && !s->blank;
+    s->black = s->blank && w->damaged;
+    s->width_px = seen ? (uint32_t)w->width_px : 0;
+    s->height_px = seen ? (uint32_t)w->height_px : 0;
+    s->may_draw = seen && (!s->blank || s->black) && gn_flip_may_draw(&w->flip, now_ns);
     s->damaged = w->damaged;
     s->period_ns = w->flip.period_ns;
     s->seen_ns = gn_flip_seen_ns(&w->flip, now_ns);
@@ -406,9 +408,10 @@ static bool window_begin(struct gn_display *display, int64_t now_ns, struct gn_e
         poll_events();
         w->shown = true;
     }
-    w->damaged = false;
     gn_flip_begun(&w->flip, now_ns);
-    return settle(display, now_ns, err) && display->screen.lit;
+    if (!settle(display, now_ns, err) || !display->screen.may_draw) return false;
+    w->damaged = display->screen.damaged = false;
+    return true;
 }
 
 static bool window_present(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
@@ -420,6 +423,13 @@ static bool window_present(struct gn_display *display, int64_t now_ns, struct gn
     gn_flip_done(&w->flip, now_ns, now_ns);
     poll_events();
     return settle(display, now_ns, err);
+}
+
+static void window_blank(struct gn_display *display, bool on, int64_t now_ns) {
+    struct window *w = display->state;
+    w->damaged |= display->screen.blank != on;
+    display->screen.blank = on;
+    settle(display, now_ns, NULL);
 }
 
 static gn_display_proc window_get_proc(struct gn_display *display, const char *name) {
@@ -434,6 +444,7 @@ static const struct gn_screen_ops window_screen_ops = {
     .begin = window_begin,
     .present = window_present,
     .lose = window_lose,
+    .blank = window_blank,
 };
 
 const struct gn_display_ops gn_display_window = {

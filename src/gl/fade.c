@@ -1,4 +1,4 @@
-/* What happens to a finished picture: it is kept, laid over a later one, or gone. */
+/* What happens to a finished picture: it is kept, and laid over later ones. */
 #include "gl/private.h"
 
 static const char fade_vertex[] = "#version 300 es\n"
@@ -107,12 +107,4 @@ void gn_gl_lay_over(struct gn_gl *gl, float share) {
     GL(gl, Uniform4fv)(k->u_share, 1, (const float[4]){share, 0, 0, 0});
     gn_gl_bind_vertex_array(gl, k->vertices);
     GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
-}
-
-void gn_gl_blacken(struct gn_gl *gl) {
-    static const float black[4] = {0, 0, 0, 1};
-    if (!gl->targets.output.made) return;
-    begin(gl);
-    gn_gl_set_clear_color(gl, black);
-    GL(gl, Clear)(GL_COLOR_BUFFER_BIT);
 }

@@ -64,6 +64,7 @@ struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *wa
     struct gn_gl *gl = gn_xalloc(1, sizeof *gl);
     gl->desktop = opts->desktop;
     gl->debug = opts->debug;
+    gl->stop = opts->stop;
     gl->warnings = warnings;
     gl->shaders = opts->shaders ? strdup(opts->shaders) : NULL;
     if (start(gl, opts, err)) return gl;

@@ -18,6 +18,8 @@ struct gn_gl_opts {
     const char *without; /* comma list of capabilities to pretend missing, or NULL; unknown names
                             are a usage error */
     bool desktop;        /* a desktop GL context (OSMesa): switch GL_FRAMEBUFFER_SRGB on */
+    bool (*stop)(void);  /* asked before each program is made, and before each draw of a plan that
+                            runs first with one: true breaks off, and that is a failure; or NULL */
     bool prove_later;    /* leave proofs to gn_gl_prove(): the first picture is there sooner */
     bool debug;          /* KHR_debug messages become errors that gn_gl_error() reports, and the
                             source of a program that fails is kept */
@@ -87,8 +89,8 @@ bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err);
 bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err);
 /* share: 0..1 of what is kept. Nothing happens if that is not of the same size. */
 void gn_gl_lay_over(struct gn_gl *gl, float share);
-/* Makes the last picture black, without drawing it. */
-void gn_gl_blacken(struct gn_gl *gl);
+/* Makes the window black, in place of a plan. */
+void gn_gl_black(struct gn_gl *gl);
 
 /* The last picture, top row first. rgba8: what is stored (sRGB-encoded for GN_OUTPUT_SRGB8). f32:
  * RGBA floats from GN_OUTPUT_FLOAT or GN_OUTPUT_AOV. The buffer holds width x height x 4. */

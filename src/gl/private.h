@@ -339,8 +339,11 @@ struct gn_gl {
     struct gn_gl_stats stats;
     uint64_t objects_created;
     uint64_t programs_made; /* tried ones too */
-    char debug_text[256];   /* the driver's first complaint since the last check */
-    char *failed_source;    /* see gn_gl_failed_source() */
+    uint64_t
+        programs_run;     /* of them, when a plan had run last: many drivers compile as they draw */
+    bool (*stop)(void);   /* see gn_gl_opts */
+    char debug_text[256]; /* the driver's first complaint since the last check */
+    char *failed_source;  /* see gn_gl_failed_source() */
 };
 
 #define GL(gl, name) ((gl)->calls++, (gl)->fn.name)

@@ -254,6 +254,10 @@ static enum clear clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
     return map->cleared ? CLEAR_NOT : CLEAR_RECT;
 }
 
+static bool is_stopped(const struct gn_gl *gl, struct gn_err *err) {
+    return gl->stop && gl->stop() && !gn_fail(err, "stopped while programs are made");
+}
+
 /* map: NULL for what is no shadow pass. */
 static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                       struct gn_gl_map *map, struct gn_err *err) {
@@ -263,8 +267,11 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     if (grouped) GL(gl, PushDebugGroup)(GL_DEBUG_SOURCE_APPLICATION_KHR, 0, -1, pass->label);
     begin_target(gl, pass, framebuffer_of(gl, pass, map), clear_of(plan, map, pass));
     bind_sources(gl, plan, pass);
-    for (uint32_t i = 0; i < pass->draw_count; i++)
+    const bool first_time = gl->programs_run != gl->programs_made;
+    for (uint32_t i = 0; i < pass->draw_count; i++) {
+        if (first_time && is_stopped(gl, err)) return false;
         draw(gl, pass, &plan->draws[pass->first_draw + i], hash, UINT32_MAX);
+    }
     end_target(gl, pass, !map || !next_tile(plan, map, pass));
     if (grouped) GL(gl, PopDebugGroup)();
     return !gl->debug || gn_gl_error_check(gl, pass->label, err);
@@ -323,8 +330,18 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
     if (!find_programs(gl, plan, err)) return false;
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     bool ok = run_passes(gl, plan, pass_ms, err);
+    if (ok) gl->programs_run = gl->programs_made;
     gl->stats.gl_calls = gl->calls - calls_before;
     return ok;
+}
+
+void gn_gl_black(struct gn_gl *gl) {
+    static const float black[4] = {0, 0, 0, 1};
+    gn_gl_bind_framebuffer(gl, 0);
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_set_color_write(gl, true);
+    gn_gl_set_clear_color(gl, black);
+    GL(gl, Clear)(GL_COLOR_BUFFER_BIT);
 }
 
 /* ---- preparing ---- */
@@ -343,8 +360,10 @@ bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, s
 
 static bool make_programs(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     grow_plan_programs(gl, plan->program_count);
-    for (uint32_t i = 0; i < plan->program_count; i++)
+    for (uint32_t i = 0; i < plan->program_count; i++) {
+        if (!gn_gl_program_find(gl, &plan->programs[i]) && is_stopped(gl, err)) return false;
         if (!gn_gl_program_prepare(gl, &plan->programs[i], err)) return false;
+    }
     return true;
 }
 

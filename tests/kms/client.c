@@ -36,6 +36,12 @@ void client_enter_console(struct client *c) {
     c->heard |= GN_KMS_EVENT_VT_ENTERED;
 }
 
+void client_blank(struct client *c, bool on) {
+    c->blank = on;
+    c->told_ns = sim_now();
+    gn_kms_blank(c->kms, on, c->told_ns);
+}
+
 /* ---- a step ---- */
 
 static unsigned take_events(struct client *c) {
@@ -54,6 +60,7 @@ static void start_anew(struct client *c) {
     c->told_ns = sim_now();
     c->kms = gn_kms_create(&env, &c->opts, c->told_ns);
     if (c->away) c->heard |= GN_KMS_EVENT_VT_LEFT;
+    if (c->blank) client_blank(c, true);
 }
 
 static bool wants_frame(const struct client *c) {
@@ -72,6 +79,7 @@ static bool draw(struct client *c, struct gn_err *err) {
         sim_paint(c->colour);
     c->frames++;
     c->changed = false;
+    if (c->blank) sim_complain("drawn while it is switched off");
     return gn_kms_present(c->kms, c->told_ns, err);
 }
 

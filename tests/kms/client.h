@@ -10,7 +10,7 @@
 struct client {
     struct gn_screen_opts opts;
     struct gn_kms *kms;
-    bool moves, changed, away;
+    bool moves, changed, away, blank;
     unsigned heard;  /* events of the console, to be told */
     uint32_t colour; /* of the last frame presented */
     bool gave_up;    /* the screen did, at least once; a new process has begun */
@@ -25,6 +25,8 @@ void client_close(struct client *client);
 const struct gn_screen *client_screen(const struct client *client);
 void client_leave_console(struct client *client); /* and the text console shows itself */
 void client_enter_console(struct client *client);
+
+void client_blank(struct client *client, bool on);
 
 void client_run(struct client *client, int64_t for_ns);
 /* As many frames, or 5 s. */

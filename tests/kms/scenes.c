@@ -202,6 +202,39 @@ static void gl_starts_late(struct client *c) {
     rest(c, 11 * SIM_S);
 }
 
+/* A night, in which much happens. */
+static void sleep_and_wake(struct client *c) {
+    client_frames(c, 3);
+    client_blank(c, true);
+    client_run(c, 14 * SIM_S);
+    if (sim_counts.failed == 0 && !sim_is_dark()) sim_complain("it is not dark");
+    client_blank(c, false);
+    client_frames(c, 2);
+    client_blank(c, true);
+    sim_plug(0, 0, SIM_NO_MONITOR);
+    client_run(c, 3 * SIM_S);
+    sim_plug(0, 0, SIM_TWIN);
+    client_run(c, SIM_S);
+    client_leave_console(c);
+    client_run(c, SIM_S);
+    client_enter_console(c);
+    client_run(c, SIM_S);
+    client_blank(c, false);
+}
+
+static void say(struct client *c, const char *text) {
+    c->told_ns = sim_now();
+    gn_kms_say(c->kms, text, c->told_ns);
+}
+
+static void a_text_and_back(struct client *c) {
+    client_frames(c, 3);
+    client_run(c, 5 * SIM_MS);
+    say(c, "no such scene");
+    client_run(c, SIM_S);
+    say(c, NULL);
+}
+
 const struct scene scenes[] = {
     {"it starts lit", build_good, NULL, .opts = {0}, .put_back = true},
     {"fences and modifiers", build_rich, NULL, .opts = {0}, .put_back = true},
@@ -238,6 +271,9 @@ const struct scene scenes[] = {
      .slack_ns = 30 * SIM_S, .may_give_up = true},
     {"an event that is lost", build_good, stall_event, .opts = {0}},
     {"an event that comes too late", build_good, event_too_late, .opts = {0}},
+    {"switched off and on", build_good, sleep_and_wake, .opts = {0}},
+    {"switched off and on, the older interface", build_old, sleep_and_wake, .opts = {0}},
+    {"a text and back", build_rich, a_text_and_back, .opts = {0}},
     {"GL starts late", build_good, gl_starts_late, .opts = {0}},
 };
 const int scene_count = (int)(sizeof scenes / sizeof *scenes);

@@ -268,7 +268,7 @@ static uint32_t colour_of(const struct sim_bo *bo) {
 
 static bool connector_shows(const struct sim_card *card, int i, uint32_t colour) {
     const struct sim_connector_state *c = &card->state.connectors[i];
-    if (!card->plugged[i] || c->crtc < 0 || c->bad_link) return false;
+    if (!card->plugged[i] || c->crtc < 0 || c->bad_link || c->asleep) return false;
     if (card->state.planes[c->crtc].rotation != DRM_MODE_ROTATE_0) return false;
     const struct sim_crtc_state *crtc = &card->state.crtcs[c->crtc];
     const struct sim_fb *shown = card->crtcs[c->crtc].shown;
@@ -283,6 +283,17 @@ bool sim_shows(uint32_t colour) {
         for (int i = 0; sim.cards[n].present && i < SIM_CONNECTORS; i++)
             if (connector_shows(&sim.cards[n], i, colour)) return true;
     return false;
+}
+
+bool sim_is_dark(void) {
+    for (int n = 0; n < SIM_CARDS; n++)
+        for (int i = 0; sim.cards[n].present && i < SIM_CONNECTORS; i++) {
+            const struct sim_card *card = &sim.cards[n];
+            const struct sim_connector_state *c = &card->state.connectors[i];
+            if (card->plugged[i] && c->crtc >= 0 && !c->asleep && card->state.crtcs[c->crtc].active)
+                return false;
+        }
+    return true;
 }
 
 bool sim_shows_console(int n) {

@@ -141,6 +141,8 @@ void sim_paint(uint32_t colour);
 void sim_paint_copy(uint8_t *pixels, uint32_t colour);
 /* Some monitor that is there shows that colour, and nothing over it. */
 bool sim_shows(uint32_t colour);
+/* No monitor that is there is lit. */
+bool sim_is_dark(void);
 bool sim_shows_console(int card);
 bool sim_is_master(int fd);
 

@@ -187,6 +187,8 @@ static void drive(struct sim_state *next, int crtc, int connector, const drmMode
     const int old = next->connectors[connector].crtc;
     next->connectors[connector].crtc = crtc;
     next->connectors[connector].bad_link = false;
+    /* without a change of mode it sleeps on */
+    if (!same_mode(&next->crtcs[crtc].mode, mode)) next->connectors[connector].asleep = false;
     next->crtcs[crtc] = (struct sim_crtc_state){.active = true, .has_mode = true, .mode = *mode};
     bool still_driven = false;
     for (int i = 0; i < SIM_CONNECTORS; i++) still_driven |= next->connectors[i].crtc == old;
@@ -218,6 +220,7 @@ void sim_set_console(struct sim_card *card, int owner) {
     struct sim_fb *fb = owners_fb(card, owner, mode);
     struct sim_state next = card->state;
     drive(&next, connector, connector, mode);
+    next.connectors[connector].asleep = false;
     cover(&next.planes[connector], connector, fb, mode);
     for (int i = SIM_CRTCS; i < SIM_PLANES; i++) next.planes[i].fb = 0, next.planes[i].crtc = -1;
     if (card->traits.rotation && owner == SIM_CONSOLE)
@@ -273,6 +276,23 @@ static int set_cursor(int fd, uint32_t id, uint32_t handle, uint32_t width, uint
     return f ? -ENXIO : -errno;
 }
 
+/* Of a connector there is DPMS alone to be set. */
+static int set_connector(int fd, uint32_t id, uint32_t property, uint64_t value) {
+    struct sim_file *f = sim_enter_as_master(SIM_ModeConnectorSetProperty, fd);
+    if (!f) return -errno;
+    struct sim_card *card = sim_card_of(f);
+    const int i = sim_index(id, sim_connector_id(card, 0), SIM_CONNECTORS);
+    if (i < 0) return -ENOENT;
+    if (property != SIM_PROP_BASE + SIM_P_DPMS) return -EINVAL;
+    const bool on = value == DRM_MODE_DPMS_ON;
+    const int crtc = card->state.connectors[i].crtc;
+    if (card->traits.legacy)
+        card->state.connectors[i].asleep = !on;
+    else if (crtc >= 0) /* to drivers with the atomic interface it is that */
+        card->state.crtcs[crtc].active = on;
+    return 0;
+}
+
 static int page_flip(int fd, uint32_t id, uint32_t fb_id, uint32_t flags, void *user) {
     struct sim_file *f = sim_enter_as_master(SIM_ModePageFlip, fd);
     if (!f) return -errno;
@@ -282,8 +302,12 @@ static int page_flip(int fd, uint32_t id, uint32_t fb_id, uint32_t flags, void *
     if (crtc < 0 || !fb) return -ENOENT;
     const struct sim_fb *old = sim_fb_find(card, card->state.planes[crtc].fb);
     if (!old) return -EBUSY;
+    if (!card->state.crtcs[crtc].active) return -EINVAL;
     if (fb->width_px < card->state.crtcs[crtc].mode.hdisplay) return -ENOSPC;
     if (fb->format != old->format) return -EINVAL;
+    for (int i = 0; i < SIM_CONNECTORS; i++)
+        if (card->state.connectors[i].crtc == crtc && card->state.connectors[i].asleep)
+            sim_complain("a page flip while the monitor sleeps");
     if (card->crtcs[crtc].flip.pending) {
         sim_complain("a page flip while a flip is pending");
         return -EBUSY;
@@ -329,6 +353,7 @@ void sim_fill_commit(struct gn_drm_ops *ops) {
     ops->ModeSetCrtc = set_crtc;
     ops->ModeSetCursor = set_cursor;
     ops->ModePageFlip = page_flip;
+    ops->ModeConnectorSetProperty = set_connector;
     ops->CrtcGetSequence = get_sequence;
     ops->HandleEvent = handle_event;
 }

@@ -68,6 +68,7 @@ static const char *const prop_names[SIM_PROPS] = {
     [SIM_P_ORIENTATION] = "panel orientation",
     [SIM_P_NON_DESKTOP] = "non-desktop",
     [SIM_P_EDID] = "EDID",
+    [SIM_P_DPMS] = "DPMS",
     [SIM_P_CONNECTOR_CRTC] = "CRTC_ID",
     [SIM_P_ACTIVE] = "ACTIVE",
     [SIM_P_MODE] = "MODE_ID",
@@ -116,6 +117,7 @@ static void connector_props(const struct sim_file *f, const struct sim_card *car
     put(p, SIM_P_NON_DESKTOP, 0);
     put(p, SIM_P_ORIENTATION, 0);
     put(p, SIM_P_EDID, edid_id(card, card->known[i]));
+    put(p, SIM_P_DPMS, card->state.connectors[i].asleep ? DRM_MODE_DPMS_OFF : DRM_MODE_DPMS_ON);
     if (f->atomic) put(p, SIM_P_CONNECTOR_CRTC, crtc_or_0(card, card->state.connectors[i].crtc));
 }
 
@@ -307,7 +309,7 @@ static drmModeCrtcPtr crtc(int fd, uint32_t id) {
     drmModeCrtc *c = sim_reply(sizeof *c);
     c->crtc_id = id;
     c->buffer_id = card->state.planes[i].crtc == i ? card->state.planes[i].fb : 0;
-    c->mode_valid = card->state.crtcs[i].active;
+    c->mode_valid = card->state.crtcs[i].has_mode;
     c->mode = card->state.crtcs[i].mode;
     c->width = c->mode.hdisplay;
     c->height = c->mode.vdisplay;

@@ -22,6 +22,7 @@ enum sim_prop {
     SIM_P_ORIENTATION,
     SIM_P_NON_DESKTOP,
     SIM_P_EDID,
+    SIM_P_DPMS,
     SIM_P_CONNECTOR_CRTC,
     SIM_P_ACTIVE,
     SIM_P_MODE,
@@ -81,6 +82,7 @@ struct sim_plane_state {
 struct sim_connector_state {
     int crtc;
     bool bad_link;
+    bool asleep; /* by the older interface */
 };
 struct sim_state { /* what has been committed, though a flip may be on its way */
     struct sim_crtc_state crtcs[SIM_CRTCS];

@@ -139,6 +139,46 @@ static void test_a_render_node_that_is_not_there(void **state) {
     end();
 }
 
+/* A look at the wires stops a slow machine: only when something has happened, and now and then. */
+static void test_while_there_is_none_the_wires_are_seldom_asked(void **state) {
+    (void)state;
+    begin(SIM_NO_MONITOR, &(struct gn_screen_opts){0});
+    const long *calls = sim_counts.calls, probes = calls[SIM_ModeGetConnector],
+               looks = calls[SIM_ModeGetConnectorCurrent];
+    client_run(&c, 100 * SIM_S);
+    assert_in_range(calls[SIM_ModeGetConnector] - probes, 10 * SIM_CONNECTORS, 12 * SIM_CONNECTORS);
+    assert_in_range(calls[SIM_ModeGetConnectorCurrent] - looks, 38 * SIM_CONNECTORS,
+                    42 * SIM_CONNECTORS);
+    sim_plug(0, 0, SIM_FULL_HD);
+    client_run(&c, 200 * SIM_MS); /* with a uevent */
+    assert_true(client_screen(&c)->lit);
+    end();
+}
+
+static void test_without_a_uevent_it_is_seen_later(void **state) {
+    (void)state;
+    begin(SIM_NO_MONITOR, &(struct gn_screen_opts){0});
+    sim_plug(0, 0, SIM_FULL_HD);
+    assert_true(sim_take_uevent()); /* nobody hears it */
+    client_run(&c, 10500 * SIM_MS);
+    assert_true(client_screen(&c)->lit);
+    end();
+}
+
+/* Nobody has asked the wires while another console was shown. */
+static void test_another_one_came_while_it_was_away(void **state) {
+    (void)state;
+    begin_with_second_mode();
+    client_leave_console(&c);
+    client_run(&c, SIM_S);
+    sim_plug(0, 0, SIM_SMALL);
+    assert_true(sim_take_uevent());
+    client_run(&c, SIM_S);
+    client_enter_console(&c);
+    expect_width(48);
+    end();
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_same_one_keeps_its_mode_and_does_not_blink),
@@ -147,6 +187,9 @@ int main(void) {
         cmocka_unit_test(test_a_mode_belongs_to_the_one_it_was_lit_for),
         cmocka_unit_test(test_without_edid_by_what_it_prefers),
         cmocka_unit_test(test_what_is_configured_holds),
+        cmocka_unit_test(test_while_there_is_none_the_wires_are_seldom_asked),
+        cmocka_unit_test(test_without_a_uevent_it_is_seen_later),
+        cmocka_unit_test(test_another_one_came_while_it_was_away),
         cmocka_unit_test(test_a_cap_on_what_is_chosen_unasked),
         cmocka_unit_test(test_a_render_node_that_is_not_there),
     };

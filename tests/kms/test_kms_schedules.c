@@ -80,7 +80,7 @@ static void move_card(void) {
 
 static void act(struct client *c) {
     const int n = below(SIM_CARDS);
-    switch (below(10)) {
+    switch (below(11)) {
     case 0:
     case 1:
     case 2: plug_something(); break;
@@ -95,6 +95,7 @@ static void act(struct client *c) {
         break;
     case 8: sim_stall(n, one_in(2) ? SIM_FLOWS : (enum sim_stall)below(SIM_STALL_COUNT)); break;
     case 9: sim_break_link(n, below(SIM_CONNECTORS)); break;
+    case 10: client_blank(c, !c->blank); break;
     }
     c->moves = !one_in(3);
     c->changed = true;
@@ -118,6 +119,7 @@ static void heal(struct client *c) {
     }
     sim_plug(0, below(SIM_CONNECTORS), SIM_FULL_HD);
     if (c->away) client_enter_console(c);
+    if (c->blank) client_blank(c, false);
 }
 
 static void add_up(const struct client *c, int64_t took_ns) {

@@ -75,6 +75,13 @@ static void test_unseen_screen(void **state) {
     assert_true(gn_display_dispatch(&d, 2000 + 20000000, &err));
     assert_true(d.screen.may_draw);
     assert_int_equal(d.screen.counts.shown, 1);
+    gn_display_blank(&d, true, 40000000);
+    assert_true(d.screen.blank);
+    assert_false(d.screen.lit || d.screen.may_draw || d.screen.black);
+    assert_true(gn_display_dispatch(&d, 90000000, &err));
+    assert_false(d.screen.may_draw);
+    gn_display_blank(&d, false, 95000000);
+    assert_true(d.screen.lit && d.screen.may_draw);
     gn_display_close(&d);
     gn_display_close(&d);
 }

@@ -138,6 +138,47 @@ static void test_failed_program(void **state) {
     help_remove(folder);
 }
 
+/* A kiosk that is to end while its programs compile. */
+static int programs_left;
+static bool stop(void) { return programs_left-- <= 0; }
+
+static void test_stopped_between_programs(void **state) {
+    struct gn_display display;
+    struct gn_err err = {0};
+    help_open(&display, *state);
+    struct gn_gl *gl = help_gl(&display, &(struct gn_gl_opts){.stop = stop}, NULL);
+    struct gn_scene *scene = gn_scene_load("assets/sundial.glb", NULL, NULL, &err);
+    if (!scene || !gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
+    struct gn_frame *frame = gn_frame_create(scene, gn_gl_caps(gl));
+    struct gn_pose pose;
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    const struct gn_frame_opts opts = {.width_px = 64, .height_px = 36};
+    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
+    const int count = (int)plan->program_count;
+    assert_true(count > 2);
+    const uint64_t made = gl->programs_made;
+    for (int i = 0; i < count - 1; i++) { /* one more each time */
+        programs_left = 1;
+        assert_false(gn_gl_prepare(gl, plan, &err));
+        assert_string_equal(err.text, "stopped while programs are made");
+        assert_int_equal(gl->programs_made, made + (uint64_t)i + 1);
+    }
+    programs_left = 1000;
+    assert_true(gn_gl_prepare(gl, plan, &err));
+    assert_int_equal(gl->programs_made, made + (uint64_t)count);
+    programs_left = 1; /* drivers compile as they draw: so each first draw is asked for, too */
+    assert_false(gn_gl_run(gl, plan, NULL, &err));
+    programs_left = 1000;
+    assert_true(gn_gl_run(gl, plan, NULL, &err));
+    programs_left = 0; /* nothing is asked any more */
+    assert_true(gn_gl_prepare(gl, plan, &err) && gn_gl_run(gl, plan, NULL, &err));
+    gn_frame_destroy(frame);
+    gn_pose_finish(&pose);
+    gn_gl_destroy(gl);
+    gn_scene_destroy(scene);
+    gn_display_close(&display);
+}
+
 static void test_destroy_null(void **state) {
     (void)state;
     gn_gl_destroy(NULL);
@@ -200,6 +241,7 @@ int main(void) {
         TEST(test_liar),
         TEST(test_liar_found_late),
         TEST(test_failed_program),
+        TEST(test_stopped_between_programs),
         TEST(test_embedded),
         cmocka_unit_test(test_tilers_by_name),
     };

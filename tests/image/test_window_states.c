@@ -1,5 +1,5 @@
 /* A window whose GPU is reset, as it tells by its robustness interface: the same picture stands in
- * another window, with another context. */
+ * another window, with another context. And one that is switched off: black, and back. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -94,6 +94,11 @@ static void draw(struct kiosk *k) {
     const struct gn_frame_opts opts = {
         .width_px = target.width_px, .height_px = target.height_px, .unencoded = !target.srgb};
     gn_gl_set_window(k->gl, &target);
+    if (d->screen.black) {
+        gn_gl_black(k->gl);
+        assert_true(gn_display_present(d, gn_clock_monotonic_ns(), &err));
+        return;
+    }
     const struct gn_plan *plan = gn_frame_build(k->frame, &k->pose, &opts, NULL);
     if (!gn_gl_prepare(k->gl, plan, &err) || !gn_gl_run(k->gl, plan, NULL, &err))
         fail_msg("%s", err.text);
@@ -186,10 +191,54 @@ static void test_full_screen_stays_full_screen(void **state) {
     end(&k);
 }
 
+static bool is_black(void) {
+    const gn_xwindow now = gn_xserver_find(server, "gnomon", PATIENCE_S);
+    struct gn_picture p = {0};
+    bool black = now && gn_xserver_grab(server, now, &p);
+    for (int i = 0; black && i < p.width_px * p.height_px * p.channels; i++) black = p.data[i] == 0;
+    gn_picture_finish(&p);
+    return black;
+}
+
+static void assert_becomes_black(struct kiosk *k) {
+    const int64_t until_ns = gn_clock_monotonic_ns() + PATIENCE_S * GN_NS_PER_S;
+    draw(k);
+    while (!is_black() && gn_clock_monotonic_ns() < until_ns) {
+        usleep(30000);
+        dispatch(k);
+        if (k->display.screen.may_draw) draw(k);
+    }
+    assert_true(is_black());
+}
+
+static void test_switched_off_it_is_black(void **state) {
+    (void)state;
+    struct kiosk k;
+    begin(&k);
+    assert_shows(&k, "320x200");
+    gn_display_blank(&k.display, true, gn_clock_monotonic_ns());
+    assert_true(k.display.screen.blank && k.display.screen.black);
+    assert_false(k.display.screen.lit);
+    assert_becomes_black(&k);
+    usleep(100000);
+    dispatch(&k);
+    assert_false(k.display.screen.black || k.display.screen.may_draw); /* nothing more to draw */
+    gn_xserver_cover(server);
+    const int64_t until_ns = gn_clock_monotonic_ns() + PATIENCE_S * GN_NS_PER_S;
+    while (!k.display.screen.black && gn_clock_monotonic_ns() < until_ns) dispatch(&k);
+    assert_becomes_black(&k);
+    gn_display_blank(&k.display, false, gn_clock_monotonic_ns());
+    assert_true(k.display.screen.lit && k.display.screen.damaged);
+    assert_false(k.display.screen.blank || k.display.screen.black);
+    assert_shows(&k, "320x200");
+    end(&k);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_picture_comes_back),
         cmocka_unit_test(test_full_screen_stays_full_screen),
+        cmocka_unit_test(test_switched_off_it_is_black),
     };
     struct gn_err err = {0};
     bool missing;

@@ -1,0 +1,99 @@
+#include "cli/service.h"
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include "cli/value.h"
+#include "core/clock.h"
+
+/* Whether it arrives is the supervisor's business. */
+static void tell(const struct gn_service *s, const char *text) {
+    if (s->socket < 0) return;
+    const ssize_t sent = sendto(s->socket, text, strlen(text), MSG_NOSIGNAL | MSG_DONTWAIT,
+                                (const struct sockaddr *)&s->to, s->to_length);
+    (void)sent;
+}
+
+/* A path, or an abstract name that begins with "@". */
+static bool set_address(struct gn_service *s, const char *path) {
+    const size_t length = strlen(path);
+    if ((path[0] != '/' && path[0] != '@') || length >= sizeof s->to.sun_path) return false;
+    s->to.sun_family = AF_UNIX;
+    memcpy(s->to.sun_path, path, length);
+    if (path[0] == '@') s->to.sun_path[0] = 0;
+    s->to_length = (socklen_t)(offsetof(struct sockaddr_un, sun_path) + length);
+    return true;
+}
+
+/* 0: none, or for another process. */
+static int64_t watchdog_ns(void) {
+    const char *us = getenv("WATCHDOG_USEC"), *pid = getenv("WATCHDOG_PID");
+    int64_t value, whose;
+    if (!us || !gn_parse_int(us, &value) || value <= 0 || value > INT64_MAX / 1000) return 0;
+    if (pid && (!gn_parse_int(pid, &whose) || whose != getpid())) return 0;
+    return value * 1000;
+}
+
+static bool start_watchdog(struct gn_service *s, int64_t now_ns) {
+    s->every_ns = watchdog_ns() / 2;
+    s->next_ns = now_ns + s->every_ns;
+    if (s->every_ns == 0) return true;
+    const struct timespec every = {s->every_ns / GN_NS_PER_S, s->every_ns % GN_NS_PER_S};
+    s->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+    return s->timer >= 0 &&
+           timerfd_settime(s->timer, 0, &(struct itimerspec){every, every}, NULL) == 0;
+}
+
+bool gn_service_open(struct gn_service *s, int64_t now_ns, struct gn_err *err) {
+    const char *path = getenv("NOTIFY_SOCKET");
+    *s = (struct gn_service){.socket = -1, .timer = -1};
+    if (!path || !*path) return true;
+    if (!set_address(s, path))
+        return gn_fail(err, "NOTIFY_SOCKET=%.80s: it is neither a path nor @ and a name", path);
+    s->socket = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (s->socket < 0 || !start_watchdog(s, now_ns))
+        return gn_fail(err, "cannot talk to the supervisor: %s", strerror(errno));
+    unsetenv("NOTIFY_SOCKET");
+    unsetenv("WATCHDOG_USEC");
+    return true;
+}
+
+static void tell_status(struct gn_service *s, const struct gn_screen *screen) {
+    char line[sizeof s->status + sizeof "STATUS="];
+    const char *now = screen->status[0] ? screen->status : screen->what;
+    if (!*now || strcmp(now, s->status) == 0) return;
+    snprintf(s->status, sizeof s->status, "%s", now);
+    snprintf(line, sizeof line, "STATUS=%s", now);
+    tell(s, line);
+}
+
+bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64_t now_ns) {
+    const uint64_t shown = screen->counts.shown;
+    const bool sleeps = screen->blank || screen->status[0];
+    uint64_t ticks;
+    if (s->socket < 0) return false;
+    if (s->timer >= 0 && read(s->timer, &ticks, sizeof ticks) < 0 && errno != EAGAIN) return false;
+    if (shown < s->shown) s->shown = 0; /* opened again */
+    tell_status(s, screen);
+    if (!s->ready && (shown > 0 || sleeps)) tell(s, "READY=1");
+    s->ready |= shown > 0 || sleeps;
+    if (s->every_ns == 0 || now_ns < s->next_ns) return false;
+    if (shown == s->shown && !sleeps) return true;
+    tell(s, "WATCHDOG=1");
+    s->shown = shown;
+    s->next_ns = now_ns + s->every_ns;
+    return false;
+}
+
+void gn_service_close(struct gn_service *s) {
+    if (s->socket < 0) return;
+    tell(s, "STOPPING=1");
+    close(s->socket);
+    if (s->timer >= 0) close(s->timer);
+    s->socket = s->timer = -1;
+}

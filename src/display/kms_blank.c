@@ -1,0 +1,43 @@
+/* A screen that is switched off on purpose, for the night or to spare it. Whatever happens
+ * meanwhile - monitors, consoles, cards that come and go - it is switched off again; a flip that is
+ * never told of is no failure then. The last picture stays, and is the first to be seen again. */
+#include "display/kms_state.h"
+
+bool gn_kms_may_sleep(const struct gn_kms *k) {
+    return k->blank && k->fd >= 0 && !k->screen.lost && k->output.drm && k->connected &&
+           k->master && !k->away && !k->flip.pending;
+}
+
+void gn_kms_sleep(struct gn_kms *k, int64_t now_ns) {
+    if (!gn_kms_may_sleep(k) || now_ns < k->sleep_ns) return;
+    const int error = gn_kms_output_sleep(&k->output);
+    k->lit = false;
+    /* somebody may light it meanwhile, and leave */
+    k->sleep_ns = now_ns + (error == 0 ? 10 * GN_KMS_S : GN_KMS_S / 10);
+    if (error == 0) return;
+    switch (gn_flip_error_of(error)) {
+    case GN_FLIP_BUSY:
+    case GN_FLIP_NO_MEMORY: return;
+    case GN_FLIP_NO_MASTER: gn_kms_lose_master(k, now_ns); return;
+    case GN_FLIP_CARD_GONE: gn_kms_leave_card(k, false, now_ns); return;
+    case GN_FLIP_CHANGED: break;
+    }
+    k->sleep_ns = now_ns + GN_KMS_S;
+    if (k->look_ns > k->sleep_ns) k->look_ns = k->sleep_ns;
+}
+
+static bool may_wake(const struct gn_kms *k) {
+    return k->front.fb && !k->lit && k->connected && k->master && !k->away && !k->screen.lost &&
+           !k->flip.pending && !k->notice[0];
+}
+
+void gn_kms_blank(struct gn_kms *k, bool on, int64_t now_ns) {
+    if (k->blank != on) {
+        k->blank = on;
+        k->sleep_ns = now_ns;
+        struct gn_kms_shot waiting = k->waiting;
+        if (on && waiting.fb) gn_kms_discard(k, &waiting);
+        if (!on && may_wake(k)) gn_kms_send(k, k->front, now_ns);
+    }
+    gn_kms_step(k, 0, now_ns, NULL);
+}

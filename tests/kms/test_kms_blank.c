@@ -1,0 +1,260 @@
+/* A screen that is switched off on purpose: dark whatever happens, no failure however long it
+ * takes, and at once there again. */
+#include <errno.h>
+#include <stdlib.h>
+
+#include "client.h"
+#include "unit/check.h"
+
+static struct client c;
+
+static const struct kind {
+    const char *name;
+    struct sim_traits traits;
+    struct gn_screen_opts opts;
+    struct sim_gpu gpu;
+} kinds[] = {
+    {.name = "atomic", .traits = {.console = true}},
+    {.name = "fences", .traits = {.console = true, .modifiers = true, .fences = true}},
+    {.name = "legacy", .traits = {.console = true, .legacy = true}},
+    {.name = "legacy, asked for", .opts = {.legacy = true}},
+    {.name = "no vblank", .traits = {.blind = true}},
+    {.name = "copies", .gpu = {.no_surface = {true, true, true}}},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static void begin(const struct kind *kind, int monitor) {
+    sim_begin();
+    sim_set_gpu(&kind->gpu);
+    sim_add_card(0, "/dev/dri/card0", &kind->traits);
+    sim_plug(0, 0, monitor);
+    client_open(&c, &kind->opts);
+    if (monitor != SIM_NO_MONITOR) client_frames(&c, 5);
+}
+
+static void end(const struct kind *kind) {
+    client_close(&c);
+    if (sim_end() != 0) fail_msg("%s: %s", kind->name, sim_complaint());
+}
+
+static void expect_dark(const struct kind *kind) {
+    const struct gn_screen *s = client_screen(&c);
+    if (!sim_is_dark()) fail_msg("%s: it is not dark: %s", kind->name, s->status);
+    assert_true(s->blank);
+    assert_false(s->lit || s->may_draw);
+}
+
+static void expect_right(const struct kind *kind) {
+    int64_t took_ns;
+    if (!client_settle(&c, SIM_S, &took_ns))
+        fail_msg("%s: no right picture: %s", kind->name, client_screen(&c)->status);
+    assert_false(client_screen(&c)->blank);
+}
+
+/* Far beyond the ladder of a lost flip. */
+static void test_a_night(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        begin(&kinds[i], SIM_FULL_HD);
+        client_blank(&c, true);
+        client_run(&c, SIM_S);
+        expect_dark(&kinds[i]);
+        const long frames = c.frames, flips = sim_counts.flips, calls = sim_counts.all_calls;
+        const uint64_t opened = client_screen(&c)->counts.opened;
+        client_run(&c, 600 * SIM_S);
+        expect_dark(&kinds[i]);
+        assert_string_equal(client_screen(&c)->status, "switched off");
+        assert_int_equal(c.frames, frames);
+        assert_int_equal(sim_counts.flips, flips);
+        assert_in_range(sim_counts.all_calls, calls, calls + 600); /* it sleeps, too */
+        assert_false(c.gave_up);
+        assert_int_equal(client_screen(&c)->counts.opened, opened);
+        const uint32_t last = c.colour;
+        client_blank(&c, false);
+        if (!sim_shows(last)) fail_msg("%s: not at once", kinds[i].name);
+        assert_true(client_screen(&c)->lit);
+        expect_right(&kinds[i]);
+        assert_int_equal(client_screen(&c)->counts.stalled, 0);
+        end(&kinds[i]);
+    }
+}
+
+static void test_in_the_middle_of_a_flip(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++)
+        for (int64_t at = 0; at < 20; at++) {
+            begin(&kinds[i], SIM_FULL_HD);
+            client_run(&c, SIM_S + at * SIM_MS);
+            client_blank(&c, true);
+            client_run(&c, at * SIM_MS);
+            client_blank(&c, false);
+            client_blank(&c, true);
+            client_run(&c, SIM_S);
+            expect_dark(&kinds[i]);
+            client_blank(&c, false);
+            expect_right(&kinds[i]);
+            end(&kinds[i]);
+        }
+}
+
+/* No event will tell of the flip that was on its way. */
+static void test_a_flip_that_is_lost_is_no_failure_now(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        begin(&kinds[i], SIM_FULL_HD);
+        const uint64_t opened = client_screen(&c)->counts.opened;
+        sim_stall(0, SIM_STALLS);
+        client_run(&c, 100 * SIM_MS);
+        client_blank(&c, true);
+        client_run(&c, 120 * SIM_S);
+        expect_dark(&kinds[i]);
+        assert_false(c.gave_up);
+        assert_int_equal(client_screen(&c)->counts.opened, opened);
+        sim_stall(0, SIM_FLOWS);
+        client_blank(&c, false);
+        expect_right(&kinds[i]);
+        end(&kinds[i]);
+    }
+}
+
+static void test_monitors_come_and_go(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        begin(&kinds[i], SIM_FULL_HD);
+        client_blank(&c, true);
+        client_run(&c, SIM_S);
+        sim_plug(0, 0, SIM_NO_MONITOR);
+        client_run(&c, 5 * SIM_S);
+        sim_plug(0, 0, SIM_FULL_HD);
+        client_run(&c, 5 * SIM_S);
+        expect_dark(&kinds[i]);
+        sim_plug(0, 0, SIM_SMALL);
+        client_run(&c, 5 * SIM_S);
+        expect_dark(&kinds[i]);
+        client_blank(&c, false);
+        expect_right(&kinds[i]);
+        assert_int_equal(client_screen(&c)->width_px, 48);
+        client_blank(&c, true);
+        sim_plug(0, 0, SIM_NO_MONITOR);
+        client_run(&c, 5 * SIM_S);
+        client_blank(&c, false);
+        client_run(&c, 5 * SIM_S);
+        sim_plug(0, 0, SIM_SMALL);
+        expect_right(&kinds[i]);
+        end(&kinds[i]);
+    }
+}
+
+static void test_consoles_come_and_go(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        begin(&kinds[i], SIM_FULL_HD);
+        client_blank(&c, true);
+        client_run(&c, SIM_S);
+        client_leave_console(&c);
+        client_run(&c, 5 * SIM_S);
+        if (kinds[i].traits.console) assert_true(sim_shows_console(0));
+        client_enter_console(&c);
+        client_run(&c, SIM_S);
+        expect_dark(&kinds[i]);
+        client_blank(&c, false);
+        expect_right(&kinds[i]);
+        client_leave_console(&c);
+        client_run(&c, SIM_S);
+        client_blank(&c, true); /* while it is away */
+        client_run(&c, SIM_S);
+        if (kinds[i].traits.console) assert_true(sim_shows_console(0));
+        client_enter_console(&c);
+        client_run(&c, SIM_S);
+        expect_dark(&kinds[i]);
+        client_leave_console(&c);
+        client_run(&c, SIM_S);
+        client_blank(&c, false);
+        client_enter_console(&c);
+        expect_right(&kinds[i]);
+        end(&kinds[i]);
+    }
+}
+
+static void test_the_card_comes_and_goes(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        begin(&kinds[i], SIM_FULL_HD);
+        client_blank(&c, true);
+        client_run(&c, SIM_S);
+        sim_lose_card(0);
+        client_run(&c, 5 * SIM_S);
+        sim_return_card(0, "/dev/dri/card2");
+        client_run(&c, 5 * SIM_S);
+        expect_dark(&kinds[i]);
+        client_blank(&c, false);
+        expect_right(&kinds[i]);
+        end(&kinds[i]);
+    }
+}
+
+static void test_before_anything_was_seen(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        begin(&kinds[i], SIM_NO_MONITOR);
+        client_blank(&c, true);
+        client_run(&c, SIM_S);
+        sim_plug(0, 0, SIM_FULL_HD);
+        client_run(&c, 5 * SIM_S);
+        expect_dark(&kinds[i]);
+        client_blank(&c, false);
+        expect_right(&kinds[i]);
+        end(&kinds[i]);
+    }
+}
+
+static void test_at_the_end_the_console_is_seen(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        if (!kinds[i].traits.console) continue;
+        begin(&kinds[i], SIM_FULL_HD);
+        client_blank(&c, true);
+        client_run(&c, SIM_S);
+        expect_dark(&kinds[i]);
+        gn_kms_destroy(c.kms);
+        c.kms = NULL;
+        if (!sim_shows_console(0) || sim_is_dark()) fail_msg("%s", kinds[i].name);
+        end(&kinds[i]);
+    }
+}
+
+/* Whatever the kernel says to it, it is dark in the end. */
+static void test_the_kernel_refuses_for_a_while(void **state) {
+    (void)state;
+    static const int errors[] = {EBUSY, EINTR, ENOMEM, EACCES, EINVAL, ENOSPC, ENODEV};
+    for (int i = 0; i < KINDS; i++)
+        for (size_t n = 0; n < sizeof errors / sizeof *errors; n++) {
+            const bool legacy = kinds[i].traits.legacy || kinds[i].opts.legacy;
+            begin(&kinds[i], SIM_FULL_HD);
+            c.moves = false;
+            client_run(&c, 2 * SIM_S);
+            sim_fail(legacy ? SIM_ModeConnectorSetProperty : SIM_ModeAtomicCommit, 1, 3, errors[n]);
+            client_blank(&c, true);
+            client_run(&c, 8 * SIM_S);
+            assert_true(sim_counts.failed > 0);
+            expect_dark(&kinds[i]);
+            client_blank(&c, false);
+            expect_right(&kinds[i]);
+            end(&kinds[i]);
+        }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_night),
+        cmocka_unit_test(test_in_the_middle_of_a_flip),
+        cmocka_unit_test(test_a_flip_that_is_lost_is_no_failure_now),
+        cmocka_unit_test(test_monitors_come_and_go),
+        cmocka_unit_test(test_consoles_come_and_go),
+        cmocka_unit_test(test_the_card_comes_and_goes),
+        cmocka_unit_test(test_before_anything_was_seen),
+        cmocka_unit_test(test_at_the_end_the_console_is_seen),
+        cmocka_unit_test(test_the_kernel_refuses_for_a_while),
+    };
+    return RUN(tests);
+}

@@ -1,0 +1,174 @@
+/* A text in place of pictures: whenever it is asked for, it waits for no flip, stays through all
+ * that comes and goes, and ends when it is told to. */
+#include <errno.h>
+#include <string.h>
+
+#include "client.h"
+#include "unit/check.h"
+
+enum { GROUND = 0x00202428 }; /* what notice.c fills its pictures with */
+
+static struct client c;
+static const struct kind {
+    const char *name;
+    struct sim_traits traits;
+    struct gn_screen_opts opts;
+    struct sim_gpu gpu;
+} kinds[] = {
+    {.name = "atomic", .traits = {.console = true}},
+    {.name = "fences", .traits = {.modifiers = true, .fences = true}},
+    {.name = "legacy", .traits = {.console = true, .legacy = true}},
+    {.name = "no vblank", .traits = {.blind = true}},
+    {.name = "copies", .gpu = {.no_surface = {true, true, true}}},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static void begin(const struct kind *kind) {
+    sim_begin();
+    sim_set_gpu(&kind->gpu);
+    sim_add_card(0, "/dev/dri/card0", &kind->traits);
+    sim_plug(0, 0, SIM_FULL_HD);
+    client_open(&c, &kind->opts);
+    client_frames(&c, 5);
+}
+
+static void end(const struct kind *kind) {
+    client_close(&c);
+    if (sim_end() != 0) fail_msg("%s: %s", kind->name, sim_complaint());
+}
+
+static void say(const char *text) {
+    c.told_ns = sim_now();
+    gn_kms_say(c.kms, text, c.told_ns);
+}
+
+static void expect_notice(const struct kind *kind, const char *text) {
+    if (!sim_shows(GROUND)) fail_msg("%s: no text is seen", kind->name);
+    assert_string_equal(client_screen(&c)->status, text);
+    assert_false(client_screen(&c)->may_draw);
+}
+
+static void expect_right(const struct kind *kind) {
+    int64_t took_ns;
+    if (!client_settle(&c, SIM_S, &took_ns))
+        fail_msg("%s: no right picture: %s", kind->name, client_screen(&c)->status);
+}
+
+/* At every millisecond of two refreshes. */
+static void test_it_waits_for_no_flip(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++)
+        for (int64_t at = 0; at < 40; at++) {
+            begin(&kinds[i]);
+            client_run(&c, SIM_S + at * SIM_MS);
+            const int64_t from_ns = sim_now();
+            const long waits = sim_counts.waits;
+            say("no such scene");
+            assert_true(sim_now() - from_ns < 20 * SIM_MS); /* a modeset, at most */
+            client_run(&c, 100 * SIM_MS);
+            expect_notice(&kinds[i], "no such scene");
+            assert_int_equal(sim_counts.waits, waits);
+            say(NULL);
+            expect_right(&kinds[i]);
+            end(&kinds[i]);
+        }
+}
+
+static void test_one_after_another(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        begin(&kinds[i]);
+        say("one");
+        say("two");
+        client_run(&c, 100 * SIM_MS);
+        expect_notice(&kinds[i], "two");
+        say("three");
+        say(NULL);
+        say(NULL); /* there is none to end */
+        expect_right(&kinds[i]);
+        say(NULL);
+        expect_right(&kinds[i]);
+        end(&kinds[i]);
+    }
+}
+
+static void test_it_stays_through_much(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        begin(&kinds[i]);
+        say("no such scene");
+        client_run(&c, SIM_S);
+        sim_plug(0, 0, SIM_NO_MONITOR);
+        client_run(&c, 3 * SIM_S);
+        sim_plug(0, 0, SIM_SMALL);
+        client_run(&c, 3 * SIM_S);
+        expect_notice(&kinds[i], "no such scene");
+        client_leave_console(&c);
+        client_run(&c, SIM_S);
+        client_enter_console(&c);
+        client_run(&c, SIM_S);
+        expect_notice(&kinds[i], "no such scene");
+        client_blank(&c, true);
+        client_run(&c, SIM_S);
+        assert_true(sim_is_dark());
+        say("no such camera");
+        client_run(&c, SIM_S);
+        assert_true(sim_is_dark());
+        client_blank(&c, false);
+        client_run(&c, SIM_S);
+        expect_notice(&kinds[i], "no such camera");
+        client_run(&c, 60 * SIM_S);
+        expect_notice(&kinds[i], "no such camera");
+        say(NULL);
+        expect_right(&kinds[i]);
+        end(&kinds[i]);
+    }
+}
+
+/* Its event never comes: the ladder ends it, and then the text is seen. */
+static void test_after_a_flip_that_is_lost(void **state) {
+    (void)state;
+    begin(&kinds[0]);
+    sim_stall(0, SIM_STALLS_UNTIL_RELIT);
+    client_run(&c, 100 * SIM_MS);
+    say("no such scene");
+    client_run(&c, 14 * SIM_S);
+    expect_notice(&kinds[0], "no such scene");
+    say(NULL);
+    expect_right(&kinds[0]);
+    end(&kinds[0]);
+}
+
+/* GL does not start at all: the reason is the text, and nobody ends it but GL. */
+static void test_without_gl(void **state) {
+    (void)state;
+    sim_begin();
+    sim_set_gpu(&(struct sim_gpu){.no_gl = true});
+    sim_add_card(0, "/dev/dri/card0", &(struct sim_traits){.console = true});
+    sim_plug(0, 0, SIM_FULL_HD);
+    client_open(&c, &(struct gn_screen_opts){0});
+    client_run(&c, SIM_S);
+    assert_true(sim_shows(GROUND));
+    assert_non_null(strstr(client_screen(&c)->status, "GL does not start"));
+    say(NULL);
+    client_run(&c, SIM_S);
+    assert_true(sim_shows(GROUND));
+    say("no such scene");
+    client_run(&c, SIM_S);
+    expect_notice(&kinds[0], "/dev/dri/card0: GL does not start");
+    sim_set_gpu(&(struct sim_gpu){0});
+    client_run(&c, 11 * SIM_S);
+    expect_right(&kinds[0]);
+    end(&kinds[0]);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_it_waits_for_no_flip),
+        cmocka_unit_test(test_one_after_another),
+        cmocka_unit_test(test_it_stays_through_much),
+        cmocka_unit_test(test_after_a_flip_that_is_lost),
+        cmocka_unit_test(test_without_gl),
+    };
+    return RUN(tests);
+}
