@@ -102,6 +102,7 @@ static void take_hand(struct gn_show *s) {
     screen->hand = (struct gn_hand){0};
     s->ends |= hand.quit;
     s->changed |= gn_show_hand_turn(&s->stage, &hand);
+    gn_show_take_input(s, &hand);
 }
 
 static void tick(struct gn_show *s) {
@@ -167,6 +168,7 @@ static bool run(struct gn_show *s, struct gn_err *err) {
 }
 
 void gn_show_close(struct gn_show *s) {
+    gn_input_close(s->input);
     gn_loader_close(s->scenes.loader);
     gn_show_drop_staged(s);
     gn_stage_close(&s->stage);
@@ -186,7 +188,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     s->options = gn_show_read_options(s, options, NULL, err);
     if (!s->options || !gn_show_load(&s->stage, s->options, s->warnings, err)) return false;
     s->most_frames = s->options->frames > 0 ? (uint64_t)s->options->frames : UINT64_MAX;
-    return gn_show_begin(s, err) && gn_show_open_display(s, err) &&
+    return gn_show_begin(s, err) && gn_show_open_display(s, err) && gn_show_open_input(s, err) &&
            gn_show_stats_open(&s->stats, s->options, err) &&
            (s->stats.timer < 0 || gn_show_watch(s, s->stats.timer, err));
 }

@@ -7,6 +7,7 @@
 #include "cli/show_loader.h"
 #include "cli/show_stats.h"
 #include "cli/stage.h"
+#include "kiosk/binding.h"
 #include "kiosk/machine.h"
 
 /* Modes: those of the INI file, else the techniques that there are. */
@@ -40,8 +41,11 @@ struct gn_show {
     struct gn_show_stats stats;
     struct gn_service service;
     struct gn_warnings *warnings;
-    int epoll, signals;    /* descriptors, -1 when not open */
-    uint32_t generation;   /* of the context that stage.gl lives in */
+    struct gn_buttons buttons;
+    struct gn_button_opts button_opts[GN_BUTTONS_MAX]; /* theirs, for the input */
+    struct gn_input *input;                            /* NULL while there is none */
+    int epoll, signals;                                /* descriptors, -1 when not open */
+    uint32_t generation;                               /* of the context that stage.gl lives in */
     bool fitted_unencoded; /* what frames are drawn with on this screen */
     uint32_t fitted_msaa;
 
@@ -118,6 +122,12 @@ void gn_show_forget_work(struct gn_show *show);
 /* Loads what the kiosk waits for, and shows it once it is ready. */
 void gn_show_advance(struct gn_show *show);
 void gn_show_drop_staged(struct gn_show *show);
+
+/* show_input.c: buttons and keys */
+/* After the display, whose window has keys of its own. Again after a reload. */
+bool gn_show_open_input(struct gn_show *show, struct gn_err *err);
+/* What they did becomes actions, and what is wrong with them a word on stderr. */
+void gn_show_take_input(struct gn_show *show, const struct gn_hand *hand);
 
 /* show_reload.c: what cannot be loaded leaves the picture as it is */
 bool gn_show_reload(struct gn_show *show, struct gn_err *err);

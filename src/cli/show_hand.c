@@ -16,10 +16,15 @@ static float aspect_of(const struct gn_screen *screen) {
     return screen->rotate_deg / 90 % 2 ? 1.0f / aspect : aspect;
 }
 
+static bool moves_nothing(const struct gn_hand *h) {
+    return !h->home && h->turn[0] == 0.0f && h->turn[1] == 0.0f && h->pan[0] == 0.0f &&
+           h->pan[1] == 0.0f && h->wheel == 0.0f;
+}
+
 bool gn_show_hand_turn(struct gn_stage *stage, const struct gn_hand *hand) {
     const struct gn_screen *screen = &stage->display.screen;
     struct gn_frame_opts *f = &stage->frame_opts;
-    if (screen->width_px == 0 || screen->height_px == 0 || gn_hand_is_zero(hand)) return false;
+    if (screen->width_px == 0 || screen->height_px == 0 || moves_nothing(hand)) return false;
     struct gn_orbit_hand moves = {.zoom = NOTCH * hand->wheel, .aspect = aspect_of(screen)};
     turn_back(screen, hand->turn, moves.turn);
     turn_back(screen, hand->pan, moves.pan);

@@ -1,8 +1,8 @@
 #include "display/hand.h"
 
 bool gn_hand_is_zero(const struct gn_hand *h) {
-    return !h->quit && !h->home && h->turn[0] == 0.0f && h->turn[1] == 0.0f && h->pan[0] == 0.0f &&
-           h->pan[1] == 0.0f && h->wheel == 0.0f;
+    return !h->quit && !h->home && h->key_count == 0 && h->turn[0] == 0.0f && h->turn[1] == 0.0f &&
+           h->pan[0] == 0.0f && h->pan[1] == 0.0f && h->wheel == 0.0f;
 }
 
 void gn_hand_add(struct gn_hand *hand, const struct gn_hand *more) {
@@ -13,11 +13,18 @@ void gn_hand_add(struct gn_hand *hand, const struct gn_hand *more) {
         hand->pan[k] += more->pan[k];
     }
     hand->wheel += more->wheel;
+    for (unsigned i = 0; i < more->key_count; i++) gn_hand_key(hand, &more->keys[i]);
+}
+
+void gn_hand_key(struct gn_hand *hand, const struct gn_key_event *event) {
+    if (hand->key_count < GN_HAND_KEYS_MAX) hand->keys[hand->key_count++] = *event;
 }
 
 void gn_hand_act(struct gn_hand *hand, enum gn_hand_key action) {
     if (action == GN_HAND_QUIT) hand->quit = true;
-    if (action == GN_HAND_HOME) *hand = (struct gn_hand){.quit = hand->quit, .home = true};
+    if (action != GN_HAND_HOME) return;
+    hand->home = true;
+    hand->turn[0] = hand->turn[1] = hand->pan[0] = hand->pan[1] = hand->wheel = 0.0f;
 }
 
 void gn_pointer_button(struct gn_pointer *p, enum gn_button button, bool down, bool shift) {

@@ -5,6 +5,8 @@
 
 #include <stdbool.h>
 
+#include "core/key.h"
+
 enum gn_hand_key { /* what a key stands for */
                    GN_HAND_NONE,
                    GN_HAND_QUIT,
@@ -12,15 +14,20 @@ enum gn_hand_key { /* what a key stands for */
                    GN_HAND_FULL_SCREEN, /* and back; the window's own affair */
 };
 
+enum { GN_HAND_KEYS_MAX = 64 };
 struct gn_hand {           /* zeroed: nothing was done */
     bool quit;             /* by a key, or the window was closed */
     bool home;             /* before what stands below */
     float turn[2], pan[2]; /* drags to the right and up, in heights of the window */
     float wheel;           /* notches away from the hand: nearer */
+    struct gn_key_event keys[GN_HAND_KEYS_MAX]; /* that are not the window's own, in order; what is
+                                                   too much is left out */
+    unsigned key_count;
 };
 bool gn_hand_is_zero(const struct gn_hand *hand);
 /* What `more` did after `hand`. */
 void gn_hand_add(struct gn_hand *hand, const struct gn_hand *more);
+void gn_hand_key(struct gn_hand *hand, const struct gn_key_event *event);
 void gn_hand_act(struct gn_hand *hand, enum gn_hand_key action);
 
 enum gn_button { GN_BUTTON_LEFT, GN_BUTTON_RIGHT, GN_BUTTON_MIDDLE };

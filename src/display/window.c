@@ -18,6 +18,7 @@
 #include "display/kms_flip.h"
 #include "display/private.h"
 #include "display/window_glfw.h"
+#include "display/window_key.h"
 
 /* One in a process, as the library is. It is never terminated: that unloads the driver, and what
  * that has started does not always survive it. */
@@ -101,6 +102,10 @@ static void on_key(GLFWwindow *handle, int key, int code, int event, int modifie
                 {GLFW_KEY_F11, GN_HAND_FULL_SCREEN}};
     (void)code, (void)modifiers;
     struct window *w = window_of(handle);
+    const struct gn_key_event other = {.key = (uint16_t)gn_window_key(key),
+                                       .down = event == GLFW_PRESS,
+                                       .time_ns = gn_clock_monotonic_ns()};
+    if (other.key && event != GLFW_REPEAT) gn_hand_key(&w->hand, &other);
     for (size_t i = 0; i < sizeof keys / sizeof *keys && event == GLFW_PRESS; i++) {
         if (keys[i].key != key) continue;
         gn_hand_act(&w->hand, keys[i].action);

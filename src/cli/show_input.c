@@ -1,0 +1,38 @@
+/* Buttons and keys of a kiosk: what they did becomes actions. */
+#include <string.h>
+
+#include "cli/show.h"
+#include "core/clock.h"
+
+static bool is(const struct gn_show *s, const char *name) {
+    return strcmp(s->stage.display.ops->name, name) == 0;
+}
+
+/* A window's keys are the window's: who types elsewhere means something else. */
+bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
+    gn_input_close(s->input);
+    s->input = NULL;
+    gn_buttons_defaults(&s->buttons);
+    const struct gn_input_opts opts = {
+        .button_count = gn_buttons_opts(&s->buttons, s->button_opts),
+        .buttons = s->button_opts,
+        .terminal = !is(s, "window"),
+        .devices = is(s, "kms"),
+        .script = s->options->input_script,
+    };
+    s->input = gn_input_open(&opts, gn_clock_monotonic_ns(), s->warnings, err);
+    return s->input && gn_show_watch(s, gn_input_fd(s->input), err);
+}
+
+void gn_show_take_input(struct gn_show *s, const struct gn_hand *hand) {
+    struct gn_gesture_event event;
+    char text[256];
+    if (!s->input) return;
+    gn_input_dispatch(s->input, gn_clock_monotonic_ns());
+    for (unsigned i = 0; i < hand->key_count; i++) gn_input_key(s->input, &hand->keys[i]);
+    while (gn_input_next(s->input, &event)) {
+        const struct gn_action action = gn_buttons_action(&s->buttons, &event);
+        if (action.kind != GN_ACTION_NONE) gn_show_act(s, &action, event.time_ns);
+    }
+    while (gn_input_report(s->input, text, sizeof text)) gn_show_complain(s, text);
+}
