@@ -46,8 +46,8 @@ static void say_nothing(png_structp png, png_const_charp text) { (void)png, (voi
 
 /* rows: bit depth 8 RGB or 16 grey, big-endian, tightly packed. Only want of memory for its own few
  * tables makes libpng fail here: it aborts. */
-static bool write_png(const char *path, const uint8_t *rows, int color_type, int depth,
-                      size_t stride, int width_px, int height_px, bool srgb, struct gn_err *err) {
+static struct buffer encode_png(const uint8_t *rows, int color_type, int depth, size_t stride,
+                                int width_px, int height_px, bool srgb) {
     struct buffer buffer = {0};
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, say_nothing);
     png_infop info = png ? png_create_info_struct(png) : NULL;
@@ -62,10 +62,24 @@ static bool write_png(const char *path, const uint8_t *rows, int color_type, int
     for (int y = 0; y < height_px; y++) png_write_row(png, rows + (size_t)y * stride);
     png_write_end(png, info);
     png_destroy_write_struct(&png, &info);
+    return buffer;
+}
+
+static bool write_png(const char *path, const uint8_t *rows, int color_type, int depth,
+                      size_t stride, int width_px, int height_px, bool srgb, struct gn_err *err) {
+    struct buffer buffer = encode_png(rows, color_type, depth, stride, width_px, height_px, srgb);
     bool ok = buffer.full ? gn_fail(err, "%s: no memory for it: use a smaller --size", path)
                           : gn_file_write(path, buffer.data, buffer.size, err);
     free(buffer.data);
     return ok;
+}
+
+bool gn_picture_encode_png8(const uint8_t *rgb, int width_px, int height_px, struct gn_bytes *out,
+                            struct gn_err *err) {
+    struct buffer buffer =
+        encode_png(rgb, PNG_COLOR_TYPE_RGB, 8, (size_t)width_px * 3, width_px, height_px, true);
+    *out = (struct gn_bytes){buffer.data, buffer.size};
+    return !buffer.full || gn_fail(err, "no memory for a picture of %d x %d", width_px, height_px);
 }
 
 bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px,

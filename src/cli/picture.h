@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "core/err.h"
+#include "core/file.h"
 
 enum gn_picture_format { GN_PICTURE_PNG, GN_PICTURE_PFM };
 /* By the name's ending; a usage error for another one. */
@@ -20,6 +21,10 @@ void *gn_picture_alloc(size_t pixels, size_t bytes, struct gn_err *err);
 /* All take the top row first. srgb: says in the file that the values are sRGB-encoded. */
 bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px,
                            bool srgb, struct gn_err *err);
+/* The same from RGB, sRGB-encoded, into memory; gn_bytes_finish() frees it also after a failure.
+ * May run in any thread. */
+bool gn_picture_encode_png8(const uint8_t *rgb, int width_px, int height_px, struct gn_bytes *out,
+                            struct gn_err *err);
 bool gn_picture_write_png16_grey(const char *path, const float *grey, int width_px, int height_px,
                                  struct gn_err *err);
 /* channels: 1 or 3 */

@@ -197,6 +197,16 @@ bool gn_file_write(const char *path, const void *data, size_t size, struct gn_er
     return ok;
 }
 
+bool gn_file_replace(const char *path, const void *data, size_t size, struct gn_err *err) {
+    struct stat info;
+    const bool exists = lstat(path, &info) == 0;
+    if (!exists && errno != ENOENT) return fail_errno(err, path, "write");
+    if (exists && !S_ISREG(info.st_mode))
+        return gn_fail(err, "%s: cannot write: is %s, and stays one", path,
+                       S_ISLNK(info.st_mode) ? "a link" : kind_name(info.st_mode));
+    return write_and_rename(path, path, exists ? &info : NULL, data, size, err);
+}
+
 void gn_file_fill_standard(void) {
     int fd;
     do fd = open("/dev/null", O_RDWR);

@@ -25,6 +25,11 @@ void gn_bytes_finish(struct gn_bytes *bytes);
  * that stands, and a file behind it ends there. */
 bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err);
 
+/* The same for a path that somebody else names: written to is a regular file or nothing at all.
+ * What is a link, a folder or a device stays what it is, and where a link leads nothing is written.
+ */
+bool gn_file_replace(const char *path, const void *data, size_t size, struct gn_err *err);
+
 /* Opens /dev/null on those of the descriptors 0, 1 and 2 that are closed: one would be given to the
  * next file that is opened, and libraries print there. */
 void gn_file_fill_standard(void);

@@ -1,0 +1,141 @@
+#include "cli/shot.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/picture.h"
+#include "core/arena.h"
+#include "core/file.h"
+
+struct gn_shot {
+    int done; /* an eventfd */
+    bool runs;
+    pthread_t thread;
+    char path[PATH_MAX];
+    uint32_t width_px, height_px;
+    unsigned turn_deg;
+    uint8_t *rgba;
+    bool ok; /* of the thread, until it is taken */
+    struct gn_err err;
+};
+
+static bool ends_in_png(const char *path) {
+    const size_t length = strlen(path);
+    return length > 4 && strcmp(path + length - 4, ".png") == 0 && path[length - 5] != '/';
+}
+
+bool gn_shot_check(const char *path, struct gn_err *err) {
+    struct stat info;
+    if (path[0] != '/')
+        return gn_fail_usage(err, "screenshot: \"%.200s\" is not an absolute path", path);
+    if (!ends_in_png(path))
+        return gn_fail_usage(err, "screenshot: \"%.200s\" does not end in .png", path);
+    if (strlen(path) >= PATH_MAX) return gn_fail_usage(err, "screenshot: the path is too long");
+    if (lstat(path, &info) == 0 && !S_ISREG(info.st_mode))
+        return gn_fail(err, "screenshot: %.200s is no file, and stays what it is", path);
+    return true;
+}
+
+struct gn_shot *gn_shot_create(struct gn_err *err) {
+    struct gn_shot *shot = gn_xalloc(1, sizeof *shot);
+    shot->done = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    if (shot->done >= 0) return shot;
+    gn_fail(err, "screenshots: cannot wait: %s", strerror(errno));
+    free(shot);
+    return NULL;
+}
+
+void gn_shot_destroy(struct gn_shot *shot) {
+    if (!shot) return;
+    if (shot->runs) pthread_join(shot->thread, NULL);
+    gn_shot_drop(shot);
+    close(shot->done);
+    free(shot);
+}
+
+int gn_shot_fd(const struct gn_shot *shot) { return shot->done; }
+
+uint8_t *gn_shot_begin(struct gn_shot *shot, const char *path, uint32_t width_px,
+                       uint32_t height_px, unsigned turn_deg, struct gn_err *err) {
+    gn_shot_drop(shot);
+    shot->rgba = gn_picture_alloc((size_t)width_px * height_px, 4, err);
+    shot->width_px = width_px;
+    shot->height_px = height_px;
+    shot->turn_deg = turn_deg;
+    snprintf(shot->path, sizeof shot->path, "%s", path);
+    return shot->rgba;
+}
+
+void gn_shot_drop(struct gn_shot *shot) {
+    free(shot->rgba);
+    shot->rgba = NULL;
+}
+
+/* ---- in the thread -------------------------------------------------------------------------- */
+
+/* Where the pixel (u, v) of the upright picture stands in one that is turned clockwise. */
+static size_t index_of(const struct gn_shot *s, uint32_t u, uint32_t v) {
+    const uint32_t w = s->width_px, h = s->height_px;
+    switch (s->turn_deg) {
+    case 90: return (size_t)u * w + (w - 1 - v);
+    case 180: return (size_t)(h - 1 - v) * w + (w - 1 - u);
+    case 270: return (size_t)(h - 1 - u) * w + v;
+    default: return (size_t)v * w + u;
+    }
+}
+
+static bool write_shot(struct gn_shot *s) {
+    const bool lies = s->turn_deg % 180 != 0;
+    const uint32_t width = lies ? s->height_px : s->width_px;
+    const uint32_t height = lies ? s->width_px : s->height_px;
+    struct gn_bytes png = {0};
+    uint8_t *rgb = gn_picture_alloc((size_t)width * height, 3, &s->err);
+    if (!rgb) return false;
+    for (uint32_t v = 0; v < height; v++)
+        for (uint32_t u = 0; u < width; u++)
+            memcpy(rgb + 3 * ((size_t)v * width + u), s->rgba + 4 * index_of(s, u, v), 3);
+    const bool ok = gn_picture_encode_png8(rgb, (int)width, (int)height, &png, &s->err) &&
+                    gn_file_replace(s->path, png.data, png.size, &s->err);
+    gn_bytes_finish(&png);
+    free(rgb);
+    return ok;
+}
+
+/* Frames come first: on Linux a thread has a niceness of its own. */
+static void *run(void *user) {
+    struct gn_shot *shot = user;
+    const uint64_t one = 1;
+    setpriority(PRIO_PROCESS, 0, 10);
+    shot->ok = write_shot(shot);
+    if (write(shot->done, &one, sizeof one) < 0) abort(); /* there is room for more than that */
+    return NULL;
+}
+
+/* ---- here ----------------------------------------------------------------------------------- */
+
+bool gn_shot_start(struct gn_shot *shot, struct gn_err *err) {
+    shot->err = (struct gn_err){0};
+    const int reason = pthread_create(&shot->thread, NULL, run, shot);
+    shot->runs = reason == 0;
+    if (!shot->runs) gn_shot_drop(shot);
+    return shot->runs || gn_fail(err, "screenshot: no thread: %s", strerror(reason));
+}
+
+bool gn_shot_take(struct gn_shot *shot, bool *ok, struct gn_err *err) {
+    uint64_t count;
+    if (!shot->runs || read(shot->done, &count, sizeof count) != sizeof count) return false;
+    pthread_join(shot->thread, NULL);
+    shot->runs = false;
+    gn_shot_drop(shot);
+    *ok = shot->ok;
+    if (!*ok) *err = shot->err;
+    return true;
+}
