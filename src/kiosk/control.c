@@ -1,0 +1,403 @@
+#include "kiosk/control.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include "core/arena.h"
+#include "core/clock.h"
+#include "kiosk/listen.h"
+
+enum { CLIENTS = GN_CONTROL_CLIENTS_MAX, ACCEPTS_PER_DISPATCH = 16 };
+static const int64_t STUCK_NS = 5 * GN_NS_PER_S;   /* a reply that is not read for as long */
+static const int64_t SILENT_NS = 30 * GN_NS_PER_S; /* no line for as long makes room for others */
+static const int64_t CHANGE_NS = GN_NS_PER_S / GN_CONTROL_CHANGES_PER_S;
+
+/* What is large of a client: memory of the kernel's zero page until it is used. */
+struct room {
+    char in[GN_REQUEST_LINE_MAX + 1];
+    struct gn_request request;
+};
+/* Events of a client are edges, so it is remembered what they said. */
+struct client {
+    int fd; /* -1: none */
+    struct room *room;
+    bool readable, ended, skips; /* skips: the rest of a line that is too long */
+    bool waits;                  /* its request is with the owner */
+    size_t used;                 /* of room->in */
+    char *out;                   /* what is left of a reply; from malloc */
+    size_t out_size, out_at;
+    int64_t stuck_ns, line_ns; /* since when it has not read; when its last line came */
+};
+
+struct gn_control {
+    struct gn_listen listen;
+    int epoll, wake, timer, spare; /* descriptors; spare is given up to turn somebody away */
+    bool knocks;                   /* somebody is at the door */
+    int64_t now_ns, changes_ns;    /* changes_ns: when all changes so far would be due, evenly */
+    int turn;                      /* the client that is served first */
+    int budget;
+    int queue[CLIENTS], queued, first;
+    struct gn_control_counts counts;
+    struct client clients[CLIENTS];
+    struct room rooms[CLIENTS];
+};
+enum { ID_LISTEN = CLIENTS, ID_WAKE, ID_TIMER };
+
+/* ---- opening -------------------------------------------------------------------------------- */
+
+static bool watch(struct gn_control *c, int fd, uint32_t id, uint32_t events) {
+    struct epoll_event event = {.events = events, .data.u32 = id};
+    return epoll_ctl(c->epoll, EPOLL_CTL_ADD, fd, &event) == 0;
+}
+
+struct gn_control *gn_control_open(const char *path, struct gn_err *err) {
+    struct gn_control *c = gn_xalloc(1, sizeof *c);
+    c->listen = (struct gn_listen){.fd = -1, .lock = -1};
+    for (int i = 0; i < CLIENTS; i++)
+        c->clients[i] = (struct client){.fd = -1, .room = &c->rooms[i]};
+    c->epoll = epoll_create1(EPOLL_CLOEXEC);
+    c->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    c->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+    c->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (gn_listen_open(&c->listen, path, err)) {
+        if (watch(c, c->listen.fd, ID_LISTEN, EPOLLIN) && watch(c, c->wake, ID_WAKE, EPOLLIN) &&
+            watch(c, c->timer, ID_TIMER, EPOLLIN))
+            return c;
+        gn_fail(err, "control socket %s: cannot wait: %s", path, strerror(errno));
+    }
+    gn_control_close(c);
+    return NULL;
+}
+
+static void drop(struct client *client) {
+    close(client->fd);
+    free(client->out);
+    client->fd = -1;
+    client->out = NULL;
+}
+
+void gn_control_close(struct gn_control *c) {
+    if (!c) return;
+    for (int i = 0; i < CLIENTS; i++)
+        if (c->clients[i].fd >= 0) drop(&c->clients[i]);
+    gn_listen_close(&c->listen);
+    const int fds[] = {c->epoll, c->wake, c->timer, c->spare};
+    for (size_t i = 0; i < sizeof fds / sizeof fds[0]; i++)
+        if (fds[i] >= 0) close(fds[i]);
+    free(c);
+}
+
+const char *gn_control_path(const struct gn_control *c) { return c->listen.path; }
+struct gn_control_counts gn_control_counts(const struct gn_control *c) {
+    return c->counts;
+}
+int gn_control_fd(const struct gn_control *c) { return c->epoll; }
+
+/* ---- replies -------------------------------------------------------------------------------- */
+
+/* The line, to be freed, without memory one that fits always. */
+static char *line_of(json_t *reply, size_t *size) {
+    char *text = reply ? json_dumps(reply, JSON_COMPACT) : NULL;
+    json_decref(reply);
+    if (!text) text = strdup("{\"ok\":false,\"error\":\"no memory left\",\"status\":1}");
+    if (!text) abort();
+    *size = strlen(text);
+    text[(*size)++] = '\n'; /* in place of the ending zero */
+    return text;
+}
+
+static void flush(struct gn_control *c, struct client *client) {
+    while (client->out) {
+        const ssize_t sent = send(client->fd, client->out + client->out_at,
+                                  client->out_size - client->out_at, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent < 0 && errno == EINTR) continue;
+        if (sent < 0 && errno == EAGAIN) return;
+        if (sent < 0) { /* nobody is there any more */
+            client->ended = true;
+            client->used = 0;
+            client->readable = false;
+        }
+        if (sent > 0) client->stuck_ns = c->now_ns;
+        client->out_at += sent > 0 ? (size_t)sent : client->out_size - client->out_at;
+        if (client->out_at < client->out_size) continue;
+        free(client->out);
+        client->out = NULL;
+    }
+}
+
+static void reply(struct gn_control *c, struct client *client, json_t *json) {
+    client->out = line_of(json, &client->out_size);
+    client->out_at = 0;
+    client->stuck_ns = c->now_ns;
+    c->counts.answered++;
+    flush(c, client);
+}
+
+static void reply_busy(struct gn_control *c, struct client *client) {
+    struct gn_err err = {0};
+    gn_fail(&err, "busy");
+    c->counts.busy++;
+    reply(c, client, gn_reply_failure(&err));
+}
+
+/* ---- lines ---------------------------------------------------------------------------------- */
+
+/* So many in a row as there are in a second, then one by one (a leaky bucket as a virtual time). */
+static bool is_too_much(struct gn_control *c, enum gn_ctl command) {
+    if (!gn_ctl_rows[command].changes) return false;
+    if (c->changes_ns - c->now_ns > GN_NS_PER_S - CHANGE_NS) return true;
+    c->changes_ns = (c->changes_ns > c->now_ns ? c->changes_ns : c->now_ns) + CHANGE_NS;
+    return false;
+}
+
+static void take_line(struct gn_control *c, struct client *client, const char *line,
+                      size_t length) {
+    struct gn_err err = {0};
+    client->line_ns = c->now_ns;
+    c->counts.requests++;
+    if (!gn_request_parse(line, length, &client->room->request, &err)) {
+        c->counts.wrong++;
+        reply(c, client, gn_reply_failure(&err));
+    } else if (is_too_much(c, client->room->request.command)) {
+        reply_busy(c, client);
+    } else {
+        const int index = (int)(client - c->clients);
+        client->room->request.from = (uint64_t)index;
+        client->waits = true;
+        c->queue[(c->first + c->queued++) % CLIENTS] = index;
+    }
+}
+
+/* After the last byte a line needs no newline. */
+static bool has_line(const struct client *client, size_t *length) {
+    const char *newline = memchr(client->room->in, '\n', client->used);
+    *length = newline ? (size_t)(newline - client->room->in) : client->used;
+    return newline || (client->ended && client->used > 0);
+}
+
+static void forget(struct client *client, size_t bytes) {
+    bytes = bytes < client->used ? bytes : client->used;
+    memmove(client->room->in, client->room->in + bytes, client->used - bytes);
+    client->used -= bytes;
+}
+
+static void handle_line(struct gn_control *c, struct client *client, size_t length) {
+    const bool skipped = client->skips;
+    client->skips = false;
+    if (!skipped) take_line(c, client, client->room->in, length);
+    forget(client, length + 1);
+}
+
+/* A line that does not fit has its reply at once, and what is left of it none. */
+static void handle_overlong(struct gn_control *c, struct client *client) {
+    struct gn_err err = {0};
+    client->used = 0;
+    if (client->skips) return;
+    client->skips = true;
+    client->line_ns = c->now_ns;
+    c->counts.requests++;
+    c->counts.wrong++;
+    gn_request_parse(client->room->in, GN_REQUEST_LINE_MAX + 1, &client->room->request, &err);
+    reply(c, client, gn_reply_failure(&err));
+}
+
+static void fill(struct client *client) {
+    const size_t room = sizeof client->room->in - client->used;
+    const ssize_t got = recv(client->fd, client->room->in + client->used, room, MSG_DONTWAIT);
+    if (got > 0) client->used += (size_t)got;
+    if (got < 0 && errno == EINTR) return;
+    if (got < 0 && errno == EAGAIN) client->readable = false;
+    if (got == 0 || (got < 0 && errno != EAGAIN)) {
+        client->ended = true;
+        client->readable = false;
+    }
+}
+
+/* Can anything be done for it now? */
+static bool is_due(const struct client *client) {
+    size_t length;
+    return client->fd >= 0 && !client->out && !client->waits &&
+           (client->readable || client->ended || has_line(client, &length) ||
+            client->used == sizeof client->room->in);
+}
+
+/* A line, or a piece of input. */
+static void serve(struct gn_control *c, struct client *client) {
+    size_t length;
+    c->budget--;
+    if (has_line(client, &length))
+        handle_line(c, client, length);
+    else if (client->used == sizeof client->room->in)
+        handle_overlong(c, client);
+    else if (client->readable)
+        fill(client);
+    else
+        drop(client); /* it ended, and all is answered */
+}
+
+/* ---- clients -------------------------------------------------------------------------------- */
+
+static struct client *find_room(struct gn_control *c) {
+    struct client *silent = NULL;
+    for (int i = 0; i < CLIENTS; i++) {
+        struct client *client = &c->clients[i];
+        if (client->fd < 0) return client;
+        if (!client->waits && !client->out && (!silent || client->line_ns < silent->line_ns))
+            silent = client;
+    }
+    if (!silent || c->now_ns - silent->line_ns < SILENT_NS) return NULL;
+    drop(silent);
+    return silent;
+}
+
+/* Its only line; there is room for it in a socket that nobody has written to. */
+static void turn_away(struct gn_control *c, int fd, const struct gn_err *err) {
+    size_t size;
+    char *line = line_of(gn_reply_failure(err), &size);
+    c->counts.refused++;
+    if (send(fd, line, size, MSG_NOSIGNAL | MSG_DONTWAIT) < 0) c->counts.cut++;
+    free(line);
+    close(fd);
+}
+
+static void admit(struct gn_control *c, int fd) {
+    struct gn_err err = {0};
+    uid_t uid;
+    if (!gn_listen_permits(&c->listen, fd, &uid)) {
+        gn_fail(&err, "user %ld may not: not of the group that %s belongs to", (long)uid,
+                c->listen.path);
+        turn_away(c, fd, &err);
+        return;
+    }
+    struct client *client = find_room(c);
+    if (!client ||
+        !watch(c, fd, (uint32_t)(client - c->clients), EPOLLIN | EPOLLOUT | EPOLLRDHUP | EPOLLET)) {
+        gn_fail(&err, "busy");
+        turn_away(c, fd, &err);
+        return;
+    }
+    client->fd = fd;
+    client->readable = true;
+    client->ended = client->skips = client->waits = false;
+    client->used = 0;
+    client->line_ns = c->now_ns;
+    c->counts.accepted++;
+}
+
+/* Without a descriptor left the one that is kept for it takes somebody in and puts him out: else he
+ * would knock for ever. */
+static void turn_away_blindly(struct gn_control *c) {
+    struct gn_err err = {0};
+    if (c->spare >= 0) close(c->spare);
+    const int fd = accept4(c->listen.fd, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    gn_fail(&err, "busy");
+    if (fd >= 0) turn_away(c, fd, &err);
+    c->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
+}
+
+static void open_door(struct gn_control *c) {
+    c->knocks = false;
+    for (int i = 0; i < ACCEPTS_PER_DISPATCH; i++) {
+        const int fd = accept4(c->listen.fd, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
+        if (fd >= 0)
+            admit(c, fd);
+        else if (errno == EMFILE || errno == ENFILE)
+            turn_away_blindly(c);
+        else if (errno != EINTR && errno != ECONNABORTED)
+            return;
+    }
+}
+
+/* ---- dispatching ---------------------------------------------------------------------------- */
+
+static void hear(struct gn_control *c, const struct epoll_event *event) {
+    const uint32_t id = event->data.u32;
+    uint64_t count;
+    if (id == ID_LISTEN) {
+        c->knocks = true;
+    } else if (id >= CLIENTS) {
+        if (read(id == ID_WAKE ? c->wake : c->timer, &count, sizeof count) < 0) return;
+    } else if (c->clients[id].fd >= 0) {
+        c->clients[id].readable |= (event->events & (EPOLLIN | EPOLLRDHUP | EPOLLHUP | EPOLLERR));
+        if (event->events & (EPOLLOUT | EPOLLHUP | EPOLLERR)) flush(c, &c->clients[id]);
+    }
+}
+
+static void cut_stuck(struct gn_control *c) {
+    for (int i = 0; i < CLIENTS; i++) {
+        struct client *client = &c->clients[i];
+        if (client->fd < 0 || !client->out || c->now_ns - client->stuck_ns < STUCK_NS) continue;
+        drop(client);
+        c->counts.cut++;
+    }
+}
+
+/* Round and round, a line each, so that nobody waits for one who talks all the time. */
+static void serve_all(struct gn_control *c) {
+    c->budget = GN_CONTROL_PER_DISPATCH;
+    for (int idle = 0; idle < CLIENTS && c->budget > 0; c->turn = (c->turn + 1) % CLIENTS) {
+        struct client *client = &c->clients[c->turn];
+        const bool due = is_due(client);
+        if (due) serve(c, client);
+        idle = due ? 0 : idle + 1;
+    }
+}
+
+/* What is left to be done makes the descriptor readable, and so does the time when somebody will be
+ * cut off. */
+static void set_alarms(struct gn_control *c) {
+    const uint64_t one = 1;
+    int64_t at_ns = INT64_MAX;
+    bool due = false;
+    for (int i = 0; i < CLIENTS; i++) {
+        const struct client *client = &c->clients[i];
+        due |= is_due(client);
+        if (client->fd >= 0 && client->out && client->stuck_ns + STUCK_NS < at_ns)
+            at_ns = client->stuck_ns + STUCK_NS;
+    }
+    const struct itimerspec when = {.it_value = {at_ns / GN_NS_PER_S, at_ns % GN_NS_PER_S}},
+                            never = {0};
+    timerfd_settime(c->timer, TFD_TIMER_ABSTIME, at_ns == INT64_MAX ? &never : &when, NULL);
+    if (due && write(c->wake, &one, sizeof one) < 0) return; /* it is set already */
+}
+
+void gn_control_dispatch(struct gn_control *c, int64_t now_ns) {
+    struct epoll_event events[CLIENTS + 3];
+    c->now_ns = now_ns;
+    const int count = epoll_wait(c->epoll, events, CLIENTS + 3, 0);
+    for (int i = 0; i < count; i++) hear(c, &events[i]);
+    cut_stuck(c);
+    if (c->knocks) open_door(c);
+    serve_all(c);
+    set_alarms(c);
+}
+
+const struct gn_request *gn_control_next(struct gn_control *c) {
+    if (c->queued == 0) return NULL;
+    const int index = c->queue[c->first];
+    c->first = (c->first + 1) % CLIENTS;
+    c->queued--;
+    return &c->rooms[index].request;
+}
+
+void gn_control_answer(struct gn_control *c, const struct gn_request *request, json_t *json) {
+    struct client *client = &c->clients[request->from];
+    client->waits = false;
+    if (json && !json_object_get(json, "ok")) json_object_set_new(json, "ok", json_true());
+    reply(c, client, json);
+    set_alarms(c);
+}
+
+void gn_control_refuse(struct gn_control *c, const struct gn_request *request,
+                       const struct gn_err *err) {
+    if (err->status == GN_EXIT_WORLD && strcmp(err->text, "busy") == 0) c->counts.busy++;
+    gn_control_answer(c, request, gn_reply_failure(err));
+}

@@ -1,0 +1,46 @@
+/* The control socket of a kiosk: a line with a JSON object is a request, and each gets a line as a
+ * reply, in order. The server hands requests out; whoever owns the kiosk answers them. Nothing here
+ * blocks, and a dispatch does a bounded amount of work, so that no frame waits for it: what there
+ * is not time for now waits, and what is too much is answered with the error "busy". No reply is
+ * ever left out, but to a client that does not read for 5 s: it is cut off. */
+#ifndef GN_KIOSK_CONTROL_H
+#define GN_KIOSK_CONTROL_H
+
+#include <stdint.h>
+
+#include "kiosk/request.h"
+
+enum {
+    GN_CONTROL_CLIENTS_MAX = 64,   /* the next is answered "busy", and cut off, unless one of them
+                                      has been silent for 30 s: then that one is */
+    GN_CONTROL_PER_DISPATCH = 16,  /* lines that are handled, or pieces of 4 KiB thrown away */
+    GN_CONTROL_CHANGES_PER_S = 20, /* of what may cost a frame, of all clients together; 20 at
+                                      once; what is more is "busy" */
+};
+
+struct gn_control_counts {
+    uint64_t accepted, refused; /* clients; refused: not permitted, or too many */
+    uint64_t requests, wrong, busy, answered;
+    uint64_t cut; /* clients that did not read */
+};
+
+struct gn_control;
+/* Makes the socket; see gn_listen_open(). NULL: the kiosk runs without, and err says why. */
+struct gn_control *gn_control_open(const char *path, struct gn_err *err);
+void gn_control_close(struct gn_control *control); /* NULL is fine */
+const char *gn_control_path(const struct gn_control *control);
+struct gn_control_counts gn_control_counts(const struct gn_control *control);
+
+/* Readable when dispatch has to be called; timers are in it too. */
+int gn_control_fd(const struct gn_control *control);
+void gn_control_dispatch(struct gn_control *control, int64_t now_ns);
+/* The next request, or NULL. It lives until it is answered, which may be later; until then its
+ * client's other requests wait. */
+const struct gn_request *gn_control_next(struct gn_control *control);
+/* Takes the reference; "ok" is added as true unless there is one. The client may have gone by now.
+ */
+void gn_control_answer(struct gn_control *control, const struct gn_request *request, json_t *reply);
+void gn_control_refuse(struct gn_control *control, const struct gn_request *request,
+                       const struct gn_err *err);
+
+#endif

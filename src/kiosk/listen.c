@@ -1,0 +1,184 @@
+#include "kiosk/listen.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#ifndef SO_PEERGROUPS
+#define SO_PEERGROUPS 59 /* Linux 4.13; asm-generic/socket.h */
+#endif
+
+#define SYSTEM_FOLDER "/run/gnomon"
+enum { GROUPS_MAX = 1024, BACKLOG = 64 };
+
+/* ---- where ---------------------------------------------------------------------------------- */
+
+static bool of_user(char *path, size_t size) {
+    const char *folder = getenv("XDG_RUNTIME_DIR");
+    return folder && folder[0] == '/' && snprintf(path, size, "%s/gnomon/ctl", folder) < (int)size;
+}
+
+bool gn_listen_default(char *path, size_t size) {
+    if (access(SYSTEM_FOLDER, W_OK | X_OK) != 0) return of_user(path, size);
+    snprintf(path, size, "%s/ctl", SYSTEM_FOLDER);
+    return true;
+}
+
+bool gn_listen_candidate(int index, char *path, size_t size) {
+    if (index == 1) return of_user(path, size);
+    if (index == 0) snprintf(path, size, "%s/ctl", SYSTEM_FOLDER);
+    return index == 0;
+}
+
+/* ---- the lock ------------------------------------------------------------------------------- */
+
+static bool fail_errno(const struct gn_listen *l, const char *what, struct gn_err *err) {
+    return gn_fail(err, "control socket %s: %s: %s", l->path, what, strerror(errno));
+}
+
+static void lock_path(const struct gn_listen *l, char *out, size_t size) {
+    snprintf(out, size, "%s.lock", l->path);
+}
+
+static bool is_same_file(int fd, const char *path) {
+    struct stat open, there;
+    return fstat(fd, &open) == 0 && lstat(path, &there) == 0 && open.st_dev == there.st_dev &&
+           open.st_ino == there.st_ino;
+}
+
+/* Held for as long as the process lives, however it ends. Whoever had it before may have taken it
+ * away just before we got it: then it locks nothing. */
+static bool take_lock(struct gn_listen *l, struct gn_err *err) {
+    char path[GN_LISTEN_PATH_MAX + 8];
+    lock_path(l, path, sizeof path);
+    for (int attempt = 0; attempt < 10; attempt++) {
+        l->lock = open(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK, 0600);
+        if (l->lock < 0) return fail_errno(l, "cannot make it", err);
+        const bool locked = flock(l->lock, LOCK_EX | LOCK_NB) == 0;
+        if (locked && is_same_file(l->lock, path)) return true;
+        close(l->lock);
+        l->lock = -1;
+        if (!locked)
+            return gn_fail(err,
+                           "control socket %s: another kiosk has it; this one runs without "
+                           "(--socket gives it another)",
+                           l->path);
+    }
+    return gn_fail(err, "control socket %s: its lock comes and goes", l->path);
+}
+
+/* ---- the socket ----------------------------------------------------------------------------- */
+
+static struct sockaddr_un address_of(const struct gn_listen *l) {
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    memcpy(address.sun_path, l->path, sizeof address.sun_path);
+    return address;
+}
+
+static bool is_alive(const struct gn_listen *l) {
+    const struct sockaddr_un address = address_of(l);
+    const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    const bool refused = fd >= 0 &&
+                         connect(fd, (const struct sockaddr *)&address, sizeof address) != 0 &&
+                         errno == ECONNREFUSED;
+    if (fd >= 0) close(fd);
+    return !refused;
+}
+
+static bool clear_place(const struct gn_listen *l, struct gn_err *err) {
+    struct stat info;
+    if (lstat(l->path, &info) != 0)
+        return errno == ENOENT || fail_errno(l, "cannot look at it", err);
+    if (!S_ISSOCK(info.st_mode))
+        return gn_fail(err, "control socket %s: something else is there, and stays", l->path);
+    if (is_alive(l))
+        return gn_fail(err,
+                       "control socket %s: another program answers there; this kiosk runs "
+                       "without (--socket gives it another)",
+                       l->path);
+    return unlink(l->path) == 0 || fail_errno(l, "cannot replace it", err);
+}
+
+/* On Linux the file gets the mode of the descriptor, so it is never wider than it should be; the
+ * mask of the process may have made it narrower. */
+static bool bind_socket(struct gn_listen *l, struct gn_err *err) {
+    const struct sockaddr_un address = address_of(l);
+    struct stat info;
+    l->fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (l->fd < 0 || fchmod(l->fd, 0660) != 0 ||
+        bind(l->fd, (const struct sockaddr *)&address, sizeof address) != 0)
+        return fail_errno(l, "cannot make it", err);
+    if (lstat(l->path, &info) != 0) return fail_errno(l, "cannot look at it", err);
+    l->device = info.st_dev;
+    l->inode = info.st_ino;
+    l->gid = info.st_gid;
+    l->uid = geteuid();
+    if (chmod(l->path, 0660) != 0 || listen(l->fd, BACKLOG) != 0)
+        return fail_errno(l, "cannot listen", err);
+    return true;
+}
+
+static void make_folder(const char *path) {
+    char folder[GN_LISTEN_PATH_MAX];
+    snprintf(folder, sizeof folder, "%s", path);
+    char *slash = strrchr(folder, '/');
+    if (!slash || slash == folder) return;
+    *slash = '\0';
+    if (mkdir(folder, 0700) != 0) return; /* what is wrong with it is said when it is used */
+}
+
+bool gn_listen_open(struct gn_listen *l, const char *path, struct gn_err *err) {
+    *l = (struct gn_listen){.fd = -1, .lock = -1};
+    if (strlen(path) + 1 > sizeof l->path)
+        return gn_fail(err, "control socket %.200s: longer than %zu bytes", path,
+                       sizeof l->path - 1);
+    snprintf(l->path, sizeof l->path, "%s", path);
+    make_folder(path);
+    if (take_lock(l, err) && clear_place(l, err) && bind_socket(l, err)) return true;
+    gn_listen_close(l);
+    return false;
+}
+
+static void remove_ours(const struct gn_listen *l) {
+    char path[GN_LISTEN_PATH_MAX + 8];
+    struct stat info;
+    if (l->inode && lstat(l->path, &info) == 0 && info.st_dev == l->device &&
+        info.st_ino == l->inode)
+        unlink(l->path);
+    lock_path(l, path, sizeof path);
+    if (l->lock >= 0 && is_same_file(l->lock, path)) unlink(path);
+}
+
+void gn_listen_close(struct gn_listen *l) {
+    remove_ours(l);
+    if (l->fd >= 0) close(l->fd);
+    if (l->lock >= 0) close(l->lock);
+    *l = (struct gn_listen){.fd = -1, .lock = -1};
+}
+
+/* ---- who ------------------------------------------------------------------------------------ */
+
+static bool is_in_group(int fd, gid_t gid) {
+    gid_t groups[GROUPS_MAX];
+    socklen_t size = sizeof groups;
+    if (getsockopt(fd, SOL_SOCKET, SO_PEERGROUPS, groups, &size) != 0) return false;
+    for (size_t i = 0; i < size / sizeof *groups; i++)
+        if (groups[i] == gid) return true;
+    return false;
+}
+
+bool gn_listen_permits(const struct gn_listen *l, int fd, uid_t *uid) {
+    struct ucred peer = {.uid = (uid_t)-1};
+    socklen_t size = sizeof peer;
+    const bool known = getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0;
+    *uid = peer.uid;
+    return known &&
+           (peer.uid == 0 || peer.uid == l->uid || peer.gid == l->gid || is_in_group(fd, l->gid));
+}
