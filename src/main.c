@@ -13,6 +13,7 @@ static gn_cli_command *const commands[] = {
     [GN_COMMAND_AUTO] = gn_cli_auto,       [GN_COMMAND_SHOW] = gn_cli_show,
     [GN_COMMAND_RENDER] = gn_cli_render,   [GN_COMMAND_BENCH] = gn_cli_bench,
     [GN_COMMAND_INSPECT] = gn_cli_inspect, [GN_COMMAND_DOCTOR] = gn_cli_doctor,
+    [GN_COMMAND_CTL] = gn_cli_ctl,
 };
 _Static_assert(sizeof commands / sizeof commands[0] == GN_COMMAND_COUNT, "a row per command");
 
@@ -22,6 +23,8 @@ static bool run(const struct gn_options *options, struct gn_warnings *warnings,
         puts("gnomon " GN_VERSION);
     else if (options->help)
         gn_help_print(stdout, options->command);
+    else if (options->check)
+        return gn_cli_check(options, warnings, err);
     else
         return commands[options->command](options, warnings, err);
     return true;

@@ -8,6 +8,7 @@
 
 #include "cli/config.h"
 #include "core/text.h"
+#include "kiosk/command.h"
 
 struct flag {
     const struct gn_option_row *row;
@@ -20,7 +21,7 @@ struct args {
     int argc, at;
     struct flag *flags;
     int flag_count;
-    const char *words[1 + GN_SCENES_MAX]; /* command, scenes */
+    const char *words[1 + GN_SCENES_MAX]; /* command, scenes; of ctl: its own command and words */
     int word_count;
 };
 
@@ -85,9 +86,16 @@ static enum gn_command command_of(const char *word) {
     return GN_COMMAND_AUTO;
 }
 
+static bool is_ctl(const struct args *args) {
+    return args->word_count > 0 && command_of(args->words[0]) == GN_COMMAND_CTL;
+}
+
 static bool add_word(struct args *args, const char *word, struct gn_err *err) {
     const bool is_show = args->word_count > 0 && command_of(args->words[0]) == GN_COMMAND_SHOW;
-    if (args->word_count == (is_show ? 1 + GN_SCENES_MAX : 2))
+    if (is_ctl(args) && args->word_count == 2 + GN_CTL_WORDS_MAX)
+        return gn_fail_usage(err, "ctl %.80s takes no more; what is \"%.80s\"?", args->words[1],
+                             word);
+    if (!is_ctl(args) && args->word_count == (is_show ? 1 + GN_SCENES_MAX : 2))
         return gn_fail_usage(err,
                              is_show ? "too many scenes, from \"%.80s\" on"
                                      : "one scene at a time; what is \"%.80s\"?",
@@ -96,11 +104,16 @@ static bool add_word(struct args *args, const char *word, struct gn_err *err) {
     return true;
 }
 
+/* `ctl set exposure -2` */
+static bool is_value(const struct args *args, const char *arg) {
+    return is_ctl(args) && args->word_count > 1 && strchr("0123456789.", arg[1]);
+}
+
 static bool split(struct args *args, struct gn_err *err) {
     bool only_words = false, ok = true;
     while (ok && args->at < args->argc) {
         const char *arg = args->argv[args->at++];
-        if (only_words || arg[0] != '-' || !arg[1])
+        if (only_words || arg[0] != '-' || !arg[1] || is_value(args, arg))
             ok = add_word(args, arg, err);
         else if (arg[1] != '-')
             ok = add_letters(args, arg + 1, err);
@@ -134,7 +147,7 @@ static bool fail_command(const char *word, struct gn_err *err) {
                              word, nearest);
     return gn_fail_usage(err,
                          "\"%.80s\" is neither a command nor a file; the commands are show, "
-                         "render, bench, inspect, doctor",
+                         "render, bench, inspect, doctor, ctl",
                          word);
 }
 
@@ -182,21 +195,25 @@ static bool check_flags(const struct args *args, struct gn_err *err) {
 static bool run_without_config(struct args *args, bool named, struct gn_warnings *warnings,
                                const struct gn_err *err) {
     struct gn_options *options = args->options;
-    if (options->command != GN_COMMAND_SHOW || (named && err->status != GN_EXIT_USAGE))
+    const enum gn_command command = options->command;
+    const bool is_show = command == GN_COMMAND_SHOW && !find_flag(args, "check");
+    if ((!is_show && command != GN_COMMAND_CTL) || (named && err->status != GN_EXIT_USAGE))
         return false;
     gn_options_finish(options);
     gn_options_init(options);
-    options->command = GN_COMMAND_SHOW;
+    options->command = command;
     options->config_error = gn_arena_strdup(&options->arena, err->text);
-    gn_warn(warnings, "%s (running with the defaults)", err->text);
+    if (is_show) gn_warn(warnings, "%s (running with the defaults)", err->text);
     return true;
 }
 
 static bool read_config(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
     char found[PATH_MAX];
+    const enum gn_command command = args->options->command;
     const struct flag *named = find_flag(args, "config");
-    bool searches =
-        args->options->command == GN_COMMAND_AUTO || args->options->command == GN_COMMAND_SHOW;
+    if (find_flag(args, "check")) named = find_flag(args, "check");
+    bool searches = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW ||
+                    (command == GN_COMMAND_CTL && !find_flag(args, "socket"));
     if (!named && !(searches && gn_config_find(found, sizeof found))) return true;
     struct gn_err why = {0};
     if (gn_config_load(args->options, named ? named->text : found, &why)) return true;
@@ -205,12 +222,23 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     return false;
 }
 
+static bool take_words(struct args *args, struct gn_err *err) {
+    struct gn_options *options = args->options;
+    const char **words = gn_arena_alloc(&options->arena, 1 + GN_CTL_WORDS_MAX, sizeof *words);
+    if (!words) return gn_fail(err, "ctl: no memory left");
+    options->word_count = args->word_count - 1;
+    memcpy(words, args->words + 1, (size_t)options->word_count * sizeof *words);
+    options->words = words;
+    return true;
+}
+
 static bool apply_flags(struct args *args, struct gn_err *err) {
     for (int i = 0; i < args->flag_count; i++) {
         const struct flag *flag = &args->flags[i];
         if (!gn_options_set(args->options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
             return false;
     }
+    if (args->options->command == GN_COMMAND_CTL) return take_words(args, err);
     const struct gn_option_row *row = gn_option_find_key("scene", "file");
     for (int i = args->options->command != GN_COMMAND_AUTO; i < args->word_count; i++)
         if (!gn_options_set(args->options, row, args->words[i], GN_SOURCE_FLAG, "SCENE", err))

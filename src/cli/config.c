@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/config_button.h"
 #include "cli/ini.h"
 #include "cli/value.h"
 #include "core/file.h"
@@ -31,7 +32,9 @@ struct load {
     struct gn_options *options;
     const char *path;
     struct gn_mode *modes;
-    struct gn_mode *mode;       /* whose section this is, or NULL */
+    struct gn_mode *mode; /* whose section this is, or NULL */
+    bool in_button;       /* this is a button's */
+    struct gn_config_buttons buttons;
     int lines[GN_OPTION_COUNT]; /* where each was set outside of modes */
 };
 
@@ -53,18 +56,31 @@ static bool open_mode(struct load *load, const struct gn_ini_line *line, struct 
     return load->mode->name || gn_fail(err, "%s: no memory left", line->where);
 }
 
+static bool open_button(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
+    struct gn_arena *arena = &load->options->arena;
+    if (!load->buttons.buttons)
+        load->buttons.buttons = gn_arena_alloc(arena, 1, sizeof *load->buttons.buttons);
+    if (!load->buttons.buttons) return gn_fail(err, "%s: no memory left", line->where);
+    load->buttons.arena = arena;
+    load->in_button = true;
+    load->options->buttons = load->buttons.buttons;
+    return gn_config_button_open(&load->buttons, line, err);
+}
+
 static bool open_section(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
     static const char *const plain[] = {"display", "scene", "render", "kiosk"};
     load->mode = NULL;
+    load->in_button = false;
     if (strcmp(line->section, "mode") == 0) return open_mode(load, line, err);
+    if (strcmp(line->section, "button") == 0) return open_button(load, line, err);
     for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
         if (strcmp(line->section, plain[i]) == 0)
             return !line->name ||
                    gn_fail_usage(err, "%s: [%s] has no name", line->where, line->section);
     return gn_fail_usage(
         err,
-        "%s: unknown section [%s]; expected [display], [scene], [render], [kiosk] or "
-        "[mode \"NAME\"]",
+        "%s: unknown section [%s]; expected [display], [scene], [render], [kiosk], [mode \"NAME\"] "
+        "or [button \"NAME\"]",
         line->where, line->section);
 }
 
@@ -143,6 +159,7 @@ static int line_before(struct load *load, const struct gn_option_row *row) {
 static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *err) {
     struct load *load = user;
     if (!line->key) return open_section(load, line, err);
+    if (load->in_button) return gn_config_button_set(&load->buttons, line, err);
     const char *section = load->mode ? NULL : line->section;
     const struct gn_option_row *row = gn_option_find_key(section, line->key);
     if (!row) return fail_key(line, section, err);
@@ -169,5 +186,6 @@ bool gn_config_load(struct gn_options *options, const char *path, struct gn_err 
                   ? gn_ini_parse(path, (const char *)bytes.data, bytes.size, on_line, &load, err)
                   : gn_fail(err, "%s: no memory left", path);
     gn_bytes_finish(&bytes);
-    return ok;
+    return ok &&
+           (!load.buttons.buttons || gn_config_button_check(&load.buttons, options, path, err));
 }

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "cli/config_button.h"
+#include "kiosk/command.h"
 #include "shadow/technique.h"
 
 #define COLUMN 26 /* where the phrases of --help begin */
@@ -86,9 +88,23 @@ static void print_keys(FILE *to) {
         fprintf(to, "  %-*s%s\n", COLUMN - 2, keys[i].key, keys[i].meaning);
 }
 
+static void ctl_tag(const struct gn_ctl_row *row, char *out, size_t size) {
+    snprintf(out, size, "%s%s%s", row->name, row->words[0] ? " " : "", row->words);
+}
+
+static void print_ctl(FILE *to) {
+    char tag[40];
+    fputs("\ncommands:\n", to);
+    for (int i = 0; i < GN_CTL_COUNT; i++) {
+        ctl_tag(&gn_ctl_rows[i], tag, sizeof tag);
+        print_wrapped(to, fprintf(to, "  %-*s", COLUMN - 3, tag), gn_ctl_rows[i].what);
+    }
+}
+
 static void print_command(FILE *to, enum gn_command command) {
     fprintf(to, "usage: gnomon %s\n\n  %s\n", gn_commands[command].usage,
             gn_commands[command].what);
+    if (command == GN_COMMAND_CTL) print_ctl(to);
     print_options(to, 1u << command);
     if (command == GN_COMMAND_SHOW) print_keys(to);
 }
@@ -168,6 +184,57 @@ static void print_man_options(FILE *to) {
         if (gn_option_rows[i].commands) print_man_option(to, &gn_option_rows[i]);
 }
 
+static void print_man_ctl(FILE *to) {
+    char tag[40];
+    fputs(".SH CONTROL\n\\fBgnomon ctl\\fP sends one of these to the kiosk that runs:\n", to);
+    for (int i = 0; i < GN_CTL_COUNT; i++) {
+        ctl_tag(&gn_ctl_rows[i], tag, sizeof tag);
+        print_tagged(to, tag, gn_ctl_rows[i].what);
+    }
+    fputs(
+        ".PP\nThe socket is a Unix stream socket. A request is a line with a JSON object, so is "
+        "the "
+        "reply:\n.PP\n.nf\n{\"cmd\":\"set\",\"key\":\"shadow\",\"value\":\"pcss\"}\n{\"ok\":true}\n"
+        "{\"cmd\":\"mode\",\"name\":\"Nosuch\"}\n"
+        "{\"ok\":false,\"error\":\"no mode \\e\"Nosuch\\e\"; ..\",\"status\":2}\n.fi\n.PP\n"
+        "The kiosk's own user, root, and the members of the socket's group may ask.\n",
+        to);
+}
+
+/* ---- the configuration file ---------------------------------------------------------------- */
+
+static void print_man_ini_key(FILE *to, const char *section, const char *key, const char *value,
+                              const char *text) {
+    char tag[120], sentence[500];
+    snprintf(tag, sizeof tag, "[%s] %s = %s", section, key, value);
+    snprintf(sentence, sizeof sentence, "%s.", text);
+    print_tagged(to, tag, sentence);
+}
+
+static void print_man_ini(FILE *to) {
+    char text[400], key[64];
+    fputs(".SH CONFIGURATION\nBeside the options above the configuration file knows:\n", to);
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        const struct gn_option_row *row = &gn_option_rows[i];
+        if (row->commands || !row->section) continue;
+        phrase(row, text, sizeof text);
+        print_man_ini_key(to, row->section, gn_option_key(row, key, sizeof key),
+                          row->value ? row->value : "yes|no", text);
+    }
+    for (int i = 0; i < GN_BUTTON_KEY_COUNT; i++)
+        print_man_ini_key(to, "button \"NAME\"", gn_button_key(i)->name, gn_button_key(i)->value,
+                          gn_button_key(i)->help);
+    fputs(
+        ".PP\nAn ACTION is next, prev, mode NAME, next\\-scene, next\\-camera, pause, blank, info "
+        "or none.\n"
+        "Buttons in the file replace those that there are without it: the lines GPIO17 and GPIO27, "
+        "and keys.\n"
+        "\\fBgnomon show \\-\\-check FILE\\fP says whether a file is right. With a wrong one the "
+        "kiosk starts with the\ndefaults; one that goes wrong later leaves it as it was. Either "
+        "way it says why on the screen.\n",
+        to);
+}
+
 static void print_man_keys(FILE *to) {
     fputs(".SH KEYS AND MOUSE\nIn a window:\n", to);
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
@@ -181,9 +248,10 @@ static void print_man_files(FILE *to) {
           to);
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
         print_tagged(to, files[i].path, files[i].meaning);
-    fputs(".PP\nIts sections are [display], [scene], [render] and any number of [mode \"NAME\"], "
-          "which hold settings\n"
-          "of [scene] and [render]. A key is an option's name with _ for \\-; the scene is "
+    fputs(".PP\nIts sections are [display], [scene], [render], [kiosk], any number of [mode "
+          "\"NAME\"], "
+          "which hold\nsettings of [scene] and [render], and of [button \"NAME\"]. A key is an "
+          "option's name with _ for \\-; the scene is "
           "\\fBfile\\fP in [scene].\n"
           "A flag beats a mode, a mode beats a section, a section beats the default. Paths are "
           "seen from the\n"
@@ -208,6 +276,8 @@ void gn_help_print_man(FILE *to, const char *version) {
           to);
     print_man_commands(to);
     print_man_options(to);
+    print_man_ctl(to);
+    print_man_ini(to);
     print_man_keys(to);
     fputs(".SH EXIT STATUS\n", to);
     for (size_t i = 0; i < sizeof exits / sizeof exits[0]; i++)

@@ -46,6 +46,7 @@ const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
                             "says what is in a scene, what it costs and what is wrong with it"},
     [GN_COMMAND_DOCTOR] = {"doctor", "doctor [OPTION..]",
                            "says what this machine can do, and the cure for what it cannot"},
+    [GN_COMMAND_CTL] = {"ctl", "ctl [OPTION..] COMMAND [WORD..]", "talks to a running kiosk"},
 };
 
 /* clang-format off */
@@ -129,11 +130,20 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
      .fallback = "60", .help = "how long that while is", .commands = KIOSK, .offset = FIELD(idle_after_ns)},
     {.name = "fade", .section = "kiosk", .kind = GN_KIND_SECONDS, .max = 10, .value = "S", .unit = "seconds", .fallback = "0",
      .help = "fade from one mode to the next for so long", .commands = KIOSK, .offset = FIELD(fade_ns)},
+    /* what a kiosk lets itself be told, and says */
+    {.name = "socket", .section = "kiosk", .kind = GN_KIND_PATH, .value = "PATH",
+     .help = "the socket that ctl talks to; without it /run/gnomon/ctl, else $XDG_RUNTIME_DIR/gnomon/ctl", .commands = BIT(SHOW) | BIT(CTL), .offset = FIELD(socket)},
+    {.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallback = "yes",
+     .help = "name the mode when it changes", .offset = FIELD(captions)},
+    {.name = "caption-seconds", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = .1, .max = 60, .value = "S", .unit = "seconds",
+     .fallback = "2", .help = "how long a caption stays", .offset = FIELD(caption_ns)},
     /* the command's own */
     {.name = "input-script", .kind = GN_KIND_PATH, .value = "FILE",
      .help = "press keys and buttons as this file says: TIME_S down|up|click NAME a line", .commands = BIT(SHOW), .offset = FIELD(input_script)},
     {.name = "config", .letter = 'c', .kind = GN_KIND_PATH, .value = "FILE",
-     .help = "read this INI file", .commands = DRAW | BIT(INSPECT), .offset = FIELD(config)},
+     .help = "read this INI file", .commands = DRAW | BIT(INSPECT) | BIT(CTL), .offset = FIELD(config)},
+    {.name = "check", .kind = GN_KIND_PATH, .value = "FILE",
+     .help = "read this INI file as show would and check all that it names; print what it makes, and end", .commands = BIT(SHOW), .offset = FIELD(check)},
     {.name = "mode", .kind = GN_KIND_TEXT, .value = "NAME",
      .help = "start in this mode of the INI file, or with this technique", .commands = DRAW, .offset = FIELD(mode)},
     {.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
@@ -145,7 +155,7 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
     {.name = "plan", .kind = GN_KIND_FLAG,
      .help = "also print the plan of the first frame", .commands = BIT(RENDER), .offset = FIELD(plan)},
     {.name = "json", .kind = GN_KIND_FLAG,
-     .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR), .offset = FIELD(json)},
+     .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL), .offset = FIELD(json)},
     {.name = "self-test", .kind = GN_KIND_FLAG,
      .help = "draw small scenes with every technique and compare them with the truth", .commands = BIT(DOCTOR), .offset = FIELD(self_test)},
     {.name = "stats", .kind = GN_KIND_FLAG,
@@ -213,6 +223,7 @@ void gn_options_init(struct gn_options *options) {
 }
 
 void gn_options_finish(struct gn_options *options) {
+    gn_options_finish_changes(options);
     gn_arena_finish(&options->arena);
     *options = (struct gn_options){0};
 }

@@ -9,6 +9,7 @@
 
 #include "core/arena.h"
 #include "core/err.h"
+#include "kiosk/binding.h"
 
 enum gn_command {
     GN_COMMAND_AUTO, /* bare `gnomon [SCENE]` */
@@ -17,6 +18,7 @@ enum gn_command {
     GN_COMMAND_BENCH,
     GN_COMMAND_INSPECT,
     GN_COMMAND_DOCTOR,
+    GN_COMMAND_CTL,
     GN_COMMAND_COUNT,
 };
 struct gn_command_row {
@@ -92,7 +94,7 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     size_t offset;        /* of its field in struct gn_options */
 };
-enum { GN_OPTION_COUNT = 50 };
+enum { GN_OPTION_COUNT = 54 };
 extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
 
 const struct gn_option_row *gn_option_find(const char *name,
@@ -108,8 +110,9 @@ enum gn_source {
     GN_SOURCE_DEFAULT,
     GN_SOURCE_INI,
     GN_SOURCE_MODE,
-    GN_SOURCE_FLAG
-}; /* later ones win */
+    GN_SOURCE_FLAG,
+    GN_SOURCE_SET, /* while running; a reload forgets it */
+};                 /* later ones win */
 
 struct gn_setting { /* of a mode: read once, applied whenever the mode is */
     const struct gn_option_row *row;
@@ -167,10 +170,16 @@ struct gn_options {
     /* [kiosk] */
     int idle; /* enum gn_idle */
     int64_t idle_after_ns, fade_ns;
+    const char *socket; /* NULL: see gn_control_path() */
+    bool captions;
+    int64_t caption_ns;
 
     /* the command's own */
     const char *input_script;
     const char *config, *mode, *out;
+    const char *check;        /* a configuration file that is only looked at, or NULL */
+    const char *const *words; /* of ctl: its command and what follows; they are argv's */
+    int word_count;
     int frames;
     double fps;
     bool plan, json, self_test, stats, verbose, version, help;
@@ -180,14 +189,16 @@ struct gn_options {
     const char *label[GN_OPTION_COUNT]; /* see gn_options_label(); NULL: at its default */
     const struct gn_mode *modes;        /* of the INI file, in its order */
     int mode_count;
-    const char *mode_now;    /* the mode that is applied, or NULL */
-    const char *config_path; /* the INI file that was read, or NULL */
+    const struct gn_buttons *buttons; /* of the INI file; NULL: it has none */
+    const char *mode_now;             /* the mode that is applied, or NULL */
+    const char *config_path;          /* the INI file that was read, or NULL */
     const char
         *config_error; /* `show` runs on with the defaults when that file is bad: why, or NULL */
     int argc;          /* as main() has them: to read all of it again */
     char *const *argv;
-    struct gn_options *base; /* as before any mode; private */
-    struct gn_arena arena;   /* all texts */
+    struct gn_options *base;    /* as before any mode; private */
+    struct gn_changes *changes; /* private; NULL: none */
+    struct gn_arena arena;      /* all texts */
 };
 
 /* Every field at its default. */
@@ -201,6 +212,18 @@ bool gn_options_set(struct gn_options *options, const struct gn_option_row *row,
 /* The same from a value that has been read before; the label must outlive the options. */
 void gn_options_put(struct gn_options *options, const struct gn_option_row *row, const void *value,
                     enum gn_source source, const char *label);
+/* Sets one option of a running kiosk, as GN_SOURCE_SET. What belongs to the display, or is read
+ * only as the kiosk starts, cannot be: a failure that says why. The value before lives until the
+ * next change of the same option but one; whoever keeps more than a pass through the loop copies.
+ */
+bool gn_options_change(struct gn_options *options, const struct gn_option_row *row,
+                       const char *text, struct gn_err *err);
+void gn_options_finish_changes(struct gn_options *options); /* private: gn_options_finish() does */
+/* Takes back the last change of that option, as if it had not been; with no mode applied since. */
+void gn_options_change_back(struct gn_options *options, const struct gn_option_row *row);
+/* A row by key as `ctl set` has it, with _ or -, with or without its section: "shadow",
+ * "render.shadow", "scene.file", "scene". NULL, and a usage error that names the nearest. */
+const struct gn_option_row *gn_options_find_change(const char *key, struct gn_err *err);
 /* Where a field's value comes from, by the field: gn_options_source(o, offsetof(struct gn_options,
  * shadow)). */
 enum gn_source gn_options_source(const struct gn_options *options, size_t offset);

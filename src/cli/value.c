@@ -254,26 +254,114 @@ static bool check_caps(const void *field, struct gn_err *err) {
     return gn_caps_parse(*(const char *const *)field, &unused, err);
 }
 
+/* ---- back to words -------------------------------------------------------------------------- */
+
+typedef void text_fn(const struct gn_option_row *row, const void *field, char *out, size_t size);
+
+static void text_of_flag(const struct gn_option_row *row, const void *field, char *out,
+                         size_t size) {
+    (void)row;
+    snprintf(out, size, "%s", *(const bool *)field ? "yes" : "no");
+}
+
+static void text_of_int(const struct gn_option_row *row, const void *field, char *out,
+                        size_t size) {
+    (void)row;
+    snprintf(out, size, "%d", *(const int *)field);
+}
+
+static void text_of_number(const struct gn_option_row *row, const void *field, char *out,
+                           size_t size) {
+    (void)row;
+    snprintf(out, size, "%.9g", *(const double *)field);
+}
+
+static void text_of_seconds(const struct gn_option_row *row, const void *field, char *out,
+                            size_t size) {
+    (void)row;
+    snprintf(out, size, "%.12g", (double)*(const int64_t *)field / (double)GN_NS_PER_S);
+}
+
+static void text_of_size(const struct gn_option_row *row, const void *field, char *out,
+                         size_t size) {
+    const struct gn_size *value = field;
+    (void)row;
+    snprintf(out, size, "%dx%d", value->width_px, value->height_px);
+}
+
+static void text_of_mode(const struct gn_option_row *row, const void *field, char *out,
+                         size_t size) {
+    const struct gn_display_mode *m = field;
+    (void)row;
+    out[0] = '\0';
+    if (m->width_px)
+        snprintf(out, size, m->hz > 0 ? "%dx%d@%.6g" : "%dx%d", m->width_px, m->height_px, m->hz);
+}
+
+static void text_of_ev(const struct gn_option_row *row, const void *field, char *out, size_t size) {
+    if (isnan(*(const double *)field))
+        snprintf(out, size, "auto");
+    else
+        text_of_number(row, field, out, size);
+}
+
+static void text_of_choice(const struct gn_option_row *row, const void *field, char *out,
+                           size_t size) {
+    const struct gn_choice *c = row->choices;
+    while (c->name && c->value != *(const int *)field) c++;
+    snprintf(out, size, "%s", c->name ? c->name : "");
+}
+
+static void text_of_text(const struct gn_option_row *row, const void *field, char *out,
+                         size_t size) {
+    const char *text = *(const char *const *)field;
+    (void)row;
+    snprintf(out, size, "%s", text ? text : "");
+}
+
+static void text_of_scenes(const struct gn_option_row *row, const void *field, char *out,
+                           size_t size) {
+    const struct gn_scene_list *list = field;
+    size_t used = 0;
+    (void)row;
+    out[0] = '\0';
+    for (int i = 0; i < list->count && used < size; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i ? " " : "", list->paths[i]);
+}
+
+static void text_of_limits(const struct gn_option_row *row, const void *field, char *out,
+                           size_t size) {
+    const struct gn_limits *limits = field;
+    size_t used = 0;
+    (void)row;
+    out[0] = '\0';
+    for (int i = 0; i < limits->count && used < size; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s=%lld", i ? " " : "",
+                                 limits->items[i].name, (long long)limits->items[i].value);
+}
+
 static const struct {
     size_t size;
     parse_fn *parse;
     expected_fn *expected;
+    text_fn *text;
 } kinds[] = {
-    [GN_KIND_FLAG] = {sizeof(bool), parse_flag, expect_flag},
-    [GN_KIND_INT] = {sizeof(int), parse_int, expect_int},
-    [GN_KIND_NUMBER] = {sizeof(double), parse_number, expect_number},
-    [GN_KIND_SECONDS] = {sizeof(int64_t), parse_seconds, expect_number},
-    [GN_KIND_SIZE] = {sizeof(struct gn_size), parse_size, expect_size},
-    [GN_KIND_MODE] = {sizeof(struct gn_display_mode), parse_mode, expect_mode},
-    [GN_KIND_EV] = {sizeof(double), parse_ev, expect_ev},
-    [GN_KIND_CHOICE] = {sizeof(int), parse_choice, expect_choice},
-    [GN_KIND_WORD] = {sizeof(const char *), parse_word, expect_choice},
-    [GN_KIND_TECHNIQUES] = {sizeof(const char *), parse_techniques, expect_techniques},
-    [GN_KIND_TEXT] = {sizeof(const char *), parse_text, expect_text},
-    [GN_KIND_PATH] = {sizeof(const char *), parse_text, expect_text},
-    [GN_KIND_SCENES] = {sizeof(struct gn_scene_list), parse_scenes, expect_scenes},
-    [GN_KIND_LIMIT] = {sizeof(struct gn_limits), parse_limit, expect_limit},
-    [GN_KIND_CAPS] = {sizeof(const char *), parse_text, expect_text},
+    [GN_KIND_FLAG] = {sizeof(bool), parse_flag, expect_flag, text_of_flag},
+    [GN_KIND_INT] = {sizeof(int), parse_int, expect_int, text_of_int},
+    [GN_KIND_NUMBER] = {sizeof(double), parse_number, expect_number, text_of_number},
+    [GN_KIND_SECONDS] = {sizeof(int64_t), parse_seconds, expect_number, text_of_seconds},
+    [GN_KIND_SIZE] = {sizeof(struct gn_size), parse_size, expect_size, text_of_size},
+    [GN_KIND_MODE] = {sizeof(struct gn_display_mode), parse_mode, expect_mode, text_of_mode},
+    [GN_KIND_EV] = {sizeof(double), parse_ev, expect_ev, text_of_ev},
+    [GN_KIND_CHOICE] = {sizeof(int), parse_choice, expect_choice, text_of_choice},
+    [GN_KIND_WORD] = {sizeof(const char *), parse_word, expect_choice, text_of_text},
+    [GN_KIND_TECHNIQUES] = {sizeof(const char *), parse_techniques, expect_techniques,
+                            text_of_text},
+    [GN_KIND_TEXT] = {sizeof(const char *), parse_text, expect_text, text_of_text},
+    [GN_KIND_PATH] = {sizeof(const char *), parse_text, expect_text, text_of_text},
+    [GN_KIND_SCENES] = {sizeof(struct gn_scene_list), parse_scenes, expect_scenes, text_of_scenes},
+    [GN_KIND_LIMIT] = {sizeof(struct gn_limits), parse_limit, expect_limit, text_of_limits},
+    [GN_KIND_CAPS] = {sizeof(const char *), parse_text, expect_text, text_of_text},
 };
 _Static_assert(sizeof kinds / sizeof kinds[0] == GN_KIND_COUNT, "a row per kind");
 
@@ -287,6 +375,10 @@ size_t gn_value_size(enum gn_option_kind kind) { return kinds[kind].size; }
 
 void gn_value_expected(const struct gn_option_row *row, char *out, size_t size) {
     kinds[row->kind].expected(row, out, size);
+}
+
+void gn_value_text(const struct gn_option_row *row, const void *field, char *out, size_t size) {
+    kinds[row->kind].text(row, field, out, size);
 }
 
 bool gn_value_parse(const struct gn_option_row *row, const char *text, void *field,

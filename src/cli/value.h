@@ -11,6 +11,10 @@ bool gn_value_parse(const struct gn_option_row *row, const char *text, void *fie
                     struct gn_arena *arena, const char *label, struct gn_err *err);
 size_t gn_value_size(enum gn_option_kind kind);
 
+/* The value as one would write it, for reading aloud: "pcf", "1280x720", "auto"; "" for a text that
+ * is not there. */
+void gn_value_text(const struct gn_option_row *row, const void *field, char *out, size_t size);
+
 /* "a whole number from 16 to 16384" */
 void gn_value_expected(const struct gn_option_row *row, char *out, size_t size);
 

@@ -1,0 +1,434 @@
+#include "cli/config_button.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/value.h"
+#include "core/clock.h"
+#include "core/key.h"
+#include "core/text.h"
+#include "shadow/technique.h"
+
+#define NS_PER_MS (GN_NS_PER_S / 1000)
+#define WORDS_MAX 32 /* of keys or of a chord */
+
+enum { LINE, KEYS, CHORD, ACTIVE_HIGH, BIAS, DEBOUNCE_MS, HOLD_MS, DOUBLE_MS, REPEAT_MS, CHORD_MS };
+enum { PRESS = CHORD_MS + 1, CLICK, DOUBLE, HOLD, REPEAT };
+_Static_assert(REPEAT + 1 == GN_BUTTON_KEY_COUNT, "a row per key");
+
+typedef bool set_fn(struct gn_config_buttons *config, int key, const char *text, const char *label,
+                    struct gn_err *err);
+static set_fn set_line, set_keys, set_chord, set_active_high, set_bias, set_ms, set_action;
+
+static const struct {
+    struct gn_button_key_row row;
+    set_fn *set;
+    size_t offset; /* of the time in struct gn_button_opts */
+    int least_ms, most_ms;
+    enum gn_gesture gesture; /* of an action */
+} keys[GN_BUTTON_KEY_COUNT] = {
+    [LINE] = {{"line", "NAME", "the GPIO line: its name (GPIO17), or label:LABEL/OFFSET"},
+              set_line},
+    [KEYS] = {{"keys", "KEY..", "keys of a keyboard or of gpio-keys: space, f1, btn_0"}, set_keys},
+    [CHORD] = {{"chord", "BUTTON..",
+                "other buttons that go down together; press says what they do"},
+               set_chord},
+    [ACTIVE_HIGH] = {{"active_high", "yes|no", "the line is high while pressed (no)"},
+                     set_active_high},
+    [BIAS] = {{"bias", "pull-up|pull-down|none", "what holds the line when nobody presses"},
+              set_bias},
+    [DEBOUNCE_MS] = {{"debounce_ms", "MS", "how long it has to be steady (20)"},
+                     set_ms,
+                     offsetof(struct gn_button_opts, debounce_ns),
+                     1,
+                     1000},
+    [HOLD_MS] = {{"hold_ms", "MS",
+                  "how long a hold is, and what goes before the first repeat (800)"},
+                 set_ms,
+                 offsetof(struct gn_button_opts, hold_ns),
+                 50,
+                 60000},
+    [DOUBLE_MS] = {{"double_ms", "MS", "how soon the second press of a double follows (350)"},
+                   set_ms,
+                   offsetof(struct gn_button_opts, double_ns),
+                   50,
+                   5000},
+    [REPEAT_MS] = {{"repeat_ms", "MS", "how long from one repeat to the next (200)"},
+                   set_ms,
+                   offsetof(struct gn_button_opts, repeat_ns),
+                   50,
+                   60000},
+    [CHORD_MS] = {{"chord_ms", "MS", "how close together a chord's buttons go down (80)"},
+                  set_ms,
+                  offsetof(struct gn_button_opts, chord_ns),
+                  10,
+                  1000},
+    [PRESS] = {{"press", "ACTION", "as it goes down"}, set_action, .gesture = GN_GESTURE_PRESS},
+    [CLICK] = {{"click", "ACTION", "as it comes up before a hold"},
+               set_action,
+               .gesture = GN_GESTURE_CLICK},
+    [DOUBLE] = {{"double", "ACTION", "as it goes down for the second time"},
+                set_action,
+                .gesture = GN_GESTURE_DOUBLE},
+    [HOLD] = {{"hold", "ACTION", "when it has been held"}, set_action, .gesture = GN_GESTURE_HOLD},
+    [REPEAT] = {{"repeat", "ACTION", "when it has been held, and again and again while it is"},
+                set_action,
+                .gesture = GN_GESTURE_REPEAT},
+};
+
+const struct gn_button_key_row *gn_button_key(int index) { return &keys[index].row; }
+
+/* ---- words --------------------------------------------------------------------------------- */
+
+struct words { /* separated by spaces; they point into the text */
+    int count;
+    struct {
+        const char *at;
+        size_t length;
+    } items[WORDS_MAX];
+};
+
+static bool split(const char *text, struct words *words) {
+    *words = (struct words){0};
+    for (text += strspn(text, " \t"); *text; text += strspn(text, " \t")) {
+        if (words->count == WORDS_MAX) return false;
+        const size_t length = strcspn(text, " \t");
+        words->items[words->count].at = text;
+        words->items[words->count++].length = length;
+        text += length;
+    }
+    return words->count > 0;
+}
+
+static void take(const struct words *words, int i, char *out, size_t size) {
+    const size_t length = words->items[i].length;
+    snprintf(out, size, "%.*s", (int)(length < size ? length : size - 1), words->items[i].at);
+}
+
+/* ---- one key at a time --------------------------------------------------------------------- */
+
+static struct gn_button_config *last(const struct gn_config_buttons *config) {
+    return &config->buttons->items[config->buttons->count - 1];
+}
+
+static bool keep(const struct gn_config_buttons *config, const char *text, const char **out,
+                 const char *label, struct gn_err *err) {
+    *out = gn_arena_strdup(config->arena, text);
+    return *out || gn_fail(err, "%s: no memory left", label);
+}
+
+static bool fail_value(const char *label, const char *text, const char *expected,
+                       struct gn_err *err) {
+    return gn_fail_usage(err, "%s: \"%.80s\" is not %s", label, text, expected);
+}
+
+/* Says whose line or key it is already. */
+static bool fail_taken(const struct gn_config_buttons *config, int button, int key,
+                       const char *what, const char *label, struct gn_err *err) {
+    return gn_fail_usage(err, "%s: \"%s\" is button \"%s\"'s already, in line %d", label, what,
+                         config->buttons->items[button].opts.name, config->lines[button].keys[key]);
+}
+
+/* A chip's number is another one after the next update of the kernel. */
+static bool is_line(const char *text) {
+    const char *slash = strrchr(text, '/');
+    if (strncmp(text, "gpiochip", 8) == 0 || text[strspn(text, "0123456789")] == '\0') return false;
+    if (strncmp(text, "label:", 6) != 0) return true;
+    return slash && slash > text + 6 && slash[1] && strlen(slash + 1) < 6 &&
+           !slash[1 + strspn(slash + 1, "0123456789")];
+}
+
+static bool set_line(struct gn_config_buttons *config, int key, const char *text, const char *label,
+                     struct gn_err *err) {
+    (void)key;
+    if (!is_line(text))
+        return fail_value(label, text,
+                          "a line's name such as GPIO17, or label:LABEL/OFFSET such as "
+                          "label:pinctrl-rp1/17 (the numbers of chips change)",
+                          err);
+    for (int b = 0; b < config->buttons->count - 1; b++) {
+        const char *other = config->buttons->items[b].opts.line;
+        if (other && strcmp(other, text) == 0) return fail_taken(config, b, LINE, text, label, err);
+    }
+    return keep(config, text, &last(config)->opts.line, label, err);
+}
+
+static bool has_key(const char *text, unsigned key) {
+    struct words words;
+    char name[64];
+    if (!text || !split(text, &words)) return false;
+    for (int i = 0; i < words.count; i++) {
+        take(&words, i, name, sizeof name);
+        if (gn_key_find(name) == key) return true;
+    }
+    return false;
+}
+
+static bool check_key(const struct gn_config_buttons *config, const struct words *words, int i,
+                      const char *label, struct gn_err *err) {
+    char name[64], other[64];
+    take(words, i, name, sizeof name);
+    const unsigned key = gn_key_find(name);
+    if (key == GN_KEY_NONE)
+        return fail_value(
+            label, name,
+            "a key; expected names such as space, right, f1, a, btn_0 or key_600, a space between "
+            "two",
+            err);
+    for (int j = 0; j < i; j++) {
+        take(words, j, other, sizeof other);
+        if (gn_key_find(other) == key)
+            return gn_fail_usage(err, "%s: \"%s\" is there twice", label, name);
+    }
+    for (int b = 0; b < config->buttons->count - 1; b++)
+        if (has_key(config->buttons->items[b].opts.keys, key))
+            return fail_taken(config, b, KEYS, name, label, err);
+    return true;
+}
+
+static bool set_keys(struct gn_config_buttons *config, int key, const char *text, const char *label,
+                     struct gn_err *err) {
+    struct words words;
+    (void)key;
+    if (!split(text, &words))
+        return fail_value(label, text, "one to 32 names of keys, a space between two", err);
+    for (int i = 0; i < words.count; i++)
+        if (!check_key(config, &words, i, label, err)) return false;
+    return keep(config, text, &last(config)->opts.keys, label, err);
+}
+
+static bool set_chord(struct gn_config_buttons *config, int key, const char *text,
+                      const char *label, struct gn_err *err) {
+    struct words words;
+    (void)key;
+    if (!split(text, &words) || words.count < 2)
+        return fail_value(label, text, "two or more names of other buttons, a space between two",
+                          err);
+    return keep(config, text, &last(config)->opts.chord, label, err);
+}
+
+static bool set_active_high(struct gn_config_buttons *config, int key, const char *text,
+                            const char *label, struct gn_err *err) {
+    static const struct gn_option_row flag = {.kind = GN_KIND_FLAG};
+    (void)key;
+    return gn_value_parse(&flag, text, &last(config)->opts.active_high, config->arena, label, err);
+}
+
+static bool set_bias(struct gn_config_buttons *config, int key, const char *text, const char *label,
+                     struct gn_err *err) {
+    static const struct gn_choice choices[] = {{"pull-up", GN_BIAS_PULL_UP},
+                                               {"pull-down", GN_BIAS_PULL_DOWN},
+                                               {"none", GN_BIAS_NONE},
+                                               {0}};
+    static const struct gn_option_row row = {.kind = GN_KIND_CHOICE, .choices = choices};
+    int bias;
+    (void)key;
+    if (!gn_value_parse(&row, text, &bias, config->arena, label, err)) return false;
+    last(config)->opts.bias = (enum gn_bias)bias;
+    return true;
+}
+
+static bool set_ms(struct gn_config_buttons *config, int key, const char *text, const char *label,
+                   struct gn_err *err) {
+    const struct gn_option_row row = {
+        .kind = GN_KIND_INT, .min = keys[key].least_ms, .max = keys[key].most_ms};
+    int ms;
+    if (!gn_value_parse(&row, text, &ms, config->arena, label, err)) return false;
+    const int64_t ns = ms * NS_PER_MS;
+    memcpy((char *)&last(config)->opts + keys[key].offset, &ns, sizeof ns);
+    return true;
+}
+
+static bool set_action(struct gn_config_buttons *config, int key, const char *text,
+                       const char *label, struct gn_err *err) {
+    struct gn_binding *on = &last(config)->on[keys[key].gesture];
+    const char *kept;
+    if (!keep(config, text, &kept, label, err) || !gn_action_parse(kept, label, &on->action, err))
+        return false;
+    on->bound = true;
+    return true;
+}
+
+/* ---- the section --------------------------------------------------------------------------- */
+
+bool gn_config_button_open(struct gn_config_buttons *config, const struct gn_ini_line *line,
+                           struct gn_err *err) {
+    struct gn_buttons *buttons = config->buttons;
+    if (!line->name)
+        return gn_fail_usage(err, "%s: a button has a name: [button \"NAME\"]", line->where);
+    if (line->name[strcspn(line->name, " \t")])
+        return gn_fail_usage(err, "%s: button \"%s\": a button's name has no spaces", line->where,
+                             line->name);
+    for (int i = 0; i < buttons->count; i++)
+        if (strcmp(buttons->items[i].opts.name, line->name) == 0)
+            return gn_fail_usage(err, "%s: button \"%s\" is there already, in line %d", line->where,
+                                 line->name, config->lines[i].section);
+    if (buttons->count == GN_BUTTONS_MAX)
+        return gn_fail_usage(err, "%s: more than %d buttons", line->where, GN_BUTTONS_MAX);
+    config->lines[buttons->count].section = line->number;
+    buttons->items[buttons->count++] = (struct gn_button_config){0};
+    return keep(config, line->name, &last(config)->opts.name, line->where, err);
+}
+
+static bool fail_button_key(const struct gn_ini_line *line, struct gn_err *err) {
+    char list[200] = "";
+    size_t used = 0;
+    for (int i = 0; i < GN_BUTTON_KEY_COUNT; i++) {
+        if (gn_text_distance(keys[i].row.name, line->key) <= 2)
+            return gn_fail_usage(err, "%s: unknown key \"%s\" in [button]; expected %s",
+                                 line->where, line->key, keys[i].row.name);
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s %s", used ? "," : "",
+                                 keys[i].row.name);
+    }
+    return gn_fail_usage(err, "%s: unknown key \"%s\"; [button] knows%s", line->where, line->key,
+                         list);
+}
+
+bool gn_config_button_set(struct gn_config_buttons *config, const struct gn_ini_line *line,
+                          struct gn_err *err) {
+    int key = 0;
+    while (key < GN_BUTTON_KEY_COUNT && strcmp(keys[key].row.name, line->key) != 0) key++;
+    if (key == GN_BUTTON_KEY_COUNT) return fail_button_key(line, err);
+    int *seen = &config->lines[config->buttons->count - 1].keys[key];
+    if (*seen)
+        return gn_fail_usage(err, "%s: %s is set already, in line %d", line->where, line->key,
+                             *seen);
+    char label[400];
+    snprintf(label, sizeof label, "%s: %s", line->where, line->key);
+    if (!keys[key].set(config, key, line->value, label, err)) return false;
+    *seen = line->number;
+    return true;
+}
+
+/* ---- the whole file ------------------------------------------------------------------------ */
+
+struct check {
+    const struct gn_config_buttons *config;
+    const struct gn_options *options;
+    const char *path;
+    struct gn_err *err;
+};
+
+static int find_button(const struct gn_buttons *buttons, const char *name) {
+    for (int i = 0; i < buttons->count; i++)
+        if (strcmp(buttons->items[i].opts.name, name) == 0) return i;
+    return -1;
+}
+
+static bool check_chord(const struct check *c, int button) {
+    const struct gn_buttons *buttons = c->config->buttons;
+    const int line = c->config->lines[button].keys[CHORD];
+    struct words words;
+    char name[64];
+    bool seen[GN_BUTTONS_MAX] = {false};
+    split(buttons->items[button].opts.chord, &words);
+    for (int i = 0; i < words.count; i++) {
+        take(&words, i, name, sizeof name);
+        const int other = find_button(buttons, name);
+        if (other < 0)
+            return gn_fail_usage(c->err, "%s:%d: chord: there is no button \"%s\"", c->path, line,
+                                 name);
+        if (buttons->items[other].opts.chord)
+            return gn_fail_usage(c->err, "%s:%d: chord: button \"%s\" is a chord itself", c->path,
+                                 line, name);
+        if (seen[other])
+            return gn_fail_usage(c->err, "%s:%d: chord: \"%s\" is there twice", c->path, line,
+                                 name);
+        seen[other] = true;
+    }
+    return true;
+}
+
+/* A chord is nowhere itself, and has one gesture; of a line alone can one say how it is wired. */
+static bool check_place(const struct check *c, int button) {
+    const int *lines = c->config->lines[button].keys;
+    const struct gn_button_opts *o = &c->config->buttons->items[button].opts;
+    static const int not_of_chord[] = {LINE,      KEYS,  DEBOUNCE_MS, HOLD_MS, DOUBLE_MS,
+                                       REPEAT_MS, CLICK, DOUBLE,      HOLD,    REPEAT};
+    for (size_t i = 0; o->chord && i < sizeof not_of_chord / sizeof not_of_chord[0]; i++)
+        if (lines[not_of_chord[i]])
+            return gn_fail_usage(c->err,
+                                 "%s:%d: %s: a chord has none; it knows chord, press and "
+                                 "chord_ms",
+                                 c->path, lines[not_of_chord[i]], keys[not_of_chord[i]].row.name);
+    for (int key = ACTIVE_HIGH; !o->line && key <= BIAS; key++)
+        if (lines[key])
+            return gn_fail_usage(c->err, "%s:%d: %s: only a button with a line has one", c->path,
+                                 lines[key], keys[key].row.name);
+    if (!o->chord && lines[CHORD_MS])
+        return gn_fail_usage(c->err, "%s:%d: chord_ms: only a chord has one", c->path,
+                             lines[CHORD_MS]);
+    return o->line || o->keys || o->chord ||
+           gn_fail_usage(c->err, "%s:%d: button \"%s\" is nowhere; expected line, keys or chord",
+                         c->path, c->config->lines[button].section, o->name);
+}
+
+static bool is_in_chord(const struct gn_buttons *buttons, const char *name) {
+    struct words words;
+    char member[64];
+    for (int i = 0; i < buttons->count; i++) {
+        if (!buttons->items[i].opts.chord || !split(buttons->items[i].opts.chord, &words)) continue;
+        for (int w = 0; w < words.count; w++) {
+            take(&words, w, member, sizeof member);
+            if (strcmp(member, name) == 0) return true;
+        }
+    }
+    return false;
+}
+
+static bool has_mode(const struct gn_options *options, const char *name) {
+    enum gn_technique unused;
+    for (int i = 0; i < options->mode_count; i++)
+        if (strcmp(options->modes[i].name, name) == 0) return true;
+    return options->mode_count == 0 && gn_technique_find(name, &unused, NULL);
+}
+
+static bool fail_mode(const struct check *c, int line, const char *key, const char *name) {
+    char names[300] = "";
+    size_t used = 0;
+    for (int i = 0; i < c->options->mode_count && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s \"%s\"", i ? "," : "",
+                                 c->options->modes[i].name);
+    return gn_fail_usage(c->err, "%s:%d: %s: no mode \"%s\"; expected%s", c->path, line, key, name,
+                         used ? names : " a technique, since the file has no modes");
+}
+
+static bool check_actions(const struct check *c, int button) {
+    const struct gn_button_config *config = &c->config->buttons->items[button];
+    const int *lines = c->config->lines[button].keys;
+    bool does_something = is_in_chord(c->config->buttons, config->opts.name);
+    for (int key = PRESS; key <= REPEAT; key++) {
+        const struct gn_binding *on = &config->on[keys[key].gesture];
+        does_something |= on->bound;
+        if (on->bound && on->action.kind == GN_ACTION_MODE &&
+            !has_mode(c->options, on->action.name))
+            return fail_mode(c, lines[key], keys[key].row.name, on->action.name);
+    }
+    return does_something ||
+           gn_fail_usage(c->err,
+                         "%s:%d: button \"%s\" does nothing; expected press, click, double, hold "
+                         "or repeat",
+                         c->path, c->config->lines[button].section, config->opts.name);
+}
+
+/* What a chord does is said under press, and a line that is high when pressed rests low. */
+static void complete(struct gn_button_config *config, const int *lines) {
+    if (config->opts.chord) {
+        config->on[GN_GESTURE_CHORD] = config->on[GN_GESTURE_PRESS];
+        config->on[GN_GESTURE_PRESS] = (struct gn_binding){0};
+    }
+    if (config->opts.active_high && !lines[BIAS]) config->opts.bias = GN_BIAS_PULL_DOWN;
+}
+
+bool gn_config_button_check(const struct gn_config_buttons *config,
+                            const struct gn_options *options, const char *path,
+                            struct gn_err *err) {
+    const struct check check = {config, options, path, err};
+    for (int b = 0; b < config->buttons->count; b++)
+        if (!check_place(&check, b) || !check_actions(&check, b) ||
+            (config->buttons->items[b].opts.chord && !check_chord(&check, b)))
+            return false;
+    for (int b = 0; b < config->buttons->count; b++)
+        complete(&config->buttons->items[b], config->lines[b].keys);
+    return true;
+}

@@ -1,0 +1,36 @@
+/* [button "NAME"] of the configuration file: where a button is, and what it does. */
+#ifndef GN_CLI_CONFIG_BUTTON_H
+#define GN_CLI_CONFIG_BUTTON_H
+
+#include "cli/ini.h"
+#include "cli/options.h"
+#include "kiosk/binding.h"
+
+struct gn_button_key_row {
+    const char *name;  /* "hold_ms" */
+    const char *value; /* how the manual names the value: "MS" */
+    const char *help;  /* a phrase without full stop */
+};
+enum { GN_BUTTON_KEY_COUNT = 15 };
+const struct gn_button_key_row *gn_button_key(int index); /* below GN_BUTTON_KEY_COUNT */
+
+struct gn_config_buttons {
+    struct gn_buttons *buttons; /* in the options' arena */
+    struct gn_arena *arena;     /* keeps the texts */
+    struct {
+        int section, keys[GN_BUTTON_KEY_COUNT]; /* lines of the file; 0: not there */
+    } lines[GN_BUTTONS_MAX];
+};
+
+/* A section begins; a setting of the last one. Texts are kept. Usage errors: file, line, key, and
+ * what was expected. */
+bool gn_config_button_open(struct gn_config_buttons *config, const struct gn_ini_line *line,
+                           struct gn_err *err);
+bool gn_config_button_set(struct gn_config_buttons *config, const struct gn_ini_line *line,
+                          struct gn_err *err);
+/* What can be said only of the whole file, path: modes that are not there, chords of nothing,
+ * buttons that are nowhere or do nothing. */
+bool gn_config_button_check(const struct gn_config_buttons *config,
+                            const struct gn_options *options, const char *path, struct gn_err *err);
+
+#endif

@@ -1,0 +1,264 @@
+/* gnomon ctl: asks a running kiosk for one thing over its socket, and prints what it says. */
+#include <errno.h>
+#include <limits.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "cli/commands.h"
+#include "cli/json_print.h"
+#include "core/clock.h"
+#include "kiosk/command.h"
+#include "kiosk/listen.h"
+#include "kiosk/request.h"
+
+static const int64_t PATIENCE_NS = 10 * GN_NS_PER_S;
+static const int64_t LONG_PATIENCE_NS = 60 * GN_NS_PER_S; /* a scene may have to be loaded */
+enum { REPLY_MAX = 256 * 1024 };
+
+struct talk {
+    int fd;
+    char path[PATH_MAX];
+    int64_t until_ns;
+    char reply[REPLY_MAX];
+};
+
+/* ---- what is asked -------------------------------------------------------------------------- */
+
+static bool fail_command(const char *name, struct gn_err *err) {
+    char list[300];
+    const char *nearest = name ? gn_ctl_nearest(name) : NULL;
+    if (nearest)
+        return gn_fail_usage(err, "ctl: unknown command \"%.60s\"; did you mean %s?", name,
+                             nearest);
+    gn_ctl_list(list, sizeof list);
+    if (!name) return gn_fail_usage(err, "ctl: which command? expected one of%s", list);
+    return gn_fail_usage(err, "ctl: unknown command \"%.60s\"; expected one of%s", name, list);
+}
+
+static bool check_words(const struct gn_options *o, int command, struct gn_err *err) {
+    const struct gn_ctl_row *row = &gn_ctl_rows[command];
+    const int wanted = gn_ctl_words((enum gn_ctl)command), given = o->word_count - 1;
+    if (given < wanted) return gn_fail_usage(err, "ctl %s: expected %s", row->name, row->words);
+    if (given > wanted)
+        return gn_fail_usage(err, "ctl %s takes no more; what is \"%.80s\"?%s", row->name,
+                             o->words[1 + wanted], wanted ? " (quote what has spaces)" : "");
+    return true;
+}
+
+/* The kiosk stands somewhere else. */
+static bool make_absolute(const char *file, char *out, size_t size, struct gn_err *err) {
+    char folder[PATH_MAX];
+    if (file[0] == '/') {
+        snprintf(out, size, "%s", file);
+        return true;
+    }
+    if (getcwd(folder, sizeof folder) && snprintf(out, size, "%s/%s", folder, file) < (int)size)
+        return true;
+    return gn_fail(err, "ctl: %.200s: give the whole path", file);
+}
+
+static json_t *request_of(const struct gn_options *o, int command, struct gn_err *err) {
+    const struct gn_ctl_row *row = &gn_ctl_rows[command];
+    char path[PATH_MAX];
+    json_t *request = json_pack("{s:s}", "cmd", row->name);
+    for (int i = 0; i < GN_CTL_WORDS_MAX && row->members[i]; i++) {
+        const char *word = o->words[1 + i];
+        const bool is_file = strcmp(row->members[i], "file") == 0;
+        if (is_file && !make_absolute(word, path, sizeof path, err)) break;
+        json_t *text = json_string(is_file ? path : word);
+        if (!text) gn_fail_usage(err, "ctl %s: \"%.80s\" is not UTF-8", row->name, word);
+        if (!text || json_object_set_new(request, row->members[i], text) != 0) break;
+    }
+    if (!err->text[0]) return request;
+    json_decref(request);
+    return NULL;
+}
+
+/* ---- the connection ------------------------------------------------------------------------- */
+
+static bool wait_for(struct talk *t, short events) {
+    const int64_t left_ns = t->until_ns - gn_clock_monotonic_ns();
+    struct pollfd p = {.fd = t->fd, .events = events};
+    return left_ns > 0 && (poll(&p, 1, (int)(left_ns / 1000000) + 1) > 0 || errno == EINTR);
+}
+
+/* 0, or why not. A kiosk that many want to talk to at once has a queue, which may be full. */
+static int try_path(struct talk *t, const char *path) {
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    if (snprintf(address.sun_path, sizeof address.sun_path, "%s", path) >=
+        (int)sizeof address.sun_path)
+        return ENAMETOOLONG;
+    t->fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    while (t->fd >= 0) {
+        if (connect(t->fd, (const struct sockaddr *)&address, sizeof address) == 0) return 0;
+        if (errno != EAGAIN || gn_clock_monotonic_ns() > t->until_ns) break;
+        usleep(10000);
+    }
+    const int reason = errno;
+    if (t->fd >= 0) close(t->fd);
+    t->fd = -1;
+    return reason;
+}
+
+static bool fail_path(const char *path, int reason, struct gn_err *err) {
+    if (reason == ENOENT || reason == ECONNREFUSED)
+        return gn_fail(err, "no kiosk answers at %s; is gnomon show running?", path);
+    if (reason == EACCES)
+        return gn_fail(err,
+                       "%s: permission denied: the kiosk's own user, root and the members of the "
+                       "socket's group may ask",
+                       path);
+    return gn_fail(err, "%s: cannot connect: %s", path, strerror(reason));
+}
+
+static bool enter(struct talk *t, const struct gn_options *o, struct gn_err *err) {
+    char path[GN_LISTEN_PATH_MAX], tried[3 * GN_LISTEN_PATH_MAX] = "";
+    if (o->socket) {
+        const int reason = try_path(t, o->socket);
+        snprintf(t->path, sizeof t->path, "%s", o->socket);
+        return reason == 0 || fail_path(o->socket, reason, err);
+    }
+    for (int i = 0; gn_listen_candidate(i, path, sizeof path); i++) {
+        const int reason = try_path(t, path);
+        snprintf(t->path, sizeof t->path, "%s", path);
+        if (reason == 0) return true;
+        if (reason != ENOENT && reason != ECONNREFUSED) return fail_path(path, reason, err);
+        const size_t used = strlen(tried);
+        snprintf(tried + used, sizeof tried - used, "%s%s", used ? " or " : "", path);
+    }
+    return fail_path(tried, ENOENT, err);
+}
+
+static bool fail_talk(const struct talk *t, const char *what, struct gn_err *err) {
+    return gn_fail(err, "the kiosk at %s %s", t->path, what);
+}
+
+static bool send_all(struct talk *t, const char *text, size_t size, struct gn_err *err) {
+    while (size > 0) {
+        const ssize_t sent = send(t->fd, text, size, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EPIPE) return true; /* it has said why */
+        if (sent < 0 && errno != EAGAIN && errno != EINTR) return fail_talk(t, "has hung up", err);
+        if (sent > 0) text += sent, size -= (size_t)sent;
+        if (sent < 0 && !wait_for(t, POLLOUT)) return fail_talk(t, "does not listen", err);
+    }
+    return true;
+}
+
+static bool receive(struct talk *t, struct gn_err *err) {
+    size_t used = 0;
+    while (used < sizeof t->reply - 1) {
+        const ssize_t got = recv(t->fd, t->reply + used, sizeof t->reply - 1 - used, 0);
+        if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR))
+            return fail_talk(t, "has hung up", err);
+        if (got < 0 && !wait_for(t, POLLIN)) return fail_talk(t, "does not answer", err);
+        if (got < 0) continue;
+        used += (size_t)got;
+        t->reply[used] = '\0';
+        if (memchr(t->reply, '\n', used)) return true;
+    }
+    return fail_talk(t, "says too much", err);
+}
+
+/* The reply, a new reference, or NULL. */
+static json_t *ask(struct talk *t, const json_t *request, struct gn_err *err) {
+    char *line = json_dumps(request, JSON_COMPACT);
+    const size_t size = line ? strlen(line) : 0;
+    json_t *reply = NULL;
+    if (!line || size > GN_REQUEST_LINE_MAX) {
+        gn_fail_usage(err, "ctl: more than %d bytes", GN_REQUEST_LINE_MAX);
+    } else {
+        line[size] = '\n';
+        if (send_all(t, line, size + 1, err) && receive(t, err)) {
+            reply = json_loads(t->reply, 0, NULL);
+            if (!json_is_object(reply)) fail_talk(t, "says what is no answer", err);
+        }
+    }
+    free(line);
+    return reply;
+}
+
+/* ---- what it says --------------------------------------------------------------------------- */
+
+static void print_value(const json_t *value) {
+    if (json_is_string(value))
+        fputs(json_string_value(value), stdout);
+    else if (json_is_integer(value))
+        printf("%lld", (long long)json_integer_value(value));
+    else if (json_is_real(value))
+        printf("%.6g", json_real_value(value));
+    else
+        fputs(json_is_true(value) ? "yes" : json_is_false(value) ? "no" : "-", stdout);
+}
+
+static void print_list(const json_t *list) {
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        if (i) fputs(", ", stdout);
+        print_value(json_array_get(list, i));
+    }
+}
+
+/* "screen.what: HDMI-A-1 1920x1080@60.00 atomic" */
+static int print_object(const char *prefix, json_t *object) {
+    const char *key;
+    json_t *value;
+    int lines = 0;
+    json_object_foreach(object, key, value) {
+        if (!prefix[0] && strcmp(key, "ok") == 0) continue;
+        lines++;
+        char name[100];
+        snprintf(name, sizeof name, "%s%s%s", prefix, prefix[0] ? "." : "", key);
+        if (json_is_object(value)) {
+            print_object(name, value);
+            continue;
+        }
+        printf("%s: ", name);
+        if (json_is_array(value))
+            print_list(value);
+        else
+            print_value(value);
+        putchar('\n');
+    }
+    return lines;
+}
+
+static bool report(const struct gn_options *o, json_t *reply, struct gn_err *err) {
+    const bool ok = json_is_true(json_object_get(reply, "ok"));
+    const char *why = json_string_value(json_object_get(reply, "error"));
+    if (o->json && !gn_json_print(json_incref(reply), 9, stdout, err)) return false;
+    if (ok) {
+        if (!o->json && print_object("", reply) == 0) puts("done");
+        return true;
+    }
+    const bool wrong = json_integer_value(json_object_get(reply, "status")) == GN_EXIT_USAGE;
+    if (wrong) return gn_fail_usage(err, "%s", why ? why : "no");
+    if (why && strcmp(why, "busy") == 0)
+        return gn_fail(err, "the kiosk is busy: too much is asked of it at once; ask again");
+    return gn_fail(err, "%s", why ? why : "the kiosk says no, but not why");
+}
+
+bool gn_cli_ctl(const struct gn_options *options, struct gn_warnings *warnings,
+                struct gn_err *err) {
+    (void)warnings;
+    const char *name = options->word_count > 0 ? options->words[0] : NULL;
+    const int command = name ? gn_ctl_find(name) : -1;
+    if (command < 0) return fail_command(name, err);
+    if (!check_words(options, command, err)) return false;
+    json_t *request = request_of(options, command, err);
+    if (!request) return false;
+    const bool takes_long = command == GN_CTL_RELOAD || command == GN_CTL_SCREENSHOT;
+    struct talk *talk = gn_xalloc(1, sizeof *talk);
+    talk->fd = -1;
+    talk->until_ns = gn_clock_monotonic_ns() + (takes_long ? LONG_PATIENCE_NS : PATIENCE_NS);
+    json_t *reply = enter(talk, options, err) ? ask(talk, request, err) : NULL;
+    json_decref(request);
+    if (talk->fd >= 0) close(talk->fd);
+    free(talk);
+    const bool ok = reply && report(options, reply, err);
+    json_decref(reply);
+    return ok;
+}

@@ -1,0 +1,131 @@
+/* Options of a running kiosk. A kiosk runs for years, so what a change leaves behind is bounded:
+ * each option has two places for its text, which take turns. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/options.h"
+#include "cli/value.h"
+#include "core/text.h"
+
+enum { PLACE_BYTES = 512 }; /* a larger text gets more */
+
+struct change {
+    struct gn_arena places[2];
+    unsigned now;
+    char label[40];                                     /* "set shadow" */
+    _Alignas(16) char before[sizeof(struct gn_limits)]; /* the last change */
+    const char *label_before;
+    uint8_t source_before;
+};
+struct gn_changes {
+    struct change rows[GN_OPTION_COUNT];
+};
+_Static_assert(sizeof(struct gn_limits) >= sizeof(struct gn_scene_list), "the largest value");
+
+void gn_options_finish_changes(struct gn_options *options) {
+    for (int i = 0; options->changes && i < GN_OPTION_COUNT; i++)
+        for (int p = 0; p < 2; p++) gn_arena_finish(&options->changes->rows[i].places[p]);
+    free(options->changes);
+    options->changes = NULL;
+}
+
+/* ---- which ---------------------------------------------------------------------------------- */
+
+static const char *why_fixed(const struct gn_option_row *row) {
+    static const char *const of_the_start[] = {"shaders", "without", "limit", "socket"};
+    static const char *const of_the_display[] = {"size", "msaa"};
+    if (row->commands && !(row->commands & 1u << GN_COMMAND_SHOW)) return "is not for show";
+    if (row->kind == GN_KIND_SCENES)
+        return "is a list: change it in the configuration file, and reload; next-scene goes "
+               "through it";
+    for (size_t i = 0; i < sizeof of_the_start / sizeof of_the_start[0]; i++)
+        if (strcmp(row->name, of_the_start[i]) == 0)
+            return "is read as the kiosk starts: change it in the configuration file, and restart";
+    for (size_t i = 0; i < sizeof of_the_display / sizeof of_the_display[0]; i++)
+        if (strcmp(row->name, of_the_display[i]) == 0)
+            return "belongs to the display: change it in the configuration file, and reload";
+    return strcmp(row->section, "display") == 0
+               ? "belongs to the display: change it in the configuration file, and reload"
+               : NULL;
+}
+
+/* "max-fps" as "max_fps" */
+static void spell(const char *key, char *out, size_t size) {
+    snprintf(out, size, "%s", key);
+    for (char *c = out; *c; c++)
+        if (*c == '-') *c = '_';
+}
+
+static bool fail_key(const char *key, struct gn_err *err) {
+    char nearest[64], name[64];
+    int least = 3;
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        gn_option_key(&gn_option_rows[i], name, sizeof name);
+        const int distance = gn_text_distance(key, name);
+        if (!gn_option_rows[i].section || why_fixed(&gn_option_rows[i]) || distance >= least)
+            continue;
+        least = distance;
+        snprintf(nearest, sizeof nearest, "%s", name);
+    }
+    if (least < 3)
+        return gn_fail_usage(err, "unknown key \"%.60s\"; did you mean %s?", key, nearest);
+    return gn_fail_usage(err, "unknown key \"%.60s\"; expected one of [scene] or [render]", key);
+}
+
+const struct gn_option_row *gn_options_find_change(const char *key, struct gn_err *err) {
+    char spelled[80], name[64];
+    spell(key, spelled, sizeof spelled);
+    const char *dot = strchr(spelled, '.');
+    const size_t length = dot ? (size_t)(dot - spelled) : 0;
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        const struct gn_option_row *row = &gn_option_rows[i];
+        if (!row->section) continue;
+        if (dot && (strlen(row->section) != length || strncmp(row->section, spelled, length) != 0))
+            continue;
+        gn_option_key(row, name, sizeof name);
+        if (strcmp(name, dot ? dot + 1 : spelled) == 0) return row;
+        spell(row->name, name, sizeof name); /* [display] mode is display_mode */
+        if (strcmp(name, dot ? dot + 1 : spelled) == 0) return row;
+    }
+    fail_key(spelled, err);
+    return NULL;
+}
+
+/* ---- changing ------------------------------------------------------------------------------- */
+
+static bool check(const struct gn_option_row *row, const char *text, struct gn_err *err) {
+    const char *fixed = why_fixed(row);
+    if (fixed) return gn_fail_usage(err, "%s %s", row->name, fixed);
+    return row->kind != GN_KIND_TECHNIQUES || !strchr(text, ',') ||
+           gn_fail_usage(err, "set %s: \"%.80s\": one technique at a time", row->name, text);
+}
+
+bool gn_options_change(struct gn_options *options, const struct gn_option_row *row,
+                       const char *text, struct gn_err *err) {
+    if (!check(row, text, err)) return false;
+    if (!options->changes) options->changes = gn_xalloc(1, sizeof *options->changes);
+    const size_t i = (size_t)(row - gn_option_rows), size = gn_value_size(row->kind);
+    struct change *change = &options->changes->rows[i];
+    struct gn_arena *place = &change->places[!change->now];
+    _Alignas(16) char value[sizeof change->before] = {0};
+    snprintf(change->label, sizeof change->label, "set %s", row->name);
+    place->block = PLACE_BYTES;
+    gn_arena_reset(place);
+    if (!gn_value_parse(row, text, value, place, change->label, err)) return false;
+    change->now = !change->now;
+    memcpy(change->before, (char *)options + row->offset, size);
+    change->label_before = options->label[i];
+    change->source_before = options->source[i];
+    gn_options_put(options, row, value, GN_SOURCE_SET, change->label);
+    return true;
+}
+
+void gn_options_change_back(struct gn_options *options, const struct gn_option_row *row) {
+    const size_t i = (size_t)(row - gn_option_rows);
+    struct change *change = &options->changes->rows[i];
+    memcpy((char *)options + row->offset, change->before, gn_value_size(row->kind));
+    options->label[i] = change->label_before;
+    options->source[i] = change->source_before;
+    change->now = !change->now;
+}

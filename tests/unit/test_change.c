@@ -1,0 +1,303 @@
+#include "unit/check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/args.h"
+#include "cli/config.h"
+#include "cli/help.h"
+#include "cli/value.h"
+#include "core/file.h"
+#include "kiosk/command.h"
+
+static struct gn_options options;
+static struct gn_warnings warnings;
+static struct gn_err err;
+
+/* Splits at spaces. */
+static bool parse(const char *line) {
+    char text[1024];
+    static char kept[40][200];
+    char *argv[41] = {kept[0]};
+    int argc = 1;
+    snprintf(text, sizeof text, "%s", line);
+    for (char *word = strtok(text, " "); word; word = strtok(NULL, " ")) {
+        snprintf(kept[argc], sizeof kept[argc], "%s", word);
+        argv[argc] = kept[argc];
+        argc++;
+    }
+    gn_options_finish(&options);
+    err = (struct gn_err){0};
+    return gn_args_parse(&options, argc, argv, &warnings, &err);
+}
+
+static bool change(const char *key, const char *text) {
+    err = (struct gn_err){0};
+    const struct gn_option_row *row = gn_options_find_change(key, &err);
+    return row && gn_options_change(&options, row, text, &err);
+}
+
+static void assert_no_change(const char *key, const char *text, const char *says) {
+    if (change(key, text)) fail_msg("taken: %s %s", key, text);
+    if (!strstr(err.text, says)) fail_msg("\"%s\" is not \"%s\"", err.text, says);
+    assert_int_equal(err.status, GN_EXIT_USAGE);
+}
+
+/* ---- set ------------------------------------------------------------------------------------ */
+
+static void a_change_beats_the_command_line_and_every_mode(void **state) {
+    (void)state;
+    assert_true(parse("show --shadow pcf2 --map 512"));
+    assert_true(change("shadow", "pcss"));
+    assert_string_equal(options.shadow, "pcss");
+    assert_true(gn_options_apply_mode(&options, "hard", &err));
+    assert_string_equal(options.shadow, "pcss");
+    gn_options_drop_mode(&options);
+    assert_string_equal(options.shadow, "pcss");
+    assert_string_equal(gn_options_label(&options, shadow), "set shadow");
+    assert_true(change("map", "256"));
+    assert_int_equal(options.map_px, 256);
+}
+
+static void a_key_may_be_written_in_several_ways(void **state) {
+    static const char *const ways[] = {"shadow_strength", "shadow-strength",
+                                       "render.shadow_strength", "render.shadow-strength"};
+    (void)state;
+    assert_true(parse("show"));
+    for (int i = 0; i < 4; i++) {
+        char text[8];
+        snprintf(text, sizeof text, "0.%d", i + 1);
+        assert_true(change(ways[i], text));
+        assert_true(fabs(options.shadow_strength - (i + 1) / 10.0) < 1e-9);
+    }
+    assert_no_change("scene.shadow", "pcf", "unknown key");
+    assert_no_change("shadwo", "pcf", "unknown key \"shadwo\"; did you mean shadow?");
+    assert_no_change("zzzzzzzz", "1", "expected one of [scene] or [render]");
+}
+
+static void what_cannot_change_says_why(void **state) {
+    (void)state;
+    assert_true(parse("show"));
+    assert_no_change("size", "8x8", "size belongs to the display");
+    assert_no_change("msaa", "4", "msaa belongs to the display");
+    assert_no_change("backend", "egl", "backend belongs to the display");
+    assert_no_change("display.mode", "64x64", "display-mode belongs to the display");
+    assert_no_change("shaders", "/x", "shaders is read as the kiosk starts");
+    assert_no_change("limit", "nodes=1", "limit is read as the kiosk starts");
+    assert_no_change("socket", "/x", "socket is read as the kiosk starts");
+    assert_no_change("aov", "normal", "aov is not for show");
+    assert_no_change("file", "/x.glb", "scene is a list");
+    assert_no_change("shadow", "pcf,hard", "one technique at a time");
+    assert_no_change("map", "8", "set map: \"8\" is not a whole number from 16 to 16384");
+    assert_no_change("camera", "", "set camera");
+}
+
+/* Each option either can be changed to its default or says why not. */
+static void every_option_of_the_file_is_one_or_the_other(void **state) {
+    (void)state;
+    int can = 0, cannot = 0;
+    assert_true(parse("show"));
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        const struct gn_option_row *row = &gn_option_rows[i];
+        if (!row->section) continue;
+        const char *text = row->fallback ? row->fallback : row->kind == GN_KIND_FLAG ? "yes" : "x";
+        err = (struct gn_err){0};
+        if (gn_options_change(&options, row, text, &err)) {
+            can++;
+            continue;
+        }
+        cannot++;
+        if (!strstr(err.text, "belongs to") && !strstr(err.text, "is read as") &&
+            !strstr(err.text, "is not for show") && !strstr(err.text, "is a list"))
+            fail_msg("%s: %s", row->name, err.text);
+    }
+    assert_true(can >= 15);
+    assert_true(cannot >= 10);
+}
+
+static void a_change_can_be_taken_back(void **state) {
+    (void)state;
+    assert_true(parse("show --camera Top"));
+    const struct gn_option_row *row = gn_options_find_change("camera", &err);
+    assert_true(gn_options_change(&options, row, "Garden", &err));
+    gn_options_change_back(&options, row);
+    assert_string_equal(options.camera, "Top");
+    assert_string_equal(gn_options_label(&options, camera), "--camera");
+    assert_true(gn_options_change(&options, row, "Garden", &err));
+    assert_true(gn_options_change(&options, row, "Dial", &err));
+    gn_options_change_back(&options, row);
+    assert_string_equal(options.camera, "Garden");
+    assert_true(gn_options_change(&options, row, "Top", &err));
+    assert_string_equal(options.camera, "Top");
+}
+
+static void years_of_changes_take_no_more_memory(void **state) {
+    char text[300];
+    (void)state;
+    assert_true(parse("show"));
+    memset(text, 'c', sizeof text);
+    for (int i = 0; i < 10; i++) { /* both places have been as large as they will be */
+        text[200 + i] = '\0';
+        assert_true(change("camera", text));
+        text[200 + i] = 'c';
+        assert_true(change("shadow", i % 2 ? "pcf" : "pcss"));
+    }
+    const unsigned long before = gn_alloc_count();
+    const size_t used = options.arena.used;
+    for (int i = 0; i < 100000; i++) {
+        const int length = 1 + i % 200;
+        text[length] = '\0';
+        assert_true(change("camera", text));
+        assert_int_equal(strlen(options.camera), length);
+        text[length] = 'c';
+        assert_true(change("shadow", i % 2 ? "pcf" : "pcss"));
+    }
+    assert_int_equal(gn_alloc_count(), before);
+    assert_int_equal(options.arena.used, used);
+}
+
+/* ---- values as words ------------------------------------------------------------------------ */
+
+static void a_value_reads_as_it_was_written(void **state) {
+    static const char *const pairs[][2] = {
+        {"turntable", "6.5"},      {"map", "512"},        {"shadow", "pcss"},
+        {"map-format", "r16f"},    {"exposure", "auto"},  {"exposure", "-2.25"},
+        {"show-lights", "yes"},    {"show-lights", "no"}, {"time", "2.5"},
+        {"size", "640x480"},       {"rotate", "270"},     {"display-mode", "1920x1080@59.94"},
+        {"display-mode", "64x64"}, {"limit", "nodes=9"},  {"scene", "/a b.glb"},
+        {"camera", "Top"},         {"planar", "stencil"},
+    };
+    char text[100];
+    (void)state;
+    assert_true(parse("show"));
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        _Alignas(16) char value[sizeof(struct gn_limits)] = {0};
+        const struct gn_option_row *row = NULL;
+        for (int k = 0; k < GN_OPTION_COUNT; k++)
+            if (strcmp(gn_option_rows[k].name, pairs[i][0]) == 0) row = &gn_option_rows[k];
+        assert_non_null(row);
+        assert_true(gn_value_parse(row, pairs[i][1], value, &options.arena, "x", &err));
+        gn_value_text(row, value, text, sizeof text);
+        assert_string_equal(text, pairs[i][1]);
+    }
+}
+
+/* ---- ctl on the command line ---------------------------------------------------------------- */
+
+static void ctl_takes_words_and_values_that_look_like_flags(void **state) {
+    (void)state;
+    assert_true(parse("ctl status"));
+    assert_int_equal(options.command, GN_COMMAND_CTL);
+    assert_int_equal(options.word_count, 1);
+    assert_true(parse("ctl --json set exposure -2 --socket /s"));
+    assert_int_equal(options.word_count, 3);
+    assert_string_equal(options.words[0], "set");
+    assert_string_equal(options.words[2], "-2");
+    assert_string_equal(options.socket, "/s");
+    assert_true(options.json);
+    assert_true(parse("ctl set turntable -.5"));
+    assert_string_equal(options.words[2], "-.5");
+    assert_true(parse("ctl mode -- -odd"));
+    assert_string_equal(options.words[1], "-odd");
+    assert_null(options.scene);
+    assert_true(parse("ctl"));
+    assert_int_equal(options.word_count, 0);
+    assert_false(parse("ctl set a b c d"));
+    assert_false(parse("ctl --size 8x8 status"));
+    assert_non_null(strstr(err.text, "--size does not go with ctl"));
+    assert_false(parse("ctl set camera -x"));
+    assert_false(parse("stl")); /* a file's name would have a dot */
+    assert_non_null(strstr(err.text, "did you mean ctl?"));
+}
+
+static void ctl_looks_where_the_file_says(void **state) {
+    char path[] = "/tmp/gnomon-change-XXXXXX", line[100];
+    (void)state;
+    close(mkstemp(path));
+    static const char good[] = "[kiosk]\nsocket = own/ctl\n", bad[] = "[kiosk]\nsokcet = x\n";
+    assert_true(gn_file_write(path, good, strlen(good), &err));
+    snprintf(line, sizeof line, "ctl -c %s status", path);
+    assert_true(parse(line));
+    assert_string_equal(options.socket, "/tmp/own/ctl");
+    /* with a bad file a kiosk runs with its defaults, so that is where it is looked for */
+    warnings.count = 0;
+    assert_true(gn_file_write(path, bad, strlen(bad), &err));
+    assert_true(parse(line));
+    assert_null(options.socket);
+    assert_int_equal(options.word_count, 1);
+    assert_int_equal(warnings.count, 0);
+    unlink(path);
+    assert_false(parse(line));
+}
+
+static void a_file_that_is_only_checked_is_read_strictly(void **state) {
+    char path[] = "/tmp/gnomon-change-XXXXXX", line[100];
+    (void)state;
+    close(mkstemp(path));
+    static const char bad[] = "[render]\nmap = 8\n";
+    assert_true(gn_file_write(path, bad, strlen(bad), &err));
+    snprintf(line, sizeof line, "show --check %s", path);
+    assert_false(parse(line));
+    assert_int_equal(err.status, GN_EXIT_USAGE);
+    snprintf(line, sizeof line, "show -c %s", path);
+    assert_true(parse(line));
+    assert_non_null(options.config_error);
+    unlink(path);
+}
+
+static void help_and_manual_list_every_command_and_key(void **state) {
+    char *text = NULL;
+    size_t size;
+    (void)state;
+    FILE *to = open_memstream(&text, &size);
+    gn_help_print(to, GN_COMMAND_CTL);
+    gn_help_print_man(to, "1");
+    fclose(to);
+    for (int i = 0; i < GN_CTL_COUNT; i++) {
+        char line[80];
+        const struct gn_ctl_row *row = &gn_ctl_rows[i];
+        snprintf(line, sizeof line, "\n  %s%s%s ", row->name, row->words[0] ? " " : "", row->words);
+        if (!strstr(text, line)) fail_msg("no \"%s\" in --help", line + 1);
+    }
+    static const char *const keys[] = {
+        "[button \"NAME\"] line = NAME",    "[button \"NAME\"] hold_ms = MS",
+        "[button \"NAME\"] press = ACTION", "[kiosk] captions = yes|no",
+        "[kiosk] caption_seconds = S",
+    };
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if (!strstr(text, keys[i])) fail_msg("no \"%s\" in the manual", keys[i]);
+    free(text);
+}
+
+static int clean(void **state) {
+    (void)state;
+    gn_options_finish(&options);
+    return 0;
+}
+
+static int without_home(void **state) {
+    (void)state;
+    unsetenv("HOME");
+    setenv("XDG_CONFIG_HOME", "/nonexistent", 1);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(a_change_beats_the_command_line_and_every_mode, clean),
+        cmocka_unit_test_teardown(a_key_may_be_written_in_several_ways, clean),
+        cmocka_unit_test_teardown(what_cannot_change_says_why, clean),
+        cmocka_unit_test_teardown(every_option_of_the_file_is_one_or_the_other, clean),
+        cmocka_unit_test_teardown(a_change_can_be_taken_back, clean),
+        cmocka_unit_test_teardown(years_of_changes_take_no_more_memory, clean),
+        cmocka_unit_test_teardown(a_value_reads_as_it_was_written, clean),
+        cmocka_unit_test_teardown(ctl_takes_words_and_values_that_look_like_flags, clean),
+        cmocka_unit_test_teardown(ctl_looks_where_the_file_says, clean),
+        cmocka_unit_test_teardown(a_file_that_is_only_checked_is_read_strictly, clean),
+        cmocka_unit_test(help_and_manual_list_every_command_and_key),
+    };
+    return cmocka_run_group_tests(tests, without_home, NULL);
+}
