@@ -141,6 +141,7 @@ static void work_between_frames(struct gn_show *s) {
 bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     wait_for_something(s);
     hear_signals(s);
+    gn_show_hear_control(s);
     if (s->ends) return true;
     if (s->reloads && !gn_show_reload(s, err)) return false;
     if (!gn_display_dispatch(&s->stage.display, gn_clock_monotonic_ns(), err)) return false;
@@ -151,8 +152,10 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     s->changed |= gn_service_step(&s->service, &s->stage.display.screen, gn_clock_monotonic_ns());
     if (!gn_show_keep_context(s, err)) return false;
     gn_show_advance(s);
+    gn_show_enter_changed(s);
     if (gn_show_wants_frame(s)) return gn_show_frame(s, err);
     work_between_frames(s);
+    gn_show_enter_changed(s);
     return true;
 }
 
@@ -168,6 +171,7 @@ static bool run(struct gn_show *s, struct gn_err *err) {
 }
 
 void gn_show_close(struct gn_show *s) {
+    gn_show_close_control(s);
     gn_input_close(s->input);
     gn_loader_close(s->scenes.loader);
     gn_show_drop_staged(s);
@@ -188,9 +192,12 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     s->options = gn_show_read_options(s, options, NULL, err);
     if (!s->options || !gn_show_load(&s->stage, s->options, s->warnings, err)) return false;
     s->most_frames = s->options->frames > 0 ? (uint64_t)s->options->frames : UINT64_MAX;
-    return gn_show_begin(s, err) && gn_show_open_display(s, err) && gn_show_open_input(s, err) &&
-           gn_show_stats_open(&s->stats, s->options, err) &&
-           (s->stats.timer < 0 || gn_show_watch(s, s->stats.timer, err));
+    if (!gn_show_begin(s, err) || !gn_show_open_display(s, err) || !gn_show_open_input(s, err) ||
+        !gn_show_stats_open(&s->stats, s->options, err) ||
+        (s->stats.timer >= 0 && !gn_show_watch(s, s->stats.timer, err)))
+        return false;
+    gn_show_open_control(s);
+    return true;
 }
 
 static struct gn_show *create(struct gn_cli_place *place, struct gn_warnings *warnings) {

@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/service.h"
+#include "cli/show_control.h"
 #include "cli/show_loader.h"
 #include "cli/show_stats.h"
 #include "cli/stage.h"
@@ -54,8 +55,10 @@ struct gn_show {
     struct gn_show_scenes scenes;
     struct gn_kiosk_rules rules;
     struct gn_kiosk kiosk;
-    struct gn_kiosk_view drawn; /* what the last frame showed */
-    char problem[512];          /* what a caption may say of it; "" */
+    struct gn_kiosk_view drawn;      /* what the last frame showed */
+    struct gn_show_control *control; /* NULL: nobody can ask anything */
+    char config_error[512];          /* of the last reload; options->config_error */
+    char problem[512];               /* what a caption may say of it; "" */
 
     uint64_t frames, most_frames;
     unsigned long allocations; /* in frames after the first, but for work ahead */
@@ -105,6 +108,8 @@ void gn_show_list_modes(struct gn_show *show);
 /* -1: none of that name. */
 int gn_show_find_mode(const struct gn_show_modes *modes, const char *name);
 void gn_show_apply_options(struct gn_show *show, int mode);
+/* What the options say of how the kiosk behaves; the modes stay. */
+void gn_show_take_rules(struct gn_show *show);
 /* What each mode makes of a scene; the mode that is applied stays so. */
 bool gn_show_look(struct gn_show *show, const struct gn_scene *scene, struct gn_show_looks *looks,
                   struct gn_err *err);

@@ -68,6 +68,7 @@ static bool draw(struct gn_show *s, struct gn_err *err) {
     s->drawn = view;
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
     if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
+    gn_show_take_shot(s);
     return !screen->copy_to ||
            gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
 }

@@ -12,7 +12,10 @@ static bool is(const struct gn_show *s, const char *name) {
 bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
     gn_input_close(s->input);
     s->input = NULL;
-    gn_buttons_defaults(&s->buttons);
+    if (s->options->buttons)
+        s->buttons = *s->options->buttons;
+    else
+        gn_buttons_defaults(&s->buttons);
     const struct gn_input_opts opts = {
         .button_count = gn_buttons_opts(&s->buttons, s->button_opts),
         .buttons = s->button_opts,

@@ -63,6 +63,14 @@ static bool comes_from_mode(const struct gn_options *o, size_t offset) {
     return gn_options_source(o, offset) == GN_SOURCE_MODE;
 }
 
+void gn_show_take_rules(struct gn_show *s) {
+    const struct gn_options *o = s->options;
+    s->rules.idle = (enum gn_idle)o->idle;
+    s->rules.idle_after_ns = o->idle_after_ns;
+    s->rules.fade_ns = o->fade_ns;
+    s->rules.caption_ns = o->captions ? o->caption_ns : 0;
+}
+
 void gn_show_list_modes(struct gn_show *s) {
     const struct gn_options *o = s->options;
     const char *first = o->mode_now;
@@ -73,13 +81,9 @@ void gn_show_list_modes(struct gn_show *s) {
     if (o->mode_count == 0) list_techniques(s);
     const int named = gn_show_find_mode(&s->modes, first);
     s->modes.first = named >= 0 ? named : s->modes.base >= 0 ? s->modes.base : 0;
-    s->rules = (struct gn_kiosk_rules){.mode_count = s->modes.count,
-                                       .scene_count = s->scenes.listed,
-                                       .first_mode = s->modes.first,
-                                       .idle = (enum gn_idle)o->idle,
-                                       .idle_after_ns = o->idle_after_ns,
-                                       .fade_ns = o->fade_ns,
-                                       .caption_ns = 2000000000};
+    s->rules =
+        (struct gn_kiosk_rules){.mode_count = s->modes.count, .scene_count = s->scenes.listed};
+    gn_show_take_rules(s);
     for (int i = 0; i < s->modes.count; i++) {
         gn_show_apply_options(s, i);
         if (comes_from_mode(o, offsetof(struct gn_options, scene)))

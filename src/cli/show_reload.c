@@ -16,6 +16,8 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
         s->stage.display = (struct gn_display){0};
     }
     gn_stage_close(&s->stage);
+    gn_input_close(s->input); /* its buttons' names are the options' */
+    s->input = NULL;
     gn_show_drop_options(s->options);
     s->stage = *fresh;
     s->options = options;
@@ -36,10 +38,16 @@ static void keep_mode(const struct gn_show *s, struct gn_options *options) {
         gn_options_apply_mode(options, gn_techniques[technique].name, &unused);
 }
 
+/* The last good one runs on, and says what is wrong with the one that is there. */
+static void keep_error(struct gn_show *s, const struct gn_err *why) {
+    snprintf(s->config_error, sizeof s->config_error, "%s", why->text);
+    s->options->config_error = s->config_error;
+}
+
 static struct gn_options *read_again(const struct gn_show *s, struct gn_err *why) {
     struct gn_options *options = gn_show_read_options(s, s->options, NULL, why);
     if (!options || !options->config_error) return options;
-    gn_fail(why, "%s", options->config_error);
+    gn_fail_usage(why, "%s", options->config_error);
     gn_show_drop_options(options);
     return NULL;
 }
@@ -50,8 +58,13 @@ bool gn_show_reload(struct gn_show *s, struct gn_err *err) {
     s->reloads = false;
     struct gn_options *options = read_again(s, &why);
     if (options) keep_mode(s, options);
-    if (options && gn_show_load(&fresh, options, s->warnings, &why))
-        return take_stage(s, &fresh, options, err);
+    if (options && gn_show_load(&fresh, options, s->warnings, &why)) {
+        const bool ok = take_stage(s, &fresh, options, err);
+        gn_show_answer_reload(s, ok ? NULL : err);
+        return ok;
+    }
+    gn_show_answer_reload(s, &why);
+    keep_error(s, &why);
     char text[sizeof why.text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why.text);
     gn_show_complain(s, text);

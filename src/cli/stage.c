@@ -51,7 +51,7 @@ static bool do_without(const struct gn_options *o, size_t offset, struct gn_warn
                        struct gn_err *err) {
     gn_fail_prefix(err, "%s", gn_options_label_at(o, offset));
     enum gn_source source = gn_options_source(o, offset);
-    if (o->command != GN_COMMAND_SHOW || source == GN_SOURCE_FLAG) return false;
+    if (o->command != GN_COMMAND_SHOW || source >= GN_SOURCE_FLAG) return false;
     gn_warn(warnings, "%s (running without it)", err->text);
     *err = (struct gn_err){0};
     return true;

@@ -1,0 +1,284 @@
+#include "cli/show_control.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/epoll.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include "cli/shot.h"
+#include "cli/show.h"
+#include "cli/show_status.h"
+#include "cli/value.h"
+#include "core/arena.h"
+#include "core/clock.h"
+#include "kiosk/control.h"
+#include "kiosk/listen.h"
+
+static const int64_t SHOT_NS = 5 * GN_NS_PER_S; /* a frame comes sooner, or nothing is shown */
+
+struct gn_show_control {
+    struct gn_control *control;
+    struct gn_shot *shot;
+    int epoll, timer;                                       /* descriptors; -1: none */
+    const struct gn_request *shot_request, *reload_request; /* to be answered later; NULL: none */
+    bool shot_begun;                                        /* the next frame is the one */
+    struct gn_show_status status;
+};
+
+/* ---- opening ---- */
+
+static bool watch(const struct gn_show_control *c, int fd) {
+    struct epoll_event event = {.events = EPOLLIN, .data.fd = fd};
+    return epoll_ctl(c->epoll, EPOLL_CTL_ADD, fd, &event) == 0;
+}
+
+static bool open_all(struct gn_show_control *c, const char *path, struct gn_err *err) {
+    c->epoll = epoll_create1(EPOLL_CLOEXEC);
+    c->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+    c->shot = gn_shot_create(err);
+    c->control = c->shot ? gn_control_open(path, err) : NULL;
+    if (!c->control) return false;
+    return (watch(c, gn_control_fd(c->control)) && watch(c, gn_shot_fd(c->shot)) &&
+            watch(c, c->timer)) ||
+           gn_fail(err, "control socket %s: cannot wait: %s", path, strerror(errno));
+}
+
+static void close_all(struct gn_show_control *c) {
+    gn_shot_destroy(c->shot);
+    gn_control_close(c->control);
+    if (c->epoll >= 0) close(c->epoll);
+    if (c->timer >= 0) close(c->timer);
+    free(c);
+}
+
+static bool is_window(const struct gn_show *s) {
+    return s->place || strcmp(s->options->backend, "window") == 0;
+}
+
+void gn_show_open_control(struct gn_show *s) {
+    char path[GN_LISTEN_PATH_MAX];
+    struct gn_err err = {0};
+    const char *named = s->options->socket;
+    if (!named && (is_window(s) || !gn_listen_default(path, sizeof path))) return;
+    struct gn_show_control *c = gn_xalloc(1, sizeof *c);
+    *c = (struct gn_show_control){.epoll = -1, .timer = -1};
+    gn_show_status_begin(&c->status, gn_clock_monotonic_ns());
+    if (open_all(c, named ? named : path, &err) && gn_show_watch(s, c->epoll, &err)) {
+        s->control = c;
+        return;
+    }
+    gn_warn(s->warnings, "%s", err.text);
+    close_all(c);
+}
+
+void gn_show_close_control(struct gn_show *s) {
+    if (s->control) close_all(s->control);
+    s->control = NULL;
+}
+
+/* ---- actions ---- */
+
+static const enum gn_action_kind actions[GN_CTL_COUNT] = {
+    [GN_CTL_NEXT] = GN_ACTION_NEXT,
+    [GN_CTL_PREV] = GN_ACTION_PREV,
+    [GN_CTL_MODE] = GN_ACTION_MODE,
+    [GN_CTL_NEXT_SCENE] = GN_ACTION_NEXT_SCENE,
+    [GN_CTL_NEXT_CAMERA] = GN_ACTION_NEXT_CAMERA,
+    [GN_CTL_PAUSE] = GN_ACTION_PAUSE,
+    [GN_CTL_BLANK] = GN_ACTION_BLANK,
+    [GN_CTL_INFO] = GN_ACTION_INFO,
+};
+
+static bool fail_mode(const struct gn_show *s, const char *name, struct gn_err *err) {
+    char names[400] = "";
+    size_t used = 0;
+    for (int i = 0; i < s->modes.count && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s \"%s\"", i ? "," : "",
+                                 s->modes.names[i]);
+    return gn_fail_usage(err, "no mode \"%.60s\"; there are%s", name, names);
+}
+
+/* A button that is pressed in the dark only lights the screen; who sends a command means it. */
+static json_t *act(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+    const struct gn_action action = {actions[r->command], r->words[0]};
+    const int64_t now_ns = gn_clock_monotonic_ns();
+    if (action.kind == GN_ACTION_MODE && gn_show_find_mode(&s->modes, action.name) < 0) {
+        fail_mode(s, action.name, err);
+        return NULL;
+    }
+    const bool was_dark = s->kiosk.blanked;
+    gn_show_act(s, &action, now_ns);
+    if (was_dark && action.kind != GN_ACTION_BLANK) gn_show_act(s, &action, now_ns);
+    return gn_show_status_short(s);
+}
+
+/* ---- options ---- */
+
+/* The mode is taken off meanwhile, so that what it overrides is not mistaken for what was set. */
+static bool change(struct gn_show *s, const struct gn_option_row *row, const char *text,
+                   struct gn_err *err) {
+    gn_options_drop_mode(s->options);
+    bool ok = gn_options_change(s->options, row, text, err);
+    if (ok && !gn_show_look(s, s->stage.scene, &s->looks, err)) {
+        struct gn_err unused = {0};
+        gn_options_drop_mode(s->options);
+        gn_options_change_back(s->options, row);
+        ok = gn_show_look(s, s->stage.scene, &s->looks, &unused) && false;
+    }
+    gn_show_apply_options(s, s->kiosk.shown.mode);
+    s->rests = false; /* whatever was looked at has no programs yet */
+    return ok;
+}
+
+static json_t *set(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+    const struct gn_option_row *row = gn_options_find_change(r->words[0], err);
+    char text[1024];
+    if (!row || !change(s, row, r->words[1], err)) return NULL;
+    gn_show_take_rules(s);
+    gn_show_drop_staged(s); /* it was made ready for the options as they were */
+    s->control->status.waits = true;
+    gn_value_text(row, (const char *)s->options + row->offset, text, sizeof text);
+    return json_pack("{s:s, s:o}", "key", row->name, "value", gn_reply_text(text));
+}
+
+static json_t *get(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+    const struct gn_option_row *row = gn_options_find_change(r->words[0], err);
+    char text[1024];
+    if (!row) return NULL;
+    const struct gn_options *o = s->options;
+    const bool given = gn_options_source(o, row->offset) != GN_SOURCE_DEFAULT;
+    gn_value_text(row, (const char *)o + row->offset, text, sizeof text);
+    return json_pack("{s:s, s:o, s:o}", "key", row->name, "value", gn_reply_text(text), "from",
+                     gn_reply_text(given ? gn_options_label_at(o, row->offset) : "the default"));
+}
+
+/* The programs of the mode that is shown are made first, and the old picture stays until then. */
+void gn_show_enter_changed(struct gn_show *s) {
+    if (!s->control || !s->control->status.waits) return;
+    if (s->stage.gl && !(s->looks.ready >> s->kiosk.shown.mode & 1)) return;
+    s->control->status.waits = false;
+    gn_show_enter(s);
+}
+
+/* ---- screenshots ---- */
+
+static void set_timer(const struct gn_show_control *c, int64_t after_ns) {
+    const struct itimerspec when = {.it_value = {after_ns / GN_NS_PER_S, after_ns % GN_NS_PER_S}};
+    timerfd_settime(c->timer, 0, &when, NULL);
+}
+
+static bool ask_for_shot(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+    struct gn_show_control *c = s->control;
+    const struct gn_screen *screen = &s->stage.display.screen;
+    if (!gn_shot_check(r->words[0], err)) return false;
+    if (c->shot_request) return gn_fail(err, "busy");
+    if (s->kiosk.blanked) return gn_fail(err, "screenshot: the screen is dark");
+    if (!screen->lit || !s->stage.gl)
+        return gn_fail(err, "screenshot: nothing is shown: %s",
+                       screen->status[0] ? screen->status : "there is no picture");
+    c->shot_request = r;
+    c->shot_begun = true;
+    s->changed = true;
+    set_timer(c, SHOT_NS);
+    return true;
+}
+
+/* NULL err: it is done. */
+static void answer_shot(struct gn_show_control *c, const struct gn_err *err) {
+    const struct gn_request *r = c->shot_request;
+    c->shot_request = NULL;
+    c->shot_begun = false;
+    set_timer(c, 0);
+    if (err)
+        gn_control_refuse(c->control, r, err);
+    else
+        gn_control_answer(c->control, r, json_pack("{s:o}", "file", gn_reply_text(r->words[0])));
+}
+
+void gn_show_take_shot(struct gn_show *s) {
+    struct gn_show_control *c = s->control;
+    const struct gn_frame_opts *f = &s->stage.frame_opts;
+    struct gn_err err = {0};
+    if (!c) return;
+    gn_show_status_frame(&c->status, gn_clock_monotonic_ns());
+    if (!c->shot_begun) return;
+    c->shot_begun = false;
+    uint8_t *rgba = gn_shot_begin(c->shot, c->shot_request->words[0], f->width_px, f->height_px,
+                                  f->turn_deg, &err);
+    if (rgba && gn_gl_read_rgba8(s->stage.gl, rgba, &err) && gn_shot_start(c->shot, &err)) return;
+    gn_shot_drop(c->shot);
+    answer_shot(c, &err);
+}
+
+static void hear_shot(struct gn_show *s) {
+    struct gn_show_control *c = s->control;
+    struct gn_err err = {0};
+    uint64_t ticks;
+    bool ok;
+    const bool late = read(c->timer, &ticks, sizeof ticks) == sizeof ticks;
+    if (gn_shot_take(c->shot, &ok, &err)) {
+        answer_shot(c, ok ? NULL : &err);
+    } else if (late && c->shot_begun) {
+        gn_fail(&err, "screenshot: no frame came: %s", s->stage.display.screen.status);
+        answer_shot(c, &err);
+    }
+}
+
+/* ---- reloading ---- */
+
+static bool ask_for_reload(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+    struct gn_show_control *c = s->control;
+    if (c->reload_request) return gn_fail(err, "busy");
+    c->reload_request = r;
+    s->reloads = true;
+    return true;
+}
+
+void gn_show_answer_reload(struct gn_show *s, const struct gn_err *why) {
+    struct gn_show_control *c = s->control;
+    if (!c) return;
+    if (!why) c->status.waits = false;
+    const struct gn_request *r = c->reload_request;
+    c->reload_request = NULL;
+    if (r && why) gn_control_refuse(c->control, r, why);
+    if (r && !why) gn_control_answer(c->control, r, gn_show_status_short(s));
+}
+
+/* ---- requests ---- */
+
+static void answer(struct gn_show *s, const struct gn_request *r) {
+    struct gn_control *control = s->control->control;
+    struct gn_err err = {0};
+    json_t *reply = NULL;
+    bool later = false;
+    switch (r->command) {
+    case GN_CTL_SET: reply = set(s, r, &err); break;
+    case GN_CTL_GET: reply = get(s, r, &err); break;
+    case GN_CTL_SCREENSHOT: later = ask_for_shot(s, r, &err); break;
+    case GN_CTL_RELOAD: later = ask_for_reload(s, r, &err); break;
+    case GN_CTL_STATUS:
+        reply = gn_show_status_make(s, &s->control->status, gn_control_counts(control));
+        break;
+    case GN_CTL_QUIT:
+        s->ends = true;
+        reply = json_object();
+        break;
+    default: reply = act(s, r, &err); break;
+    }
+    if (later) return;
+    if (err.text[0])
+        gn_control_refuse(control, r, &err);
+    else
+        gn_control_answer(control, r, reply);
+}
+
+void gn_show_hear_control(struct gn_show *s) {
+    struct gn_show_control *c = s->control;
+    if (!c) return;
+    hear_shot(s);
+    gn_control_dispatch(c->control, gn_clock_monotonic_ns());
+    for (const struct gn_request *r; (r = gn_control_next(c->control)) != NULL;) answer(s, r);
+}

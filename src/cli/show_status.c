@@ -1,0 +1,111 @@
+#include "cli/show_status.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+#include <config.h> /* not ours of that name */
+
+#include "cli/json_print.h"
+#include "cli/show.h"
+#include "core/clock.h"
+
+void gn_show_status_begin(struct gn_show_status *status, int64_t now_ns) {
+    *status = (struct gn_show_status){.begun_ns = now_ns};
+}
+
+void gn_show_status_frame(struct gn_show_status *status, int64_t now_ns) {
+    status->frames_ns[status->next++ % GN_STATUS_FRAMES] = now_ns;
+}
+
+int gn_show_status_fps(const struct gn_show_status *status, int64_t now_ns) {
+    int frames = 0;
+    for (int i = 0; i < GN_STATUS_FRAMES; i++)
+        frames += status->frames_ns[i] != 0 && now_ns - status->frames_ns[i] < GN_NS_PER_S;
+    return frames;
+}
+
+/* What is resident, in megabytes (2^20 bytes): cheap to ask for, and what tells of a leak. */
+static double memory_mb(struct gn_show_status *status, int64_t now_ns) {
+    long pages = 0;
+    if (status->memory_ns != 0 && now_ns - status->memory_ns < GN_NS_PER_S)
+        return status->memory_mb;
+    FILE *file = fopen("/proc/self/statm", "re");
+    if (file && fscanf(file, "%*s %ld", &pages) != 1) pages = 0;
+    if (file) fclose(file);
+    status->memory_ns = now_ns;
+    status->memory_mb = (double)pages * (double)sysconf(_SC_PAGESIZE) / (1024.0 * 1024.0);
+    return status->memory_mb;
+}
+
+static json_t *scene_of(const struct gn_show *s, int scene) {
+    const char *path = s->scenes.paths[scene];
+    return gn_json_make_text(path ? path : "(default scene)");
+}
+
+static json_t *mode_names(const struct gn_show *s) {
+    json_t *list = json_array();
+    for (int i = 0; i < s->modes.count; i++)
+        json_array_append_new(list, gn_json_make_text(s->modes.names[i]));
+    return list;
+}
+
+/* As of the next frame. */
+static int camera_of(const struct gn_show *s) {
+    const int first = s->looks.of[s->kiosk.shown.mode].frame_opts.camera;
+    return (int)(((uint32_t)first + s->kiosk.camera) % s->stage.scene->camera_count);
+}
+
+json_t *gn_show_status_short(const struct gn_show *s) {
+    return json_pack("{s:o, s:o, s:i, s:b, s:b, s:b}", "mode",
+                     gn_json_make_text(s->modes.names[s->kiosk.wanted.mode]), "scene",
+                     scene_of(s, gn_kiosk_scene(&s->rules, &s->kiosk.wanted)), "camera",
+                     camera_of(s), "paused", s->kiosk.paused, "blanked", s->kiosk.blanked, "info",
+                     s->kiosk.info);
+}
+
+static json_t *screen_status(const struct gn_show *s) {
+    const struct gn_display *d = &s->stage.display;
+    const struct gn_screen *screen = &d->screen;
+    return json_pack("{s:s, s:o, s:o, s:b, s:i, s:i, s:i}", "backend", d->ops ? d->ops->name : "",
+                     "what", gn_json_make_text(screen->what), "status",
+                     gn_json_make_text(screen->status), "lit", screen->lit, "width",
+                     (int)screen->width_px, "height", (int)screen->height_px, "rotate",
+                     (int)screen->rotate_deg);
+}
+
+static json_t *frame_status(const struct gn_show *s) {
+    const struct gn_screen_counts *c = &s->stage.display.screen.counts;
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "drawn", (json_int_t)s->frames,
+                     "shown", (json_int_t)c->shown, "again", (json_int_t)c->again, "missed",
+                     (json_int_t)c->missed, "retried", (json_int_t)c->retried, "stalled",
+                     (json_int_t)c->stalled, "relit", (json_int_t)c->relit, "opened",
+                     (json_int_t)c->opened);
+}
+
+static json_t *control_status(struct gn_control_counts c) {
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "accepted", (json_int_t)c.accepted,
+                     "refused", (json_int_t)c.refused, "requests", (json_int_t)c.requests, "wrong",
+                     (json_int_t)c.wrong, "busy", (json_int_t)c.busy, "answered",
+                     (json_int_t)c.answered, "cut", (json_int_t)c.cut);
+}
+
+json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *status,
+                            struct gn_control_counts counts) {
+    const struct gn_options *o = s->options;
+    const int64_t now_ns = gn_clock_monotonic_ns();
+    json_t *reply = json_pack("{s:s, s:i, s:f}", "version", GN_VERSION, "pid", (int)getpid(),
+                              "uptime_s", (double)(now_ns - status->begun_ns) * 1e-9);
+    json_object_update_new(reply, gn_show_status_short(s));
+    json_object_set_new(reply, "waits", json_boolean(status->waits || gn_kiosk_waits(&s->kiosk)));
+    json_object_set_new(reply, "modes", mode_names(s));
+    json_object_set_new(reply, "screen", screen_status(s));
+    json_object_set_new(reply, "frames", frame_status(s));
+    json_object_set_new(reply, "fps", json_integer(gn_show_status_fps(status, now_ns)));
+    json_object_set_new(reply, "config",
+                        json_pack("{s:o, s:o}", "path", gn_json_make_text(o->config_path), "error",
+                                  gn_json_make_text(o->config_error)));
+    json_object_set_new(reply, "problem", gn_json_make_text(s->problem[0] ? s->problem : NULL));
+    json_object_set_new(reply, "memory_mb", gn_json_make_number(memory_mb(status, now_ns)));
+    json_object_set_new(reply, "control", control_status(counts));
+    return reply;
+}

@@ -1,0 +1,148 @@
+#!/bin/bash
+# A configuration of 60 lines, each broken in turn in several ways: the message names the file, the
+# line, the key and what was expected, and the kiosk runs all the same. The quick form starts a kiosk
+# for every sixth line, GN_FULL=1 for each of them.
+set -u
+gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+export XDG_CONFIG_HOME="$folder/none"
+unset XDG_RUNTIME_DIR
+bad=0 cases=0 kiosks=0
+cp assets/sundial.glb "$folder/"
+cd "$folder" || exit 1
+
+complain() {
+    echo "FAIL: $*"
+    bad=1
+}
+
+cat > good.ini << 'END'
+; a configuration of sixty lines
+[display]
+connector = HDMI-A-1
+mode = 1920x1080@60
+rotate = 90
+max_fps = 30
+legacy = no
+[scene]
+file = sundial.glb
+camera = Garden
+animation = hoop
+time = 2.5
+turntable = 6
+[render]
+size = 64x36
+shadow = pcf
+map = 512
+map_format = auto
+planar = mask
+taps = 16
+taps_fixed = no
+shadow_strength = 0.9
+show_lights = no
+show_maps = no
+exposure = auto
+limit = nodes=100000
+[kiosk]
+socket = ctl
+captions = yes
+caption_seconds = 2
+idle = first
+idle_after = 90
+fade = 0.3
+[mode "Soft"]
+shadow = pcss
+exposure = -1
+[mode "Plan"]
+camera = Top
+shadow = planar
+show_lights = yes
+[button "next"]
+line = GPIO17
+keys = space right
+active_high = no
+bias = pull-up
+debounce_ms = 25
+hold_ms = 900
+press = next
+hold = mode Soft
+[button "prev"]
+line = label:pinctrl-rp1/27
+double_ms = 300
+repeat_ms = 250
+click = prev
+double = pause
+repeat = next-camera
+[button "both"]
+chord = next prev
+chord_ms = 100
+press = info
+END
+lines=$(wc -l < good.ini)
+[ "$lines" -ge 60 ] || complain "only $lines lines"
+timeout 60 "$gnomon" show --check good.ini > out 2>&1 || complain "the good one: $(cat out)"
+
+# refused LINE KEY: bad.ini is refused by a line that names all of it
+refused() {
+    cases=$((cases + 1))
+    timeout 60 "$gnomon" show --check bad.ini > out 2> err
+    local got=$?
+    [ "$got" = 2 ] || complain "line $1, $(sed -n "$1p" bad.ini): status $got"
+    [ "$(wc -l < err)" = 1 ] || complain "line $1: not one line: $(cat err)"
+    grep -qF "gnomon: bad.ini:$1: " err || complain "line $1 is not named: $(cat err)"
+    grep -qF -- "$2" err || complain "\"$2\" of line $1 is not named: $(cat err)"
+    grep -qE 'expected|is not |knows|takes|no action|ends with \]' err ||
+        complain "line $1: what was expected? $(cat err)"
+}
+
+# runs LINE: the kiosk with bad.ini draws, ends with 0, and warns
+runs() {
+    kiosks=$((kiosks + 1))
+    timeout 60 "$gnomon" show --backend egl --size 32x18 --frames 2 -c bad.ini > out 2> err
+    local got=$?
+    [ "$got" = 0 ] || complain "line $1 broken ends the kiosk: $got: $(cat err)"
+    grep -qF "warning: bad.ini:$1: " err || complain "line $1 broken: the kiosk says: $(cat err)"
+    grep -qF 'running with the defaults' err || complain "line $1 broken: the kiosk says: $(cat err)"
+}
+
+# broken LINE TEXT: bad.ini is good.ini with that line instead
+broken() {
+    awk -v n="$1" -v text="$2" 'NR == n { print text; next } { print }' good.ini > bad.ini
+}
+
+number=0
+while IFS= read -r line; do
+    number=$((number + 1))
+    case $line in
+    ';'*)
+        broken $number 'no comment'
+        refused $number 'no comment'
+        ;;
+    '['*)
+        broken $number "${line%]}"
+        refused $number ']'
+        broken $number "[x${line#[}"
+        refused $number "[x"
+        ;;
+    *)
+        key=${line%% =*}
+        broken $number "${key}x = ${line#*= }"
+        refused $number "${key}x"
+        broken $number "$key"
+        refused $number "$key"
+        broken $number "$key ="
+        refused $number "$key"
+        case $key in connector | file | camera | animation | socket | line) ;; # any text may be a name
+        *)
+            broken $number "$key = @"
+            refused $number "$key"
+            ;;
+        esac
+        ;;
+    esac
+    [ -z "${GN_FULL:-}" ] && [ $((number % 6)) != 1 ] || runs $number
+done < good.ini
+
+echo "$lines lines, $cases ways to break them, $kiosks kiosks that ran on"
+exit $bad

@@ -1,0 +1,214 @@
+#!/bin/bash
+# gnomon ctl and a running kiosk, unseen: every command, what it says when it cannot, the socket's
+# file, screenshots, reload with a bad file, --check.
+set -u
+gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
+compare=$(realpath "${BUILD:-build/release}/tests/tool_compare")
+folder=$(mktemp -d)
+kiosk=''
+trap '[ -z "$kiosk" ] || kill -KILL "$kiosk" 2> /dev/null; rm -rf "$folder"' EXIT
+export XDG_CONFIG_HOME="$folder/none"
+unset XDG_RUNTIME_DIR
+bad=0
+cp assets/sundial.glb "$folder/"
+cd "$folder" || exit 1
+
+complain() {
+    echo "FAIL: $*"
+    bad=1
+}
+
+ctl() { timeout 90 "$gnomon" ctl --socket "$folder/ctl" "$@"; }
+
+# expect STATUS TEXT WORD..: ctl ends with that status and says the text, on stdout if that is 0
+expect() {
+    local status=$1 text=$2 got
+    shift 2
+    ctl "$@" > out 2> err
+    got=$?
+    [ "$got" = "$status" ] || complain "ctl $*: status $got, not $status: $(cat out err)"
+    if [ "$status" = 0 ]; then
+        grep -qF -- "$text" out || complain "ctl $*: no \"$text\" in: $(cat out)"
+        [ ! -s err ] || complain "ctl $*: $(cat err)"
+    else
+        [ "$(wc -l < err)" = 1 ] || complain "ctl $*: not one line: $(cat err)"
+        grep -qF -- "$text" err || complain "ctl $*: no \"$text\" in: $(cat err)"
+    fi
+}
+
+# start ARGUMENT..: a kiosk, until it answers
+start() {
+    "$gnomon" show --backend egl --size 160x90 --socket "$folder/ctl" "$@" > kiosk.out 2> kiosk.err &
+    kiosk=$!
+    for _ in $(seq 600); do
+        ctl status > /dev/null 2>&1 && return
+        kill -0 "$kiosk" 2> /dev/null || break
+        sleep 0.1
+    done
+    complain "no kiosk: $(cat kiosk.err)"
+    exit 1
+}
+
+# stop: by ctl; status 0, and the socket is gone
+stop() {
+    expect 0 done quit
+    wait "$kiosk"
+    local got=$?
+    kiosk=''
+    [ "$got" = 0 ] || complain "the kiosk ends with $got: $(cat kiosk.err)"
+    [ ! -e ctl ] && [ ! -e ctl.lock ] || complain "a kiosk leaves $(echo ctl*)"
+}
+
+# what was asked for is on the screen once its programs are made
+settle() {
+    for _ in $(seq 300); do
+        ctl status | grep -q '^waits: no' && return
+        sleep 0.1
+    done
+    complain "it waits for ever: $(ctl status)"
+}
+
+cat > kiosk.ini << 'END'
+[scene]
+file = sundial.glb
+no_animation = yes
+[render]
+shadow = pcf
+[mode "Plain"]
+shadow = hard
+[mode "Top"]
+camera = Top
+[mode "Dial"]
+camera = Dial
+shadow = none
+[button "next"]
+keys = space
+press = next
+END
+
+# ---- no kiosk -----------------------------------------------------------------------------------
+expect 1 "no kiosk answers at $folder/ctl; is gnomon show running?" status
+expect 2 'unknown command "stauts"; did you mean status?' stauts
+expect 2 'expected KEY VALUE' set shadow
+expect 2 'which command? expected one of next, prev, mode NAME'
+timeout 20 "$gnomon" ctl status > out 2> err
+[ $? = 1 ] && grep -q 'no kiosk answers at /run/gnomon/ctl' err || complain "the usual place: $(cat err)"
+
+# ---- commands -----------------------------------------------------------------------------------
+start -c kiosk.ini
+[ "$(stat -c '%a %F' ctl)" = '660 socket' ] || complain "the socket: $(stat -c '%a %F' ctl)"
+expect 0 'mode: Plain' status
+expect 0 'modes: Plain, Top, Dial' status
+expect 0 "config.path: kiosk.ini" status
+expect 0 'mode: Top' next
+expect 0 'mode: Dial' next
+expect 0 'mode: Plain' next
+expect 0 'mode: Dial' prev
+expect 0 'mode: Top' mode Top
+expect 2 'no mode "Nosuch"; there are "Plain", "Top", "Dial"' mode Nosuch
+expect 0 'paused: yes' pause
+expect 0 'paused: no' pause
+expect 0 'blanked: yes' blank
+expect 0 'mode: Plain' mode Plain # lights the screen, too
+expect 0 'blanked: no' status
+expect 0 'scene: sundial.glb' next-scene
+expect 0 'camera: 1' next-camera
+expect 0 'camera: 2' next-camera
+expect 0 'camera: 0' next-camera
+expect 0 'info: yes' info
+expect 0 'info: no' info
+ctl status --json > out || complain 'status --json'
+for key in version uptime_s mode modes scene screen frames fps paused blanked config memory_mb control; do
+    grep -q "\"$key\":" out || complain "status --json has no $key"
+done
+
+# ---- set ----------------------------------------------------------------------------------------
+expect 0 'value: none' set shadow none
+expect 0 'value: none' get shadow
+expect 0 'mode: Top' next
+expect 0 'value: none' get shadow # stronger than the mode
+expect 0 'from: set shadow' get shadow
+expect 0 'value: -1.5' set exposure -1.5
+expect 0 'value: auto' set exposure auto
+expect 2 '"99" is not auto or a number from -24 to 24' set exposure 99
+expect 2 "no camera is called 'Nosuch'" set camera Nosuch
+expect 0 'value: Top' get camera
+expect 2 'backend belongs to the display' set backend kms
+expect 2 'did you mean shadow?' set shadwo pcf
+
+# ---- screenshots --------------------------------------------------------------------------------
+expect 0 'mode: Plain' mode Plain
+settle
+expect 0 "file: $folder/one.png" screenshot one.png
+"$gnomon" render sundial.glb --no-animation --size 160x90 --shadow none -o two.png || complain 'render'
+cmp -s one.png two.png || complain 'a screenshot is not what render draws'
+ln -s "$folder/victim" link.png && echo kept > victim
+expect 1 'stays what it is' screenshot link.png
+expect 2 'does not end in .png' screenshot victim
+[ "$(cat victim)" = kept ] || complain 'a screenshot was written through a link'
+expect 1 'cannot write' screenshot no/such.png
+[ -z "$(find . -name '.gnomon-*')" ] || complain 'a screenshot leaves half a file'
+
+# ---- reload -------------------------------------------------------------------------------------
+expect 0 'mode: Plain' reload
+expect 0 'value: hard' get shadow # what was set is forgotten
+cp kiosk.ini good.ini
+sed -i 's/shadow = hard/shadow = hrad/' kiosk.ini
+expect 2 'kiosk.ini:7: shadow: "hrad" is not one of' reload
+expect 0 'modes: Plain, Top, Dial' status
+expect 0 'config.error: kiosk.ini:7: shadow:' status
+expect 0 'value: hard' get shadow # the last good one
+cp good.ini kiosk.ini
+expect 0 'mode: Plain' reload
+expect 0 'config.error: -' status
+
+# ---- a second one, and what a killed one leaves -------------------------------------------------
+"$gnomon" show --backend egl --size 32x32 --frames 3 --socket "$folder/ctl" > out 2> err ||
+    complain "a second kiosk: $(cat err)"
+grep -q 'warning: .*another kiosk has it' err || complain "a second kiosk says: $(cat err)"
+expect 0 'mode: Plain' status
+kill -KILL "$kiosk"
+wait "$kiosk" 2> /dev/null
+[ -S ctl ] || complain 'a killed kiosk leaves no socket?'
+expect 1 'no kiosk answers' status
+start -c kiosk.ini
+stop
+
+# ---- a turned screen ----------------------------------------------------------------------------
+start -c kiosk.ini --rotate 90
+settle
+expect 0 'file' screenshot turned.png
+"$gnomon" render sundial.glb --no-animation --size 90x160 --shadow hard -o two.png || complain 'render'
+"$compare" turned.png two.png > out || complain "a screenshot of a turned screen is not upright: $(cat out)"
+stop
+
+# ---- a bad file at the start ---------------------------------------------------------------------
+sed 's/press = next/press = nxt/' good.ini > kiosk.ini
+start -c kiosk.ini
+expect 0 'config.error: kiosk.ini:15: press: "nxt" is no action' status
+expect 0 'modes: pcf, ' status
+stop
+grep -q 'warning: kiosk.ini:15: press' kiosk.err || complain "a bad file at the start: $(cat kiosk.err)"
+
+# ---- --check -------------------------------------------------------------------------------------
+# checks STATUS TEXT FILE
+checks() {
+    timeout 60 "$gnomon" show --check "$3" > out 2> err
+    local got=$?
+    [ "$got" = "$1" ] || complain "--check $3: status $got, not $1: $(cat out err)"
+    cat out err | grep -qF -- "$2" || complain "--check $3: no \"$2\" in: $(cat out err)"
+    [ "$1" = 0 ] || [ "$(wc -l < err)" = 1 ] || complain "--check $3: not one line: $(cat err)"
+}
+checks 0 'good.ini is right: 3 modes, 1 button, 1 scene' good.ini
+checks 0 'mode "Dial": camera = Dial, shadow = none' good.ini
+checks 0 'button "next": keys space; press = next' good.ini
+checks 2 'kiosk.ini:15: press: "nxt" is no action' kiosk.ini
+sed 's/camera = Top/camera = Tpo/' good.ini > kiosk.ini
+checks 2 "kiosk.ini:9: camera: no camera is called 'Tpo'" kiosk.ini
+sed 's/file = sundial.glb/file = moondial.glb/' good.ini > kiosk.ini
+checks 1 'kiosk.ini:2: file: ' kiosk.ini
+sed 's/press = next/press = mode Nosuch/' good.ini > kiosk.ini
+checks 2 'kiosk.ini:15: press: no mode "Nosuch"; expected "Plain", "Top", "Dial"' kiosk.ini
+checks 1 'missing.ini' missing.ini
+
+exit $bad
