@@ -1,4 +1,5 @@
 /* Buttons and keys of a kiosk: what they did becomes actions. */
+#include <stdio.h>
 #include <string.h>
 
 #include "cli/show.h"
@@ -37,5 +38,6 @@ void gn_show_take_input(struct gn_show *s, const struct gn_hand *hand) {
         const struct gn_action action = gn_buttons_action(&s->buttons, &event);
         if (action.kind != GN_ACTION_NONE) gn_show_act(s, &action, event.time_ns);
     }
-    while (gn_input_report(s->input, text, sizeof text)) gn_show_complain(s, text);
+    while (gn_input_report(s->input, text, sizeof text)) /* most boards lack the default ones */
+        if (s->options->verbose) fprintf(stderr, "gnomon: %s\n", text);
 }

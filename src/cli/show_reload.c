@@ -22,8 +22,13 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
     s->stage = *fresh;
     s->options = options;
     s->generation = 0;
-    return gn_show_begin(s, err) && (keeps_display || gn_show_open_display(s, err)) &&
-           gn_show_open_input(s, err);
+    if (!gn_show_begin(s, err) || (!keeps_display && !gn_show_open_display(s, err)) ||
+        !gn_show_open_input(s, err))
+        return false;
+    if (!options->verbose) return true;
+    printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
+    fflush(stdout);
+    return true;
 }
 
 static void keep_mode(const struct gn_show *s, struct gn_options *options) {
