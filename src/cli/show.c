@@ -22,6 +22,12 @@ bool gn_show_watch(struct gn_show *s, int fd, struct gn_err *err) {
            gn_fail(err, "show: cannot wait: %s", strerror(errno));
 }
 
+bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
+    gn_loader_close(s->scenes.loader);
+    s->scenes.loader = gn_loader_open(err);
+    return s->scenes.loader && gn_show_watch(s, gn_loader_fd(s->scenes.loader), err);
+}
+
 /* Before anything else, and for good: a signal that comes while the scene loads, or a second one at
  * the end, ends the kiosk as well as any other. */
 static bool open_loop(struct gn_show *s, struct gn_err *err) {
@@ -29,9 +35,7 @@ static bool open_loop(struct gn_show *s, struct gn_err *err) {
     s->epoll = epoll_create1(EPOLL_CLOEXEC);
     if (s->signals < 0 || s->epoll < 0)
         return gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
-    s->scenes.loader = gn_loader_open(err);
-    return s->scenes.loader && gn_show_watch(s, s->signals, err) &&
-           gn_show_watch(s, gn_loader_fd(s->scenes.loader), err);
+    return gn_show_watch(s, s->signals, err) && gn_show_open_loader(s, err);
 }
 
 void gn_show_drop_options(struct gn_options *options) {

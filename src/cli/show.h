@@ -65,6 +65,7 @@ struct gn_show {
     uint64_t objects;
     int64_t work_ns;  /* when the next piece of work ahead is due, if there is any */
     bool rests;       /* there was none when it was last looked for */
+    bool can_keep;    /* what that takes is there */
     bool keeps, kept; /* the next frame's picture is to be kept for a fade; it was */
     bool changed;     /* there is another picture to be seen */
     bool says;        /* a text, in place of pictures */
@@ -80,6 +81,8 @@ bool gn_show_step(struct gn_show *show, struct gn_err *err);
 bool gn_show_watch(struct gn_show *show, int fd, struct gn_err *err);
 struct gn_options *gn_show_read_options(const struct gn_show *show, const struct gn_options *like,
                                         struct gn_warnings *warnings, struct gn_err *err);
+/* What still loads for the one before is not heard of any more. */
+bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
 void gn_show_drop_options(struct gn_options *options);
 bool gn_show_load(struct gn_stage *stage, struct gn_options *options, struct gn_warnings *warnings,
                   struct gn_err *err);

@@ -12,7 +12,7 @@ void gn_show_forget_work(struct gn_show *s) {
     s->scenes.whole = false;
     gn_frame_destroy(s->scenes.frame);
     s->scenes.frame = NULL;
-    s->rests = false;
+    s->rests = s->can_keep = false;
 }
 
 void gn_show_drop_staged(struct gn_show *s) {
@@ -110,8 +110,18 @@ static bool work_on_staged(struct gn_show *s) {
 
 /* ---- in the order in which it will be wanted ---- */
 
+/* Where it cannot be made the first fade says so. */
+static bool prepare_fade(struct gn_show *s) {
+    struct gn_err unused = {0};
+    if (s->rules.fade_ns == 0 || s->can_keep || s->frames == 0) return false;
+    gn_gl_keep_prepare(s->stage.gl, &unused);
+    s->can_keep = true;
+    return true;
+}
+
 static bool do_piece(struct gn_show *s) {
     const int mode = s->kiosk.wanted.mode;
+    if (prepare_fade(s)) return true;
     if (work_on_staged(s)) return true;
     for (int i = 0; i < s->modes.count; i++)
         if (warm_if_need_be(s, (mode + i) % s->modes.count)) return true;

@@ -22,9 +22,11 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
     s->stage = *fresh;
     s->options = options;
     s->generation = 0;
-    if (!gn_show_begin(s, err) || (!keeps_display && !gn_show_open_display(s, err)) ||
-        !gn_show_open_input(s, err))
+    const bool blanked = s->kiosk.blanked;
+    if (!gn_show_open_loader(s, err) || !gn_show_begin(s, err) ||
+        (!keeps_display && !gn_show_open_display(s, err)) || !gn_show_open_input(s, err))
         return false;
+    s->kiosk.blanked = blanked;
     if (!options->verbose) return true;
     printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
     fflush(stdout);

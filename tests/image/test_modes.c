@@ -134,6 +134,39 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
     gn_show_close(show);
 }
 
+static int by_size(const void *a, const void *b) {
+    const int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* CPU time of a frame, with that of the threads that draw for us. */
+static int64_t frame_ns(struct gn_show *show) {
+    const int64_t begun_ns = gn_clock_process_cpu_ns();
+    frames(show, 1);
+    gn_gl_wait(show->stage.gl);
+    return gn_clock_process_cpu_ns() - begun_ns;
+}
+
+/* Of all pairs of neighbours, in the long form: a switch draws its frame and, at most, its maps. */
+static void a_switch_takes_no_more_than_two_frames(void **state) {
+    (void)state;
+    if (!getenv("GN_FULL")) skip();
+    struct gn_show *show = OPEN("--size", "640x360", "--turntable", "10");
+    until_warm(show);
+    for (int i = 0; i < 2 * show->modes.count; i++) {
+        int64_t steady_ns[9];
+        act(show, GN_ACTION_NEXT);
+        const int64_t switch_ns = frame_ns(show);
+        for (int k = 0; k < 9; k++) steady_ns[k] = frame_ns(show);
+        qsort(steady_ns, 9, sizeof steady_ns[0], by_size);
+        print_message("%-8s %6.2f ms, then %6.2f ms\n", show->modes.names[show->drawn.mode],
+                      (double)switch_ns * 1e-6, (double)steady_ns[4] * 1e-6);
+        if (switch_ns > 3 * steady_ns[4])
+            fail_msg("%s: %.2f ms", show->modes.names[show->drawn.mode], (double)switch_ns * 1e-6);
+    }
+    gn_show_close(show);
+}
+
 static void what_is_not_ready_keeps_the_old_picture(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--turntable", "10");
@@ -280,6 +313,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_program_a_frame_is_made_ahead_and_no_more),
         cmocka_unit_test(a_switch_is_seen_in_the_next_frame_and_makes_nothing),
+        cmocka_unit_test(a_switch_takes_no_more_than_two_frames),
         cmocka_unit_test(what_is_not_ready_keeps_the_old_picture),
         cmocka_unit_test(flags_leave_one_technique),
         cmocka_unit_test(pause_stands_and_blank_is_black),
