@@ -43,9 +43,9 @@ static bool draw_view(struct gn_show *s, const struct gn_kiosk_view *view, struc
     return true;
 }
 
-/* What frames cost beside what is made ahead; the first makes what it needs. */
+/* What frames cost beside what is made ahead, or loaded; the first makes what it needs. */
 static void count(struct gn_show *s, unsigned long allocations, uint64_t objects) {
-    if (s->frames++ == 0) return;
+    if (s->frames++ == 0 || gn_loader_is_busy(s->scenes.loader)) return;
     s->allocations += gn_alloc_count() - allocations;
     s->objects += gn_gl_stats(s->stage.gl).objects_created - objects;
 }
