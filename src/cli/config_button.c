@@ -9,8 +9,9 @@
 #include "core/text.h"
 #include "shadow/technique.h"
 
-#define NS_PER_MS (GN_NS_PER_S / 1000)
-#define WORDS_MAX 32 /* of keys or of a chord */
+#define NS_PER_MS  (GN_NS_PER_S / 1000)
+#define WORDS_MAX  32 /* of keys or of a chord */
+#define TIME(name) offsetof(struct gn_button_opts, name)
 
 enum { LINE, KEYS, CHORD, ACTIVE_HIGH, BIAS, DEBOUNCE_MS, HOLD_MS, DOUBLE_MS, REPEAT_MS, CHORD_MS };
 enum { PRESS = CHORD_MS + 1, CLICK, DOUBLE, HOLD, REPEAT };
@@ -20,6 +21,7 @@ typedef bool set_fn(struct gn_config_buttons *config, int key, const char *text,
                     struct gn_err *err);
 static set_fn set_line, set_keys, set_chord, set_active_high, set_bias, set_ms, set_action;
 
+/* clang-format off */
 static const struct {
     struct gn_button_key_row row;
     set_fn *set;
@@ -27,54 +29,23 @@ static const struct {
     int least_ms, most_ms;
     enum gn_gesture gesture; /* of an action */
 } keys[GN_BUTTON_KEY_COUNT] = {
-    [LINE] = {{"line", "NAME", "the GPIO line: its name (GPIO17), or label:LABEL/OFFSET"},
-              set_line},
-    [KEYS] = {{"keys", "KEY..", "keys of a keyboard or of gpio-keys: space, f1, btn_0"}, set_keys},
-    [CHORD] = {{"chord", "BUTTON..",
-                "other buttons that go down together; press says what they do"},
-               set_chord},
-    [ACTIVE_HIGH] = {{"active_high", "yes|no", "the line is high while pressed (no)"},
-                     set_active_high},
-    [BIAS] = {{"bias", "pull-up|pull-down|none", "what holds the line when nobody presses"},
-              set_bias},
-    [DEBOUNCE_MS] = {{"debounce_ms", "MS", "how long it has to be steady (20)"},
-                     set_ms,
-                     offsetof(struct gn_button_opts, debounce_ns),
-                     1,
-                     1000},
-    [HOLD_MS] = {{"hold_ms", "MS",
-                  "how long a hold is, and what goes before the first repeat (800)"},
-                 set_ms,
-                 offsetof(struct gn_button_opts, hold_ns),
-                 50,
-                 60000},
-    [DOUBLE_MS] = {{"double_ms", "MS", "how soon the second press of a double follows (350)"},
-                   set_ms,
-                   offsetof(struct gn_button_opts, double_ns),
-                   50,
-                   5000},
-    [REPEAT_MS] = {{"repeat_ms", "MS", "how long from one repeat to the next (200)"},
-                   set_ms,
-                   offsetof(struct gn_button_opts, repeat_ns),
-                   50,
-                   60000},
-    [CHORD_MS] = {{"chord_ms", "MS", "how close together a chord's buttons go down (80)"},
-                  set_ms,
-                  offsetof(struct gn_button_opts, chord_ns),
-                  10,
-                  1000},
-    [PRESS] = {{"press", "ACTION", "as it goes down"}, set_action, .gesture = GN_GESTURE_PRESS},
-    [CLICK] = {{"click", "ACTION", "as it comes up before a hold"},
-               set_action,
-               .gesture = GN_GESTURE_CLICK},
-    [DOUBLE] = {{"double", "ACTION", "as it goes down for the second time"},
-                set_action,
-                .gesture = GN_GESTURE_DOUBLE},
-    [HOLD] = {{"hold", "ACTION", "when it has been held"}, set_action, .gesture = GN_GESTURE_HOLD},
-    [REPEAT] = {{"repeat", "ACTION", "when it has been held, and again and again while it is"},
-                set_action,
-                .gesture = GN_GESTURE_REPEAT},
+    [LINE] = {.row = {"line", "NAME", "the GPIO line: its name (GPIO17), or label:LABEL/OFFSET"}, .set = set_line},
+    [KEYS] = {.row = {"keys", "KEY..", "keys of a keyboard or of gpio-keys: space, f1, btn_0"}, .set = set_keys},
+    [CHORD] = {.row = {"chord", "BUTTON..", "other buttons that go down together; press says what they do"}, .set = set_chord},
+    [ACTIVE_HIGH] = {.row = {"active_high", "yes|no", "the line is high while pressed (no)"}, .set = set_active_high},
+    [BIAS] = {.row = {"bias", "pull-up|pull-down|none", "what holds the line when nobody presses (up, or down with active_high)"}, .set = set_bias},
+    [DEBOUNCE_MS] = {.row = {"debounce_ms", "MS", "how long it has to be steady (20)"}, .set = set_ms, .offset = TIME(debounce_ns), .least_ms = 1, .most_ms = 1000},
+    [HOLD_MS] = {.row = {"hold_ms", "MS", "how long a hold is, and what goes before the first repeat (800)"}, .set = set_ms, .offset = TIME(hold_ns), .least_ms = 50, .most_ms = 60000},
+    [DOUBLE_MS] = {.row = {"double_ms", "MS", "how soon the second press of a double follows (350)"}, .set = set_ms, .offset = TIME(double_ns), .least_ms = 50, .most_ms = 5000},
+    [REPEAT_MS] = {.row = {"repeat_ms", "MS", "how long from one repeat to the next (200)"}, .set = set_ms, .offset = TIME(repeat_ns), .least_ms = 50, .most_ms = 60000},
+    [CHORD_MS] = {.row = {"chord_ms", "MS", "how close together a chord's buttons go down (80)"}, .set = set_ms, .offset = TIME(chord_ns), .least_ms = 10, .most_ms = 1000},
+    [PRESS] = {.row = {"press", "ACTION", "as it goes down"}, .set = set_action, .gesture = GN_GESTURE_PRESS},
+    [CLICK] = {.row = {"click", "ACTION", "as it comes up before a hold"}, .set = set_action, .gesture = GN_GESTURE_CLICK},
+    [DOUBLE] = {.row = {"double", "ACTION", "as it goes down for the second time"}, .set = set_action, .gesture = GN_GESTURE_DOUBLE},
+    [HOLD] = {.row = {"hold", "ACTION", "when it has been held"}, .set = set_action, .gesture = GN_GESTURE_HOLD},
+    [REPEAT] = {.row = {"repeat", "ACTION", "when it has been held, and again and again while it is"}, .set = set_action, .gesture = GN_GESTURE_REPEAT},
 };
+/* clang-format on */
 
 const struct gn_button_key_row *gn_button_key(int index) { return &keys[index].row; }
 
