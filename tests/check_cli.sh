@@ -26,7 +26,7 @@ expect() {
 
 expect 0 '' --version
 grep -q '^gnomon [0-9]' "$folder/out" || complain 'the version'
-for command in '' show render bench inspect doctor; do
+for command in '' show render bench inspect doctor ctl; do
     # shellcheck disable=SC2086
     expect 0 '' $command --help
     grep -q '^  .*--verbose' "$folder/out" || complain "$command --help"

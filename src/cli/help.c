@@ -135,6 +135,8 @@ static void print_roff(FILE *to, const char *text) {
             fputs("\\-", to);
         else if (*text == '\\')
             fputs("\\e", to);
+        else if (*text == '"') /* would quote an argument of a macro */
+            fputs("\\(dq", to);
         else
             fputc(*text, to);
 }
@@ -191,14 +193,14 @@ static void print_man_ctl(FILE *to) {
         ctl_tag(&gn_ctl_rows[i], tag, sizeof tag);
         print_tagged(to, tag, gn_ctl_rows[i].what);
     }
-    fputs(
-        ".PP\nThe socket is a Unix stream socket. A request is a line with a JSON object, so is "
-        "the "
-        "reply:\n.PP\n.nf\n{\"cmd\":\"set\",\"key\":\"shadow\",\"value\":\"pcss\"}\n{\"ok\":true}\n"
-        "{\"cmd\":\"mode\",\"name\":\"Nosuch\"}\n"
-        "{\"ok\":false,\"error\":\"no mode \\e\"Nosuch\\e\"; ..\",\"status\":2}\n.fi\n.PP\n"
-        "The kiosk's own user, root, and the members of the socket's group may ask.\n",
-        to);
+    fputs(".PP\nThe socket is a Unix stream socket. A request is a line with a JSON object, so is "
+          "the "
+          "reply:\n.PP\n.nf\n{\"cmd\":\"set\",\"key\":\"shadow\",\"value\":\"pcss\"}\n"
+          "{\"key\":\"shadow\",\"value\":\"pcss\",\"ok\":true}\n"
+          "{\"cmd\":\"mode\",\"name\":\"Nosuch\"}\n"
+          "{\"ok\":false,\"error\":\"no mode \\e\"Nosuch\\e\"; ..\",\"status\":2}\n.fi\n.PP\n"
+          "The kiosk's own user, root, and the members of the socket's group may ask.\n",
+          to);
 }
 
 /* ---- the configuration file ---------------------------------------------------------------- */

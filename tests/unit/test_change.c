@@ -263,8 +263,10 @@ static void help_and_manual_list_every_command_and_key(void **state) {
         if (!strstr(text, line)) fail_msg("no \"%s\" in --help", line + 1);
     }
     static const char *const keys[] = {
-        "[button \"NAME\"] line = NAME",    "[button \"NAME\"] hold_ms = MS",
-        "[button \"NAME\"] press = ACTION", "[kiosk] captions = yes|no",
+        "[button \\(dqNAME\\(dq] line = NAME",
+        "[button \\(dqNAME\\(dq] hold_ms = MS",
+        "[button \\(dqNAME\\(dq] press = ACTION",
+        "[kiosk] captions = yes|no",
         "[kiosk] caption_seconds = S",
     };
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
