@@ -38,6 +38,7 @@ void gn_show_take_input(struct gn_show *s, const struct gn_hand *hand) {
         const struct gn_action action = gn_buttons_action(&s->buttons, &event);
         if (action.kind != GN_ACTION_NONE) gn_show_act(s, &action, event.time_ns);
     }
-    while (gn_input_report(s->input, text, sizeof text)) /* most boards lack the default ones */
-        if (s->options->verbose) fprintf(stderr, "gnomon: %s\n", text);
+    const bool tells = s->options->buttons || s->options->verbose; /* few have the default ones */
+    while (gn_input_report(s->input, text, sizeof text))
+        if (tells) fprintf(stderr, "gnomon: warning: %s\n", text);
 }

@@ -81,8 +81,9 @@ void gn_show_list_modes(struct gn_show *s) {
     if (o->mode_count == 0) list_techniques(s);
     const int named = gn_show_find_mode(&s->modes, first);
     s->modes.first = named >= 0 ? named : s->modes.base >= 0 ? s->modes.base : 0;
-    s->rules =
-        (struct gn_kiosk_rules){.mode_count = s->modes.count, .scene_count = s->scenes.listed};
+    s->rules = (struct gn_kiosk_rules){.mode_count = s->modes.count,
+                                       .scene_count = s->scenes.listed,
+                                       .first_mode = s->modes.first};
     gn_show_take_rules(s);
     for (int i = 0; i < s->modes.count; i++) {
         gn_show_apply_options(s, i);

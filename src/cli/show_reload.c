@@ -24,8 +24,10 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
     s->generation = 0;
     const bool blanked = s->kiosk.blanked;
     if (!gn_show_open_loader(s, err) || !gn_show_begin(s, err) ||
-        (!keeps_display && !gn_show_open_display(s, err)) || !gn_show_open_input(s, err))
+        (!keeps_display && !gn_show_open_display(s, err)))
         return false;
+    struct gn_err why = {0};
+    if (!gn_show_open_input(s, &why)) gn_show_complain(s, why.text); /* and none can be pressed */
     s->kiosk.blanked = blanked;
     if (!options->verbose) return true;
     printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
