@@ -92,7 +92,7 @@ CFLAGS_debug   = -Og -g
 CFLAGS_asan    = -O1 -g $(SANITIZE)
 CFLAGS_cov     = -O0 -g --coverage
 LDFLAGS_release = -pie -Wl,-z,relro,-z,now
-LDFLAGS_asan    = $(SANITIZE)
+LDFLAGS_asan    = $(SANITIZE) -Wl,-u,dlclose,--export-dynamic-symbol=dlclose # see keep_modules.c
 LDFLAGS_cov     = --coverage
 $(if $(CFLAGS_$(CONFIG)),,$(error CONFIG is release, debug, asan or cov, not $(CONFIG)))
 
