@@ -18,8 +18,8 @@ struct file_font {
     FT_Face face;
 };
 
-/* As many pixels an em as make lines of that height; no more than that, where a font says that it
- * is all ascenders. */
+/* As many pixels an em as make lines of that height, whose descenders are within it; no more than
+ * that, where a font says that it is all ascenders. */
 static bool resize(struct gn_font *font, uint32_t line_px) {
     struct file_font *f = (struct file_font *)font;
     const uint32_t tall = (uint32_t)(f->face->ascender > 0 ? f->face->ascender : 0) +
@@ -29,9 +29,10 @@ static bool resize(struct gn_font *font, uint32_t line_px) {
     if (size_px < line_px / 2) size_px = line_px / 2;
     if (size_px < 1) size_px = 1;
     if (FT_Set_Pixel_Sizes(f->face, 0, size_px)) return false;
-    const long ascent = (long)f->face->size->metrics.ascender / 64;
+    const long descent = (63 - (long)f->face->size->metrics.descender) / 64;
     font->line_px = line_px;
-    font->ascent_px = ascent <= 0 || ascent > (long)line_px ? line_px * 4 / 5 : (uint32_t)ascent;
+    font->ascent_px =
+        line_px - (descent < 0 || descent > (long)line_px / 2 ? line_px / 5 : (uint32_t)descent);
     return true;
 }
 

@@ -67,13 +67,15 @@ static int32_t width_of(const struct gn_layout_opts *opts, const char *begin, co
     return width;
 }
 
+static bool is_space(char c) { return c == ' ' || c == '\t'; }
+
 static const char *skip_spaces(const char *at, const char *end) {
-    while (at < end && *at == ' ') at++;
+    while (at < end && is_space(*at)) at++;
     return at;
 }
 
 static const char *trim(const char *begin, const char *end) {
-    while (end > begin && end[-1] == ' ') end--;
+    while (end > begin && is_space(end[-1])) end--;
     return end;
 }
 
@@ -89,8 +91,7 @@ static const char *break_at(const struct gn_layout_opts *opts, const char *begin
         if (code == 0) return end;
         width += opts->advance_px(opts->data, code);
         if (code == ' ') word = at;
-        if (width > room && code != ' ')
-            return words && word > begin ? word : at > begin ? at : next;
+        if (width > room) return words && word > begin ? word : at > begin ? at : next;
         at = next;
     }
     return end;
