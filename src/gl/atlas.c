@@ -12,7 +12,7 @@ static void make(struct gn_gl *gl, const struct gn_caption_atlas *atlas) {
     gl->atlas.texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
     gl->atlas.width_px = atlas->width_px;
     gl->atlas.height_px = atlas->height_px;
-    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, gl->atlas.texture, 0);
+    gn_gl_work_on_texture(gl, gl->atlas.texture);
     GL(gl, TexStorage2D)
     (GL_TEXTURE_2D, 1, GL_R8, (GLsizei)atlas->width_px, (GLsizei)atlas->height_px);
 }
@@ -24,7 +24,7 @@ bool gn_gl_atlas_ensure(struct gn_gl *gl, const struct gn_caption_atlas *atlas,
     if (gn_gl_atlas_holds(gl, atlas)) return true;
     if (!a->texture || a->width_px != atlas->width_px || a->height_px != atlas->height_px)
         make(gl, atlas);
-    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, a->texture, 0);
+    gn_gl_work_on_texture(gl, a->texture);
     GL(gl, TexSubImage2D)
     (GL_TEXTURE_2D, 0, 0, 0, (GLsizei)atlas->width_px, (GLsizei)atlas->height_px, GL_RED,
      GL_UNSIGNED_BYTE, atlas->coverage);

@@ -83,6 +83,8 @@ void gn_gl_bind_framebuffer(struct gn_gl *gl, GLuint name);
 void gn_gl_bind_vertex_array(struct gn_gl *gl, GLuint name);
 void gn_gl_bind_array_buffer(struct gn_gl *gl, GLuint name);
 void gn_gl_bind_texture(struct gn_gl *gl, GLuint unit, GLuint texture, GLuint sampler);
+/* Calls that name no texture are about this one from now on, even where it was bound already. */
+void gn_gl_work_on_texture(struct gn_gl *gl, GLuint texture);
 void gn_gl_use_program(struct gn_gl *gl, GLuint name);
 void gn_gl_set_viewport(struct gn_gl *gl, struct gn_gl_rect rect);
 void gn_gl_set_scissor(struct gn_gl *gl, const struct gn_gl_rect *rect); /* NULL: off */
