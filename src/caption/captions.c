@@ -158,41 +158,55 @@ static void push_lines(struct gn_captions *c, enum gn_caption_kind kind,
     }
 }
 
-/* Text of one kind: a ground that is half a line wider on either side and a quarter higher, a line
- * away from the picture's edges. Screens of televisions show not all of them. */
+/* The ground under lines: half a line wider on either side than they are, and a quarter higher. */
+struct room {
+    int32_t margin, line, beside, above; /* margin: from the picture's edges */
+};
+
+static void place(struct gn_captions *c, enum gn_caption_kind kind, const struct room *r,
+                  const struct gn_layout_line *lines, uint32_t count) {
+    const bool at_top = rows[kind].at_top;
+    const int32_t tall = (int32_t)count * r->line + 2 * r->above;
+    const int32_t lowest = (int32_t)c->run.height_px - r->margin - (int32_t)c->bottom_px;
+    const int32_t y = at_top ? r->margin : lowest - tall;
+    int32_t widest = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (lines[i].width_px > widest) widest = lines[i].width_px;
+    if (widest == 0) return;
+    push(c, (struct gn_caption_quad){.x = r->margin,
+                                     .y = y,
+                                     .width = widest + 2 * r->beside,
+                                     .height = tall,
+                                     .caption = (uint8_t)kind,
+                                     .ground = true});
+    push_lines(c, kind, lines, count, r->margin + r->beside, y + r->above);
+    if (!at_top) c->bottom_px += (uint32_t)(tall + r->above);
+}
+
+/* A large line away from the edges: televisions do not show all of a picture. */
 static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
     const struct row *row = &rows[kind];
     const char *text = c->captions[kind].text;
-    const int32_t width = (int32_t)c->run.width_px, height = (int32_t)c->run.height_px;
+    const uint32_t width = c->run.width_px, height = c->run.height_px;
     struct gn_layout_line lines[LINES_MAX];
-    if (!gn_font_resize(c->font, line_px_of(row, c->run.width_px, c->run.height_px))) return;
-    const int32_t line = (int32_t)c->font->line_px, beside = line / 2, above = line / 4;
-    const int32_t room = (height - 2 * line - 2 * above - (int32_t)c->bottom_px) / line;
+    if (!gn_font_resize(c->font, line_px_of(row, width, height))) return;
+    const int32_t line = (int32_t)c->font->line_px;
+    const struct room r = {.margin = (int32_t)line_px_of(&rows[GN_CAPTION_MODE], width, height),
+                           .line = line,
+                           .beside = line / 2,
+                           .above = line / 4};
+    const int32_t fit = ((int32_t)height - 2 * (r.margin + r.above) - (int32_t)c->bottom_px) / line;
     const int32_t most = row->most_lines ? (int32_t)row->most_lines : LINES_MAX;
     const struct gn_layout_opts opts = {
-        .width_px = width - 2 * line - 2 * beside,
-        .most_lines = (uint32_t)(room < 1      ? 1
-                                 : room < most ? room
-                                               : most),
+        .width_px = (int32_t)width - 2 * (r.margin + r.beside),
+        .most_lines = (uint32_t)(fit < 1      ? 1
+                                 : fit < most ? fit
+                                              : most),
         .wraps = row->wraps,
         .advance_px = advance_of,
         .data = c,
     };
-    const uint32_t count = gn_layout_build(&opts, text, text + strlen(text), lines);
-    int32_t widest = 0;
-    for (uint32_t i = 0; i < count; i++)
-        if (lines[i].width_px > widest) widest = lines[i].width_px;
-    const int32_t tall = (int32_t)count * line + 2 * above;
-    const int32_t y = row->at_top ? line : height - (int32_t)c->bottom_px - line - tall;
-    if (widest == 0) return;
-    push(c, (struct gn_caption_quad){.x = line,
-                                     .y = y,
-                                     .width = widest + 2 * beside,
-                                     .height = tall,
-                                     .caption = (uint8_t)kind,
-                                     .ground = true});
-    push_lines(c, kind, lines, count, line + beside, y + above);
-    if (!row->at_top) c->bottom_px += (uint32_t)(tall + above);
+    place(c, kind, &r, lines, gn_layout_build(&opts, text, text + strlen(text), lines));
 }
 
 /* From below: an error, over it the mode, which is drawn last. */

@@ -86,8 +86,8 @@ static void add_temperature(struct gn_info_page *page, const char *root) {
 static void add_uptime(struct gn_info_page *page, int64_t uptime_ns) {
     const long long s = uptime_ns / GN_NS_PER_S, days = s / 86400;
     if (days > 0)
-        add(page, "Running: %lld days %02lld:%02lld:%02lld", days, s / 3600 % 24, s / 60 % 60,
-            s % 60);
+        add(page, "Running: %lld day%s %02lld:%02lld:%02lld", days, days == 1 ? "" : "s",
+            s / 3600 % 24, s / 60 % 60, s % 60);
     else
         add(page, "Running: %02lld:%02lld:%02lld", s / 3600, s / 60 % 60, s % 60);
 }

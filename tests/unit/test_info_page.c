@@ -82,7 +82,11 @@ static void test_time_goes_to_days(void **state) {
     info.uptime_ns = (3 * 3600 + 25 * 60 + 7) * GN_NS_PER_S;
     gn_info_page_step(&page, &info, 0);
     assert_true(says("Running: 03:25:07"));
-    info.uptime_ns += 400 * 86400 * GN_NS_PER_S;
+    info.uptime_ns += 86400 * GN_NS_PER_S;
+    page.made = false;
+    gn_info_page_step(&page, &info, 0);
+    assert_true(says("Running: 1 day 03:25:07"));
+    info.uptime_ns += INT64_C(399) * 86400 * GN_NS_PER_S;
     gn_info_page_step(&page, &info, GN_NS_PER_S);
     assert_true(says("Running: 400 days 03:25:07"));
 }
