@@ -22,10 +22,9 @@ __attribute__((format(printf, 2, 3))) static void add(struct gn_info_page *page,
     va_start(args, format);
     const int length = vsnprintf(page->text + used, room, format, args);
     va_end(args);
-    if (length < 0 || (size_t)length + 1 >= room)
-        page->text[used] = '\0';
-    else
-        strcpy(page->text + used + length, "\n");
+    const bool fits = length >= 0 && (size_t)length + 1 < room;
+    if (fits) page->text[used + (size_t)length] = '\n';
+    page->text[fits ? used + (size_t)length + 1 : used] = '\0';
 }
 
 static void add_screen(struct gn_info_page *page, const struct gn_screen *screen, int64_t now_ns) {

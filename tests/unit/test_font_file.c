@@ -71,8 +71,7 @@ static void test_letters_are_within_their_line(void **state) {
             struct gn_glyph g;
             assert_true(gn_font_glyph(font, code, &g));
             assert_true(g.top <= (int32_t)font->ascent_px + 1);
-            assert_true((int32_t)font->ascent_px - g.top + (int32_t)g.height_px <=
-                        (int32_t)line);
+            assert_true((int32_t)font->ascent_px - g.top + (int32_t)g.height_px <= (int32_t)line);
         }
     }
 }
