@@ -1,7 +1,6 @@
 // Captions: a ground that lets CAPTION_SHADE of the picture through, then white as far as a glyph covers the pixel, in linear
 // light. A target that does not encode is blended as it is stored: there the weights are such that it comes out the same on
 // black and on white, and nearly so between. A fade is a mixture of the picture with that and without.
-#include "lib/pass.glsl"
 #include "lib/srgb.glsl"
 
 uniform highp sampler2D u_map_0; // the atlas
