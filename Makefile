@@ -78,6 +78,8 @@ HEADERS := egl glesv2 cglm libdrm gbm
 NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests check-board check-board-arm64 truth gallery readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
+# FreeType draws the texts on the picture; without it they are in the font inside the program
+PKGS    += $(shell $(PKG) --exists freetype2 2> /dev/null && echo freetype2)
 # gnomon-import is a program of its own, for those who have assimp
 IMPORT_C := $(if $(shell $(PKG) --exists assimp 2> /dev/null && echo y),$(sort $(wildcard src/import/*.c)))
 
@@ -92,7 +94,7 @@ CFLAGS_debug   = -Og -g
 CFLAGS_asan    = -O1 -g $(SANITIZE)
 CFLAGS_cov     = -O0 -g --coverage
 LDFLAGS_release = -pie -Wl,-z,relro,-z,now
-LDFLAGS_asan    = $(SANITIZE)
+LDFLAGS_asan    = $(SANITIZE) -Wl,-u,dlclose,--export-dynamic-symbol=dlclose # see keep_modules.c
 LDFLAGS_cov     = --coverage
 $(if $(CFLAGS_$(CONFIG)),,$(error CONFIG is release, debug, asan or cov, not $(CONFIG)))
 
@@ -108,7 +110,7 @@ COMPILE  = $(CC) $(ALL_CFLAGS) $(if $(WERROR),-Werror) -MMD -MP
 
 # ---- what there is to build ----------------------------------------------------------------
 # x.c needs the package x and x_none.c stands in for it: the list of such pairs
-OPTIONAL := src/display/osmesa:osmesa src/display/window:glfw3
+OPTIONAL := src/display/osmesa:osmesa src/display/window:glfw3 src/caption/font_file:freetype2
 without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(subst :, ,$(p))) \
              2> /dev/null && echo y),$(firstword $(subst :, ,$(p)))_none.c,\
              $(firstword $(subst :, ,$(p))).c))

@@ -10,7 +10,8 @@ build="gcc make pkgconf $libraries"
 run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri libgbm1 libdrm2'
 test_libraries='libcmocka-dev libx11-dev'
 test="clang clang-format clang-tidy xvfb $test_libraries"
-optional_build='libassimp-dev libglfw3-dev' # for gnomon-import, for a window
+optional_build='libassimp-dev libglfw3-dev libfreetype-dev' # for gnomon-import, a window, texts on the picture
+optional_run='fonts-dejavu-core' # for those texts
 optional_test='libosmesa6-dev' # not in every Debian
 # without them the tests in virtual machines are skipped; those run on a PC alone
 optional_board='qemu-system-x86 busybox-static kmod cpio xz-utils linux-source linux-headers-amd64
@@ -49,7 +50,7 @@ wanted='' extra='' added=''
 for set in "$@"; do
     case $set in
     build) wanted="$wanted $build" extra="$extra $optional_build" ;;
-    run) wanted="$wanted $run" ;;
+    run) wanted="$wanted $run" extra="$extra $optional_run" ;;
     test) wanted="$wanted $test" extra="$extra $optional_test" ;;
     board) [ "$own" != amd64 ] || extra="$extra $optional_board" ;;
     board-arm64) [ "$own" != amd64 ] || extra="$extra $optional_board_arm64" ;;

@@ -42,3 +42,7 @@
 #define PANEL_FRAME 2     /* rgb: linear; w: width, pixels */
 #define PANEL_PX 3        /* xy: width and height, pixels; zw: cosine and sine of its turn, clockwise */
 #define PANEL_SIZE 4
+/* Captions */
+#define CAPTION_PX 0      /* xy: a pixel of the picture, of 2 x 2; zw: cosine and sine of its turn, clockwise */
+#define CAPTION_SIZE 1
+#define CAPTION_SHADE 0.3 /* a ground leaves so much of what is under it, as sRGB encodes that: white on it has 8 times the light of it and more (WCAG 2.1) */

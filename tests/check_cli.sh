@@ -36,6 +36,9 @@ expect 2 'gnomon: unknown option --sise; did you mean --size?' --sise 1x1
 expect 2 'did you mean render?' rendr
 expect 2 '--size: "0x10"' render --size 0x10 -o "$folder/a.png"
 expect 2 '--size: "100000x10"' render --size 100000x10 -o "$folder/a.png"
+expect 0 '/nowhere/x.ttf: cannot open' render --size 64x64 --caption Hi --font /nowhere/x.ttf -o "$folder/note.png"
+expect 0 '' render --size 64x64 --font /nowhere/x.ttf -o "$folder/plain.png" # nobody needs it
+cmp -s "$folder/note.png" "$folder/plain.png" && complain 'a caption that is not in the picture'
 expect 2 '--size: "100000x10"' render -v --size 100000x10 -o "$folder/a.png"
 expect 2 'nosuch' render --shadow nosuch -o "$folder/a.png"
 expect 1 "$folder/missing.glb" render "$folder/missing.glb" -o "$folder/a.png"

@@ -8,16 +8,17 @@ BEGIN {
     may["core"] = ""
     may["scene"] = "core"
     may["shadow"] = "core scene"
-    may["frame"] = "core scene shadow"
-    may["gl"] = "core scene shadow frame"
-    may["display"] = may["input"] = may["import"] = "core" # import is a program of its own
-    may["kiosk"] = "core scene shadow frame gl display input"
-    may["cli"] = "core scene shadow frame gl display input kiosk"
+    may["frame"] = "core scene shadow caption"
+    may["gl"] = "core scene shadow frame caption"
+    may["caption"] = may["display"] = may["input"] = may["import"] = "core" # import is a program of its own
+    may["kiosk"] = "core scene shadow frame gl display input caption"
+    may["cli"] = "core scene shadow frame gl display input caption kiosk"
     # which rooms may include <KEY..>
     foreign["GLES3/"] = foreign["GLES2/"] = "gl"
     foreign["EGL/"] = foreign["GL/osmesa.h"] = foreign["gbm.h"] = foreign["xf86drm"] = "display"
     foreign["drm"] = foreign["libdrm/"] = foreign["GLFW/"] = foreign["wayland"] = "display"
     foreign["gpiod.h"] = foreign["linux/input"] = "input"
+    foreign["ft2build.h"] = foreign["freetype/"] = "caption"
     foreign["ini.h"] = "cli"
     foreign["jansson.h"] = "scene cli kiosk import"
     foreign["assimp/"] = "import"

@@ -94,7 +94,7 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     size_t offset;        /* of its field in struct gn_options */
 };
-enum { GN_OPTION_COUNT = 54 };
+enum { GN_OPTION_COUNT = 56 };
 extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
 
 const struct gn_option_row *gn_option_find(const char *name,
@@ -156,6 +156,7 @@ struct gn_options {
     enum gn_picture output;
     double exposure_ev; /* NAN: automatic */
     int msaa;           /* samples: 0, 2 or 4 */
+    const char *font;   /* of texts on the picture: a file; NULL: the first of the usual ones */
     const char *shaders, *without;
     struct gn_limits limits;
 
@@ -180,6 +181,7 @@ struct gn_options {
     const char *check;        /* a configuration file that is only looked at, or NULL */
     const char *const *words; /* of ctl: its command and what follows; they are argv's */
     int word_count;
+    const char *caption; /* text on the picture, or NULL */
     int frames;
     double fps;
     bool plan, json, self_test, stats, verbose, version, help;

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "caption/captions.h"
 #include "cli/commands.h"
 #include "cli/picture.h"
 #include "cli/stage.h"
@@ -14,6 +15,7 @@
 
 struct render {
     struct gn_stage stage;
+    struct gn_captions *captions; /* NULL: none */
     enum gn_picture_format format;
     bool map; /* --aov map */
     uint8_t *rgba;
@@ -157,6 +159,17 @@ static bool make_room(struct render *r, struct gn_err *err) {
     return !wants_floats || r->floats;
 }
 
+/* It stays, so that any time will do. */
+static void write_caption(struct render *r, struct gn_warnings *warnings) {
+    const struct gn_options *o = r->stage.options;
+    const struct gn_captions_opts opts = {.font = o->font, .warnings = warnings};
+    if (!o->caption) return;
+    r->captions = gn_captions_create(&opts);
+    gn_captions_set(r->captions, GN_CAPTION_ERROR, o->caption, 0);
+    r->stage.frame_opts.captions =
+        gn_captions_run(r->captions, (uint32_t)o->size.width_px, (uint32_t)o->size.height_px, 0);
+}
+
 bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warnings,
                    struct gn_err *err) {
     struct render r = {0};
@@ -164,9 +177,11 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
     bool ok = check_options(options, &r, err) && gn_stage_load(&r.stage, options, warnings, err);
     r.stage.frame_opts.output_float = options->aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
     ok = ok && gn_stage_open(&r.stage, warnings, err);
+    if (ok) write_caption(&r, warnings);
     ok = ok && make_room(&r, err) && draw_frames(&r, warnings, err);
     free(r.rgba);
     free(r.floats);
     gn_stage_close(&r.stage);
+    gn_captions_destroy(r.captions);
     return ok || gn_stop_asked(); /* what that broke off is no failure */
 }

@@ -124,6 +124,8 @@ static int timeout(const struct gn_show *s) {
     const int64_t now_ns = gn_clock_monotonic_ns();
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
     if (gn_show_has_work(s) && s->work_ns < at_ns) at_ns = s->work_ns;
+    const int64_t due_ns = gn_show_captions_due_ns(s); /* what is overdue waits for the screen */
+    if (s->stage.display.screen.lit && due_ns > now_ns && due_ns < at_ns) at_ns = due_ns;
     if (at_ns == INT64_MAX) return -1;
     const int64_t ms = at_ns <= now_ns ? 0 : (at_ns - now_ns + 999999) / 1000000;
     return ms < 1000000 ? (int)ms : 1000000;
@@ -177,6 +179,7 @@ static bool run(struct gn_show *s, struct gn_err *err) {
 void gn_show_close(struct gn_show *s) {
     gn_show_close_control(s);
     gn_input_close(s->input);
+    gn_captions_destroy(s->captions);
     gn_loader_close(s->scenes.loader);
     gn_show_drop_staged(s);
     gn_stage_close(&s->stage);
@@ -195,6 +198,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
         return false;
     s->options = gn_show_read_options(s, options, NULL, err);
     if (!s->options || !gn_show_load(&s->stage, s->options, s->warnings, err)) return false;
+    gn_show_open_captions(s);
     s->most_frames = s->options->frames > 0 ? (uint64_t)s->options->frames : UINT64_MAX;
     if (!gn_show_begin(s, err) || !gn_show_open_display(s, err) || !gn_show_open_input(s, err) ||
         !gn_show_stats_open(&s->stats, s->options, err) ||
@@ -211,6 +215,7 @@ static struct gn_show *create(struct gn_cli_place *place, struct gn_warnings *wa
                           .signals = -1,
                           .stats.timer = -1,
                           .service = {.socket = -1, .timer = -1},
+                          .begun_ns = gn_clock_monotonic_ns(),
                           .warnings = warnings};
     return s;
 }

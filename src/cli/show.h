@@ -2,7 +2,9 @@
 #ifndef GN_CLI_SHOW_H
 #define GN_CLI_SHOW_H
 
+#include "caption/captions.h"
 #include "cli/commands.h"
+#include "cli/info_page.h"
 #include "cli/service.h"
 #include "cli/show_control.h"
 #include "cli/show_loader.h"
@@ -55,6 +57,11 @@ struct gn_show {
     struct gn_show_scenes scenes;
     struct gn_kiosk_rules rules;
     struct gn_kiosk kiosk;
+    struct gn_captions *captions;
+    struct gn_info_page page;
+    struct gn_kiosk_view said;       /* what the last caption was about, */
+    int64_t said_ns;                 /* and since when */
+    int64_t begun_ns;                /* when the program was started, about */
     struct gn_kiosk_view drawn;      /* what the last frame showed */
     struct gn_show_control *control; /* NULL: nobody can ask anything */
     char config_error[512];          /* of the last reload; options->config_error */
@@ -104,6 +111,14 @@ void gn_show_stop_gl(struct gn_show *show);
 /* show_frame.c */
 bool gn_show_wants_frame(const struct gn_show *show);
 bool gn_show_frame(struct gn_show *show, struct gn_err *err);
+
+/* show_caption.c */
+/* With the options' font; again after a reload. */
+void gn_show_open_captions(struct gn_show *show);
+/* What a frame says that is seen then. */
+void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *view, int64_t now_ns);
+/* When another frame is due for it; 0: at once, INT64_MAX: never. */
+int64_t gn_show_captions_due_ns(const struct gn_show *show);
 
 /* show_modes.c: the list of modes, and one of them applied */
 /* Of the options, with the scenes that they name; the options have none applied then. */

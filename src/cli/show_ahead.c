@@ -48,6 +48,7 @@ static struct gn_frame_opts opts_of(const struct gn_show *s, const struct gn_sta
     opts.unencoded = now->unencoded;
     opts.msaa = now->msaa;
     opts.all_seen = true;
+    opts.captions_later = true;
     return opts;
 }
 

@@ -20,7 +20,8 @@ bool gn_show_wants_frame(const struct gn_show *s) {
     if (!screen->may_draw || !s->stage.gl) return false;
     if (screen->black || s->changed || s->keeps || screen->damaged || !screen->lit) return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
-    return is_moving(s, &view) || differs(&view, &s->drawn);
+    return is_moving(s, &view) || differs(&view, &s->drawn) ||
+           gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
 /* For a fade; without the picture there is none. */
@@ -36,6 +37,7 @@ static void keep(struct gn_show *s) {
 
 static bool draw_view(struct gn_show *s, const struct gn_kiosk_view *view, struct gn_err *err) {
     gn_show_take_view(s, view);
+    gn_show_write_captions(s, view, s->stage.display.screen.seen_ns);
     if (!gn_stage_draw(&s->stage, s->options->time_ns + view->time_ns, s->warnings, err))
         return false;
     if (view->old > 0.0f) gn_gl_lay_over(s->stage.gl, view->old);

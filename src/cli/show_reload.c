@@ -26,6 +26,7 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
     if (!gn_show_open_loader(s, err) || !gn_show_begin(s, err) ||
         (!keeps_display && !gn_show_open_display(s, err)))
         return false;
+    gn_show_open_captions(s);
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why)) gn_show_complain(s, why.text); /* and none can be pressed */
     s->kiosk.blanked = blanked;

@@ -100,6 +100,7 @@ static bool start_gl(struct gn_show *s, struct gn_err *err) {
     if (screen->may_draw) return true;
     s->stage.frame_opts.width_px = 64;
     s->stage.frame_opts.height_px = 36;
+    s->stage.frame_opts.captions = NULL; /* they are for another size */
     gn_gl_set_window(s->stage.gl, NULL);
     if (!gn_stage_draw(&s->stage, s->options->time_ns, s->warnings, err)) return say(s, err);
     gn_gl_finish_frame(s->stage.gl); /* many drivers compile as late as they can */

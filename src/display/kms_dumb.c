@@ -8,7 +8,9 @@ static int map(struct gn_dumb *d, const struct gn_drm_ops *drm, int fd) {
     struct drm_mode_map_dumb where = {.handle = d->handle};
     if (drm->Ioctl(fd, DRM_IOCTL_MODE_MAP_DUMB, &where) != 0) return errno;
     d->pixels = drm->map(fd, where.offset, d->size);
-    return d->pixels ? 0 : errno;
+    if (!d->pixels) return errno;
+    memset(d->pixels, 0, d->size);
+    return 0;
 }
 
 int gn_dumb_create(struct gn_dumb *d, const struct gn_drm_ops *drm, int fd, uint32_t width_px,
@@ -20,7 +22,6 @@ int gn_dumb_create(struct gn_dumb *d, const struct gn_drm_ops *drm, int fd, uint
     d->stride = made.pitch;
     d->size = made.size;
     const int error = map(d, drm, fd);
-    if (error == 0) memset(d->pixels, 0, d->size);
     if (error != 0) gn_dumb_destroy(d, drm, fd);
     return error;
 }

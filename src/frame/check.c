@@ -51,7 +51,10 @@ static const char *check_use(const struct gn_pass *pass, const struct gn_program
     const bool panel = key->kind == GN_PROGRAM_PANEL;
     REQUIRE((key->kind < GN_PROGRAM_FLAT) == (pass->target.kind == GN_TARGET_SHADOW));
     REQUIRE((key->kind == GN_PROGRAM_FLAT) == pass->only_stencil);
-    REQUIRE((key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
+    const bool caption = key->kind == GN_PROGRAM_CAPTION;
+    REQUIRE(key->kind != GN_PROGRAM_ENCODE || pass->target.kind == GN_TARGET_ENCODED);
+    REQUIRE(key->kind == GN_PROGRAM_ENCODE || caption || pass->target.kind != GN_TARGET_ENCODED);
+    REQUIRE(caption == pass->reads_atlas);
     REQUIRE(adds == (pass->blend == GN_BLEND_ADD));
     REQUIRE(key->light_count <= pass->light_count);
     REQUIRE(key->shadow_count <= pass->shadow_count);
@@ -97,6 +100,9 @@ static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *
     REQUIRE(!shadow || pass->target.slot < plan->shadow_count);
     REQUIRE(!shadow || (pass->clear && pass->content_hash != 0));
     REQUIRE(!shadow || pass->target.encoding != GN_ENCODING_STENCIL);
+    REQUIRE(!pass->reads_atlas || (plan->atlas && plan->atlas->coverage));
+    REQUIRE(!pass->reads_atlas || (pass->blend == GN_BLEND_ALPHA && !pass->depth_write));
+    REQUIRE(!pass->reads_atlas || plan->output != GN_OUTPUT_AOV);
     REQUIRE(rect_is_inside(&pass->rect, &pass->target));
     REQUIRE(pass->tile < GN_SHADOW_TILES_MAX);
     REQUIRE(pass->first_draw <= plan->draw_count);

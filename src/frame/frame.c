@@ -400,7 +400,9 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     picture_constants(frame, pose, opts);
     gn_frame_picture_passes(frame, pose, opts);
     gn_frame_overlay_passes(frame, pose, opts);
+    if (!gn_frame_is_encoded(frame)) gn_frame_caption_pass(frame, opts);
     gn_frame_finish_picture(frame);
+    if (gn_frame_is_encoded(frame)) gn_frame_caption_pass(frame, opts);
     publish(frame);
     assert(gn_plan_check(plan) == NULL);
     return plan;

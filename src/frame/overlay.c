@@ -123,8 +123,7 @@ static struct gn_rect panel_rect(const struct gn_frame *frame, uint32_t slot) {
     return (struct gn_rect){space / 2 + slot * (side + space), space / 2, side, side};
 }
 
-/* Where it is in the output. */
-static struct gn_rect turned_rect(const struct gn_frame *frame, struct gn_rect r) {
+struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect r) {
     const uint32_t w = frame->picture_width_px, h = frame->picture_height_px;
     const float c = frame->turn[0], s = frame->turn[1];
     if (s > 0) return (struct gn_rect){r.y, w - r.x - r.width, r.height, r.width};
@@ -167,7 +166,7 @@ static void panel_pass(struct gn_frame *frame, uint32_t slot) {
     panel_constants(frame, view, &rect, c);
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     pass->depth_write = false;
-    pass->rect = turned_rect(frame, rect);
+    pass->rect = gn_frame_turned_rect(frame, rect);
     pass->first_shadow = slot;
     pass->shadow_count = 1;
     pass->reads_codes = true;

@@ -182,7 +182,11 @@ void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
     keep_additive_programs(frame, opts);
 }
 
+bool gn_frame_is_encoded(const struct gn_frame *frame) {
+    return frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_FLOAT;
+}
+
 void gn_frame_finish_picture(struct gn_frame *frame) {
     frame->passes.at[frame->passes.count - 1].discard_depth = true;
-    if (frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_FLOAT) encode_pass(frame);
+    if (gn_frame_is_encoded(frame)) encode_pass(frame);
 }

@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 
+#include "caption/run.h"
 #include "frame/caps.h"
 #include "frame/orbit.h"
 #include "scene/pose.h"
@@ -32,6 +33,7 @@ enum gn_program_kind {
     GN_PROGRAM_MARK,     /* the mark of a light */
     GN_PROGRAM_PANEL,    /* a map, as a panel on the picture */
     GN_PROGRAM_ENCODE,   /* the linear picture, encoded */
+    GN_PROGRAM_CAPTION,  /* text over the finished picture */
     GN_PROGRAM_KIND_COUNT,
 };
 enum gn_feature { /* bits of gn_program_key.features; each becomes `const bool` of that name in GLSL
@@ -123,7 +125,7 @@ struct gn_stencil {
 enum gn_target_kind {
     GN_TARGET_OUTPUT,
     GN_TARGET_SHADOW,
-    GN_TARGET_ENCODED, /* bytes beside a linear output, which the pass reads */
+    GN_TARGET_ENCODED, /* bytes beside a linear output, which the first pass to it reads */
 };
 struct gn_rect { /* pixels of a target, first row at the bottom */
     uint32_t x, y, width, height;
@@ -153,6 +155,7 @@ struct gn_pass {
     uint64_t
         content_hash; /* SHADOW: skip the pass when the tile already holds this; 0: always draw */
     bool reads_codes; /* those samplers compare not */
+    bool reads_atlas; /* plan->atlas is behind sampler 0 */
     uint32_t first_draw, draw_count;
     uint32_t slide_count, slides[GN_SLIDES_MAX]; /* OUTPUT: textures; slide i: sampler i */
     /* Constants of the pass's programs, laid out by shaders_es/blocks.glsl; counts in vec4. */
@@ -182,6 +185,7 @@ struct gn_plan {
                                         will when an additive light comes near */
     struct gn_shadow_view *shadows;  /* one per slot: a map each */
     const uint32_t *lights;          /* of the scene: the lights of the frame, group by group */
+    const struct gn_caption_atlas *atlas; /* what captions read; NULL: there are none */
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
     uint32_t culled; /* items that the eye does not see */
     float exposure;
@@ -216,6 +220,8 @@ struct gn_frame_opts {            /* zero means the default written beside */
     bool show_lights;      /* a mark where each light stands */
     bool show_maps;        /* the maps as panels along the lower edge */
     bool all_seen;         /* the eye sees everything: for programs that will be wanted later */
+    const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
+    bool captions_later;                   /* their program is made even while there are none */
 };
 
 struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing

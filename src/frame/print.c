@@ -2,8 +2,8 @@
 
 #include "frame/plan.h"
 
-static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {"depth", "distance", "flat",  "lit",
-                                                         "aov",   "mark",     "panel", "encode"};
+static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {
+    "depth", "distance", "flat", "lit", "aov", "mark", "panel", "encode", "caption"};
 static const char *const outputs[] = {[GN_OUTPUT_SRGB8] = "srgb8",
                                       [GN_OUTPUT_LINEAR8] = "linear8",
                                       [GN_OUTPUT_FLOAT] = "float",
@@ -126,6 +126,8 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
         fprintf(to, ", slide %u: texture %u", i, pass->slides[i]);
     if (pass->blend == GN_BLEND_ALPHA) fprintf(to, ", blend");
     if (pass->reads_codes) fprintf(to, ", shows map %u", pass->first_shadow);
+    if (pass->reads_atlas)
+        fprintf(to, ", atlas %u x %u", plan->atlas->width_px, plan->atlas->height_px);
     if (pass->blend == GN_BLEND_ADD) print_added(plan, pass, to);
     if (pass->rect.width > 0)
         fprintf(to, ", within %u x %u at %u, %u", pass->rect.width, pass->rect.height, pass->rect.x,

@@ -99,6 +99,7 @@ enum gn_frame_constants {
     GN_CONSTANTS_PICTURE = GN_ALL_SHADOWS_MAX * GN_SHADOW_TILES_MAX, /* a group each */
     GN_CONSTANTS_MARKS = GN_CONSTANTS_PICTURE + GN_GROUPS_MAX,
     GN_CONSTANTS_PANELS, /* of all panels, one after another */
+    GN_CONSTANTS_CAPTIONS,
     GN_CONSTANTS_COUNT,
 };
 float (*gn_frame_constants(const struct gn_frame *frame, uint32_t which))[4];
@@ -135,6 +136,8 @@ void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
 struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group);
 /* Once all is drawn: the depth is of no more use; where no target encodes, a pass does. */
 void gn_frame_finish_picture(struct gn_frame *frame);
+/* Whether a pass does. */
+bool gn_frame_is_encoded(const struct gn_frame *frame);
 
 /* stencil.c: planar shadows without a map. Draws what takes such shadows in a group's light, and
  * those. */
@@ -146,6 +149,13 @@ bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group);
 /* overlay.c: marks and panels over the picture. */
 void gn_frame_overlay_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts);
+
+/* Where a rectangle of the picture is in the output. */
+struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect rect);
+
+/* caption.c: texts over everything. Before the picture is finished, or, where a pass encodes it,
+ * after that. */
+void gn_frame_caption_pass(struct gn_frame *frame, const struct gn_frame_opts *opts);
 
 /* A draw of bare vertices. */
 void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key,

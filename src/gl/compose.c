@@ -28,9 +28,11 @@ static const char *const aov_names[GN_AOV_COUNT] = {
     [GN_AOV_NORMAL] = "AOV_NORMAL",
 };
 static const char *const kind_names[GN_PROGRAM_KIND_COUNT] = {
-    [GN_PROGRAM_DEPTH] = "depth", [GN_PROGRAM_DISTANCE] = "distance", [GN_PROGRAM_FLAT] = "flat",
-    [GN_PROGRAM_LIT] = "lit",     [GN_PROGRAM_AOV] = "aov",           [GN_PROGRAM_MARK] = "mark",
-    [GN_PROGRAM_PANEL] = "panel", [GN_PROGRAM_ENCODE] = "encode",
+    [GN_PROGRAM_DEPTH] = "depth",     [GN_PROGRAM_DISTANCE] = "distance",
+    [GN_PROGRAM_FLAT] = "flat",       [GN_PROGRAM_LIT] = "lit",
+    [GN_PROGRAM_AOV] = "aov",         [GN_PROGRAM_MARK] = "mark",
+    [GN_PROGRAM_PANEL] = "panel",     [GN_PROGRAM_ENCODE] = "encode",
+    [GN_PROGRAM_CAPTION] = "caption",
 };
 static const char *const kind_files[GN_PROGRAM_KIND_COUNT][2] = {
     [GN_PROGRAM_DEPTH] = {"depth.vert", "depth.frag"},
@@ -41,6 +43,7 @@ static const char *const kind_files[GN_PROGRAM_KIND_COUNT][2] = {
     [GN_PROGRAM_MARK] = {"mark.vert", "mark.frag"},
     [GN_PROGRAM_PANEL] = {"panel.vert", "panel.frag"},
     [GN_PROGRAM_ENCODE] = {"encode.vert", "encode.frag"},
+    [GN_PROGRAM_CAPTION] = {"caption.vert", "caption.frag"},
 };
 
 static const char *const taps_names[] = {

@@ -59,7 +59,7 @@ bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
     k->height_px = o->height_px;
     k->srgb = is_srgb(o);
     k->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, k->texture, 0);
+    gn_gl_work_on_texture(gl, k->texture);
     GL(gl, TexStorage2D)
     (GL_TEXTURE_2D, 1, k->srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)k->width_px,
      (GLsizei)k->height_px);

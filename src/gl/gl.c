@@ -80,6 +80,7 @@ void gn_gl_destroy(struct gn_gl *gl) {
         gn_gl_kept_finish(gl);
         gn_gl_programs_finish(gl);
         gn_gl_targets_finish(gl);
+        gn_gl_atlas_finish(gl);
         for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
             gn_gl_object_destroy(gl, GN_GL_BUFFER, &gl->instances.buffers[i]);
         if (gl->fn.DebugMessageCallback && gl->debug) GL(gl, DebugMessageCallback)(NULL, NULL);
@@ -109,7 +110,8 @@ struct gn_gl_stats gn_gl_stats(const struct gn_gl *gl) {
     struct gn_gl_stats stats = gl->stats;
     stats.objects_created = gl->objects_created;
     stats.target_bytes = gn_gl_targets_bytes(gl);
-    stats.texture_bytes = gl->scene.texture_bytes;
+    stats.texture_bytes =
+        gl->scene.texture_bytes + (uint64_t)gl->atlas.width_px * gl->atlas.height_px;
     stats.buffer_bytes = gl->scene.buffer_bytes;
     for (int i = 0; i < GN_GL_INSTANCE_RING; i++) stats.buffer_bytes += gl->instances.room[i];
     return stats;

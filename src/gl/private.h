@@ -83,6 +83,8 @@ void gn_gl_bind_framebuffer(struct gn_gl *gl, GLuint name);
 void gn_gl_bind_vertex_array(struct gn_gl *gl, GLuint name);
 void gn_gl_bind_array_buffer(struct gn_gl *gl, GLuint name);
 void gn_gl_bind_texture(struct gn_gl *gl, GLuint unit, GLuint texture, GLuint sampler);
+/* Calls that name no texture are about this one from now on, even where it was bound already. */
+void gn_gl_work_on_texture(struct gn_gl *gl, GLuint texture);
 void gn_gl_use_program(struct gn_gl *gl, GLuint name);
 void gn_gl_set_viewport(struct gn_gl *gl, struct gn_gl_rect rect);
 void gn_gl_set_scissor(struct gn_gl *gl, const struct gn_gl_rect *rect); /* NULL: off */
@@ -277,6 +279,18 @@ void gn_gl_targets_finish(struct gn_gl *gl);
 /* The framebuffer that is bound; false if the driver will not have it. */
 bool gn_gl_framebuffer_check(struct gn_gl *gl, const char *what, struct gn_err *err);
 
+/* ---- the glyphs of captions (atlas.c) ---- */
+
+struct gn_gl_atlas {
+    GLuint texture;
+    uint32_t width_px, height_px;
+    uint64_t generation; /* of what it holds; 0: nothing */
+};
+/* Sends what the plan's captions read, if it is not there; NULL: they read nothing. */
+bool gn_gl_atlas_ensure(struct gn_gl *gl, const struct gn_caption_atlas *atlas, struct gn_err *err);
+bool gn_gl_atlas_holds(const struct gn_gl *gl, const struct gn_caption_atlas *atlas);
+void gn_gl_atlas_finish(struct gn_gl *gl);
+
 /* ---- running and reading (run.c, read.c) ---- */
 
 /* Draws once, a triangle on one pixel, with a program of the plan wherever the plan does. What maps
@@ -331,6 +345,7 @@ struct gn_gl {
     struct gn_gl_instances instances;
     struct gn_gl_targets targets;
     struct gn_gl_kept kept;
+    struct gn_gl_atlas atlas;
     struct gn_gl_window window; /* width 0: none */
     uint8_t *read_buffer;       /* of gn_gl_read_xrgb8888() */
     size_t read_size;

@@ -157,6 +157,11 @@ static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan, const struct
 
 /* What a pass reads beside materials. */
 static void bind_sources(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
+    if (pass->reads_atlas) {
+        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->atlas.texture,
+                           gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
+        return;
+    }
     if (pass->target.kind == GN_TARGET_OUTPUT) bind_maps(gl, plan, pass);
     if (pass->target.kind == GN_TARGET_ENCODED)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output.texture,
@@ -294,8 +299,9 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
 
 /* Nothing is drawn to the picture after this pass. */
 static bool is_last_of_picture(const struct gn_plan *plan, uint32_t pass) {
-    return pass + 1 == plan->pass_count ? plan->passes[pass].target.kind != GN_TARGET_ENCODED
-                                        : plan->passes[pass + 1].target.kind == GN_TARGET_ENCODED;
+    return plan->passes[pass].target.kind != GN_TARGET_ENCODED &&
+           (pass + 1 == plan->pass_count ||
+            plan->passes[pass + 1].target.kind == GN_TARGET_ENCODED);
 }
 
 static bool run_passes(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms,
@@ -313,7 +319,8 @@ static bool run_passes(struct gn_gl *gl, const struct gn_plan *plan, double *pas
 }
 
 static bool find_programs(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    if (plan->program_count > gl->plan_programs_room || plan->scene != gl->scene.scene)
+    if (plan->program_count > gl->plan_programs_room || plan->scene != gl->scene.scene ||
+        !gn_gl_atlas_holds(gl, plan->atlas))
         return gn_fail(err, "the plan was not prepared");
     for (uint32_t i = 0; i < plan->program_count; i++) {
         const struct gn_gl_program *p = gl->plan_programs[i] =
@@ -374,7 +381,8 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
     if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
     if (!gn_gl_prove(gl, plan))
         return gn_fail(err, "this GPU fails at what it says it has; try again, or see --without");
-    const bool ok = make_programs(gl, plan, err) && gn_gl_targets_ensure(gl, plan, err);
+    const bool ok = make_programs(gl, plan, err) && gn_gl_targets_ensure(gl, plan, err) &&
+                    gn_gl_atlas_ensure(gl, plan->atlas, err);
     if (made != gl->programs_made) GL(gl, ReleaseShaderCompiler)();
     return ok;
 }

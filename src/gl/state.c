@@ -35,6 +35,13 @@ void gn_gl_bind_texture(struct gn_gl *gl, GLuint unit, GLuint texture, GLuint sa
     GL(gl, BindSampler)(unit, sampler);
 }
 
+void gn_gl_work_on_texture(struct gn_gl *gl, GLuint texture) {
+    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, texture, 0);
+    if (gl->state.unit == GN_GL_UNIT_WORK) return;
+    gl->state.unit = GN_GL_UNIT_WORK;
+    GL(gl, ActiveTexture)(GL_TEXTURE0 + GN_GL_UNIT_WORK);
+}
+
 void gn_gl_use_program(struct gn_gl *gl, GLuint name) {
     if (gl->state.program == name) return;
     gl->state.program = name;

@@ -104,7 +104,7 @@ static void attach_color(struct gn_gl *gl, struct gn_gl_output *o, GLuint *color
         return;
     }
     o->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, o->texture, 0);
+    gn_gl_work_on_texture(gl, o->texture);
     GL(gl, TexStorage2D)
     (GL_TEXTURE_2D, 1, format, (GLsizei)o->width_px, (GLsizei)o->height_px);
     GL(gl, FramebufferTexture2D)
@@ -233,7 +233,7 @@ static void attach_map(struct gn_gl *gl, struct gn_gl_map *map) {
 static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err) {
     map->bytes = (uint64_t)map->width_px * map->height_px * gn_encodings[map->encoding].texel_bytes;
     map->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, map->texture, 0);
+    gn_gl_work_on_texture(gl, map->texture);
     GL(gl, TexStorage2D)
     (GL_TEXTURE_2D, 1, map_formats[map->encoding], (GLsizei)map->width_px, (GLsizei)map->height_px);
     map->framebuffer = make_framebuffer(gl);

@@ -51,7 +51,7 @@ static void open_picture(struct gn_gl *gl, uint32_t index, bool srgb) {
     p->mipmaps = wants_mipmaps(s->scene, index);
     p->levels = p->mipmaps ? levels_of(&p->image) : 1;
     s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, s->images[srgb][index], 0);
+    gn_gl_work_on_texture(gl, s->images[srgb][index]);
     GL(gl, TexStorage2D)
     (GL_TEXTURE_2D, p->levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)p->image.width_px,
      (GLsizei)p->image.height_px);
@@ -193,7 +193,7 @@ bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes) {
     size_t sent = 0;
     if (!s->images[0]) begin_pictures(s);
     while (sent < bytes && (p->open || open_next(gl))) {
-        gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, open_name(s), 0);
+        gn_gl_work_on_texture(gl, open_name(s));
         sent += send_some(gl, bytes - sent);
     }
     if (p->open || sent >= bytes) return false;

@@ -38,8 +38,7 @@ int gn_glb_view(struct gn_glb *glb, const void *data, size_t size) {
     size_t start = (glb->size + 3) & ~(size_t)3;
     if (start + size > glb->room) {
         glb->room = 2 * (start + size);
-        glb->bin = realloc(glb->bin, glb->room);
-        if (!glb->bin) gn_import_no_memory();
+        glb->bin = gn_import_grow(glb->bin, glb->room);
     }
     memset(glb->bin + glb->size, 0, start - glb->size);
     memcpy(glb->bin + start, data, size);

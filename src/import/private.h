@@ -93,6 +93,7 @@ struct gn_import {
 void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_report *report);
 /* size bytes, or the end of this process with a report that says so. */
 void *gn_import_alloc(size_t size);
+void *gn_import_grow(void *old, size_t size); /* as realloc */
 void gn_import_no_memory(void) __attribute__((noreturn));
 
 /* ---- folder.c: the model's folder, and nothing else ---- */

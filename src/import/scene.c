@@ -196,8 +196,7 @@ static void queue_node(struct gn_import *import, const struct aiNode *node,
                        struct aiMatrix4x4 world_from_parent) {
     if (import->node_count == import->node_room) {
         import->node_room = 2 * import->node_room + 64;
-        import->nodes = realloc(import->nodes, import->node_room * sizeof *import->nodes);
-        if (!import->nodes) gn_import_no_memory();
+        import->nodes = gn_import_grow(import->nodes, import->node_room * sizeof *import->nodes);
     }
     aiMultiplyMatrix4(&world_from_parent, &node->mTransformation);
     import->nodes[import->node_count++] = (struct gn_import_node){node, world_from_parent};

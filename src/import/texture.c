@@ -143,11 +143,9 @@ static bool same_use(const struct gn_import_texture *known, const struct request
 
 static struct gn_import_texture keep(struct gn_import *import, struct gn_import_texture made) {
     size_t count = import->texture_count + 1;
-    struct gn_import_texture *more = realloc(import->textures, count * sizeof *more);
-    if (!more) gn_import_no_memory();
-    import->textures = more;
+    import->textures = gn_import_grow(import->textures, count * sizeof *import->textures);
     import->texture_count = count;
-    return more[count - 1] = made;
+    return import->textures[count - 1] = made;
 }
 
 struct gn_import_texture gn_import_texture(struct gn_import *import,

@@ -36,6 +36,12 @@ void *gn_import_alloc(size_t size) {
     return memory;
 }
 
+void *gn_import_grow(void *old, size_t size) {
+    void *memory = realloc(old, size);
+    if (!memory) gn_import_no_memory();
+    return memory;
+}
+
 static void bound(int what, rlim_t most) {
     struct rlimit limit = {most, most};
     setrlimit(what, &limit);

@@ -21,7 +21,7 @@ static bool same(const struct gn_kiosk_place *a, const struct gn_kiosk_place *b)
 
 bool gn_kiosk_waits(const struct gn_kiosk *state) { return !same(&state->shown, &state->wanted); }
 
-static void caption(struct gn_kiosk *s, enum gn_caption what, int64_t time_ns) {
+static void caption(struct gn_kiosk *s, enum gn_kiosk_caption what, int64_t time_ns) {
     s->caption = what;
     s->caption_ns = time_ns;
 }
@@ -95,10 +95,13 @@ static void act(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     case GN_ACTION_INFO: s->info = !s->info; break;
     default: return;
     }
-    static const enum gn_caption captions[GN_ACTION_KIND_COUNT] = {
-        [GN_ACTION_NEXT] = GN_CAPTION_MODE,          [GN_ACTION_PREV] = GN_CAPTION_MODE,
-        [GN_ACTION_MODE] = GN_CAPTION_MODE,          [GN_ACTION_NEXT_SCENE] = GN_CAPTION_SCENE,
-        [GN_ACTION_NEXT_CAMERA] = GN_CAPTION_CAMERA, [GN_ACTION_PAUSE] = GN_CAPTION_PAUSE,
+    static const enum gn_kiosk_caption captions[GN_ACTION_KIND_COUNT] = {
+        [GN_ACTION_NEXT] = GN_KIOSK_SAYS_MODE,
+        [GN_ACTION_PREV] = GN_KIOSK_SAYS_MODE,
+        [GN_ACTION_MODE] = GN_KIOSK_SAYS_MODE,
+        [GN_ACTION_NEXT_SCENE] = GN_KIOSK_SAYS_SCENE,
+        [GN_ACTION_NEXT_CAMERA] = GN_KIOSK_SAYS_CAMERA,
+        [GN_ACTION_PAUSE] = GN_KIOSK_SAYS_PAUSE,
     };
     if (captions[e->action]) caption(s, captions[e->action], e->time_ns);
 }
@@ -113,7 +116,8 @@ static void frame(struct gn_kiosk *s, int64_t seen_ns) {
 static void tick(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t now_ns) {
     if (s->used_ns == 0) s->used_ns = now_ns;
     if (s->fade_ns != 0 && now_ns - s->fade_ns >= rules->fade_ns) s->fade_ns = 0;
-    if (s->caption && now_ns - s->caption_ns >= rules->caption_ns) s->caption = GN_CAPTION_NONE;
+    if (s->caption && now_ns - s->caption_ns >= rules->caption_ns)
+        s->caption = GN_KIOSK_SAYS_NOTHING;
     if (rules->idle == GN_IDLE_NONE || rules->idle_after_ns <= 0 || s->blanked ||
         now_ns - s->used_ns < rules->idle_after_ns)
         return;
@@ -149,7 +153,7 @@ static void give_up_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s
         s->wanted.mode = s->shown.mode;
     else
         s->wanted.scene = s->shown.scene;
-    caption(s, GN_CAPTION_PROBLEM, e->time_ns);
+    caption(s, GN_KIOSK_SAYS_PROBLEM, e->time_ns);
 }
 
 static void give_up_mode(struct gn_kiosk *s, const struct gn_kiosk_event *e) {
@@ -157,7 +161,7 @@ static void give_up_mode(struct gn_kiosk *s, const struct gn_kiosk_event *e) {
     s->bad_modes |= 1u << e->mode;
     if (s->wanted.mode != e->mode || s->shown.mode == e->mode) return;
     s->wanted.mode = s->shown.mode;
-    caption(s, GN_CAPTION_PROBLEM, e->time_ns);
+    caption(s, GN_KIOSK_SAYS_PROBLEM, e->time_ns);
 }
 
 struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state,

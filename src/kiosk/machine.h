@@ -31,13 +31,13 @@ struct gn_kiosk_rules {                    /* zero means the default written bes
     int64_t caption_ns;    /* 0: no captions */
 };
 
-enum gn_caption {
-    GN_CAPTION_NONE,
-    GN_CAPTION_MODE,
-    GN_CAPTION_SCENE,
-    GN_CAPTION_CAMERA,
-    GN_CAPTION_PAUSE,
-    GN_CAPTION_PROBLEM, /* what was asked for cannot be had */
+enum gn_kiosk_caption {
+    GN_KIOSK_SAYS_NOTHING,
+    GN_KIOSK_SAYS_MODE,
+    GN_KIOSK_SAYS_SCENE,
+    GN_KIOSK_SAYS_CAMERA,
+    GN_KIOSK_SAYS_PAUSE,
+    GN_KIOSK_SAYS_PROBLEM, /* what was asked for cannot be had */
 };
 struct gn_kiosk_place {
     int mode,
@@ -53,7 +53,7 @@ struct gn_kiosk { /* zeroed: the first mode and scene, nobody was there yet */
     int64_t seen_ns;    /* when that is seen; 0: there was none */
     int64_t fade_ns;    /* since when the new picture comes; 0: it is there */
     int64_t caption_ns; /* since when it stands */
-    enum gn_caption caption;
+    enum gn_kiosk_caption caption;
     int64_t used_ns; /* when somebody did something, or idleness did */
 };
 
@@ -88,7 +88,7 @@ struct gn_kiosk_view {
     bool stands;     /* that time */
     bool dark, info;
     float old; /* share of the picture before in this one, 1 to 0 */
-    enum gn_caption caption;
+    enum gn_kiosk_caption caption;
     int caption_mode, caption_scene; /* what it is about */
 };
 struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state,

@@ -202,12 +202,10 @@ static void pause_stands_and_blank_is_dark(void **state) {
     frames(show, 2);
     act(show, GN_ACTION_PAUSE);
     step(show);
+    const int64_t stood_ns = show->drawn.time_ns;
+    while (show->kiosk.caption || gn_show_wants_frame(show)) step(show);
+    assert_int_equal(show->drawn.time_ns, stood_ns);
     read_picture(show, before);
-    const uint64_t count = show->frames;
-    while (show->kiosk.caption) step(show);
-    assert_true(show->frames - count <= 3);
-    read_picture(show, after);
-    assert_memory_equal(before, after, sizeof before);
     act(show, GN_ACTION_BLANK);
     step(show);
     assert_true(show->stage.display.screen.blank);
@@ -229,7 +227,8 @@ static void a_fade_begins_with_the_old_picture(void **state) {
     const char *folder = help_folder();
     char path[200];
     help_write(folder, "x/kiosk.ini",
-               "[mode \"With\"]\nshadow = pcf\n[mode \"Without\"]\nshadow = none\n");
+               "[mode \"With\"]\nshadow = pcf\n[mode \"Without\"]\nshadow = none\n"
+               "[kiosk]\ncaptions = no\n");
     snprintf(path, sizeof path, "%s/x/kiosk.ini", folder);
     struct gn_show *show = OPEN("--no-animation", "--fade", "10", "-c", path);
     assert_int_equal(show->modes.count, 2);

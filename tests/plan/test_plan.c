@@ -321,6 +321,55 @@ static void test_check_finds_what_is_broken(void **state) {
     plan = *gn_plan_make(&f);
     plan.passes[1].stencil.value = 0x80, plan.passes[1].stencil.writes = 0x7f;
     assert_non_null(gn_plan_check(&plan));
+    plan = *gn_plan_make(&f);
+    plan.passes[1].reads_atlas = true;
+    assert_non_null(gn_plan_check(&plan));
+    gn_plan_end(&f);
+}
+
+/* ---- captions ---- */
+
+static const uint8_t glyphs[4 * 8];
+static const struct gn_caption_atlas atlas = {4, 8, glyphs, 1};
+static const struct gn_caption_quad quads[] = {
+    {.x = 30, .y = 600, .width = 200, .height = 45, .caption = GN_CAPTION_MODE, .ground = true},
+    {.x = 45, .y = 610, .width = 4, .height = 8, .caption = GN_CAPTION_MODE},
+    {.x = 30, .y = 655, .width = 900, .height = 45, .caption = GN_CAPTION_ERROR, .ground = true},
+};
+static const struct gn_caption_run captions = {1280, 720, quads, 3, {0, 0.5f, 1}, &atlas};
+
+static void test_caption_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.captions = &captions;
+    gn_plan_expect(gn_plan_make(&f), "caption");
+    gn_plan_end(&f);
+}
+
+/* One that is gone is no instance, and leaves no bounds; on its side the picture is of another
+ * size than this run. */
+static void test_captions_that_are_not_seen(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_caption_run run = captions;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    const uint32_t passes = gn_plan_make(&f)->pass_count;
+    run.alpha[GN_CAPTION_ERROR] = 0;
+    f.opts.captions = &run;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    assert_int_equal(plan->pass_count, passes + 1);
+    assert_int_equal(plan->draws[plan->draw_count - 1].instance_count, 2);
+    assert_int_equal(plan->passes[passes].rect.width, 200);
+    f.opts.turn_deg = 90;
+    assert_int_equal(gn_plan_make(&f)->pass_count, passes);
+    run.width_px = 720, run.height_px = 1280;
+    plan = gn_plan_make(&f);
+    assert_int_equal(plan->pass_count, passes + 1);
+    assert_int_equal(plan->passes[passes].rect.width, 45);
+    assert_int_equal(plan->passes[passes].rect.height, 200);
+    f.opts.aov = GN_AOV_NORMAL;
+    assert_null(gn_plan_make(&f)->atlas);
     gn_plan_end(&f);
 }
 
@@ -344,6 +393,8 @@ int main(void) {
         cmocka_unit_test(test_flat_ground_is_not_in_the_map),
         cmocka_unit_test(test_a_far_plane_may_be_as_far_as_numbers_go),
         cmocka_unit_test(test_overlay_plan),
+        cmocka_unit_test(test_caption_plan),
+        cmocka_unit_test(test_captions_that_are_not_seen),
         cmocka_unit_test(test_check_finds_what_is_broken),
     };
     return RUN(tests);

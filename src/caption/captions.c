@@ -1,0 +1,249 @@
+#include "caption/captions.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "caption/atlas.h"
+#include "caption/layout.h"
+#include "core/arena.h"
+
+enum {
+    TEXT_BYTES = 2048,
+    LINES_MAX = 32,
+    QUADS_MAX = 1536, /* what is more is not drawn */
+    LINE_MIN_PX = 8,
+    LINE_MAX_PX = 128,
+};
+
+/* Where a kind stands, and how large. */
+static const struct row {
+    uint32_t lines_a_side; /* so many lines would fill the picture's shorter side */
+    uint32_t most_lines;   /* 0: as many as there is room for */
+    bool wraps, at_top;
+    int64_t lasts_ns; /* 0: until it is taken away */
+} rows[GN_CAPTION_KIND_COUNT] = {
+    [GN_CAPTION_INFO] = {.lines_a_side = 30, .at_top = true},
+    [GN_CAPTION_MODE] = {.lines_a_side = 24, .most_lines = 1, .lasts_ns = GN_CAPTION_MODE_NS},
+    [GN_CAPTION_ERROR] = {.lines_a_side = 24, .most_lines = 8, .wraps = true},
+};
+
+struct caption {
+    char text[TEXT_BYTES];
+    int64_t set_ns;
+};
+struct gn_captions {
+    struct gn_captions_opts opts;
+    struct caption captions[GN_CAPTION_KIND_COUNT];
+    struct gn_font *font; /* NULL: not yet */
+    struct gn_atlas atlas;
+    struct gn_caption_run run;
+    struct gn_caption_quad quads[QUADS_MAX];
+    uint32_t bottom_px; /* how much of the picture's lower part is taken */
+    int64_t shown_ns;   /* when the last run is of */
+    bool changed;       /* since then */
+    bool stale;         /* the quads are not of these texts */
+};
+
+struct gn_captions *gn_captions_create(const struct gn_captions_opts *opts) {
+    struct gn_captions *c = gn_xalloc(1, sizeof *c);
+    c->opts = *opts;
+    return c;
+}
+
+void gn_captions_destroy(struct gn_captions *c) {
+    if (!c) return;
+    gn_font_close(c->font);
+    gn_atlas_reset(&c->atlas);
+    free(c);
+}
+
+void gn_captions_set(struct gn_captions *c, enum gn_caption_kind kind, const char *text,
+                     int64_t now_ns) {
+    struct caption *caption = &c->captions[kind];
+    const size_t length = text ? strnlen(text, TEXT_BYTES - 1) : 0;
+    if (strlen(caption->text) != length || memcmp(caption->text, text ? text : "", length) != 0) {
+        if (length) memcpy(caption->text, text, length);
+        caption->text[length] = '\0';
+        c->stale = c->changed = true;
+    }
+    if (rows[kind].lasts_ns && length) c->changed = true;
+    caption->set_ns = now_ns;
+}
+
+/* ---- time ---- */
+
+float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns) {
+    const int64_t left_ns = rows[kind].lasts_ns - age_ns;
+    if (rows[kind].lasts_ns == 0 || left_ns >= GN_CAPTION_FADE_NS) return 1.0f;
+    return left_ns > 0 ? (float)left_ns / (float)GN_CAPTION_FADE_NS : 0.0f;
+}
+
+static float alpha_at(const struct caption *caption, enum gn_caption_kind kind, int64_t now_ns) {
+    return caption->text[0] ? gn_caption_alpha(kind, now_ns - caption->set_ns) : 0.0f;
+}
+
+int64_t gn_captions_next_ns(const struct gn_captions *c) {
+    int64_t next_ns = INT64_MAX;
+    if (c->changed) return 0;
+    for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++) {
+        const struct caption *caption = &c->captions[kind];
+        const float alpha = alpha_at(caption, kind, c->shown_ns);
+        const int64_t fades_ns = caption->set_ns + rows[kind].lasts_ns - GN_CAPTION_FADE_NS;
+        if (rows[kind].lasts_ns == 0 || alpha <= 0.0f) continue;
+        if (alpha < 1.0f) return 0;
+        if (fades_ns < next_ns) next_ns = fades_ns;
+    }
+    return next_ns;
+}
+
+/* ---- laying out ---- */
+
+/* What cannot be read is said once, and done without. */
+static void open_font(struct gn_captions *c) {
+    struct gn_err err = {0};
+    const char *path = c->opts.font;
+    if (!path || *path) c->font = gn_font_open_file(path, &err);
+    if (!c->font && path && *path)
+        gn_warn(c->opts.warnings, "font: %s; texts are shown in the font inside the program",
+                err.text);
+    if (!c->font) c->font = gn_font_open_dots();
+}
+
+static uint32_t line_px_of(const struct row *row, uint32_t width, uint32_t height) {
+    const uint32_t line = (width < height ? width : height) / row->lines_a_side;
+    return line < LINE_MIN_PX ? LINE_MIN_PX : line > LINE_MAX_PX ? LINE_MAX_PX : line;
+}
+
+static int32_t advance_of(void *data, uint32_t code) {
+    struct gn_captions *c = data;
+    return gn_atlas_glyph(&c->atlas, c->font, code)->advance_px;
+}
+
+/* The part of it that is in the picture. */
+static void push(struct gn_captions *c, struct gn_caption_quad quad) {
+    const int32_t right = quad.x + quad.width, bottom = quad.y + quad.height;
+    const int32_t width = (int32_t)c->run.width_px, height = (int32_t)c->run.height_px;
+    if (right <= 0 || bottom <= 0 || quad.x >= width || quad.y >= height) return;
+    if (quad.width <= 0 || quad.height <= 0 || c->run.quad_count == QUADS_MAX) return;
+    if (quad.x < 0) quad.atlas_x = (uint16_t)(quad.atlas_x - quad.x), quad.x = 0;
+    if (quad.y < 0) quad.atlas_y = (uint16_t)(quad.atlas_y - quad.y), quad.y = 0;
+    quad.width = (right < width ? right : width) - quad.x;
+    quad.height = (bottom < height ? bottom : height) - quad.y;
+    c->quads[c->run.quad_count++] = quad;
+}
+
+static int32_t push_text(struct gn_captions *c, enum gn_caption_kind kind, const char *begin,
+                         const char *end, int32_t x, int32_t base) {
+    for (uint32_t code; (code = gn_layout_next(&begin, end)) != 0;) {
+        const struct gn_atlas_glyph *g = gn_atlas_glyph(&c->atlas, c->font, code);
+        push(c, (struct gn_caption_quad){.x = x + g->left,
+                                         .y = base - g->top,
+                                         .width = g->width_px,
+                                         .height = g->height_px,
+                                         .atlas_x = g->x,
+                                         .atlas_y = g->y,
+                                         .caption = (uint8_t)kind});
+        x += g->advance_px;
+    }
+    return x;
+}
+
+static void push_lines(struct gn_captions *c, enum gn_caption_kind kind,
+                       const struct gn_layout_line *lines, uint32_t count, int32_t x, int32_t y) {
+    static const char gap[] = GN_LAYOUT_GAP;
+    for (uint32_t i = 0; i < count; i++) {
+        const int32_t base = y + (int32_t)(i * c->font->line_px + c->font->ascent_px);
+        const int32_t end = push_text(c, kind, lines[i].begin, lines[i].end, x, base);
+        if (lines[i].cut) push_text(c, kind, gap, gap + sizeof gap - 1, end, base);
+    }
+}
+
+/* The ground under lines: half a line wider on either side than they are, and a quarter higher. */
+struct room {
+    int32_t margin, line, beside, above; /* margin: from the picture's edges */
+};
+
+static void place(struct gn_captions *c, enum gn_caption_kind kind, const struct room *r,
+                  const struct gn_layout_line *lines, uint32_t count) {
+    const bool at_top = rows[kind].at_top;
+    const int32_t tall = (int32_t)count * r->line + 2 * r->above;
+    const int32_t lowest = (int32_t)c->run.height_px - r->margin - (int32_t)c->bottom_px;
+    const int32_t y = at_top ? r->margin : lowest - tall;
+    int32_t widest = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (lines[i].width_px > widest) widest = lines[i].width_px;
+    if (widest == 0) return;
+    push(c, (struct gn_caption_quad){.x = r->margin,
+                                     .y = y,
+                                     .width = widest + 2 * r->beside,
+                                     .height = tall,
+                                     .caption = (uint8_t)kind,
+                                     .ground = true});
+    push_lines(c, kind, lines, count, r->margin + r->beside, y + r->above);
+    if (!at_top) c->bottom_px += (uint32_t)(tall + r->above);
+}
+
+/* A large line away from the edges: televisions do not show all of a picture. */
+static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
+    const struct row *row = &rows[kind];
+    const char *text = c->captions[kind].text;
+    const uint32_t width = c->run.width_px, height = c->run.height_px;
+    struct gn_layout_line lines[LINES_MAX];
+    if (!gn_font_resize(c->font, line_px_of(row, width, height))) return;
+    const int32_t line = (int32_t)c->font->line_px;
+    const struct room r = {.margin = (int32_t)line_px_of(&rows[GN_CAPTION_MODE], width, height),
+                           .line = line,
+                           .beside = line / 2,
+                           .above = line / 4};
+    const int32_t fit = ((int32_t)height - 2 * (r.margin + r.above) - (int32_t)c->bottom_px) / line;
+    const int32_t most = row->most_lines ? (int32_t)row->most_lines : LINES_MAX;
+    const struct gn_layout_opts opts = {
+        .width_px = (int32_t)width - 2 * (r.margin + r.beside),
+        .most_lines = (uint32_t)(fit < 1      ? 1
+                                 : fit < most ? fit
+                                              : most),
+        .wraps = row->wraps,
+        .advance_px = advance_of,
+        .data = c,
+    };
+    place(c, kind, &r, lines, gn_layout_build(&opts, text, text + strlen(text), lines));
+}
+
+/* From below: an error, over it the mode, which is drawn last. */
+static void lay_out_all(struct gn_captions *c) {
+    static const enum gn_caption_kind order[GN_CAPTION_KIND_COUNT] = {
+        GN_CAPTION_ERROR, GN_CAPTION_INFO, GN_CAPTION_MODE};
+    c->bottom_px = 0;
+    c->run.quad_count = 0;
+    for (int i = 0; i < GN_CAPTION_KIND_COUNT; i++)
+        if (c->captions[order[i]].text[0]) lay_out(c, order[i]);
+}
+
+const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t width_px,
+                                             uint32_t height_px, int64_t now_ns) {
+    bool seen = false;
+    for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++) {
+        c->run.alpha[kind] = alpha_at(&c->captions[kind], kind, now_ns);
+        seen |= c->run.alpha[kind] > 0.0f;
+    }
+    c->shown_ns = now_ns;
+    c->changed = false;
+    if (!seen) return NULL;
+    if (!c->font) open_font(c);
+    if (c->stale || c->run.width_px != width_px || c->run.height_px != height_px) {
+        const bool other_size = c->run.width_px != width_px || c->run.height_px != height_px;
+        c->run.width_px = width_px;
+        c->run.height_px = height_px;
+        if (other_size) gn_atlas_reset(&c->atlas);
+        lay_out_all(c);
+        if (c->atlas.full) { /* of glyphs that were needed once */
+            gn_atlas_reset(&c->atlas);
+            lay_out_all(c);
+        }
+        gn_atlas_seal(&c->atlas);
+        c->stale = false;
+    }
+    c->run.quads = c->quads;
+    c->run.atlas = &c->atlas.picture;
+    return c->run.quad_count && c->run.atlas->generation ? &c->run : NULL;
+}

@@ -1,0 +1,39 @@
+/* The texts that are on the picture now. */
+#ifndef GN_CAPTION_CAPTIONS_H
+#define GN_CAPTION_CAPTIONS_H
+
+#include "caption/run.h"
+#include "core/warn.h"
+
+#define GN_CAPTION_MODE_NS INT64_C(2000000000) /* so long a mode's name is there */
+#define GN_CAPTION_FADE_NS INT64_C(300000000)  /* of which it fades */
+
+struct gn_captions;
+struct gn_captions_opts { /* zero means the default written beside */
+    const char
+        *font; /* file; the first of where packages put them; "" the font inside the program */
+    struct gn_warnings *warnings; /* who hears that a font is not used; nobody */
+};
+/* Reads nothing yet: the font is opened when a text is first laid out. The texts in opts must
+ * outlive it. */
+struct gn_captions *gn_captions_create(const struct gn_captions_opts *opts);
+void gn_captions_destroy(struct gn_captions *captions); /* NULL is legal */
+
+/* Shows a text (copied, cut at 2 kB) in place of the one of that kind; NULL or "" takes that away.
+ * Equal text: a mode's time starts again, else nothing changes. */
+void gn_captions_set(struct gn_captions *captions, enum gn_caption_kind kind, const char *text,
+                     int64_t now_ns);
+/* How strong a caption is that was set so long ago: 1, at the end of a mode's time less and less,
+ * then 0. Pure. */
+float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns);
+
+/* What is on a picture of that size (before it is turned) at that time; NULL: nothing. Valid until
+ * the next call of this or set. Allocates, reads the font and looks at a text only when that or the
+ * size is another. */
+const struct gn_caption_run *gn_captions_run(struct gn_captions *captions, uint32_t width_px,
+                                             uint32_t height_px, int64_t now_ns);
+/* From when on another picture is to be seen than that of the last run, as far as that is due to
+ * captions: a time, 0 for at once, INT64_MAX for never. */
+int64_t gn_captions_next_ns(const struct gn_captions *captions);
+
+#endif

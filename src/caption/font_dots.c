@@ -1,0 +1,53 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "caption/font.h"
+#include "core/arena.h"
+#include "core/dot_font.h"
+
+enum { SCALE_MAX = 16 };
+
+struct dots {
+    struct gn_font font;
+    uint32_t scale; /* pixels a dot */
+    uint8_t coverage[SCALE_MAX * GN_DOT_FONT_ROWS * SCALE_MAX * GN_DOT_FONT_COLUMNS];
+};
+
+/* The nearest whole multiple. */
+static bool resize(struct gn_font *font, uint32_t line_px) {
+    struct dots *d = (struct dots *)font;
+    const uint32_t scale = (line_px + GN_DOT_FONT_HEIGHT / 2) / GN_DOT_FONT_HEIGHT;
+    d->scale = scale < 1 ? 1 : scale > SCALE_MAX ? SCALE_MAX : scale;
+    font->line_px = d->scale * GN_DOT_FONT_HEIGHT;
+    font->ascent_px = d->scale * (GN_DOT_FONT_ASCENT + 1);
+    return true;
+}
+
+static bool glyph(struct gn_font *font, uint32_t code, struct gn_glyph *out) {
+    struct dots *d = (struct dots *)font;
+    const uint8_t *rows = gn_dot_font_rows(code);
+    const uint32_t width = GN_DOT_FONT_COLUMNS * d->scale, height = GN_DOT_FONT_ROWS * d->scale;
+    if (!rows) return false;
+    out->advance_px = (int32_t)(GN_DOT_FONT_WIDTH * d->scale);
+    if (code == ' ') return true;
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++)
+            d->coverage[y * width + x] =
+                rows[y / d->scale] >> (GN_DOT_FONT_COLUMNS - 1 - x / d->scale) & 1 ? 255 : 0;
+    out->top = (int32_t)(GN_DOT_FONT_ASCENT * d->scale);
+    out->width_px = width;
+    out->height_px = height;
+    out->stride = width;
+    out->coverage = d->coverage;
+    return true;
+}
+
+static void close_dots(struct gn_font *font) { free(font); }
+
+struct gn_font *gn_font_open_dots(void) {
+    static const struct gn_font_ops ops = {resize, glyph, close_dots};
+    struct dots *d = gn_xalloc(1, sizeof *d);
+    d->font.ops = &ops;
+    resize(&d->font, GN_DOT_FONT_HEIGHT);
+    return &d->font;
+}

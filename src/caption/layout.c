@@ -1,0 +1,138 @@
+#include "caption/layout.h"
+
+#include <string.h>
+
+enum { REPLACEMENT = 0xfffd };
+
+/* ---- UTF-8 (Unicode 15, table 3-7) ---- */
+
+/* How many bytes a character of that first byte has, and between what its second one lies; 0: it
+ * begins none. */
+static int sequence(uint8_t lead, uint8_t *least, uint8_t *most) {
+    *least = lead == 0xe0 ? 0xa0 : lead == 0xf0 ? 0x90 : 0x80;
+    *most = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
+    if (lead < 0x80) return 1;
+    if (lead < 0xc2 || lead > 0xf4) return 0;
+    return lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+}
+
+static uint32_t decode(const char **text, const char *end) {
+    const uint8_t *at = (const uint8_t *)*text;
+    uint8_t least, most;
+    const int length = sequence(at[0], &least, &most);
+    if (length <= 1) {
+        ++*text;
+        return length ? at[0] : REPLACEMENT;
+    }
+    uint32_t code = at[0] & (0x7fu >> length);
+    for (int i = 1; i < length; i++) {
+        if ((const char *)at + i == end || at[i] < least || at[i] > most) {
+            *text += i; /* what follows may be whole again */
+            return REPLACEMENT;
+        }
+        code = code << 6 | (at[i] & 0x3f);
+        least = 0x80, most = 0xbf;
+    }
+    *text += length;
+    return code;
+}
+
+/* Controls, marks of direction, joiners, selectors: nothing that is seen. */
+static bool is_unseen(uint32_t code) {
+    return (code < 0x20 && code != '\n') || (code >= 0x7f && code < 0xa0) || code == 0xad ||
+           (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
+           (code >= 0x2060 && code <= 0x206f) || (code >= 0xfe00 && code <= 0xfe0f) ||
+           code == 0xfeff || code >= 0xe0000;
+}
+
+uint32_t gn_layout_next(const char **text, const char *end) {
+    while (*text < end && **text) {
+        const uint32_t code = decode(text, end);
+        if (code == '\t') return ' ';
+        if (!is_unseen(code)) return code;
+    }
+    return 0;
+}
+
+/* ---- lines ---- */
+
+static int32_t gap_px(const struct gn_layout_opts *opts) {
+    return (int32_t)strlen(GN_LAYOUT_GAP) * opts->advance_px(opts->data, GN_LAYOUT_GAP[0]);
+}
+
+static int32_t width_of(const struct gn_layout_opts *opts, const char *begin, const char *end) {
+    int32_t width = 0;
+    for (uint32_t code; (code = gn_layout_next(&begin, end)) != 0;)
+        width += opts->advance_px(opts->data, code);
+    return width;
+}
+
+static bool is_space(char c) { return c == ' ' || c == '\t'; }
+
+static const char *skip_spaces(const char *at, const char *end) {
+    while (at < end && is_space(*at)) at++;
+    return at;
+}
+
+static const char *trim(const char *begin, const char *end) {
+    while (end > begin && is_space(end[-1])) end--;
+    return end;
+}
+
+/* Where a line of so much room ends: behind its last word that fits, or within the only one. At
+ * least one character long, so that there is an end of it. */
+static const char *break_at(const struct gn_layout_opts *opts, const char *begin, const char *end,
+                            int32_t room, bool words) {
+    const char *at = begin, *word = begin;
+    int32_t width = 0;
+    while (at < end) {
+        const char *next = at;
+        const uint32_t code = gn_layout_next(&next, end);
+        if (code == 0) return end;
+        width += opts->advance_px(opts->data, code);
+        if (code == ' ') word = at;
+        if (width > room) return words && word > begin ? word : at > begin ? at : next;
+        at = next;
+    }
+    return end;
+}
+
+static void cut(const struct gn_layout_opts *opts, struct gn_layout_line *line, const char *end) {
+    const int32_t gap = gap_px(opts), room = opts->width_px - gap;
+    line->cut = true;
+    if (width_of(opts, line->begin, end) > room)
+        end = room > 0 ? break_at(opts, line->begin, end, room, false) : line->begin;
+    line->end = trim(line->begin, end);
+    line->width_px = width_of(opts, line->begin, line->end) + gap;
+}
+
+static const char *paragraph_end(const char *at, const char *end) {
+    const char *newline = memchr(at, '\n', (size_t)(end - at));
+    return newline ? newline : end;
+}
+
+uint32_t gn_layout_build(const struct gn_layout_opts *opts, const char *text, const char *end,
+                         struct gn_layout_line *lines) {
+    uint32_t count = 0;
+    end = text + strnlen(text, (size_t)(end - text));
+    while (text < end && count < opts->most_lines) {
+        struct gn_layout_line *line = &lines[count++];
+        const char *stop = paragraph_end(text, end);
+        *line = (struct gn_layout_line){.begin = text, .end = trim(text, stop)};
+        line->width_px = width_of(opts, line->begin, line->end);
+        const char *next = stop + (stop < end);
+        if (line->width_px > opts->width_px && opts->wraps) {
+            const char *at = break_at(opts, text, line->end, opts->width_px, true);
+            next = skip_spaces(at, stop);
+            if (next == stop) next += stop < end;
+            line->end = trim(text, at);
+            line->width_px = width_of(opts, text, line->end);
+        } else if (line->width_px > opts->width_px) {
+            cut(opts, line, line->end);
+        }
+        if (count == opts->most_lines && next < end && !line->cut)
+            cut(opts, line, opts->wraps && next < stop ? stop : line->end);
+        text = next;
+    }
+    return count;
+}

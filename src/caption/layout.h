@@ -1,0 +1,33 @@
+/* A text into lines that have room. Pure. The text is UTF-8 that anybody may have written: what is
+ * no character becomes U+FFFD, controls and marks of direction nothing, a tab a space. */
+#ifndef GN_CAPTION_LAYOUT_H
+#define GN_CAPTION_LAYOUT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define GN_LAYOUT_GAP "..." /* in place of what is cut */
+
+/* The character at *text, which moves on behind it; 0: the text ends. Never anything that is not to
+ * be drawn, but '\n'. */
+uint32_t gn_layout_next(const char **text, const char *end);
+
+struct gn_layout_opts {
+    int32_t width_px; /* room for a line */
+    uint32_t most_lines;
+    bool wraps; /* between words, within those that are longer than a line; else lines are cut */
+    int32_t (*advance_px)(void *data, uint32_t code); /* of a character */
+    void *data;
+};
+struct gn_layout_line {
+    const char *begin, *end; /* in the text, without the spaces around */
+    int32_t width_px;        /* with the gap, where it is cut */
+    bool cut;                /* a gap follows */
+};
+/* The lines of a text, into `lines` (most_lines of them); how many. Each fits into width_px, but
+ * where not even a character does. What has no room at the end is cut off the last line. */
+uint32_t gn_layout_build(const struct gn_layout_opts *opts, const char *text, const char *end,
+                         struct gn_layout_line *lines);
+
+#endif

@@ -1,0 +1,75 @@
+/* What stands on a kiosk's picture: for two seconds what has changed, the page of information, and
+ * what is wrong as long as it is. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/show.h"
+#include "core/clock.h"
+
+void gn_show_open_captions(struct gn_show *s) {
+    const struct gn_captions_opts opts = {.font = s->options->font, .warnings = s->warnings};
+    gn_captions_destroy(s->captions);
+    s->captions = gn_captions_create(&opts);
+    s->said = (struct gn_kiosk_view){0};
+    s->said_ns = 0;
+}
+
+/* The last part of a path. */
+static const char *scene_name(const struct gn_show *s, int scene) {
+    const char *path = s->scenes.paths[scene];
+    const char *slash = path ? strrchr(path, '/') : NULL;
+    return !path ? "gnomon" : slash ? slash + 1 : path;
+}
+
+static const char *caption_of(const struct gn_show *s, const struct gn_kiosk_view *view) {
+    switch (view->caption) {
+    case GN_KIOSK_SAYS_MODE: return s->modes.names[view->caption_mode];
+    case GN_KIOSK_SAYS_SCENE: return scene_name(s, view->caption_scene);
+    case GN_KIOSK_SAYS_CAMERA: return s->stage.scene->cameras[s->stage.frame_opts.camera].name;
+    case GN_KIOSK_SAYS_PAUSE: return view->stands ? "pause" : NULL;
+    default: return NULL;
+    }
+}
+
+/* A text is set again only when there is something new to say. */
+static void write_changes(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
+    const char *error = s->options->config_error;
+    if (!error && view->caption == GN_KIOSK_SAYS_PROBLEM) error = s->problem;
+    gn_captions_set(s->captions, GN_CAPTION_ERROR, error, now_ns);
+    if (view->caption == s->said.caption && s->kiosk.caption_ns == s->said_ns) return;
+    s->said = *view;
+    s->said_ns = s->kiosk.caption_ns;
+    gn_captions_set(s->captions, GN_CAPTION_MODE, caption_of(s, view), now_ns);
+}
+
+static void write_page(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
+    const struct gn_info info = {
+        .scene = scene_name(s, view->scene),
+        .mode = s->modes.names[view->mode],
+        .screen = &s->stage.display.screen,
+        .caps = gn_gl_caps(s->stage.gl),
+        .uptime_ns = now_ns - s->begun_ns,
+    };
+    if (!view->info) {
+        s->page.made = false;
+        gn_captions_set(s->captions, GN_CAPTION_INFO, NULL, now_ns);
+    } else if (gn_info_page_step(&s->page, &info, now_ns))
+        gn_captions_set(s->captions, GN_CAPTION_INFO, s->page.text, now_ns);
+}
+
+void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
+    struct gn_frame_opts *f = &s->stage.frame_opts;
+    const bool on_side = f->turn_deg / 90 % 2;
+    write_changes(s, view, now_ns);
+    write_page(s, view, now_ns);
+    f->captions_later = true;
+    f->captions = gn_captions_run(s->captions, on_side ? f->height_px : f->width_px,
+                                  on_side ? f->width_px : f->height_px, now_ns);
+}
+
+/* A page is made anew once a second. */
+int64_t gn_show_captions_due_ns(const struct gn_show *s) {
+    const int64_t next_ns = gn_captions_next_ns(s->captions),
+                  page_ns = s->page.made ? s->page.made_ns + GN_NS_PER_S : INT64_MAX;
+    return next_ns < page_ns ? next_ns : page_ns;
+}

@@ -1,0 +1,72 @@
+/* Texts over the finished picture: one draw, an instance per rectangle. What is to be seen is in
+ * the space that the target stores, so the pass comes after all that is linear. */
+#include <string.h>
+
+#include "blocks.glsl"
+#include "frame/private.h"
+
+static struct gn_program_key key_of(const struct gn_frame *frame) {
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = GN_PROGRAM_CAPTION;
+    if (frame->plan.encode_srgb) key.features = GN_FEATURE_ENCODE_SRGB;
+    return key;
+}
+
+/* base_color: the rectangle, pixels, top row first; surface: its place in the atlas, how strong it
+ * is, 1 where it is a ground. */
+static void add_quad(struct gn_frame *frame, const struct gn_caption_quad *q, float alpha) {
+    GN_LIST_PUSH(&frame->instances) = (struct gn_instance){
+        .base_color = {(float)q->x, (float)q->y, (float)q->width, (float)q->height},
+        .surface = {(float)q->atlas_x, (float)q->atlas_y, alpha, q->ground ? 1.0f : 0.0f}};
+}
+
+/* All that can be seen of the run; the rectangle around it, first row at the bottom. */
+static struct gn_rect add_quads(struct gn_frame *frame, const struct gn_caption_run *run) {
+    int32_t left = INT32_MAX, top = INT32_MAX, right = 0, bottom = 0;
+    for (uint32_t i = 0; i < run->quad_count; i++) {
+        const struct gn_caption_quad *q = &run->quads[i];
+        if (run->alpha[q->caption] <= 0.0f) continue;
+        add_quad(frame, q, run->alpha[q->caption]);
+        if (q->x < left) left = q->x;
+        if (q->y < top) top = q->y;
+        if (q->x + q->width > right) right = q->x + q->width;
+        if (q->y + q->height > bottom) bottom = q->y + q->height;
+    }
+    if (right <= left) return (struct gn_rect){0};
+    return (struct gn_rect){(uint32_t)left, frame->picture_height_px - (uint32_t)bottom,
+                            (uint32_t)(right - left), (uint32_t)(bottom - top)};
+}
+
+static void draw_run(struct gn_frame *frame, const struct gn_program_key *key,
+                     const struct gn_caption_run *run) {
+    const uint32_t first = frame->instances.count;
+    const struct gn_rect rect = add_quads(frame, run);
+    if (rect.width == 0) return;
+    struct gn_pass *pass = gn_frame_picture_pass(frame, "captions");
+    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_CAPTIONS);
+    if (gn_frame_is_encoded(frame)) pass->target.kind = GN_TARGET_ENCODED;
+    pass->rect = gn_frame_turned_rect(frame, rect);
+    pass->blend = GN_BLEND_ALPHA;
+    pass->depth_write = false;
+    pass->reads_atlas = true;
+    pass->constants = c;
+    pass->constant_count = CAPTION_SIZE;
+    c[CAPTION_PX][0] = 2.0f / (float)frame->picture_width_px;
+    c[CAPTION_PX][1] = 2.0f / (float)frame->picture_height_px;
+    c[CAPTION_PX][2] = frame->turn[0];
+    c[CAPTION_PX][3] = frame->turn[1];
+    frame->plan.atlas = run->atlas;
+    gn_frame_draw_bare(frame, key, 6, first, frame->instances.count - first);
+    gn_frame_end_pass(frame);
+}
+
+void gn_frame_caption_pass(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+    const struct gn_caption_run *run = opts->captions;
+    const struct gn_program_key key = key_of(frame);
+    if (opts->aov != GN_AOV_COLOR) return;
+    if (opts->captions_later) gn_frame_program(frame, &key);
+    if (run && run->width_px == frame->picture_width_px &&
+        run->height_px == frame->picture_height_px)
+        draw_run(frame, &key, run);
+}
