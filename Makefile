@@ -112,7 +112,12 @@ OPTIONAL := src/display/osmesa:osmesa src/display/window:glfw3
 without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(subst :, ,$(p))) \
              2> /dev/null && echo y),$(firstword $(subst :, ,$(p)))_none.c,\
              $(firstword $(subst :, ,$(p))).c))
-SRC     := $(filter-out $(without) src/import/%,$(sort $(wildcard src/*/*.c)))
+# libgpiod has two interfaces, and one file for each; gpio_none.c stands in for both
+GPIOD   := $(firstword $(subst ., ,$(shell $(PKG) --modversion libgpiod 2> /dev/null)))
+GPIO_C  := $(if $(filter 1 2,$(GPIOD)),gpiod$(GPIOD).c,gpio_none.c)
+GPIO_LIBS := $(if $(filter 1 2,$(GPIOD)),$(shell $(PKG) --libs libgpiod))
+unused  := $(without) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
+SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c)))
 TESTS_C := $(sort $(filter-out tests/board/%,$(wildcard tests/*/*.c)))
 PROG_C  := $(foreach d,unit plan image fuzz kms,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
@@ -134,7 +139,7 @@ man: $(O)/gnomon.1
 
 $(BIN): $(call OBJ,src/main.c) $(LIB)
 	@echo "link $@"
-	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(GPIO_LIBS) $(LIBS)
 $(B)/gnomon-import: $(call OBJ,$(IMPORT_C)) $(LIB)
 	@echo "link $@"
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(shell $(PKG) --libs assimp) $(LIBS)
@@ -153,7 +158,7 @@ $(B)/obj/gen/embedded.o: $(B)/gen/embedded.c $(B)/flags
 define program
 $(B)/tests/$(basename $(notdir $(1))): $(call OBJ,$(1)) $(TESTLIB) $(LIB)
 	@mkdir -p $$(@D) && echo "link $$@"
-	$(Q)$$(CC) $$(ALL_CFLAGS) $$(ALL_LDFLAGS) -o $$@ $$^ -lcmocka $$(LIBS)
+	$(Q)$$(CC) $$(ALL_CFLAGS) $$(ALL_LDFLAGS) -o $$@ $$^ -lcmocka $$(GPIO_LIBS) $$(LIBS)
 endef
 $(foreach c,$(PROG_C),$(eval $(call program,$(c))))
 
@@ -167,7 +172,7 @@ define keep
 @mkdir -p $(@D) && printf '%b\n' '$(1)' | cmp -s - $@ || printf '%b\n' '$(1)' > $@
 endef
 $(B)/flags: FORCE
-	$(call keep,$(shell $(CC) --version | head -n 1) $(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $(LIBS))
+	$(call keep,$(shell $(CC) --version | head -n 1) $(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $(GPIO_LIBS) $(LIBS))
 $(B)/sources: FORCE
 	$(call keep,$(SRC) $(IMPORT_C) $(TESTS_C) $(EMBED))
 $(B)/gen/config.h: FORCE

@@ -6,12 +6,12 @@
 
 #include <stddef.h>
 
+#include "core/arena.h"
 #include "core/err.h"
 #include "core/key.h"
 #include "core/warn.h"
 #include "input/gesture.h"
-
-enum gn_bias { GN_BIAS_PULL_UP, GN_BIAS_PULL_DOWN, GN_BIAS_NONE };
+#include "input/gpio.h"
 
 struct gn_button_opts { /* zero means the default written beside; texts outlive the input */
     const char *name;   /* as in [button "NAME"] */
@@ -31,9 +31,12 @@ struct gn_button_opts { /* zero means the default written beside; texts outlive 
 struct gn_input_opts {
     const struct gn_button_opts *buttons; /* outlive the input */
     int button_count;                     /* at most GN_BUTTONS_MAX */
-    bool terminal;                        /* read keys from stdin where it is a terminal */
+    bool terminal;                        /* read keys from stdin where it is a terminal; on a
+                                             text console not those that an input device has, too */
     bool devices;                         /* read input devices (evdev) */
-    const char *script; /* a file of "TIME_S down|up|click KEY-OR-BUTTON" lines; NULL: none */
+    const char *script; /* a file of "TIME_S down|up|click KEY-OR-BUTTON" lines (script.h), whose
+                           times count from the opening; NULL: none. Buttons that it names have no
+                           line but the script's */
 };
 
 struct gn_input;
@@ -49,10 +52,38 @@ int gn_input_fd(const struct gn_input *input); /* readable when dispatch has to 
 void gn_input_dispatch(struct gn_input *input, int64_t now_ns);
 /* A key that somebody else heard: the window's. */
 void gn_input_key(struct gn_input *input, const struct gn_key_event *event);
-/* The next gesture, in order; false: there is none. At most 20 a second for each button. */
+/* After dispatch and after key, until it is false: the next gesture, in order; false: there is
+ * none. At most 20 a second for each button. */
 bool gn_input_next(struct gn_input *input, struct gn_gesture_event *out);
 /* The next line for the log that has not been read ("button \"next\": held for 30 s; ignored until
  * it is released"), or false. Each is said once until it changes. */
 bool gn_input_report(struct gn_input *input, char *out, size_t size);
+
+/* ---- for doctor ---------------------------------------------------------------------------- */
+
+struct gn_input_line {
+    char name[48]; /* "" : it has none */
+    bool used;
+    char consumer[48]; /* who uses it; "": not known */
+};
+struct gn_input_chip {
+    char path[64], name[32], label[48];
+    int error; /* an errno value: why it could not be opened, and there is nothing else; 0: it was
+                */
+    int line_count;
+    const struct gn_input_line *lines;
+};
+enum { GN_INPUT_CHIPS_MAX = 32 };
+struct gn_input_list {
+    const char
+        *library; /* "libgpiod 1"; NULL: this build has none, and chips are not looked into */
+    struct gn_input_chip chips[GN_INPUT_CHIPS_MAX];
+    int chip_count;
+    int devices, devices_denied; /* input devices; those of them that may not be read */
+    struct gn_arena arena;       /* holds the lines */
+};
+/* Lines of GPIO chips, and the rest that can be listened to. Changes nothing. */
+void gn_input_list_lines(struct gn_input_list *out);
+void gn_input_list_finish(struct gn_input_list *list);
 
 #endif

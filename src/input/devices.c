@@ -1,0 +1,135 @@
+#include "input/devices.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <linux/input.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/epoll.h>
+#include <unistd.h>
+
+#include "core/clock.h"
+
+void gn_devices_init(struct gn_devices *devices) {
+    for (int i = 0; i < GN_DEVICES_MAX; i++) devices->list[i] = (struct gn_device){.fd = -1};
+}
+
+static void lose(struct gn_devices *devices, struct gn_device *d, int64_t now_ns) {
+    epoll_ctl(devices->epoll, EPOLL_CTL_DEL, d->fd, NULL);
+    close(d->fd);
+    gn_keys_lose(devices->keys, &d->keys, now_ns);
+    *d = (struct gn_device){.fd = -1};
+}
+
+void gn_devices_finish(struct gn_devices *devices) {
+    for (int i = 0; i < GN_DEVICES_MAX; i++)
+        if (devices->list[i].fd >= 0)
+            lose(devices, &devices->list[i], devices->keys->gestures->now_ns);
+}
+
+/* ---- finding them -------------------------------------------------------------------------- */
+
+static bool is_open(const struct gn_devices *devices, const char *path) {
+    for (int i = 0; i < GN_DEVICES_MAX; i++)
+        if (devices->list[i].fd >= 0 && strcmp(devices->list[i].path, path) == 0) return true;
+    return false;
+}
+
+static int find_free(const struct gn_devices *devices) {
+    for (int i = 0; i < GN_DEVICES_MAX; i++)
+        if (devices->list[i].fd < 0) return i;
+    return -1;
+}
+
+static void add(struct gn_devices *devices, int i, struct gn_device found, int64_t now_ns) {
+    struct gn_device *d = &devices->list[i];
+    struct epoll_event event = {.events = EPOLLIN,
+                                .data.u64 = devices->tag | (uint64_t)(unsigned)i};
+    uint8_t bits[GN_KEY_BYTES] = {0};
+    *d = found;
+    if (epoll_ctl(devices->epoll, EPOLL_CTL_ADD, d->fd, &event)) {
+        close(d->fd);
+        d->fd = -1;
+        return;
+    }
+    if (devices->ops->state(devices->context, d->fd, bits) == 0)
+        gn_keys_set_all(devices->keys, &d->keys, bits, true, now_ns);
+}
+
+static void try_device(struct gn_devices *devices, const char *path, int64_t now_ns) {
+    struct gn_device found = {.fd = -1};
+    snprintf(found.path, sizeof found.path, "%s", path);
+    const int error =
+        devices->ops->open(devices->context, path, devices->keys->bound, found.has, &found.fd);
+    devices->denied += error == EACCES || error == EPERM;
+    if (error) return;
+    const int place = find_free(devices);
+    if (place >= 0) {
+        add(devices, place, found, now_ns);
+        return;
+    }
+    close(found.fd);
+    if (!devices->full)
+        gn_report(devices->reports,
+                  "%s and others are not listened to: %d input devices are enough", path,
+                  GN_DEVICES_MAX);
+    devices->full = true;
+}
+
+void gn_devices_search(struct gn_devices *devices, int64_t now_ns) {
+    DIR *open = opendir(devices->folder);
+    devices->denied = 0;
+    for (const struct dirent *entry; open && (entry = readdir(open));) {
+        char path[64];
+        if (strncmp(entry->d_name, "event", 5) != 0 ||
+            snprintf(path, sizeof path, "%s/%s", devices->folder, entry->d_name) >=
+                (int)sizeof path)
+            continue;
+        if (!is_open(devices, path)) try_device(devices, path, now_ns);
+    }
+    if (open) closedir(open);
+}
+
+bool gn_devices_have(const struct gn_devices *devices, unsigned key) {
+    for (int i = 0; i < GN_DEVICES_MAX; i++)
+        if (devices->list[i].fd >= 0 && gn_key_is_down(devices->list[i].has, key)) return true;
+    return false;
+}
+
+/* ---- reading them -------------------------------------------------------------------------- */
+
+/* What was lost in between is found by asking where the keys are. */
+static void heal(struct gn_devices *devices, struct gn_device *d, int64_t time_ns) {
+    uint8_t bits[GN_KEY_BYTES] = {0};
+    d->dropped = false;
+    if (devices->ops->state(devices->context, d->fd, bits) == 0)
+        gn_keys_set_all(devices->keys, &d->keys, bits, false, time_ns);
+}
+
+static void take(struct gn_devices *devices, struct gn_device *d, const struct input_event *event,
+                 int64_t now_ns) {
+    const int64_t time_ns = gn_gesture_time_ns((int64_t)event->input_event_sec * GN_NS_PER_S +
+                                                   (int64_t)event->input_event_usec * 1000,
+                                               now_ns);
+    if (event->type == EV_SYN && event->code == SYN_DROPPED) d->dropped = true;
+    if (event->type == EV_SYN && event->code == SYN_REPORT && d->dropped) heal(devices, d, time_ns);
+    if (event->type != EV_KEY || d->dropped || event->value < 0 || event->value > 1)
+        return; /* 2: repeated by the kernel */
+    gn_keys_set(devices->keys, &d->keys, event->code, event->value, time_ns);
+}
+
+bool gn_devices_read(struct gn_devices *devices, int index, int64_t now_ns) {
+    struct gn_device *d = &devices->list[index];
+    struct input_event events[64];
+    for (int round = 0; d->fd >= 0 && round < 8; round++) {
+        const ssize_t size = read(d->fd, events, sizeof events);
+        if (size < 0 && (errno == EAGAIN || errno == EINTR)) return false;
+        if (size <= 0) {
+            lose(devices, d, now_ns);
+            return true;
+        }
+        const size_t count = (size_t)size / sizeof *events;
+        for (size_t i = 0; i < count; i++) take(devices, d, &events[i], now_ns);
+    }
+    return false;
+}

@@ -1,0 +1,144 @@
+#include "input/line_find.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { CHIPS_MAX = 32 };
+
+/* ---- what is meant ------------------------------------------------------------------------- */
+
+/* The header's pins on a Raspberry Pi: the kernel's own device trees (bcm2711-rpi-4-b.dts,
+ * bcm2837-rpi-3-b.dts) name some after what they can do besides, those of Raspberry Pi all by their
+ * number. */
+static const struct {
+    const char *number, *function;
+} aliases[] = {
+    {"GPIO0", "ID_SDA"},    {"GPIO1", "ID_SCL"},    {"GPIO2", "SDA1"},      {"GPIO3", "SCL1"},
+    {"GPIO4", "GPIO_GCLK"}, {"GPIO7", "SPI_CE1_N"}, {"GPIO8", "SPI_CE0_N"}, {"GPIO9", "SPI_MISO"},
+    {"GPIO10", "SPI_MOSI"}, {"GPIO11", "SPI_SCLK"}, {"GPIO14", "TXD1"},     {"GPIO14", "TXD0"},
+    {"GPIO15", "RXD1"},     {"GPIO15", "RXD0"},
+};
+static const char *const alias_chips[] = {"pinctrl-bcm2711", "pinctrl-bcm2835", "pinctrl-rp1"};
+
+static bool is_alias(const char *a, const char *b) {
+    for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++) {
+        const char *number = aliases[i].number, *function = aliases[i].function;
+        if (strcmp(a, number) == 0 && strcmp(b, function) == 0) return true;
+        if (strcmp(a, function) == 0 && strcmp(b, number) == 0) return true;
+    }
+    return false;
+}
+
+static bool parse_offset(const char *text, unsigned *out) {
+    char *end;
+    if (*text < '0' || *text > '9') return false;
+    const unsigned long value = strtoul(text, &end, 10);
+    *out = (unsigned)value;
+    return *end == '\0' && value < 1000000;
+}
+
+bool gn_line_parse(const char *text, struct gn_line_spec *out, struct gn_err *err) {
+    static const char how[] = "GPIO17, or label:pinctrl-rp1/17; `gnomon doctor` lists them";
+    *out = (struct gn_line_spec){0};
+    const bool by_label = strncmp(text, "label:", 6) == 0;
+    const char *slash = strrchr(text, '/');
+    unsigned number;
+    if (strlen(text) >= sizeof out->name) return gn_fail_usage(err, "is too long for a line");
+    if (!by_label && (parse_offset(text, &number) || strncmp(text, "gpiochip", 8) == 0 ||
+                      strncmp(text, "/dev/", 5) == 0))
+        return gn_fail_usage(
+            err, "\"%s\" is the number of a chip or a line, and those change: write its name, %s",
+            text, how);
+    if (!by_label && !*text) return gn_fail_usage(err, "names no line: write %s", how);
+    if (!by_label) {
+        snprintf(out->name, sizeof out->name, "%s", text);
+        return true;
+    }
+    if (!slash || slash == text + 6 || !parse_offset(slash + 1, &out->offset))
+        return gn_fail_usage(err, "\"%s\" is no label with a line's number: write %s", text, how);
+    snprintf(out->label, sizeof out->label, "%.*s", (int)(slash - text - 6), text + 6);
+    return true;
+}
+
+int gn_line_fits(const struct gn_line_spec *spec, const struct gn_gpio_chip *chip, unsigned offset,
+                 const struct gn_gpio_line *line) {
+    if (spec->label[0])
+        return strcmp(spec->label, chip->label) == 0 && spec->offset == offset ? 2 : 0;
+    if (strcmp(spec->name, line->name) == 0) return 2;
+    for (size_t i = 0; i < sizeof alias_chips / sizeof *alias_chips; i++)
+        if (strcmp(chip->label, alias_chips[i]) == 0 && is_alias(spec->name, line->name)) return 1;
+    return 0;
+}
+
+/* ---- what there is ------------------------------------------------------------------------- */
+
+static int by_number(const void *a, const void *b) { return strverscmp(a, b); }
+
+int gn_line_list_chips(const char *folder, char (*paths)[64], int max) {
+    DIR *open = opendir(folder);
+    int count = 0;
+    for (const struct dirent *entry; open && count < max && (entry = readdir(open));) {
+        struct stat info;
+        if (strncmp(entry->d_name, "gpiochip", 8) != 0) continue;
+        if (snprintf(paths[count], sizeof *paths, "%s/%s", folder, entry->d_name) >=
+            (int)sizeof *paths)
+            continue;
+        if (lstat(paths[count], &info) == 0 && !S_ISLNK(info.st_mode)) count++;
+    }
+    if (open) closedir(open);
+    if (count) qsort(paths, (size_t)count, sizeof *paths, by_number);
+    return count;
+}
+
+static void take(struct gn_line_match *match, int fits, const char *path,
+                 const struct gn_gpio_chip *chip, unsigned offset,
+                 const struct gn_gpio_line *line) {
+    if (fits == 0 || fits < match->fits) return;
+    if (fits > match->fits) {
+        *match =
+            (struct gn_line_match){.fits = fits, .chip = *chip, .line = *line, .offset = offset};
+        snprintf(match->path, sizeof match->path, "%s", path);
+    }
+    const size_t used = strlen(match->list);
+    snprintf(match->list + used, sizeof match->list - used, "%s%s (%s) line %u",
+             match->count ? ", " : "", chip->name, chip->label, offset);
+    match->count++;
+}
+
+static void search_chip(const struct gn_gpio_ops *ops, void *chip, const char *path,
+                        const struct gn_gpio_chip *info, const struct gn_line_spec *const *wanted,
+                        struct gn_line_match *matches, int count) {
+    for (unsigned offset = 0; offset < info->lines; offset++) {
+        struct gn_gpio_line line = {0};
+        if (ops->look(chip, offset, &line)) continue;
+        for (int i = 0; i < count; i++)
+            if (wanted[i])
+                take(&matches[i], gn_line_fits(wanted[i], info, offset, &line), path, info, offset,
+                     &line);
+    }
+}
+
+void gn_line_search(const struct gn_gpio_ops *ops, void *context, const char *folder,
+                    const struct gn_line_spec *const *wanted, struct gn_line_match *matches,
+                    int count, struct gn_line_search *out) {
+    char paths[CHIPS_MAX][64];
+    const int chips = gn_line_list_chips(folder, paths, CHIPS_MAX);
+    *out = (struct gn_line_search){.chips = chips};
+    for (int i = 0; i < count; i++) matches[i] = (struct gn_line_match){0};
+    for (int i = 0; i < chips; i++) {
+        struct gn_gpio_chip info = {0};
+        void *chip;
+        const int error = ops->open(context, paths[i], &chip, &info);
+        if (error) {
+            out->refused++;
+            out->error = error;
+            memcpy(out->refused_path, paths[i], sizeof out->refused_path);
+            continue;
+        }
+        search_chip(ops, chip, paths[i], &info, wanted, matches, count);
+        ops->close(chip);
+    }
+}

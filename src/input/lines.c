@@ -1,0 +1,355 @@
+#include "input/lines.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/epoll.h>
+
+#define SECOND INT64_C(1000000000)
+#define NEVER  INT64_MAX
+
+enum { ENOTSUPP_ = 524 /* the kernel's own, which libc does not know */, READS_MAX = 4 };
+enum { EDGES_MAX = 256 };
+
+enum problem { FINE, NO_LIBRARY, MISSING, AMBIGUOUS, DENIED, BUSY, BROKEN };
+
+bool gn_lines_init(struct gn_lines *lines, const struct gn_line_opts *opts, int count,
+                   struct gn_err *err) {
+    lines->count = count;
+    for (int i = 0; i < count; i++) {
+        struct gn_line *l = &lines->lines[i];
+        *l = (struct gn_line){
+            .opts = opts[i], .wanted = opts[i].text, .retry_ns = NEVER, .check_ns = NEVER};
+        if (l->wanted && !gn_line_parse(opts[i].text, &l->spec, err))
+            return gn_fail_prefix(err, "button \"%s\": line", opts[i].button);
+        for (int k = 0; l->wanted && k < i; k++)
+            if (lines->lines[k].wanted && strcmp(opts[k].text, opts[i].text) == 0)
+                return gn_fail_usage(err, "button \"%s\": line %s is that of button \"%s\"",
+                                     opts[i].button, opts[i].text, opts[k].button);
+    }
+    return true;
+}
+
+/* ---- saying it ----------------------------------------------------------------------------- */
+
+/* Once, until something else is said of this line. */
+static void say(struct gn_lines *lines, struct gn_line *l, const char *text) {
+    if (strcmp(l->said, text) == 0) return;
+    snprintf(l->said, sizeof l->said, "%s", text);
+    gn_report(lines->reports, "button \"%s\": %s%s", l->opts.button, text,
+              l->opts.optional && l->problem ? " (a default: keys do as well)" : "");
+}
+
+/* Tried again soon, while it may be a matter of the system's start. */
+static int64_t patience_ns(const struct gn_line *l, int64_t now_ns) {
+    return now_ns + (now_ns - l->since_ns < 30 * SECOND ? 2 : 60) * SECOND;
+}
+
+static void have_problem(struct gn_lines *lines, struct gn_line *l, enum problem problem,
+                         const char *text, int64_t now_ns) {
+    if (l->problem != (int)problem) l->since_ns = now_ns;
+    l->problem = problem;
+    say(lines, l, text);
+    switch (problem) {
+    case MISSING: l->retry_ns = lines->watched ? NEVER : now_ns + 2 * SECOND; break;
+    case AMBIGUOUS: l->retry_ns = lines->watched ? NEVER : now_ns + 60 * SECOND; break;
+    case DENIED:
+    case BUSY:
+    case BROKEN: l->retry_ns = patience_ns(l, now_ns); break;
+    case FINE:
+    case NO_LIBRARY: l->retry_ns = NEVER; break;
+    }
+}
+
+/* ---- having it ----------------------------------------------------------------------------- */
+
+static bool is_pressed(const struct gn_line *l, bool high) { return high == l->opts.active_high; }
+
+static void drop(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
+    epoll_ctl(lines->epoll, EPOLL_CTL_DEL, lines->ops->fd(l->request), NULL);
+    lines->ops->release(l->request);
+    l->request = NULL;
+    l->check_ns = NEVER;
+    gn_gestures_lose(lines->gestures, (int)(l - lines->lines), now_ns);
+}
+
+static void lose(struct gn_lines *lines, struct gn_line *l, int error, int64_t now_ns) {
+    char text[GN_REPORT_SIZE];
+    drop(lines, l, now_ns);
+    snprintf(text, sizeof text, "%s went away (%s); waiting for it", l->where, strerror(error));
+    l->problem = MISSING;
+    l->since_ns = now_ns;
+    l->retry_ns = now_ns + (lines->watched ? SECOND / 2 : 2 * SECOND);
+    say(lines, l, text);
+}
+
+/* With the bias that is wanted, or without, where the chip has none. */
+static int request(struct gn_lines *lines, struct gn_line *l, void *chip, unsigned offset) {
+    const int64_t kernel_ns = INT64_C(5000000);
+    struct gn_gpio_wish wish = {.offset = offset, .bias = l->opts.bias, .debounce_ns = kernel_ns};
+    if (l->opts.debounce_ns > 0 && l->opts.debounce_ns < 4 * kernel_ns)
+        wish.debounce_ns = l->opts.debounce_ns / 4;
+    const int error = lines->ops->request(chip, &wish, &l->request);
+    l->no_bias = false;
+    if ((error != EINVAL && error != EOPNOTSUPP && error != ENOTSUPP_) || wish.bias == GN_BIAS_NONE)
+        return error;
+    wish.bias = GN_BIAS_NONE;
+    l->no_bias = lines->ops->request(chip, &wish, &l->request) == 0;
+    return l->no_bias ? 0 : error;
+}
+
+static void begin(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
+    const int button = (int)(l - lines->lines);
+    struct epoll_event event = {.events = EPOLLIN,
+                                .data.u64 = lines->tag | (uint64_t)(unsigned)button};
+    bool high;
+    l->problem = FINE;
+    l->retry_ns = l->check_ns = NEVER;
+    l->seqno = 0;
+    const int error = lines->ops->level(l->request, &high);
+    if (!error && epoll_ctl(lines->epoll, EPOLL_CTL_ADD, lines->ops->fd(l->request), &event) == 0) {
+        char text[GN_REPORT_SIZE];
+        gn_gestures_start(lines->gestures, button, is_pressed(l, high), now_ns);
+        const char *pull = l->opts.bias == GN_BIAS_PULL_DOWN ? "down" : "up";
+        snprintf(text, sizeof text, "%s%s%s%s", l->where,
+                 l->no_bias ? ", whose chip has no pull-" : "", l->no_bias ? pull : "",
+                 l->no_bias ? ": without a resistor it may press itself" : "");
+        say(lines, l, text);
+        return;
+    }
+    lose(lines, l, error ? error : errno, now_ns);
+}
+
+static const char *name_of(const struct gn_line *l) { return l->opts.text; }
+
+static void describe_error(const struct gn_line *l, const struct gn_line_match *match, int error,
+                           char *text, size_t size) {
+    if (error == EBUSY)
+        snprintf(text, size, "%s is in use by %s%s%s; free it, or take another line", l->where,
+                 match->line.consumer[0] ? "\"" : "",
+                 match->line.consumer[0] ? match->line.consumer : "another program",
+                 match->line.consumer[0] ? "\"" : "");
+    else
+        snprintf(text, size, "%s cannot be had: %s", l->where, strerror(error));
+}
+
+static void describe_denied(const char *path, const char *name, char *text, size_t size) {
+    snprintf(text, size,
+             "%s may not be opened to look for %s; add the user to group gpio "
+             "(sudo usermod -aG gpio USER) and log in again",
+             path, name);
+}
+
+static void acquire(struct gn_lines *lines, struct gn_line *l, const struct gn_line_match *match,
+                    int64_t now_ns) {
+    struct gn_gpio_chip info;
+    void *chip;
+    char text[GN_REPORT_SIZE];
+    snprintf(l->where, sizeof l->where, "%.40s (%.20s line %u)", name_of(l), match->chip.name,
+             match->offset);
+    int error = lines->ops->open(lines->context, match->path, &chip, &info);
+    if (!error) {
+        error = request(lines, l, chip, match->offset);
+        lines->ops->close(chip);
+    }
+    if (!error) {
+        begin(lines, l, now_ns);
+        return;
+    }
+    const bool denied = error == EACCES || error == EPERM;
+    if (denied)
+        describe_denied(match->path, name_of(l), text, sizeof text);
+    else
+        describe_error(l, match, error, text, sizeof text);
+    have_problem(lines, l, denied ? DENIED : error == EBUSY ? BUSY : BROKEN, text, now_ns);
+}
+
+/* ---- looking for it ------------------------------------------------------------------------ */
+
+static void not_found(struct gn_lines *lines, struct gn_line *l,
+                      const struct gn_line_search *search, int64_t now_ns) {
+    char text[GN_REPORT_SIZE];
+    const bool denied = search->refused && (search->error == EACCES || search->error == EPERM);
+    if (l->problem == MISSING && !denied) /* said already, perhaps that it went away */
+        snprintf(text, sizeof text, "%s", l->said);
+    else if (denied)
+        describe_denied(search->refused_path, name_of(l), text, sizeof text);
+    else if (search->chips == 0)
+        snprintf(text, sizeof text, "there is no GPIO chip for %s; waiting for one", name_of(l));
+    else
+        snprintf(
+            text, sizeof text,
+            "no GPIO line is called %s; waiting for it (`gnomon doctor` lists those there are)",
+            name_of(l));
+    have_problem(lines, l, denied ? DENIED : MISSING, text, now_ns);
+}
+
+static void judge(struct gn_lines *lines, struct gn_line *l, const struct gn_line_match *match,
+                  const struct gn_line_search *search, int64_t now_ns) {
+    char text[GN_REPORT_SIZE];
+    if (match->count == 0) {
+        not_found(lines, l, search, now_ns);
+    } else if (match->count == 1) {
+        acquire(lines, l, match, now_ns);
+    } else {
+        snprintf(text, sizeof text, "%d lines are called %s: %.150s; write label:CHIP/NUMBER",
+                 match->count, name_of(l), match->list);
+        have_problem(lines, l, AMBIGUOUS, text, now_ns);
+    }
+}
+
+void gn_lines_search(struct gn_lines *lines, int64_t now_ns) {
+    const struct gn_line_spec *wanted[GN_BUTTONS_MAX] = {0};
+    struct gn_line_match matches[GN_BUTTONS_MAX];
+    struct gn_line_search search;
+    int missing = 0;
+    for (int i = 0; i < lines->count; i++) {
+        struct gn_line *l = &lines->lines[i];
+        if (!l->wanted || l->request) continue;
+        wanted[i] = &l->spec;
+        missing++;
+        if (!lines->ops->library)
+            have_problem(lines, l, NO_LIBRARY, "GPIO lines need libgpiod, not in this build",
+                         now_ns);
+    }
+    if (!missing || !lines->ops->library) return;
+    gn_line_search(lines->ops, lines->context, lines->folder, wanted, matches, lines->count,
+                   &search);
+    for (int i = 0; i < lines->count; i++)
+        if (wanted[i]) judge(lines, &lines->lines[i], &matches[i], &search, now_ns);
+}
+
+/* ---- reading it ---------------------------------------------------------------------------- */
+
+struct edge {
+    int64_t time_ns;
+    int button, order;
+    bool level;
+};
+struct edges {
+    struct edge list[EDGES_MAX];
+    int count;
+};
+
+static int by_time(const void *a, const void *b) {
+    const struct edge *p = a, *q = b;
+    if (p->time_ns != q->time_ns) return p->time_ns < q->time_ns ? -1 : 1;
+    return p->order - q->order;
+}
+
+static void pass_on(struct gn_lines *lines, struct edges *edges) {
+    if (edges->count) qsort(edges->list, (size_t)edges->count, sizeof *edges->list, by_time);
+    for (int i = 0; i < edges->count; i++)
+        gn_gestures_edge(lines->gestures, edges->list[i].button, edges->list[i].level,
+                         edges->list[i].time_ns);
+    edges->count = 0;
+}
+
+/* True: no edge has been lost before this one. */
+static bool follows(struct gn_line *l, uint32_t seqno) {
+    const bool next = !seqno || seqno == l->seqno + 1;
+    l->seqno = seqno;
+    return next;
+}
+
+/* True: edges may have been lost, or be left; *error: the line is gone. */
+static bool drain(struct gn_lines *lines, struct gn_line *l, struct edges *edges, int64_t now_ns,
+                  int *total, int *error) {
+    bool gap = false;
+    *total = 0;
+    for (int round = 0; round < READS_MAX; round++) {
+        struct gn_gpio_event events[GN_GPIO_EVENTS];
+        const int count = lines->ops->read(l->request, events);
+        if (count < 0) *error = -count;
+        for (int i = 0; i < count; i++) {
+            if (edges->count == EDGES_MAX) pass_on(lines, edges);
+            gap |= !follows(l, events[i].seqno);
+            edges->list[edges->count] =
+                (struct edge){.time_ns = gn_gesture_time_ns(events[i].time_ns, now_ns),
+                              .button = (int)(l - lines->lines),
+                              .order = edges->count,
+                              .level = is_pressed(l, events[i].high)};
+            edges->count++;
+        }
+        *total += count > 0 ? count : 0;
+        if (count < GN_GPIO_EVENTS) return gap;
+        gap = true;
+    }
+    return gap;
+}
+
+static void read_level(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
+    bool high;
+    const int error = lines->ops->level(l->request, &high);
+    if (error)
+        lose(lines, l, error, now_ns);
+    else
+        gn_gestures_level(lines->gestures, (int)(l - lines->lines), is_pressed(l, high), now_ns);
+}
+
+void gn_lines_read(struct gn_lines *lines, uint32_t ready, uint32_t hung_up, int64_t now_ns) {
+    struct edges edges = {.count = 0};
+    int errors[GN_BUTTONS_MAX] = {0};
+    uint32_t gaps = 0;
+    for (int i = 0; i < lines->count; i++) {
+        struct gn_line *l = &lines->lines[i];
+        int total;
+        if (!(ready >> i & 1) || !l->request) continue;
+        if (drain(lines, l, &edges, now_ns, &total, &errors[i])) gaps |= UINT32_C(1) << i;
+        if (!total && !errors[i] && hung_up >> i & 1) errors[i] = ENODEV;
+    }
+    pass_on(lines, &edges);
+    for (int i = 0; i < lines->count; i++)
+        if (errors[i])
+            lose(lines, &lines->lines[i], errors[i], now_ns);
+        else if (gaps >> i & 1)
+            read_level(lines, &lines->lines[i], now_ns);
+}
+
+/* ---- time ---------------------------------------------------------------------------------- */
+
+void gn_lines_changed(struct gn_lines *lines, int64_t now_ns) {
+    for (int i = 0; i < lines->count; i++)
+        if (lines->lines[i].request) read_level(lines, &lines->lines[i], now_ns);
+    gn_lines_search(lines, now_ns);
+}
+
+static void check(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
+    const int button = (int)(l - lines->lines);
+    if (gn_gestures_at_rest(lines->gestures, button)) {
+        l->check_ns = NEVER;
+        return;
+    }
+    if (l->check_ns != NEVER && now_ns < l->check_ns) return;
+    const bool due = l->check_ns != NEVER;
+    const bool stuck = lines->gestures->buttons[button].state == GN_BUTTON_MUTED &&
+                       lines->gestures->buttons[button].due_ns[GN_DUE_STUCK] == NEVER;
+    l->check_ns = now_ns + (stuck ? 60 : 1) * SECOND;
+    if (due) read_level(lines, l, now_ns);
+}
+
+void gn_lines_step(struct gn_lines *lines, int64_t now_ns) {
+    bool search = false;
+    for (int i = 0; i < lines->count; i++) {
+        struct gn_line *l = &lines->lines[i];
+        if (l->request) check(lines, l, now_ns);
+        search |= l->wanted && !l->request && l->retry_ns <= now_ns;
+    }
+    if (search) gn_lines_search(lines, now_ns);
+}
+
+int64_t gn_lines_deadline(const struct gn_lines *lines) {
+    int64_t first_ns = NEVER;
+    for (int i = 0; i < lines->count; i++) {
+        const struct gn_line *l = &lines->lines[i];
+        const int64_t due_ns = l->request ? l->check_ns : l->retry_ns;
+        if (l->wanted && due_ns < first_ns) first_ns = due_ns;
+    }
+    return first_ns;
+}
+
+void gn_lines_finish(struct gn_lines *lines) {
+    for (int i = 0; i < lines->count; i++)
+        if (lines->lines[i].request) drop(lines, &lines->lines[i], lines->gestures->now_ns);
+}

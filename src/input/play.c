@@ -1,0 +1,66 @@
+#include "input/play.h"
+
+#include <string.h>
+
+#include "core/file.h"
+#include "input/script.h"
+
+enum { SCRIPT_BYTES = 1 << 20 };
+
+/* Behind all that are not later: in order but for the ends of clicks. */
+static void insert(struct gn_play *play, struct gn_play_step step) {
+    int at = play->count++;
+    for (; at > 0 && play->steps[at - 1].time_ns > step.time_ns; at--)
+        play->steps[at] = play->steps[at - 1];
+    play->steps[at] = step;
+}
+
+static bool add_line(struct gn_play *play, const struct gn_script_line *line,
+                     const char *const *names, int count, int64_t now_ns, struct gn_err *err) {
+    struct gn_play_step step = {.time_ns = now_ns + line->time_ns, .button = -1};
+    for (int i = 0; i < count && step.button < 0; i++)
+        if (strcmp(names[i], line->name) == 0) step.button = i;
+    if (step.button < 0) step.key = gn_key_find(line->name);
+    if (step.button < 0 && step.key == GN_KEY_NONE)
+        return gn_fail_usage(err, "no button and no key is called \"%s\"", line->name);
+    if (step.button >= 0) play->buttons |= UINT32_C(1) << step.button;
+    step.down = line->what != GN_SCRIPT_UP;
+    insert(play, step);
+    if (line->what != GN_SCRIPT_CLICK) return true;
+    step.down = false;
+    if (step.button >= 0) step.time_ns += GN_SCRIPT_CLICK_NS;
+    insert(play, step);
+    return true;
+}
+
+bool gn_play_load(struct gn_play *play, const char *path, const char *const *names, int count,
+                  int64_t now_ns, struct gn_err *err) {
+    struct gn_bytes file = {0};
+    struct gn_script script;
+    if (!gn_file_read(path, SCRIPT_BYTES, &file, err)) return false;
+    bool ok = gn_script_parse((const char *)file.data, file.size, path, &play->arena, &script, err);
+    gn_bytes_finish(&file);
+    if (!ok) return false;
+    play->steps = gn_arena_alloc(&play->arena, 2 * (size_t)script.count, sizeof *play->steps);
+    if (!play->steps) return gn_fail(err, "%s: no memory for so many lines", path);
+    for (int i = 0; i < script.count; i++)
+        if (!add_line(play, &script.lines[i], names, count, now_ns, err))
+            return gn_fail_prefix(err, "%s:%d", path, script.lines[i].number);
+    return true;
+}
+
+void gn_play_step(struct gn_play *play, struct gn_keys *keys, int64_t now_ns) {
+    for (; gn_play_deadline(play) <= now_ns && play->next < play->count; play->next++) {
+        const struct gn_play_step *step = &play->steps[play->next];
+        if (step->button >= 0)
+            gn_gestures_edge(keys->gestures, step->button, step->down, step->time_ns);
+        else
+            gn_keys_set(keys, &play->source, step->key, step->down, step->time_ns);
+    }
+}
+
+int64_t gn_play_deadline(const struct gn_play *play) {
+    return play->next < play->count ? play->steps[play->next].time_ns : INT64_MAX;
+}
+
+void gn_play_finish(struct gn_play *play) { gn_arena_finish(&play->arena); }

@@ -1,0 +1,30 @@
+/* A script that is played: its clicks taken apart, its names looked up. */
+#ifndef GN_INPUT_PLAY_H
+#define GN_INPUT_PLAY_H
+
+#include "core/arena.h"
+#include "input/keys.h"
+
+struct gn_play_step {
+    int64_t time_ns; /* monotonic */
+    bool down;
+    int button;   /* -1: a key */
+    unsigned key; /* of a button: GN_KEY_NONE */
+};
+struct gn_play { /* zeroed: none */
+    struct gn_arena arena;
+    struct gn_play_step *steps;
+    int count, next;
+    uint32_t buttons; /* bits 1 << button: those that are played */
+    struct gn_key_source source;
+};
+
+/* names: of the buttons, by index. Fails as the file or the script does. */
+bool gn_play_load(struct gn_play *play, const char *path, const char *const *names, int count,
+                  int64_t now_ns, struct gn_err *err);
+/* Plays what is due; when the next will be (INT64_MAX: none). */
+void gn_play_step(struct gn_play *play, struct gn_keys *keys, int64_t now_ns);
+int64_t gn_play_deadline(const struct gn_play *play);
+void gn_play_finish(struct gn_play *play);
+
+#endif

@@ -1,0 +1,48 @@
+/* The room's inside: what an input is made of, and the world that a test can put round it. */
+#ifndef GN_INPUT_PRIVATE_H
+#define GN_INPUT_PRIVATE_H
+
+#include "input/devices.h"
+#include "input/input.h"
+#include "input/lines.h"
+#include "input/play.h"
+#include "input/terminal.h"
+
+struct gn_input_world {             /* zero means the default written beside */
+    const struct gn_gpio_ops *gpio; /* the library */
+    void *gpio_context;
+    const struct gn_evdev_ops *evdev; /* the kernel's */
+    void *evdev_context;
+    const char *folder;  /* "/dev" */
+    const int *terminal; /* stdin */
+};
+
+struct gn_input {
+    struct gn_input_opts opts;
+    struct gn_gestures gestures;
+    struct gn_reports reports;
+    struct gn_keys keys;
+    struct gn_lines lines;
+    struct gn_devices devices;
+    struct gn_terminal terminal;
+    struct gn_play play;
+    struct gn_key_source window;
+    char devices_folder[64];
+    int epoll, timer, notify;        /* notify -1: folders are looked at every 2 s */
+    int folder_watch, devices_watch; /* -1: not watched */
+    int64_t armed_ns;                /* the timer's; INT64_MAX: not running */
+    int64_t poll_ns;                 /* when the folders are to be looked at; INT64_MAX: never */
+    unsigned said_dropped;
+};
+
+struct gn_input *gn_input_open_in(const struct gn_input_world *world,
+                                  const struct gn_input_opts *opts, int64_t now_ns,
+                                  struct gn_warnings *warnings, struct gn_err *err);
+
+/* The same in another folder than /dev. */
+void gn_input_list_in(const struct gn_input_world *world, struct gn_input_list *out);
+
+/* setup.c: what the options say, as the machines want it. */
+bool gn_input_set_up(struct gn_input *input, int64_t now_ns, struct gn_err *err);
+
+#endif

@@ -1,0 +1,77 @@
+/* Options of buttons to gestures, lines and keys. All that can be wrong about them is found here.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "input/private.h"
+
+static int find_button(const struct gn_input_opts *opts, const char *name, size_t length) {
+    for (int i = 0; i < opts->button_count; i++)
+        if (strncmp(opts->buttons[i].name, name, length) == 0 &&
+            opts->buttons[i].name[length] == '\0')
+            return i;
+    return -1;
+}
+
+static bool parse_chord(const struct gn_input_opts *opts, int chord, uint32_t *out,
+                        struct gn_err *err) {
+    *out = 0;
+    for (const char *at = opts->buttons[chord].chord; at && *(at += strspn(at, " \t"));) {
+        const size_t length = strcspn(at, " \t");
+        const int i = find_button(opts, at, length);
+        if (i < 0)
+            return gn_fail_usage(err, "chord: no button is called \"%.*s\"",
+                                 (int)(length < 60 ? length : 60), at);
+        if (i == chord || opts->buttons[i].chord)
+            return gn_fail_usage(err, "chord: \"%s\" is a chord itself", opts->buttons[i].name);
+        *out |= UINT32_C(1) << i;
+        at += length;
+    }
+    if (opts->buttons[chord].chord && __builtin_popcount(*out) < 2)
+        return gn_fail_usage(err, "chord: takes two buttons or more, a space between two");
+    return true;
+}
+
+static bool set_up_button(struct gn_input *input, int i, struct gn_gesture_opts *gesture,
+                          struct gn_line_opts *line, struct gn_err *err) {
+    const struct gn_button_opts *b = &input->opts.buttons[i];
+    *gesture = (struct gn_gesture_opts){
+        .gestures = b->gestures,
+        .debounce_ns = b->debounce_ns,
+        .hold_ns = b->hold_ns,
+        .double_ns = b->double_ns,
+        .repeat_ns = b->repeat_ns,
+        .chord_ns = b->chord_ns,
+    };
+    *line = (struct gn_line_opts){
+        .button = b->name,
+        .text = input->play.buttons >> i & 1 ? NULL : b->line,
+        .active_high = b->active_high,
+        .optional = b->optional,
+        .bias = b->bias,
+        .debounce_ns = b->debounce_ns,
+    };
+    if (b->chord && b->line) return gn_fail_usage(err, "is a chord, and can have no line");
+    if (b->keys && !gn_keys_bind(&input->keys, i, b->keys, err)) return gn_fail_prefix(err, "keys");
+    return parse_chord(&input->opts, i, &gesture->chord, err);
+}
+
+bool gn_input_set_up(struct gn_input *input, int64_t now_ns, struct gn_err *err) {
+    const struct gn_input_opts *opts = &input->opts;
+    struct gn_gesture_opts gestures[GN_BUTTONS_MAX];
+    struct gn_line_opts lines[GN_BUTTONS_MAX];
+    const char *names[GN_BUTTONS_MAX];
+    if (opts->button_count > GN_BUTTONS_MAX)
+        return gn_fail_usage(err, "%d buttons are too many: %d can be", opts->button_count,
+                             GN_BUTTONS_MAX);
+    for (int i = 0; i < opts->button_count; i++) names[i] = opts->buttons[i].name;
+    if (opts->script &&
+        !gn_play_load(&input->play, opts->script, names, opts->button_count, now_ns, err))
+        return false;
+    for (int i = 0; i < opts->button_count; i++)
+        if (!set_up_button(input, i, &gestures[i], &lines[i], err))
+            return gn_fail_prefix(err, "button \"%s\"", names[i]);
+    gn_gestures_init(&input->gestures, gestures, opts->button_count, now_ns);
+    input->keys.gestures = &input->gestures;
+    return gn_lines_init(&input->lines, lines, opts->button_count, err);
+}

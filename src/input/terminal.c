@@ -1,0 +1,115 @@
+#include "input/terminal.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <termios.h>
+#include <unistd.h>
+
+/* What the handlers need, which run between any two instructions: the one thing in this program
+ * that is neither a constant nor handed on. Everything that they call is async-signal-safe. */
+static struct {
+    volatile sig_atomic_t open, raw; /* raw: the terminal has our settings */
+    int fd, wake_fd;
+    struct termios saved, ours;
+    struct sigaction old_stop, old_continue;
+} own;
+
+static bool is_foreground(int fd) { return tcgetpgrp(fd) == getpgrp(); }
+
+static void set_raw(bool raw) {
+    /* in the background SIGTTOU would stop us, and the shell has set what it wants */
+    if ((!raw && !own.raw) || !is_foreground(own.fd)) return;
+    if (tcsetattr(own.fd, TCSANOW, raw ? &own.ours : &own.saved) == 0) own.raw = raw;
+}
+
+static void on_continue(int signal) {
+    const int error = errno;
+    const uint64_t one = 1;
+    (void)signal;
+    if (own.open) {
+        set_raw(true);
+        (void)!write(own.wake_fd, &one, sizeof one);
+    }
+    errno = error;
+}
+
+static void on_stop(int number) {
+    const int error = errno;
+    struct sigaction mine, plain = {.sa_handler = SIG_DFL};
+    sigset_t stop, mask;
+    if (own.open) set_raw(false);
+    sigaction(number, &plain, &mine);
+    sigemptyset(&stop);
+    sigaddset(&stop, number);
+    raise(number);
+    sigprocmask(SIG_UNBLOCK, &stop, &mask); /* here we stand until we are continued */
+    sigprocmask(SIG_SETMASK, &mask, NULL);
+    sigaction(number, &mine, NULL);
+    errno = error;
+}
+
+static void install(void) {
+    struct sigaction stop = {.sa_handler = on_stop, .sa_flags = SA_RESTART};
+    struct sigaction resume = {.sa_handler = on_continue, .sa_flags = SA_RESTART};
+    sigaction(SIGTSTP, NULL, &own.old_stop);
+    if (own.old_stop.sa_handler != SIG_IGN) sigaction(SIGTSTP, &stop, NULL);
+    sigaction(SIGCONT, &resume, &own.old_continue);
+}
+
+static void watch(struct gn_terminal *t, bool on) {
+    struct epoll_event event = {.events = EPOLLIN, .data.u64 = t->tag};
+    if (t->reading == on) return;
+    if (epoll_ctl(t->epoll, on ? EPOLL_CTL_ADD : EPOLL_CTL_DEL, t->fd, &event) == 0)
+        t->reading = on;
+}
+
+bool gn_terminal_open(struct gn_terminal *t, int fd, int epoll, uint64_t tag) {
+    *t = (struct gn_terminal){.fd = -1, .wake_fd = -1};
+    if (own.open || !isatty(fd) || tcgetattr(fd, &own.saved)) return false;
+    *t = (struct gn_terminal){.fd = fd, .epoll = epoll, .tag = tag};
+    t->wake_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    struct epoll_event event = {.events = EPOLLIN, .data.u64 = tag + 1};
+    epoll_ctl(epoll, EPOLL_CTL_ADD, t->wake_fd, &event);
+    own.fd = fd;
+    own.wake_fd = t->wake_fd;
+    own.raw = false;
+    own.ours = own.saved;
+    own.ours.c_lflag &= ~(tcflag_t)(ICANON | ECHO);
+    own.ours.c_cc[VMIN] = 1;
+    own.ours.c_cc[VTIME] = 0;
+    install();
+    own.open = true;
+    gn_terminal_resume(t);
+    return true;
+}
+
+void gn_terminal_close(struct gn_terminal *t) {
+    if (t->fd < 0) return;
+    watch(t, false);
+    set_raw(false);
+    own.open = false;
+    sigaction(SIGTSTP, &own.old_stop, NULL);
+    sigaction(SIGCONT, &own.old_continue, NULL);
+    if (t->wake_fd >= 0) close(t->wake_fd);
+    *t = (struct gn_terminal){.fd = -1, .wake_fd = -1};
+}
+
+void gn_terminal_resume(struct gn_terminal *t) {
+    uint64_t count;
+    (void)!read(t->wake_fd, &count, sizeof count);
+    set_raw(true);
+    watch(t, is_foreground(t->fd));
+}
+
+int gn_terminal_read(struct gn_terminal *t, uint8_t *out, int size) {
+    if (!is_foreground(t->fd)) { /* reading would stop us; SIGCONT tells when it is ours again */
+        watch(t, false);
+        return 0;
+    }
+    const ssize_t count = read(t->fd, out, (size_t)size);
+    if (count > 0) return (int)count;
+    if (count == 0 || (errno != EAGAIN && errno != EINTR)) watch(t, false);
+    return 0;
+}
