@@ -16,7 +16,11 @@ static struct {
     struct sigaction old_stop, old_continue;
 } own;
 
-static bool is_foreground(int fd) { return tcgetpgrp(fd) == getpgrp(); }
+/* One that does not control us cannot stop us either. */
+static bool is_foreground(int fd) {
+    const pid_t group = tcgetpgrp(fd);
+    return group == getpgrp() || (group < 0 && errno == ENOTTY);
+}
 
 static void set_raw(bool raw) {
     /* in the background SIGTTOU would stop us, and the shell has set what it wants */

@@ -6,7 +6,14 @@
 
 #include "core/key.h"
 
-enum state { PLAIN, ESCAPED /* ESC */, CSI /* ESC [ */, SS3 /* ESC O */, CONSOLE /* ESC [ [ */ };
+enum state {
+    PLAIN,
+    ESCAPED /* ESC */,
+    CSI /* ESC [ */,
+    SS3 /* ESC O */,
+    CONSOLE /* ESC [ [ */,
+    OTHER
+};
 
 /* F1 to F20, as Linux numbers them */
 static const uint8_t f_keys[] = {0,  59, 60,  61,  62,  63,  64,  65,  66,  67, 68,
@@ -52,7 +59,6 @@ static unsigned find_letter(uint8_t byte) {
     case 'F': return GN_KEY_END;
     case 'H': return GN_KEY_HOME;
     case 'Z': return GN_KEY_TAB; /* with shift */
-    case 'M': return GN_KEY_ENTER;
     case 'P':
     case 'Q':
     case 'R':
@@ -85,10 +91,14 @@ static unsigned step_csi(struct gn_terminal_keys *keys, uint8_t byte) {
         return GN_KEY_NONE;
     }
     if (byte < 0x40) { /* parameters and intermediate bytes */
+        if (byte >= '<' && !keys->number && !keys->more)
+            keys->state = OTHER; /* a mouse, a report */
         keys->more = true;
         return GN_KEY_NONE;
     }
+    const bool other = keys->state == OTHER;
     keys->state = PLAIN;
+    if (other) return GN_KEY_NONE;
     return byte == '~' ? find_number(keys->number) : find_letter(byte);
 }
 
@@ -106,8 +116,9 @@ unsigned gn_terminal_keys_step(struct gn_terminal_keys *keys, uint8_t byte, int6
             return GN_KEY_NONE;
         }
         break; /* with alt */
-    case CSI: return step_csi(keys, byte);
-    case SS3: keys->state = PLAIN; return find_letter(byte);
+    case CSI:
+    case OTHER: return step_csi(keys, byte);
+    case SS3: keys->state = PLAIN; return byte == 'M' ? GN_KEY_ENTER : find_letter(byte);
     case CONSOLE:
         keys->state = PLAIN;
         return byte >= 'A' && byte <= 'E' ? f_keys[byte - 'A' + 1] : GN_KEY_NONE;
