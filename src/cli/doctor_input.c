@@ -74,7 +74,8 @@ static void print_chip(const struct gn_input_chip *chip, FILE *to) {
         used += chip->lines[i].used;
     }
     if (chip->error) return; /* the node says so */
-    fprintf(to, "  %s: %d lines, label %s", chip->name, chip->line_count, chip->label);
+    fprintf(to, "  %s: %d line%s, label %s", chip->name, chip->line_count,
+            chip->line_count == 1 ? "" : "s", chip->label);
     if (!named) fprintf(to, "; without names: write label:%s/NUMBER", chip->label);
     fprintf(to, "\n");
     if (named || used) print_lines(chip, to);
