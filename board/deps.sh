@@ -4,7 +4,7 @@
 # CROSS=aarch64-linux-gnu adds.
 set -eu
 
-libraries='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libegl-dev libgles-dev
+libraries='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
     libcglm-dev libdrm-dev libgbm-dev'
 build="gcc make pkgconf $libraries"
 run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri libgbm1 libdrm2'

@@ -166,6 +166,7 @@ static bool verdict(const struct gn_doctor_report *report, const struct gn_optio
 static bool examine(struct gn_doctor_report *report, const struct gn_options *options,
                     struct answer *answer, struct gn_err *err) {
     gn_machine_read(&report->machine, "");
+    gn_input_list_lines(&report->input);
     for (int i = 0; i < report->machine.device_count; i++) {
         struct gn_device *device = &report->machine.devices[i];
         if (device->kind == GN_DEVICE_CARD)
@@ -189,5 +190,6 @@ bool gn_cli_doctor(const struct gn_options *options, struct gn_warnings *warning
     struct answer *answer = gn_child_share(sizeof *answer, err);
     bool ok = answer && examine(&report, options, answer, err);
     gn_child_unshare(answer, sizeof *answer);
+    gn_input_list_finish(&report.input);
     return ok;
 }

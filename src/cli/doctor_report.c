@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "cli/doctor_input.h"
 #include "cli/json_print.h"
 #include "core/text.h"
 #include <config.h> /* made by the build; not cli/config.h */
@@ -108,6 +109,7 @@ void gn_doctor_diagnose(struct gn_doctor_report *report) {
             diagnose_backend(report, &report->backends[i]);
     if (report->chosen >= 0) diagnose_gpu(report);
     diagnose_machine(report);
+    gn_doctor_diagnose_input(report);
 }
 
 /* ---- for people ---------------------------------------------------------------------------- */
@@ -209,6 +211,7 @@ void gn_doctor_print(const struct gn_doctor_report *report, FILE *to) {
     if (report->chosen >= 0) print_gpu(&report->backends[report->chosen], to);
     print_devices(&report->machine, false, to);
     print_devices(&report->machine, true, to);
+    gn_doctor_print_input(report, to);
     print_problems(report, to);
     if (report->self_test) gn_selftest_print(report->self_test, to);
 }
@@ -280,7 +283,8 @@ static json_t *gpu_json(const struct gn_doctor_backend *b) {
         proved, "not_proved", not_proved, "map_formats", maps_json(caps), "auto", auto_json(caps));
 }
 
-static json_t *devices_json(const struct gn_machine *m, bool gpio) {
+static json_t *devices_json(const struct gn_doctor_report *report, bool gpio) {
+    const struct gn_machine *m = &report->machine;
     json_t *all = json_array();
     for (int i = 0; i < m->device_count; i++) {
         const struct gn_device *d = &m->devices[i];
@@ -288,7 +292,9 @@ static json_t *devices_json(const struct gn_machine *m, bool gpio) {
         json_t *device = json_pack(
             "{so so so sb sb}", "path", text(d->path), gpio ? "device" : "driver", text(d->driver),
             "group", text(d->group), "readable", d->readable, "writable", d->writable);
-        if (!gpio) {
+        if (gpio) {
+            gn_doctor_describe_chip(report, d->path, device);
+        } else {
             json_object_set_new(device, "kind",
                                 json_string(d->kind == GN_DEVICE_CARD ? "card" : "render"));
             json_object_set_new(device, "holder", text(d->holder));
@@ -320,11 +326,12 @@ bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struc
     const struct gn_machine *m = &report->machine;
     bool draws = report->chosen >= 0;
     json_t *all =
-        json_pack("{ss sb so so so so so so so}", "version", GN_VERSION, "can_draw", draws,
+        json_pack("{ss sb so so so so so so so so}", "version", GN_VERSION, "can_draw", draws,
                   "machine", machine_json(m), "backends", backends_json(report), "gpu",
                   draws ? gpu_json(&report->backends[report->chosen]) : json_null(), "cards",
-                  devices_json(m, false), "connectors", connectors_json(m), "gpio",
-                  devices_json(m, true), "problems", problems_json(report));
+                  devices_json(report, false), "connectors", connectors_json(m), "gpio",
+                  devices_json(report, true), "input", gn_doctor_input_json(report), "problems",
+                  problems_json(report));
     if (all && report->self_test)
         json_object_set_new(all, "self_test", gn_selftest_json(report->self_test));
     return gn_json_print(all, 7, to, err);

@@ -8,6 +8,7 @@
 #include "cli/selftest.h"
 #include "core/err.h"
 #include "frame/caps.h"
+#include "input/input.h"
 
 enum { GN_DOCTOR_BACKENDS = 8, GN_DOCTOR_PROBLEMS = 24 };
 
@@ -22,6 +23,7 @@ struct gn_doctor_problem { /* one line together: "what: cure" */
 };
 struct gn_doctor_report {
     struct gn_machine machine;
+    struct gn_input_list input;
     struct gn_doctor_backend backends[GN_DOCTOR_BACKENDS];
     int backend_count;
     int chosen; /* the one that is described; -1: nothing can draw */
@@ -47,7 +49,9 @@ void gn_doctor_print(const struct gn_doctor_report *report, FILE *to);
  *     [name], not_proved [{name, instead}], map_formats [name], auto {technique: map format}},
  * cards [{path, kind (card, render), driver|null, group, readable, writable, holder|null}],
  * connectors [{name, status, mode|null, modes|null}],
- * gpio [{path, device|null, group, readable, writable}],
+ * gpio [{path, device|null, group, readable, writable, label|null, lines null or [{name|null, used,
+ *     consumer|null}] by number}],
+ * input {gpio_library|null, devices, devices_denied},
  * problems [{what, cure}],
  * self_test: see selftest.h; absent if not asked for. */
 bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struct gn_err *err);

@@ -23,8 +23,8 @@ bool gn_lines_init(struct gn_lines *lines, const struct gn_line_opts *opts, int 
             .opts = opts[i], .wanted = opts[i].text, .retry_ns = NEVER, .check_ns = NEVER};
         if (l->wanted && !gn_line_parse(opts[i].text, &l->spec, err))
             return gn_fail_prefix(err, "button \"%s\": line", opts[i].button);
-        for (int k = 0; l->wanted && k < i; k++)
-            if (lines->lines[k].wanted && strcmp(opts[k].text, opts[i].text) == 0)
+        for (int k = 0; opts[i].text && k < i; k++)
+            if (opts[k].text && strcmp(opts[k].text, opts[i].text) == 0)
                 return gn_fail_usage(err, "button \"%s\": line %s is that of button \"%s\"",
                                      opts[i].button, opts[i].text, opts[k].button);
     }

@@ -70,7 +70,7 @@ bool gn_input_set_up(struct gn_input *input, int64_t now_ns, struct gn_err *err)
         return false;
     for (int i = 0; i < opts->button_count; i++)
         if (!set_up_button(input, i, &gestures[i], &lines[i], err))
-            return gn_fail_prefix(err, "button \"%s\"", names[i]);
+            return gn_fail_prefix(err, "button \"%s\"", opts->buttons[i].name);
     gn_gestures_init(&input->gestures, gestures, opts->button_count, now_ns);
     input->keys.gestures = &input->gestures;
     return gn_lines_init(&input->lines, lines, opts->button_count, err);

@@ -13,7 +13,7 @@ store=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/board
 root=$store/root-$architecture-$codename-$(sha256sum < "$0" | cut -c 1-12)
 state=$store/apt-$architecture-$codename
 
-build='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libegl-dev libgles-dev
+build='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
     libcglm-dev libdrm-dev libgbm-dev libudev-dev libcmocka-dev'
 run='bash coreutils findutils grep mawk sed diffutils util-linux kbd kmscube libegl1 libgles2
     libegl-mesa0 libgl1-mesa-dri busybox-static'

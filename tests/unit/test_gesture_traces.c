@@ -385,7 +385,7 @@ static bool compare(uint64_t seed, unsigned long *gestures) {
 
 int main(int argc, char **argv) {
     const uint64_t first = argc > 1 ? strtoull(argv[1], NULL, 10) : 1;
-    const uint64_t all = getenv("GN_FULL") ? 1000000 : 20000;
+    const uint64_t all = getenv("GN_FULL") ? 1000000 : 10000;
     const uint64_t count = argc > 2 ? strtoull(argv[2], NULL, 10) : argc > 1 ? 1 : all;
     unsigned long gestures = 0;
     int failures = 0;

@@ -400,6 +400,31 @@ static void test_a_still_kiosk_sleeps(void **state) {
     assert_int_equal(sleep_until(now_ns + 3600 * S), 0);
 }
 
+static void test_doctor_is_told_of_chips_lines_and_users(void **state) {
+    (void)state;
+    const struct gn_input_world world = {
+        .gpio = &fake_gpio_ops, .gpio_context = &gpio, .folder = gpio.folder};
+    struct gn_input_list list;
+    fake_gpio_plug(&gpio, 0, 10, "pinctrl-rp1", 3);
+    fake_gpio_plug(&gpio, 1, 2, "locked", 3);
+    gpio.chips[1].open_error = EACCES;
+    strcpy(gpio.chips[0].line[2].consumer, "spi0 CS0");
+    gpio.chips[0].line[0].name[0] = '\0';
+    gn_input_list_in(&world, &list);
+    assert_int_equal(list.chip_count, 2);
+    assert_int_equal(list.chips[0].error, EACCES); /* by number: 2 before 10 */
+    const struct gn_input_chip *chip = &list.chips[1];
+    assert_int_equal(chip->error, 0);
+    assert_string_equal(chip->label, "pinctrl-rp1");
+    assert_int_equal(chip->line_count, 3);
+    assert_string_equal(chip->lines[0].name, "");
+    assert_string_equal(chip->lines[1].name, "B");
+    assert_false(chip->lines[1].used);
+    assert_true(chip->lines[2].used);
+    assert_string_equal(chip->lines[2].consumer, "spi0 CS0");
+    gn_input_list_finish(&list);
+}
+
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
@@ -422,6 +447,7 @@ int main(void) {
         TEST(test_a_full_buffer_is_healed_without_numbers),
         TEST(test_a_lost_release_is_no_long_press),
         TEST(test_a_still_kiosk_sleeps),
+        TEST(test_doctor_is_told_of_chips_lines_and_users),
     };
     return RUN(tests);
 }

@@ -78,9 +78,9 @@ static void test_a_lone_escape_is_a_key_when_nothing_follows(void **state) {
 
 static void test_what_means_nothing_is_swallowed_whole(void **state) {
     (void)state;
-    assert_string_equal(READ("\33[200~a\33[201~"), "a");                  /* a paste */
+    assert_string_equal(READ("\33[200~a\33[201~"), "a");            /* a paste */
     assert_string_equal(READ("\33[?1;2c\33[<0;10;20Mx\33[I"), "x"); /* reports, a mouse */
-    assert_string_equal(READ("\xc3\xa4z"), "z");                          /* an umlaut */
+    assert_string_equal(READ("\xc3\xa4z"), "z");                    /* an umlaut */
     assert_string_equal(READ("\33[99999999999999999~b"), "b");
     assert_string_equal(READ("\33[5"), ""); /* cut */
 }
