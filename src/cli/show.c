@@ -120,7 +120,7 @@ static void tick(struct gn_show *s) {
 
 /* Milliseconds until something is due, rounded up; -1: never. */
 static int timeout(const struct gn_show *s) {
-    if (gn_show_wants_frame(s) || gn_show_is_stale(s)) return 0;
+    if (gn_show_wants_frame(s) || gn_show_is_stale(s) || gn_show_can_advance(s)) return 0;
     const int64_t now_ns = gn_clock_monotonic_ns();
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
     if (gn_show_has_work(s) && s->work_ns < at_ns) at_ns = s->work_ns;

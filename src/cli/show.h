@@ -144,6 +144,8 @@ bool gn_show_has_work(const struct gn_show *show);
 void gn_show_forget_work(struct gn_show *show);
 /* Loads what the kiosk waits for, and shows it once it is ready. */
 void gn_show_advance(struct gn_show *show);
+/* What the kiosk waits for is ready, and nothing else is to come before it. */
+bool gn_show_can_advance(const struct gn_show *show);
 void gn_show_drop_staged(struct gn_show *show);
 
 /* show_input.c: buttons and keys */

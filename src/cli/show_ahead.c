@@ -200,6 +200,11 @@ static bool is_ready(const struct gn_show *s, int scene) {
     return !s->stage.gl || (scenes->whole && scenes->looks.ready & bit);
 }
 
+bool gn_show_can_advance(const struct gn_show *s) {
+    return gn_kiosk_waits(&s->kiosk) && !s->keeps &&
+           is_ready(s, gn_kiosk_scene(&s->rules, &s->kiosk.wanted));
+}
+
 /* A fade begins with the picture that was seen last: it is drawn once more, and kept. */
 static bool waits_for_kept(struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;

@@ -137,6 +137,7 @@ expect 2 'backend belongs to the display' set backend kms
 expect 2 'did you mean shadow?' set shadwo pcf
 
 # ---- screenshots --------------------------------------------------------------------------------
+expect 0 'value: no' set captions no
 expect 0 'mode: Plain' mode Plain
 settle
 expect 0 "file: $folder/one.png" screenshot one.png
