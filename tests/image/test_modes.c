@@ -182,6 +182,21 @@ static void what_is_not_ready_keeps_the_old_picture(void **state) {
     gn_show_close(show);
 }
 
+/* The loop sleeps while nothing moves: it must not sleep over what it was waiting for. */
+static void a_still_picture_changes_when_the_mode_is_ready(void **state) {
+    (void)state;
+    struct gn_show *show = OPEN("--no-animation");
+    frames(show, 1);
+    act(show, GN_ACTION_PREV);
+    const int wanted = show->kiosk.wanted.mode;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (show->drawn.mode != wanted) {
+        step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+    gn_show_close(show);
+}
+
 static void flags_leave_one_technique(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--shadow", "hard");
@@ -321,6 +336,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_switch_is_seen_in_the_next_frame_and_makes_nothing),
         cmocka_unit_test(a_switch_takes_no_more_than_two_frames),
         cmocka_unit_test(what_is_not_ready_keeps_the_old_picture),
+        cmocka_unit_test(a_still_picture_changes_when_the_mode_is_ready),
         cmocka_unit_test(flags_leave_one_technique),
         cmocka_unit_test(pause_stands_and_blank_is_dark),
         cmocka_unit_test(a_fade_begins_with_the_old_picture),
