@@ -182,6 +182,17 @@ expect 0 'file' screenshot turned.png
 "$compare" turned.png two.png > out || complain "a screenshot of a turned screen is not upright: $(cat out)"
 stop
 
+# ---- nothing moves, nobody asks, no caption ends: what was asked for is shown all the same ---------
+sed 's/^\[button/[kiosk]\ncaptions = no\n&/' good.ini > kiosk.ini
+start -v -c kiosk.ini
+expect 0 'mode: Dial' mode Dial
+for _ in $(seq 100); do
+    grep -q '^mode Dial' kiosk.out && break
+    sleep 0.1
+done
+grep -q '^mode Dial' kiosk.out || complain 'a mode is not shown until something else happens'
+stop
+
 # ---- a bad file at the start ---------------------------------------------------------------------
 sed 's/press = next/press = nxt/' good.ini > kiosk.ini
 start -c kiosk.ini
