@@ -183,14 +183,15 @@ expect 0 'file' screenshot turned.png
 stop
 
 # ---- nothing moves, nobody asks, no caption ends: what was asked for is shown all the same ---------
-sed 's/^\[button/[kiosk]\ncaptions = no\n&/' good.ini > kiosk.ini
+printf '%s\n' '[scene]' 'file = sundial.glb' 'no_animation = yes' '[kiosk]' 'captions = no' \
+    '[mode "Plain"]' 'shadow = none' '[mode "Soft"]' 'shadow = pcss' > kiosk.ini
 start -v -c kiosk.ini
-expect 0 'mode: Dial' mode Dial
+expect 0 'mode: Soft' mode Soft
 for _ in $(seq 100); do
-    grep -q '^mode Dial' kiosk.out && break
+    grep -q '^mode Soft' kiosk.out && break
     sleep 0.1
 done
-grep -q '^mode Dial' kiosk.out || complain 'a mode is not shown until something else happens'
+grep -q '^mode Soft' kiosk.out || complain 'a mode is not shown until something else happens'
 stop
 
 # ---- a bad file at the start ---------------------------------------------------------------------
