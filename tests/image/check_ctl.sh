@@ -84,6 +84,8 @@ shadow = none
 [button "next"]
 keys = space
 press = next
+[kiosk]
+captions = no
 END
 
 # ---- no kiosk -----------------------------------------------------------------------------------
