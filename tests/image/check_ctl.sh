@@ -154,15 +154,22 @@ expect 1 'cannot write' screenshot no/such.png
 # ---- reload -------------------------------------------------------------------------------------
 expect 0 'mode: Plain' reload
 expect 0 'value: hard' get shadow # what was set is forgotten
+settle
+expect 0 file screenshot before.png
 cp kiosk.ini good.ini
 sed -i 's/shadow = hard/shadow = hrad/' kiosk.ini
 expect 2 'kiosk.ini:7: shadow: "hrad" is not one of' reload
 expect 0 'modes: Plain, Top, Dial' status
 expect 0 'config.error: kiosk.ini:7: shadow:' status
 expect 0 'value: hard' get shadow # the last good one
+expect 0 file screenshot error.png
+cmp -s before.png error.png && complain 'a bad file is not told of on the screen'
 cp good.ini kiosk.ini
 expect 0 'mode: Plain' reload
 expect 0 'config.error: -' status
+settle
+expect 0 file screenshot after.png
+cmp -s before.png after.png || complain 'a good file leaves something on the screen'
 
 # ---- a second one, and what a killed one leaves -------------------------------------------------
 "$gnomon" show --backend egl --size 32x32 --frames 3 --socket "$folder/ctl" > out 2> err ||
