@@ -159,8 +159,11 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     if (!gn_show_keep_context(s, err)) return false;
     gn_show_advance(s);
     gn_show_enter_changed(s);
-    if (gn_show_wants_frame(s)) return gn_show_frame(s, err);
-    work_between_frames(s);
+    if (!gn_show_wants_frame(s))
+        work_between_frames(s);
+    else if (!gn_show_frame(s, err))
+        return false;
+    gn_show_advance(s); /* the last piece of work may have been what was waited for */
     gn_show_enter_changed(s);
     return true;
 }

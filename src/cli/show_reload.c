@@ -52,6 +52,7 @@ static void keep_mode(const struct gn_show *s, struct gn_options *options) {
 static void keep_error(struct gn_show *s, const struct gn_err *why) {
     snprintf(s->config_error, sizeof s->config_error, "%s", why->text);
     s->options->config_error = s->config_error;
+    s->changed = true; /* it is said on the screen */
 }
 
 static struct gn_options *read_again(const struct gn_show *s, struct gn_err *why) {

@@ -84,6 +84,8 @@ shadow = none
 [button "next"]
 keys = space
 press = next
+[kiosk]
+captions = no
 END
 
 # ---- no kiosk -----------------------------------------------------------------------------------
@@ -153,15 +155,22 @@ expect 1 'cannot write' screenshot no/such.png
 # ---- reload -------------------------------------------------------------------------------------
 expect 0 'mode: Plain' reload
 expect 0 'value: hard' get shadow # what was set is forgotten
+settle
+expect 0 file screenshot before.png
 cp kiosk.ini good.ini
 sed -i 's/shadow = hard/shadow = hrad/' kiosk.ini
 expect 2 'kiosk.ini:7: shadow: "hrad" is not one of' reload
 expect 0 'modes: Plain, Top, Dial' status
 expect 0 'config.error: kiosk.ini:7: shadow:' status
 expect 0 'value: hard' get shadow # the last good one
+expect 0 file screenshot error.png
+cmp -s before.png error.png && complain 'a bad file is not told of on the screen'
 cp good.ini kiosk.ini
 expect 0 'mode: Plain' reload
 expect 0 'config.error: -' status
+settle
+expect 0 file screenshot after.png
+cmp -s before.png after.png || complain 'a good file leaves something on the screen'
 
 # ---- a second one, and what a killed one leaves -------------------------------------------------
 "$gnomon" show --backend egl --size 32x32 --frames 3 --socket "$folder/ctl" > out 2> err ||
@@ -181,6 +190,18 @@ settle
 expect 0 'file' screenshot turned.png
 "$gnomon" render sundial.glb --no-animation --size 90x160 --shadow hard -o two.png || complain 'render'
 "$compare" turned.png two.png > out || complain "a screenshot of a turned screen is not upright: $(cat out)"
+stop
+
+# ---- nothing moves, nobody asks, no caption ends: what was asked for is shown all the same ---------
+printf '%s\n' '[scene]' 'file = sundial.glb' 'no_animation = yes' '[kiosk]' 'captions = no' \
+    '[mode "Plain"]' 'shadow = none' '[mode "Soft"]' 'shadow = pcss' > kiosk.ini
+start -v -c kiosk.ini
+expect 0 'mode: Soft' mode Soft
+for _ in $(seq 100); do
+    grep -q '^mode Soft' kiosk.out && break
+    sleep 0.1
+done
+grep -q '^mode Soft' kiosk.out || complain 'a mode is not shown until something else happens'
 stop
 
 # ---- a bad file at the start ---------------------------------------------------------------------
