@@ -283,7 +283,7 @@ static void the_next_scene_comes_when_it_is_whole(void **state) {
         const uint64_t made = show->stage.gl->programs_made;
         step(show);
         assert_true(show->stage.gl->programs_made - made <= 1);
-        if (show->drawn.scene == 0) assert_ptr_equal(show->stage.scene->name, name);
+        if (show->scenes.shown == 0) assert_ptr_equal(show->stage.scene->name, name);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     assert_null(show->scenes.staged);
