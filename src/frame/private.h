@@ -129,6 +129,10 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
 void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first);
 uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *key);
 
+/* maps.c: the passes that draw the shadow maps. */
+void gn_frame_map_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct gn_frame_opts *opts);
+
 /* picture.c: the passes that draw the picture. */
 void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts);
