@@ -8,7 +8,7 @@
 
 static void count_pass(struct gn_scene_cost *cost, const struct gn_plan *plan,
                        const struct gn_pass *pass) {
-    bool shadow = pass->target.kind == GN_TARGET_SHADOW;
+    bool shadow = gn_target_is_map(&pass->target);
     uint64_t triangles = 0;
     for (uint32_t i = 0; i < pass->draw_count; i++) {
         const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
@@ -26,6 +26,17 @@ static uint64_t map_bytes(const struct gn_shadow_view *view) {
     return (uint64_t)view->width_px * view->height_px * gn_encodings[view->encoding].texel_bytes;
 }
 
+/* Where the pages of maps are drawn; those of one kind share it. */
+static uint64_t pages_bytes(const struct gn_plan *plan, uint32_t slot) {
+    const struct gn_shadow_view *view = &plan->shadows[slot];
+    if (!view->paged) return 0;
+    for (uint32_t i = 0; i < slot; i++)
+        if (plan->shadows[i].paged && plan->shadows[i].encoding == view->encoding &&
+            plan->shadows[i].map_px == view->map_px)
+            return 0;
+    return map_bytes(view);
+}
+
 static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene) {
     const struct gn_caps caps = {
         .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
@@ -38,7 +49,7 @@ static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene)
     const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
     for (uint32_t i = 0; i < plan->pass_count; i++) count_pass(cost, plan, &plan->passes[i]);
     for (uint32_t i = 0; i < plan->shadow_count; i++)
-        cost->map_bytes += map_bytes(&plan->shadows[i]);
+        cost->map_bytes += map_bytes(&plan->shadows[i]) + pages_bytes(plan, i);
     cost->programs = plan->program_count;
     cost->culled = plan->culled;
     cost->target_bytes = (uint64_t)GN_INSPECT_WIDTH_PX * GN_INSPECT_HEIGHT_PX * 8;

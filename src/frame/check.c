@@ -49,7 +49,7 @@ static uint32_t slide_count(const struct gn_program_key *key) {
 static const char *check_use(const struct gn_pass *pass, const struct gn_program_key *key) {
     const bool adds = key->features & GN_FEATURE_ADDITIVE;
     const bool panel = key->kind == GN_PROGRAM_PANEL;
-    REQUIRE((key->kind < GN_PROGRAM_FLAT) == (pass->target.kind == GN_TARGET_SHADOW));
+    REQUIRE((key->kind < GN_PROGRAM_FLAT) == gn_target_is_map(&pass->target));
     REQUIRE((key->kind == GN_PROGRAM_FLAT) == pass->only_stencil);
     const bool caption = key->kind == GN_PROGRAM_CAPTION;
     REQUIRE(key->kind != GN_PROGRAM_ENCODE || pass->target.kind == GN_TARGET_ENCODED);
@@ -94,22 +94,51 @@ static const char *check_stencil(const struct gn_plan *plan, const struct gn_pas
     return NULL;
 }
 
+static bool shares_map(const struct gn_pass *a, const struct gn_pass *b) {
+    return gn_target_is_map(&a->target) && gn_target_is_map(&b->target) &&
+           a->target.slot == b->target.slot;
+}
+
+/* Pages are cleared by the first of them, and put together by the pass after the last. */
+static const char *check_pages(const struct gn_plan *plan, const struct gn_pass *pass) {
+    const struct gn_pass *before = pass > plan->passes ? pass - 1 : NULL,
+                         *after = pass + 1 < plan->passes + plan->pass_count ? pass + 1 : NULL;
+    const bool goes_on = before && before->target.kind == GN_TARGET_PAGES;
+    const bool page = pass->target.kind == GN_TARGET_PAGES;
+    REQUIRE(!page || (after && shares_map(pass, after)));
+    REQUIRE(!page || after->content_hash == pass->content_hash);
+    REQUIRE(!page || pass->clear != goes_on);
+    REQUIRE(page || goes_on == (pass->copy_count > 0));
+    REQUIRE(pass->copy_count <= GN_SHADOW_PAGES_MAX);
+    REQUIRE(!pass->copy_count || pass->draw_count == 0);
+    for (uint32_t i = 0; i < pass->copy_count; i++) {
+        const struct gn_copy *copy = &pass->copies[i];
+        const struct gn_rect to = {copy->to_x, copy->to_y, copy->from.width, copy->from.height};
+        REQUIRE(rect_is_inside(&copy->from, &pass->target));
+        REQUIRE(rect_is_inside(&to, &pass->target));
+    }
+    return NULL;
+}
+
 static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *pass) {
     REQUIRE(pass->target.width_px > 0 && pass->target.height_px > 0);
-    const bool shadow = pass->target.kind == GN_TARGET_SHADOW;
+    const bool shadow = gn_target_is_map(&pass->target);
     REQUIRE(!shadow || pass->target.slot < plan->shadow_count);
-    REQUIRE(!shadow || (pass->clear && pass->content_hash != 0));
+    REQUIRE(!shadow || pass->content_hash != 0);
+    REQUIRE(pass->target.kind != GN_TARGET_SHADOW || pass->clear);
     REQUIRE(!shadow || pass->target.encoding != GN_ENCODING_STENCIL);
     REQUIRE(!pass->reads_atlas || (plan->atlas && plan->atlas->coverage));
     REQUIRE(!pass->reads_atlas || (pass->blend == GN_BLEND_ALPHA && !pass->depth_write));
     REQUIRE(!pass->reads_atlas || plan->output != GN_OUTPUT_AOV);
     REQUIRE(rect_is_inside(&pass->rect, &pass->target));
+    REQUIRE(rect_is_inside(&pass->viewport, &pass->target));
     REQUIRE(pass->tile < GN_SHADOW_TILES_MAX);
     REQUIRE(pass->first_draw <= plan->draw_count);
     REQUIRE(pass->draw_count <= plan->draw_count - pass->first_draw);
     REQUIRE(pass->constants != NULL && pass->constant_count > 0);
     const char *broken = check_lights(plan, pass);
     if (!broken) broken = check_stencil(plan, pass);
+    if (!broken) broken = check_pages(plan, pass);
     for (uint32_t i = 0; i < pass->draw_count && !broken; i++) {
         const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
         broken = check_draw(plan, draw);

@@ -132,7 +132,7 @@ static bool takes_light(const struct gn_frame *frame, const struct gn_pose *pose
 
 static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_selection *s,
                   uint32_t item) {
-    if (s->casts) return s->casts[item];
+    if (s->casts) return s->casts[item] >> s->page & 1;
     if (s->part && gn_key_on_plane(frame, item, s->opts) != (s->part == GN_PART_PLANE))
         return false;
     if (s->group) return takes_light(frame, pose, s->group, item);

@@ -259,9 +259,9 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
     }
 }
 
-void gn_frame_shadow_constants(const struct gn_shadow_view *view, uint32_t tile,
+void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from_world,
                                float (*constants)[4]) {
-    memcpy(constants[PASS_CLIP], view->tiles[tile].clip_from_world, sizeof(mat4));
+    memcpy(constants[PASS_CLIP], clip_from_world, sizeof(mat4));
     put3(constants[PASS_CODE], view->light_ws);
     constants[PASS_CODE][3] =
         view->perspective ? view->distance_scale : view->distance_scale * view->far_m;

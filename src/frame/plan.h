@@ -126,34 +126,47 @@ enum gn_target_kind {
     GN_TARGET_OUTPUT,
     GN_TARGET_SHADOW,
     GN_TARGET_ENCODED, /* bytes beside a linear output, which the first pass to it reads */
+    GN_TARGET_PAGES,   /* beside a map, of its size: from here its next pass copies */
 };
 struct gn_rect { /* pixels of a target, first row at the bottom */
     uint32_t x, y, width, height;
 };
 struct gn_target {
     enum gn_target_kind kind;
-    uint32_t slot; /* SHADOW: which of plan->shadows; its map */
+    uint32_t slot; /* SHADOW, PAGES: which of plan->shadows; its map */
     uint32_t width_px, height_px;
-    enum gn_encoding encoding; /* SHADOW */
+    enum gn_encoding encoding; /* SHADOW, PAGES */
 };
+struct gn_copy {
+    struct gn_rect from; /* of the pages */
+    uint32_t to_x, to_y; /* its lower left corner in the map */
+};
+/* Whether casters are drawn to it. */
+static inline bool gn_target_is_map(const struct gn_target *target) {
+    return target->kind == GN_TARGET_SHADOW || target->kind == GN_TARGET_PAGES;
+}
 struct gn_pass {
     char label[48]; /* KHR_debug group, timer, error: "shadow 0 Sun", "opaque", "blend" */
     struct gn_target target;
     bool clear;                /* colour (or code) and depth, at the pass's start */
-    float clear_color[4];      /* OUTPUT: linear; SHADOW: far_code in [0] */
+    float clear_color[4];      /* OUTPUT: linear; SHADOW, PAGES: far_code in [0] */
     bool depth_write;          /* the depth test is always LEQUAL */
     bool only_stencil;         /* draws FLAT programs: no depth test, and colour is left as it is */
     struct gn_stencil stencil; /* OUTPUT, of a plan with a stencil; `clear` clears that, too */
     enum gn_blend blend;
-    bool discard_depth;  /* nobody reads the depth after this pass: invalidate */
-    uint32_t border_px;  /* this many texels at the target's rim stay cleared (scissor) */
-    struct gn_rect rect; /* draws nothing outside (scissor); width 0: no such bound. SHADOW: a tile,
-                            which is all that the pass clears and sees */
-    uint32_t tile;       /* SHADOW: which of the map's; the passes of a map follow each other */
+    bool discard_depth;      /* nobody reads the depth after this pass: invalidate */
+    uint32_t border_px;      /* this many texels at the target's rim stay cleared (scissor) */
+    struct gn_rect rect;     /* draws nothing outside (scissor); width 0: no such bound */
+    struct gn_rect viewport; /* SHADOW: a tile, which is all that the pass clears and sees, and its
+                                rect; width 0: all of the target */
+    uint32_t tile;           /* SHADOW: which of the map's; the passes of a map follow each other */
+    uint32_t copy_count; /* SHADOW: once it is cleared, these are copied, and nothing is drawn; the
+                            PAGES passes of the map come right before */
+    struct gn_copy copies[GN_SHADOW_PAGES_MAX];
     uint32_t first_light, light_count;   /* of plan->lights: those that its LIT programs know */
     uint32_t first_shadow, shadow_count; /* plan->shadows[first_shadow + i] is behind sampler i */
     uint64_t
-        content_hash; /* SHADOW: skip the pass when the tile already holds this; 0: always draw */
+        content_hash; /* SHADOW, PAGES: skip the pass when the tile already holds this; 0: never */
     bool reads_codes; /* those samplers compare not */
     bool reads_atlas; /* plan->atlas is behind sampler 0 */
     uint32_t first_draw, draw_count;

@@ -94,6 +94,10 @@ static void print_target(const struct gn_pass *pass, FILE *to) {
         fprintf(to, "map %u (%s, rim %u px)", pass->target.slot,
                 gn_encodings[pass->target.encoding].name, pass->border_px);
         break;
+    case GN_TARGET_PAGES:
+        fprintf(to, "pages of map %u (%s)", pass->target.slot,
+                gn_encodings[pass->target.encoding].name);
+        break;
     }
 }
 
@@ -103,6 +107,14 @@ static void print_added(const struct gn_plan *plan, const struct gn_pass *pass, 
         const uint32_t light = plan->lights[pass->first_light + i];
         fprintf(to, "%s'%s'", i ? " " : ", adds ", plan->scene->lights[light].name);
         if (i < pass->shadow_count) fprintf(to, " (map %u)", pass->first_shadow + i);
+    }
+}
+
+static void print_copies(const struct gn_pass *pass, FILE *to) {
+    for (uint32_t i = 0; i < pass->copy_count; i++) {
+        const struct gn_copy *copy = &pass->copies[i];
+        fprintf(to, "%s%u x %u from %u, %u to %u, %u", i ? "; " : ", copies ", copy->from.width,
+                copy->from.height, copy->from.x, copy->from.y, copy->to_x, copy->to_y);
     }
 }
 
@@ -117,7 +129,7 @@ static void print_stencil(const struct gn_pass *pass, FILE *to) {
 
 static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
     print_target(pass, to);
-    if (pass->clear && pass->target.kind == GN_TARGET_SHADOW)
+    if (pass->clear && gn_target_is_map(&pass->target))
         fprintf(to, ", clear %.4g", (double)pass->clear_color[0]);
     if (pass->clear && pass->target.kind == GN_TARGET_OUTPUT)
         fprintf(to, ", clear %.3f %.3f %.3f", (double)pass->clear_color[0],
@@ -132,6 +144,7 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
     if (pass->rect.width > 0)
         fprintf(to, ", within %u x %u at %u, %u", pass->rect.width, pass->rect.height, pass->rect.x,
                 pass->rect.y);
+    print_copies(pass, to);
     print_stencil(pass, to);
     if (!pass->depth_write && !pass->only_stencil) fprintf(to, ", depth read-only");
     if (pass->discard_depth) fprintf(to, ", depth discarded");

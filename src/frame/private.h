@@ -95,7 +95,7 @@ struct gn_frame {
 enum { GN_PASS_SIZE = 86 };
 /* Whose constants stand where. */
 enum gn_frame_constants {
-    GN_CONSTANTS_SHADOW,                                             /* a tile of a slot each */
+    GN_CONSTANTS_SHADOW, /* a tile or page of a slot each */
     GN_CONSTANTS_PICTURE = GN_ALL_SHADOWS_MAX * GN_SHADOW_TILES_MAX, /* a group each */
     GN_CONSTANTS_MARKS = GN_CONSTANTS_PICTURE + GN_GROUPS_MAX,
     GN_CONSTANTS_PANELS, /* of all panels, one after another */
@@ -108,7 +108,8 @@ float (*gn_frame_constants(const struct gn_frame *frame, uint32_t which))[4];
 enum gn_part { GN_PART_ALL, GN_PART_PLANE, GN_PART_REST };
 /* Which items a pass takes, and with which program. */
 struct gn_selection {
-    const uint8_t *casts;               /* shadow pass: those marked; NULL: what the eye sees */
+    const uint8_t *casts; /* shadow pass: those marked by bit `page`; NULL: what the eye sees */
+    uint32_t page;
     const struct gn_shadow_view *view;  /* shadow pass */
     bool mirrored;                      /* it is drawn as in a mirror */
     const struct gn_light_group *group; /* what is added: to items that it reaches; NULL: first */
@@ -187,7 +188,7 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_frame_opts *opts);
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
                               const struct gn_light_group *group, float (*constants)[4]);
-void gn_frame_shadow_constants(const struct gn_shadow_view *view, uint32_t tile,
+void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from_world,
                                float (*constants)[4]);
 
 /* slides.c: which of the chosen lights throw a slide; then what the shaders and the pass get. The

@@ -246,6 +246,7 @@ struct gn_gl_map {
 enum { /* kept: plans that take turns find their maps again, until they are too much */
        GN_GL_MAPS_MAX = 8 * GN_ALL_SHADOWS_MAX,
        GN_GL_MAPS_MB = 256,
+       GN_GL_SLOT_PAGES = GN_ALL_SHADOWS_MAX, /* whose pages all maps of its kind share */
 };
 enum gn_gl_map_sampler {
     GN_GL_MAP_NEAREST,
@@ -271,6 +272,8 @@ bool gn_gl_pixel_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_
 GLuint gn_gl_output_finished(const struct gn_gl_output *output);
 enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output);
 struct gn_gl_map *gn_gl_map_find(struct gn_gl *gl, const struct gn_target *target);
+/* Where the pages of the map are drawn. */
+struct gn_gl_map *gn_gl_pages_find(struct gn_gl *gl, const struct gn_target *target);
 struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot); /* used last; NULL if none */
 void gn_gl_targets_forget(struct gn_gl *gl); /* maps hold nothing any more */
 uint64_t gn_gl_targets_bytes(const struct gn_gl *gl);

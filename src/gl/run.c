@@ -44,17 +44,21 @@ static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     GL(gl, ClearBufferfv)(GL_DEPTH, 0, ones);
 }
 
-static struct gn_gl_rect target_rect(const struct gn_pass *pass) {
+static struct gn_gl_rect gl_rect(const struct gn_rect *r) {
+    return (struct gn_gl_rect){(GLint)r->x, (GLint)r->y, (GLsizei)r->width, (GLsizei)r->height};
+}
+
+static struct gn_gl_rect viewport_of(const struct gn_pass *pass) {
+    if (pass->viewport.width > 0) return gl_rect(&pass->viewport);
     return (struct gn_gl_rect){0, 0, (GLsizei)pass->target.width_px,
                                (GLsizei)pass->target.height_px};
 }
 
 /* What a pass may draw on, where that is not all of the target. */
 static bool scissor_of(const struct gn_pass *pass, struct gn_gl_rect *out) {
-    const struct gn_rect *r = &pass->rect;
     const GLint border = (GLint)pass->border_px;
-    *out = (struct gn_gl_rect){(GLint)r->x, (GLint)r->y, (GLsizei)r->width, (GLsizei)r->height};
-    if (r->width > 0) return true;
+    *out = gl_rect(&pass->rect);
+    if (pass->rect.width > 0) return true;
     *out = (struct gn_gl_rect){border, border, (GLsizei)pass->target.width_px - 2 * border,
                                (GLsizei)pass->target.height_px - 2 * border};
     return border > 0;
@@ -66,7 +70,7 @@ enum clear { CLEAR_NOT, CLEAR_RECT, CLEAR_ALL };
 static void clear_target(struct gn_gl *gl, const struct gn_pass *pass) {
     gn_gl_set_depth(gl, true, true);
     gn_gl_set_color_write(gl, true);
-    if (pass->target.kind == GN_TARGET_SHADOW) {
+    if (gn_target_is_map(&pass->target)) {
         clear_map(gl, pass);
         return;
     }
@@ -82,13 +86,14 @@ static void clear_stencil(struct gn_gl *gl, uint8_t bits) {
 
 static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer,
                          enum clear clear) {
-    const bool tile = pass->target.kind == GN_TARGET_SHADOW && pass->rect.width > 0;
+    const bool tile = pass->viewport.width > 0;
+    const struct gn_gl_rect viewport = viewport_of(pass);
     struct gn_gl_rect inner;
     const bool bound = scissor_of(pass, &inner);
     gn_gl_bind_framebuffer(gl, framebuffer);
-    gn_gl_set_viewport(gl, tile ? inner : target_rect(pass));
+    gn_gl_set_viewport(gl, viewport);
     if (clear != CLEAR_NOT) {
-        gn_gl_set_scissor(gl, tile && clear == CLEAR_RECT ? &inner : NULL);
+        gn_gl_set_scissor(gl, tile && clear == CLEAR_RECT ? &viewport : NULL);
         clear_target(gl, pass);
     }
     if (pass->stencil.clears) clear_stencil(gl, pass->stencil.clears);
@@ -104,10 +109,28 @@ static void end_target(struct gn_gl *gl, const struct gn_pass *pass, bool last) 
     static const GLenum attachment[] = {GL_DEPTH_ATTACHMENT, GL_STENCIL_ATTACHMENT};
     static const GLenum window[] = {GL_DEPTH, GL_STENCIL};
     const GLenum *depth = gl->state.framebuffer ? attachment : window;
-    const bool is_map = pass->target.kind == GN_TARGET_SHADOW;
+    const bool is_map = gn_target_is_map(&pass->target);
     const GLsizei count = !is_map && gl->targets.output.stencil ? 2 : 1;
     if (is_map && pass->target.encoding == GN_ENCODING_DEPTH) return; /* it is what was wanted */
     if (pass->discard_depth && last) GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, count, depth);
+}
+
+/* From the pages, which hold nothing any more then. */
+static void copy_pages(struct gn_gl *gl, const struct gn_pass *pass) {
+    static const GLenum attachments[] = {GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0};
+    const struct gn_gl_map *pages = gn_gl_pages_find(gl, &pass->target);
+    const bool is_depth = pass->target.encoding == GN_ENCODING_DEPTH;
+    if (!pages) return;
+    GL(gl, BindFramebuffer)(GL_READ_FRAMEBUFFER, pages->framebuffer);
+    for (uint32_t i = 0; i < pass->copy_count; i++) {
+        const struct gn_gl_rect from = gl_rect(&pass->copies[i].from);
+        const GLint x = (GLint)pass->copies[i].to_x, y = (GLint)pass->copies[i].to_y;
+        GL(gl, BlitFramebuffer)
+        (from.x, from.y, from.x + from.width, from.y + from.height, x, y, x + from.width,
+         y + from.height, is_depth ? GL_DEPTH_BUFFER_BIT : GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
+    GL(gl, InvalidateFramebuffer)(GL_READ_FRAMEBUFFER, is_depth ? 1 : 2, attachments);
+    GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, gl->state.framebuffer); /* as the cache says */
 }
 
 /* What is read is of no more use. */
@@ -219,7 +242,7 @@ static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_d
     (GL_TRIANGLES, (GLsizei)count, gl->scene.index_type, (const void *)first,
      (GLsizei)d->instance_count);
     gl->stats.draws++;
-    gl->stats.shadow_draws += pass->target.kind == GN_TARGET_SHADOW || pass->only_stencil;
+    gl->stats.shadow_draws += gn_target_is_map(&pass->target) || pass->only_stencil;
     gl->stats.triangles += (uint64_t)count / 3 * d->instance_count;
 }
 
@@ -249,7 +272,7 @@ static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
  * tiles are drawn, one clear does. */
 static enum clear clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
                            const struct gn_pass *pass) {
-    if (!map) return pass->clear ? CLEAR_ALL : CLEAR_NOT;
+    if (!map || pass->target.kind == GN_TARGET_PAGES) return pass->clear ? CLEAR_ALL : CLEAR_NOT;
     if (pass->tile == 0) {
         const struct gn_pass *last = pass, *next;
         while ((next = next_tile(plan, map, last))) last = next;
@@ -273,6 +296,7 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     begin_target(gl, pass, framebuffer_of(gl, pass, map), clear_of(plan, map, pass));
     bind_sources(gl, plan, pass);
     const bool first_time = gl->programs_run != gl->programs_made;
+    if (pass->copy_count) copy_pages(gl, pass);
     for (uint32_t i = 0; i < pass->draw_count; i++) {
         if (first_time && is_stopped(gl, err)) return false;
         draw(gl, pass, &plan->draws[pass->first_draw + i], hash, UINT32_MAX);
@@ -284,14 +308,17 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
 
 static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                      struct gn_err *err) {
-    if (pass->target.kind != GN_TARGET_SHADOW) return draw_pass(gl, plan, pass, NULL, err);
-    struct gn_gl_map *map = gn_gl_map_find(gl, &pass->target);
-    if (!map) return gn_fail(err, "%s: the plan was not prepared", pass->label);
+    if (!gn_target_is_map(&pass->target)) return draw_pass(gl, plan, pass, NULL, err);
+    const bool page = pass->target.kind == GN_TARGET_PAGES;
+    struct gn_gl_map *map = gn_gl_map_find(gl, &pass->target),
+                     *pages = page ? gn_gl_pages_find(gl, &pass->target) : NULL;
+    if (!map || (page && !pages)) return gn_fail(err, "%s: the plan was not prepared", pass->label);
     if (!is_stale(map, pass)) {
         map->cleared = false;
-        gl->stats.shadow_passes_skipped++;
+        gl->stats.shadow_passes_skipped += !page;
         return true;
     }
+    if (page) return draw_pass(gl, plan, pass, pages, err);
     bool ok = draw_pass(gl, plan, pass, map, err);
     map->content_hash[pass->tile] = ok ? pass->content_hash : 0;
     return ok;
@@ -400,12 +427,14 @@ static const struct gn_draw *first_draw_of(const struct gn_plan *plan, const str
 static bool touch_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                        const struct gn_draw *d, struct gn_err *err) {
     static const struct gn_gl_rect pixel = {0, 0, 1, 1};
-    struct gn_gl_map *map =
-        pass->target.kind == GN_TARGET_SHADOW ? gn_gl_map_find(gl, &pass->target) : NULL;
+    const bool is_map = gn_target_is_map(&pass->target);
+    struct gn_gl_map *map = !is_map ? NULL
+                            : pass->target.kind == GN_TARGET_PAGES
+                                ? gn_gl_pages_find(gl, &pass->target)
+                                : gn_gl_map_find(gl, &pass->target);
     struct gn_draw one = *d;
     one.instance_count = 1;
-    if (pass->target.kind == GN_TARGET_SHADOW && !map)
-        return gn_fail(err, "%s: the plan was not prepared", pass->label);
+    if (is_map && !map) return gn_fail(err, "%s: the plan was not prepared", pass->label);
     begin_target(gl, pass, framebuffer_of(gl, pass, map), CLEAR_NOT);
     gn_gl_set_scissor(gl, &pixel);
     bind_sources(gl, plan, pass);

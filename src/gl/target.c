@@ -256,6 +256,17 @@ struct gn_gl_map *gn_gl_map_find(struct gn_gl *gl, const struct gn_target *t) {
     return NULL;
 }
 
+static struct gn_target pages_of(const struct gn_target *target) {
+    struct gn_target pages = *target;
+    pages.slot = GN_GL_SLOT_PAGES;
+    return pages;
+}
+
+struct gn_gl_map *gn_gl_pages_find(struct gn_gl *gl, const struct gn_target *target) {
+    const struct gn_target pages = pages_of(target);
+    return gn_gl_map_find(gl, &pages);
+}
+
 struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot) {
     struct gn_gl_map *latest = NULL;
     for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
@@ -316,9 +327,11 @@ bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct g
 }
 
 bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    for (uint32_t i = 0; i < plan->pass_count; i++)
-        if (plan->passes[i].target.kind == GN_TARGET_SHADOW)
-            if (!map_ensure(gl, &plan->passes[i].target, err)) return false;
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const struct gn_target *target = &plan->passes[i].target, pages = pages_of(target);
+        const bool paged = target->kind == GN_TARGET_PAGES;
+        if (gn_target_is_map(target) && !map_ensure(gl, paged ? &pages : target, err)) return false;
+    }
     return true;
 }
 

@@ -86,16 +86,34 @@ static float reach(const struct gn_fitter *f, float near, float far) {
     return f->light_radius * spread;
 }
 
-/* The window before snapping, and the depths of all casters. */
-static bool find_window(const struct gn_fitter *f, struct gn_shadow_region *window,
+/* What the eye sees of an item that receives, or all of it; NULL: nothing. */
+static const struct gn_shadow_region *receiver_region(const struct gn_fitter *f, uint32_t item,
+                                                      bool everything) {
+    if (!item_receives(f, item)) return NULL;
+    const struct gn_shadow_region *r = everything ? gn_fitter_whole(f, item)
+                                       : f->memory->seen[item] == GN_SEEN_NOT
+                                           ? NULL
+                                           : gn_fitter_seen(f, item);
+    return r && !region_is_empty(r) ? r : NULL;
+}
+
+static bool sees_everything(const struct gn_fitter *f) {
+    for (uint32_t i = 0; i < f->memory->item_count; i++)
+        if (item_receives(f, i) && f->memory->seen[i] != GN_SEEN_WHOLE) return false;
+    return true;
+}
+
+/* The window before snapping, and the depths of all casters. everything: of an eye that sees all.
+ */
+static bool find_window(const struct gn_fitter *f, bool everything, struct gn_shadow_region *window,
                         struct gn_shadow_region *depths) {
     uint32_t count = f->memory->item_count;
     uint8_t *casts = f->memory->casts;
     struct gn_shadow_region receivers = nothing, casters = nothing, again = nothing;
     *depths = nothing;
     for (uint32_t i = 0; i < count; i++) {
-        if (!item_receives(f, i) || f->memory->seen[i] == GN_SEEN_NOT) continue;
-        unite(&receivers, gn_fitter_seen(f, i));
+        const struct gn_shadow_region *seen = receiver_region(f, i, everything);
+        if (seen) unite(&receivers, seen);
     }
     memset(casts, 0, count);
     for (uint32_t i = 0; i < count; i++) {
@@ -105,19 +123,20 @@ static bool find_window(const struct gn_fitter *f, struct gn_shadow_region *wind
         unite(depths, &r);
         struct gn_shadow_region reached = grown(&receivers, reach(f, r.near, receivers.far));
         bool matters = regions_meet(&r, &reached) && r.near <= receivers.far;
-        casts[i] = matters || f->view->tile_count > 1; /* a whole tile does not go with the eye */
+        /* What a whole tile holds, or a page, does not go with the eye. */
+        casts[i] = matters || f->view->tile_count > 1 || !f->view->perspective;
         if (!matters) continue;
         r = intersect(&r, &reached);
         unite(&casters, &r);
     }
     if (region_is_empty(&casters)) return false;
     for (uint32_t i = 0; i < count; i++) { /* receivers once more, now that the casters are known */
-        if (!item_receives(f, i) || f->memory->seen[i] == GN_SEEN_NOT) continue;
+        const struct gn_shadow_region *seen = receiver_region(f, i, everything);
+        if (!seen) continue;
         const struct gn_shadow_region *whole = gn_fitter_whole(f, i);
         struct gn_shadow_region reached = grown(whole, reach(f, casters.near, whole->far));
         if (!regions_meet(&reached, &casters)) continue;
-        const struct gn_shadow_region *seen = gn_fitter_seen(f, i);
-        if (region_is_empty(seen) || seen->far < casters.near) continue;
+        if (seen->far < casters.near) continue;
         reached = grown(seen, reach(f, casters.near, seen->far));
         if (!regions_meet(&reached, &casters)) continue;
         struct gn_shadow_region r = intersect(&reached, &casters);
@@ -134,7 +153,7 @@ void gn_shadow_look(const struct gn_shadow_view *view, mat4 light_from_world) {
              fabsf(forward[1]) > 0.99f ? across : up, light_from_world);
 }
 
-static float ceil_to_step(float size) {
+float gn_shadow_step(float size) {
     return exp2f(ceilf(log2f(size) * STEPS_PER_OCTAVE) / STEPS_PER_OCTAVE);
 }
 
@@ -143,7 +162,7 @@ static float ceil_to_step(float size) {
  * holds. */
 static void set_cone(struct gn_fitter *f, float tan_cone) {
     f->tan_cone = tan_cone;
-    f->near_m = ceil_to_step(1e-4f * f->scene_size_m);
+    f->near_m = gn_shadow_step(1e-4f * f->scene_size_m);
     vec4 planes[6] = {{1, 0, -tan_cone, 0},  {-1, 0, -tan_cone, 0},  {0, 1, -tan_cone, 0},
                       {0, -1, -tan_cone, 0}, {0, 0, -1, -f->near_m}, {0, 0, 1, f->range_m}};
     f->cone_count = isfinite(f->range_m) ? 6 : 5;
@@ -157,7 +176,7 @@ void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float
     uint32_t margin = gn_techniques[view->technique].radius_texels + RIM_TEXELS;
     uint32_t usable = view->map_px > 2 * margin + 2 ? view->map_px - 2 * margin : 2;
     float span = fmaxf(max[0] - min[0], max[1] - min[1]);
-    view->texel = ceil_to_step(fmaxf(span, least) / (float)(usable - 1));
+    view->texel = gn_shadow_step(fmaxf(span, least) / (float)(usable - 1));
     for (int k = 0; k < 2; k++)
         low[k] = (floor((double)min[k] / view->texel) - margin) * view->texel;
 }
@@ -208,17 +227,15 @@ static void set_code(const struct gn_fitter *f, float near_depth, float far_dept
     }
 }
 
+/* Of lamps; a sun's: pages.c. */
 static void set_clip(struct gn_shadow_view *view, const double low[2], float near_depth,
                      float far_depth) {
     double side = (double)view->texel * view->map_px;
     float left = (float)low[0], right = (float)(low[0] + side), bottom = (float)low[1],
           top = (float)(low[1] + side);
     mat4 clip_from_light;
-    if (view->perspective)
-        glm_frustum(left * near_depth, right * near_depth, bottom * near_depth, top * near_depth,
-                    near_depth, far_depth, clip_from_light);
-    else
-        glm_ortho(left, right, bottom, top, near_depth, far_depth, clip_from_light);
+    glm_frustum(left * near_depth, right * near_depth, bottom * near_depth, top * near_depth,
+                near_depth, far_depth, clip_from_light);
     for (uint32_t i = 0; i < view->tile_count; i++)
         glm_mat4_mul(clip_from_light, view->tiles[i].light_from_world,
                      view->tiles[i].clip_from_world);
@@ -276,12 +293,19 @@ static void set_bias(struct gn_shadow_view *view) {
     view->slope_max = 4.0f;
 }
 
+static uint64_t hash_page(uint64_t h, const struct gn_shadow_page *page) {
+    h = gn_hash(h, page->corner, sizeof page->corner);
+    h = gn_hash(h, page->from_px, sizeof page->from_px);
+    return gn_hash(h, page->size_px, sizeof page->size_px);
+}
+
 uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view *view,
                         const struct gn_shadow_tile *tile, const uint8_t *casts) {
     float code[] = {view->distance_scale, view->distance_offset, view->far_code,
                     (float)view->map_px, (float)view->encoding};
     uint64_t h = gn_hash(GN_HASH_INIT, code, sizeof code);
     if (!tile->empty) h = gn_hash(h, tile->clip_from_world, sizeof tile->clip_from_world);
+    for (uint32_t p = 0; p < view->page_count; p++) h = hash_page(h, &view->pages[p]);
     for (uint32_t i = 0; i < pose->scene->item_count && !tile->empty; i++)
         if (casts[i]) {
             uint64_t item[2] = {i, pose->items[i].hash};
@@ -292,20 +316,30 @@ uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view 
 
 /* ---- one tile: directional lights and spots ---- */
 
+static void lay_window(const struct gn_fitter *f, const struct gn_shadow_region *window,
+                       float near_depth, float far_depth) {
+    double low[2];
+    if (f->view->perspective) {
+        gn_shadow_snap(f->view, window->min, window->max, LEAST_TANGENT, low);
+        set_clip(f->view, low, near_depth, far_depth);
+        return;
+    }
+    struct gn_shadow_region all = *window, depths;
+    if (!sees_everything(f)) find_window(f, true, &all, &depths);
+    gn_pages_fit(f, window, &all, near_depth, far_depth);
+}
+
 static bool fit_window(struct gn_fitter *f) {
     const struct gn_light *light = &f->pose->scene->lights[f->view->light];
     struct gn_shadow_region window, depths;
+    float near_depth, far_depth;
     gn_shadow_look(f->view, f->tile->light_from_world);
     if (light->type == GN_LIGHT_SPOT) set_cone(f, tanf(fminf(light->outer_rad, GN_SPOT_MAX_RAD)));
     gn_fitter_remember(f);
-    if (!find_window(f, &window, &depths)) return false;
-    float near_depth, far_depth;
-    double low[2];
-    gn_shadow_snap(f->view, window.min, window.max,
-                   f->view->perspective ? LEAST_TANGENT : 1e-6f * f->scene_size_m, low);
+    if (!find_window(f, false, &window, &depths)) return false;
     set_depths(f, &depths, &near_depth, &far_depth);
     set_code(f, near_depth, far_depth);
-    set_clip(f->view, low, near_depth, far_depth);
+    lay_window(f, &window, near_depth, far_depth);
     set_lookup(f->view, near_depth);
     set_soft(f, near_depth, far_depth);
     return true;
@@ -341,7 +375,7 @@ static bool find_tiles(struct gn_fitter *f, struct gn_shadow_region *depths) {
         f->memory = &memories[i];
         aim_tile(f, i);
         gn_fitter_remember(f);
-        f->tile->empty = !find_window(f, &window, &own);
+        f->tile->empty = !find_window(f, false, &window, &own);
         found |= !f->tile->empty;
         unite(depths, &own);
     }

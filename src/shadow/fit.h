@@ -4,7 +4,8 @@
  * Plane coordinates: for a directional light metres across the light's direction, for a spot
  * tangents (x/z, y/z). The map is a window in them: as small as holds every place where a caster
  * can darken something that the eye sees, of a width from a geometric series and with its corner on
- * a whole texel, so that it moves by whole texels when the eye moves.
+ * a whole texel, so that it moves by whole texels when the eye moves, and of a directional light
+ * holds the same bits by then (shadow/pages.h).
  *
  * A point light has six such maps, the tiles of an atlas: each looks along an axis of the world, 45
  * degrees to each side and a gutter more, as wide as the technique's filter, so that what is read
@@ -36,6 +37,15 @@ struct gn_shadow_tile {
     uint64_t content_hash; /* of all that decides what it holds, casters included; never 0 */
 };
 
+/* A part of a directional map as it is drawn (shadow/pages.h); px: x, y. */
+enum { GN_SHADOW_PAGES_MAX = 4 };
+struct gn_shadow_page {
+    mat4 clip_from_world; /* draws the page, map_px texels wide, whatever the eye sees */
+    double corner[2];     /* its lower left texel, counted from the light's axis */
+    uint32_t from_px[2], to_px[2], size_px[2]; /* the part that is wanted: where it is drawn and
+                                                  where it stands in the map */
+};
+
 struct gn_shadow_view {
     uint32_t light;
     enum gn_technique technique;
@@ -45,6 +55,13 @@ struct gn_shadow_view {
     uint32_t gutter_px;           /* point: of a tile, to each side */
     uint32_t tile_count;          /* 1, point: 6 */
     struct gn_shadow_tile tiles[GN_SHADOW_TILES_MAX];
+    /* Directional, not on a plane: all that the map holds, outside of which it is cleared. Without
+     * `paged` it is drawn as it is read: the one page is the map. */
+    uint32_t drawn_px[2], drawn_size_px[2];
+    double corner_texels[2]; /* the map's lower left texel, counted from the light's axis */
+    bool paged;
+    uint32_t page_count; /* else 0 */
+    struct gn_shadow_page pages[GN_SHADOW_PAGES_MAX];
     bool all_receive; /* as in gn_shadow_opts */
     bool perspective; /* spot, point */
     vec3 light_ws;    /* position (spot, point) */
@@ -96,7 +113,7 @@ struct gn_shadow_region { /* in plane coordinates and depth along the light's ax
 };
 struct gn_shadow_memory {
     uint32_t item_count;
-    uint8_t *casts;                 /* per item: 1 = draw it into the map */
+    uint8_t *casts;                 /* per item: bit p = draw it into page p, or into the tile */
     uint8_t *seen;                  /* per item: how much of it the eye sees; private */
     struct gn_shadow_region *whole; /* per item: all that it covers; private */
     struct gn_shadow_region *part;  /* per item seen partly: what of it is seen; private */

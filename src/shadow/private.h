@@ -50,6 +50,8 @@ bool gn_shadow_item_receives(const struct gn_pose *pose, uint32_t item,
 /* light_from_world along the light's direction, which is -Z; of a directional light about the
  * world's origin. Rigid. */
 void gn_shadow_look(const struct gn_shadow_view *view, mat4 light_from_world);
+/* The least size of a geometric series that is not smaller. */
+float gn_shadow_step(float size);
 /* Lays the map round a window in plane coordinates, on whole texels of a size from a geometric
  * series: sets view->texel and the map's low corner. min, max, least (of the window's side), low:
  * plane units. */
@@ -82,5 +84,13 @@ void gn_fitter_remember(const struct gn_fitter *f);
 const struct gn_shadow_region *gn_fitter_whole(const struct gn_fitter *f, uint32_t item);
 const struct gn_shadow_region *gn_fitter_seen(const struct gn_fitter *f, uint32_t item);
 enum { GN_SEEN_NOT, GN_SEEN_PARTLY, GN_SEEN_WHOLE }; /* gn_shadow_memory.seen */
+
+/* ---- pages.c ---- */
+
+/* Lays a directional light's map round a window of plane coordinates: texel, pages and what draws
+ * them, tiles[0].clip_from_world, and which items cast into which page, of those that memory->casts
+ * marks. all: the window of an eye that sees everything. */
+void gn_pages_fit(const struct gn_fitter *f, const struct gn_shadow_region *window,
+                  const struct gn_shadow_region *all, float near_depth, float far_depth);
 
 #endif

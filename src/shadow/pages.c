@@ -1,0 +1,151 @@
+#include "shadow/pages.h"
+
+#include <math.h>
+
+#include "shadow/private.h"
+
+/* Of one axis: the stretch of the window in the page that texel `first` lies in, up to `end`. */
+struct stretch {
+    double corner; /* the page's */
+    uint32_t from_px, size_px;
+};
+
+static struct stretch stretch_at(double anchor, double first, double end, uint32_t map_px) {
+    const double corner = anchor + floor((first - anchor) / map_px) * map_px;
+    return (struct stretch){corner, (uint32_t)(first - corner),
+                            (uint32_t)(fmin(end, corner + map_px) - first)};
+}
+
+/* Not at its edge, which stays cleared: what is read outside the map is lit. */
+static bool is_inside(const struct stretch *s, double first, double end, uint32_t map_px) {
+    return s->from_px >= 1 && s->size_px == (uint32_t)(end - first) &&
+           s->from_px + s->size_px < map_px;
+}
+
+/* Of both axes; 1 or 2 stretches of each. */
+static void add_pages(struct gn_page_layout *layout, struct stretch along[2][2],
+                      const uint32_t counts[2]) {
+    for (uint32_t j = 0; j < counts[1]; j++)
+        for (uint32_t i = 0; i < counts[0]; i++) {
+            struct gn_shadow_page *page = &layout->pages[layout->page_count++];
+            const struct stretch *s[2] = {&along[0][i], &along[1][j]};
+            for (int k = 0; k < 2; k++) {
+                page->corner[k] = s[k]->corner;
+                page->from_px[k] = s[k]->from_px;
+                page->size_px[k] = s[k]->size_px;
+                page->to_px[k] = (uint32_t)(s[k]->corner + s[k]->from_px - layout->corner[k]);
+            }
+        }
+}
+
+void gn_pages_lay(const double anchor[2], const double first[2], const double last[2],
+                  uint32_t map_px, struct gn_page_layout *layout) {
+    struct stretch along[2][2];
+    uint32_t counts[2];
+    *layout = (struct gn_page_layout){.paged = false};
+    for (int k = 0; k < 2; k++) {
+        const double end = fmin(last[k] + 1, first[k] + map_px - 2);
+        along[k][0] = stretch_at(anchor[k], first[k], end, map_px);
+        counts[k] = 1;
+        if (!is_inside(&along[k][0], first[k], end, map_px)) layout->paged = true;
+        if (first[k] + along[k][0].size_px < end) {
+            along[k][1] = stretch_at(anchor[k], first[k] + along[k][0].size_px, end, map_px);
+            counts[k] = 2;
+        }
+        layout->drawn_size_px[k] = (uint32_t)(end - first[k]);
+    }
+    for (int k = 0; k < 2; k++) {
+        layout->corner[k] = layout->paged ? first[k] - 1 : along[k][0].corner;
+        layout->drawn_px[k] = (uint32_t)(first[k] - layout->corner[k]);
+    }
+    add_pages(layout, along, counts);
+}
+
+/* ---- the view ---- */
+
+/* How wide a window is drawn beside what it must hold: the filter, and a texel for the bias. */
+static double beside(const struct gn_shadow_view *view) {
+    return gn_techniques[view->technique].radius_texels + 1;
+}
+
+/* Such that the texels of a span, those beside it and the map's edge fit wherever it begins. */
+static float texel_for(const struct gn_fitter *f, const struct gn_shadow_region *r) {
+    const double room = f->view->map_px - 2 * beside(f->view) - 4;
+    const float span = fmaxf(r->max[0] - r->min[0], r->max[1] - r->min[1]);
+    return gn_shadow_step(fmaxf(span, 1e-6f * f->scene_size_m) / (float)fmax(room, 1.0));
+}
+
+/* As glm_ortho() of map_px texels from the corner on, but of the same scale wherever that is. */
+static void set_clip(const struct gn_shadow_view *view, const double corner[2], float near_depth,
+                     float far_depth, mat4 clip_from_world) {
+    mat4 clip_from_light = GLM_MAT4_IDENTITY_INIT;
+    for (int k = 0; k < 2; k++) {
+        clip_from_light[k][k] = (float)(2.0 / ((double)view->texel * view->map_px));
+        clip_from_light[3][k] = (float)(-2.0 * corner[k] / view->map_px - 1.0);
+    }
+    clip_from_light[2][2] = -2.0f / (far_depth - near_depth);
+    clip_from_light[3][2] = -(far_depth + near_depth) / (far_depth - near_depth);
+    glm_mat4_mul(clip_from_light, (vec4 *)view->tiles[0].light_from_world, clip_from_world);
+}
+
+/* A texel more to each side: rasterisers round. */
+static bool is_in_page(const struct gn_shadow_region *r, const struct gn_shadow_page *page,
+                       float texel) {
+    for (int k = 0; k < 2; k++) {
+        const double first = page->corner[k] + page->from_px[k];
+        if (r->max[k] < (first - 1) * texel) return false;
+        if (r->min[k] > (first + page->size_px[k] + 1) * texel) return false;
+    }
+    return true;
+}
+
+/* Whether or not an eye needs a caster for what it sees, it is in the part of the page that is
+ * drawn: what a texel holds does not depend on the eye. */
+static void mark_casts(const struct gn_fitter *f) {
+    const struct gn_shadow_view *view = f->view;
+    for (uint32_t i = 0; i < f->memory->item_count; i++) {
+        if (!f->memory->casts[i]) continue;
+        uint8_t pages = 0;
+        for (uint32_t p = 0; p < view->page_count; p++)
+            if (is_in_page(gn_fitter_whole(f, i), &view->pages[p], view->texel))
+                pages |= (uint8_t)(1u << p);
+        f->memory->casts[i] = pages;
+    }
+}
+
+/* Of a window that is nearly all, all: then the map does not go with the eye. */
+static void choose_texel(const struct gn_fitter *f, const struct gn_shadow_region *window,
+                         const struct gn_shadow_region *all) {
+    const float fine = texel_for(f, window), coarse = texel_for(f, all);
+    f->view->texel = coarse <= 1.001f * gn_shadow_step(1.01f * fine) ? coarse : fine;
+}
+
+void gn_pages_fit(const struct gn_fitter *f, const struct gn_shadow_region *window,
+                  const struct gn_shadow_region *all, float near_depth, float far_depth) {
+    struct gn_shadow_view *view = f->view;
+    struct gn_page_layout layout;
+    double anchor[2], first[2], last[2];
+    choose_texel(f, window, all);
+    for (int k = 0; k < 2; k++) { /* of rounding, all may end a hair before the window */
+        const float low = fmaxf(window->min[k], all->min[k]),
+                    high = fminf(window->max[k], all->max[k]);
+        anchor[k] = floor((double)all->min[k] / view->texel) - beside(view) - 1;
+        first[k] = floor((double)low / view->texel) - beside(view);
+        last[k] = fmax(floor((double)high / view->texel) + beside(view), first[k]);
+    }
+    gn_pages_lay(anchor, first, last, view->map_px, &layout);
+    view->paged = layout.paged;
+    view->page_count = layout.page_count;
+    for (int k = 0; k < 2; k++) {
+        view->corner_texels[k] = layout.corner[k];
+        view->drawn_px[k] = layout.drawn_px[k];
+        view->drawn_size_px[k] = layout.drawn_size_px[k];
+    }
+    set_clip(view, layout.corner, near_depth, far_depth, view->tiles[0].clip_from_world);
+    for (uint32_t p = 0; p < view->page_count; p++) {
+        view->pages[p] = layout.pages[p];
+        set_clip(view, view->pages[p].corner, near_depth, far_depth,
+                 view->pages[p].clip_from_world);
+    }
+    mark_casts(f);
+}

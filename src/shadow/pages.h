@@ -1,0 +1,33 @@
+/* A directional light's map under a moving eye: bit for bit the same, shifted by whole texels.
+ *
+ * A rasteriser's depth of a texel depends, in its last bits, on where in its target the texel lies.
+ * So each texel of the light's lattice has one place for good: the lattice is cut into pages as
+ * large as the map, each drawn by a projection of its own that knows nothing of the eye. A map
+ * holds a window of the lattice. What of it lies in a page is drawn there and nowhere else, and is
+ * then copied to where it stands in the map: so shaders read a map like any other. The parts of up
+ * to four pages overlap nowhere, wrapped round or not: one target is enough for all of them. A
+ * window that lies in one page needs no copy: the page is the map.
+ *
+ * The lattice's pages begin where the map of an eye that sees all would begin: that map is one
+ * page. Pure.
+ */
+#ifndef GN_SHADOW_PAGES_H
+#define GN_SHADOW_PAGES_H
+
+#include "shadow/fit.h"
+
+/* What a map of a window (texels of the lattice, first and last, both in it) holds. */
+struct gn_page_layout {
+    double corner[2];                       /* the map's lower left texel */
+    uint32_t drawn_px[2], drawn_size_px[2]; /* in the map; at least a texel from its edge */
+    bool paged;                             /* drawn in pages, then copied */
+    uint32_t page_count;                    /* 1 at least */
+    struct gn_shadow_page pages[GN_SHADOW_PAGES_MAX]; /* all but clip_from_world */
+};
+
+/* anchor: the lower left texel of any page. No window is wider than map_px - 2; map_px is 3 at
+ * least. */
+void gn_pages_lay(const double anchor[2], const double first[2], const double last[2],
+                  uint32_t map_px, struct gn_page_layout *layout);
+
+#endif
