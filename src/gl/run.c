@@ -27,7 +27,9 @@ static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
     (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | (stencil ? GL_STENCIL_BUFFER_BIT : 0u));
 }
 
-/* To the light's far end, in the encoding's own unit. */
+/* To the light's far end, in the encoding's own unit. Where nothing is drawn, nobody asks for
+ * depth.
+ */
 static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     static const float ones[4] = {1, 1, 1, 1};
     const float far_code[4] = {pass->clear_color[0], 0, 0, 1};
@@ -41,6 +43,7 @@ static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     case GN_ENCODING_MASK: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); return; /* no depth */
     default: break;
     }
+    if (pass->copy_count && pass->target.encoding != GN_ENCODING_DEPTH) return;
     GL(gl, ClearBufferfv)(GL_DEPTH, 0, ones);
 }
 

@@ -225,6 +225,50 @@ static void test_map_moves_by_whole_texels(void **state) {
     expect_whole_texels(GN_TECHNIQUE_PLANAR);
 }
 
+/* Then its map does not go with the eye: it is kept. */
+static void test_a_sun_over_all_that_is_seen_is_one_page(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.orbit = (struct gn_orbit){.pitch_rad = 0.4f, .zoom = -1.5f};
+    uint64_t kept = 0;
+    for (int step = 0; step < 8; step++) {
+        f.opts.orbit.yaw_rad = 0.8f * (float)step;
+        const struct gn_plan *plan = gn_plan_make(&f);
+        const struct gn_shadow_view *sun = &plan->shadows[0];
+        assert_int_equal(plan->culled, 0);
+        assert_true(!sun->paged && sun->page_count == 1);
+        assert_int_equal(plan->passes[0].target.kind, GN_TARGET_SHADOW);
+        assert_int_equal(plan->passes[0].copy_count, 0);
+        if (step > 0) assert_true(sun->tiles[0].content_hash == kept);
+        kept = sun->tiles[0].content_hash;
+    }
+    gn_plan_end(&f);
+}
+
+/* What is in a page is drawn there and in no other: nothing is drawn twice for want of culling. */
+static void test_a_page_draws_what_is_in_it(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    const struct gn_plan *plan = gn_plan_make(&f);
+    const struct gn_shadow_view *sun = &plan->shadows[0];
+    uint32_t drawn[GN_SHADOW_PAGES_MAX] = {0}, all = 0;
+    assert_true(sun->paged && sun->page_count == 4);
+    for (uint32_t p = 0; p < sun->page_count; p++) {
+        const struct gn_pass *pass = &plan->passes[p];
+        assert_int_equal(pass->target.kind, GN_TARGET_PAGES);
+        for (uint32_t i = 0; i < pass->draw_count; i++)
+            drawn[p] += plan->draws[pass->first_draw + i].instance_count;
+        all += drawn[p];
+    }
+    assert_int_equal(plan->passes[4].target.kind, GN_TARGET_SHADOW);
+    assert_int_equal(plan->passes[4].copy_count, 4);
+    assert_true(drawn[2] > drawn[1] && drawn[2] > drawn[3]); /* the largest part */
+    assert_true(all < 2 * drawn[2]);
+    gn_plan_end(&f);
+}
+
 static void test_an_eye_that_sees_no_shadow_needs_no_caster(void **state) {
     (void)state;
     struct gn_plan_fixture f;
@@ -309,6 +353,18 @@ static void test_check_finds_what_is_broken(void **state) {
     plan = *gn_plan_make(&f);
     plan.draws[0].geometry = GN_NO_GEOMETRY;
     assert_non_null(gn_plan_check(&plan));
+    plan = *gn_plan_make(&f); /* passes 0-3 are pages, 4 puts them together */
+    plan.passes[3].content_hash++;
+    assert_non_null(gn_plan_check(&plan));
+    plan = *gn_plan_make(&f);
+    plan.passes[1].clear = true;
+    assert_non_null(gn_plan_check(&plan));
+    plan = *gn_plan_make(&f);
+    plan.passes[4].copies[0].to_x = plan.passes[4].target.width_px;
+    assert_non_null(gn_plan_check(&plan));
+    plan = *gn_plan_make(&f);
+    plan.passes[4].copy_count = 0;
+    assert_non_null(gn_plan_check(&plan));
     f.opts.technique_given = f.opts.planar_in_stencil = true;
     f.opts.technique = GN_TECHNIQUE_PLANAR;
     plan = *gn_plan_make(&f);
@@ -389,6 +445,8 @@ int main(void) {
         cmocka_unit_test(test_a_millimetre_draws_again),
         cmocka_unit_test(test_no_allocation_once_grown),
         cmocka_unit_test(test_map_moves_by_whole_texels),
+        cmocka_unit_test(test_a_sun_over_all_that_is_seen_is_one_page),
+        cmocka_unit_test(test_a_page_draws_what_is_in_it),
         cmocka_unit_test(test_an_eye_that_sees_no_shadow_needs_no_caster),
         cmocka_unit_test(test_flat_ground_is_not_in_the_map),
         cmocka_unit_test(test_a_far_plane_may_be_as_far_as_numbers_go),
