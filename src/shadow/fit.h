@@ -4,8 +4,8 @@
  * Plane coordinates: for a directional light metres across the light's direction, for a spot
  * tangents (x/z, y/z). The map is a window in them: as small as holds every place where a caster
  * can darken something that the eye sees, of a width from a geometric series and with its corner on
- * a whole texel, so that it moves by whole texels when the eye moves, and of a directional light
- * holds the same bits by then (shadow/pages.h).
+ * a whole texel, so that it moves by whole texels when the eye moves, and a directional one
+ * then holds the same bits (shadow/pages.h).
  *
  * A point light has six such maps, the tiles of an atlas: each looks along an axis of the world, 45
  * degrees to each side and a gutter more, as wide as the technique's filter, so that what is read
