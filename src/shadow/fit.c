@@ -1,11 +1,4 @@
-/* Fitting a shadow view. What matters are pairs: a caster, and something that the eye sees behind
- * it. The window is the intersection of what the seen receivers and the casters cover in plane
- * coordinates, narrowed twice, since each limits the other; near and far are those of the casters
- * alone and do not depend on the eye (a receiver beyond the last caster compares against the far
- * end). A large flat caster with nothing behind it - the ground - is left out altogether: it can
- * darken nothing, and what is not in the map can neither shadow itself nor cost resolution. What
- * lies beyond the light's range is left out too: nothing is lit there, and it stands before nothing
- * that is. */
+/* Fitting a shadow view: round the window that window.c finds. */
 #include "shadow/fit.h"
 
 #include <assert.h>
@@ -30,120 +23,6 @@ bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item) {
 bool gn_shadow_item_receives(const struct gn_pose *pose, uint32_t item,
                              const struct gn_shadow_view *view) {
     return pose->items[item].visible && (pose->scene->items[item].receives || view->all_receive);
-}
-
-static bool item_receives(const struct gn_fitter *f, uint32_t item) {
-    return gn_shadow_item_receives(f->pose, item, f->view);
-}
-
-static bool item_casts(const struct gn_fitter *f, uint32_t item) {
-    return f->pose->items[item].visible && gn_shadow_item_casts(f->pose->scene, item);
-}
-
-/* Only large flat casters are worth the walk. */
-static bool is_large_flat(const struct gn_fitter *f, uint32_t item) {
-    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
-    const struct gn_box *box = &f->pose->items[item].box_ws;
-    return g->flat &&
-           glm_vec3_distance((float *)box->min, (float *)box->max) > 0.25f * f->scene_size_m;
-}
-
-/* The flat item's plane in world space, its light's side positive. False when it is seen edge-on by
- * the light. */
-static bool lit_plane(const struct gn_fitter *f, uint32_t item, vec4 plane) {
-    gn_pose_plane(f->pose, item, plane);
-    float towards = f->view->perspective
-                        ? glm_vec3_dot(plane, f->view->light_ws) + plane[3]
-                        : glm_vec3_dot(plane, f->view->to_light_ws) * f->scene_size_m;
-    if (towards < 0.0f) glm_vec4_negate(plane);
-    return fabsf(towards) > 1e-4f * f->scene_size_m;
-}
-
-/* The part of a large flat caster's region that has any receiver behind its plane, seen or not. */
-static struct gn_shadow_region useful_region(const struct gn_fitter *f, uint32_t item,
-                                             const struct gn_shadow_region *whole) {
-    vec4 plane;
-    if (!lit_plane(f, item, plane)) return *whole;
-    struct gn_shadow_region behind = nothing;
-    for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
-        if (i == item || !item_receives(f, i)) continue;
-        if (gn_box_least(plane, &f->pose->items[i].box_ws) >= -1e-4f * f->scene_size_m) continue;
-        unite(&behind, gn_fitter_whole(f, i));
-    }
-    struct gn_shadow_region r = intersect(whole, &behind);
-    return region_is_empty(&r) ? nothing : r;
-}
-
-static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t item) {
-    const struct gn_shadow_region *r = gn_fitter_whole(f, item);
-    return !region_is_empty(r) && is_large_flat(f, item) ? useful_region(f, item, r) : *r;
-}
-
-/* How far off, in plane units, a caster can reach by its penumbra: as its like in set_soft(). */
-static float reach(const struct gn_fitter *f, float near, float far) {
-    if (!gn_techniques[f->view->technique].soft || far <= near) return 0.0f;
-    float spread = f->view->perspective ? 1.0f / most(near, f->near_m) - 1.0f / far : far - near;
-    return f->light_radius * spread;
-}
-
-/* What the eye sees of an item that receives, or all of it; NULL: nothing. */
-static const struct gn_shadow_region *receiver_region(const struct gn_fitter *f, uint32_t item,
-                                                      bool everything) {
-    if (!item_receives(f, item)) return NULL;
-    const struct gn_shadow_region *r = everything ? gn_fitter_whole(f, item)
-                                       : f->memory->seen[item] == GN_SEEN_NOT
-                                           ? NULL
-                                           : gn_fitter_seen(f, item);
-    return r && !region_is_empty(r) ? r : NULL;
-}
-
-static bool sees_everything(const struct gn_fitter *f) {
-    for (uint32_t i = 0; i < f->memory->item_count; i++)
-        if (item_receives(f, i) && f->memory->seen[i] != GN_SEEN_WHOLE) return false;
-    return true;
-}
-
-/* The window before snapping, and the depths of all casters. everything: of an eye that sees all.
- */
-static bool find_window(const struct gn_fitter *f, bool everything, struct gn_shadow_region *window,
-                        struct gn_shadow_region *depths) {
-    uint32_t count = f->memory->item_count;
-    uint8_t *casts = f->memory->casts;
-    struct gn_shadow_region receivers = nothing, casters = nothing, again = nothing;
-    *depths = nothing;
-    for (uint32_t i = 0; i < count; i++) {
-        const struct gn_shadow_region *seen = receiver_region(f, i, everything);
-        if (seen) unite(&receivers, seen);
-    }
-    memset(casts, 0, count);
-    for (uint32_t i = 0; i < count; i++) {
-        if (!item_casts(f, i)) continue;
-        struct gn_shadow_region r = caster_region(f, i);
-        if (region_is_empty(&r)) continue;
-        unite(depths, &r);
-        struct gn_shadow_region reached = grown(&receivers, reach(f, r.near, receivers.far));
-        bool matters = regions_meet(&r, &reached) && r.near <= receivers.far;
-        /* What a whole tile holds, or a page, does not go with the eye. */
-        casts[i] = matters || f->view->tile_count > 1 || !f->view->perspective;
-        if (!matters) continue;
-        r = intersect(&r, &reached);
-        unite(&casters, &r);
-    }
-    if (region_is_empty(&casters)) return false;
-    for (uint32_t i = 0; i < count; i++) { /* receivers once more, now that the casters are known */
-        const struct gn_shadow_region *seen = receiver_region(f, i, everything);
-        if (!seen) continue;
-        const struct gn_shadow_region *whole = gn_fitter_whole(f, i);
-        struct gn_shadow_region reached = grown(whole, reach(f, casters.near, whole->far));
-        if (!regions_meet(&reached, &casters)) continue;
-        if (seen->far < casters.near) continue;
-        reached = grown(seen, reach(f, casters.near, seen->far));
-        if (!regions_meet(&reached, &casters)) continue;
-        struct gn_shadow_region r = intersect(&reached, &casters);
-        unite(&again, &r);
-    }
-    *window = intersect(&casters, &again);
-    return !region_is_empty(window);
 }
 
 void gn_shadow_look(const struct gn_shadow_view *view, mat4 light_from_world) {
@@ -316,30 +195,29 @@ uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view 
 
 /* ---- one tile: directional lights and spots ---- */
 
-static void lay_window(const struct gn_fitter *f, const struct gn_shadow_region *window,
-                       float near_depth, float far_depth) {
+static void lay_window(const struct gn_fitter *f, const struct gn_window *found, float near_depth,
+                       float far_depth) {
+    const struct gn_shadow_region *window = &found->window;
     double low[2];
-    if (f->view->perspective) {
-        gn_shadow_snap(f->view, window->min, window->max, LEAST_TANGENT, low);
-        set_clip(f->view, low, near_depth, far_depth);
+    if (!f->view->perspective) {
+        gn_pages_fit(f, found, near_depth, far_depth);
         return;
     }
-    struct gn_shadow_region all = *window, depths;
-    if (!sees_everything(f)) find_window(f, true, &all, &depths);
-    gn_pages_fit(f, window, &all, near_depth, far_depth);
+    gn_shadow_snap(f->view, window->min, window->max, LEAST_TANGENT, low);
+    set_clip(f->view, low, near_depth, far_depth);
 }
 
 static bool fit_window(struct gn_fitter *f) {
     const struct gn_light *light = &f->pose->scene->lights[f->view->light];
-    struct gn_shadow_region window, depths;
+    struct gn_window found;
     float near_depth, far_depth;
     gn_shadow_look(f->view, f->tile->light_from_world);
     if (light->type == GN_LIGHT_SPOT) set_cone(f, tanf(fminf(light->outer_rad, GN_SPOT_MAX_RAD)));
     gn_fitter_remember(f);
-    if (!find_window(f, false, &window, &depths)) return false;
-    set_depths(f, &depths, &near_depth, &far_depth);
+    if (!gn_window_find(f, false, &found)) return false;
+    set_depths(f, &found.depths, &near_depth, &far_depth);
     set_code(f, near_depth, far_depth);
-    lay_window(f, &window, near_depth, far_depth);
+    lay_window(f, &found, near_depth, far_depth);
     set_lookup(f->view, near_depth);
     set_soft(f, near_depth, far_depth);
     return true;
@@ -371,13 +249,13 @@ static bool find_tiles(struct gn_fitter *f, struct gn_shadow_region *depths) {
     bool found = false;
     *depths = nothing;
     for (uint32_t i = 0; i < f->view->tile_count; i++) {
-        struct gn_shadow_region window, own;
+        struct gn_window own;
         f->memory = &memories[i];
         aim_tile(f, i);
         gn_fitter_remember(f);
-        f->tile->empty = !find_window(f, false, &window, &own);
+        f->tile->empty = !gn_window_find(f, false, &own);
         found |= !f->tile->empty;
-        unite(depths, &own);
+        unite(depths, &own.depths);
     }
     f->memory = memories;
     return found;

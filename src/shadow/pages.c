@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "shadow/private.h"
+#include "shadow/region.h"
 
 /* Of one axis: the stretch of the window in the page that texel `first` lies in, up to `end`. */
 struct stretch {
@@ -88,48 +89,59 @@ static void set_clip(const struct gn_shadow_view *view, const double corner[2], 
     glm_mat4_mul(clip_from_light, (vec4 *)view->tiles[0].light_from_world, clip_from_world);
 }
 
-/* A texel more to each side: rasterisers round. */
-static bool is_in_page(const struct gn_shadow_region *r, const struct gn_shadow_page *page,
-                       float texel) {
+/* What may touch the part of the page that is drawn: a texel more to each side, since rasterisers
+ * round. */
+static struct gn_shadow_region part_of(const struct gn_shadow_page *page, float texel) {
+    struct gn_shadow_region part = nothing;
     for (int k = 0; k < 2; k++) {
         const double first = page->corner[k] + page->from_px[k];
-        if (r->max[k] < (first - 1) * texel) return false;
-        if (r->min[k] > (first + page->size_px[k] + 1) * texel) return false;
+        part.min[k] = (float)((first - 1) * texel);
+        part.max[k] = (float)((first + page->size_px[k] + 1) * texel);
     }
-    return true;
+    return part;
 }
 
 /* Whether or not an eye needs a caster for what it sees, it is in the part of the page that is
  * drawn: what a texel holds does not depend on the eye. */
 static void mark_casts(const struct gn_fitter *f) {
     const struct gn_shadow_view *view = f->view;
+    struct gn_shadow_region parts[GN_SHADOW_PAGES_MAX];
+    for (uint32_t p = 0; p < view->page_count; p++)
+        parts[p] = part_of(&view->pages[p], view->texel);
     for (uint32_t i = 0; i < f->memory->item_count; i++) {
         if (!f->memory->casts[i]) continue;
-        uint8_t pages = 0;
+        uint32_t pages = 0;
         for (uint32_t p = 0; p < view->page_count; p++)
-            if (is_in_page(gn_fitter_whole(f, i), &view->pages[p], view->texel))
-                pages |= (uint8_t)(1u << p);
-        f->memory->casts[i] = pages;
+            pages |= (uint32_t)regions_meet(gn_fitter_whole(f, i), &parts[p]) << p;
+        f->memory->casts[i] = (uint8_t)pages;
     }
 }
 
-/* Of a window that is nearly all, all: then the map does not go with the eye. */
-static void choose_texel(const struct gn_fitter *f, const struct gn_shadow_region *window,
-                         const struct gn_shadow_region *all) {
-    const float fine = texel_for(f, window), coarse = texel_for(f, all);
-    f->view->texel = coarse <= 1.001f * gn_shadow_step(1.01f * fine) ? coarse : fine;
+/* Chooses the texel and the window that the pages begin with, which depends on the texel alone, not
+ * on the eye. Nearly all is taken as all: then the map does not go with the eye. And what is sure
+ * to hold all is taken as that, where it is no larger: it is known already. */
+static struct gn_shadow_region choose_texel(const struct gn_fitter *f,
+                                            const struct gn_window *found) {
+    const float fine = texel_for(f, &found->window), next = 1.001f * gn_shadow_step(1.01f * fine);
+    f->view->texel = texel_for(f, &found->most);
+    if (f->view->texel <= next) return found->most;
+    struct gn_window all = *found;
+    if (!gn_window_is_all(f)) gn_window_find(f, true, &all);
+    f->view->texel = texel_for(f, &all.window);
+    if (f->view->texel > next) f->view->texel = fine;
+    return all.window;
 }
 
-void gn_pages_fit(const struct gn_fitter *f, const struct gn_shadow_region *window,
-                  const struct gn_shadow_region *all, float near_depth, float far_depth) {
+void gn_pages_fit(const struct gn_fitter *f, const struct gn_window *found, float near_depth,
+                  float far_depth) {
     struct gn_shadow_view *view = f->view;
     struct gn_page_layout layout;
     double anchor[2], first[2], last[2];
-    choose_texel(f, window, all);
+    const struct gn_shadow_region all = choose_texel(f, found), *window = &found->window;
     for (int k = 0; k < 2; k++) { /* of rounding, all may end a hair before the window */
-        const float low = fmaxf(window->min[k], all->min[k]),
-                    high = fminf(window->max[k], all->max[k]);
-        anchor[k] = floor((double)all->min[k] / view->texel) - beside(view) - 1;
+        const float low = fmaxf(window->min[k], all.min[k]),
+                    high = fminf(window->max[k], all.max[k]);
+        anchor[k] = floor((double)all.min[k] / view->texel) - beside(view) - 1;
         first[k] = floor((double)low / view->texel) - beside(view);
         last[k] = fmax(floor((double)high / view->texel) + beside(view), first[k]);
     }

@@ -85,12 +85,25 @@ const struct gn_shadow_region *gn_fitter_whole(const struct gn_fitter *f, uint32
 const struct gn_shadow_region *gn_fitter_seen(const struct gn_fitter *f, uint32_t item);
 enum { GN_SEEN_NOT, GN_SEEN_PARTLY, GN_SEEN_WHOLE }; /* gn_shadow_memory.seen */
 
+/* ---- window.c ---- */
+
+struct gn_window {                  /* plane coordinates */
+    struct gn_shadow_region window; /* before snapping: what the map must hold */
+    struct gn_shadow_region depths; /* near and far of all casters, whatever the eye sees */
+    struct gn_shadow_region most;   /* holds any eye's window */
+};
+/* False: nothing that is seen is in shadow. Marks in memory->casts what casts, of a spot's map what
+ * is in the window. everything: of an eye that sees all. */
+bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window *found);
+/* Whether this eye sees all that receives. */
+bool gn_window_is_all(const struct gn_fitter *f);
+
 /* ---- pages.c ---- */
 
-/* Lays a directional light's map round a window of plane coordinates: texel, pages and what draws
- * them, tiles[0].clip_from_world, and which items cast into which page, of those that memory->casts
- * marks. all: the window of an eye that sees everything. */
-void gn_pages_fit(const struct gn_fitter *f, const struct gn_shadow_region *window,
-                  const struct gn_shadow_region *all, float near_depth, float far_depth);
+/* Lays a directional light's map round a window: texel, pages and what draws them,
+ * tiles[0].clip_from_world, and which items cast into which page, of those that memory->casts
+ * marks. */
+void gn_pages_fit(const struct gn_fitter *f, const struct gn_window *found, float near_depth,
+                  float far_depth);
 
 #endif

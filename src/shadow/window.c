@@ -1,0 +1,151 @@
+/* The window. What matters are pairs: a caster, and something that the eye sees behind it. The
+ * window is the intersection of what the seen receivers and the casters cover in plane coordinates,
+ * narrowed twice, since each limits the other; near and far are those of the casters alone and do
+ * not depend on the eye (a receiver beyond the last caster compares against the far end). A large
+ * flat caster with nothing behind it - the ground - is left out altogether: it can darken nothing,
+ * and what is not in the map can neither shadow itself nor cost resolution. What lies beyond the
+ * light's range is left out too: nothing is lit there, and it stands before nothing that is. */
+#include <math.h>
+#include <string.h>
+
+#include "shadow/private.h"
+#include "shadow/region.h"
+
+static bool item_receives(const struct gn_fitter *f, uint32_t item) {
+    return gn_shadow_item_receives(f->pose, item, f->view);
+}
+
+static bool item_casts(const struct gn_fitter *f, uint32_t item) {
+    return f->pose->items[item].visible && gn_shadow_item_casts(f->pose->scene, item);
+}
+
+/* Only large flat casters are worth the walk. */
+static bool is_large_flat(const struct gn_fitter *f, uint32_t item) {
+    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
+    const struct gn_box *box = &f->pose->items[item].box_ws;
+    return g->flat &&
+           glm_vec3_distance((float *)box->min, (float *)box->max) > 0.25f * f->scene_size_m;
+}
+
+/* The flat item's plane in world space, its light's side positive. False when it is seen edge-on by
+ * the light. */
+static bool lit_plane(const struct gn_fitter *f, uint32_t item, vec4 plane) {
+    gn_pose_plane(f->pose, item, plane);
+    float towards = f->view->perspective
+                        ? glm_vec3_dot(plane, f->view->light_ws) + plane[3]
+                        : glm_vec3_dot(plane, f->view->to_light_ws) * f->scene_size_m;
+    if (towards < 0.0f) glm_vec4_negate(plane);
+    return fabsf(towards) > 1e-4f * f->scene_size_m;
+}
+
+/* The part of a large flat caster's region that has any receiver behind its plane, seen or not. */
+static struct gn_shadow_region useful_region(const struct gn_fitter *f, uint32_t item,
+                                             const struct gn_shadow_region *whole) {
+    vec4 plane;
+    if (!lit_plane(f, item, plane)) return *whole;
+    struct gn_shadow_region behind = nothing;
+    for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
+        if (i == item || !item_receives(f, i)) continue;
+        if (gn_box_least(plane, &f->pose->items[i].box_ws) >= -1e-4f * f->scene_size_m) continue;
+        unite(&behind, gn_fitter_whole(f, i));
+    }
+    struct gn_shadow_region r = intersect(whole, &behind);
+    return region_is_empty(&r) ? nothing : r;
+}
+
+static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t item) {
+    const struct gn_shadow_region *r = gn_fitter_whole(f, item);
+    return !region_is_empty(r) && is_large_flat(f, item) ? useful_region(f, item, r) : *r;
+}
+
+/* How far off, in plane units, a caster can reach by its penumbra: as its like in set_soft(). */
+static float reach(const struct gn_fitter *f, float near, float far) {
+    if (!gn_techniques[f->view->technique].soft || far <= near) return 0.0f;
+    float spread = f->view->perspective ? 1.0f / most(near, f->near_m) - 1.0f / far : far - near;
+    return f->light_radius * spread;
+}
+
+/* What the eye sees of an item that receives, or all of it; NULL: nothing. */
+static const struct gn_shadow_region *receiver_region(const struct gn_fitter *f, uint32_t item,
+                                                      bool everything) {
+    if (!item_receives(f, item)) return NULL;
+    const struct gn_shadow_region *r = everything ? gn_fitter_whole(f, item)
+                                       : f->memory->seen[item] == GN_SEEN_NOT
+                                           ? NULL
+                                           : gn_fitter_seen(f, item);
+    return r && !region_is_empty(r) ? r : NULL;
+}
+
+bool gn_window_is_all(const struct gn_fitter *f) {
+    for (uint32_t i = 0; i < f->memory->item_count; i++)
+        if (item_receives(f, i) && f->memory->seen[i] != GN_SEEN_WHOLE) return false;
+    return true;
+}
+
+/* Where any eye's window is: what all casters cover, and all receivers. */
+static struct gn_shadow_region most_of_all(const struct gn_fitter *f,
+                                           const struct gn_shadow_region *receivers,
+                                           const struct gn_shadow_region *casters) {
+    const struct gn_shadow_region reached =
+        grown(receivers, reach(f, casters->near, receivers->far));
+    return intersect(casters, &reached);
+}
+
+/* What receives: what of it counts, and all of it. */
+static void unite_receivers(const struct gn_fitter *f, bool everything,
+                            struct gn_shadow_region *receivers, struct gn_shadow_region *all) {
+    *receivers = *all = nothing;
+    for (uint32_t i = 0; i < f->memory->item_count; i++) {
+        const struct gn_shadow_region *seen = receiver_region(f, i, everything);
+        if (seen) unite(receivers, seen);
+        if (seen != gn_fitter_whole(f, i) && item_receives(f, i)) unite(all, gn_fitter_whole(f, i));
+    }
+    unite(all, receivers);
+}
+
+/* The casters that matter for those receivers, united; marks those. */
+static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
+                                             const struct gn_shadow_region *receivers,
+                                             struct gn_shadow_region *depths) {
+    struct gn_shadow_region casters = nothing;
+    uint8_t *casts = f->memory->casts;
+    *depths = nothing;
+    memset(casts, 0, f->memory->item_count);
+    for (uint32_t i = 0; i < f->memory->item_count; i++) {
+        if (!item_casts(f, i)) continue;
+        struct gn_shadow_region r = caster_region(f, i);
+        if (region_is_empty(&r)) continue;
+        unite(depths, &r);
+        struct gn_shadow_region reached = grown(receivers, reach(f, r.near, receivers->far));
+        bool matters = regions_meet(&r, &reached) && r.near <= receivers->far;
+        /* What a whole tile holds, or a page, does not go with the eye. */
+        casts[i] = matters || f->view->tile_count > 1 || !f->view->perspective;
+        if (!matters) continue;
+        r = intersect(&r, &reached);
+        unite(&casters, &r);
+    }
+    return casters;
+}
+
+bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window *found) {
+    struct gn_shadow_region receivers, all, again = nothing;
+    unite_receivers(f, everything, &receivers, &all);
+    const struct gn_shadow_region casters = unite_casters(f, &receivers, &found->depths);
+    if (region_is_empty(&casters)) return false;
+    found->most = most_of_all(f, &all, &found->depths);
+    for (uint32_t i = 0; i < f->memory->item_count; i++) { /* receivers once more, now that the
+                                                              casters are known */
+        const struct gn_shadow_region *seen = receiver_region(f, i, everything);
+        if (!seen) continue;
+        const struct gn_shadow_region *whole = gn_fitter_whole(f, i);
+        struct gn_shadow_region reached = grown(whole, reach(f, casters.near, whole->far));
+        if (!regions_meet(&reached, &casters)) continue;
+        if (seen->far < casters.near) continue;
+        reached = grown(seen, reach(f, casters.near, seen->far));
+        if (!regions_meet(&reached, &casters)) continue;
+        struct gn_shadow_region r = intersect(&reached, &casters);
+        unite(&again, &r);
+    }
+    found->window = intersect(&casters, &again);
+    return !region_is_empty(&found->window);
+}
