@@ -27,9 +27,7 @@ static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
     (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | (stencil ? GL_STENCIL_BUFFER_BIT : 0u));
 }
 
-/* To the light's far end, in the encoding's own unit. Where nothing is drawn, nobody asks for
- * depth.
- */
+/* To the light's far end, in the encoding's own unit. What is copied needs no depth. */
 static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     static const float ones[4] = {1, 1, 1, 1};
     const float far_code[4] = {pass->clear_color[0], 0, 0, 1};

@@ -4,12 +4,13 @@
  * So each texel of the light's lattice has one place for good: the lattice is cut into pages as
  * large as the map, each drawn by a projection of its own that knows nothing of the eye. A map
  * holds a window of the lattice. What of it lies in a page is drawn there and nowhere else, and is
- * then copied to where it stands in the map: so shaders read a map like any other. The parts of up
- * to four pages overlap nowhere, wrapped round or not: one target is enough for all of them. A
- * window that lies in one page needs no copy: the page is the map.
+ * then copied to where it stands in the map: so shaders read a map like any other. A window is
+ * narrower than a page, so its parts in up to four of them would overlap nowhere if the pages lay
+ * on each other: one target holds them all. A window that lies in one page needs no copy: the page
+ * is the map.
  *
- * The lattice's pages begin where the map of an eye that sees all would begin: that map is one
- * page. Pure.
+ * The pages begin where the map of an eye that sees all begins: that map is one page. An eye that
+ * sees nearly all, whose texel would be one step finer, takes the same map. Pure.
  */
 #ifndef GN_SHADOW_PAGES_H
 #define GN_SHADOW_PAGES_H
