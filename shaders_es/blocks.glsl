@@ -20,7 +20,7 @@
 #define SHADOW_BIAS 4     /* x: normal offset, y: slope offset, both in plane units (texel times texels); z: slope_max; w: ulp, metres */
 #define SHADOW_PLACE 5    /* xyz: position of the light; w: distance_scale */
 #define SHADOW_MAP_SIZE 6 /* xy: width and height of the map in texels; zw: 1 / width, 1 / height */
-#define SHADOW_CODE 7     /* x: distance_offset; y: far_code; z: point: how far beside a place may be read, texels */
+#define SHADOW_CODE 7     /* x: distance_offset; y: far_code; z: point: how far beside a place may be read, texels; w: point: tangent over which tiles are shared */
 #define SHADOW_SOFT 8     /* how wide a penumbra is: lib/shadow_place.glsl */
 #define PASS_SLIDES 70    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides ends here */
 #define SLIDE_SIZE 4

@@ -85,8 +85,8 @@ light_sample light_here(const int slot, const int type) {
 #define ADD_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
     { \
         light_sample l = light_here(slot, type); \
-        float seen = visibility( \
-            map, shadow_place_of(slot, type, radial, v_shadow[slot], v_position, s.normal, face, l.to_light)); \
+        shadow_place place = shadow_place_of(slot, type, radial, v_shadow[slot], v_position, s.normal, face, l.to_light); \
+        float seen = shadow_mixed(slot, place, visibility(map, place)); \
         light += surface_light(s, l, 1.0 - LIGHT(slot, LIGHT_COLOR).w * (1.0 - seen)); \
     }
 #define ADD_OPEN_LIGHT(slot, type) light += surface_light(s, light_here(slot, type), 1.0);

@@ -13,6 +13,7 @@ struct shadow_place {
     // none is nearer than soft.y. The tangents of a lamp's radius grow with 1 / distance, of the sun's with the distance itself.
     vec4 soft;
     bool inverse;
+    float beside; // as in shadow_tile
 };
 
 float shadow_e(shadow_place s, float code) {
@@ -58,7 +59,8 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.at = from_vertex;
         s.slope = shadow_slope_directional(slot, face, l);
     } else if (type == LIGHT_POINT) {
-        shadow_tile t = shadow_tile_pushed(slot, radial, p, n, l);
+        shadow_tile t = SHADOW_SHARED[slot] ? shadow_tile_shared(slot, radial, p, n, l) : shadow_tile_pushed(slot, radial, p, n, l);
+        s.beside = t.beside;
         s.at = shadow_tile_at(slot, radial, t);
         s.slope = shadow_tile_slope(slot, radial, t, face);
         if (radial) s.soft.x *= length(t.q) / t.q.z;
@@ -70,4 +72,9 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         if (radial) s.soft.x *= distance(p, SHADOW(slot, SHADOW_PLACE).xyz) / (dot(vec3(m[0].w, m[1].w, m[2].w), p) + m[3].w);
     }
     return s;
+}
+
+// What is seen of a light at s, 1 = lit; seen: what a technique says. Takes a derivative: not behind a branch.
+float shadow_mixed(const int slot, shadow_place s, float seen) {
+    return SHADOW_SHARED[slot] ? clamp(seen + s.beside * dFdx(seen), 0.0, 1.0) : seen;
 }

@@ -231,7 +231,8 @@ static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
         c[SHADOW_MAP_SIZE][k + 2] = 1.0f / size[k];
     }
     c[SHADOW_CODE][0] = view->distance_offset;
-    c[SHADOW_CODE][2] = (float)view->gutter_px - 1.0f;
+    c[SHADOW_CODE][2] = view->reach_px;
+    c[SHADOW_CODE][3] = view->shared;
     memcpy(c[SHADOW_SOFT], view->soft, sizeof view->soft);
 }
 

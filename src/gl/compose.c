@@ -147,18 +147,33 @@ static bool add_maps(struct gn_gl_source *source, const struct gn_program_key *k
     return true;
 }
 
-/* Whether the vertex shader can say where a light's map is looked up: on a plane, with any light.
- * Declared even where nobody asks. */
-static void add_linear(const struct gn_program_key *key, struct gn_gl_text *out) {
+static bool is_linear(const struct gn_program_key *key, int i) {
+    const struct gn_light_key *light = &key->lights[i];
+    return light->type == GN_LIGHT_DIRECTIONAL || gn_techniques[light->technique].on_plane;
+}
+
+/* After a discard there are no derivatives. */
+static bool is_shared(const struct gn_program_key *key, int i) {
+    const struct gn_light_key *light = &key->lights[i];
+    return light->type == GN_LIGHT_POINT && gn_technique_shades(light->technique) &&
+           !(key->features & GN_FEATURE_ALPHA_MASK);
+}
+
+/* One per shadow, and one at least: they are declared even where nobody asks. */
+static void add_flags(const struct gn_program_key *key, const char *name,
+                      bool is(const struct gn_program_key *, int), struct gn_gl_text *out) {
     const int count = key->shadow_count ? key->shadow_count : 1;
-    gn_gl_text_add(out, "const bool[%d] SHADOW_LINEAR = bool[%d](", count, count);
-    for (int i = 0; i < count; i++) {
-        const struct gn_light_key *light = &key->lights[i];
-        bool linear =
-            light->type == GN_LIGHT_DIRECTIONAL || gn_techniques[light->technique].on_plane;
-        gn_gl_text_add(out, "%s%s", i ? ", " : "", linear ? "true" : "false");
-    }
+    gn_gl_text_add(out, "const bool[%d] %s = bool[%d](", count, name, count);
+    for (int i = 0; i < count; i++)
+        gn_gl_text_add(out, "%s%s", i ? ", " : "", is(key, i) ? "true" : "false");
     gn_gl_text_add(out, ");\n");
+}
+
+/* Whether the vertex shader can say where a light's map is looked up: on a plane, with any light;
+ * and whether tiles of the map are shared (shaders_es/lib/shadow_tile.glsl). */
+static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
+    add_flags(key, "SHADOW_LINEAR", is_linear, out);
+    add_flags(key, "SHADOW_SHARED", is_shared, out);
 }
 
 static void add_light_loops(const struct gn_program_key *key, struct gn_gl_text *out) {
@@ -204,7 +219,7 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
     bool lit = key->kind == GN_PROGRAM_LIT || key->kind == GN_PROGRAM_AOV;
     add_constants(key, out);
     if (!gn_gl_source_add(&source, "blocks.glsl", out, err)) return false;
-    if (lit) add_linear(key, out);
+    if (lit) add_shadow_flags(key, out);
     if (lit && stage == GN_GL_VERTEX) add_vertex_loop(key, out);
     if (lit && stage == GN_GL_FRAGMENT) {
         if (key->shadow_count && !gn_gl_source_add(&source, "lib/shadow_place.glsl", out, err))

@@ -13,6 +13,7 @@
 #define STEPS_PER_OCTAVE 8 /* of the texel's size: the window's width moves in steps of 9 % */
 #define RIM_TEXELS       2 /* cleared rim, and the texel that snapping takes */
 #define RGBA8_FAR        0.999999f /* lib/map_rgba8.glsl */
+#define SHARED_TEXELS    1.0f      /* to each side of an edge of two tiles */
 #define LEAST_TANGENT    1e-6f /* side of a spot's window; a sun's: as much of the scene's size */
 
 bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item) {
@@ -268,13 +269,24 @@ static void widen_depths(struct gn_shadow_region *depths) {
     depths->far_radial = exp2f(ceilf(4.0f * log2f(depths->far_radial)) / 4.0f);
 }
 
+/* A place beyond the edge is looked up where tiles are shared; pushed off its surface it may lie
+ * sqrt(2) normal offsets further: at 45 degrees a tangent grows so much faster. */
+static void set_gutter(struct gn_shadow_view *view) {
+    const struct gn_technique_row *row = &gn_techniques[view->technique];
+    const bool shared = gn_technique_shades(view->technique);
+    const float beyond = shared ? SHARED_TEXELS + 1.4142136f * row->bias_texels : 0.0f;
+    const uint32_t wanted = (uint32_t)ceilf((float)row->radius_texels + 1.0f + beyond);
+    view->gutter_px = row->soft && wanted < view->map_px / 8 ? view->map_px / 8 : wanted;
+    if (view->gutter_px > view->map_px / 4) view->gutter_px = view->map_px / 4;
+    view->reach_px = (float)view->gutter_px - 1.0f - beyond;
+    view->texel = 2.0f / (float)(view->map_px - 2 * view->gutter_px);
+    view->shared = SHARED_TEXELS * view->texel;
+}
+
 static bool fit_tiles(struct gn_fitter *f) {
     struct gn_shadow_view *view = f->view;
     struct gn_shadow_region depths;
-    const struct gn_technique_row *row = &gn_techniques[view->technique];
-    uint32_t wanted = row->radius_texels + 1, most_px = view->map_px / 8;
-    view->gutter_px = row->soft || wanted > most_px ? most_px : wanted;
-    view->texel = 2.0f / (float)(view->map_px - 2 * view->gutter_px);
+    set_gutter(view);
     if (!find_tiles(f, &depths)) return false;
     float near_depth, far_depth;
     double edge = -0.5 * (double)view->texel * view->map_px;

@@ -11,6 +11,8 @@
  * degrees to each side and a gutter more, as wide as the technique's filter, so that what is read
  * beside a place near a tile's edge is right and a technique need not know of tiles. Tile 2 a + s
  * looks along axis a, to its negative end if s is 1, and lies in column a and row s of the atlas.
+ * The texels of two tiles lie differently, so a filter would make different shades of them on
+ * either side of their edge: near it both are asked, and what they answer is mixed.
  */
 #ifndef GN_SHADOW_FIT_H
 #define GN_SHADOW_FIT_H
@@ -53,6 +55,8 @@ struct gn_shadow_view {
     uint32_t map_px;              /* side of a tile */
     uint32_t width_px, height_px; /* of the map: all tiles */
     uint32_t gutter_px;           /* point: of a tile, to each side */
+    float shared;                 /* point: tangent, to each side of a tile's edge */
+    float reach_px;               /* point: how far beside a place may be read */
     uint32_t tile_count;          /* 1, point: 6 */
     struct gn_shadow_tile tiles[GN_SHADOW_TILES_MAX];
     /* Directional, not on a plane: all that the map holds, outside of which it is cleared. Without

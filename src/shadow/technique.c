@@ -86,6 +86,10 @@ const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
     [GN_ENCODING_STENCIL] = {"stencil", "lib/map_stencil.glsl", 0},
 };
 
+bool gn_technique_shades(enum gn_technique technique) {
+    return gn_techniques[technique].filters || gn_techniques[technique].soft;
+}
+
 bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err) {
     char names[160] = "";
     for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {

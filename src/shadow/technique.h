@@ -62,6 +62,9 @@ struct gn_encoding_row {
 };
 extern const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT];
 
+/* Whether it answers in shades: then what two tiles say near their common edge can be mixed. */
+bool gn_technique_shades(enum gn_technique technique);
+
 /* By name; on failure a usage error that lists the names. */
 bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err);
 bool gn_encoding_find(const char *name, enum gn_encoding *out,
