@@ -14,35 +14,49 @@
 
 /* Nodes with mesh 0 (a square of 2 m) or 1 (a cube of 2 m). */
 static const struct {
-    const char *name, *nodes, *light;
-    float light_up_m; /* 0: a sun */
+    const char *name, *nodes;
+    enum gn_light_type type;
+    double radius, light_up_m; /* a lamp is at x .5, z .3 and looks down, but for the seam's */
 } scenes[GN_PENUMBRA_COUNT] = {
     [GN_PENUMBRA_LOW] = {"low", "{'mesh':0,'translation':[0,1,0],'scale':[1.2,1,0.8]}",
-                         "'extras':{'gnomon_radius':0.3}", 9},
+                         GN_LIGHT_SPOT, 0.3, 9},
     [GN_PENUMBRA_MIDDLE] = {"middle",
                             "{'mesh':0,'translation':[0,2,0],'rotation':[0,0.2588,0,0.9659],"
                             "'scale':[1,1,1]}",
-                            "'extras':{'gnomon_radius':0.8}", 9},
+                            GN_LIGHT_SPOT, 0.8, 9},
     [GN_PENUMBRA_HIGH] = {"high", "{'mesh':0,'translation':[0,4,0],'scale':[1.5,1,1]}",
-                          "'extras':{'gnomon_radius':1.5}", 9},
+                          GN_LIGHT_SPOT, 1.5, 9},
     [GN_PENUMBRA_BOX] = {"box",
                          "{'mesh':1,'translation':[0,2.5,0],'rotation':[0.2,0.3,0.1,0.9274],"
                          "'scale':[0.8,0.5,0.6]}",
-                         "'extras':{'gnomon_radius':0.6}", 9},
+                         GN_LIGHT_SPOT, 0.6, 9},
     [GN_PENUMBRA_BARS] = {"bars",
                           "{'mesh':1,'translation':[-1.5,1,0],'scale':[0.2,0.2,2]},"
                           "{'mesh':1,'translation':[0,2,0],'scale':[0.2,0.2,2]},"
                           "{'mesh':1,'translation':[1.5,3,0],'scale':[0.2,0.2,2]}",
-                          "'extras':{'gnomon_radius':0.08}", 0},
+                          GN_LIGHT_DIRECTIONAL, 0.08, 0},
     [GN_PENUMBRA_LEAN] = {"lean",
                           "{'mesh':0,'translation':[0,1,0],'rotation':[0,0,0.4226,0.9063],"
                           "'scale':[1.3054,1,1.5]}",
-                          "'extras':{'gnomon_radius':0.6}", 9},
+                          GN_LIGHT_SPOT, 0.6, 9},
+    [GN_PENUMBRA_BULB] = {"bulb",
+                          "{'mesh':0,'translation':[0,2,0],'rotation':[0,0.2588,0,0.9659],"
+                          "'scale':[1,1,0.7]},"
+                          "{'mesh':1,'translation':[-2.2,1,0],'scale':[0.2,0.2,1.5]}",
+                          GN_LIGHT_POINT, 0.6, 6},
+    [GN_PENUMBRA_SEAM] = {"seam",
+                          "{'mesh':0,'translation':[-1,1.5,-0.8],'rotation':[0,0.2588,0,0.9659],"
+                          "'scale':[0.6,1,0.6]},"
+                          "{'mesh':1,'translation':[-0.6,1.2,1.2],'rotation':[0,0.3827,0,0.9239],"
+                          "'scale':[1,0.1,0.15]}",
+                          GN_LIGHT_POINT, 0.4, 4},
     [GN_PENUMBRA_EDGE] = {"edge", "{'mesh':0,'translation':[-6,3,0],'scale':[6,1,20]}",
-                          "'extras':{'gnomon_radius':0.15}", 0},
+                          GN_LIGHT_DIRECTIONAL, 0.15, 0},
 };
-const char *const gn_penumbra_names[GN_PENUMBRA_COUNT] = {"low",  "middle", "high", "box",
-                                                          "bars", "lean",   "edge"};
+const char *const gn_penumbra_names[GN_PENUMBRA_COUNT] = {"low",  "middle", "high", "box", "bars",
+                                                          "lean", "bulb",   "seam", "edge"};
+
+enum gn_light_type gn_penumbra_light(int scene) { return scenes[scene].type; }
 
 /* The edge is seen straight from above, the others from the side; all on a ground of 24 m. */
 static void add_nodes(struct gn_maker *maker, int scene) {
@@ -53,23 +67,31 @@ static void add_nodes(struct gn_maker *maker, int scene) {
     char nodes[2000];
     snprintf(nodes, sizeof nodes,
              "[{'mesh':0,'scale':[12,1,12]},{'camera':0,%s},"
-             "{'translation':[0.5,%g,0.3],'rotation':[%s],"
+             "{'translation':[%g,%g,0.3],'rotation':[%s],"
              "'extensions':{'KHR_lights_punctual':{'light':0}}},%s]",
-             scene == GN_PENUMBRA_EDGE ? above : aside, (double)scenes[scene].light_up_m,
-             scene == GN_PENUMBRA_BARS ? slanting : straight_down, scenes[scene].nodes);
+             scene == GN_PENUMBRA_EDGE ? above : aside, scene == GN_PENUMBRA_SEAM ? -3.5 : 0.5,
+             scenes[scene].light_up_m, scene == GN_PENUMBRA_BARS ? slanting : straight_down,
+             scenes[scene].nodes);
     gn_maker_set(maker, "nodes", nodes);
-    gn_maker_set(maker, "scenes",
-                 scene == GN_PENUMBRA_BARS ? "[{'nodes':[0,1,2,3,4,5]}]" : "[{'nodes':[0,1,2,3]}]");
+    char roots[100] = "[{'nodes':[0";
+    int count = 3;
+    for (const char *at = scenes[scene].nodes; (at = strstr(at, "'mesh'")); at++) count++;
+    for (int i = 1; i < count; i++) snprintf(roots + strlen(roots), 8, ",%d", i);
+    strcat(roots, "]}]");
+    gn_maker_set(maker, "scenes", roots);
 }
 
 static void add_light(struct gn_maker *maker, int scene) {
+    static const char *const kinds[] = {
+        [GN_LIGHT_DIRECTIONAL] = "'type':'directional','intensity':3",
+        [GN_LIGHT_POINT] = "'type':'point','intensity':300",
+        [GN_LIGHT_SPOT] = ("'type':'spot','intensity':300,'spot':{'innerConeAngle':0.9,"
+                           "'outerConeAngle':1.0}"),
+    };
     char light[600];
-    snprintf(light, sizeof light, "{'KHR_lights_punctual':{'lights':[{'type':'%s',%s,%s}]}}",
-             scenes[scene].light_up_m > 0 ? "spot" : "directional",
-             scenes[scene].light_up_m > 0
-                 ? "'intensity':300,'spot':{'innerConeAngle':0.9,'outerConeAngle':1.0}"
-                 : "'intensity':3",
-             scenes[scene].light);
+    snprintf(light, sizeof light,
+             "{'KHR_lights_punctual':{'lights':[{%s,'extras':{'gnomon_radius':%g}}]}}",
+             kinds[scenes[scene].type], scenes[scene].radius);
     gn_maker_set(maker, "extensionsUsed", "['KHR_lights_punctual']");
     gn_maker_set(maker, "extensions", light);
 }

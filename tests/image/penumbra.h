@@ -4,6 +4,7 @@
 #define GN_IMAGE_PENUMBRA_H
 
 #include "image/picture.h"
+#include "scene/scene.h"
 
 enum {
     GN_PENUMBRA_LOW,    /* a plate 1 m above the ground, a lamp of .3 m 9 m up */
@@ -12,10 +13,14 @@ enum {
     GN_PENUMBRA_BOX,    /* a box 2.5 m up, .6 m */
     GN_PENUMBRA_BARS,   /* own: three bars 1, 2 and 3 m up under a large sun */
     GN_PENUMBRA_LEAN,   /* own: a plate that touches the ground and leans over it, .6 m */
+    GN_PENUMBRA_BULB,   /* own: a plate 2 m up and a bar 1 m up below a point light of .6 m */
+    GN_PENUMBRA_SEAM,   /* own: a plate and a bar under a point light of .4 m aside: the shadow lies
+                           across an edge of two tiles of its map */
     GN_PENUMBRA_EDGE,   /* a half-plane 3 m up under a large sun, seen from above: the exact case */
     GN_PENUMBRA_COUNT,
 };
 extern const char *const gn_penumbra_names[GN_PENUMBRA_COUNT];
+enum gn_light_type gn_penumbra_light(int scene);
 /* The edge's: its penumbra on the ground is GN_PENUMBRA_EDGE_M to each side of x = 0. */
 #define GN_PENUMBRA_EDGE_M (3 * 0.15)
 

@@ -20,8 +20,11 @@ static void quit(const char *what) {
 
 static const struct {
     const char *name, *shader; /* how the instructions' file calls its programs: "pcf-spot-r16f" */
-    int first, last;           /* scenes */
-} lights[] = {{"sun", "sun", 0, 11}, {"spot", "spot", 12, 23}, {"point", "point", 24, 29}};
+    enum gn_light_type type;
+    int first, last; /* scenes */
+} lights[] = {{"sun", "sun", GN_LIGHT_DIRECTIONAL, 0, 11},
+              {"spot", "spot", GN_LIGHT_SPOT, 12, 23},
+              {"point", "point", GN_LIGHT_POINT, 24, 29}};
 enum { LIGHTS = sizeof lights / sizeof *lights };
 
 static const struct gn_technique_row *technique_of(const struct gn_table_row *row) {
@@ -65,6 +68,12 @@ static void print_share(double value) {
         printf(" | %.*f", value < .001 ? 4 : value < .1 ? 3 : 2, value);
 }
 
+/* Per cent; what rounds to nothing has no sign. */
+static void print_signed(double value, int digits) {
+    bool nothing = fabs(value) < 0.5 * pow(10, -digits);
+    printf(nothing ? " | %.*f %%" : " | %+.*f %%", digits, nothing ? 0.0 : value);
+}
+
 static struct gn_picture shoot(const char *path, const char *technique, const char *format) {
     struct gn_err err = {0};
     struct gn_picture shot;
@@ -96,9 +105,8 @@ static void print_penumbra(const struct penumbra *p, const struct gn_table_row *
     int count = 0;
     struct gn_penumbra_edge edge = {0};
     bool everywhere = !technique_of(row)->on_plane; /* what others see on all surfaces */
-    for (int i = 0; i < GN_PENUMBRA_COUNT && light < 2 && everywhere; i++) {
-        bool sun = i == GN_PENUMBRA_BARS || i == GN_PENUMBRA_EDGE;
-        if (sun != (light == 0)) continue;
+    for (int i = 0; i < GN_PENUMBRA_COUNT && everywhere; i++) {
+        if (gn_penumbra_light(i) != lights[light].type) continue;
         struct gn_picture shot = shoot(p->path[i], row->technique, row->format);
         struct gn_penumbra_score score;
         gn_penumbra_score(&p->truth[i], &shot, &score);
@@ -108,10 +116,10 @@ static void print_penumbra(const struct penumbra *p, const struct gn_table_row *
         count++;
     }
     print_share(count ? sum / count : NAN);
-    if (light == 0 && everywhere)
-        printf(" | %+.0f %% | %+.1f %%", 100 * (edge.width / edge.width_truth - 1),
-               100 * edge.energy);
-    else
+    if (light == 0 && everywhere) {
+        print_signed(100 * (edge.width / edge.width_truth - 1), 0);
+        print_signed(100 * edge.energy, 1);
+    } else
         printf(" | | ");
 }
 
