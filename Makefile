@@ -47,10 +47,10 @@ uninstall:
 	rm -rf "$(INTO)/share/doc/gnomon"
 
 DEPS_run := build run
-DEPS_check := build run test
+DEPS_check := build run test board
 DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
 DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
-DEPS_accept := build run test
+DEPS_accept := build run test board board-arm64
 DEPS_truth := build run test
 DEPS_gallery := build run test
 DEPS_readme := build run test
@@ -136,7 +136,7 @@ EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundi
 EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(suffix $f)),$f))
 
 all: $(BIN) $(IMPORT) $(SCENES) man
-tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(O)/host/make_truth
+tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(O)/host/make_truth
 man: $(O)/gnomon.1
 
 $(BIN): $(call OBJ,src/main.c) $(LIB)
@@ -224,7 +224,7 @@ check:
 	+$(SUB) WERROR=1 CONFIG=asan tests
 	+$(SUB) lint
 	@tests/run.sh tests/layers.sh tests/format.sh \
-	    BUILD=$(O)/release $(call programs,$(O)/release) $(SCRIPTS) \
+	    BUILD=$(O)/release $(call programs,$(O)/release) $(SCRIPTS) tests/board/smoke.guest \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan) tests/check_hostile.sh
 BOARD_NEEDS := gnomon tests/firstflip.so tests/tool_compare
 check-board: $(addprefix $(B)/,$(BOARD_NEEDS))
@@ -241,7 +241,9 @@ accept:
 	+$(SUB) WERROR=1 CONFIG=asan tests
 	@GN_FULL=1 tests/run.sh BUILD=$(O)/release $(call programs,$(O)/release) \
 	    $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh)) \
+	    $(sort $(wildcard tests/board/*.guest)) \
 	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan))
+	+$(SUB) GN_FULL= check-board-arm64
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
 gallery: $(B)/tests/tool_gallery $(BIN)
