@@ -227,11 +227,11 @@ check:
 	    BUILD=$(O)/release $(call programs,$(O)/release) $(SCRIPTS) tests/board/smoke.guest \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan) tests/check_hostile.sh
 BOARD_NEEDS := gnomon tests/firstflip.so tests/tool_compare
-check-board: $(addprefix $(B)/,$(BOARD_NEEDS))
+check-board: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(sort $(wildcard tests/board/*.guest)),tests/board/smoke.guest)
 	$(if $(GN_FULL),+$(SUB) check-board-arm64)
 # Skipped, and then not built, where the packages to build against cannot be had.
-check-board-arm64: $(addprefix $(B)/,$(BOARD_NEEDS))
+check-board-arm64: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	+@root=$$(tests/board/sysroot.sh arm64) || exit 0; $(SUB) CROSS=aarch64-linux-gnu SYSROOT=$$root \
 	    $(addprefix $(O)/aarch64-linux-gnu-$(CONFIG)/,$(filter-out %/tool_compare,$(BOARD_NEEDS)))
 	@ARCH=arm64 HOST_BUILD=$(B) tests/run.sh BUILD=$(O)/aarch64-linux-gnu-$(CONFIG) \

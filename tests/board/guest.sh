@@ -69,9 +69,9 @@ shows() {
     [ "$1" = $(($4 * 256 + $5))x$(($8 * 256 + $9)) ]
 }
 
-# same_as_render NAME ARGUMENT..: after the machine has ended, the host compares NAME.png with what
-# `gnomon render ARGUMENT..` draws there. TURN says how many degrees clockwise the display is turned.
-same_as_render() { echo "${TURN:-0} $*" >> /out/compare; }
+# same_as_render NAME WxH: after the machine has ended, the host compares NAME.png with what `gnomon
+# render` draws there. TURN says how many degrees clockwise the display is turned.
+same_as_render() { echo "${TURN:-0} $1 --size $2 $like $scene" >> /out/compare; }
 
 # desktop WIDTH HEIGHT [HEAD]: the monitor of head 1 or 2 is of this size now, 0 0: none. The
 # machine's VNC servers listen at ports here; this is RFB's message SetDesktopSize (RFC 6143 and the
@@ -172,19 +172,30 @@ timed() {
     ns=$(date +%s%N) # the clock runs as evenly as the monotonic one
     LD_PRELOAD=/tmp/firstflip.so FIRST_FLIP=/out/${1##*/}.flip START_NS=$ns start "$@"
 }
-# show ARGUMENT..: gnomon on this machine's screen, a still picture of the default scene; like is what
-# `gnomon render` must be told for the same
-like='--no-animation --msaa 0'
+# show ARGUMENT..: gnomon on this machine's screen, a still picture; like is what `gnomon render` must be
+# told for the same. The scene is one that an emulated processor can draw: 3 programs and a light, where
+# the default scene (scene='') has 10 and two.
+like='--no-animation --msaa 0' scene=/tmp/lattice.glb
 show() {
     rm -f /out/gnomon.flip
     # shellcheck disable=SC2086
-    timed gnomon show --backend kms $like "$@"
+    timed gnomon show --backend kms $like "$@" $scene
 }
+# cube: how long kmscube takes, which lights the screen before it draws
+cube() {
+    rm -f /out/kmscube.flip
+    timed kmscube -D "$(card_of gpu)"
+    within 100 more_than_one /out/kmscube.flip || fail 'kmscube shows nothing'
+    say "kmscube: first flip after $(head -n 1 /out/kmscube.flip) ms, its cube after $(tail -n 1 /out/kmscube.flip)"
+    kill -9 "$program"
+    wait "$program" 2> /dev/null
+}
+more_than_one() { [ "$(wc -l 2> /dev/null < "$1")" -gt 1 ]; } # line
 # flips: waits for gnomon's first flip; shown NAME: and then for a screen that stands still
 flips() {
-    within 120 flipped_or_gone
+    within 300 flipped_or_gone
     [ -s /out/gnomon.flip ] || { fail "nothing on the screen: $(tail -n 3 "$log")" && return 1; }
-    say "gnomon: first flip after $(cat /out/gnomon.flip) ms"
+    say "gnomon: first flip after $(head -n 1 /out/gnomon.flip) ms"
 }
 shown() { flips && still "$1"; }
 flipped_or_gone() { [ -s /out/gnomon.flip ] || gone; }

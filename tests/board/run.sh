@@ -42,7 +42,7 @@ out=$(realpath -m "$build/board/$test")
 rm -rf "$out"
 mkdir -p "$out/bin"
 cp "$gnomon" "$out/bin/gnomon"
-cp "$build/tests/firstflip.so" "$out/bin/" || exit 1
+cp "$build/tests/firstflip.so" "$(dirname "$build")/selftest/lattice.glb" "$out/bin/" || exit 1
 cp "$here/guest.sh" "$out/guest.sh"
 cp "$script" "$out/test.sh" || exit 1
 heads=$(sed -n 's/^# heads: \([12]\)$/\1/p' "$script")
@@ -138,7 +138,7 @@ compare() { # TURN NAME ARGUMENT..
 }
 while read -r turn name arguments; do
     # shellcheck disable=SC2086
-    compare "$turn" "$name" $arguments
+    compare "$turn" "$name" ${arguments//\/tmp\//$out/bin/} # in the machine, it is /tmp
 done < <(cat "$out/compare" 2> /dev/null)
 
 echo "$test: $(echo "$EPOCHREALTIME $began" | awk '{ printf "%.1f", $1 - $2 }') s"
