@@ -86,9 +86,17 @@ fi
 
 echo "installing:$needed$extra" >&2
 export DEBIAN_FRONTEND=noninteractive
-apt() { $as_root apt-get -q -y -o Dpkg::Use-Pty=0 "$@" < /dev/null > "$log" 2>&1; }
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
+# Three tries: a mirror may be busy, or change while it is read. What it does not have it will not have.
+apt() {
+    for pause in 3 9 0; do
+        $as_root apt-get -q -y -o Dpkg::Use-Pty=0 "$@" < /dev/null > "$log" 2>&1 && return
+        ! grep -qE 'Unable to locate|no installation candidate' "$log" || return
+        sleep "$pause"
+    done
+    return 1
+}
 [ -z "$added" ] || $as_root dpkg --add-architecture "$added"
 apt update || true # a list that is old may do
 if [ -n "$needed" ] && ! apt install --no-install-recommends $needed; then
@@ -98,6 +106,6 @@ if [ -n "$needed" ] && ! apt install --no-install-recommends $needed; then
 fi
 for package in $extra; do
     apt install --no-install-recommends "$package" && continue
-    echo "without $package: apt-get has none" >&2
+    echo "without $package: $(grep -m 1 '^E: ' "$log" || echo 'apt-get has none')" >&2
     mkdir -p "$(dirname "$stamp")" && echo "$package" >> "$stamp"
 done

@@ -150,20 +150,39 @@ buttons() {
     for line in "$@"; do echo pull-up > "$simulated/sim_gpio$line/pull"; done
 }
 # press LINE [SECONDS]: a short press by default. The kernel drops edges that come in bursts, so
-# none is shorter than 20 ms.
+# none is shorter than 20 ms. bouncing LINE down|up: the contact opens and closes for 5 ms, in steps
+# of one (an emulated processor takes longer), and then is as it shall be. bounced_press LINE [SECONDS]:
+# a press that begins and ends so.
 press() {
     echo pull-down > "$simulated/sim_gpio$1/pull"
     sleep "${2:-0.05}"
     echo pull-up > "$simulated/sim_gpio$1/pull"
     sleep 0.05
 }
+bouncing() {
+    local pull=$simulated/sim_gpio$1/pull to=pull-$2 from="pull-up" i
+    [ "$2" = down ] || from="pull-down"
+    for i in 1 2 3; do
+        echo "$to" > "$pull"
+        pause_1ms
+        [ "$i" = 3 ] || { echo "$from" > "$pull" && pause_1ms; }
+    done
+}
+pause_1ms() { read -r -t 0.001 -u "$silence"; } # without a program, which would take longer
+bounced_press() {
+    bouncing "$1" down
+    sleep "${2:-0.1}"
+    bouncing "$1" up
+    sleep 0.05
+}
 no_buttons() { echo 0 > /sys/kernel/config/gpio-sim/header/live; }
 
 # ---- the program -------------------------------------------------------------------------------
-# start COMMAND..: in the background, its words in /out/PROGRAM.log; $! and $program are its process
+# start COMMAND..: in the background, its words in /out/PROGRAM.log; $! and $program are its process.
+# Its stdin is a keyboard that nobody touches, since at the end of stdin some programs go; or TTY.
 start() {
     log=/out/${LOG_NAME:-${1##*/}}.log
-    "$@" >> "$log" 2>&1 <&"$silence" &
+    "$@" >> "$log" 2>&1 < "${TTY:-/run/silence}" &
     program=$!
 }
 # timed COMMAND..: start, and NAME.flip gets the milliseconds from exec to its first picture
@@ -245,7 +264,6 @@ io_of() { awk -v key="$1:" '$1 == key { print $2 }' "/proc/$program/io"; }
 rss_kib() { awk '$1 == "VmRSS:" { print $2 }' "/proc/$program/status"; }
 descriptors() { find "/proc/$program/fd" -mindepth 1 | wc -l; }
 
-# a keyboard that nobody touches: at the end of stdin some programs go
 mkfifo /run/silence
 exec {silence}<> /run/silence
 

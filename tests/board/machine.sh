@@ -28,8 +28,9 @@ found() {
     exit 0
 }
 
-# The headers that are here decide which kernel it is, since modules fit no other; for another
-# architecture there are none, and both are fetched together.
+# The headers that are here decide which kernel it is, since modules fit no other. For another
+# architecture there are none, and the mirror may have left this machine's behind: then the newest
+# kernel and its headers are fetched together.
 release='*' headers=''
 if [ "$architecture" = "$(dpkg --print-architecture 2> /dev/null)" ]; then
     headers=$(find /usr/src -maxdepth 1 -name "linux-headers-*-$architecture" ! -name '*-cloud-*' ! -name '*-rt-*' |
@@ -64,16 +65,15 @@ download() {
         (cd "$work" && apt-get -q download "$1") >> "$log" 2>&1 && return
         sleep "$((try * 3))"
     done
-    tail -n 5 "$log" >&2
-    skip "apt-get cannot download $1"
+    return 1
 }
 
 fetch_kernel() {
-    if [ -n "$headers" ]; then
-        download "linux-image-$release"
-    else
+    if [ -z "$headers" ] || ! download "linux-image-$release"; then
+        headers=''
         (cd "$work" && "$here/sysroot.sh" "$architecture" linux-image-newest linux-headers-newest)
         release=$(cd "$work" && echo linux-image-*.deb | sed 's/linux-image-//;s/_.*//')
+        found "$store/$release-$version"
     fi
     source=/usr/src/linux-source-$(echo "$release" | cut -d . -f 1,2).tar.xz
     [ -e "$source" ] || skip "needs $source: make deps (linux-source)"
