@@ -21,6 +21,7 @@ skip() {
     exit 77
 }
 
+[ "$(uname -m)" = x86_64 ] || { echo 'not applicable: the machine is emulated on a PC' && exit 0; }
 case $arch in
 amd64) qemu="qemu-system-x86_64" ;;
 arm64) qemu="qemu-system-aarch64" ;;
