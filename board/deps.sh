@@ -15,7 +15,7 @@ optional_run='fonts-dejavu-core' # for those texts
 optional_test='libosmesa6-dev' # not in every Debian
 # without them the tests in virtual machines are skipped; those run on a PC alone
 optional_board='qemu-system-x86 busybox-static kmod cpio xz-utils linux-source linux-headers-amd64
-    kmscube kbd libdrm-tests'
+    kmscube kbd libdrm-tests gpiod'
 optional_board_arm64='qemu-system-arm gcc-aarch64-linux-gnu'
 
 command -v dpkg-query > /dev/null || exit 0 # not Debian: the Makefile says what pkg-config does not find

@@ -102,7 +102,7 @@ announced() { # WIDTH HEIGHT [HEAD]
     local before
     before=$(hotplugs)
     desktop "$@"
-    within 10 more_hotplugs "$before" || fail "the kernel says nothing about a monitor of $1x$2"
+    within 30 more_hotplugs "$before" || fail "the kernel says nothing about a monitor of $1x$2"
 }
 # A monitor that is already so is no news.
 plugged=(0 640x480 0x0)
@@ -220,7 +220,7 @@ shown() { flips && still "$1"; }
 flipped_or_gone() { [ -s /out/gnomon.flip ] || gone; }
 still() {
     shot "$1-before" && sleep 0.3
-    within 10 stands "$1" || fail "$1: the picture does not stand still"
+    within 30 stands "$1" || fail "$1: the picture does not stand still"
     rm -f "/out/$1-before.png"
 }
 stands() {
