@@ -241,7 +241,7 @@ accept:
 	+$(SUB) WERROR=1 CONFIG=asan tests
 	@GN_FULL=1 tests/run.sh BUILD=$(O)/release $(call programs,$(O)/release) \
 	    $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh)) \
-	    $(filter-out tests/board/smoke.guest,$(sort $(wildcard tests/board/*.guest))) \
+	    $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest))) \
 	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan))
 	+$(SUB) GN_FULL= check-board-arm64
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
