@@ -209,7 +209,7 @@ cube() {
     kill -9 "$program"
     wait "$program" 2> /dev/null
 }
-more_than_one() { [ "$(wc -l 2> /dev/null < "$1")" -gt 1 ]; } # line
+more_than_one() { [ -e "$1" ] && [ "$(wc -l < "$1")" -gt 1 ]; } # line
 # flips: waits for gnomon's first flip; shown NAME: and then for a screen that stands still
 flips() {
     within 300 flipped_or_gone
