@@ -1,9 +1,9 @@
 /* LD_PRELOAD for any program that shows itself by KMS: writes the milliseconds from the program's
- * start to its first picture on the screen into the file that FIRST_FLIP names, and those to its
- * second into a second line: some (kmscube) light the screen with a buffer that they have not drawn
- * on yet. A picture is there when a blocking SETCRTC or commit has returned, or when the event of
- * the flip or commit that asked for one has been read: the same for every program, whatever it says
- * of itself. START_NS: `date +%s%N` just before exec, by the caller. */
+ * start to its first picture on the screen into the file that FIRST_FLIP names, and those to the
+ * next three into lines of their own: some (kmscube) light the screen with a buffer that they have
+ * not drawn on yet. A picture is there when a blocking SETCRTC or commit has returned, or when the
+ * event of the flip or commit that asked for one has been read: the same for every program,
+ * whatever it says of itself. START_NS: `date +%s%N` just before exec, by the caller. */
 #include <dlfcn.h>
 #include <drm.h>
 #include <drm_mode.h>
@@ -16,8 +16,10 @@
 #include <time.h>
 #include <unistd.h>
 
+enum { LINES = 4 };
+
 static int awaited = -1; /* the card whose event is to come */
-static int written;      /* lines, of two */
+static int written;      /* lines */
 
 static void write_now(void) {
     const char *path = getenv("FIRST_FLIP"), *start = getenv("START_NS");
@@ -56,7 +58,7 @@ int ioctl(int fd, unsigned long request, ...) {
     va_end(list);
     int result = real(fd, request, argument);
     bool by_event;
-    if (written == 2 || result != 0 || !shows(request, argument, &by_event)) return result;
+    if (written == LINES || result != 0 || !shows(request, argument, &by_event)) return result;
     if (by_event)
         awaited = fd;
     else
@@ -68,7 +70,7 @@ ssize_t read(int fd, void *buffer, size_t size) {
     static ssize_t (*real)(int, void *, size_t);
     if (!real) *(void **)&real = dlsym(RTLD_NEXT, "read");
     ssize_t got = real(fd, buffer, size);
-    if (written < 2 && fd == awaited && got > 0) {
+    if (written < LINES && fd == awaited && got > 0) {
         awaited = -1;
         write_now();
     }

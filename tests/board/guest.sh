@@ -205,7 +205,7 @@ cube() {
     rm -f /out/kmscube.flip
     timed kmscube -D "$(card_of gpu)"
     within 100 more_than_one /out/kmscube.flip || fail 'kmscube shows nothing'
-    say "kmscube: first flip after $(head -n 1 /out/kmscube.flip) ms, its cube after $(tail -n 1 /out/kmscube.flip)"
+    say "kmscube: first flip after $(head -n 1 /out/kmscube.flip) ms, its cube after $(sed -n 2p /out/kmscube.flip)"
     kill -9 "$program"
     wait "$program" 2> /dev/null
 }
