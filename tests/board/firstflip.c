@@ -44,7 +44,8 @@ static bool shows(unsigned long request, const void *argument, bool *by_event) {
     case DRM_IOCTL_MODE_PAGE_FLIP: *by_event = flip->flags & DRM_MODE_PAGE_FLIP_EVENT; return true;
     case DRM_IOCTL_MODE_ATOMIC:
         *by_event = commit->flags & DRM_MODE_PAGE_FLIP_EVENT;
-        return !(commit->flags & DRM_MODE_ATOMIC_TEST_ONLY) && commit->count_objs > 1;
+        return !(commit->flags & DRM_MODE_ATOMIC_TEST_ONLY) &&
+               (commit->count_objs > 1 || written > 0); /* lit, the plane alone is changed */
     default: return false;
     }
 }
