@@ -1,4 +1,4 @@
-/* What stands on a kiosk's picture: for two seconds what has changed, the page of information, and
+/* What stands on a kiosk's picture: for a while what has changed, the page of information, and
  * what is wrong as long as it is. */
 #include <stdio.h>
 #include <string.h>
@@ -39,7 +39,8 @@ static void write_changes(struct gn_show *s, const struct gn_kiosk_view *view, i
     if (view->caption == s->said.caption && s->kiosk.caption_ns == s->said_ns) return;
     s->said = *view;
     s->said_ns = s->kiosk.caption_ns;
-    gn_captions_set(s->captions, GN_CAPTION_MODE, caption_of(s, view), now_ns);
+    gn_captions_set(s->captions, GN_CAPTION_MODE, caption_of(s, view),
+                    now_ns + s->rules.caption_ns - GN_CAPTION_MODE_NS); /* so that it ends then */
 }
 
 static void write_page(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {

@@ -113,10 +113,15 @@ static void frame(struct gn_kiosk *s, int64_t seen_ns) {
     s->seen_ns = seen_ns;
 }
 
+/* What is wrong takes longer to read. */
+static int64_t stands_ns(const struct gn_kiosk_rules *rules, enum gn_kiosk_caption caption) {
+    return (caption == GN_KIOSK_SAYS_PROBLEM ? 5 : 1) * rules->caption_ns;
+}
+
 static void tick(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t now_ns) {
     if (s->used_ns == 0) s->used_ns = now_ns;
     if (s->fade_ns != 0 && now_ns - s->fade_ns >= rules->fade_ns) s->fade_ns = 0;
-    if (s->caption && now_ns - s->caption_ns >= rules->caption_ns)
+    if (s->caption && now_ns - s->caption_ns >= stands_ns(rules, s->caption))
         s->caption = GN_KIOSK_SAYS_NOTHING;
     if (rules->idle == GN_IDLE_NONE || rules->idle_after_ns <= 0 || s->blanked ||
         now_ns - s->used_ns < rules->idle_after_ns)
@@ -203,7 +208,8 @@ struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const str
         .caption_scene = gn_kiosk_scene(rules, &state->wanted),
     };
     if (!state->paused && state->seen_ns != 0) view.time_ns += seen_ns - state->seen_ns;
-    if (seen_ns - state->caption_ns < rules->caption_ns) view.caption = state->caption;
+    if (seen_ns - state->caption_ns < stands_ns(rules, state->caption))
+        view.caption = state->caption;
     return view;
 }
 
@@ -212,7 +218,8 @@ static int64_t earlier(int64_t a, int64_t b) { return a < b ? a : b; }
 int64_t gn_kiosk_deadline(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state) {
     int64_t at_ns = INT64_MAX;
     if (state->fade_ns != 0) at_ns = earlier(at_ns, state->fade_ns + rules->fade_ns);
-    if (state->caption) at_ns = earlier(at_ns, state->caption_ns + rules->caption_ns);
+    if (state->caption)
+        at_ns = earlier(at_ns, state->caption_ns + stands_ns(rules, state->caption));
     if (rules->idle != GN_IDLE_NONE && rules->idle_after_ns > 0 && !state->blanked)
         at_ns = earlier(at_ns, state->used_ns + rules->idle_after_ns);
     return at_ns;
