@@ -40,7 +40,6 @@ void gn_console_open(struct gn_console *c) {
     *c = (struct gn_console){.tty = find_tty(), .signals = -1};
     if (c->tty < 0) return;
     c->signals = open_signals();
-    ioctl(c->tty, KDGETMODE, &c->old_mode);
     if (c->signals < 0 || ioctl(c->tty, VT_SETMODE, &mode) != 0) {
         gn_console_close(c);
         return;
@@ -64,9 +63,9 @@ void gn_console_close(struct gn_console *c) {
     struct vt_mode automatic = {.mode = VT_AUTO};
     if (c->tty >= 0) {
         ioctl(c->tty, VT_SETMODE, &automatic);
-        ioctl(c->tty, KDSETMODE, c->old_mode);
+        ioctl(c->tty, KDSETMODE, KD_TEXT);
         close(c->tty);
     }
     if (c->signals >= 0) close(c->signals);
-    *c = (struct gn_console){-1, -1, 0};
+    *c = (struct gn_console){-1, -1};
 }

@@ -8,7 +8,6 @@
 struct gn_console {
     int tty;     /* -1: none */
     int signals; /* a signalfd: readable when it wants to switch; -1 */
-    int old_mode;
 };
 
 /* Blocks SIGUSR1 and SIGUSR2 for good: to be called before other threads are made. */
@@ -17,7 +16,7 @@ void gn_console_open(struct gn_console *console);
  * *entered: the screen is ours again. */
 void gn_console_read(struct gn_console *console, bool *left, bool *entered);
 void gn_console_let_go(struct gn_console *console);
-/* As it was. */
+/* It shows text again, whoever left it without: one of us that was killed, or a splash. */
 void gn_console_close(struct gn_console *console);
 
 #endif

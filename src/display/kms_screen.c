@@ -88,7 +88,7 @@ static struct kms_screen *create(struct gn_display *display, struct gn_err *err)
     struct kms_screen *s = display->state = gn_xalloc(1, sizeof *s);
     s->drm = drm;
     s->node = s->epoll = s->timer = s->uevents = s->card = -1;
-    s->console = (struct gn_console){-1, -1, 0};
+    s->console = (struct gn_console){-1, -1};
     return s;
 }
 
