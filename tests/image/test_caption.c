@@ -28,29 +28,10 @@ static void open_with(const char *backend, const char *without) {
     glm_vec3_copy((vec3){1, 1, 1}, stage.scene->background); /* the worst for white */
 }
 
-static int open_egl(void **state) {
-    (void)state;
-    open_with("egl", NULL);
-    return 0;
-}
-
-static int open_osmesa(void **state) {
-    (void)state;
-    open_with("osmesa", NULL);
-    return 0;
-}
-
-static int open_egl_without_srgb(void **state) {
-    (void)state;
-    open_with("egl", "srgb");
-    return 0;
-}
-
-static int open_osmesa_without_srgb(void **state) {
-    (void)state;
-    open_with("osmesa", "srgb");
-    return 0;
-}
+HELP_OPENS(open_egl, "egl", NULL)
+HELP_OPENS(open_osmesa, "osmesa", NULL)
+HELP_OPENS(open_egl_without_srgb, "egl", "srgb")
+HELP_OPENS(open_osmesa_without_srgb, "osmesa", "srgb")
 
 static int close_all(void **state) {
     (void)state;

@@ -34,35 +34,11 @@ static void open_with(const char *backend, const char *without) {
                                   .exposure_given = true};
 }
 
-static int open_egl(void **state) {
-    (void)state;
-    open_with("egl", NULL);
-    return 0;
-}
-
-static int open_osmesa(void **state) {
-    (void)state;
-    open_with("osmesa", NULL);
-    return 0;
-}
-
-static int open_egl_without_srgb(void **state) {
-    (void)state;
-    open_with("egl", "srgb");
-    return 0;
-}
-
-static int open_osmesa_without_srgb(void **state) {
-    (void)state;
-    open_with("osmesa", "srgb");
-    return 0;
-}
-
-static int open_egl_poor(void **state) {
-    (void)state;
-    open_with("egl", "srgb,rgba16f");
-    return 0;
-}
+HELP_OPENS(open_egl, "egl", NULL)
+HELP_OPENS(open_osmesa, "osmesa", NULL)
+HELP_OPENS(open_egl_without_srgb, "egl", "srgb")
+HELP_OPENS(open_osmesa_without_srgb, "osmesa", "srgb")
+HELP_OPENS(open_egl_poor, "egl", "srgb,rgba16f")
 
 static int close_all(void **state) {
     (void)state;

@@ -31,23 +31,9 @@ static void open_with(const char *backend, const char *without) {
         .width_px = WIDTH, .height_px = HEIGHT, .encoding = GN_ENCODING_AUTO, .map_px = MAP};
 }
 
-static int open_egl(void **state) {
-    (void)state;
-    open_with("egl", NULL);
-    return 0;
-}
-
-static int open_osmesa(void **state) {
-    (void)state;
-    open_with("osmesa", NULL);
-    return 0;
-}
-
-static int open_egl_without_srgb(void **state) {
-    (void)state;
-    open_with("egl", "srgb");
-    return 0;
-}
+HELP_OPENS(open_egl, "egl", NULL)
+HELP_OPENS(open_osmesa, "osmesa", NULL)
+HELP_OPENS(open_egl_without_srgb, "egl", "srgb")
 
 static int close_all(void **state) {
     (void)state;

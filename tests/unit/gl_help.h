@@ -23,6 +23,13 @@ struct help_stage { /* a scene that is ready to be drawn, at 0 s */
 void help_stage_open(struct help_stage *stage, struct gn_scene *(*make)(void), const char *backend,
                      const char *without, struct gn_warnings *warnings);
 void help_stage_close(struct help_stage *stage);
+/* A group's setup called `name` that opens what the file's own open_with(backend, without) does. */
+#define HELP_OPENS(name, backend, without)                                                         \
+    static int name(void **state) {                                                                \
+        (void)state;                                                                               \
+        open_with(backend, without);                                                               \
+        return 0;                                                                                  \
+    }
 /* Builds, checks, prepares and runs the plan of the pose as it is; fails the test if one fails. */
 const struct gn_plan *help_stage_draw(struct help_stage *stage, const struct gn_frame_opts *opts,
                                       struct gn_warnings *warnings);
