@@ -193,8 +193,8 @@ timed() {
 }
 # show ARGUMENT..: gnomon on this machine's screen, a still picture; like is what `gnomon render` must be
 # told for the same. The scene is one that an emulated processor can draw: 3 programs and a light, where
-# the default scene (scene='') has 10 and two.
-like='--no-animation --msaa 0' scene=/tmp/lattice.glb
+# the default scene (scene='') has 10 and two. One technique is one mode: no others are made ahead.
+like='--no-animation --msaa 0 --shadow pcf' scene=/tmp/lattice.glb
 show() {
     rm -f /out/gnomon.flip
     # shellcheck disable=SC2086
