@@ -101,9 +101,9 @@ static void one_program_a_frame_is_made_ahead_and_no_more(void **state) {
 static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
     (void)state;
     const int switches = getenv("GN_FULL") ? 1000 : 60;
-    struct gn_show *show = OPEN("--turntable", "10");
+    struct gn_show *show = OPEN("--turntable", "120");
     until_warm(show);
-    for (int i = 0; i < show->modes.count; i++) { /* the builder's lists have grown */
+    for (int i = 0; i < 4 * 60; i++) { /* from all sides: lists have grown, and maps have pages */
         act(show, GN_ACTION_NEXT);
         frames(show, 1);
     }
