@@ -13,7 +13,7 @@ export LSAN_OPTIONS=${LSAN_OPTIONS-suppressions=tests/lsan.supp:print_suppressio
 # intercept_tls_get_addr: up to gcc 13 the leak checker takes some thread-local blocks for those of an
 # older libc and crashes, once in thousands of runs
 export ASAN_OPTIONS=${ASAN_OPTIONS-allocator_may_return_null=1:detect_stack_use_after_return=1:intercept_tls_get_addr=0}
-default_limit=${LIMIT:-$([ -n "${GN_FULL:-}" ] && echo 1800 || echo 240)}
+default_limit=${LIMIT:-$([ -n "${GN_FULL:-}" ] && echo 1800 || echo 120)}
 
 limit_of() {
     [ -n "${GN_FULL:-}" ] || awk -v name="$1" '$1 == name { print $2; exit }' tests/timeouts
