@@ -99,7 +99,7 @@ static int try_path(struct talk *t, const char *path) {
         if (errno != EAGAIN || gn_clock_monotonic_ns() > t->until_ns) break;
         usleep(10000);
     }
-    const int reason = errno;
+    const int reason = errno ? errno : EIO; /* never 0: that says it is connected */
     if (t->fd >= 0) close(t->fd);
     t->fd = -1;
     return reason;

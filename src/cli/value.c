@@ -167,7 +167,10 @@ static bool parse_techniques(const struct gn_option_row *row, const char *text, 
 static bool parse_scenes(const struct gn_option_row *row, const char *text, void *field,
                          struct gn_arena *arena) {
     struct gn_scene_list *list = field;
-    return list->count < GN_SCENES_MAX && parse_text(row, text, &list->paths[list->count++], arena);
+    if (list->count == GN_SCENES_MAX) return false;
+    if (!parse_text(row, text, &list->paths[list->count], arena)) return false;
+    list->count++;
+    return true;
 }
 
 static bool parse_limit(const struct gn_option_row *row, const char *text, void *field,
