@@ -99,7 +99,7 @@ static int try_path(struct talk *t, const char *path) {
         if (errno != EAGAIN || gn_clock_monotonic_ns() > t->until_ns) break;
         usleep(10000);
     }
-    const int reason = errno ? errno : EIO; /* never 0: that says it is connected */
+    const int reason = errno;
     if (t->fd >= 0) close(t->fd);
     t->fd = -1;
     return reason;
@@ -107,13 +107,15 @@ static int try_path(struct talk *t, const char *path) {
 
 static bool fail_path(const char *path, int reason, struct gn_err *err) {
     if (reason == ENOENT || reason == ECONNREFUSED)
-        return gn_fail(err, "no kiosk answers at %s; is gnomon show running?", path);
-    if (reason == EACCES)
-        return gn_fail(err,
-                       "%s: permission denied: the kiosk's own user, root and the members of the "
-                       "socket's group may ask",
-                       path);
-    return gn_fail(err, "%s: cannot connect: %s", path, strerror(reason));
+        gn_fail(err, "no kiosk answers at %s; is gnomon show running?", path);
+    else if (reason == EACCES)
+        gn_fail(err,
+                "%s: permission denied: the kiosk's own user, root and the members of the "
+                "socket's group may ask",
+                path);
+    else
+        gn_fail(err, "%s: cannot connect: %s", path, strerror(reason));
+    return false;
 }
 
 static bool enter(struct talk *t, const struct gn_options *o, struct gn_err *err) {
