@@ -94,7 +94,7 @@ CFLAGS_debug   = -Og -g
 CFLAGS_asan    = -O1 -g $(SANITIZE)
 CFLAGS_cov     = -O0 -g --coverage
 LDFLAGS_release = -pie -Wl,-z,relro,-z,now
-LDFLAGS_asan    = $(SANITIZE) -Wl,-u,dlclose,--export-dynamic-symbol=dlclose # see keep_modules.c
+LDFLAGS_asan    = $(SANITIZE) -Wl,--export-dynamic-symbol=dlclose
 LDFLAGS_cov     = --coverage
 $(if $(CFLAGS_$(CONFIG)),,$(error CONFIG is release, debug, asan or cov, not $(CONFIG)))
 
@@ -135,11 +135,14 @@ EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundi
            $(SELFTEST)
 EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(suffix $f)),$f))
 
+# not out of a library: another one's dlclose would be found first
+KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
+
 all: $(BIN) $(IMPORT) $(SCENES) man
 tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(O)/host/make_truth
 man: $(O)/gnomon.1
 
-$(BIN): $(call OBJ,src/main.c) $(LIB)
+$(BIN): $(call OBJ,src/main.c) $(KEEP) $(LIB)
 	@echo "link $@"
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(GPIO_LIBS) $(LIBS)
 $(B)/gnomon-import: $(call OBJ,$(IMPORT_C)) $(LIB)
@@ -148,7 +151,7 @@ $(B)/gnomon-import: $(call OBJ,$(IMPORT_C)) $(LIB)
 no-import:
 	@echo 'no gnomon-import, so no OBJ, FBX, STL, PLY, DAE: it needs libassimp-dev (make deps)'
 $(LIB): $(call OBJ,$(SRC)) $(B)/obj/gen/embedded.o
-$(TESTLIB): $(call OBJ,$(filter-out $(PROG_C),$(TESTS_C)))
+$(TESTLIB): $(call OBJ,$(filter-out $(PROG_C) tests/unit/keep_modules.c,$(TESTS_C)))
 $(LIB) $(TESTLIB): $(B)/sources
 	$(Q)rm -f $@.new && $(AR) rcs $@.new $(filter %.o,$^) && mv $@.new $@
 $(B)/obj/%.o: %.c $(B)/flags | $(B)/gen/config.h $(B)/gen/poisson.h
@@ -158,7 +161,7 @@ $(B)/obj/gen/embedded.o: $(B)/gen/embedded.c $(B)/flags
 	@mkdir -p $(@D) && echo "cc   $<"
 	$(Q)$(COMPILE) -c -o $@ $<
 define program
-$(B)/tests/$(basename $(notdir $(1))): $(call OBJ,$(1)) $(TESTLIB) $(LIB)
+$(B)/tests/$(basename $(notdir $(1))): $(call OBJ,$(1)) $(KEEP) $(TESTLIB) $(LIB)
 	@mkdir -p $$(@D) && echo "link $$@"
 	$(Q)$$(CC) $$(ALL_CFLAGS) $$(ALL_LDFLAGS) -o $$@ $$^ -lcmocka $$(GPIO_LIBS) $$(LIBS)
 endef
