@@ -14,11 +14,11 @@ void gn_show_open_captions(struct gn_show *s) {
     s->said_ns = 0;
 }
 
-/* The last part of a path. */
+/* The last part of a path; without one it is the scene inside the program. */
 static const char *scene_name(const struct gn_show *s, int scene) {
     const char *path = s->scenes.paths[scene];
     const char *slash = path ? strrchr(path, '/') : NULL;
-    return !path ? "gnomon" : slash ? slash + 1 : path;
+    return !path ? "default scene" : slash ? slash + 1 : path;
 }
 
 static const char *caption_of(const struct gn_show *s, const struct gn_kiosk_view *view) {
