@@ -146,26 +146,36 @@ static int64_t frame_ns(struct gn_show *show) {
     return gn_clock_process_cpu_ns() - begun_ns;
 }
 
-/* Of all pairs of neighbours, in the long form: a switch draws its frame and, at most, its maps. */
+/* Of all pairs of neighbours, in the long form: a switch draws its frame and, at most, its maps. Of
+ * three rounds the quickest switch counts, since whatever else the machine does only adds. */
 static void a_switch_takes_no_more_than_two_frames(void **state) {
     (void)state;
+    enum { ROUNDS = 3, STEADY = 9 };
     if (!getenv("GN_FULL")) { /* speed is for the long tests */
         print_message("not applicable: only with GN_FULL=1\n");
         return;
     }
     struct gn_show *show = OPEN("--size", "640x360", "--turntable", "10");
+    int64_t switch_ns[GN_KIOSK_MODES_MAX], steady_ns[GN_KIOSK_MODES_MAX][ROUNDS * STEADY] = {{0}};
+    for (int m = 0; m < show->modes.count; m++) switch_ns[m] = INT64_MAX;
     until_warm(show);
-    for (int i = 0; i < 2 * show->modes.count; i++) {
-        int64_t steady_ns[9];
+    for (int i = 0; i < ROUNDS * show->modes.count; i++) {
+        const int round = i / show->modes.count;
         act(show, GN_ACTION_NEXT);
-        const int64_t switch_ns = frame_ns(show);
-        for (int k = 0; k < 9; k++) steady_ns[k] = frame_ns(show);
-        qsort(steady_ns, 9, sizeof steady_ns[0], by_size);
-        print_message("%-8s %6.2f ms, then %6.2f ms\n", show->modes.names[show->drawn.mode],
-                      (double)switch_ns * 1e-6, (double)steady_ns[4] * 1e-6);
-        if (switch_ns > 3 * steady_ns[4])
-            fail_msg("%s: %.2f ms", show->modes.names[show->drawn.mode], (double)switch_ns * 1e-6);
+        const int64_t now_ns = frame_ns(show);
+        const int mode = show->drawn.mode;
+        if (now_ns < switch_ns[mode]) switch_ns[mode] = now_ns;
+        for (int k = 0; k < STEADY; k++) steady_ns[mode][STEADY * round + k] = frame_ns(show);
     }
+    int wrong = 0;
+    for (int m = 0; m < show->modes.count; m++) {
+        qsort(steady_ns[m], ROUNDS * STEADY, sizeof steady_ns[m][0], by_size);
+        const int64_t median_ns = steady_ns[m][ROUNDS * STEADY / 2];
+        print_message("%-8s %6.2f ms, then %6.2f ms\n", show->modes.names[m],
+                      (double)switch_ns[m] * 1e-6, (double)median_ns * 1e-6);
+        wrong += switch_ns[m] > 2 * median_ns;
+    }
+    assert_int_equal(wrong, 0);
     gn_show_close(show);
 }
 
@@ -211,6 +221,16 @@ static void flags_leave_one_technique(void **state) {
     act(show, GN_ACTION_NEXT);
     frames(show, 2);
     assert_int_equal(show->kiosk.shown.mode, 0);
+    gn_show_close(show);
+}
+
+static void the_page_names_the_scene_inside_the_program(void **state) {
+    (void)state;
+    struct gn_show *show = OPEN("--shadow", "hard");
+    frames(show, 1);
+    act(show, GN_ACTION_INFO);
+    frames(show, 1);
+    if (!strstr(show->page.text, "\nScene: default scene\n")) fail_msg("%s", show->page.text);
     gn_show_close(show);
 }
 
@@ -345,6 +365,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(what_is_not_ready_keeps_the_old_picture),
         cmocka_unit_test(a_still_picture_changes_when_the_mode_is_ready),
         cmocka_unit_test(flags_leave_one_technique),
+        cmocka_unit_test(the_page_names_the_scene_inside_the_program),
         cmocka_unit_test(pause_stands_and_blank_is_dark),
         cmocka_unit_test(a_fade_begins_with_the_old_picture),
         cmocka_unit_test(the_next_scene_comes_when_it_is_whole),
