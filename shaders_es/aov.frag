@@ -19,7 +19,6 @@ layout(location = 0) out uvec4 o_bits;
 
 void main() {
     vec3 face = surface_face_normal(); // derivatives before any branch
-    surface_base();
     vec3 value = vec3(0.0);
     if (AOV == AOV_VISIBILITY) {
         float seen = 1.0;
@@ -31,4 +30,5 @@ void main() {
         value = surface_normal();
     }
     o_bits = floatBitsToUint(vec4(value, 1.0));
+    surface_cut(surface_base());
 }

@@ -94,6 +94,7 @@ light_sample light_here(const int slot, const int type) {
 void main() {
     vec3 face = surface_face_normal();
     vec4 base = surface_base();
+    if (!CUT_LAST) surface_cut(base);
     vec3 color = base.rgb;
     if (!UNLIT) {
         surface s = surface_make(base);
@@ -107,4 +108,5 @@ void main() {
     if (ENCODE_SRGB) color = srgb_from_linear(color);
     o_color = ALPHA_BLEND ? vec4(color * base.a, base.a) : vec4(color, 1.0);
     if (ADDITIVE) o_color.a = 0.0; // blended as premultiplied, it is added
+    if (CUT_LAST) surface_cut(base);
 }

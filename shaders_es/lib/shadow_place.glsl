@@ -13,7 +13,7 @@ struct shadow_place {
     // none is nearer than soft.y. The tangents of a lamp's radius grow with 1 / distance, of the sun's with the distance itself.
     vec4 soft;
     bool inverse;
-    float beside; // as in shadow_tile
+    vec2 beside; // as in shadow_tile
 };
 
 float shadow_e(shadow_place s, float code) {
@@ -74,7 +74,9 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     return s;
 }
 
-// What is seen of a light at s, 1 = lit; seen: what a technique says. Takes a derivative: not behind a branch.
+// What is seen of a light at s, 1 = lit; seen: what a technique says. Takes derivatives: not behind a branch.
 float shadow_mixed(const int slot, shadow_place s, float seen) {
-    return SHADOW_SHARED[slot] ? clamp(seen + s.beside * dFdx(seen), 0.0, 1.0) : seen;
+    if (!SHADOW_SHARED[slot]) return seen;
+    seen += s.beside.y * dFdy(seen);
+    return clamp(seen + s.beside.x * dFdx(seen), 0.0, 1.0);
 }

@@ -5,7 +5,7 @@ struct shadow_tile {
     bool along_x, along_z; // its axis; neither: y
     float side;            // 1 or -1: which end of it
     vec3 q;                // from the light to the point: across the tile in the order of the other axes, and depth
-    float beside;          // what of dFdx(answer) is added to it: shadow_mixed()
+    vec2 beside;           // what of the answer's derivatives is added to it: shadow_mixed()
 };
 
 // v: from the light to the point, world space. The same place in the tile's frame, with depth times side last.
@@ -46,27 +46,28 @@ shadow_tile shadow_tile_pushed(const int slot, const bool radial, vec3 p, vec3 n
 }
 
 // The texels of two tiles lie differently, so a filter makes different shades of them on either side of an edge. Round it, up to
-// SHADOW_CODE.w to each side, pixels ask by turns: the left one of two the tile of the earlier axis, the right one the other; and
-// shadow_mixed() gives each both answers, by halves on the edge (Penner, "Shader Amortization using Pixel Quad Message Passing", GPU
-// Pro 2, 2011). Towards a corner, where three tiles meet, that becomes narrower. On a Pi 4 this costs 34 instructions; asking twice
-// there, in a loop, 71 and half of the threads.
+// SHADOW_CODE.w to each side, the four pixels of a quad share the tiles that are near: the lower left one asks the nearest, the upper
+// left one the next, and those on the right as well unless a third is near: then both ask that. shadow_mixed() gives all four the
+// same mean, whose weights change from tile to tile without a step: by halves on an edge, by thirds in a corner (Penner, "Shader
+// Amortization using Pixel Quad Message Passing", GPU Pro 2, 2011). Who is who is told from the quad's middle, so all four agree; and
+// it is right for derivatives that are taken once a quad as well, of its left pixels and of either row.
 shadow_tile shadow_tile_shared(const int slot, const bool radial, vec3 p, vec3 n, vec3 l) {
     vec3 v = p - SHADOW(slot, SHADOW_PLACE).xyz;
-    vec3 a = abs(v);
+    vec2 turn = 2.0 * fract(0.5 * gl_FragCoord.xy) - 1.0; // from the quad's middle, pixels
+    turn.y *= dFdy(turn.y);                               // in a picture of an odd height quads may begin at its top
+    vec3 a = abs(v - turn.x * dFdx(p) - turn.y * dFdy(p)) * vec3(1.0, 0.999999, 0.999998); // no two are the same
     float larger = max(a.x, a.y), smaller = min(a.x, a.y);
-    float depth = max(larger, a.z);
-    float second = max(smaller, min(larger, a.z));
-    float width = min(0.5 * (second - min(smaller, a.z)), depth * SHADOW(slot, SHADOW_CODE).w) + 1e-20;
-    float left = 2.0 - 4.0 * fract(0.5 * gl_FragCoord.x); // 1, on the right -1
-    a.x += left * width;
-    a.z -= left * width;
-    larger = max(a.x, a.y);
+    float depth = max(larger, a.z), second = max(smaller, min(larger, a.z)), third = min(smaller, a.z);
+    vec2 near = max(1.0 - (depth - vec2(third, second)) / (depth * SHADOW(slot, SHADOW_CODE).w), 0.0);
+    bvec2 other = bvec2(turn.x > 0.0 && near.x > 0.0, turn.y > 0.0 && near.y > 0.0);
+    float asked = other.x ? third : other.y ? second : depth;
     shadow_tile t;
-    t.along_z = a.z > larger;
-    t.along_x = a.x >= max(larger, a.z);
+    t.along_x = a.x == asked;
+    t.along_z = a.z == asked;
+    t.beside = vec2(near.x / (2.0 + near.x), 0.5 * near.y) - vec2(other);
+    if (other.x) t.beside.y = 0.0;
     t.q = shadow_tile_turn(t, v);
     t.side = t.q.z < 0.0 ? -1.0 : 1.0;
-    t.beside = left * (0.5 - (abs(t.q.z) < depth ? -0.5 : 0.5) * min((depth - second) / width, 1.0));
     t.q = shadow_tile_turn(t, v + shadow_push(slot, n, l, radial ? dot(n, l) : shadow_tile_turn(t, n).z, abs(t.q.z)));
     t.q.z = abs(t.q.z);
     return t;

@@ -19,14 +19,18 @@ in vec3 v_shadow[SHADOW_COUNT]; // where SHADOW_LINEAR: uv and code
 uniform mediump sampler2D u_texture_base;
 #endif
 
-// Linear, alpha last; fragments of a masked material's holes are gone after this.
+// Linear, alpha last.
 vec4 surface_base() {
     vec4 base = v_color;
 #ifdef WITH_BASE_TEXTURE
     base *= texture(u_texture_base, v_uv_base);
 #endif
-    if (ALPHA_MASK && base.a < v_surface.w) discard;
     return base;
+}
+
+// Fragments of a masked material's holes are gone after this, and with them the derivatives of their neighbours.
+void surface_cut(vec4 base) {
+    if (ALPHA_MASK && base.a < v_surface.w) discard;
 }
 
 // Unit, towards the viewer on both sides of a double-sided surface.

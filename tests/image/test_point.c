@@ -134,11 +134,16 @@ static void add_strips(struct gn_maker *maker, float direction[3], char *roots) 
     }
 }
 
-static void load_sets(const char *turn) {
+static void load_sets(const char *turn, bool masked) {
     struct gn_maker maker;
     char roots[400] = "", json[600];
     gn_maker_init(&maker);
     gn_maker_square(&maker);
+    if (masked) {
+        gn_maker_set(&maker, "materials", "[{'alphaMode':'MASK'}]");
+        gn_maker_set(&maker, "meshes",
+                     "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}]");
+    }
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < 27; i++) {
             vec3 d = {(float)(i % 3 - 1), (float)(i / 3 % 3 - 1), (float)(i / 9 - 1)};
@@ -165,7 +170,7 @@ static void load_sets(const char *turn) {
 
 static int load_seams(void **state) {
     (void)state;
-    load_sets("[0,0,0,1]");
+    load_sets("[0,0,0,1]", false);
     return 0;
 }
 
@@ -183,7 +188,7 @@ struct seams {
     double reach_px;          /* further than this from a shadow's edge the answer is certain */
     int near, wrong;          /* pixels that are near a seam; of those far from an edge, wrong */
     int pairs;                /* of pixels of strips that are beside each other, near a seam */
-    double step, corner_step; /* by how much such a pair differs at most; at corners */
+    double step, corner_step; /* by how much such a pair differs at most; where three tiles meet */
     double plain;             /* the same without a seam */
 };
 #define SEAMS                                                                                      \
@@ -256,7 +261,8 @@ static void look_at_strip(uint32_t camera, bool across, const float *picture, st
         double below = step(picture, i, i + width);
         double beside = (i + 1) % width ? step(picture, i, i + 1) : 0;
         double next = i % width + 2 < width ? step(picture, i, i + 2) : 0;
-        double *most = seam > 6 ? &s->plain : corner < 1 ? &s->corner_step : &s->step;
+        if (i / width + 2 < height) next = fmax(next, step(picture, i, i + 2 * width));
+        double *most = seam > 6 ? &s->plain : corner < 2 ? &s->corner_step : &s->step;
         s->pairs += seam < 2 ? 2 : 0;
         if (seam < 2 || seam > 6) *most = fmax(*most, fmax(below, seam > 6 ? next : beside));
     }
@@ -277,14 +283,16 @@ static void look_at_strips(struct seams *cells, int count) {
 
 /* Pixels are a 25th of a texel, so a shadow's own gradient is next to nothing. How far a technique
  * jumps all the same (of taps some may leave a texel together) is measured where the same things,
- * turned, lie inside tiles. Of the three tiles that meet in a point two are mixed: there, and only
- * in that point, is a jump. */
+ * turned, lie inside tiles. Masked materials may have holes, after which nothing can be shared. */
 static void test_there_is_no_seam_between_tiles(void **state) {
     struct seams cells[] = {SEAMS};
-    enum { CELLS = sizeof cells / sizeof *cells };
+    enum { CELLS = sizeof cells / sizeof *cells, MASKED = 5 };
     look_at_strips(cells, CELLS);
     unload(state);
-    load_sets("[0.35,0.12,-0.25,0.894762]");
+    load_sets("[0,0,0,1]", true);
+    look_at_strips(cells + MASKED, 3);
+    unload(state);
+    load_sets("[0.35,0.12,-0.25,0.894762]", false);
     look_at_strips(cells, CELLS);
     for (int c = 0; c < CELLS; c++) {
         const struct seams *s = &cells[c];
@@ -294,7 +302,7 @@ static void test_there_is_no_seam_between_tiles(void **state) {
                s->corner_step, s->plain, 1 / s->fetches);
         assert_true(s->pairs > 1000000 && s->plain > 0);
         assert_true(s->step <= fmax(1 / s->fetches, s->plain));
-        assert_true(s->corner_step <= fmax(fmax(1 / s->fetches, s->plain), 0.15));
+        assert_true(s->corner_step <= fmax(1 / s->fetches, s->plain));
     }
 }
 
