@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "input/terminal.h"
+
 static const int crashes[GN_WAKE_CRASHES] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
 static int heard = STDERR_FILENO; /* where our own line goes */
@@ -13,6 +15,7 @@ static void say_and_end(int signal) {
     static const char line[] = "gnomon: the graphics driver crashes as it starts; gnomon doctor "
                                "tells which do, --backend chooses one\n";
     (void)signal;
+    gn_terminal_leave();
     if (write(heard, line, sizeof line - 1) < 0) _exit(GN_EXIT_WORLD);
     _exit(GN_EXIT_WORLD);
 }

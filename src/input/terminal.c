@@ -7,13 +7,17 @@
 #include <termios.h>
 #include <unistd.h>
 
+/* Signals that end us before gn_terminal_close(). */
+enum { ENDS = 6 };
+static const int ends[ENDS] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
+
 /* What the handlers need, which run between any two instructions: the one thing in this program
  * that is neither a constant nor handed on. Everything that they call is async-signal-safe. */
 static struct {
     volatile sig_atomic_t open, raw; /* raw: the terminal has our settings */
     int fd, wake_fd;
     struct termios saved, ours;
-    struct sigaction old_stop, old_continue;
+    struct sigaction old_stop, old_continue, old_ends[ENDS];
 } own;
 
 /* One that does not control us cannot stop us either. */
@@ -54,12 +58,27 @@ static void on_stop(int number) {
     errno = error;
 }
 
+/* Then it goes on as it would have without us: a fault by itself, since what caused it is done
+ * again. */
+static void on_end(int number, siginfo_t *info, void *context) {
+    (void)context;
+    gn_terminal_leave();
+    for (int i = 0; i < ENDS; i++)
+        if (ends[i] == number) sigaction(number, &own.old_ends[i], NULL);
+    if (info->si_code <= 0 || number == SIGQUIT) raise(number);
+}
+
 static void install(void) {
+    struct sigaction end = {.sa_sigaction = on_end, .sa_flags = SA_SIGINFO | SA_ONSTACK};
     struct sigaction stop = {.sa_handler = on_stop, .sa_flags = SA_RESTART};
     struct sigaction resume = {.sa_handler = on_continue, .sa_flags = SA_RESTART};
     sigaction(SIGTSTP, NULL, &own.old_stop);
     if (own.old_stop.sa_handler != SIG_IGN) sigaction(SIGTSTP, &stop, NULL);
     sigaction(SIGCONT, &resume, &own.old_continue);
+    for (int i = 0; i < ENDS; i++) {
+        sigaction(ends[i], NULL, &own.old_ends[i]);
+        if (own.old_ends[i].sa_handler != SIG_IGN) sigaction(ends[i], &end, NULL);
+    }
 }
 
 static void watch(struct gn_terminal *t, bool on) {
@@ -96,8 +115,13 @@ void gn_terminal_close(struct gn_terminal *t) {
     own.open = false;
     sigaction(SIGTSTP, &own.old_stop, NULL);
     sigaction(SIGCONT, &own.old_continue, NULL);
+    for (int i = 0; i < ENDS; i++) sigaction(ends[i], &own.old_ends[i], NULL);
     if (t->wake_fd >= 0) close(t->wake_fd);
     *t = (struct gn_terminal){.fd = -1, .wake_fd = -1};
+}
+
+void gn_terminal_leave(void) {
+    if (own.open) set_raw(false);
 }
 
 void gn_terminal_resume(struct gn_terminal *t) {

@@ -9,11 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include "check.h"
+#include "cli/wake.h"
 #include "core/clock.h"
 #include "input/private.h"
 #include "unit/gpio_fake.h"
@@ -109,6 +112,47 @@ static void test_what_is_no_terminal_is_not_read(void **state) {
     assert_false(is_ready(gn_input_fd(input), 0));
     gn_input_close(input);
     close(slave);
+}
+
+/* ---- a sudden end -------------------------------------------------------------------------- */
+
+static void fault(void) {
+    volatile char *page = mmap(NULL, 4096, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    *page = 1;
+}
+static void quit(void) { raise(SIGQUIT); } /* Ctrl-\ */
+static void driver_crash(void) {
+    struct gn_wake wake = {0};
+    const struct gn_options options = {0};
+    gn_wake_begin(&wake, &options);
+    fault();
+}
+
+static void test_a_crash_leaves_the_terminal_as_it_was(void **state) {
+    (void)state;
+    static const struct {
+        void (*die)(void);
+        int signal; /* 0: it exits */
+    } deaths[] = {{fault, SIGSEGV}, {abort, SIGABRT}, {quit, SIGQUIT}, {driver_crash, 0}};
+    for (size_t i = 0; i < sizeof deaths / sizeof *deaths; i++) {
+        int status;
+        open_terminal();
+        const pid_t child = fork();
+        if (child == 0) {
+            for (int k = 1; k < 32; k++) signal(k, SIG_DFL); /* cmocka catches faults */
+            setrlimit(RLIMIT_CORE, &(struct rlimit){0});
+            dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+            if (!open_input() || !is_raw()) _exit(0);
+            deaths[i].die();
+            _exit(0);
+        }
+        assert_int_equal(waitpid(child, &status, 0), child);
+        if (WIFEXITED(status) ? !WEXITSTATUS(status) : WTERMSIG(status) != deaths[i].signal)
+            fail_msg("%zu: status %d", i, status);
+        if (!is_plain()) fail_msg("%zu: raw", i);
+        close(master);
+        close(slave);
+    }
 }
 
 /* ---- under a shell ------------------------------------------------------------------------- */
@@ -222,6 +266,7 @@ int main(void) {
         cmocka_unit_test(test_what_is_typed_clicks_and_settings_come_back),
         cmocka_unit_test(test_the_end_of_the_terminal_is_not_the_end),
         cmocka_unit_test(test_what_is_no_terminal_is_not_read),
+        cmocka_unit_test(test_a_crash_leaves_the_terminal_as_it_was),
         cmocka_unit_test(test_it_behaves_under_a_shell),
     };
     return RUN(tests);
