@@ -5,13 +5,13 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/stop.h"
 #include "core/child.h"
+#include "core/model.h"
 
 enum {
     LONGEST_S = 75, /* it ends by itself after 60 */
@@ -20,13 +20,7 @@ enum {
 };
 #define PROGRAM "gnomon-import"
 
-bool gn_import_wants(const char *path) {
-    static const char *const suffixes[] = {".obj", ".fbx", ".stl", ".ply", ".dae"};
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof suffixes / sizeof suffixes[0]; i++)
-        if (strcasecmp(dot, suffixes[i]) == 0) return true;
-    return false;
-}
+bool gn_import_wants(const char *path) { return gn_model_format_of(path) != GN_MODEL_FORMAT_COUNT; }
 
 /* ---- where it is ---- */
 

@@ -90,7 +90,7 @@ static float strength_of(const struct gn_import *import, const struct aiLight *l
  */
 static void set_cone(const struct gn_import *import, json_t *object, const struct aiLight *light) {
     float outer = 0.5f * light->mAngleOuterCone, inner = 0.5f * light->mAngleInnerCone;
-    if (import->format == GN_IMPORT_DAE || !(outer > 0.01f)) outer = inner;
+    if (import->format == GN_MODEL_DAE || !(outer > 0.01f)) outer = inner;
     if (!(outer > 0.01f)) outer = 0.25f * PI;
     outer = fminf(outer, 0.5f * PI);
     if (!(inner >= 0.0f) || inner >= outer) inner = 0.85f * outer;

@@ -104,7 +104,7 @@ static bool parse(int argc, char **argv, struct gn_import_opts *opts, struct gn_
         return gn_fail_usage(err, argc == optind ? "which model? See --help"
                                                  : "one model at a time, please");
     opts->model = argv[optind];
-    if (gn_import_format_of(opts->model) == GN_IMPORT_FORMAT_COUNT)
+    if (gn_model_format_of(opts->model) == GN_MODEL_FORMAT_COUNT)
         return gn_fail_usage(err, "%s: not a name that ends in .obj, .fbx, .stl, .ply or .dae",
                              opts->model);
     return true;

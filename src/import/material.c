@@ -74,7 +74,7 @@ static void read_base(struct gn_import *import, unsigned index, const char *name
     if (!get_color(material, AI_MATKEY_BASE_COLOR, look->rgba))
         get_color(material, AI_MATKEY_COLOR_DIFFUSE, look->rgba);
     bool made_up = strcmp(name, AI_DEFAULT_MATERIAL_NAME) == 0;
-    if ((textured && (import->format != GN_IMPORT_OBJ || is_black(look->rgba))) ||
+    if ((textured && (import->format != GN_MODEL_OBJ || is_black(look->rgba))) ||
         (made_up && has_vertex_colors(import, index)))
         set_white(look->rgba);
     for (int k = 0; k < 3; k++) look->rgba[k] = clamp_unit(look->rgba[k]);

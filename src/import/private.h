@@ -13,6 +13,7 @@
 #include "config.h"
 #include "core/err.h"
 #include "core/file.h"
+#include "core/model.h"
 #include "core/warn.h"
 #include "import/glb.h"
 
@@ -24,17 +25,6 @@ struct gn_import_opts {
 };
 
 enum { GN_IMPORT_UNSEEN = -2 };
-enum gn_import_format {
-    GN_IMPORT_OBJ,
-    GN_IMPORT_FBX,
-    GN_IMPORT_STL,
-    GN_IMPORT_PLY,
-    GN_IMPORT_DAE,
-    GN_IMPORT_FORMAT_COUNT
-};
-/* By the end of the name; GN_IMPORT_FORMAT_COUNT if it is none of them. */
-enum gn_import_format gn_import_format_of(const char *path);
-const char *gn_import_format_name(enum gn_import_format format);
 
 struct gn_import_report { /* shared between the child and its parent */
     bool done;            /* the .glb is whole */
@@ -69,7 +59,7 @@ struct gn_import_node { /* of the file, in the order in which they are written *
 
 struct gn_import {
     const struct gn_import_opts *opts;
-    enum gn_import_format format;
+    enum gn_model_format format;
     char folder[PATH_MAX]; /* the model's, real; nothing outside it is read */
     char name[PATH_MAX];   /* the model's in it, as assimp is told it: folder/name */
     const struct aiScene *scene;

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "import/private.h"
 
@@ -12,25 +11,11 @@
 /* Up: Blender writes and reads STL and PLY with Z up, f3d shows STL so; OBJ is Y up by convention;
  * Collada says it and assimp obeys; FBX says it and we obey, because assimp does so only since 5.3.
  */
-static const struct {
-    const char *name, *suffix;
-    enum gn_import_up up;
-} formats[GN_IMPORT_FORMAT_COUNT] = {
-    [GN_IMPORT_OBJ] = {"OBJ", ".obj", GN_IMPORT_UP_Y},
-    [GN_IMPORT_FBX] = {"FBX", ".fbx", GN_IMPORT_UP_AUTO},
-    [GN_IMPORT_STL] = {"STL", ".stl", GN_IMPORT_UP_Z},
-    [GN_IMPORT_PLY] = {"PLY", ".ply", GN_IMPORT_UP_Z},
-    [GN_IMPORT_DAE] = {"Collada", ".dae", GN_IMPORT_UP_Y},
+static const enum gn_import_up up_of[GN_MODEL_FORMAT_COUNT] = {
+    [GN_MODEL_OBJ] = GN_IMPORT_UP_Y, [GN_MODEL_FBX] = GN_IMPORT_UP_AUTO,
+    [GN_MODEL_STL] = GN_IMPORT_UP_Z, [GN_MODEL_PLY] = GN_IMPORT_UP_Z,
+    [GN_MODEL_DAE] = GN_IMPORT_UP_Y,
 };
-
-enum gn_import_format gn_import_format_of(const char *path) {
-    const char *dot = strrchr(path, '.');
-    int i = 0;
-    while (i < GN_IMPORT_FORMAT_COUNT && (!dot || strcasecmp(dot, formats[i].suffix) != 0)) i++;
-    return (enum gn_import_format)i;
-}
-
-const char *gn_import_format_name(enum gn_import_format format) { return formats[format].name; }
 
 /* ---- reading ---- */
 
@@ -59,7 +44,7 @@ static bool fail_read(const struct gn_import *import) {
     if (why && strcmp(why, "No meshes remaining") == 0) return fail_empty(import);
     return gn_fail(import->err,
                    "%s: is not read as %s (%.160s); export it again, or as .glb where it was made",
-                   import->opts->model, formats[import->format].name,
+                   import->opts->model, gn_model_formats[import->format].name,
                    why && *why ? why : "no reason is given");
 }
 
@@ -75,7 +60,7 @@ static bool read_scene(struct gn_import *import) {
     aiReleasePropertyStore(properties);
     if (!import->scene) return fail_read(import);
     /* The root is the importer's own. 5.4.3 turns it, and cannot be asked not to. */
-    if (import->format == GN_IMPORT_FBX)
+    if (import->format == GN_MODEL_FBX)
         aiIdentityMatrix4(&import->scene->mRootNode->mTransformation);
     return true;
 }
@@ -123,7 +108,7 @@ static void set_fbx_axes(const struct gn_import *import, float m[3][3]) {
 
 static struct aiMatrix4x4 world_from_model(const struct gn_import *import) {
     enum gn_import_up up =
-        import->opts->up == GN_IMPORT_UP_AUTO ? formats[import->format].up : import->opts->up;
+        import->opts->up == GN_IMPORT_UP_AUTO ? up_of[import->format] : import->opts->up;
     float m[3][3] = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}}, scale = 1.0f;
     if (up == GN_IMPORT_UP_AUTO) set_fbx_axes(import, m);
     if (up == GN_IMPORT_UP_Z) {
@@ -131,7 +116,7 @@ static struct aiMatrix4x4 world_from_model(const struct gn_import *import) {
         m[1][2] = 1.0f;
         m[2][1] = -1.0f;
     }
-    if (import->format == GN_IMPORT_FBX) /* centimetres per unit */
+    if (import->format == GN_MODEL_FBX) /* centimetres per unit */
         scale = 0.01f * meta_number(import, "UnitScaleFactor", 1.0f);
     if (!isfinite(scale) || scale <= 0.0f) scale = 0.01f;
     return (struct aiMatrix4x4){scale * m[0][0],

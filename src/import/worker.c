@@ -64,7 +64,7 @@ void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_
     the_opts = opts;
     set_limits(opts);
     import = (struct gn_import){.opts = opts,
-                                .format = gn_import_format_of(opts->model),
+                                .format = gn_model_format_of(opts->model),
                                 .warnings = &report->warnings,
                                 .err = &report->err};
     gn_glb_init(&import.glb);
