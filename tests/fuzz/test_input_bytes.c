@@ -11,6 +11,7 @@
 #include "core/arena.h"
 #include "core/clock.h"
 #include "core/key.h"
+#include "image/dice.h"
 #include "input/keys.h"
 #include "input/line_find.h"
 #include "input/script.h"
@@ -18,14 +19,9 @@
 
 enum { SIZE_MAX_ = 400 };
 
-static uint64_t state; /* splitmix64 */
+static struct gn_dice dice;
 
-static uint64_t next(void) {
-    uint64_t z = state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return z ^ z >> 31;
-}
+static uint64_t next(void) { return gn_dice_next(&dice); }
 static size_t below(size_t n) { return n > 0 ? (size_t)(next() % n) : 0; }
 
 static const char *const seeds[] = {
@@ -136,7 +132,7 @@ int main(int argc, char **argv) {
     int failures = 0;
     for (uint64_t i = first; i < first + count && failures < 5; i++) {
         char text[SIZE_MAX_ + 1];
-        state = i;
+        dice.state = i;
         const size_t size = mutate(text);
         text[size] = '\0';
         /* exactly as long, so that a byte too far is found */

@@ -17,21 +17,17 @@
 #include "core/arena.h"
 #include "core/clock.h"
 #include "core/file.h"
+#include "image/dice.h"
 #include "seeds.h"
 #include "unit/scene_check.h"
 
 enum { MEMORY_MB = 128, SECONDS = 2 };
 
-/* ---- random numbers: splitmix64 ---- */
+/* ---- random numbers ---- */
 
-static uint64_t state;
+static struct gn_dice dice;
 
-static uint64_t next(void) {
-    uint64_t z = state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return z ^ z >> 31;
-}
+static uint64_t next(void) { return gn_dice_next(&dice); }
 
 static size_t below(size_t n) { return n > 0 ? (size_t)(next() % n) : 0; }
 
@@ -358,7 +354,7 @@ int main(int argc, char **argv) {
     try_seeds();
     for (size_t i = 0; i < GN_SEED_COUNT; i++) try_allocations(&seeds[i]);
     for (size_t i = first; i < first + most; i++) {
-        state = UINT64_C(0x676e6f6d6f6e) + i * UINT64_C(1000003);
+        dice.state = UINT64_C(0x676e6f6d6f6e) + i * UINT64_C(1000003);
         struct gn_made made = mutate(&seeds[below(seed_count)]);
         try_mutant(i, &made);
         free(made.data);

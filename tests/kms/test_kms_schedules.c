@@ -10,6 +10,7 @@
 
 #include "client.h"
 #include "core/clock.h"
+#include "image/dice.h"
 
 enum { QUICK = 3000, FULL = 100000, ACTS = 30, BAD_MAX = 20 };
 #define WITHIN (45 * SIM_S)
@@ -21,16 +22,11 @@ static struct {
     int most_fbs, most_blobs, most_buffers;
 } total;
 
-/* ---- random numbers: splitmix64 ---- */
+/* ---- random numbers ---- */
 
-static uint64_t state;
+static struct gn_dice dice;
 
-static uint64_t next(void) {
-    uint64_t z = state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return z ^ z >> 31;
-}
+static uint64_t next(void) { return gn_dice_next(&dice); }
 
 static int below(int n) { return (int)(next() % (uint64_t)n); }
 static bool one_in(int n) { return below(n) == 0; }
@@ -140,7 +136,7 @@ static void live(uint64_t seed) {
     struct client c;
     char status[160];
     int64_t took_ns;
-    state = seed * UINT64_C(0x2545f4914f6cdd1d) + 1;
+    dice.state = seed * UINT64_C(0x2545f4914f6cdd1d) + 1;
     sim_begin();
     build();
     const struct gn_screen_opts opts = {.legacy = one_in(4), .max_fps = one_in(4) ? 20 : 0};

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/dice.h"
 #include "input/gesture.h"
 
 #define MS INT64_C(1000000)
@@ -36,14 +37,9 @@ struct life {
     bool lazy; /* the machine is called for edges alone; else every millisecond */
 };
 
-static uint64_t state;
+static struct gn_dice dice;
 
-static uint64_t next(void) { /* splitmix64 */
-    uint64_t z = state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return z ^ z >> 31;
-}
+static uint64_t next(void) { return gn_dice_next(&dice); }
 
 static int between(int low, int high) { return low + (int)(next() % (uint64_t)(high - low + 1)); }
 static int least(int a, int b) { return a < b ? a : b; }
@@ -108,7 +104,7 @@ static void straighten(struct life *l) {
 }
 
 static void make(struct life *l, uint64_t seed) {
-    state = seed;
+    dice.state = seed;
     memset(l, 0, sizeof *l);
     l->stable = between(1, 30);
     l->chord = between(5, 60);
