@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/err.h"
+#include "unit/check.h"
 
 enum { SPINS_MAX = 300 };
 
@@ -15,6 +16,20 @@ static bool who(const char *node, char *out, size_t size) {
 static const struct gn_kms_env env = {.drm = &sim_drm, .scanout = &sim_gl, .who = who};
 
 const struct gn_screen *client_screen(const struct client *c) { return gn_kms_screen(c->kms); }
+
+void client_begin(struct client *c, const struct client_kind *kind, int monitor) {
+    sim_begin();
+    sim_set_gpu(&kind->gpu);
+    sim_add_card(0, "/dev/dri/card0", &kind->traits);
+    sim_plug(0, 0, monitor);
+    client_open(c, &kind->opts);
+    if (monitor != SIM_NO_MONITOR) client_frames(c, 5);
+}
+
+void client_end(struct client *c, const struct client_kind *kind) {
+    client_close(c);
+    if (sim_end() != 0) fail_msg("%s: %s", kind->name, sim_complaint());
+}
 
 void client_open(struct client *c, const struct gn_screen_opts *opts) {
     *c = (struct client){.opts = *opts, .moves = true, .changed = true, .told_ns = sim_now()};

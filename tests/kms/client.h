@@ -20,6 +20,18 @@ struct client {
     int spins;       /* steps at that time */
 };
 
+/* A machine to run it on, with the name that complaints have. */
+struct client_kind {
+    const char *name;
+    struct sim_traits traits;
+    struct gn_screen_opts opts;
+    struct sim_gpu gpu;
+};
+/* One card with that monitor (SIM_NO_MONITOR: none), and the first 5 frames if there is one. */
+void client_begin(struct client *client, const struct client_kind *kind, int monitor);
+/* Fails the test if the simulator has complained. */
+void client_end(struct client *client, const struct client_kind *kind);
+
 void client_open(struct client *client, const struct gn_screen_opts *opts);
 void client_close(struct client *client);
 const struct gn_screen *client_screen(const struct client *client);

@@ -8,12 +8,7 @@
 
 static struct client c;
 
-static const struct kind {
-    const char *name;
-    struct sim_traits traits;
-    struct gn_screen_opts opts;
-    struct sim_gpu gpu;
-} kinds[] = {
+static const struct client_kind kinds[] = {
     {.name = "atomic", .traits = {.console = true}},
     {.name = "fences", .traits = {.console = true, .modifiers = true, .fences = true}},
     {.name = "legacy", .traits = {.console = true, .legacy = true}},
@@ -23,28 +18,17 @@ static const struct kind {
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-static void begin(const struct kind *kind, int monitor) {
-    sim_begin();
-    sim_set_gpu(&kind->gpu);
-    sim_add_card(0, "/dev/dri/card0", &kind->traits);
-    sim_plug(0, 0, monitor);
-    client_open(&c, &kind->opts);
-    if (monitor != SIM_NO_MONITOR) client_frames(&c, 5);
-}
+static void begin(const struct client_kind *kind, int monitor) { client_begin(&c, kind, monitor); }
+static void end(const struct client_kind *kind) { client_end(&c, kind); }
 
-static void end(const struct kind *kind) {
-    client_close(&c);
-    if (sim_end() != 0) fail_msg("%s: %s", kind->name, sim_complaint());
-}
-
-static void expect_dark(const struct kind *kind) {
+static void expect_dark(const struct client_kind *kind) {
     const struct gn_screen *s = client_screen(&c);
     if (!sim_is_dark()) fail_msg("%s: it is not dark: %s", kind->name, s->status);
     assert_true(s->blank);
     assert_false(s->lit || s->may_draw);
 }
 
-static void expect_right(const struct kind *kind) {
+static void expect_right(const struct client_kind *kind) {
     int64_t took_ns;
     if (!client_settle(&c, SIM_S, &took_ns))
         fail_msg("%s: no right picture: %s", kind->name, client_screen(&c)->status);

@@ -9,12 +9,7 @@
 enum { GROUND = 0x00202428 }; /* what notice.c fills its pictures with */
 
 static struct client c;
-static const struct kind {
-    const char *name;
-    struct sim_traits traits;
-    struct gn_screen_opts opts;
-    struct sim_gpu gpu;
-} kinds[] = {
+static const struct client_kind kinds[] = {
     {.name = "atomic", .traits = {.console = true}},
     {.name = "fences", .traits = {.modifiers = true, .fences = true}},
     {.name = "legacy", .traits = {.console = true, .legacy = true}},
@@ -23,32 +18,21 @@ static const struct kind {
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-static void begin(const struct kind *kind) {
-    sim_begin();
-    sim_set_gpu(&kind->gpu);
-    sim_add_card(0, "/dev/dri/card0", &kind->traits);
-    sim_plug(0, 0, SIM_FULL_HD);
-    client_open(&c, &kind->opts);
-    client_frames(&c, 5);
-}
-
-static void end(const struct kind *kind) {
-    client_close(&c);
-    if (sim_end() != 0) fail_msg("%s: %s", kind->name, sim_complaint());
-}
+static void begin(const struct client_kind *kind) { client_begin(&c, kind, SIM_FULL_HD); }
+static void end(const struct client_kind *kind) { client_end(&c, kind); }
 
 static void say(const char *text) {
     c.told_ns = sim_now();
     gn_kms_say(c.kms, text, c.told_ns);
 }
 
-static void expect_notice(const struct kind *kind, const char *text) {
+static void expect_notice(const struct client_kind *kind, const char *text) {
     if (!sim_shows(GROUND)) fail_msg("%s: no text is seen", kind->name);
     assert_string_equal(client_screen(&c)->status, text);
     assert_false(client_screen(&c)->may_draw);
 }
 
-static void expect_right(const struct kind *kind) {
+static void expect_right(const struct client_kind *kind) {
     int64_t took_ns;
     if (!client_settle(&c, SIM_S, &took_ns))
         fail_msg("%s: no right picture: %s", kind->name, client_screen(&c)->status);

@@ -6,22 +6,10 @@
 #include <jansson.h>
 
 #include "cli/inspect.h"
-#include "gltf_maker.h"
-#include "unit/check.h"
+#include "unit/scene_help.h"
 
-static struct gn_maker maker;
-static struct gn_err err;
-static struct gn_warnings warnings;
 static struct gn_scene *scene;
 static struct gn_inspection in;
-
-static int setup(void **state) {
-    (void)state;
-    memset(&warnings, 0, sizeof warnings);
-    gn_maker_init(&maker);
-    gn_maker_square(&maker);
-    return 0;
-}
 
 static int teardown(void **state) {
     (void)state;

@@ -4,31 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gltf_maker.h"
-#include "unit/check.h"
+#include "unit/scene_help.h"
 
-static struct gn_maker maker;
-static struct gn_err err;
-static struct gn_warnings warnings;
-
-static int setup(void **state) {
-    (void)state;
-    memset(&warnings, 0, sizeof warnings);
-    gn_maker_init(&maker);
-    gn_maker_square(&maker);
+static int setup_with_material(void **state) {
+    setup(state);
     gn_maker_set(&maker, "meshes",
                  "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}]");
     return 0;
-}
-
-static struct gn_scene *load(void) {
-    struct gn_scene *scene = gn_maker_load(&maker, &warnings, &err);
-    if (!scene) fail_msg("%s", err.text);
-    return scene;
-}
-
-static void assert_near(float a, float b) {
-    if (!(fabsf(a - b) < 1e-5f)) fail_msg("%g is not %g", (double)a, (double)b);
 }
 
 static void add_picture(const void *data, size_t size) {
@@ -160,7 +142,7 @@ static void test_jpeg(void **state) {
 }
 
 static void expect_dropped(const void *data, size_t size, const char *why) {
-    setup(NULL);
+    setup_with_material(NULL);
     add_picture(data, size);
     gn_maker_set(&maker, "materials", BASE_TEXTURE);
     struct gn_scene *scene = load();
@@ -242,7 +224,7 @@ static void test_later_work_is_named_once(void **state) {
 /* ---- batches ---- */
 
 static uint32_t batches_of(const char *materials) {
-    setup(NULL);
+    setup_with_material(NULL);
     gn_maker_set(&maker, "materials", materials);
     gn_maker_set(&maker, "meshes",
                  "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0},"
@@ -271,17 +253,17 @@ static void test_batches(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_factors, setup),
-        cmocka_unit_test_setup(test_texture_transform, setup),
-        cmocka_unit_test_setup(test_samplers, setup),
-        cmocka_unit_test_setup(test_png_rgba, setup),
-        cmocka_unit_test_setup(test_png_of_16_bits, setup),
-        cmocka_unit_test_setup(test_jpeg, setup),
-        cmocka_unit_test_setup(test_broken_pictures_cost_a_warning, setup),
-        cmocka_unit_test_setup(test_broken_pictures_keep_no_memory, setup),
-        cmocka_unit_test_setup(test_missing_picture_file, setup),
-        cmocka_unit_test_setup(test_later_work_is_named_once, setup),
-        cmocka_unit_test_setup(test_batches, setup),
+        cmocka_unit_test_setup(test_factors, setup_with_material),
+        cmocka_unit_test_setup(test_texture_transform, setup_with_material),
+        cmocka_unit_test_setup(test_samplers, setup_with_material),
+        cmocka_unit_test_setup(test_png_rgba, setup_with_material),
+        cmocka_unit_test_setup(test_png_of_16_bits, setup_with_material),
+        cmocka_unit_test_setup(test_jpeg, setup_with_material),
+        cmocka_unit_test_setup(test_broken_pictures_cost_a_warning, setup_with_material),
+        cmocka_unit_test_setup(test_broken_pictures_keep_no_memory, setup_with_material),
+        cmocka_unit_test_setup(test_missing_picture_file, setup_with_material),
+        cmocka_unit_test_setup(test_later_work_is_named_once, setup_with_material),
+        cmocka_unit_test_setup(test_batches, setup_with_material),
     };
     return RUN(tests);
 }

@@ -3,31 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "gltf_maker.h"
 #include "scene/pose.h"
-#include "unit/check.h"
-
-static struct gn_maker maker;
-static struct gn_err err;
-static struct gn_warnings warnings;
-
-static int setup(void **state) {
-    (void)state;
-    memset(&warnings, 0, sizeof warnings);
-    gn_maker_init(&maker);
-    gn_maker_square(&maker);
-    return 0;
-}
-
-static struct gn_scene *load(void) {
-    struct gn_scene *scene = gn_maker_load(&maker, &warnings, &err);
-    if (!scene) fail_msg("%s", err.text);
-    return scene;
-}
-
-static void assert_near(float a, float b) {
-    if (!(fabsf(a - b) < 1e-5f)) fail_msg("%g is not %g", (double)a, (double)b);
-}
+#include "unit/scene_help.h"
 
 /* ---- sharing ---- */
 
