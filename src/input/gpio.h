@@ -43,7 +43,8 @@ struct gn_gpio_ops {
     int (*request)(void *chip, const struct gn_gpio_wish *wish, void **line);
     void (*close)(void *chip);
 
-    int (*fd)(void *line); /* readable: there are events, or the line is gone */
+    /* Readable: there are events, or the line is gone. To be made non-blocking by who asks. */
+    int (*fd)(void *line);
     /* At most GN_GPIO_EVENTS events, in their order: how many; -errno, where -EAGAIN is 0. */
     int (*read)(void *line, struct gn_gpio_event *out);
     int (*level)(void *line, bool *high);

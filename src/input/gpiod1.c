@@ -1,6 +1,5 @@
 /* libgpiod 1: no kernel debounce, no sequence numbers, one descriptor a line. */
 #include <errno.h>
-#include <fcntl.h>
 #include <gpiod.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,8 +56,6 @@ static int request(void *chip, const struct gn_gpio_wish *wish, void **line) {
         gpiod_chip_close(made.chip);
         return why;
     }
-    const int fd = gpiod_line_event_get_fd(made.line);
-    fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) | O_NONBLOCK);
     struct line *kept = gn_xalloc(1, sizeof *kept);
     *kept = made;
     *line = kept;

@@ -1,6 +1,5 @@
 /* libgpiod 2: the kernel debounces and counts. */
 #include <errno.h>
-#include <fcntl.h>
 #include <gpiod.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -89,8 +88,6 @@ static int request(void *chip, const struct gn_gpio_wish *wish, void **line) {
         gpiod_edge_event_buffer_free(made.events);
         return error;
     }
-    const int fd = gpiod_line_request_get_fd(made.request);
-    fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) | O_NONBLOCK);
     struct line *kept = gn_xalloc(1, sizeof *kept);
     *kept = made;
     *line = kept;

@@ -1,6 +1,7 @@
 #include "input/lines.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -107,8 +108,9 @@ static void begin(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
     l->problem = FINE;
     l->retry_ns = l->check_ns = NEVER;
     l->seqno = 0;
-    const int error = lines->ops->level(l->request, &high);
-    if (!error && epoll_ctl(lines->epoll, EPOLL_CTL_ADD, lines->ops->fd(l->request), &event) == 0) {
+    const int fd = lines->ops->fd(l->request), error = lines->ops->level(l->request, &high);
+    fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) | O_NONBLOCK);
+    if (!error && epoll_ctl(lines->epoll, EPOLL_CTL_ADD, fd, &event) == 0) {
         char text[GN_REPORT_SIZE];
         gn_gestures_start(lines->gestures, button, is_pressed(l, high), now_ns);
         const char *pull = l->opts.bias == GN_BIAS_PULL_DOWN ? "down" : "up";

@@ -12,10 +12,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "check.h"
 #include "core/clock.h"
-#include "input/private.h"
 #include "unit/gpio_fake.h"
+#include "unit/input_help.h"
 
 #define MS INT64_C(1000000)
 enum { DEVICES = 20 };
@@ -86,7 +85,6 @@ static void key(int i, int code, int value, int64_t time_ns) {
 
 static struct gn_button_opts buttons[3];
 static struct gn_input_opts opts;
-static struct gn_input *input;
 static struct gn_err err;
 static struct gn_warnings warnings;
 static int64_t start_ns;
@@ -144,17 +142,6 @@ static void assert_gesture(int button, enum gn_gesture gesture, int64_t after_ns
         fail_msg("%d %s at %g ms, not %d %s at %g", event.button, gn_gesture_names[event.gesture],
                  (double)(event.time_ns - start_ns) / 1e6, button, gn_gesture_names[gesture],
                  (double)after_ns / 1e6);
-}
-
-static void assert_nothing(void) {
-    struct gn_gesture_event event;
-    if (gn_input_next(input, &event)) fail_msg("%s", gn_gesture_names[event.gesture]);
-}
-
-static void assert_report(const char *says) {
-    char text[GN_REPORT_SIZE];
-    if (!gn_input_report(input, text, sizeof text)) fail_msg("nothing is said of %s", says);
-    if (!strstr(text, says)) fail_msg("\"%s\" does not say %s", text, says);
 }
 
 static bool is_readable(void) {

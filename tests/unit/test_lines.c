@@ -5,16 +5,14 @@
 #include <string.h>
 #include <sys/epoll.h>
 
-#include "check.h"
-#include "input/private.h"
 #include "unit/gpio_fake.h"
+#include "unit/input_help.h"
 
 #define MS    INT64_C(1000000)
 #define S     (1000 * MS)
 #define START (100 * S)
 
 static struct fake_gpio gpio;
-static struct gn_input *input;
 static struct gn_button_opts buttons[2];
 static int64_t now_ns;
 
@@ -81,17 +79,6 @@ static void assert_gesture(enum gn_gesture gesture, int64_t time_ns) {
     assert_int_equal(event.gesture, gesture);
     assert_int_equal(event.button, 0);
     assert_true(event.time_ns == time_ns);
-}
-
-static void assert_nothing(void) {
-    struct gn_gesture_event event;
-    if (gn_input_next(input, &event)) fail_msg("%s", gn_gesture_names[event.gesture]);
-}
-
-static void assert_report(const char *says) {
-    char text[GN_REPORT_SIZE];
-    if (!gn_input_report(input, text, sizeof text)) fail_msg("nothing is said of %s", says);
-    if (!strstr(text, says)) fail_msg("\"%s\" does not say %s", text, says);
 }
 
 static void assert_silence(void) {
