@@ -12,9 +12,9 @@
 enum { GN_XSERVER_WIDTH_PX = 1024, GN_XSERVER_HEIGHT_PX = 768 };
 
 struct gn_xserver;
-/* Starts the only one and makes it DISPLAY of this process and of those it starts. NULL: why is in
- * err, and missing says that a package is. */
-struct gn_xserver *gn_xserver_start(bool *missing, struct gn_err *err);
+/* Starts the only one and makes it DISPLAY of this process and of those it starts. Where there is
+ * none the process ends: with 77 if a package is missing. */
+struct gn_xserver *gn_xserver_start(void);
 void gn_xserver_stop(struct gn_xserver *x);
 pid_t gn_xserver_pid(const struct gn_xserver *x);
 

@@ -1,5 +1,3 @@
-#include "unit/check.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,10 +10,7 @@
 #include "cli/value.h"
 #include "core/file.h"
 #include "kiosk/command.h"
-
-static struct gn_options options;
-static struct gn_warnings warnings;
-static struct gn_err err;
+#include "unit/options_help.h"
 
 /* Splits at spaces. */
 static bool parse(const char *line) {
@@ -272,19 +267,6 @@ static void help_and_manual_list_every_command_and_key(void **state) {
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
         if (!strstr(text, keys[i])) fail_msg("no \"%s\" in the manual", keys[i]);
     free(text);
-}
-
-static int clean(void **state) {
-    (void)state;
-    gn_options_finish(&options);
-    return 0;
-}
-
-static int without_home(void **state) {
-    (void)state;
-    unsetenv("HOME");
-    setenv("XDG_CONFIG_HOME", "/nonexistent", 1);
-    return 0;
 }
 
 int main(void) {

@@ -1,5 +1,3 @@
-#include "unit/check.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +7,7 @@
 #include "cli/args.h"
 #include "cli/help.h"
 #include "cli/value.h"
-
-static struct gn_options options;
-static struct gn_warnings warnings;
-static struct gn_err err;
+#include "unit/options_help.h"
 
 /* Splits at spaces: no argument of these tests has one. */
 static bool parse(const char *line) {
@@ -31,19 +26,6 @@ static void assert_wrong(const char *line, const char *says) {
     if (parse(line)) fail_msg("\"%s\" was taken", line);
     if (!strstr(err.text, says)) fail_msg("\"%s\" says \"%s\", not \"%s\"", line, err.text, says);
     assert_int_equal(err.status, GN_EXIT_USAGE);
-}
-
-static int clean(void **state) {
-    (void)state;
-    gn_options_finish(&options);
-    return 0;
-}
-
-static int without_home(void **state) {
-    (void)state;
-    unsetenv("HOME");
-    setenv("XDG_CONFIG_HOME", "/nonexistent", 1);
-    return 0;
 }
 
 /* ---- the command line ---------------------------------------------------------------------- */
