@@ -50,7 +50,9 @@ shadow_tile shadow_tile_pushed(const int slot, const bool radial, vec3 p, vec3 n
 // left one the next, and those on the right as well unless a third is near: then both ask that. shadow_mixed() gives all four the
 // same mean, whose weights change from tile to tile without a step: by halves on an edge, by thirds in a corner (Penner, "Shader
 // Amortization using Pixel Quad Message Passing", GPU Pro 2, 2011). Who is who is told from the quad's middle, so all four agree; and
-// it is right for derivatives that are taken once a quad as well, of its left pixels and of either row.
+// it is right for derivatives that are taken once a quad as well, of its left pixels and of either row. On a Pi 4 this costs 62
+// instructions (of 229 with pcf); two tiles alone, with a step in the corners, 34, asking twice there, in a loop, 71 and half of
+// the threads.
 shadow_tile shadow_tile_shared(const int slot, const bool radial, vec3 p, vec3 n, vec3 l) {
     vec3 v = p - SHADOW(slot, SHADOW_PLACE).xyz;
     vec2 turn = 2.0 * fract(0.5 * gl_FragCoord.xy) - 1.0; // from the quad's middle, pixels
