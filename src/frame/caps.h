@@ -28,7 +28,7 @@ struct gn_caps {
     uint32_t has; /* bit per gn_cap */
     int max_texture_px, max_texture_units;
     char vendor[64], renderer[96], version[96];
-    bool software; /* llvmpipe, softpipe, swrast */
+    bool software; /* llvmpipe, softpipe, swrast, SwiftShader */
     bool tiler;    /* it keeps a tile of the picture on chip, with all its samples */
 };
 /* The encodings that caps prove, as gn_encoding_choose wants them. */

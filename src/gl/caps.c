@@ -39,7 +39,8 @@ static void copy_string(struct gn_gl *gl, GLenum what, char *out, size_t size) {
 
 static bool is_software(const char *renderer) {
     return strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
-           strstr(renderer, "swrast") || strstr(renderer, "Software Rasterizer");
+           strstr(renderer, "swrast") || strstr(renderer, "Software Rasterizer") ||
+           strstr(renderer, "SwiftShader");
 }
 
 /* By the names that drivers give, Mesa's and the makers' own; in zink's the GPU's stands too. */
