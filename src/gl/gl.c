@@ -83,7 +83,8 @@ void gn_gl_destroy(struct gn_gl *gl) {
         gn_gl_atlas_finish(gl);
         for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
             gn_gl_object_destroy(gl, GN_GL_BUFFER, &gl->instances.buffers[i]);
-        if (gl->fn.DebugMessageCallback && gl->debug) GL(gl, DebugMessageCallback)(NULL, NULL);
+        if (gl->debug && gl->caps.has & 1u << GN_CAP_DEBUG)
+            GL(gl, DebugMessageCallback)(NULL, NULL);
     }
     free(gl->plan_programs);
     free(gl->shaders);

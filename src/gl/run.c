@@ -290,7 +290,7 @@ static bool is_stopped(const struct gn_gl *gl, struct gn_err *err) {
 /* map: NULL for what is no shadow pass. */
 static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                       struct gn_gl_map *map, struct gn_err *err) {
-    const bool grouped = gl->debug && gl->fn.PushDebugGroup;
+    const bool grouped = gl->debug && gl->caps.has & 1u << GN_CAP_DEBUG;
     const uint64_t hash =
         gn_hash(GN_HASH_INIT, pass->constants, pass->constant_count * sizeof *pass->constants);
     if (grouped) GL(gl, PushDebugGroup)(GL_DEBUG_SOURCE_APPLICATION_KHR, 0, -1, pass->label);

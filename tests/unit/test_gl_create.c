@@ -179,6 +179,60 @@ static void test_stopped_between_programs(void **state) {
     gn_display_close(&display);
 }
 
+/* ---- a driver that gives functions of extensions that it has not, as EGL lets it ---- */
+
+static int groups_pushed, groups_popped;
+static void GL_APIENTRY push_group(GLenum source, GLuint id, GLsizei length, const GLchar *text) {
+    (void)source, (void)id, (void)length, (void)text;
+    groups_pushed++;
+}
+static void GL_APIENTRY pop_group(void) { groups_popped++; }
+
+static gn_gl_proc get_groups(void *display, const char *name) {
+    if (strncmp(name, "glPushDebugGroup", 16) == 0) return (gn_gl_proc)push_group;
+    if (strncmp(name, "glPopDebugGroup", 15) == 0) return (gn_gl_proc)pop_group;
+    return gn_display_get_proc(display, name);
+}
+
+static void draw_in_groups(struct gn_display *display, const char *without, bool *has_debug) {
+    struct gn_warnings warnings = {0};
+    struct gn_err err = {0};
+    struct gn_gl_opts opts = opts_of(display);
+    opts.get_proc = get_groups;
+    opts.debug = true;
+    opts.without = without;
+    struct gn_gl *gl = gn_gl_create(&opts, &warnings, &err);
+    assert_non_null(gl);
+    struct gn_scene *scene = gn_scene_load("assets/sundial.glb", NULL, NULL, &err);
+    if (!scene || !gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
+    struct gn_frame *frame = gn_frame_create(scene, gn_gl_caps(gl));
+    struct gn_pose pose;
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    const struct gn_frame_opts frame_opts = {.width_px = 64, .height_px = 36};
+    const struct gn_plan *plan = gn_frame_build(frame, &pose, &frame_opts, NULL);
+    groups_pushed = groups_popped = 0;
+    *has_debug = gn_gl_caps(gl)->has & 1u << GN_CAP_DEBUG;
+    if (!gn_gl_prepare(gl, plan, &err) || !gn_gl_run(gl, plan, NULL, &err))
+        fail_msg("%s", err.text);
+    gn_frame_destroy(frame);
+    gn_pose_finish(&pose);
+    gn_gl_destroy(gl);
+    gn_scene_destroy(scene);
+}
+
+static void test_groups_only_by_the_extension(void **state) {
+    struct gn_display display;
+    bool has_debug;
+    help_open(&display, *state);
+    draw_in_groups(&display, "debug", &has_debug);
+    assert_false(has_debug);
+    assert_int_equal(groups_pushed + groups_popped, 0);
+    draw_in_groups(&display, NULL, &has_debug);
+    assert_int_equal(groups_pushed > 0, has_debug);
+    assert_int_equal(groups_popped, groups_pushed);
+    gn_display_close(&display);
+}
+
 static void test_destroy_null(void **state) {
     (void)state;
     gn_gl_destroy(NULL);
@@ -242,6 +296,7 @@ int main(void) {
         TEST(test_liar_found_late),
         TEST(test_failed_program),
         TEST(test_stopped_between_programs),
+        TEST(test_groups_only_by_the_extension),
         TEST(test_embedded),
         cmocka_unit_test(test_tilers_by_name),
     };
