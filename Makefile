@@ -16,7 +16,7 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests run check check-board check-board-arm64 accept truth gallery readme deps lint format man install uninstall help clean FORCE
+.PHONY: all no-import tests run check check-angle check-board check-board-arm64 accept truth gallery readme deps lint format man install uninstall help clean FORCE
 
 help:
 	@printf '%s\n' \
@@ -24,6 +24,8 @@ help:
 	    'make run        install what is missing, build, show the default scene' \
 	    'make check      every quick test: gcc, clang, ASan and UBSan, lint' \
 	    'make accept     the long tests' \
+	    'make check-angle' \
+	    '                strict OpenGL ES 3.0: ANGLE on SwiftShader, by npm; with GN_FULL=1 all of it' \
 	    'make check-board' \
 	    '                the real kernel in a virtual machine; with GN_FULL=1 all of it, and' \
 	    '                check-board-arm64: the arm64 kernel, and gnomon built for it' \
@@ -48,13 +50,14 @@ uninstall:
 
 DEPS_run := build run
 DEPS_check := build run test board
+DEPS_check-angle := build run test
 DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
 DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
 DEPS_accept := build run test board board-arm64
 DEPS_truth := build run test
 DEPS_gallery := build run test
 DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter run check check-board check-board-arm64 accept truth gallery readme,$(GOALS)))
+BOOT := $(if $(READY),,$(filter run check check-angle check-board check-board-arm64 accept truth gallery readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -75,7 +78,7 @@ endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm libdrm gbm
-NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests check-board check-board-arm64 truth gallery readme,$(GOALS)),cmocka)
+NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests check-angle check-board check-board-arm64 truth gallery readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # FreeType draws the texts on the picture; without it they are in the font inside the program
@@ -120,8 +123,8 @@ GPIO_C  := $(if $(filter 1 2,$(GPIOD)),gpiod$(GPIOD).c,gpio_none.c)
 GPIO_LIBS := $(if $(filter 1 2,$(GPIOD)),$(shell $(PKG) --libs libgpiod))
 unused  := $(without) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
 SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c)))
-TESTS_C := $(sort $(filter-out tests/board/%,$(wildcard tests/*/*.c)))
-PROG_C  := $(foreach d,unit plan image fuzz kms,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
+TESTS_C := $(sort $(filter-out tests/board/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
+PROG_C  := $(foreach d,unit plan image fuzz kms angle,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
 LIB     := $(B)/libgnomon.a
 TESTLIB := $(B)/libgntest.a
@@ -139,7 +142,7 @@ EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(su
 KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
 
 all: $(BIN) $(IMPORT) $(SCENES) man
-tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(O)/host/make_truth
+tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth
 man: $(O)/gnomon.1
 
 $(BIN): $(call OBJ,src/main.c) $(KEEP) $(LIB)
@@ -171,6 +174,14 @@ $(B)/tests/firstflip.so: tests/board/firstflip.c $(B)/flags
 	@mkdir -p $(@D) && echo "link $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) -fPIC -shared \
 	    $(shell $(PKG) --cflags libdrm) -o $@ $< -ldl
+
+# linked with a library of the name of ANGLE's that holds nothing, so that building needs none of ANGLE
+$(B)/tests/angle/libEGL.so.1: tests/angle/strict.c $(B)/flags
+	@mkdir -p $(@D) && echo "link $@"
+	$(Q)$(CC) -shared -Wl,-soname,libEGL.so -o $(@D)/empty -x c /dev/null
+	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -DGL_GLES_PROTOTYPES=0 -O2 $(WARN) $(if $(WERROR),-Werror) -fPIC -shared \
+	    $(shell $(PKG) --cflags egl glesv2) -o $@ $< -Wl,--no-as-needed $(@D)/empty -ldl
+	$(Q)ln -sf libEGL.so.1 $(@D)/libGLESv2.so.2
 
 # files that change only when what they say does: the flags, the list of sources, the configuration
 define keep
@@ -229,6 +240,8 @@ check:
 	@tests/run.sh tests/layers.sh tests/format.sh \
 	    BUILD=$(O)/release $(call programs,$(O)/release) $(SCRIPTS) tests/board/smoke.guest \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan) tests/check_hostile.sh
+check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(SCENES)
+	@tests/run.sh BUILD=$(B) tests/angle/check_angle.sh
 BOARD_NEEDS := gnomon tests/firstflip.so tests/tool_compare
 check-board: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(sort $(wildcard tests/board/*.guest)),tests/board/smoke.guest)

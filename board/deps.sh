@@ -13,6 +13,8 @@ test="clang clang-format clang-tidy xvfb $test_libraries"
 optional_build='libassimp-dev libglfw3-dev libfreetype-dev' # for gnomon-import, a window, texts on the picture
 optional_run='fonts-dejavu-core' # for those texts
 optional_test='libosmesa6-dev' # not in every Debian
+# fetches libraries for tests/angle, which are for a PC alone; node brings its own where it is not Debian's
+[ "$(uname -m)" != x86_64 ] || command -v npm > /dev/null || optional_npm=npm
 # without them the tests in virtual machines are skipped; those run on a PC alone
 optional_board='qemu-system-x86 busybox-static kmod cpio xz-utils linux-source linux-headers-amd64
     kmscube kbd libdrm-tests gpiod'
@@ -51,7 +53,7 @@ for set in "$@"; do
     case $set in
     build) wanted="$wanted $build" extra="$extra $optional_build" ;;
     run) wanted="$wanted $run" extra="$extra $optional_run" ;;
-    test) wanted="$wanted $test" extra="$extra $optional_test" ;;
+    test) wanted="$wanted $test" extra="$extra $optional_test ${optional_npm:-}" ;;
     board) [ "$own" != amd64 ] || extra="$extra $optional_board" ;;
     board-arm64) [ "$own" != amd64 ] || extra="$extra $optional_board_arm64" ;;
     cross)

@@ -1,0 +1,235 @@
+/* tool_angle LIBRARY_PATH: gnomon on ANGLE, whose libEGL.so.1 is found on that path, against gnomon
+ * on this machine's own EGL. First, whether what draws there is OpenGL ES 3.0 and no more: else
+ * nothing of the rest would be a test. Then the same pictures from both, with every technique of
+ * the table in every encoding that strict ES 3.0 has, and with GN_FULL=1 the limits of truth, on
+ * all scenes. A picture that fails is left in build/failures. */
+#include <jansson.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/compare.h"
+#include "image/shot.h"
+#include "image/table.h"
+#include "shadow/technique.h"
+
+enum { JOBS_MAX = 200, THREADS = 2, FORMATS_MAX = 16 };
+/* What may differ: a channel by 2/255, and more than that in half a per cent of the pixels. */
+static const double tolerance = 2.001 / 255, share_allowed = .005;
+/* Nothing else is an extension of ES 3.0's: this is what strict has not. */
+static const char *const missing[] = {"r16f", "rgba16f", "timer", "debug"};
+/* Rasterisers may place an edge by a sixteenth of a texel or pixel apart: the larger the picture,
+ * the smaller the share of what lies at edges. */
+#define SIZE "640x480"
+static const char without[] = "r16f,rgba16f,timer,debug";
+
+struct job {
+    char name[60];
+    const char *scene;
+    const char *args[20];
+    struct gn_picture shots[2]; /* strict, own */
+    struct gn_err err;
+    bool failed;
+};
+
+struct run {
+    const char *library_path;
+    const char *formats[FORMATS_MAX];
+    int format_count, job_count;
+    json_t *doctor, *automatic;
+    struct job jobs[JOBS_MAX];
+};
+
+/* Of the programs that are started from now on. */
+static void draw_strictly(const struct run *run, bool strict) {
+    if (strict)
+        setenv("LD_LIBRARY_PATH", run->library_path, 1);
+    else
+        unsetenv("LD_LIBRARY_PATH");
+}
+
+/* ---- what draws ---- */
+
+static json_t *ask_doctor(struct gn_err *err) {
+    const char *const argv[] = {gn_shot_program(), "doctor", "--backend", "egl", "--json", NULL};
+    struct gn_run *run = malloc(sizeof *run);
+    json_t *answer = NULL;
+    if (!run) abort();
+    if (gn_run(run, argv, 0, err)) {
+        answer = json_loads(run->out, 0, NULL);
+        if (!answer || run->status)
+            gn_fail(err, "doctor: status %d: %s", run->status, run->err[0] ? run->err : run->out);
+    }
+    free(run);
+    return answer;
+}
+
+static const char *text_of(const json_t *object, const char *key) {
+    const char *text = json_string_value(json_object_get(object, key));
+    return text ? text : "";
+}
+
+static bool lacks_exactly(const json_t *gpu) {
+    const json_t *list = json_object_get(gpu, "not_proved");
+    const size_t count = sizeof missing / sizeof *missing;
+    bool same = json_array_size(list) == count;
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        const char *name = text_of(json_array_get(list, i), "name");
+        bool known = false;
+        for (size_t k = 0; k < count; k++) known |= strcmp(name, missing[k]) == 0;
+        printf("not proved: %s; instead: %s\n", name, text_of(json_array_get(list, i), "instead"));
+        same &= known;
+    }
+    return same;
+}
+
+static bool is_strict(struct run *run) {
+    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    draw_strictly(run, true);
+    run->doctor = ask_doctor(&err);
+    if (!run->doctor) return printf("%s\n", err.text) && false;
+    const json_t *gpu = json_object_get(run->doctor, "gpu");
+    const char *gles = text_of(gpu, "gles"), *renderer = text_of(gpu, "renderer");
+    printf("%s on %s\n", gles, renderer);
+    if (strncmp(gles, "OpenGL ES 3.0 (ANGLE", 20) != 0 || !strstr(renderer, "SwiftShader"))
+        return printf("that is not ES 3.0 by ANGLE on SwiftShader\n") && false;
+    if (!lacks_exactly(gpu)) return printf("it should lack %s, and only that\n", without) && false;
+    const json_t *formats = json_object_get(gpu, "map_formats");
+    for (size_t i = 0; i < json_array_size(formats) && i < FORMATS_MAX; i++)
+        run->formats[run->format_count++] = json_string_value(json_array_get(formats, i));
+    run->automatic = json_object_get(gpu, "auto");
+    return run->format_count >= 3; /* depth, r32ui, rgba8 */
+}
+
+/* ---- what is drawn ---- */
+
+static void add_job(struct run *run, const char *scene, const char *technique, const char *format,
+                    const char *planar) {
+    if (run->job_count == JOBS_MAX) abort();
+    struct job *job = &run->jobs[run->job_count++];
+    const char *base = strrchr(scene, '/');
+    const char *const args[] = {"--size",       SIZE,   "--shadow",  technique,
+                                "--planar",     planar, "--backend", "egl",
+                                "--map-format", format, "--without", without};
+    *job = (struct job){.scene = scene, .err = {{0}, GN_EXIT_WORLD}};
+    memcpy(job->args, args, sizeof args);
+    snprintf(job->name, sizeof job->name, "%.20s %s %s", base ? base + 1 : scene, technique,
+             strcmp(planar, "mask") != 0 ? planar : format);
+}
+
+/* What --map-format can name, and the automatic one where that cannot: moments, masks. */
+static void add_technique(struct run *run, const char *scene, enum gn_technique technique) {
+    const struct gn_technique_row *row = &gn_techniques[technique];
+    const char *chosen = text_of(run->automatic, row->name);
+    bool named = false;
+    if (row->on_plane) add_job(run, scene, row->name, "auto", "stencil");
+    for (int i = 0; i < run->format_count; i++) {
+        named |= strcmp(chosen, run->formats[i]) == 0;
+        if (row->file && !row->on_plane) add_job(run, scene, row->name, run->formats[i], "mask");
+    }
+    if (!named) add_job(run, scene, row->name, "auto", "mask");
+}
+
+static int draw_job(struct job *job, int which) {
+    job->failed |= !gn_shot(&job->shots[which], NULL, &job->err, "png", job->scene, job->args);
+    return job->failed;
+}
+
+struct phase {
+    struct run *run;
+    int which;
+    atomic_int next;
+};
+
+static void *draw_jobs(void *argument) {
+    struct phase *phase = argument;
+    for (int i; (i = atomic_fetch_add(&phase->next, 1)) < phase->run->job_count;)
+        draw_job(&phase->run->jobs[i], phase->which);
+    return NULL;
+}
+
+static void draw_all(struct run *run, bool strict) {
+    struct phase phase = {.run = run, .which = strict ? 0 : 1};
+    pthread_t threads[THREADS];
+    draw_strictly(run, strict);
+    for (int i = 0; i < THREADS; i++)
+        if (pthread_create(&threads[i], NULL, draw_jobs, &phase)) abort();
+    for (int i = 0; i < THREADS; i++) pthread_join(threads[i], NULL);
+}
+
+static bool judge(const struct job *job) {
+    struct gn_difference d;
+    if (job->failed) return printf("%-32s %s\n", job->name, job->err.text) && false;
+    bool alike =
+        gn_compare(&job->shots[1], &job->shots[0], tolerance, &d) && d.share <= share_allowed;
+    printf("%-32s %.3f %% of the pixels alike, at most %.0f/255 apart (at %d, %d)%s\n", job->name,
+           100 * (1 - d.share), 255 * d.max, d.worst_x, d.worst_y, alike ? "" : " FAILED");
+    char name[80];
+    snprintf(name, sizeof name, "angle-%s", job->name);
+    for (char *c = name; *c; c++)
+        if (*c == ' ') *c = '-';
+    if (!alike) gn_compare_save(NULL, name, &job->shots[0], &job->shots[1]);
+    return alike;
+}
+
+static int compare_pictures(struct run *run, const char *const scenes[], int scene_count) {
+    int failures = 0;
+    for (int s = 0; s < scene_count; s++)
+        for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
+            add_technique(run, scenes[s], (enum gn_technique)t);
+    draw_all(run, true);
+    draw_all(run, false);
+    for (int i = 0; i < run->job_count; i++) {
+        failures += !judge(&run->jobs[i]);
+        gn_picture_finish(&run->jobs[i].shots[0]);
+        gn_picture_finish(&run->jobs[i].shots[1]);
+    }
+    return failures;
+}
+
+/* ---- truth ---- */
+
+static int check_kind(const struct run *run, enum gn_table_kind kind, const char *folder) {
+    static struct gn_table table;
+    table = (struct gn_table){.folder = folder};
+    for (int i = 0; i < GN_TABLE_SCENES; i++) table.scenes[i] = true;
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++) {
+        const struct gn_technique_row *row = &gn_techniques[t];
+        bool named = false;
+        for (int f = 0; f < run->format_count; f++) {
+            named |= strcmp(text_of(run->automatic, row->name), run->formats[f]) == 0;
+            if (row->file && !row->on_plane) gn_table_add(&table, row->name, run->formats[f], 1024);
+        }
+        if (row->file && !named) gn_table_add(&table, row->name, "auto", 1024);
+        if (row->on_plane) gn_table_add(&table, row->name, "stencil", 1024);
+    }
+    gn_table_keep(&table, kind);
+    gn_table_run(&table);
+    gn_table_print(&table, stdout);
+    int over = gn_table_check(&table, stdout);
+    if (over > table.failures) gn_table_save_failures(&table);
+    return over;
+}
+
+int main(int argc, char **argv) {
+    static struct run run;
+    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    static char generated[2][600];
+    if (argc != 2) return fprintf(stderr, "usage: tool_angle LIBRARY_PATH\n") && 2;
+    run.library_path = argv[1];
+    char *folder = gn_table_scenes(false, &err);
+    if (!folder) return printf("%s\n", err.text) && 1;
+    if (!is_strict(&run)) return 1;
+    for (int i = 0; i < 2; i++)
+        snprintf(generated[i], sizeof generated[i], "%s/truth-%02d.glb", folder, i ? 26 : 3);
+    const char *const scenes[] = {generated[0], generated[1], "assets/bench/s1.glb"};
+    int failures = compare_pictures(&run, scenes, gn_shot_full() ? 3 : 1);
+    draw_strictly(&run, true);
+    for (int kind = 0; gn_shot_full() && kind < GN_TABLE_KINDS; kind++)
+        failures += check_kind(&run, (enum gn_table_kind)kind, folder);
+    json_decref(run.doctor);
+    free(folder);
+    return failures ? 1 : 0;
+}
