@@ -258,6 +258,7 @@ int main(int argc, char **argv) {
         fprintf(stderr, "usage: tool_angle LIBRARY_PATH\n");
         return 2;
     }
+    setvbuf(stdout, NULL, _IOLBF, 0); /* a log that is cut says how far it came */
     run.library_path = argv[1];
     char *folder = gn_table_scenes(false, &err);
     if (!folder) {
