@@ -29,6 +29,11 @@
 #define SLIDE_W 2         /* w: depth along the light's axis, metres */
 #define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide, over 0: what is nearer has not passed it */
 #define PASS_SIZE 86
+/* Filters of maps */
+#define FILTER_RECT 0     /* xy: lower left texel of the tile, zw: upper right one, both in it */
+#define FILTER_BLUR 1     /* x: half the width of the box, texels; y: its last texel, from the middle; z: 1 / width */
+#define FILTER_SIZE 2     /* xy: width and height of the map in texels; zw: their inverse */
+#define FILTER_CONSTANTS 3
 /* Casters fallen on the plane: PASS_CLIP, and */
 #define FLAT_PLANE 4      /* height over the plane: dot with (p, 1), world space */
 #define FLAT_HEIGHTS 5    /* x, y: between these a point casts, metres */

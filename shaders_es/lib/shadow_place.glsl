@@ -16,6 +16,9 @@ struct shadow_place {
     vec2 beside; // as in shadow_tile
 };
 
+// Beyond the edge of the map: the outermost texels of one that is filtered are not all lit.
+bool shadow_outside(shadow_place s) { return any(greaterThan(abs(s.at.xy - 0.5), vec2(0.5))); }
+
 float shadow_e(shadow_place s, float code) {
     float x = s.soft.z * code + s.soft.w;
     return s.inverse ? -1.0 / x : x;

@@ -172,7 +172,8 @@ static bool time_passes(struct bench *b, struct gn_err *err) {
 static void describe(struct gn_bench_run *run, const struct entry *e, const struct gn_plan *plan) {
     for (uint32_t i = 0; i < plan->shadow_count; i++) {
         const struct gn_shadow_view *view = &plan->shadows[i];
-        gn_bench_add_name(run->map_format, gn_encodings[view->encoding].name);
+        gn_bench_add_name(run->map_format, view->moments ? gn_moments[view->moments].name
+                                                         : gn_encodings[view->encoding].name);
         if (!e->opts.technique_given)
             gn_bench_add_name(run->technique, gn_techniques[view->technique].name);
     }

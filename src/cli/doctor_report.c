@@ -17,6 +17,11 @@ static const char *const instead[GN_CAP_COUNT] = {
     [GN_CAP_RGBA16F] = "8 bits a channel, ending at 1, in .pfm files of colour",
     [GN_CAP_SRGB] = "shaders encode sRGB: slower",
     [GN_CAP_MSAA4] = "no antialiasing",
+    [GN_CAP_RG16UI] = "rg32f-bits or rg16f for vsm",
+    [GN_CAP_RGBA16UI] = "rgba32f-bits or rgba16f for msm",
+    [GN_CAP_RG32UI] = "rg16ui or rg16f for vsm",
+    [GN_CAP_RGBA32UI] = "rgba16f for evsm",
+    [GN_CAP_RG16F] = "rg32f-bits or rg16ui for vsm",
     [GN_CAP_TIMER] = "bench times passes by the clock of the CPU",
     [GN_CAP_DEBUG] = "errors of the driver come without its words",
 };
@@ -141,19 +146,29 @@ static void print_backends(const struct gn_doctor_report *report, FILE *to) {
     }
 }
 
+/* What a technique's maps are kept in, if nothing is asked for. */
+static const char *chosen_name(const struct gn_caps *caps, enum gn_technique technique) {
+    bool fell_back;
+    if (gn_technique_filters_map(technique))
+        return gn_moments[gn_moments_choose(gn_techniques[technique].stores, GN_MOMENTS_NONE,
+                                            gn_caps_moments(caps), &fell_back)]
+            .name;
+    return gn_encodings[gn_encoding_choose(technique, GN_ENCODING_AUTO, gn_caps_encodings(caps),
+                                           &fell_back)]
+        .name;
+}
+
 static void print_maps(const struct gn_caps *caps, FILE *to) {
     uint32_t encodings = gn_caps_encodings(caps);
-    bool fell_back;
     fprintf(to, "  %-11s", "map formats");
     for (int i = 0; i < GN_ENCODING_COUNT; i++)
         if (encodings & 1u << i) fprintf(to, " %s", gn_encodings[i].name);
+    for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++)
+        if (gn_caps_moments(caps) & 1u << i) fprintf(to, " %s", gn_moments[i].name);
     fprintf(to, "\n  %-11s", "chosen");
     for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
         if (gn_techniques[i].file)
-            fprintf(to, " %s:%s", gn_techniques[i].name,
-                    gn_encodings[gn_encoding_choose((enum gn_technique)i, GN_ENCODING_AUTO,
-                                                    encodings, &fell_back)]
-                        .name);
+            fprintf(to, " %s:%s", gn_techniques[i].name, chosen_name(caps, (enum gn_technique)i));
     fprintf(to, "\n");
 }
 
@@ -252,18 +267,18 @@ static json_t *maps_json(const struct gn_caps *caps) {
     for (int i = 0; i < GN_ENCODING_COUNT; i++)
         if (gn_caps_encodings(caps) & 1u << i)
             json_array_append_new(formats, json_string(gn_encodings[i].name));
+    for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++)
+        if (gn_caps_moments(caps) & 1u << i)
+            json_array_append_new(formats, json_string(gn_moments[i].name));
     return formats;
 }
 
 static json_t *auto_json(const struct gn_caps *caps) {
     json_t *chosen = json_object();
-    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
-        bool fell_back;
-        enum gn_encoding e = gn_encoding_choose((enum gn_technique)i, GN_ENCODING_AUTO,
-                                                gn_caps_encodings(caps), &fell_back);
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
         if (gn_techniques[i].file)
-            json_object_set_new(chosen, gn_techniques[i].name, json_string(gn_encodings[e].name));
-    }
+            json_object_set_new(chosen, gn_techniques[i].name,
+                                json_string(chosen_name(caps, (enum gn_technique)i)));
     return chosen;
 }
 

@@ -8,7 +8,7 @@
 
 static void count_pass(struct gn_scene_cost *cost, const struct gn_plan *plan,
                        const struct gn_pass *pass) {
-    bool shadow = gn_target_is_map(&pass->target);
+    bool shadow = gn_target_is_map(&pass->target) || pass->target.kind == GN_TARGET_MOMENTS;
     uint64_t triangles = 0;
     for (uint32_t i = 0; i < pass->draw_count; i++) {
         const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
@@ -37,6 +37,19 @@ static uint64_t pages_bytes(const struct gn_plan *plan, uint32_t slot) {
     return map_bytes(view);
 }
 
+/* What a map is filtered into, and what that takes on the way: lights share it, too. */
+static uint64_t moments_bytes(const struct gn_plan *plan, uint32_t slot) {
+    const struct gn_shadow_view *view = &plan->shadows[slot];
+    const uint64_t own =
+        (uint64_t)view->width_px * view->height_px * gn_moments[view->moments].texel_bytes;
+    for (uint32_t i = 0; i < slot; i++)
+        if (plan->shadows[i].moments == view->moments &&
+            plan->shadows[i].width_px == view->width_px &&
+            plan->shadows[i].height_px == view->height_px)
+            return own;
+    return 2 * own;
+}
+
 static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene) {
     const struct gn_caps caps = {
         .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
@@ -49,7 +62,8 @@ static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene)
     const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
     for (uint32_t i = 0; i < plan->pass_count; i++) count_pass(cost, plan, &plan->passes[i]);
     for (uint32_t i = 0; i < plan->shadow_count; i++)
-        cost->map_bytes += map_bytes(&plan->shadows[i]) + pages_bytes(plan, i);
+        cost->map_bytes +=
+            map_bytes(&plan->shadows[i]) + pages_bytes(plan, i) + moments_bytes(plan, i);
     cost->programs = plan->program_count;
     cost->culled = plan->culled;
     cost->target_bytes = (uint64_t)GN_INSPECT_WIDTH_PX * GN_INSPECT_HEIGHT_PX * 8;

@@ -89,6 +89,7 @@ static bool draw(const struct desk *desk, const struct gn_selftest_row *row, str
         .technique_given = true,
         .technique = row->technique,
         .encoding = row->encoding,
+        .moments = row->moments,
         .map_px = GN_SELFTEST_MAP_PX,
         .aov = GN_AOV_VISIBILITY,
     };
@@ -142,9 +143,10 @@ static void list_scenes(struct gn_selftest *test) {
 }
 
 static void add_row(struct gn_selftest *test, enum gn_technique technique,
-                    enum gn_encoding encoding) {
+                    enum gn_encoding encoding, enum gn_moments moments) {
     struct gn_selftest_row *row = &test->rows[test->row_count++];
-    *row = (struct gn_selftest_row){.technique = technique, .encoding = encoding};
+    *row =
+        (struct gn_selftest_row){.technique = technique, .encoding = encoding, .moments = moments};
     for (int i = 0; i < GN_SELFTEST_SCENES; i++)
         row->scenes[i] = (struct gn_selftest_count){NAN, NAN};
 }
@@ -154,16 +156,31 @@ static bool is_tested(const struct gn_technique_row *technique) {
     return technique->file && !technique->on_plane;
 }
 
-static void list_rows(struct gn_selftest *test, uint32_t encodings) {
-    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
-        for (int e = 0; e < GN_ENCODING_COUNT && is_tested(&gn_techniques[t]); e++)
-            if (encodings & 1u << e) add_row(test, (enum gn_technique)t, (enum gn_encoding)e);
+static void list_moments(struct gn_selftest *test, enum gn_technique t, uint32_t moments) {
+    for (int i = 0; i < GN_STORES_MAX && gn_techniques[t].stores[i]; i++) {
+        const enum gn_moments store = (enum gn_moments)gn_techniques[t].stores[i];
+        if (moments & 1u << store) add_row(test, t, GN_ENCODING_AUTO, store);
+    }
+}
+
+static void list_rows(struct gn_selftest *test, uint32_t encodings, uint32_t moments) {
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
+        const enum gn_technique t = (enum gn_technique)i;
+        if (gn_technique_filters_map(t)) list_moments(test, t, moments);
+        const bool by_encoding = is_tested(&gn_techniques[t]) && !gn_technique_filters_map(t);
+        for (int e = 0; e < GN_ENCODING_COUNT && by_encoding; e++)
+            if (encodings & 1u << e) add_row(test, t, (enum gn_encoding)e, GN_MOMENTS_NONE);
+    }
+}
+
+static const char *format_of(const struct gn_selftest_row *row) {
+    return row->moments ? gn_moments[row->moments].name : gn_encodings[row->encoding].name;
 }
 
 bool gn_selftest_run(struct gn_selftest *test, struct gn_gl *gl, struct gn_err *err) {
     *test = (struct gn_selftest){0};
     list_scenes(test);
-    list_rows(test, gn_caps_encodings(gn_gl_caps(gl)));
+    list_rows(test, gn_caps_encodings(gn_gl_caps(gl)), gn_caps_moments(gn_gl_caps(gl)));
     test->all = test->row_count * test->scene_count;
     if (!test->all) return gn_fail(err, "self-test: this build has no scenes inside");
     for (uint32_t i = 0; i < test->scene_count; i++)
@@ -215,8 +232,7 @@ uint32_t gn_selftest_failures(const struct gn_selftest *test) {
 
 static void print_row(const struct gn_selftest *test, const struct gn_selftest_row *row, FILE *to) {
     struct gn_selftest_sum away = gn_selftest_away(test, row), wrong = gn_selftest_wrong(test, row);
-    fprintf(to, "  %-10s %-9s", gn_techniques[row->technique].name,
-            gn_encodings[row->encoding].name);
+    fprintf(to, "  %-10s %-12s", gn_techniques[row->technique].name, format_of(row));
     if (row->failure[0])
         fprintf(to, " FAIL   %s\n", row->failure);
     else
@@ -229,7 +245,7 @@ static void print_row(const struct gn_selftest *test, const struct gn_selftest_r
 void gn_selftest_print(const struct gn_selftest *test, FILE *to) {
     fprintf(to, "\nSelf-test: %u scenes at %ux%u with maps of %d px, wrong pixels in %%\n",
             test->scene_count, test->width_px, test->height_px, GN_SELFTEST_MAP_PX);
-    fprintf(to, "  %-10s %-9s %-6s %7s %7s  %-9s %7s %7s\n", "technique", "map", "", "away",
+    fprintf(to, "  %-10s %-12s %-6s %7s %7s  %-9s %7s %7s\n", "technique", "map", "", "away",
             "worst", "scene", "all", "worst");
     for (uint32_t i = 0; i < test->row_count; i++) print_row(test, &test->rows[i], to);
     uint32_t failures = gn_selftest_failures(test);
@@ -244,11 +260,11 @@ static json_t *sum_json(const struct gn_selftest *test, struct gn_selftest_sum s
 }
 
 static json_t *row_json(const struct gn_selftest *test, const struct gn_selftest_row *row) {
-    return json_pack(
-        "{ss ss sb ss? so so}", "technique", gn_techniques[row->technique].name, "map_format",
-        gn_encodings[row->encoding].name, "pass", gn_selftest_row_passes(test, row), "failure",
-        row->failure[0] ? row->failure : NULL, "away", sum_json(test, gn_selftest_away(test, row)),
-        "wrong", sum_json(test, gn_selftest_wrong(test, row)));
+    return json_pack("{ss ss sb ss? so so}", "technique", gn_techniques[row->technique].name,
+                     "map_format", format_of(row), "pass", gn_selftest_row_passes(test, row),
+                     "failure", row->failure[0] ? row->failure : NULL, "away",
+                     sum_json(test, gn_selftest_away(test, row)), "wrong",
+                     sum_json(test, gn_selftest_wrong(test, row)));
 }
 
 json_t *gn_selftest_json(const struct gn_selftest *test) {

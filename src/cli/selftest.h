@@ -18,7 +18,7 @@
 
 enum {
     GN_SELFTEST_SCENES = 8,
-    GN_SELFTEST_ROWS = GN_TECHNIQUE_COUNT * GN_ENCODING_COUNT,
+    GN_SELFTEST_ROWS = GN_TECHNIQUE_COUNT * (GN_ENCODING_COUNT + GN_MOMENTS_COUNT),
     GN_SELFTEST_MAP_PX = 512, /* two texels are then less than two pixels, in every scene */
 };
 /* Most wrong pixels that a scene may have, in per cent: away from edges, where both acne and leaks
@@ -31,7 +31,8 @@ struct gn_selftest_count { /* of a scene, in per cent; NAN: not drawn */
 };
 struct gn_selftest_row {
     enum gn_technique technique;
-    enum gn_encoding encoding;
+    enum gn_encoding encoding; /* AUTO with moments */
+    enum gn_moments moments;
     struct gn_selftest_count scenes[GN_SELFTEST_SCENES];
     char failure[200]; /* why some scene was not drawn, or "" */
 };

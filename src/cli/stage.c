@@ -116,7 +116,7 @@ static bool choose_frame(struct gn_frame_opts *f, const struct gn_options *o,
     };
     f->technique_given = gn_options_given(o, shadow) && o->shadow;
     return choose_camera(o, scene, &f->camera, warnings, err) &&
-           gn_encoding_find(o->map_format, &f->encoding, err) &&
+           gn_map_format_find(o->map_format, &f->encoding, &f->moments, err) &&
            (!f->technique_given || strchr(o->shadow, ',') ||
             gn_technique_find(o->shadow, &f->technique, err));
 }

@@ -17,12 +17,19 @@ enum gn_cap {                       /* named in --without and by doctor: see gn_
               GN_CAP_RGBA16F, /* linear colour target for PFM */
               GN_CAP_SRGB,    /* SRGB8_ALPHA8 target that encodes */
               GN_CAP_MSAA4,
+              GN_CAP_RG16UI, /* targets of filtered maps, from here on: drawn and read back */
+              GN_CAP_RGBA16UI,
+              GN_CAP_RG32UI,
+              GN_CAP_RGBA32UI,
+              GN_CAP_RG16F,
               GN_CAP_TIMER, /* EXT_disjoint_timer_query */
               GN_CAP_DEBUG, /* KHR_debug */
               GN_CAP_COUNT,
 };
 extern const char *const gn_cap_names[GN_CAP_COUNT]; /* "depth-compare", "r32ui", "r16f", "rgba16f",
-                                                        "srgb", "msaa4", "timer", "debug" */
+                                                        "srgb", "msaa4", "rg16ui", "rgba16ui",
+                                                        "rg32ui", "rgba32ui", "rg16f", "timer",
+                                                        "debug" */
 
 struct gn_caps {
     uint32_t has; /* bit per gn_cap */
@@ -33,6 +40,10 @@ struct gn_caps {
 };
 /* The encodings that caps prove, as gn_encoding_choose wants them. */
 uint32_t gn_caps_encodings(const struct gn_caps *caps);
+/* The capability that a way to keep moments takes. */
+enum gn_cap gn_cap_of_moments(enum gn_moments moments);
+/* The ways to keep moments that caps prove, as gn_moments_choose wants them. */
+uint32_t gn_caps_moments(const struct gn_caps *caps);
 /* A comma list of names to bits of gn_cap; NULL and "" are none. A name that is not there is a
  * usage error that lists those that are. */
 bool gn_caps_parse(const char *list, uint32_t *out, struct gn_err *err);

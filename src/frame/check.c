@@ -26,6 +26,9 @@ static const char *check_key(const struct gn_program_key *key) {
     REQUIRE(key->shadow_count <= GN_SHADOWS_MAX);
     REQUIRE(key->shadow_count <= key->light_count);
     REQUIRE(key->encoding < GN_ENCODING_COUNT);
+    REQUIRE(key->technique < GN_TECHNIQUE_COUNT && key->step < GN_STEP_COUNT);
+    REQUIRE(key->moments < GN_MOMENTS_COUNT);
+    REQUIRE((key->kind == GN_PROGRAM_FILTER) == (key->moments != GN_MOMENTS_NONE));
     REQUIRE(key->taps == 0 || key->taps == 8 || key->taps == 16 || key->taps == 32);
     REQUIRE(key->receiver <= GN_RECEIVES_ALL);
     REQUIRE(key->features < 1u << GN_FEATURE_BITS);
@@ -33,6 +36,9 @@ static const char *check_key(const struct gn_program_key *key) {
         REQUIRE((key->lights[i].technique != GN_TECHNIQUE_NONE) == (i < key->shadow_count));
         REQUIRE(key->lights[i].technique < GN_TECHNIQUE_COUNT);
         REQUIRE(key->lights[i].encoding < GN_ENCODING_COUNT);
+        REQUIRE(key->lights[i].moments < GN_MOMENTS_COUNT);
+        REQUIRE(gn_technique_filters_map((enum gn_technique)key->lights[i].technique) ==
+                (key->lights[i].moments != GN_MOMENTS_NONE));
         REQUIRE(key->lights[i].slide < GN_SLIDE_COUNT);
         REQUIRE(key->lights[i].slide == GN_SLIDE_NONE || key->lights[i].type == GN_LIGHT_SPOT);
     }
@@ -51,6 +57,8 @@ static const char *check_use(const struct gn_pass *pass, const struct gn_program
     const bool panel = key->kind == GN_PROGRAM_PANEL;
     REQUIRE((key->kind < GN_PROGRAM_FLAT) == gn_target_is_map(&pass->target));
     REQUIRE((key->kind == GN_PROGRAM_FLAT) == pass->only_stencil);
+    REQUIRE((key->kind == GN_PROGRAM_FILTER) == (pass->target.kind == GN_TARGET_MOMENTS));
+    REQUIRE(key->kind != GN_PROGRAM_FILTER || key->moments == pass->target.moments);
     const bool caption = key->kind == GN_PROGRAM_CAPTION;
     REQUIRE(key->kind != GN_PROGRAM_ENCODE || pass->target.kind == GN_TARGET_ENCODED);
     REQUIRE(key->kind == GN_PROGRAM_ENCODE || caption || pass->target.kind != GN_TARGET_ENCODED);
@@ -120,6 +128,28 @@ static const char *check_pages(const struct gn_plan *plan, const struct gn_pass 
     return NULL;
 }
 
+/* A filter of a map draws all of its target once, and reads nothing that it draws to. */
+static const char *check_filter(const struct gn_plan *plan, const struct gn_pass *pass) {
+    const bool filters = pass->target.kind == GN_TARGET_MOMENTS;
+    const enum gn_moments moments = pass->target.moments;
+    REQUIRE(filters == (moments != GN_MOMENTS_NONE) && moments < GN_MOMENTS_COUNT);
+    REQUIRE(filters || !pass->completes);
+    for (int i = 0; i < GN_FILTER_FROM_MAX; i++) {
+        const struct gn_read *read = &pass->reads[i];
+        REQUIRE(filters || read->kind == GN_READ_NOTHING);
+        if (read->kind != GN_READ_MOMENTS) continue;
+        REQUIRE(read->index != pass->target.index && read->index < GN_FILTER_TEXTURES_MAX);
+        REQUIRE(read->width_px > 0 && read->height_px > 0);
+    }
+    if (!filters) return NULL;
+    REQUIRE(pass->target.index < GN_FILTER_TEXTURES_MAX);
+    REQUIRE(pass->target.slot < plan->shadow_count && pass->content_hash != 0);
+    REQUIRE(plan->shadows[pass->target.slot].moments == moments);
+    REQUIRE(!pass->completes || pass->target.index == 0);
+    REQUIRE(pass->draw_count == 1 && !pass->clear && !pass->depth_write);
+    return NULL;
+}
+
 static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *pass) {
     REQUIRE(pass->target.width_px > 0 && pass->target.height_px > 0);
     const bool shadow = gn_target_is_map(&pass->target);
@@ -139,6 +169,7 @@ static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *
     const char *broken = check_lights(plan, pass);
     if (!broken) broken = check_stencil(plan, pass);
     if (!broken) broken = check_pages(plan, pass);
+    if (!broken) broken = check_filter(plan, pass);
     for (uint32_t i = 0; i < pass->draw_count && !broken; i++) {
         const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
         broken = check_draw(plan, draw);

@@ -41,6 +41,12 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
     return frame->auto_exposure;
 }
 
+static bool can_filter(const struct gn_frame *frame, enum gn_technique technique) {
+    bool fell_back;
+    return gn_moments_choose(gn_techniques[technique].stores, GN_MOMENTS_NONE,
+                             gn_caps_moments(&frame->caps), &fell_back) != GN_MOMENTS_NONE;
+}
+
 static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
                                       const struct gn_frame_opts *opts,
                                       struct gn_warnings *warnings) {
@@ -52,6 +58,13 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
                 light->name, light->technique);
     bool own = note->technique == GN_TECHNIQUE_NONE || !opts->technique_given;
     enum gn_technique technique = own ? note->technique : opts->technique;
+    if (gn_technique_filters_map(technique) && !can_filter(frame, technique)) {
+        if (gn_frame_notice(&note->said, GN_NOTICE_MOMENTS, warnings))
+            gn_warn(warnings,
+                    "light '%s' gets pcf: this GPU draws to nothing that keeps what %s needs",
+                    light->name, gn_techniques[technique].name);
+        return GN_TECHNIQUE_PCF;
+    }
     if (!gn_techniques[technique].on_plane || frame->has_plane) return technique;
     if (gn_frame_notice(&note->said, GN_NOTICE_PLANE, warnings))
         gn_warn(warnings,
@@ -61,12 +74,32 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
     return GN_TECHNIQUE_NONE;
 }
 
+/* What a filtered map is kept in; of the map itself nothing can be wanted, and the other way round.
+ */
+static void choose_moments(struct gn_frame *frame, const struct gn_frame_opts *opts,
+                           struct gn_frame_light *light, struct gn_warnings *warnings) {
+    const bool filters = gn_technique_filters_map(light->technique);
+    const char *technique = gn_techniques[light->technique].name;
+    bool fell_back = false;
+    if (filters)
+        light->moments = gn_moments_choose(gn_techniques[light->technique].stores, opts->moments,
+                                           gn_caps_moments(&frame->caps), &fell_back);
+    const bool wants_map = opts->encoding != GN_ENCODING_AUTO, wants_moments = opts->moments;
+    if (!(filters ? fell_back || wants_map : wants_moments)) return;
+    if (!gn_frame_notice(&frame->notes.at[light->light].said, GN_NOTICE_ENCODING, warnings)) return;
+    gn_warn(warnings, "%s keeps no shadows in map format %s%s; %s is used", technique,
+            wants_map ? gn_encodings[opts->encoding].name : gn_moments[opts->moments].name,
+            fell_back ? " on this GPU" : "",
+            filters ? gn_moments[light->moments].name : gn_encodings[light->encoding].name);
+}
+
 static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *opts,
                             struct gn_frame_light *light, struct gn_warnings *warnings) {
     uint32_t *said = &frame->notes.at[light->light].said;
     bool fell_back;
     light->encoding = gn_encoding_choose(light->technique, opts->encoding,
                                          gn_caps_encodings(&frame->caps), &fell_back);
+    choose_moments(frame, opts, light, warnings);
     if (fell_back && gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
         gn_warn(warnings, "this GPU cannot draw map format %s; %s is used",
                 gn_encodings[opts->encoding].name, gn_encodings[light->encoding].name);
@@ -199,6 +232,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         const struct gn_light *l = &frame->scene->lights[light->light];
         struct gn_shadow_opts shadow = {.technique = light->technique,
                                         .encoding = light->encoding,
+                                        .moments = light->moments,
                                         .map_px = map_px_of(frame, light, opts),
                                         .all_receive = opts->aov == GN_AOV_VISIBILITY};
         make_memories(frame->memory[i], gn_shadow_tile_count(l->type, light->technique),

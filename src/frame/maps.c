@@ -20,8 +20,11 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, uint32_t slot, uint32_
     const struct gn_shadow_view *view = &frame->shadows[slot];
     struct gn_pass *pass = gn_frame_begin_pass(frame);
     label_shadow(frame, slot, index, pass);
-    pass->target =
-        (struct gn_target){GN_TARGET_SHADOW, slot, view->width_px, view->height_px, view->encoding};
+    pass->target = (struct gn_target){.kind = GN_TARGET_SHADOW,
+                                      .slot = slot,
+                                      .width_px = view->width_px,
+                                      .height_px = view->height_px,
+                                      .encoding = view->encoding};
     pass->clear = true;
     pass->clear_color[0] = view->far_code;
     pass->depth_write = view->encoding != GN_ENCODING_MASK;
@@ -115,5 +118,8 @@ static void map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint3
 
 void gn_frame_map_passes(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_frame_opts *opts) {
-    for (uint32_t slot = 0; slot < frame->shadow_count; slot++) map_passes(frame, pose, slot, opts);
+    for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
+        map_passes(frame, pose, slot, opts);
+        gn_frame_filter_passes(frame, slot);
+    }
 }

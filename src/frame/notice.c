@@ -31,7 +31,8 @@ void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts
         GN_LIST_PUSH(&frame->notes) = note_of(&frame->scene->lights[i]);
     const uint32_t about[GN_NOTICE_ABOUT] = {
         opts->technique_given, opts->technique,     opts->encoding, opts->aov,
-        opts->output_float,    opts->output_linear, opts->msaa,     opts->planar_in_stencil};
+        opts->output_float,    opts->output_linear, opts->msaa,     opts->planar_in_stencil,
+        opts->moments};
     if (memcmp(frame->said_about, about, sizeof about) == 0) return;
     memcpy(frame->said_about, about, sizeof about);
     frame->said = 0;

@@ -34,6 +34,7 @@ enum gn_program_kind {
     GN_PROGRAM_PANEL,    /* a map, as a panel on the picture */
     GN_PROGRAM_ENCODE,   /* the linear picture, encoded */
     GN_PROGRAM_CAPTION,  /* text over the finished picture */
+    GN_PROGRAM_FILTER,   /* a map, or moments of one, into moments */
     GN_PROGRAM_KIND_COUNT,
 };
 enum gn_feature { /* bits of gn_program_key.features; each becomes `const bool` of that name in GLSL
@@ -70,6 +71,7 @@ struct gn_light_key {  /* one light of a LIT or visibility program */
     uint8_t technique; /* gn_technique; NONE: no map */
     uint8_t encoding;  /* gn_encoding, 0 when technique is NONE */
     uint8_t slide;     /* gn_slide */
+    uint8_t moments;   /* gn_moments: what is read in the map's place */
 };
 enum gn_receiver { /* whose shadows an item receives */
                    GN_RECEIVES_MAPS,
@@ -79,10 +81,15 @@ enum gn_receiver { /* whose shadows an item receives */
 struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps come first. */
     uint32_t features;
     uint8_t kind, aov, light_count, shadow_count;
-    uint8_t encoding;  /* DISTANCE: what it writes; PANEL: what it shows */
+    uint8_t encoding;  /* DISTANCE: what it writes; PANEL: what it shows; FILTER: of the map, where
+                          the step reads that, and 0 */
     uint8_t taps;      /* LIT, visibility: of techniques that take them; 0: none does */
     uint8_t taps_turn; /* they are turned from pixel to pixel */
     uint8_t receiver;  /* gn_receiver, of LIT to which more light is added */
+    uint8_t step;      /* FILTER: gn_filter_step */
+    uint8_t technique; /* FILTER: whose moments; 0 where the step makes none of codes */
+    uint8_t moments;   /* FILTER: gn_moments of what it reads and writes */
+    uint8_t unused;
     struct gn_light_key lights[GN_LIGHTS_MAX];
 };
 
@@ -127,6 +134,7 @@ enum gn_target_kind {
     GN_TARGET_SHADOW,
     GN_TARGET_ENCODED, /* bytes beside a linear output, which the first pass to it reads */
     GN_TARGET_PAGES,   /* beside a map, of its size: from here its next pass copies */
+    GN_TARGET_MOMENTS, /* what a map is filtered into */
 };
 struct gn_rect { /* pixels of a target, first row at the bottom */
     uint32_t x, y, width, height;
@@ -136,6 +144,15 @@ struct gn_target {
     uint32_t slot; /* SHADOW, PAGES: which of plan->shadows; its map */
     uint32_t width_px, height_px;
     enum gn_encoding encoding; /* SHADOW, PAGES */
+    enum gn_moments moments;   /* MOMENTS */
+    uint32_t index; /* MOMENTS: as in gn_filter_stage: 0 is the slot's own; the others are
+                       shared, and hold something until the slot's filter ends */
+};
+/* What a filter reads. */
+struct gn_read {
+    enum gn_read_kind { GN_READ_NOTHING, GN_READ_MAP, GN_READ_MOMENTS } kind;
+    uint32_t index;               /* MOMENTS */
+    uint32_t width_px, height_px; /* MOMENTS */
 };
 struct gn_copy {
     struct gn_rect from; /* of the pages */
@@ -167,7 +184,10 @@ struct gn_pass {
     uint32_t first_shadow, shadow_count; /* plan->shadows[first_shadow + i] is behind sampler i */
     uint64_t
         content_hash; /* SHADOW, PAGES: skip the pass when the tile already holds this; 0: never */
-    bool reads_codes; /* those samplers compare not */
+    struct gn_read reads[GN_FILTER_FROM_MAX]; /* MOMENTS: behind sampler i, of the same slot */
+    bool completes; /* MOMENTS: then the slot's own holds content_hash in `tile`; before, its passes
+                       are skipped if it does */
+    bool reads_codes; /* those samplers compare not, and are of maps, filtered or not */
     bool reads_atlas; /* plan->atlas is behind sampler 0 */
     uint32_t first_draw, draw_count;
     uint32_t slide_count, slides[GN_SLIDES_MAX]; /* OUTPUT: textures; slide i: sampler i */
@@ -216,6 +236,7 @@ struct gn_frame_opts {            /* zero means the default written beside */
                              own none holds */
     enum gn_technique technique;
     enum gn_encoding encoding; /* GN_ENCODING_AUTO must be set for the automatic choice */
+    enum gn_moments moments;   /* of techniques that filter their map; NONE: the automatic choice */
     uint32_t map_px;           /* 0: the light's, else 1024 */
     bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
     unsigned taps;          /* of disk, poisson, pcss: 8, 16, 32; 16 */

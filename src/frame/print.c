@@ -3,7 +3,7 @@
 #include "frame/plan.h"
 
 static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {
-    "depth", "distance", "flat", "lit", "aov", "mark", "panel", "encode", "caption"};
+    "depth", "distance", "flat", "lit", "aov", "mark", "panel", "encode", "caption", "filter"};
 static const char *const outputs[] = {[GN_OUTPUT_SRGB8] = "srgb8",
                                       [GN_OUTPUT_LINEAR8] = "linear8",
                                       [GN_OUTPUT_FLOAT] = "float",
@@ -27,11 +27,26 @@ static const char *const features[GN_FEATURE_BITS] = {
     "hemisphere",     "encode-srgb",   "perspective",
     "flat-constants", "additive"};
 
+static void print_filter(const struct gn_program_key *key, FILE *to) {
+    const struct gn_filter_step_row *step = &gn_filter_steps[key->step];
+    fprintf(to, " %s", step->name);
+    if (step->reads_map)
+        fprintf(to, ", %s of %s", gn_techniques[key->technique].name,
+                gn_encodings[key->encoding].name);
+    fprintf(to, ", %s", gn_moments[key->moments].name);
+}
+
+/* Of a light with a map: what is kept for it. */
+static const char *format_of(int encoding, int moments) {
+    return moments ? gn_moments[moments].name : gn_encodings[encoding].name;
+}
+
 static void print_key(const struct gn_program_key *key, FILE *to) {
     fprintf(to, "%s", kinds[key->kind]);
     if (key->kind == GN_PROGRAM_AOV) fprintf(to, " %s", aovs[key->aov]);
     if (key->kind == GN_PROGRAM_DISTANCE || key->kind == GN_PROGRAM_PANEL)
         fprintf(to, " %s", gn_encodings[key->encoding].name);
+    if (key->kind == GN_PROGRAM_FILTER) print_filter(key, to);
     for (int bit = 0; bit < GN_FEATURE_BITS; bit++)
         if (key->features & 1u << bit) fprintf(to, " +%s", features[bit]);
     for (int i = 0; i < key->light_count; i++) {
@@ -39,7 +54,7 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
         fprintf(to, " %s", light_types[light->type]);
         if (i < key->shadow_count)
             fprintf(to, ":%s/%s", gn_techniques[light->technique].name,
-                    gn_encodings[light->encoding].name);
+                    format_of(light->encoding, light->moments));
         fprintf(to, "%s", slides[light->slide]);
     }
     fprintf(to, "%s\n", receivers[key->receiver]);
@@ -50,6 +65,7 @@ static void print_shadow_size(const struct gn_shadow_view *view, FILE *to) {
     fprintf(to, " %u px", view->map_px);
     if (view->tile_count > 1)
         fprintf(to, " x %u, gutters %u px", view->tile_count, view->gutter_px);
+    if (view->blur_px > 0.0f) fprintf(to, ", blur %.3g px", 2.0 * (double)view->blur_px);
 }
 
 static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
@@ -57,7 +73,7 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
     fprintf(to, "shadow %u: light %u '%s' %s %s/%s", slot, view->light,
             plan->scene->lights[view->light].name,
             light_types[plan->scene->lights[view->light].type], gn_techniques[view->technique].name,
-            gn_encodings[view->encoding].name);
+            format_of(view->encoding, view->moments));
     print_shadow_size(view, to);
     if (view->empty)
         fprintf(to, ", empty: it darkens nothing in view\n");
@@ -98,6 +114,18 @@ static void print_target(const struct gn_pass *pass, FILE *to) {
         fprintf(to, "pages of map %u (%s)", pass->target.slot,
                 gn_encodings[pass->target.encoding].name);
         break;
+    case GN_TARGET_MOMENTS:
+        fprintf(to, "moments %u of map %u (%s)", pass->target.index, pass->target.slot,
+                gn_moments[pass->target.moments].name);
+        break;
+    }
+}
+
+static void print_reads(const struct gn_pass *pass, FILE *to) {
+    for (int i = 0; i < GN_FILTER_FROM_MAX; i++) {
+        if (pass->reads[i].kind == GN_READ_MAP) fprintf(to, ", reads the map");
+        if (pass->reads[i].kind == GN_READ_MOMENTS)
+            fprintf(to, ", reads moments %u", pass->reads[i].index);
     }
 }
 
@@ -145,8 +173,10 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
         fprintf(to, ", within %u x %u at %u, %u", pass->rect.width, pass->rect.height, pass->rect.x,
                 pass->rect.y);
     print_copies(pass, to);
+    print_reads(pass, to);
     print_stencil(pass, to);
-    if (!pass->depth_write && !pass->only_stencil) fprintf(to, ", depth read-only");
+    if (!pass->depth_write && !pass->only_stencil && pass->target.kind != GN_TARGET_MOMENTS)
+        fprintf(to, ", depth read-only");
     if (pass->discard_depth) fprintf(to, ", depth discarded");
     fprintf(to, "\n");
     for (uint32_t i = 0; i < pass->draw_count; i++)

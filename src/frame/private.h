@@ -27,6 +27,7 @@ struct gn_frame_light {
     uint32_t light;              /* of the scene */
     enum gn_technique technique; /* NONE: no map */
     enum gn_encoding encoding;
+    enum gn_moments moments; /* of a technique that filters its map */
     enum gn_slide slide;
     float strength;
     float illuminance; /* of its light on the scene's centre, lux; orders them when there are too
@@ -46,6 +47,7 @@ struct gn_light_group {
 enum gn_notice {
     GN_NOTICE_TECHNIQUE,
     GN_NOTICE_PLANE,
+    GN_NOTICE_MOMENTS,
     GN_NOTICE_ENCODING,
     GN_NOTICE_MAPS,
     GN_NOTICE_LIGHTS,
@@ -54,7 +56,7 @@ enum gn_notice {
     GN_NOTICE_MSAA,
     GN_NOTICE_BLENDED,
 };
-enum { GN_NOTICE_ABOUT = 8 }; /* options that a warning may be about */
+enum { GN_NOTICE_ABOUT = 9 }; /* options that a warning may be about */
 
 /* What is known of a light of the scene, and was said of it. */
 struct gn_light_note {
@@ -133,6 +135,9 @@ uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *k
 /* maps.c: the passes that draw the shadow maps. */
 void gn_frame_map_passes(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_frame_opts *opts);
+
+/* filter.c: the passes that turn a map into what shaders read; none where that is the map. */
+void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot);
 
 /* picture.c: the passes that draw the picture. */
 void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,

@@ -102,9 +102,11 @@ static uint32_t needs(const struct gn_plan *plan) {
     uint32_t caps = plan->msaa > 1 ? 1u << GN_CAP_MSAA4 : 0;
     if (plan->output == GN_OUTPUT_SRGB8) caps |= 1u << GN_CAP_SRGB;
     if (plan->output == GN_OUTPUT_FLOAT) caps |= 1u << GN_CAP_RGBA16F;
-    for (uint32_t i = 0; i < plan->pass_count; i++)
-        if (plan->passes[i].target.kind == GN_TARGET_SHADOW)
-            caps |= cap_of_encoding(plan->passes[i].target.encoding);
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const struct gn_target *target = &plan->passes[i].target;
+        if (target->kind == GN_TARGET_SHADOW) caps |= cap_of_encoding(target->encoding);
+        if (target->kind == GN_TARGET_MOMENTS) caps |= 1u << gn_cap_of_moments(target->moments);
+    }
     return caps;
 }
 

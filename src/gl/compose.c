@@ -32,7 +32,7 @@ static const char *const kind_names[GN_PROGRAM_KIND_COUNT] = {
     [GN_PROGRAM_FLAT] = "flat",       [GN_PROGRAM_LIT] = "lit",
     [GN_PROGRAM_AOV] = "aov",         [GN_PROGRAM_MARK] = "mark",
     [GN_PROGRAM_PANEL] = "panel",     [GN_PROGRAM_ENCODE] = "encode",
-    [GN_PROGRAM_CAPTION] = "caption",
+    [GN_PROGRAM_CAPTION] = "caption", [GN_PROGRAM_FILTER] = "filter",
 };
 static const char *const kind_files[GN_PROGRAM_KIND_COUNT][2] = {
     [GN_PROGRAM_DEPTH] = {"depth.vert", "depth.frag"},
@@ -44,17 +44,20 @@ static const char *const kind_files[GN_PROGRAM_KIND_COUNT][2] = {
     [GN_PROGRAM_PANEL] = {"panel.vert", "panel.frag"},
     [GN_PROGRAM_ENCODE] = {"encode.vert", "encode.frag"},
     [GN_PROGRAM_CAPTION] = {"caption.vert", "caption.frag"},
+    [GN_PROGRAM_FILTER] = {"encode.vert", NULL}, /* gn_filter_steps */
 };
 
 static const char *const taps_names[] = {
     [GN_TAPS_DISK] = "TAPS_DISK", [GN_TAPS_POISSON] = "TAPS_POISSON"};
 
 static bool compares_in_sampler(const struct gn_light_key *light) {
-    return light->encoding == GN_ENCODING_DEPTH && !gn_techniques[light->technique].searches;
+    return !light->moments && light->encoding == GN_ENCODING_DEPTH &&
+           !gn_techniques[light->technique].searches;
 }
 
 static const char *sampler_type(const struct gn_light_key *light) {
     if (compares_in_sampler(light)) return "sampler2DShadow";
+    if (light->moments) return gn_moments[light->moments].linear ? "sampler2D" : "usampler2D";
     return light->encoding == GN_ENCODING_R32UI ? "usampler2D" : "sampler2D";
 }
 
@@ -77,7 +80,7 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
 }
 
 static bool same_pair(const struct gn_light_key *a, const struct gn_light_key *b) {
-    return a->technique == b->technique && a->encoding == b->encoding;
+    return a->technique == b->technique && a->encoding == b->encoding && a->moments == b->moments;
 }
 
 /* The first light that has the technique and encoding of light i: its number is the suffix. */
@@ -97,29 +100,46 @@ static void drop_suffixes(char names[GN_GL_NAMES_MAX][64], int count, struct gn_
     for (int i = 0; i < count; i++) gn_gl_text_add(out, "#undef %s\n", names[i]);
 }
 
+/* What a light's shadow is made of, in the order in which they build on each other. */
+enum { PAIR_FILES = 4 };
+static void pair_files(const struct gn_light_key *light, const char *files[PAIR_FILES]) {
+    const struct gn_technique_row *technique = &gn_techniques[light->technique];
+    const bool compares = compares_in_sampler(light);
+    files[0] = compares ? "lib/map_depth.glsl" : gn_encodings[light->encoding].file;
+    files[1] = compares ? NULL : "lib/map_lit.glsl";
+    files[2] = technique->taps ? "lib/taps.glsl" : NULL;
+    files[3] = technique->file;
+    if (!light->moments) return;
+    files[0] = gn_moments[light->moments].file;
+    files[1] = technique->moments;
+}
+
+static void add_middle(int technique, struct gn_gl_text *out) {
+    gn_gl_text_add(out, "#define MOMENTS_MIDDLE %.1f\n",
+                   (double)gn_techniques[technique].moments_middle);
+}
+
 static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *light, int suffix,
                      struct gn_gl_text *out, struct gn_err *err) {
-    const bool compares = compares_in_sampler(light);
     const struct gn_technique_row *technique = &gn_techniques[light->technique];
-    const char *const files[] = {compares ? "lib/map_depth.glsl"
-                                          : gn_encodings[light->encoding].file,
-                                 compares ? NULL : "lib/map_lit.glsl",
-                                 technique->taps ? "lib/taps.glsl" : NULL, technique->file};
+    const char *files[PAIR_FILES];
+    pair_files(light, files);
     if (technique->taps)
         gn_gl_text_add(out, "#define SHADOW_TAPS %s\n", taps_names[technique->taps]);
-    enum { FILE_COUNT = sizeof files / sizeof *files };
-    char names[FILE_COUNT][GN_GL_NAMES_MAX][64];
-    int counts[FILE_COUNT] = {0};
-    for (int i = 0; i < FILE_COUNT; i++) {
+    add_middle(light->technique, out);
+    char names[PAIR_FILES][GN_GL_NAMES_MAX][64];
+    int counts[PAIR_FILES] = {0};
+    for (int i = 0; i < PAIR_FILES; i++) {
         if (!files[i]) continue;
         counts[i] = gn_gl_source_names(source, files[i], names[i], err);
         if (counts[i] < 0) return false;
         add_suffixes(names[i], counts[i], suffix, out);
     }
-    for (int i = 0; i < FILE_COUNT; i++)
+    for (int i = 0; i < PAIR_FILES; i++)
         if (files[i] && !gn_gl_source_add(source, files[i], out, err)) return false;
-    for (int i = 0; i < FILE_COUNT; i++) drop_suffixes(names[i], counts[i], out);
-    gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n#undef SHADOW_TAPS\n");
+    for (int i = 0; i < PAIR_FILES; i++) drop_suffixes(names[i], counts[i], out);
+    gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n#undef SHADOW_TAPS\n"
+                        "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n");
     return true;
 }
 
@@ -216,6 +236,23 @@ static bool add_slides(struct gn_gl_source *source, const struct gn_program_key 
     return !count || gn_gl_source_add(source, "lib/slide.glsl", out, err);
 }
 
+/* What a step of a filter is told: how the map is read, what a code becomes, how that is kept. */
+static bool add_filter(struct gn_gl_source *source, const struct gn_program_key *key,
+                       struct gn_gl_text *out, struct gn_err *err) {
+    add_middle(key->technique, out); /* of NONE 0: moments are averaged as they are kept */
+    if (!gn_gl_source_add(source, gn_moments[key->moments].file, out, err)) return false;
+    return !gn_filter_steps[key->step].reads_map ||
+           (gn_gl_source_add(source, gn_encodings[key->encoding].file, out, err) &&
+            gn_gl_source_add(source, gn_techniques[key->technique].moments, out, err));
+}
+
+/* The file with main(). */
+static const char *main_file(const struct gn_program_key *key, enum gn_gl_stage stage) {
+    if (key->kind == GN_PROGRAM_FILTER && stage == GN_GL_FRAGMENT)
+        return gn_filter_steps[key->step].file;
+    return kind_files[key->kind][stage];
+}
+
 bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_stage stage,
                    struct gn_gl_text *out, struct gn_err *err) {
     struct gn_gl_source source = {.folder = folder};
@@ -235,7 +272,10 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
     if ((key->kind == GN_PROGRAM_DISTANCE || key->kind == GN_PROGRAM_PANEL) &&
         stage == GN_GL_FRAGMENT)
         if (!gn_gl_source_add(&source, gn_encodings[key->encoding].file, out, err)) return false;
-    return gn_gl_source_add(&source, kind_files[key->kind][stage], out, err);
+    if (key->kind == GN_PROGRAM_FILTER && stage == GN_GL_FRAGMENT &&
+        !add_filter(&source, key, out, err))
+        return false;
+    return gn_gl_source_add(&source, main_file(key, stage), out, err);
 }
 
 static void append(char *out, size_t size, const char *separator, const char *word) {
@@ -248,6 +288,11 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
     if (key->kind == GN_PROGRAM_AOV) append(out, size, " ", aov_names[key->aov]);
     if (key->kind == GN_PROGRAM_DISTANCE || key->kind == GN_PROGRAM_PANEL)
         append(out, size, " ", gn_encodings[key->encoding].name);
+    if (key->kind == GN_PROGRAM_FILTER) {
+        append(out, size, " ", gn_filter_steps[key->step].name);
+        append(out, size, ", ", gn_techniques[key->technique].name);
+        append(out, size, " ", gn_moments[key->moments].name);
+    }
     const char *separator = " ";
     for (int i = 0; i < GN_FEATURE_BITS; i++) {
         if (!(key->features >> i & 1)) continue;
@@ -260,6 +305,8 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
         if (light->slide) append(out, size, " ", light->slide == GN_SLIDE_LIT ? "film" : "slide");
         if (i >= key->shadow_count) continue;
         append(out, size, " ", gn_techniques[light->technique].name);
-        append(out, size, " ", gn_encodings[light->encoding].name);
+        append(out, size, " ",
+               light->moments ? gn_moments[light->moments].name
+                              : gn_encodings[light->encoding].name);
     }
 }

@@ -234,9 +234,11 @@ struct gn_gl_output {
     GLuint texture, encoded, encoded_color;
     uint64_t bytes;
 };
-struct gn_gl_map {
+struct gn_gl_map { /* or what one is filtered into */
     uint32_t slot;
-    enum gn_encoding encoding;
+    enum gn_encoding encoding; /* without moments */
+    enum gn_moments moments;   /* then it has no depth */
+    uint32_t index;            /* of those with moments */
     uint32_t width_px, height_px;
     GLuint framebuffer, texture, depth;
     uint64_t content_hash[GN_SHADOW_TILES_MAX]; /* of each tile; 0: nothing */
@@ -271,9 +273,13 @@ bool gn_gl_pixel_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_
 /* Where the finished picture is to be read, and what of. */
 GLuint gn_gl_output_finished(const struct gn_gl_output *output);
 enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output);
-struct gn_gl_map *gn_gl_map_find(struct gn_gl *gl, const struct gn_target *target);
-/* Where the pages of the map are drawn. */
-struct gn_gl_map *gn_gl_pages_find(struct gn_gl *gl, const struct gn_target *target);
+/* What a target that is no picture is drawn to, the pages of a map among them; NULL: not made. */
+struct gn_gl_map *gn_gl_target_find(struct gn_gl *gl, const struct gn_target *target);
+/* What tells whether a pass to such a target has to run: the map, or the light's own moments. */
+struct gn_gl_map *gn_gl_target_owner(struct gn_gl *gl, const struct gn_target *target);
+/* What shaders read of a light: moments of the map, or the map itself. */
+struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view *view,
+                                  uint32_t slot, bool moments);
 struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot); /* used last; NULL if none */
 void gn_gl_targets_forget(struct gn_gl *gl); /* maps hold nothing any more */
 uint64_t gn_gl_targets_bytes(const struct gn_gl *gl);

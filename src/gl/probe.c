@@ -36,6 +36,23 @@ static const struct row {
      "vec4",
      "vec4(1000.0, 0.3330078125, -2.5, 0.5)",
      {1000, 0.3330078125f, -2.5f, 0.5f}},
+    {GN_CAP_RG16F, GL_RG16F, "vec4", "vec4(0.3330078125, -0.5, 0.0, 1.0)", {0.3330078125f, -0.5f}},
+    {GN_CAP_RG16UI, GL_RG16UI, "uvec4", "uvec4(65535u, 0x1234u, 0u, 1u)", {65535, 0x1234}},
+    {GN_CAP_RGBA16UI,
+     GL_RGBA16UI,
+     "uvec4",
+     "uvec4(65535u, 1u, 0x1234u, 0x8000u)",
+     {65535, 1, 0x1234, 0x8000}},
+    {GN_CAP_RG32UI,
+     GL_RG32UI,
+     "uvec4",
+     "uvec4(0x41c80000u, 0x7f000000u, 0u, 1u)",
+     {0x41c80000u, 0x7f000000u}},
+    {GN_CAP_RGBA32UI,
+     GL_RGBA32UI,
+     "uvec4",
+     "uvec4(0x41c80000u, 0xff000000u, 0x7f000000u, 1u)",
+     {0x41c80000u, 0xff000000u, 0x7f000000u, 1}},
     {GN_CAP_SRGB, GL_SRGB8_ALPHA8, "vec4", "vec4(0.5, 0.0, 1.0, 1.0)", {188, 0, 255, 255}},
     /* the texture holds .5; lit where the reference is at most that */
     {GN_CAP_DEPTH_COMPARE,
@@ -87,6 +104,15 @@ static bool read_r32ui(struct gn_gl *gl) {
     return pixel[0] == 0x41c80001u;
 }
 
+/* Expected values are such as a float holds. */
+static bool read_integers(struct gn_gl *gl, int channels, const float expected[4]) {
+    GLuint pixel[4] = {0};
+    GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, pixel);
+    for (int i = 0; i < channels; i++)
+        if (pixel[i] != (GLuint)expected[i]) return false;
+    return true;
+}
+
 static bool read_bytes(struct gn_gl *gl, const float expected[4]) {
     GLubyte pixel[4] = {1, 1, 1, 1};
     GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
@@ -110,6 +136,11 @@ static bool read_back(struct gn_gl *gl, const struct row *row, GLenum attachment
     switch (row->cap) {
     case GN_CAP_R32UI: right = read_r32ui(gl); break;
     case GN_CAP_R16F: right = read_halves(gl, 1, row->expected); break;
+    case GN_CAP_RG16F: right = read_halves(gl, 2, row->expected); break;
+    case GN_CAP_RG16UI:
+    case GN_CAP_RG32UI: right = read_integers(gl, 2, row->expected); break;
+    case GN_CAP_RGBA16UI:
+    case GN_CAP_RGBA32UI: right = read_integers(gl, 4, row->expected); break;
     case GN_CAP_RGBA16F: right = read_halves(gl, 4, row->expected); break;
     default: right = read_bytes(gl, row->expected); break;
     }

@@ -99,7 +99,9 @@ static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint fr
     }
     if (pass->stencil.clears) clear_stencil(gl, pass->stencil.clears);
     gn_gl_set_scissor(gl, bound ? &inner : NULL);
-    gn_gl_set_depth(gl, pass->target.kind != GN_TARGET_ENCODED && !pass->only_stencil,
+    gn_gl_set_depth(gl,
+                    pass->target.kind != GN_TARGET_ENCODED &&
+                        pass->target.kind != GN_TARGET_MOMENTS && !pass->only_stencil,
                     pass->depth_write);
     gn_gl_set_color_write(gl, !pass->only_stencil);
     gn_gl_set_stencil(gl, &pass->stencil);
@@ -119,7 +121,9 @@ static void end_target(struct gn_gl *gl, const struct gn_pass *pass, bool last) 
 /* From the pages, which hold nothing any more then. */
 static void copy_pages(struct gn_gl *gl, const struct gn_pass *pass) {
     static const GLenum attachments[] = {GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0};
-    const struct gn_gl_map *pages = gn_gl_pages_find(gl, &pass->target);
+    struct gn_target from_pages = pass->target;
+    from_pages.kind = GN_TARGET_PAGES;
+    const struct gn_gl_map *pages = gn_gl_target_find(gl, &from_pages);
     const bool is_depth = pass->target.encoding == GN_ENCODING_DEPTH;
     if (!pages) return;
     GL(gl, BindFramebuffer)(GL_READ_FRAMEBUFFER, pages->framebuffer);
@@ -159,6 +163,8 @@ static void resolve(struct gn_gl *gl) {
 
 static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
     const GLuint *samplers = gl->targets.map_samplers;
+    if (view->moments)
+        return samplers[gn_moments[view->moments].linear ? GN_GL_MAP_LINEAR : GN_GL_MAP_NEAREST];
     if (view->encoding == GN_ENCODING_MASK) return samplers[GN_GL_MAP_LINEAR];
     if (view->encoding != GN_ENCODING_DEPTH || gn_techniques[view->technique].searches)
         return samplers[GN_GL_MAP_NEAREST];
@@ -170,12 +176,29 @@ static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan, const struct
     for (uint32_t i = 0; i < pass->shadow_count; i++) {
         const uint32_t slot = pass->first_shadow + i;
         const struct gn_shadow_view *view = &plan->shadows[slot];
-        const struct gn_target target = {GN_TARGET_SHADOW, slot, view->width_px, view->height_px,
-                                         view->encoding};
-        const struct gn_gl_map *map = gn_gl_map_find(gl, &target);
+        const struct gn_gl_map *map = gn_gl_view_find(gl, view, slot, !pass->reads_codes);
         const GLuint sampler =
             pass->reads_codes ? gl->targets.map_samplers[GN_GL_MAP_NEAREST] : map_sampler(gl, view);
         if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, sampler);
+    }
+}
+
+/* What a filter reads: texels as they are. */
+static void bind_reads(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
+    const uint32_t slot = pass->target.slot;
+    for (GLuint i = 0; i < GN_FILTER_FROM_MAX; i++) {
+        const struct gn_read *read = &pass->reads[i];
+        if (read->kind == GN_READ_NOTHING) continue;
+        struct gn_target target = pass->target;
+        target.index = read->index;
+        target.width_px = read->width_px;
+        target.height_px = read->height_px;
+        const struct gn_gl_map *map = read->kind == GN_READ_MOMENTS
+                                          ? gn_gl_target_find(gl, &target)
+                                          : gn_gl_view_find(gl, &plan->shadows[slot], slot, false);
+        if (map)
+            gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture,
+                               gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
     }
 }
 
@@ -186,6 +209,7 @@ static void bind_sources(struct gn_gl *gl, const struct gn_plan *plan, const str
                            gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
         return;
     }
+    if (pass->target.kind == GN_TARGET_MOMENTS) bind_reads(gl, plan, pass);
     if (pass->target.kind == GN_TARGET_OUTPUT) bind_maps(gl, plan, pass);
     if (pass->target.kind == GN_TARGET_ENCODED)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output.texture,
@@ -221,6 +245,7 @@ static void draw_bare(struct gn_gl *gl, const struct gn_pass *pass, const struct
     GL(gl, DrawArraysInstanced)
     (GL_TRIANGLES, 0, (GLsizei)d->vertex_count, (GLsizei)d->instance_count);
     gl->stats.draws++;
+    gl->stats.shadow_draws += pass->target.kind == GN_TARGET_MOMENTS;
     gl->stats.triangles += (uint64_t)d->vertex_count / 3 * d->instance_count;
 }
 
@@ -249,6 +274,11 @@ static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_d
 
 /* ---- passes ---- */
 
+/* A map, its pages or its moments. */
+static bool goes_to_map(const struct gn_pass *pass) {
+    return gn_target_is_map(&pass->target) || pass->target.kind == GN_TARGET_MOMENTS;
+}
+
 static bool is_stale(const struct gn_gl_map *map, const struct gn_pass *pass) {
     return !pass->content_hash || map->content_hash[pass->tile] != pass->content_hash;
 }
@@ -273,7 +303,7 @@ static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
  * tiles are drawn, one clear does. */
 static enum clear clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
                            const struct gn_pass *pass) {
-    if (!map || pass->target.kind == GN_TARGET_PAGES) return pass->clear ? CLEAR_ALL : CLEAR_NOT;
+    if (!map || pass->target.kind != GN_TARGET_SHADOW) return pass->clear ? CLEAR_ALL : CLEAR_NOT;
     if (pass->tile == 0) {
         const struct gn_pass *last = pass, *next;
         while ((next = next_tile(plan, map, last))) last = next;
@@ -307,21 +337,24 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     return !gl->debug || gn_gl_error_check(gl, pass->label, err);
 }
 
+/* After this pass its owner holds what the pass stands for. */
+static bool completes(const struct gn_pass *pass) {
+    return pass->target.kind == GN_TARGET_SHADOW || pass->completes;
+}
+
 static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                      struct gn_err *err) {
-    if (!gn_target_is_map(&pass->target)) return draw_pass(gl, plan, pass, NULL, err);
-    const bool page = pass->target.kind == GN_TARGET_PAGES;
-    struct gn_gl_map *map = gn_gl_map_find(gl, &pass->target),
-                     *pages = page ? gn_gl_pages_find(gl, &pass->target) : NULL;
-    if (!map || (page && !pages)) return gn_fail(err, "%s: the plan was not prepared", pass->label);
-    if (!is_stale(map, pass)) {
-        map->cleared = false;
-        gl->stats.shadow_passes_skipped += !page;
+    if (!goes_to_map(pass)) return draw_pass(gl, plan, pass, NULL, err);
+    struct gn_gl_map *to = gn_gl_target_find(gl, &pass->target),
+                     *owner = gn_gl_target_owner(gl, &pass->target);
+    if (!to || !owner) return gn_fail(err, "%s: the plan was not prepared", pass->label);
+    if (!is_stale(owner, pass)) {
+        owner->cleared = false;
+        gl->stats.shadow_passes_skipped += pass->target.kind == GN_TARGET_SHADOW;
         return true;
     }
-    if (page) return draw_pass(gl, plan, pass, pages, err);
-    bool ok = draw_pass(gl, plan, pass, map, err);
-    map->content_hash[pass->tile] = ok ? pass->content_hash : 0;
+    const bool ok = draw_pass(gl, plan, pass, to, err);
+    if (completes(pass)) owner->content_hash[pass->tile] = ok ? pass->content_hash : 0;
     return ok;
 }
 
@@ -428,11 +461,8 @@ static const struct gn_draw *first_draw_of(const struct gn_plan *plan, const str
 static bool touch_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                        const struct gn_draw *d, struct gn_err *err) {
     static const struct gn_gl_rect pixel = {0, 0, 1, 1};
-    const bool is_map = gn_target_is_map(&pass->target);
-    struct gn_gl_map *map = !is_map ? NULL
-                            : pass->target.kind == GN_TARGET_PAGES
-                                ? gn_gl_pages_find(gl, &pass->target)
-                                : gn_gl_map_find(gl, &pass->target);
+    const bool is_map = goes_to_map(pass);
+    struct gn_gl_map *map = is_map ? gn_gl_target_find(gl, &pass->target) : NULL;
     struct gn_draw one = *d;
     one.instance_count = 1;
     if (is_map && !map) return gn_fail(err, "%s: the plan was not prepared", pass->label);

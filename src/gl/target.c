@@ -207,6 +207,16 @@ static const GLenum map_formats[GN_ENCODING_COUNT] = {
     [GN_ENCODING_STENCIL] = GL_NONE, /* no map */
 };
 
+static const GLenum moments_formats[GN_MOMENTS_COUNT] = {
+    [GN_MOMENTS_NONE] = GL_NONE,
+    [GN_MOMENTS_RG16UI] = GL_RG16UI,
+    [GN_MOMENTS_RG16F] = GL_RG16F,
+    [GN_MOMENTS_RG32F_BITS] = GL_RG32UI,
+    [GN_MOMENTS_RGBA16UI] = GL_RGBA16UI,
+    [GN_MOMENTS_RGBA16F] = GL_RGBA16F,
+    [GN_MOMENTS_RGBA32F_BITS] = GL_RGBA32UI,
+};
+
 static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &map->framebuffer);
     gn_gl_object_destroy(gl, GN_GL_TEXTURE, &map->texture);
@@ -215,7 +225,7 @@ static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {
 }
 
 static void attach_map(struct gn_gl *gl, struct gn_gl_map *map) {
-    const bool is_depth = map->encoding == GN_ENCODING_DEPTH;
+    const bool is_depth = !map->moments && map->encoding == GN_ENCODING_DEPTH;
     static const GLenum none = GL_NONE;
     GL(gl, FramebufferTexture2D)
     (GL_FRAMEBUFFER, is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
@@ -225,53 +235,80 @@ static void attach_map(struct gn_gl *gl, struct gn_gl_map *map) {
         GL(gl, ReadBuffer)(GL_NONE);
         return;
     }
+    if (map->moments) return;
     if (map->encoding == GN_ENCODING_MASK) return; /* the order of casters is all the same to it */
     map->depth = make_renderbuffer(gl, GL_DEPTH_COMPONENT24, 0, map->width_px, map->height_px);
     attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, map->depth);
 }
 
 static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err) {
-    map->bytes = (uint64_t)map->width_px * map->height_px * gn_encodings[map->encoding].texel_bytes;
+    const unsigned texel_bytes = map->moments ? gn_moments[map->moments].texel_bytes
+                                              : gn_encodings[map->encoding].texel_bytes;
+    const GLenum format = map->moments ? moments_formats[map->moments] : map_formats[map->encoding];
+    map->bytes = (uint64_t)map->width_px * map->height_px * texel_bytes;
     map->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
     gn_gl_work_on_texture(gl, map->texture);
     GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, 1, map_formats[map->encoding], (GLsizei)map->width_px, (GLsizei)map->height_px);
+    (GL_TEXTURE_2D, 1, format, (GLsizei)map->width_px, (GLsizei)map->height_px);
     map->framebuffer = make_framebuffer(gl);
     attach_map(gl, map);
     if (gn_gl_framebuffer_check(gl, "shadow map", err) &&
         gn_gl_error_check(gl, "making a shadow map", err))
         return true;
-    gn_fail_prefix(err, "%s", gn_encodings[map->encoding].name);
+    gn_fail_prefix(err, "%s",
+                   map->moments ? gn_moments[map->moments].name : gn_encodings[map->encoding].name);
     map_finish(gl, map);
     return false;
 }
 
-struct gn_gl_map *gn_gl_map_find(struct gn_gl *gl, const struct gn_target *t) {
+/* t: as kept_target() makes it. */
+static struct gn_gl_map *map_find(struct gn_gl *gl, const struct gn_target *t) {
     for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
         struct gn_gl_map *m = &gl->targets.maps[i];
         if (m->framebuffer && m->slot == t->slot && m->encoding == t->encoding &&
-            m->width_px == t->width_px && m->height_px == t->height_px)
+            m->moments == t->moments && m->index == t->index && m->width_px == t->width_px &&
+            m->height_px == t->height_px)
             return m;
     }
     return NULL;
 }
 
-static struct gn_target pages_of(const struct gn_target *target) {
-    struct gn_target pages = *target;
-    pages.slot = GN_GL_SLOT_PAGES;
-    return pages;
+/* Where a target is kept: pages, and all moments but a light's own, are shared by those of a kind.
+ */
+static struct gn_target kept_target(const struct gn_target *target) {
+    struct gn_target kept = *target;
+    if (kept.kind == GN_TARGET_PAGES || kept.index > 0) kept.slot = GN_GL_SLOT_PAGES;
+    return kept;
 }
 
-struct gn_gl_map *gn_gl_pages_find(struct gn_gl *gl, const struct gn_target *target) {
-    const struct gn_target pages = pages_of(target);
-    return gn_gl_map_find(gl, &pages);
+struct gn_gl_map *gn_gl_target_find(struct gn_gl *gl, const struct gn_target *target) {
+    const struct gn_target kept = kept_target(target);
+    return map_find(gl, &kept);
+}
+
+struct gn_gl_map *gn_gl_target_owner(struct gn_gl *gl, const struct gn_target *target) {
+    struct gn_target own = *target;
+    own.index = 0;
+    return map_find(gl, &own);
+}
+
+struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view *view,
+                                  uint32_t slot, bool moments) {
+    const bool map = !moments || !view->moments;
+    const struct gn_target target = {.slot = slot,
+                                     .width_px = view->width_px,
+                                     .height_px = view->height_px,
+                                     .encoding = map ? view->encoding : (enum gn_encoding)0,
+                                     .moments = map ? GN_MOMENTS_NONE : view->moments};
+    return map_find(gl, &target);
 }
 
 struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot) {
     struct gn_gl_map *latest = NULL;
     for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
         struct gn_gl_map *m = &gl->targets.maps[i];
-        if (m->framebuffer && m->slot == slot && (!latest || m->last_used > latest->last_used))
+        if (m->framebuffer && !m->moments && m->slot == slot &&
+            (!latest || m->last_used > latest->last_used))
             latest = m;
     }
     return latest;
@@ -304,11 +341,13 @@ static void make_room(struct gn_gl *gl) {
 }
 
 static bool map_ensure(struct gn_gl *gl, const struct gn_target *target, struct gn_err *err) {
-    struct gn_gl_map *map = gn_gl_map_find(gl, target);
+    struct gn_gl_map *map = map_find(gl, target);
     if (!map) {
         map = free_place(gl);
         *map = (struct gn_gl_map){.slot = target->slot,
                                   .encoding = target->encoding,
+                                  .moments = target->moments,
+                                  .index = target->index,
                                   .width_px = target->width_px,
                                   .height_px = target->height_px};
         if (!make_map(gl, map, err)) return false;
@@ -328,9 +367,9 @@ bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct g
 
 bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     for (uint32_t i = 0; i < plan->pass_count; i++) {
-        const struct gn_target *target = &plan->passes[i].target, pages = pages_of(target);
-        const bool paged = target->kind == GN_TARGET_PAGES;
-        if (gn_target_is_map(target) && !map_ensure(gl, paged ? &pages : target, err)) return false;
+        const struct gn_target *target = &plan->passes[i].target, kept = kept_target(target);
+        const bool wanted = gn_target_is_map(target) || target->kind == GN_TARGET_MOMENTS;
+        if (wanted && !map_ensure(gl, &kept, err)) return false;
     }
     return true;
 }

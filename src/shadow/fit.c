@@ -101,6 +101,11 @@ static void set_code(const struct gn_fitter *f, float near_depth, float far_dept
                                          : range * exp2f(-22.0f);
         return;
     case GN_ENCODING_R32UI:
+        if (!gn_technique_filters_map(view->technique)) return;
+        view->distance_scale = 1.0f / range; /* 0..1: what moments are made of */
+        view->distance_offset = -view->near_m / range;
+        view->far_code = 1.0f;
+        return;
     case GN_ENCODING_MASK:
     case GN_ENCODING_STENCIL:
     case GN_ENCODING_COUNT: return;
@@ -164,6 +169,18 @@ static void set_soft(const struct gn_fitter *f, float near_depth, float far_dept
     view->soft[3] = -view->distance_offset / view->distance_scale;
 }
 
+/* A blur cannot know how far blockers are: it is as wide as the penumbra of what stands before the
+ * farthest caster by a quarter of what all of them span, within what a map is fit for. */
+static void set_blur(const struct gn_fitter *f, float near_depth, float far_depth) {
+    struct gn_shadow_view *view = f->view;
+    if (gn_techniques[view->technique].filter != GN_FILTER_BLUR) return;
+    const float behind = 0.25f * (far_depth - near_depth);
+    const float spread =
+        view->perspective ? 1.0f / (far_depth - behind) - 1.0f / far_depth : behind;
+    const float blur_px = f->light_radius * spread / view->texel;
+    view->blur_px = least(most(blur_px, GN_BLUR_LEAST_PX), GN_BLUR_MOST_PX);
+}
+
 /* Normal offset and slope by the width that the technique averages over; figures measured by `make
  * truth`. */
 static void set_bias(struct gn_shadow_view *view) {
@@ -221,6 +238,7 @@ static bool fit_window(struct gn_fitter *f) {
     lay_window(f, &found, near_depth, far_depth);
     set_lookup(f->view, near_depth);
     set_soft(f, near_depth, far_depth);
+    set_blur(f, near_depth, far_depth);
     return true;
 }
 
@@ -295,6 +313,7 @@ static bool fit_tiles(struct gn_fitter *f) {
     set_code(f, near_depth, far_depth);
     set_clip(view, (double[2]){edge, edge}, near_depth, far_depth);
     set_soft(f, near_depth, far_depth);
+    set_blur(f, near_depth, far_depth);
     view->tangent_uv[0] = 1.0f / (view->texel * (float)view->width_px);
     view->tangent_uv[1] = 1.0f / (view->texel * (float)view->height_px);
     view->depth_code[0] = far_depth / (far_depth - near_depth);
@@ -325,6 +344,7 @@ static void begin_view(const struct gn_pose *pose, uint32_t light,
     *view = (struct gn_shadow_view){.light = light,
                                     .technique = opts->technique,
                                     .encoding = opts->encoding,
+                                    .moments = opts->moments,
                                     .map_px = opts->map_px,
                                     .all_receive = opts->all_receive,
                                     .width_px = size_px[0],
@@ -351,6 +371,8 @@ static void make_empty(struct gn_shadow_view *view) {
     glm_vec4_copy((vec4){0.0f, -1.0f, 0.0f, 1.0f}, view->soft); /* no penumbra */
     view->far_code = view->encoding == GN_ENCODING_RGBA8 ? RGBA8_FAR : 1.0f;
     view->empty = true;
+    view->blur_px =
+        gn_techniques[view->technique].filter == GN_FILTER_BLUR ? GN_BLUR_LEAST_PX : 0.0f;
     for (uint32_t i = 0; i < view->tile_count; i++) {
         view->tiles[i].empty = true;
         view->tiles[i].content_hash = 1;

@@ -25,6 +25,7 @@
 struct gn_shadow_opts {
     enum gn_technique technique; /* not NONE */
     enum gn_encoding encoding;   /* a proved one, never AUTO */
+    enum gn_moments moments;     /* of a technique that filters its map: proved ones */
     uint32_t map_px;             /* side of the map, or of a tile; with STENCIL 0 */
     bool all_receive;            /* gnomon_receive is not asked: for pictures of visibility */
 };
@@ -52,6 +53,8 @@ struct gn_shadow_view {
     uint32_t light;
     enum gn_technique technique;
     enum gn_encoding encoding;
+    enum gn_moments moments;      /* what shaders read in the map's place; NONE: the map */
+    float blur_px;                /* half the width of its blur, texels; 0: none */
     uint32_t map_px;              /* side of a tile */
     uint32_t width_px, height_px; /* of the map: all tiles */
     uint32_t gutter_px;           /* point: of a tile, to each side */

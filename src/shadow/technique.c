@@ -68,6 +68,16 @@ const struct gn_technique_row gn_techniques[GN_TECHNIQUE_COUNT] = {
                            .bias_texels = 0.7f,
                            .what = "finds the blockers, then filters as wide as their penumbra is",
                            .source = "Fernando 2005"},
+    [GN_TECHNIQUE_VSM] = {.name = "vsm",
+                          .file = "shadow/vsm.glsl",
+                          .filter = GN_FILTER_BLUR,
+                          .moments = "moments/vsm.glsl",
+                          .moments_middle = 0.5f,
+                          .stores = {GN_MOMENTS_RG32F_BITS, GN_MOMENTS_RG16UI, GN_MOMENTS_RG16F},
+                          .radius_texels = 6,
+                          .bias_texels = 1.0f,
+                          .what = "two moments of a blurred map, Chebyshev's inequality",
+                          .source = "Donnelly, Lauritzen 2006"},
     [GN_TECHNIQUE_PLANAR] = {.name = "planar",
                              .file = "shadow/planar.glsl",
                              .on_plane = true,
@@ -87,7 +97,8 @@ const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
 };
 
 bool gn_technique_shades(enum gn_technique technique) {
-    return gn_techniques[technique].filters || gn_techniques[technique].soft;
+    return gn_techniques[technique].filters || gn_techniques[technique].soft ||
+           gn_technique_filters_map(technique);
 }
 
 bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err) {
@@ -120,6 +131,14 @@ bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *er
     return gn_fail_usage(err, "there is no map format '%s'; there are %s", name, names);
 }
 
+bool gn_map_format_find(const char *name, enum gn_encoding *encoding, enum gn_moments *moments,
+                        struct gn_err *err) {
+    *moments = GN_MOMENTS_NONE;
+    if (!gn_moments_find(name, moments)) return gn_encoding_find(name, encoding, err);
+    *encoding = GN_ENCODING_AUTO;
+    return true;
+}
+
 enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted,
                                     uint32_t proved, bool *fell_back) {
     static const enum gn_encoding by_distance[] = {GN_ENCODING_R16F, GN_ENCODING_R32UI,
@@ -128,6 +147,10 @@ enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encodin
                                                 GN_ENCODING_R16F};
     *fell_back = false;
     if (gn_techniques[technique].on_plane) return GN_ENCODING_MASK;
+    if (gn_technique_filters_map(technique)) {
+        *fell_back = wanted != GN_ENCODING_AUTO;
+        return proved & 1u << GN_ENCODING_R32UI ? GN_ENCODING_R32UI : GN_ENCODING_RGBA8;
+    }
     if (wanted != GN_ENCODING_AUTO && proved & 1u << wanted) return wanted;
     *fell_back = wanted != GN_ENCODING_AUTO;
     const enum gn_encoding *order =

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "core/err.h"
+#include "shadow/moments.h"
 #include "shadow/taps.h"
 
 enum gn_technique {
@@ -19,6 +20,7 @@ enum gn_technique {
     GN_TECHNIQUE_DISK,
     GN_TECHNIQUE_POISSON,
     GN_TECHNIQUE_PCSS,
+    GN_TECHNIQUE_VSM,
     GN_TECHNIQUE_PLANAR,
     GN_TECHNIQUE_COUNT,
 };
@@ -46,6 +48,10 @@ struct gn_technique_row {
     bool on_plane;       /* what the scene's plane receives, and nothing else: planar.h */
     bool soft; /* its penumbrae are as wide as the light is large: the map reaches as far */
     enum gn_taps taps;
+    enum gn_filter filter;         /* passes turn its map into moments, which it reads; else NONE */
+    const char *moments;           /* below shaders_es/: what a code is turned into */
+    float moments_middle;          /* half floats are kept less this: the middle of their range */
+    uint8_t stores[GN_STORES_MAX]; /* gn_moments that keep it, best first, then NONE */
     unsigned radius_texels; /* how far from the point it reads, rounded up: margin of the map */
     float bias_texels; /* what the normal offset and slope grow with. Of a flat surface what is read
                           up to 1.7 times as far away stays lit; beyond that lie under 2 % of the
@@ -65,14 +71,25 @@ extern const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT];
 /* Whether it answers in shades: then what two tiles say near their common edge can be mixed. */
 bool gn_technique_shades(enum gn_technique technique);
 
+/* Whether it reads a filtered map. */
+static inline bool gn_technique_filters_map(enum gn_technique technique) {
+    return gn_techniques[technique].filter != GN_FILTER_NONE;
+}
+
 /* By name; on failure a usage error that lists the names. */
 bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err);
 bool gn_encoding_find(const char *name, enum gn_encoding *out,
                       struct gn_err *err); /* knows "auto" */
 
+/* What --map-format names: an encoding, for techniques that read the map itself, or moments, for
+ * the others. Of "auto" AUTO and NONE. */
+bool gn_map_format_find(const char *name, enum gn_encoding *encoding, enum gn_moments *moments,
+                        struct gn_err *err);
+
 /* The encoding that a technique gets: the wanted one, or for AUTO the first in the technique's
  * order that `proved` (a bit per encoding) has, else RGBA8. Where the wanted one is missing,
- * *fell_back is set and the automatic one taken. On the plane it is MASK, whatever is wanted;
+ * *fell_back is set and the automatic one taken. On the plane it is MASK, whatever is wanted; a map
+ * that is filtered has one that loses nothing, and it is its moments that can be wanted;
  * STENCIL is for who draws the picture to choose. */
 enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted,
                                     uint32_t proved, bool *fell_back);

@@ -220,7 +220,8 @@ static void plan_map(enum gn_encoding encoding, float code, float far_code) {
     s.passes[1] = s.passes[0];
     s.passes[1].first_draw = 1, s.passes[1].draw_count = 1;
     s.passes[0].draw_count = 1;
-    s.passes[0].target = (struct gn_target){GN_TARGET_SHADOW, 0, MAP, MAP, encoding};
+    s.passes[0].target = (struct gn_target){
+        .kind = GN_TARGET_SHADOW, .width_px = MAP, .height_px = MAP, .encoding = encoding};
     s.passes[0].border_px = 1;
     s.passes[0].clear_color[0] = far_code;
     s.passes[0].content_hash = 77;

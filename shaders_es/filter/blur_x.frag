@@ -1,0 +1,19 @@
+// Codes of a map into moments, averaged over a row of texels round each: the first half of a box whose ends may cut a texel. Within
+// the tile alone.
+#include "lib/pass.glsl"
+
+uniform MAP_SAMPLER u_map_0;
+layout(location = 0) out MOMENTS_OUT o_moments;
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy), ends = ivec2(u_pass[FILTER_RECT].xz);
+    vec4 blur = u_pass[FILTER_BLUR];
+    vec2 texel = u_pass[FILTER_SIZE].zw;
+    int most = int(blur.y);
+    vec4 sum = vec4(0.0);
+    for (int i = -most; i <= most; i++) {
+        vec2 from = vec2(clamp(at.x + i, ends.x, ends.y), at.y) + 0.5;
+        sum += moments_of(map_code(u_map_0, from * texel)) * min(blur.x + 0.5 - abs(float(i)), 1.0);
+    }
+    o_moments = moments_store(sum * blur.z);
+}

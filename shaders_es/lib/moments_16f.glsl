@@ -1,0 +1,15 @@
+//@ names moments_store moments_fetch moments_at moments_step moments_exponents
+// Moments as half floats, which samplers weigh. MOMENTS_MIDDLE is taken off, where they are finest.
+#undef MOMENTS_SAMPLER
+#undef MOMENTS_OUT
+#define MOMENTS_SAMPLER sampler2D
+#define MOMENTS_OUT vec4
+
+const float moments_step = 1.0 / 4096.0;
+const vec2 moments_exponents = vec2(5.54);
+
+vec4 moments_store(vec4 m) { return m - MOMENTS_MIDDLE; }
+
+vec4 moments_fetch(MOMENTS_SAMPLER map, ivec2 texel) { return texelFetch(map, texel, 0) + MOMENTS_MIDDLE; }
+
+vec4 moments_at(MOMENTS_SAMPLER map, vec2 uv, vec4 size) { return texture(map, uv) + MOMENTS_MIDDLE; }

@@ -1,0 +1,100 @@
+/* The passes that turn a map into what shaders read (shadow/moments.h): all of the target, or of
+ * each tile, a triangle each, in the order of the technique's filter. They are skipped as the map's
+ * own are, while the light's texture holds what they would make. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "blocks.glsl"
+#include "core/hash.h"
+#include "frame/private.h"
+
+/* Of all that decides what a tile is filtered into; never 0. */
+static uint64_t filter_hash(const struct gn_shadow_view *view, uint32_t tile) {
+    const uint32_t what[] = {view->technique, view->moments};
+    uint64_t h = gn_hash(GN_HASH_INIT, &view->tiles[tile].content_hash, sizeof(uint64_t));
+    h = gn_hash(h, what, sizeof what);
+    h = gn_hash(h, &view->blur_px, sizeof view->blur_px);
+    return h ? h : 1;
+}
+
+static struct gn_rect tile_rect(const struct gn_shadow_view *view, uint32_t tile) {
+    return (struct gn_rect){view->tiles[tile].x_px, view->tiles[tile].y_px, view->map_px,
+                            view->map_px};
+}
+
+static void put_constants(const struct gn_shadow_view *view, uint32_t tile, float (*c)[4]) {
+    const struct gn_rect r = tile_rect(view, tile);
+    const float size[2] = {(float)view->width_px, (float)view->height_px};
+    c[FILTER_RECT][0] = (float)r.x;
+    c[FILTER_RECT][1] = (float)r.y;
+    c[FILTER_RECT][2] = (float)(r.x + r.width - 1);
+    c[FILTER_RECT][3] = (float)(r.y + r.height - 1);
+    c[FILTER_BLUR][0] = view->blur_px;
+    c[FILTER_BLUR][1] = ceilf(view->blur_px - 0.5f);
+    c[FILTER_BLUR][2] = view->blur_px > 0.0f ? 0.5f / view->blur_px : 1.0f;
+    for (int k = 0; k < 2; k++) {
+        c[FILTER_SIZE][k] = size[k];
+        c[FILTER_SIZE][k + 2] = 1.0f / size[k];
+    }
+}
+
+static struct gn_read read_of(const struct gn_shadow_view *view, int from) {
+    if (from == GN_FROM_NOTHING) return (struct gn_read){.kind = GN_READ_NOTHING};
+    if (from == GN_FROM_MAP) return (struct gn_read){.kind = GN_READ_MAP};
+    return (struct gn_read){GN_READ_MOMENTS, (uint32_t)from, view->width_px, view->height_px};
+}
+
+static struct gn_program_key key_of(const struct gn_shadow_view *view, enum gn_filter_step step) {
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = GN_PROGRAM_FILTER;
+    key.step = (uint8_t)step;
+    key.moments = (uint8_t)view->moments;
+    if (!gn_filter_steps[step].reads_map) return key;
+    key.encoding = (uint8_t)view->encoding;
+    key.technique = (uint8_t)view->technique;
+    return key;
+}
+
+/* Behind those of the casters of the same tile: their set is larger than they take. */
+enum { CONSTANTS_AT = 8 };
+_Static_assert(PASS_CODE_ADD < CONSTANTS_AT && CONSTANTS_AT + FILTER_CONSTANTS <= GN_PASS_SIZE,
+               "room for the constants of a filter");
+
+static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
+                       const struct gn_filter_stage *stage, bool last) {
+    const struct gn_shadow_view *view = &frame->shadows[slot];
+    const struct gn_program_key key = key_of(view, stage->step);
+    float(*constants)[4] =
+        gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SHADOW_TILES_MAX + tile) +
+        CONSTANTS_AT;
+    struct gn_pass *pass = gn_frame_begin_pass(frame);
+    snprintf(pass->label, sizeof pass->label, "shadow %u %.26s %s", slot,
+             frame->scene->lights[view->light].name, gn_filter_steps[stage->step].name);
+    pass->target = (struct gn_target){.kind = GN_TARGET_MOMENTS,
+                                      .slot = slot,
+                                      .width_px = view->width_px,
+                                      .height_px = view->height_px,
+                                      .moments = view->moments,
+                                      .index = stage->to};
+    if (view->tile_count > 1) pass->rect = pass->viewport = tile_rect(view, tile);
+    pass->tile = tile;
+    pass->content_hash = filter_hash(view, tile);
+    pass->completes = last;
+    pass->depth_write = false;
+    for (int i = 0; i < GN_FILTER_FROM_MAX; i++) pass->reads[i] = read_of(view, stage->from[i]);
+    put_constants(view, tile, constants);
+    pass->constants = constants;
+    pass->constant_count = FILTER_CONSTANTS;
+    gn_frame_draw_bare(frame, &key, 3, 0, 1);
+    gn_frame_end_pass(frame);
+}
+
+void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot) {
+    const struct gn_shadow_view *view = &frame->shadows[slot];
+    const struct gn_filter_row *filter = &gn_filters[gn_techniques[view->technique].filter];
+    for (uint32_t i = 0; i < filter->count; i++)
+        for (uint32_t tile = 0; tile < view->tile_count; tile++)
+            stage_pass(frame, slot, tile, &filter->stages[i], i + 1 == filter->count);
+}

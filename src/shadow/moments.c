@@ -1,0 +1,47 @@
+#include "shadow/moments.h"
+
+#include <string.h>
+
+const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT] = {
+    [GN_MOMENTS_NONE] = {.name = "none"},
+    [GN_MOMENTS_RG16UI] = {"rg16ui", "lib/moments_16ui.glsl", 4, false},
+    [GN_MOMENTS_RG16F] = {"rg16f", "lib/moments_16f.glsl", 4, true},
+    [GN_MOMENTS_RG32F_BITS] = {"rg32f-bits", "lib/moments_bits.glsl", 8, false},
+    [GN_MOMENTS_RGBA16UI] = {"rgba16ui", "lib/moments_16ui.glsl", 8, false},
+    [GN_MOMENTS_RGBA16F] = {"rgba16f", "lib/moments_16f.glsl", 8, true},
+    [GN_MOMENTS_RGBA32F_BITS] = {"rgba32f-bits", "lib/moments_bits.glsl", 16, false},
+};
+
+const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {
+    [GN_STEP_BLUR_X] = {"blur x", "filter/blur_x.frag", true},
+    [GN_STEP_BLUR_Y] = {"blur y", "filter/blur_y.frag", false},
+};
+
+const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
+    [GN_FILTER_NONE] = {.count = 0},
+    [GN_FILTER_BLUR] = {.count = 2,
+                        .stages = {{GN_STEP_BLUR_X, {GN_FROM_MAP, GN_FROM_NOTHING}, 1},
+                                   {GN_STEP_BLUR_Y, {1, GN_FROM_NOTHING}, 0}}},
+};
+
+bool gn_moments_find(const char *name, enum gn_moments *out) {
+    for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++)
+        if (strcmp(name, gn_moments[i].name) == 0) {
+            *out = (enum gn_moments)i;
+            return true;
+        }
+    return false;
+}
+
+enum gn_moments gn_moments_choose(const uint8_t stores[GN_STORES_MAX], enum gn_moments wanted,
+                                  uint32_t proved, bool *fell_back) {
+    enum gn_moments first = GN_MOMENTS_NONE;
+    *fell_back = false;
+    for (int i = GN_STORES_MAX - 1; i >= 0; i--) {
+        if (!stores[i] || !(proved >> stores[i] & 1)) continue;
+        if (stores[i] == wanted) return wanted;
+        first = (enum gn_moments)stores[i];
+    }
+    *fell_back = wanted != GN_MOMENTS_NONE;
+    return first;
+}

@@ -1,0 +1,80 @@
+/* Filtered shadow maps: what a map's codes are turned into (moments of the distribution of
+ * distances), how textures keep that, and by which passes it is made. Three small tables.
+ *
+ * Moments of neighbouring texels may be averaged, which distances may not: so the map is blurred
+ * once, when it has changed, instead of by every pixel that reads it. A code of such a map is the
+ * distance itself, 0 at the near end and 1 at the far one. */
+#ifndef GN_SHADOW_MOMENTS_H
+#define GN_SHADOW_MOMENTS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* How a texture keeps moments. */
+enum gn_moments {
+    GN_MOMENTS_NONE,
+    GN_MOMENTS_RG16UI,     /* 0..1 in 16 bits */
+    GN_MOMENTS_RG16F,      /* filtered by the sampler */
+    GN_MOMENTS_RG32F_BITS, /* bits of floats in integers: drawn to by all of ES 3.0 */
+    GN_MOMENTS_RGBA16UI,   /* as the first ones, four of them */
+    GN_MOMENTS_RGBA16F,
+    GN_MOMENTS_RGBA32F_BITS,
+    GN_MOMENTS_COUNT,
+};
+struct gn_moments_row {
+    const char *name; /* as in --map-format */
+    const char *file; /* below shaders_es/ */
+    unsigned texel_bytes;
+    bool linear; /* a sampler weighs texels; else a shader does */
+};
+extern const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT];
+enum { GN_STORES_MAX = 4 }; /* of a technique */
+
+/* A program that fills all of a target from textures. */
+enum gn_filter_step {
+    GN_STEP_BLUR_X, /* of codes, which become moments on the way */
+    GN_STEP_BLUR_Y,
+    GN_STEP_COUNT,
+};
+struct gn_filter_step_row {
+    const char *name; /* of passes, for people */
+    const char *file; /* below shaders_es/ */
+    bool reads_map;   /* codes; else moments */
+};
+extern const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT];
+
+/* The passes that lead from a map to what shaders read, in their order: textures are numbered, 0 is
+ * the light's own, which the last pass fills; the others are shared by all lights. */
+enum gn_filter {
+    GN_FILTER_NONE,
+    GN_FILTER_BLUR, /* a box, as wide as gn_shadow_view.blur_px */
+    GN_FILTER_COUNT,
+};
+enum { GN_FILTER_STAGES_MAX = 8, GN_FILTER_TEXTURES_MAX = 4, GN_FILTER_FROM_MAX = 2 };
+#define GN_FROM_MAP     (-1) /* the map itself */
+#define GN_FROM_NOTHING (-2)
+struct gn_filter_stage {
+    enum gn_filter_step step;
+    int8_t from[GN_FILTER_FROM_MAX]; /* what is behind sampler i: a texture's number, or of these */
+    uint8_t to;
+};
+struct gn_filter_row {
+    uint32_t count;
+    struct gn_filter_stage stages[GN_FILTER_STAGES_MAX];
+};
+extern const struct gn_filter_row gn_filters[GN_FILTER_COUNT];
+
+/* Half the width of a blur, texels: a map is fit for the most. */
+#define GN_BLUR_LEAST_PX 1.5f
+#define GN_BLUR_MOST_PX  4.5f
+
+/* By name; false: there is none of it. */
+bool gn_moments_find(const char *name, enum gn_moments *out);
+
+/* The first of a technique's `stores` that `proved` (a bit per gn_moments) has, or the wanted one,
+ * if it is among them and proved; NONE: there is none. *fell_back: it is not what was wanted.
+ * wanted NONE: whatever comes first. */
+enum gn_moments gn_moments_choose(const uint8_t stores[GN_STORES_MAX], enum gn_moments wanted,
+                                  uint32_t proved, bool *fell_back);
+
+#endif
