@@ -1,4 +1,4 @@
-//@ names shadow_visibility
+//@ names shadow_visibility VSM_BLEED
 // Variance shadow maps (Donnelly, Lauritzen, "Variance Shadow Maps", 2006): by Chebyshev's inequality at most s^2 / (s^2 + (z - m)^2)
 // of the light passes, exactly so behind one caster before one receiver. What two casters one behind the other let through so is cut
 // off below VSM_BLEED, and the rest is stretched (Lauritzen, GPU Gems 3, ch. 8).
