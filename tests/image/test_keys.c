@@ -50,6 +50,11 @@ static void add_light(struct gn_program_key *key, int type, int technique, int e
     if (gn_techniques[technique].taps) key->taps = GN_TAPS_DEFAULT, key->taps_turn = 1;
 }
 
+static void filter_map(struct gn_light_key *light, int moments) {
+    light->encoding = GN_ENCODING_R32UI;
+    light->moments = (uint8_t)moments;
+}
+
 static void compiles(const struct gn_program_key *key) {
     struct gn_err err = {0};
     char *log = NULL;
@@ -59,6 +64,7 @@ static void compiles(const struct gn_program_key *key) {
 
 /* A mask and the stencil go with what is on a plane, and a plane with every light. */
 static bool go_together(int technique, int encoding) {
+    if (gn_technique_filters_map((enum gn_technique)technique)) return false;
     bool on_plane = gn_techniques[technique].on_plane;
     return on_plane == (encoding >= GN_ENCODING_MASK);
 }
@@ -76,6 +82,60 @@ static void test_techniques(void **state) {
                 key.aov = GN_AOV_VISIBILITY;
                 compiles(&key);
             }
+}
+
+/* What reads a filtered map, and the steps of the filter. */
+static void test_moments(void **state) {
+    (void)state;
+    for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
+        for (int i = 0; i < GN_STORES_MAX && gn_techniques[t].stores[i]; i++) {
+            for (int type = GN_LIGHT_DIRECTIONAL; type <= GN_LIGHT_SPOT; type++) {
+                struct gn_program_key key = key_of(GN_PROGRAM_LIT);
+                add_light(&key, type, t, 0);
+                filter_map(&key.lights[0], gn_techniques[t].stores[i]);
+                compiles(&key);
+                key.kind = GN_PROGRAM_AOV;
+                key.aov = GN_AOV_VISIBILITY;
+                compiles(&key);
+            }
+            const struct gn_filter_row *filter = &gn_filters[gn_techniques[t].filter];
+            for (uint32_t s = 0; s < 2 * filter->count; s++) {
+                struct gn_program_key key = key_of(GN_PROGRAM_FILTER);
+                key.step = (uint8_t)filter->stages[s / 2].step;
+                key.moments = gn_techniques[t].stores[i];
+                if (gn_filter_steps[key.step].reads_map) {
+                    key.technique = (uint8_t)t;
+                    key.encoding = s % 2 ? GN_ENCODING_R32UI : GN_ENCODING_RGBA8;
+                }
+                compiles(&key);
+            }
+        }
+}
+
+/* Files that several of them read come once, and what each names its own way does not collide. */
+static void test_as_many_moments_as_may_be(void **state) {
+    (void)state;
+    static const struct {
+        int technique, moments;
+    } lights[][GN_SHADOWS_MAX] = {
+        {{GN_TECHNIQUE_VSM, GN_MOMENTS_RG32F_BITS},
+         {GN_TECHNIQUE_EVSM, GN_MOMENTS_RGBA16F},
+         {GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA16UI},
+         {GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA16F}},
+        {{GN_TECHNIQUE_VSM, GN_MOMENTS_RG16UI},
+         {GN_TECHNIQUE_VSM, GN_MOMENTS_RG16F},
+         {GN_TECHNIQUE_EVSM, GN_MOMENTS_RGBA32F_BITS},
+         {GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA32F_BITS}},
+    };
+    for (int n = 0; n < 2; n++) {
+        struct gn_program_key key = key_of(GN_PROGRAM_LIT);
+        key.features = GN_FEATURE_SPECULAR;
+        for (int i = 0; i < GN_SHADOWS_MAX; i++) {
+            add_light(&key, i % 3, lights[n][i].technique, 0);
+            filter_map(&key.lights[i], lights[n][i].moments);
+        }
+        compiles(&key);
+    }
 }
 
 static void test_features(void **state) {
@@ -136,6 +196,8 @@ static void test_slides(void **state) {
             key.features = t % 2 ? GN_FEATURE_SPECULAR : GN_FEATURE_FLAT_CONSTANTS;
             add_light(&key, GN_LIGHT_SPOT, t,
                       gn_techniques[t].on_plane ? GN_ENCODING_MASK : GN_ENCODING_DEPTH);
+            if (gn_technique_filters_map((enum gn_technique)t))
+                filter_map(&key.lights[0], gn_techniques[t].stores[0]);
             key.lights[0].slide = (uint8_t)slide;
             compiles(&key);
         }
@@ -156,12 +218,15 @@ static void test_as_many_slides_as_may_be(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_techniques, open_egl, close_all),
+        cmocka_unit_test_setup_teardown(test_moments, open_egl, close_all),
+        cmocka_unit_test_setup_teardown(test_as_many_moments_as_may_be, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_features, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_casters, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_many_lights, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_slides, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_as_many_slides_as_may_be, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_techniques, open_osmesa, close_all),
+        cmocka_unit_test_setup_teardown(test_moments, open_osmesa, close_all),
         cmocka_unit_test_setup_teardown(test_many_lights, open_osmesa, close_all),
         cmocka_unit_test_setup_teardown(test_as_many_slides_as_may_be, open_osmesa, close_all),
     };

@@ -23,6 +23,12 @@ static struct gn_program_key lit(uint32_t features, enum gn_light_type type, con
         e = strcmp(encoding, "stencil") == 0 ? GN_ENCODING_STENCIL : GN_ENCODING_MASK;
     else
         gn_encoding_find(encoding, &e, NULL);
+    if (gn_technique_filters_map(t)) {
+        enum gn_moments moments = (enum gn_moments)gn_techniques[t].stores[0];
+        gn_moments_find(encoding, &moments);
+        key.lights[0].moments = (uint8_t)moments;
+        e = GN_ENCODING_R32UI;
+    }
     key.shadow_count = t != GN_TECHNIQUE_NONE;
     key.lights[0].technique = (uint8_t)t;
     key.lights[0].encoding = (uint8_t)e;
@@ -45,7 +51,26 @@ static struct gn_program_key caster(enum gn_program_kind kind, uint32_t features
     return key;
 }
 
+static struct gn_program_key filter(enum gn_technique technique, enum gn_filter_step step) {
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = GN_PROGRAM_FILTER;
+    key.step = (uint8_t)step;
+    key.moments = gn_techniques[technique].stores[0];
+    if (!gn_filter_steps[step].reads_map) return key;
+    key.technique = (uint8_t)technique;
+    key.encoding = GN_ENCODING_R32UI;
+    return key;
+}
+
+static const char *const moments_formats[GN_MOMENTS_COUNT] = {
+    [GN_MOMENTS_RG16UI] = "RG16UI",     [GN_MOMENTS_RG16F] = "RG16F",
+    [GN_MOMENTS_RG32F_BITS] = "RG32UI", [GN_MOMENTS_RGBA16UI] = "RGBA16UI",
+    [GN_MOMENTS_RGBA16F] = "RGBA16F",   [GN_MOMENTS_RGBA32F_BITS] = "RGBA32UI",
+};
+
 static const char *target_of(const struct gn_program_key *key) {
+    if (key->kind == GN_PROGRAM_FILTER) return moments_formats[key->moments];
     static const char *const maps[GN_ENCODING_COUNT] = {"none", "R32UI", "R16F",
                                                         "R16F", "RGBA8", "R8"};
     if (key->kind == GN_PROGRAM_DEPTH) return "none";
@@ -66,7 +91,12 @@ static bool write(const char *folder, const char *name, const struct gn_program_
                  target_of(key));
         if (key->shadow_count && key->lights[0].encoding != GN_ENCODING_STENCIL)
             snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_map_0 %s\n",
-                     formats[key->lights[0].encoding]);
+                     key->lights[0].moments ? moments_formats[key->lights[0].moments]
+                                            : formats[key->lights[0].encoding]);
+        if (key->kind == GN_PROGRAM_FILTER)
+            snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_map_0 %s\n",
+                     gn_filter_steps[key->step].reads_map ? "R32UI"
+                                                          : moments_formats[key->moments]);
         if (key->lights[0].slide)
             snprintf(head + strlen(head), sizeof head - strlen(head),
                      "//@ tex u_slide_0 SRGB8A8\n");
@@ -94,7 +124,16 @@ enum {
 static bool write_all(const char *folder, struct gn_err *err) {
     static const char *const lights[] = {"sun", "point", "spot"};
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
-        for (int type = GN_LIGHT_DIRECTIONAL; type <= GN_LIGHT_SPOT; type++)
+        for (int type = GN_LIGHT_DIRECTIONAL; type <= GN_LIGHT_SPOT; type++) {
+            if (gn_technique_filters_map((enum gn_technique)t)) {
+                const char *moments = gn_moments[gn_techniques[t].stores[0]].name;
+                char name[80];
+                snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, lights[type],
+                         moments);
+                struct gn_program_key key = lit(FULL, type, gn_techniques[t].name, moments);
+                if (!write(folder, name, &key, err)) return false;
+                continue;
+            }
             for (int e = 0; e < GN_ENCODING_COUNT; e++) {
                 bool fell_back;
                 enum gn_encoding own = gn_encoding_choose((enum gn_technique)t, GN_ENCODING_AUTO,
@@ -110,6 +149,7 @@ static bool write_all(const char *folder, struct gn_err *err) {
                     lit(FULL, type, gn_techniques[t].name, gn_encodings[e].name);
                 if (!write(folder, name, &key, err)) return false;
             }
+        }
     return true;
 }
 
@@ -147,6 +187,12 @@ int main(int argc, char **argv) {
         {"map-r16f", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_R16F)},
         {"map-r16f-spot", caster(GN_PROGRAM_DISTANCE, GN_FEATURE_PERSPECTIVE, GN_ENCODING_R16F)},
         {"map-rgba8", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_RGBA8)},
+        {"vsm-blur-x", filter(GN_TECHNIQUE_VSM, GN_STEP_BLUR_X)},
+        {"vsm-blur-y", filter(GN_TECHNIQUE_VSM, GN_STEP_BLUR_Y)},
+        {"evsm-blur-x", filter(GN_TECHNIQUE_EVSM, GN_STEP_BLUR_X)},
+        {"evsm-blur-y", filter(GN_TECHNIQUE_EVSM, GN_STEP_BLUR_Y)},
+        {"msm-blur-x", filter(GN_TECHNIQUE_MSM, GN_STEP_BLUR_X)},
+        {"msm-blur-y", filter(GN_TECHNIQUE_MSM, GN_STEP_BLUR_Y)},
         {"map-mask", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_MASK)},
     };
     struct gn_err err = {0};
