@@ -13,7 +13,7 @@ struct gn_bench_pass {
     double ms; /* per frame: wall clock around the pass and a read-back, from a run of its own */
 };
 
-enum { GN_BENCH_NAMES = 64 }; /* room for all that there are, joined */
+enum { GN_BENCH_NAMES = 128 }; /* room for all that there are, joined */
 struct gn_bench_run {         /* one technique */
     char technique[GN_BENCH_NAMES];
     char map_format[GN_BENCH_NAMES]; /* what its maps were, "none" without any; "depth+r16f" if they

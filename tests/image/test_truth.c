@@ -15,17 +15,20 @@ static void quick_rows(struct gn_table *table) {
     gn_table_add(table, "hard", "depth", 1024);
     gn_table_add(table, "pcf3", "depth", 1024);
     gn_table_add(table, "planar", "auto", 1024);
+    gn_table_add(table, "msm", "auto", 1024);
 }
 
 /* A tile of a point light sees 90 degrees, whatever there is: 256 texels are too few for limits. */
 static void full_rows(struct gn_table *table, enum gn_table_kind kind) {
     static const char *const formats[] = {"r16f", "depth", "r16f-raw", "r32ui", "rgba8"};
     static const char *const filters[] = {"pcf", "pcf2", "pcf3", "pcf5", "disk", "poisson", "pcss"};
+    static const char *const moments[] = {"vsm", "evsm", "msm"};
     static const unsigned maps[] = {1024, 256};
     for (int i = 0; i < GN_TABLE_SCENES; i++) table->scenes[i] = true;
     for (int m = 0; m < (kind == GN_TABLE_POINT ? 1 : 2); m++) {
         for (int f = 0; f < 5; f++) gn_table_add(table, "hard", formats[f], maps[m]);
         gn_table_add(table, "planar", "auto", maps[m]);
+        for (int t = 0; t < 3; t++) gn_table_add(table, moments[t], "auto", maps[m]);
         for (int t = 0; t < 7; t++)
             for (int f = 0; f < 2; f++) gn_table_add(table, filters[t], formats[f], maps[m]);
     }

@@ -40,8 +40,21 @@ static bool is_stencil(const struct gn_table_row *row) {
 static enum gn_encoding encoding_of(const struct gn_table_row *row) {
     enum gn_encoding encoding = GN_ENCODING_MASK;
     if (is_stencil(row)) return GN_ENCODING_STENCIL;
+    if (technique_of(row)->filter) return GN_ENCODING_R32UI;
     if (!technique_of(row)->on_plane) gn_encoding_find(row->format, &encoding, NULL);
     return encoding;
+}
+
+/* What its technique makes of the map; NONE: it reads the map itself. */
+static enum gn_moments moments_of(const struct gn_table_row *row) {
+    enum gn_moments moments = GN_MOMENTS_NONE;
+    if (technique_of(row)->filter) gn_moments_find(row->format, &moments);
+    return moments;
+}
+
+static const char *format_of(const struct gn_table_row *row) {
+    const enum gn_moments moments = moments_of(row);
+    return moments ? gn_moments[moments].name : gn_encodings[encoding_of(row)].name;
 }
 
 /* ---- errors ---- */
@@ -164,7 +177,7 @@ static void print_instructions(const char *file, const struct gn_table_row *row,
     char wanted[80], program[80], gpu[16];
     int count, found[GPUS] = {0};
     snprintf(wanted, sizeof wanted, "%s-%s-%s", row->technique, lights[light].shader,
-             gn_encodings[encoding_of(row)].name);
+             format_of(row));
     FILE *from = fopen(file, "r");
     while (from && fscanf(from, "%79s %15s %d", program, gpu, &count) == 3)
         for (int i = 0; i < GPUS; i++)
@@ -180,7 +193,9 @@ static void print_instructions(const char *file, const struct gn_table_row *row,
 static double megabytes_of(const struct gn_table_row *row, int light) {
     enum gn_encoding encoding = encoding_of(row);
     double tiles = light == 2 && encoding != GN_ENCODING_MASK ? 6 : 1;
-    return gn_encodings[encoding].texel_bytes * tiles * 1024 * 1024 / 1e6;
+    const unsigned bytes = gn_encodings[encoding].texel_bytes +
+                           2 * gn_moments[moments_of(row)].texel_bytes; /* one on the way */
+    return bytes * tiles * 1024 * 1024 / 1e6;
 }
 
 /* ---- all ---- */
@@ -188,7 +203,7 @@ static double megabytes_of(const struct gn_table_row *row, int light) {
 static void print_row(const char *file, const struct penumbra *p, const struct gn_table_row *row,
                       int light, double cost) {
     printf("| %s%s%s | %s | %s", light ? "" : "`", light ? "" : row->technique, light ? "" : "`",
-           lights[light].name, gn_encodings[encoding_of(row)].name);
+           lights[light].name, format_of(row));
     print_share(mean_of(row, light, gn_mask_acne));
     print_share(mean_of(row, light, gn_mask_leak));
     print_share(mean_of(row, light, gn_mask_gap));
@@ -210,7 +225,9 @@ static void add_rows(struct gn_table *table) {
             gn_table_add(table, row->name, "auto", 1024);
             gn_table_add(table, row->name, "stencil", 1024);
         }
-        for (int f = 0; f < 5 && !row->on_plane; f++)
+        for (int i = 0; i < GN_STORES_MAX && row->stores[i]; i++)
+            gn_table_add(table, row->name, gn_moments[row->stores[i]].name, 1024);
+        for (int f = 0; f < 5 && !row->on_plane && !row->filter; f++)
             if (t == GN_TECHNIQUE_HARD || f == (row->reads_distance ? 0 : 1))
                 gn_table_add(table, row->name, by_hand[f], 1024);
     }
