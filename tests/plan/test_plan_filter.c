@@ -1,0 +1,92 @@
+/* Plans of filtered maps: the passes as a golden, what decides whether they run again, and what
+ * comes in the place of what a GPU lacks. */
+#include <string.h>
+
+#include "plan/fixture.h"
+#include "unit/check.h"
+
+static void choose(struct gn_plan_fixture *f, enum gn_technique technique) {
+    f->opts.technique_given = true;
+    f->opts.technique = technique;
+}
+
+static void test_msm_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    choose(&f, GN_TECHNIQUE_MSM);
+    gn_plan_expect(gn_plan_make(&f), "msm");
+    gn_plan_end(&f);
+}
+
+/* Of the first filter pass in the plan. */
+static uint64_t hash_of(const struct gn_plan *plan) {
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        if (plan->passes[i].target.kind == GN_TARGET_MOMENTS) return plan->passes[i].content_hash;
+    fail_msg("there is no filter");
+    return 0;
+}
+
+static void test_filters_change_with_their_map_and_technique_alone(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    choose(&f, GN_TECHNIQUE_EVSM);
+    const uint64_t before = hash_of(gn_plan_make(&f));
+    assert_int_equal(hash_of(gn_plan_make(&f)), before);
+    choose(&f, GN_TECHNIQUE_MSM); /* it may be kept in the same kind of texture */
+    f.opts.moments = GN_MOMENTS_RGBA32F_BITS;
+    assert_true(hash_of(gn_plan_make(&f)) != before);
+    choose(&f, GN_TECHNIQUE_EVSM);
+    assert_int_equal(hash_of(gn_plan_make(&f)), before);
+    f.scene->lights[0].radius = 0.3f; /* a wider blur of the same map */
+    assert_true(hash_of(gn_plan_make(&f)) != before);
+    gn_plan_end(&f);
+}
+
+static enum gn_moments moments_with(uint32_t caps, enum gn_technique technique,
+                                    enum gn_moments wanted, const char *says) {
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, caps);
+    choose(&f, technique);
+    f.opts.moments = wanted;
+    struct gn_warnings warnings = {0};
+    const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+    const enum gn_moments moments = plan->shadows[0].moments;
+    assert_null(gn_plan_check(plan));
+    assert_int_equal(warnings.count > 0, says != NULL);
+    if (says && !strstr(warnings.text[0], says)) fail_msg("%s", warnings.text[0]);
+    gn_plan_end(&f);
+    return moments;
+}
+
+static void test_what_a_gpu_lacks_is_replaced(void **state) {
+    (void)state;
+    const uint32_t no_bits = GN_EVERY_CAP & ~(1u << GN_CAP_RG32UI | 1u << GN_CAP_RGBA32UI);
+    const uint32_t nothing = no_bits & ~(1u << GN_CAP_RGBA16F);
+    assert_int_equal(moments_with(GN_EVERY_CAP, GN_TECHNIQUE_VSM, GN_MOMENTS_NONE, NULL),
+                     GN_MOMENTS_RG32F_BITS);
+    assert_int_equal(moments_with(no_bits, GN_TECHNIQUE_VSM, GN_MOMENTS_NONE, NULL),
+                     GN_MOMENTS_RG16UI);
+    assert_int_equal(moments_with(no_bits, GN_TECHNIQUE_EVSM, GN_MOMENTS_NONE, NULL),
+                     GN_MOMENTS_RGBA16F);
+    assert_int_equal(moments_with(GN_EVERY_CAP, GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA16F, NULL),
+                     GN_MOMENTS_RGBA16F);
+    assert_int_equal(moments_with(GN_EVERY_CAP, GN_TECHNIQUE_MSM, GN_MOMENTS_RG16F,
+                                  "msm keeps no shadows in map format rg16f"),
+                     GN_MOMENTS_RGBA16UI);
+    assert_int_equal(moments_with(GN_EVERY_CAP, GN_TECHNIQUE_PCF, GN_MOMENTS_RG16F,
+                                  "pcf keeps no shadows in map format rg16f; depth is used"),
+                     GN_MOMENTS_NONE);
+    assert_int_equal(moments_with(nothing, GN_TECHNIQUE_EVSM, GN_MOMENTS_NONE, "gets pcf"),
+                     GN_MOMENTS_NONE);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_msm_plan),
+        cmocka_unit_test(test_filters_change_with_their_map_and_technique_alone),
+        cmocka_unit_test(test_what_a_gpu_lacks_is_replaced),
+    };
+    return RUN(tests);
+}
