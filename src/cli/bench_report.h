@@ -14,7 +14,7 @@ struct gn_bench_pass {
 };
 
 enum { GN_BENCH_NAMES = 128 }; /* room for all that there are, joined */
-struct gn_bench_run {         /* one technique */
+struct gn_bench_run {          /* one technique */
     char technique[GN_BENCH_NAMES];
     char map_format[GN_BENCH_NAMES]; /* what its maps were, "none" without any; "depth+r16f" if they
                                         differ */
