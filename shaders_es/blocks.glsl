@@ -20,7 +20,7 @@
 #define SHADOW_BIAS 4     /* x: normal offset, y: slope offset, both in plane units (texel times texels); z: slope_max; w: ulp, metres */
 #define SHADOW_PLACE 5    /* xyz: position of the light; w: distance_scale */
 #define SHADOW_MAP_SIZE 6 /* xy: width and height of the map in texels; zw: 1 / width, 1 / height */
-#define SHADOW_CODE 7     /* x: distance_offset; y: far_code; z: point: how far beside a place may be read, texels; w: point: tangent over which tiles are shared */
+#define SHADOW_CODE 7     /* x: distance_offset; y: far_code; z: point, table: how far beside a place may be read, texels; w: point: tangent over which tiles are shared */
 #define SHADOW_SOFT 8     /* how wide a penumbra is: lib/shadow_place.glsl */
 #define PASS_SLIDES 70    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides ends here */
 #define SLIDE_SIZE 4
@@ -33,7 +33,12 @@
 #define FILTER_RECT 0     /* xy: lower left texel of the tile, zw: upper right one, both in it */
 #define FILTER_BLUR 1     /* x: half the width of the box, texels; y: its last texel, from the middle; z: 1 / width */
 #define FILTER_SIZE 2     /* xy: width and height of the map in texels; zw: their inverse */
-#define FILTER_CONSTANTS 3
+#define FILTER_TABLE 3    /* x: how far from a place the table is read, texels; y: where the tile's sums of blocks begin, from the left */
+#define FILTER_CONSTANTS 4
+/* Summed-area tables */
+#define TABLE_BLOCK 16    /* texels that are summed at once; sums of whole blocks make good for the rest */
+/* Of moments 0..1 in fixed point: so many texels' sum fits into 32 bits as lie in a square that reaches `reach` texels from its middle */
+#define TABLE_SCALE(reach) (4294966272.0f / ((2.0f * (reach) + 2.0f) * (2.0f * (reach) + 2.0f)) - 1.0f)
 /* Casters fallen on the plane: PASS_CLIP, and */
 #define FLAT_PLANE 4      /* height over the plane: dot with (p, 1), world space */
 #define FLAT_HEIGHTS 5    /* x, y: between these a point casts, metres */

@@ -13,7 +13,9 @@ struct shadow_place {
     // none is nearer than soft.y. The tangents of a lamp's radius grow with 1 / distance, of the sun's with the distance itself.
     vec4 soft;
     bool inverse;
-    vec2 beside; // as in shadow_tile
+    float reach;  // how far from here a technique may read that says so, texels: tables, and all techniques of a point light
+    vec4 window;  // and where: lower left and upper right edge of the tile, texels
+    vec2 beside;  // as in shadow_tile
 };
 
 // Beyond the edge of the map: the outermost texels of one that is filtered are not all lit.
@@ -58,6 +60,8 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     s.far = SHADOW(slot, SHADOW_CODE).y;
     s.soft = SHADOW(slot, SHADOW_SOFT);
     s.inverse = type != LIGHT_DIRECTIONAL && radial;
+    s.reach = SHADOW(slot, SHADOW_CODE).z;
+    s.window = vec4(0.0, 0.0, s.size.xy);
     if (SHADOW_LINEAR[slot]) {
         s.at = from_vertex;
         s.slope = shadow_slope_directional(slot, face, l);
@@ -67,7 +71,10 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.at = shadow_tile_at(slot, radial, t);
         s.slope = shadow_tile_slope(slot, radial, t, face);
         if (radial) s.soft.x *= length(t.q) / t.q.z;
-        s.soft.y = max(s.soft.y, shadow_e(s, s.at.z) - SHADOW(slot, SHADOW_CODE).z / s.soft.x); // no wider than the gutter
+        s.soft.y = max(s.soft.y, shadow_e(s, s.at.z) - s.reach / s.soft.x); // no wider than the gutter
+        vec2 tile = s.size.xy * vec2(1.0 / 3.0, 0.5);
+        s.window.xy = floor(s.at.xy * vec2(3.0, 2.0)) * tile;
+        s.window.zw = s.window.xy + tile;
     } else {
         s.at = shadow_point_spot(slot, radial, p, n, l);
         s.slope = shadow_slope_spot(slot, radial, s.at, p, face, l);

@@ -73,7 +73,7 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
     {.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
      .help = "shadow technique, for bench also a list with commas", .commands = DRAW, .offset = FIELD(shadow)},
     {.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
-     .fallback = "1024", .help = "side of a shadow map", .commands = DRAW, .offset = FIELD(map_px)},
+     .fallback = "1024", .help = "side of a shadow map, and of the table of one; of vssm and smsm 512 by itself", .commands = DRAW, .offset = FIELD(map_px)},
     {.name = "map-format", .section = "render", .kind = GN_KIND_WORD, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
      .help = "how a shadow map stores distance; from rg16ui on: what vsm, evsm and msm keep of it", .commands = DRAW, .offset = FIELD(map_format)},
     {.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",

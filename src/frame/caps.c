@@ -37,6 +37,8 @@ enum gn_cap gn_cap_of_moments(enum gn_moments moments) {
         [GN_MOMENTS_RGBA16UI] = GN_CAP_RGBA16UI,
         [GN_MOMENTS_RGBA16F] = GN_CAP_RGBA16F,
         [GN_MOMENTS_RGBA32F_BITS] = GN_CAP_RGBA32UI,
+        [GN_MOMENTS_TABLE_RG32UI] = GN_CAP_RG32UI,
+        [GN_MOMENTS_TABLE_RGBA32UI] = GN_CAP_RGBA32UI,
     };
     return caps[moments];
 }

@@ -15,12 +15,37 @@ static uint64_t filter_hash(const struct gn_shadow_view *view, uint32_t tile) {
     uint64_t h = gn_hash(GN_HASH_INIT, &view->tiles[tile].content_hash, sizeof(uint64_t));
     h = gn_hash(h, what, sizeof what);
     h = gn_hash(h, &view->blur_px, sizeof view->blur_px);
+    h = gn_hash(h, &view->reach_px, sizeof view->reach_px);
     return h ? h : 1;
 }
 
 static struct gn_rect tile_rect(const struct gn_shadow_view *view, uint32_t tile) {
     return (struct gn_rect){view->tiles[tile].x_px, view->tiles[tile].y_px, view->map_px,
                             view->map_px};
+}
+
+/* ---- sums of blocks: of all tiles side by side, as high as one ---- */
+
+static uint32_t blocks_of(const struct gn_shadow_view *view) {
+    return (view->map_px + TABLE_BLOCK - 1) / TABLE_BLOCK;
+}
+
+static bool is_narrow(const struct gn_shadow_view *view, uint32_t texture) {
+    const uint32_t narrow = gn_filters[gn_techniques[view->technique].filter].narrow;
+    return narrow > 0 && texture == narrow;
+}
+
+static void texture_size(const struct gn_shadow_view *view, uint32_t texture, uint32_t size_px[2]) {
+    const bool narrow = is_narrow(view, texture);
+    size_px[0] = narrow ? view->tile_count * blocks_of(view) : view->width_px;
+    size_px[1] = narrow ? view->map_px : view->height_px;
+}
+
+/* The part of a texture that is of a tile. */
+static struct gn_rect part_rect(const struct gn_shadow_view *view, uint32_t texture,
+                                uint32_t tile) {
+    if (!is_narrow(view, texture)) return tile_rect(view, tile);
+    return (struct gn_rect){tile * blocks_of(view), 0, blocks_of(view), view->map_px};
 }
 
 static void put_constants(const struct gn_shadow_view *view, uint32_t tile, float (*c)[4]) {
@@ -33,6 +58,8 @@ static void put_constants(const struct gn_shadow_view *view, uint32_t tile, floa
     c[FILTER_BLUR][0] = view->blur_px;
     c[FILTER_BLUR][1] = ceilf(view->blur_px - 0.5f);
     c[FILTER_BLUR][2] = view->blur_px > 0.0f ? 0.5f / view->blur_px : 1.0f;
+    c[FILTER_TABLE][0] = view->reach_px;
+    c[FILTER_TABLE][1] = (float)(tile * blocks_of(view));
     for (int k = 0; k < 2; k++) {
         c[FILTER_SIZE][k] = size[k];
         c[FILTER_SIZE][k + 2] = 1.0f / size[k];
@@ -42,7 +69,9 @@ static void put_constants(const struct gn_shadow_view *view, uint32_t tile, floa
 static struct gn_read read_of(const struct gn_shadow_view *view, int from) {
     if (from == GN_FROM_NOTHING) return (struct gn_read){.kind = GN_READ_NOTHING};
     if (from == GN_FROM_MAP) return (struct gn_read){.kind = GN_READ_MAP};
-    return (struct gn_read){GN_READ_MOMENTS, (uint32_t)from, view->width_px, view->height_px};
+    uint32_t size_px[2];
+    texture_size(view, (uint32_t)from, size_px);
+    return (struct gn_read){GN_READ_MOMENTS, (uint32_t)from, size_px[0], size_px[1]};
 }
 
 static struct gn_program_key key_of(const struct gn_shadow_view *view, enum gn_filter_step step) {
@@ -70,15 +99,17 @@ static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
         gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SHADOW_TILES_MAX + tile) +
         CONSTANTS_AT;
     struct gn_pass *pass = gn_frame_begin_pass(frame);
+    uint32_t size_px[2];
+    texture_size(view, stage->to, size_px);
     snprintf(pass->label, sizeof pass->label, "shadow %u %.26s %s", slot,
              frame->scene->lights[view->light].name, gn_filter_steps[stage->step].name);
     pass->target = (struct gn_target){.kind = GN_TARGET_MOMENTS,
                                       .slot = slot,
-                                      .width_px = view->width_px,
-                                      .height_px = view->height_px,
+                                      .width_px = size_px[0],
+                                      .height_px = size_px[1],
                                       .moments = view->moments,
                                       .index = stage->to};
-    if (view->tile_count > 1) pass->rect = pass->viewport = tile_rect(view, tile);
+    if (view->tile_count > 1) pass->rect = pass->viewport = part_rect(view, stage->to, tile);
     pass->tile = tile;
     pass->content_hash = filter_hash(view, tile);
     pass->completes = last;

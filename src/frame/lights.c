@@ -212,7 +212,9 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
 static uint32_t map_px_of(const struct gn_frame *frame, const struct gn_frame_light *light,
                           const struct gn_frame_opts *opts) {
     const struct gn_light *l = &frame->scene->lights[light->light];
-    uint32_t map_px = opts->map_px ? opts->map_px : l->map_px ? l->map_px : 1024;
+    const uint32_t own_px = gn_techniques[light->technique].map_px,
+                   usual_px = own_px ? own_px : 1024;
+    uint32_t map_px = opts->map_px ? opts->map_px : l->map_px ? l->map_px : usual_px;
     uint32_t one_px[2];
     if (light->encoding == GN_ENCODING_STENCIL) return 0;
     gn_shadow_map_size(l->type, light->technique, 1, one_px);

@@ -237,7 +237,7 @@ struct gn_frame_opts {            /* zero means the default written beside */
     enum gn_technique technique;
     enum gn_encoding encoding; /* GN_ENCODING_AUTO must be set for the automatic choice */
     enum gn_moments moments;   /* of techniques that filter their map; NONE: the automatic choice */
-    uint32_t map_px;           /* 0: the light's, else 1024 */
+    uint32_t map_px;           /* 0: the light's, else the technique's */
     bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
     unsigned taps;          /* of disk, poisson, pcss: 8, 16, 32; 16 */
     bool taps_fixed;        /* the same for every pixel */

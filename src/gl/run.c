@@ -342,17 +342,25 @@ static bool completes(const struct gn_pass *pass) {
     return pass->target.kind == GN_TARGET_SHADOW || pass->completes;
 }
 
+/* What tells whether a pass has to run: the map, or the light's own moments, whose size may be
+ * another than of what it draws to. */
+static struct gn_gl_map *owner_of(struct gn_gl *gl, const struct gn_plan *plan,
+                                  const struct gn_pass *pass) {
+    const uint32_t slot = pass->target.slot;
+    return gn_gl_view_find(gl, &plan->shadows[slot], slot, pass->target.kind == GN_TARGET_MOMENTS);
+}
+
 static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                      struct gn_err *err) {
     if (!goes_to_map(pass)) return draw_pass(gl, plan, pass, NULL, err);
-    struct gn_gl_map *to = gn_gl_target_find(gl, &pass->target),
-                     *owner = gn_gl_target_owner(gl, &pass->target);
+    struct gn_gl_map *to = gn_gl_target_find(gl, &pass->target), *owner = owner_of(gl, plan, pass);
     if (!to || !owner) return gn_fail(err, "%s: the plan was not prepared", pass->label);
     if (!is_stale(owner, pass)) {
         owner->cleared = false;
         gl->stats.shadow_passes_skipped += pass->target.kind == GN_TARGET_SHADOW;
         return true;
     }
+    if (to == owner) owner->content_hash[pass->tile] = 0; /* now something else, until it is done */
     const bool ok = draw_pass(gl, plan, pass, to, err);
     if (completes(pass)) owner->content_hash[pass->tile] = ok ? pass->content_hash : 0;
     return ok;

@@ -215,6 +215,8 @@ static const GLenum moments_formats[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_RGBA16UI] = GL_RGBA16UI,
     [GN_MOMENTS_RGBA16F] = GL_RGBA16F,
     [GN_MOMENTS_RGBA32F_BITS] = GL_RGBA32UI,
+    [GN_MOMENTS_TABLE_RG32UI] = GL_RG32UI,
+    [GN_MOMENTS_TABLE_RGBA32UI] = GL_RGBA32UI,
 };
 
 static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {
@@ -284,12 +286,6 @@ static struct gn_target kept_target(const struct gn_target *target) {
 struct gn_gl_map *gn_gl_target_find(struct gn_gl *gl, const struct gn_target *target) {
     const struct gn_target kept = kept_target(target);
     return map_find(gl, &kept);
-}
-
-struct gn_gl_map *gn_gl_target_owner(struct gn_gl *gl, const struct gn_target *target) {
-    struct gn_target own = *target;
-    own.index = 0;
-    return map_find(gl, &own);
 }
 
 struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view *view,

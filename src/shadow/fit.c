@@ -297,6 +297,7 @@ static void set_gutter(struct gn_shadow_view *view) {
     view->gutter_px = row->soft && wanted < view->map_px / 8 ? view->map_px / 8 : wanted;
     if (view->gutter_px > view->map_px / 4) view->gutter_px = view->map_px / 4;
     view->reach_px = (float)view->gutter_px - 1.0f - beyond;
+    if (row->filter == GN_FILTER_TABLE) view->reach_px = least(view->reach_px, GN_TABLE_REACH_PX);
     view->texel = 2.0f / (float)(view->map_px - 2 * view->gutter_px);
     view->shared = SHARED_TEXELS * view->texel;
 }
@@ -351,6 +352,8 @@ static void begin_view(const struct gn_pose *pose, uint32_t light,
                                     .height_px = size_px[1],
                                     .tile_count = gn_shadow_tile_count(type, opts->technique),
                                     .perspective = type != GN_LIGHT_DIRECTIONAL};
+    if (gn_techniques[view->technique].filter == GN_FILTER_TABLE)
+        view->reach_px = GN_TABLE_REACH_PX;
     gn_pose_light(pose, light, view->light_ws, direction);
     glm_vec3_negate_to(direction, view->to_light_ws);
 }

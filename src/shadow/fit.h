@@ -30,6 +30,11 @@ struct gn_shadow_opts {
     bool all_receive;            /* gnomon_receive is not asked: for pictures of visibility */
 };
 
+/* A table is read no farther than so many texels from a place, so the widest penumbra is some twice
+ * that. The fixed point of its sums (shaders_es/blocks.glsl) is coarser by as much as the square of
+ * it: so they are right to a millionth. */
+#define GN_TABLE_REACH_PX 90
+
 enum { GN_SHADOW_TILES_MAX = 6 };
 struct gn_shadow_tile {
     mat4 light_from_world; /* rigid, but mirrored where it says so; looks along -Z */
@@ -59,7 +64,7 @@ struct gn_shadow_view {
     uint32_t width_px, height_px; /* of the map: all tiles */
     uint32_t gutter_px;           /* point: of a tile, to each side */
     float shared;                 /* point: tangent, to each side of a tile's edge */
-    float reach_px;               /* point: how far beside a place may be read */
+    float reach_px;               /* point, table: how far beside a place may be read */
     uint32_t tile_count;          /* 1, point: 6 */
     struct gn_shadow_tile tiles[GN_SHADOW_TILES_MAX];
     /* Directional, not on a plane: all that the map holds, outside of which it is cleared. Without

@@ -10,11 +10,18 @@ const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_RGBA16UI] = {"rgba16ui", "lib/moments_16ui.glsl", 8, false},
     [GN_MOMENTS_RGBA16F] = {"rgba16f", "lib/moments_16f.glsl", 8, true},
     [GN_MOMENTS_RGBA32F_BITS] = {"rgba32f-bits", "lib/moments_bits.glsl", 16, false},
+    [GN_MOMENTS_TABLE_RG32UI] = {"rg32ui", "lib/moments_table.glsl", 8, false},
+    [GN_MOMENTS_TABLE_RGBA32UI] = {"rgba32ui", "lib/moments_table.glsl", 16, false},
 };
 
 const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {
     [GN_STEP_BLUR_X] = {"blur x", "filter/blur_x.frag", true},
     [GN_STEP_BLUR_Y] = {"blur y", "filter/blur_y.frag", false},
+    [GN_STEP_TABLE_ROWS] = {"rows", "filter/table_rows.frag", true},
+    [GN_STEP_TABLE_ROW_SUMS] = {"row sums", "filter/table_row_sums.frag", false},
+    [GN_STEP_TABLE_COLUMNS] = {"columns", "filter/table_columns.frag", false},
+    [GN_STEP_TABLE_COLUMN_SUMS] = {"column sums", "filter/table_column_sums.frag", false},
+    [GN_STEP_TABLE_ADD] = {"table", "filter/table_add.frag", false},
 };
 
 const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
@@ -22,6 +29,13 @@ const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
     [GN_FILTER_BLUR] = {.count = 2,
                         .stages = {{GN_STEP_BLUR_X, {GN_FROM_MAP, GN_FROM_NOTHING}, 1},
                                    {GN_STEP_BLUR_Y, {1, GN_FROM_NOTHING}, 0}}},
+    [GN_FILTER_TABLE] = {.count = 5,
+                         .narrow = 2,
+                         .stages = {{GN_STEP_TABLE_ROWS, {GN_FROM_MAP, GN_FROM_NOTHING}, 0},
+                                    {GN_STEP_TABLE_ROW_SUMS, {0, GN_FROM_NOTHING}, 2},
+                                    {GN_STEP_TABLE_COLUMNS, {0, 2}, 1},
+                                    {GN_STEP_TABLE_COLUMN_SUMS, {1, GN_FROM_NOTHING}, 2},
+                                    {GN_STEP_TABLE_ADD, {1, 2}, 0}}},
 };
 
 bool gn_moments_find(const char *name, enum gn_moments *out) {

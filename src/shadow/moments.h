@@ -19,6 +19,8 @@ enum gn_moments {
     GN_MOMENTS_RGBA16UI,   /* as the first ones, four of them */
     GN_MOMENTS_RGBA16F,
     GN_MOMENTS_RGBA32F_BITS,
+    GN_MOMENTS_TABLE_RG32UI, /* sums of two, in fixed point that wraps round */
+    GN_MOMENTS_TABLE_RGBA32UI,
     GN_MOMENTS_COUNT,
 };
 struct gn_moments_row {
@@ -34,6 +36,11 @@ enum { GN_STORES_MAX = 4 }; /* of a technique */
 enum gn_filter_step {
     GN_STEP_BLUR_X, /* of codes, which become moments on the way */
     GN_STEP_BLUR_Y,
+    GN_STEP_TABLE_ROWS, /* of codes, which become moments in fixed point */
+    GN_STEP_TABLE_ROW_SUMS,
+    GN_STEP_TABLE_COLUMNS,
+    GN_STEP_TABLE_COLUMN_SUMS,
+    GN_STEP_TABLE_ADD,
     GN_STEP_COUNT,
 };
 struct gn_filter_step_row {
@@ -47,7 +54,8 @@ extern const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT];
  * the light's own, which the last pass fills; the others are shared by all lights. */
 enum gn_filter {
     GN_FILTER_NONE,
-    GN_FILTER_BLUR, /* a box, as wide as gn_shadow_view.blur_px */
+    GN_FILTER_BLUR,  /* a box, as wide as gn_shadow_view.blur_px */
+    GN_FILTER_TABLE, /* sums over all texels to the lower left, tile by tile */
     GN_FILTER_COUNT,
 };
 enum { GN_FILTER_STAGES_MAX = 8, GN_FILTER_TEXTURES_MAX = 4, GN_FILTER_FROM_MAX = 2 };
@@ -60,6 +68,7 @@ struct gn_filter_stage {
 };
 struct gn_filter_row {
     uint32_t count;
+    uint32_t narrow; /* the number of a texture that holds sums of blocks alone; 0: there is none */
     struct gn_filter_stage stages[GN_FILTER_STAGES_MAX];
 };
 extern const struct gn_filter_row gn_filters[GN_FILTER_COUNT];

@@ -23,6 +23,8 @@ enum gn_technique {
     GN_TECHNIQUE_VSM,
     GN_TECHNIQUE_EVSM,
     GN_TECHNIQUE_MSM,
+    GN_TECHNIQUE_VSSM,
+    GN_TECHNIQUE_SMSM,
     GN_TECHNIQUE_PLANAR,
     GN_TECHNIQUE_COUNT,
 };
@@ -54,6 +56,7 @@ struct gn_technique_row {
     const char *moments;           /* below shaders_es/: what a code is turned into */
     float moments_middle;          /* half floats are kept less this: the middle of their range */
     uint8_t stores[GN_STORES_MAX]; /* gn_moments that keep it, best first, then NONE */
+    unsigned map_px;               /* its default, where that is not 1024 */
     unsigned radius_texels; /* how far from the point it reads, rounded up: margin of the map */
     float bias_texels; /* what the normal offset and slope grow with. Of a flat surface what is read
                           up to 1.7 times as far away stays lit; beyond that lie under 2 % of the

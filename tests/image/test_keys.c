@@ -118,6 +118,10 @@ static void test_as_many_moments_as_may_be(void **state) {
     static const struct {
         int technique, moments;
     } lights[][GN_SHADOWS_MAX] = {
+        {{GN_TECHNIQUE_VSSM, GN_MOMENTS_TABLE_RG32UI},
+         {GN_TECHNIQUE_SMSM, GN_MOMENTS_TABLE_RGBA32UI},
+         {GN_TECHNIQUE_VSM, GN_MOMENTS_RG16UI},
+         {GN_TECHNIQUE_VSSM, GN_MOMENTS_TABLE_RG32UI}},
         {{GN_TECHNIQUE_VSM, GN_MOMENTS_RG32F_BITS},
          {GN_TECHNIQUE_EVSM, GN_MOMENTS_RGBA16F},
          {GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA16UI},
@@ -127,7 +131,7 @@ static void test_as_many_moments_as_may_be(void **state) {
          {GN_TECHNIQUE_EVSM, GN_MOMENTS_RGBA32F_BITS},
          {GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA32F_BITS}},
     };
-    for (int n = 0; n < 2; n++) {
+    for (int n = 0; n < 3; n++) {
         struct gn_program_key key = key_of(GN_PROGRAM_LIT);
         key.features = GN_FEATURE_SPECULAR;
         for (int i = 0; i < GN_SHADOWS_MAX; i++) {

@@ -64,9 +64,10 @@ static struct gn_program_key filter(enum gn_technique technique, enum gn_filter_
 }
 
 static const char *const moments_formats[GN_MOMENTS_COUNT] = {
-    [GN_MOMENTS_RG16UI] = "RG16UI",     [GN_MOMENTS_RG16F] = "RG16F",
-    [GN_MOMENTS_RG32F_BITS] = "RG32UI", [GN_MOMENTS_RGBA16UI] = "RGBA16UI",
-    [GN_MOMENTS_RGBA16F] = "RGBA16F",   [GN_MOMENTS_RGBA32F_BITS] = "RGBA32UI",
+    [GN_MOMENTS_RG16UI] = "RG16UI",       [GN_MOMENTS_RG16F] = "RG16F",
+    [GN_MOMENTS_RG32F_BITS] = "RG32UI",   [GN_MOMENTS_RGBA16UI] = "RGBA16UI",
+    [GN_MOMENTS_RGBA16F] = "RGBA16F",     [GN_MOMENTS_RGBA32F_BITS] = "RGBA32UI",
+    [GN_MOMENTS_TABLE_RG32UI] = "RG32UI", [GN_MOMENTS_TABLE_RGBA32UI] = "RGBA32UI",
 };
 
 static const char *target_of(const struct gn_program_key *key) {
@@ -97,6 +98,9 @@ static bool write(const char *folder, const char *name, const struct gn_program_
             snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_map_0 %s\n",
                      gn_filter_steps[key->step].reads_map ? "R32UI"
                                                           : moments_formats[key->moments]);
+        if (key->kind == GN_PROGRAM_FILTER) /* not all read two */
+            snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_map_1 %s\n",
+                     moments_formats[key->moments]);
         if (key->lights[0].slide)
             snprintf(head + strlen(head), sizeof head - strlen(head),
                      "//@ tex u_slide_0 SRGB8A8\n");
@@ -193,6 +197,12 @@ int main(int argc, char **argv) {
         {"evsm-blur-y", filter(GN_TECHNIQUE_EVSM, GN_STEP_BLUR_Y)},
         {"msm-blur-x", filter(GN_TECHNIQUE_MSM, GN_STEP_BLUR_X)},
         {"msm-blur-y", filter(GN_TECHNIQUE_MSM, GN_STEP_BLUR_Y)},
+        {"vssm-rows", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_ROWS)},
+        {"smsm-rows", filter(GN_TECHNIQUE_SMSM, GN_STEP_TABLE_ROWS)},
+        {"vssm-row-sums", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_ROW_SUMS)},
+        {"vssm-columns", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_COLUMNS)},
+        {"vssm-column-sums", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_COLUMN_SUMS)},
+        {"vssm-add", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_ADD)},
         {"map-mask", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_MASK)},
     };
     struct gn_err err = {0};

@@ -32,6 +32,27 @@ static void test_many_lights_plan(void **state) {
     gn_plan_end(&f);
 }
 
+/* A table per light: five passes a tile; a map of 512 unless it is given. */
+static void test_tables_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.technique_given = true;
+    f.opts.technique = GN_TECHNIQUE_SMSM;
+    gn_plan_expect(gn_plan_make(&f), "tables");
+    f.opts.map_px = 100; /* no whole number of blocks */
+    const struct gn_plan *plan = gn_plan_make(&f);
+    assert_null(gn_plan_check(plan));
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const struct gn_target *target = &plan->passes[i].target;
+        if (target->kind != GN_TARGET_MOMENTS || target->index != 2) continue;
+        const struct gn_shadow_view *view = &plan->shadows[target->slot];
+        assert_int_equal(target->width_px, 7 * view->tile_count);
+        assert_int_equal(target->height_px, 100);
+    }
+    gn_plan_end(&f);
+}
+
 /* Encoding shaders cannot add: the picture is linear, and bytes are made of it at the end. */
 static void test_many_lights_without_srgb_plan(void **state) {
     (void)state;
@@ -255,6 +276,7 @@ static void test_no_light_is_too_weak_for_an_exposure(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_many_lights_plan),
+        cmocka_unit_test(test_tables_plan),
         cmocka_unit_test(test_many_lights_without_srgb_plan),
         cmocka_unit_test(test_programs_do_not_change_with_what_is_reached),
         cmocka_unit_test(test_a_warning_is_given_once),

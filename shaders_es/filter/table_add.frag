@@ -1,0 +1,12 @@
+// Summed-area table, 5 of 5: what a column's blocks lack is added.
+#include "lib/pass.glsl"
+
+uniform MOMENTS_SAMPLER u_map_0; // columns
+uniform MOMENTS_SAMPLER u_map_1; // of the blocks before
+layout(location = 0) out MOMENTS_OUT o_moments;
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy), corner = ivec2(u_pass[FILTER_RECT].xy);
+    int block = int(u_pass[FILTER_TABLE].y) + (at.y - corner.y) / TABLE_BLOCK;
+    o_moments = texelFetch(u_map_0, at, 0) + texelFetch(u_map_1, ivec2(block, at.x - corner.x), 0);
+}

@@ -1,0 +1,13 @@
+// Summed-area table, 2 of 5: at x, y the sum of the blocks before block x of the tile's row y, of which the last texel has all.
+#include "lib/pass.glsl"
+
+uniform MOMENTS_SAMPLER u_map_0;
+layout(location = 0) out MOMENTS_OUT o_moments;
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy) - ivec2(u_pass[FILTER_TABLE].y, 0), corner = ivec2(u_pass[FILTER_RECT].xy);
+    uvec4 sum = uvec4(0u);
+    for (int block = 1; block <= at.x; block++)
+        sum += texelFetch(u_map_0, corner + ivec2(block * TABLE_BLOCK - 1, at.y), 0);
+    o_moments = sum;
+}

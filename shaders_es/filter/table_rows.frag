@@ -1,0 +1,15 @@
+// Summed-area table, 1 of 5: sums of a row's texels from the first of each block on. A block is TABLE_BLOCK texels of the tile.
+#include "lib/pass.glsl"
+
+uniform MAP_SAMPLER u_map_0;
+layout(location = 0) out MOMENTS_OUT o_moments;
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy), corner = ivec2(u_pass[FILTER_RECT].xy);
+    vec2 texel = u_pass[FILTER_SIZE].zw;
+    float reach = u_pass[FILTER_TABLE].x;
+    vec4 sum = vec4(0.0); // rounded as a whole: half of the error that rounded texels would add up to
+    for (int x = at.x - (at.x - corner.x) % TABLE_BLOCK; x <= at.x; x++)
+        sum += moments_of(map_code(u_map_0, (vec2(x, at.y) + 0.5) * texel));
+    o_moments = table_fixed(sum, reach);
+}

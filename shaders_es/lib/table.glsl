@@ -1,0 +1,70 @@
+// Means over squares out of a summed-area table (Crow, "Summed-Area Tables for Texture Mapping", 1984), whatever their size by as many
+// reads. At each texel stands the sum of all from the tile's lower left corner to it, itself included, in fixed point. The sums wrap
+// round, and the difference of two is right as long as what lies between them fits into 32 bits: TABLE_SCALE.
+// An edge is counted in texels from the map's lower left corner; to its left lies the texel before it.
+
+// Half the side of the square that is as good as a disk of radius 1: it has the disk's area, or its variance.
+const float TABLE_SEARCH = 0.886;
+const float TABLE_FILTER = 0.866;
+
+vec4 table_value(uvec4 sum, float reach) { return vec4(sum) * (1.0 / TABLE_SCALE(reach)); }
+
+uvec4 table_sum(highp usampler2D table, int x, int y) { return texelFetch(table, ivec2(x, y) - 1, 0); }
+
+uvec4 table_between(highp usampler2D table, ivec2 low, ivec2 high) {
+    return table_sum(table, high.x, high.y) - table_sum(table, low.x, high.y) - table_sum(table, high.x, low.y) +
+           table_sum(table, low.x, low.y);
+}
+
+// How far round the place blockers are looked for, texels.
+float table_widest(shadow_place s) {
+    return clamp(s.soft.x * (shadow_e(s, s.at.z) - s.soft.y), 1.0, s.reach / TABLE_SEARCH);
+}
+
+// The radius of the penumbra that what is at `code` throws here, texels.
+float table_penumbra(shadow_place s, float code, float widest) {
+    return clamp(s.soft.x * (shadow_e(s, s.at.z) - shadow_e(s, code)), 1.0, widest);
+}
+
+// Three edges on each axis, of whole texels, in the order of their places: half of the square round s.at is 2 * radius wide.
+void table_edges(shadow_place s, float radius, out ivec2 low, out ivec2 middle, out ivec2 high) {
+    vec2 p = s.at.xy * s.size.xy + 0.5;
+    middle = ivec2(clamp(p, s.window.xy + 2.0, s.window.zw - 1.0));
+    low = max(min(ivec2(p - radius), middle - 1), ivec2(s.window.xy) + 1);
+    high = min(max(ivec2(p + radius), middle + 1), ivec2(s.window.zw));
+}
+
+// Mean over the square that is 2 * radius texels wide. Its edges, in whole texels, are good enough to look for blockers.
+vec4 table_mean_about(highp usampler2D table, shadow_place s, float radius) {
+    ivec2 low, middle, high;
+    table_edges(s, radius, low, middle, high);
+    ivec2 side = high - low;
+    return table_value(table_between(table, low, high), s.reach) * (1.0 / float(side.x * side.y));
+}
+
+// What the cut texels at the left and right end weigh in a row of sums, and the whole ones between them.
+struct table_row { uvec4 left, inside, right; };
+
+table_row table_row_at(highp usampler2D table, ivec4 x, int y) {
+    uvec4 a = table_sum(table, x.x, y), b = table_sum(table, x.y, y), c = table_sum(table, x.z, y), d = table_sum(table, x.w, y);
+    return table_row(b - a, c - b, d - c);
+}
+
+vec4 table_weigh(table_row above, table_row below, vec2 ends) {
+    return vec4(above.left - below.left) * ends.x + vec4(above.inside - below.inside) + vec4(above.right - below.right) * ends.y;
+}
+
+// The same to the edge, wherever that cuts texels, so that a picture has no steps. beyond: what lies outside of the map.
+vec4 table_mean(highp usampler2D table, shadow_place s, float radius, vec4 beyond) {
+    vec2 p = s.at.xy * s.size.xy;
+    vec2 low = clamp(p - radius, s.window.xy + 1.0, s.window.zw - 1.0), high = clamp(p + radius, low + 1.0, s.window.zw);
+    ivec2 a = ivec2(low), b = ivec2(high), last = min(b + 1, ivec2(s.window.zw));
+    ivec4 x = ivec4(a.x, a.x + 1, b.x, last.x);
+    vec2 first = 1.0 - fract(low), cut = fract(high), ends = vec2(first.x, cut.x);
+    table_row row_0 = table_row_at(table, x, a.y), row_1 = table_row_at(table, x, a.y + 1);
+    table_row row_2 = table_row_at(table, x, b.y), row_3 = table_row_at(table, x, last.y);
+    vec4 sum = table_weigh(row_1, row_0, ends) * first.y + table_weigh(row_2, row_1, ends) + table_weigh(row_3, row_2, ends) * cut.y;
+    vec2 side = high - low;
+    float inside = side.x * side.y / (4.0 * radius * radius);
+    return mix(beyond, sum * (1.0 / (TABLE_SCALE(s.reach) * side.x * side.y)), min(inside, 1.0));
+}

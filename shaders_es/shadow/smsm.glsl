@@ -1,0 +1,42 @@
+//@ names shadow_visibility SMSM_BIAS smsm_moments smsm_blocked
+// Moment soft shadow mapping (Peters, Muenstermann, Wetzstein, Klein, "Improved Moment Shadow Maps for Translucent Occluders, Soft
+// Shadows and Single Scattering", JCGT 6 (1), 2017): as vssm, from four moments, which tell three distances apart.
+#include "lib/table.glsl"
+
+const float SMSM_BIAS = 5e-6; // 6e-7 in the paper, whose tables have finer steps than those that are right for wide penumbrae
+
+// Moments of z = 2 c - 1, moved a little towards those of all z, so that rounding leaves them moments of something.
+vec4 smsm_moments(vec4 m) {
+    float p = m.x - 0.5, q = m.z - 0.5;
+    vec4 b = vec4(1.7320508 * q - p / 3.0, 0.125 * m.y + m.w, (1.2990381 * q) - 0.75 * p, m.w - 0.125 * m.y);
+    return mix(b, vec4(0.0, 0.628, 0.0, 0.628), SMSM_BIAS);
+}
+
+// Of the distribution with these moments that has all its weight at z0 and at two other places: the least share that lies before z0,
+// and where that lies on average.
+vec2 smsm_blocked(vec4 b, float z0) {
+    // Cholesky's decomposition of the moments' Hankel matrix, by which c0 + c1 z + c2 z^2 is found, and the other two are its roots.
+    float spread = max(b.y - b.x * b.x, 1e-7);
+    float skew = (b.z - b.x * b.y) / spread;
+    float rest = max(b.w - b.y * b.y - (b.z - b.x * b.y) * skew, 1e-9);
+    float u = z0 - b.x;
+    float c2 = (z0 * z0 - b.y - skew * u) / rest;
+    float c1 = u / spread - skew * c2, c0 = 1.0 - b.x * c1 - b.y * c2;
+    float inverse = 1.0 / (abs(c2) < 1e-6 ? 1e-6 : c2);
+    float half_sum = -0.5 * c1 * inverse, root = sqrt(max(half_sum * half_sum - c0 * inverse, 1e-12));
+    vec2 z = vec2(half_sum - root, half_sum + root), other = z.yx;
+    vec2 w = (z0 * other - b.x * (z0 + other) + b.y) / ((other - z) * (z0 - z));
+    w = mix(vec2(0.0), w, lessThan(z, vec2(z0)));
+    float share = w.x + w.y;
+    return vec2(share, (0.001 * z0 + dot(w, z)) / (0.001 + share));
+}
+
+float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
+    float z0 = 2.0 * min(s.at.z, s.far) - 1.0;
+    float widest = table_widest(s);
+    vec2 found = smsm_blocked(smsm_moments(table_mean_about(table, s, TABLE_SEARCH * widest)), z0);
+    float radius = TABLE_FILTER * table_penumbra(s, 0.5 + 0.5 * clamp(found.y, -1.0, z0), widest);
+    vec4 m = table_mean(table, s, radius, vec4(0.0, 0.0, 0.98112522, 1.0));
+    float blocked = smsm_blocked(smsm_moments(m), z0).x;
+    return blocked > 0.0 ? 1.0 - min(blocked, 1.0) : 1.0; // what is no number is lit
+}
