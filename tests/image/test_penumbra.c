@@ -1,5 +1,6 @@
-/* Penumbrae against truth: pcss is as wide as the light makes it, disk and poisson are monotone and
- * not too grainy. The quick form is smaller and leaves out some formats. */
+/* Penumbrae against truth: pcss, vssm and smsm are as wide as the light makes them, disk and
+ * poisson are monotone and not too grainy. The quick form is smaller and leaves out some formats.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -69,19 +70,49 @@ static void test_pcss(void **state) {
     for (int scene = 0; scene < GN_PENUMBRA_EDGE; scene++) check_scene(scene);
 }
 
-static void test_the_edge_of_a_half_plane_is_exact(void **state) {
-    (void)state;
+/* The limits are wider than those of pcss, whose taps know each blocker by itself. */
+static void check_tables(int scene) {
+    static const char *const techniques[] = {"vssm", "smsm"};
     struct gn_picture truth;
-    char *path = make(GN_PENUMBRA_EDGE, &truth);
-    struct gn_picture shot = shoot(path, "pcss", "auto", "16");
+    char *path = make(scene, &truth);
+    struct gn_penumbra_score hard = score_of(path, &truth, "hard", "r16f");
+    for (int t = 0; t < 2; t++) {
+        struct gn_penumbra_score score = score_of(path, &truth, techniques[t], "auto");
+        print_message("%-7s %-8s soft %.4f (hard %.4f, %.2f of it), rest %.4f\n",
+                      gn_penumbra_names[scene], techniques[t], score.soft, hard.soft,
+                      score.soft / hard.soft, score.rest);
+        assert_true(score.soft_pixels > 200);
+        assert_true(score.soft <= .13);
+        assert_true(score.soft <= .5 * hard.soft);
+        assert_true(score.rest <= .03);
+    }
+    gn_picture_finish(&truth);
+    free(path);
+}
+
+static void test_summed_area_tables(void **state) {
+    (void)state;
+    for (int scene = 0; scene < GN_PENUMBRA_EDGE; scene++) check_tables(scene);
+}
+
+static void check_edge(const char *path, const struct gn_picture *truth, const char *technique) {
+    struct gn_picture shot = shoot(path, technique, "auto", "16");
     struct gn_penumbra_edge edge;
-    gn_penumbra_edge(&truth, &shot, &edge);
-    print_message("width %.3f of %.3f m, energy %+.4f, grain %.3f, back %.4f\n", edge.width,
-                  edge.width_truth, edge.energy, edge.grain, edge.rise);
+    gn_penumbra_edge(truth, &shot, &edge);
+    print_message("%s: width %.3f of %.3f m, energy %+.4f, grain %.3f, back %.4f\n", technique,
+                  edge.width, edge.width_truth, edge.energy, edge.grain, edge.rise);
     assert_true(fabs(edge.width - edge.width_truth) <= .1 * edge.width_truth);
     assert_true(fabs(edge.energy) <= .02);
     assert_true(edge.rise <= .01);
     gn_picture_finish(&shot);
+}
+
+static void test_the_edge_of_a_half_plane_is_exact(void **state) {
+    (void)state;
+    static const char *const techniques[] = {"pcss", "vssm", "smsm"};
+    struct gn_picture truth;
+    char *path = make(GN_PENUMBRA_EDGE, &truth);
+    for (int t = 0; t < 3; t++) check_edge(path, &truth, techniques[t]);
     gn_picture_finish(&truth);
     free(path);
 }
@@ -118,6 +149,7 @@ static void test_disks_are_monotone_and_hardly_grainy(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_pcss),
+        cmocka_unit_test(test_summed_area_tables),
         cmocka_unit_test(test_the_edge_of_a_half_plane_is_exact),
         cmocka_unit_test(test_disks_are_monotone_and_hardly_grainy),
     };

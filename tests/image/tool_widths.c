@@ -1,0 +1,109 @@
+/* What soft shadows cost as their penumbrae grow: tool_widths [OPTION of bench].. A half-plane 3 m
+ * over the ground under suns of several sizes, seen from above; nothing moves, so maps are kept. */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/shot.h"
+#include "unit/gltf_maker.h"
+
+static const char *const techniques[] = {"none", "pcss", "vssm", "smsm"};
+enum { TECHNIQUES = sizeof techniques / sizeof *techniques };
+
+static void quit(const char *what) {
+    fprintf(stderr, "tool_widths: %s\n", what);
+    exit(1);
+}
+
+static void write_scene(const char *path, double radius) {
+    struct gn_maker maker;
+    struct gn_err err = {0};
+    char light[300];
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_set(&maker, "nodes",
+                 "[{'mesh':0,'scale':[12,1,12]},"
+                 "{'camera':0,'translation':[0,2.5,0],'rotation':[-0.70710678,0,0,0.70710678]},"
+                 "{'rotation':[-0.70710678,0,0,0.70710678],"
+                 "'extensions':{'KHR_lights_punctual':{'light':0}}},"
+                 "{'mesh':0,'translation':[-6,3,0],'scale':[6,1,20]}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3]}]");
+    snprintf(light, sizeof light,
+             "{'KHR_lights_punctual':{'lights':[{'type':'directional','intensity':3,"
+             "'extras':{'gnomon_radius':%.6f}}]}}",
+             radius);
+    gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual']");
+    gn_maker_set(&maker, "extensions", light);
+    gn_maker_set(&maker, "cameras",
+                 "[{'type':'perspective','perspective':{'yfov':0.7,'znear':0.1,'zfar':60}}]");
+    if (!gn_maker_write(&maker, path, &err)) quit(err.text);
+}
+
+/* Runs gnomon; what it wrote. */
+static const char *ask(const char *const argv[]) {
+    static struct gn_run run;
+    struct gn_err err = {0};
+    if (!gn_run(&run, argv, 300, &err)) quit(err.text);
+    if (run.status != 0) quit(run.err);
+    return run.out;
+}
+
+/* Of the map that a technique gets, metres. */
+static double texel_of(const char *scene) {
+    char picture[600];
+    snprintf(picture, sizeof picture, "%s/widths.png", gn_shot_build());
+    const char *const argv[] = {gn_shot_program(), "render", scene,     "-o",       picture,
+                                "--plan",          "--size", "320x180", "--shadow", "vssm",
+                                "--backend",       "egl",    NULL};
+    const char *at = strstr(ask(argv), ", texel ");
+    if (!at) quit("no map in the plan");
+    return atof(at + 8);
+}
+
+static void measure(const char *scene, int count, char **options, double ms[TECHNIQUES]) {
+    const char *argv[40] = {gn_shot_program(),
+                            "bench",
+                            scene,
+                            "--shadow",
+                            "none,pcss,vssm,smsm",
+                            "--backend",
+                            "egl",
+                            "--size",
+                            "320x180",
+                            "--frames",
+                            "10",
+                            "--json"};
+    int n = 12;
+    for (int i = 0; i < count && n < 39; i++) argv[n++] = options[i];
+    json_t *report = json_loads(ask(argv), 0, NULL), *run;
+    size_t i;
+    json_array_foreach(json_object_get(report, "runs"), i, run) for (int t = 0; t < TECHNIQUES;
+                                                                     t++) {
+        const char *name = json_string_value(json_object_get(run, "technique"));
+        if (name && strcmp(name, techniques[t]) == 0)
+            ms[t] = json_number_value(json_object_get(run, "cpu_ms"));
+    }
+    json_decref(report);
+}
+
+int main(int argc, char **argv) {
+    char scene[600];
+    snprintf(scene, sizeof scene, "%s/widths.glb", gn_shot_build());
+    printf("radius of the penumbra, and CPU ms of a frame less those without shadows\n");
+    printf("%8s %8s %8s %8s\n", "texels", techniques[1], techniques[2], techniques[3]);
+    for (double wanted = 2; wanted <= 64; wanted *= 2) {
+        double ms[TECHNIQUES] = {0}, radius = 0.02;
+        for (int i = 0; i < 4; i++) { /* a larger sun makes a wider map */
+            write_scene(scene, radius);
+            if (i < 3) radius = wanted * texel_of(scene) / 3;
+        }
+        measure(scene, argc - 1, argv + 1, ms);
+        printf("%8.1f", 3 * radius / texel_of(scene));
+        for (int t = 1; t < TECHNIQUES; t++) printf(" %8.2f", ms[t] - ms[0]);
+        printf("\n");
+        fflush(stdout);
+    }
+    return 0;
+}
