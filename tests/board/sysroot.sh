@@ -4,19 +4,23 @@
 # name. With packages: downloads those into the folder we are in instead, and nothing that they
 # depend on. This machine's own packages stay as they are: apt works on a state of its own, with the
 # machine's sources. Exit status 77, with the reason on stderr, where they cannot be had.
+#   FOR=gpus   not a machine's root, but that of tests/gpus: of the Debian named there, whatever this
+#              machine's is, with Mesa's drivers for GPUs that are not here
 set -eu
 architecture=$1
 shift
 # shellcheck disable=SC1091
 codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
+[ "${FOR:-}" != gpus ] || codename=trixie # the first with mesa-drm-shim; the budgets are its Mesa's
 store=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/board
-root=$store/root-$architecture-$codename-$(sha256sum < "$0" | cut -c 1-12)
-state=$store/apt-$architecture-$codename
+root=$store/${FOR:-root}-$architecture-$codename-$(sha256sum < "$0" | cut -c 1-12)
+state=$store/apt-${FOR:-}${FOR:+-}$architecture-$codename
 
 build='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
     libcglm-dev libdrm-dev libgbm-dev libudev-dev libcmocka-dev'
 run='bash coreutils findutils grep mawk sed diffutils util-linux kbd kmscube libegl1 libgles2
     libegl-mesa0 libgl1-mesa-dri busybox-static'
+[ "${FOR:-}" != gpus ] || run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri mesa-drm-shim'
 
 skip() {
     echo "board: $*" >&2
@@ -41,6 +45,15 @@ Dir::State "$state";
 Dir::State::status "$state/status";
 Dir::Cache "$state/cache";
 END
+if [ "${FOR:-}" = gpus ]; then # from the mirror that this machine's Debian comes from
+    mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | grep -m 1 '/debian/*$') ||
+        skip 'apt-get knows no mirror of Debian'
+    echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror $codename main" > "$state/sources"
+    cat >> "$state/apt.conf" << END
+Dir::Etc::sourcelist "$state/sources";
+Dir::Etc::sourceparts "-";
+END
+fi
 log=$state/log
 # Three tries: a mirror may be busy, or change while it is read.
 apt() {
@@ -84,8 +97,9 @@ for package in "$state"/cache/archives/*.deb; do
         tar -x -C "$work" --keep-directory-symlink --no-same-owner --exclude='./usr/share/doc/*' \
             --exclude='./usr/share/man/*' --exclude='./usr/share/locale/*' --exclude='./dev/*'
 done
-ln -sf mawk "$work/usr/bin/awk"
+[ ! -e "$work/usr/bin/mawk" ] || ln -sf mawk "$work/usr/bin/awk"
 rm -rf "$state/cache/archives"
 chmod 755 "$work"
+touch "$work" # or it is as old as some package's folder, and goes with what nobody has used for long
 mv "$work" "$root"
 echo "$root"
