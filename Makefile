@@ -16,7 +16,8 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests run check check-angle check-board check-board-arm64 accept truth gallery readme deps lint format man install uninstall help clean FORCE
+CHECKS := check-angle check-board check-board-arm64 check-gpus
+.PHONY: all no-import tests run check $(CHECKS) gpus accept truth gallery readme deps lint format man install uninstall help clean FORCE
 
 help:
 	@printf '%s\n' \
@@ -29,6 +30,7 @@ help:
 	    'make check-board' \
 	    '                the real kernel in a virtual machine; with GN_FULL=1 all of it, and' \
 	    '                check-board-arm64: the arm64 kernel, and gnomon built for it' \
+	    'make check-gpus every program on the compilers of GPUs that are not here, and its cost' \
 	    'make truth      shadows against ray-traced truth, as a table' \
 	    'make readme     the table of techniques in README.md, measured' \
 	    'make gallery    one scene with every technique and the truth, into assets/gallery' \
@@ -53,11 +55,12 @@ DEPS_check := build run test board
 DEPS_check-angle := build run test
 DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
 DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
+DEPS_check-gpus := build run gpus
 DEPS_accept := build run test board board-arm64
 DEPS_truth := build run test
 DEPS_gallery := build run test
 DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter run check check-angle check-board check-board-arm64 accept truth gallery readme,$(GOALS)))
+BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept truth gallery readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -78,7 +81,7 @@ endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm libdrm gbm
-NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests check-angle check-board check-board-arm64 truth gallery readme,$(GOALS)),cmocka)
+NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests $(CHECKS) truth gallery readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # FreeType draws the texts on the picture; without it they are in the font inside the program
@@ -123,7 +126,7 @@ GPIO_C  := $(if $(filter 1 2,$(GPIOD)),gpiod$(GPIOD).c,gpio_none.c)
 GPIO_LIBS := $(if $(filter 1 2,$(GPIOD)),$(shell $(PKG) --libs libgpiod))
 unused  := $(without) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
 SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c)))
-TESTS_C := $(sort $(filter-out tests/board/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
+TESTS_C := $(sort $(filter-out tests/board/% tests/gpus/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
 PROG_C  := $(foreach d,unit plan image fuzz kms angle,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
 LIB     := $(B)/libgnomon.a
@@ -170,10 +173,17 @@ $(B)/tests/$(basename $(notdir $(1))): $(call OBJ,$(1)) $(KEEP) $(TESTLIB) $(LIB
 endef
 $(foreach c,$(PROG_C),$(eval $(call program,$(c))))
 
-$(B)/tests/firstflip.so: tests/board/firstflip.c $(B)/flags
+# what is built for GPUs that are not here has no more in it than it needs
+$(B)/tests/tool_gpus: $(call OBJ,$(filter-out %/ident.c,$(wildcard tests/gpus/*.c)) \
+                        tests/unit/gltf_maker.c tests/unit/scene_check.c) $(LIB)
+	@mkdir -p $(@D) && echo "link $@"
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(GPIO_LIBS) $(LIBS)
+$(B)/tests/firstflip.so: tests/board/firstflip.c
+$(B)/tests/ident.so: tests/gpus/ident.c
+$(B)/tests/firstflip.so $(B)/tests/ident.so: $(B)/flags
 	@mkdir -p $(@D) && echo "link $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) -fPIC -shared \
-	    $(shell $(PKG) --cflags libdrm) -o $@ $< -ldl
+	    $(shell $(PKG) --cflags libdrm) -o $@ $(filter %.c,$^) -ldl
 
 # linked with a library of the name of ANGLE's that holds nothing, so that building needs none of ANGLE
 $(B)/tests/angle/libEGL.so.1: tests/angle/strict.c $(B)/flags
@@ -252,6 +262,15 @@ check-board-arm64: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	    $(addprefix $(O)/aarch64-linux-gnu-$(CONFIG)/,$(filter-out %/tool_compare,$(BOARD_NEEDS)))
 	@ARCH=arm64 HOST_BUILD=$(B) tests/run.sh BUILD=$(O)/aarch64-linux-gnu-$(CONFIG) \
 	    $(if $(GN_FULL),$(addprefix tests/board/,lab.guest picture.guest monitor.guest card.guest)) tests/board/smoke.guest
+# For GPUs that are not here: debug, for its assertions; not built where Debian's packages cannot be
+# had: then the test says so.
+GPUS_B := $(O)/aarch64-linux-gnu-debug
+gpus:
+	+@command -v aarch64-linux-gnu-gcc > /dev/null && root=$$(FOR=gpus tests/board/sysroot.sh arm64) || exit 0; \
+	    $(SUB) WERROR=1 CROSS=aarch64-linux-gnu CONFIG=debug SYSROOT=$$root \
+	    $(addprefix $(GPUS_B)/,gnomon tests/tool_gpus tests/ident.so)
+check-gpus: gpus
+	@tests/run.sh BUILD=$(GPUS_B) tests/gpus/gpus.sh
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests

@@ -1,7 +1,7 @@
 #!/bin/sh
 # deps.sh SET..: installs the Debian packages of the sets that are missing. Says nothing when none is.
-# build, run, test, board and board-arm64 (virtual machines) are for this machine; cross is what building for
-# CROSS=aarch64-linux-gnu adds.
+# build, run, test, board and board-arm64 (virtual machines), gpus (the compilers of those that are not
+# here) are for this machine; cross is what building for CROSS=aarch64-linux-gnu adds.
 set -eu
 
 libraries='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
@@ -19,6 +19,7 @@ optional_test='libosmesa6-dev' # not in every Debian
 optional_board='qemu-system-x86 busybox-static kmod cpio xz-utils linux-source linux-headers-amd64
     kmscube kbd libdrm-tests gpiod'
 optional_board_arm64='qemu-system-arm gcc-aarch64-linux-gnu'
+optional_gpus='gcc-aarch64-linux-gnu'
 
 command -v dpkg-query > /dev/null || exit 0 # not Debian: the Makefile says what pkg-config does not find
 
@@ -56,6 +57,7 @@ for set in "$@"; do
     test) wanted="$wanted $test" extra="$extra $optional_test ${optional_npm:-}" ;;
     board) [ "$own" != amd64 ] || extra="$extra $optional_board" ;;
     board-arm64) [ "$own" != amd64 ] || extra="$extra $optional_board_arm64" ;;
+    gpus) [ "$own" != amd64 ] || extra="$extra $optional_gpus" ;;
     cross)
         added=$(architecture_of "${CROSS:-}")
         compiler=gcc-$(echo "$CROSS" | tr _ -)

@@ -3,7 +3,7 @@
 set -eu
 table=$(mktemp)
 trap 'rm -f "$table"' EXIT
-"$1" tests/image/instructions > "$table"
+"$1" tests/gpus/budget > "$table"
 awk -v table="$table" '
     /^<!-- end of the table -->/ { inside = 0 }
     !inside { print }

@@ -1,7 +1,7 @@
-/* `make readme`: the README's table of techniques, measured: tool_readme INSTRUCTIONS. A row for
+/* `make readme`: the README's table of techniques, measured: tool_readme BUDGETS. A row for
  * each technique, kind of light and map encoding: errors against truth, of the penumbra too;
- * processor time on the software driver; instructions of the lit program on real GPUs, out of a
- * file that tests/image/instructions.sh writes; bytes. Markdown, on stdout. */
+ * processor time on the software driver; instructions of the lit program on real GPUs, out of the
+ * folder of budgets that tests/gpus writes; bytes. Markdown, on stdout. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -19,12 +19,12 @@ static void quit(const char *what) {
 }
 
 static const struct {
-    const char *name, *shader; /* how the instructions' file calls its programs: "pcf-spot-r16f" */
+    const char *name, *shader; /* how the budgets call it */
     enum gn_light_type type;
     int first, last; /* scenes */
-} lights[] = {{"sun", "sun", GN_LIGHT_DIRECTIONAL, 0, 11},
-              {"spot", "spot", GN_LIGHT_SPOT, 12, 23},
-              {"point", "point", GN_LIGHT_POINT, 24, 29}};
+} lights[] = {{"sun", "DIRECTIONAL", GN_LIGHT_DIRECTIONAL, 0, 11},
+              {"spot", "SPOT", GN_LIGHT_SPOT, 12, 23},
+              {"point", "POINT", GN_LIGHT_POINT, 24, 29}};
 enum { LIGHTS = sizeof lights / sizeof *lights };
 
 static const struct gn_technique_row *technique_of(const struct gn_table_row *row) {
@@ -172,22 +172,35 @@ static double cost_of(const struct gn_table_row *row) {
 enum { GPUS = 3 };
 static const char *const gpus[GPUS] = {"pi4", "g52", "a618"};
 
-/* Lines "PROGRAM GPU INSTRUCTIONS". */
-static void print_instructions(const char *file, const struct gn_table_row *row, int light) {
-    char wanted[80], program[80], gpu[16];
-    int count, found[GPUS] = {0};
-    snprintf(wanted, sizeof wanted, "%s-%s-%s", row->technique, lights[light].shader,
-             format_of(row));
-    FILE *from = fopen(file, "r");
-    while (from && fscanf(from, "%79s %15s %d", program, gpu, &count) == 3)
-        for (int i = 0; i < GPUS; i++)
-            if (strcmp(program, wanted) == 0 && strcmp(gpu, gpus[i]) == 0) found[i] = count;
+/* Of the fragment stage, from a line "INSTRUCTIONS SPILLS fragment PROGRAM"; 0: there is none. The
+ * program has a base texture, Blinn-Phong and a hemisphere. */
+static int instructions_of(const char *budgets, const char *gpu, const char *program) {
+    char path[200], line[300];
+    int instructions = 0;
+    snprintf(path, sizeof path, "%s/%s", budgets, gpu);
+    FILE *from = fopen(path, "r");
+    while (from && !instructions && fgets(line, sizeof line, from)) {
+        int count, at = 0;
+        line[strcspn(line, "\n")] = 0;
+        if (sscanf(line, "%d %*d fragment %n", &count, &at) == 1 && at > 0 &&
+            strcmp(line + at, program) == 0)
+            instructions = count;
+    }
     if (from) fclose(from);
-    for (int i = 0; i < GPUS; i++)
-        if (found[i])
-            printf(" | %d", found[i]);
+    return instructions;
+}
+
+static void print_instructions(const char *budgets, const struct gn_table_row *row, int light) {
+    char program[200];
+    snprintf(program, sizeof program, "lit BASE_TEXTURE|SPECULAR|HEMISPHERE, %s %s %s",
+             lights[light].shader, row->technique, format_of(row));
+    for (int i = 0; i < GPUS; i++) {
+        const int count = instructions_of(budgets, gpus[i], program);
+        if (count)
+            printf(" | %d", count);
         else
             printf(" | ");
+    }
 }
 
 static double megabytes_of(const struct gn_table_row *row, int light) {
@@ -200,7 +213,7 @@ static double megabytes_of(const struct gn_table_row *row, int light) {
 
 /* ---- all ---- */
 
-static void print_row(const char *file, const struct penumbra *p, const struct gn_table_row *row,
+static void print_row(const char *budgets, const struct penumbra *p, const struct gn_table_row *row,
                       int light, double cost) {
     printf("| %s%s%s | %s | %s", light ? "" : "`", light ? "" : row->technique, light ? "" : "`",
            lights[light].name, format_of(row));
@@ -213,7 +226,7 @@ static void print_row(const char *file, const struct penumbra *p, const struct g
         printf(" | %.2f", cost);
     else
         printf(" | ");
-    print_instructions(file, row, light);
+    print_instructions(budgets, row, light);
     printf(" | %.1f |\n", megabytes_of(row, light));
 }
 
@@ -237,7 +250,7 @@ int main(int argc, char **argv) {
     static struct gn_table table;
     static struct penumbra penumbra;
     struct gn_err err = {0};
-    if (argc != 2) quit("usage: tool_readme INSTRUCTIONS");
+    if (argc != 2) quit("usage: tool_readme BUDGETS");
     char *folder = gn_table_scenes(false, &err);
     if (!folder) quit(err.text);
     table.folder = folder;

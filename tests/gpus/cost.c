@@ -1,0 +1,82 @@
+#include "gpus/cost.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The drivers' words for a stage, and ours. Vertex shaders are compiled twice: once for where
+ * triangles lie, for the sorting into tiles, and once for the rest. */
+static const char *const words[][2] = {
+    {"FRAG", "fragment"}, {"VERT", "vertex"}, {"BVERT", "binning"}, {"VERTEX_BIN", "binning"}};
+
+static void name_stage(const char *line, char *out, size_t size) {
+    static const char prefix[] = "MESA_SHADER_";
+    if (strncmp(line, prefix, sizeof prefix - 1) == 0) line += sizeof prefix - 1;
+    snprintf(out, size, "%.*s", (int)strcspn(line, " "), line);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(out, words[i][0]) == 0) snprintf(out, size, "%s", words[i][1]);
+    for (char *c = out; *c; c++) *c = (char)tolower((unsigned char)*c);
+}
+
+/* The number before " what"; 0 if there is none. */
+static unsigned number_before(const char *line, const char *what) {
+    const char *at = strstr(line, what);
+    if (!at) return 0;
+    while (at > line && isdigit((unsigned char)at[-1])) at--;
+    unsigned number = 0;
+    sscanf(at, "%u", &number);
+    return number;
+}
+
+static unsigned spills_of(const char *line) {
+    unsigned spills = 0, fills = 0;
+    const char *at = strstr(line, " spills:fills");
+    while (at && at > line && at[-1] != ' ') at--;
+    if (at && sscanf(at, "%u:%u", &spills, &fills) == 2) return spills + fills;
+    return number_before(line, " stp") + number_before(line, " ldp");
+}
+
+bool gn_cost_read(struct gn_cost *cost, const char *line) {
+    struct gn_cost_stage stage;
+    const char *colon = strstr(line, " shader: ");
+    if (!colon || !strstr(colon, " inst")) return false;
+    name_stage(line, stage.name, sizeof stage.name);
+    stage.instructions = number_before(colon, " inst");
+    stage.spills = spills_of(colon);
+    int i = 0;
+    while (i < cost->count && strcmp(cost->stages[i].name, stage.name) != 0) i++;
+    if (i == GN_COST_STAGES) return false;
+    cost->stages[i] = stage;
+    if (i == cost->count) cost->count++;
+    return true;
+}
+
+bool gn_cost_is_whole(const struct gn_cost *cost) {
+    bool fragment = false, vertex = false;
+    for (int i = 0; i < cost->count; i++) {
+        if (strcmp(cost->stages[i].name, "fragment") == 0)
+            fragment = true;
+        else
+            vertex = true;
+    }
+    return fragment && vertex;
+}
+
+static void GL_APIENTRY hear(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                             const GLchar *message, const void *user) {
+    struct gn_listener *l = (struct gn_listener *)user;
+    (void)id, (void)severity, (void)length;
+    if (type == GL_DEBUG_TYPE_ERROR_KHR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR_KHR) {
+        l->errors++;
+        if (!l->gl->debug_text[0])
+            snprintf(l->gl->debug_text, sizeof l->gl->debug_text, "%s", message);
+    } else if (l->into && source == GL_DEBUG_SOURCE_SHADER_COMPILER_KHR)
+        gn_cost_read(l->into, message);
+}
+
+void gn_cost_listen(struct gn_listener *listener, struct gn_gl *gl) {
+    listener->gl = gl;
+    GL(gl, Enable)(GL_DEBUG_OUTPUT_KHR);
+    GL(gl, Enable)(GL_DEBUG_OUTPUT_SYNCHRONOUS_KHR);
+    GL(gl, DebugMessageCallback)(hear, listener);
+}

@@ -1,0 +1,29 @@
+/* What the driver's compiler says about the programs that it makes: Mesa tells it by KHR_debug. */
+#ifndef GN_TESTS_GPUS_COST_H
+#define GN_TESTS_GPUS_COST_H
+
+#include "gl/private.h"
+
+enum { GN_COST_STAGES = 6 };
+struct gn_cost_stage {
+    char name[16]; /* fragment, vertex, binning, position, varying */
+    unsigned instructions, spills;
+};
+struct gn_cost { /* of a program */
+    struct gn_cost_stage stages[GN_COST_STAGES];
+    int count;
+};
+struct gn_listener {
+    struct gn_gl *gl;
+    struct gn_cost *into; /* NULL: what is compiled is of no program of ours */
+    unsigned errors;
+};
+/* From now on the listener hears what the driver says. Errors still reach gn_gl_error_check(). */
+void gn_cost_listen(struct gn_listener *listener, struct gn_gl *gl);
+/* Whether both of its stages were compiled for the GPU. */
+bool gn_cost_is_whole(const struct gn_cost *cost);
+/* One line of the driver's, "FRAGMENT shader: 22 inst, .., 0:0 spills:fills"; false: it is none. A
+ * stage that is told of again is the later one: drivers compile once more for what is bound. */
+bool gn_cost_read(struct gn_cost *cost, const char *line);
+
+#endif
