@@ -11,6 +11,7 @@
 #include "cli/show_stats.h"
 #include "cli/stage.h"
 #include "kiosk/binding.h"
+#include "kiosk/latency.h"
 #include "kiosk/machine.h"
 
 /* Modes: those of the INI file, else the techniques that there are. */
@@ -47,6 +48,7 @@ struct gn_show {
     struct gn_buttons buttons;
     struct gn_button_opts button_opts[GN_BUTTONS_MAX]; /* theirs, for the input */
     struct gn_input *input;                            /* NULL while there is none */
+    struct gn_latency latency;                         /* of theirs */
     int epoll, signals;                                /* descriptors, -1 when not open */
     uint32_t generation;                               /* of the context that stage.gl lives in */
     bool fitted_unencoded; /* what frames are drawn with on this screen */

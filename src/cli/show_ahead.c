@@ -36,6 +36,7 @@ static void fail_mode(struct gn_show *s, struct gn_show_looks *looks, int mode,
     gn_show_complain(s, text);
     looks->ready |= 1u << mode; /* not tried again */
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
+    gn_latency_drop(&s->latency);
 }
 
 /* The options that a mode's frames are drawn with on this screen. */
@@ -81,6 +82,7 @@ static void fail_scene(struct gn_show *s, int scene, const struct gn_err *err) {
         .kind = GN_KIOSK_SCENE_FAILED, .time_ns = gn_clock_monotonic_ns(), .scene = scene};
     gn_show_complain(s, err->text);
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
+    gn_latency_drop(&s->latency);
 }
 
 /* It begins again where the context was lost. */

@@ -88,6 +88,7 @@ bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     const int64_t drawn_ns = gn_clock_monotonic_ns();
     s->changed = false;
     if (!gn_display_present(display, drawn_ns, err)) return false;
+    gn_latency_frame(&s->latency, gn_clock_monotonic_ns(), !gn_kiosk_waits(&s->kiosk));
     gn_show_stats_frame(&s->stats, display, drawn_ns - begun_ns);
     return true;
 }

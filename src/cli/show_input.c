@@ -28,6 +28,21 @@ bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
     return s->input && gn_show_watch(s, gn_input_fd(s->input), err);
 }
 
+static bool other_place(const struct gn_kiosk *a, const struct gn_kiosk *b) {
+    return a->wanted.mode != b->wanted.mode || a->wanted.scene != b->wanted.scene;
+}
+
+/* What changes the picture; who goes back before it was shown has asked for nothing. */
+static void measure(struct gn_show *s, const struct gn_kiosk *before, int64_t edge_ns) {
+    const struct gn_kiosk *now = &s->kiosk;
+    const bool changes =
+        other_place(before, now) || before->camera != now->camera || before->info != now->info;
+    if (now->blanked || (gn_kiosk_waits(before) && !gn_kiosk_waits(now)))
+        gn_latency_drop(&s->latency);
+    else if (changes)
+        gn_latency_edge(&s->latency, edge_ns);
+}
+
 void gn_show_take_input(struct gn_show *s, const struct gn_hand *hand) {
     struct gn_gesture_event event;
     char text[256];
@@ -36,7 +51,10 @@ void gn_show_take_input(struct gn_show *s, const struct gn_hand *hand) {
     for (unsigned i = 0; i < hand->key_count; i++) gn_input_key(s->input, &hand->keys[i]);
     while (gn_input_next(s->input, &event)) {
         const struct gn_action action = gn_buttons_action(&s->buttons, &event);
-        if (action.kind != GN_ACTION_NONE) gn_show_act(s, &action, event.time_ns);
+        if (action.kind == GN_ACTION_NONE) continue;
+        const struct gn_kiosk before = s->kiosk;
+        gn_show_act(s, &action, event.time_ns);
+        measure(s, &before, event.time_ns);
     }
     const bool tells = s->options->buttons || s->options->verbose; /* few have the default ones */
     while (gn_input_report(s->input, text, sizeof text))

@@ -82,6 +82,15 @@ static json_t *frame_status(const struct gn_show *s) {
                      (json_int_t)c->opened);
 }
 
+/* From the kernel's time of the edge to the commit of the frame. */
+static json_t *input_status(const struct gn_show *s) {
+    const struct gn_latency_report r = gn_latency_read(&s->latency);
+    return json_pack("{s:I, s:o, s:o, s:i, s:i}", "seen", (json_int_t)r.count, "median_ms",
+                     gn_json_make_number((double)r.median.ns * 1e-6), "worst_ms",
+                     gn_json_make_number((double)r.worst.ns * 1e-6), "median_frames",
+                     r.median.frames, "worst_frames", r.worst.frames);
+}
+
 static json_t *control_status(struct gn_control_counts c) {
     return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "accepted", (json_int_t)c.accepted,
                      "refused", (json_int_t)c.refused, "requests", (json_int_t)c.requests, "wrong",
@@ -100,6 +109,7 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     json_object_set_new(reply, "modes", mode_names(s));
     json_object_set_new(reply, "screen", screen_status(s));
     json_object_set_new(reply, "frames", frame_status(s));
+    json_object_set_new(reply, "input", input_status(s));
     json_object_set_new(reply, "fps", json_integer(gn_show_status_fps(status, now_ns)));
     json_object_set_new(reply, "config",
                         json_pack("{s:o, s:o}", "path", gn_json_make_text(o->config_path), "error",

@@ -120,7 +120,7 @@ expect 0 'camera: 0' next-camera
 expect 0 'info: yes' info
 expect 0 'info: no' info
 ctl status --json > out || complain 'status --json'
-for key in version uptime_s mode modes scene screen frames fps paused blanked config memory_mb control; do
+for key in version uptime_s mode modes scene screen frames fps paused blanked config memory_mb control input; do
     grep -q "\"$key\":" out || complain "status --json has no $key"
 done
 
