@@ -17,7 +17,7 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DELETE_ON_ERROR:
 .SUFFIXES:
 CHECKS := check-angle check-board check-board-arm64 check-gpus
-.PHONY: all no-import tests run check $(CHECKS) gpus accept truth gallery readme deps lint format man install uninstall help clean FORCE
+.PHONY: all no-import tests run check $(CHECKS) gpus accept truth gallery contact-sheet readme deps lint format man install uninstall help clean FORCE
 
 help:
 	@printf '%s\n' \
@@ -34,6 +34,8 @@ help:
 	    'make truth      shadows against ray-traced truth, as a table' \
 	    'make readme     the table of techniques in README.md, measured' \
 	    'make gallery    one scene with every technique and the truth, into assets/gallery' \
+	    'make contact-sheet' \
+	    '                the modes of the default scene, gone through by keys, as one picture' \
 	    'make deps       install the packages that building, running and testing need (apt);' \
 	    '                with CROSS= those that building for it needs' \
 	    'make lint       clang-tidy; make format: clang-format, in place' \
@@ -59,8 +61,9 @@ DEPS_check-gpus := build run gpus
 DEPS_accept := build run test board board-arm64
 DEPS_truth := build run test
 DEPS_gallery := build run test
+DEPS_contact-sheet := build run test
 DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept truth gallery readme,$(GOALS)))
+BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept truth gallery contact-sheet readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -81,7 +84,7 @@ endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm libdrm gbm
-NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests $(CHECKS) truth gallery readme,$(GOALS)),cmocka)
+NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests $(CHECKS) truth gallery contact-sheet readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # FreeType draws the texts on the picture; without it they are in the font inside the program
@@ -284,6 +287,8 @@ readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 gallery: $(B)/tests/tool_gallery $(BIN)
 	@mkdir -p assets/gallery
 	$< assets/gallery
+contact-sheet: $(B)/tests/tool_sheet $(BIN)
+	BUILD=$(B) GNOMON=$(BIN) tests/image/accept_terminal.sh $(O)/contact-sheet.png
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$<
 lint: $(patsubst %.c,$(O)/tidy/%.ok,src/main.c $(SRC) $(IMPORT_C))

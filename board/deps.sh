@@ -54,7 +54,7 @@ for set in "$@"; do
     case $set in
     build) wanted="$wanted $build" extra="$extra $optional_build" ;;
     run) wanted="$wanted $run" extra="$extra $optional_run" ;;
-    test) wanted="$wanted $test" extra="$extra $optional_test ${optional_npm:-}" ;;
+    test) wanted="$wanted $test" extra="$extra $optional_test ${optional_npm:-} tmux" ;; # tmux: a terminal that scripts can type in
     board) [ "$own" != amd64 ] || extra="$extra $optional_board" ;;
     board-arm64) [ "$own" != amd64 ] || extra="$extra $optional_board_arm64" ;;
     gpus) [ "$own" != amd64 ] || extra="$extra $optional_gpus" ;;
