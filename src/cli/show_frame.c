@@ -1,4 +1,6 @@
 /* From what the kiosk shows to a frame on the screen. Nothing is drawn while nothing changes. */
+#include <stdio.h>
+
 #include "cli/show.h"
 #include "core/arena.h"
 #include "core/clock.h"
@@ -75,6 +77,16 @@ static bool draw(struct gn_show *s, struct gn_err *err) {
            gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
 }
 
+/* It is on its way: how long did whoever pressed a button have to wait for it? */
+static void measure(struct gn_show *s) {
+    const uint64_t before = s->latency.count;
+    gn_latency_frame(&s->latency, gn_clock_monotonic_ns(), !gn_kiosk_waits(&s->kiosk));
+    if (s->latency.count == before || !s->options->verbose) return;
+    const struct gn_latency_sample last = gn_latency_last(&s->latency);
+    printf("seen %.1f ms after the edge, as frame %d\n", (double)last.ns * 1e-6, last.frames);
+    fflush(stdout);
+}
+
 bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     struct gn_display *display = &s->stage.display;
     const int64_t begun_ns = gn_clock_monotonic_ns();
@@ -88,7 +100,7 @@ bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     const int64_t drawn_ns = gn_clock_monotonic_ns();
     s->changed = false;
     if (!gn_display_present(display, drawn_ns, err)) return false;
-    gn_latency_frame(&s->latency, gn_clock_monotonic_ns(), !gn_kiosk_waits(&s->kiosk));
+    measure(s);
     gn_show_stats_frame(&s->stats, display, drawn_ns - begun_ns);
     return true;
 }

@@ -30,6 +30,10 @@ void gn_latency_frame(struct gn_latency *l, int64_t now_ns, bool shows) {
     l->waiting = 0;
 }
 
+struct gn_latency_sample gn_latency_last(const struct gn_latency *l) {
+    return l->count ? l->kept[(l->count - 1) % GN_LATENCY_KEPT] : (struct gn_latency_sample){0};
+}
+
 static int by_size(const void *a, const void *b) {
     const int64_t p = *(const int64_t *)a, q = *(const int64_t *)b;
     return p < q ? -1 : p > q;

@@ -32,6 +32,9 @@ void gn_latency_frame(struct gn_latency *latency, int64_t now_ns, bool shows);
 /* What was asked for will not be shown. */
 void gn_latency_drop(struct gn_latency *latency);
 
+/* Of what was seen last; zeroed where nothing was. */
+struct gn_latency_sample gn_latency_last(const struct gn_latency *latency);
+
 struct gn_latency_report {
     uint64_t count;                         /* 0: the rest is 0 */
     struct gn_latency_sample median, worst; /* of the last GN_LATENCY_KEPT (the lower of two in the

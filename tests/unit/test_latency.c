@@ -45,6 +45,7 @@ static void one_frame_may_show_several(void **state) {
     gn_latency_frame(&latency, 50 * MS, true);
     const struct gn_latency_report r = gn_latency_read(&latency);
     assert_int_equal(r.count, 2);
+    assert_int_equal(gn_latency_last(&latency).ns, 20 * MS);
     assert_int_equal(r.median.ns, 20 * MS);
     assert_int_equal(r.worst.ns, 40 * MS);
     assert_int_equal(r.worst.frames, 1);
@@ -70,6 +71,7 @@ static void the_median_is_of_late_and_the_worst_of_all(void **state) {
     }
     const struct gn_latency_report r = gn_latency_read(&latency);
     assert_int_equal(r.count, 1001);
+    assert_int_equal(gn_latency_last(&latency).ns, 1000 * MS);
     assert_int_equal(r.median.ns, 872 * MS);
     assert_int_equal(r.median.frames, 1);
     assert_int_equal(r.worst.ns, 7000 * MS);
