@@ -152,7 +152,8 @@ buttons() {
 # press LINE [SECONDS]: a short press by default. The kernel drops edges that come in bursts, so
 # none is shorter than 20 ms. bouncing LINE down|up: the contact opens and closes for 5 ms, in steps
 # of one (an emulated processor takes longer), and then is as it shall be. bounced_press LINE [SECONDS]:
-# a press that begins and ends so.
+# a press that begins and ends so. False: a busy host took its time in the middle of a bounce, so that it
+# was none, but presses of their own.
 press() {
     echo pull-down > "$simulated/sim_gpio$1/pull"
     sleep "${2:-0.05}"
@@ -160,22 +161,63 @@ press() {
     sleep 0.05
 }
 bouncing() {
-    local pull=$simulated/sim_gpio$1/pull to=pull-$2 from="pull-up" i
+    local pull=$simulated/sim_gpio$1/pull to=pull-$2 from="pull-up" i last step longest=0
     [ "$2" = down ] || from="pull-down"
-    for i in 1 2 3; do
-        echo "$to" > "$pull"
+    last=${EPOCHREALTIME/./}
+    for i in "$to" "$from" "$to" "$from" "$to"; do
+        echo "$i" > "$pull"
+        step=$((${EPOCHREALTIME/./} - last))
+        last=$((last + step))
+        [ "$step" -le "$longest" ] || longest=$step
         pause_1ms
-        [ "$i" = 3 ] || { echo "$from" > "$pull" && pause_1ms; }
     done
+    [ "$longest" -lt 15000 ] # microseconds; gnomon takes 20 ms for a rest
 }
-pause_1ms() { read -r -t 0.001 -u "$silence"; } # without a program, which would take longer
+pause_1ms() { # at work: a processor at rest sleeps as long as the host likes
+    local until=$((${EPOCHREALTIME/./} + 1000))
+    while [ "${EPOCHREALTIME/./}" -lt "$until" ]; do :; done
+}
 bounced_press() {
-    bouncing "$1" down
+    local good=0
+    bouncing "$1" down || good=1
     sleep "${2:-0.1}"
-    bouncing "$1" up
+    bouncing "$1" up || good=1
     sleep 0.05
+    return $good
 }
-no_buttons() { echo 0 > /sys/kernel/config/gpio-sim/header/live; }
+# no_buttons: the chip is gone, whoever uses it; buttons makes it again, perhaps under another number
+no_buttons() {
+    local chip=/sys/kernel/config/gpio-sim/header line
+    echo 0 > "$chip/live"
+    for line in "$chip"/bank0/line*; do rmdir "$line"; done
+    rmdir "$chip/bank0" "$chip"
+}
+# kiosk TECHNIQUE..: kiosk.ini, with a mode of each, and without captions, since render has none. Pressed,
+# GPIO17 and GPIO22 are next, the latter when held for 3 s prev; so is GPIO27 (without a pull-up, which a
+# simulated line takes for a release).
+kiosk() {
+    local technique
+    printf '[kiosk]\ncaptions = no\n'
+    for technique in "$@"; do printf '[mode "%s"]\nshadow = %s\n' "$technique" "$technique"; done
+    printf '[button "next"]\nline = GPIO17\npress = next\n'
+    printf '[button "hold"]\nline = GPIO22\npress = next\nhold = prev\nhold_ms = 3000\n'
+    printf '[button "prev"]\nline = GPIO27\nbias = none\npress = prev\n'
+} > kiosk.ini
+# changes SECONDS: reads on in the log of `show -v` to the next change of the mode, which is $mode then
+changes() {
+    local line tries=$(($1 * 200 + 1))
+    [ "$heard" = "$log" ] || { heard=$log && exec {words}< "$log"; }
+    while [ $((tries--)) -gt 0 ]; do
+        while IFS= read -r -u "$words" line; do
+            [[ $line != 'mode '* ]] || { mode=${line#mode } && mode=${mode%%,*} && return; }
+        done
+        read -r -t 0.005 -u "$silence"
+    done
+    return 1
+}
+heard=''
+# seen: every change that came of a button has its frame on its way to the screen
+seen() { [ "$(grep -c '^mode ' "$log")" = "$(grep -c '^seen ' "$log")" ]; }
 
 # ---- the program -------------------------------------------------------------------------------
 # start COMMAND..: in the background, its words in /out/PROGRAM.log; $! and $program are its process.
