@@ -16,7 +16,7 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-CHECKS := check-angle check-board check-board-arm64 check-gpus
+CHECKS := check-angle check-board check-board-arm64 check-gpus check-gpiod2
 .PHONY: all no-import tests run check $(CHECKS) gpus accept truth gallery contact-sheet readme deps lint format man install uninstall help clean FORCE
 
 help:
@@ -31,6 +31,8 @@ help:
 	    '                the real kernel in a virtual machine; with GN_FULL=1 all of it, and' \
 	    '                check-board-arm64: the arm64 kernel, and gnomon built for it' \
 	    'make check-gpus every program on the compilers of GPUs that are not here, and its cost' \
+	    'make check-gpiod2' \
+	    '                buttons with libgpiod 2, and the rest of Debian 13; with GN_FULL=1 its long form' \
 	    'make truth      shadows against ray-traced truth, as a table' \
 	    'make readme     the table of techniques in README.md, measured' \
 	    'make gallery    one scene with every technique and the truth, into assets/gallery' \
@@ -58,6 +60,7 @@ DEPS_check-angle := build run test
 DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
 DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
 DEPS_check-gpus := build run gpus
+DEPS_check-gpiod2 := $(DEPS_check)
 DEPS_accept := build run test board board-arm64
 DEPS_truth := build run test
 DEPS_gallery := build run test
@@ -113,7 +116,9 @@ WARN    := -Wall -Wextra -Wstrict-prototypes -Wmissing-prototypes -Wvla \
 ALL_CFLAGS := -std=c11 -D_GNU_SOURCE -DGL_GLES_PROTOTYPES=0 -DCGLM_ALL_UNALIGNED \
            -Isrc -Ishaders_es -I$(B)/gen $(WARN) -ffp-contract=off -fno-math-errno $(CFLAGS_$(CONFIG)) \
            $(shell $(PKG) --cflags $(PKGS) $(HEADERS) $(if $(IMPORT_C),assimp)) $(CPPFLAGS) $(CFLAGS)
-ALL_LDFLAGS := $(LDFLAGS_$(CONFIG)) $(LDFLAGS)
+# a compiler for this machine looks for libraries at home first, whatever its sysroot
+OF_ROOT := $(if $(SYSROOT), -L$(SYSROOT)/usr/lib/$(CROSS))
+ALL_LDFLAGS := $(LDFLAGS_$(CONFIG)) $(LDFLAGS)$(OF_ROOT)
 LIBS    := $(shell $(PKG) --libs $(PKGS)) -ldl -lm -lpthread
 COMPILE  = $(CC) $(ALL_CFLAGS) $(if $(WERROR),-Werror) -MMD -MP
 
@@ -186,7 +191,7 @@ $(B)/tests/ident.so: tests/gpus/ident.c
 $(B)/tests/firstflip.so $(B)/tests/ident.so: $(B)/flags
 	@mkdir -p $(@D) && echo "link $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) -fPIC -shared \
-	    $(shell $(PKG) --cflags libdrm) -o $@ $(filter %.c,$^) -ldl
+	    $(shell $(PKG) --cflags libdrm) $(OF_ROOT) -o $@ $(filter %.c,$^) -ldl
 
 # linked with a library of the name of ANGLE's that holds nothing, so that building needs none of ANGLE
 $(B)/tests/angle/libEGL.so.1: tests/angle/strict.c $(B)/flags
@@ -274,6 +279,13 @@ gpus:
 	    $(addprefix $(GPUS_B)/,gnomon tests/tool_gpus tests/ident.so)
 check-gpus: gpus
 	@tests/run.sh BUILD=$(GPUS_B) tests/gpus/gpus.sh
+# Built for Debian 13 with this machine's compiler, and run on its libraries: here, and in a virtual machine.
+GPIOD2  := $(O)/$(shell $(CC) -dumpmachine)-$(CONFIG)
+GPIOD2_TESTS := $(addprefix $(GPIOD2)/tests/,test_gpio test_lines test_input test_gesture test_replay test_doctor_input)
+check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
+	+@root=$$(SUITE=trixie tests/board/sysroot.sh) || exit 0; $(SUB) WERROR=1 CROSS=$$($(CC) -dumpmachine) SYSROOT=$$root \
+	    $(GPIOD2)/gnomon $(GPIOD2_TESTS) $(GPIOD2)/tests/firstflip.so
+	@SUITE=trixie HOST_BUILD=$(B) tests/run.sh BUILD=$(GPIOD2) tests/board/units.sh tests/board/buttons.guest
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
@@ -282,6 +294,7 @@ accept:
 	    $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest))) \
 	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan))
 	+$(SUB) GN_FULL= check-board-arm64
+	+GN_FULL=1 $(SUB) check-gpiod2
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
 gallery: $(B)/tests/tool_gallery $(BIN)

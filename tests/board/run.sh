@@ -7,6 +7,7 @@
 #   GN_FULL=1     the long form, for the test to look at
 #   GNOMON, BUILD the program, and the folder for files that come and go (build/release)
 #   ARCH          amd64 or arm64: what the machine is
+#   SUITE         a Debian whose programs and libraries are in the machine, and gnomon is built for: trixie
 #   HOST_BUILD    where gnomon and the tools for this machine are, when BUILD is for another one
 #   KEEP=1        leave shots and logs when all is well, too
 #   GUEST_ENV     "NAME=VALUE ..", for the test
@@ -36,7 +37,7 @@ cat "$reason"
 rm -f "$reason"
 [ "$status" = 0 ] || exit "$status"
 root=/
-[ "$arch" = amd64 ] || root=$("$here/sysroot.sh" "$arch") || exit
+[ "$arch${SUITE:-}" = amd64 ] || root=$("$here/sysroot.sh" "$arch") || exit
 
 [ -x "$gnomon" ] || { echo "$gnomon is not built" && exit 1; }
 out=$(realpath -m "$build/board/$test")
@@ -54,7 +55,7 @@ done > "$out/env"
 
 # Emulated, Mesa takes most of a minute to compile the programs: what it kept the last time is given
 # to it again. Its names for them hold Mesa's version, the program's text and this processor's.
-shaders=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/board/shaders-$arch
+shaders=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/board/shaders-$arch${SUITE:+-$SUITE}
 mkdir -p "$shaders" "$out/cache"
 find "$shaders" -type f -mtime +30 -delete
 cp -R "$shaders/." "$out/cache/"

@@ -1,20 +1,21 @@
 #!/bin/sh
-# sysroot.sh ARCHITECTURE [PACKAGE..]: a folder with what gnomon needs of that Debian architecture, to
-# build against and to be a virtual machine's root, made once and kept in the user's cache; prints its
-# name. With packages: downloads those into the folder we are in instead, and nothing that they
-# depend on. This machine's own packages stay as they are: apt works on a state of its own, with the
-# machine's sources. Exit status 77, with the reason on stderr, where they cannot be had.
-#   FOR=gpus   not a machine's root, but that of tests/gpus: of the Debian named there, whatever this
-#              machine's is, with Mesa's drivers for GPUs that are not here
+# sysroot.sh [ARCHITECTURE [PACKAGE..]]: a folder with what gnomon needs of that Debian architecture
+# (this machine's), to build against and to be a virtual machine's root, made once and kept in the
+# user's cache; prints its name. With packages: downloads those into the folder we are in instead, and
+# nothing that they depend on. SUITE=trixie: of that Debian, and not of this machine's. This machine's
+# own packages stay as they are: apt works on a state of its own, with the machine's sources, or for
+# another suite with its mirror. Exit status 77, with the reason on stderr, where they cannot be had.
+#   FOR=gpus   not a machine's root, but that of tests/gpus: Mesa's drivers for GPUs that are not here
 set -eu
-architecture=$1
-shift
+architecture=${1:-$(dpkg --print-architecture 2> /dev/null || true)}
+[ $# = 0 ] || shift
 # shellcheck disable=SC1091
 codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
-[ "${FOR:-}" != gpus ] || codename=trixie # the first with mesa-drm-shim; the budgets are its Mesa's
 store=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/board
-root=$store/${FOR:-root}-$architecture-$codename-$(sha256sum < "$0" | cut -c 1-12)
-state=$store/apt-${FOR:-}${FOR:+-}$architecture-$codename
+suite=${SUITE:-$codename}
+[ "${FOR:-}" != gpus ] || suite=trixie # the first with mesa-drm-shim; the budgets are its Mesa's
+root=$store/${FOR:-root}-$architecture-$suite-$(sha256sum < "$0" | cut -c 1-12)
+state=$store/apt-${FOR:-}${FOR:+-}$architecture-$suite
 
 build='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
     libcglm-dev libdrm-dev libgbm-dev libudev-dev libcmocka-dev'
@@ -45,13 +46,14 @@ Dir::State "$state";
 Dir::State::status "$state/status";
 Dir::Cache "$state/cache";
 END
-if [ "${FOR:-}" = gpus ]; then # from the mirror that this machine's Debian comes from
-    mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | grep -m 1 '/debian/*$') ||
-        skip 'apt-get knows no mirror of Debian'
-    echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror $codename main" > "$state/sources"
+if [ "$suite" != "$codename" ]; then
+    mirror=$(apt-get --print-uris update 2> /dev/null |
+        sed -n "s,^'\(.*\)/dists/$codename/InRelease'.*,\1,p" | head -n 1)
+    keys=/usr/share/keyrings/debian-archive-keyring.gpg
+    echo "deb [signed-by=$keys] ${mirror:-http://deb.debian.org/debian} $suite main" > "$state/sources.list"
     cat >> "$state/apt.conf" << END
-Dir::Etc::sourcelist "$state/sources";
-Dir::Etc::sourceparts "-";
+Dir::Etc::SourceList "$state/sources.list";
+Dir::Etc::SourceParts "-";
 END
 fi
 log=$state/log
@@ -62,7 +64,7 @@ apt() {
         sleep "$((try * 3))"
     done
     tail -n 5 "$log" >&2
-    skip "apt-get $* failed for $architecture"
+    skip "apt-get $1 failed for $suite on $architecture"
 }
 
 [ -n "$(find "$state/updated" -mmin -600 2> /dev/null)" ] || { apt update && touch "$state/updated"; }
@@ -82,13 +84,13 @@ if [ $# != 0 ]; then
     exit 0
 fi
 
-echo "board: unpacking Debian's $architecture packages, once" >&2
+echo "board: unpacking the $architecture packages of Debian's $suite, once" >&2
 # shellcheck disable=SC2086
 apt install --download-only --no-install-recommends $build $run
 work=$(mktemp -d "$store/new.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 # what the packages' own scripts would do, which cannot run here
-for folder in bin sbin lib; do
+for folder in bin sbin lib lib64; do
     mkdir -p "$work/usr/$folder"
     ln -s "usr/$folder" "$work/$folder"
 done
