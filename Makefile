@@ -153,7 +153,7 @@ EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(su
 KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
 
 all: $(BIN) $(IMPORT) $(SCENES) man
-tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth
+tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth
 man: $(O)/gnomon.1
 
 $(BIN): $(call OBJ,src/main.c) $(KEEP) $(LIB)
@@ -192,6 +192,9 @@ $(B)/tests/firstflip.so $(B)/tests/ident.so: $(B)/flags
 	@mkdir -p $(@D) && echo "link $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) -fPIC -shared \
 	    $(shell $(PKG) --cflags libdrm) $(OF_ROOT) -o $@ $(filter %.c,$^) -ldl
+$(B)/tests/keyboard: tests/board/keyboard.c $(B)/flags
+	@mkdir -p $(@D) && echo "link $@"
+	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) $(OF_ROOT) -o $@ $<
 
 # linked with a library of the name of ANGLE's that holds nothing, so that building needs none of ANGLE
 $(B)/tests/angle/libEGL.so.1: tests/angle/strict.c $(B)/flags
@@ -260,7 +263,7 @@ check:
 	    BUILD=$(O)/asan $(call programs,$(O)/asan) tests/check_hostile.sh
 check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(SCENES)
 	@tests/run.sh BUILD=$(B) tests/angle/check_angle.sh
-BOARD_NEEDS := gnomon tests/firstflip.so tests/tool_compare
+BOARD_NEEDS := gnomon tests/firstflip.so tests/keyboard tests/tool_compare
 check-board: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(sort $(wildcard tests/board/*.guest)),tests/board/smoke.guest)
 	$(if $(GN_FULL),+$(SUB) check-board-arm64)
@@ -284,7 +287,7 @@ GPIOD2  := $(O)/$(shell $(CC) -dumpmachine)-$(CONFIG)
 GPIOD2_TESTS := $(addprefix $(GPIOD2)/tests/,test_gpio test_lines test_input test_gesture test_replay test_doctor_input)
 check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	+@root=$$(SUITE=trixie tests/board/sysroot.sh) || exit 0; $(SUB) WERROR=1 CROSS=$$($(CC) -dumpmachine) SYSROOT=$$root \
-	    $(GPIOD2)/gnomon $(GPIOD2_TESTS) $(GPIOD2)/tests/firstflip.so
+	    $(GPIOD2)/gnomon $(GPIOD2_TESTS) $(addprefix $(GPIOD2)/tests/,firstflip.so keyboard)
 	@SUITE=trixie HOST_BUILD=$(B) tests/run.sh BUILD=$(GPIOD2) tests/board/units.sh tests/board/buttons.guest
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests

@@ -44,7 +44,7 @@ out=$(realpath -m "$build/board/$test")
 rm -rf "$out"
 mkdir -p "$out/bin"
 cp "$gnomon" "$out/bin/gnomon"
-cp "$build/tests/firstflip.so" "$(dirname "$build")/selftest/lattice.glb" "$out/bin/" || exit 1
+cp "$build/tests/firstflip.so" "$build/tests/keyboard" "$(dirname "$build")/selftest/lattice.glb" "$out/bin/" || exit 1
 cp "$here/guest.sh" "$out/guest.sh"
 cp "$script" "$out/test.sh" || exit 1
 heads=$(sed -n 's/^# heads: \([12]\)$/\1/p' "$script")
