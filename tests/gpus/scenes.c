@@ -147,7 +147,8 @@ struct gn_scene *gn_gpu_scene_make(enum gn_gpu_scene scene) {
     for (int i = 0; i < MATERIAL_COUNT; i++) gn_maker_add(&m, "materials", materials[i]);
     const struct square square = add_square(&m);
     add_card(&m, square.plain, 0, 0, 0, 60);
-    add_card(&m, square.plain, 0, 0, 1, 1);
+    /* a row of them, longer than what an eye sees that is near: the sun's map goes with it */
+    for (int i = -5; i <= 5; i++) add_card(&m, square.plain, 0, 3.3f * (float)i, 1, 1);
     for (int i = 1; i < MATERIAL_COUNT; i++) {
         const float x = (float)i - 5, y = 0.5f + 0.1f * (float)i;
         const bool few = scene == GN_GPU_FEW_MATERIALS, all = scene == GN_GPU_MATERIALS;
