@@ -1,5 +1,5 @@
 // Codes of a map into moments, averaged over a row of texels round each: the first half of a box whose ends may cut a texel. Within
-// the tile alone.
+// the tile alone. What is past an end of the map's range lies at it: exponents have no room beyond.
 #include "lib/pass.glsl"
 
 uniform MAP_SAMPLER u_map_0;
@@ -13,7 +13,7 @@ void main() {
     vec4 sum = vec4(0.0);
     for (int i = -most; i <= most; i++) {
         vec2 from = vec2(clamp(at.x + i, ends.x, ends.y), at.y) + 0.5;
-        sum += moments_of(map_code(u_map_0, from * texel)) * min(blur.x + 0.5 - abs(float(i)), 1.0);
+        sum += moments_of(clamp(map_code(u_map_0, from * texel), 0.0, 1.0)) * min(blur.x + 0.5 - abs(float(i)), 1.0);
     }
     o_moments = moments_store(sum * blur.z);
 }

@@ -10,6 +10,6 @@ void main() {
     float reach = u_pass[FILTER_TABLE].x;
     vec4 sum = vec4(0.0); // rounded as a whole: half of the error that rounded texels would add up to
     for (int x = at.x - (at.x - corner.x) % TABLE_BLOCK; x <= at.x; x++)
-        sum += moments_of(map_code(u_map_0, (vec2(x, at.y) + 0.5) * texel));
+        sum += moments_of(clamp(map_code(u_map_0, (vec2(x, at.y) + 0.5) * texel), 0.0, 1.0));
     o_moments = table_fixed(sum, reach);
 }
