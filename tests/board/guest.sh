@@ -217,7 +217,7 @@ changes() {
 }
 heard=''
 # seen: every change that came of a button has its frame on its way to the screen
-seen() { [ "$(grep -c '^mode ' "$log")" = "$(grep -c '^seen ' "$log")" ]; }
+seen() { [ "$(grep -E '^(mode|seen) ' "$log" | tail -n 1 | cut -c 1-4)" = seen ]; }
 
 # ---- the program -------------------------------------------------------------------------------
 # start COMMAND..: in the background, its words in /out/PROGRAM.log; $! and $program are its process.
