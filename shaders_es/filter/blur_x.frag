@@ -10,7 +10,7 @@ void main() {
     vec4 blur = u_pass[FILTER_BLUR];
     vec2 texel = u_pass[FILTER_SIZE].zw;
     int most = int(blur.y);
-    vec4 sum = vec4(0.0);
+    MOMENTS sum = MOMENTS(0.0);
     for (int i = -most; i <= most; i++) {
         vec2 from = vec2(clamp(at.x + i, ends.x, ends.y), at.y) + 0.5;
         sum += moments_of(clamp(map_code(u_map_0, from * texel), 0.0, 1.0)) * min(blur.x + 0.5 - abs(float(i)), 1.0);

@@ -1,12 +1,13 @@
-//@ names moments_store moments_fetch moments_at moments_step moments_exponents
+//@ names moments_store moments_fetch moments_at moments_step
 // Moments as half floats, which samplers weigh. MOMENTS_MIDDLE is taken off, where they are finest.
+#undef MOMENTS
 #undef MOMENTS_SAMPLER
 #undef MOMENTS_OUT
+#define MOMENTS vec4
 #define MOMENTS_SAMPLER sampler2D
 #define MOMENTS_OUT vec4
 
 const float moments_step = 1.0 / 4096.0;
-const vec2 moments_exponents = vec2(5.54);
 
 vec4 moments_store(vec4 m) { return m - MOMENTS_MIDDLE; }
 

@@ -1,12 +1,13 @@
-//@ names moments_store moments_fetch moments_at moments_step moments_exponents
+//@ names moments_store moments_fetch moments_at moments_step
 // Moments in 0..1 as integers of 16 bits, which no sampler weighs.
+#undef MOMENTS
 #undef MOMENTS_SAMPLER
 #undef MOMENTS_OUT
+#define MOMENTS vec4
 #define MOMENTS_SAMPLER usampler2D
 #define MOMENTS_OUT uvec4
 
 const float moments_step = 1.0 / 65535.0;
-const vec2 moments_exponents = vec2(0.0);
 
 uvec4 moments_store(vec4 m) { return uvec4(clamp(m, 0.0, 1.0) * 65535.0 + 0.5); }
 

@@ -1,12 +1,13 @@
-//@ names moments_store moments_fetch moments_at moments_step moments_exponents
+//@ names moments_store moments_fetch moments_at moments_step
 // Moments as the bits of floats: all of ES 3.0 draws to integers, and few GPUs weigh floats of 32 bits in a sampler anyhow.
+#undef MOMENTS
 #undef MOMENTS_SAMPLER
 #undef MOMENTS_OUT
+#define MOMENTS vec4
 #define MOMENTS_SAMPLER usampler2D
 #define MOMENTS_OUT uvec4
 
 const float moments_step = 1.0 / 8388608.0;
-const vec2 moments_exponents = vec2(40.0, 5.0);
 
 uvec4 moments_store(vec4 m) { return floatBitsToUint(m); }
 

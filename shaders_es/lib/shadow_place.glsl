@@ -21,6 +21,11 @@ struct shadow_place {
 // Beyond the edge of the map: the outermost texels of one that is filtered are not all lit.
 bool shadow_outside(shadow_place s) { return any(greaterThan(abs(s.at.xy - 0.5), vec2(0.5))); }
 
+// The receiver may be in the map, and end there: where a share of a square is left of a plane that is cut by a straight edge, its
+// middle is at most radius (1 - share) from the square's. By so much its code may differ from the receiver's. radius: half of the
+// square's side, texels.
+float shadow_cut(shadow_place s, float radius, float share) { return dot(abs(s.slope), s.size.zw) * radius * max(1.0 - share, 0.0); }
+
 float shadow_e(shadow_place s, float code) {
     float x = s.soft.z * code + s.soft.w;
     return s.inverse ? -1.0 / x : x;

@@ -1,13 +1,17 @@
-//@ names shadow_visibility VSM_BLEED
+//@ names shadow_visibility VSM_BLEED VSM_REACH
 // Variance shadow maps (Donnelly, Lauritzen, "Variance Shadow Maps", 2006): by Chebyshev's inequality at most s^2 / (s^2 + (z - m)^2)
 // of the light passes, exactly so behind one caster before one receiver. What two casters one behind the other let through so is cut
-// off below VSM_BLEED, and the rest is stretched (Lauritzen, GPU Gems 3, ch. 8).
+// off below VSM_BLEED, and the rest is stretched (Lauritzen, GPU Gems 3, ch. 8). That is asked of the share of texels that hold
+// casters; through all others light passes, whether the receiver, which may be no caster, is in the map or not.
 const float VSM_BLEED = 0.2;
+const float VSM_REACH = 4.5; // half of the widest blur, texels
 
 float shadow_visibility(MOMENTS_SAMPLER map, shadow_place s) {
-    vec2 m = moments_at(map, s.at.xy, s.size).xy;
-    float beyond = max(min(s.at.z, s.far) - m.x, 0.0);
-    float variance = max(m.x * (1.0 - m.x) - 0.25 * m.y, max(moments_step, 1e-6));
-    float lit = variance / (variance + beyond * beyond);
-    return shadow_outside(s) ? 1.0 : clamp((lit - VSM_BLEED) * (1.0 / (1.0 - VSM_BLEED)), 0.0, 1.0);
+    vec4 m = moments_at(map, s.at.xy, s.size);
+    float share = clamp(m.w, moments_step, 1.0);
+    vec2 mean = m.xy / share;
+    float beyond = max(s.at.z - shadow_cut(s, VSM_REACH, share) - mean.x, 0.0);
+    float variance = max(mean.x * (1.0 - mean.x) - 0.25 * mean.y, max(moments_step / share, 1e-6));
+    float lit = clamp((variance / (variance + beyond * beyond) - VSM_BLEED) * (1.0 / (1.0 - VSM_BLEED)), 0.0, 1.0);
+    return shadow_outside(s) ? 1.0 : 1.0 - clamp(m.w, 0.0, 1.0) * (1.0 - lit);
 }

@@ -17,11 +17,9 @@ static const char *const instead[GN_CAP_COUNT] = {
     [GN_CAP_RGBA16F] = "8 bits a channel, ending at 1, in .pfm files of colour",
     [GN_CAP_SRGB] = "shaders encode sRGB: slower",
     [GN_CAP_MSAA4] = "no antialiasing",
-    [GN_CAP_RG16UI] = "rg32f-bits or rg16f for vsm",
     [GN_CAP_RGBA16UI] = "rgba32f-bits or rgba16f for msm",
-    [GN_CAP_RG32UI] = "rg16ui or rg16f for vsm",
-    [GN_CAP_RGBA32UI] = "rgba16f for evsm",
-    [GN_CAP_RG16F] = "rg32f-bits or rg16ui for vsm",
+    [GN_CAP_RG32UI] = "rgba16ui or rgba16f for vsm",
+    [GN_CAP_RGBA32UI] = "pcf for evsm, vssm and smsm",
     [GN_CAP_TIMER] = "bench times passes by the clock of the CPU",
     [GN_CAP_DEBUG] = "errors of the driver come without its words",
 };

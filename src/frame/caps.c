@@ -10,11 +10,9 @@ const char *const gn_cap_names[GN_CAP_COUNT] = {
     [GN_CAP_RGBA16F] = "rgba16f",
     [GN_CAP_SRGB] = "srgb",
     [GN_CAP_MSAA4] = "msaa4",
-    [GN_CAP_RG16UI] = "rg16ui",
     [GN_CAP_RGBA16UI] = "rgba16ui",
     [GN_CAP_RG32UI] = "rg32ui",
     [GN_CAP_RGBA32UI] = "rgba32ui",
-    [GN_CAP_RG16F] = "rg16f",
     [GN_CAP_TIMER] = "timer",
     [GN_CAP_DEBUG] = "debug",
 };
@@ -31,13 +29,11 @@ uint32_t gn_caps_encodings(const struct gn_caps *caps) {
 enum gn_cap gn_cap_of_moments(enum gn_moments moments) {
     static const enum gn_cap caps[GN_MOMENTS_COUNT] = {
         [GN_MOMENTS_NONE] = GN_CAP_COUNT,
-        [GN_MOMENTS_RG16UI] = GN_CAP_RG16UI,
-        [GN_MOMENTS_RG16F] = GN_CAP_RG16F,
-        [GN_MOMENTS_RG32F_BITS] = GN_CAP_RG32UI,
+        [GN_MOMENTS_RG32UI] = GN_CAP_RG32UI,
         [GN_MOMENTS_RGBA16UI] = GN_CAP_RGBA16UI,
         [GN_MOMENTS_RGBA16F] = GN_CAP_RGBA16F,
         [GN_MOMENTS_RGBA32F_BITS] = GN_CAP_RGBA32UI,
-        [GN_MOMENTS_TABLE_RG32UI] = GN_CAP_RG32UI,
+        [GN_MOMENTS_RGBA32F_SHARE] = GN_CAP_RGBA32UI,
         [GN_MOMENTS_TABLE_RGBA32UI] = GN_CAP_RGBA32UI,
     };
     return caps[moments];

@@ -139,7 +139,8 @@ static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *lig
         if (files[i] && !gn_gl_source_add(source, files[i], out, err)) return false;
     for (int i = 0; i < PAIR_FILES; i++) drop_suffixes(names[i], counts[i], out);
     gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n#undef SHADOW_TAPS\n"
-                        "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n");
+                        "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n"
+                        "#undef MOMENTS\n");
     return true;
 }
 

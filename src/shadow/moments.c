@@ -4,13 +4,11 @@
 
 const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_NONE] = {.name = "none"},
-    [GN_MOMENTS_RG16UI] = {"rg16ui", "lib/moments_16ui.glsl", 4, false},
-    [GN_MOMENTS_RG16F] = {"rg16f", "lib/moments_16f.glsl", 4, true},
-    [GN_MOMENTS_RG32F_BITS] = {"rg32f-bits", "lib/moments_bits.glsl", 8, false},
+    [GN_MOMENTS_RG32UI] = {"rg32ui", "lib/moments_thirds.glsl", 8, false},
     [GN_MOMENTS_RGBA16UI] = {"rgba16ui", "lib/moments_16ui.glsl", 8, false},
     [GN_MOMENTS_RGBA16F] = {"rgba16f", "lib/moments_16f.glsl", 8, true},
     [GN_MOMENTS_RGBA32F_BITS] = {"rgba32f-bits", "lib/moments_bits.glsl", 16, false},
-    [GN_MOMENTS_TABLE_RG32UI] = {"rg32ui", "lib/moments_table.glsl", 8, false},
+    [GN_MOMENTS_RGBA32F_SHARE] = {"rgba32f-share", "lib/moments_share.glsl", 16, false},
     [GN_MOMENTS_TABLE_RGBA32UI] = {"rgba32ui", "lib/moments_table.glsl", 16, false},
 };
 

@@ -3,7 +3,11 @@
  *
  * Moments of neighbouring texels may be averaged, which distances may not: so the map is blurred
  * once, when it has changed, instead of by every pixel that reads it. A code of such a map is the
- * distance itself, 0 at the near end and 1 at the far one. */
+ * distance itself, 0 at the near end and 1 at the far one.
+ *
+ * A map knows casters alone, and is the far end where there are none, whatever the eye sees there.
+ * Two moments can not tell such a gap from a third distance: so vsm, evsm and vssm average casters
+ * alone, and keep beside their moments what share of texels they are. */
 #ifndef GN_SHADOW_MOMENTS_H
 #define GN_SHADOW_MOMENTS_H
 
@@ -13,14 +17,12 @@
 /* How a texture keeps moments. */
 enum gn_moments {
     GN_MOMENTS_NONE,
-    GN_MOMENTS_RG16UI,     /* 0..1 in 16 bits */
-    GN_MOMENTS_RG16F,      /* filtered by the sampler */
-    GN_MOMENTS_RG32F_BITS, /* bits of floats in integers: drawn to by all of ES 3.0 */
-    GN_MOMENTS_RGBA16UI,   /* as the first ones, four of them */
-    GN_MOMENTS_RGBA16F,
-    GN_MOMENTS_RGBA32F_BITS,
-    GN_MOMENTS_TABLE_RG32UI, /* sums of two, in fixed point that wraps round */
-    GN_MOMENTS_TABLE_RGBA32UI,
+    GN_MOMENTS_RG32UI,         /* three of 0..1 in 21 bits each */
+    GN_MOMENTS_RGBA16UI,       /* four of 0..1 in 16 bits */
+    GN_MOMENTS_RGBA16F,        /* filtered by the sampler */
+    GN_MOMENTS_RGBA32F_BITS,   /* bits of floats in integers: drawn to by all of ES 3.0 */
+    GN_MOMENTS_RGBA32F_SHARE,  /* the same, and in the last ones of all four how much is covered */
+    GN_MOMENTS_TABLE_RGBA32UI, /* sums, in fixed point that wraps round */
     GN_MOMENTS_COUNT,
 };
 struct gn_moments_row {
