@@ -57,14 +57,14 @@ static double dice(void) {
     return (seed >> 8) / 16777216.0;
 }
 
-/* Other codes in the place of those of a map, as far as its tables know drawn so. */
+/* Other codes in the place of those of a map, as far as its tables know drawn so; 1: clear. */
 static float *fill(const struct gn_plan *plan, uint32_t slot) {
     struct gn_gl_map *map = gn_gl_view_find(stage.gl, &plan->shadows[slot], slot, false);
     struct gn_gl_map *table = gn_gl_view_find(stage.gl, &plan->shadows[slot], slot, true);
     const size_t count = (size_t)map->width_px * map->height_px;
     float *codes = gn_xalloc(count, sizeof *codes);
     assert_int_equal(map->encoding, GN_ENCODING_R32UI);
-    for (size_t i = 0; i < count; i++) codes[i] = dice() < 0.3 ? 1.0f : (float)dice();
+    for (size_t i = 0; i < count; i++) codes[i] = dice() < 0.3 ? 1.0f : (float)(0.999 * dice());
     gn_gl_work_on_texture(stage.gl, map->texture);
     GL(stage.gl, TexSubImage2D)
     (GL_TEXTURE_2D, 0, 0, 0, (GLsizei)map->width_px, (GLsizei)map->height_px, GL_RED_INTEGER,
@@ -96,26 +96,34 @@ static double mean_of(const struct sums *s, int m, uint32_t x, uint32_t y, uint3
     return sum / s->scale / side / side;
 }
 
-static double variance_of(const struct sums *s, uint32_t x, uint32_t y, uint32_t side) {
-    double sum = 0, square = 0;
+/* Of the casters alone, and their share. */
+static double variance_of(const struct sums *s, uint32_t x, uint32_t y, uint32_t side,
+                          double *share) {
+    double sum = 0, square = 0, n = 0;
     for (uint32_t j = y; j < y + side; j++)
         for (uint32_t i = x; i < x + side; i++) {
             const double c = (double)s->codes[(s->y_px + j) * s->width_px + s->x_px + i];
+            if (c >= 1) continue;
             sum += c;
             square += c * c;
+            n++;
         }
-    const double n = (double)side * side;
+    assert_true(n > 0);
+    *share = n / side / side;
     return square / n - sum / n * (sum / n);
 }
 
+/* Of variances times shares, and of shares. */
 static double worst_variance(const struct sums *s, uint32_t side) {
     double worst = 0;
     for (int i = 0; i < 3000; i++) {
         const uint32_t x = 1 + (uint32_t)(dice() * (s->side_px - side - 1)),
                        y = 1 + (uint32_t)(dice() * (s->side_px - side - 1));
-        const double m = mean_of(s, 0, x, y, side);
-        const double v = m * (1 - m) - 0.25 * mean_of(s, 1, x, y, side);
-        worst = fmax(worst, fabs(v - variance_of(s, x, y, side)));
+        const double w = mean_of(s, 3, x, y, side), m = mean_of(s, 0, x, y, side) / w;
+        const double v = m * (1 - m) - 0.25 * mean_of(s, 1, x, y, side) / w;
+        double share;
+        const double right = variance_of(s, x, y, side, &share);
+        worst = fmax(worst, fmax(share * fabs(v - right), fabs(w - share)));
     }
     return worst;
 }
