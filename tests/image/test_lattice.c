@@ -86,18 +86,18 @@ static struct gn_scene *make_casting_ground(void) {
     return end(&m, roots);
 }
 
-/* Inclined by 50 degrees; below it a ground that casts nothing. */
+/* Inclined by 60 degrees, away from the lamp; below it a ground that casts nothing. */
 static struct gn_scene *make_sheet(void) {
     struct gn_maker m;
     char roots[400] = "";
     begin(&m, "'translation':[1.5,3.5,0],'rotation':[-0.70710678,0,0,0.70710678]");
     add_node(&m, roots, sizeof roots,
-             "{'mesh':0,'translation':[1.5,1.5,0],'rotation':[0,0,0.42261826,0.90630779]}");
+             "{'mesh':0,'translation':[1.5,1.5,0],'rotation':[0,0,-0.5,0.8660254]}");
     add_node(&m, roots, sizeof roots, "{'mesh':0,'scale':[12,1,12]}");
     return end(&m, roots);
 }
 
-enum { WIDTH = 320, HEIGHT = 240, STEP = 4 };
+enum { WIDTH = 320, HEIGHT = 240, STEP = 2 };
 static float picture[4 * WIDTH * HEIGHT];
 static const enum gn_technique techniques[] = {
     GN_TECHNIQUE_VSM, GN_TECHNIQUE_EVSM, GN_TECHNIQUE_MSM, GN_TECHNIQUE_VSSM, GN_TECHNIQUE_SMSM};
@@ -170,7 +170,7 @@ static struct seen see(void) {
 static void check_ground(struct gn_scene *(*make)(void), bool casts) {
     help_stage_open(&stage, make, "egl", NULL, NULL);
     const double lit =
-        find_truth((const double[]){0, -1e-3, -0.7}, (const double[]){0.8, 1e-3, 0.7}, 128);
+        find_truth((const double[]){0, -1e-3, -0.7}, (const double[]){0.8, 1e-3, 0.7}, 64);
     assert_true(lit > 0.6 && lit < 0.8);
     for (int t = 0; t < TECHNIQUES; t++) {
         const struct gn_shadow_view *view = draw(techniques[t]);
@@ -194,17 +194,27 @@ static void test_a_lattice_on_a_ground_that_casts_too(void **state) {
     check_ground(make_casting_ground, true);
 }
 
+/* Those that do not know their casters' share take a little light from what is steep. */
 static void test_a_sheet_is_lit_to_its_edges(void **state) {
     (void)state;
+    static const struct {
+        double mean, darkest;
+    } least[GN_TECHNIQUE_COUNT] = {
+        [GN_TECHNIQUE_VSM] = {0.9998, 0.99},  [GN_TECHNIQUE_EVSM] = {0.9998, 0.99},
+        [GN_TECHNIQUE_VSSM] = {0.9998, 0.99}, [GN_TECHNIQUE_MSM] = {0.99, 0.9},
+        [GN_TECHNIQUE_SMSM] = {0.96, 0.75},
+    };
     help_stage_open(&stage, make_sheet, "egl", NULL, NULL);
-    const double lit = find_truth((const double[]){-9, 0.1, -9}, (const double[]){9, 9, 9}, 128);
+    const double lit = find_truth((const double[]){-9, 0.1, -9}, (const double[]){9, 9, 9}, 64);
     assert_true(lit > 0.999);
     for (int t = 0; t < TECHNIQUES; t++) {
-        draw(techniques[t]);
+        const enum gn_technique technique = techniques[t];
+        draw(technique);
         const struct seen seen = see();
         print_message("%-4s, an inclined sheet: %.4f, at the darkest %.3f\n",
-                      gn_techniques[techniques[t]].name, seen.mean, seen.darkest);
-        assert_true(seen.mean >= 0.995 && seen.darkest >= 0.9);
+                      gn_techniques[technique].name, seen.mean, seen.darkest);
+        assert_true(seen.mean >= least[technique].mean);
+        assert_true(seen.darkest >= least[technique].darkest);
     }
     help_stage_close(&stage);
 }
