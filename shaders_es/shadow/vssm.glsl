@@ -13,16 +13,20 @@ float vssm_variance(vec4 m) {
     return max(mean * (1.0 - mean) - 0.25 * m.y / m.w, 2.5e-7 / m.w);
 }
 
-float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
-    float widest = table_widest(s), radius = TABLE_SEARCH * widest;
-    vec4 m = table_mean_about(table, s, radius);
-    if (m.w < 1e-4) return 1.0;
+// The code of the blockers in a square of this radius, and the share of it that they take, of all: 0 where there are none.
+vec2 vssm_blockers(shadow_place s, vec4 m, float radius) {
+    if (m.w < 1e-4) return vec2(0.0);
     float beyond = vssm_beyond(s, m, radius);
-    if (beyond <= 0.0) return 1.0;
-    radius = TABLE_FILTER * table_penumbra(s, max(m.x / m.w - vssm_variance(m) / beyond, 0.0), widest);
-    m = table_mean(table, s, radius, vec4(0.0));
-    if (m.w < 1e-4) return 1.0;
-    beyond = vssm_beyond(s, m, radius);
+    if (beyond <= 0.0) return vec2(0.0);
     float v = vssm_variance(m);
-    return 1.0 - min(m.w, 1.0) * (1.0 - v / (v + beyond * beyond));
+    return vec2(max(m.x / m.w - v / beyond, 0.0), min(m.w, 1.0) * beyond * beyond / (v + beyond * beyond));
+}
+
+float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
+    float widest = table_widest(s);
+    vec2 found = vssm_blockers(s, table_mean_about(table, s, 1.0), 1.0);
+    if (found.y < 0.5) found = vssm_blockers(s, table_mean_about(table, s, TABLE_SEARCH * widest), TABLE_SEARCH * widest);
+    if (found.y == 0.0) return 1.0;
+    float radius = TABLE_FILTER * table_penumbra(s, found.x, widest);
+    return 1.0 - vssm_blockers(s, table_mean(table, s, radius, vec4(0.0)), radius).y;
 }
