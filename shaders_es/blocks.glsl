@@ -15,20 +15,23 @@
 #define PASS_CONES 32     /* GN_LIGHTS_MAX in two vec4: 1 / (cos inner - cos outer) of light i in [i / 4][i % 4] */
 #define PASS_SHADOWS 34   /* GN_SHADOWS_MAX x SHADOW_SIZE; slot i belongs to light i */
 #define SHADOW_SIZE 9
-#define SHADOW_MAP 0      /* 4 columns of map_from_world */
+#define SHADOW_MAP 0      /* 4 columns of map_from_world; cascades: of metres across the light and code */
 #define SHADOW_TILES 0    /* point, in its place - xy: uv of a tangent of 1; zw: depth maps' code at depth d is z + w / d */
-#define SHADOW_BIAS 4     /* x: normal offset, y: slope offset, both in plane units (texel times texels); z: slope_max; w: ulp, metres */
+#define SHADOW_BIAS 4     /* x: normal offset, y: slope offset, both in plane units (texel times texels), cascades: in texels; z: slope_max; w: ulp, metres */
 #define SHADOW_PLACE 5    /* xyz: position of the light; w: distance_scale */
 #define SHADOW_MAP_SIZE 6 /* xy: width and height of the map in texels; zw: 1 / width, 1 / height */
-#define SHADOW_CODE 7     /* x: distance_offset; y: far_code; z: point, table: how far beside a place may be read, texels; w: point: tangent over which tiles are shared */
-#define SHADOW_SOFT 8     /* how wide a penumbra is: lib/shadow_place.glsl */
-#define PASS_SLIDES 70    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides ends here */
+#define SHADOW_CODE 7     /* x: distance_offset; y: far_code; z: tiles, table: how far beside a place may be read, texels; w: point: tangent over which tiles are shared; cascades: how far from a tile's middle it may be asked, texels */
+#define SHADOW_SOFT 8     /* how wide a penumbra is: lib/shadow_place.glsl; cascades: x times the texel */
+#define PASS_SLIDES 70    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides or cascades ends here */
 #define SLIDE_SIZE 4
 #define SLIDE_U 0         /* of a point (p, 1), world space: u times w, 0..1 over the slide from its left edge */
 #define SLIDE_V 1         /* v times w, from its top edge */
 #define SLIDE_W 2         /* w: depth along the light's axis, metres */
 #define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide, over 0: what is nearer has not passed it */
-#define PASS_SIZE 86
+#define PASS_CASCADES 86  /* GN_SHADOWS_MAX x CASCADES_SIZE, as PASS_SHADOWS; a pass without cascades ends here */
+#define CASCADES_SIZE 4   /* each - xy: the light's axis, texels from the middle of its tile; z: texel, metres; w: 1 / width of the zone in which it goes over into the next, 0: there is none */
+#define CASCADE_FADE 0.1  /* width of that zone, up to the split, as a share of the split's distance */
+#define PASS_SIZE 102
 /* Filters of maps */
 #define FILTER_RECT 0     /* xy: lower left texel of the tile, zw: upper right one, both in it */
 #define FILTER_BLUR 1     /* x: half the width of the box, texels; y: its last texel, from the middle; z: 1 / width */

@@ -13,9 +13,9 @@ struct shadow_place {
     // none is nearer than soft.y. The tangents of a lamp's radius grow with 1 / distance, of the sun's with the distance itself.
     vec4 soft;
     bool inverse;
-    float reach;  // how far from here a technique may read that says so, texels: tables, and all techniques of a point light
+    float reach;  // how far from here a technique may read that says so, texels: tables, and all techniques of tiles
     vec4 window;  // and where: lower left and upper right edge of the tile, texels
-    vec2 beside;  // as in shadow_tile
+    vec2 beside;  // as in shadow_tile and shadow_cascade
 };
 
 // Beyond the edge of the map: the outermost texels of one that is filtered are not all lit.
@@ -56,6 +56,7 @@ vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 
 }
 
 #include "lib/shadow_tile.glsl"
+#include "lib/shadow_cascade.glsl"
 
 // p, n, l: the surface, its normal and the direction to the light, world space; face: normal of the triangle itself; from_vertex:
 // what the vertex shader found where SHADOW_LINEAR. radial: the map of this lamp holds distances, not depths.
@@ -70,6 +71,15 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     if (SHADOW_LINEAR[slot]) {
         s.at = from_vertex;
         s.slope = shadow_slope_directional(slot, face, l);
+    } else if (SHADOW_CASCADES[slot]) {
+        shadow_cascade c = shadow_cascade_of(slot, SHADOW_SHARED[slot]);
+        s.beside = c.beside;
+        s.at = shadow_cascade_at(slot, c, p, n, l);
+        s.slope = shadow_cascade_slope(slot, c, face, l);
+        s.soft.x /= c.texel;
+        s.soft.y = max(s.soft.y, shadow_e(s, s.at.z) - s.reach / s.soft.x); // no wider than there is room for
+        s.window.xy = c.tile * (0.5 * s.size.x);
+        s.window.zw = s.window.xy + 0.5 * s.size.x;
     } else if (type == LIGHT_POINT) {
         shadow_tile t = SHADOW_SHARED[slot] ? shadow_tile_shared(slot, radial, p, n, l) : shadow_tile_pushed(slot, radial, p, n, l);
         s.beside = t.beside;

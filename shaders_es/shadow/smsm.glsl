@@ -32,7 +32,7 @@ vec2 smsm_blocked(vec4 b, float z0) {
 }
 
 float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
-    float z0 = 2.0 * min(s.at.z, s.far) - 1.0;
+    float z0 = 2.0 * clamp(s.at.z, -1.0, s.far) - 1.0;
     float widest = table_widest(s);
     vec2 found = smsm_blocked(smsm_moments(table_mean_about(table, s, TABLE_SEARCH * widest)), z0);
     float radius = TABLE_FILTER * table_penumbra(s, 0.5 + 0.5 * clamp(found.y, -1.0, z0), widest);

@@ -26,15 +26,21 @@ static uint64_t map_bytes(const struct gn_shadow_view *view) {
     return (uint64_t)view->width_px * view->height_px * gn_encodings[view->encoding].texel_bytes;
 }
 
+/* Side of the pages of a map; 0: it has none. */
+static uint64_t page_px(const struct gn_shadow_view *view) {
+    return view->cascade_count > 0 && !view->empty ? view->inner_px
+           : view->paged                           ? view->map_px
+                                                   : 0;
+}
+
 /* Where the pages of maps are drawn; those of one kind share it. */
 static uint64_t pages_bytes(const struct gn_plan *plan, uint32_t slot) {
     const struct gn_shadow_view *view = &plan->shadows[slot];
-    if (!view->paged) return 0;
     for (uint32_t i = 0; i < slot; i++)
-        if (plan->shadows[i].paged && plan->shadows[i].encoding == view->encoding &&
-            plan->shadows[i].map_px == view->map_px)
+        if (plan->shadows[i].encoding == view->encoding &&
+            page_px(&plan->shadows[i]) == page_px(view))
             return 0;
-    return map_bytes(view);
+    return page_px(view) * page_px(view) * gn_encodings[view->encoding].texel_bytes;
 }
 
 /* What a map is filtered into, and what that takes on the way: lights share it, too. */

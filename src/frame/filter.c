@@ -9,12 +9,18 @@
 #include "core/hash.h"
 #include "frame/private.h"
 
+/* 0: none. */
+static float blur_of(const struct gn_shadow_view *view, uint32_t tile) {
+    return view->cascade_count > 0 ? view->cascades[tile].blur_px : view->blur_px;
+}
+
 /* Of all that decides what a tile is filtered into; never 0. */
 static uint64_t filter_hash(const struct gn_shadow_view *view, uint32_t tile) {
     const uint32_t what[] = {view->technique, view->moments};
     uint64_t h = gn_hash(GN_HASH_INIT, &view->tiles[tile].content_hash, sizeof(uint64_t));
     h = gn_hash(h, what, sizeof what);
-    h = gn_hash(h, &view->blur_px, sizeof view->blur_px);
+    const float blur_px = blur_of(view, tile);
+    h = gn_hash(h, &blur_px, sizeof blur_px);
     h = gn_hash(h, &view->reach_px, sizeof view->reach_px);
     return h ? h : 1;
 }
@@ -55,9 +61,10 @@ static void put_constants(const struct gn_shadow_view *view, uint32_t tile, floa
     c[FILTER_RECT][1] = (float)r.y;
     c[FILTER_RECT][2] = (float)(r.x + r.width - 1);
     c[FILTER_RECT][3] = (float)(r.y + r.height - 1);
-    c[FILTER_BLUR][0] = view->blur_px;
-    c[FILTER_BLUR][1] = ceilf(view->blur_px - 0.5f);
-    c[FILTER_BLUR][2] = view->blur_px > 0.0f ? 0.5f / view->blur_px : 1.0f;
+    const float blur_px = blur_of(view, tile);
+    c[FILTER_BLUR][0] = blur_px;
+    c[FILTER_BLUR][1] = ceilf(blur_px - 0.5f);
+    c[FILTER_BLUR][2] = blur_px > 0.0f ? 0.5f / blur_px : 1.0f;
     c[FILTER_TABLE][0] = view->reach_px;
     c[FILTER_TABLE][1] = (float)(tile * blocks_of(view));
     for (int k = 0; k < 2; k++) {
@@ -95,9 +102,9 @@ static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                        const struct gn_filter_stage *stage, bool last) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     const struct gn_program_key key = key_of(view, stage->step);
-    float(*constants)[4] =
-        gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SHADOW_TILES_MAX + tile) +
-        CONSTANTS_AT;
+    float(*constants)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS +
+                                                         tile * GN_SHADOW_PAGES_MAX) +
+                           CONSTANTS_AT;
     struct gn_pass *pass = gn_frame_begin_pass(frame);
     uint32_t size_px[2];
     texture_size(view, stage->to, size_px);

@@ -311,6 +311,7 @@ static void reset(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     frame->plan = (struct gn_plan){.scene = frame->scene};
     frame->plan.width_px = opts->width_px ? opts->width_px : 1280;
     frame->plan.height_px = opts->height_px ? opts->height_px : 720;
+    frame->camera = (uint32_t)opts->camera;
     turn(frame, opts->turn_deg);
 }
 

@@ -77,7 +77,7 @@ void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose) {
 }
 
 /* All groups before the last one with maps have as many as fit. */
-const struct gn_frame_light *gn_frame_light_of_slot(const struct gn_frame *frame, uint32_t slot) {
+struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot) {
     return &frame->lights[frame->groups[slot / GN_SHADOWS_MAX].first + slot % GN_SHADOWS_MAX];
 }
 

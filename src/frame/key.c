@@ -98,6 +98,7 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         key->lights[i].technique = (uint8_t)light->technique;
         key->lights[i].encoding = (uint8_t)light->encoding;
         key->lights[i].moments = (uint8_t)light->moments;
+        key->lights[i].cascades = light->cascades > 1;
         if (!gn_techniques[light->technique].taps) continue;
         key->taps = (uint8_t)(opts->taps ? opts->taps : GN_TAPS_DEFAULT);
         key->taps_turn = !opts->taps_fixed;

@@ -7,7 +7,8 @@
 _Static_assert(GN_PASS_SIZE == PASS_SIZE, "room for the constants of a pass");
 _Static_assert(PASS_LIGHTS + GN_LIGHTS_MAX * LIGHT_SIZE <= PASS_CONES, "lights");
 _Static_assert(PASS_SHADOWS + GN_SHADOWS_MAX * SHADOW_SIZE == PASS_SLIDES, "shadows");
-_Static_assert(PASS_SLIDES + GN_SLIDES_MAX * SLIDE_SIZE == PASS_SIZE, "slides");
+_Static_assert(PASS_SLIDES + GN_SLIDES_MAX * SLIDE_SIZE == PASS_CASCADES, "slides");
+_Static_assert(PASS_CASCADES + GN_SHADOWS_MAX * CASCADES_SIZE == PASS_SIZE, "cascades");
 
 static float luminance(const vec3 c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
 
@@ -222,23 +223,28 @@ static uint32_t map_px_of(const struct gn_frame *frame, const struct gn_frame_li
     return map_px > most_px ? most_px : map_px;
 }
 
-static void make_memories(struct gn_shadow_memory *memory, uint32_t count, uint32_t item_count) {
+void gn_frame_make_memories(struct gn_frame *frame, uint32_t slot, uint32_t count) {
+    struct gn_shadow_memory *memory = frame->memory[slot];
     for (uint32_t i = 0; i < count; i++)
-        if (!memory[i].casts) gn_shadow_memory_init(&memory[i], item_count);
+        if (!memory[i].casts) gn_shadow_memory_init(&memory[i], frame->scene->item_count);
 }
 
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts) {
     for (uint32_t i = 0; i < frame->shadow_count; i++) {
-        const struct gn_frame_light *light = gn_frame_light_of_slot(frame, i);
+        struct gn_frame_light *light = gn_frame_light_of_slot(frame, i);
         const struct gn_light *l = &frame->scene->lights[light->light];
         struct gn_shadow_opts shadow = {.technique = light->technique,
                                         .encoding = light->encoding,
                                         .moments = light->moments,
                                         .map_px = map_px_of(frame, light, opts),
-                                        .all_receive = opts->aov == GN_AOV_VISIBILITY};
-        make_memories(frame->memory[i], gn_shadow_tile_count(l->type, light->technique),
-                      frame->scene->item_count);
+                                        .all_receive = opts->aov == GN_AOV_VISIBILITY,
+                                        .cascades =
+                                            opts->cascades ? opts->cascades : GN_CASCADES_MAX};
+        gn_frame_make_memories(frame, i, gn_shadow_tile_count(l->type, light->technique));
+        light->cascades = shadow.cascades = gn_frame_choose_cascades(frame, pose, i, &shadow);
+        if (shadow.cascades > 1 && shadow.map_px > (uint32_t)frame->caps.max_texture_px / 2)
+            shadow.map_px = (uint32_t)frame->caps.max_texture_px / 2;
         /* An empty one keeps its slot: programs do not change with what is in view. */
         gn_shadow_fit(pose, light->light, &frame->eye, &shadow, frame->memory[i],
                       &frame->shadows[i]);
@@ -251,12 +257,13 @@ static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
     c[SHADOW_CODE][1] = view->far_code;
     if (view->encoding == GN_ENCODING_STENCIL) return; /* where it is not marked, all arrives */
     memcpy(c[SHADOW_MAP], view->map_from_world, sizeof view->map_from_world);
-    if (view->tile_count > 1) {
+    if (view->tile_count > 1 && view->cascade_count == 0) {
         memcpy(c[SHADOW_TILES], view->tangent_uv, sizeof view->tangent_uv);
         memcpy(&c[SHADOW_TILES][2], view->depth_code, sizeof view->depth_code);
     }
-    c[SHADOW_BIAS][0] = view->normal_offset * view->texel;
-    c[SHADOW_BIAS][1] = view->slope_offset * view->texel;
+    const float texel = view->cascade_count > 0 ? 1.0f : view->texel;
+    c[SHADOW_BIAS][0] = view->normal_offset * texel;
+    c[SHADOW_BIAS][1] = view->slope_offset * texel;
     c[SHADOW_BIAS][2] = view->slope_max;
     c[SHADOW_BIAS][3] = view->ulp_m;
     put3(c[SHADOW_PLACE], view->light_ws);
@@ -268,7 +275,7 @@ static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
     }
     c[SHADOW_CODE][0] = view->distance_offset;
     c[SHADOW_CODE][2] = view->reach_px;
-    c[SHADOW_CODE][3] = view->shared;
+    c[SHADOW_CODE][3] = view->cascade_count > 0 ? view->held_px : view->shared;
     memcpy(c[SHADOW_SOFT], view->soft, sizeof view->soft);
 }
 
@@ -290,9 +297,10 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
         float outer = cosf(light->outer_rad), inner = cosf(light->inner_rad);
         c[LIGHT_AXIS][3] = outer;
         constants[PASS_CONES + i / 4][i % 4] = 1.0f / fmaxf(inner - outer, 1e-4f);
-        if (i < group->shadow_count)
-            shadow_slot(&frame->shadows[group->first_shadow + i],
-                        constants + PASS_SHADOWS + i * SHADOW_SIZE);
+        if (i >= group->shadow_count) continue;
+        const struct gn_shadow_view *view = &frame->shadows[group->first_shadow + i];
+        shadow_slot(view, constants + PASS_SHADOWS + i * SHADOW_SIZE);
+        gn_frame_cascade_constants(view, constants + PASS_CASCADES + i * CASCADES_SIZE);
     }
 }
 

@@ -1,5 +1,6 @@
 /* The passes that draw the shadow maps: one a map, or a tile of it; of a directional light's map
- * that goes with the eye one a page, and one that puts the pages together (shadow/pages.h). */
+ * that goes with the eye one a page, and one that puts the pages together (shadow/pages.h); of a
+ * cascade always so. */
 #include <stdio.h>
 #include <string.h>
 
@@ -8,18 +9,21 @@
 static void label_shadow(const struct gn_frame *frame, uint32_t slot, uint32_t tile,
                          struct gn_pass *pass) {
     static const char *const sides[GN_SHADOW_TILES_MAX] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+    static const char *const cascades[GN_CASCADES_MAX] = {"1", "2", "3", "4"};
     const struct gn_shadow_view *view = &frame->shadows[slot];
-    bool point = view->tile_count > 1;
-    snprintf(pass->label, sizeof pass->label, "shadow %u %s%s%.*s", slot, point ? sides[tile] : "",
-             point ? " " : "", view->paged ? 29 : 36, frame->scene->lights[view->light].name);
+    const char *side = view->cascade_count > 0 ? cascades[tile] : sides[tile];
+    bool tiles = view->tile_count > 1;
+    snprintf(pass->label, sizeof pass->label, "shadow %u %s%s%.*s", slot, tiles ? side : "",
+             tiles ? " " : "", view->paged || view->cascade_count > 0 ? 29 : 36,
+             frame->scene->lights[view->light].name);
 }
 
-/* What all passes of a map have in common. */
-static struct gn_pass *begin_pass(struct gn_frame *frame, uint32_t slot, uint32_t index,
-                                  mat4 clip_from_world) {
+/* What all passes of a map have in common. page: 0 of what is no page. */
+static struct gn_pass *begin_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
+                                  uint32_t page, mat4 clip_from_world) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     struct gn_pass *pass = gn_frame_begin_pass(frame);
-    label_shadow(frame, slot, index, pass);
+    label_shadow(frame, slot, tile, pass);
     pass->target = (struct gn_target){.kind = GN_TARGET_SHADOW,
                                       .slot = slot,
                                       .width_px = view->width_px,
@@ -29,8 +33,10 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, uint32_t slot, uint32_
     pass->clear_color[0] = view->far_code;
     pass->depth_write = view->encoding != GN_ENCODING_MASK;
     pass->discard_depth = pass->depth_write && view->encoding != GN_ENCODING_DEPTH;
-    float(*constants)[4] =
-        gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SHADOW_TILES_MAX + index);
+    pass->tile = tile;
+    pass->content_hash = view->tiles[tile].content_hash;
+    float(*constants)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS +
+                                                         tile * GN_SHADOW_PAGES_MAX + page);
     pass->constants = constants;
     gn_frame_shadow_constants(view, clip_from_world, constants);
     return pass;
@@ -54,10 +60,8 @@ static void tile_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32
                       uint32_t index, const struct gn_frame_opts *opts) {
     struct gn_shadow_view *view = &frame->shadows[slot];
     struct gn_shadow_tile *tile = &view->tiles[index];
-    struct gn_pass *pass = begin_pass(frame, slot, index, tile->clip_from_world);
+    struct gn_pass *pass = begin_pass(frame, slot, index, 0, tile->clip_from_world);
     bound_tile(view, index, pass);
-    pass->tile = index;
-    pass->content_hash = tile->content_hash;
     struct gn_selection casters = {.casts = frame->memory[slot][index].casts,
                                    .view = view,
                                    .mirrored = tile->mirrored,
@@ -66,54 +70,81 @@ static void tile_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32
     gn_frame_end_pass(frame);
 }
 
-/* ---- a map from pages ---- */
+/* ---- a map, or a cascade, from pages ---- */
 
-static void page_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
+struct paged {
+    uint32_t slot, tile, page_px, page_count, to_px[2];
+    struct gn_shadow_page *pages;
+};
+
+static void page_pass(struct gn_frame *frame, const struct gn_pose *pose, const struct paged *map,
                       uint32_t index, const struct gn_frame_opts *opts) {
-    struct gn_shadow_view *view = &frame->shadows[slot];
-    struct gn_shadow_page *page = &view->pages[index];
-    struct gn_pass *pass = begin_pass(frame, slot, index, page->clip_from_world);
+    struct gn_shadow_page *page = &map->pages[index];
+    struct gn_pass *pass = begin_pass(frame, map->slot, map->tile, index, page->clip_from_world);
     const size_t used = strlen(pass->label);
     snprintf(pass->label + used, sizeof pass->label - used, " page %u", index);
     pass->target.kind = GN_TARGET_PAGES;
+    pass->target.width_px = pass->target.height_px = map->page_px;
     pass->clear = index == 0;
     pass->discard_depth = false; /* the next page goes on with it */
     pass->rect =
         (struct gn_rect){page->from_px[0], page->from_px[1], page->size_px[0], page->size_px[1]};
-    pass->content_hash = view->tiles[0].content_hash;
-    struct gn_selection casters = {
-        .casts = frame->memory[slot][0].casts, .page = index, .view = view, .opts = opts};
+    struct gn_selection casters = {.casts = frame->memory[map->slot][map->tile].casts,
+                                   .page = index,
+                                   .view = &frame->shadows[map->slot],
+                                   .opts = opts};
     gn_frame_draw_items(frame, pose, &casters);
     gn_frame_end_pass(frame);
 }
 
-static void copy_pass(struct gn_frame *frame, uint32_t slot) {
-    struct gn_shadow_view *view = &frame->shadows[slot];
-    struct gn_pass *pass = begin_pass(frame, slot, 0, view->pages[0].clip_from_world);
-    pass->content_hash = view->tiles[0].content_hash;
-    pass->copy_count = view->page_count;
-    for (uint32_t i = 0; i < view->page_count; i++) {
-        const struct gn_shadow_page *page = &view->pages[i];
+static void copy_pass(struct gn_frame *frame, const struct paged *map) {
+    const struct gn_shadow_view *view = &frame->shadows[map->slot];
+    struct gn_pass *pass =
+        begin_pass(frame, map->slot, map->tile, 0, map->pages[0].clip_from_world);
+    if (view->cascade_count > 0) bound_tile(view, map->tile, pass);
+    pass->copy_count = map->page_count;
+    for (uint32_t i = 0; i < map->page_count; i++) {
+        const struct gn_shadow_page *page = &map->pages[i];
         pass->copies[i] = (struct gn_copy){
             .from = {page->from_px[0], page->from_px[1], page->size_px[0], page->size_px[1]},
-            .to_x = page->to_px[0],
-            .to_y = page->to_px[1]};
+            .to_x = map->to_px[0] + page->to_px[0],
+            .to_y = map->to_px[1] + page->to_px[1]};
     }
     gn_frame_end_pass(frame);
 }
 
+static void paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct paged *map, const struct gn_frame_opts *opts) {
+    for (uint32_t page = 0; page < map->page_count; page++) page_pass(frame, pose, map, page, opts);
+    copy_pass(frame, map);
+}
+
 static void map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
                        const struct gn_frame_opts *opts) {
-    const struct gn_shadow_view *view = &frame->shadows[slot];
+    struct gn_shadow_view *view = &frame->shadows[slot];
     if (view->encoding == GN_ENCODING_STENCIL) return;
-    if (!view->paged) {
-        for (uint32_t tile = 0; tile < view->tile_count; tile++)
-            tile_pass(frame, pose, slot, tile, opts);
+    if (view->paged) {
+        const struct paged map = {.slot = slot,
+                                  .page_px = view->map_px,
+                                  .page_count = view->page_count,
+                                  .pages = view->pages};
+        paged_passes(frame, pose, &map, opts);
         return;
     }
-    for (uint32_t page = 0; page < view->page_count; page++)
-        page_pass(frame, pose, slot, page, opts);
-    copy_pass(frame, slot);
+    for (uint32_t tile = 0; tile < view->tile_count; tile++) {
+        if (view->cascade_count == 0 || view->tiles[tile].empty) {
+            tile_pass(frame, pose, slot, tile, opts);
+            continue;
+        }
+        const struct paged map = {.slot = slot,
+                                  .tile = tile,
+                                  .page_px = view->inner_px,
+                                  .page_count = view->cascades[tile].page_count,
+                                  .to_px = {view->tiles[tile].x_px + view->gutter_px,
+                                            view->tiles[tile].y_px + view->gutter_px},
+                                  .pages = view->cascades[tile].pages};
+        paged_passes(frame, pose, &map, opts);
+    }
 }
 
 void gn_frame_map_passes(struct gn_frame *frame, const struct gn_pose *pose,

@@ -42,6 +42,7 @@ struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uin
     pass->first_shadow = g->first_shadow;
     pass->shadow_count = g->shadow_count;
     gn_frame_pass_slides(frame, g, pass);
+    gn_frame_pass_cascades(frame, g, pass);
     if (group == 0) return pass;
     snprintf(pass->label, sizeof pass->label, "%s%slights %u-%u", label, *label ? " " : "",
              g->first + 1, g->first + g->count);

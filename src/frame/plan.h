@@ -72,6 +72,7 @@ struct gn_light_key {  /* one light of a LIT or visibility program */
     uint8_t encoding;  /* gn_encoding, 0 when technique is NONE */
     uint8_t slide;     /* gn_slide */
     uint8_t moments;   /* gn_moments: what is read in the map's place */
+    uint8_t cascades;  /* its map has some: 0 or 1 */
 };
 enum gn_receiver { /* whose shadows an item receives */
                    GN_RECEIVES_MAPS,
@@ -133,7 +134,8 @@ enum gn_target_kind {
     GN_TARGET_OUTPUT,
     GN_TARGET_SHADOW,
     GN_TARGET_ENCODED, /* bytes beside a linear output, which the first pass to it reads */
-    GN_TARGET_PAGES,   /* beside a map, of its size: from here its next pass copies */
+    GN_TARGET_PAGES,   /* beside a map, of its size, or the inner size of its cascades: from here
+                          its next pass copies */
     GN_TARGET_MOMENTS, /* what a map is filtered into */
 };
 struct gn_rect { /* pixels of a target, first row at the bottom */
@@ -238,6 +240,7 @@ struct gn_frame_opts {            /* zero means the default written beside */
     enum gn_encoding encoding; /* GN_ENCODING_AUTO must be set for the automatic choice */
     enum gn_moments moments;   /* of techniques that filter their map; NONE: the automatic choice */
     uint32_t map_px;           /* 0: the light's, else the technique's */
+    uint32_t cascades;         /* the most that a light gets; 4 */
     bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
     unsigned taps;          /* of disk, poisson, pcss: 8, 16, 32; 16 */
     bool taps_fixed;        /* the same for every pixel */

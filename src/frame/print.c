@@ -53,8 +53,8 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
         const struct gn_light_key *light = &key->lights[i];
         fprintf(to, " %s", light_types[light->type]);
         if (i < key->shadow_count)
-            fprintf(to, ":%s/%s", gn_techniques[light->technique].name,
-                    format_of(light->encoding, light->moments));
+            fprintf(to, ":%s/%s%s", gn_techniques[light->technique].name,
+                    format_of(light->encoding, light->moments), light->cascades ? "+cascades" : "");
         fprintf(to, "%s", slides[light->slide]);
     }
     fprintf(to, "%s\n", receivers[key->receiver]);
@@ -64,7 +64,9 @@ static void print_shadow_size(const struct gn_shadow_view *view, FILE *to) {
     if (view->encoding == GN_ENCODING_STENCIL) return;
     fprintf(to, " %u px", view->map_px);
     if (view->tile_count > 1)
-        fprintf(to, " x %u, gutters %u px", view->tile_count, view->gutter_px);
+        fprintf(to,
+                view->cascade_count > 0 ? " x %u cascades, gutters %u px" : " x %u, gutters %u px",
+                view->tile_count, view->gutter_px);
     if (view->blur_px > 0.0f) fprintf(to, ", blur %.3g px", 2.0 * (double)view->blur_px);
 }
 
@@ -85,6 +87,21 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
     else
         fprintf(to, ", texel %.4g %s, near %.4g m, far %.4g m\n", (double)view->texel,
                 view->perspective ? "m per metre" : "m", (double)view->near_m, (double)view->far_m);
+}
+
+static void print_cascades(const struct gn_shadow_view *view, FILE *to) {
+    for (uint32_t i = 0; i < view->cascade_count; i++) {
+        const struct gn_shadow_cascade *c = &view->cascades[i];
+        fprintf(to, "    cascade %u: from %.4g m to %.4g m", i + 1, (double)c->begin_m,
+                (double)c->end_m);
+        if (view->tiles[i].empty) {
+            fprintf(to, ", empty\n");
+            continue;
+        }
+        fprintf(to, ", texel %.4g m, %u pages", (double)c->texel, c->page_count);
+        if (c->blur_px > 0.0f) fprintf(to, ", blur %.3g px", 2.0 * (double)c->blur_px);
+        fprintf(to, "\n");
+    }
 }
 
 static void print_draw(const struct gn_plan *plan, const struct gn_draw *draw, FILE *to) {
@@ -191,6 +208,9 @@ void gn_plan_print(const struct gn_plan *plan, FILE *to) {
         fprintf(to, "program %u: ", i);
         print_key(&plan->programs[i], to);
     }
-    for (uint32_t i = 0; i < plan->shadow_count; i++) print_shadow(plan, i, to);
+    for (uint32_t i = 0; i < plan->shadow_count; i++) {
+        print_shadow(plan, i, to);
+        if (!plan->shadows[i].empty) print_cascades(&plan->shadows[i], to);
+    }
     for (uint32_t i = 0; i < plan->pass_count; i++) print_pass(plan, &plan->passes[i], to);
 }

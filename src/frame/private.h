@@ -32,6 +32,7 @@ struct gn_frame_light {
     float strength;
     float illuminance; /* of its light on the scene's centre, lux; orders them when there are too
                           many */
+    uint32_t cascades; /* 1: one map; once maps are fitted */
 };
 
 /* Lights that share a pass: those with maps first. The first group is drawn with the picture, each
@@ -63,6 +64,8 @@ struct gn_light_note {
     enum gn_technique technique; /* its own, or pcf */
     bool unknown;                /* it names one that there is not */
     uint32_t said;               /* bits: enum gn_notice */
+    uint32_t cascades;           /* 0: not known yet */
+    uint64_t cascades_for;       /* the options that they are for */
 };
 
 struct gn_frame {
@@ -89,16 +92,19 @@ struct gn_frame {
     float (*sets)[4];      /* stencil.c's, likewise; NULL until there are any */
     struct gn_eye eye;
     uint32_t picture_width_px, picture_height_px; /* before it is turned */
-    float turn[2];                                /* its cosine and sine, clockwise */
+    uint32_t camera;
+    float turn[2]; /* its cosine and sine, clockwise */
     struct gn_plan plan;
 };
 
 /* Room of the constants of one pass, in vec4. */
-enum { GN_PASS_SIZE = 86 };
+enum { GN_PASS_SIZE = 102 };
+/* Sets of a slot: a page of a tile each. */
+enum { GN_SLOT_SETS = GN_SHADOW_TILES_MAX * GN_SHADOW_PAGES_MAX };
 /* Whose constants stand where. */
 enum gn_frame_constants {
-    GN_CONSTANTS_SHADOW, /* a tile or page of a slot each */
-    GN_CONSTANTS_PICTURE = GN_ALL_SHADOWS_MAX * GN_SHADOW_TILES_MAX, /* a group each */
+    GN_CONSTANTS_SHADOW,                                      /* GN_SLOT_SETS a slot */
+    GN_CONSTANTS_PICTURE = GN_ALL_SHADOWS_MAX * GN_SLOT_SETS, /* a group each */
     GN_CONSTANTS_MARKS = GN_CONSTANTS_PICTURE + GN_GROUPS_MAX,
     GN_CONSTANTS_PANELS, /* of all panels, one after another */
     GN_CONSTANTS_CAPTIONS,
@@ -172,9 +178,23 @@ void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key
                         uint32_t vertex_count, uint32_t first_instance, uint32_t instance_count);
 struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label);
 
+/* cascade.c: how many cascades a light has, and what the shaders get. By the eye as the camera
+ * stands when it is asked first, and again when options change that matter: while the eye moves
+ * neither programs nor targets change. opts: of the fit, map_px of a map without cascades. */
+/* opts->cascades: the most. */
+uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
+                                  const struct gn_shadow_opts *opts);
+void gn_frame_cascade_constants(const struct gn_shadow_view *view, float (*constants)[4]);
+/* Lets the constants of a pass with cascades go on to theirs. */
+void gn_frame_pass_cascades(const struct gn_frame *frame, const struct gn_light_group *group,
+                            struct gn_pass *pass);
+
+/* lights.c: at least so many memories of a slot. */
+void gn_frame_make_memories(struct gn_frame *frame, uint32_t slot, uint32_t count);
+
 /* group.c: lights into groups, once they are chosen. */
 void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose);
-const struct gn_frame_light *gn_frame_light_of_slot(const struct gn_frame *frame, uint32_t slot);
+struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot);
 /* Where each group's light can fall in the picture. */
 void gn_frame_bound_groups(struct gn_frame *frame);
 bool gn_group_touches(const struct gn_light_group *group, const struct gn_box *box_ws);

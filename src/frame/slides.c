@@ -66,5 +66,5 @@ void gn_frame_pass_slides(const struct gn_frame *frame, const struct gn_light_gr
         if (frame->lights[i].slide != GN_SLIDE_NONE)
             pass->slides[pass->slide_count++] =
                 (uint32_t)frame->scene->lights[frame->lights[i].light].slide;
-    if (pass->slide_count > 0) pass->constant_count = GN_PASS_SIZE;
+    if (pass->slide_count > 0) pass->constant_count = PASS_CASCADES;
 }

@@ -170,12 +170,18 @@ static bool add_maps(struct gn_gl_source *source, const struct gn_program_key *k
 
 static bool is_linear(const struct gn_program_key *key, int i) {
     const struct gn_light_key *light = &key->lights[i];
-    return light->type == GN_LIGHT_DIRECTIONAL || gn_techniques[light->technique].on_plane;
+    return (light->type == GN_LIGHT_DIRECTIONAL && !light->cascades) ||
+           gn_techniques[light->technique].on_plane;
+}
+
+static bool has_cascades(const struct gn_program_key *key, int i) {
+    return key->lights[i].cascades;
 }
 
 static bool is_shared(const struct gn_program_key *key, int i) {
     const struct gn_light_key *light = &key->lights[i];
-    return light->type == GN_LIGHT_POINT && gn_technique_shades(light->technique);
+    return (light->type == GN_LIGHT_POINT || light->cascades) &&
+           gn_technique_shades(light->technique);
 }
 
 /* One per shadow, and one at least: they are declared even where nobody asks. */
@@ -189,15 +195,16 @@ static void add_flags(const struct gn_program_key *key, const char *name,
 }
 
 /* Whether the vertex shader can say where a light's map is looked up: on a plane, with any light;
- * and whether tiles of the map are shared (shaders_es/lib/shadow_tile.glsl). That takes
- * derivatives, and after a discard there are none: holes are cut last where one is shared, and
- * first elsewhere, where they save work. */
+ * whether tiles of the map are shared (shaders_es/lib/shadow_tile.glsl), and whether they are
+ * cascades. To share takes derivatives, and after a discard there are none: holes are cut last
+ * where one is shared, and first elsewhere, where they save work. */
 static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
     bool cut_last = false;
     for (int i = 0; i < key->shadow_count; i++) cut_last |= is_shared(key, i);
     add_flags(key, "SHADOW_LINEAR", is_linear, out);
     add_flags(key, "SHADOW_SHARED", is_shared, out);
     gn_gl_text_add(out, "const bool CUT_LAST = %s;\n", cut_last ? "true" : "false");
+    add_flags(key, "SHADOW_CASCADES", has_cascades, out);
 }
 
 static void add_light_loops(const struct gn_program_key *key, struct gn_gl_text *out) {
@@ -309,5 +316,6 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
         append(out, size, " ",
                light->moments ? gn_moments[light->moments].name
                               : gn_encodings[light->encoding].name);
+        if (light->cascades) append(out, size, " ", "cascades");
     }
 }

@@ -121,9 +121,7 @@ static void end_target(struct gn_gl *gl, const struct gn_pass *pass, bool last) 
 /* From the pages, which hold nothing any more then. */
 static void copy_pages(struct gn_gl *gl, const struct gn_pass *pass) {
     static const GLenum attachments[] = {GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0};
-    struct gn_target from_pages = pass->target;
-    from_pages.kind = GN_TARGET_PAGES;
-    const struct gn_gl_map *pages = gn_gl_target_find(gl, &from_pages);
+    const struct gn_gl_map *pages = gn_gl_target_find(gl, &pass[-1].target);
     const bool is_depth = pass->target.encoding == GN_ENCODING_DEPTH;
     if (!pages) return;
     GL(gl, BindFramebuffer)(GL_READ_FRAMEBUFFER, pages->framebuffer);

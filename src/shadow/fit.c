@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/hash.h"
+#include "shadow/cascade.h"
 #include "shadow/planar.h"
 #include "shadow/private.h"
 #include "shadow/region.h"
@@ -225,7 +226,7 @@ static void lay_window(const struct gn_fitter *f, const struct gn_window *found,
     set_clip(f->view, low, near_depth, far_depth);
 }
 
-static bool fit_window(struct gn_fitter *f) {
+bool gn_shadow_fit_window(struct gn_fitter *f) {
     const struct gn_light *light = &f->pose->scene->lights[f->view->light];
     struct gn_window found;
     float near_depth, far_depth;
@@ -354,6 +355,8 @@ static void begin_view(const struct gn_pose *pose, uint32_t light,
                                     .perspective = type != GN_LIGHT_DIRECTIONAL};
     if (gn_techniques[view->technique].filter == GN_FILTER_TABLE)
         view->reach_px = GN_TABLE_REACH_PX;
+    if (opts->cascades > 1 && !view->perspective && !gn_techniques[opts->technique].on_plane)
+        gn_cascades_lay(opts->cascades, pose->scene->lights[light].radius, view);
     gn_pose_light(pose, light, view->light_ws, direction);
     glm_vec3_negate_to(direction, view->to_light_ws);
 }
@@ -380,6 +383,12 @@ static void make_empty(struct gn_shadow_view *view) {
         view->tiles[i].empty = true;
         view->tiles[i].content_hash = 1;
     }
+    for (uint32_t i = 0; i < view->cascade_count; i++) view->cascades[i].page_count = 0;
+}
+
+static bool fit_one(struct gn_fitter *f) {
+    if (f->view->cascade_count > 0) return gn_cascades_fit(f);
+    return f->view->tile_count > 1 ? fit_tiles(f) : gn_shadow_fit_window(f);
 }
 
 static bool fit_map(const struct gn_pose *pose, const struct gn_eye *eye,
@@ -393,9 +402,9 @@ static bool fit_map(const struct gn_pose *pose, const struct gn_eye *eye,
                           .scene_size_m = gn_scene_size_m(pose),
                           .light_radius = light->radius,
                           .range_m = light->range_m > 0.0f ? light->range_m : INFINITY};
-    if (!(view->tile_count > 1 ? fit_tiles(&f) : fit_window(&f))) return false;
+    if (!fit_one(&f)) return false;
     set_bias(view);
-    for (uint32_t i = 0; i < view->tile_count; i++)
+    for (uint32_t i = 0; i < view->tile_count && view->cascade_count == 0; i++)
         view->tiles[i].content_hash = gn_shadow_hash(pose, view, &view->tiles[i], memory[i].casts);
     return true;
 }

@@ -20,6 +20,7 @@
 #include "scene/pose.h"
 #include "shadow/technique.h"
 
+#define GN_SHADOW_STEP  1.0905077f /* from one size of texel to the next: 8 an octave */
 #define GN_SPOT_MAX_RAD 1.3962634f /* 80 degrees: a spot's map does not reach beyond */
 
 struct gn_shadow_opts {
@@ -28,6 +29,8 @@ struct gn_shadow_opts {
     enum gn_moments moments;     /* of a technique that filters its map: proved ones */
     uint32_t map_px;             /* side of the map, or of a tile; with STENCIL 0 */
     bool all_receive;            /* gnomon_receive is not asked: for pictures of visibility */
+    uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
+                          one need an eye with a perspective */
 };
 
 /* A table is read no farther than so many texels from a place, so the widest penumbra is some twice
@@ -54,21 +57,39 @@ struct gn_shadow_page {
                                                   where it stands in the map */
 };
 
+/* A cascade is a tile, too, for what the eye sees from one distance to another (cascade.h). */
+enum { GN_CASCADES_MAX = 4 };
+struct gn_shadow_cascade {
+    float begin_m, end_m; /* of what it serves, along the view; the last one's end: INFINITY */
+    float texel;          /* metres */
+    float blur_px;        /* as in gn_shadow_view */
+    /* As of a map without cascades, of the inner part of its tile: */
+    uint32_t drawn_px[2], drawn_size_px[2];
+    double corner_texels[2];
+    uint32_t page_count; /* 0 where the tile is empty; never is the page the map */
+    struct gn_shadow_page pages[GN_SHADOW_PAGES_MAX]; /* inner_px texels wide */
+};
+
 struct gn_shadow_view {
     uint32_t light;
     enum gn_technique technique;
     enum gn_encoding encoding;
     enum gn_moments moments;      /* what shaders read in the map's place; NONE: the map */
-    float blur_px;                /* half the width of its blur, texels; 0: none */
+    float blur_px;                /* no cascades: half the width of its blur, texels; 0: none */
     uint32_t map_px;              /* side of a tile */
     uint32_t width_px, height_px; /* of the map: all tiles */
-    uint32_t gutter_px;           /* point: of a tile, to each side */
+    uint32_t gutter_px;           /* point, cascades: of a tile, to each side */
     float shared;                 /* point: tangent, to each side of a tile's edge */
-    float reach_px;               /* point, table: how far beside a place may be read */
-    uint32_t tile_count;          /* 1, point: 6 */
+    float reach_px;               /* tiles, table: how far beside a place may be read */
+    uint32_t tile_count;          /* 1, point: 6, with cascades as many */
     struct gn_shadow_tile tiles[GN_SHADOW_TILES_MAX];
-    /* Directional, not on a plane: all that the map holds, outside of which it is cleared. Without
-     * `paged` it is drawn as it is read: the one page is the map. */
+    uint32_t cascade_count; /* 0, or 2..4: then map_from_world gives metres across the light and
+                               the code, and normal and slope offset go with each one's texel */
+    struct gn_shadow_cascade cascades[GN_CASCADES_MAX];
+    uint32_t inner_px; /* cascades: of a tile, without its gutters */
+    float held_px;     /* cascades: so far from a tile's middle it may be asked */
+    /* Directional, not on a plane, no cascades: all that the map holds, outside of which it is
+     * cleared. Without `paged` it is drawn as it is read: the one page is the map. */
     uint32_t drawn_px[2], drawn_size_px[2];
     double corner_texels[2]; /* the map's lower left texel, counted from the light's axis */
     bool paged;
@@ -138,12 +159,14 @@ void gn_shadow_memory_finish(struct gn_shadow_memory *memory);
 /* Whether an item is drawn into maps at all: what is blended casts no shadow. */
 bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item);
 
-/* How many tiles a light's map has, and the size of the map for a tile of so many pixels. */
+/* How many tiles a light's map without cascades has, and the size of the map for a tile of so many
+ * pixels. */
 uint32_t gn_shadow_tile_count(enum gn_light_type type, enum gn_technique technique);
 void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, uint32_t map_px,
                         uint32_t size_px[2]);
 
-/* Fits the light's view and fills memory->casts, for each tile (as many memories). False: nothing
+/* Fits the light's view and fills memory->casts, for each tile (as many memories; of cascades
+ * GN_CASCADE_MEMORIES). False: nothing
  * that is seen can be in this light's shadow; the view is empty: its size is right, and a map that
  * holds nothing but far_code is read as lit by it. Allocates nothing. */
 bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,

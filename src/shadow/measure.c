@@ -148,7 +148,7 @@ void gn_fitter_remember(const struct gn_fitter *f) {
         gn_hash(GN_HASH_INIT, f->tile->light_from_world, sizeof f->tile->light_from_world);
     const float cone[3] = {f->tan_cone, f->near_m, f->range_m};
     light = gn_hash(light, cone, sizeof cone);
-    uint64_t eye = gn_hash(GN_HASH_INIT, f->eye->clip_from_world, sizeof f->eye->clip_from_world);
+    uint64_t eye = gn_hash(GN_HASH_INIT, f->eye->planes, sizeof f->eye->planes);
     for (uint32_t i = 0; i < m->item_count; i++) {
         const struct gn_pose_item *posed = &f->pose->items[i];
         if (!posed->visible) {

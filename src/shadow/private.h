@@ -61,6 +61,11 @@ void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float
 uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view *view,
                         const struct gn_shadow_tile *tile, const uint8_t *casts);
 
+struct gn_fitter;
+/* Lays one tile round what its eye sees: all of a view of one tile but its bias and hash.
+ * Directional lights and spots. */
+bool gn_shadow_fit_window(struct gn_fitter *f);
+
 /* ---- measure.c ---- */
 
 struct gn_fitter {
@@ -75,6 +80,7 @@ struct gn_fitter {
     float range_m;          /* INFINITY: unlimited; not asked of a directional light */
     float scene_size_m;
     float light_radius; /* as in gn_light */
+    bool cascade;       /* the tile is one */
 };
 
 /* Brings the memory up to this pose, light and eye. */
@@ -97,6 +103,11 @@ struct gn_window {                  /* plane coordinates */
 bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window *found);
 /* Whether this eye sees all that receives. */
 bool gn_window_is_all(const struct gn_fitter *f);
+
+/* ---- cascade.c ---- */
+
+/* A view with cascades, all but its bias; memories: GN_CASCADE_MEMORIES. */
+bool gn_cascades_fit(const struct gn_fitter *f);
 
 /* ---- pages.c ---- */
 

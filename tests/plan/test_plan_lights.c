@@ -216,7 +216,7 @@ static void test_a_slide_goes_with_its_light_into_an_added_pass(void **state) {
         const struct gn_pass *pass = &plan->passes[i];
         bool adds = pass->blend == GN_BLEND_ADD;
         assert_int_equal(pass->slide_count, adds);
-        assert_int_equal(pass->constant_count, adds ? PASS_SIZE : PASS_SLIDES);
+        assert_int_equal(pass->constant_count, adds ? PASS_CASCADES : PASS_SLIDES);
         if (adds) assert_true(pass->constants[PASS_SLIDES + SLIDE_PLACE][0] == 300);
         added += adds;
     }

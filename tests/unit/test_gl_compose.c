@@ -64,12 +64,13 @@ static void test_lights(void **state) {
     (void)state;
     struct gn_program_key key = lit_key();
     key.light_count = 4, key.shadow_count = 3;
-    key.lights[0] = (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0};
+    key.lights[0] =
+        (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0, 0};
     key.lights[1] =
-        (struct gn_light_key){GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_PCF, GN_ENCODING_DEPTH, 0, 0};
+        (struct gn_light_key){GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_PCF, GN_ENCODING_DEPTH, 0, 0, 0};
     key.lights[2] =
-        (struct gn_light_key){GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0};
-    key.lights[3] = (struct gn_light_key){GN_LIGHT_POINT, 0, 0, 0, 0};
+        (struct gn_light_key){GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0, 0};
+    key.lights[3] = (struct gn_light_key){GN_LIGHT_POINT, 0, 0, 0, 0, 0};
     char *text = compose(&key, GN_GL_FRAGMENT);
     has(text, "#define WITH_SHADOWS 1\n");
     has(text,
@@ -96,9 +97,10 @@ static void test_slides_go_with_their_lights(void **state) {
     help_write(folder, "lib/slide.glsl", "// slide\n");
     struct gn_program_key key = lit_key();
     key.light_count = 3, key.shadow_count = 1;
-    key.lights[0] = (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0};
-    key.lights[1] = (struct gn_light_key){GN_LIGHT_SPOT, 0, 0, GN_SLIDE_LIT, 0};
-    key.lights[2] = (struct gn_light_key){GN_LIGHT_SPOT, 0, 0, GN_SLIDE_DARK, 0};
+    key.lights[0] =
+        (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0, 0};
+    key.lights[1] = (struct gn_light_key){GN_LIGHT_SPOT, 0, 0, GN_SLIDE_LIT, 0, 0};
+    key.lights[2] = (struct gn_light_key){GN_LIGHT_SPOT, 0, 0, GN_SLIDE_DARK, 0, 0};
     char *text = compose(&key, GN_GL_FRAGMENT);
     has(text, "uniform mediump sampler2D u_slide_0;\nuniform mediump sampler2D u_slide_1;\n");
     has(text, "#define WITH_SLIDES 1\n#define EACH_SLIDE(F)"
@@ -179,8 +181,9 @@ static void test_key_text(void **state) {
     char text[200];
     key.features = GN_FEATURE_UNLIT | GN_FEATURE_ALPHA_MASK;
     key.light_count = 2, key.shadow_count = 1;
-    key.lights[0] = (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0};
-    key.lights[1] = (struct gn_light_key){GN_LIGHT_POINT, 0, 0, 0, 0};
+    key.lights[0] =
+        (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0, 0};
+    key.lights[1] = (struct gn_light_key){GN_LIGHT_POINT, 0, 0, 0, 0, 0};
     gn_gl_key_text(&key, text, sizeof text);
     assert_string_equal(text, "lit ALPHA_MASK|UNLIT, SPOT hard r16f, POINT");
     gn_gl_key_text(&key, text, 8);

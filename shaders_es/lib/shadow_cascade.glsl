@@ -1,0 +1,45 @@
+// Directional lights with cascades: the map is an atlas, two tiles in a row, each for what the eye sees from one distance to another.
+// Their codes are the same, their texels are not.
+
+#define CASCADE(slot, i) u_pass[PASS_CASCADES + (slot)*CASCADES_SIZE + (i)]
+
+struct shadow_cascade {
+    vec2 axis;    // where the light's axis is, texels from the tile's middle
+    float texel;  // metres
+    vec2 tile;    // column and row in the atlas
+    vec2 beside;  // what of the answer's derivatives is added to it: shadow_mixed()
+};
+
+float shadow_cascade_share(float distance_m, float per_m) {
+    return clamp(distance_m * per_m + (1.0 - 1.0 / CASCADE_FADE), 0.0, 1.0); // per_m 0: none
+}
+
+// By the distance along the view, which is the eye's w. Up to each split lies a zone in which, where they are shared, the pixels of
+// a row ask by turns, the left one of two the nearer cascade, the right one the other, and shadow_mixed() gives each both answers
+// by their shares.
+shadow_cascade shadow_cascade_of(const int slot, const bool shared) {
+    vec4 c = CASCADE(slot, 0);
+    float far = 1.0 / gl_FragCoord.w;
+    float share = shadow_cascade_share(far, c.w) + shadow_cascade_share(far, CASCADE(slot, 1).w)
+                  + shadow_cascade_share(far, CASCADE(slot, 2).w);
+    float number = shared && fract(0.5 * gl_FragCoord.x) > 0.5 ? ceil(share) : floor(share);
+    if (number > 0.5) c = CASCADE(slot, 1);
+    if (number > 1.5) c = CASCADE(slot, 2);
+    if (number > 2.5) c = CASCADE(slot, 3);
+    float row = step(1.5, number);
+    return shadow_cascade(c.xy, c.z, vec2(number - 2.0 * row, row), vec2(share - number, 0.0));
+}
+
+// uv and code. Where the tile holds nothing there is light: outside of the map, with a code nearer than anything.
+vec3 shadow_cascade_at(const int slot, shadow_cascade c, vec3 p, vec3 n, vec3 l) {
+    vec3 at = (shadow_matrix(slot) * vec4(p + shadow_push(slot, n, l, dot(n, l), c.texel), 1.0)).xyz;
+    vec4 size = SHADOW(slot, SHADOW_MAP_SIZE);
+    vec2 texels = at.xy / c.texel + c.axis;
+    bool held = max(abs(texels.x), abs(texels.y)) < SHADOW(slot, SHADOW_CODE).w;
+    return held ? vec3((texels + (c.tile + 0.5) * (0.5 * size.x)) * size.zw, at.z) : vec3(-1.0, -1.0, -1.0e9);
+}
+
+// As shadow_slope_directional, whose uv are metres here.
+vec2 shadow_cascade_slope(const int slot, shadow_cascade c, vec3 face, vec3 l) {
+    return shadow_slope_directional(slot, face, l) * (c.texel * SHADOW(slot, SHADOW_MAP_SIZE).xy);
+}

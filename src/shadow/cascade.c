@@ -1,0 +1,346 @@
+#include "shadow/cascade.h"
+
+#include <math.h>
+
+#include "shadow/private.h"
+#include "shadow/region.h"
+
+#define NEAR_STEPS     1.0f /* an octave, of the distances that splits are made from */
+#define FAR_STEPS      2.0f
+#define NEAREST_SHARE  (1.0f / 400.0f) /* what is nearer than this, of the farthest, is small */
+#define LEAST_RATIO    1.25f           /* of two splits: wider apart than a zone is */
+#define PENUMBRA_SHARE 6.7f            /* width of penumbrae that tiles have room for, in tiles */
+
+/* ---- tiles ---- */
+
+void gn_cascade_map_size(uint32_t cascades, uint32_t map_px, uint32_t size_px[2]) {
+    size_px[0] = 2 * map_px;
+    size_px[1] = (cascades > 2 ? 2 : 1) * map_px;
+}
+
+/* How far beside a place a technique reads; a soft one no farther than there is room for: a 32nd of
+ * the tile for the sun. */
+static uint32_t reach_px(const struct gn_shadow_view *view, float radius) {
+    const struct gn_technique_row *row = &gn_techniques[view->technique];
+    const uint32_t fixed = row->radius_texels + 1;
+    if (!row->soft) return fixed;
+    const float share = fminf(fmaxf(PENUMBRA_SHARE * radius, 1.0f / 32.0f), 1.0f / 8.0f);
+    const uint32_t soft = (uint32_t)(share * (float)view->map_px),
+                   most = row->filter == GN_FILTER_TABLE && soft > GN_TABLE_REACH_PX
+                              ? GN_TABLE_REACH_PX
+                              : soft;
+    return most > fixed ? most : fixed;
+}
+
+void gn_cascades_lay(uint32_t cascades, float radius, struct gn_shadow_view *view) {
+    uint32_t size_px[2];
+    gn_cascade_map_size(cascades, view->map_px, size_px);
+    view->width_px = size_px[0];
+    view->height_px = size_px[1];
+    view->tile_count = view->cascade_count = cascades;
+    const uint32_t reach = reach_px(view, radius);
+    view->gutter_px = 2 * reach + 1;
+    view->inner_px = view->map_px - 2 * view->gutter_px;
+    view->reach_px = (float)reach;
+    view->held_px = 0.5f * (float)view->inner_px + (float)reach;
+    for (uint32_t i = 0; i < cascades; i++) {
+        view->tiles[i].x_px = i % 2 * view->map_px;
+        view->tiles[i].y_px = i / 2 * view->map_px;
+        if (gn_techniques[view->technique].filter == GN_FILTER_BLUR)
+            view->cascades[i].blur_px = GN_BLUR_LEAST_PX; /* of empty ones */
+    }
+}
+
+/* ---- distances ---- */
+
+struct distances { /* along the view */
+    float near_m, far_m;
+};
+
+/* Of a perspective the clip coordinate w. */
+static void depth_plane(const struct gn_eye *eye, vec4 plane) {
+    for (int c = 0; c < 4; c++) plane[c] = eye->clip_from_world[c][3];
+}
+
+static void add_places(struct distances *d, const vec4 plane, const struct gn_polygon *polygon) {
+    for (int i = 0; i < polygon->count; i++) {
+        const float depth = glm_vec3_dot((float *)plane, (float *)polygon->at[i]) + plane[3];
+        d->near_m = least(d->near_m, depth);
+        d->far_m = most(d->far_m, depth);
+    }
+}
+
+static void clip_by(struct gn_polygon *polygon, const vec4 *planes, int count) {
+    for (int i = 0; i < count && polygon->count; i++) gn_polygon_clip(polygon, planes[i]);
+}
+
+/* The four planes round a window, world space. */
+static void window_planes(const struct gn_fitter *f, const struct gn_shadow_region *window,
+                          vec4 planes[4]) {
+    const vec4 *m = f->tile->light_from_world; /* rigid: rows are the light's axes */
+    for (int i = 0; i < 4; i++) {
+        const int axis = i / 2;
+        const float sign = i % 2 ? -1.0f : 1.0f;
+        for (int c = 0; c < 3; c++) planes[i][c] = sign * m[c][axis];
+        planes[i][3] = i % 2 ? window->max[axis] - m[3][axis] : m[3][axis] - window->min[axis];
+    }
+}
+
+enum { PLANES = 10, WALKED_TRIANGLES = 10000 };
+
+static bool is_behind_one(const vec4 *planes, const struct gn_polygon *triangle) {
+    for (int i = 0; i < PLANES; i++) {
+        int behind = 0;
+        for (int k = 0; k < 3; k++)
+            behind += glm_vec3_dot((float *)planes[i], (float *)triangle->at[k]) + planes[i][3] < 0;
+        if (behind == 3) return true;
+    }
+    return false;
+}
+
+/* Those triangles alone are clipped that may lie nearer or farther than what is known. world:
+ * planes round what counts. */
+static void add_triangles(const struct gn_fitter *f, uint32_t item, const vec4 world[PLANES],
+                          const vec4 depth_ws, struct distances *d) {
+    const struct gn_scene *scene = f->pose->scene;
+    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
+    const vec4 *m = (const vec4 *)f->pose->items[item].world_from_item;
+    vec4 planes[PLANES], depth;
+    for (int c = 0; c < 4; c++) { /* a plane goes by the transpose */
+        depth[c] = glm_vec4_dot((float *)depth_ws, (float *)m[c]);
+        for (int i = 0; i < PLANES; i++)
+            planes[i][c] = glm_vec4_dot((float *)world[i], (float *)m[c]);
+    }
+    for (uint32_t i = 0; i < g->index_count; i += 3) {
+        struct gn_polygon triangle = {.count = 3};
+        float low = INFINITY, high = -INFINITY;
+        for (int k = 0; k < 3; k++) {
+            const uint32_t vertex = scene->indices[g->first_index + i + (uint32_t)k];
+            glm_vec3_copy(scene->positions + 3 * (size_t)vertex, triangle.at[k]);
+            const float at = glm_vec3_dot(depth, triangle.at[k]) + depth[3];
+            low = least(low, at);
+            high = most(high, at);
+        }
+        if (low >= d->near_m && high <= d->far_m) continue;
+        if (is_behind_one(planes, &triangle)) continue;
+        clip_by(&triangle, planes, PLANES);
+        add_places(d, depth, &triangle);
+    }
+}
+
+/* The hull of the item's box and the frustum: faces of each by the other. */
+static void add_box(const struct gn_fitter *f, uint32_t item, const vec4 world[PLANES],
+                    const vec4 depth, struct distances *d) {
+    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
+    struct gn_polygon polygon;
+    vec3 corners[8];
+    vec4 sides[6];
+    gn_box_corners(&g->box, (vec4 *)f->pose->items[item].world_from_item, corners);
+    gn_box_planes(corners, sides);
+    for (int i = 0; i < 12; i++) {
+        gn_box_face(i < 6 ? corners : (vec3 *)f->eye->corners, i % 6, &polygon);
+        clip_by(&polygon, world, PLANES);
+        if (i >= 6) clip_by(&polygon, sides, 6);
+        add_places(d, depth, &polygon);
+    }
+}
+
+/* From the nearest to the farthest place that can be in a shadow that is seen; empty when near_m >
+ * far_m. */
+static struct distances seen_distances(const struct gn_fitter *f,
+                                       const struct gn_shadow_region *window) {
+    struct distances d = {INFINITY, -INFINITY};
+    vec4 planes[PLANES], depth;
+    depth_plane(f->eye, depth);
+    window_planes(f, window, planes);
+    for (int i = 0; i < 6; i++) glm_vec4_copy((float *)f->eye->planes[i], planes[4 + i]);
+    for (uint32_t i = 0; i < f->memory->item_count; i++) {
+        if (!gn_shadow_item_receives(f->pose, i, f->view) || f->memory->seen[i] == GN_SEEN_NOT)
+            continue;
+        const struct gn_shadow_region *seen = gn_fitter_seen(f, i);
+        if (region_is_empty(seen) || !regions_meet(seen, window)) continue;
+        const struct gn_box *box = &f->pose->items[i].box_ws;
+        if (gn_box_least(depth, box) >= d.near_m && gn_box_most(depth, box) <= d.far_m) continue;
+        const struct gn_scene *scene = f->pose->scene;
+        if (scene->geometries[scene->items[i].geometry].index_count <= 3 * WALKED_TRIANGLES)
+            add_triangles(f, i, planes, depth, &d);
+        else
+            add_box(f, i, planes, depth, &d);
+    }
+    return d;
+}
+
+/* To the next of so many steps per octave, up or down. */
+static float step(float size, float steps, bool up) {
+    const float at = steps * log2f(size);
+    return exp2f((up ? ceilf(at) : floorf(at)) / steps);
+}
+
+float gn_cascade_step(float texel) { return step(texel, GN_CASCADE_STEPS, true); }
+
+/* The nearest place that counts. */
+static float nearest(const struct distances *seen) {
+    return fmaxf(seen->near_m, NEAREST_SHARE * seen->far_m);
+}
+
+/* Where splits begin and end. */
+static struct distances split_distances(const struct distances *seen, uint32_t cascades) {
+    struct distances d;
+    d.far_m = step(fmaxf(seen->far_m, 1e-6f), FAR_STEPS, true);
+    d.near_m = step(fmaxf(nearest(seen), 1e-6f), NEAR_STEPS, false);
+    d.far_m = fmaxf(d.far_m, d.near_m * powf(LEAST_RATIO, (float)cascades));
+    return d;
+}
+
+static void split(struct gn_shadow_view *view, struct distances d) {
+    const uint32_t n = view->cascade_count;
+    for (uint32_t i = 0; i < n; i++) {
+        struct gn_shadow_cascade *c = &view->cascades[i];
+        c->end_m =
+            i + 1 < n ? d.near_m * powf(d.far_m / d.near_m, (float)(i + 1) / (float)n) : INFINITY;
+        c->begin_m = i > 0 ? (1.0f - GN_CASCADE_FADE) * view->cascades[i - 1].end_m : 0.0f;
+    }
+}
+
+/* The part of the eye's frustum between two distances; false: none. */
+static bool cut(const struct gn_eye *eye, const struct gn_shadow_cascade *c, struct gn_eye *part) {
+    vec4 depth;
+    float ends[2];
+    *part = *eye;
+    depth_plane(eye, depth);
+    for (int k = 0; k < 2; k++)
+        ends[k] = glm_vec3_dot(depth, (float *)eye->corners[4 * k]) + depth[3];
+    const float at[2] = {fmaxf(c->begin_m, ends[0]), fminf(c->end_m, ends[1])};
+    if (!(at[0] < at[1])) return false;
+    for (int k = 0; k < 2; k++) {
+        const float sign = k ? -1.0f : 1.0f, share = (at[k] - ends[0]) / (ends[1] - ends[0]);
+        if (at[k] == ends[k]) continue;
+        for (int i = 0; i < 4; i++) /* along the four edges */
+            glm_vec3_lerp((float *)eye->corners[i], (float *)eye->corners[i + 4], share,
+                          part->corners[i + 4 * k]);
+        glm_vec4_scale(depth, sign, part->planes[4 + k]);
+        part->planes[4 + k][3] -= sign * at[k];
+    }
+    return true;
+}
+
+/* ---- fitting ---- */
+
+/* What is the same for all tiles, from the first that holds anything. */
+static void take_codes(struct gn_shadow_view *view, const struct gn_shadow_view *tile) {
+    view->near_m = tile->near_m;
+    view->far_m = tile->far_m;
+    view->far_code = tile->far_code;
+    view->distance_scale = tile->distance_scale;
+    view->distance_offset = tile->distance_offset;
+    view->ulp_m = tile->ulp_m;
+    view->texel = tile->texel;
+    glm_vec4_copy((float *)tile->soft, view->soft);
+    view->soft[0] = tile->soft[0] * tile->texel;
+    for (int c = 0; c < 4; c++) {
+        vec4 column = {tile->tiles[0].light_from_world[c][0], tile->tiles[0].light_from_world[c][1],
+                       tile->map_from_world[c][2], c == 3};
+        glm_vec4_copy(column, view->map_from_world[c]);
+    }
+}
+
+static void take_tile(struct gn_shadow_view *view, uint32_t index,
+                      const struct gn_shadow_view *tile) {
+    struct gn_shadow_cascade *c = &view->cascades[index];
+    c->texel = tile->texel;
+    c->blur_px = tile->blur_px;
+    c->page_count = tile->page_count;
+    for (int k = 0; k < 2; k++) {
+        c->corner_texels[k] = tile->corner_texels[k];
+        c->drawn_px[k] = tile->drawn_px[k];
+        c->drawn_size_px[k] = tile->drawn_size_px[k];
+    }
+    for (uint32_t p = 0; p < tile->page_count; p++) c->pages[p] = tile->pages[p];
+    glm_mat4_copy((vec4 *)tile->tiles[0].light_from_world, view->tiles[index].light_from_world);
+    glm_mat4_copy((vec4 *)tile->tiles[0].clip_from_world, view->tiles[index].clip_from_world);
+}
+
+/* Fits tile `index` as a map of its own; false: it is empty. */
+static bool fit_tile(const struct gn_fitter *f, uint32_t index, struct gn_shadow_view *tile) {
+    struct gn_eye eye;
+    if (!cut(f->eye, &f->view->cascades[index], &eye)) return false;
+    *tile = *f->view;
+    tile->map_px = tile->width_px = tile->height_px = f->view->inner_px;
+    tile->tile_count = 1;
+    tile->cascade_count = 0;
+    struct gn_fitter own = *f;
+    own.cascade = true;
+    own.eye = &eye;
+    own.memory = &f->memory[index];
+    own.view = tile;
+    own.tile = tile->tiles;
+    if (!gn_shadow_fit_window(&own)) return false;
+    tile->tiles[0].content_hash = gn_shadow_hash(f->pose, tile, tile->tiles, own.memory->casts);
+    return true;
+}
+
+/* What any cascade can hold: the window of all that is seen. */
+static bool find_seen(const struct gn_fitter *f, struct distances *seen) {
+    struct gn_window found;
+    struct gn_fitter all = *f;
+    if (f->view->cascade_count > 0) all.memory = &f->memory[GN_CASCADES_MAX];
+    gn_shadow_look(f->view, f->tile->light_from_world);
+    gn_fitter_remember(&all);
+    if (!gn_window_find(&all, false, &found)) return false;
+    *seen = seen_distances(&all, &found.window);
+    return seen->near_m <= seen->far_m;
+}
+
+bool gn_cascades_fit(const struct gn_fitter *f) {
+    struct gn_shadow_view *view = f->view, tile;
+    struct distances seen;
+    bool found = false;
+    if (!find_seen(f, &seen)) return false;
+    split(view, split_distances(&seen, view->cascade_count));
+    for (uint32_t i = 0; i < view->cascade_count; i++) {
+        view->tiles[i].empty = !fit_tile(f, i, &tile);
+        if (view->tiles[i].empty) continue;
+        take_tile(view, i, &tile);
+        view->tiles[i].content_hash = tile.tiles[0].content_hash;
+        if (!found) take_codes(view, &tile);
+        found = true;
+    }
+    for (uint32_t i = 0; i < view->cascade_count; i++)
+        if (view->tiles[i].empty)
+            view->tiles[i].content_hash = gn_shadow_hash(f->pose, view, &view->tiles[i], NULL);
+    return found;
+}
+
+/* ---- how many ---- */
+
+bool gn_cascade_can(const struct gn_light *light, const struct gn_eye *eye,
+                    const struct gn_shadow_opts *opts) {
+    vec4 depth;
+    depth_plane(eye, depth);
+    return light->type == GN_LIGHT_DIRECTIONAL && glm_vec3_norm2(depth) > 0.0f &&
+           !gn_techniques[opts->technique].on_plane && opts->map_px >= GN_CASCADE_LEAST_PX;
+}
+
+float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
+                         const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory) {
+    struct gn_shadow_view view;
+    struct distances seen;
+    if (!gn_shadow_fit(pose, light, eye, opts, memory, &view)) return 0.0f;
+    const struct gn_fitter f = {.pose = pose,
+                                .eye = eye,
+                                .memory = memory,
+                                .view = &view,
+                                .tile = view.tiles,
+                                .scene_size_m = gn_scene_size_m(pose),
+                                .light_radius = pose->scene->lights[light].radius,
+                                .range_m = INFINITY};
+    if (!find_seen(&f, &seen)) return 0.0f;
+    if (view.cascade_count == 0) return view.texel / nearest(&seen);
+    float tangent = 0.0f;
+    for (uint32_t i = 0; i < view.cascade_count; i++) {
+        const struct gn_shadow_cascade *c = &view.cascades[i];
+        if (!view.tiles[i].empty)
+            tangent = fmaxf(tangent, c->texel / fmaxf(c->begin_m, nearest(&seen)));
+    }
+    return tangent;
+}

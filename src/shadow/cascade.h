@@ -1,0 +1,47 @@
+/* Cascades: a directional light's map in up to four tiles, each for what the eye sees from one
+ * distance to another, so that what is near gets small texels, too. Pure.
+ *
+ * They lie side by side in one map, two in a row. A tile's inner part is a map like any other: its
+ * window is found from pairs, casters and what is seen behind them within those distances, it is
+ * drawn in pages, and moves by whole texels (pages.h). It is always copied from there to its tile,
+ * so a texel holds the same bits wherever the eye is. Round it lies a gutter that stays cleared,
+ * twice as wide as a technique may read: once for places beside what is drawn, whose filter reaches
+ * in, and once for what they read on their other side. All tiles span the same depths and have the
+ * same codes, for which no eye matters.
+ *
+ * The splits go by equal ratios of distance (Lloyd et al., "Warping and Partitioning for Low Error
+ * Shadow Maps", 2006) between the nearest and the farthest place that can be in a seen shadow, both
+ * by steps: they stand still while the eye moves little. Before each split lies a zone that two
+ * cascades serve, which shaders mix (shaders_es/lib/shadow_cascade.glsl).
+ */
+#ifndef GN_SHADOW_CASCADE_H
+#define GN_SHADOW_CASCADE_H
+
+#include "shadow/fit.h"
+
+#define GN_CASCADE_STEPS 2.0f /* of texels, an octave */
+#define GN_CASCADE_FADE  0.1f /* the zone's width, as a share of the split's distance */
+/* What fitting cascades remembers: each tile, and all that is seen. */
+enum { GN_CASCADE_MEMORIES = GN_CASCADES_MAX + 1, GN_CASCADE_LEAST_PX = 64 };
+
+/* Whether there can be any: not of lamps, nor on a plane, nor in a map under GN_CASCADE_LEAST_PX,
+ * nor for an eye without perspective, to which all pixels are as large. */
+bool gn_cascade_can(const struct gn_light *light, const struct gn_eye *eye,
+                    const struct gn_shadow_opts *opts);
+
+/* How large a texel of such a view is where it is seen largest: metres per metre of distance from
+ * the eye; 0 when nothing that is seen is in shadow. Allocates nothing; memory: one where
+ * opts->cascades is 0 or 1, else GN_CASCADE_MEMORIES. */
+float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
+                         const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory);
+
+/* Texels of cascades go by larger steps than others. */
+float gn_cascade_step(float texel);
+
+/* The size of a map of so many tiles of map_px. */
+void gn_cascade_map_size(uint32_t cascades, uint32_t map_px, uint32_t size_px[2]);
+
+/* Private to the room: begins such a view; radius: the light's. */
+void gn_cascades_lay(uint32_t cascades, float radius, struct gn_shadow_view *view);
+
+#endif

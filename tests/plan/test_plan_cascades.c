@@ -1,0 +1,193 @@
+/* Plans of a scene that one map is too coarse for. */
+#include <math.h>
+#include <string.h>
+
+#include "blocks.glsl"
+#include "frame/plan.h"
+#include "plan/field_scene.h"
+#include "plan/fixture.h"
+#include "unit/check.h"
+
+static void begin(struct gn_plan_fixture *f, struct gn_scene *scene, int32_t max_texture_px) {
+    const struct gn_caps caps = {
+        .has = GN_EVERY_CAP, .max_texture_px = max_texture_px, .max_texture_units = 16};
+    f->scene = scene;
+    gn_pose_init(&f->pose, f->scene, GN_POSE_DEFAULT);
+    gn_pose_step(&f->pose, 0);
+    f->frame = gn_frame_create(f->scene, &caps);
+    f->opts = (struct gn_frame_opts){.encoding = GN_ENCODING_AUTO};
+}
+
+static const struct gn_shadow_view *view_of(struct gn_plan_fixture *f) {
+    const struct gn_plan *plan = gn_plan_make(f);
+    const char *broken = gn_plan_check(plan);
+    if (broken) fail_msg("%s", broken);
+    return &plan->shadows[0];
+}
+
+static void test_field_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    gn_plan_expect(gn_plan_make(&f), "field");
+    gn_plan_end(&f);
+}
+
+/* What they hold of the field does not depend on how large a metre is. */
+static void expect_same_at(float scale) {
+    struct gn_plan_fixture one, other;
+    begin(&one, gn_field_scene_make(), 4096);
+    begin(&other, gn_field_scene_make_scaled(scale), 4096);
+    const struct gn_shadow_view *a = view_of(&one), *b = view_of(&other);
+    assert_int_equal(a->cascade_count, 4);
+    assert_int_equal(b->cascade_count, 4);
+    for (int i = 0; i < 4; i++) {
+        assert_false(b->tiles[i].empty);
+        const float ratio = b->cascades[i].texel / (scale * a->cascades[i].texel);
+        assert_true(ratio > 0.66f && ratio < 1.5f); /* steps of distances and texels */
+    }
+    gn_plan_end(&one);
+    gn_plan_end(&other);
+}
+
+static void test_small_and_huge_scenes_have_them_too(void **state) {
+    (void)state;
+    expect_same_at(1e-3f);
+    expect_same_at(1e3f);
+}
+
+static void test_each_serves_what_the_last_does_not(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    const struct gn_shadow_view *view = view_of(&f);
+    assert_true(view->cascades[0].begin_m == 0.0f);
+    assert_true(isinf(view->cascades[view->cascade_count - 1].end_m));
+    for (uint32_t i = 1; i < view->cascade_count; i++) {
+        const struct gn_shadow_cascade *last = &view->cascades[i - 1], *c = &view->cascades[i];
+        assert_true(c->begin_m < last->end_m && c->begin_m > last->begin_m);
+        assert_true(c->begin_m >
+                    (i > 1 ? view->cascades[i - 2].end_m : 0.0f)); /* zones are apart */
+        assert_true(c->texel >= last->texel);
+    }
+    gn_plan_end(&f);
+}
+
+static void test_a_moving_eye_changes_neither_number_nor_program(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    const uint32_t width_px = view_of(&f)->width_px;
+    for (int i = 0; i < 40; i++) {
+        f.opts.orbit.zoom = 1.0f + 0.1f * (float)i;
+        f.opts.orbit.shift_m[2] = -3.0f * (float)i;
+        f.opts.turntable_rad = 0.16f * (float)i;
+        const struct gn_shadow_view *view = view_of(&f);
+        assert_int_equal(view->cascade_count, 4);
+        assert_int_equal(view->width_px, width_px);
+        const struct gn_plan *plan = gn_plan_make(&f);
+        for (uint32_t p = 0; p < plan->program_count; p++)
+            if (plan->programs[p].kind == GN_PROGRAM_LIT)
+                assert_int_equal(plan->programs[p].lights[0].cascades, 1);
+    }
+    gn_plan_end(&f);
+}
+
+/* To one that looks along the light a shadow is as fine as what throws it: one map does. */
+static void test_every_camera_has_a_plan(void **state) {
+    (void)state;
+    for (int camera = GN_FIELD_STANDING; camera <= GN_FIELD_ORTHOGRAPHIC; camera++)
+        for (unsigned turn = 0; turn < 360; turn += 90) {
+            struct gn_plan_fixture f;
+            begin(&f, gn_field_scene_make(), 4096);
+            f.opts.camera = camera;
+            f.opts.turn_deg = turn;
+            const struct gn_shadow_view *view = view_of(&f);
+            const bool some = camera == GN_FIELD_STANDING || camera == GN_FIELD_INSIDE;
+            assert_int_equal(view->cascade_count, some ? 4 : 0);
+            for (uint32_t i = 0; i < view->cascade_count; i++)
+                assert_true(view->tiles[i].empty || isfinite(view->cascades[i].texel));
+            gn_plan_end(&f);
+        }
+}
+
+static void test_an_atlas_is_no_larger_than_a_texture(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 2048);
+    f.opts.map_px = 2048;
+    const struct gn_shadow_view *view = view_of(&f);
+    assert_int_equal(view->width_px, 2048);
+    assert_int_equal(view->height_px, 2048);
+    assert_int_equal(view->map_px, 1024);
+    f.opts.cascades = 1;
+    assert_int_equal(view_of(&f)->map_px, 2048);
+    gn_plan_end(&f);
+}
+
+static void test_as_many_as_asked_for_at_most(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    for (uint32_t most = 1; most <= 4; most++) {
+        f.opts.cascades = most;
+        const struct gn_shadow_view *view = view_of(&f);
+        assert_int_equal(view->cascade_count, most == 1 ? 0 : most);
+        assert_int_equal(view->height_px, most > 2 ? 2048 : 1024);
+        for (uint32_t i = 0; i < view->tile_count; i++) {
+            assert_true(view->tiles[i].x_px + view->map_px <= view->width_px);
+            assert_true(view->tiles[i].y_px + view->map_px <= view->height_px);
+        }
+    }
+    gn_plan_end(&f);
+}
+
+/* Texels in the light of a tiny map are few pixels of a tiny picture. */
+static void test_small_pictures_need_fewer(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    uint32_t last = 4;
+    for (uint32_t width_px = 1280; width_px >= 4; width_px /= 2) {
+        f.opts.width_px = width_px;
+        f.opts.height_px = width_px * 9 / 16;
+        const uint32_t count = view_of(&f)->tile_count;
+        assert_true(count <= last);
+        last = count;
+    }
+    assert_int_equal(last, 1);
+    gn_plan_end(&f);
+}
+
+/* A caster far off does not change what is near. */
+static void test_tiles_are_drawn_again_one_by_one(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    uint64_t before[4];
+    const struct gn_shadow_view *view = view_of(&f);
+    for (int i = 0; i < 4; i++) before[i] = view->tiles[i].content_hash;
+    view = view_of(&f);
+    for (int i = 0; i < 4; i++) assert_true(view->tiles[i].content_hash == before[i]);
+    f.pose.items[1 + 4 * 12].hash++; /* a block of the 13th ring, 167 m away */
+    view = view_of(&f);
+    assert_true(view->tiles[0].content_hash == before[0]);
+    assert_true(view->tiles[1].content_hash == before[1]);
+    assert_true(view->tiles[3].content_hash != before[3]);
+    gn_plan_end(&f);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_field_plan),
+        cmocka_unit_test(test_small_and_huge_scenes_have_them_too),
+        cmocka_unit_test(test_each_serves_what_the_last_does_not),
+        cmocka_unit_test(test_a_moving_eye_changes_neither_number_nor_program),
+        cmocka_unit_test(test_every_camera_has_a_plan),
+        cmocka_unit_test(test_an_atlas_is_no_larger_than_a_texture),
+        cmocka_unit_test(test_as_many_as_asked_for_at_most),
+        cmocka_unit_test(test_small_pictures_need_fewer),
+        cmocka_unit_test(test_tiles_are_drawn_again_one_by_one),
+    };
+    return RUN(tests);
+}
