@@ -81,6 +81,10 @@ static void test_techniques(void **state) {
                 key.kind = GN_PROGRAM_AOV;
                 key.aov = GN_AOV_VISIBILITY;
                 compiles(&key);
+                if (type != GN_LIGHT_DIRECTIONAL || gn_techniques[t].on_plane) continue;
+                key.lights[0].cascades = 1;
+                key.features = e % 2 ? GN_FEATURE_ALPHA_MASK : 0; /* which shares no tiles */
+                compiles(&key);
             }
 }
 

@@ -41,6 +41,11 @@ static struct gn_program_key with_slide(struct gn_program_key key, enum gn_slide
     return key;
 }
 
+static struct gn_program_key with_cascades(struct gn_program_key key) {
+    key.lights[0].cascades = 1;
+    return key;
+}
+
 static struct gn_program_key caster(enum gn_program_kind kind, uint32_t features,
                                     enum gn_encoding encoding) {
     struct gn_program_key key;
@@ -169,6 +174,12 @@ int main(int argc, char **argv) {
         {"pcf", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-diffuse", lit(DIFFUSE, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-encode", lit(FULL | GN_FEATURE_ENCODE_SRGB, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"hard-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "r16f"))},
+        {"pcf-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "depth"))},
+        {"pcf-cascades-mask",
+         with_cascades(lit(FULL | GN_FEATURE_ALPHA_MASK, GN_LIGHT_DIRECTIONAL, "pcf", "depth"))},
+        {"pcf3-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf3", "depth"))},
+        {"pcss-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "pcss", "r16f"))},
         {"pcf2", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf2", "depth")},
         {"pcf3", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf3", "depth")},
         {"pcf5", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf5", "depth")},
