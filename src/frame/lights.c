@@ -3,6 +3,7 @@
 
 #include "blocks.glsl"
 #include "frame/private.h"
+#include "shadow/cascade.h"
 
 _Static_assert(GN_PASS_SIZE == PASS_SIZE, "room for the constants of a pass");
 _Static_assert(PASS_LIGHTS + GN_LIGHTS_MAX * LIGHT_SIZE <= PASS_CONES, "lights");
@@ -243,6 +244,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                                             opts->cascades ? opts->cascades : GN_CASCADES_MAX};
         gn_frame_make_memories(frame, i, gn_shadow_tile_count(l->type, light->technique));
         light->cascades = shadow.cascades = gn_frame_choose_cascades(frame, pose, i, &shadow);
+        if (shadow.cascades > 1) gn_frame_make_memories(frame, i, GN_CASCADE_MEMORIES);
         if (shadow.cascades > 1 && shadow.map_px > (uint32_t)frame->caps.max_texture_px / 2)
             shadow.map_px = (uint32_t)frame->caps.max_texture_px / 2;
         /* An empty one keeps its slot: programs do not change with what is in view. */

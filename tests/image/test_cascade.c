@@ -71,21 +71,23 @@ static const struct gn_shadow_cascade *cascade_at(const struct gn_shadow_view *v
     return &view->cascades[i];
 }
 
-/* Edges are two texels wide, as in truth.h, of the texel that there is. */
+/* With cascades. Edges are two texels wide, as in truth.h, of the texel that there is; where a map
+ * is blurred, as wide as it is. */
 static void set_bands(const struct gn_shadow_view *view) {
     for (int i = 0; i < PIXELS; i++) {
         band_px[i] = 2.0f;
-        if (truth.mask.item[i] < 0) continue;
+        if (truth.mask.item[i] < 0 || view->cascade_count == 0) continue;
         double point[3];
         for (int k = 0; k < 3; k++) point[k] = (double)truth.mask.point_ws[3 * i + k];
         const double pixel_m = gn_ray_eye_pixel_m(&truth.frame.eye, point);
-        band_px[i] =
-            fmaxf(2.0f, (float)(2.0 * (double)cascade_at(view, depth_at(i))->texel / pixel_m));
+        const struct gn_shadow_cascade *c = cascade_at(view, depth_at(i));
+        const double texels = fmax(2.0, (double)c->blur_px + 1.5);
+        band_px[i] = fmaxf(2.0f, (float)(texels * (double)c->texel / pixel_m));
     }
 }
 
 static const struct gn_shadow_view *draw_visibility(enum gn_technique technique,
-                                                    enum gn_encoding encoding,
+                                                    enum gn_encoding encoding, uint32_t cascades,
                                                     struct gn_picture *shot) {
     const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
                                        .height_px = HEIGHT_PX,
@@ -93,13 +95,14 @@ static const struct gn_shadow_view *draw_visibility(enum gn_technique technique,
                                        .technique = technique,
                                        .encoding = encoding,
                                        .map_px = MAP_PX,
+                                       .cascades = cascades,
                                        .aov = GN_AOV_VISIBILITY};
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     if (!gn_gl_read_f32(stage.gl, aov, &err)) fail_msg("%s", err.text);
     gn_picture_init(shot, WIDTH_PX, HEIGHT_PX, 1);
     for (int i = 0; i < PIXELS; i++) shot->data[i] = aov[4 * i];
-    assert_int_equal(plan->shadows[0].cascade_count, 4);
+    assert_int_equal(plan->shadows[0].cascade_count, cascades == 1 ? 0 : cascades);
     set_bands(&plan->shadows[0]);
     return &plan->shadows[0];
 }
@@ -109,7 +112,7 @@ static void expect_true(enum gn_technique technique, enum gn_encoding encoding) 
     struct gn_picture shot;
     struct gn_mask_score score;
     if (!(gn_caps_encodings(gn_gl_caps(stage.gl)) >> encoding & 1)) return;
-    draw_visibility(technique, encoding, &shot);
+    draw_visibility(technique, encoding, 4, &shot);
     gn_mask_compare(&truth.mask, &shot, &score);
     printf("%-6s %-6s acne %.4f %%, leak %.4f %%, gap %.3f %%, wrong %.3f %%; dark %lu of %lu\n",
            gn_techniques[technique].name, gn_encodings[encoding].name, gn_mask_acne(&score),
@@ -119,7 +122,7 @@ static void expect_true(enum gn_technique technique, enum gn_encoding encoding) 
                       (technique != GN_TECHNIQUE_HARD || gn_mask_gap(&score) <= 5);
     if (!good) gn_mask_save(NULL, gn_techniques[technique].name, &truth.mask, &shot);
     assert_true(good);
-    assert_true(score.away_dark > 1500 && score.away_lit > 20000);
+    assert_true(score.away_dark > 800 && score.away_lit > 20000);
     gn_picture_finish(&shot);
 }
 
@@ -130,6 +133,33 @@ static void test_from_5_to_400_m_it_is_true(void **state) {
     expect_true(GN_TECHNIQUE_PCF, GN_ENCODING_DEPTH);
     expect_true(GN_TECHNIQUE_PCF3, GN_ENCODING_R32UI);
     expect_true(GN_TECHNIQUE_PCSS, GN_ENCODING_R16F);
+    for (int t = GN_TECHNIQUE_VSM; t <= GN_TECHNIQUE_SMSM; t++)
+        if (t != GN_TECHNIQUE_VSSM) expect_true((enum gn_technique)t, GN_ENCODING_R32UI);
+}
+
+static double wrong_with(enum gn_technique technique, uint32_t cascades) {
+    struct gn_picture shot;
+    struct gn_mask_score score;
+    draw_visibility(technique, GN_ENCODING_R32UI, cascades, &shot);
+    gn_mask_compare(&truth.mask, &shot, &score);
+    gn_picture_finish(&shot);
+    return gn_mask_wrong(&score);
+}
+
+/* Of all pixels, edges as well. To vssm a depth of 330 m is much: what lies a metre behind a caster
+ * it takes for a part of it. */
+static void test_the_more_the_truer(void **state) {
+    (void)state;
+    for (int t = GN_TECHNIQUE_HARD; t <= GN_TECHNIQUE_SMSM; t++) {
+        double wrong[GN_CASCADES_MAX];
+        printf("%-7s wrong:", gn_techniques[t].name);
+        for (uint32_t i = 0; i < GN_CASCADES_MAX; i++) {
+            wrong[i] = wrong_with((enum gn_technique)t, i + 1);
+            printf(" %.3f %%", wrong[i]);
+        }
+        printf("\n");
+        assert_true(wrong[1] < wrong[0] && wrong[2] < 0.65 * wrong[0] && wrong[3] < wrong[0] / 2);
+    }
 }
 
 /* ---- at the splits ---- */
@@ -144,7 +174,7 @@ static void test_no_split_is_seen(void **state) {
         struct gn_picture shot;
         long all_away = 0;
         const struct gn_shadow_view *view =
-            draw_visibility(techniques[t], GN_ENCODING_DEPTH, &shot);
+            draw_visibility(techniques[t], GN_ENCODING_DEPTH, 4, &shot);
         for (uint32_t split = 0; split + 1 < view->cascade_count; split++) {
             const double end = (double)view->cascades[split].end_m,
                          begin = (double)view->cascades[split + 1].begin_m;
@@ -300,6 +330,7 @@ static void test_depth_maps_move_by_whole_texels(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         EACH(test_from_5_to_400_m_it_is_true),
+        cmocka_unit_test_setup_teardown(test_the_more_the_truer, open_egl, close_all),
         EACH(test_no_split_is_seen),
         EACH(test_r16f_maps_move_by_whole_texels),
         EACH(test_depth_maps_move_by_whole_texels),

@@ -133,6 +133,7 @@ static void test_as_many_as_asked_for_at_most(void **state) {
         f.opts.cascades = most;
         const struct gn_shadow_view *view = view_of(&f);
         assert_int_equal(view->cascade_count, most == 1 ? 0 : most);
+        assert_false(view->empty);
         assert_int_equal(view->height_px, most > 2 ? 2048 : 1024);
         for (uint32_t i = 0; i < view->tile_count; i++) {
             assert_true(view->tiles[i].x_px + view->map_px <= view->width_px);
