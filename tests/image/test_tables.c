@@ -8,6 +8,7 @@
 #include "core/arena.h"
 #include "gl/private.h"
 #include "image/shot.h"
+#include "plan/field_scene.h"
 #include "plan/stage_scene.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"
@@ -24,6 +25,12 @@ static void open_with(const char *backend, const char *without) {
 
 HELP_OPENS(open_egl, "egl", NULL)
 HELP_OPENS(open_osmesa, "osmesa", NULL)
+
+static int open_field(void **state) {
+    (void)state;
+    help_stage_open(&stage, gn_field_scene_make, "egl", NULL, NULL);
+    return 0;
+}
 
 static int close_all(void **state) {
     (void)state;
@@ -162,6 +169,13 @@ static void test_tables_are_right(void **state) {
         for (uint32_t slot = 0; slot < plan->shadow_count; slot++)
             if (i == 2 || plan->shadows[slot].tile_count == 1) check_table(plan, slot);
     }
+}
+
+static void test_tables_of_cascades_are_right(void **state) {
+    (void)state;
+    const struct gn_plan *plan = draw(GN_TECHNIQUE_VSSM, 300);
+    assert_true(plan->shadows[0].cascade_count > 1);
+    check_table(plan, 0);
 }
 
 /* ---- how often ---- */
@@ -336,6 +350,8 @@ int main(void) {
         cmocka_unit_test(test_every_pixel_is_a_share_of_light),
         cmocka_unit_test(test_blocks_take_an_eighth_of_the_time_of_loops),
     };
+    const struct CMUnitTest field[] = {cmocka_unit_test(test_tables_of_cascades_are_right)};
     return cmocka_run_group_tests_name("tables, egl", tests, open_egl, close_all) +
-           cmocka_run_group_tests_name("tables, osmesa", tests, open_osmesa, close_all);
+           cmocka_run_group_tests_name("tables, osmesa", tests, open_osmesa, close_all) +
+           cmocka_run_group_tests_name("tables, field", field, open_field, close_all);
 }
