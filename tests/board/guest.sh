@@ -19,6 +19,22 @@ fail() {
 }
 require() { "$@" || fail "$*"; }
 
+# The host hears from here that the machine lives, and ends one that does not (run.sh). A machine that lives and whose time is over
+# says what it waits for.
+pulse() {
+    until [ "$(now)" -gt $(((LIMIT - 30) * 1000)) ]; do
+        now > /out/pulse
+        sleep 5
+    done
+    say 'not done; what there is, and where the kernel keeps it:'
+    /run/busybox ps -o pid,stat,args | grep -v ' \['
+    for task in /proc/[0-9]*; do
+        grep -q '^State:.D' "$task/status" 2> /dev/null && echo "$(cat "$task/comm"):" && cat "$task/stack"
+    done
+    /run/busybox dmesg | tail -n 30
+    while sleep 5; do now > /out/pulse; done
+}
+
 # within SECONDS COMMAND..: true as soon as the command is
 within() {
     local until=$(($(now) + $1 * 1000))
@@ -319,6 +335,8 @@ qmp '{"execute":"qmp_capabilities"}' || bad=1
 disown
 open_viewer 1 "$(port vnc1)"
 [ "$HEADS" = 1 ] || open_viewer 2 "$(port vnc2)"
+pulse &
+disown
 desktop 640 480 # as it is: the first 0 0 would be no change to QEMU, which takes it for the unset size
 say 'the machine is up'
 . /out/test.sh

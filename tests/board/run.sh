@@ -13,6 +13,7 @@
 #   GUEST_ENV     "NAME=VALUE ..", for the test
 set -u
 here=tests/board # tests run in the top folder
+stands_still=180 # seconds without a sign of life: the machine's kernel hangs. Once it may, since it is not what is tested
 gnomon=${GNOMON:-build/release/gnomon} build=${BUILD:-build/release} host=${HOST_BUILD:-${BUILD:-build/release}}
 arch=${ARCH:-amd64} script=$1 test=$(basename "$1" .guest)
 began=$EPOCHREALTIME
@@ -49,7 +50,12 @@ cp "$here/guest.sh" "$out/guest.sh"
 cp "$script" "$out/test.sh" || exit 1
 heads=$(sed -n 's/^# heads: \([12]\)$/\1/p' "$script")
 heads=${heads:-1}
-for setting in HOST_OUT="$out" GN_FULL="${GN_FULL:-}" HEADS="$heads" ${GUEST_ENV:-}; do
+limit_in() { sed -n "s/^# $1: \([0-9]*\) s.*/\1/p" "$script"; }
+limit=$([ -z "${GN_FULL:-}" ] || limit_in 'limit in full')
+limit=${limit:-$(limit_in limit)}
+limit=${limit:-300}
+[ "$arch" = amd64 ] || limit=$((2 * limit)) # emulated, the other architecture is slower
+for setting in HOST_OUT="$out" LIMIT="$limit" GN_FULL="${GN_FULL:-}" HEADS="$heads" ${GUEST_ENV:-}; do
     printf 'export %s=%q\n' "${setting%%=*}" "${setting#*=}"
 done > "$out/env"
 
@@ -69,11 +75,6 @@ rm -r "$out/initrd.d"
 # The sockets' names may have 107 bytes, a folder of build/ may have more.
 sockets=$(mktemp -d)
 trap 'rm -rf "$sockets"' EXIT
-limit_in() { sed -n "s/^# $1: \([0-9]*\) s.*/\1/p" "$script"; }
-limit=$([ -z "${GN_FULL:-}" ] || limit_in 'limit in full')
-limit=${limit:-$(limit_in limit)}
-limit=${limit:-300}
-[ "$arch" = amd64 ] || limit=$((2 * limit)) # emulated, the other architecture is slower
 
 # A test of buttons needs a machine whose clock is its own: two nanoseconds an instruction, so that a
 # millisecond is one however busy the host is. Such a machine has one processor.
@@ -116,9 +117,26 @@ for head in $(seq "$heads"); do
     )
 done
 # Warnings that are none: the viewers connect to QEMU itself, which listens a moment later.
-timeout --kill-after=5 "$limit" "$qemu" "${machine[@]}" > "$out/qemu.log" 2>&1 < /dev/null
+timeout --kill-after=5 "$limit" "$qemu" "${machine[@]}" > "$out/qemu.log" 2>&1 < /dev/null &
+process=$!
+: > "$out/pulse"
+watch_pulse() {
+    while sleep 5; do
+        [ $(($(date +%s) - $(stat -c %Y "$out/pulse"))) -lt "$stands_still" ] || break
+    done
+    : > "$out/stood-still" && kill "$process"
+}
+watch_pulse > /dev/null &
+watch=$!
+wait "$process"
 status=$?
+kill "$watch" 2> /dev/null
 cat "$out/log" 2> /dev/null
+if [ -e "$out/stood-still" ]; then
+    echo "the machine stood still for $stands_still s; the end of its console:"
+    tail -n 15 "$out/console"
+    [ -n "${AGAIN:-}" ] || { echo 'once more:' && rm -rf "$sockets" && AGAIN=1 exec "$0" "$script"; }
+fi
 cp -Rn "$out/cache/." "$shaders/"
 rm -r "$out/cache"
 bad=0
@@ -126,7 +144,9 @@ complain() {
     echo "FAIL: $*"
     bad=1
 }
-if [ "$status" = 124 ]; then
+if [ -e "$out/stood-still" ]; then
+    complain 'the machine stood still, again'
+elif [ "$status" = 124 ]; then
     complain "the machine was not done after $limit s"
 elif [ ! -e "$out/rc" ]; then
     complain "the machine ended (status $status) before the test did"
