@@ -23,11 +23,11 @@ static float pixel_width(const struct gn_frame *frame) {
     return width;
 }
 
-/* All that the number goes by, but the eye. */
+/* All that the number goes by, but the eye; nor does it by the technique, whose gutters change it
+ * little, so that modes agree on it whenever they are switched. */
 static uint64_t choice_of(const struct gn_frame *frame, const struct gn_shadow_opts *opts) {
-    const uint32_t by[] = {(uint32_t)opts->technique, (uint32_t)opts->encoding, opts->map_px,
-                           opts->all_receive,         opts->cascades,           frame->camera,
-                           frame->picture_width_px,   frame->picture_height_px};
+    const uint32_t by[] = {opts->map_px,  opts->all_receive,       opts->cascades,
+                           frame->camera, frame->picture_width_px, frame->picture_height_px};
     return gn_hash(GN_HASH_INIT, by, sizeof by);
 }
 
@@ -53,10 +53,15 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
     struct gn_light_note *note = &frame->notes.at[light];
     const uint64_t choice = choice_of(frame, opts);
     if (!gn_cascade_can(&frame->scene->lights[light], &frame->eye, opts)) return 1;
-    if (note->cascades == 0 || note->cascades_for != choice)
-        note->cascades = count(frame, pose, slot, opts);
-    note->cascades_for = choice;
-    return note->cascades > 0 ? note->cascades : 1;
+    for (int i = 0; i < GN_CASCADE_CHOICES; i++)
+        if (note->cascades[i].count > 0 && note->cascades[i].choice == choice)
+            return note->cascades[i].count;
+    const uint32_t chosen = count(frame, pose, slot, opts);
+    if (chosen == 0) return 1;
+    note->cascades[note->next_choice].choice = choice;
+    note->cascades[note->next_choice].count = chosen;
+    note->next_choice = (note->next_choice + 1) % GN_CASCADE_CHOICES;
+    return chosen;
 }
 
 void gn_frame_cascade_constants(const struct gn_shadow_view *view, float (*constants)[4]) {

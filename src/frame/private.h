@@ -59,13 +59,18 @@ enum gn_notice {
 };
 enum { GN_NOTICE_ABOUT = 9 }; /* options that a warning may be about */
 
+enum { GN_CASCADE_CHOICES = 8 }; /* cameras and sizes of maps and pictures that take turns */
+
 /* What is known of a light of the scene, and was said of it. */
 struct gn_light_note {
     enum gn_technique technique; /* its own, or pcf */
     bool unknown;                /* it names one that there is not */
     uint32_t said;               /* bits: enum gn_notice */
-    uint32_t cascades;           /* 0: not known yet */
-    uint64_t cascades_for;       /* the options that they are for */
+    struct {
+        uint64_t choice; /* the options that they are for */
+        uint32_t count;  /* 0: not known yet */
+    } cascades[GN_CASCADE_CHOICES];
+    uint32_t next_choice; /* the one that makes room */
 };
 
 struct gn_frame {
