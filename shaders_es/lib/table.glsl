@@ -65,6 +65,7 @@ vec4 table_mean(highp usampler2D table, shadow_place s, float radius, vec4 beyon
     table_row row_2 = table_row_at(table, x, b.y), row_3 = table_row_at(table, x, last.y);
     vec4 sum = table_weigh(row_1, row_0, ends) * first.y + table_weigh(row_2, row_1, ends) + table_weigh(row_3, row_2, ends) * cut.y;
     vec2 side = high - low;
-    float inside = side.x * side.y / (4.0 * radius * radius);
+    vec2 covered = max(min(p + radius, s.window.zw) - max(p - radius, s.window.xy + 1.0), 0.0);
+    float inside = covered.x * covered.y / (4.0 * radius * radius);
     return mix(beyond, sum * (1.0 / (TABLE_SCALE(s.reach) * side.x * side.y)), min(inside, 1.0));
 }

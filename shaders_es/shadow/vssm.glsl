@@ -3,6 +3,9 @@
 // how much they let through is read from the mean and the variance over a square, by Chebyshev's inequality, which is exact where
 // there are but two distances: that of the blockers and that of the receiver. Both are those of casters: where the map is clear light
 // passes, and a receiver that is in no map leaves the blockers alone. Behind m + v / (m - z) there is as much as in front.
+// A plane seen edge-on is many distances: the wide square in which blockers are looked for holds it from far nearer to far farther,
+// its variance is the plane's, and the blocker found is none. So the few texels right above are asked first, which have none of
+// that, and the wide square only where these do not block.
 #include "lib/table.glsl"
 
 // Of the mean over casters, by how much the receiver lies behind it; a square of this radius.

@@ -97,6 +97,19 @@ static struct gn_scene *make_sheet(void) {
     return end(&m, roots);
 }
 
+/* A board at the far end of a ground that rises to the lamp: the map holds what is round it alone,
+ * ground, too. */
+static struct gn_scene *make_board(void) {
+    struct gn_maker m;
+    char roots[400] = "";
+    begin(&m, "'translation':[0,6,0],'rotation':[-0.70710678,0,0,0.70710678]");
+    add_node(&m, roots, sizeof roots,
+             "{'mesh':1,'translation':[-4,-1.6,0],'scale':[0.05,0.8,0.5]}");
+    add_node(&m, roots, sizeof roots,
+             "{'mesh':0,'rotation':[0,0,0.2588190,0.9659258],'scale':[7,1,7]}");
+    return end(&m, roots);
+}
+
 enum { WIDTH = 320, HEIGHT = 240, STEP = 2 };
 static float picture[4 * WIDTH * HEIGHT];
 static const enum gn_technique techniques[] = {
@@ -219,11 +232,28 @@ static void test_a_sheet_is_lit_to_its_edges(void **state) {
     help_stage_close(&stage);
 }
 
+static void test_beyond_a_map_is_light(void **state) {
+    (void)state;
+    help_stage_open(&stage, make_board, "egl", NULL, NULL);
+    find_truth((const double[]){-8, -4, -5}, (const double[]){8, 4, 5}, 16);
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        if (truth[i] < 1) truth[i] = -1;
+    for (int t = 0; t < TECHNIQUES; t++) {
+        draw(techniques[t]);
+        const struct seen seen = see();
+        print_message("%-4s, beyond the shadow: %.4f, the darkest %.3f\n",
+                      gn_techniques[techniques[t]].name, seen.mean, seen.darkest);
+        assert_true(seen.mean > 0.999);
+    }
+    help_stage_close(&stage);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_lattice_on_a_ground_that_casts_nothing),
         cmocka_unit_test(test_a_lattice_on_a_ground_that_casts_too),
         cmocka_unit_test(test_a_sheet_is_lit_to_its_edges),
+        cmocka_unit_test(test_beyond_a_map_is_light),
     };
     return RUN(tests);
 }
