@@ -16,10 +16,19 @@
 
 static const struct gn_choice backends[] = {{"auto", 0}, {"kms", 0},    {"window", 0},
                                             {"egl", 0},  {"osmesa", 0}, {0}};
-static const struct gn_choice map_formats[] = {
-    {"auto", 0},     {"depth", 0},        {"r32ui", 0},         {"r16f", 0},
-    {"r16f-raw", 0}, {"rgba8", 0},        {"rg32ui", 0},        {"rgba16ui", 0},
-    {"rgba16f", 0},  {"rgba32f-bits", 0}, {"rgba32f-share", 0}, {0}};
+static const struct gn_choice map_formats[] = {{"auto", 0},
+                                               {"depth", 0},
+                                               {"r32ui", 0},
+                                               {"r16f", 0},
+                                               {"r16f-raw", 0},
+                                               {"rgba8", 0},
+                                               {"rg32ui", 0},
+                                               {"rgba16ui", 0},
+                                               {"rgba16f", 0},
+                                               {"rgba32f-bits", 0},
+                                               {"rgba32f-share", 0},
+                                               {"rgba32ui", 0},
+                                               {0}};
 static const struct gn_choice aovs[] = {
     {"color", GN_AOV_COLOR},       {"visibility", GN_AOV_VISIBILITY},
     {"distance", GN_AOV_DISTANCE}, {"normal", GN_AOV_NORMAL},
@@ -75,7 +84,7 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
     {.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
      .fallback = "1024", .help = "side of a shadow map, and of the table of one; of vssm and smsm 512 by itself", .commands = DRAW, .offset = FIELD(map_px)},
     {.name = "map-format", .section = "render", .kind = GN_KIND_WORD, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
-     .help = "how a shadow map stores distance; from rg32ui on: what vsm, evsm and msm keep of it", .commands = DRAW, .offset = FIELD(map_format)},
+     .help = "how a shadow map stores distance; from rg32ui on: what is kept of one that is filtered", .commands = DRAW, .offset = FIELD(map_format)},
     {.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
      .help = "planar shadows by a map in the plane, with soft edges, or by the picture's stencil, with exact ones", .commands = DRAW, .offset = FIELD(planar_in_stencil)},
     {.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "16",
