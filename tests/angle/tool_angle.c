@@ -145,15 +145,23 @@ static bool is_encoding(const char *name) {
     return false;
 }
 
-/* What a technique's maps can be kept in; always at least one. What is no encoding of distances
- * goes with all that keeps none, and `auto` is the best of it: the rest is for the full form. */
+/* One of several that a technique's moments can be kept in. */
+static bool is_store(const struct gn_technique_row *row, const char *name) {
+    for (int i = 0; i < GN_STORES_MAX && row->stores[1] && row->stores[i]; i++)
+        if (strcmp(name, gn_moments[row->stores[i]].name) == 0) return true;
+    return false;
+}
+
+/* What a technique's maps can be kept in; always at least one. Of moments `auto` is the best: the
+ * rest is for the full form. */
 static int formats_of(const struct run *run, enum gn_technique technique,
                       const char *out[FORMATS_MAX]) {
     const struct gn_technique_row *row = &gn_techniques[technique];
     const bool encodes = is_encoding(text_of(run->automatic, row->name));
     int count = 0;
     for (int i = 0; i < run->format_count && row->file && !row->on_plane; i++)
-        if (encodes == is_encoding(run->formats[i]) && (encodes || gn_shot_full()))
+        if (encodes ? is_encoding(run->formats[i])
+                    : gn_shot_full() && is_store(row, run->formats[i]))
             out[count++] = run->formats[i];
     if (!count) out[count++] = "auto";
     return count;
