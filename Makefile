@@ -55,13 +55,13 @@ uninstall:
 	rm -rf "$(INTO)/share/doc/gnomon"
 
 DEPS_run := build run
-DEPS_check := build run test board
+DEPS_check := build run test board gpus
 DEPS_check-angle := build run test
 DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
 DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
 DEPS_check-gpus := build run gpus
 DEPS_check-gpiod2 := $(DEPS_check)
-DEPS_accept := build run test board board-arm64
+DEPS_accept := build run test board board-arm64 gpus
 DEPS_truth := build run test
 DEPS_gallery := build run test
 DEPS_contact-sheet := build run test
@@ -258,9 +258,11 @@ check:
 	+$(SUB) WERROR=1 CONFIG=debug CC=clang tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
 	+$(SUB) lint
+	+$(SUB) gpus
 	@tests/run.sh tests/layers.sh tests/format.sh \
 	    BUILD=$(O)/release $(call programs,$(O)/release) $(SCRIPTS) tests/board/smoke.guest \
-	    BUILD=$(O)/asan $(call programs,$(O)/asan) tests/check_hostile.sh
+	    BUILD=$(O)/asan $(call programs,$(O)/asan) tests/check_hostile.sh \
+	    BUILD=$(GPUS_B) GPUS=pi4,g52,a618 tests/gpus/gpus.sh
 check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(SCENES)
 	@tests/run.sh BUILD=$(B) tests/angle/check_angle.sh
 BOARD_NEEDS := gnomon tests/firstflip.so tests/keyboard tests/tool_compare
@@ -297,7 +299,8 @@ accept:
 	    $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest))) \
 	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan))
 	+$(SUB) GN_FULL= check-board-arm64
-	+GN_FULL=1 $(SUB) check-gpiod2
+	+$(SUB) GN_FULL= check-gpiod2
+	+$(SUB) GN_FULL= check-gpus
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
 gallery: $(B)/tests/tool_gallery $(BIN)
