@@ -49,8 +49,9 @@ END
 if [ "$suite" != "$codename" ]; then
     mirror=$(apt-get --print-uris update 2> /dev/null |
         sed -n "s,^'\(.*\)/dists/$codename/InRelease'.*,\1,p" | head -n 1)
+    [ -n "$mirror" ] || skip "apt's sources name no mirror of $codename, where $suite could be"
     keys=/usr/share/keyrings/debian-archive-keyring.gpg
-    echo "deb [signed-by=$keys] ${mirror:-http://deb.debian.org/debian} $suite main" > "$state/sources.list"
+    echo "deb [signed-by=$keys] $mirror $suite main" > "$state/sources.list"
     cat >> "$state/apt.conf" << END
 Dir::Etc::SourceList "$state/sources.list";
 Dir::Etc::SourceParts "-";
