@@ -81,7 +81,7 @@ trap 'rm -rf "$sockets"' EXIT
 if grep -q '^# clock: its own' "$script"; then
     clock=(-smp 1 -accel "tcg,thread=single" -icount shift=1)
 else
-    clock=(-smp 2 -accel "tcg,thread=multi")
+    clock=(-smp "$(grep -q '^# processors: 1' "$script" && echo 1 || echo 2)" -accel "tcg,thread=multi")
 fi
 
 # shellcheck disable=SC2054
