@@ -91,6 +91,8 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
      .help = "how many samples disk, poisson and pcss take", .commands = DRAW, .offset = FIELD(taps)},
     {.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,
      .help = "take them alike in every pixel: bands instead of grain", .commands = DRAW, .offset = FIELD(taps_fixed)},
+    {.name = "filter-budget", .section = "render", .kind = GN_KIND_NUMBER, .max = 10000, .value = "N", .unit = "million texels", .fallback = "4",
+     .help = "filtered maps that one frame makes again, when many lights move; the others wait a frame; 0: all", .commands = KIOSK, .offset = FIELD(filter_budget)},
     {.name = "shadow-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1, .value = "X", .fallback = "1",
      .help = "how much direct light a shadow takes away", .commands = DRAW, .offset = FIELD(shadow_strength)},
     {.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,

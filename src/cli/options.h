@@ -94,7 +94,7 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     size_t offset;        /* of its field in struct gn_options */
 };
-enum { GN_OPTION_COUNT = 56 };
+enum { GN_OPTION_COUNT = 57 };
 extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
 
 const struct gn_option_row *gn_option_find(const char *name,
@@ -149,6 +149,7 @@ struct gn_options {
     int planar_in_stencil; /* 0, 1 */
     int taps;
     bool taps_fixed;
+    double filter_budget;   /* million texels; 0: no end */
     double shadow_strength; /* given it beats what a light says */
     bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */

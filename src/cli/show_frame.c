@@ -59,6 +59,7 @@ static bool draw(struct gn_show *s, struct gn_err *err) {
     const int64_t seen_ns = screen->seen_ns;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, seen_ns);
     const struct gn_kiosk_event event = {.kind = GN_KIOSK_FRAME, .time_ns = seen_ns};
+    s->stage.waits = false;
     if (screen->black) {
         gn_gl_black(s->stage.gl);
         return true;
@@ -98,7 +99,7 @@ bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     }
     if (!drawn) return false;
     const int64_t drawn_ns = gn_clock_monotonic_ns();
-    s->changed = false;
+    s->changed = s->stage.waits;
     if (!gn_display_present(display, drawn_ns, err)) return false;
     measure(s);
     gn_show_stats_frame(&s->stats, display, drawn_ns - begun_ns);

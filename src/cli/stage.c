@@ -92,6 +92,11 @@ static bool check_light(const struct gn_options *o, const struct gn_scene *scene
                          scene->light_count == 1 ? "" : "s");
 }
 
+/* A frame follows, which a picture in a file has not. */
+static bool is_watched(const struct gn_options *o) {
+    return o->command == GN_COMMAND_SHOW || o->command == GN_COMMAND_AUTO;
+}
+
 static bool choose_frame(struct gn_frame_opts *f, const struct gn_options *o,
                          const struct gn_scene *scene, struct gn_warnings *warnings,
                          struct gn_err *err) {
@@ -108,6 +113,7 @@ static bool choose_frame(struct gn_frame_opts *f, const struct gn_options *o,
         .planar_in_stencil = o->planar_in_stencil,
         .taps = (unsigned)o->taps,
         .taps_fixed = o->taps_fixed,
+        .filter_texels = is_watched(o) ? (uint64_t)(o->filter_budget * 1e6) : 0,
         .strength_given = gn_options_given(o, shadow_strength),
         .strength = (float)o->shadow_strength,
         .msaa = (uint32_t)o->msaa,
@@ -186,6 +192,7 @@ const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *
         stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
         plan = gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
     }
+    stage->waits = plan->waits;
     if (gn_gl_prepare(stage->gl, plan, err)) return plan;
     const char *source = gn_gl_failed_source(stage->gl);
     if (source) fputs(source, stderr);

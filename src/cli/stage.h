@@ -22,6 +22,7 @@ struct gn_stage {
     struct gn_gl *gl;
     struct gn_frame *frame;
     struct gn_frame_opts frame_opts;
+    bool waits; /* the last plan's */
 };
 
 /* --limit, as the loader wants them. */

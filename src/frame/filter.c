@@ -14,8 +14,7 @@ static float blur_of(const struct gn_shadow_view *view, uint32_t tile) {
     return view->cascade_count > 0 ? view->cascades[tile].blur_px : view->blur_px;
 }
 
-/* Of all that decides what a tile is filtered into; never 0. */
-static uint64_t filter_hash(const struct gn_shadow_view *view, uint32_t tile) {
+uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) {
     const uint32_t what[] = {view->technique, view->moments};
     uint64_t h = gn_hash(GN_HASH_INIT, &view->tiles[tile].content_hash, sizeof(uint64_t));
     h = gn_hash(h, what, sizeof what);
@@ -118,7 +117,7 @@ static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                                       .index = stage->to};
     if (view->tile_count > 1) pass->rect = pass->viewport = part_rect(view, stage->to, tile);
     pass->tile = tile;
-    pass->content_hash = filter_hash(view, tile);
+    pass->content_hash = gn_frame_filter_hash(view, tile);
     pass->completes = last;
     pass->depth_write = false;
     for (int i = 0; i < GN_FILTER_FROM_MAX; i++) pass->reads[i] = read_of(view, stage->from[i]);

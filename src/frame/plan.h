@@ -223,6 +223,7 @@ struct gn_plan {
     const struct gn_caption_atlas *atlas; /* what captions read; NULL: there are none */
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
     uint32_t culled; /* items that the eye does not see */
+    bool waits;      /* for another frame: a filtered map is older than the pose (filter_texels) */
     float exposure;
 };
 
@@ -241,6 +242,8 @@ struct gn_frame_opts {            /* zero means the default written beside */
     enum gn_moments moments;   /* of techniques that filter their map; NONE: the automatic choice */
     uint32_t map_px;           /* 0: the light's, else the technique's */
     uint32_t cascades;         /* the most that a light gets; 4 */
+    uint64_t filter_texels; /* of filtered maps that one frame makes again, if that is more than one
+                               map; others stay as they are for a while. 0: all are made */
     bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
     unsigned taps;          /* of disk, poisson, pcss: 8, 16, 32; 16 */
     bool taps_fixed;        /* the same for every pixel */

@@ -88,6 +88,11 @@ struct gn_frame {
     uint32_t group_count; /* 1 at least */
     struct gn_shadow_view shadows[GN_ALL_SHADOWS_MAX];
     struct gn_shadow_memory memory[GN_ALL_SHADOWS_MAX][GN_SHADOW_TILES_MAX]; /* once in use */
+    struct {
+        struct gn_shadow_view
+            view;        /* of the filtered map that is there; no moments: there is none */
+        uint32_t waited; /* frames */
+    } kept[GN_ALL_SHADOWS_MAX];
     GN_LIST(struct gn_draw) draws;
     GN_LIST(struct gn_instance) instances;
     GN_LIST(struct gn_program_key) programs;
@@ -149,6 +154,12 @@ void gn_frame_map_passes(struct gn_frame *frame, const struct gn_pose *pose,
 
 /* filter.c: the passes that turn a map into what shaders read; none where that is the map. */
 void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot);
+/* Of all that decides what a tile is filtered into; never 0. */
+uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile);
+
+/* budget.c: after the lights' views are known. Puts older ones in the place of those that have to
+ * wait. */
+void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts);
 
 /* picture.c: the passes that draw the picture. */
 void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,

@@ -1,0 +1,63 @@
+/* How many filtered maps are made again in one frame, where many lights move. A light that is left
+ * keeps its map, and the view that this was made for: its shadow is some frames old, but of one
+ * piece. Those that have waited longest come first. */
+#include "frame/private.h"
+
+static bool is_filtered(const struct gn_shadow_view *view) {
+    return view->moments != GN_MOMENTS_NONE;
+}
+
+/* Whether shaders may read the old map in the new one's place. */
+static bool may_stay(const struct gn_shadow_view *old, const struct gn_shadow_view *new) {
+    return is_filtered(old) && old->light == new->light && old->technique == new->technique &&
+           old->encoding == new->encoding && old->moments == new->moments &&
+           old->width_px == new->width_px && old->height_px == new->height_px &&
+           old->tile_count == new->tile_count && old->cascade_count == new->cascade_count &&
+           old->all_receive == new->all_receive && old->empty == new->empty;
+}
+
+static uint64_t texels_to_make(const struct gn_shadow_view *old, const struct gn_shadow_view *new) {
+    uint64_t tiles = 0;
+    for (uint32_t tile = 0; tile < new->tile_count; tile++)
+        tiles += gn_frame_filter_hash(old, tile) != gn_frame_filter_hash(new, tile);
+    return tiles * new->map_px *new->map_px;
+}
+
+static void take(struct gn_frame *frame, uint32_t slot) {
+    frame->kept[slot].view = frame->shadows[slot];
+    frame->kept[slot].waited = 0;
+}
+
+/* Of those that wait, the one that has done so longest; shadow_count: none waits. */
+static uint32_t oldest(const struct gn_frame *frame, const uint64_t *texels) {
+    uint32_t found = frame->shadow_count;
+    for (uint32_t slot = 0; slot < frame->shadow_count; slot++)
+        if (texels[slot] > 0 &&
+            (found == frame->shadow_count || frame->kept[slot].waited > frame->kept[found].waited))
+            found = slot;
+    return found;
+}
+
+void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+    uint64_t texels[GN_ALL_SHADOWS_MAX] = {0}, spent = 0;
+    if (opts->filter_texels == 0 || opts->all_seen) return;
+    for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
+        const struct gn_shadow_view *view = &frame->shadows[slot];
+        if (!is_filtered(view)) continue;
+        if (may_stay(&frame->kept[slot].view, view))
+            texels[slot] = texels_to_make(&frame->kept[slot].view, view);
+        else
+            spent += (uint64_t)view->width_px * view->height_px;
+        if (texels[slot] == 0) take(frame, slot);
+    }
+    for (uint32_t slot; (slot = oldest(frame, texels)) < frame->shadow_count; texels[slot] = 0) {
+        if (spent == 0 || spent + texels[slot] <= opts->filter_texels) {
+            spent += texels[slot];
+            take(frame, slot);
+        } else {
+            frame->shadows[slot] = frame->kept[slot].view;
+            frame->kept[slot].waited++;
+            frame->plan.waits = true;
+        }
+    }
+}
