@@ -348,7 +348,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     gn_frame_choose_lights(frame, pose, opts, warnings);
     if (plan->encode_srgb && (frame->group_count > 1 || averages(frame)))
         plan->output = GN_OUTPUT_FLOAT;
-    gn_frame_fit_shadows(frame, pose, opts);
+    gn_frame_fit_shadows(frame, pose, opts, warnings);
     gn_frame_hold_maps(frame, opts);
     gn_frame_map_passes(frame, pose, opts);
     picture_constants(frame, pose, opts);

@@ -210,18 +210,34 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_group_lights(frame, pose);
 }
 
-/* The side of a light's map, or of its tiles, such that all of it is a texture. */
-static uint32_t map_px_of(const struct gn_frame *frame, const struct gn_frame_light *light,
-                          const struct gn_frame_opts *opts) {
-    const struct gn_light *l = &frame->scene->lights[light->light];
-    const uint32_t own_px = gn_techniques[light->technique].map_px,
-                   usual_px = own_px ? own_px : 1024;
-    uint32_t map_px = opts->map_px ? opts->map_px : l->map_px ? l->map_px : usual_px;
-    uint32_t one_px[2];
+/* The side that a light's map, or each of its tiles, is asked to have; 0: it has none. */
+static uint32_t asked_px(const struct gn_frame *frame, const struct gn_frame_light *light,
+                         const struct gn_frame_opts *opts) {
+    const uint32_t own_px = gn_techniques[light->technique].map_px;
+    const uint32_t of_light_px = frame->scene->lights[light->light].map_px;
     if (light->encoding == GN_ENCODING_STENCIL) return 0;
-    gn_shadow_map_size(l->type, light->technique, 1, one_px);
-    const uint32_t most_px = (uint32_t)frame->caps.max_texture_px / one_px[0];
-    return map_px > most_px ? most_px : map_px;
+    return opts->map_px ? opts->map_px : of_light_px ? of_light_px : own_px ? own_px : 1024;
+}
+
+/* How long it can be, such that all of the map is a texture. */
+static uint32_t most_px(const struct gn_frame *frame, const struct gn_frame_light *light,
+                        uint32_t cascades) {
+    uint32_t one_px[2];
+    if (cascades > 1)
+        gn_cascade_map_size(cascades, 1, one_px);
+    else
+        gn_shadow_map_size(frame->scene->lights[light->light].type, light->technique, 1, one_px);
+    return (uint32_t)frame->caps.max_texture_px / one_px[0];
+}
+
+static void say_smaller(struct gn_frame *frame, const struct gn_frame_light *light, uint32_t asked,
+                        uint32_t map_px, struct gn_warnings *warnings) {
+    if (map_px >= asked ||
+        !gn_frame_notice(&frame->notes.at[light->light].said, GN_NOTICE_MAP_PX, warnings))
+        return;
+    gn_warn(warnings,
+            "light \"%s\": tiles of %u px in its map are more than this GPU holds; they have %u px",
+            frame->scene->lights[light->light].name, asked, map_px);
 }
 
 void gn_frame_make_memories(struct gn_frame *frame, uint32_t slot, uint32_t count) {
@@ -231,22 +247,24 @@ void gn_frame_make_memories(struct gn_frame *frame, uint32_t slot, uint32_t coun
 }
 
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
-                          const struct gn_frame_opts *opts) {
+                          const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     for (uint32_t i = 0; i < frame->shadow_count; i++) {
         struct gn_frame_light *light = gn_frame_light_of_slot(frame, i);
+        const uint32_t asked = asked_px(frame, light, opts), most = most_px(frame, light, 1);
         const struct gn_light *l = &frame->scene->lights[light->light];
         struct gn_shadow_opts shadow = {.technique = light->technique,
                                         .encoding = light->encoding,
                                         .moments = light->moments,
-                                        .map_px = map_px_of(frame, light, opts),
+                                        .map_px = asked < most ? asked : most,
                                         .all_receive = opts->aov == GN_AOV_VISIBILITY,
                                         .cascades =
                                             opts->cascades ? opts->cascades : GN_CASCADES_MAX};
         gn_frame_make_memories(frame, i, gn_shadow_tile_count(l->type, light->technique));
         light->cascades = shadow.cascades = gn_frame_choose_cascades(frame, pose, i, &shadow);
         if (shadow.cascades > 1) gn_frame_make_memories(frame, i, GN_CASCADE_MEMORIES);
-        if (shadow.cascades > 1 && shadow.map_px > (uint32_t)frame->caps.max_texture_px / 2)
-            shadow.map_px = (uint32_t)frame->caps.max_texture_px / 2;
+        const uint32_t most_each = most_px(frame, light, shadow.cascades);
+        if (shadow.map_px > most_each) shadow.map_px = most_each;
+        say_smaller(frame, light, asked, shadow.map_px, warnings);
         /* An empty one keeps its slot: programs do not change with what is in view. */
         gn_shadow_fit(pose, light->light, &frame->eye, &shadow, frame->memory[i],
                       &frame->shadows[i]);

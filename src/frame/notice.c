@@ -32,7 +32,7 @@ void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts
     const uint32_t about[GN_NOTICE_ABOUT] = {
         opts->technique_given, opts->technique,     opts->encoding, opts->aov,
         opts->output_float,    opts->output_linear, opts->msaa,     opts->planar_in_stencil,
-        opts->moments};
+        opts->moments,         opts->map_px};
     if (memcmp(frame->said_about, about, sizeof about) == 0) return;
     memcpy(frame->said_about, about, sizeof about);
     frame->said = 0;

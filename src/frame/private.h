@@ -56,8 +56,9 @@ enum gn_notice {
     GN_NOTICE_FLOAT,
     GN_NOTICE_MSAA,
     GN_NOTICE_BLENDED,
+    GN_NOTICE_MAP_PX,
 };
-enum { GN_NOTICE_ABOUT = 9 }; /* options that a warning may be about */
+enum { GN_NOTICE_ABOUT = 10 }; /* options that a warning may be about */
 
 enum { GN_CASCADE_CHOICES = 8 }; /* cameras and sizes of maps and pictures that take turns */
 
@@ -224,7 +225,7 @@ bool gn_frame_notice(uint32_t *said, enum gn_notice notice, const struct gn_warn
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, struct gn_warnings *warnings);
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
-                          const struct gn_frame_opts *opts);
+                          const struct gn_frame_opts *opts, struct gn_warnings *warnings);
 float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_frame_opts *opts);
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,

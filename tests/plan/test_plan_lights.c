@@ -32,6 +32,28 @@ static void test_many_lights_plan(void **state) {
     gn_plan_end(&f);
 }
 
+/* Six tiles, three in a row; a map of one tile fits. */
+static void test_a_map_that_is_too_large_is_made_smaller_and_said_so(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_warnings warnings = {0};
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    const struct gn_caps caps = {.has = GN_EVERY_CAP, .max_texture_px = 3000};
+    gn_frame_destroy(f.frame);
+    f.frame = gn_frame_create(f.scene, &caps);
+    f.opts.map_px = 2048;
+    f.opts.cascades = 1;
+    const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+    for (uint32_t i = 0; i < plan->shadow_count; i++)
+        assert_int_equal(plan->shadows[i].map_px, plan->shadows[i].tile_count > 1 ? 1000 : 2048);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.text[0], "tiles of 2048 px"));
+    assert_non_null(strstr(warnings.text[0], "they have 1000 px"));
+    gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+    assert_int_equal(warnings.count, 1); /* once */
+    gn_plan_end(&f);
+}
+
 /* A table per light: five passes a tile; a map of 512 unless it is given. */
 static void test_tables_plan(void **state) {
     (void)state;
@@ -277,6 +299,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_many_lights_plan),
         cmocka_unit_test(test_tables_plan),
+        cmocka_unit_test(test_a_map_that_is_too_large_is_made_smaller_and_said_so),
         cmocka_unit_test(test_many_lights_without_srgb_plan),
         cmocka_unit_test(test_programs_do_not_change_with_what_is_reached),
         cmocka_unit_test(test_a_warning_is_given_once),
