@@ -1,4 +1,4 @@
-//@ names shadow_visibility EVSM_LEAST EVSM_REACH evsm_bound
+//@ names shadow_visibility EVSM_LEAST EVSM_REACH EVSM_BLEED evsm_bound
 // Exponential variance shadow maps (Lauritzen, McCool, "Layered Variance Shadow Maps", 2008): Chebyshev's bound of the distance warped
 // by e^(a z), which makes little of what lies behind another caster, and of -e^(-b z), for what the first leaves too light where
 // casters are steep. The lesser of both holds, of the share of texels that hold casters; through all others light passes.
@@ -6,6 +6,8 @@
 // Variance 0 is not to be had of rounded moments; a flat surface has what its texels span.
 const float EVSM_LEAST = max(4.0 * moments_step, 1e-5);
 const float EVSM_REACH = 4.5; // half of the widest blur, texels
+// Cut off, and the rest stretched: so much light the bound leaves at the foot of a wall, where blocker and receiver meet.
+const float EVSM_BLEED = 0.03;
 
 vec2 evsm_bound(vec2 mean, vec2 square, vec2 w) {
     vec2 variance = max(square - mean * mean, EVSM_LEAST * w * w);
@@ -18,6 +20,7 @@ float shadow_visibility(MOMENTS_SAMPLER map, shadow_place s) {
     float share = m[0].x, whole = 1.0 / max(share, 1e-4);
     float z = 2.0 * clamp(s.at.z - shadow_cut(s, EVSM_REACH, share), 0.0, s.far) - 1.0;
     vec2 w = exp(moments_exponents * vec2(z, -z)) * vec2(1.0, -1.0);
-    vec2 lit = evsm_bound(m[1] * whole, m[2] * whole, w);
-    return shadow_outside(s) || share < 1e-4 ? 1.0 : 1.0 - share * (1.0 - min(lit.x, lit.y));
+    vec2 bound = evsm_bound(m[1] * whole, m[2] * whole, w);
+    float lit = max((min(bound.x, bound.y) - EVSM_BLEED) * (1.0 / (1.0 - EVSM_BLEED)), 0.0);
+    return shadow_outside(s) || share < 1e-4 ? 1.0 : 1.0 - share * (1.0 - lit);
 }

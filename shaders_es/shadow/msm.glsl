@@ -1,4 +1,4 @@
-//@ names shadow_visibility MSM_BIAS MSM_MIDDLE msm_dark
+//@ names shadow_visibility MSM_BIAS MSM_FULL MSM_MIDDLE msm_dark
 // Moment shadow maps (Peters, Klein, "Moment Shadow Mapping", I3D 2015): of all distributions of casters with these four moments, the
 // one that leaves the receiver most light: it has three casters, one of them at the receiver (the "Hamburger" bound).
 
@@ -6,6 +6,8 @@
 // of the range (Peters et al., "Beyond Hard Shadows: Moment Shadow Maps for Single Scattering, Soft Shadows and Translucent
 // Occluders", JCGT 2017).
 const float MSM_BIAS = max(2.0 * moments_step, 3e-6);
+// More than this is full shadow: so much of it the mixture leaves, and the bound at the foot of a wall, where blocker and receiver meet.
+const float MSM_FULL = 0.925;
 const vec4 MSM_MIDDLE = vec4(0.5, 0.407, 0.3605, 0.33725);
 
 // z: 0..1. What the nearer casters take away.
@@ -36,5 +38,5 @@ float shadow_visibility(MOMENTS_SAMPLER map, shadow_place s) {
                        0.0319417555, -0.1722823173, -0.2758014811, -0.3376131734);
     vec4 m = moments_at(map, s.at.xy, s.size) - vec4(0.035955884801, 0.0, 0.0, 0.0);
     float dark = msm_dark(mix(gather * m, MSM_MIDDLE, MSM_BIAS), clamp(s.at.z, 0.0, s.far));
-    return dark > 0.0 && !shadow_outside(s) ? clamp(1.0 - dark / 0.98, 0.0, 1.0) : 1.0; // full shadow is full in spite of the bias
+    return dark > 0.0 && !shadow_outside(s) ? clamp(1.0 - dark * (1.0 / MSM_FULL), 0.0, 1.0) : 1.0;
 }
