@@ -46,14 +46,15 @@ static uint64_t pages_bytes(const struct gn_plan *plan, uint32_t slot) {
 /* What a map is filtered into, and what that takes on the way: lights share it, too. */
 static uint64_t moments_bytes(const struct gn_plan *plan, uint32_t slot) {
     const struct gn_shadow_view *view = &plan->shadows[slot];
-    const uint64_t own =
+    const uint64_t plain =
         (uint64_t)view->width_px * view->height_px * gn_moments[view->moments].texel_bytes;
+    const uint64_t own = plain + (gn_view_has_mipmaps(view) ? plain / 3 : 0);
     for (uint32_t i = 0; i < slot; i++)
         if (plan->shadows[i].moments == view->moments &&
             plan->shadows[i].width_px == view->width_px &&
             plan->shadows[i].height_px == view->height_px)
             return own;
-    return 2 * own;
+    return own + plain;
 }
 
 static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene) {

@@ -114,7 +114,8 @@ static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                                       .width_px = size_px[0],
                                       .height_px = size_px[1],
                                       .moments = view->moments,
-                                      .index = stage->to};
+                                      .index = stage->to,
+                                      .mipmaps = stage->to == 0 && gn_view_has_mipmaps(view)};
     if (view->tile_count > 1) pass->rect = pass->viewport = part_rect(view, stage->to, tile);
     pass->tile = tile;
     pass->content_hash = gn_frame_filter_hash(view, tile);

@@ -149,6 +149,7 @@ struct gn_target {
     enum gn_moments moments;   /* MOMENTS */
     uint32_t index; /* MOMENTS: as in gn_filter_stage: 0 is the slot's own; the others are
                        shared, and hold something until the slot's filter ends */
+    bool mipmaps;   /* MOMENTS: made of the whole when it is complete */
 };
 /* What a filter reads. */
 struct gn_read {
@@ -161,6 +162,10 @@ struct gn_copy {
     uint32_t to_x, to_y; /* its lower left corner in the map */
 };
 /* Whether casters are drawn to it. */
+/* Whether samplers weigh what is read, and there is nothing beside it that must not come in. */
+static inline bool gn_view_has_mipmaps(const struct gn_shadow_view *view) {
+    return gn_moments[view->moments].linear && view->tile_count == 1;
+}
 static inline bool gn_target_is_map(const struct gn_target *target) {
     return target->kind == GN_TARGET_SHADOW || target->kind == GN_TARGET_PAGES;
 }

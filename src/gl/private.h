@@ -239,6 +239,7 @@ struct gn_gl_map { /* or what one is filtered into */
     enum gn_encoding encoding; /* without moments */
     enum gn_moments moments;   /* then it has no depth */
     uint32_t index;            /* of those with moments */
+    bool mipmaps;              /* as in gn_target */
     uint32_t width_px, height_px;
     GLuint framebuffer, texture, depth;
     uint64_t content_hash[GN_SHADOW_TILES_MAX]; /* of each tile; 0: nothing */
@@ -253,6 +254,7 @@ enum { /* kept: plans that take turns find their maps again, until they are too 
 enum gn_gl_map_sampler {
     GN_GL_MAP_NEAREST,
     GN_GL_MAP_LINEAR,
+    GN_GL_MAP_TRILINEAR,
     GN_GL_MAP_COMPARE,
     GN_GL_MAP_COMPARE_LINEAR,
     GN_GL_MAP_SAMPLER_COUNT,

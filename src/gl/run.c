@@ -162,7 +162,9 @@ static void resolve(struct gn_gl *gl) {
 static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
     const GLuint *samplers = gl->targets.map_samplers;
     if (view->moments)
-        return samplers[gn_moments[view->moments].linear ? GN_GL_MAP_LINEAR : GN_GL_MAP_NEAREST];
+        return samplers[gn_view_has_mipmaps(view)          ? GN_GL_MAP_TRILINEAR
+                        : gn_moments[view->moments].linear ? GN_GL_MAP_LINEAR
+                                                           : GN_GL_MAP_NEAREST];
     if (view->encoding == GN_ENCODING_MASK) return samplers[GN_GL_MAP_LINEAR];
     if (view->encoding != GN_ENCODING_DEPTH || gn_techniques[view->technique].searches)
         return samplers[GN_GL_MAP_NEAREST];
@@ -189,6 +191,7 @@ static void bind_reads(struct gn_gl *gl, const struct gn_plan *plan, const struc
         if (read->kind == GN_READ_NOTHING) continue;
         struct gn_target target = pass->target;
         target.index = read->index;
+        target.mipmaps &= read->index == 0;
         target.width_px = read->width_px;
         target.height_px = read->height_px;
         const struct gn_gl_map *map = read->kind == GN_READ_MOMENTS
@@ -361,6 +364,10 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
     if (to == owner) owner->content_hash[pass->tile] = 0; /* now something else, until it is done */
     const bool ok = draw_pass(gl, plan, pass, to, err);
     if (completes(pass)) owner->content_hash[pass->tile] = ok ? pass->content_hash : 0;
+    if (ok && completes(pass) && owner->mipmaps) {
+        gn_gl_work_on_texture(gl, owner->texture);
+        GL(gl, GenerateMipmap)(GL_TEXTURE_2D);
+    }
     return ok;
 }
 

@@ -241,15 +241,23 @@ static void attach_map(struct gn_gl *gl, struct gn_gl_map *map) {
     attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, map->depth);
 }
 
+static GLsizei levels_of(const struct gn_gl_map *map) {
+    const uint32_t side = map->width_px > map->height_px ? map->width_px : map->height_px;
+    GLsizei levels = 1;
+    while (map->mipmaps && side >> levels > 0) levels++;
+    return levels;
+}
+
 static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err) {
     const unsigned texel_bytes = map->moments ? gn_moments[map->moments].texel_bytes
                                               : gn_encodings[map->encoding].texel_bytes;
     const GLenum format = map->moments ? moments_formats[map->moments] : map_formats[map->encoding];
     map->bytes = (uint64_t)map->width_px * map->height_px * texel_bytes;
+    if (map->mipmaps) map->bytes += map->bytes / 3;
     map->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
     gn_gl_work_on_texture(gl, map->texture);
     GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, 1, format, (GLsizei)map->width_px, (GLsizei)map->height_px);
+    (GL_TEXTURE_2D, levels_of(map), format, (GLsizei)map->width_px, (GLsizei)map->height_px);
     map->framebuffer = make_framebuffer(gl);
     attach_map(gl, map);
     if (gn_gl_framebuffer_check(gl, "shadow map", err) &&
@@ -266,8 +274,8 @@ static struct gn_gl_map *map_find(struct gn_gl *gl, const struct gn_target *t) {
     for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
         struct gn_gl_map *m = &gl->targets.maps[i];
         if (m->framebuffer && m->slot == t->slot && m->encoding == t->encoding &&
-            m->moments == t->moments && m->index == t->index && m->width_px == t->width_px &&
-            m->height_px == t->height_px)
+            m->moments == t->moments && m->index == t->index && m->mipmaps == t->mipmaps &&
+            m->width_px == t->width_px && m->height_px == t->height_px)
             return m;
     }
     return NULL;
@@ -293,7 +301,8 @@ struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view 
                                      .width_px = view->width_px,
                                      .height_px = view->height_px,
                                      .encoding = map ? view->encoding : (enum gn_encoding)0,
-                                     .moments = map ? GN_MOMENTS_NONE : view->moments};
+                                     .moments = map ? GN_MOMENTS_NONE : view->moments,
+                                     .mipmaps = !map && gn_view_has_mipmaps(view)};
     return map_find(gl, &target);
 }
 
@@ -342,6 +351,7 @@ static bool map_ensure(struct gn_gl *gl, const struct gn_target *target, struct 
                                   .encoding = target->encoding,
                                   .moments = target->moments,
                                   .index = target->index,
+                                  .mipmaps = target->mipmaps,
                                   .width_px = target->width_px,
                                   .height_px = target->height_px};
         if (!make_map(gl, map, err)) return false;
@@ -382,12 +392,13 @@ uint64_t gn_gl_targets_bytes(const struct gn_gl *gl) {
 }
 
 static GLuint make_map_sampler(struct gn_gl *gl, enum gn_gl_map_sampler kind) {
-    const bool linear = kind == GN_GL_MAP_COMPARE_LINEAR || kind == GN_GL_MAP_LINEAR;
-    const GLint filter = linear ? GL_LINEAR : GL_NEAREST;
+    const bool nearest = kind == GN_GL_MAP_COMPARE || kind == GN_GL_MAP_NEAREST;
+    const GLint filter = nearest ? GL_NEAREST : GL_LINEAR;
     GLuint s = gn_gl_object_create(gl, GN_GL_SAMPLER);
     GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    GL(gl, SamplerParameteri)(s, GL_TEXTURE_MIN_FILTER, filter);
+    GL(gl, SamplerParameteri)
+    (s, GL_TEXTURE_MIN_FILTER, kind == GN_GL_MAP_TRILINEAR ? GL_LINEAR_MIPMAP_LINEAR : filter);
     GL(gl, SamplerParameteri)(s, GL_TEXTURE_MAG_FILTER, filter);
     if (kind < GN_GL_MAP_COMPARE) return s;
     GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);

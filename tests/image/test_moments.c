@@ -270,6 +270,59 @@ static void test_no_texel_is_anything_but_a_number(void **state) {
     close_stage();
 }
 
+/* ---- what samplers weigh ---- */
+
+static void read_level(const struct gn_gl_map *map, GLint level, float *out) {
+    gn_gl_bind_framebuffer(stage.gl, map->framebuffer);
+    GL(stage.gl, FramebufferTexture2D)
+    (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map->texture, level);
+    GL(stage.gl, ReadPixels)
+    (0, 0, (GLsizei)map->width_px >> level, (GLsizei)map->height_px >> level, GL_RGBA, GL_FLOAT,
+     out);
+    GL(stage.gl, FramebufferTexture2D)
+    (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map->texture, 0);
+}
+
+/* After each change: a half of a map that moved is worse than none. */
+static void test_mipmaps_are_means_of_the_map(void **state) {
+    (void)state;
+    enum { SIDE = 256 };
+    static float whole[4 * SIDE * SIDE], half[4 * SIDE * SIDE / 4];
+    const struct gn_frame_opts opts = {.width_px = 64,
+                                       .height_px = 48,
+                                       .technique_given = true,
+                                       .technique = GN_TECHNIQUE_VSM,
+                                       .encoding = GN_ENCODING_AUTO,
+                                       .moments = GN_MOMENTS_RGBA16F,
+                                       .map_px = SIDE,
+                                       .cascades = 1};
+    help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
+    for (int frame = 0; frame < 3; frame++) {
+        gn_pose_step(&stage.pose, (int64_t)frame * 500000000);
+        const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
+        for (uint32_t slot = 0; slot < plan->shadow_count; slot++) {
+            const struct gn_shadow_view *view = &plan->shadows[slot];
+            const struct gn_gl_map *map = gn_gl_view_find(stage.gl, view, slot, true);
+            assert_int_equal(map->mipmaps, view->tile_count == 1); /* tiles have neighbours */
+            if (!map->mipmaps) continue;
+            read_level(map, 0, whole);
+            read_level(map, 1, half);
+            double most = 0, varies = 0;
+            for (int i = 0; i < SIDE * SIDE; i++) { /* i / 4: of the half; i % 4: the number */
+                const int x = i / 4 % (SIDE / 2), y = i / 4 / (SIDE / 2);
+                const float *at = &whole[4 * (2 * y * SIDE + 2 * x) + i % 4];
+                const double mean = 0.25 * ((double)at[0] + (double)at[4] + (double)at[4 * SIDE] +
+                                            (double)at[4 * SIDE + 4]);
+                most = fmax(most, fabs(mean - (double)half[i]));
+                varies = fmax(varies, fabs((double)half[i] - (double)half[i % 4]));
+            }
+            assert_true(most < 1e-3); /* a step of half floats */
+            assert_true(varies > 0.1);
+        }
+    }
+    close_stage();
+}
+
 /* ---- nothing moves ---- */
 
 static void test_a_still_scene_is_filtered_once(void **state) {
@@ -297,6 +350,7 @@ int main(void) {
         cmocka_unit_test(test_two_casters_let_little_through),
         cmocka_unit_test(test_contacts_are_dark),
         cmocka_unit_test(test_no_texel_is_anything_but_a_number),
+        cmocka_unit_test(test_mipmaps_are_means_of_the_map),
         cmocka_unit_test(test_a_still_scene_is_filtered_once),
     };
     return RUN(tests);
