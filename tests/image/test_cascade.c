@@ -136,7 +136,7 @@ static void test_from_5_to_400_m_it_is_true(void **state) {
     expect_true(GN_TECHNIQUE_PCF3, GN_ENCODING_R32UI);
     expect_true(GN_TECHNIQUE_PCSS, GN_ENCODING_R16F);
     for (int t = GN_TECHNIQUE_VSM; t <= GN_TECHNIQUE_SMSM; t++)
-        if (t != GN_TECHNIQUE_VSSM) expect_true((enum gn_technique)t, GN_ENCODING_R32UI);
+        expect_true((enum gn_technique)t, GN_ENCODING_R32UI);
 }
 
 static double wrong_with(enum gn_technique technique, uint32_t cascades) {
@@ -148,8 +148,7 @@ static double wrong_with(enum gn_technique technique, uint32_t cascades) {
     return gn_mask_wrong(&score);
 }
 
-/* Of all pixels, edges as well. To vssm a depth of 330 m is much: what lies a metre behind a caster
- * it takes for a part of it. */
+/* Of all pixels, edges as well. */
 static void test_the_more_the_truer(void **state) {
     (void)state;
     for (int t = gn_shot_full() ? GN_TECHNIQUE_HARD : GN_TECHNIQUE_MSM; t <= GN_TECHNIQUE_SMSM;
