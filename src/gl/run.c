@@ -161,10 +161,9 @@ static void resolve(struct gn_gl *gl) {
 
 static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
     const GLuint *samplers = gl->targets.map_samplers;
+    if (gn_view_has_mipmaps(view)) return samplers[GN_GL_MAP_TRILINEAR];
     if (view->moments)
-        return samplers[gn_view_has_mipmaps(view)          ? GN_GL_MAP_TRILINEAR
-                        : gn_moments[view->moments].linear ? GN_GL_MAP_LINEAR
-                                                           : GN_GL_MAP_NEAREST];
+        return samplers[gn_moments[view->moments].linear ? GN_GL_MAP_LINEAR : GN_GL_MAP_NEAREST];
     if (view->encoding == GN_ENCODING_MASK) return samplers[GN_GL_MAP_LINEAR];
     if (view->encoding != GN_ENCODING_DEPTH || gn_techniques[view->technique].searches)
         return samplers[GN_GL_MAP_NEAREST];

@@ -15,6 +15,7 @@
 #define RIM_TEXELS       2 /* cleared rim, and the texel that snapping takes */
 #define RGBA8_FAR        0.999999f /* lib/map_rgba8.glsl */
 #define SHARED_TEXELS    1.0f      /* to each side of an edge of two tiles */
+#define EDGE_TEXELS      0.25f     /* from where the gutter would begin to such an edge */
 #define LEAST_TANGENT    1e-6f /* side of a spot's window; a sun's: as much of the scene's size */
 
 bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item) {
@@ -289,17 +290,20 @@ static void widen_depths(struct gn_shadow_region *depths) {
 }
 
 /* A place beyond the edge is looked up where tiles are shared; pushed off its surface it may lie
- * sqrt(2) normal offsets further: at 45 degrees a tangent grows so much faster. */
+ * sqrt(2) normal offsets further: at 45 degrees a tangent grows so much faster. The edge itself
+ * lies in no middle and on no border of texels, where two taps opposite each other would change
+ * them at once. */
 static void set_gutter(struct gn_shadow_view *view) {
     const struct gn_technique_row *row = &gn_techniques[view->technique];
     const bool shared = gn_technique_shades(view->technique);
-    const float beyond = shared ? SHARED_TEXELS + 1.4142136f * row->bias_texels : 0.0f;
+    const float beyond =
+        EDGE_TEXELS + (shared ? SHARED_TEXELS + 1.4142136f * row->bias_texels : 0.0f);
     const uint32_t wanted = (uint32_t)ceilf((float)row->radius_texels + 1.0f + beyond);
     view->gutter_px = row->soft && wanted < view->map_px / 8 ? view->map_px / 8 : wanted;
     if (view->gutter_px > view->map_px / 4) view->gutter_px = view->map_px / 4;
     view->reach_px = (float)view->gutter_px - 1.0f - beyond;
     if (row->filter == GN_FILTER_TABLE) view->reach_px = least(view->reach_px, GN_TABLE_REACH_PX);
-    view->texel = 2.0f / (float)(view->map_px - 2 * view->gutter_px);
+    view->texel = 2.0f / ((float)(view->map_px - 2 * view->gutter_px) + 2.0f * EDGE_TEXELS);
     view->shared = SHARED_TEXELS * view->texel;
 }
 
