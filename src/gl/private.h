@@ -277,6 +277,8 @@ GLuint gn_gl_output_finished(const struct gn_gl_output *output);
 enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output);
 /* What a target that is no picture is drawn to, the pages of a map among them; NULL: not made. */
 struct gn_gl_map *gn_gl_target_find(struct gn_gl *gl, const struct gn_target *target);
+/* Its smaller levels, if it has such, after the largest was drawn. */
+void gn_gl_target_reduce(struct gn_gl *gl, const struct gn_gl_map *map);
 /* What shaders read of a light: moments of the map, or the map itself. */
 struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view *view,
                                   uint32_t slot, bool moments);

@@ -363,10 +363,7 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
     if (to == owner) owner->content_hash[pass->tile] = 0; /* now something else, until it is done */
     const bool ok = draw_pass(gl, plan, pass, to, err);
     if (completes(pass)) owner->content_hash[pass->tile] = ok ? pass->content_hash : 0;
-    if (ok && completes(pass) && owner->mipmaps) {
-        gn_gl_work_on_texture(gl, owner->texture);
-        GL(gl, GenerateMipmap)(GL_TEXTURE_2D);
-    }
+    if (ok && completes(pass)) gn_gl_target_reduce(gl, owner);
     return ok;
 }
 

@@ -294,6 +294,12 @@ struct gn_gl_map *gn_gl_target_find(struct gn_gl *gl, const struct gn_target *ta
     return map_find(gl, &kept);
 }
 
+void gn_gl_target_reduce(struct gn_gl *gl, const struct gn_gl_map *map) {
+    if (!map->mipmaps) return;
+    gn_gl_work_on_texture(gl, map->texture);
+    GL(gl, GenerateMipmap)(GL_TEXTURE_2D);
+}
+
 struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view *view,
                                   uint32_t slot, bool moments) {
     const bool map = !moments || !view->moments;
