@@ -161,11 +161,11 @@ struct gn_copy {
     struct gn_rect from; /* of the pages */
     uint32_t to_x, to_y; /* its lower left corner in the map */
 };
-/* Whether casters are drawn to it. */
 /* Whether samplers weigh what is read, and there is nothing beside it that must not come in. */
 static inline bool gn_view_has_mipmaps(const struct gn_shadow_view *view) {
     return gn_moments[view->moments].linear && view->tile_count == 1;
 }
+/* Whether casters are drawn to it. */
 static inline bool gn_target_is_map(const struct gn_target *target) {
     return target->kind == GN_TARGET_SHADOW || target->kind == GN_TARGET_PAGES;
 }
