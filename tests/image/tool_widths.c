@@ -1,5 +1,7 @@
-/* What soft shadows cost as their penumbrae grow: tool_widths [OPTION of bench].. A half-plane 3 m
- * over the ground under suns of several sizes, seen from above; nothing moves, so maps are kept. */
+/* What soft shadows cost as their penumbrae grow: tool_widths [OPTION of bench].. Bars 3 m over the
+ * ground under suns of several sizes, seen from above. They are as wide as a penumbra's radius, and
+ * so are the gaps: whatever its size, all of the ground is penumbra, and no pixel is spared a part
+ * of the work. Nothing moves, so maps are kept. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +12,7 @@
 #include "unit/gltf_maker.h"
 
 static const char *const techniques[] = {"none", "pcss", "vssm", "smsm"};
-enum { TECHNIQUES = sizeof techniques / sizeof *techniques };
+enum { TECHNIQUES = sizeof techniques / sizeof *techniques, HEIGHT_M = 3 };
 
 static void quit(const char *what) {
     fprintf(stderr, "tool_widths: %s\n", what);
@@ -18,24 +20,32 @@ static void quit(const char *what) {
 }
 
 static void write_scene(const char *path, double radius) {
+    enum { ALONG_M = 3, MOST = 1000 };
+    const double width_m = HEIGHT_M * radius;
+    const int bars = (int)(ALONG_M / width_m) < MOST ? (int)(ALONG_M / width_m) : MOST;
     struct gn_maker maker;
     struct gn_err err = {0};
-    char light[300];
+    char json[300], roots[8 * MOST] = "[{'nodes':[0,1,2";
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     gn_maker_set(&maker, "nodes",
                  "[{'mesh':0,'scale':[12,1,12]},"
                  "{'camera':0,'translation':[0,2.5,0],'rotation':[-0.70710678,0,0,0.70710678]},"
                  "{'rotation':[-0.70710678,0,0,0.70710678],"
-                 "'extensions':{'KHR_lights_punctual':{'light':0}}},"
-                 "{'mesh':0,'translation':[-6,3,0],'scale':[6,1,20]}]");
-    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3]}]");
-    snprintf(light, sizeof light,
+                 "'extensions':{'KHR_lights_punctual':{'light':0}}}]");
+    for (int i = 0; i < bars; i++) {
+        snprintf(json, sizeof json, "{'mesh':0,'translation':[%.6f,%d,0],'scale':[%.6f,1,20]}",
+                 (2 * i - bars + 1) * width_m, HEIGHT_M, width_m / 2);
+        snprintf(roots + strlen(roots), 8, ",%d", gn_maker_add(&maker, "nodes", json));
+    }
+    snprintf(roots + strlen(roots), 8, "]}]");
+    gn_maker_set(&maker, "scenes", roots);
+    snprintf(json, sizeof json,
              "{'KHR_lights_punctual':{'lights':[{'type':'directional','intensity':3,"
              "'extras':{'gnomon_radius':%.6f}}]}}",
              radius);
     gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual']");
-    gn_maker_set(&maker, "extensions", light);
+    gn_maker_set(&maker, "extensions", json);
     gn_maker_set(&maker, "cameras",
                  "[{'type':'perspective','perspective':{'yfov':0.7,'znear':0.1,'zfar':60}}]");
     if (!gn_maker_write(&maker, path, &err)) quit(err.text);
@@ -97,10 +107,10 @@ int main(int argc, char **argv) {
         double ms[TECHNIQUES] = {0}, radius = 0.02;
         for (int i = 0; i < 4; i++) { /* a larger sun makes a wider map */
             write_scene(scene, radius);
-            if (i < 3) radius = wanted * texel_of(scene) / 3;
+            if (i < 3) radius = wanted * texel_of(scene) / HEIGHT_M;
         }
         measure(scene, argc - 1, argv + 1, ms);
-        printf("%8.1f", 3 * radius / texel_of(scene));
+        printf("%8.1f", HEIGHT_M * radius / texel_of(scene));
         for (int t = 1; t < TECHNIQUES; t++) printf(" %8.2f", ms[t] - ms[0]);
         printf("\n");
         fflush(stdout);
