@@ -61,7 +61,7 @@ DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
 DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
 DEPS_check-gpus := build run gpus
 DEPS_check-gpiod2 := $(DEPS_check)
-DEPS_accept := build run test board board-arm64
+DEPS_accept := build run test board board-arm64 gpus
 DEPS_truth := build run test
 DEPS_gallery := build run test
 DEPS_contact-sheet := build run test
@@ -300,6 +300,7 @@ accept:
 	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan))
 	+$(SUB) GN_FULL= check-board-arm64
 	+$(SUB) GN_FULL= check-gpiod2
+	+$(SUB) GN_FULL= check-gpus
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
 gallery: $(B)/tests/tool_gallery $(BIN)
