@@ -274,15 +274,15 @@ flips() {
     [ -s /out/gnomon.flip ] || { fail "nothing on the screen: $(tail -n 3 "$log")" && return 1; }
     say "gnomon: first flip after $(head -n 1 /out/gnomon.flip) ms"
 }
-shown() { flips && still "$1"; }
+shown() { flips && still "$@"; } # NAME [HEAD]
 flipped_or_gone() { [ -s /out/gnomon.flip ] || gone; }
 still() {
-    shot "$1-before" && sleep 0.3
-    within 30 stands "$1" || fail "$1: the picture does not stand still"
+    shot "$1-before" "${2:-1}" && sleep 0.3
+    within 30 stands "$@" || fail "$1: the picture does not stand still"
     rm -f "/out/$1-before.png"
 }
 stands() {
-    shot "$1" && cmp -s "/out/$1.png" "/out/$1-before.png" && return
+    shot "$1" "${2:-1}" && cmp -s "/out/$1.png" "/out/$1-before.png" && return
     mv "/out/$1.png" "/out/$1-before.png" && sleep 0.3 && return 1
 }
 # back NAME FIRST WHEN [HEAD]: the picture FIRST is there again

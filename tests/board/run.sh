@@ -95,7 +95,7 @@ esac
 # shellcheck disable=SC2054
 machine+=(
     -kernel "$parts/vmlinuz" -initrd "$out/initrd"
-    -append "console=$console quiet panic=-1 mitigations=off audit=0 vt.global_cursor_default=0 ${KERNEL_ARGS:-}"
+    -append "console=$console quiet panic=-1 mitigations=off audit=0 vt.global_cursor_default=0 $(sed -n 's/^# kernel: //p' "$script") ${KERNEL_ARGS:-}"
     -serial "file:$out/console" -nic none
     -fsdev "local,id=root,path=$root,security_model=none,readonly=on,multidevs=remap"
     -device virtio-9p-pci,fsdev=root,mount_tag=root
