@@ -31,20 +31,25 @@ static uint64_t choice_of(const struct gn_frame *frame, const struct gn_shadow_o
     return gn_hash(GN_HASH_INIT, by, sizeof by);
 }
 
-/* 0: nothing that is seen is in shadow, which says nothing. */
+/* As few as keep a texel under MOST_PIXELS; where none do, as few as come near to what the best
+ * number does. 0: nothing that is seen is in shadow, which says nothing. */
 static uint32_t count(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
                       const struct gn_shadow_opts *opts) {
     const uint32_t light = gn_frame_light_of_slot(frame, slot)->light;
     struct gn_shadow_opts some = *opts;
-    for (some.cascades = 1; some.cascades < opts->cascades; some.cascades++) {
+    float tangents[GN_CASCADES_MAX + 1] = {0}, least = INFINITY;
+    for (some.cascades = 1; some.cascades <= opts->cascades; some.cascades++) {
         gn_frame_make_memories(frame, slot, some.cascades > 1 ? GN_CASCADE_MEMORIES : 1);
         const float tangent =
             gn_cascade_tangent(pose, light, &frame->eye, &some, frame->memory[slot]);
         if (tangent == 0.0f) return 0;
-        const float step = some.cascades > 1 ? exp2f(1.0f / GN_CASCADE_STEPS) : GN_SHADOW_STEP;
-        if (tangent <= MOST_PIXELS * step * pixel_width(frame)) break;
+        if (tangent <= MOST_PIXELS * GN_SHADOW_STEP * pixel_width(frame)) return some.cascades;
+        tangents[some.cascades] = tangent;
+        least = fminf(least, tangent);
     }
-    return some.cascades;
+    uint32_t chosen = 1;
+    while (tangents[chosen] > GN_SHADOW_STEP * least) chosen++;
+    return chosen;
 }
 
 uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,

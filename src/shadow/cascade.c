@@ -176,8 +176,6 @@ static float step(float size, float steps, bool up) {
     return exp2f((up ? ceilf(at) : floorf(at)) / steps);
 }
 
-float gn_cascade_step(float texel) { return step(texel, GN_CASCADE_STEPS, true); }
-
 /* The nearest place that counts. */
 static float nearest(const struct distances *seen) {
     return fmaxf(seen->near_m, NEAREST_SHARE * seen->far_m);
@@ -269,7 +267,6 @@ static bool fit_tile(const struct gn_fitter *f, uint32_t index, struct gn_shadow
     tile->tile_count = 1;
     tile->cascade_count = 0;
     struct gn_fitter own = *f;
-    own.cascade = true;
     own.eye = &eye;
     own.memory = &f->memory[index];
     own.view = tile;

@@ -19,8 +19,7 @@
 
 #include "shadow/fit.h"
 
-#define GN_CASCADE_STEPS 2.0f /* of texels, an octave */
-#define GN_CASCADE_FADE  0.1f /* the zone's width, as a share of the split's distance */
+#define GN_CASCADE_FADE 0.1f /* the zone's width, as a share of the split's distance */
 /* What fitting cascades remembers: each tile, and all that is seen. */
 enum { GN_CASCADE_MEMORIES = GN_CASCADES_MAX + 1, GN_CASCADE_LEAST_PX = 64 };
 
@@ -34,9 +33,6 @@ bool gn_cascade_can(const struct gn_light *light, const struct gn_eye *eye,
  * opts->cascades is 0 or 1, else GN_CASCADE_MEMORIES. */
 float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                          const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory);
-
-/* Texels of cascades go by larger steps than others. */
-float gn_cascade_step(float texel);
 
 /* The size of a map of so many tiles of map_px. */
 void gn_cascade_map_size(uint32_t cascades, uint32_t map_px, uint32_t size_px[2]);

@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "shadow/cascade.h"
 #include "shadow/private.h"
 #include "shadow/region.h"
 
@@ -70,18 +69,11 @@ static double beside(const struct gn_shadow_view *view) {
     return gn_techniques[view->technique].radius_texels + 1;
 }
 
-/* A cascade's window grows and shrinks as the eye goes: larger steps, so that its texel seldom
- * does.
- */
-static float step(const struct gn_fitter *f, float size) {
-    return f->cascade ? gn_cascade_step(size) : gn_shadow_step(size);
-}
-
 /* Such that the texels of a span, those beside it and the map's edge fit wherever it begins. */
 static float texel_for(const struct gn_fitter *f, const struct gn_shadow_region *r) {
     const double room = f->view->map_px - 2 * beside(f->view) - 4;
     const float span = fmaxf(r->max[0] - r->min[0], r->max[1] - r->min[1]);
-    return step(f, fmaxf(span, 1e-6f * f->scene_size_m) / (float)fmax(room, 1.0));
+    return gn_shadow_step(fmaxf(span, 1e-6f * f->scene_size_m) / (float)fmax(room, 1.0));
 }
 
 /* As glm_ortho() of map_px texels from the corner on, but of the same scale wherever that is. */

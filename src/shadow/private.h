@@ -80,7 +80,6 @@ struct gn_fitter {
     float range_m;          /* INFINITY: unlimited; not asked of a directional light */
     float scene_size_m;
     float light_radius; /* as in gn_light */
-    bool cascade;       /* the tile is one */
 };
 
 /* Brings the memory up to this pose, light and eye. */

@@ -160,6 +160,23 @@ static void test_small_pictures_need_fewer(void **state) {
     gn_plan_end(&f);
 }
 
+/* Four leave the sundial's texels over two pixels, and hardly smaller than two do. */
+static void test_more_that_help_little_are_not_taken(void **state) {
+    (void)state;
+    const uint32_t widths_px[] = {640, 1280, 1920};
+    for (int i = 0; i < 3; i++) {
+        struct gn_err err = {0};
+        struct gn_plan_fixture f;
+        struct gn_scene *scene = gn_scene_load("assets/sundial.glb", NULL, NULL, &err);
+        if (!scene) fail_msg("%s", err.text);
+        begin(&f, scene, 4096);
+        f.opts.width_px = widths_px[i];
+        f.opts.height_px = widths_px[i] * 9 / 16;
+        assert_int_equal(view_of(&f)->cascade_count, 2);
+        gn_plan_end(&f);
+    }
+}
+
 /* A caster far off does not change what is near. */
 static void test_tiles_are_drawn_again_one_by_one(void **state) {
     (void)state;
@@ -188,6 +205,7 @@ int main(void) {
         cmocka_unit_test(test_an_atlas_is_no_larger_than_a_texture),
         cmocka_unit_test(test_as_many_as_asked_for_at_most),
         cmocka_unit_test(test_small_pictures_need_fewer),
+        cmocka_unit_test(test_more_that_help_little_are_not_taken),
         cmocka_unit_test(test_tiles_are_drawn_again_one_by_one),
     };
     return RUN(tests);
