@@ -15,6 +15,7 @@ struct gn_kms_env { /* what it stands on; must outlive it */
     const struct gn_scanout_ops *scanout;
     /* Who has a card open, for people: "Xorg (pid 612)"; false: not known. May be NULL. */
     bool (*who)(const char *node, char *out, size_t size);
+    bool deaf; /* no uevent will tell of anything: look every 2 s */
 };
 
 enum gn_kms_event { /* bits: what has happened since the last step */

@@ -7,6 +7,8 @@
 #include "display/kms_state.h"
 #include "display/notice.h"
 
+#define STARVED_NS (5 * GN_KMS_S) /* then something else is tried */
+
 /* ---- buffers ---- */
 
 static bool is_copy(const struct gn_kms *k) { return k->surface_opts.rung == GN_RUNG_COPY; }
@@ -66,6 +68,7 @@ static void show(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
     close_fence(&shot);
     k->front = shot;
     k->losses = 0;
+    k->starved_ns = 0;
     k->again_ns = now_ns + (k->opts->again_ns > 0 ? k->opts->again_ns : 10 * GN_KMS_S);
 }
 
@@ -197,6 +200,22 @@ void gn_kms_send(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
 
 /* ---- a text instead ---- */
 
+/* Memory that is short comes back, or other buffers, or smaller ones, may need less. */
+static void without_fb(struct gn_kms *k, int error, int64_t now_ns) {
+    const enum gn_flip_error kind = gn_flip_error_of(error);
+    if (kind == GN_FLIP_NO_MEMORY && k->starved_ns == 0) k->starved_ns = now_ns;
+    const bool waits = kind == GN_FLIP_BUSY || kind == GN_FLIP_NO_MEMORY;
+    if (kind == GN_FLIP_CARD_GONE) {
+        gn_kms_leave_card(k, false, now_ns);
+    } else if (waits && now_ns - k->starved_ns < STARVED_NS) {
+        k->lit = false; /* what was to be seen is drawn again */
+        k->screen.counts.retried++;
+        gn_flip_refused(&k->flip, now_ns);
+    } else {
+        gn_kms_next_try(k, error, now_ns);
+    }
+}
+
 void gn_kms_show_notice(struct gn_kms *k, int64_t now_ns) {
     struct gn_dumb *copy = free_copy(k);
     struct gn_kms_shot shot = {.key = copy, .fence = -1};
@@ -208,7 +227,7 @@ void gn_kms_show_notice(struct gn_kms *k, int64_t now_ns) {
     if (error == 0)
         gn_kms_send(k, shot, now_ns);
     else
-        gn_kms_next_try(k, error, now_ns);
+        without_fb(k, error, now_ns);
 }
 
 /* ---- drawing ---- */
@@ -257,9 +276,6 @@ bool gn_kms_present(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
     }
     if (shot.fence >= 0) close(shot.fence);
     if (!is_copy(k)) k->env.scanout->release(k->scanout, shot.key);
-    if (gn_flip_error_of(error) == GN_FLIP_CARD_GONE)
-        gn_kms_leave_card(k, false, now_ns);
-    else
-        gn_kms_next_try(k, error, now_ns);
+    without_fb(k, error, now_ns);
     return gn_kms_step(k, 0, now_ns, err);
 }

@@ -1,6 +1,8 @@
 /* Looking for something to show on: cards, connectors, modes, and what to do without. */
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -10,11 +12,23 @@ enum { UNREADABLE_MAX = 4 }; /* then it is how it is */
 
 /* ---- cards ---- */
 
-/* "platform-gpu-card" and "platform-gpu" are one place; a path is itself. */
+#define BY_PATH "/dev/dri/by-path/"
+
+static bool leads_to(const char *link, const char *path) {
+    char target[PATH_MAX];
+    return realpath(link, target) && strcmp(target, path) == 0;
+}
+
+/* By its path, a link to that, or its place: "platform-gpu-card" and "platform-gpu" are one, with
+ * and without the folder of such links, which only udev makes. */
 static bool is_asked_for(const struct gn_kms *k, const struct gn_kms_node *node) {
+    const size_t folder = sizeof BY_PATH - 1, length = strlen(node->place);
     const char *asked = k->opts->card;
-    if (!asked || strcmp(asked, node->path) == 0) return true;
-    const size_t length = strlen(node->place);
+    char link[PATH_MAX];
+    if (!asked || strcmp(asked, node->path) == 0 || leads_to(asked, node->path)) return true;
+    if (strncmp(asked, BY_PATH, folder) == 0) asked += folder;
+    snprintf(link, sizeof link, BY_PATH "%s", asked);
+    if (leads_to(link, node->path)) return true;
     return length > 0 && strncmp(asked, node->place, length) == 0 &&
            (asked[length] == 0 || strcmp(asked + length, "-card") == 0);
 }
@@ -29,6 +43,7 @@ static int rate(struct gn_kms *k, const struct gn_kms_node *node, bool probe, in
                  errno == EACCES ? "; add the user to the group video" : "");
         return -1;
     }
+    if (k->away) k->env.drm->DropMaster(*fd); /* which the first to open a card becomes */
     if (gn_kms_card_read(k->env.drm, *fd, probe, &k->fresh, &why))
         return gn_kms_card_score(&k->fresh, k->opts->connector);
     k->env.drm->close(*fd);
@@ -41,9 +56,11 @@ static int find_card(struct gn_kms *k, int least, bool probe, struct gn_kms_node
     struct gn_kms_node nodes[GN_KMS_CARDS_MAX];
     const int count = k->env.drm->list(nodes, GN_KMS_CARDS_MAX);
     int best = least - 1, kept = -1;
+    bool is_there = !k->opts->card;
     k->reason[0] = 0;
     for (int i = 0; i < count; i++) {
         int fd = -1;
+        is_there |= is_asked_for(k, &nodes[i]);
         if (k->fd >= 0 && strcmp(nodes[i].path, k->node.path) == 0) continue;
         const int score = rate(k, &nodes[i], probe, &fd);
         if (score <= best) {
@@ -55,6 +72,7 @@ static int find_card(struct gn_kms *k, int least, bool probe, struct gn_kms_node
         *out = nodes[i];
         k->card = k->fresh;
     }
+    if (!is_there) snprintf(k->reason, sizeof k->reason, "%s is not there", k->opts->card);
     return kept;
 }
 
@@ -83,7 +101,10 @@ bool gn_kms_try_master(struct gn_kms *k, int64_t now_ns) {
 
 static void open_card(struct gn_kms *k, int64_t now_ns) {
     k->fd = find_card(k, 0, true, &k->node);
-    if (k->fd < 0) return;
+    if (k->fd < 0) {
+        k->losses = 0; /* it was the card that went, not a context that is of no use */
+        return;
+    }
     k->screen.counts.opened++;
     k->flip = (struct gn_flip){.rung = k->flip.rung,
                                .shown = k->flip.shown,
@@ -109,8 +130,8 @@ void gn_kms_leave_card(struct gn_kms *k, bool restore, int64_t now_ns) {
     gn_kms_flip_is_lost(k);
     gn_kms_drop_surface(k);
     gn_kms_output_close(&k->output, restore && k->master);
+    k->losses += k->connected;
     k->connected = k->lit = false;
-    k->losses++;
     k->look_ns = now_ns;
     k->screen.lost = k->scanout;
     if (!k->scanout) gn_kms_close_card(k);
@@ -322,6 +343,6 @@ void gn_kms_look(struct gn_kms *k, int64_t now_ns) {
     if (k->fd >= 0) look_at_card(k, probe, now_ns);
     if (k->card.partial || k->fresh.partial) k->probe_ns = now_ns; /* not all have answered */
     const bool dumb = k->fd >= 0 && !k->scanout;
-    if (k->look_ns != GN_KMS_NEVER || (k->connected && !dumb)) return;
+    if (k->look_ns != GN_KMS_NEVER || (k->connected && !dumb && !k->env.deaf)) return;
     k->look_ns = now_ns + (dumb ? 5 : 1) * GN_KMS_LOOK_NS;
 }

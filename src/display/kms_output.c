@@ -214,7 +214,11 @@ int gn_kms_output_fb(struct gn_kms_output *o, const struct gn_buffer *b, uint32_
         place = free_place(o);
     }
     if (!place) return ENOMEM; /* more buffers than any surface has */
-    const int error = add_fb(o, b, out);
+    int error = add_fb(o, b, out);
+    if (error == ENOMEM) { /* what can be dropped, is */
+        sweep(o, 0);
+        error = add_fb(o, b, out);
+    }
     if (error == 0) *place = (struct gn_kms_fb){b->key, *out};
     return error;
 }

@@ -132,7 +132,8 @@ static bool kms_open_screen(struct gn_display *display, const struct gn_screen_o
         kms_close(display);
         return false;
     }
-    const struct gn_kms_env env = {.drm = s->drm, .scanout = &gn_scanout_gbm, .who = gn_kms_who};
+    const struct gn_kms_env env = {
+        .drm = s->drm, .scanout = &gn_scanout_gbm, .who = gn_kms_who, .deaf = s->uevents < 0};
     display->screen.fd = s->epoll;
     s->kms = gn_kms_create(&env, &s->opts, now_ns);
     return settle(display, true, now_ns);

@@ -13,7 +13,9 @@ static bool who(const char *node, char *out, size_t size) {
     return false;
 }
 
-static const struct gn_kms_env env = {.drm = &sim_drm, .scanout = &sim_gl, .who = who};
+static struct gn_kms_env env = {.drm = &sim_drm, .scanout = &sim_gl, .who = who};
+
+void client_hears(bool uevents) { env.deaf = !uevents; }
 
 const struct gn_screen *client_screen(const struct client *c) { return gn_kms_screen(c->kms); }
 
@@ -63,7 +65,7 @@ static unsigned take_events(struct client *c) {
     unsigned events = c->heard;
     c->heard = 0;
     if (sim_readable(gn_kms_fd(c->kms))) events |= GN_KMS_EVENT_READABLE;
-    if (sim_take_uevent()) events |= GN_KMS_EVENT_HOTPLUG;
+    if (sim_take_uevent() && !env.deaf) events |= GN_KMS_EVENT_HOTPLUG;
     return events;
 }
 

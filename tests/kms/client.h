@@ -32,6 +32,8 @@ void client_begin(struct client *client, const struct client_kind *kind, int mon
 /* Fails the test if the simulator has complained. */
 void client_end(struct client *client, const struct client_kind *kind);
 
+/* Whether all clients are told of monitors and cards: at first they are. */
+void client_hears(bool uevents);
 void client_open(struct client *client, const struct gn_screen_opts *opts);
 void client_close(struct client *client);
 const struct gn_screen *client_screen(const struct client *client);
