@@ -229,9 +229,10 @@ ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c))
 HOST_ASSETS := $(patsubst assets/%.c,$(O)/host/%,$(wildcard assets/make_*.c))
 MAN_C   := $(addprefix src/,cli/config_button.c cli/help.c cli/options.c cli/options_change.c cli/value.c \
            core/arena.c core/err.c core/key.c core/text.c frame/caps.c kiosk/action.c kiosk/command.c \
-           scene/limits.c shadow/moments.c shadow/technique.c)
+           display/kms_modeline.c scene/limits.c shadow/moments.c shadow/technique.c)
 $(O)/host/embed: board/embed.c
 $(O)/host/man: board/man.c $(MAN_C) $(wildcard src/cli/*.h src/core/*.h src/kiosk/*.h src/shadow/*.h) | $(B)/gen/config.h
+$(O)/host/man: HOST_LIBS = $(shell pkg-config --cflags libdrm)
 $(HOST_ASSETS): HOST_LIBS = $(shell pkg-config --cflags --libs jansson libpng)
 $(HOST_ASSETS): $(O)/host/%: assets/%.c $(ASSET_C) $(wildcard assets/*.h)
 $(O)/host/embed $(O)/host/man $(HOST_ASSETS):

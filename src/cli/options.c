@@ -130,7 +130,7 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
      .value = "WxH@HZ", .help = "the display's mode; without it, its current or preferred one up to --max-mode", .commands = KIOSK, .offset = FIELD(display_mode)},
     {.name = "max-mode", .section = "display", .kind = GN_KIND_MODE, .min = 16, .max = 16384, .value = "WxH@HZ",
      .fallback = "1920x1080@60", .help = "a mode that is chosen unasked is no larger than this, and has no more pixels a second", .commands = KIOSK, .offset = FIELD(max_mode)},
-    {.name = "modeline", .section = "display", .kind = GN_KIND_TEXT, .value = "LINE",
+    {.name = "modeline", .section = "display", .kind = GN_KIND_MODELINE, .value = "LINE",
      .help = "a mode that the display does not list, as the program cvt prints it, without its name", .commands = KIOSK, .offset = FIELD(modeline)},
     {.name = "rotate", .section = "display", .kind = GN_KIND_CHOICE, .choices = turns, .value = "DEG", .unit = "degrees",
      .fallback = "0", .help = "turn the picture clockwise for a display on its side", .commands = KIOSK, .offset = FIELD(rotate_deg)},

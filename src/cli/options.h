@@ -65,6 +65,7 @@ enum gn_option_kind {
     GN_KIND_WORD,       /* const char *: the name of a choice; another room knows what it means */
     GN_KIND_TECHNIQUES, /* const char *: names of shadow techniques, a comma between two */
     GN_KIND_TEXT,       /* const char *: anything but nothing */
+    GN_KIND_MODELINE,   /* const char *: a mode as X's configuration has it, without its name */
     GN_KIND_PATH,       /* const char *: in an INI file seen from the file's folder */
     GN_KIND_SCENES,     /* struct gn_scene_list: a path, given again it adds */
     GN_KIND_LIMIT,      /* struct gn_limits: NAME=VALUE, given again it adds */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/clock.h"
+#include "display/kms_card.h"
 #include "frame/caps.h"
 #include "scene/scene.h"
 #include "shadow/technique.h"
@@ -257,6 +258,17 @@ static bool check_caps(const void *field, struct gn_err *err) {
     return gn_caps_parse(*(const char *const *)field, &unused, err);
 }
 
+static bool check_modeline(const void *field, struct gn_err *err) {
+    const char *line = *(const char *const *)field;
+    drmModeModeInfo unused;
+    return gn_kms_modeline_parse(line, &unused) ||
+           gn_fail_usage(
+               err,
+               "\"%.80s\" is no mode: MHz, four rising widths, four rising heights and flags, "
+               "as the program cvt prints them after the name",
+               line);
+}
+
 /* ---- back to words -------------------------------------------------------------------------- */
 
 typedef void text_fn(const struct gn_option_row *row, const void *field, char *out, size_t size);
@@ -361,6 +373,7 @@ static const struct {
     [GN_KIND_TECHNIQUES] = {sizeof(const char *), parse_techniques, expect_techniques,
                             text_of_text},
     [GN_KIND_TEXT] = {sizeof(const char *), parse_text, expect_text, text_of_text},
+    [GN_KIND_MODELINE] = {sizeof(const char *), parse_text, expect_text, text_of_text},
     [GN_KIND_PATH] = {sizeof(const char *), parse_text, expect_text, text_of_text},
     [GN_KIND_SCENES] = {sizeof(struct gn_scene_list), parse_scenes, expect_scenes, text_of_scenes},
     [GN_KIND_LIMIT] = {sizeof(struct gn_limits), parse_limit, expect_limit, text_of_limits},
@@ -372,6 +385,7 @@ static check_fn *const checks[GN_KIND_COUNT] = {
     /* or NULL */
     [GN_KIND_LIMIT] = check_limit,
     [GN_KIND_CAPS] = check_caps,
+    [GN_KIND_MODELINE] = check_modeline,
 };
 
 size_t gn_value_size(enum gn_option_kind kind) { return kinds[kind].size; }

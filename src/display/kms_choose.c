@@ -49,14 +49,6 @@ int gn_kms_choose_crtc(const struct gn_kms_card *card, int connector) {
 
 enum { MOST_MHZ = 60500, LEAST_MHZ = 49500, SLACK_MHZ = 500 };
 
-uint32_t gn_kms_mode_mhz(const drmModeModeInfo *m) {
-    if (m->clock == 0 || m->htotal == 0 || m->vtotal == 0) return m->vrefresh * 1000;
-    uint64_t mhz = (uint64_t)m->clock * 1000000 / ((uint64_t)m->htotal * m->vtotal);
-    if (m->flags & DRM_MODE_FLAG_INTERLACE) mhz *= 2;
-    if (m->flags & DRM_MODE_FLAG_DBLSCAN) mhz /= 2;
-    return (uint32_t)mhz;
-}
-
 bool gn_kms_mode_equal(const drmModeModeInfo *a, const drmModeModeInfo *b) {
     return a->clock == b->clock && a->hdisplay == b->hdisplay && a->hsync_start == b->hsync_start &&
            a->hsync_end == b->hsync_end && a->htotal == b->htotal && a->vdisplay == b->vdisplay &&

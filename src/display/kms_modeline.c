@@ -1,10 +1,18 @@
-/* Modes that no monitor has listed. */
+/* A mode's rate, and modes that no monitor has listed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "display/kms_card.h"
+
+uint32_t gn_kms_mode_mhz(const drmModeModeInfo *m) {
+    if (m->clock == 0 || m->htotal == 0 || m->vtotal == 0) return m->vrefresh * 1000;
+    uint64_t mhz = (uint64_t)m->clock * 1000000 / ((uint64_t)m->htotal * m->vtotal);
+    if (m->flags & DRM_MODE_FLAG_INTERLACE) mhz *= 2;
+    if (m->flags & DRM_MODE_FLAG_DBLSCAN) mhz /= 2;
+    return (uint32_t)mhz;
+}
 
 static void finish(drmModeModeInfo *m) {
     m->type = DRM_MODE_TYPE_USERDEF;

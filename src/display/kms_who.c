@@ -31,10 +31,20 @@ static void read_name(long pid, char *out, size_t size) {
     out[strcspn(out, "\n")] = 0;
 }
 
+/* These hold cards for others. */
+static bool is_broker(const char *name) {
+    static const char *const names[] = {"systemd-logind", "elogind", "seatd"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strncmp(name, names[i], strlen(names[i])) == 0) return true;
+    return false;
+}
+
+/* The kernel keeps no name of a card's master: the one that has it open, a broker only if there is
+ * no other. */
 bool gn_kms_who(const char *node, char *out, size_t size) {
     DIR *all = opendir("/proc");
-    bool found = false;
-    for (struct dirent *entry; all && !found && (entry = readdir(all));) {
+    bool found = false, sure = false;
+    for (struct dirent *entry; all && !sure && (entry = readdir(all));) {
         char path[48], name[32];
         const long pid = strtol(entry->d_name, NULL, 10);
         if (pid <= 0 || pid == getpid()) continue;
@@ -42,7 +52,8 @@ bool gn_kms_who(const char *node, char *out, size_t size) {
         const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         if (folder < 0 || !is_open_in(folder, node)) continue;
         read_name(pid, name, sizeof name);
-        snprintf(out, size, "%s (pid %ld)", name, pid);
+        sure = !is_broker(name);
+        if (sure || !found) snprintf(out, size, "%s (pid %ld)", name, pid);
         found = true;
     }
     if (all) closedir(all);

@@ -5,7 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The first other process that has the node open, as "Xorg (pid 612)". Other users' processes can
+/* The first other process that has the node open, as "Xorg (pid 612)", one that keeps it for others
+ * (systemd-logind, seatd) only if there is no other. Other users' processes can
  * be seen by root alone. False: none is seen. */
 bool gn_kms_who(const char *node, char *out, size_t size);
 
