@@ -23,8 +23,8 @@ static float pixel_width(const struct gn_frame *frame) {
     return width;
 }
 
-/* All that the number goes by, but the eye; nor does it by the technique, whose gutters change it
- * little, so that modes agree on it whenever they are switched. */
+/* All that the number goes by, but the eye; nor does it by the technique: modes agree on it,
+ * whichever comes first. */
 static uint64_t choice_of(const struct gn_frame *frame, const struct gn_shadow_opts *opts) {
     const uint32_t by[] = {opts->map_px,  opts->all_receive,       opts->cascades,
                            frame->camera, frame->picture_width_px, frame->picture_height_px};
@@ -36,7 +36,10 @@ static uint64_t choice_of(const struct gn_frame *frame, const struct gn_shadow_o
 static uint32_t count(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
                       const struct gn_shadow_opts *opts) {
     const uint32_t light = gn_frame_light_of_slot(frame, slot)->light;
-    struct gn_shadow_opts some = *opts;
+    struct gn_shadow_opts some = {.technique = GN_TECHNIQUE_PCF,
+                                  .encoding = GN_ENCODING_R32UI,
+                                  .map_px = opts->map_px,
+                                  .all_receive = opts->all_receive};
     float tangents[GN_CASCADES_MAX + 1] = {0}, least = INFINITY;
     for (some.cascades = 1; some.cascades <= opts->cascades; some.cascades++) {
         gn_frame_make_memories(frame, slot, some.cascades > 1 ? GN_CASCADE_MEMORIES : 1);

@@ -177,6 +177,28 @@ static void test_more_that_help_little_are_not_taken(void **state) {
     }
 }
 
+/* Whichever mode comes first: techniques read more or less far round a place. */
+static void test_all_techniques_agree_on_it(void **state) {
+    (void)state;
+    static const enum gn_technique techniques[] = {GN_TECHNIQUE_PCF, GN_TECHNIQUE_HARD,
+                                                   GN_TECHNIQUE_PCF5, GN_TECHNIQUE_PCSS,
+                                                   GN_TECHNIQUE_MSM};
+    uint32_t counts[5];
+    for (uint32_t height_px = 64; height_px <= 1024; height_px += 64) {
+        for (int i = 0; i < 5; i++) {
+            struct gn_plan_fixture f;
+            begin(&f, gn_field_scene_make(), 4096);
+            f.opts.technique_given = true;
+            f.opts.technique = techniques[i];
+            f.opts.width_px = 2 * height_px;
+            f.opts.height_px = height_px;
+            counts[i] = view_of(&f)->cascade_count;
+            gn_plan_end(&f);
+        }
+        for (int i = 1; i < 5; i++) assert_int_equal(counts[i], counts[0]);
+    }
+}
+
 /* A caster far off does not change what is near. */
 static void test_tiles_are_drawn_again_one_by_one(void **state) {
     (void)state;
@@ -206,6 +228,7 @@ int main(void) {
         cmocka_unit_test(test_as_many_as_asked_for_at_most),
         cmocka_unit_test(test_small_pictures_need_fewer),
         cmocka_unit_test(test_more_that_help_little_are_not_taken),
+        cmocka_unit_test(test_all_techniques_agree_on_it),
         cmocka_unit_test(test_tiles_are_drawn_again_one_by_one),
     };
     return RUN(tests);
