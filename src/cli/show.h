@@ -51,6 +51,8 @@ struct gn_show {
     struct gn_latency latency;                         /* of theirs */
     int epoll, signals;                                /* descriptors, -1 when not open */
     uint32_t generation;                               /* of the context that stage.gl lives in */
+    uint64_t stalled;      /* frames that were not told of in time, when the GPU was last asked */
+    int64_t asked_ns;      /* which was then */
     bool fitted_unencoded; /* what frames are drawn with on this screen */
     uint32_t fitted_msaa;
 

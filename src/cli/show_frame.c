@@ -5,6 +5,8 @@
 #include "core/arena.h"
 #include "core/clock.h"
 
+#define ASK_NS (10 * GN_NS_PER_S) /* the GPU is asked no more often: that takes a program */
+
 static bool is_moving(const struct gn_show *s, const struct gn_kiosk_view *view) {
     if (s->most_frames < UINT64_MAX) return true;
     return !view->stands && (s->stage.pose.animated || s->options->turntable_deg_s != 0.0);
@@ -88,9 +90,22 @@ static void measure(struct gn_show *s) {
     fflush(stdout);
 }
 
+/* A GPU that hung and was reset may come back without its memory, and its driver say nothing: where
+ * a frame was not told of in time, known values are drawn. */
+static bool is_well(struct gn_show *s) {
+    const uint64_t stalled = s->stage.display.screen.counts.stalled;
+    const int64_t now_ns = gn_clock_monotonic_ns();
+    if (gn_gl_is_lost(s->stage.gl)) return false;
+    if (stalled == s->stalled || now_ns < s->asked_ns + ASK_NS) return true;
+    s->stalled = stalled;
+    s->asked_ns = now_ns;
+    return gn_gl_draws_right(s->stage.gl);
+}
+
 bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     struct gn_display *display = &s->stage.display;
     const int64_t begun_ns = gn_clock_monotonic_ns();
+    if (!is_well(s) && gn_display_lose(display, begun_ns)) return true;
     if (!gn_display_begin(display, begun_ns, err)) return !err->text[0];
     const bool drawn = draw(s, err);
     if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_clock_monotonic_ns())) {

@@ -12,7 +12,8 @@ static bool encodes(const struct gn_options *o) {
     return !gn_caps_parse(o->without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
 }
 
-static struct gn_screen_opts screen_opts_of(const struct gn_options *o) {
+/* again_ns: 0 by default. */
+static struct gn_screen_opts screen_opts_of(const struct gn_options *o, int64_t again_ns) {
     return (struct gn_screen_opts){
         .width_px = (uint32_t)o->size.width_px,
         .height_px = (uint32_t)o->size.height_px,
@@ -30,13 +31,16 @@ static struct gn_screen_opts screen_opts_of(const struct gn_options *o) {
         .max_fps = (unsigned)o->max_fps,
         .unencoded = !encodes(o),
         .legacy = o->legacy,
+        .again_ns = again_ns,
     };
 }
 
 bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
     const struct gn_options *o = s->options;
     struct gn_wake wake = {0};
-    s->screen_opts = screen_opts_of(o);
+    /* a still picture, too, is flipped in each half of the supervisor's patience */
+    const int64_t again_ns = s->service.every_ns * 3 / 4;
+    s->screen_opts = screen_opts_of(o, again_ns < 10 * GN_NS_PER_S ? again_ns : 0);
     gn_wake_begin(&wake, o);
     const bool ok = gn_display_open_screen(&s->stage.display, o->backend, &s->screen_opts,
                                            gn_clock_monotonic_ns(), s->warnings, err);

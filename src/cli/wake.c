@@ -1,10 +1,10 @@
 #include "cli/wake.h"
 
-#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
 
+#include "core/quiet.h"
 #include "input/terminal.h"
 
 static const int crashes[GN_WAKE_CRASHES] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
@@ -20,32 +20,16 @@ static void say_and_end(int signal) {
     _exit(GN_EXIT_WORLD);
 }
 
-/* The descriptor that stderr had, or -1 if it was left as it is. */
-static int silence(void) {
-    int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    int kept = nothing < 0 ? -1 : fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    fflush(stderr);
-    if (kept >= 0) dup2(nothing, STDERR_FILENO);
-    if (nothing >= 0) close(nothing);
-    return kept;
-}
-
-static void listen_again(int kept) {
-    if (kept < 0) return;
-    dup2(kept, STDERR_FILENO);
-    close(kept);
-}
-
 void gn_wake_begin(struct gn_wake *wake, const struct gn_options *options) {
     const struct sigaction now = {.sa_handler = say_and_end};
-    wake->kept = options->verbose ? -1 : silence();
+    wake->kept = options->verbose ? -1 : gn_quiet_begin();
     heard = wake->kept >= 0 ? wake->kept : STDERR_FILENO;
     for (int i = 0; i < GN_WAKE_CRASHES; i++) sigaction(crashes[i], &now, &wake->old[i]);
 }
 
 void gn_wake_end(struct gn_wake *wake) {
     for (int i = 0; i < GN_WAKE_CRASHES; i++) sigaction(crashes[i], &wake->old[i], NULL);
-    listen_again(wake->kept);
+    gn_quiet_end(wake->kept);
 }
 
 bool gn_wake_display(struct gn_display *display, const struct gn_options *options,

@@ -214,7 +214,7 @@ static void set_timer(struct window *w, bool heard, int64_t now_ns) {
 static bool settle(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     struct window *w = display->state;
     struct gn_screen *s = &display->screen;
-    if (glfw.link.gone) {
+    if (gn_window_link_has_ended(&glfw.link)) {
         gn_fail(err, "the X server has ended");
         if (err) err->status = GN_EXIT_DISPLAY;
         return false;
@@ -242,7 +242,7 @@ static bool settle(struct gn_display *display, int64_t now_ns, struct gn_err *er
 static void window_close(struct gn_display *display) {
     struct window *w = display->state;
     if (!w) return;
-    if (w->handle) glfw.DestroyWindow(w->handle);
+    if (w->handle && !glfw.link.gone) glfw.DestroyWindow(w->handle);
     if (w->timer >= 0) close(w->timer);
     if (w->epoll >= 0) close(w->epoll);
     free(w);

@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 #include <stddef.h>
 
+#include "core/quiet.h"
+
 #define X11     "libX11.so.6"
 #define WAYLAND "libwayland-client.so.0"
 
@@ -18,8 +20,11 @@ static void *ask_for_display(void *library, const char *name) {
     return get ? get() : NULL;
 }
 
+/* What is in the middle of something talks to it on, and Xlib complains of each request. */
+static struct gn_window_link *only;
 static int end_quietly(void *display) {
     (void)display;
+    if (only->kept_stderr < 0) only->kept_stderr = gn_quiet_begin();
     return 0;
 }
 
@@ -35,6 +40,7 @@ static void survive_the_server(struct gn_window_link *link) {
     *(void **)&set_exit = function_of(X11, "XSetIOErrorExitHandler");
     *(void **)&set = function_of(X11, "XSetIOErrorHandler");
     if (!set_exit || !set) return;
+    only = link;
     set_exit(link->display, end_later, link);
     set(end_quietly);
 }
@@ -56,7 +62,7 @@ static void link_wayland(struct gn_window_link *link) {
 }
 
 void gn_window_link_open(struct gn_window_link *link, void *glfw_library) {
-    *link = (struct gn_window_link){.name = "", .fd = -1};
+    *link = (struct gn_window_link){.name = "", .fd = -1, .kept_stderr = -1};
     link->display = ask_for_display(glfw_library, "glfwGetX11Display");
     if (link->display) {
         link_x11(link);
@@ -64,6 +70,12 @@ void gn_window_link_open(struct gn_window_link *link, void *glfw_library) {
     }
     link->display = ask_for_display(glfw_library, "glfwGetWaylandDisplay");
     if (link->display) link_wayland(link);
+}
+
+bool gn_window_link_has_ended(struct gn_window_link *link) {
+    gn_quiet_end(link->kept_stderr);
+    link->kept_stderr = -1;
+    return link->gone;
 }
 
 bool gn_window_link_pending(const struct gn_window_link *link) {

@@ -98,6 +98,12 @@ bool gn_gl_is_lost(struct gn_gl *gl) {
     return gl->robust && GL(gl, GetGraphicsResetStatus)() != GL_NO_ERROR;
 }
 
+/* A format that all of OpenGL ES 3.0 draws to. */
+bool gn_gl_draws_right(struct gn_gl *gl) {
+    const uint32_t known = 1u << GN_CAP_R32UI;
+    return gn_gl_probe(gl, known) == known;
+}
+
 const char *gn_gl_failed_source(const struct gn_gl *gl) { return gl->failed_source; }
 
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err) {

@@ -36,6 +36,9 @@ void gn_gl_destroy(struct gn_gl *gl);
 const struct gn_caps *gn_gl_caps(const struct gn_gl *gl);
 /* The GPU hung and was reset: all of this is void, and the context with it. */
 bool gn_gl_is_lost(struct gn_gl *gl);
+/* Draws known values and reads them back. False: it does not draw what it is told, and may be a GPU
+ * that hung, and whose driver says nothing of it. Waits for the GPU, and compiles a program. */
+bool gn_gl_draws_right(struct gn_gl *gl);
 
 /* Uploads a scene, replacing the one before. The scene must outlive its use here. */
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err);
