@@ -44,6 +44,25 @@ draw() {
 
 picture="--size 8x8 -o $folder/a.png"
 
+# ---- scenes whose cost is not in their size
+
+# as many flat casters of the scene's size as there are instances, by 600 bytes
+triangle=$(printf '\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0@\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0@' | base64)
+cat > "$folder/stack.gltf" << EOF
+{"asset":{"version":"2.0"},"extensionsUsed":["EXT_mesh_gpu_instancing"],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,$triangle"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[2,0,2]},
+{"componentType":5126,"count":100000,"type":"VEC3"}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":1}}}}],
+"scenes":[{"nodes":[0]}]}
+EOF
+from=$(date +%s)
+expect 0 '' inspect "$folder/stack.gltf"
+took=$(($(date +%s) - from))
+[ "$took" -le 10 ] || complain "gnomon inspect $folder/stack.gltf: $took s"
+
 # ---- command lines
 
 for value in '' -1 1e999 nan inf abc 99999999999999999999 0x10 ' 1' '1 ' %s%n; do

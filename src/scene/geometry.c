@@ -163,6 +163,7 @@ static size_t unroll(struct gn_gltf *g, const struct gn_at *at, const struct gn_
         } else
             dropped++;
     }
+    g->misplaced += dropped;
     if (dropped > 0)
         gn_gltf_warn(g, at, "%zu triangles with positions that are not finite are not shown",
                      dropped);

@@ -34,16 +34,20 @@ static bool decode(struct gn_gltf *g, const struct gn_blob *blob, struct gn_imag
     if (!format) return gn_fail(err, "neither PNG nor JPEG");
     if (!format->size(blob->data, blob->size, px, err)) return false;
     uint64_t texels = (uint64_t)px[0] * px[1];
-    if (texels == 0 || texels > g->limits.texels || px[0] > 1U << 20 || px[1] > 1U << 20)
+    const uint64_t with_mipmaps = 4 * (texels + texels / 3);
+    if (texels == 0) return gn_fail(err, "it has no pixels");
+    if (texels > g->limits.texels || px[0] > 1U << 20 || px[1] > 1U << 20)
         return gn_fail(err, "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64, px[0],
                        px[1], g->limits.texels);
-    if (4 * texels > gn_gltf_room(g)) return gn_fail(err, "no room for it in memory_mb");
+    if (4 * texels + with_mipmaps > gn_gltf_room(g))
+        return gn_fail(err, "no room for it in memory_mb");
     uint8_t *rgba = gn_gltf_alloc(g, g->arena, texels, 4);
     if (!rgba) return false;
     if (!format->read(blob->data, blob->size, px, rgba, err)) {
         gn_arena_undo(g->arena, rgba, 4 * texels);
         return false;
     }
+    g->other_bytes += with_mipmaps;
     *image = (struct gn_image){.width_px = px[0], .height_px = px[1], .rgba = rgba};
     for (uint64_t i = 0; i < texels && !image->has_alpha; i++)
         image->has_alpha = rgba[4 * i + 3] != 255;

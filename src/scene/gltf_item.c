@@ -32,6 +32,11 @@ static bool refuse_empty(struct gn_gltf *g) {
         return gn_gltf_fail(g, &meshes,
                             "KHR_draco_mesh_compression is not supported; decompress them "
                             "first (gltf-transform can)");
+    if (g->misplaced)
+        return gn_gltf_fail(g, &meshes,
+                            "the scene is empty: %zu triangles have positions that are not finite, "
+                            "and there are no others",
+                            g->misplaced);
     return gn_gltf_fail(g, &nodes, "the scene is empty: no node of it has a mesh with triangles");
 }
 

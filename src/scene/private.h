@@ -104,7 +104,9 @@ struct gn_gltf {
     struct gn_arena *arena;  /* the scene's */
     struct gn_arena scratch; /* until the load ends */
     struct gn_arena work;    /* reset for each geometry, picture and animation */
-    size_t other_bytes;      /* an estimate of what lies outside the arenas: files, JSON */
+    size_t other_bytes;      /* an estimate of what lies outside the arenas: files, JSON, and what
+                                the GPU will have of pictures, which on a board is the same memory */
+    size_t misplaced;        /* triangles that are not shown: positions that are not finite */
 
     json_t *json;
     struct gn_blob bin; /* the BIN chunk of a .glb */

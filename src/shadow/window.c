@@ -11,6 +11,8 @@
 #include "shadow/private.h"
 #include "shadow/region.h"
 
+enum { MOST_LOOKS = 1 << 20 /* at boxes, in search of what is useless */ };
+
 static bool item_receives(const struct gn_fitter *f, uint32_t item) {
     return gn_shadow_item_receives(f->pose, item, f->view);
 }
@@ -53,9 +55,14 @@ static struct gn_shadow_region useful_region(const struct gn_fitter *f, uint32_t
     return region_is_empty(&r) ? nothing : r;
 }
 
-static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t item) {
+/* Each large flat caster is a walk over all items: of as many as `looks`, in order, that is done;
+ * of a scene of thousands of them the others count whole. */
+static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t item,
+                                             uint32_t *looks) {
     const struct gn_shadow_region *r = gn_fitter_whole(f, item);
-    return !region_is_empty(r) && is_large_flat(f, item) ? useful_region(f, item, r) : *r;
+    if (region_is_empty(r) || *looks < f->memory->item_count || !is_large_flat(f, item)) return *r;
+    *looks -= f->memory->item_count;
+    return useful_region(f, item, r);
 }
 
 /* How far off, in plane units, a caster can reach by its penumbra: as its like in set_soft(). */
@@ -109,11 +116,12 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
                                              struct gn_shadow_region *depths) {
     struct gn_shadow_region casters = nothing;
     uint8_t *casts = f->memory->casts;
+    uint32_t looks = MOST_LOOKS;
     *depths = nothing;
     memset(casts, 0, f->memory->item_count);
     for (uint32_t i = 0; i < f->memory->item_count; i++) {
         if (!item_casts(f, i)) continue;
-        struct gn_shadow_region r = caster_region(f, i);
+        struct gn_shadow_region r = caster_region(f, i, &looks);
         if (region_is_empty(&r)) continue;
         unite(depths, &r);
         struct gn_shadow_region reached = grown(receivers, reach(f, r.near, receivers->far));

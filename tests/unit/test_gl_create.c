@@ -42,6 +42,39 @@ static gn_gl_proc get_liar(void *display, const char *name) {
     return (gn_gl_proc)read_no_halves;
 }
 
+/* A GPU that was reset, of which the driver says nothing: all memory is zeros. */
+static bool was_reset;
+static void GL_APIENTRY read_what_is_left(GLint x, GLint y, GLsizei width, GLsizei height,
+                                          GLenum format, GLenum type, void *out) {
+    read_pixels(x, y, width, height, format, type, out);
+    if (was_reset) memset(out, 0, 4ul * (size_t)width * (size_t)height);
+}
+
+static gn_gl_proc get_reset(void *display, const char *name) {
+    gn_gl_proc proc = gn_display_get_proc(display, name);
+    if (strcmp(name, "glReadPixels") != 0) return proc;
+    read_pixels = (PFNGLREADPIXELSPROC)proc;
+    return (gn_gl_proc)read_what_is_left;
+}
+
+static void test_reset_without_a_word(void **state) {
+    struct gn_display display;
+    struct gn_err err = {0};
+    help_open(&display, *state);
+    struct gn_gl_opts opts = opts_of(&display);
+    opts.get_proc = get_reset;
+    struct gn_gl *gl = gn_gl_create(&opts, NULL, &err);
+    assert_non_null(gl);
+    for (int i = 0; i < 4; i++) {
+        was_reset = i % 2;
+        assert_false(gn_gl_is_lost(gl));
+        assert_int_equal(gn_gl_draws_right(gl), !was_reset);
+    }
+    was_reset = false;
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+}
+
 static const uint32_t halves = 1u << GN_CAP_R16F | 1u << GN_CAP_RGBA16F;
 
 static void test_liar(void **state) {
@@ -299,6 +332,7 @@ int main(void) {
         TEST(test_without),
         TEST(test_liar),
         TEST(test_liar_found_late),
+        TEST(test_reset_without_a_word),
         TEST(test_failed_program),
         TEST(test_stopped_between_programs),
         TEST(test_groups_only_by_the_extension),
