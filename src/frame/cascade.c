@@ -35,16 +35,17 @@ static uint64_t choice_of(const struct gn_frame *frame, const struct gn_shadow_o
  * number does. 0: nothing that is seen is in shadow, which says nothing. */
 static uint32_t count(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
                       const struct gn_shadow_opts *opts) {
-    const uint32_t light = gn_frame_light_of_slot(frame, slot)->light;
+    const struct gn_frame_light *of = gn_frame_light_of_slot(frame, slot);
     struct gn_shadow_opts some = {.technique = GN_TECHNIQUE_PCF,
                                   .encoding = GN_ENCODING_R32UI,
-                                  .map_px = opts->map_px,
                                   .all_receive = opts->all_receive};
     float tangents[GN_CASCADES_MAX + 1] = {0}, least = INFINITY;
     for (some.cascades = 1; some.cascades <= opts->cascades; some.cascades++) {
+        const uint32_t most_px = gn_frame_most_px(frame, of, some.cascades);
+        some.map_px = opts->map_px < most_px ? opts->map_px : most_px;
         gn_frame_make_memories(frame, slot, some.cascades > 1 ? GN_CASCADE_MEMORIES : 1);
         const float tangent =
-            gn_cascade_tangent(pose, light, &frame->eye, &some, frame->memory[slot]);
+            gn_cascade_tangent(pose, of->light, &frame->eye, &some, frame->memory[slot]);
         if (tangent == 0.0f) return 0;
         if (tangent <= MOST_PIXELS * GN_SHADOW_STEP * pixel_width(frame)) return some.cascades;
         tangents[some.cascades] = tangent;

@@ -219,9 +219,8 @@ static uint32_t asked_px(const struct gn_frame *frame, const struct gn_frame_lig
     return opts->map_px ? opts->map_px : of_light_px ? of_light_px : own_px ? own_px : 1024;
 }
 
-/* How long it can be, such that all of the map is a texture. */
-static uint32_t most_px(const struct gn_frame *frame, const struct gn_frame_light *light,
-                        uint32_t cascades) {
+uint32_t gn_frame_most_px(const struct gn_frame *frame, const struct gn_frame_light *light,
+                          uint32_t cascades) {
     uint32_t one_px[2];
     if (cascades > 1)
         gn_cascade_map_size(cascades, 1, one_px);
@@ -250,7 +249,8 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     for (uint32_t i = 0; i < frame->shadow_count; i++) {
         struct gn_frame_light *light = gn_frame_light_of_slot(frame, i);
-        const uint32_t asked = asked_px(frame, light, opts), most = most_px(frame, light, 1);
+        const uint32_t asked = asked_px(frame, light, opts),
+                       most = gn_frame_most_px(frame, light, 1);
         const struct gn_light *l = &frame->scene->lights[light->light];
         struct gn_shadow_opts shadow = {.technique = light->technique,
                                         .encoding = light->encoding,
@@ -262,7 +262,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         gn_frame_make_memories(frame, i, gn_shadow_tile_count(l->type, light->technique));
         light->cascades = shadow.cascades = gn_frame_choose_cascades(frame, pose, i, &shadow);
         if (shadow.cascades > 1) gn_frame_make_memories(frame, i, GN_CASCADE_MEMORIES);
-        const uint32_t most_each = most_px(frame, light, shadow.cascades);
+        const uint32_t most_each = gn_frame_most_px(frame, light, shadow.cascades);
         if (shadow.map_px > most_each) shadow.map_px = most_each;
         say_smaller(frame, light, asked, shadow.map_px, warnings);
         /* An empty one keeps its slot: programs do not change with what is in view. */

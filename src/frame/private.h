@@ -208,6 +208,9 @@ void gn_frame_pass_cascades(const struct gn_frame *frame, const struct gn_light_
 
 /* lights.c: at least so many memories of a slot. */
 void gn_frame_make_memories(struct gn_frame *frame, uint32_t slot, uint32_t count);
+/* How long a map's side can be, or a tile's, such that all of so many is a texture. */
+uint32_t gn_frame_most_px(const struct gn_frame *frame, const struct gn_frame_light *light,
+                          uint32_t cascades);
 
 /* group.c: lights into groups, once they are chosen. */
 void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose);

@@ -259,7 +259,8 @@ static void take_tile(struct gn_shadow_view *view, uint32_t index,
 }
 
 /* Fits tile `index` as a map of its own; false: it is empty. */
-static bool fit_tile(const struct gn_fitter *f, uint32_t index, struct gn_shadow_view *tile) {
+static bool fit_tile(const struct gn_fitter *f, uint32_t index, float blur_most_m,
+                     struct gn_shadow_view *tile) {
     struct gn_eye eye;
     if (!cut(f->eye, &f->view->cascades[index], &eye)) return false;
     *tile = *f->view;
@@ -267,6 +268,7 @@ static bool fit_tile(const struct gn_fitter *f, uint32_t index, struct gn_shadow
     tile->tile_count = 1;
     tile->cascade_count = 0;
     struct gn_fitter own = *f;
+    own.blur_most_m = blur_most_m;
     own.eye = &eye;
     own.memory = &f->memory[index];
     own.view = tile;
@@ -291,15 +293,17 @@ static bool find_seen(const struct gn_fitter *f, struct distances *seen) {
 bool gn_cascades_fit(const struct gn_fitter *f) {
     struct gn_shadow_view *view = f->view, tile;
     struct distances seen;
+    float blur_most_m = 0.0f;
     bool found = false;
     if (!find_seen(f, &seen)) return false;
     split(view, split_distances(&seen, view->cascade_count));
     for (uint32_t i = 0; i < view->cascade_count; i++) {
-        view->tiles[i].empty = !fit_tile(f, i, &tile);
+        view->tiles[i].empty = !fit_tile(f, i, blur_most_m, &tile);
         if (view->tiles[i].empty) continue;
         take_tile(view, i, &tile);
         view->tiles[i].content_hash = tile.tiles[0].content_hash;
         if (!found) take_codes(view, &tile);
+        if (!found) blur_most_m = GN_BLUR_MOST_PX * tile.texel;
         found = true;
     }
     for (uint32_t i = 0; i < view->cascade_count; i++)

@@ -179,7 +179,9 @@ static void set_blur(const struct gn_fitter *f, float near_depth, float far_dept
     const float behind = 0.25f * (far_depth - near_depth);
     const float spread =
         view->perspective ? 1.0f / (far_depth - behind) - 1.0f / far_depth : behind;
-    const float blur_px = f->light_radius * spread / view->texel;
+    float blur = f->light_radius * spread;
+    if (f->blur_most_m > 0.0f) blur = least(blur, f->blur_most_m); /* or it jumps at each split */
+    const float blur_px = blur / view->texel;
     view->blur_px = least(most(blur_px, GN_BLUR_LEAST_PX), GN_BLUR_MOST_PX);
 }
 

@@ -80,6 +80,7 @@ struct gn_fitter {
     float range_m;          /* INFINITY: unlimited; not asked of a directional light */
     float scene_size_m;
     float light_radius; /* as in gn_light */
+    float blur_most_m;  /* of a cascade: what the finest one blurs at most; 0: of no other map */
 };
 
 /* Brings the memory up to this pose, light and eye. */

@@ -170,8 +170,11 @@ static void test_the_more_the_truer(void **state) {
  * the largest step of a row's mean over what is away from edges, and of a pixel. */
 static void test_no_split_is_seen(void **state) {
     (void)state;
-    static const enum gn_technique techniques[] = {GN_TECHNIQUE_PCF, GN_TECHNIQUE_PCF5,
-                                                   GN_TECHNIQUE_POISSON};
+    static const enum gn_technique techniques[] = {
+        GN_TECHNIQUE_PCF,  GN_TECHNIQUE_PCF5, GN_TECHNIQUE_POISSON,
+        GN_TECHNIQUE_PCSS, GN_TECHNIQUE_VSM,  GN_TECHNIQUE_EVSM,
+        GN_TECHNIQUE_MSM,  GN_TECHNIQUE_VSSM, GN_TECHNIQUE_SMSM,
+    };
     for (size_t t = 0; t < sizeof techniques / sizeof *techniques; t++) {
         struct gn_picture shot;
         long all_away = 0;

@@ -199,6 +199,42 @@ static void test_all_techniques_agree_on_it(void **state) {
     }
 }
 
+/* What they measure is what they get: four of 2048 are finer than two. */
+static void test_a_larger_map_is_never_coarser(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    float last = INFINITY;
+    for (uint32_t px = 256; px <= 4096; px *= 2) {
+        f.opts.map_px = px;
+        const struct gn_shadow_view *view = view_of(&f);
+        assert_true(view->cascade_count > 0 && view->cascades[0].texel <= last);
+        last = view->cascades[0].texel;
+    }
+    gn_plan_end(&f);
+}
+
+/* Under any sun no tile is blurred wider than the finest can be, but for what all are. */
+static void test_blurs_are_as_wide_on_both_sides_of_a_split(void **state) {
+    (void)state;
+    for (float radius = 1e-3f; radius < 0.2f; radius *= 3) {
+        struct gn_plan_fixture f;
+        begin(&f, gn_field_scene_make(), 4096);
+        f.scene->lights[0].radius = radius;
+        f.opts.technique_given = true;
+        f.opts.technique = GN_TECHNIQUE_EVSM;
+        const struct gn_shadow_view *view = view_of(&f);
+        assert_int_equal(view->cascade_count, 4);
+        const float most_m = GN_BLUR_MOST_PX * view->cascades[0].texel;
+        for (int i = 0; i < 4; i++) {
+            const struct gn_shadow_cascade *c = &view->cascades[i];
+            assert_true(c->blur_px * c->texel <=
+                        fmaxf(most_m, GN_BLUR_LEAST_PX * c->texel) * 1.001f);
+        }
+        gn_plan_end(&f);
+    }
+}
+
 /* A caster far off does not change what is near. */
 static void test_tiles_are_drawn_again_one_by_one(void **state) {
     (void)state;
@@ -229,6 +265,8 @@ int main(void) {
         cmocka_unit_test(test_small_pictures_need_fewer),
         cmocka_unit_test(test_more_that_help_little_are_not_taken),
         cmocka_unit_test(test_all_techniques_agree_on_it),
+        cmocka_unit_test(test_a_larger_map_is_never_coarser),
+        cmocka_unit_test(test_blurs_are_as_wide_on_both_sides_of_a_split),
         cmocka_unit_test(test_tiles_are_drawn_again_one_by_one),
     };
     return RUN(tests);
