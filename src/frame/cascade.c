@@ -12,9 +12,9 @@ _Static_assert(CASCADES_SIZE == GN_CASCADES_MAX, "one vec4 each");
 #define NOWHERE     1e9f /* texels from a tile: there is light */
 
 /* Of a surface that faces the eye, at a distance of 1. */
-static float pixel_width(const struct gn_frame *frame) {
+static float pixel_width(const struct gn_frame *frame, const struct gn_eye *eye) {
     const uint32_t size[2] = {frame->plan.width_px, frame->plan.height_px};
-    const vec4 *m = frame->eye.clip_from_world;
+    const vec4 *m = eye->clip_from_world;
     float width = INFINITY;
     for (int k = 0; k < 2; k++) {
         vec3 row = {m[0][k], m[1][k], m[2][k]};
@@ -25,47 +25,106 @@ static float pixel_width(const struct gn_frame *frame) {
 
 /* All that the number goes by, but the eye; nor does it by the technique: modes agree on it,
  * whichever comes first. */
-static uint64_t choice_of(const struct gn_frame *frame, const struct gn_shadow_opts *opts) {
-    const uint32_t by[] = {opts->map_px,  opts->all_receive,       opts->cascades,
-                           frame->camera, frame->picture_width_px, frame->picture_height_px};
+static uint64_t choice_of(const struct gn_frame *frame, const struct gn_pose *pose,
+                          const struct gn_shadow_opts *opts) {
+    const uint32_t by[] = {opts->map_px,         opts->all_receive,       opts->cascades,
+                           frame->camera,        frame->picture_width_px, frame->picture_height_px,
+                           (uint32_t)pose->clips};
     return gn_hash(GN_HASH_INIT, by, sizeof by);
 }
 
-/* As few as keep a texel under MOST_PIXELS; where none do, as few as come near to what the best
- * number does. 0: nothing that is seen is in shadow, which says nothing. */
-static uint32_t count(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
-                      const struct gn_shadow_opts *opts) {
-    const struct gn_frame_light *of = gn_frame_light_of_slot(frame, slot);
-    struct gn_shadow_opts some = {.technique = GN_TECHNIQUE_PCF,
-                                  .encoding = GN_ENCODING_R32UI,
-                                  .all_receive = opts->all_receive};
-    float tangents[GN_CASCADES_MAX + 1] = {0}, least = INFINITY;
-    for (some.cascades = 1; some.cascades <= opts->cascades; some.cascades++) {
-        const uint32_t most_px = gn_frame_most_px(frame, of, some.cascades);
-        some.map_px = opts->map_px < most_px ? opts->map_px : most_px;
-        gn_frame_make_memories(frame, slot, some.cascades > 1 ? GN_CASCADE_MEMORIES : 1);
+/* ---- what it is chosen by ---- */
+
+/* The eye as it is, and those that will come, on the way of a camera that is animated. */
+struct views {
+    struct gn_frame *frame;
+    const struct gn_frame_opts *opts;
+    const struct gn_pose *now;
+    struct gn_pose other; /* made if the camera moves */
+    bool moves;
+    int64_t lasts_ns; /* that way */
+    int count;
+};
+enum { OTHERS = 8 };
+
+static void open_views(struct views *v, struct gn_frame *frame, const struct gn_pose *pose,
+                       const struct gn_frame_opts *opts) {
+    const struct gn_scene *scene = frame->scene;
+    *v = (struct views){.frame = frame, .opts = opts, .now = pose, .count = 1};
+    v->moves = pose->node_moves[scene->cameras[opts->camera].node];
+    for (uint32_t i = 0; i < scene->clip_count && v->moves; i++)
+        if (scene->clips[i].duration_ns > v->lasts_ns) v->lasts_ns = scene->clips[i].duration_ns;
+    if (v->moves) gn_pose_init(&v->other, scene, pose->clips);
+    if (v->moves) v->count += OTHERS;
+}
+
+static void close_views(struct views *v) {
+    if (v->moves) gn_pose_finish(&v->other);
+}
+
+/* number 0: the eye as it is. */
+static const struct gn_pose *take_view(struct views *v, int number, struct gn_eye *eye) {
+    *eye = v->frame->eye;
+    if (number == 0) return v->now;
+    const int64_t ns = v->lasts_ns / (OTHERS - 1) * (number - 1);
+    gn_pose_step(&v->other, number == OTHERS && ns > 0 ? v->lasts_ns - 1 : ns); /* its end, too */
+    gn_frame_eye_at(v->frame, &v->other, v->opts, eye);
+    return &v->other;
+}
+
+/* How many pixels a texel of so many cascades covers where it is seen largest; 0: the eye sees
+ * nothing in shadow, which says nothing. */
+static float pixels_of(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts,
+                       uint32_t cascades) {
+    const struct gn_frame_light *light = gn_frame_light_of_slot(v->frame, slot);
+    const uint32_t most_px = gn_frame_most_px(v->frame, light, cascades);
+    const struct gn_shadow_opts some = {.technique = GN_TECHNIQUE_PCF,
+                                        .encoding = GN_ENCODING_R32UI,
+                                        .map_px = opts->map_px < most_px ? opts->map_px : most_px,
+                                        .all_receive = opts->all_receive,
+                                        .cascades = cascades};
+    float most = 0.0f;
+    gn_frame_make_memories(v->frame, slot, cascades > 1 ? GN_CASCADE_MEMORIES : 1);
+    for (int i = 0; i < v->count; i++) {
+        struct gn_eye eye;
+        const struct gn_pose *pose = take_view(v, i, &eye);
         const float tangent =
-            gn_cascade_tangent(pose, of->light, &frame->eye, &some, frame->memory[slot]);
-        if (tangent == 0.0f) return 0;
-        if (tangent <= MOST_PIXELS * GN_SHADOW_STEP * pixel_width(frame)) return some.cascades;
-        tangents[some.cascades] = tangent;
-        least = fminf(least, tangent);
+            gn_cascade_tangent(pose, light->light, &eye, &some, v->frame->memory[slot]);
+        if (i == 0 && tangent == 0.0f) return 0.0f;
+        most = fmaxf(most, tangent / pixel_width(v->frame, &eye));
+    }
+    return most;
+}
+
+/* As few as keep a texel under MOST_PIXELS; where none do, as few as come near to what the best
+ * number does. 0: it is not known yet. */
+static uint32_t count(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts) {
+    float pixels[GN_CASCADES_MAX + 1] = {0}, least = INFINITY;
+    for (uint32_t cascades = 1; cascades <= opts->cascades; cascades++) {
+        pixels[cascades] = pixels_of(v, slot, opts, cascades);
+        if (pixels[cascades] == 0.0f) return 0;
+        if (pixels[cascades] <= MOST_PIXELS * GN_SHADOW_STEP) return cascades;
+        least = fminf(least, pixels[cascades]);
     }
     uint32_t chosen = 1;
-    while (tangents[chosen] > GN_SHADOW_STEP * least) chosen++;
+    while (pixels[chosen] > GN_SHADOW_STEP * least) chosen++;
     return chosen;
 }
 
-uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
+uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose,
+                                  const struct gn_frame_opts *frame_opts, uint32_t slot,
                                   const struct gn_shadow_opts *opts) {
     const uint32_t light = gn_frame_light_of_slot(frame, slot)->light;
     struct gn_light_note *note = &frame->notes.at[light];
-    const uint64_t choice = choice_of(frame, opts);
+    const uint64_t choice = choice_of(frame, pose, opts);
     if (!gn_cascade_can(&frame->scene->lights[light], &frame->eye, opts)) return 1;
     for (int i = 0; i < GN_CASCADE_CHOICES; i++)
         if (note->cascades[i].count > 0 && note->cascades[i].choice == choice)
             return note->cascades[i].count;
-    const uint32_t chosen = count(frame, pose, slot, opts);
+    struct views views;
+    open_views(&views, frame, pose, frame_opts);
+    const uint32_t chosen = count(&views, slot, opts);
+    close_views(&views);
     if (chosen == 0) return 1;
     note->cascades[note->next_choice].choice = choice;
     note->cascades[note->next_choice].count = chosen;

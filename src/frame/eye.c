@@ -66,25 +66,44 @@ static void project(const struct gn_camera *camera, const struct gn_orbit *orbit
     glm_perspective(camera->yfov_rad, aspect, near_m, far_m, clip_from_view);
 }
 
+struct look {
+    mat4 view_from_world, clip_from_world;
+    vec3 eye_ws;
+};
+
+static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
+                      const struct gn_frame_opts *opts, struct look *look) {
+    const struct gn_camera *camera = &frame->scene->cameras[opts->camera];
+    float aspect = (float)frame->picture_width_px / (float)frame->picture_height_px;
+    mat4 clip_from_view;
+    float reach_m[2]; /* to what is looked at, and to the end of the scene */
+    reach_m[0] = gn_orbit_view(&opts->orbit, pose, (uint32_t)opts->camera, look->view_from_world,
+                               look->eye_ws);
+    turn(pose, opts->turntable_rad, look->view_from_world, look->eye_ws);
+    reach_m[1] = farthest(pose, look->eye_ws, camera->near_m);
+    project(camera, &opts->orbit, aspect, reach_m, clip_from_view);
+    turn_picture(frame, clip_from_view);
+    glm_mat4_mul(clip_from_view, look->view_from_world, look->clip_from_world);
+}
+
+void gn_frame_eye_at(const struct gn_frame *frame, const struct gn_pose *pose,
+                     const struct gn_frame_opts *opts, struct gn_eye *eye) {
+    struct look look;
+    find_look(frame, pose, opts, &look);
+    gn_eye_build(eye, look.clip_from_world);
+}
+
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]) {
     const struct gn_camera *camera = &frame->scene->cameras[opts->camera];
-    float aspect = (float)frame->picture_width_px / (float)frame->picture_height_px;
-    mat4 view_from_world, clip_from_view, clip_from_world;
-    vec3 eye_ws;
-    float reach_m[2]; /* to what is looked at, and to the end of the scene */
-    reach_m[0] = gn_orbit_view(&opts->orbit, pose, (uint32_t)opts->camera, view_from_world, eye_ws);
-    turn(pose, opts->turntable_rad, view_from_world, eye_ws);
-    reach_m[1] = farthest(pose, eye_ws, camera->near_m);
-    project(camera, &opts->orbit, aspect, reach_m, clip_from_view);
-    turn_picture(frame, clip_from_view);
-    glm_mat4_mul(clip_from_view, view_from_world, clip_from_world);
-    gn_eye_build(&frame->eye, clip_from_world);
-    memcpy(constants[PASS_CLIP], clip_from_world, sizeof clip_from_world);
+    struct look look;
+    find_look(frame, pose, opts, &look);
+    gn_eye_build(&frame->eye, look.clip_from_world);
+    memcpy(constants[PASS_CLIP], look.clip_from_world, sizeof look.clip_from_world);
     for (int k = 0; k < 3;
          k++) { /* orthographic: the unit vector towards the eye is the view's +Z */
-        constants[PASS_EYE][k] = camera->orthographic ? view_from_world[k][2] : eye_ws[k];
-        constants[PASS_EXPOSURE][1 + k] = eye_ws[k];
+        constants[PASS_EYE][k] = camera->orthographic ? look.view_from_world[k][2] : look.eye_ws[k];
+        constants[PASS_EXPOSURE][1 + k] = look.eye_ws[k];
     }
     constants[PASS_EYE][3] = camera->orthographic ? 0.0f : 1.0f;
 }

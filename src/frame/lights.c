@@ -260,7 +260,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                                         .cascades =
                                             opts->cascades ? opts->cascades : GN_CASCADES_MAX};
         gn_frame_make_memories(frame, i, gn_shadow_tile_count(l->type, light->technique));
-        light->cascades = shadow.cascades = gn_frame_choose_cascades(frame, pose, i, &shadow);
+        light->cascades = shadow.cascades = gn_frame_choose_cascades(frame, pose, opts, i, &shadow);
         if (shadow.cascades > 1) gn_frame_make_memories(frame, i, GN_CASCADE_MEMORIES);
         const uint32_t most_each = gn_frame_most_px(frame, light, shadow.cascades);
         if (shadow.map_px > most_each) shadow.map_px = most_each;

@@ -196,10 +196,11 @@ void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key
 struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label);
 
 /* cascade.c: how many cascades a light has, and what the shaders get. By the eye as the camera
- * stands when it is asked first, and again when options change that matter: while the eye moves
- * neither programs nor targets change. opts: of the fit, map_px of a map without cascades. */
-/* opts->cascades: the most. */
-uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
+ * stands when it is asked first and, if it is animated, as it will at eight places of its way; and
+ * again when options change that matter: while the eye moves neither programs nor targets change.
+ * opts: of the fit, map_px of a map without cascades, cascades: the most. */
+uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose,
+                                  const struct gn_frame_opts *frame_opts, uint32_t slot,
                                   const struct gn_shadow_opts *opts);
 void gn_frame_cascade_constants(const struct gn_shadow_view *view, float (*constants)[4]);
 /* Lets the constants of a pass with cascades go on to theirs. */
@@ -262,5 +263,8 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
 /* eye.c: clip_from_world of the camera, its place and the constants that tell of it. */
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]);
+/* The eye of the same camera at another pose. */
+void gn_frame_eye_at(const struct gn_frame *frame, const struct gn_pose *pose,
+                     const struct gn_frame_opts *opts, struct gn_eye *eye);
 
 #endif

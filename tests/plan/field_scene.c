@@ -78,7 +78,21 @@ static void add_cameras(struct gn_maker *m, float scale) {
     add_looking(m, "'camera':1", (float[]){0.0f, 200.0f * scale, -100.0f * scale}, 0.0f, -1.2f);
 }
 
-struct gn_scene *gn_field_scene_make_scaled(float scale) {
+/* The camera that stands comes down to its place within 4 s. */
+static void add_flight(struct gn_maker *m, size_t camera, float from_m) {
+    const float times_s[2] = {0.0f, 4.0f}, places[6] = {0.0f, from_m, 0.0f, 0.0f, 1.7f, 0.0f};
+    const int input = gn_maker_accessor(m, "SCALAR", GL_FLOAT_CODE, 2, times_s, sizeof times_s,
+                                        "'min':[0],'max':[4]"),
+              output = gn_maker_accessor(m, "VEC3", GL_FLOAT_CODE, 2, places, sizeof places, NULL);
+    char json[256];
+    snprintf(json, sizeof json,
+             "[{'samplers':[{'input':%d,'output':%d}],'channels':[{'sampler':0,'target':"
+             "{'node':%zu,'path':'translation'}}]}]",
+             input, output, camera);
+    gn_maker_set(m, "animations", json);
+}
+
+static struct gn_scene *make(float scale, float from_m) {
     struct gn_maker m;
     gn_maker_init(&m);
     add_ground(&m, scale);
@@ -90,7 +104,9 @@ struct gn_scene *gn_field_scene_make_scaled(float scale) {
                  "'intensity':2.5}]}}");
     add_looking(&m, "'extensions':{'KHR_lights_punctual':{'light':0}}", (float[]){0, 0, 0}, 0.9f,
                 -0.65f);
+    const size_t camera = json_array_size(json_object_get(m.root, "nodes"));
     add_cameras(&m, scale);
+    if (from_m > 0.0f) add_flight(&m, camera, from_m);
     json_t *nodes = json_array();
     for (size_t i = 0; i < json_array_size(json_object_get(m.root, "nodes")); i++)
         json_array_append_new(nodes, json_integer((json_int_t)i));
@@ -100,6 +116,14 @@ struct gn_scene *gn_field_scene_make_scaled(float scale) {
     struct gn_scene *scene = gn_maker_load(&m, NULL, &err);
     if (!scene) fail_msg("%s", err.text);
     return scene;
+}
+
+struct gn_scene *gn_field_scene_make_scaled(float scale) {
+    return make(scale, 0.0f);
+}
+
+struct gn_scene *gn_field_scene_make_flown(float from_m) {
+    return make(1.0f, from_m);
 }
 
 struct gn_scene *gn_field_scene_make(void) {

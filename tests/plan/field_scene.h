@@ -15,5 +15,7 @@ enum gn_field_camera {
  * of poles; one sun; the cameras above. scale: of all lengths. */
 struct gn_scene *gn_field_scene_make_scaled(float scale);
 struct gn_scene *gn_field_scene_make(void);
+/* The first camera comes straight down from that height in 4 s. */
+struct gn_scene *gn_field_scene_make_flown(float from_m);
 
 #endif

@@ -160,6 +160,25 @@ static void test_small_pictures_need_fewer(void **state) {
     gn_plan_end(&f);
 }
 
+/* A camera that comes down from on high: its first eye alone would need fewer. */
+static void test_a_camera_that_flies_has_as_many_all_along(void **state) {
+    (void)state;
+    for (uint32_t width_px = 80; width_px <= 1280; width_px *= 2) {
+        uint32_t counts[3];
+        for (int i = 0; i < 3; i++) {
+            struct gn_plan_fixture f;
+            begin(&f, gn_field_scene_make_flown(30.0f), 4096);
+            f.opts.width_px = width_px;
+            f.opts.height_px = width_px * 9 / 16;
+            gn_pose_step(&f.pose, (int64_t)i * 1999000000);
+            counts[i] = view_of(&f)->tile_count;
+            gn_plan_end(&f);
+        }
+        assert_int_equal(counts[1], counts[0]);
+        assert_int_equal(counts[2], counts[0]);
+    }
+}
+
 /* Four leave the sundial's texels over two pixels, and hardly smaller than two do. */
 static void test_more_that_help_little_are_not_taken(void **state) {
     (void)state;
@@ -263,6 +282,7 @@ int main(void) {
         cmocka_unit_test(test_an_atlas_is_no_larger_than_a_texture),
         cmocka_unit_test(test_as_many_as_asked_for_at_most),
         cmocka_unit_test(test_small_pictures_need_fewer),
+        cmocka_unit_test(test_a_camera_that_flies_has_as_many_all_along),
         cmocka_unit_test(test_more_that_help_little_are_not_taken),
         cmocka_unit_test(test_all_techniques_agree_on_it),
         cmocka_unit_test(test_a_larger_map_is_never_coarser),
