@@ -231,7 +231,7 @@ MAN_C   := $(addprefix src/,cli/config_button.c cli/help.c cli/options.c cli/opt
            core/arena.c core/err.c core/key.c core/text.c frame/caps.c kiosk/action.c kiosk/command.c \
            display/kms_modeline.c scene/limits.c shadow/moments.c shadow/technique.c)
 $(O)/host/embed: board/embed.c
-$(O)/host/man: board/man.c $(MAN_C) $(wildcard src/cli/*.h src/core/*.h src/kiosk/*.h src/shadow/*.h) | $(B)/gen/config.h
+$(O)/host/man: board/man.c $(MAN_C) $(wildcard src/cli/*.h src/core/*.h src/display/*.h src/kiosk/*.h src/shadow/*.h) | $(B)/gen/config.h
 $(O)/host/man: HOST_LIBS = $(shell pkg-config --cflags libdrm)
 $(HOST_ASSETS): HOST_LIBS = $(shell pkg-config --cflags --libs jansson libpng)
 $(HOST_ASSETS): $(O)/host/%: assets/%.c $(ASSET_C) $(wildcard assets/*.h)

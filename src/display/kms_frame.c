@@ -203,8 +203,8 @@ void gn_kms_send(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
 /* Memory that is short comes back, or other buffers, or smaller ones, may need less. */
 static void without_fb(struct gn_kms *k, int error, int64_t now_ns) {
     const enum gn_flip_error kind = gn_flip_error_of(error);
-    if (kind == GN_FLIP_NO_MEMORY && k->starved_ns == 0) k->starved_ns = now_ns;
     const bool waits = kind == GN_FLIP_BUSY || kind == GN_FLIP_NO_MEMORY;
+    if (waits && k->starved_ns == 0) k->starved_ns = now_ns;
     if (kind == GN_FLIP_CARD_GONE) {
         gn_kms_leave_card(k, false, now_ns);
     } else if (waits && now_ns - k->starved_ns < STARVED_NS) {

@@ -65,7 +65,7 @@ struct gn_kms {
     int64_t event_ns;   /* the time that its event tells; -1: no event yet */
     int unreadable;     /* looks in a row at which not all could be read */
     int losses;         /* of the context where there is a monitor, since a frame was last seen */
-    int64_t starved_ns; /* since when there is no memory; 0: there is */
+    int64_t starved_ns; /* since when there is no framebuffer to be had; 0: there is */
     int64_t look_ns, master_ns, again_ns; /* when next; GN_KMS_NEVER */
     int64_t probe_ns;                     /* looks from then on ask the wires */
 };

@@ -40,7 +40,7 @@ struct views {
     struct gn_frame *frame;
     const struct gn_frame_opts *opts;
     const struct gn_pose *now;
-    struct gn_pose other; /* made if the camera moves */
+    struct gn_pose other; /* made when it is needed */
     bool moves;
     int64_t lasts_ns; /* that way */
     int count;
@@ -54,18 +54,18 @@ static void open_views(struct views *v, struct gn_frame *frame, const struct gn_
     v->moves = pose->node_moves[scene->cameras[opts->camera].node];
     for (uint32_t i = 0; i < scene->clip_count && v->moves; i++)
         if (scene->clips[i].duration_ns > v->lasts_ns) v->lasts_ns = scene->clips[i].duration_ns;
-    if (v->moves) gn_pose_init(&v->other, scene, pose->clips);
     if (v->moves) v->count += OTHERS;
 }
 
 static void close_views(struct views *v) {
-    if (v->moves) gn_pose_finish(&v->other);
+    if (v->other.scene) gn_pose_finish(&v->other);
 }
 
 /* number 0: the eye as it is. */
 static const struct gn_pose *take_view(struct views *v, int number, struct gn_eye *eye) {
     *eye = v->frame->eye;
     if (number == 0) return v->now;
+    if (!v->other.scene) gn_pose_init(&v->other, v->frame->scene, v->now->clips);
     const int64_t ns = v->lasts_ns / (OTHERS - 1) * (number - 1);
     gn_pose_step(&v->other, number == OTHERS && ns > 0 ? v->lasts_ns - 1 : ns); /* its end, too */
     gn_frame_eye_at(v->frame, &v->other, v->opts, eye);
