@@ -38,6 +38,14 @@ void client_open(struct client *c, const struct gn_screen_opts *opts) {
     c->kms = gn_kms_create(&env, &c->opts, sim_now());
 }
 
+void client_begin_alone(struct client *c, int monitor, const struct gn_screen_opts *opts) {
+    sim_begin();
+    sim_add_card(0, "/dev/dri/card0", &(struct sim_traits){.console = true});
+    sim_plug(0, 0, monitor);
+    client_open(c, opts);
+    client_frames(c, 3);
+}
+
 void client_close(struct client *c) {
     gn_kms_destroy(c->kms);
     c->kms = NULL;

@@ -35,6 +35,8 @@ void client_end(struct client *client, const struct client_kind *kind);
 /* Whether all clients are told of monitors and cards: at first they are. */
 void client_hears(bool uevents);
 void client_open(struct client *client, const struct gn_screen_opts *opts);
+/* The same in a world of its own, with one card that shows the console, and 3 frames. */
+void client_begin_alone(struct client *client, int monitor, const struct gn_screen_opts *opts);
 void client_close(struct client *client);
 const struct gn_screen *client_screen(const struct client *client);
 void client_leave_console(struct client *client); /* and the text console shows itself */

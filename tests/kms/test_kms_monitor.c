@@ -7,11 +7,7 @@
 static struct client c;
 
 static void begin(int monitor, const struct gn_screen_opts *opts) {
-    sim_begin();
-    sim_add_card(0, "/dev/dri/card0", &(struct sim_traits){.console = true});
-    sim_plug(0, 0, monitor);
-    client_open(&c, opts);
-    client_frames(&c, 3);
+    client_begin_alone(&c, monitor, opts);
 }
 
 static void end(void) {
