@@ -21,7 +21,7 @@
 #define SHADOW_PLACE 5    /* xyz: position of the light; w: distance_scale */
 #define SHADOW_MAP_SIZE 6 /* xy: width and height of the map in texels; zw: 1 / width, 1 / height */
 #define SHADOW_CODE 7     /* x: distance_offset; y: far_code; z: tiles, table: how far beside a place may be read, texels; w: point: tangent over which tiles are shared; cascades: how far from a tile's middle it may be asked, texels */
-#define SHADOW_SOFT 8     /* how wide a penumbra is: lib/shadow_place.glsl; cascades: x times the texel */
+#define SHADOW_SOFT 8     /* how wide a penumbra is: lib/shadow_place.glsl; cascades: x times the texel, y as e per metre along the view */
 #define PASS_SLIDES 70    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides or cascades ends here */
 #define SLIDE_SIZE 4
 #define SLIDE_U 0         /* of a point (p, 1), world space: u times w, 0..1 over the slide from its left edge */
@@ -29,15 +29,18 @@
 #define SLIDE_W 2         /* w: depth along the light's axis, metres */
 #define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide, over 0: what is nearer has not passed it */
 #define PASS_CASCADES 86  /* GN_SHADOWS_MAX x CASCADES_SIZE, as PASS_SHADOWS; a pass without cascades ends here */
-#define CASCADES_SIZE 4   /* each - xy: the light's axis, texels from the middle of its tile; z: texel, metres; w: 1 / width of the zone in which it goes over into the next, 0: there is none */
+#define CASCADES_SIZE 6   /* four, each - xy: the light's axis, texels from the middle of its tile; z: texel, metres; w: e of its nearest caster (SHADOW_SOFT); and */
+#define CASCADES_ZONES 4  /* of the first three, 1 / width of the zone in which each goes over into the next, 0: there is none */
+#define CASCADES_SPANS 5  /* of each, e from that of its nearest caster on that its moments are of */
 #define CASCADE_FADE 0.1  /* width of that zone, up to the split, as a share of the split's distance */
-#define PASS_SIZE 102
+#define PASS_SIZE 110
 /* Filters of maps */
 #define FILTER_RECT 0     /* xy: lower left texel of the tile, zw: upper right one, both in it */
 #define FILTER_BLUR 1     /* x: half the width of the box, texels; y: its last texel, from the middle; z: 1 / width */
 #define FILTER_SIZE 2     /* xy: width and height of the map in texels; zw: their inverse */
 #define FILTER_TABLE 3    /* x: how far from a place the table is read, texels; y: where the tile's sums of blocks begin, from the left */
-#define FILTER_CONSTANTS 4
+#define FILTER_CODE 4     /* x: factor on a code, y: is added: 0..1 of what moments span */
+#define FILTER_CONSTANTS 5
 /* Summed-area tables */
 #define TABLE_BLOCK 16    /* texels that are summed at once; sums of whole blocks make good for the rest */
 /* Of moments 0..1 in fixed point: so many texels' sum fits into 32 bits as lie in a square that reaches `reach` texels from its middle */

@@ -8,8 +8,9 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), corner = ivec2(u_pass[FILTER_RECT].xy);
     vec2 texel = u_pass[FILTER_SIZE].zw;
     float reach = u_pass[FILTER_TABLE].x;
+    vec2 code = u_pass[FILTER_CODE].xy;
     vec4 sum = vec4(0.0); // rounded as a whole: half of the error that rounded texels would add up to
     for (int x = at.x - (at.x - corner.x) % TABLE_BLOCK; x <= at.x; x++)
-        sum += moments_of(clamp(map_code(u_map_0, (vec2(x, at.y) + 0.5) * texel), 0.0, 1.0));
+        sum += moments_of(clamp(code.y + code.x * map_code(u_map_0, (vec2(x, at.y) + 0.5) * texel), 0.0, 1.0));
     o_moments = table_fixed(sum, reach);
 }

@@ -1,13 +1,15 @@
 // Directional lights with cascades: the map is an atlas, two tiles in a row, each for what the eye sees from one distance to another.
-// Their codes are the same, their texels are not.
+// Their codes are the same, but of moments; their texels are not.
 
 #define CASCADE(slot, i) u_pass[PASS_CASCADES + (slot)*CASCADES_SIZE + (i)]
 
 struct shadow_cascade {
-    vec2 axis;    // where the light's axis is, texels from the tile's middle
-    float texel;  // metres
-    vec2 tile;    // column and row in the atlas
-    vec2 beside;  // what of the answer's derivatives is added to it: shadow_mixed()
+    vec2 axis;      // where the light's axis is, texels from the tile's middle
+    float texel;    // metres
+    float nearest;  // e of the nearest caster
+    float span;     // e from there on: codes 0..1 of moments
+    vec2 tile;      // column and row in the atlas
+    vec2 beside;    // what of the answer's derivatives is added to it: shadow_mixed()
 };
 
 float shadow_cascade_share(float distance_m, float per_m) {
@@ -20,14 +22,16 @@ float shadow_cascade_share(float distance_m, float per_m) {
 shadow_cascade shadow_cascade_of(const int slot, const bool shared) {
     vec4 c = CASCADE(slot, 0);
     float far = 1.0 / gl_FragCoord.w;
-    float share = shadow_cascade_share(far, c.w) + shadow_cascade_share(far, CASCADE(slot, 1).w)
-                  + shadow_cascade_share(far, CASCADE(slot, 2).w);
+    vec4 zones = CASCADE(slot, CASCADES_ZONES);
+    float share = shadow_cascade_share(far, zones.x) + shadow_cascade_share(far, zones.y) + shadow_cascade_share(far, zones.z);
     float number = shared && fract(0.5 * gl_FragCoord.x) > 0.5 ? ceil(share) : floor(share);
+    vec4 spans = CASCADE(slot, CASCADES_SPANS);
+    float span = number > 2.5 ? spans.w : number > 1.5 ? spans.z : number > 0.5 ? spans.y : spans.x;
     if (number > 0.5) c = CASCADE(slot, 1);
     if (number > 1.5) c = CASCADE(slot, 2);
     if (number > 2.5) c = CASCADE(slot, 3);
     float row = step(1.5, number);
-    return shadow_cascade(c.xy, c.z, vec2(number - 2.0 * row, row), vec2(share - number, 0.0));
+    return shadow_cascade(c.xy, c.z, c.w, span, vec2(number - 2.0 * row, row), vec2(share - number, 0.0));
 }
 
 // uv and code. Where the tile holds nothing there is light: outside of the map, with a code nearer than anything.

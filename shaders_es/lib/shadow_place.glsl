@@ -77,7 +77,14 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.at = shadow_cascade_at(slot, c, p, n, l);
         s.slope = shadow_cascade_slope(slot, c, face, l);
         s.soft.x /= c.texel;
-        s.soft.y = max(s.soft.y, shadow_e(s, s.at.z) - s.reach / s.soft.x); // no wider than there is room for
+        // No wider than there is room for, nor than in proportion to the distance.
+        float e = shadow_e(s, s.at.z);
+        s.soft.y = max(c.nearest, e - min(s.reach / s.soft.x, s.soft.y / gl_FragCoord.w));
+        if (SHADOW_SPANS[slot]) {
+            s.at.z = (e - c.nearest) / c.span;
+            s.slope *= s.soft.z / c.span;
+            s.soft.zw = vec2(c.span, c.nearest);
+        }
         s.window.xy = c.tile * (0.5 * s.size.x);
         s.window.zw = s.window.xy + 0.5 * s.size.x;
     } else if (type == LIGHT_POINT) {

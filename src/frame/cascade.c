@@ -6,7 +6,8 @@
 #include "frame/private.h"
 #include "shadow/cascade.h"
 
-_Static_assert(CASCADES_SIZE == GN_CASCADES_MAX, "one vec4 each");
+_Static_assert(CASCADES_ZONES == GN_CASCADES_MAX && CASCADES_SIZE == CASCADES_ZONES + 2,
+               "one vec4 each, and two of them all");
 
 #define MOST_PIXELS 2.0f /* that a texel covers, before it is rounded up to a step */
 #define NOWHERE     1e9f /* texels from a tile: there is light */
@@ -142,9 +143,12 @@ void gn_frame_cascade_constants(const struct gn_shadow_view *view, float (*const
         for (int k = 0; k < 2; k++)
             c[k] = empty ? NOWHERE : (float)(-cascade->corner_texels[k] - middle);
         c[2] = empty ? 1.0f : cascade->texel;
-        c[3] = view->empty || i + 1 >= view->cascade_count
-                   ? 0.0f
-                   : 1.0f / (GN_CASCADE_FADE * cascade->end_m);
+        c[3] = empty ? 0.0f : cascade->nearest;
+        constants[CASCADES_SPANS][i] = empty ? 1.0f : cascade->span;
+        if (i + 1 < GN_CASCADES_MAX)
+            constants[CASCADES_ZONES][i] = view->empty || i + 1 >= view->cascade_count
+                                               ? 0.0f
+                                               : 1.0f / (GN_CASCADE_FADE * cascade->end_m);
     }
 }
 

@@ -14,12 +14,24 @@ static float blur_of(const struct gn_shadow_view *view, uint32_t tile) {
     return view->cascade_count > 0 ? view->cascades[tile].blur_px : view->blur_px;
 }
 
+/* Factor and sum that make 0..1 of what moments span. A cascade without casters holds the far end
+ * alone, whatever is made of it. */
+static void code_of(const struct gn_shadow_view *view, uint32_t tile, float code[2]) {
+    const struct gn_shadow_cascade *c = &view->cascades[tile];
+    const bool all = view->cascade_count == 0 || view->tiles[tile].empty;
+    code[0] = all ? 1.0f : view->soft[2] / c->span;
+    code[1] = all ? 0.0f : (view->soft[3] - c->nearest) / c->span;
+}
+
 uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) {
     const uint32_t what[] = {view->technique, view->moments};
     uint64_t h = gn_hash(GN_HASH_INIT, &view->tiles[tile].content_hash, sizeof(uint64_t));
     h = gn_hash(h, what, sizeof what);
     const float blur_px = blur_of(view, tile);
     h = gn_hash(h, &blur_px, sizeof blur_px);
+    float code[2];
+    code_of(view, tile, code);
+    h = gn_hash(h, code, sizeof code);
     h = gn_hash(h, &view->reach_px, sizeof view->reach_px);
     return h ? h : 1;
 }
@@ -66,6 +78,7 @@ static void put_constants(const struct gn_shadow_view *view, uint32_t tile, floa
     c[FILTER_BLUR][2] = blur_px > 0.0f ? 0.5f / blur_px : 1.0f;
     c[FILTER_TABLE][0] = view->reach_px;
     c[FILTER_TABLE][1] = (float)(tile * blocks_of(view));
+    code_of(view, tile, c[FILTER_CODE]);
     for (int k = 0; k < 2; k++) {
         c[FILTER_SIZE][k] = size[k];
         c[FILTER_SIZE][k + 2] = 1.0f / size[k];

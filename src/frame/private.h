@@ -109,7 +109,7 @@ struct gn_frame {
 };
 
 /* Room of the constants of one pass, in vec4. */
-enum { GN_PASS_SIZE = 102 };
+enum { GN_PASS_SIZE = 110 };
 /* Sets of a slot: a page of a tile each. */
 enum { GN_SLOT_SETS = GN_SHADOW_TILES_MAX * GN_SHADOW_PAGES_MAX };
 /* Whose constants stand where. */

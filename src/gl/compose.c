@@ -194,10 +194,15 @@ static void add_flags(const struct gn_program_key *key, const char *name,
     gn_gl_text_add(out, ");\n");
 }
 
+static bool has_spans(const struct gn_program_key *key, int i) {
+    return key->lights[i].cascades &&
+           gn_technique_filters_map((enum gn_technique)key->lights[i].technique);
+}
+
 /* Whether the vertex shader can say where a light's map is looked up: on a plane, with any light;
  * whether tiles of the map are shared (shaders_es/lib/shadow_tile.glsl), and whether they are
- * cascades. To share takes derivatives, and after a discard there are none: holes are cut last
- * where one is shared, and first elsewhere, where they save work. */
+ * cascades, with codes of their own. To share takes derivatives, and after a discard there are
+ * none: holes are cut last where one is shared, and first elsewhere, where they save work. */
 static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
     bool cut_last = false;
     for (int i = 0; i < key->shadow_count; i++) cut_last |= is_shared(key, i);
@@ -205,6 +210,7 @@ static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text
     add_flags(key, "SHADOW_SHARED", is_shared, out);
     gn_gl_text_add(out, "const bool CUT_LAST = %s;\n", cut_last ? "true" : "false");
     add_flags(key, "SHADOW_CASCADES", has_cascades, out);
+    add_flags(key, "SHADOW_SPANS", has_spans, out);
 }
 
 static void add_light_loops(const struct gn_program_key *key, struct gn_gl_text *out) {

@@ -5,11 +5,21 @@
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define NEAR_STEPS     1.0f /* an octave, of the distances that splits are made from */
-#define FAR_STEPS      2.0f
-#define NEAREST_SHARE  (1.0f / 400.0f) /* what is nearer than this, of the farthest, is small */
-#define LEAST_RATIO    1.25f           /* of two splits: wider apart than a zone is */
-#define PENUMBRA_SHARE 6.7f            /* width of penumbrae that tiles have room for, in tiles */
+#define NEAR_STEPS    1.0f /* an octave, of the distances that splits are made from */
+#define FAR_STEPS     2.0f
+#define NEAREST_SHARE (1.0f / 400.0f) /* what is nearer than this, of the farthest, is small */
+#define LEAST_RATIO   1.25f           /* of two splits: wider apart than a zone is */
+#define LEAST_ROOM    (1.0f / 64.0f)  /* for penumbrae to each side of a tile, as a share of it */
+#define MOST_ROOM     (1.0f / 8.0f)
+#define UNBOUND       1e9f
+#define SPAN_STEPS    2.0f /* an octave */
+#define LEAST_SPAN    (1.0f / 256.0f)
+
+/* To the next of so many steps per octave, up or down. */
+static float step(float size, float steps, bool up) {
+    const float at = steps * log2f(size);
+    return exp2f((up ? ceilf(at) : floorf(at)) / steps);
+}
 
 /* ---- tiles ---- */
 
@@ -18,31 +28,34 @@ void gn_cascade_map_size(uint32_t cascades, uint32_t map_px, uint32_t size_px[2]
     size_px[1] = (cascades > 2 ? 2 : 1) * map_px;
 }
 
-/* How far beside a place a technique reads; a soft one no farther than there is room for: a 32nd of
- * the tile for the sun. */
-static uint32_t reach_px(const struct gn_shadow_view *view, float radius) {
+/* How far beside a place a technique reads; a soft one no farther than there is room for. */
+static uint32_t reach_px(const struct gn_shadow_view *view, float room) {
     const struct gn_technique_row *row = &gn_techniques[view->technique];
     const uint32_t fixed = row->radius_texels + 1;
     if (!row->soft) return fixed;
-    const float share = fminf(fmaxf(PENUMBRA_SHARE * radius, 1.0f / 32.0f), 1.0f / 8.0f);
-    const uint32_t soft = (uint32_t)(share * (float)view->map_px),
+    const uint32_t soft = (uint32_t)(room * (float)view->map_px),
                    most = row->filter == GN_FILTER_TABLE && soft > GN_TABLE_REACH_PX
                               ? GN_TABLE_REACH_PX
                               : soft;
     return most > fixed ? most : fixed;
 }
 
-void gn_cascades_lay(uint32_t cascades, float radius, struct gn_shadow_view *view) {
+/* room: for penumbrae, as a share of a tile. */
+static void lay_gutters(struct gn_shadow_view *view, float room) {
+    const uint32_t reach = reach_px(view, room);
+    view->gutter_px = 2 * reach + 1;
+    view->inner_px = view->map_px - 2 * view->gutter_px;
+    view->reach_px = (float)reach;
+    view->held_px = 0.5f * (float)view->inner_px + (float)reach;
+}
+
+void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view) {
     uint32_t size_px[2];
     gn_cascade_map_size(cascades, view->map_px, size_px);
     view->width_px = size_px[0];
     view->height_px = size_px[1];
     view->tile_count = view->cascade_count = cascades;
-    const uint32_t reach = reach_px(view, radius);
-    view->gutter_px = 2 * reach + 1;
-    view->inner_px = view->map_px - 2 * view->gutter_px;
-    view->reach_px = (float)reach;
-    view->held_px = 0.5f * (float)view->inner_px + (float)reach;
+    lay_gutters(view, LEAST_ROOM);
     for (uint32_t i = 0; i < cascades; i++) {
         view->tiles[i].x_px = i % 2 * view->map_px;
         view->tiles[i].y_px = i / 2 * view->map_px;
@@ -170,12 +183,6 @@ static struct distances seen_distances(const struct gn_fitter *f,
     return d;
 }
 
-/* To the next of so many steps per octave, up or down. */
-static float step(float size, float steps, bool up) {
-    const float at = steps * log2f(size);
-    return exp2f((up ? ceilf(at) : floorf(at)) / steps);
-}
-
 /* The nearest place that counts. */
 static float nearest(const struct distances *seen) {
     return fmaxf(seen->near_m, NEAREST_SHARE * seen->far_m);
@@ -242,11 +249,26 @@ static void take_codes(struct gn_shadow_view *view, const struct gn_shadow_view 
     }
 }
 
+/* What moments are of need not be all that casts anywhere, of which a near tile shows little: they
+ * begin at the nearest caster and end at the farthest place in shadow that is seen. By steps, so
+ * that they stay while the eye moves little. */
+static void set_span(const struct gn_shadow_view *tile, struct gn_shadow_cascade *c) {
+    c->nearest = tile->soft[1];
+    c->span = tile->far_m;
+    if (!gn_technique_filters_map(tile->technique)) return;
+    const float wanted =
+        most(1.01f * (tile->farthest - c->nearest), LEAST_SPAN * tile->far_m) * 8.0f / 7.0f;
+    const float span = step(wanted, SPAN_STEPS, true), part = span / 8.0f;
+    c->nearest = floorf(c->nearest / part) * part;
+    c->span = least(span, tile->far_m - c->nearest);
+}
+
 static void take_tile(struct gn_shadow_view *view, uint32_t index,
                       const struct gn_shadow_view *tile) {
     struct gn_shadow_cascade *c = &view->cascades[index];
     c->texel = tile->texel;
     c->blur_px = tile->blur_px;
+    set_span(tile, c);
     c->page_count = tile->page_count;
     for (int k = 0; k < 2; k++) {
         c->corner_texels[k] = tile->corner_texels[k];
@@ -268,6 +290,7 @@ static bool fit_tile(const struct gn_fitter *f, uint32_t index, float blur_most_
     tile->tile_count = 1;
     tile->cascade_count = 0;
     struct gn_fitter own = *f;
+    own.is_cascade = true;
     own.blur_most_m = blur_most_m;
     own.eye = &eye;
     own.memory = &f->memory[index];
@@ -290,26 +313,62 @@ static bool find_seen(const struct gn_fitter *f, struct distances *seen) {
     return seen->near_m <= seen->far_m;
 }
 
-bool gn_cascades_fit(const struct gn_fitter *f) {
+/* Every tile, in gutters as they are; false: all are empty. */
+static bool fit_tiles(const struct gn_fitter *f, float widest_m[GN_CASCADES_MAX]) {
     struct gn_shadow_view *view = f->view, tile;
-    struct distances seen;
     float blur_most_m = 0.0f;
     bool found = false;
-    if (!find_seen(f, &seen)) return false;
-    split(view, split_distances(&seen, view->cascade_count));
     for (uint32_t i = 0; i < view->cascade_count; i++) {
         view->tiles[i].empty = !fit_tile(f, i, blur_most_m, &tile);
+        widest_m[i] = 0.0f;
         if (view->tiles[i].empty) continue;
         take_tile(view, i, &tile);
+        widest_m[i] = f->light_radius * (tile.farthest - tile.soft[1]);
         view->tiles[i].content_hash = tile.tiles[0].content_hash;
         if (!found) take_codes(view, &tile);
         if (!found) blur_most_m = GN_BLUR_MOST_PX * tile.texel;
         found = true;
     }
+    return found;
+}
+
+static bool has_room(const struct gn_shadow_view *view, const float widest_m[GN_CASCADES_MAX]) {
+    for (uint32_t i = 0; i < view->cascade_count; i++)
+        if (widest_m[i] > view->reach_px * view->cascades[i].texel) return false;
+    return true;
+}
+
+/* Where a tile has no room for the widest of its penumbrae, no place's is wider than in proportion
+ * to its distance from the eye: a limit by tiles would be seen at each split. */
+static float bound_of(const struct gn_shadow_view *view, float radius) {
+    float bound = UNBOUND;
+    for (uint32_t i = 0; i + 1 < view->cascade_count; i++) {
+        const struct gn_shadow_cascade *c = &view->cascades[i];
+        if (!view->tiles[i].empty)
+            bound = fminf(bound, view->reach_px * c->texel / (c->end_m * radius));
+    }
+    return bound;
+}
+
+/* In gutters as narrow as have room for all penumbrae that can be seen. */
+bool gn_cascades_fit(const struct gn_fitter *f) {
+    struct gn_shadow_view *view = f->view;
+    struct distances seen;
+    float widest_m[GN_CASCADES_MAX], room = LEAST_ROOM;
+    if (!find_seen(f, &seen)) return false;
+    split(view, split_distances(&seen, view->cascade_count));
+    if (!fit_tiles(f, widest_m)) return false;
+    const bool soft = gn_techniques[view->technique].soft;
+    while (soft && room < MOST_ROOM && !has_room(view, widest_m)) {
+        room *= 2.0f;
+        lay_gutters(view, room);
+        fit_tiles(f, widest_m);
+    }
+    view->soft[1] = has_room(view, widest_m) ? UNBOUND : bound_of(view, f->light_radius);
     for (uint32_t i = 0; i < view->cascade_count; i++)
         if (view->tiles[i].empty)
             view->tiles[i].content_hash = gn_shadow_hash(f->pose, view, &view->tiles[i], NULL);
-    return found;
+    return true;
 }
 
 /* ---- how many ---- */

@@ -6,8 +6,11 @@
  * drawn in pages, and moves by whole texels (pages.h). It is always copied from there to its tile,
  * so a texel holds the same bits wherever the eye is. Round it lies a gutter that stays cleared,
  * twice as wide as a technique may read: once for places beside what is drawn, whose filter reaches
- * in, and once for what they read on their other side. All tiles span the same depths and have the
- * same codes, for which no eye matters.
+ * in, and once for what they read on their other side. A soft technique reads as far as the widest
+ * penumbra that may be seen, by powers of two. All tiles span the same depths and have the same
+ * codes, for which no eye matters; moments alone are of what lies between a tile's nearest caster
+ * and the farthest place that is seen in its shadow, since they tell depths apart the better the
+ * fewer there are.
  *
  * The splits go by equal ratios of distance (Lloyd et al., "Warping and Partitioning for Low Error
  * Shadow Maps", 2006) between the nearest and the farthest place that can be in a seen shadow, both
@@ -37,7 +40,7 @@ float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struc
 /* The size of a map of so many tiles of map_px. */
 void gn_cascade_map_size(uint32_t cascades, uint32_t map_px, uint32_t size_px[2]);
 
-/* Private to the room: begins such a view; radius: the light's. */
-void gn_cascades_lay(uint32_t cascades, float radius, struct gn_shadow_view *view);
+/* Private to the room: begins such a view. */
+void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view);
 
 #endif

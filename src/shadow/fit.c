@@ -157,7 +157,8 @@ static void set_depths(const struct gn_fitter *f, const struct gn_shadow_region 
 /* Similar triangles (Fernando, "Percentage-Closer Soft Shadows", 2005): in plane units a blocker at
  * b throws on a receiver at r a penumbra of radius (r - b) tan(sun's radius), or radius (1/b - 1/r)
  * of a lamp. */
-static void set_soft(const struct gn_fitter *f, float near_depth, float far_depth) {
+static void set_soft(const struct gn_fitter *f, const struct gn_shadow_region *window,
+                     float near_depth, float far_depth) {
     struct gn_shadow_view *view = f->view;
     view->soft[0] = f->light_radius / view->texel;
     if (view->perspective && view->encoding == GN_ENCODING_DEPTH) { /* linear in 1 / depth */
@@ -166,7 +167,8 @@ static void set_soft(const struct gn_fitter *f, float near_depth, float far_dept
         view->soft[3] = -1.0f / near_depth;
         return;
     }
-    view->soft[1] = view->perspective ? -1.0f / near_depth : 0.0f;
+    view->soft[1] = view->perspective ? -1.0f / near_depth : most(window->near - near_depth, 0.0f);
+    view->farthest = window->far - near_depth;
     view->soft[2] = view->encoding == GN_ENCODING_DEPTH ? view->far_m : 1.0f / view->distance_scale;
     view->soft[3] = -view->distance_offset / view->distance_scale;
 }
@@ -241,7 +243,7 @@ bool gn_shadow_fit_window(struct gn_fitter *f) {
     set_code(f, near_depth, far_depth);
     lay_window(f, &found, near_depth, far_depth);
     set_lookup(f->view, near_depth);
-    set_soft(f, near_depth, far_depth);
+    set_soft(f, &found.window, near_depth, far_depth);
     set_blur(f, near_depth, far_depth);
     return true;
 }
@@ -320,7 +322,7 @@ static bool fit_tiles(struct gn_fitter *f) {
     set_depths(f, &depths, &near_depth, &far_depth);
     set_code(f, near_depth, far_depth);
     set_clip(view, (double[2]){edge, edge}, near_depth, far_depth);
-    set_soft(f, near_depth, far_depth);
+    set_soft(f, &depths, near_depth, far_depth);
     set_blur(f, near_depth, far_depth);
     view->tangent_uv[0] = 1.0f / (view->texel * (float)view->width_px);
     view->tangent_uv[1] = 1.0f / (view->texel * (float)view->height_px);
@@ -362,7 +364,7 @@ static void begin_view(const struct gn_pose *pose, uint32_t light,
     if (gn_techniques[view->technique].filter == GN_FILTER_TABLE)
         view->reach_px = GN_TABLE_REACH_PX;
     if (opts->cascades > 1 && !view->perspective && !gn_techniques[opts->technique].on_plane)
-        gn_cascades_lay(opts->cascades, pose->scene->lights[light].radius, view);
+        gn_cascades_lay(opts->cascades, view);
     gn_pose_light(pose, light, view->light_ws, direction);
     glm_vec3_negate_to(direction, view->to_light_ws);
 }

@@ -63,6 +63,8 @@ struct gn_shadow_cascade {
     float begin_m, end_m; /* of what it serves, along the view; the last one's end: INFINITY */
     float texel;          /* metres */
     float blur_px;        /* as in gn_shadow_view */
+    float nearest;        /* e of the nearest caster: soft[1] of a map without cascades */
+    float span;           /* from there, e: what moments are of, 0 to 1 */
     /* As of a map without cascades, of the inner part of its tile: */
     uint32_t drawn_px[2], drawn_size_px[2];
     double corner_texels[2];
@@ -118,8 +120,10 @@ struct gn_shadow_view {
     float slope_max;
     /* How wide penumbrae are (shaders_es/lib/shadow_place.glsl): the emitter's radius in texels per
      * unit of e, e of the nearest caster, and e = code * [2] + [3], or its negative inverse for
-     * distances from a spot. */
+     * distances from a spot. Cascades: [0] times the texel, and [1] is how much of e they grow per
+     * metre along the view, where there is no room for more. */
     float soft[4];
+    float farthest; /* directional: e of the farthest place that can be seen in shadow */
     float screen_ndc[2]
                     [2]; /* encoding STENCIL: least and greatest place in view that can be dark */
     float ulp_m;         /* added towards the light: the encoding's rounding at the far end */

@@ -2,6 +2,7 @@
  * frame, so that what stands still costs nothing. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/arena.h"
 #include "core/hash.h"
@@ -140,6 +141,14 @@ const struct gn_shadow_region *gn_fitter_whole(const struct gn_fitter *f, uint32
 const struct gn_shadow_region *gn_fitter_seen(const struct gn_fitter *f, uint32_t item) {
     return f->memory->seen[item] == GN_SEEN_WHOLE ? gn_fitter_whole(f, item)
                                                   : &f->memory->part[item];
+}
+
+struct gn_shadow_region gn_fitter_within(const struct gn_fitter *f, uint32_t item,
+                                         const vec4 *planes, int count) {
+    struct gn_fitter own = *f;
+    memcpy(own.cone, planes, (size_t)count * sizeof *planes);
+    own.cone_count = count;
+    return measure(&own, item, false);
 }
 
 void gn_fitter_remember(const struct gn_fitter *f) {

@@ -110,6 +110,29 @@ static void unite_receivers(const struct gn_fitter *f, bool everything,
     unite(all, receivers);
 }
 
+/* Round all places of which a sun's penumbra reaches those receivers: the farther from these
+ * towards the light, the farther aside. World space. */
+enum { REACH_PLANES = 5 };
+static void reach_planes(const struct gn_fitter *f, const struct gn_shadow_region *receivers,
+                         vec4 planes[REACH_PLANES]) {
+    const float r = gn_techniques[f->view->technique].soft ? f->light_radius : 0.0f,
+                far = receivers->far;
+    vec4 of_light[REACH_PLANES] = {{1, 0, r, r * far - receivers->min[0]},
+                                   {-1, 0, r, r * far + receivers->max[0]},
+                                   {0, 1, r, r * far - receivers->min[1]},
+                                   {0, -1, r, r * far + receivers->max[1]},
+                                   {0, 0, 1, far}};
+    for (int i = 0; i < REACH_PLANES; i++)
+        for (int c = 0; c < 4; c++) /* a plane goes by the transpose */
+            planes[i][c] = glm_vec4_dot(of_light[i], (float *)f->tile->light_from_world[c]);
+}
+
+static bool holds(const struct gn_shadow_region *a, const struct gn_shadow_region *b) {
+    for (int k = 0; k < 2; k++)
+        if (b->min[k] < a->min[k] || b->max[k] > a->max[k]) return false;
+    return true;
+}
+
 /* The casters that matter for those receivers, united; marks those. */
 static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
                                              const struct gn_shadow_region *receivers,
@@ -117,6 +140,10 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
     struct gn_shadow_region casters = nothing;
     uint8_t *casts = f->memory->casts;
     uint32_t looks = MOST_LOOKS;
+    const bool near_counts = (gn_techniques[f->view->technique].soft && !f->view->perspective) ||
+                             (f->is_cascade && gn_technique_filters_map(f->view->technique));
+    vec4 planes[REACH_PLANES];
+    reach_planes(f, receivers, planes);
     *depths = nothing;
     memset(casts, 0, f->memory->item_count);
     for (uint32_t i = 0; i < f->memory->item_count; i++) {
@@ -130,6 +157,10 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
         casts[i] = matters || f->view->tile_count > 1 || !f->view->perspective;
         if (!matters) continue;
         r = intersect(&r, &reached);
+        if (near_counts && !holds(receivers, &r)) { /* what is long is not as near all over */
+            const struct gn_shadow_region part = gn_fitter_within(f, i, planes, REACH_PLANES);
+            r = intersect(&part, &r);
+        }
         unite(&casters, &r);
     }
     return casters;
@@ -155,5 +186,6 @@ bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window
         unite(&again, &r);
     }
     found->window = intersect(&casters, &again);
+    found->window.far = again.far;
     return !region_is_empty(&found->window);
 }

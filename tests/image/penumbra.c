@@ -17,6 +17,9 @@ static const struct {
     const char *name, *nodes;
     enum gn_light_type type;
     double radius, light_up_m; /* a lamp is at x .5, z .3 and looks down, but for the seam's */
+    const char *sun;           /* rotation; NULL: straight down */
+    const char *eye;           /* NULL: from the side */
+    double ground_m;           /* half the side of a slab; 0: a square, 12 */
 } scenes[GN_PENUMBRA_COUNT] = {
     [GN_PENUMBRA_LOW] = {"low", "{'mesh':0,'translation':[0,1,0],'scale':[1.2,1,0.8]}",
                          GN_LIGHT_SPOT, 0.3, 9},
@@ -34,7 +37,8 @@ static const struct {
                           "{'mesh':1,'translation':[-1.5,1,0],'scale':[0.2,0.2,2]},"
                           "{'mesh':1,'translation':[0,2,0],'scale':[0.2,0.2,2]},"
                           "{'mesh':1,'translation':[1.5,3,0],'scale':[0.2,0.2,2]}",
-                          GN_LIGHT_DIRECTIONAL, 0.08, 0},
+                          GN_LIGHT_DIRECTIONAL, 0.08, 0, /* 40 degrees off */
+                          .sun = "-0.5577,-0.1494,-0.1002,0.8102"},
     [GN_PENUMBRA_LEAN] = {"lean",
                           "{'mesh':0,'translation':[0,1,0],'rotation':[0,0,0.4226,0.9063],"
                           "'scale':[1.3054,1,1.5]}",
@@ -50,28 +54,40 @@ static const struct {
                           "{'mesh':1,'translation':[-0.6,1.2,1.2],'rotation':[0,0.3827,0,0.9239],"
                           "'scale':[1,0.1,0.15]}",
                           GN_LIGHT_POINT, 0.4, 4},
+    [GN_PENUMBRA_FIELD] = {"field",
+                           "{'mesh':1,'translation':[-7,1.5,-130],'scale':[0.25,1.5,128]},"
+                           "{'mesh':1,'translation':[-4,5,-130],'scale':[0.25,0.25,128]},"
+                           "{'mesh':1,'translation':[3,3,-4],'scale':[0.2,3,0.2]},"
+                           "{'mesh':1,'translation':[5,3,-12],'scale':[0.2,3,0.2]},"
+                           "{'mesh':1,'translation':[7,3,-40],'scale':[0.2,3,0.2]},"
+                           "{'mesh':1,'translation':[9,3,-90],'scale':[0.2,3,0.2]}",
+                           GN_LIGHT_DIRECTIONAL, 0.05, 0, .sun = "-0.332,-0.4814,-0.2035,0.7852",
+                           .eye = "'translation':[0,2.2,0],'rotation':[-0.0899,0,0,0.996]", 450},
     [GN_PENUMBRA_EDGE] = {"edge", "{'mesh':0,'translation':[-6,3,0],'scale':[6,1,20]}",
-                          GN_LIGHT_DIRECTIONAL, 0.15, 0},
+                          GN_LIGHT_DIRECTIONAL, 0.15, 0,
+                          .eye = "'translation':[0,2.5,0],"
+                                 "'rotation':[-0.70710678,0,0,0.70710678]"}, /* straight above */
 };
-const char *const gn_penumbra_names[GN_PENUMBRA_COUNT] = {"low",  "middle", "high", "box", "bars",
-                                                          "lean", "bulb",   "seam", "edge"};
+const char *const gn_penumbra_names[GN_PENUMBRA_COUNT] = {
+    "low", "middle", "high", "box", "bars", "lean", "bulb", "seam", "field", "edge"};
 
 enum gn_light_type gn_penumbra_light(int scene) { return scenes[scene].type; }
 
-/* The edge is seen straight from above, the others from the side; all on a ground of 24 m. */
 static void add_nodes(struct gn_maker *maker, int scene) {
     static const char aside[] = "'translation':[0,7,9],'rotation':[-0.3584,0,0,0.9336]";
-    static const char above[] = "'translation':[0,2.5,0],'rotation':[-0.70710678,0,0,0.70710678]";
     static const char straight_down[] = "-0.70710678,0,0,0.70710678";
-    static const char slanting[] = "-0.5577,-0.1494,-0.1002,0.8102"; /* a sun 40 degrees off */
-    char nodes[2000];
+    const char *eye = scenes[scene].eye, *sun = scenes[scene].sun;
+    const double slab_m = scenes[scene].ground_m;
+    char ground[100] = "{'mesh':0,'scale':[12,1,12]}", nodes[2000];
+    if (slab_m > 0)
+        snprintf(ground, sizeof ground, "{'mesh':1,'translation':[0,-0.5,0],'scale':[%g,0.5,%g]}",
+                 slab_m, slab_m);
     snprintf(nodes, sizeof nodes,
-             "[{'mesh':0,'scale':[12,1,12]},{'camera':0,%s},"
+             "[%s,{'camera':0,%s},"
              "{'translation':[%g,%g,0.3],'rotation':[%s],"
              "'extensions':{'KHR_lights_punctual':{'light':0}}},%s]",
-             scene == GN_PENUMBRA_EDGE ? above : aside, scene == GN_PENUMBRA_SEAM ? -3.5 : 0.5,
-             scenes[scene].light_up_m, scene == GN_PENUMBRA_BARS ? slanting : straight_down,
-             scenes[scene].nodes);
+             ground, eye ? eye : aside, scene == GN_PENUMBRA_SEAM ? -3.5 : 0.5,
+             scenes[scene].light_up_m, sun ? sun : straight_down, scenes[scene].nodes);
     gn_maker_set(maker, "nodes", nodes);
     char roots[100] = "[{'nodes':[0";
     int count = 3;
@@ -104,7 +120,7 @@ char *gn_penumbra_write(int scene, struct gn_err *err) {
     add_nodes(&maker, scene);
     add_light(&maker, scene);
     gn_maker_set(&maker, "cameras",
-                 "[{'type':'perspective','perspective':{'yfov':0.7,'znear':0.1,'zfar':60}}]");
+                 "[{'type':'perspective','perspective':{'yfov':0.7,'znear':0.1,'zfar':1000}}]");
     char *path = NULL;
     if (asprintf(&path, "%s/penumbra-%s.glb", gn_shot_build(), scenes[scene].name) < 0) abort();
     if (gn_maker_write(&maker, path, err)) return path;

@@ -16,6 +16,8 @@ enum {
     GN_PENUMBRA_BULB,   /* own: a plate 2 m up and a bar 1 m up below a point light of .6 m */
     GN_PENUMBRA_SEAM,   /* own: a plate and a bar under a point light of .4 m aside: the shadow lies
                            across an edge of two tiles of its map */
+    GN_PENUMBRA_FIELD,  /* own: a wall and a bar from the eye's feet to 250 m, and posts, under a
+                           large  sun that has cascades */
     GN_PENUMBRA_EDGE,   /* a half-plane 3 m up under a large sun, seen from above: the exact case */
     GN_PENUMBRA_COUNT,
 };

@@ -13,15 +13,13 @@
 
 enum { QUICK_W = 240, QUICK_H = 180, FULL_W = 640, FULL_H = 480 };
 
-static int width(void) { return gn_shot_full() ? FULL_W : QUICK_W; }
-static int height(void) { return gn_shot_full() ? FULL_H : QUICK_H; }
-
-static struct gn_picture shoot(const char *path, const char *technique, const char *format,
-                               const char *taps) {
+/* As large as the truth. */
+static struct gn_picture shoot(const char *path, const struct gn_picture *truth,
+                               const char *technique, const char *format, const char *taps) {
     struct gn_err err = {0};
     struct gn_picture shot;
     char size[32];
-    snprintf(size, sizeof size, "%dx%d", width(), height());
+    snprintf(size, sizeof size, "%dx%d", truth->width_px, truth->height_px);
     const char *const args[] = {"--aov",  "visibility", "--size",  size,           "--backend",
                                 "egl",    "--shadow",   technique, "--map-format", format,
                                 "--taps", taps,         NULL};
@@ -29,21 +27,69 @@ static struct gn_picture shoot(const char *path, const char *technique, const ch
     return shot;
 }
 
-static char *make(int scene, struct gn_picture *truth) {
+static char *make_of_size(int scene, struct gn_picture *truth, int width_px, int height_px) {
     struct gn_err err = {0};
     char *path = gn_penumbra_write(scene, &err);
-    if (!path || !gn_penumbra_truth(truth, path, false, width(), height(), &err))
+    if (!path || !gn_penumbra_truth(truth, path, false, width_px, height_px, &err))
         fail_msg("%s", err.text);
     return path;
 }
 
+static char *make(int scene, struct gn_picture *truth) {
+    return make_of_size(scene, truth, gn_shot_full() ? FULL_W : QUICK_W,
+                        gn_shot_full() ? FULL_H : QUICK_H);
+}
+
 static struct gn_penumbra_score score_of(const char *path, const struct gn_picture *truth,
                                          const char *technique, const char *format) {
-    struct gn_picture shot = shoot(path, technique, format, "16");
+    struct gn_picture shot = shoot(path, truth, technique, format, "16");
     struct gn_penumbra_score score;
     gn_penumbra_score(truth, &shot, &score);
     gn_picture_finish(&shot);
     return score;
+}
+
+/* Of shot - truth over the penumbrae of these rows; NAN: there are hardly any. */
+static double bias_of_rows(const struct gn_picture *truth, const struct gn_picture *shot, int y,
+                           int rows) {
+    double sum = 0;
+    int count = 0;
+    for (int i = y * truth->width_px; i < (y + rows) * truth->width_px; i++)
+        if (truth->data[i] > .01f && truth->data[i] < .99f) {
+            sum += (double)(shot->data[i] - truth->data[i]);
+            count++;
+        }
+    return count < 4 * rows ? NAN : sum / count;
+}
+
+/* From ten rows of the ground to the next. FIRST: 90 m away, where the bar is as wide as a texel;
+ * there are splits at 13 and 45 m. */
+static void check_splits(const char *path, const struct gn_picture *truth, const char *technique) {
+    enum { FIRST = 136, ROWS = 10 };
+    struct gn_picture shot = shoot(path, truth, technique, "auto", "16");
+    double worst = 0;
+    int pairs = 0;
+    for (int y = FIRST; y + 2 * ROWS <= FULL_H; y++) {
+        const double step =
+            bias_of_rows(truth, &shot, y + ROWS, ROWS) - bias_of_rows(truth, &shot, y, ROWS);
+        if (isnan(step)) continue;
+        worst = fmax(worst, fabs(step));
+        pairs++;
+    }
+    print_message("%s: from rows to the next at most %.3f, %d pairs\n", technique, worst, pairs);
+    assert_true(pairs > 300);
+    assert_true(worst <= .1);
+    gn_picture_finish(&shot);
+}
+
+static void test_no_split_is_seen_in_a_penumbra(void **state) {
+    (void)state;
+    static const char *const techniques[] = {"pcss", "vssm", "smsm"};
+    struct gn_picture truth;
+    char *path = make_of_size(GN_PENUMBRA_FIELD, &truth, FULL_W, FULL_H);
+    for (int t = 0; t < 3; t++) check_splits(path, &truth, techniques[t]);
+    gn_picture_finish(&truth);
+    free(path);
 }
 
 static void check_scene(int scene) {
@@ -96,7 +142,7 @@ static void test_summed_area_tables(void **state) {
 }
 
 static void check_edge(const char *path, const struct gn_picture *truth, const char *technique) {
-    struct gn_picture shot = shoot(path, technique, "auto", "16");
+    struct gn_picture shot = shoot(path, truth, technique, "auto", "16");
     struct gn_penumbra_edge edge;
     gn_penumbra_edge(truth, &shot, &edge);
     print_message("%s: width %.3f of %.3f m, energy %+.4f, grain %.3f, back %.4f\n", technique,
@@ -150,6 +196,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_pcss),
         cmocka_unit_test(test_summed_area_tables),
+        cmocka_unit_test(test_no_split_is_seen_in_a_penumbra),
         cmocka_unit_test(test_the_edge_of_a_half_plane_is_exact),
         cmocka_unit_test(test_disks_are_monotone_and_hardly_grainy),
     };

@@ -64,20 +64,46 @@ static double dice(void) {
     return (seed >> 8) / 16777216.0;
 }
 
-/* Other codes in the place of those of a map, as far as its tables know drawn so; 1: clear. */
+/* Factor and sum that make 0..1 of what a tile's table spans of codes. */
+static void code_of(const struct gn_shadow_view *view, uint32_t tile, float code[2]) {
+    const struct gn_shadow_cascade *c = &view->cascades[tile];
+    const bool cascade = view->cascade_count > 0;
+    code[0] = cascade ? view->far_m / c->span : 1.0f;
+    code[1] = cascade ? -c->nearest / c->span : 0.0f;
+}
+
+static uint32_t tile_at(const struct gn_shadow_view *view, size_t texel) {
+    const uint32_t x = (uint32_t)(texel % view->width_px), y = (uint32_t)(texel / view->width_px);
+    for (uint32_t i = 0; i < view->tile_count; i++)
+        if (x - view->tiles[i].x_px < view->map_px && y - view->tiles[i].y_px < view->map_px)
+            return i;
+    return 0;
+}
+
+/* Other codes in the place of those of a map, as far as its tables know drawn so, all over what
+ * they span; 1: clear. What tables make of them. */
 static float *fill(const struct gn_plan *plan, uint32_t slot) {
-    struct gn_gl_map *map = gn_gl_view_find(stage.gl, &plan->shadows[slot], slot, false);
-    struct gn_gl_map *table = gn_gl_view_find(stage.gl, &plan->shadows[slot], slot, true);
+    const struct gn_shadow_view *view = &plan->shadows[slot];
+    struct gn_gl_map *map = gn_gl_view_find(stage.gl, view, slot, false);
+    struct gn_gl_map *table = gn_gl_view_find(stage.gl, view, slot, true);
     const size_t count = (size_t)map->width_px * map->height_px;
-    float *codes = gn_xalloc(count, sizeof *codes);
+    float *codes = gn_xalloc(count, sizeof *codes), *known = gn_xalloc(count, sizeof *known);
     assert_int_equal(map->encoding, GN_ENCODING_R32UI);
-    for (size_t i = 0; i < count; i++) codes[i] = dice() < 0.3 ? 1.0f : (float)(0.999 * dice());
+    for (size_t i = 0; i < count; i++) {
+        float code[2];
+        code_of(view, tile_at(view, i), code);
+        const bool clear = dice() < 0.3;
+        codes[i] = clear ? 1.0f : ((float)(0.999 * dice()) - code[1]) / code[0];
+        known[i] = clear ? 1.0f : codes[i] * code[0] + code[1];
+        assert_true(code[0] + code[1] > 0.9999f); /* what is clear is so for tables, too */
+    }
     gn_gl_work_on_texture(stage.gl, map->texture);
     GL(stage.gl, TexSubImage2D)
     (GL_TEXTURE_2D, 0, 0, 0, (GLsizei)map->width_px, (GLsizei)map->height_px, GL_RED_INTEGER,
      GL_UNSIGNED_INT, codes);
+    free(codes);
     memset(table->content_hash, 0, sizeof table->content_hash);
-    return codes;
+    return known;
 }
 
 static void run(const struct gn_plan *plan) {
