@@ -10,6 +10,7 @@ _Static_assert(CASCADES_ZONES == GN_CASCADES_MAX && CASCADES_SIZE == CASCADES_ZO
                "one vec4 each, and two of them all");
 
 #define MOST_PIXELS 2.0f /* that a texel covers, before it is rounded up to a step */
+#define TOO_COARSE  2.0f /* times that: the eye has moved to where more are worth it */
 #define NOWHERE     1e9f /* texels from a tile: there is light */
 
 /* Of a surface that faces the eye, at a distance of 1. */
@@ -112,6 +113,28 @@ static uint32_t count(struct views *v, uint32_t slot, const struct gn_shadow_opt
     return chosen;
 }
 
+/* A hand may bring the eye to where the number that the first one chose is far too coarse. There
+ * are never fewer again: each change takes programs and targets. Where more do not help, that is
+ * not asked again until it is twice as bad. */
+static void judge(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts,
+                  struct gn_cascade_choice *c) {
+    if (c->count >= opts->cascades || gn_orbit_is_zero(&v->opts->orbit)) return;
+    const float pixels = pixels_of(v, slot, opts, c->count);
+    if (pixels <= fmaxf(TOO_COARSE * MOST_PIXELS, c->borne_px)) return;
+    const uint32_t chosen = count(v, slot, opts);
+    if (chosen > c->count)
+        c->count = chosen;
+    else
+        c->borne_px = 2.0f * pixels;
+}
+
+static struct gn_cascade_choice *find_choice(struct gn_light_note *note, uint64_t choice) {
+    for (int i = 0; i < GN_CASCADE_CHOICES; i++)
+        if (note->cascades[i].count > 0 && note->cascades[i].choice == choice)
+            return &note->cascades[i];
+    return NULL;
+}
+
 uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose,
                                   const struct gn_frame_opts *frame_opts, uint32_t slot,
                                   const struct gn_shadow_opts *opts) {
@@ -119,16 +142,15 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
     struct gn_light_note *note = &frame->notes.at[light];
     const uint64_t choice = choice_of(frame, pose, opts);
     if (!gn_cascade_can(&frame->scene->lights[light], &frame->eye, opts)) return 1;
-    for (int i = 0; i < GN_CASCADE_CHOICES; i++)
-        if (note->cascades[i].count > 0 && note->cascades[i].choice == choice)
-            return note->cascades[i].count;
+    struct gn_cascade_choice *c = find_choice(note, choice);
     struct views views;
     open_views(&views, frame, pose, frame_opts);
-    const uint32_t chosen = count(&views, slot, opts);
+    const uint32_t chosen = c ? 0 : count(&views, slot, opts);
+    if (c) judge(&views, slot, opts, c);
     close_views(&views);
+    if (c) return c->count;
     if (chosen == 0) return 1;
-    note->cascades[note->next_choice].choice = choice;
-    note->cascades[note->next_choice].count = chosen;
+    note->cascades[note->next_choice] = (struct gn_cascade_choice){choice, chosen, 0.0f};
     note->next_choice = (note->next_choice + 1) % GN_CASCADE_CHOICES;
     return chosen;
 }

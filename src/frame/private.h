@@ -62,15 +62,19 @@ enum { GN_NOTICE_ABOUT = 10 }; /* options that a warning may be about */
 
 enum { GN_CASCADE_CHOICES = 8 }; /* cameras and sizes of maps and pictures that take turns */
 
+/* How many cascades a light has. */
+struct gn_cascade_choice {
+    uint64_t choice; /* the options that they are for */
+    uint32_t count;  /* 0: not known yet */
+    float borne_px;  /* a texel that is seen so large is borne: more would not help */
+};
+
 /* What is known of a light of the scene, and was said of it. */
 struct gn_light_note {
     enum gn_technique technique; /* its own, or pcf */
     bool unknown;                /* it names one that there is not */
     uint32_t said;               /* bits: enum gn_notice */
-    struct {
-        uint64_t choice; /* the options that they are for */
-        uint32_t count;  /* 0: not known yet */
-    } cascades[GN_CASCADE_CHOICES];
+    struct gn_cascade_choice cascades[GN_CASCADE_CHOICES];
     uint32_t next_choice; /* the one that makes room */
 };
 

@@ -1,5 +1,6 @@
 /* Plans of a scene that one map is too coarse for. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "blocks.glsl"
@@ -90,6 +91,27 @@ static void test_a_moving_eye_changes_neither_number_nor_program(void **state) {
             if (plan->programs[p].kind == GN_PROGRAM_LIT)
                 assert_int_equal(plan->programs[p].lights[0].cascades, 1);
     }
+    gn_plan_end(&f);
+}
+
+/* And never fewer: the eye goes back again. */
+static void test_an_eye_that_a_hand_brings_near_gets_more(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    f.opts.orbit.zoom = -5.0f;
+    const uint32_t first = view_of(&f)->tile_count;
+    uint32_t last = first;
+    int changes = 0;
+    for (int i = 0; i <= 200; i++) {
+        f.opts.orbit.zoom = -0.05f * (float)abs(100 - i);
+        const uint32_t count = view_of(&f)->tile_count;
+        assert_true(count >= last);
+        changes += count != last;
+        last = count;
+    }
+    printf("from %u to %u cascades, %d changes\n", first, last, changes);
+    assert_true(first < 3 && last >= 3 && changes <= 3);
     gn_plan_end(&f);
 }
 
@@ -278,6 +300,7 @@ int main(void) {
         cmocka_unit_test(test_small_and_huge_scenes_have_them_too),
         cmocka_unit_test(test_each_serves_what_the_last_does_not),
         cmocka_unit_test(test_a_moving_eye_changes_neither_number_nor_program),
+        cmocka_unit_test(test_an_eye_that_a_hand_brings_near_gets_more),
         cmocka_unit_test(test_every_camera_has_a_plan),
         cmocka_unit_test(test_an_atlas_is_no_larger_than_a_texture),
         cmocka_unit_test(test_as_many_as_asked_for_at_most),
