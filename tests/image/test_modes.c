@@ -152,7 +152,7 @@ static void a_switch_takes_no_more_than_two_frames(void **state) {
     (void)state;
     enum { ROUNDS = 3, STEADY = 9 };
     if (!getenv("GN_FULL")) { /* speed is for the long tests */
-        print_message("not applicable: only with GN_FULL=1\n");
+        print_message("only with GN_FULL=1\n");
         return;
     }
     struct gn_show *show = OPEN("--size", "640x360", "--turntable", "10");
