@@ -28,9 +28,7 @@ static uint64_t map_bytes(const struct gn_shadow_view *view) {
 
 /* Side of the pages of a map; 0: it has none. */
 static uint64_t page_px(const struct gn_shadow_view *view) {
-    return view->cascade_count > 0 && !view->empty ? view->inner_px
-           : view->paged                           ? view->map_px
-                                                   : 0;
+    return (view->cascade_count > 0 && !view->empty) || view->paged ? view->map_px : 0;
 }
 
 /* Where the pages of maps are drawn; those of one kind share it. */

@@ -115,17 +115,21 @@ static uint32_t count(struct views *v, uint32_t slot, const struct gn_shadow_opt
 
 /* A hand may bring the eye to where the number that the first one chose is far too coarse. There
  * are never fewer again: each change takes programs and targets. Where more do not help, that is
- * not asked again until it is twice as bad. */
-static void judge(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts,
-                  struct gn_cascade_choice *c) {
-    if (c->count >= opts->cascades || gn_orbit_is_zero(&v->opts->orbit)) return;
-    const float pixels = pixels_of(v, slot, opts, c->count);
+ * not asked again until it is twice as bad; nor while the hand rests. */
+static void judge(struct gn_frame *frame, const struct gn_pose *pose,
+                  const struct gn_frame_opts *frame_opts, uint32_t slot,
+                  const struct gn_shadow_opts *opts, struct gn_cascade_choice *c) {
+    const struct gn_orbit *orbit = &frame_opts->orbit;
+    if (c->count >= opts->cascades || gn_orbit_is_zero(orbit)) return;
+    const uint64_t by = gn_hash(GN_HASH_INIT, orbit, sizeof *orbit);
+    if (by == c->judged) return;
+    c->judged = by;
+    struct views now = {.frame = frame, .opts = frame_opts, .now = pose, .count = 1};
+    const float pixels = pixels_of(&now, slot, opts, c->count);
     if (pixels <= fmaxf(TOO_COARSE * MOST_PIXELS, c->borne_px)) return;
-    const uint32_t chosen = count(v, slot, opts);
-    if (chosen > c->count)
-        c->count = chosen;
-    else
-        c->borne_px = 2.0f * pixels;
+    const uint32_t chosen = count(&now, slot, opts);
+    c->borne_px = chosen > c->count ? 0.0f : 2.0f * pixels;
+    if (chosen > c->count) c->count = chosen;
 }
 
 static struct gn_cascade_choice *find_choice(struct gn_light_note *note, uint64_t choice) {
@@ -143,14 +147,17 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
     const uint64_t choice = choice_of(frame, pose, opts);
     if (!gn_cascade_can(&frame->scene->lights[light], &frame->eye, opts)) return 1;
     struct gn_cascade_choice *c = find_choice(note, choice);
+    if (c) {
+        judge(frame, pose, frame_opts, slot, opts, c);
+        return c->count;
+    }
     struct views views;
     open_views(&views, frame, pose, frame_opts);
-    const uint32_t chosen = c ? 0 : count(&views, slot, opts);
-    if (c) judge(&views, slot, opts, c);
+    const uint32_t chosen = count(&views, slot, opts);
     close_views(&views);
-    if (c) return c->count;
     if (chosen == 0) return 1;
-    note->cascades[note->next_choice] = (struct gn_cascade_choice){choice, chosen, 0.0f};
+    note->cascades[note->next_choice] =
+        (struct gn_cascade_choice){.choice = choice, .count = chosen};
     note->next_choice = (note->next_choice + 1) % GN_CASCADE_CHOICES;
     return chosen;
 }

@@ -17,10 +17,12 @@ static float blur_of(const struct gn_shadow_view *view, uint32_t tile) {
 /* Factor and sum that make 0..1 of what moments span. A cascade without casters holds the far end
  * alone, whatever is made of it. */
 static void code_of(const struct gn_shadow_view *view, uint32_t tile, float code[2]) {
+    code[0] = 1.0f;
+    code[1] = 0.0f;
+    if (view->cascade_count == 0 || view->tiles[tile].empty) return;
     const struct gn_shadow_cascade *c = &view->cascades[tile];
-    const bool all = view->cascade_count == 0 || view->tiles[tile].empty;
-    code[0] = all ? 1.0f : view->soft[2] / c->span;
-    code[1] = all ? 0.0f : (view->soft[3] - c->nearest) / c->span;
+    code[0] = view->soft[2] / c->span;
+    code[1] = (view->soft[3] - c->nearest) / c->span;
 }
 
 uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) {

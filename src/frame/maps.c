@@ -84,7 +84,8 @@ static void page_pass(struct gn_frame *frame, const struct gn_pose *pose, const 
     const size_t used = strlen(pass->label);
     snprintf(pass->label + used, sizeof pass->label - used, " page %u", index);
     pass->target.kind = GN_TARGET_PAGES;
-    pass->target.width_px = pass->target.height_px = map->page_px;
+    pass->target.width_px = pass->target.height_px = frame->shadows[map->slot].map_px;
+    pass->viewport = (struct gn_rect){0, 0, map->page_px, map->page_px};
     pass->clear = index == 0;
     pass->discard_depth = false; /* the next page goes on with it */
     pass->rect =

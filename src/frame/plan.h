@@ -134,8 +134,8 @@ enum gn_target_kind {
     GN_TARGET_OUTPUT,
     GN_TARGET_SHADOW,
     GN_TARGET_ENCODED, /* bytes beside a linear output, which the first pass to it reads */
-    GN_TARGET_PAGES,   /* beside a map, of its size, or the inner size of its cascades: from here
-                          its next pass copies */
+    GN_TARGET_PAGES,   /* beside a map, of its size, or that of one of its cascades: from here its
+                          next pass copies */
     GN_TARGET_MOMENTS, /* what a map is filtered into */
 };
 struct gn_rect { /* pixels of a target, first row at the bottom */
@@ -182,7 +182,7 @@ struct gn_pass {
     uint32_t border_px;      /* this many texels at the target's rim stay cleared (scissor) */
     struct gn_rect rect;     /* draws nothing outside (scissor); width 0: no such bound */
     struct gn_rect viewport; /* SHADOW: a tile, which is all that the pass clears and sees, and its
-                                rect; width 0: all of the target */
+                                rect; PAGES: a page; width 0: all of the target */
     uint32_t tile;           /* SHADOW: which of the map's; the passes of a map follow each other */
     uint32_t copy_count; /* SHADOW: once it is cleared, these are copied, and nothing is drawn; the
                             PAGES passes of the map come right before */

@@ -66,6 +66,7 @@ enum { GN_CASCADE_CHOICES = 8 }; /* cameras and sizes of maps and pictures that 
 struct gn_cascade_choice {
     uint64_t choice; /* the options that they are for */
     uint32_t count;  /* 0: not known yet */
+    uint64_t judged; /* hash of the orbit that was judged last */
     float borne_px;  /* a texel that is seen so large is borne: more would not help */
 };
 

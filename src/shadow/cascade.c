@@ -253,14 +253,11 @@ static void take_codes(struct gn_shadow_view *view, const struct gn_shadow_view 
  * begin at the nearest caster and end at the farthest place in shadow that is seen. By steps, so
  * that they stay while the eye moves little. */
 static void set_span(const struct gn_shadow_view *tile, struct gn_shadow_cascade *c) {
-    c->nearest = tile->soft[1];
-    c->span = tile->far_m;
-    if (!gn_technique_filters_map(tile->technique)) return;
     const float wanted =
-        most(1.01f * (tile->farthest - c->nearest), LEAST_SPAN * tile->far_m) * 8.0f / 7.0f;
-    const float span = step(wanted, SPAN_STEPS, true), part = span / 8.0f;
-    c->nearest = floorf(c->nearest / part) * part;
-    c->span = least(span, tile->far_m - c->nearest);
+        most(1.01f * (tile->farthest - tile->soft[1]), LEAST_SPAN * tile->far_m) * 8.0f / 7.0f;
+    c->span = least(step(wanted, SPAN_STEPS, true), tile->far_m);
+    const float part = c->span / 8.0f;
+    c->nearest = least(floorf(tile->soft[1] / part) * part, tile->far_m - c->span);
 }
 
 static void take_tile(struct gn_shadow_view *view, uint32_t index,
@@ -289,6 +286,7 @@ static bool fit_tile(const struct gn_fitter *f, uint32_t index, float blur_most_
     tile->map_px = tile->width_px = tile->height_px = f->view->inner_px;
     tile->tile_count = 1;
     tile->cascade_count = 0;
+    tile->tiles[0].empty = false; /* the first may have been */
     struct gn_fitter own = *f;
     own.is_cascade = true;
     own.blur_most_m = blur_most_m;
@@ -340,17 +338,20 @@ static bool has_room(const struct gn_shadow_view *view, const float widest_m[GN_
 
 /* Where a tile has no room for the widest of its penumbrae, no place's is wider than in proportion
  * to its distance from the eye: a limit by tiles would be seen at each split. */
-static float bound_of(const struct gn_shadow_view *view, float radius) {
+static float bound_of(const struct gn_shadow_view *view, float radius,
+                      const float widest_m[GN_CASCADES_MAX]) {
     float bound = UNBOUND;
-    for (uint32_t i = 0; i + 1 < view->cascade_count; i++) {
-        const struct gn_shadow_cascade *c = &view->cascades[i];
-        if (!view->tiles[i].empty)
-            bound = fminf(bound, view->reach_px * c->texel / (c->end_m * radius));
+    for (uint32_t i = 0; i < view->cascade_count; i++) {
+        const bool last = i + 1 == view->cascade_count;
+        const float room_m = view->reach_px * view->cascades[i].texel,
+                    to_m = view->cascades[last ? i - 1 : i].end_m;
+        if (widest_m[i] > room_m) bound = fminf(bound, room_m / (to_m * radius));
     }
     return bound;
 }
 
-/* In gutters as narrow as have room for all penumbrae that can be seen. */
+/* In gutters as narrow as have room for all penumbrae that can be seen. How wide these are does not
+ * go by the gutters, but texels do: by as much as these leave of a tile. */
 bool gn_cascades_fit(const struct gn_fitter *f) {
     struct gn_shadow_view *view = f->view;
     struct distances seen;
@@ -358,13 +359,16 @@ bool gn_cascades_fit(const struct gn_fitter *f) {
     if (!find_seen(f, &seen)) return false;
     split(view, split_distances(&seen, view->cascade_count));
     if (!fit_tiles(f, widest_m)) return false;
-    const bool soft = gn_techniques[view->technique].soft;
-    while (soft && room < MOST_ROOM && !has_room(view, widest_m)) {
-        room *= 2.0f;
-        lay_gutters(view, room);
+    while (gn_techniques[view->technique].soft && room < MOST_ROOM && !has_room(view, widest_m)) {
+        do {
+            const uint32_t inner_px = view->inner_px;
+            lay_gutters(view, room *= 2.0f);
+            for (uint32_t i = 0; i < view->cascade_count; i++)
+                view->cascades[i].texel *= (float)inner_px / (float)view->inner_px;
+        } while (room < MOST_ROOM && !has_room(view, widest_m));
         fit_tiles(f, widest_m);
     }
-    view->soft[1] = has_room(view, widest_m) ? UNBOUND : bound_of(view, f->light_radius);
+    view->soft[1] = bound_of(view, f->light_radius, widest_m);
     for (uint32_t i = 0; i < view->cascade_count; i++)
         if (view->tiles[i].empty)
             view->tiles[i].content_hash = gn_shadow_hash(f->pose, view, &view->tiles[i], NULL);

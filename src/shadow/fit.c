@@ -13,9 +13,10 @@
 
 #define STEPS_PER_OCTAVE 8 /* of the texel's size: the window's width moves in steps of 9 % */
 #define RIM_TEXELS       2 /* cleared rim, and the texel that snapping takes */
-#define RGBA8_FAR        0.999999f /* lib/map_rgba8.glsl */
-#define SHARED_TEXELS    1.0f      /* to each side of an edge of two tiles */
-#define EDGE_TEXELS      0.25f     /* from where the gutter would begin to such an edge */
+#define RGBA8_FAR        0.999999f      /* lib/map_rgba8.glsl */
+#define SHARED_TEXELS    1.0f           /* to each side of an edge of two tiles */
+#define EDGE_TEXELS      0.25f          /* from where the gutter would begin to such an edge */
+#define NEAREST_STEP     (1.0f / 64.0f) /* of a sun's depths */
 #define LEAST_TANGENT    1e-6f /* side of a spot's window; a sun's: as much of the scene's size */
 
 bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item) {
@@ -167,7 +168,10 @@ static void set_soft(const struct gn_fitter *f, const struct gn_shadow_region *w
         view->soft[3] = -1.0f / near_depth;
         return;
     }
-    view->soft[1] = view->perspective ? -1.0f / near_depth : most(window->near - near_depth, 0.0f);
+    view->soft[1] = -1.0f / near_depth;
+    if (!view->perspective) view->soft[1] = most(window->near - near_depth, 0.0f);
+    const float part = NEAREST_STEP * view->far_m; /* it stays while the eye moves little */
+    if (!view->perspective && !f->is_cascade) view->soft[1] = floorf(view->soft[1] / part) * part;
     view->farthest = window->far - near_depth;
     view->soft[2] = view->encoding == GN_ENCODING_DEPTH ? view->far_m : 1.0f / view->distance_scale;
     view->soft[3] = -view->distance_offset / view->distance_scale;

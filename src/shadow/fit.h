@@ -121,7 +121,7 @@ struct gn_shadow_view {
     /* How wide penumbrae are (shaders_es/lib/shadow_place.glsl): the emitter's radius in texels per
      * unit of e, e of the nearest caster, and e = code * [2] + [3], or its negative inverse for
      * distances from a spot. Cascades: [0] times the texel, and [1] is how much of e they grow per
-     * metre along the view, where there is no room for more. */
+     * metre along the view, where there is no room for more (else 1e9). */
     float soft[4];
     float farthest; /* directional: e of the farthest place that can be seen in shadow */
     float screen_ndc[2]

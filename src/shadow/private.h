@@ -80,8 +80,8 @@ struct gn_fitter {
     float range_m;          /* INFINITY: unlimited; not asked of a directional light */
     float scene_size_m;
     float light_radius; /* as in gn_light */
-    bool is_cascade;
-    float blur_most_m; /* of a cascade: what the finest one blurs at most; 0: of no other map */
+    bool is_cascade;    /* a tile of cascades */
+    float blur_most_m;  /* of a cascade: what the finest one blurs at most; 0: of no other map */
 };
 
 /* Brings the memory up to this pose, light and eye. */
@@ -90,7 +90,8 @@ void gn_fitter_remember(const struct gn_fitter *f);
  * nothing of the item. */
 const struct gn_shadow_region *gn_fitter_whole(const struct gn_fitter *f, uint32_t item);
 const struct gn_shadow_region *gn_fitter_seen(const struct gn_fitter *f, uint32_t item);
-/* What it covers of what lies within up to 6 planes, world space; not remembered. */
+/* Of a directional light: what it covers of what lies within up to 6 planes, world space; not
+ * remembered. */
 struct gn_shadow_region gn_fitter_within(const struct gn_fitter *f, uint32_t item,
                                          const vec4 *planes, int count);
 enum { GN_SEEN_NOT, GN_SEEN_PARTLY, GN_SEEN_WHOLE }; /* gn_shadow_memory.seen */

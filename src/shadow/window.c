@@ -156,8 +156,9 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
         /* What a whole tile holds, or a page, does not go with the eye. */
         casts[i] = matters || f->view->tile_count > 1 || !f->view->perspective;
         if (!matters) continue;
+        const bool cut = near_counts && !holds(receivers, &r);
         r = intersect(&r, &reached);
-        if (near_counts && !holds(receivers, &r)) { /* what is long is not as near all over */
+        if (cut) { /* what is long is not as near all over */
             const struct gn_shadow_region part = gn_fitter_within(f, i, planes, REACH_PLANES);
             r = intersect(&part, &r);
         }

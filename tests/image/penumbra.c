@@ -22,17 +22,17 @@ static const struct {
     double ground_m;           /* half the side of a slab; 0: a square, 12 */
 } scenes[GN_PENUMBRA_COUNT] = {
     [GN_PENUMBRA_LOW] = {"low", "{'mesh':0,'translation':[0,1,0],'scale':[1.2,1,0.8]}",
-                         GN_LIGHT_SPOT, 0.3, 9},
+                         GN_LIGHT_SPOT, 0.3, .light_up_m = 9},
     [GN_PENUMBRA_MIDDLE] = {"middle",
                             "{'mesh':0,'translation':[0,2,0],'rotation':[0,0.2588,0,0.9659],"
                             "'scale':[1,1,1]}",
-                            GN_LIGHT_SPOT, 0.8, 9},
+                            GN_LIGHT_SPOT, 0.8, .light_up_m = 9},
     [GN_PENUMBRA_HIGH] = {"high", "{'mesh':0,'translation':[0,4,0],'scale':[1.5,1,1]}",
-                          GN_LIGHT_SPOT, 1.5, 9},
+                          GN_LIGHT_SPOT, 1.5, .light_up_m = 9},
     [GN_PENUMBRA_BOX] = {"box",
                          "{'mesh':1,'translation':[0,2.5,0],'rotation':[0.2,0.3,0.1,0.9274],"
                          "'scale':[0.8,0.5,0.6]}",
-                         GN_LIGHT_SPOT, 0.6, 9},
+                         GN_LIGHT_SPOT, 0.6, .light_up_m = 9},
     [GN_PENUMBRA_BARS] = {"bars",
                           "{'mesh':1,'translation':[-1.5,1,0],'scale':[0.2,0.2,2]},"
                           "{'mesh':1,'translation':[0,2,0],'scale':[0.2,0.2,2]},"
@@ -42,18 +42,18 @@ static const struct {
     [GN_PENUMBRA_LEAN] = {"lean",
                           "{'mesh':0,'translation':[0,1,0],'rotation':[0,0,0.4226,0.9063],"
                           "'scale':[1.3054,1,1.5]}",
-                          GN_LIGHT_SPOT, 0.6, 9},
+                          GN_LIGHT_SPOT, 0.6, .light_up_m = 9},
     [GN_PENUMBRA_BULB] = {"bulb",
                           "{'mesh':0,'translation':[0,2,0],'rotation':[0,0.2588,0,0.9659],"
                           "'scale':[1,1,0.7]},"
                           "{'mesh':1,'translation':[-2.2,1,0],'scale':[0.2,0.2,1.5]}",
-                          GN_LIGHT_POINT, 0.6, 6},
+                          GN_LIGHT_POINT, 0.6, .light_up_m = 6},
     [GN_PENUMBRA_SEAM] = {"seam",
                           "{'mesh':0,'translation':[-1,1.5,-0.8],'rotation':[0,0.2588,0,0.9659],"
                           "'scale':[0.6,1,0.6]},"
                           "{'mesh':1,'translation':[-0.6,1.2,1.2],'rotation':[0,0.3827,0,0.9239],"
                           "'scale':[1,0.1,0.15]}",
-                          GN_LIGHT_POINT, 0.4, 4},
+                          GN_LIGHT_POINT, 0.4, .light_up_m = 4},
     [GN_PENUMBRA_FIELD] = {"field",
                            "{'mesh':1,'translation':[-7,1.5,-130],'scale':[0.25,1.5,128]},"
                            "{'mesh':1,'translation':[-4,5,-130],'scale':[0.25,0.25,128]},"

@@ -328,6 +328,38 @@ static void test_depth_maps_move_by_whole_texels(void **state) {
     expect_same_maps(GN_ENCODING_DEPTH);
 }
 
+/* Gutters go with the widest penumbra that can be seen, and so with the eye; targets do not. */
+static void test_a_moving_eye_makes_nothing(void **state) {
+    (void)state;
+    static const enum gn_technique techniques[] = {GN_TECHNIQUE_PCSS, GN_TECHNIQUE_VSSM};
+    float *radius = &stage.scene->lights[0].radius;
+    const float before = *radius;
+    *radius = 0.01f;
+    for (size_t t = 0; t < sizeof techniques / sizeof *techniques; t++) {
+        float least_px = INFINITY, most_px = 0.0f;
+        uint64_t objects = 0;
+        for (int eye = 0; eye < EYES; eye++) {
+            const struct gn_frame_opts opts = {.width_px = 160,
+                                               .height_px = 90,
+                                               .technique_given = true,
+                                               .technique = techniques[t],
+                                               .map_px = SMALL_PX,
+                                               .orbit = orbit_at(eye)};
+            const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
+            assert_int_equal(plan->shadows[0].cascade_count, 4);
+            least_px = fminf(least_px, plan->shadows[0].reach_px);
+            most_px = fmaxf(most_px, plan->shadows[0].reach_px);
+            const uint64_t now = gn_gl_stats(stage.gl).objects_created;
+            if (eye > 0) assert_int_equal(now, objects);
+            objects = now;
+        }
+        printf("%s reads %g to %g texels\n", gn_techniques[techniques[t]].name, (double)least_px,
+               (double)most_px);
+        assert_true(least_px < most_px);
+    }
+    *radius = before;
+}
+
 #define EACH(test)                                                                                 \
     cmocka_unit_test_setup_teardown(test, open_egl, close_all),                                    \
         cmocka_unit_test_setup_teardown(test, open_osmesa, close_all)
@@ -339,6 +371,7 @@ int main(void) {
         EACH(test_no_split_is_seen),
         EACH(test_r16f_maps_move_by_whole_texels),
         EACH(test_depth_maps_move_by_whole_texels),
+        cmocka_unit_test_setup_teardown(test_a_moving_eye_makes_nothing, open_egl, close_all),
     };
     return RUN(tests);
 }

@@ -153,6 +153,21 @@ static void check_edge(const char *path, const struct gn_picture *truth, const c
     gn_picture_finish(&shot);
 }
 
+/* Blurred ones know no penumbrae, but what is fully lit or dark, of casters that span 850 m. */
+static void test_moments_of_a_field(void **state) {
+    (void)state;
+    static const char *const techniques[] = {"vsm", "evsm", "msm"};
+    struct gn_picture truth;
+    char *path = make(GN_PENUMBRA_FIELD, &truth);
+    for (int t = 0; t < 3; t++) {
+        struct gn_penumbra_score score = score_of(path, &truth, techniques[t], "auto");
+        print_message("field   %-8s rest %.4f\n", techniques[t], score.rest);
+        assert_true(score.rest <= .03);
+    }
+    gn_picture_finish(&truth);
+    free(path);
+}
+
 static void test_the_edge_of_a_half_plane_is_exact(void **state) {
     (void)state;
     static const char *const techniques[] = {"pcss", "vssm", "smsm"};
@@ -197,6 +212,7 @@ int main(void) {
         cmocka_unit_test(test_pcss),
         cmocka_unit_test(test_summed_area_tables),
         cmocka_unit_test(test_no_split_is_seen_in_a_penumbra),
+        cmocka_unit_test(test_moments_of_a_field),
         cmocka_unit_test(test_the_edge_of_a_half_plane_is_exact),
         cmocka_unit_test(test_disks_are_monotone_and_hardly_grainy),
     };

@@ -66,10 +66,11 @@ static double dice(void) {
 
 /* Factor and sum that make 0..1 of what a tile's table spans of codes. */
 static void code_of(const struct gn_shadow_view *view, uint32_t tile, float code[2]) {
-    const struct gn_shadow_cascade *c = &view->cascades[tile];
-    const bool cascade = view->cascade_count > 0;
-    code[0] = cascade ? view->far_m / c->span : 1.0f;
-    code[1] = cascade ? -c->nearest / c->span : 0.0f;
+    code[0] = 1.0f;
+    code[1] = 0.0f;
+    if (view->cascade_count == 0 || view->tiles[tile].empty) return;
+    code[0] = view->far_m / view->cascades[tile].span;
+    code[1] = -view->cascades[tile].nearest / view->cascades[tile].span;
 }
 
 static uint32_t tile_at(const struct gn_shadow_view *view, size_t texel) {

@@ -294,6 +294,24 @@ static void test_tiles_are_drawn_again_one_by_one(void **state) {
     gn_plan_end(&f);
 }
 
+/* So it is where a tile between the eye and all shadows is empty. */
+static void test_tiles_behind_an_empty_one_are_drawn_again(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    const uint32_t count = view_of(&f)->tile_count, far_block = 1 + 4 * 13;
+    for (uint32_t i = 1; i < f.scene->item_count; i++) f.pose.items[i].visible = i == far_block;
+    const struct gn_shadow_view *view = view_of(&f);
+    uint64_t before[4];
+    for (uint32_t i = 0; i < count; i++) before[i] = view->tiles[i].content_hash;
+    assert_true(view->tile_count == count && view->tiles[0].empty && !view->empty);
+    f.pose.items[far_block].hash++;
+    view = view_of(&f);
+    for (uint32_t i = 0; i < count; i++)
+        assert_true(view->tiles[i].empty == (view->tiles[i].content_hash == before[i]));
+    gn_plan_end(&f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_field_plan),
@@ -311,6 +329,7 @@ int main(void) {
         cmocka_unit_test(test_a_larger_map_is_never_coarser),
         cmocka_unit_test(test_blurs_are_as_wide_on_both_sides_of_a_split),
         cmocka_unit_test(test_tiles_are_drawn_again_one_by_one),
+        cmocka_unit_test(test_tiles_behind_an_empty_one_are_drawn_again),
     };
     return RUN(tests);
 }
