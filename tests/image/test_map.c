@@ -64,6 +64,7 @@ static void draw_map(enum gn_encoding encoding, const struct gn_orbit *orbit, st
                                  .technique_given = true,
                                  .technique = GN_TECHNIQUE_HARD,
                                  .encoding = encoding,
+                                 .cascades = 1,
                                  .map_px = MAP_PX,
                                  .orbit = *orbit};
     struct gn_err err = {0};
