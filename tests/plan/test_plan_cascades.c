@@ -312,6 +312,26 @@ static void test_tiles_behind_an_empty_one_are_drawn_again(void **state) {
     gn_plan_end(&f);
 }
 
+/* Where no gutter has room: the widest at a split is what either of its tiles has room for, so that
+ * neither is narrower there than the other. */
+static void test_penumbrae_are_bound_alike_on_both_sides_of_a_split(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    f.opts.technique_given = true;
+    f.opts.technique = GN_TECHNIQUE_PCSS;
+    assert_true(view_of(&f)->soft[1] >= 1e9f); /* the sun's have room */
+    f.scene->lights[0].radius = 0.5f;
+    const struct gn_shadow_view *view = view_of(&f);
+    assert_true(view->soft[1] > 0.0f && view->soft[1] < 1e9f);
+    for (uint32_t i = 0; i + 1 < view->cascade_count; i++) {
+        const float widest_m = view->soft[1] * 0.5f * view->cascades[i].end_m;
+        for (uint32_t side = i; side <= i + 1; side++)
+            assert_true(widest_m <= 1.001f * view->reach_px * view->cascades[side].texel);
+    }
+    gn_plan_end(&f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_field_plan),
@@ -330,6 +350,7 @@ int main(void) {
         cmocka_unit_test(test_blurs_are_as_wide_on_both_sides_of_a_split),
         cmocka_unit_test(test_tiles_are_drawn_again_one_by_one),
         cmocka_unit_test(test_tiles_behind_an_empty_one_are_drawn_again),
+        cmocka_unit_test(test_penumbrae_are_bound_alike_on_both_sides_of_a_split),
     };
     return RUN(tests);
 }
