@@ -6,6 +6,10 @@
 // Half the side of the square that is as good as a disk of radius 1: it has the disk's area, or its variance.
 const float TABLE_SEARCH = 0.886;
 const float TABLE_FILTER = 0.866;
+// Blockers are looked for twice: in the whole square from which any may reach here, where what is near the receiver is hard to tell
+// from the receiver's own plane, and in one so much smaller, which counts so much more.
+const float TABLE_CLOSE = 0.06;
+const float TABLE_CLOSER = 3.0;
 
 vec4 table_value(uvec4 sum, float reach) { return vec4(sum) * (1.0 / TABLE_SCALE(reach)); }
 
@@ -34,7 +38,8 @@ void table_edges(shadow_place s, float radius, out ivec2 low, out ivec2 middle, 
     high = min(max(ivec2(p + radius), middle + 1), ivec2(s.window.zw));
 }
 
-// Mean over the square that is 2 * radius texels wide. Its edges, in whole texels, are good enough to look for blockers.
+// Mean over the square that is 2 * radius texels wide, or what of it lies in the map, or its tile. Its edges, in whole texels, are
+// good enough to look for blockers.
 vec4 table_mean_about(highp usampler2D table, shadow_place s, float radius) {
     ivec2 low, middle, high;
     table_edges(s, radius, low, middle, high);

@@ -1,8 +1,9 @@
-//@ names shadow_visibility SMSM_BIAS smsm_moments smsm_blocked
+//@ names shadow_visibility SMSM_BIAS SMSM_CLEAR smsm_moments smsm_blocked smsm_blocked_by_two
 // Moment soft shadow mapping (Peters, Muenstermann, Wetzstein, Klein, "Improved Moment Shadow Maps for Translucent Occluders, Soft
 // Shadows and Single Scattering", JCGT 6 (1), 2017): as vssm, from four moments, which tell three distances apart.
 #include "lib/table.glsl"
 
+const vec4 SMSM_CLEAR = vec4(0.0, 0.0, 0.98112522, 1.0); // the far end's moments
 const float SMSM_BIAS = 5e-6; // 6e-7 in the paper, whose tables have finer steps than those that are right for wide penumbrae
 
 // Moments of z = 2 c - 1, moved a little towards those of all z, so that rounding leaves them moments of something.
@@ -13,7 +14,7 @@ vec4 smsm_moments(vec4 m) {
 }
 
 // Of the distribution with these moments that has all its weight at z0 and at two other places: the least share that lies before z0,
-// and where that lies on average.
+// and that times where it lies on average.
 vec2 smsm_blocked(vec4 b, float z0) {
     // Cholesky's decomposition of the moments' Hankel matrix, by which c0 + c1 z + c2 z^2 is found, and the other two are its roots.
     float spread = max(b.y - b.x * b.x, 1e-7);
@@ -27,16 +28,27 @@ vec2 smsm_blocked(vec4 b, float z0) {
     vec2 z = vec2(half_sum - root, half_sum + root), other = z.yx;
     vec2 w = (z0 * other - b.x * (z0 + other) + b.y) / ((other - z) * (z0 - z));
     w = mix(vec2(0.0), w, lessThan(z, vec2(z0)));
-    float share = w.x + w.y;
-    return vec2(share, (0.001 * z0 + dot(w, z)) / (0.001 + share));
+    return vec2(w.x + w.y, dot(w, z));
 }
 
+// The same from two moments, by Chebyshev's inequality: good enough where there are hardly more than two distances.
+vec2 smsm_blocked_by_two(vec2 b, float z0) {
+    float v = max(b.y - b.x * b.x, 1e-7), beyond = max(z0 - b.x, 1e-6);
+    return vec2(1.0, b.x - v / beyond) * (beyond * beyond / (v + beyond * beyond));
+}
+
+// A receiver that slopes has a plane that takes part in the mean: up to 2 * across * radius before z0, so that some of it would be
+// blocked by itself. In a wide square only what is half as far before it counts. Where a share is wanted that is too strict, since it
+// is the least that there can be: then the share before z0 itself is mixed with it.
 float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
-    float z0 = 2.0 * clamp(s.at.z, -1.0, s.far) - 1.0;
-    float widest = table_widest(s);
-    vec2 found = smsm_blocked(smsm_moments(table_mean_about(table, s, TABLE_SEARCH * widest)), z0);
-    float radius = TABLE_FILTER * table_penumbra(s, 0.5 + 0.5 * clamp(found.y, -1.0, z0), widest);
-    vec4 m = table_mean(table, s, radius, vec4(0.0, 0.0, 0.98112522, 1.0));
-    float blocked = smsm_blocked(smsm_moments(m), z0).x;
+    float z0 = 2.0 * clamp(s.at.z, -1.0, s.far) - 1.0, across = dot(abs(s.slope), s.size.zw);
+    float widest = table_widest(s), wide = TABLE_SEARCH * widest, close = max(TABLE_CLOSE * wide, 1.0);
+    vec2 found = smsm_blocked(smsm_moments(table_mean_about(table, s, wide)), z0 - across * wide);
+    found += TABLE_CLOSER * smsm_blocked_by_two(smsm_moments(table_mean_about(table, s, close)).xy, z0 - across * close);
+    float z = min((0.001 * z0 + found.y) / (0.001 + found.x), z0);
+    float radius = TABLE_FILTER * table_penumbra(s, 0.5 + 0.5 * max(z, -1.0), widest);
+    vec4 b = smsm_moments(table_mean(table, s, radius, SMSM_CLEAR));
+    float all = smsm_blocked(b, z0).x, sure = smsm_blocked(b, z0 - min(across * radius, 0.5 * (z0 - z))).x;
+    float blocked = 0.5 * (min(all, sure) + min(all, 3.0 * sure));
     return blocked > 0.0 ? 1.0 - min(blocked, 1.0) : 1.0; // what is no number is lit
 }

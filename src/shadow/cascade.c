@@ -12,7 +12,8 @@
 #define LEAST_ROOM    (1.0f / 64.0f)  /* for penumbrae to each side of a tile, as a share of it */
 #define MOST_ROOM     (1.0f / 8.0f)
 #define UNBOUND       1e9f
-#define SPAN_STEPS    2.0f /* an octave */
+#define SPAN_STEPS    2.0f  /* an octave */
+#define NEAREST_STEPS 32.0f /* within a span */
 #define LEAST_SPAN    (1.0f / 256.0f)
 
 /* To the next of so many steps per octave, up or down. */
@@ -28,25 +29,18 @@ void gn_cascade_map_size(uint32_t cascades, uint32_t map_px, uint32_t size_px[2]
     size_px[1] = (cascades > 2 ? 2 : 1) * map_px;
 }
 
-/* How far beside a place a technique reads; a soft one no farther than there is room for. */
-static uint32_t reach_px(const struct gn_shadow_view *view, float room) {
-    const struct gn_technique_row *row = &gn_techniques[view->technique];
-    const uint32_t fixed = row->radius_texels + 1;
-    if (!row->soft) return fixed;
-    const uint32_t soft = (uint32_t)(room * (float)view->map_px),
-                   most = row->filter == GN_FILTER_TABLE && soft > GN_TABLE_REACH_PX
-                              ? GN_TABLE_REACH_PX
-                              : soft;
-    return most > fixed ? most : fixed;
-}
-
-/* room: for penumbrae, as a share of a tile. */
+/* room: for penumbrae, as a share of a tile. What reads a table asks of its tile alone, beyond
+ * which all is clear (shaders_es/lib/table.glsl): it needs none. */
 static void lay_gutters(struct gn_shadow_view *view, float room) {
-    const uint32_t reach = reach_px(view, room);
-    view->gutter_px = 2 * reach + 1;
+    const struct gn_technique_row *row = &gn_techniques[view->technique];
+    const bool table = row->filter == GN_FILTER_TABLE;
+    const uint32_t fixed = row->radius_texels + 1,
+                   wide = row->soft && !table ? (uint32_t)(room * (float)view->map_px) : 0,
+                   reach = wide > fixed ? wide : fixed;
+    view->gutter_px = reach + 1;
     view->inner_px = view->map_px - 2 * view->gutter_px;
-    view->reach_px = (float)reach;
-    view->held_px = 0.5f * (float)view->inner_px + (float)reach;
+    view->reach_px = (float)(table ? GN_TABLE_REACH_PX : reach);
+    view->held_px = 0.5f * (float)view->inner_px + view->reach_px;
 }
 
 void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view) {
@@ -253,11 +247,12 @@ static void take_codes(struct gn_shadow_view *view, const struct gn_shadow_view 
  * begin at the nearest caster and end at the farthest place in shadow that is seen. By steps, so
  * that they stay while the eye moves little. */
 static void set_span(const struct gn_shadow_view *tile, struct gn_shadow_cascade *c) {
-    const float wanted =
-        most(1.01f * (tile->farthest - tile->soft[1]), LEAST_SPAN * tile->far_m) * 8.0f / 7.0f;
+    const float wanted = most(1.01f * (tile->farthest - tile->soft[1]), LEAST_SPAN * tile->far_m) *
+                         NEAREST_STEPS / (NEAREST_STEPS - 1.0f);
     c->span = least(step(wanted, SPAN_STEPS, true), tile->far_m);
-    const float part = c->span / 8.0f;
+    const float part = c->span / NEAREST_STEPS;
     c->nearest = least(floorf(tile->soft[1] / part) * part, tile->far_m - c->span);
+    if (!gn_technique_filters_map(tile->technique)) c->nearest = tile->soft[1];
 }
 
 static void take_tile(struct gn_shadow_view *view, uint32_t index,
@@ -359,7 +354,9 @@ bool gn_cascades_fit(const struct gn_fitter *f) {
     if (!find_seen(f, &seen)) return false;
     split(view, split_distances(&seen, view->cascade_count));
     if (!fit_tiles(f, widest_m)) return false;
-    while (gn_techniques[view->technique].soft && room < MOST_ROOM && !has_room(view, widest_m)) {
+    const struct gn_technique_row *row = &gn_techniques[view->technique];
+    const bool wants_room = row->soft && row->filter != GN_FILTER_TABLE;
+    while (wants_room && room < MOST_ROOM && !has_room(view, widest_m)) {
         do {
             const uint32_t inner_px = view->inner_px;
             lay_gutters(view, room *= 2.0f);

@@ -5,12 +5,13 @@
  * window is found from pairs, casters and what is seen behind them within those distances, it is
  * drawn in pages, and moves by whole texels (pages.h). It is always copied from there to its tile,
  * so a texel holds the same bits wherever the eye is. Round it lies a gutter that stays cleared,
- * twice as wide as a technique may read: once for places beside what is drawn, whose filter reaches
- * in, and once for what they read on their other side. A soft technique reads as far as the widest
- * penumbra that may be seen, by powers of two. All tiles span the same depths and have the same
- * codes, for which no eye matters; moments alone are of what lies between a tile's nearest caster
- * and the farthest place that is seen in its shadow, since they tell depths apart the better the
- * fewer there are.
+ * as wide as a technique may read: a place beside what is drawn, whose filter reaches in, is in its
+ * own tile's, and what it reads on its other side in the next one's, or past the map's edge. A soft
+ * technique reads as far as the widest penumbra that may be seen, by powers of two; one that reads
+ * a table asks of its own tile alone, and needs no room for it. All tiles span the same depths and
+ * have the same codes, for which no eye matters; moments alone are of what lies between a tile's
+ * nearest caster and the farthest place that is seen in its shadow, since they tell depths apart
+ * the better the fewer there are.
  *
  * The splits go by equal ratios of distance (Lloyd et al., "Warping and Partitioning for Low Error
  * Shadow Maps", 2006) between the nearest and the farthest place that can be in a seen shadow, both

@@ -169,10 +169,8 @@ static void cast_all(const struct caster *c, struct gn_picture *truth) {
     gn_picture_finish(&few);
 }
 
-bool gn_penumbra_truth(struct gn_picture *truth, const char *path, bool point, int width_px,
-                       int height_px, struct gn_err *err) {
-    struct gn_scene *scene = gn_scene_load(path, NULL, NULL, err);
-    if (!scene) return false;
+void gn_penumbra_truth_of(struct gn_picture *truth, const struct gn_scene *scene, bool point,
+                          int width_px, int height_px) {
     struct gn_pose pose;
     struct caster c;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
@@ -185,6 +183,13 @@ bool gn_penumbra_truth(struct gn_picture *truth, const char *path, bool point, i
     cast_all(&c, truth);
     gn_raycast_finish(&c.rays);
     gn_pose_finish(&pose);
+}
+
+bool gn_penumbra_truth(struct gn_picture *truth, const char *path, bool point, int width_px,
+                       int height_px, struct gn_err *err) {
+    struct gn_scene *scene = gn_scene_load(path, NULL, NULL, err);
+    if (!scene) return false;
+    gn_penumbra_truth_of(truth, scene, point, width_px, height_px);
     gn_scene_destroy(scene);
     return true;
 }

@@ -28,8 +28,10 @@ enum gn_light_type gn_penumbra_light(int scene);
 
 /* Writes the scene; free() the path. */
 char *gn_penumbra_write(int scene, struct gn_err *err);
-/* The share, 0..1, one channel; 1 on the background. */
-/* Of light 0 and camera 0 of any scene; a light of no size when `point`. */
+/* The share, 0..1, one channel; 1 on the background. Of light 0 and camera 0 of any scene; a light
+ * of no size when `point`. */
+void gn_penumbra_truth_of(struct gn_picture *truth, const struct gn_scene *scene, bool point,
+                          int width_px, int height_px);
 bool gn_penumbra_truth(struct gn_picture *truth, const char *path, bool point, int width_px,
                        int height_px, struct gn_err *err);
 

@@ -328,7 +328,8 @@ static void test_depth_maps_move_by_whole_texels(void **state) {
     expect_same_maps(GN_ENCODING_DEPTH);
 }
 
-/* Gutters go with the widest penumbra that can be seen, and so with the eye; targets do not. */
+/* Gutters of pcss go with the widest penumbra that can be seen, and so with the eye; targets do
+ * not. Tables have none that do. */
 static void test_a_moving_eye_makes_nothing(void **state) {
     (void)state;
     static const enum gn_technique techniques[] = {GN_TECHNIQUE_PCSS, GN_TECHNIQUE_VSSM};
@@ -355,7 +356,7 @@ static void test_a_moving_eye_makes_nothing(void **state) {
         }
         printf("%s reads %g to %g texels\n", gn_techniques[techniques[t]].name, (double)least_px,
                (double)most_px);
-        assert_true(least_px < most_px);
+        if (gn_techniques[techniques[t]].filter != GN_FILTER_TABLE) assert_true(least_px < most_px);
     }
     *radius = before;
 }

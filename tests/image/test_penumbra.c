@@ -62,9 +62,8 @@ static double bias_of_rows(const struct gn_picture *truth, const struct gn_pictu
     return count < 4 * rows ? NAN : sum / count;
 }
 
-/* From ten rows of the ground to the next, over their whole width: what is off in a part of a row
- * alone is made small. FIRST: 90 m away, where the bar is as wide as a texel;
- * there are splits at 13 and 45 m. */
+/* From ten rows of the ground to the next, over their whole width; test_splits looks closer. FIRST:
+ * 90 m away, where the bar is as wide as a texel; there are splits at 13 and 45 m. */
 static void check_splits(const char *path, const struct gn_picture *truth, const char *technique) {
     enum { FIRST = 136, ROWS = 10 };
     struct gn_picture shot = shoot(path, truth, technique, "auto", "16");
