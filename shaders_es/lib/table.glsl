@@ -7,8 +7,8 @@
 const float TABLE_SEARCH = 0.886;
 const float TABLE_FILTER = 0.866;
 // Blockers are looked for twice: in the whole square from which any may reach here, where what is near the receiver is hard to tell
-// from the receiver's own plane, and in one so much smaller, which counts so much more.
-const float TABLE_CLOSE = 0.06;
+// from the receiver's own plane, and in the few texels right above it, which count so much more.
+const float TABLE_CLOSE = 1.0;
 const float TABLE_CLOSER = 3.0;
 
 vec4 table_value(uvec4 sum, float reach) { return vec4(sum) * (1.0 / TABLE_SCALE(reach)); }

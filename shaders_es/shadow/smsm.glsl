@@ -1,4 +1,4 @@
-//@ names shadow_visibility SMSM_BIAS SMSM_CLEAR smsm_moments smsm_blocked smsm_blocked_by_two
+//@ names shadow_visibility SMSM_BIAS SMSM_CLEAR smsm_moments smsm_blocked
 // Moment soft shadow mapping (Peters, Muenstermann, Wetzstein, Klein, "Improved Moment Shadow Maps for Translucent Occluders, Soft
 // Shadows and Single Scattering", JCGT 6 (1), 2017): as vssm, from four moments, which tell three distances apart.
 #include "lib/table.glsl"
@@ -31,20 +31,14 @@ vec2 smsm_blocked(vec4 b, float z0) {
     return vec2(w.x + w.y, dot(w, z));
 }
 
-// The same from two moments, by Chebyshev's inequality: good enough where there are hardly more than two distances.
-vec2 smsm_blocked_by_two(vec2 b, float z0) {
-    float v = max(b.y - b.x * b.x, 1e-7), beyond = max(z0 - b.x, 1e-6);
-    return vec2(1.0, b.x - v / beyond) * (beyond * beyond / (v + beyond * beyond));
-}
-
 // A receiver that slopes has a plane that takes part in the mean: up to 2 * across * radius before z0, so that some of it would be
 // blocked by itself. In a wide square only what is half as far before it counts. Where a share is wanted that is too strict, since it
 // is the least that there can be: then the share before z0 itself is mixed with it.
 float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
     float z0 = 2.0 * clamp(s.at.z, -1.0, s.far) - 1.0, across = dot(abs(s.slope), s.size.zw);
-    float widest = table_widest(s), wide = TABLE_SEARCH * widest, close = max(TABLE_CLOSE * wide, 1.0);
+    float widest = table_widest(s), wide = TABLE_SEARCH * widest;
     vec2 found = smsm_blocked(smsm_moments(table_mean_about(table, s, wide)), z0 - across * wide);
-    found += TABLE_CLOSER * smsm_blocked_by_two(smsm_moments(table_mean_about(table, s, close)).xy, z0 - across * close);
+    found += TABLE_CLOSER * smsm_blocked(smsm_moments(table_mean_about(table, s, TABLE_CLOSE)), z0 - across * TABLE_CLOSE);
     float z = min((0.001 * z0 + found.y) / (0.001 + found.x), z0);
     float radius = TABLE_FILTER * table_penumbra(s, 0.5 + 0.5 * max(z, -1.0), widest);
     vec4 b = smsm_moments(table_mean(table, s, radius, SMSM_CLEAR));

@@ -21,9 +21,9 @@ vec2 vssm_blockers(shadow_place s, vec4 m, float radius) {
 }
 
 float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
-    float widest = table_widest(s), wide = TABLE_SEARCH * widest, close = max(TABLE_CLOSE * wide, 1.0);
+    float widest = table_widest(s), wide = TABLE_SEARCH * widest;
     vec2 far = vssm_blockers(s, table_mean_about(table, s, wide), wide);
-    vec2 near = vssm_blockers(s, table_mean_about(table, s, close), close);
+    vec2 near = vssm_blockers(s, table_mean_about(table, s, TABLE_CLOSE), TABLE_CLOSE);
     near.y *= TABLE_CLOSER;
     float found = far.y + near.y;
     if (found == 0.0) return 1.0;

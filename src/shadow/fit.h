@@ -139,9 +139,9 @@ struct gn_eye {
 void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world);
 bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box); /* conservative */
 
-/* What fitting remembers of a light from frame to frame, so that what stands still costs nothing,
- * and what it found out. One per tile; of one scene, for any light at any pose: a view does not
- * depend on those before it. */
+/* What fitting remembers of a light from frame to frame, so that what stands still is measured
+ * once, and what it found out. One per tile; of one scene, for any light at any pose: a view does
+ * not depend on those before it. */
 struct gn_shadow_region { /* in plane coordinates and depth along the light's axis; empty when min >
                              max */
     float min[2], max[2];

@@ -1,5 +1,6 @@
 /* What items cover of what a light can show, and of that what the eye sees: kept from frame to
- * frame, so that what stands still costs nothing. */
+ * frame, so that what stands still is measured once. What lies within other planes
+ * (gn_fitter_within) is measured anew each time: of casters that reach beyond what is seen. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
