@@ -38,13 +38,14 @@ void table_edges(shadow_place s, float radius, out ivec2 low, out ivec2 middle, 
     high = min(max(ivec2(p + radius), middle + 1), ivec2(s.window.zw));
 }
 
-// Mean over the square that is 2 * radius texels wide, or what of it lies in the map, or its tile. Its edges, in whole texels, are
-// good enough to look for blockers.
-vec4 table_mean_about(highp usampler2D table, shadow_place s, float radius) {
+// Mean over the square that is 2 * radius texels wide. Its edges, in whole texels, are good enough to look for blockers. beyond: what
+// lies outside of the map, or of its tile.
+vec4 table_mean_about(highp usampler2D table, shadow_place s, float radius, vec4 beyond) {
     ivec2 low, middle, high;
     table_edges(s, radius, low, middle, high);
-    ivec2 side = high - low;
-    return table_value(table_between(table, low, high), s.reach) * (1.0 / float(side.x * side.y));
+    vec2 p = s.at.xy * s.size.xy + 0.5, side = vec2(high - low), whole = max(floor(p + radius) - floor(p - radius), side);
+    float share = 1.0 / (whole.x * whole.y);
+    return table_value(table_between(table, low, high), s.reach) * share + beyond * (1.0 - side.x * side.y * share);
 }
 
 // What the cut texels at the left and right end weigh in a row of sums, and the whole ones between them.

@@ -33,16 +33,19 @@ vec2 smsm_blocked(vec4 b, float z0) {
 
 // A receiver that slopes has a plane that takes part in the mean: up to 2 * across * radius before z0, so that some of it would be
 // blocked by itself. In a wide square only what is half as far before it counts. Where a share is wanted that is too strict, since it
-// is the least that there can be: then the share before z0 itself is mixed with it.
+// is the least that there can be: then the share before z0 itself is mixed with it. Nor is it more than half of the way to the
+// blockers, where there are some right above to those.
 float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
     float z0 = 2.0 * clamp(s.at.z, -1.0, s.far) - 1.0, across = dot(abs(s.slope), s.size.zw);
     float widest = table_widest(s), wide = TABLE_SEARCH * widest;
-    vec2 found = smsm_blocked(smsm_moments(table_mean_about(table, s, wide)), z0 - across * wide);
-    found += TABLE_CLOSER * smsm_blocked(smsm_moments(table_mean_about(table, s, TABLE_CLOSE)), z0 - across * TABLE_CLOSE);
+    vec2 far = smsm_blocked(smsm_moments(table_mean_about(table, s, wide, SMSM_CLEAR)), z0 - across * wide);
+    vec2 near = smsm_blocked(smsm_moments(table_mean_about(table, s, TABLE_CLOSE, SMSM_CLEAR)), z0 - across * TABLE_CLOSE);
+    vec2 found = far + TABLE_CLOSER * near;
     float z = min((0.001 * z0 + found.y) / (0.001 + found.x), z0);
     float radius = TABLE_FILTER * table_penumbra(s, 0.5 + 0.5 * max(z, -1.0), widest);
     vec4 b = smsm_moments(table_mean(table, s, radius, SMSM_CLEAR));
-    float all = smsm_blocked(b, z0).x, sure = smsm_blocked(b, z0 - min(across * radius, 0.5 * (z0 - z))).x;
+    float before = 0.5 * (z0 - mix(z, (0.001 * z0 + near.y) / (0.001 + near.x), clamp(near.x, 0.0, 1.0)));
+    float all = smsm_blocked(b, z0).x, sure = smsm_blocked(b, z0 - min(across * radius, before)).x;
     float blocked = 0.5 * (min(all, sure) + min(all, 3.0 * sure));
     return blocked > 0.0 ? 1.0 - min(blocked, 1.0) : 1.0; // what is no number is lit
 }

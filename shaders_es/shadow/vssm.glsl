@@ -8,22 +8,22 @@
 // The code of the blockers in a square of this radius, and the share of it that they take, of all: 0 where there are none.
 // A receiver that slopes is many distances. Those of its plane vary by `own`, so of a share p of blockers that are d nearer the mean
 // lies p d before the receiver, and the variance is (1 - p) (p d d + own): own p p + (v + beyond beyond - own) p = beyond beyond.
-// Where the receiver is in no map p comes out as 1, which is right as well.
+// Where the receiver is in no map p comes out as 1, which is right as well. What is there may vary less than its plane would.
 vec2 vssm_blockers(shadow_place s, vec4 m, float radius) {
     if (m.w < 1e-4) return vec2(0.0);
     float mean = m.x / m.w, beyond = s.at.z - shadow_cut(s, radius, m.w) - mean;
     if (beyond <= 0.0) return vec2(0.0);
     float v = max(mean * (1.0 - mean) - 0.25 * m.y / m.w, 2.5e-7 / m.w);
     vec2 across = radius * s.slope * s.size.zw;
-    float own = dot(across, across) / 3.0, square = beyond * beyond, b = v + square - own;
+    float own = min(dot(across, across) / 3.0, v), square = beyond * beyond, b = v + square - own;
     float share = min(2.0 * square / (b + sqrt(b * b + 4.0 * own * square)), 1.0);
     return vec2(max(mean + beyond - beyond / share, 0.0), min(m.w, 1.0) * share);
 }
 
 float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
     float widest = table_widest(s), wide = TABLE_SEARCH * widest;
-    vec2 far = vssm_blockers(s, table_mean_about(table, s, wide), wide);
-    vec2 near = vssm_blockers(s, table_mean_about(table, s, TABLE_CLOSE), TABLE_CLOSE);
+    vec2 far = vssm_blockers(s, table_mean_about(table, s, wide, vec4(0.0)), wide);
+    vec2 near = vssm_blockers(s, table_mean_about(table, s, TABLE_CLOSE, vec4(0.0)), TABLE_CLOSE);
     near.y *= TABLE_CLOSER;
     float found = far.y + near.y;
     if (found == 0.0) return 1.0;

@@ -66,7 +66,7 @@ static void print_shadow_size(const struct gn_shadow_view *view, FILE *to) {
     if (view->tile_count > 1)
         fprintf(to,
                 view->cascade_count > 0 ? " x %u cascades, gutters %u px" : " x %u, gutters %u px",
-                view->tile_count, view->gutter_px);
+                view->cascade_count > 0 ? view->cascade_count : view->tile_count, view->gutter_px);
     if (view->blur_px > 0.0f) fprintf(to, ", blur %.3g px", 2.0 * (double)view->blur_px);
 }
 

@@ -11,6 +11,7 @@
 #define LEAST_RATIO   1.25f           /* of two splits: wider apart than a zone is */
 #define LEAST_ROOM    (1.0f / 64.0f)  /* for penumbrae to each side of a tile, as a share of it */
 #define MOST_ROOM     (1.0f / 8.0f)
+#define TABLE_ROOM    (1.0f / 4.0f) /* GN_TABLE_REACH_PX is less, but of very small maps */
 #define UNBOUND       1e9f
 #define SPAN_STEPS    2.0f  /* an octave */
 #define NEAREST_STEPS 32.0f /* within a span */
@@ -29,30 +30,38 @@ void gn_cascade_map_size(uint32_t cascades, uint32_t map_px, uint32_t size_px[2]
     size_px[1] = (cascades > 2 ? 2 : 1) * map_px;
 }
 
-/* room: for penumbrae, as a share of a tile. What reads a table asks of its tile alone, beyond
- * which all is clear (shaders_es/lib/table.glsl): it needs none. */
+static bool reads_table(const struct gn_shadow_view *view) {
+    return gn_techniques[view->technique].filter == GN_FILTER_TABLE;
+}
+
+/* How far beside a place a technique reads; a soft one no farther than there is room for, as a
+ * share of a tile. What reads a table needs no gutter for that: it knows where its tile ends, and
+ * that all is clear beyond (shaders_es/lib/table.glsl), but reads that from the outermost texels.
+ */
 static void lay_gutters(struct gn_shadow_view *view, float room) {
     const struct gn_technique_row *row = &gn_techniques[view->technique];
-    const bool table = row->filter == GN_FILTER_TABLE;
     const uint32_t fixed = row->radius_texels + 1,
-                   wide = row->soft && !table ? (uint32_t)(room * (float)view->map_px) : 0,
-                   reach = wide > fixed ? wide : fixed;
-    view->gutter_px = reach + 1;
+                   soft = row->soft ? (uint32_t)(room * (float)view->map_px) : 0,
+                   reach = soft > fixed ? soft : fixed;
+    view->gutter_px = (reads_table(view) ? fixed : reach) + 1;
     view->inner_px = view->map_px - 2 * view->gutter_px;
-    view->reach_px = (float)(table ? GN_TABLE_REACH_PX : reach);
+    view->reach_px = reads_table(view) ? least((float)reach, GN_TABLE_REACH_PX) : (float)reach;
     view->held_px = 0.5f * (float)view->inner_px + view->reach_px;
 }
 
+/* Of three the map has room for four: what is beside a tile is always one. */
 void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view) {
     uint32_t size_px[2];
     gn_cascade_map_size(cascades, view->map_px, size_px);
     view->width_px = size_px[0];
     view->height_px = size_px[1];
-    view->tile_count = view->cascade_count = cascades;
+    view->cascade_count = cascades;
+    view->tile_count = cascades > 2 ? 4 : 2;
     lay_gutters(view, LEAST_ROOM);
-    for (uint32_t i = 0; i < cascades; i++) {
+    for (uint32_t i = 0; i < view->tile_count; i++) {
         view->tiles[i].x_px = i % 2 * view->map_px;
         view->tiles[i].y_px = i / 2 * view->map_px;
+        view->tiles[i].empty = i >= cascades;
         if (gn_techniques[view->technique].filter == GN_FILTER_BLUR)
             view->cascades[i].blur_px = GN_BLUR_LEAST_PX; /* of empty ones */
     }
@@ -351,22 +360,22 @@ bool gn_cascades_fit(const struct gn_fitter *f) {
     struct gn_shadow_view *view = f->view;
     struct distances seen;
     float widest_m[GN_CASCADES_MAX], room = LEAST_ROOM;
+    const float most_room = reads_table(view) ? TABLE_ROOM : MOST_ROOM;
     if (!find_seen(f, &seen)) return false;
     split(view, split_distances(&seen, view->cascade_count));
     if (!fit_tiles(f, widest_m)) return false;
-    const struct gn_technique_row *row = &gn_techniques[view->technique];
-    const bool wants_room = row->soft && row->filter != GN_FILTER_TABLE;
-    while (wants_room && room < MOST_ROOM && !has_room(view, widest_m)) {
+    while (gn_techniques[view->technique].soft && room < most_room && !has_room(view, widest_m)) {
+        const uint32_t fitted_px = view->inner_px;
         do {
             const uint32_t inner_px = view->inner_px;
             lay_gutters(view, room *= 2.0f);
             for (uint32_t i = 0; i < view->cascade_count; i++)
                 view->cascades[i].texel *= (float)inner_px / (float)view->inner_px;
-        } while (room < MOST_ROOM && !has_room(view, widest_m));
-        fit_tiles(f, widest_m);
+        } while (room < most_room && !has_room(view, widest_m));
+        if (view->inner_px != fitted_px) fit_tiles(f, widest_m);
     }
     view->soft[1] = bound_of(view, f->light_radius, widest_m);
-    for (uint32_t i = 0; i < view->cascade_count; i++)
+    for (uint32_t i = 0; i < view->tile_count; i++)
         if (view->tiles[i].empty)
             view->tiles[i].content_hash = gn_shadow_hash(f->pose, view, &view->tiles[i], NULL);
     return true;

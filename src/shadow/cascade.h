@@ -6,12 +6,13 @@
  * drawn in pages, and moves by whole texels (pages.h). It is always copied from there to its tile,
  * so a texel holds the same bits wherever the eye is. Round it lies a gutter that stays cleared,
  * as wide as a technique may read: a place beside what is drawn, whose filter reaches in, is in its
- * own tile's, and what it reads on its other side in the next one's, or past the map's edge. A soft
+ * own tile's, and what it reads on its other side in the next one's, or past the map's edge, which
+ * goes on as it is. So of three cascades the map has a fourth tile, which is empty. A soft
  * technique reads as far as the widest penumbra that may be seen, by powers of two; one that reads
- * a table asks of its own tile alone, and needs no room for it. All tiles span the same depths and
- * have the same codes, for which no eye matters; moments alone are of what lies between a tile's
- * nearest caster and the farthest place that is seen in its shadow, since they tell depths apart
- * the better the fewer there are.
+ * a table knows where its tile ends, and needs no more than a few texels. All tiles span the same
+ * depths and have the same codes, for which no eye matters; moments alone are of what lies between
+ * a tile's nearest caster and the farthest place that is seen in its shadow, since they tell depths
+ * apart the better the fewer there are.
  *
  * The splits go by equal ratios of distance (Lloyd et al., "Warping and Partitioning for Low Error
  * Shadow Maps", 2006) between the nearest and the farthest place that can be in a seen shadow, both

@@ -83,7 +83,7 @@ struct gn_shadow_view {
     uint32_t gutter_px;           /* point, cascades: of a tile, to each side */
     float shared;                 /* point: tangent, to each side of a tile's edge */
     float reach_px;               /* tiles, table: how far beside a place may be read */
-    uint32_t tile_count;          /* 1, point: 6, with cascades as many */
+    uint32_t tile_count;          /* 1, point: 6, cascades: 2, 4 */
     struct gn_shadow_tile tiles[GN_SHADOW_TILES_MAX];
     uint32_t cascade_count; /* 0, or 2..4: then map_from_world gives metres across the light and
                                the code, and normal and slope offset go with each one's texel */

@@ -27,6 +27,7 @@ static void begin(struct gn_plan_fixture *f, enum gn_technique technique, uint64
     f->opts.technique_given = true;
     f->opts.technique = technique;
     f->opts.map_px = 128;
+    f->opts.cascades = 1; /* else as many as suit the pose that a builder sees first */
     f->opts.filter_texels = texels;
 }
 
