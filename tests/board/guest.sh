@@ -319,7 +319,8 @@ idle() {
     [ "$(cpu_ms)" = "$before" ]
 }
 io_of() { awk -v key="$1:" '$1 == key { print $2 }' "/proc/$program/io"; }
-rss_kib() { awk '$1 == "VmRSS:" { print $2 }' "/proc/$program/status"; }
+mapped_kib() { awk '$1 == "VmSize:" { print $2 }' "/proc/$program/status"; }
+heap_bytes() { cat "$HEAP_USE"; } # at its last picture; HEAP_USE is exported before the start
 descriptors() { find "/proc/$program/fd" -mindepth 1 | wc -l; }
 
 mkfifo /run/silence
