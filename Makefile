@@ -49,7 +49,7 @@ clean:
 deps:
 	@sh board/deps.sh $(if $(CROSS),build cross,build run test)
 format:
-	clang-format -i $(wildcard src/*.c src/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*.c)
+	clang-format -i $(wildcard src/*.c src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*.c)
 uninstall:
 	rm -f "$(INTO)/bin/gnomon" "$(INTO)/bin/gnomon-import" "$(INTO)/share/man/man1/gnomon.1"
 	rm -rf "$(INTO)/share/doc/gnomon"
@@ -124,7 +124,7 @@ COMPILE  = $(CC) $(ALL_CFLAGS) $(if $(WERROR),-Werror) -MMD -MP
 
 # ---- what there is to build ----------------------------------------------------------------
 # x.c needs the package x and x_none.c stands in for it: the list of such pairs
-OPTIONAL := src/display/osmesa:osmesa src/display/window:glfw3 src/caption/font_file:freetype2
+OPTIONAL := src/display/osmesa:osmesa src/display/window/window:glfw3 src/caption/font_file:freetype2
 without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(subst :, ,$(p))) \
              2> /dev/null && echo y),$(firstword $(subst :, ,$(p)))_none.c,\
              $(firstword $(subst :, ,$(p))).c))
@@ -133,7 +133,7 @@ GPIOD   := $(firstword $(subst ., ,$(shell $(PKG) --modversion libgpiod 2> /dev/
 GPIO_C  := $(if $(filter 1 2,$(GPIOD)),gpiod$(GPIOD).c,gpio_none.c)
 GPIO_LIBS := $(if $(filter 1 2,$(GPIOD)),$(shell $(PKG) --libs libgpiod))
 unused  := $(without) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
-SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c)))
+SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
 TESTS_C := $(sort $(filter-out tests/board/% tests/gpus/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
 PROG_C  := $(foreach d,unit plan image fuzz kms angle,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
@@ -229,9 +229,9 @@ ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c))
 HOST_ASSETS := $(patsubst assets/%.c,$(O)/host/%,$(wildcard assets/make_*.c))
 MAN_C   := $(addprefix src/,cli/config_button.c cli/help.c cli/options.c cli/options_change.c cli/value.c \
            core/arena.c core/err.c core/key.c core/text.c frame/caps.c kiosk/action.c kiosk/command.c \
-           display/kms_modeline.c scene/limits.c shadow/moments.c shadow/technique.c)
-$(O)/host/embed: board/embed.c
-$(O)/host/man: board/man.c $(MAN_C) $(wildcard src/cli/*.h src/core/*.h src/display/*.h src/kiosk/*.h src/shadow/*.h) | $(B)/gen/config.h
+           display/kms/modeline.c scene/limits.c shadow/moments.c shadow/technique.c)
+$(O)/host/embed: board/host/embed.c
+$(O)/host/man: board/host/man.c $(MAN_C) $(wildcard src/*/*.h src/*/*/*.h) | $(B)/gen/config.h
 $(O)/host/man: HOST_LIBS = $(shell pkg-config --cflags libdrm)
 $(HOST_ASSETS): HOST_LIBS = $(shell pkg-config --cflags --libs jansson libpng)
 $(HOST_ASSETS): $(O)/host/%: assets/%.c $(ASSET_C) $(wildcard assets/*.h)
@@ -312,7 +312,7 @@ contact-sheet: $(B)/tests/tool_sheet $(BIN)
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$<
 lint: $(patsubst %.c,$(O)/tidy/%.ok,src/main.c $(SRC) $(IMPORT_C))
-$(O)/tidy/%.ok: %.c .clang-tidy $(wildcard src/*/*.h) | $(B)/gen/config.h $(B)/gen/poisson.h
+$(O)/tidy/%.ok: %.c .clang-tidy $(wildcard src/*/*.h src/*/*/*.h) | $(B)/gen/config.h $(B)/gen/poisson.h
 	@mkdir -p $(@D) && echo "tidy $<"
 	$(Q)clang-tidy --quiet --warnings-as-errors='*' $< -- $(filter-out -f% -Wno%,$(ALL_CFLAGS)) 2> $@.log || { cat $@.log; false; } && touch $@
 compile_commands.json: FORCE

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/clock.h"
-#include "display/kms_card.h"
+#include "display/kms/card.h"
 #include "frame/caps.h"
 #include "scene/scene.h"
 #include "shadow/technique.h"

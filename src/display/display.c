@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "display/kms_who.h"
+#include "display/kms/who.h"
 #include "display/private.h"
 
 const struct gn_display_ops *const gn_displays[] = {

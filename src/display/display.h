@@ -10,7 +10,7 @@
 
 #include "core/err.h"
 #include "core/warn.h"
-#include "display/hand.h"
+#include "display/pointer.h"
 
 typedef void (*gn_display_proc)(void);
 struct gn_display;

@@ -6,8 +6,8 @@
 
 extern const struct gn_display_ops gn_display_surfaceless; /* surfaceless.c */
 extern const struct gn_display_ops gn_display_osmesa;      /* osmesa.c, or osmesa_none.c */
-extern const struct gn_display_ops gn_display_kms;         /* kms_screen.c */
-extern const struct gn_display_ops gn_display_window;      /* window.c, or window_none.c */
+extern const struct gn_display_ops gn_display_kms;         /* kms/screen.c */
+extern const struct gn_display_ops gn_display_window;      /* window/ */
 
 /* A screen for displays that have none: lit from the start, its frames are shown at once, a timer
  * paces them. */

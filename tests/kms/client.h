@@ -4,7 +4,7 @@
 #ifndef GN_KMS_CLIENT_H
 #define GN_KMS_CLIENT_H
 
-#include "display/kms.h"
+#include "display/kms/kms.h"
 #include "sim.h"
 
 struct client {

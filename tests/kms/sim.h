@@ -9,8 +9,8 @@
 #ifndef GN_KMS_SIM_H
 #define GN_KMS_SIM_H
 
-#include "display/kms_drm.h"
-#include "display/kms_scanout.h"
+#include "display/kms/drm.h"
+#include "display/kms/scanout.h"
 
 #define SIM_MS INT64_C(1000000)
 #define SIM_S  (1000 * SIM_MS)

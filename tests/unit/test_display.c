@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "display/display.h"
-#include "display/kms_scanout.h"
+#include "display/kms/scanout.h"
 #include "unit/check.h"
 
 static void test_names(void **state) {

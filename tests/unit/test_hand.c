@@ -1,7 +1,7 @@
 /* Keys and a mouse, summed up. */
 #include "check.h"
 
-#include "display/hand.h"
+#include "display/pointer.h"
 
 static void assert_drag(const float drag[2], double right, double up) {
     assert_float_equal((double)drag[0], right, 1e-6);

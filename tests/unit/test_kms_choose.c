@@ -1,7 +1,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "display/kms_card.h"
+#include "display/kms/card.h"
 #include "unit/check.h"
 
 static drmModeModeInfo mode(unsigned w, unsigned h, unsigned hz, uint32_t type, uint32_t flags) {

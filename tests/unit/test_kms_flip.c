@@ -1,7 +1,7 @@
 #include <errno.h>
 #include <string.h>
 
-#include "display/kms_flip.h"
+#include "display/kms/flip.h"
 #include "unit/check.h"
 
 #define MS    INT64_C(1000000)

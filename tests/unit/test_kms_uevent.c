@@ -1,6 +1,6 @@
 #include <unistd.h>
 
-#include "display/kms_uevent.h"
+#include "display/kms/uevent.h"
 #include "unit/check.h"
 
 #define MESSAGE(text) text, sizeof(text) /* with its last zero byte, as the kernel sends it */

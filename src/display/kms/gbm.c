@@ -12,8 +12,8 @@
 
 #include "core/arena.h"
 #include "display/egl.h"
-#include "display/kms_import.h"
-#include "display/kms_scanout.h"
+#include "display/kms/import.h"
+#include "display/kms/scanout.h"
 
 #define GBM_TABLE(X)                                                                               \
     X(gbm_create_device)                                                                           \

@@ -7,7 +7,7 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
-#include "display/kms_flip.h"
+#include "display/kms/flip.h"
 #include "display/private.h"
 
 static bool settle(struct gn_display *display, int64_t now_ns) {

@@ -1,4 +1,4 @@
-#include "display/kms_flip.h"
+#include "display/kms/flip.h"
 
 #include <errno.h>
 

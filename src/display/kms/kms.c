@@ -1,4 +1,4 @@
-#include "display/kms.h"
+#include "display/kms/kms.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "display/kms_state.h"
+#include "display/kms/state.h"
 
 #define SETTLE_NS (GN_KMS_S / 10) /* a monitor that is plugged in bounces */
 

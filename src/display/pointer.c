@@ -1,4 +1,4 @@
-#include "display/hand.h"
+#include "display/pointer.h"
 
 bool gn_hand_is_zero(const struct gn_hand *h) {
     return !h->quit && !h->home && h->key_count == 0 && h->turn[0] == 0.0f && h->turn[1] == 0.0f &&

@@ -1,4 +1,4 @@
-#include "display/kms_dumb.h"
+#include "display/kms/dumb.h"
 
 #include <drm_fourcc.h>
 #include <errno.h>

@@ -1,4 +1,4 @@
-#include "display/kms_who.h"
+#include "display/kms/who.h"
 
 #include <dirent.h>
 #include <fcntl.h>

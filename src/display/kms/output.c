@@ -1,4 +1,4 @@
-#include "display/kms_output.h"
+#include "display/kms/output.h"
 
 #include <drm_fourcc.h>
 #include <errno.h>

@@ -2,8 +2,8 @@
 #ifndef GN_DISPLAY_KMS_DUMB_H
 #define GN_DISPLAY_KMS_DUMB_H
 
-#include "display/kms_drm.h"
-#include "display/kms_scanout.h"
+#include "display/kms/drm.h"
+#include "display/kms/scanout.h"
 
 struct gn_dumb { /* zeroed is none */
     uint32_t width_px, height_px, handle;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "display/kms_card.h"
+#include "display/kms/card.h"
 
 uint32_t gn_kms_mode_mhz(const drmModeModeInfo *m) {
     if (m->clock == 0 || m->htotal == 0 || m->vtotal == 0) return m->vrefresh * 1000;

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "display/kms_state.h"
+#include "display/kms/state.h"
 #include "display/notice.h"
 
 #define STARVED_NS (5 * GN_KMS_S) /* then something else is tried */

@@ -1,4 +1,4 @@
-#include "display/kms_console.h"
+#include "display/kms/console.h"
 
 #include <fcntl.h>
 #include <linux/kd.h>

@@ -4,12 +4,12 @@
 #ifndef GN_DISPLAY_KMS_OUTPUT_H
 #define GN_DISPLAY_KMS_OUTPUT_H
 
-#include "display/kms_card.h"
-#include "display/kms_scanout.h"
+#include "display/kms/card.h"
+#include "display/kms/scanout.h"
 
 enum { GN_KMS_FBS_MAX = 16 };
 
-enum gn_kms_connector_prop { /* names in kms_props.c */
+enum gn_kms_connector_prop { /* names in kms/props.c */
                              GN_PROP_CONNECTOR_CRTC,
                              GN_PROP_CONNECTOR_LINK,
                              GN_PROP_CONNECTOR_DPMS,

@@ -1,5 +1,5 @@
 /* A card's snapshot, read from the kernel. */
-#include "display/kms_card.h"
+#include "display/kms/card.h"
 
 #include <errno.h>
 #include <stdio.h>

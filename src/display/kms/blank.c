@@ -1,7 +1,7 @@
 /* A screen that is switched off on purpose, for the night or to spare it. Whatever happens
  * meanwhile - monitors, consoles, cards that come and go - it is switched off again; a flip that is
  * never told of is no failure then. The last picture stays, and is the first to be seen again. */
-#include "display/kms_state.h"
+#include "display/kms/state.h"
 
 bool gn_kms_may_sleep(const struct gn_kms *k) {
     return k->blank && k->fd >= 0 && !k->screen.lost && k->output.drm && k->connected &&

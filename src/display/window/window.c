@@ -15,10 +15,10 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
-#include "display/kms_flip.h"
+#include "display/kms/flip.h"
 #include "display/private.h"
-#include "display/window_glfw.h"
-#include "display/window_key.h"
+#include "display/window/glfw.h"
+#include "display/window/key.h"
 
 /* One in a process, as the library is. It is never terminated: that unloads the driver, and what
  * that has started does not always survive it. */

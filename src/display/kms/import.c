@@ -1,4 +1,4 @@
-#include "display/kms_import.h"
+#include "display/kms/import.h"
 
 #include <drm.h>
 #include <errno.h>

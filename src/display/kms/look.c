@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "display/kms_state.h"
+#include "display/kms/state.h"
 
 enum { UNREADABLE_MAX = 4 }; /* then it is how it is */
 

@@ -1,4 +1,4 @@
-#include "display/window_key.h"
+#include "display/window/key.h"
 
 /* By GLFW's numbers, which are part of its interface and never change (glfw3.h): keys that print
  * have that of their letter on an American keyboard. */

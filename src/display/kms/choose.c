@@ -1,7 +1,7 @@
 /* What is chosen from a card's snapshot. */
 #include <string.h>
 
-#include "display/kms_card.h"
+#include "display/kms/card.h"
 
 /* ---- connectors and CRTCs ---- */
 

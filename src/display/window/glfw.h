@@ -9,7 +9,7 @@
 #include <GLFW/glfw3.h>
 #include <GLFW/glfw3native.h>
 
-#include "display/window_link.h"
+#include "display/window/link.h"
 
 #define GLFW_TABLE(X)                                                                              \
     X(Init)                                                                                        \

@@ -1,4 +1,4 @@
-#include "display/kms_drm.h"
+#include "display/kms/drm.h"
 
 #include <dirent.h>
 #include <dlfcn.h>

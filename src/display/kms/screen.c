@@ -8,10 +8,10 @@
 #include <unistd.h>
 
 #include "core/arena.h"
-#include "display/kms.h"
-#include "display/kms_console.h"
-#include "display/kms_uevent.h"
-#include "display/kms_who.h"
+#include "display/kms/console.h"
+#include "display/kms/kms.h"
+#include "display/kms/uevent.h"
+#include "display/kms/who.h"
 #include "display/private.h"
 
 struct kms_screen {

@@ -2,9 +2,9 @@
 #ifndef GN_DISPLAY_KMS_STATE_H
 #define GN_DISPLAY_KMS_STATE_H
 
-#include "display/kms.h"
-#include "display/kms_dumb.h"
-#include "display/kms_output.h"
+#include "display/kms/dumb.h"
+#include "display/kms/kms.h"
+#include "display/kms/output.h"
 
 #define GN_KMS_NEVER    INT64_MAX
 #define GN_KMS_S        INT64_C(1000000000)
@@ -70,7 +70,7 @@ struct gn_kms {
     int64_t probe_ns;                     /* looks from then on ask the wires */
 };
 
-/* kms_look.c: cards and connectors. To ask the wires takes tens of milliseconds a connector: that
+/* kms/look.c: cards and connectors. To ask the wires takes tens of milliseconds a connector: that
  * is done when something has happened, and now and then; else the kernel is asked what it knows. */
 void gn_kms_look(struct gn_kms *kms, int64_t now_ns);
 /* The card is of no more use; `restore`: but it still listens. */
@@ -81,7 +81,7 @@ void gn_kms_close_card(struct gn_kms *kms);
 void gn_kms_next_try(struct gn_kms *kms, int error, int64_t now_ns);
 bool gn_kms_try_master(struct gn_kms *kms, int64_t now_ns);
 
-/* kms_frame.c: pictures on their way. */
+/* kms/frame.c: pictures on their way. */
 void gn_kms_send(struct gn_kms *kms, struct gn_kms_shot shot, int64_t now_ns);
 void gn_kms_forget_shots(struct gn_kms *kms); /* no buffer is in use any more */
 void gn_kms_show_notice(struct gn_kms *kms, int64_t now_ns);
@@ -92,7 +92,7 @@ void gn_kms_drain(struct gn_kms *kms, int64_t now_ns);
 bool gn_kms_make_copies(struct gn_kms *kms);
 void gn_kms_drop_surface(struct gn_kms *kms);
 
-/* kms_blank.c: switched off on purpose. */
+/* kms/blank.c: switched off on purpose. */
 bool gn_kms_may_sleep(const struct gn_kms *kms);
 void gn_kms_sleep(struct gn_kms *kms, int64_t now_ns);
 

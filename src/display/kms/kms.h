@@ -1,14 +1,14 @@
 /* A screen on the kernel's modesetting, on time and events that come from outside: it finds a card
  * and a connector, lights it, flips, and gets over whatever goes wrong. It owns no timer and no
- * descriptor but the card's, so that a test drives it on a virtual clock. kms_screen.c gives it
+ * descriptor but the card's, so that a test drives it on a virtual clock. kms/screen.c gives it
  * both.
  */
-#ifndef GN_DISPLAY_KMS_H
-#define GN_DISPLAY_KMS_H
+#ifndef GN_DISPLAY_KMS_KMS_H
+#define GN_DISPLAY_KMS_KMS_H
 
-#include "display/kms_card.h"
-#include "display/kms_flip.h"
-#include "display/kms_scanout.h"
+#include "display/kms/card.h"
+#include "display/kms/flip.h"
+#include "display/kms/scanout.h"
 
 struct gn_kms_env { /* what it stands on; must outlive it */
     const struct gn_drm_ops *drm;

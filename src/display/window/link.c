@@ -1,4 +1,4 @@
-#include "display/window_link.h"
+#include "display/window/link.h"
 
 #include <dlfcn.h>
 #include <stddef.h>

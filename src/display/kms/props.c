@@ -1,7 +1,7 @@
 /* Properties by name. Their numbers differ from card to card, and hold as long as it is open. */
 #include <string.h>
 
-#include "display/kms_output.h"
+#include "display/kms/output.h"
 
 const char *const gn_kms_connector_props[GN_PROP_CONNECTOR_COUNT] = {
     [GN_PROP_CONNECTOR_CRTC] = "CRTC_ID",

@@ -1,4 +1,4 @@
-#include "display/kms_uevent.h"
+#include "display/kms/uevent.h"
 
 #include <errno.h>
 #include <linux/netlink.h>

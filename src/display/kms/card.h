@@ -4,7 +4,7 @@
 #define GN_DISPLAY_KMS_CARD_H
 
 #include "display/display.h"
-#include "display/kms_drm.h"
+#include "display/kms/drm.h"
 
 enum {
     GN_KMS_CONNECTORS_MAX = 16,

@@ -1,7 +1,7 @@
 /* What somebody does at a window with keys and a mouse, summed up until it is read: pure, and the
  * same for every window system. */
-#ifndef GN_DISPLAY_HAND_H
-#define GN_DISPLAY_HAND_H
+#ifndef GN_DISPLAY_POINTER_H
+#define GN_DISPLAY_POINTER_H
 
 #include <stdbool.h>
 
