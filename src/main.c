@@ -5,9 +5,9 @@
 #include "cli/args.h"
 #include "cli/commands.h"
 #include "cli/help.h"
-#include "cli/stop.h"
 #include "config.h"
 #include "core/file.h"
+#include "core/stop.h"
 
 static gn_cli_command *const commands[] = {
     [GN_COMMAND_AUTO] = gn_cli_auto,       [GN_COMMAND_SHOW] = gn_cli_show,

@@ -6,13 +6,14 @@ find src tests -name '*.[ch]' | sort | xargs awk '
 BEGIN {
     # what a room may include, besides itself; src/main.c may include all
     may["core"] = ""
-    may["scene"] = "core"
+    may["image"] = "core"
+    may["scene"] = "core image"
     may["shadow"] = "core scene"
     may["frame"] = "core scene shadow caption"
     may["gl"] = "core scene shadow frame caption"
     may["caption"] = may["display"] = may["input"] = may["import"] = "core" # import is a program of its own
     may["kiosk"] = "core scene shadow frame gl display input caption"
-    may["cli"] = "core scene shadow frame gl display input caption kiosk"
+    may["cli"] = "core image scene shadow frame gl display input caption kiosk"
     # which rooms may include <KEY..>
     foreign["GLES3/"] = foreign["GLES2/"] = "gl"
     foreign["EGL/"] = foreign["GL/osmesa.h"] = foreign["gbm.h"] = foreign["xf86drm"] = "display"
@@ -20,7 +21,9 @@ BEGIN {
     foreign["gpiod.h"] = foreign["linux/input"] = "input"
     foreign["ft2build.h"] = foreign["freetype/"] = "caption"
     foreign["ini.h"] = "cli"
-    foreign["jansson.h"] = "scene cli kiosk import"
+    foreign["jansson.h"] = "core scene cli kiosk import"
+    foreign["png.h"] = "image import"
+    foreign["turbojpeg.h"] = "image import"
     foreign["assimp/"] = "import"
     foreign["cmocka.h"] = "none"
 }

@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "cli/commands.h"
-#include "cli/json_print.h"
 #include "core/clock.h"
+#include "core/json.h"
 #include "kiosk/command.h"
 #include "kiosk/listen.h"
 #include "kiosk/request.h"

@@ -3,7 +3,7 @@
 #include <errno.h>
 #include <string.h>
 
-#include "cli/json_print.h"
+#include "core/json.h"
 
 enum { COLUMNS = 96 };
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cli/doctor_input.h"
-#include "cli/json_print.h"
+#include "core/json.h"
 #include "core/text.h"
 #include <config.h> /* made by the build; not cli/config.h */
 

@@ -9,9 +9,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/stop.h"
 #include "core/child.h"
 #include "core/model.h"
+#include "core/stop.h"
 
 enum {
     LONGEST_S = 75, /* it ends by itself after 60 */

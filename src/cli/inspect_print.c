@@ -4,8 +4,8 @@
 #include <stdio.h>
 
 #include "cli/inspect.h"
-#include "cli/json_print.h"
 #include "cli/units.h"
+#include "core/json.h"
 #include "core/text.h"
 
 static const char *const light_types[] = {

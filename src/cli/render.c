@@ -7,10 +7,10 @@
 
 #include "caption/captions.h"
 #include "cli/commands.h"
-#include "cli/picture.h"
 #include "cli/stage.h"
-#include "cli/stop.h"
 #include "core/clock.h"
+#include "core/stop.h"
+#include "image/write.h"
 #include "shadow/grey.h"
 
 struct render {

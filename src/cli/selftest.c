@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/json_print.h"
 #include "core/arena.h"
 #include "core/embedded.h"
+#include "core/json.h"
 
 #define LIT  1
 #define EDGE 2

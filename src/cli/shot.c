@@ -11,9 +11,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/picture.h"
 #include "core/arena.h"
 #include "core/file.h"
+#include "image/write.h"
 
 struct gn_shot {
     int done; /* an eventfd */

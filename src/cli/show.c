@@ -10,9 +10,9 @@
 #include "cli/args.h"
 #include "cli/show.h"
 #include "cli/show_hand.h"
-#include "cli/stop.h"
 #include "core/arena.h"
 #include "core/clock.h"
+#include "core/stop.h"
 
 /* ---- opening ---- */
 

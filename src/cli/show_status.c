@@ -5,9 +5,9 @@
 
 #include <config.h> /* not ours of that name */
 
-#include "cli/json_print.h"
 #include "cli/show.h"
 #include "core/clock.h"
+#include "core/json.h"
 
 void gn_show_status_begin(struct gn_show_status *status, int64_t now_ns) {
     *status = (struct gn_show_status){.begun_ns = now_ns};

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "cli/import.h"
-#include "cli/stop.h"
 #include "cli/wake.h"
 #include "core/embedded.h"
+#include "core/stop.h"
 
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err) {

@@ -130,7 +130,7 @@ struct gn_gltf {
     struct gn_scene *scene;
 };
 
-/* ---- gltf_json.c: a cursor into the JSON that knows its path, and typed getters ---- */
+/* ---- gltf/json.c: a cursor into the JSON that knows its path, and typed getters ---- */
 
 struct gn_at {
     const struct gn_at *up; /* must outlive this one */
@@ -174,7 +174,7 @@ int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, 
 bool gn_json_number(const json_t *json, double *out);
 bool gn_json_whole(const json_t *json, int64_t *out);
 
-/* ---- gltf_memory.c ---- */
+/* ---- gltf/memory.c ---- */
 
 /* Zeroed memory within memory_mb over all arenas; NULL fails the load. */
 void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, size_t size);
@@ -184,18 +184,18 @@ size_t gn_gltf_room(const struct gn_gltf *g);
 
 /* ---- the steps of load.c, in order ---- */
 
-bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size); /* gltf_file.c */
+bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size); /* gltf/file.c */
 bool gn_gltf_check_support(struct gn_gltf *g);
-bool gn_gltf_buffers(struct gn_gltf *g);    /* gltf_buffers.c */
-bool gn_gltf_accessors(struct gn_gltf *g);  /* gltf_accessor.c */
-bool gn_gltf_nodes(struct gn_gltf *g);      /* gltf_node.c */
-bool gn_gltf_meshes(struct gn_gltf *g);     /* gltf_mesh.c */
+bool gn_gltf_buffers(struct gn_gltf *g);    /* gltf/buffers.c */
+bool gn_gltf_accessors(struct gn_gltf *g);  /* gltf/accessor.c */
+bool gn_gltf_nodes(struct gn_gltf *g);      /* gltf/node.c */
+bool gn_gltf_meshes(struct gn_gltf *g);     /* gltf/mesh.c */
 bool gn_gltf_geometries(struct gn_gltf *g); /* geometry.c */
-bool gn_gltf_items(struct gn_gltf *g);      /* gltf_item.c */
-bool gn_gltf_materials(struct gn_gltf *g);  /* gltf_material.c */
-bool gn_gltf_lights(struct gn_gltf *g);     /* gltf_light.c */
-bool gn_gltf_cameras(struct gn_gltf *g);    /* gltf_camera.c */
-bool gn_gltf_animations(struct gn_gltf *g); /* gltf_anim.c */
+bool gn_gltf_items(struct gn_gltf *g);      /* gltf/item.c */
+bool gn_gltf_materials(struct gn_gltf *g);  /* gltf/material.c */
+bool gn_gltf_lights(struct gn_gltf *g);     /* gltf/light.c */
+bool gn_gltf_cameras(struct gn_gltf *g);    /* gltf/camera.c */
+bool gn_gltf_animations(struct gn_gltf *g); /* gltf/anim.c */
 bool gn_scene_complete(struct gn_gltf *g);  /* complete.c */
 bool gn_scene_batch(struct gn_gltf *g);     /* batch.c */
 
@@ -206,7 +206,7 @@ bool gn_scene_batch(struct gn_gltf *g);     /* batch.c */
 bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err);
 void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob);
 
-/* gltf_accessor.c. The file's accessor of that number, checked, or NULL (-1 or failed); sparse ones
+/* gltf/accessor.c. The file's accessor of that number, checked, or NULL (-1 or failed); sparse ones
  * are made dense here. */
 const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index);
 /* All elements as floats, normalised as the accessor says, into out: components x count of them;
@@ -229,25 +229,17 @@ bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *ge
 /* Sets box, flat and plane; *area: of all triangles, square units of mesh space. */
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area);
 
-/* gltf_image.c: the scene's texture for one of the file's, made now if need be; -1: none, or
+/* gltf/image.c: the scene's texture for one of the file's, made now if need be; -1: none, or
  * dropped with a warning. */
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture);
 
-/* image_png.c, image_jpeg.c: the header's size, then width x height x 4 bytes into rgba. */
-bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
-bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
-                 struct gn_err *err);
-bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
-bool gn_jpeg_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
-                  struct gn_err *err);
-
-/* gltf_extras.c: the gnomon_ keys; a wrong type or value is warned about by name, and the default
+/* gltf/extras.c: the gnomon_ keys; a wrong type or value is warned about by name, and the default
  * stays. */
 void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_placed *placed);
 void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_light *light);
 void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene);
 
-/* gltf_instance.c: EXT_mesh_gpu_instancing of all placed nodes. */
+/* gltf/instance.c: EXT_mesh_gpu_instancing of all placed nodes. */
 bool gn_gltf_instances(struct gn_gltf *g);
 
 /* plane.c: sets item->plane, by gnomon_plane or by finding one large flat face. pose: as the file

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "cli/json_print.h"
+#include "core/json.h"
 #include "unit/check.h"
 
 static void assert_is(json_t *value, const char *expected) {

@@ -1,4 +1,4 @@
-#include "scene/private.h"
+#include "image/read.h"
 
 #include <turbojpeg.h>
 

@@ -5,6 +5,8 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "image/read.h"
+
 enum { UNSEEN = -1, DROPPED = -2 };
 
 static const struct format {

@@ -1,4 +1,4 @@
-#include "cli/stop.h"
+#include "core/stop.h"
 
 #include <stddef.h>
 #include <sys/signalfd.h>

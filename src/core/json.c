@@ -1,4 +1,4 @@
-#include "cli/json_print.h"
+#include "core/json.h"
 
 #include <math.h>
 

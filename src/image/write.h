@@ -1,7 +1,7 @@
 /* Pictures to files: PNG by libpng, PFM (Debevec's float map, little-endian, bottom row first).
  * Written whole or not at all. */
-#ifndef GN_CLI_PICTURE_H
-#define GN_CLI_PICTURE_H
+#ifndef GN_IMAGE_WRITE_H
+#define GN_IMAGE_WRITE_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,8 +1,8 @@
 /* SIGTERM and SIGINT as a wish to stop, which ends with 0. Whoever writes files or has something to
  * finish calls gn_stop_block() and asks between pieces of work; for all others gn_stop_at_once(),
  * which main() calls, is enough, and ends them also while a driver hangs. */
-#ifndef GN_CLI_STOP_H
-#define GN_CLI_STOP_H
+#ifndef GN_CORE_STOP_H
+#define GN_CORE_STOP_H
 
 #include <signal.h>
 #include <stdbool.h>

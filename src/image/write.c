@@ -1,4 +1,4 @@
-#include "cli/picture.h"
+#include "image/write.h"
 
 #include <math.h>
 #include <png.h>

@@ -1,6 +1,6 @@
 /* The one way in which reports become JSON. */
-#ifndef GN_CLI_JSON_PRINT_H
-#define GN_CLI_JSON_PRINT_H
+#ifndef GN_CORE_JSON_H
+#define GN_CORE_JSON_H
 
 #include <jansson.h>
 #include <stdbool.h>

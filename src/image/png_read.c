@@ -1,6 +1,6 @@
 /* PNG of every kind to RGBA, 8 bits. libpng leaves by longjmp when it fails: it is called only from
  * here, and what must outlive a jump lies in one struct. */
-#include "scene/private.h"
+#include "image/read.h"
 
 #include <png.h>
 #include <setjmp.h>

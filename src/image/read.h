@@ -1,0 +1,20 @@
+/* Reading PNG and JPEG pictures from memory. Messages begin with the name of the format. */
+#ifndef GN_IMAGE_READ_H
+#define GN_IMAGE_READ_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/err.h"
+
+/* The size that the header says; then the pixels, width x height x 4 bytes of RGBA, top row first.
+ */
+bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
+bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
+                 struct gn_err *err);
+bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
+bool gn_jpeg_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
+                  struct gn_err *err);
+
+#endif
