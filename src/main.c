@@ -2,12 +2,12 @@
 #include <signal.h>
 #include <stdio.h>
 
-#include "cli/args.h"
 #include "cli/commands.h"
 #include "cli/help.h"
 #include "config.h"
 #include "core/file.h"
 #include "core/stop.h"
+#include "options/args.h"
 
 static gn_cli_command *const commands[] = {
     [GN_COMMAND_AUTO] = gn_cli_auto,       [GN_COMMAND_SHOW] = gn_cli_show,

@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/args.h"
 #include "cli/commands.h"
-#include "cli/stage.h"
-#include "cli/value.h"
-#include "kiosk/binding.h"
+#include "options/args.h"
+#include "options/binding.h"
+#include "options/value.h"
+#include "stage/stage.h"
 
 enum { SCENES_MAX = GN_SCENES_MAX + GN_MODES_MAX };
 

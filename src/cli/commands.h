@@ -3,8 +3,8 @@
 #ifndef GN_CLI_COMMANDS_H
 #define GN_CLI_COMMANDS_H
 
-#include "cli/options.h"
 #include "core/warn.h"
+#include "options/options.h"
 
 typedef bool gn_cli_command(const struct gn_options *options, struct gn_warnings *warnings,
                             struct gn_err *err);

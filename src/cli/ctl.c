@@ -12,9 +12,9 @@
 #include "cli/commands.h"
 #include "core/clock.h"
 #include "core/json.h"
-#include "kiosk/command.h"
 #include "kiosk/listen.h"
 #include "kiosk/request.h"
+#include "options/command.h"
 
 static const int64_t PATIENCE_NS = 10 * GN_NS_PER_S;
 static const int64_t LONG_PATIENCE_NS = 60 * GN_NS_PER_S; /* a scene may have to be loaded */

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "cli/config_button.h"
-#include "kiosk/command.h"
+#include "options/buttons.h"
+#include "options/command.h"
 #include "shadow/technique.h"
 
 #define COLUMN 26 /* where the phrases of --help begin */

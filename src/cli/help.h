@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "cli/options.h"
+#include "options/options.h"
 
 /* --help: of one command, or of all (GN_COMMAND_AUTO). At most 100 columns. */
 void gn_help_print(FILE *to, enum gn_command command);

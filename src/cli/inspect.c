@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/commands.h"
-#include "cli/stage.h"
+#include "stage/stage.h"
 
 static void count_pass(struct gn_scene_cost *cost, const struct gn_plan *plan,
                        const struct gn_pass *pass) {

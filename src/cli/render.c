@@ -7,11 +7,11 @@
 
 #include "caption/captions.h"
 #include "cli/commands.h"
-#include "cli/stage.h"
 #include "core/clock.h"
 #include "core/stop.h"
 #include "image/write.h"
 #include "shadow/grey.h"
+#include "stage/stage.h"
 
 struct render {
     struct gn_stage stage;

@@ -8,8 +8,8 @@
 #include <sys/timerfd.h>
 #include <unistd.h>
 
-#include "cli/value.h"
 #include "core/clock.h"
+#include "options/value.h"
 
 /* Whether it arrives is the supervisor's business. */
 static void tell(const struct gn_service *s, const char *text) {

@@ -7,12 +7,12 @@
 #include <sys/epoll.h>
 #include <unistd.h>
 
-#include "cli/args.h"
 #include "cli/show.h"
 #include "cli/show_hand.h"
 #include "core/arena.h"
 #include "core/clock.h"
 #include "core/stop.h"
+#include "options/args.h"
 
 /* ---- opening ---- */
 

@@ -7,12 +7,12 @@
 #include "cli/info_page.h"
 #include "cli/service.h"
 #include "cli/show_control.h"
-#include "cli/show_loader.h"
 #include "cli/show_stats.h"
-#include "cli/stage.h"
-#include "kiosk/binding.h"
 #include "kiosk/latency.h"
 #include "kiosk/machine.h"
+#include "options/binding.h"
+#include "stage/loader.h"
+#include "stage/stage.h"
 
 /* Modes: those of the INI file, else the techniques that there are. */
 struct gn_show_modes {

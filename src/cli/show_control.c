@@ -11,11 +11,11 @@
 #include "cli/shot.h"
 #include "cli/show.h"
 #include "cli/show_status.h"
-#include "cli/value.h"
 #include "core/arena.h"
 #include "core/clock.h"
 #include "kiosk/control.h"
 #include "kiosk/listen.h"
+#include "options/value.h"
 
 static const int64_t SHOT_NS = 5 * GN_NS_PER_S; /* a frame comes sooner, or nothing is shown */
 

@@ -2,7 +2,7 @@
 #ifndef GN_CLI_SHOW_HAND_H
 #define GN_CLI_SHOW_HAND_H
 
-#include "cli/stage.h"
+#include "stage/stage.h"
 
 /* Moves the stage's orbit as the hand on its screen did. True: there is another picture to be seen.
  */

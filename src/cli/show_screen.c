@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "cli/show.h"
-#include "cli/wake.h"
 #include "core/clock.h"
 #include "core/stop.h"
+#include "stage/wake.h"
 
 static bool encodes(const struct gn_options *o) {
     uint32_t without = 0;

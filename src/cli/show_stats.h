@@ -3,8 +3,8 @@
 #ifndef GN_CLI_SHOW_STATS_H
 #define GN_CLI_SHOW_STATS_H
 
-#include "cli/options.h"
 #include "display/display.h"
+#include "options/options.h"
 
 struct gn_show_stats {
     int timer; /* to be watched; -1: no lines are wanted */

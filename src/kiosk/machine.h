@@ -9,15 +9,10 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "kiosk/action.h"
+#include "options/action.h"
 
 enum { GN_KIOSK_MODES_MAX = 32, GN_KIOSK_SCENES_MAX = 64 };
 
-enum gn_idle { /* what happens when nobody has done anything for a while */
-               GN_IDLE_NONE,
-               GN_IDLE_FIRST, /* the first mode, scene and camera, as at the start */
-               GN_IDLE_NEXT,  /* the next mode, and again after the same while */
-};
 struct gn_kiosk_rules {                    /* zero means the default written beside */
     int mode_count;                        /* 1 */
     int scene_count;                       /* 1; those that next-scene goes through come first */

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "core/err.h"
-#include "kiosk/command.h"
+#include "options/command.h"
 
 #define GN_REQUEST_LINE_MAX  4096 /* bytes, without the newline */
 #define GN_REQUEST_DEPTH_MAX 4    /* brackets in brackets */

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/config.h"
 #include "core/clock.h"
+#include "options/file.h"
 
 static const char good[] =
     "[display]\nconnector = HDMI-A-1\nmode = 1920x1080@60\nrotate = 90\n"

@@ -8,11 +8,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/args.h"
 #include "cli/show.h"
 #include "core/arena.h"
 #include "core/clock.h"
 #include "gl/private.h"
+#include "options/args.h"
 #include "unit/gl_help.h"
 
 enum { SIDE = 64, PIXELS = SIDE * SIDE };

@@ -7,9 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/import.h"
 #include "gltf_maker.h"
 #include "scene_check.h"
+#include "stage/import.h"
 
 static char folder[64] = "/tmp/gnomon-import-XXXXXX";
 static struct gn_warnings warnings;

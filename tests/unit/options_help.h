@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "cli/options.h"
 #include "core/warn.h"
+#include "options/options.h"
 #include "unit/check.h"
 
 static struct gn_options options;

@@ -2,7 +2,7 @@
 #include "unit/check.h"
 
 #include "core/key.h"
-#include "kiosk/action.h"
+#include "options/action.h"
 
 #include <string.h>
 

@@ -4,12 +4,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/args.h"
-#include "cli/config.h"
 #include "cli/help.h"
-#include "cli/value.h"
 #include "core/file.h"
-#include "kiosk/command.h"
+#include "options/args.h"
+#include "options/command.h"
+#include "options/file.h"
+#include "options/value.h"
 #include "unit/options_help.h"
 
 /* Splits at spaces. */

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/config.h"
-#include "cli/config_button.h"
 #include "core/file.h"
+#include "options/buttons.h"
+#include "options/file.h"
 
 static char path[] = "/tmp/gnomon-button-XXXXXX";
 static struct gn_options options;

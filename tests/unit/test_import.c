@@ -9,9 +9,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/import.h"
 #include "gltf_maker.h"
 #include "import_help.h"
+#include "stage/import.h"
 
 /* ---- OBJ ---- */
 

@@ -6,10 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/args.h"
-#include "cli/config.h"
-#include "cli/ini.h"
 #include "core/file.h"
+#include "options/args.h"
+#include "options/file.h"
+#include "options/ini.h"
 
 static char folder[] = "/tmp/gnomon-ini-XXXXXX";
 static struct gn_err err;

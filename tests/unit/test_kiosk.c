@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "core/clock.h"
-#include "kiosk/binding.h"
 #include "kiosk/machine.h"
+#include "options/binding.h"
 
 #define S GN_NS_PER_S
 

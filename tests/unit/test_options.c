@@ -4,9 +4,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/args.h"
 #include "cli/help.h"
-#include "cli/value.h"
+#include "options/args.h"
+#include "options/value.h"
 #include "unit/options_help.h"
 
 /* Splits at spaces: no argument of these tests has one. */

@@ -16,9 +16,9 @@
 #include <unistd.h>
 
 #include "check.h"
-#include "cli/wake.h"
 #include "core/clock.h"
 #include "input/private.h"
+#include "stage/wake.h"
 #include "unit/gpio_fake.h"
 
 static int master, slave, gestures[2];

@@ -1,4 +1,4 @@
-#include "cli/args.h"
+#include "options/args.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -6,9 +6,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/config.h"
 #include "core/text.h"
-#include "kiosk/command.h"
+#include "options/command.h"
+#include "options/file.h"
 
 struct flag {
     const struct gn_option_row *row;

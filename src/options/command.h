@@ -1,7 +1,7 @@
 /* What a running kiosk can be asked over its socket: one table for the server, the client, --help
  * and the manual. */
-#ifndef GN_KIOSK_COMMAND_H
-#define GN_KIOSK_COMMAND_H
+#ifndef GN_OPTIONS_COMMAND_H
+#define GN_OPTIONS_COMMAND_H
 
 #include <stdbool.h>
 #include <stddef.h>

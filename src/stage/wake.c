@@ -1,4 +1,4 @@
-#include "cli/wake.h"
+#include "stage/wake.h"
 
 #include <signal.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "cli/show_loader.h"
+#include "stage/loader.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -9,8 +9,8 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-#include "cli/stage.h"
 #include "core/arena.h"
+#include "stage/stage.h"
 
 /* Shared by two; the one that comes last frees it. The thread touches nothing else. */
 struct job {

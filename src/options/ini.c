@@ -1,4 +1,4 @@
-#include "cli/ini.h"
+#include "options/ini.h"
 
 #include <ini.h>
 #include <stdio.h>

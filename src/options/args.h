@@ -1,9 +1,9 @@
 /* The command line: flags, the command, the scene; then the INI file, then the mode. */
-#ifndef GN_CLI_ARGS_H
-#define GN_CLI_ARGS_H
+#ifndef GN_OPTIONS_ARGS_H
+#define GN_OPTIONS_ARGS_H
 
-#include "cli/options.h"
 #include "core/warn.h"
+#include "options/options.h"
 
 /* Fills options, which gn_options_finish() must finish also after a failure. Flags and scene may
  * stand in any order, "--" ends the flags. `show` and the bare command look for a configuration

@@ -1,12 +1,11 @@
-#include "cli/options.h"
+#include "options/options.h"
 
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/value.h"
 #include "frame/plan.h"
-#include "kiosk/machine.h"
+#include "options/value.h"
 
 #define BIT(command) (1u << GN_COMMAND_##command)
 #define KIOSK        (BIT(AUTO) | BIT(SHOW))

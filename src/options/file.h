@@ -1,8 +1,8 @@
 /* The one configuration file: where it is and what its settings mean. */
-#ifndef GN_CLI_CONFIG_H
-#define GN_CLI_CONFIG_H
+#ifndef GN_OPTIONS_FILE_H
+#define GN_OPTIONS_FILE_H
 
-#include "cli/options.h"
+#include "options/options.h"
 
 /* The first that is there of $XDG_CONFIG_HOME/gnomon/kiosk.ini (~/.config without it) and
  * /etc/gnomon/kiosk.ini. */

@@ -1,13 +1,13 @@
 /* Opening a display wakes up a driver: what libraries print meanwhile is not heard, unless -v asks
  * for it, and a driver that crashes ends the program with one line like any other failure. */
-#ifndef GN_CLI_WAKE_H
-#define GN_CLI_WAKE_H
+#ifndef GN_STAGE_WAKE_H
+#define GN_STAGE_WAKE_H
 
 #include <signal.h>
 
-#include "cli/options.h"
 #include "core/warn.h"
 #include "display/display.h"
+#include "options/options.h"
 
 enum { GN_WAKE_CRASHES = 5 };
 struct gn_wake { /* zeroed is ready */

@@ -1,7 +1,7 @@
 /* Scenes that are not glTF: gnomon-import, a program of its own, turns them into it, so that a
  * large importer and its bugs never run in this process. */
-#ifndef GN_CLI_IMPORT_H
-#define GN_CLI_IMPORT_H
+#ifndef GN_STAGE_IMPORT_H
+#define GN_STAGE_IMPORT_H
 
 #include <stdbool.h>
 

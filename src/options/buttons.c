@@ -1,12 +1,12 @@
-#include "cli/config_button.h"
+#include "options/buttons.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/value.h"
 #include "core/clock.h"
 #include "core/key.h"
 #include "core/text.h"
+#include "options/value.h"
 #include "shadow/technique.h"
 
 #define NS_PER_MS  (GN_NS_PER_S / 1000)

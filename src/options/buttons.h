@@ -1,10 +1,10 @@
 /* [button "NAME"] of the configuration file: where a button is, and what it does. */
-#ifndef GN_CLI_CONFIG_BUTTON_H
-#define GN_CLI_CONFIG_BUTTON_H
+#ifndef GN_OPTIONS_BUTTONS_H
+#define GN_OPTIONS_BUTTONS_H
 
-#include "cli/ini.h"
-#include "cli/options.h"
-#include "kiosk/binding.h"
+#include "options/binding.h"
+#include "options/ini.h"
+#include "options/options.h"
 
 struct gn_button_key_row {
     const char *name;  /* "hold_ms" */

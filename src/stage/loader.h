@@ -1,6 +1,6 @@
 /* Scenes loaded in a thread, one at a time, while frames go on. */
-#ifndef GN_CLI_SHOW_LOADER_H
-#define GN_CLI_SHOW_LOADER_H
+#ifndef GN_STAGE_LOADER_H
+#define GN_STAGE_LOADER_H
 
 #include "core/warn.h"
 #include "scene/pose.h"

@@ -1,4 +1,4 @@
-#include "cli/import.h"
+#include "stage/import.h"
 
 #include <config.h> /* the generated one, not this room's */
 #include <errno.h>

@@ -1,9 +1,9 @@
 /* Which gesture of which button does what: what the configuration says, or the defaults. */
-#ifndef GN_KIOSK_BINDING_H
-#define GN_KIOSK_BINDING_H
+#ifndef GN_OPTIONS_BINDING_H
+#define GN_OPTIONS_BINDING_H
 
 #include "input/input.h"
-#include "kiosk/action.h"
+#include "options/action.h"
 
 struct gn_binding { /* zeroed: nothing */
     bool bound;     /* also to GN_ACTION_NONE, which a configuration may ask for */

@@ -1,8 +1,8 @@
 /* Texts to values and back to words: what a value must look like, per kind of option. */
-#ifndef GN_CLI_VALUE_H
-#define GN_CLI_VALUE_H
+#ifndef GN_OPTIONS_VALUE_H
+#define GN_OPTIONS_VALUE_H
 
-#include "cli/options.h"
+#include "options/options.h"
 
 /* Parses text into the field (of gn_value_size bytes); all of text must be the value. Texts are
  * kept in the arena. GN_KIND_LIMIT adds to what is in the field. A failure is a usage error:

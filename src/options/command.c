@@ -1,4 +1,4 @@
-#include "kiosk/command.h"
+#include "options/command.h"
 
 #include <stdio.h>
 #include <string.h>

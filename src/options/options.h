@@ -1,7 +1,7 @@
 /* The one table of options. A row makes a flag, an INI key, a line of --help and of the man page,
  * and a field of struct gn_options; whoever needs the value reads the field. */
-#ifndef GN_CLI_OPTIONS_H
-#define GN_CLI_OPTIONS_H
+#ifndef GN_OPTIONS_OPTIONS_H
+#define GN_OPTIONS_OPTIONS_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 
 #include "core/arena.h"
 #include "core/err.h"
-#include "kiosk/binding.h"
+#include "options/binding.h"
 
 enum gn_command {
     GN_COMMAND_AUTO, /* bare `gnomon [SCENE]` */

@@ -1,4 +1,4 @@
-#include "cli/config.h"
+#include "options/file.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -6,11 +6,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/config_button.h"
-#include "cli/ini.h"
-#include "cli/value.h"
 #include "core/file.h"
 #include "core/text.h"
+#include "options/buttons.h"
+#include "options/ini.h"
+#include "options/value.h"
 
 #define FILE_MAX (1024 * 1024)
 

@@ -1,8 +1,8 @@
 /* INI files, strictly: one setting per line, nothing cut, nothing guessed. inih splits the lines;
  * before it sees them this room counts them and refuses those over 190 characters, names over 48,
  * continuation lines and bytes that are no text. */
-#ifndef GN_CLI_INI_H
-#define GN_CLI_INI_H
+#ifndef GN_OPTIONS_INI_H
+#define GN_OPTIONS_INI_H
 
 #include <stdbool.h>
 #include <stddef.h>

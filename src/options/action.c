@@ -1,4 +1,4 @@
-#include "kiosk/action.h"
+#include "options/action.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,13 +1,13 @@
-#include "cli/stage.h"
+#include "stage/stage.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/import.h"
-#include "cli/wake.h"
 #include "core/embedded.h"
 #include "core/stop.h"
+#include "stage/import.h"
+#include "stage/wake.h"
 
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err) {

@@ -1,4 +1,4 @@
-#include "kiosk/binding.h"
+#include "options/binding.h"
 
 static const struct gn_button_config defaults[] = {
     {.opts = {.name = "next", .line = "GPIO17", .keys = "space right pagedown n", .optional = true},

@@ -1,6 +1,6 @@
 /* What a kiosk can be told to do, whoever tells it: a button, a key, the control socket. */
-#ifndef GN_KIOSK_ACTION_H
-#define GN_KIOSK_ACTION_H
+#ifndef GN_OPTIONS_ACTION_H
+#define GN_OPTIONS_ACTION_H
 
 #include <stdbool.h>
 
@@ -21,6 +21,12 @@ enum gn_action_kind {
 struct gn_action { /* zeroed: none */
     enum gn_action_kind kind;
     const char *name; /* of the mode, else NULL; whoever parsed it owns it */
+};
+
+enum gn_idle { /* what a kiosk does after idle_after seconds without an event */
+               GN_IDLE_NONE,
+               GN_IDLE_FIRST, /* the first mode, scene and camera, as at the start */
+               GN_IDLE_NEXT,  /* the next mode, and again after the same time */
 };
 
 const char *gn_action_name(enum gn_action_kind kind); /* "next-scene" */

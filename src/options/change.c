@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/options.h"
-#include "cli/value.h"
 #include "core/text.h"
+#include "options/options.h"
+#include "options/value.h"
 
 enum { PLACE_BYTES = 512 }; /* a larger text gets more */
 

@@ -1,13 +1,13 @@
 /* What render, bench and show have in common: a scene at a time, a display, a GPU, a frame builder.
  */
-#ifndef GN_CLI_STAGE_H
-#define GN_CLI_STAGE_H
+#ifndef GN_STAGE_STAGE_H
+#define GN_STAGE_STAGE_H
 
-#include "cli/options.h"
 #include "core/warn.h"
 #include "display/display.h"
 #include "frame/plan.h"
 #include "gl/gl.h"
+#include "options/options.h"
 
 /* How a scene is to be drawn, of what options say. */
 struct gn_stage_look {
