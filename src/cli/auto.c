@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "core/stop.h"
 #include "display/display.h"
+#include "kiosk/show.h"
 
 static bool has_desktop(void) { return getenv("WAYLAND_DISPLAY") || getenv("DISPLAY"); }
 
@@ -16,10 +17,10 @@ static bool is(const char *backend, const char *name) { return strcmp(backend, n
 static bool shows_window(const struct gn_options *options, bool *ok, struct gn_warnings *warnings,
                          struct gn_err *err) {
     const bool forced = is(options->backend, "window");
-    struct gn_cli_place place = {.backend = "window"};
+    struct gn_show_place place = {.backend = "window"};
     struct gn_err why = {0};
     if (!forced && (!is(options->backend, "auto") || !has_desktop())) return false;
-    *ok = gn_cli_show_at(options, &place, warnings, &why);
+    *ok = gn_show_run(options, &place, warnings, &why);
     const bool shown = *ok || forced || place.opened;
     if (shown)
         *err = why;

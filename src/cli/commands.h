@@ -12,12 +12,4 @@ typedef bool gn_cli_command(const struct gn_options *options, struct gn_warnings
 gn_cli_command gn_cli_auto, gn_cli_show, gn_cli_render, gn_cli_bench, gn_cli_inspect, gn_cli_doctor;
 gn_cli_command gn_cli_ctl, gn_cli_check; /* check: `show --check FILE` */
 
-/* gn_cli_show() on a backend of the caller's choice, whatever the options say. */
-struct gn_cli_place {
-    const char *backend; /* must outlive the call */
-    bool opened;         /* it did open: what went wrong went wrong later */
-};
-bool gn_cli_show_at(const struct gn_options *options, struct gn_cli_place *place,
-                    struct gn_warnings *warnings, struct gn_err *err);
-
 #endif

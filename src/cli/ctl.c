@@ -12,8 +12,8 @@
 #include "cli/commands.h"
 #include "core/clock.h"
 #include "core/json.h"
-#include "kiosk/listen.h"
-#include "kiosk/request.h"
+#include "kiosk/control/listen.h"
+#include "kiosk/control/request.h"
 #include "options/command.h"
 
 static const int64_t PATIENCE_NS = 10 * GN_NS_PER_S;

@@ -8,10 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/show.h"
 #include "core/arena.h"
 #include "core/clock.h"
 #include "gl/private.h"
+#include "kiosk/show.h"
 #include "options/args.h"
 #include "unit/gl_help.h"
 

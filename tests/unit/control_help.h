@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "kiosk/control.h"
+#include "kiosk/control/control.h"
 
 extern struct gn_ctl_test {
     struct gn_control *control;

@@ -3,8 +3,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/info_page.h"
 #include "core/clock.h"
+#include "kiosk/info_page.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"
 

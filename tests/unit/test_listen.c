@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "core/clock.h"
-#include "kiosk/listen.h"
+#include "kiosk/control/listen.h"
 #include "unit/control_help.h"
 
 /* ---- the socket in the file system ---------------------------------------------------------- */

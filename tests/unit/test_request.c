@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "kiosk/request.h"
+#include "kiosk/control/request.h"
 
 static struct gn_request request;
 static struct gn_err err;

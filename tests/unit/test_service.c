@@ -1,5 +1,5 @@
 /* What a supervisor hears, on a socket of our own. */
-#include "cli/service.h"
+#include "kiosk/service.h"
 
 #include <poll.h>
 #include <signal.h>

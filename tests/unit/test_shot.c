@@ -8,9 +8,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/shot.h"
 #include "core/file.h"
 #include "image/picture.h"
+#include "kiosk/screenshot.h"
 
 static char folder[] = "/tmp/gnomon-shot-XXXXXX", path[100];
 static struct gn_err err;

@@ -1,7 +1,7 @@
 #include "unit/check.h"
 
-#include "cli/show_status.h"
 #include "core/clock.h"
+#include "kiosk/control/status.h"
 
 static struct gn_show_status status;
 

@@ -1,6 +1,6 @@
 /* What a kiosk says of itself on its screen when it is asked: a text for a GN_CAPTION_INFO. */
-#ifndef GN_CLI_INFO_PAGE_H
-#define GN_CLI_INFO_PAGE_H
+#ifndef GN_KIOSK_INFO_PAGE_H
+#define GN_KIOSK_INFO_PAGE_H
 
 #include "display/display.h"
 #include "frame/caps.h"

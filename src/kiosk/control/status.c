@@ -1,13 +1,13 @@
-#include "cli/show_status.h"
+#include "kiosk/control/status.h"
 
 #include <stdio.h>
 #include <unistd.h>
 
 #include <config.h> /* not ours of that name */
 
-#include "cli/show.h"
 #include "core/clock.h"
 #include "core/json.h"
+#include "kiosk/show.h"
 
 void gn_show_status_begin(struct gn_show_status *status, int64_t now_ns) {
     *status = (struct gn_show_status){.begun_ns = now_ns};

@@ -1,7 +1,7 @@
 /* A screenshot: the pixels of one frame, turned upright, encoded and written by a thread of its own
  * while frames go on. One at a time. */
-#ifndef GN_CLI_SHOT_H
-#define GN_CLI_SHOT_H
+#ifndef GN_KIOSK_SCREENSHOT_H
+#define GN_KIOSK_SCREENSHOT_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 /* The modes of a kiosk: which there are, with which scenes, and one of them applied. */
 #include <string.h>
 
-#include "cli/show.h"
+#include "kiosk/show.h"
 #include "shadow/planar.h"
 
 /* ---- the list ---- */

@@ -3,12 +3,12 @@
  * blocks, and a dispatch does a bounded amount of work, so that no frame waits for it: what there
  * is not time for now waits, and what is too much is answered with the error "busy". No reply is
  * ever left out, but to a client that does not read for 5 s: it is cut off. */
-#ifndef GN_KIOSK_CONTROL_H
-#define GN_KIOSK_CONTROL_H
+#ifndef GN_KIOSK_CONTROL_CONTROL_H
+#define GN_KIOSK_CONTROL_CONTROL_H
 
 #include <stdint.h>
 
-#include "kiosk/request.h"
+#include "kiosk/control/request.h"
 
 enum {
     GN_CONTROL_CLIENTS_MAX = 64,   /* the next is answered "busy", and cut off, unless one of them

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/show.h"
+#include "kiosk/show.h"
 
 /* The new scene in the old one's place, in the mode of that name if there still is one. */
 static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_options *options,

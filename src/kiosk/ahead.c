@@ -2,8 +2,8 @@
  * piece a frame, so that no frame is missed for it. */
 #include <stdio.h>
 
-#include "cli/show.h"
 #include "core/clock.h"
+#include "kiosk/show.h"
 
 enum { SLICE_BYTES = 1 << 20 };
 

@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/show.h"
 #include "core/clock.h"
+#include "kiosk/show.h"
 
 static bool is(const struct gn_show *s, const char *name) {
     return strcmp(s->stage.display.ops->name, name) == 0;

@@ -1,6 +1,6 @@
 /* What somebody does at a window becomes a view. */
-#ifndef GN_CLI_SHOW_HAND_H
-#define GN_CLI_SHOW_HAND_H
+#ifndef GN_KIOSK_POINTER_H
+#define GN_KIOSK_POINTER_H
 
 #include "stage/stage.h"
 

@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/show.h"
 #include "core/clock.h"
 #include "core/stop.h"
+#include "kiosk/show.h"
 #include "stage/wake.h"
 
 static bool encodes(const struct gn_options *o) {

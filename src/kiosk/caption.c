@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/show.h"
 #include "core/clock.h"
+#include "kiosk/show.h"
 
 void gn_show_open_captions(struct gn_show *s) {
     const struct gn_captions_opts opts = {.font = s->options->font, .warnings = s->warnings};

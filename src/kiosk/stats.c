@@ -1,4 +1,4 @@
-#include "cli/show_stats.h"
+#include "kiosk/stats.h"
 
 #include <errno.h>
 #include <stdio.h>

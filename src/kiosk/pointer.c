@@ -1,4 +1,4 @@
-#include "cli/show_hand.h"
+#include "kiosk/pointer.h"
 
 static const float NOTCH = 0.1f; /* of a wheel: that much nearer, as a logarithm */
 

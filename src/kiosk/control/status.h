@@ -1,12 +1,12 @@
 /* The state of a kiosk as JSON, for `gnomon ctl status`. */
-#ifndef GN_CLI_SHOW_STATUS_H
-#define GN_CLI_SHOW_STATUS_H
+#ifndef GN_KIOSK_CONTROL_STATUS_H
+#define GN_KIOSK_CONTROL_STATUS_H
 
 #include <jansson.h>
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "kiosk/control.h"
+#include "kiosk/control/control.h"
 
 struct gn_show;
 

@@ -4,8 +4,8 @@
  * switched off, or waits for a card, a monitor, a console. So whatever hangs - a flip, the GPU, the
  * loop - ends with a restart, and a picture that is still is drawn once more to prove that it can
  * be. Without $NOTIFY_SOCKET all of it does nothing. */
-#ifndef GN_CLI_SERVICE_H
-#define GN_CLI_SERVICE_H
+#ifndef GN_KIOSK_SERVICE_H
+#define GN_KIOSK_SERVICE_H
 
 #include <stdbool.h>
 #include <stdint.h>

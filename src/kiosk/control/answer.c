@@ -1,4 +1,4 @@
-#include "cli/show_control.h"
+#include "kiosk/control/answer.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -8,13 +8,13 @@
 #include <sys/timerfd.h>
 #include <unistd.h>
 
-#include "cli/shot.h"
-#include "cli/show.h"
-#include "cli/show_status.h"
 #include "core/arena.h"
 #include "core/clock.h"
-#include "kiosk/control.h"
-#include "kiosk/listen.h"
+#include "kiosk/control/control.h"
+#include "kiosk/control/listen.h"
+#include "kiosk/control/status.h"
+#include "kiosk/screenshot.h"
+#include "kiosk/show.h"
 #include "options/value.h"
 
 static const int64_t SHOT_NS = 5 * GN_NS_PER_S; /* a frame comes sooner, or nothing is shown */

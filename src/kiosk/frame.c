@@ -1,9 +1,9 @@
 /* From what the kiosk shows to a frame on the screen. Nothing is drawn while nothing changes. */
 #include <stdio.h>
 
-#include "cli/show.h"
 #include "core/arena.h"
 #include "core/clock.h"
+#include "kiosk/show.h"
 
 #define ASK_NS (10 * GN_NS_PER_S) /* the GPU is asked no more often: that takes a program */
 

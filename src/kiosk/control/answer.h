@@ -1,7 +1,7 @@
 /* What a running kiosk answers over its control socket: actions, options, its state, screenshots.
  */
-#ifndef GN_CLI_SHOW_CONTROL_H
-#define GN_CLI_SHOW_CONTROL_H
+#ifndef GN_KIOSK_CONTROL_ANSWER_H
+#define GN_KIOSK_CONTROL_ANSWER_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* What somebody asks over the control socket: a line with one JSON object, strictly read. */
-#ifndef GN_KIOSK_REQUEST_H
-#define GN_KIOSK_REQUEST_H
+#ifndef GN_KIOSK_CONTROL_REQUEST_H
+#define GN_KIOSK_CONTROL_REQUEST_H
 
 #include <jansson.h>
 #include <stdint.h>

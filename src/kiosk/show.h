@@ -1,15 +1,14 @@
 /* What the files of `gnomon show` share. */
-#ifndef GN_CLI_SHOW_H
-#define GN_CLI_SHOW_H
+#ifndef GN_KIOSK_SHOW_H
+#define GN_KIOSK_SHOW_H
 
 #include "caption/captions.h"
-#include "cli/commands.h"
-#include "cli/info_page.h"
-#include "cli/service.h"
-#include "cli/show_control.h"
-#include "cli/show_stats.h"
+#include "kiosk/control/answer.h"
+#include "kiosk/info_page.h"
 #include "kiosk/latency.h"
 #include "kiosk/machine.h"
+#include "kiosk/service.h"
+#include "kiosk/stats.h"
 #include "options/binding.h"
 #include "stage/loader.h"
 #include "stage/stage.h"
@@ -38,8 +37,8 @@ struct gn_show_scenes {
 };
 
 struct gn_show {
-    struct gn_options *options; /* ours: a reload makes others */
-    struct gn_cli_place *place; /* NULL: the options say where */
+    struct gn_options *options;  /* ours: a reload makes others */
+    struct gn_show_place *place; /* NULL: the options say where */
     struct gn_stage stage;
     struct gn_screen_opts screen_opts;
     struct gn_show_stats stats;
@@ -84,6 +83,14 @@ struct gn_show {
 };
 
 /* show.c */
+/* Where gn_show_run() runs, whatever the options say. */
+struct gn_show_place {
+    const char *backend; /* as in --backend; must outlive the call */
+    bool opened;         /* the display did open: what failed failed later */
+};
+/* The kiosk from its start to its end. place NULL: as the options say. */
+bool gn_show_run(const struct gn_options *options, struct gn_show_place *place,
+                 struct gn_warnings *warnings, struct gn_err *err);
 struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warnings *warnings,
                              struct gn_err *err);
 void gn_show_close(struct gn_show *show);
@@ -103,7 +110,7 @@ void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t t
 /* What went wrong without ending anything: said once, also on the screen. */
 void gn_show_complain(struct gn_show *show, const char *text);
 
-/* show_screen.c: the display and its context */
+/* screen.c: the display and its context */
 bool gn_show_open_display(struct gn_show *show, struct gn_err *err);
 bool gn_show_same_screen(const struct gn_options *a, const struct gn_options *b);
 /* What a frame is drawn with, and how large, follows the screen. */
@@ -112,11 +119,11 @@ bool gn_show_is_stale(const struct gn_show *show);
 bool gn_show_keep_context(struct gn_show *show, struct gn_err *err);
 void gn_show_stop_gl(struct gn_show *show);
 
-/* show_frame.c */
+/* frame.c */
 bool gn_show_wants_frame(const struct gn_show *show);
 bool gn_show_frame(struct gn_show *show, struct gn_err *err);
 
-/* show_caption.c */
+/* caption.c */
 /* With the options' font; again after a reload. */
 void gn_show_open_captions(struct gn_show *show);
 /* What a frame says that is seen then. */
@@ -124,7 +131,7 @@ void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *vi
 /* When another frame is due for it; 0: at once, INT64_MAX: never. */
 int64_t gn_show_captions_due_ns(const struct gn_show *show);
 
-/* show_modes.c: the list of modes, and one of them applied */
+/* modes.c: the list of modes, and one of them applied */
 /* Of the options, with the scenes that they name; the options have none applied then. */
 void gn_show_list_modes(struct gn_show *show);
 /* -1: none of that name. */
@@ -140,7 +147,7 @@ void gn_show_enter(struct gn_show *show);
 /* The camera of the kiosk's, too; to be called for each frame. */
 void gn_show_take_view(struct gn_show *show, const struct gn_kiosk_view *view);
 
-/* show_ahead.c: what is made ready while other things are shown */
+/* ahead.c: what is made ready while other things are shown */
 /* Does a piece of it, if there is any: a program, or a few hundred kilobytes. */
 void gn_show_work(struct gn_show *show);
 bool gn_show_has_work(const struct gn_show *show);
@@ -152,13 +159,13 @@ void gn_show_advance(struct gn_show *show);
 bool gn_show_can_advance(const struct gn_show *show);
 void gn_show_drop_staged(struct gn_show *show);
 
-/* show_input.c: buttons and keys */
+/* input.c: buttons and keys */
 /* After the display, whose window has keys of its own. Again after a reload. */
 bool gn_show_open_input(struct gn_show *show, struct gn_err *err);
 /* What they did becomes actions, and what is wrong with them a word on stderr. */
 void gn_show_take_input(struct gn_show *show, const struct gn_hand *hand);
 
-/* show_reload.c: what cannot be loaded leaves the picture as it is */
+/* reload.c: what cannot be loaded leaves the picture as it is */
 bool gn_show_reload(struct gn_show *show, struct gn_err *err);
 
 #endif

@@ -1,7 +1,7 @@
 /* What a running kiosk says of itself: with --stats a line a second, with -v when the first frame
  * is sent. */
-#ifndef GN_CLI_SHOW_STATS_H
-#define GN_CLI_SHOW_STATS_H
+#ifndef GN_KIOSK_STATS_H
+#define GN_KIOSK_STATS_H
 
 #include "display/display.h"
 #include "options/options.h"

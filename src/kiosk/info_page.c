@@ -1,4 +1,4 @@
-#include "cli/info_page.h"
+#include "kiosk/info_page.h"
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>

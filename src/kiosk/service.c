@@ -1,4 +1,4 @@
-#include "cli/service.h"
+#include "kiosk/service.h"
 
 #include <errno.h>
 #include <stddef.h>

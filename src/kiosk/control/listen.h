@@ -1,6 +1,6 @@
 /* The control socket in the file system: where it is, who made it, and who may come in. */
-#ifndef GN_KIOSK_LISTEN_H
-#define GN_KIOSK_LISTEN_H
+#ifndef GN_KIOSK_CONTROL_LISTEN_H
+#define GN_KIOSK_CONTROL_LISTEN_H
 
 #include <stdbool.h>
 #include <stddef.h>

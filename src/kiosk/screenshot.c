@@ -1,4 +1,4 @@
-#include "cli/shot.h"
+#include "kiosk/screenshot.h"
 
 #include <errno.h>
 #include <limits.h>

@@ -1,4 +1,4 @@
-#include "kiosk/listen.h"
+#include "kiosk/control/listen.h"
 
 #include <errno.h>
 #include <fcntl.h>

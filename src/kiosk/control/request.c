@@ -1,4 +1,4 @@
-#include "kiosk/request.h"
+#include "kiosk/control/request.h"
 
 #include <stdio.h>
 #include <string.h>

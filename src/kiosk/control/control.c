@@ -1,4 +1,4 @@
-#include "kiosk/control.h"
+#include "kiosk/control/control.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -13,7 +13,7 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
-#include "kiosk/listen.h"
+#include "kiosk/control/listen.h"
 
 enum { CLIENTS = GN_CONTROL_CLIENTS_MAX, ACCEPTS_PER_DISPATCH = 16 };
 static const int64_t STUCK_NS = 5 * GN_NS_PER_S;   /* a reply that is not read for as long */

@@ -1,0 +1,242 @@
+/* gnomon show: the kiosk. One epoll over signals, the screen, buttons, scenes that load and a clock
+ * for --stats. It waits for a card and a monitor for as long as it takes. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/epoll.h>
+#include <unistd.h>
+
+#include "core/arena.h"
+#include "core/clock.h"
+#include "core/stop.h"
+#include "kiosk/pointer.h"
+#include "kiosk/show.h"
+#include "options/args.h"
+
+/* ---- opening ---- */
+
+bool gn_show_watch(struct gn_show *s, int fd, struct gn_err *err) {
+    struct epoll_event event = {.events = EPOLLIN, .data.fd = fd};
+    return epoll_ctl(s->epoll, EPOLL_CTL_ADD, fd, &event) == 0 ||
+           gn_fail(err, "show: cannot wait: %s", strerror(errno));
+}
+
+bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
+    gn_loader_close(s->scenes.loader);
+    s->scenes.loader = gn_loader_open(err);
+    return s->scenes.loader && gn_show_watch(s, gn_loader_fd(s->scenes.loader), err);
+}
+
+/* Before anything else, and for good: a signal that comes while the scene loads, or a second one at
+ * the end, ends the kiosk as well as any other. */
+static bool open_loop(struct gn_show *s, struct gn_err *err) {
+    s->signals = gn_stop_open();
+    s->epoll = epoll_create1(EPOLL_CLOEXEC);
+    if (s->signals < 0 || s->epoll < 0)
+        return gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
+    return gn_show_watch(s, s->signals, err) && gn_show_open_loader(s, err);
+}
+
+void gn_show_drop_options(struct gn_options *options) {
+    if (options) gn_options_finish(options);
+    free(options);
+}
+
+struct gn_options *gn_show_read_options(const struct gn_show *s, const struct gn_options *like,
+                                        struct gn_warnings *warnings, struct gn_err *err) {
+    struct gn_options *o = gn_xalloc(1, sizeof *o);
+    if (gn_args_parse(o, like->argc, like->argv, warnings, err)) {
+        o->command = GN_COMMAND_SHOW; /* the bare command, too, is the kiosk by now */
+        if (s->place) o->backend = s->place->backend;
+        return o;
+    }
+    gn_show_drop_options(o);
+    return NULL;
+}
+
+/* Where a file has modes one of them is always on. */
+bool gn_show_load(struct gn_stage *stage, struct gn_options *o, struct gn_warnings *warnings,
+                  struct gn_err *err) {
+    if (!o->mode_now && o->mode_count > 0 && !gn_options_apply_mode(o, o->modes[0].name, err))
+        return false;
+    return gn_stage_load(stage, o, warnings, err);
+}
+
+bool gn_show_begin(struct gn_show *s, struct gn_err *err) {
+    gn_show_list_modes(s);
+    s->kiosk = (struct gn_kiosk){.shown.mode = s->modes.first, .wanted.mode = s->modes.first};
+    s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
+    if (!gn_show_look(s, s->stage.scene, &s->looks, err)) return false;
+    gn_show_enter(s);
+    return true;
+}
+
+/* ---- what is heard ---- */
+
+void gn_show_complain(struct gn_show *s, const char *text) {
+    if (strcmp(s->problem, text) == 0) return;
+    snprintf(s->problem, sizeof s->problem, "%s", text);
+    fprintf(stderr, "gnomon: warning: %s\n", text);
+}
+
+void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time_ns) {
+    const struct gn_kiosk_event event = {.kind = GN_KIOSK_ACTION,
+                                         .time_ns = time_ns,
+                                         .action = action->kind,
+                                         .mode = gn_show_find_mode(&s->modes, action->name)};
+    if (action->kind == GN_ACTION_MODE && event.mode < 0) {
+        char text[100];
+        snprintf(text, sizeof text, "there is no mode \"%.60s\"", action->name);
+        gn_show_complain(s, text);
+    }
+    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+}
+
+static void hear_signals(struct gn_show *s) {
+    for (int signal; (signal = gn_stop_read(s->signals)) != 0;) {
+        s->reloads |= signal == SIGHUP;
+        s->ends |= signal != SIGHUP;
+    }
+}
+
+static void take_hand(struct gn_show *s) {
+    struct gn_screen *screen = &s->stage.display.screen;
+    const struct gn_hand hand = screen->hand;
+    screen->hand = (struct gn_hand){0};
+    s->ends |= hand.quit;
+    s->changed |= gn_show_hand_turn(&s->stage, &hand);
+    gn_show_take_input(s, &hand);
+}
+
+static void tick(struct gn_show *s) {
+    const struct gn_kiosk_event event = {.kind = GN_KIOSK_TICK, .time_ns = gn_clock_monotonic_ns()};
+    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+    if (s->kiosk.blanked != s->stage.display.screen.blank)
+        gn_display_blank(&s->stage.display, s->kiosk.blanked, event.time_ns);
+}
+
+/* ---- the loop ---- */
+
+/* Milliseconds until something is due, rounded up; -1: never. */
+static int timeout(const struct gn_show *s) {
+    if (gn_show_wants_frame(s) || gn_show_is_stale(s) || gn_show_can_advance(s)) return 0;
+    const int64_t now_ns = gn_clock_monotonic_ns();
+    int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
+    if (gn_show_has_work(s) && s->work_ns < at_ns) at_ns = s->work_ns;
+    const int64_t due_ns = gn_show_captions_due_ns(s); /* what is overdue waits for the screen */
+    if (s->stage.display.screen.lit && due_ns > now_ns && due_ns < at_ns) at_ns = due_ns;
+    if (at_ns == INT64_MAX) return -1;
+    const int64_t ms = at_ns <= now_ns ? 0 : (at_ns - now_ns + 999999) / 1000000;
+    return ms < 1000000 ? (int)ms : 1000000;
+}
+
+static void wait_for_something(const struct gn_show *s) {
+    struct epoll_event ready[8];
+    while (epoll_wait(s->epoll, ready, 8, timeout(s)) < 0 && errno == EINTR) {
+    }
+}
+
+/* What no frame takes along. */
+static void work_between_frames(struct gn_show *s) {
+    if (!gn_show_has_work(s) || gn_clock_monotonic_ns() < s->work_ns) return;
+    gn_gl_set_window(s->stage.gl, NULL); /* which is not ours to draw to now */
+    gn_show_work(s);
+}
+
+bool gn_show_step(struct gn_show *s, struct gn_err *err) {
+    wait_for_something(s);
+    hear_signals(s);
+    gn_show_hear_control(s);
+    if (s->ends) return true;
+    if (s->reloads && !gn_show_reload(s, err)) return false;
+    if (!gn_display_dispatch(&s->stage.display, gn_clock_monotonic_ns(), err)) return false;
+    take_hand(s);
+    if (s->ends) return true;
+    tick(s);
+    gn_show_stats_step(&s->stats, &s->stage.display, gn_clock_monotonic_ns());
+    s->changed |= gn_service_step(&s->service, &s->stage.display.screen, gn_clock_monotonic_ns());
+    if (!gn_show_keep_context(s, err)) return false;
+    gn_show_advance(s);
+    gn_show_enter_changed(s);
+    if (!gn_show_wants_frame(s))
+        work_between_frames(s);
+    else if (!gn_show_frame(s, err))
+        return false;
+    gn_show_advance(s); /* the last piece of work may have been what was waited for */
+    gn_show_enter_changed(s);
+    return true;
+}
+
+static bool run(struct gn_show *s, struct gn_err *err) {
+    while (!s->ends && s->frames < s->most_frames)
+        if (!gn_show_step(s, err)) return false;
+    if (s->options->verbose && s->stage.gl)
+        printf("%llu frames, %llu late, %lu allocations and %llu GL objects after the first\n",
+               (unsigned long long)s->frames,
+               (unsigned long long)s->stage.display.screen.counts.missed, s->allocations,
+               (unsigned long long)s->objects);
+    return true;
+}
+
+void gn_show_close(struct gn_show *s) {
+    gn_show_close_control(s);
+    gn_input_close(s->input);
+    gn_captions_destroy(s->captions);
+    gn_loader_close(s->scenes.loader);
+    gn_show_drop_staged(s);
+    gn_stage_close(&s->stage);
+    gn_show_stats_close(&s->stats);
+    gn_service_close(&s->service);
+    if (s->signals >= 0) close(s->signals);
+    if (s->epoll >= 0) close(s->epoll);
+    gn_show_drop_options(s->options);
+    free(s);
+}
+
+/* Of what fails half-way the caller asks why it ended, and closes it. */
+static bool open_all(struct gn_show *s, const struct gn_options *options, struct gn_err *err) {
+    if (!open_loop(s, err) || !gn_service_open(&s->service, gn_clock_monotonic_ns(), err) ||
+        (s->service.timer >= 0 && !gn_show_watch(s, s->service.timer, err)))
+        return false;
+    s->options = gn_show_read_options(s, options, NULL, err);
+    if (!s->options || !gn_show_load(&s->stage, s->options, s->warnings, err)) return false;
+    gn_show_open_captions(s);
+    s->most_frames = s->options->frames > 0 ? (uint64_t)s->options->frames : UINT64_MAX;
+    if (!gn_show_begin(s, err) || !gn_show_open_display(s, err) || !gn_show_open_input(s, err) ||
+        !gn_show_stats_open(&s->stats, s->options, err) ||
+        (s->stats.timer >= 0 && !gn_show_watch(s, s->stats.timer, err)))
+        return false;
+    gn_show_open_control(s);
+    return true;
+}
+
+static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *warnings) {
+    struct gn_show *s = gn_xalloc(1, sizeof *s);
+    *s = (struct gn_show){.place = place,
+                          .epoll = -1,
+                          .signals = -1,
+                          .stats.timer = -1,
+                          .service = {.socket = -1, .timer = -1},
+                          .begun_ns = gn_clock_monotonic_ns(),
+                          .warnings = warnings};
+    return s;
+}
+
+struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warnings *warnings,
+                             struct gn_err *err) {
+    struct gn_show *s = create(NULL, warnings);
+    if (open_all(s, options, err)) return s;
+    gn_show_close(s);
+    return NULL;
+}
+
+bool gn_show_run(const struct gn_options *options, struct gn_show_place *place,
+                 struct gn_warnings *warnings, struct gn_err *err) {
+    struct gn_show *s = create(place, warnings);
+    const bool ok = (open_all(s, options, err) && run(s, err)) ||
+                    (err->status != GN_EXIT_DISPLAY &&
+                     (s->ends || gn_stop_asked())); /* what that broke off is no failure */
+    gn_show_close(s);
+    return ok;
+}
