@@ -34,7 +34,7 @@ help:
 	    'make check-gpiod2' \
 	    '                buttons with libgpiod 2, and the rest of Debian 13; with GN_FULL=1 its long form' \
 	    'make truth      shadows against ray-traced truth, as a table' \
-	    'make readme     the table of techniques in README.md, measured' \
+	    'make readme     the table of techniques (src/shadow/README.md), measured' \
 	    'make gallery    one scene with every technique and the truth, into assets/gallery' \
 	    'make contact-sheet' \
 	    '                the modes of the default scene, gone through by keys, as one picture' \

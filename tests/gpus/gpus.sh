@@ -118,7 +118,7 @@ update() {
 }
 
 # One GPU: its lines, the last of which says how it was. To write a budget each technique is tried with
-# all three kinds of light, one a turn, so that the README's table is whole.
+# all three kinds of light, one a turn, so that the table of techniques is whole.
 try() {
     local gpu=$1 turn=$2 file=$out/$1 known began=$SECONDS arguments status=0 said shifts=(0) shift
     known=$(known_of "$gpu")

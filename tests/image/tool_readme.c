@@ -1,7 +1,7 @@
-/* `make readme`: the README's table of techniques, measured: tool_readme BUDGETS. A row for
- * each technique, kind of light and map encoding: errors against truth, of the penumbra too;
- * processor time on the software driver; instructions of the lit program on real GPUs, out of the
- * folder of budgets that tests/gpus writes; bytes. Markdown, on stdout. */
+/* `make readme`: the table of techniques in src/shadow/README.md, measured: tool_readme BUDGETS. A
+ * row for each technique, kind of light and map encoding: errors against truth, of the penumbra
+ * too; processor time on the software driver; instructions of the lit program on real GPUs, out of
+ * the folder of budgets that tests/gpus writes; bytes. Markdown, on stdout. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>

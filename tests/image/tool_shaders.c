@@ -127,8 +127,8 @@ enum {
     FULL = DIFFUSE | GN_FEATURE_SPECULAR,
 };
 
-/* What the README's table lists, as TECHNIQUE-LIGHT-FORMAT: every technique with every light and
- * the encoding that it gets by itself, hard with all. */
+/* What the table of techniques lists, as TECHNIQUE-LIGHT-FORMAT: every technique with every light
+ * and the encoding that it gets by itself, hard with all. */
 static bool write_all(const char *folder, struct gn_err *err) {
     static const char *const lights[] = {"sun", "point", "spot"};
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)

@@ -1,0 +1,104 @@
+#!/bin/sh
+# The documents against the program: links, options, goals of make, the example of kiosk.ini, the
+# gnomon_ keys for artists and their examples, the rows of the table of techniques.
+set -u
+gnomon=${GNOMON:-build/release/gnomon}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+bad=0
+export XDG_CONFIG_HOME="$folder/none"
+
+complain() {
+    echo "FAIL: $*"
+    bad=1
+}
+
+pages='README.md CONTRIBUTING.md assets/README.md assets/SCENES.md board/README.md tests/README.md src/*/README.md tests/*/README.md'
+
+# ---- links and paths -----------------------------------------------------------------------------
+for page in $pages; do
+    grep -oE '\]\([^)]+\)' "$page" | sed 's/^](//; s/)$//; s/#.*//' | while read -r link; do
+        case $link in http*://* | '') continue ;; esac
+        [ -e "$(dirname "$page")/$link" ] || echo "$page: no $link"
+    done
+    # `src/x`, `tests/x.c`: from the top folder, or from the page's
+    grep -oE '`(src|tests|assets|board|shaders_es)/[A-Za-z0-9_./-]+`' "$page" | tr -d '`' | while read -r path; do
+        case $path in */NAME*) continue ;; esac
+        [ -e "$path" ] || [ -e "$path.c" ] || [ -e "$(dirname "$page")/$path" ] || echo "$page: no $path"
+    done
+done > "$folder/missing"
+[ ! -s "$folder/missing" ] || complain "$(cat "$folder/missing")"
+
+# ---- options and goals ---------------------------------------------------------------------------
+for command in '' show render bench inspect doctor ctl; do
+    # shellcheck disable=SC2086
+    "$gnomon" $command --help
+done > "$folder/help"
+[ ! -x "$(dirname "$gnomon")/gnomon-import" ] || "$(dirname "$gnomon")/gnomon-import" --help >> "$folder/help"
+grep -oE -- '--[a-z][a-z-]+' "$folder/help" | sort -u > "$folder/options"
+grep -ohE -- '--[a-z][a-z-]+' README.md assets/SCENES.md board/README.md src/options/README.md src/shadow/README.md | sort -u |
+    grep -vxF -f "$folder/options" | grep -vx -- '--now' > "$folder/unknown"
+[ ! -s "$folder/unknown" ] || complain "options that do not exist: $(tr '\n' ' ' < "$folder/unknown")"
+# shellcheck disable=SC2086
+grep -ohE '(`|^sudo |&& |^)make [a-z][a-z0-9/_-]+' $pages | sed 's/.*make //' | grep -v / | sort -u | while read -r goal; do
+    grep -qE "(^|^[a-z -]* |^CHECKS := .*)$goal( .*)?:|^CHECKS .*\b$goal\b|^[^#]*\b$goal:" Makefile || echo "$goal"
+done > "$folder/goals"
+[ ! -s "$folder/goals" ] || complain "goals of make that do not exist: $(tr '\n' ' ' < "$folder/goals")"
+
+# ---- README.md -----------------------------------------------------------------------------------
+[ "$(wc -l < README.md)" -le 150 ] || complain 'README.md is longer than 150 lines'
+sh tests/image/readme.sh --check || bad=1
+sed -n '/^```ini/,/^```/p' README.md | grep -v '^```' > "$folder/kiosk.ini"
+cp assets/sundial.glb "$folder"
+"$gnomon" show --check "$folder/kiosk.ini" > "$folder/out" 2> "$folder/err" < /dev/null || complain "README's kiosk.ini: $(cat "$folder/out" "$folder/err")"
+
+# ---- keys for artists ----------------------------------------------------------------------------
+grep -ohE '"gnomon_[a-z_]+"' src/scene/gltf/extras.c | tr -d '"' | sort -u > "$folder/read"
+grep -oE '^\| `gnomon_[a-z_]+`' assets/SCENES.md | tr -d '|` ' | sort -u > "$folder/written"
+cmp -s "$folder/read" "$folder/written" || complain "keys in assets/SCENES.md: $(diff "$folder/read" "$folder/written" | grep '^[<>]')"
+
+"$gnomon" render --size 4x4 --shadow none -o "$folder/slide.png" || complain 'a slide'
+slide=$(base64 -w 0 < "$folder/slide.png")
+# a square in the plane of x and z: four positions, six indices
+square=$(printf '\000\000\200\277\000\000\000\000\000\000\200\077\000\000\200\077\000\000\000\000\000\000\200\077\000\000\200\077\000\000\000\000\000\000\200\277\000\000\200\277\000\000\000\000\000\000\200\277\000\000\001\000\002\000\000\000\002\000\003\000' | base64 -w 0)
+
+# scene ON_LIGHT ON_OBJECT ON_SCENE: a .gltf with a spot over the square, and these members in their extras
+scene() {
+    cat << JSON
+{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1], "extras": {$3}}],
+ "extensionsUsed": ["KHR_lights_punctual"],
+ "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 10, "extras": {$1}}]}},
+ "nodes": [{"mesh": 0, "extras": {$2}},
+           {"translation": [0, 3, 0], "rotation": [-0.70710678, 0, 0, 0.70710678], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, 0, -1], "max": [1, 0, 1]},
+               {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+ "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,$square"}],
+ "images": [{"uri": "data:image/png;base64,$slide"}], "textures": [{"source": 0}]}
+JSON
+}
+
+# try MEMBER SECTION: inspect's warnings about it
+try() {
+    case $2 in
+    Lights | Slides) scene "$1" '' '' ;;
+    Objects) scene '' "$1" '' ;;
+    *) scene '' '' "$1" ;;
+    esac > "$folder/key.gltf"
+    "$gnomon" inspect "$folder/key.gltf" > "$folder/out" 2>&1 || echo "inspect fails: $(cat "$folder/out")"
+    grep -F gnomon_ "$folder/out"
+}
+
+awk '/^### /{ section = $2 == "The" ? "Scene" : $2 } /^\| `gnomon_/{ n = split($0, cell, / *[|] */); print section "\t" cell[n - 1] }' assets/SCENES.md |
+    tr -d '`' > "$folder/examples"
+while IFS="$(printf '\t')" read -r section example; do
+    key=$(echo "$example" | sed 's/^"\([a-z_]*\)".*/\1/')
+    said=$(try "$example" "$section")
+    [ -z "$said" ] || complain "$example: $said"
+    said=$(try "\"$key\": {}" "$section")
+    case $said in *"$key"*) ;; *) complain "$key of a wrong type on $section: $said" ;; esac
+done < "$folder/examples"
+[ "$(wc -l < "$folder/examples")" -ge 15 ] || complain 'examples in assets/SCENES.md'
+
+exit $bad
