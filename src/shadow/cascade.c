@@ -7,9 +7,8 @@
 
 #define NEAR_STEPS    1.0f /* an octave, of the distances that splits are made from */
 #define FAR_STEPS     2.0f
-#define NEAREST_SHARE (1.0f / 400.0f) /* what is nearer than this, of the farthest, is small */
-#define LEAST_RATIO   1.25f           /* of two splits: wider apart than a zone is */
-#define LEAST_ROOM    (1.0f / 64.0f)  /* for penumbrae to each side of a tile, as a share of it */
+#define LEAST_RATIO   1.25f          /* of two splits: wider apart than a zone is */
+#define LEAST_ROOM    (1.0f / 64.0f) /* for penumbrae to each side of a tile, as a share of it */
 #define MOST_ROOM     (1.0f / 8.0f)
 #define TABLE_ROOM    (1.0f / 4.0f) /* GN_TABLE_REACH_PX is less, but of very small maps */
 #define UNBOUND       1e9f
@@ -67,140 +66,18 @@ void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view) {
     }
 }
 
-/* ---- distances ---- */
-
-struct distances { /* along the view */
-    float near_m, far_m;
-};
-
-/* Of a perspective the clip coordinate w. */
-static void depth_plane(const struct gn_eye *eye, vec4 plane) {
-    for (int c = 0; c < 4; c++) plane[c] = eye->clip_from_world[c][3];
-}
-
-static void add_places(struct distances *d, const vec4 plane, const struct gn_polygon *polygon) {
-    for (int i = 0; i < polygon->count; i++) {
-        const float depth = glm_vec3_dot((float *)plane, (float *)polygon->at[i]) + plane[3];
-        d->near_m = least(d->near_m, depth);
-        d->far_m = most(d->far_m, depth);
-    }
-}
-
-static void clip_by(struct gn_polygon *polygon, const vec4 *planes, int count) {
-    for (int i = 0; i < count && polygon->count; i++) gn_polygon_clip(polygon, planes[i]);
-}
-
-/* The four planes round a window, world space. */
-static void window_planes(const struct gn_fitter *f, const struct gn_shadow_region *window,
-                          vec4 planes[4]) {
-    const vec4 *m = f->tile->light_from_world; /* rigid: rows are the light's axes */
-    for (int i = 0; i < 4; i++) {
-        const int axis = i / 2;
-        const float sign = i % 2 ? -1.0f : 1.0f;
-        for (int c = 0; c < 3; c++) planes[i][c] = sign * m[c][axis];
-        planes[i][3] = i % 2 ? window->max[axis] - m[3][axis] : m[3][axis] - window->min[axis];
-    }
-}
-
-enum { PLANES = 10, WALKED_TRIANGLES = 10000 };
-
-static bool is_behind_one(const vec4 *planes, const struct gn_polygon *triangle) {
-    for (int i = 0; i < PLANES; i++) {
-        int behind = 0;
-        for (int k = 0; k < 3; k++)
-            behind += glm_vec3_dot((float *)planes[i], (float *)triangle->at[k]) + planes[i][3] < 0;
-        if (behind == 3) return true;
-    }
-    return false;
-}
-
-/* Those triangles alone are clipped that may lie nearer or farther than what is known. world:
- * planes round what counts. */
-static void add_triangles(const struct gn_fitter *f, uint32_t item, const vec4 world[PLANES],
-                          const vec4 depth_ws, struct distances *d) {
-    const struct gn_scene *scene = f->pose->scene;
-    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
-    const vec4 *m = (const vec4 *)f->pose->items[item].world_from_item;
-    vec4 planes[PLANES], depth;
-    for (int c = 0; c < 4; c++) { /* a plane goes by the transpose */
-        depth[c] = glm_vec4_dot((float *)depth_ws, (float *)m[c]);
-        for (int i = 0; i < PLANES; i++)
-            planes[i][c] = glm_vec4_dot((float *)world[i], (float *)m[c]);
-    }
-    for (uint32_t i = 0; i < g->index_count; i += 3) {
-        struct gn_polygon triangle = {.count = 3};
-        float low = INFINITY, high = -INFINITY;
-        for (int k = 0; k < 3; k++) {
-            const uint32_t vertex = scene->indices[g->first_index + i + (uint32_t)k];
-            glm_vec3_copy(scene->positions + 3 * (size_t)vertex, triangle.at[k]);
-            const float at = glm_vec3_dot(depth, triangle.at[k]) + depth[3];
-            low = least(low, at);
-            high = most(high, at);
-        }
-        if (low >= d->near_m && high <= d->far_m) continue;
-        if (is_behind_one(planes, &triangle)) continue;
-        clip_by(&triangle, planes, PLANES);
-        add_places(d, depth, &triangle);
-    }
-}
-
-/* The hull of the item's box and the frustum: faces of each by the other. */
-static void add_box(const struct gn_fitter *f, uint32_t item, const vec4 world[PLANES],
-                    const vec4 depth, struct distances *d) {
-    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
-    struct gn_polygon polygon;
-    vec3 corners[8];
-    vec4 sides[6];
-    gn_box_corners(&g->box, (vec4 *)f->pose->items[item].world_from_item, corners);
-    gn_box_planes(corners, sides);
-    for (int i = 0; i < 12; i++) {
-        gn_box_face(i < 6 ? corners : (vec3 *)f->eye->corners, i % 6, &polygon);
-        clip_by(&polygon, world, PLANES);
-        if (i >= 6) clip_by(&polygon, sides, 6);
-        add_places(d, depth, &polygon);
-    }
-}
-
-/* From the nearest to the farthest place that can be in a shadow that is seen; empty when near_m >
- * far_m. */
-static struct distances seen_distances(const struct gn_fitter *f,
-                                       const struct gn_shadow_region *window) {
-    struct distances d = {INFINITY, -INFINITY};
-    vec4 planes[PLANES], depth;
-    depth_plane(f->eye, depth);
-    window_planes(f, window, planes);
-    for (int i = 0; i < 6; i++) glm_vec4_copy((float *)f->eye->planes[i], planes[4 + i]);
-    for (uint32_t i = 0; i < f->memory->item_count; i++) {
-        if (!gn_shadow_item_receives(f->pose, i, f->view) || f->memory->seen[i] == GN_SEEN_NOT)
-            continue;
-        const struct gn_shadow_region *seen = gn_fitter_seen(f, i);
-        if (region_is_empty(seen) || !regions_meet(seen, window)) continue;
-        const struct gn_box *box = &f->pose->items[i].box_ws;
-        if (gn_box_least(depth, box) >= d.near_m && gn_box_most(depth, box) <= d.far_m) continue;
-        const struct gn_scene *scene = f->pose->scene;
-        if (scene->geometries[scene->items[i].geometry].index_count <= 3 * WALKED_TRIANGLES)
-            add_triangles(f, i, planes, depth, &d);
-        else
-            add_box(f, i, planes, depth, &d);
-    }
-    return d;
-}
-
-/* The nearest place that counts. */
-static float nearest(const struct distances *seen) {
-    return fmaxf(seen->near_m, NEAREST_SHARE * seen->far_m);
-}
+/* ---- splits ---- */
 
 /* Where splits begin and end. */
-static struct distances split_distances(const struct distances *seen, uint32_t cascades) {
-    struct distances d;
+static struct gn_distances split_distances(const struct gn_distances *seen, uint32_t cascades) {
+    struct gn_distances d;
     d.far_m = step(fmaxf(seen->far_m, 1e-6f), FAR_STEPS, true);
-    d.near_m = step(fmaxf(nearest(seen), 1e-6f), NEAR_STEPS, false);
+    d.near_m = step(fmaxf(gn_distances_nearest(seen), 1e-6f), NEAR_STEPS, false);
     d.far_m = fmaxf(d.far_m, d.near_m * powf(LEAST_RATIO, (float)cascades));
     return d;
 }
 
-static void split(struct gn_shadow_view *view, struct distances d) {
+static void split(struct gn_shadow_view *view, struct gn_distances d) {
     const uint32_t n = view->cascade_count;
     for (uint32_t i = 0; i < n; i++) {
         struct gn_shadow_cascade *c = &view->cascades[i];
@@ -215,7 +92,7 @@ static bool cut(const struct gn_eye *eye, const struct gn_shadow_cascade *c, str
     vec4 depth;
     float ends[2];
     *part = *eye;
-    depth_plane(eye, depth);
+    gn_eye_depth_plane(eye, depth);
     for (int k = 0; k < 2; k++)
         ends[k] = glm_vec3_dot(depth, (float *)eye->corners[4 * k]) + depth[3];
     const float at[2] = {fmaxf(c->begin_m, ends[0]), fminf(c->end_m, ends[1])};
@@ -298,21 +175,9 @@ static bool fit_tile(const struct gn_fitter *f, uint32_t index, float blur_most_
     own.memory = &f->memory[index];
     own.view = tile;
     own.tile = tile->tiles;
-    if (!gn_shadow_fit_window(&own)) return false;
+    if (!gn_single_fit(&own)) return false;
     tile->tiles[0].content_hash = gn_shadow_hash(f->pose, tile, tile->tiles, own.memory->casts);
     return true;
-}
-
-/* What any cascade can hold: the window of all that is seen. */
-static bool find_seen(const struct gn_fitter *f, struct distances *seen) {
-    struct gn_window found;
-    struct gn_fitter all = *f;
-    if (f->view->cascade_count > 0) all.memory = &f->memory[GN_CASCADES_MAX];
-    gn_shadow_look(f->view, f->tile->light_from_world);
-    gn_fitter_remember(&all);
-    if (!gn_window_find(&all, false, &found)) return false;
-    *seen = seen_distances(&all, &found.window);
-    return seen->near_m <= seen->far_m;
 }
 
 /* Every tile, in gutters as they are; false: all are empty. */
@@ -358,10 +223,10 @@ static float bound_of(const struct gn_shadow_view *view, float radius,
  * go by the gutters, but texels do: by as much as these leave of a tile. */
 bool gn_cascades_fit(const struct gn_fitter *f) {
     struct gn_shadow_view *view = f->view;
-    struct distances seen;
+    struct gn_distances seen;
     float widest_m[GN_CASCADES_MAX], room = LEAST_ROOM;
     const float most_room = reads_table(view) ? TABLE_ROOM : MOST_ROOM;
-    if (!find_seen(f, &seen)) return false;
+    if (!gn_distances_find(f, &seen)) return false;
     split(view, split_distances(&seen, view->cascade_count));
     if (!fit_tiles(f, widest_m)) return false;
     while (gn_techniques[view->technique].soft && room < most_room && !has_room(view, widest_m)) {
@@ -379,38 +244,4 @@ bool gn_cascades_fit(const struct gn_fitter *f) {
         if (view->tiles[i].empty)
             view->tiles[i].content_hash = gn_shadow_hash(f->pose, view, &view->tiles[i], NULL);
     return true;
-}
-
-/* ---- how many ---- */
-
-bool gn_cascade_can(const struct gn_light *light, const struct gn_eye *eye,
-                    const struct gn_shadow_opts *opts) {
-    vec4 depth;
-    depth_plane(eye, depth);
-    return light->type == GN_LIGHT_DIRECTIONAL && glm_vec3_norm2(depth) > 0.0f &&
-           !gn_techniques[opts->technique].on_plane && opts->map_px >= GN_CASCADE_LEAST_PX;
-}
-
-float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
-                         const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory) {
-    struct gn_shadow_view view;
-    struct distances seen;
-    if (!gn_shadow_fit(pose, light, eye, opts, memory, &view)) return 0.0f;
-    const struct gn_fitter f = {.pose = pose,
-                                .eye = eye,
-                                .memory = memory,
-                                .view = &view,
-                                .tile = view.tiles,
-                                .scene_size_m = gn_scene_size_m(pose),
-                                .light_radius = pose->scene->lights[light].radius,
-                                .range_m = INFINITY};
-    if (!find_seen(&f, &seen)) return 0.0f;
-    if (view.cascade_count == 0) return view.texel / nearest(&seen);
-    float tangent = 0.0f;
-    for (uint32_t i = 0; i < view.cascade_count; i++) {
-        const struct gn_shadow_cascade *c = &view.cascades[i];
-        if (!view.tiles[i].empty)
-            tangent = fmaxf(tangent, c->texel / fmaxf(c->begin_m, nearest(&seen)));
-    }
-    return tangent;
 }

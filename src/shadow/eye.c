@@ -26,6 +26,10 @@ bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box) {
     return !gn_planes_miss(eye->planes, 6, box);
 }
 
+void gn_eye_depth_plane(const struct gn_eye *eye, vec4 plane) {
+    for (int c = 0; c < 4; c++) plane[c] = eye->clip_from_world[c][3];
+}
+
 float gn_box_least(const vec4 plane, const struct gn_box *box) {
     float least = plane[3];
     for (int k = 0; k < 3; k++) least += plane[k] * (plane[k] >= 0.0f ? box->min[k] : box->max[k]);

@@ -32,6 +32,17 @@ void gn_shadow_memory_finish(struct gn_shadow_memory *memory) {
     *memory = (struct gn_shadow_memory){0};
 }
 
+void gn_fitter_set_cone(struct gn_fitter *f, float tan_cone) {
+    f->tan_cone = tan_cone;
+    f->near_m = gn_shadow_step(1e-4f * f->scene_size_m);
+    vec4 planes[6] = {{1, 0, -tan_cone, 0},  {-1, 0, -tan_cone, 0},  {0, 1, -tan_cone, 0},
+                      {0, -1, -tan_cone, 0}, {0, 0, -1, -f->near_m}, {0, 0, 1, f->range_m}};
+    f->cone_count = isfinite(f->range_m) ? 6 : 5;
+    for (int i = 0; i < f->cone_count; i++) /* a plane goes by the transpose: world from light */
+        for (int c = 0; c < 4; c++)
+            f->cone[i][c] = glm_vec4_dot(planes[i], f->tile->light_from_world[c]);
+}
+
 static void add_point(const struct gn_fitter *f, struct gn_shadow_region *r, vec3 p_ws) {
     vec3 p;
     glm_mat4_mulv3(f->tile->light_from_world, p_ws, 1.0f, p);

@@ -1,9 +1,11 @@
-/* Inside the shadow room: shapes for fitting - boxes, convex polygons and the eye's frustum - what
- * items cover of what a light can show, and what fits of all kinds share. */
+/* Inside the shadow room: what its files share. In the order in which they call each other: a file
+ * calls only those above its own section. */
 #ifndef GN_SHADOW_PRIVATE_H
 #define GN_SHADOW_PRIVATE_H
 
 #include "shadow/fit.h"
+
+/* ---- eye.c: shapes for fitting, boxes, convex polygons and the eye's frustum ---- */
 
 #define GN_POLYGON_MAX 20 /* a quad or triangle clipped by up to 12 planes */
 struct gn_polygon {
@@ -29,6 +31,8 @@ bool gn_planes_hold(const vec4 *planes, int count, const struct gn_box *box);
 bool gn_planes_miss(const vec4 *planes, int count, const struct gn_box *box);
 /* Whether anything in a box is this near to a place; errs towards yes. range_m may be INFINITY. */
 bool gn_box_is_near(const struct gn_box *box, const vec3 place, float range_m);
+/* The depth of a point along a perspective's view is dot(plane, (p,1)): the clip coordinate w. */
+void gn_eye_depth_plane(const struct gn_eye *eye, vec4 plane);
 
 /* Geometries up to this many triangles are clipped triangle by triangle, larger ones as boxes. */
 enum { GN_EXACT_TRIANGLES = 32 };
@@ -41,7 +45,7 @@ float gn_scene_size_m(const struct gn_pose *pose);
 /* The largest coordinate in it, which says how fine places are. */
 float gn_scene_reach_m(const struct gn_pose *pose);
 
-/* ---- fit.c ---- */
+/* ---- view.c ---- */
 
 /* Whether shadows on an item matter. */
 bool gn_shadow_item_receives(const struct gn_pose *pose, uint32_t item,
@@ -61,10 +65,10 @@ void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float
 uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view *view,
                         const struct gn_shadow_tile *tile, const uint8_t *casts);
 
-struct gn_fitter;
-/* Lays one tile round what its eye sees: all of a view of one tile but its bias and hash.
- * Directional lights and spots. */
-bool gn_shadow_fit_window(struct gn_fitter *f);
+/* The perspective of all tiles of a spot or point light: draws map_px texels from that corner on.
+ */
+void gn_shadow_set_frustums(struct gn_shadow_view *view, const double low[2], float near_depth,
+                            float far_depth);
 
 /* ---- measure.c ---- */
 
@@ -84,6 +88,10 @@ struct gn_fitter {
     float blur_most_m;  /* of a cascade: what the finest one blurs at most; 0: of no other map */
 };
 
+/* The planes of a pyramid round the cone, that of the range if the light has one. Its near plane is
+ * a ten-thousandth of the scene away, by steps: while the scene grows by little, what was measured
+ * holds. */
+void gn_fitter_set_cone(struct gn_fitter *f, float tan_cone);
 /* Brings the memory up to this pose, light and eye. */
 void gn_fitter_remember(const struct gn_fitter *f);
 /* All that an item covers of what the light can show; and of that what the eye sees, unless it sees
@@ -110,10 +118,19 @@ bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window
 /* Whether this eye sees all that receives. */
 bool gn_window_is_all(const struct gn_fitter *f);
 
-/* ---- cascade.c ---- */
+/* ---- depth.c ---- */
 
-/* A view with cascades, all but its bias; memories: GN_CASCADE_MEMORIES. */
-bool gn_cascades_fit(const struct gn_fitter *f);
+#define GN_RGBA8_FAR 0.999999f /* the far end's code: lib/map_rgba8.glsl */
+
+/* Where a map begins and ends, from the depths of what casts: sets the view's near_m and far_m. */
+void gn_fitter_set_depths(const struct gn_fitter *f, const struct gn_shadow_region *depths,
+                          float *near_depth, float *far_depth);
+/* How the encoding keeps a distance, once near_m and far_m are known. */
+void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_depth);
+/* How wide penumbrae are, and the blur of a map that is filtered, once texel and code are known. */
+void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_region *window,
+                            float near_depth, float far_depth);
+void gn_fitter_set_blur(const struct gn_fitter *f, float near_depth, float far_depth);
 
 /* ---- pages.c ---- */
 
@@ -122,5 +139,32 @@ bool gn_cascades_fit(const struct gn_fitter *f);
  * marks. */
 void gn_pages_fit(const struct gn_fitter *f, const struct gn_window *found, float near_depth,
                   float far_depth);
+
+/* ---- single.c ---- */
+
+/* Lays one tile round what its eye sees: all of a view of one tile but its bias and hash.
+ * Directional lights and spots. */
+bool gn_single_fit(struct gn_fitter *f);
+
+/* ---- cube.c ---- */
+
+/* A point light's six tiles: all of the view but its bias and hashes; six memories. */
+bool gn_cube_fit(struct gn_fitter *f);
+
+/* ---- distances.c ---- */
+
+struct gn_distances { /* along the view */
+    float near_m, far_m;
+};
+/* From the nearest to the farthest place that can be in a shadow of a directional light that is
+ * seen. False: there is none. */
+bool gn_distances_find(const struct gn_fitter *f, struct gn_distances *seen);
+/* The nearest place that counts. */
+float gn_distances_nearest(const struct gn_distances *seen);
+
+/* ---- cascade.c ---- */
+
+/* A view with cascades, all but its bias; memories: GN_CASCADE_MEMORIES. */
+bool gn_cascades_fit(const struct gn_fitter *f);
 
 #endif

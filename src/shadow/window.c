@@ -65,7 +65,8 @@ static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t
     return useful_region(f, item, r);
 }
 
-/* How far off, in plane units, a caster can reach by its penumbra: as its like in set_soft(). */
+/* How far off, in plane units, a caster can reach by its penumbra: as in gn_fitter_set_penumbra().
+ */
 static float reach(const struct gn_fitter *f, float near, float far) {
     if (!gn_techniques[f->view->technique].soft || far <= near) return 0.0f;
     float spread = f->view->perspective ? 1.0f / most(near, f->near_m) - 1.0f / far : far - near;

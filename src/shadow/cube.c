@@ -1,0 +1,89 @@
+/* Six tiles, of a point light. */
+#include <math.h>
+
+#include "shadow/private.h"
+#include "shadow/region.h"
+
+#define SHARED_TEXELS 1.0f  /* to each side of an edge of two tiles */
+#define EDGE_TEXELS   0.25f /* from where the gutter would begin to such an edge */
+
+static void aim_tile(struct gn_fitter *f, uint32_t index) {
+    struct gn_shadow_view *view = f->view;
+    struct gn_shadow_tile *tile = f->tile = &view->tiles[index];
+    uint32_t axis = index / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+    float side = index % 2 ? -1.0f : 1.0f;
+    vec4 *m = tile->light_from_world;
+    glm_mat4_zero(m);
+    m[u][0] = m[v][1] = m[3][3] = 1.0f;
+    m[axis][2] = -side;
+    m[3][0] = -view->light_ws[u];
+    m[3][1] = -view->light_ws[v];
+    m[3][2] = side * view->light_ws[axis];
+    tile->mirrored = (axis == 1) == (side < 0.0f);
+    tile->x_px = axis * view->map_px;
+    tile->y_px = index % 2 * view->map_px;
+    gn_fitter_set_cone(f, 0.5f * view->texel * (float)view->map_px);
+}
+
+/* Measures all tiles: the depths of the casters in any of them. False when all are empty. */
+static bool find_tiles(struct gn_fitter *f, struct gn_shadow_region *depths) {
+    struct gn_shadow_memory *memories = f->memory;
+    bool found = false;
+    *depths = nothing;
+    for (uint32_t i = 0; i < f->view->tile_count; i++) {
+        struct gn_window own;
+        f->memory = &memories[i];
+        aim_tile(f, i);
+        gn_fitter_remember(f);
+        f->tile->empty = !gn_window_find(f, false, &own);
+        found |= !f->tile->empty;
+        unite(depths, &own.depths);
+    }
+    f->memory = memories;
+    return found;
+}
+
+/* What moves shall change the tiles that it is in: near and far, which are for all, go by steps. */
+static void widen_depths(struct gn_shadow_region *depths) {
+    depths->near = exp2f(floorf(4.0f * log2f(depths->near)) / 4.0f);
+    depths->far = exp2f(ceilf(4.0f * log2f(depths->far)) / 4.0f);
+    depths->far_radial = exp2f(ceilf(4.0f * log2f(depths->far_radial)) / 4.0f);
+}
+
+/* A place beyond the edge is looked up where tiles are shared; pushed off its surface it may lie
+ * sqrt(2) normal offsets further: at 45 degrees a tangent grows so much faster. The edge itself
+ * lies in no middle and on no border of texels, where two taps opposite each other would change
+ * them at once. */
+static void set_gutter(struct gn_shadow_view *view) {
+    const struct gn_technique_row *row = &gn_techniques[view->technique];
+    const bool shared = gn_technique_shades(view->technique);
+    const float beyond =
+        EDGE_TEXELS + (shared ? SHARED_TEXELS + 1.4142136f * row->bias_texels : 0.0f);
+    const uint32_t wanted = (uint32_t)ceilf((float)row->radius_texels + 1.0f + beyond);
+    view->gutter_px = row->soft && wanted < view->map_px / 8 ? view->map_px / 8 : wanted;
+    if (view->gutter_px > view->map_px / 4) view->gutter_px = view->map_px / 4;
+    view->reach_px = (float)view->gutter_px - 1.0f - beyond;
+    if (row->filter == GN_FILTER_TABLE) view->reach_px = least(view->reach_px, GN_TABLE_REACH_PX);
+    view->texel = 2.0f / ((float)(view->map_px - 2 * view->gutter_px) + 2.0f * EDGE_TEXELS);
+    view->shared = SHARED_TEXELS * view->texel;
+}
+
+bool gn_cube_fit(struct gn_fitter *f) {
+    struct gn_shadow_view *view = f->view;
+    struct gn_shadow_region depths;
+    set_gutter(view);
+    if (!find_tiles(f, &depths)) return false;
+    float near_depth, far_depth;
+    double edge = -0.5 * (double)view->texel * view->map_px;
+    widen_depths(&depths);
+    gn_fitter_set_depths(f, &depths, &near_depth, &far_depth);
+    gn_fitter_set_code(f, near_depth, far_depth);
+    gn_shadow_set_frustums(view, (double[2]){edge, edge}, near_depth, far_depth);
+    gn_fitter_set_penumbra(f, &depths, near_depth, far_depth);
+    gn_fitter_set_blur(f, near_depth, far_depth);
+    view->tangent_uv[0] = 1.0f / (view->texel * (float)view->width_px);
+    view->tangent_uv[1] = 1.0f / (view->texel * (float)view->height_px);
+    view->depth_code[0] = far_depth / (far_depth - near_depth);
+    view->depth_code[1] = -near_depth * far_depth / (far_depth - near_depth);
+    return true;
+}

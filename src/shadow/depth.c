@@ -1,0 +1,110 @@
+/* Depths of a light's view: near and far, their codes, and how wide penumbrae and blurs are by
+ * them.
+ */
+#include <math.h>
+
+#include "shadow/private.h"
+#include "shadow/region.h"
+
+#define NEAREST_STEP (1.0f / 64.0f) /* of a sun's depths */
+
+/* With some room on each side. Of a sun never none: casters in one plane across its light span no
+ * depth, and in a plane through the world's origin that depth is 0. */
+void gn_fitter_set_depths(const struct gn_fitter *f, const struct gn_shadow_region *depths,
+                          float *near_depth, float *far_depth) {
+    struct gn_shadow_view *view = f->view;
+    float pad = 1e-3f * (depths->far - depths->near) + 1e-5f * fabsf(depths->far);
+    if (!view->perspective) pad = fmaxf(pad, 1e-6f * gn_scene_reach_m(f->pose));
+    *near_depth =
+        view->perspective ? fmaxf(depths->near - pad, 0.5f * depths->near) : depths->near - pad;
+    *far_depth = depths->far + pad;
+    view->near_m = view->perspective ? *near_depth : 0.0f;
+    view->far_m = view->perspective ? depths->far_radial + pad : *far_depth - *near_depth;
+}
+
+static float half_float_step(float value) {
+    return exp2f(floorf(log2f(fmaxf(value, 1e-5f))) - 10.0f);
+}
+
+/* The encoding's code of a distance is distance * scale + offset; ulp_m is its coarsest step. */
+void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_depth) {
+    struct gn_shadow_view *view = f->view;
+    float range = view->far_m - view->near_m;
+    float float_step = 7e-7f * view->far_m; /* of the interpolation */
+    /* A sun's depths may span less than the scene: then places themselves are coarser. */
+    if (!view->perspective) float_step = fmaxf(float_step, 2e-7f * gn_scene_reach_m(f->pose));
+    view->distance_scale = 1.0f;
+    view->distance_offset = 0.0f;
+    view->far_code = view->far_m;
+    view->ulp_m = float_step;
+    switch (view->encoding) {
+    case GN_ENCODING_R16F:
+        view->distance_scale = 2.0f / range;
+        view->distance_offset = -(view->far_m + view->near_m) / range;
+        view->far_code = 1.0f;
+        view->ulp_m = 0.5f * range * exp2f(-11.0f) + float_step;
+        return;
+    case GN_ENCODING_R16F_RAW:
+        view->ulp_m = half_float_step(view->far_m) + float_step;
+        /* a half float itself: what the map is cleared to must be what is compared with */
+        view->far_code =
+            ceilf(view->far_m / half_float_step(view->far_m)) * half_float_step(view->far_m);
+        return;
+    case GN_ENCODING_RGBA8:
+        view->distance_scale = 1.0f / range;
+        view->distance_offset = -view->near_m / range;
+        view->far_code = GN_RGBA8_FAR;
+        view->ulp_m = range * exp2f(-22.0f) + float_step;
+        return;
+    case GN_ENCODING_DEPTH:
+        view->far_code = 1.0f;
+        view->ulp_m += view->perspective ? far_depth * range / near_depth * exp2f(-23.0f)
+                                         : range * exp2f(-22.0f);
+        return;
+    case GN_ENCODING_R32UI:
+        if (!gn_technique_filters_map(view->technique)) return;
+        view->distance_scale = 1.0f / range; /* 0..1: what moments are made of */
+        view->distance_offset = -view->near_m / range;
+        view->far_code = 1.0f;
+        return;
+    case GN_ENCODING_MASK:
+    case GN_ENCODING_STENCIL:
+    case GN_ENCODING_COUNT: return;
+    }
+}
+
+/* Similar triangles (Fernando, "Percentage-Closer Soft Shadows", 2005): in plane units a blocker at
+ * b throws on a receiver at r a penumbra of radius (r - b) tan(sun's radius), or radius (1/b - 1/r)
+ * of a lamp. */
+void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_region *window,
+                            float near_depth, float far_depth) {
+    struct gn_shadow_view *view = f->view;
+    view->soft[0] = f->light_radius / view->texel;
+    if (view->perspective && view->encoding == GN_ENCODING_DEPTH) { /* linear in 1 / depth */
+        view->soft[1] = -1.0f / near_depth;
+        view->soft[2] = 1.0f / near_depth - 1.0f / far_depth;
+        view->soft[3] = -1.0f / near_depth;
+        return;
+    }
+    view->soft[1] = -1.0f / near_depth;
+    if (!view->perspective) view->soft[1] = most(window->near - near_depth, 0.0f);
+    const float part = NEAREST_STEP * view->far_m; /* it stays while the eye moves little */
+    if (!view->perspective && !f->is_cascade) view->soft[1] = floorf(view->soft[1] / part) * part;
+    view->farthest = window->far - near_depth;
+    view->soft[2] = view->encoding == GN_ENCODING_DEPTH ? view->far_m : 1.0f / view->distance_scale;
+    view->soft[3] = -view->distance_offset / view->distance_scale;
+}
+
+/* A blur cannot know how far blockers are: it is as wide as the penumbra of what stands before the
+ * farthest caster by a quarter of what all of them span, within what a map is fit for. */
+void gn_fitter_set_blur(const struct gn_fitter *f, float near_depth, float far_depth) {
+    struct gn_shadow_view *view = f->view;
+    if (gn_techniques[view->technique].filter != GN_FILTER_BLUR) return;
+    const float behind = 0.25f * (far_depth - near_depth);
+    const float spread =
+        view->perspective ? 1.0f / (far_depth - behind) - 1.0f / far_depth : behind;
+    float blur = f->light_radius * spread;
+    if (f->blur_most_m > 0.0f) blur = least(blur, f->blur_most_m); /* or it jumps at each split */
+    const float blur_px = blur / view->texel;
+    view->blur_px = least(most(blur_px, GN_BLUR_LEAST_PX), GN_BLUR_MOST_PX);
+}

@@ -1,0 +1,134 @@
+/* Distances along the view of what is seen in a directional light's shadow: what cascades are made
+ * for.
+ */
+#include <math.h>
+
+#include "shadow/private.h"
+#include "shadow/region.h"
+
+#define NEAREST_SHARE (1.0f / 400.0f) /* what is nearer than this, of the farthest, is small */
+
+static void add_places(struct gn_distances *d, const vec4 plane, const struct gn_polygon *polygon) {
+    for (int i = 0; i < polygon->count; i++) {
+        const float depth = glm_vec3_dot((float *)plane, (float *)polygon->at[i]) + plane[3];
+        d->near_m = least(d->near_m, depth);
+        d->far_m = most(d->far_m, depth);
+    }
+}
+
+static void clip_by(struct gn_polygon *polygon, const vec4 *planes, int count) {
+    for (int i = 0; i < count && polygon->count; i++) gn_polygon_clip(polygon, planes[i]);
+}
+
+/* The four planes round a window, world space. */
+static void window_planes(const struct gn_fitter *f, const struct gn_shadow_region *window,
+                          vec4 planes[4]) {
+    const vec4 *m = f->tile->light_from_world; /* rigid: rows are the light's axes */
+    for (int i = 0; i < 4; i++) {
+        const int axis = i / 2;
+        const float sign = i % 2 ? -1.0f : 1.0f;
+        for (int c = 0; c < 3; c++) planes[i][c] = sign * m[c][axis];
+        planes[i][3] = i % 2 ? window->max[axis] - m[3][axis] : m[3][axis] - window->min[axis];
+    }
+}
+
+enum { PLANES = 10, WALKED_TRIANGLES = 10000 };
+
+static bool is_behind_one(const vec4 *planes, const struct gn_polygon *triangle) {
+    for (int i = 0; i < PLANES; i++) {
+        int behind = 0;
+        for (int k = 0; k < 3; k++)
+            behind += glm_vec3_dot((float *)planes[i], (float *)triangle->at[k]) + planes[i][3] < 0;
+        if (behind == 3) return true;
+    }
+    return false;
+}
+
+/* Those triangles alone are clipped that may lie nearer or farther than what is known. world:
+ * planes round what counts. */
+static void add_triangles(const struct gn_fitter *f, uint32_t item, const vec4 world[PLANES],
+                          const vec4 depth_ws, struct gn_distances *d) {
+    const struct gn_scene *scene = f->pose->scene;
+    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
+    const vec4 *m = (const vec4 *)f->pose->items[item].world_from_item;
+    vec4 planes[PLANES], depth;
+    for (int c = 0; c < 4; c++) { /* a plane goes by the transpose */
+        depth[c] = glm_vec4_dot((float *)depth_ws, (float *)m[c]);
+        for (int i = 0; i < PLANES; i++)
+            planes[i][c] = glm_vec4_dot((float *)world[i], (float *)m[c]);
+    }
+    for (uint32_t i = 0; i < g->index_count; i += 3) {
+        struct gn_polygon triangle = {.count = 3};
+        float low = INFINITY, high = -INFINITY;
+        for (int k = 0; k < 3; k++) {
+            const uint32_t vertex = scene->indices[g->first_index + i + (uint32_t)k];
+            glm_vec3_copy(scene->positions + 3 * (size_t)vertex, triangle.at[k]);
+            const float at = glm_vec3_dot(depth, triangle.at[k]) + depth[3];
+            low = least(low, at);
+            high = most(high, at);
+        }
+        if (low >= d->near_m && high <= d->far_m) continue;
+        if (is_behind_one(planes, &triangle)) continue;
+        clip_by(&triangle, planes, PLANES);
+        add_places(d, depth, &triangle);
+    }
+}
+
+/* The hull of the item's box and the frustum: faces of each by the other. */
+static void add_box(const struct gn_fitter *f, uint32_t item, const vec4 world[PLANES],
+                    const vec4 depth, struct gn_distances *d) {
+    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
+    struct gn_polygon polygon;
+    vec3 corners[8];
+    vec4 sides[6];
+    gn_box_corners(&g->box, (vec4 *)f->pose->items[item].world_from_item, corners);
+    gn_box_planes(corners, sides);
+    for (int i = 0; i < 12; i++) {
+        gn_box_face(i < 6 ? corners : (vec3 *)f->eye->corners, i % 6, &polygon);
+        clip_by(&polygon, world, PLANES);
+        if (i >= 6) clip_by(&polygon, sides, 6);
+        add_places(d, depth, &polygon);
+    }
+}
+
+/* From the nearest to the farthest place that can be in a shadow that is seen; empty when near_m >
+ * far_m. */
+static struct gn_distances seen_distances(const struct gn_fitter *f,
+                                          const struct gn_shadow_region *window) {
+    struct gn_distances d = {INFINITY, -INFINITY};
+    vec4 planes[PLANES], depth;
+    gn_eye_depth_plane(f->eye, depth);
+    window_planes(f, window, planes);
+    for (int i = 0; i < 6; i++) glm_vec4_copy((float *)f->eye->planes[i], planes[4 + i]);
+    for (uint32_t i = 0; i < f->memory->item_count; i++) {
+        if (!gn_shadow_item_receives(f->pose, i, f->view) || f->memory->seen[i] == GN_SEEN_NOT)
+            continue;
+        const struct gn_shadow_region *seen = gn_fitter_seen(f, i);
+        if (region_is_empty(seen) || !regions_meet(seen, window)) continue;
+        const struct gn_box *box = &f->pose->items[i].box_ws;
+        if (gn_box_least(depth, box) >= d.near_m && gn_box_most(depth, box) <= d.far_m) continue;
+        const struct gn_scene *scene = f->pose->scene;
+        if (scene->geometries[scene->items[i].geometry].index_count <= 3 * WALKED_TRIANGLES)
+            add_triangles(f, i, planes, depth, &d);
+        else
+            add_box(f, i, planes, depth, &d);
+    }
+    return d;
+}
+
+/* What any cascade can hold: the window of all that is seen. */
+bool gn_distances_find(const struct gn_fitter *f, struct gn_distances *seen) {
+    struct gn_window found;
+    struct gn_fitter all = *f;
+    if (f->view->cascade_count > 0) all.memory = &f->memory[GN_CASCADES_MAX];
+    gn_shadow_look(f->view, f->tile->light_from_world);
+    gn_fitter_remember(&all);
+    if (!gn_window_find(&all, false, &found)) return false;
+    *seen = seen_distances(&all, &found.window);
+    return seen->near_m <= seen->far_m;
+}
+
+/* The nearest place that counts. */
+float gn_distances_nearest(const struct gn_distances *seen) {
+    return fmaxf(seen->near_m, NEAREST_SHARE * seen->far_m);
+}

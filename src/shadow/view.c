@@ -1,0 +1,74 @@
+/* What fits of all kinds share: items that cast and receive, the light's frame, whole texels, what
+ * decides a map's content. */
+#include <math.h>
+
+#include "core/hash.h"
+#include "shadow/private.h"
+
+#define STEPS_PER_OCTAVE 8 /* of the texel's size: the window's width moves in steps of 9 % */
+#define RIM_TEXELS       2 /* cleared rim, and the texel that snapping takes */
+
+bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item) {
+    const struct gn_item *it = &scene->items[item];
+    return it->casts && scene->materials[it->material].alpha != GN_ALPHA_BLEND;
+}
+
+bool gn_shadow_item_receives(const struct gn_pose *pose, uint32_t item,
+                             const struct gn_shadow_view *view) {
+    return pose->items[item].visible && (pose->scene->items[item].receives || view->all_receive);
+}
+
+void gn_shadow_look(const struct gn_shadow_view *view, mat4 light_from_world) {
+    vec3 up = {0.0f, 1.0f, 0.0f}, across = {0.0f, 0.0f, 1.0f}, origin = {0.0f, 0.0f, 0.0f}, forward;
+    glm_vec3_negate_to((float *)view->to_light_ws, forward);
+    glm_look(view->perspective ? (float *)view->light_ws : origin, forward,
+             fabsf(forward[1]) > 0.99f ? across : up, light_from_world);
+}
+
+float gn_shadow_step(float size) {
+    return exp2f(ceilf(log2f(size) * STEPS_PER_OCTAVE) / STEPS_PER_OCTAVE);
+}
+
+void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float max[2],
+                    float least, double low[2]) {
+    uint32_t margin = gn_techniques[view->technique].radius_texels + RIM_TEXELS;
+    uint32_t usable = view->map_px > 2 * margin + 2 ? view->map_px - 2 * margin : 2;
+    float span = fmaxf(max[0] - min[0], max[1] - min[1]);
+    view->texel = gn_shadow_step(fmaxf(span, least) / (float)(usable - 1));
+    for (int k = 0; k < 2; k++)
+        low[k] = (floor((double)min[k] / view->texel) - margin) * view->texel;
+}
+
+void gn_shadow_set_frustums(struct gn_shadow_view *view, const double low[2], float near_depth,
+                            float far_depth) {
+    double side = (double)view->texel * view->map_px;
+    float left = (float)low[0], right = (float)(low[0] + side), bottom = (float)low[1],
+          top = (float)(low[1] + side);
+    mat4 clip_from_light;
+    glm_frustum(left * near_depth, right * near_depth, bottom * near_depth, top * near_depth,
+                near_depth, far_depth, clip_from_light);
+    for (uint32_t i = 0; i < view->tile_count; i++)
+        glm_mat4_mul(clip_from_light, view->tiles[i].light_from_world,
+                     view->tiles[i].clip_from_world);
+}
+
+static uint64_t hash_page(uint64_t h, const struct gn_shadow_page *page) {
+    h = gn_hash(h, page->corner, sizeof page->corner);
+    h = gn_hash(h, page->from_px, sizeof page->from_px);
+    return gn_hash(h, page->size_px, sizeof page->size_px);
+}
+
+uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view *view,
+                        const struct gn_shadow_tile *tile, const uint8_t *casts) {
+    float code[] = {view->distance_scale, view->distance_offset, view->far_code,
+                    (float)view->map_px, (float)view->encoding};
+    uint64_t h = gn_hash(GN_HASH_INIT, code, sizeof code);
+    if (!tile->empty) h = gn_hash(h, tile->clip_from_world, sizeof tile->clip_from_world);
+    for (uint32_t p = 0; p < view->page_count; p++) h = hash_page(h, &view->pages[p]);
+    for (uint32_t i = 0; i < pose->scene->item_count && !tile->empty; i++)
+        if (casts[i]) {
+            uint64_t item[2] = {i, pose->items[i].hash};
+            h = gn_hash(h, item, sizeof item);
+        }
+    return h ? h : 1;
+}
