@@ -101,7 +101,7 @@ uint64_t gn_inspect_image_bytes(const struct gn_scene *scene, uint32_t image) {
     for (uint32_t i = 0; i < scene->material_count; i++)
         for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
             use_image(&use, scene, image, scene->materials[i].textures[slot].texture,
-                      slot == GN_TEXTURE_BASE || slot == GN_TEXTURE_EMISSIVE);
+                      gn_texture_slots[slot].texels == GN_TEXELS_SRGB);
     for (uint32_t i = 0; i < scene->light_count; i++)
         use_image(&use, scene, image, scene->lights[i].slide, true);
     uint64_t pixels = (uint64_t)scene->images[image].width_px * scene->images[image].height_px;

@@ -61,6 +61,7 @@ enum { /* texture units: maps first, then one a gn_texture_slot, then slides; th
        GN_GL_UNIT_WORK = GN_GL_UNIT_SLIDE + GN_SLIDES_MAX,
        GN_GL_UNIT_COUNT,
 };
+_Static_assert(GN_GL_UNIT_COUNT <= 16, "texture units that ES 3.0 promises");
 
 /* ---- the state cache (state.c): diffed, never restored ---- */
 

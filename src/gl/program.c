@@ -128,10 +128,9 @@ static bool set_unit(struct gn_gl *gl, GLuint program, const char *sampler, int 
 
 static void set_units(struct gn_gl *gl, struct gn_gl_program *program) {
     static const char *const textures[GN_TEXTURE_SLOT_COUNT] = {
-        [GN_TEXTURE_BASE] = "u_texture_base",
-        [GN_TEXTURE_ROUGHNESS] = "u_texture_roughness",
-        [GN_TEXTURE_EMISSIVE] = "u_texture_emissive",
-        [GN_TEXTURE_OCCLUSION] = "u_texture_occlusion",
+#define GN_X(NAME, name, ...) [GN_TEXTURE_##NAME] = "u_texture_" #name,
+        GN_TEXTURE_SLOTS(GN_X)
+#undef GN_X
     };
     static const char *const maps[GN_SHADOWS_MAX] = {"u_map_0", "u_map_1", "u_map_2", "u_map_3"};
     static const char *const slides[GN_SLIDES_MAX] = {"u_slide_0", "u_slide_1", "u_slide_2",

@@ -5,9 +5,7 @@
 #include "core/arena.h"
 #include "gl/private.h"
 
-static bool slot_is_srgb(int slot) {
-    return slot == GN_TEXTURE_BASE || slot == GN_TEXTURE_EMISSIVE;
-}
+static bool slot_is_srgb(uint32_t slot) { return gn_texture_slots[slot].texels == GN_TEXELS_SRGB; }
 
 /* ---- textures ---- */
 
@@ -149,7 +147,7 @@ static void make_sampler(struct gn_gl *gl, const struct gn_texture *t) {
 /* The uses of pictures, by number: slots of materials, then lights' slides. */
 static bool use_of(const struct gn_scene *scene, uint32_t use, int32_t *texture, bool *srgb) {
     const uint32_t slots = scene->material_count * GN_TEXTURE_SLOT_COUNT;
-    const int slot = (int)(use % GN_TEXTURE_SLOT_COUNT);
+    const uint32_t slot = use % GN_TEXTURE_SLOT_COUNT;
     if (use >= slots + scene->light_count) return false;
     *srgb = use < slots ? slot_is_srgb(slot) : true;
     *texture = use < slots ? scene->materials[use / GN_TEXTURE_SLOT_COUNT].textures[slot].texture
@@ -225,7 +223,7 @@ static void bind(struct gn_gl *gl, GLuint unit, uint32_t texture, bool srgb) {
 }
 
 void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref) {
-    bind(gl, GN_GL_UNIT_TEXTURE + slot, (uint32_t)ref->texture, slot_is_srgb((int)slot));
+    bind(gl, GN_GL_UNIT_TEXTURE + slot, (uint32_t)ref->texture, slot_is_srgb(slot));
 }
 
 void gn_gl_slide_bind(struct gn_gl *gl, uint32_t slide, uint32_t texture) {

@@ -16,12 +16,6 @@ struct look {
     uint32_t material; /* whose it is; not compared */
 };
 
-static bool has_specular(const struct gn_material *m) {
-    bool shiny =
-        m->roughness < 1 || m->metalness > 0 || m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
-    return shiny && !m->unlit;
-}
-
 static struct look look_of(const struct gn_material *m, uint32_t material) {
     struct look look = {.material = material};
     uint32_t *to = look.word;
@@ -35,8 +29,8 @@ static struct look look_of(const struct gn_material *m, uint32_t material) {
     *to++ = m->alpha;
     *to++ = m->double_sided;
     *to++ = m->unlit;
-    *to++ = has_specular(m);
-    *to++ = m->emissive[0] > 0 || m->emissive[1] > 0 || m->emissive[2] > 0;
+    *to++ = gn_material_is_specular(m) && !m->unlit;
+    *to++ = gn_material_is_emissive(m);
     return look;
 }
 

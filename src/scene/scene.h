@@ -11,6 +11,7 @@
 
 #include "core/err.h"
 #include "core/warn.h"
+#include "scene/material.h"
 
 struct gn_box { /* axis-aligned; empty when min > max */
     vec3 min, max;
@@ -33,13 +34,6 @@ struct gn_texture {
     bool mip_nearest; /* between levels; false = trilinear */
 };
 
-enum gn_texture_slot {
-    GN_TEXTURE_BASE,      /* sRGB colour, alpha */
-    GN_TEXTURE_ROUGHNESS, /* linear: G roughness, B metalness */
-    GN_TEXTURE_EMISSIVE,  /* sRGB colour */
-    GN_TEXTURE_OCCLUSION, /* linear: R */
-    GN_TEXTURE_SLOT_COUNT,
-};
 struct gn_texture_ref {
     int32_t texture; /* index, or -1: none */
     uint8_t uv_set;  /* 0 or 1 */

@@ -48,27 +48,20 @@ static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
 
 /* ---- materials ---- */
 
-static void read_pbr(struct gn_gltf *g, const struct gn_at *at, bool used, struct gn_material *m) {
+static void read_pbr(struct gn_gltf *g, const struct gn_at *at, struct gn_material *m) {
     struct gn_at pbr = gn_at_object(g, at, "pbrMetallicRoughness");
     gn_at_floats(g, &pbr, "baseColorFactor", 4, m->base_color);
     for (int k = 0; k < 4; k++) m->base_color[k] = clamp(m->base_color[k], 0, k < 3 ? 1e4f : 1);
     m->roughness = clamp(gn_at_float(g, &pbr, "roughnessFactor", 1), 0, 1);
     m->metalness = clamp(gn_at_float(g, &pbr, "metallicFactor", 1), 0, 1);
-    struct gn_at base = gn_at_object(g, &pbr, "baseColorTexture");
-    struct gn_at roughness = gn_at_object(g, &pbr, "metallicRoughnessTexture");
-    read_texture(g, &base, used, &m->textures[GN_TEXTURE_BASE]);
-    read_texture(g, &roughness, used, &m->textures[GN_TEXTURE_ROUGHNESS]);
 }
 
-static void read_emission(struct gn_gltf *g, const struct gn_at *at, bool used,
-                          struct gn_material *m) {
+static void read_emission(struct gn_gltf *g, const struct gn_at *at, struct gn_material *m) {
     struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
     float strength = gn_at_float(g, &strong, "emissiveStrength", 1);
     gn_at_floats(g, at, "emissiveFactor", 3, m->emissive);
     for (int k = 0; k < 3; k++)
         m->emissive[k] = clamp(clamp(m->emissive[k], 0, 1e9f) * clamp(strength, 0, 1e9f), 0, 1e9f);
-    struct gn_at texture = gn_at_object(g, at, "emissiveTexture");
-    read_texture(g, &texture, used, &m->textures[GN_TEXTURE_EMISSIVE]);
 }
 
 static void read_alpha(struct gn_gltf *g, const struct gn_at *at, struct gn_material *m) {
@@ -106,11 +99,16 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
     m->double_sided = gn_at_flag(g, at, "doubleSided", false);
     m->unlit = gn_at_extension(g, at, "extensions.KHR_materials_unlit").json != NULL;
     read_alpha(g, at, m);
-    read_pbr(g, at, used, m);
-    read_emission(g, at, used, m);
+    read_pbr(g, at, m);
+    read_emission(g, at, m);
     struct gn_at occlusion = gn_at_object(g, at, "occlusionTexture");
     m->occlusion_strength = clamp(gn_at_float(g, &occlusion, "strength", 1), 0, 1);
-    read_texture(g, &occlusion, used, &m->textures[GN_TEXTURE_OCCLUSION]);
+    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+        const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
+        struct gn_at parent = *row->parent ? gn_at_object(g, at, row->parent) : *at;
+        struct gn_at texture = gn_at_object(g, &parent, row->key);
+        read_texture(g, &texture, used, &m->textures[slot]);
+    }
     if (used && gn_at_object(g, at, "normalTexture").json)
         g->is_missing[GN_MISSING_NORMAL_MAPS] = true;
 }

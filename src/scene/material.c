@@ -1,0 +1,30 @@
+#include "scene/material.h"
+
+#include "scene/scene.h"
+
+const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT] = {
+#define GN_X(NAME, name, printed, parent, key, texels, shading)                                    \
+    [GN_TEXTURE_##NAME] = {#name, parent, key, GN_TEXELS_##texels, GN_SHADING_##shading},
+    GN_TEXTURE_SLOTS(GN_X)
+#undef GN_X
+};
+
+bool gn_material_is_specular(const struct gn_material *m) {
+    return m->metalness > 0.0f || m->roughness < 1.0f ||
+           m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
+}
+
+bool gn_material_is_emissive(const struct gn_material *m) {
+    return m->emissive[0] > 0.0f || m->emissive[1] > 0.0f || m->emissive[2] > 0.0f;
+}
+
+bool gn_material_reads(const struct gn_material *m, enum gn_texture_slot slot) {
+    switch (gn_texture_slots[slot].shading) {
+    case GN_SHADING_COLOR: return true;
+    case GN_SHADING_SPECULAR: return !m->unlit && gn_material_is_specular(m);
+    case GN_SHADING_EMISSION: return !m->unlit && gn_material_is_emissive(m);
+    case GN_SHADING_LIGHT:
+    case GN_SHADING_AMBIENT: return !m->unlit;
+    }
+    return false;
+}

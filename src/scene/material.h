@@ -1,0 +1,51 @@
+/* Textures of a material: one row each, from its name in glTF to its name in GLSL. A row gives the
+ * enum below, gn_texture_slots[], the features NAME_TEXTURE and NAME_UV1 of a program
+ * (frame/feature.h), a texture unit, the sampler u_texture_name and the varying v_uv_name (gl/). To
+ * add one: a row here, and the shader that samples it where WITH_NAME_TEXTURE is defined. */
+#ifndef GN_SCENE_MATERIAL_H
+#define GN_SCENE_MATERIAL_H
+
+#include <stdbool.h>
+
+/* X(NAME, name, printed name, object of the glTF material or "", texture in it, texels, read for)
+ */
+#define GN_TEXTURE_SLOTS(X)                                                                        \
+    X(BASE, base, "base", "pbrMetallicRoughness", "baseColorTexture", SRGB, COLOR) /* and alpha */ \
+    X(ROUGHNESS, roughness, "roughness", "pbrMetallicRoughness", "metallicRoughnessTexture",       \
+      LINEAR, SPECULAR) /* G: roughness, B: metalness */                                           \
+    X(EMISSIVE, emissive, "emissive-texture", "", "emissiveTexture", SRGB, EMISSION)               \
+    X(OCCLUSION, occlusion, "occlusion", "", "occlusionTexture", LINEAR, AMBIENT) /* R */
+
+enum gn_texture_slot {
+#define GN_X(NAME, ...) GN_TEXTURE_##NAME,
+    GN_TEXTURE_SLOTS(GN_X)
+#undef GN_X
+        GN_TEXTURE_SLOT_COUNT,
+};
+
+enum gn_texels { GN_TEXELS_LINEAR, GN_TEXELS_SRGB };
+
+/* What a texture is read for, and so which programs read it. */
+enum gn_shading {
+    GN_SHADING_COLOR,    /* everything; of casters with holes, its alpha */
+    GN_SHADING_LIGHT,    /* lit materials */
+    GN_SHADING_SPECULAR, /* lit materials with a highlight */
+    GN_SHADING_EMISSION, /* lit materials that emit; not where only light is added */
+    GN_SHADING_AMBIENT,  /* lit materials; not where only light is added */
+};
+
+struct gn_texture_slot_row {
+    const char *name;         /* GLSL: u_texture_NAME, v_uv_NAME */
+    const char *parent, *key; /* in the JSON of a material; parent "": the material itself */
+    enum gn_texels texels;
+    enum gn_shading shading;
+};
+extern const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT];
+
+struct gn_material;
+bool gn_material_is_specular(const struct gn_material *material); /* has a highlight, if lit */
+bool gn_material_is_emissive(const struct gn_material *material);
+/* Whether a picture of the material reads the slot, if it has such a texture. */
+bool gn_material_reads(const struct gn_material *material, enum gn_texture_slot slot);
+
+#endif
