@@ -9,7 +9,7 @@ static struct gn_program_key key_of(const struct gn_frame *frame) {
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = GN_PROGRAM_CAPTION;
-    if (frame->plan.encode_srgb) key.features = GN_FEATURE_ENCODE_SRGB;
+    if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
     return key;
 }
 

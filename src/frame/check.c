@@ -31,7 +31,7 @@ static const char *check_key(const struct gn_program_key *key) {
     REQUIRE((key->kind == GN_PROGRAM_FILTER) == (key->moments != GN_MOMENTS_NONE));
     REQUIRE(key->taps == 0 || key->taps == 8 || key->taps == 16 || key->taps == 32);
     REQUIRE(key->receiver <= GN_RECEIVES_ALL);
-    REQUIRE(key->features < 1u << GN_FEATURE_BITS);
+    REQUIRE((key->features & ~gn_features_all()) == 0);
     for (int i = 0; i < key->light_count; i++) {
         REQUIRE((key->lights[i].technique != GN_TECHNIQUE_NONE) == (i < key->shadow_count));
         REQUIRE(key->lights[i].technique < GN_TECHNIQUE_COUNT);
@@ -54,7 +54,7 @@ static uint32_t slide_count(const struct gn_program_key *key) {
 
 /* What a program needs of the pass that draws with it. */
 static const char *check_use(const struct gn_pass *pass, const struct gn_program_key *key) {
-    const bool adds = key->features & GN_FEATURE_ADDITIVE;
+    const bool adds = key->features & GN_FEATURE(ADDITIVE);
     const bool panel = key->kind == GN_PROGRAM_PANEL;
     REQUIRE((key->kind < GN_PROGRAM_FLAT) == gn_target_is_map(&pass->target));
     REQUIRE((key->kind == GN_PROGRAM_FLAT) == pass->only_stencil);

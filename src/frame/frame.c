@@ -224,7 +224,7 @@ void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
 /* Opaque before masked (a discard costs early depth), then nearest first, by the far side: a ground
  * goes last. */
 static float draw_order(const struct gn_frame *frame, const struct gn_draw *draw) {
-    bool masked = frame->programs.at[draw->program].features & GN_FEATURE_ALPHA_MASK;
+    bool masked = frame->programs.at[draw->program].features & GN_FEATURE(ALPHA_MASK);
     return draw->depth_m + (masked ? 1e9f : 0.0f);
 }
 

@@ -2,59 +2,39 @@
 
 #include "frame/private.h"
 
-static uint32_t texture_features(const struct gn_scene *scene, const struct gn_item *item,
-                                 uint32_t slots) {
-    const struct gn_material *material = &scene->materials[item->material];
-    uint32_t features = 0;
-    for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-        const struct gn_texture_ref *ref = &material->textures[slot];
-        if (!(slots & 1u << slot) || ref->texture < 0) continue;
-        features |= GN_FEATURE_BASE_TEXTURE << slot;
-        if (ref->uv_set) features |= GN_FEATURE_BASE_UV1 << slot;
-    }
-    return features;
+/* The bits of a slot's texture, if the material has one. */
+static uint64_t texture_features(const struct gn_material *material, enum gn_texture_slot slot) {
+    const struct gn_texture_ref *ref = &material->textures[slot];
+    if (ref->texture < 0) return 0;
+    return GN_FEATURE(BASE_TEXTURE) << slot | (ref->uv_set ? GN_FEATURE(BASE_UV1) << slot : 0);
 }
 
 /* What decides an item's alpha, if anything asks for it. */
-static uint32_t alpha_features(const struct gn_scene *scene, const struct gn_item *item) {
-    if (scene->materials[item->material].alpha != GN_ALPHA_MASK) return 0;
-    uint32_t features =
-        GN_FEATURE_ALPHA_MASK | texture_features(scene, item, 1u << GN_TEXTURE_BASE);
-    if (scene->geometries[item->geometry].has_color) features |= GN_FEATURE_VERTEX_COLOR;
+static uint64_t alpha_features(const struct gn_scene *scene, const struct gn_item *item) {
+    const struct gn_material *m = &scene->materials[item->material];
+    if (m->alpha != GN_ALPHA_MASK) return 0;
+    uint64_t features = GN_FEATURE(ALPHA_MASK) | texture_features(m, GN_TEXTURE_BASE);
+    if (scene->geometries[item->geometry].has_color) features |= GN_FEATURE(VERTEX_COLOR);
     return features;
 }
 
-static bool is_specular(const struct gn_material *m) {
-    return m->metalness > 0.0f || m->roughness < 1.0f ||
-           m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
-}
-
-static bool is_emissive(const struct gn_material *m) {
-    return m->emissive[0] > 0.0f || m->emissive[1] > 0.0f || m->emissive[2] > 0.0f;
-}
-
-static uint32_t color_features(const struct gn_frame *frame, const struct gn_item *item) {
+static uint64_t color_features(const struct gn_frame *frame, const struct gn_item *item) {
     const struct gn_scene *scene = frame->scene;
     const struct gn_material *m = &scene->materials[item->material];
-    uint32_t slots = 1u << GN_TEXTURE_BASE, features = alpha_features(scene, item);
-    if (scene->geometries[item->geometry].has_color) features |= GN_FEATURE_VERTEX_COLOR;
-    if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE_ALPHA_BLEND;
+    uint64_t features = alpha_features(scene, item);
+    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
+        if (gn_material_reads(m, slot)) features |= texture_features(m, slot);
+    if (scene->geometries[item->geometry].has_color) features |= GN_FEATURE(VERTEX_COLOR);
+    if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE(ALPHA_BLEND);
     if (frame->plan.output == GN_OUTPUT_LINEAR8 && frame->plan.encode_srgb)
-        features |= GN_FEATURE_ENCODE_SRGB;
-    if (frame->caps.software && !m->unlit) features |= GN_FEATURE_FLAT_CONSTANTS;
-    if (m->unlit) return features | GN_FEATURE_UNLIT | texture_features(scene, item, slots);
-    if (m->double_sided) features |= GN_FEATURE_DOUBLE_SIDED;
-    if (is_specular(m)) {
-        features |= GN_FEATURE_SPECULAR;
-        slots |= 1u << GN_TEXTURE_ROUGHNESS;
-    }
-    if (is_emissive(m)) {
-        features |= GN_FEATURE_EMISSIVE;
-        slots |= 1u << GN_TEXTURE_EMISSIVE;
-    }
-    slots |= 1u << GN_TEXTURE_OCCLUSION;
-    if (memcmp(scene->sky, scene->ground, sizeof(vec3)) != 0) features |= GN_FEATURE_HEMISPHERE;
-    return features | texture_features(scene, item, slots);
+        features |= GN_FEATURE(ENCODE_SRGB);
+    if (frame->caps.software && !m->unlit) features |= GN_FEATURE(FLAT_CONSTANTS);
+    if (m->unlit) return features | GN_FEATURE(UNLIT);
+    if (m->double_sided) features |= GN_FEATURE(DOUBLE_SIDED);
+    if (gn_material_is_specular(m)) features |= GN_FEATURE(SPECULAR);
+    if (gn_material_is_emissive(m)) features |= GN_FEATURE(EMISSIVE);
+    if (memcmp(scene->sky, scene->ground, sizeof(vec3)) != 0) features |= GN_FEATURE(HEMISPHERE);
+    return features;
 }
 
 static bool has_planar_lights(const struct gn_frame *frame) {
@@ -115,7 +95,7 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
     key.aov = (uint8_t)opts->aov;
     key.features = opts->aov == GN_AOV_COLOR ? color_features(frame, item)
                                              : alpha_features(frame->scene, item);
-    if (opts->aov != GN_AOV_COLOR && m->double_sided) key.features |= GN_FEATURE_DOUBLE_SIDED;
+    if (opts->aov != GN_AOV_COLOR && m->double_sided) key.features |= GN_FEATURE(DOUBLE_SIDED);
     if (opts->aov == GN_AOV_COLOR ? m->unlit : opts->aov != GN_AOV_VISIBILITY) return key;
     enum gn_receiver receiver = receiver_of(frame, item, opts->aov);
     set_lights(frame, &frame->groups[0], opts, receiver, &key);
@@ -127,13 +107,14 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_program_key *lit,
                                       const struct gn_light_group *group,
                                       const struct gn_frame_opts *opts) {
-    const uint32_t once = GN_FEATURE_HEMISPHERE | GN_FEATURE_EMISSIVE |
-                          GN_FEATURE_EMISSIVE_TEXTURE | GN_FEATURE_EMISSIVE_UV1 |
-                          GN_FEATURE_OCCLUSION_TEXTURE | GN_FEATURE_OCCLUSION_UV1;
+    uint64_t once = GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE);
+    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
+        if (gn_texture_slots[slot].shading >= GN_SHADING_EMISSION)
+            once |= (GN_FEATURE(BASE_TEXTURE) | GN_FEATURE(BASE_UV1)) << slot;
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = lit->kind;
-    key.features = (lit->features & ~once) | GN_FEATURE_ADDITIVE;
+    key.features = (lit->features & ~once) | GN_FEATURE(ADDITIVE);
     set_lights(frame, group, opts, (enum gn_receiver)lit->receiver, &key);
     return key;
 }
@@ -149,6 +130,6 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
     if (key.kind != GN_PROGRAM_DISTANCE) return key;
     key.encoding = (uint8_t)view->encoding;
     if (view->perspective && view->encoding != GN_ENCODING_MASK)
-        key.features |= GN_FEATURE_PERSPECTIVE;
+        key.features |= GN_FEATURE(PERSPECTIVE);
     return key;
 }

@@ -14,7 +14,7 @@ static struct gn_program_key key_of(const struct gn_frame *frame, enum gn_progra
     memset(&key, 0, sizeof key);
     key.kind = (uint8_t)kind;
     if (frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_LINEAR8)
-        key.features = GN_FEATURE_ENCODE_SRGB;
+        key.features = GN_FEATURE(ENCODE_SRGB);
     return key;
 }
 

@@ -128,7 +128,7 @@ static void keep_additive_programs(struct gn_frame *frame, const struct gn_frame
         for (uint32_t g = 1; g < frame->group_count; g++) {
             const struct gn_program_key lit = frame->programs.at[i];
             if (lit.kind != GN_PROGRAM_LIT) continue;
-            if (lit.features & (GN_FEATURE_UNLIT | GN_FEATURE_ADDITIVE)) continue;
+            if (lit.features & (GN_FEATURE(UNLIT) | GN_FEATURE(ADDITIVE))) continue;
             struct gn_program_key key = gn_key_additive(frame, &lit, &frame->groups[g], opts);
             gn_frame_program(frame, &key);
         }

@@ -8,6 +8,7 @@
 
 #include "caption/run.h"
 #include "frame/caps.h"
+#include "frame/feature.h"
 #include "frame/orbit.h"
 #include "scene/pose.h"
 #include "shadow/fit.h"
@@ -37,34 +38,6 @@ enum gn_program_kind {
     GN_PROGRAM_FILTER,   /* a map, or moments of one, into moments */
     GN_PROGRAM_KIND_COUNT,
 };
-enum gn_feature { /* bits of gn_program_key.features; each becomes `const bool` of that name in GLSL
-                   */
-                  GN_FEATURE_BASE_TEXTURE = 1 << 0,
-                  GN_FEATURE_ROUGHNESS_TEXTURE = 1 << 1,
-                  GN_FEATURE_EMISSIVE_TEXTURE = 1 << 2,
-                  GN_FEATURE_OCCLUSION_TEXTURE =
-                      1 << 3,                   /* bits 0-3 in the order of gn_texture_slot */
-                  GN_FEATURE_BASE_UV1 = 1 << 4, /* bits 4-7: that slot reads TEXCOORD_1 */
-                  GN_FEATURE_ROUGHNESS_UV1 = 1 << 5,
-                  GN_FEATURE_EMISSIVE_UV1 = 1 << 6,
-                  GN_FEATURE_OCCLUSION_UV1 = 1 << 7,
-                  GN_FEATURE_VERTEX_COLOR = 1 << 8,
-                  GN_FEATURE_ALPHA_MASK = 1 << 9,
-                  GN_FEATURE_ALPHA_BLEND = 1 << 10,
-                  GN_FEATURE_DOUBLE_SIDED = 1 << 11,
-                  GN_FEATURE_UNLIT = 1 << 12,
-                  GN_FEATURE_SPECULAR = 1 << 13,
-                  GN_FEATURE_EMISSIVE = 1 << 14,
-                  GN_FEATURE_HEMISPHERE = 1 << 15,  /* sky and ground differ */
-                  GN_FEATURE_ENCODE_SRGB = 1 << 16, /* no sRGB target: encode in the shader */
-                  GN_FEATURE_PERSPECTIVE =
-                      1 << 17, /* DISTANCE: radial distance from a point, not along a direction */
-                  GN_FEATURE_FLAT_CONSTANTS = 1 << 18, /* software drivers: the first light's
-                                                          constants come as flat varyings */
-                  GN_FEATURE_ADDITIVE =
-                      1 << 19, /* LIT: light alone, to be added: no ambient, emission, alpha */
-};
-#define GN_FEATURE_BITS 20
 
 struct gn_light_key {  /* one light of a LIT or visibility program */
     uint8_t type;      /* gn_light_type */
@@ -80,7 +53,7 @@ enum gn_receiver { /* whose shadows an item receives */
                    GN_RECEIVES_ALL, /* of what is for the plane, too */
 };
 struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps come first. */
-    uint32_t features;
+    uint64_t features;  /* GN_FEATURE(..) */
     uint8_t kind, aov, light_count, shadow_count;
     uint8_t encoding;  /* DISTANCE: what it writes; PANEL: what it shows; FILTER: of the map, where
                           the step reads that, and 0 */
@@ -90,9 +63,11 @@ struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps
     uint8_t step;      /* FILTER: gn_filter_step */
     uint8_t technique; /* FILTER: whose moments; 0 where the step makes none of codes */
     uint8_t moments;   /* FILTER: gn_moments of what it reads and writes */
-    uint8_t unused;
+    uint8_t unused[5];
     struct gn_light_key lights[GN_LIGHTS_MAX];
 };
+_Static_assert(sizeof(struct gn_program_key) == 24 + sizeof(struct gn_light_key[GN_LIGHTS_MAX]),
+               "no padding");
 
 /* ---- what a draw reads ---- */
 

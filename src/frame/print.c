@@ -18,14 +18,6 @@ static const char *const slides[GN_SLIDE_COUNT] = {
     [GN_SLIDE_NONE] = "", [GN_SLIDE_DARK] = "+slide", [GN_SLIDE_LIT] = "+film"};
 static const char *const culls[] = {
     [GN_CULL_NONE] = "none", [GN_CULL_BACK] = "back", [GN_CULL_FRONT] = "front"};
-static const char *const features[GN_FEATURE_BITS] = {
-    "base",           "roughness",     "emissive-texture",
-    "occlusion",      "base-uv1",      "roughness-uv1",
-    "emissive-uv1",   "occlusion-uv1", "vertex-color",
-    "mask",           "blend",         "double-sided",
-    "unlit",          "specular",      "emissive",
-    "hemisphere",     "encode-srgb",   "perspective",
-    "flat-constants", "additive"};
 
 static void print_filter(const struct gn_program_key *key, FILE *to) {
     const struct gn_filter_step_row *step = &gn_filter_steps[key->step];
@@ -47,8 +39,8 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
     if (key->kind == GN_PROGRAM_DISTANCE || key->kind == GN_PROGRAM_PANEL)
         fprintf(to, " %s", gn_encodings[key->encoding].name);
     if (key->kind == GN_PROGRAM_FILTER) print_filter(key, to);
-    for (int bit = 0; bit < GN_FEATURE_BITS; bit++)
-        if (key->features & 1u << bit) fprintf(to, " +%s", features[bit]);
+    for (int i = 0; i < GN_FEATURE_COUNT; i++)
+        if (key->features >> gn_features[i].bit & 1) fprintf(to, " +%s", gn_features[i].name);
     for (int i = 0; i < key->light_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
         fprintf(to, " %s", light_types[light->type]);

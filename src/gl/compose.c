@@ -7,15 +7,6 @@
 
 #include "gl/private.h"
 
-static const char *const feature_names[GN_FEATURE_BITS] = {
-    "BASE_TEXTURE", "ROUGHNESS_TEXTURE", "EMISSIVE_TEXTURE", "OCCLUSION_TEXTURE",
-    "BASE_UV1",     "ROUGHNESS_UV1",     "EMISSIVE_UV1",     "OCCLUSION_UV1",
-    "VERTEX_COLOR", "ALPHA_MASK",        "ALPHA_BLEND",      "DOUBLE_SIDED",
-    "UNLIT",        "SPECULAR",          "EMISSIVE",         "HEMISPHERE",
-    "ENCODE_SRGB",  "PERSPECTIVE",       "FLAT_CONSTANTS",   "ADDITIVE",
-};
-_Static_assert(GN_FEATURE_ADDITIVE == 1 << (GN_FEATURE_BITS - 1), "a name for each feature");
-
 static const char *const light_names[] = {
     [GN_LIGHT_DIRECTIONAL] = "LIGHT_DIRECTIONAL",
     [GN_LIGHT_POINT] = "LIGHT_POINT",
@@ -65,10 +56,11 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
     gn_gl_text_add(out, "#version 300 es\nprecision highp float;\nprecision highp int;\n"
                         "precision highp sampler2D;\nprecision highp sampler2DShadow;\n"
                         "precision highp usampler2D;\n");
-    for (int i = 0; i < GN_FEATURE_BITS; i++) {
-        bool on = key->features >> i & 1;
-        gn_gl_text_add(out, "const bool %s = %s;\n", feature_names[i], on ? "true" : "false");
-        if (on) gn_gl_text_add(out, "#define WITH_%s 1\n", feature_names[i]);
+    for (int i = 0; i < GN_FEATURE_COUNT; i++) {
+        const char *name = gn_features[i].glsl;
+        bool on = key->features >> gn_features[i].bit & 1;
+        gn_gl_text_add(out, "const bool %s = %s;\n", name, on ? "true" : "false");
+        if (on) gn_gl_text_add(out, "#define WITH_%s 1\n", name);
     }
     if (key->shadow_count) gn_gl_text_add(out, "#define WITH_SHADOWS 1\n");
     gn_gl_text_add(out, "const int LIGHT_COUNT = %d;\nconst int SHADOW_COUNT = %d;\n",
@@ -308,9 +300,9 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
         append(out, size, " ", gn_moments[key->moments].name);
     }
     const char *separator = " ";
-    for (int i = 0; i < GN_FEATURE_BITS; i++) {
-        if (!(key->features >> i & 1)) continue;
-        append(out, size, separator, feature_names[i]);
+    for (int i = 0; i < GN_FEATURE_COUNT; i++) {
+        if (!(key->features >> gn_features[i].bit & 1)) continue;
+        append(out, size, separator, gn_features[i].glsl);
         separator = "|";
     }
     for (int i = 0; i < key->light_count; i++) {

@@ -83,7 +83,7 @@ static void test_techniques(void **state) {
                 compiles(&key);
                 if (type != GN_LIGHT_DIRECTIONAL || gn_techniques[t].on_plane) continue;
                 key.lights[0].cascades = 1;
-                key.features = e % 2 ? GN_FEATURE_ALPHA_MASK : 0; /* which shares no tiles */
+                key.features = e % 2 ? GN_FEATURE(ALPHA_MASK) : 0; /* which shares no tiles */
                 compiles(&key);
             }
 }
@@ -137,7 +137,7 @@ static void test_as_many_moments_as_may_be(void **state) {
     };
     for (int n = 0; n < 3; n++) {
         struct gn_program_key key = key_of(GN_PROGRAM_LIT);
-        key.features = GN_FEATURE_SPECULAR;
+        key.features = GN_FEATURE(SPECULAR);
         for (int i = 0; i < GN_SHADOWS_MAX; i++) {
             add_light(&key, i % 3, lights[n][i].technique, 0);
             filter_map(&key.lights[i], lights[n][i].moments);
@@ -148,9 +148,10 @@ static void test_as_many_moments_as_may_be(void **state) {
 
 static void test_features(void **state) {
     (void)state;
-    for (int bit = 0; bit <= GN_FEATURE_BITS; bit++) {
+    for (int i = 0; i <= GN_FEATURE_COUNT; i++) {
         struct gn_program_key key = key_of(GN_PROGRAM_LIT);
-        key.features = bit == GN_FEATURE_BITS ? (1u << GN_FEATURE_BITS) - 1 : 1u << bit;
+        key.features =
+            i == GN_FEATURE_COUNT ? gn_features_all() : UINT64_C(1) << gn_features[i].bit;
         add_light(&key, GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_PCF, GN_ENCODING_DEPTH);
         add_light(&key, GN_LIGHT_POINT, GN_TECHNIQUE_NONE, 0);
         compiles(&key);
@@ -162,9 +163,9 @@ static void test_features(void **state) {
 
 static void test_casters(void **state) {
     (void)state;
-    const uint32_t mask = GN_FEATURE_ALPHA_MASK | GN_FEATURE_BASE_TEXTURE;
-    const uint32_t features[] = {0, GN_FEATURE_ALPHA_MASK, mask, mask | GN_FEATURE_BASE_UV1,
-                                 mask | GN_FEATURE_VERTEX_COLOR};
+    const uint64_t mask = GN_FEATURE(ALPHA_MASK) | GN_FEATURE(BASE_TEXTURE);
+    const uint64_t features[] = {0, GN_FEATURE(ALPHA_MASK), mask, mask | GN_FEATURE(BASE_UV1),
+                                 mask | GN_FEATURE(VERTEX_COLOR)};
     for (size_t i = 0; i < sizeof features / sizeof *features; i++)
         for (int e = 0; e < GN_ENCODING_COUNT; e++)
             for (int spot = 0; spot < 2; spot++) {
@@ -173,7 +174,7 @@ static void test_casters(void **state) {
                            : e == GN_ENCODING_STENCIL ? GN_PROGRAM_FLAT
                                                       : GN_PROGRAM_DISTANCE);
                 key.encoding = (uint8_t)e;
-                key.features = features[i] | (spot ? GN_FEATURE_PERSPECTIVE : 0);
+                key.features = features[i] | (spot ? GN_FEATURE(PERSPECTIVE) : 0);
                 compiles(&key);
             }
 }
@@ -181,12 +182,12 @@ static void test_casters(void **state) {
 static void test_many_lights(void **state) {
     (void)state;
     struct gn_program_key key = key_of(GN_PROGRAM_LIT);
-    key.features = GN_FEATURE_SPECULAR | GN_FEATURE_HEMISPHERE;
+    key.features = GN_FEATURE(SPECULAR) | GN_FEATURE(HEMISPHERE);
     for (int i = 0; i < GN_SHADOWS_MAX; i++) add_light(&key, i % 3, GN_TECHNIQUE_HARD + i, i);
     for (int i = GN_SHADOWS_MAX; i < GN_LIGHTS_MAX; i++)
         add_light(&key, i % 3, GN_TECHNIQUE_NONE, 0);
     compiles(&key);
-    key.features |= (1u << GN_FEATURE_BITS) - 1;
+    key.features |= gn_features_all();
     compiles(&key);
     key.lights[GN_SHADOWS_MAX - 1].type = GN_LIGHT_POINT; /* two ways to be looked up, in one */
     key.lights[GN_SHADOWS_MAX - 1].technique = GN_TECHNIQUE_PLANAR;
@@ -201,7 +202,7 @@ static void test_slides(void **state) {
     for (int slide = GN_SLIDE_DARK; slide < GN_SLIDE_COUNT; slide++)
         for (int t = GN_TECHNIQUE_NONE; t < GN_TECHNIQUE_COUNT; t++) {
             struct gn_program_key key = key_of(GN_PROGRAM_LIT);
-            key.features = t % 2 ? GN_FEATURE_SPECULAR : GN_FEATURE_FLAT_CONSTANTS;
+            key.features = t % 2 ? GN_FEATURE(SPECULAR) : GN_FEATURE(FLAT_CONSTANTS);
             add_light(&key, GN_LIGHT_SPOT, t,
                       gn_techniques[t].on_plane ? GN_ENCODING_MASK : GN_ENCODING_DEPTH);
             if (gn_technique_filters_map((enum gn_technique)t))
@@ -214,7 +215,7 @@ static void test_slides(void **state) {
 static void test_as_many_slides_as_may_be(void **state) {
     (void)state;
     struct gn_program_key key = key_of(GN_PROGRAM_LIT);
-    key.features = (1u << GN_FEATURE_BITS) - 1 - GN_FEATURE_UNLIT;
+    key.features = gn_features_all() - GN_FEATURE(UNLIT);
     for (int i = 0; i < GN_LIGHTS_MAX; i++) {
         add_light(&key, GN_LIGHT_SPOT, i < GN_SHADOWS_MAX ? GN_TECHNIQUE_PCF : GN_TECHNIQUE_NONE,
                   i % GN_ENCODING_COUNT);

@@ -8,7 +8,7 @@
 #include "core/file.h"
 #include "gl/private.h"
 
-static struct gn_program_key lit(uint32_t features, enum gn_light_type type, const char *technique,
+static struct gn_program_key lit(uint64_t features, enum gn_light_type type, const char *technique,
                                  const char *encoding) {
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
@@ -46,7 +46,7 @@ static struct gn_program_key with_cascades(struct gn_program_key key) {
     return key;
 }
 
-static struct gn_program_key caster(enum gn_program_kind kind, uint32_t features,
+static struct gn_program_key caster(enum gn_program_kind kind, uint64_t features,
                                     enum gn_encoding encoding) {
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
@@ -122,10 +122,8 @@ static bool write(const char *folder, const char *name, const struct gn_program_
 }
 
 /* The shader that the figures are about: base texture, hemisphere, Blinn-Phong, an sRGB target. */
-enum {
-    DIFFUSE = GN_FEATURE_BASE_TEXTURE | GN_FEATURE_HEMISPHERE,
-    FULL = DIFFUSE | GN_FEATURE_SPECULAR,
-};
+#define DIFFUSE (GN_FEATURE(BASE_TEXTURE) | GN_FEATURE(HEMISPHERE))
+#define FULL    (DIFFUSE | GN_FEATURE(SPECULAR))
 
 /* What the table of techniques lists, as TECHNIQUE-LIGHT-FORMAT: every technique with every light
  * and the encoding that it gets by itself, hard with all. */
@@ -173,11 +171,11 @@ int main(int argc, char **argv) {
         {"hard-rgba8", lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "rgba8")},
         {"pcf", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-diffuse", lit(DIFFUSE, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
-        {"pcf-encode", lit(FULL | GN_FEATURE_ENCODE_SRGB, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"pcf-encode", lit(FULL | GN_FEATURE(ENCODE_SRGB), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"hard-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "r16f"))},
         {"pcf-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "depth"))},
         {"pcf-cascades-mask",
-         with_cascades(lit(FULL | GN_FEATURE_ALPHA_MASK, GN_LIGHT_DIRECTIONAL, "pcf", "depth"))},
+         with_cascades(lit(FULL | GN_FEATURE(ALPHA_MASK), GN_LIGHT_DIRECTIONAL, "pcf", "depth"))},
         {"pcf3-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf3", "depth"))},
         {"pcss-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "pcss", "r16f"))},
         {"pcf2", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf2", "depth")},
@@ -199,7 +197,7 @@ int main(int argc, char **argv) {
         {"planar-point", lit(FULL, GN_LIGHT_POINT, "planar", "auto")},
         {"map-depth", caster(GN_PROGRAM_DEPTH, 0, GN_ENCODING_DEPTH)},
         {"map-r16f", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_R16F)},
-        {"map-r16f-spot", caster(GN_PROGRAM_DISTANCE, GN_FEATURE_PERSPECTIVE, GN_ENCODING_R16F)},
+        {"map-r16f-spot", caster(GN_PROGRAM_DISTANCE, GN_FEATURE(PERSPECTIVE), GN_ENCODING_R16F)},
         {"map-rgba8", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_RGBA8)},
         {"vsm-blur-x", filter(GN_TECHNIQUE_VSM, GN_STEP_BLUR_X)},
         {"vsm-blur-y", filter(GN_TECHNIQUE_VSM, GN_STEP_BLUR_Y)},

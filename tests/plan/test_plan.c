@@ -97,7 +97,7 @@ static void test_planar_light_among_others(void **state) {
     int on_plane = 0;
     for (uint32_t i = 0; i < plan->program_count; i++) {
         const struct gn_program_key *key = &plan->programs[i];
-        if (key->kind != GN_PROGRAM_LIT || key->features & GN_FEATURE_UNLIT) continue;
+        if (key->kind != GN_PROGRAM_LIT || key->features & GN_FEATURE(UNLIT)) continue;
         assert_int_equal(key->light_count, 3);
         on_plane += key->shadow_count == 2;
     }

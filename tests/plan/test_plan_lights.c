@@ -87,7 +87,7 @@ static void test_many_lights_without_srgb_plan(void **state) {
     const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
     assert_int_equal(last->target.kind, GN_TARGET_ENCODED);
     for (uint32_t i = 0; i < plan->program_count; i++)
-        assert_false(plan->programs[i].features & GN_FEATURE_ENCODE_SRGB);
+        assert_false(plan->programs[i].features & GN_FEATURE(ENCODE_SRGB));
     gn_plan_end(&f);
 }
 

@@ -46,7 +46,7 @@ static void has(const char *text, const char *what) {
 static void test_constants(void **state) {
     (void)state;
     struct gn_program_key key = lit_key();
-    key.features = GN_FEATURE_BASE_TEXTURE | GN_FEATURE_PERSPECTIVE;
+    key.features = GN_FEATURE(BASE_TEXTURE) | GN_FEATURE(PERSPECTIVE);
     key.light_count = 1;
     char *text = compose(&key, GN_GL_FRAGMENT);
     assert_int_equal(strncmp(text, "#version 300 es\n", 16), 0);
@@ -56,7 +56,7 @@ static void test_constants(void **state) {
     has(text, "const int LIGHT_COUNT = 1;\nconst int SHADOW_COUNT = 0;\n");
     assert_null(strstr(text, "WITH_UNLIT"));
     assert_null(strstr(text, "WITH_SHADOWS"));
-    assert_int_equal(count(text, "const bool "), GN_FEATURE_BITS + 1); /* and CUT_LAST */
+    assert_int_equal(count(text, "const bool "), GN_FEATURE_COUNT + 1); /* and CUT_LAST */
     free(text);
 }
 
@@ -179,7 +179,7 @@ static void test_key_text(void **state) {
     (void)state;
     struct gn_program_key key = lit_key();
     char text[200];
-    key.features = GN_FEATURE_UNLIT | GN_FEATURE_ALPHA_MASK;
+    key.features = GN_FEATURE(UNLIT) | GN_FEATURE(ALPHA_MASK);
     key.light_count = 2, key.shadow_count = 1;
     key.lights[0] =
         (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0, 0};

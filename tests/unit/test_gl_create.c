@@ -153,7 +153,7 @@ static void test_failed_program(void **state) {
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = GN_PROGRAM_DEPTH;
-    key.features = GN_FEATURE_UNLIT;
+    key.features = GN_FEATURE(UNLIT);
     struct gn_err err = {0};
     char *log = NULL;
     assert_false(gn_gl_try_program(gl, &key, &log, &err));

@@ -69,7 +69,7 @@ static void test_blend(void **state) {
 static void test_texture_and_rows(void **state) {
     (void)state;
     begin_plan(GN_OUTPUT_SRGB8);
-    s.programs[0].features = GN_FEATURE_BASE_TEXTURE;
+    s.programs[0].features = GN_FEATURE(BASE_TEXTURE);
     add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
     show();
     expect(0, 0, 0, 0, 255);
@@ -339,7 +339,7 @@ static void test_not_prepared(void **state) {
     assert_true(gn_gl_load(gl, &help_scene, &err)); /* its vertices are new */
     assert_false(gn_gl_run(gl, &s.plan, NULL, &err));
     show();
-    s.programs[0].features = GN_FEATURE_UNLIT;
+    s.programs[0].features = GN_FEATURE(UNLIT);
     assert_false(gn_gl_run(gl, &s.plan, NULL, &err));
     s.plan.scene = NULL;
     assert_false(gn_gl_prepare(gl, &s.plan, &err));

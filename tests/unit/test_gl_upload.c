@@ -30,7 +30,7 @@ static void test_large_image(void **state) {
     assert_true(gn_gl_load(gl, &help_scene, &err));
     assert_int_equal(warnings.count, 1);
     begin_plan(GN_OUTPUT_SRGB8);
-    s.programs[0].features = GN_FEATURE_BASE_TEXTURE;
+    s.programs[0].features = GN_FEATURE(BASE_TEXTURE);
     add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
     show();
     expect(8, 8, 188, 188, 188); /* the mean of light, not of codes */
@@ -47,7 +47,7 @@ static void test_mipmaps(void **state) {
         assert_true(gn_gl_load(gl, &scene, &err));
         begin_plan(GN_OUTPUT_SRGB8);
         s.plan.scene = &scene;
-        s.programs[0].features = GN_FEATURE_BASE_TEXTURE;
+        s.programs[0].features = GN_FEATURE(BASE_TEXTURE);
         add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
         s.instances[0].world[0][0] = s.instances[0].world[1][1] = 0.0625f; /* a pixel */
         s.instances[0].world[0][3] = s.instances[0].world[1][3] = 0.0625f;

@@ -1,0 +1,58 @@
+/* Features of a program: one row each. A row is a bit of gn_program_key.features, a `const bool`
+ * and, where it is set, a WITH_ macro of that name in GLSL, and a word where keys are printed.
+ * Textures (scene/material.h) and vertex attributes (scene/attribute.h) bring theirs along; each
+ * kind has a range of bits of its own, so that a new row renumbers no other. */
+#ifndef GN_FRAME_FEATURE_H
+#define GN_FRAME_FEATURE_H
+
+#include <stdint.h>
+
+#include "scene/material.h"
+
+/* X(NAME, printed name): what is no texture and no attribute. */
+#define GN_FEATURES(X)                                                                             \
+    X(VERTEX_COLOR, "vertex-color")                                                                \
+    X(ALPHA_MASK, "mask")                                                                          \
+    X(ALPHA_BLEND, "blend")                                                                        \
+    X(DOUBLE_SIDED, "double-sided")                                                                \
+    X(UNLIT, "unlit")                                                                              \
+    X(SPECULAR, "specular")                                                                        \
+    X(EMISSIVE, "emissive")                                                                        \
+    X(HEMISPHERE, "hemisphere")         /* sky and ground differ */                                \
+    X(ENCODE_SRGB, "encode-srgb")       /* no sRGB target: encode in the shader */                 \
+    X(PERSPECTIVE, "perspective")       /* DISTANCE: radial distance from a point, not along a     \
+                                           direction */                                            \
+    X(FLAT_CONSTANTS, "flat-constants") /* software drivers: the first light's constants come as   \
+                                           flat varyings */                                        \
+    X(ADDITIVE, "additive") /* LIT: light alone, to be added: no ambient, emission, alpha */
+
+enum gn_feature_bit {
+    GN_FEATURE_FIRST_TEXTURE = 0, /* that slot has a texture */
+    GN_FEATURE_FIRST_UV1 = 12,    /* and reads TEXCOORD_1 */
+    GN_FEATURE_FIRST_FLAG = 32,
+#define GN_X(NAME, ...)                                                                            \
+    GN_BIT_##NAME##_TEXTURE = GN_FEATURE_FIRST_TEXTURE + GN_TEXTURE_##NAME,                        \
+    GN_BIT_##NAME##_UV1 = GN_FEATURE_FIRST_UV1 + GN_TEXTURE_##NAME,
+    GN_TEXTURE_SLOTS(GN_X)
+#undef GN_X
+        GN_BIT_BEFORE_FLAGS = GN_FEATURE_FIRST_FLAG - 1,
+#define GN_X(NAME, ...) GN_BIT_##NAME,
+    GN_FEATURES(GN_X)
+#undef GN_X
+        GN_BIT_END,
+};
+_Static_assert(GN_TEXTURE_SLOT_COUNT <= GN_FEATURE_FIRST_UV1 - GN_FEATURE_FIRST_TEXTURE, "bits");
+_Static_assert(GN_BIT_END <= 64, "bits of gn_program_key.features");
+
+/* The bit as a mask: GN_FEATURE(ALPHA_MASK). */
+#define GN_FEATURE(NAME) (UINT64_C(1) << GN_BIT_##NAME)
+
+enum { GN_FEATURE_COUNT = 2 * GN_TEXTURE_SLOT_COUNT + GN_BIT_END - GN_FEATURE_FIRST_FLAG };
+struct gn_feature_row {
+    uint8_t bit;
+    const char *glsl, *name;
+};
+extern const struct gn_feature_row gn_features[GN_FEATURE_COUNT]; /* by ascending bit */
+uint64_t gn_features_all(void);
+
+#endif
