@@ -32,6 +32,16 @@ for command in '' show render bench inspect doctor ctl; do
     grep -q '^  .*--verbose' "$folder/out" || complain "$command --help"
 done
 
+for words in 'help' 'help render' 'version' '-V'; do
+    # shellcheck disable=SC2086
+    expect 0 '' $words
+done
+grep -q '^gnomon [0-9]' "$folder/out" || complain '-V'
+expect 2 'did you mean render?' help rendr
+expect 2 '-o: write -o VALUE or --out=VALUE' render -o=q.png
+[ ! -e =q.png ] || complain '-o=q.png wrote a file'
+expect 2 'unknown option --foo; --help lists the options' --foo
+expect 2 'did you mean pcf?' render --shadow pfc -o "$folder/a.png"
 expect 2 'gnomon: unknown option --sise; did you mean --size?' --sise 1x1
 expect 2 'did you mean render?' rendr
 expect 2 '--size: "0x10"' render --size 0x10 -o "$folder/a.png"

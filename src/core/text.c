@@ -68,18 +68,28 @@ static int least(int a, int b, int c) {
     return m < c ? m : c;
 }
 
+/* Optimal string alignment: Levenshtein's distance, and two neighbours that changed places are one
+ * edit. Three rows of the table: i - 2, i - 1 and i. */
 int gn_text_distance(const char *a, const char *b) {
-    int row[DISTANCE_MAX + 1];
-    int a_length = (int)strnlen(a, DISTANCE_MAX), b_length = (int)strnlen(b, DISTANCE_MAX);
-    for (int j = 0; j <= b_length; j++) row[j] = j;
+    int rows[3][DISTANCE_MAX + 1];
+    const int a_length = (int)strnlen(a, DISTANCE_MAX), b_length = (int)strnlen(b, DISTANCE_MAX);
+    for (int j = 0; j <= b_length; j++) rows[0][j] = j;
     for (int i = 1; i <= a_length; i++) {
-        int diagonal = row[0];
+        int *row = rows[i % 3];
+        const int *above = rows[(i + 2) % 3], *above_that = rows[(i + 1) % 3];
         row[0] = i;
         for (int j = 1; j <= b_length; j++) {
-            int replaced = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = least(replaced, row[j] + 1, row[j - 1] + 1);
+            row[j] = least(above[j - 1] + (a[i - 1] != b[j - 1]), above[j] + 1, row[j - 1] + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = least(row[j], above_that[j - 2] + 1, row[j]);
         }
     }
-    return row[b_length];
+    return rows[a_length % 3][b_length];
+}
+
+void gn_text_guess(struct gn_text_guess *guess, const char *word, const char *name) {
+    const int third = ((int)strlen(word) + 1) / 3, most = third > 1 ? third : 1;
+    const int distance = gn_text_distance(word, name);
+    if (distance > most || (guess->name && distance >= guess->distance)) return;
+    *guess = (struct gn_text_guess){.name = name, .distance = distance};
 }

@@ -12,8 +12,16 @@
  */
 void gn_text_vformat(char *out, size_t size, const char *format, va_list args);
 
-/* How many single-character edits (insert, delete, replace) turn a into b; texts beyond 31
- * characters are cut. */
+/* How many edits of a character (insert, delete, replace, swap with the next) turn a into b; texts
+ * beyond 31 characters are cut. */
 int gn_text_distance(const char *a, const char *b);
+
+/* "Did you mean": the nearest of the names that were tried, within edits of a third of the word's
+ * length. Zero it, try each name, read name; NULL: none is near. The first of equals wins. */
+struct gn_text_guess {
+    const char *name;
+    int distance;
+};
+void gn_text_guess(struct gn_text_guess *guess, const char *word, const char *name);
 
 #endif

@@ -30,17 +30,12 @@ struct args {
 static bool fail_option(const char *name, size_t length, struct gn_err *err) {
     char wanted[32];
     snprintf(wanted, sizeof wanted, "%.*s", (int)(length < 31 ? length : 31), name);
-    const char *nearest = NULL;
-    int least = 3;
-    for (int i = 0; i < GN_OPTION_COUNT; i++) {
-        int distance = gn_text_distance(wanted, gn_option_rows[i].name);
-        if (!gn_option_rows[i].commands || distance >= least) continue;
-        least = distance;
-        nearest = gn_option_rows[i].name;
-    }
-    if (nearest)
-        return gn_fail_usage(err, "unknown option --%s; did you mean --%s?", wanted, nearest);
-    return gn_fail_usage(err, "unknown option --%s; --help lists those there are", wanted);
+    struct gn_text_guess guess = {0};
+    for (int i = 0; i < GN_OPTION_COUNT; i++)
+        if (gn_option_rows[i].commands) gn_text_guess(&guess, wanted, gn_option_rows[i].name);
+    if (guess.name)
+        return gn_fail_usage(err, "unknown option --%s; did you mean --%s?", wanted, guess.name);
+    return gn_fail_usage(err, "unknown option --%s; --help lists the options", wanted);
 }
 
 static bool add_flag(struct args *args, const struct gn_option_row *row, const char *text,
@@ -71,9 +66,12 @@ static bool add_letters(struct args *args, const char *letters, struct gn_err *e
         const struct gn_option_row *row = gn_option_find_letter(*letters);
         char label[] = {'-', *letters, '\0'};
         if (!row)
-            return gn_fail_usage(err, "unknown option -%.*s; --help lists those there are",
+            return gn_fail_usage(err, "unknown option -%.*s; --help lists the options",
                                  *letters & 0x80 ? 4 : 1, letters);
         bool takes_rest = row->kind != GN_KIND_FLAG && letters[1];
+        if (takes_rest && letters[1] == '=')
+            return gn_fail_usage(err, "%s: write %s VALUE or --%s=VALUE, not %s%.80s", label, label,
+                                 row->name, label, letters + 1);
         if (!add_flag(args, row, takes_rest ? letters + 1 : NULL, label, err)) return false;
         if (takes_rest) break;
     }
@@ -109,6 +107,34 @@ static bool is_value(const struct args *args, const char *arg) {
     return is_ctl(args) && args->word_count > 1 && strchr("0123456789.", arg[1]);
 }
 
+static bool fail_command(const char *word, struct gn_err *err) {
+    struct gn_text_guess guess = {0};
+    for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
+        gn_text_guess(&guess, word, gn_commands[i].name);
+    gn_text_guess(&guess, word, "help");
+    gn_text_guess(&guess, word, "version");
+    if (guess.name)
+        return gn_fail_usage(err, "\"%.80s\" is neither a command nor a file; did you mean %s?",
+                             word, guess.name);
+    return gn_fail_usage(err,
+                         "\"%.80s\" is neither a command nor a file; the commands are show, "
+                         "render, bench, inspect, doctor, ctl, help, version",
+                         word);
+}
+
+/* `gnomon help [COMMAND]` is --help, `gnomon version` is --version. */
+static bool take_help(struct args *args, struct gn_err *err) {
+    const char *word = args->word_count > 0 ? args->words[0] : "", *command = args->words[1];
+    const bool is_help = strcmp(word, "help") == 0;
+    if (!is_help && strcmp(word, "version") != 0) return true;
+    if (command && !is_help) return gn_fail_usage(err, "unexpected argument \"%.80s\"", command);
+    if (command && command_of(command) == GN_COMMAND_AUTO) return fail_command(command, err);
+    args->words[0] = command;
+    args->words[1] = NULL;
+    args->word_count--;
+    return add_flag(args, gn_option_find(word, strlen(word)), NULL, word, err);
+}
+
 static bool split(struct args *args, struct gn_err *err) {
     bool only_words = false, ok = true;
     while (ok && args->at < args->argc) {
@@ -122,7 +148,7 @@ static bool split(struct args *args, struct gn_err *err) {
         else
             only_words = true;
     }
-    return ok;
+    return ok && take_help(args, err);
 }
 
 static const struct flag *find_flag(const struct args *args, const char *name) {
@@ -132,24 +158,6 @@ static const struct flag *find_flag(const struct args *args, const char *name) {
 }
 
 /* ---- the command --------------------------------------------------------------------------- */
-
-static bool fail_command(const char *word, struct gn_err *err) {
-    const char *nearest = NULL;
-    int least = 4;
-    for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++) {
-        int distance = gn_text_distance(word, gn_commands[i].name);
-        if (distance >= least) continue;
-        least = distance;
-        nearest = gn_commands[i].name;
-    }
-    if (nearest)
-        return gn_fail_usage(err, "\"%.80s\" is neither a command nor a file; did you mean %s?",
-                             word, nearest);
-    return gn_fail_usage(err,
-                         "\"%.80s\" is neither a command nor a file; the commands are show, "
-                         "render, bench, inspect, doctor, ctl",
-                         word);
-}
 
 static bool looks_like_file(const char *word) {
     return strpbrk(word, "./") || access(word, F_OK) == 0;

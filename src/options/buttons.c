@@ -244,13 +244,15 @@ bool gn_config_button_open(struct gn_config_buttons *config, const struct gn_ini
 static bool fail_button_key(const struct gn_ini_line *line, struct gn_err *err) {
     char list[200] = "";
     size_t used = 0;
+    struct gn_text_guess guess = {0};
     for (int i = 0; i < GN_BUTTON_KEY_COUNT; i++) {
-        if (gn_text_distance(keys[i].row.name, line->key) <= 2)
-            return gn_fail_usage(err, "%s: unknown key \"%s\" in [button]; expected %s",
-                                 line->where, line->key, keys[i].row.name);
+        gn_text_guess(&guess, line->key, keys[i].row.name);
         used += (size_t)snprintf(list + used, sizeof list - used, "%s %s", used ? "," : "",
                                  keys[i].row.name);
     }
+    if (guess.name)
+        return gn_fail_usage(err, "%s: unknown key \"%s\" in [button]; expected %s", line->where,
+                             line->key, guess.name);
     return gn_fail_usage(err, "%s: unknown key \"%s\"; [button] knows%s", line->where, line->key,
                          list);
 }

@@ -58,18 +58,15 @@ static void spell(const char *key, char *out, size_t size) {
 }
 
 static bool fail_key(const char *key, struct gn_err *err) {
-    char nearest[64], name[64];
-    int least = 3;
+    struct gn_text_guess guess = {0};
+    char names[GN_OPTION_COUNT][32];
     for (int i = 0; i < GN_OPTION_COUNT; i++) {
-        gn_option_key(&gn_option_rows[i], name, sizeof name);
-        const int distance = gn_text_distance(key, name);
-        if (!gn_option_rows[i].section || why_fixed(&gn_option_rows[i]) || distance >= least)
-            continue;
-        least = distance;
-        snprintf(nearest, sizeof nearest, "%s", name);
+        gn_option_key(&gn_option_rows[i], names[i], sizeof names[i]);
+        if (gn_option_rows[i].section && !why_fixed(&gn_option_rows[i]))
+            gn_text_guess(&guess, key, names[i]);
     }
-    if (least < 3)
-        return gn_fail_usage(err, "unknown key \"%.60s\"; did you mean %s?", key, nearest);
+    if (guess.name)
+        return gn_fail_usage(err, "unknown key \"%.60s\"; did you mean %s?", key, guess.name);
     return gn_fail_usage(err, "unknown key \"%.60s\"; expected one of [scene] or [render]", key);
 }
 

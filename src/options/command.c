@@ -47,13 +47,7 @@ void gn_ctl_list(char *out, size_t size) {
 }
 
 const char *gn_ctl_nearest(const char *misspelled) {
-    const char *nearest = NULL;
-    int least = 3;
-    for (int i = 0; i < GN_CTL_COUNT; i++) {
-        const int distance = gn_text_distance(misspelled, gn_ctl_rows[i].name);
-        if (distance >= least) continue;
-        least = distance;
-        nearest = gn_ctl_rows[i].name;
-    }
-    return nearest;
+    struct gn_text_guess guess = {0};
+    for (int i = 0; i < GN_CTL_COUNT; i++) gn_text_guess(&guess, misspelled, gn_ctl_rows[i].name);
+    return guess.name;
 }

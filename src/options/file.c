@@ -87,23 +87,22 @@ static bool open_section(struct load *load, const struct gn_ini_line *line, stru
 /* ---- settings ------------------------------------------------------------------------------ */
 
 static bool fail_key(const struct gn_ini_line *line, const char *section, struct gn_err *err) {
-    char keys[400] = "", key[64];
-    const char *nearest = NULL;
+    char keys[400] = "", key[64], near[64];
+    struct gn_text_guess guess = {0};
     size_t used = 0;
     for (int i = 0; i < GN_OPTION_COUNT && used < sizeof keys; i++) {
         const struct gn_option_row *row = &gn_option_rows[i];
         gn_option_key(row, key, sizeof key);
         if (!row->section || gn_option_find_key(section, key) != row) continue;
-        if (gn_text_distance(key, line->key) <= 2) nearest = row->key ? row->key : row->name;
+        gn_text_guess(&guess, line->key, key);
+        if (guess.name == key) guess.name = strcpy(near, key);
         used += (size_t)snprintf(keys + used, sizeof keys - used, "%s %s", used ? "," : "", key);
     }
-    if (!nearest)
+    if (!guess.name)
         return gn_fail_usage(err, "%s: unknown key \"%s\"; [%s] knows%s", line->where, line->key,
                              line->section, keys);
-    snprintf(key, sizeof key, "%s", nearest);
-    for (char *c = key; *c; c++) *c = *c == '-' ? '_' : *c;
     return gn_fail_usage(err, "%s: unknown key \"%s\" in [%s]; expected %s", line->where, line->key,
-                         line->section, key);
+                         line->section, near);
 }
 
 /* Paths are seen from the folder of the file that names them. */

@@ -178,7 +178,7 @@ const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
      .help = "print a line a second: frames, what was missed, time to draw", .commands = BIT(SHOW), .offset = FIELD(stats)},
     {.name = "verbose", .letter = 'v', .kind = GN_KIND_FLAG,
      .help = "when the command fails, print warnings and the source of a failed shader too", .commands = ANY, .offset = FIELD(verbose)},
-    {.name = "version", .kind = GN_KIND_FLAG,
+    {.name = "version", .letter = 'V', .kind = GN_KIND_FLAG,
      .help = "print the version", .commands = ANY, .offset = FIELD(version)},
     {.name = "help", .letter = 'h', .kind = GN_KIND_FLAG,
      .help = "print this; after a command, what that command takes", .commands = ANY, .offset = FIELD(help)},

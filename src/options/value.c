@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/clock.h"
+#include "core/text.h"
 #include "display/kms/card.h"
 #include "frame/caps.h"
 #include "scene/scene.h"
@@ -398,12 +399,29 @@ void gn_value_text(const struct gn_option_row *row, const void *field, char *out
     kinds[row->kind].text(row, field, out, size);
 }
 
+/* What a wrong name of a list of choices or techniques was meant to be, or NULL. */
+static const char *guess_value(const struct gn_option_row *row, const char *text) {
+    struct gn_text_guess guess = {0};
+    char word[32];
+    for (const struct gn_choice *c = row->choices; c && c->name; c++)
+        gn_text_guess(&guess, text, c->name);
+    while (row->kind == GN_KIND_TECHNIQUES && is_technique(text, strcspn(text, ",")) &&
+           strchr(text, ','))
+        text = strchr(text, ',') + 1;
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(text, ","), text);
+    for (int i = 0; row->kind == GN_KIND_TECHNIQUES && i < GN_TECHNIQUE_COUNT; i++)
+        gn_text_guess(&guess, word, gn_techniques[i].name);
+    return guess.name;
+}
+
 bool gn_value_parse(const struct gn_option_row *row, const char *text, void *field,
                     struct gn_arena *arena, const char *label, struct gn_err *err) {
     char expected[160];
     check_fn *check = checks[row->kind];
     if (kinds[row->kind].parse(row, text, field, arena))
         return !check || check(field, err) || gn_fail_prefix(err, "%s", label);
+    const char *near = guess_value(row, text);
     gn_value_expected(row, expected, sizeof expected);
-    return gn_fail_usage(err, "%s: \"%.80s\" is not %s", label, text, expected);
+    return gn_fail_usage(err, "%s: \"%.80s\" is not %s%s%s%s", label, text, expected,
+                         near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
 }

@@ -145,6 +145,29 @@ static void a_wrong_value_names_option_value_and_range(void **state) {
     assert_wrong("show --rotate 45", "one of 0, 90, 180, 270");
 }
 
+static void help_and_version_are_commands_too(void **state) {
+    (void)state;
+    assert_true(parse("help"));
+    assert_true(options.help);
+    assert_int_equal(options.command, GN_COMMAND_AUTO);
+    assert_true(parse("help render"));
+    assert_true(options.help);
+    assert_int_equal(options.command, GN_COMMAND_RENDER);
+    assert_true(parse("version"));
+    assert_true(options.version);
+    assert_true(parse("-V"));
+    assert_true(options.version);
+    assert_wrong("help rendr", "did you mean render?");
+    assert_wrong("version now", "unexpected argument \"now\"");
+}
+
+static void a_letter_takes_no_equals_sign(void **state) {
+    (void)state;
+    assert_wrong("render -o=q.png", "-o: write -o VALUE or --out=VALUE, not -o=q.png");
+    assert_true(parse("render -oq.png"));
+    assert_string_equal(options.out, "q.png");
+}
+
 static void wrong_words_are_explained(void **state) {
     (void)state;
     assert_wrong("rendr", "did you mean render?");
@@ -152,6 +175,12 @@ static void wrong_words_are_explained(void **state) {
     assert_wrong("render --sise 1x1", "did you mean --size?");
     assert_wrong("render --siz", "did you mean --size?");
     assert_wrong("render --quaternion", "unknown option --quaternion");
+    assert_wrong("--foo", "unknown option --foo; --help lists the options");
+    assert_wrong("hlep", "did you mean help?");
+    assert_wrong("render --shadow pfc", "; did you mean pcf?");
+    assert_wrong("bench --shadow hard,msn", "; did you mean msm?");
+    assert_wrong("render --aov colour", "; did you mean color?");
+    assert_wrong("render --shadow banana", "planar"); /* the last of the names */
     assert_wrong("render -q", "unknown option -q");
     assert_wrong("render --size", "--size needs a value: WxH");
     assert_wrong("render --plan=yes", "--plan takes no value");
@@ -346,6 +375,8 @@ int main(void) {
         cmocka_unit_test_teardown(a_value_knows_where_it_comes_from, clean),
         cmocka_unit_test_teardown(contradictions_are_not_guessed_at, clean),
         cmocka_unit_test_teardown(a_wrong_value_names_option_value_and_range, clean),
+        cmocka_unit_test_teardown(help_and_version_are_commands_too, clean),
+        cmocka_unit_test_teardown(a_letter_takes_no_equals_sign, clean),
         cmocka_unit_test_teardown(wrong_words_are_explained, clean),
         cmocka_unit_test_teardown(a_missing_file_is_not_a_wrong_command, clean),
         cmocka_unit_test_teardown(help_and_version_need_nothing_else, clean),
