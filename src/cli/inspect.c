@@ -23,12 +23,15 @@ static void count_pass(struct gn_scene_cost *cost, const struct gn_plan *plan,
 }
 
 static uint64_t map_bytes(const struct gn_shadow_view *view) {
-    return (uint64_t)view->width_px * view->height_px * gn_encodings[view->encoding].texel_bytes;
+    return (uint64_t)view->map.width_px * view->map.height_px *
+           gn_encodings[view->encoding].texel_bytes;
 }
 
 /* Side of the pages of a map; 0: it has none. */
 static uint64_t page_px(const struct gn_shadow_view *view) {
-    return (view->cascade_count > 0 && !view->empty) || view->paged ? view->map_px : 0;
+    return (view->map.cascade_count > 0 && !view->empty) || view->raster.drawn.paged
+               ? view->map.tile_px
+               : 0;
 }
 
 /* Where the pages of maps are drawn; those of one kind share it. */
@@ -45,12 +48,12 @@ static uint64_t pages_bytes(const struct gn_plan *plan, uint32_t slot) {
 static uint64_t moments_bytes(const struct gn_plan *plan, uint32_t slot) {
     const struct gn_shadow_view *view = &plan->shadows[slot];
     const uint64_t plain =
-        (uint64_t)view->width_px * view->height_px * gn_moments[view->moments].texel_bytes;
+        (uint64_t)view->map.width_px * view->map.height_px * gn_moments[view->moments].texel_bytes;
     const uint64_t own = plain + (gn_view_has_mipmaps(view) ? plain / 3 : 0);
     for (uint32_t i = 0; i < slot; i++)
         if (plan->shadows[i].moments == view->moments &&
-            plan->shadows[i].width_px == view->width_px &&
-            plan->shadows[i].height_px == view->height_px)
+            plan->shadows[i].map.width_px == view->map.width_px &&
+            plan->shadows[i].map.height_px == view->map.height_px)
             return own;
     return own + plain;
 }

@@ -101,7 +101,7 @@ static bool write_map(struct render *r, const struct gn_plan *plan, const char *
         return gn_fail(err, "light %d has no map: its shadow is in the stencil; use --planar mask",
                        r->stage.options->light);
     const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
-    size_t width = view->width_px, height = view->height_px;
+    size_t width = view->map.width_px, height = view->map.height_px;
     float *codes = gn_picture_alloc(width * height, sizeof *codes, err),
           *flipped = codes ? gn_picture_alloc(width * height, sizeof *flipped, err) : NULL;
     bool ok = flipped && gn_gl_read_map(r->stage.gl, slot, codes, err);

@@ -11,16 +11,17 @@ static bool is_filtered(const struct gn_shadow_view *view) {
 static bool may_stay(const struct gn_shadow_view *old, const struct gn_shadow_view *new) {
     return is_filtered(old) && old->light == new->light && old->technique == new->technique &&
            old->encoding == new->encoding && old->moments == new->moments &&
-           old->width_px == new->width_px && old->height_px == new->height_px &&
-           old->tile_count == new->tile_count && old->cascade_count == new->cascade_count &&
+           old->map.width_px == new->map.width_px && old->map.height_px == new->map.height_px &&
+           old->map.tile_count == new->map.tile_count &&
+           old->map.cascade_count == new->map.cascade_count &&
            old->all_receive == new->all_receive && old->empty == new->empty;
 }
 
 static uint64_t texels_to_make(const struct gn_shadow_view *old, const struct gn_shadow_view *new) {
     uint64_t tiles = 0;
-    for (uint32_t tile = 0; tile < new->tile_count; tile++)
+    for (uint32_t tile = 0; tile < new->map.tile_count; tile++)
         tiles += gn_frame_filter_hash(old, tile) != gn_frame_filter_hash(new, tile);
-    return tiles * new->map_px *new->map_px;
+    return tiles * new->map.tile_px *new->map.tile_px;
 }
 
 static void take(struct gn_frame *frame, uint32_t slot) {
@@ -47,7 +48,7 @@ void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts
         if (may_stay(&frame->kept[slot].view, view))
             texels[slot] = texels_to_make(&frame->kept[slot].view, view);
         else
-            spent += (uint64_t)view->width_px * view->height_px;
+            spent += (uint64_t)view->map.width_px * view->map.height_px;
         if (texels[slot] == 0) take(frame, slot);
     }
     for (uint32_t slot; (slot = oldest(frame, texels)) < frame->shadow_count; texels[slot] = 0) {

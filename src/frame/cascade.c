@@ -163,19 +163,20 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
 }
 
 void gn_frame_cascade_constants(const struct gn_shadow_view *view, float (*constants)[4]) {
-    const double middle = 0.5 * (double)view->inner_px;
-    if (view->cascade_count == 0) return;
+    const double middle = 0.5 * (double)view->map.inner_px;
+    if (view->map.cascade_count == 0) return;
     for (uint32_t i = 0; i < GN_CASCADES_MAX; i++) {
         const struct gn_shadow_cascade *cascade = &view->cascades[i];
-        const bool empty = i >= view->cascade_count || view->empty || view->tiles[i].empty;
+        const bool empty =
+            i >= view->map.cascade_count || view->empty || view->raster.tiles[i].empty;
         float *c = constants[i];
         for (int k = 0; k < 2; k++)
-            c[k] = empty ? NOWHERE : (float)(-cascade->corner_texels[k] - middle);
+            c[k] = empty ? NOWHERE : (float)(-cascade->drawn.corner_texels[k] - middle);
         c[2] = empty ? 1.0f : cascade->texel;
         c[3] = empty ? 0.0f : cascade->nearest;
         constants[CASCADES_SPANS][i] = empty ? 1.0f : cascade->span;
         if (i + 1 < GN_CASCADES_MAX)
-            constants[CASCADES_ZONES][i] = view->empty || i + 1 >= view->cascade_count
+            constants[CASCADES_ZONES][i] = view->empty || i + 1 >= view->map.cascade_count
                                                ? 0.0f
                                                : 1.0f / (GN_CASCADE_FADE * cascade->end_m);
     }
@@ -184,6 +185,6 @@ void gn_frame_cascade_constants(const struct gn_shadow_view *view, float (*const
 void gn_frame_pass_cascades(const struct gn_frame *frame, const struct gn_light_group *group,
                             struct gn_pass *pass) {
     for (uint32_t i = 0; i < group->shadow_count; i++)
-        if (frame->shadows[group->first_shadow + i].cascade_count > 0)
+        if (frame->shadows[group->first_shadow + i].map.cascade_count > 0)
             pass->constant_count = PASS_SIZE;
 }

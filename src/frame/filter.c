@@ -11,7 +11,7 @@
 
 /* 0: none. */
 static float blur_of(const struct gn_shadow_view *view, uint32_t tile) {
-    return view->cascade_count > 0 ? view->cascades[tile].blur_px : view->blur_px;
+    return view->map.cascade_count > 0 ? view->cascades[tile].blur_px : view->penumbra.blur_px;
 }
 
 /* Factor and sum that make 0..1 of what moments span. A cascade without casters holds the far end
@@ -19,34 +19,34 @@ static float blur_of(const struct gn_shadow_view *view, uint32_t tile) {
 static void code_of(const struct gn_shadow_view *view, uint32_t tile, float code[2]) {
     code[0] = 1.0f;
     code[1] = 0.0f;
-    if (view->cascade_count == 0 || view->tiles[tile].empty) return;
+    if (view->map.cascade_count == 0 || view->raster.tiles[tile].empty) return;
     const struct gn_shadow_cascade *c = &view->cascades[tile];
-    code[0] = view->soft[2] / c->span;
-    code[1] = (view->soft[3] - c->nearest) / c->span;
+    code[0] = view->penumbra.scale / c->span;
+    code[1] = (view->penumbra.bias - c->nearest) / c->span;
 }
 
 uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) {
     const uint32_t what[] = {view->technique, view->moments};
-    uint64_t h = gn_hash(GN_HASH_INIT, &view->tiles[tile].content_hash, sizeof(uint64_t));
+    uint64_t h = gn_hash(GN_HASH_INIT, &view->raster.tiles[tile].content_hash, sizeof(uint64_t));
     h = gn_hash(h, what, sizeof what);
     const float blur_px = blur_of(view, tile);
     h = gn_hash(h, &blur_px, sizeof blur_px);
     float code[2];
     code_of(view, tile, code);
     h = gn_hash(h, code, sizeof code);
-    h = gn_hash(h, &view->reach_px, sizeof view->reach_px);
+    h = gn_hash(h, &view->lookup.reach_px, sizeof view->lookup.reach_px);
     return h ? h : 1;
 }
 
 static struct gn_rect tile_rect(const struct gn_shadow_view *view, uint32_t tile) {
-    return (struct gn_rect){view->tiles[tile].x_px, view->tiles[tile].y_px, view->map_px,
-                            view->map_px};
+    return (struct gn_rect){view->raster.tiles[tile].x_px, view->raster.tiles[tile].y_px,
+                            view->map.tile_px, view->map.tile_px};
 }
 
 /* ---- sums of blocks: of all tiles side by side, as high as one ---- */
 
 static uint32_t blocks_of(const struct gn_shadow_view *view) {
-    return (view->map_px + TABLE_BLOCK - 1) / TABLE_BLOCK;
+    return (view->map.tile_px + TABLE_BLOCK - 1) / TABLE_BLOCK;
 }
 
 static bool is_narrow(const struct gn_shadow_view *view, uint32_t texture) {
@@ -56,20 +56,20 @@ static bool is_narrow(const struct gn_shadow_view *view, uint32_t texture) {
 
 static void texture_size(const struct gn_shadow_view *view, uint32_t texture, uint32_t size_px[2]) {
     const bool narrow = is_narrow(view, texture);
-    size_px[0] = narrow ? view->tile_count * blocks_of(view) : view->width_px;
-    size_px[1] = narrow ? view->map_px : view->height_px;
+    size_px[0] = narrow ? view->map.tile_count * blocks_of(view) : view->map.width_px;
+    size_px[1] = narrow ? view->map.tile_px : view->map.height_px;
 }
 
 /* The part of a texture that is of a tile. */
 static struct gn_rect part_rect(const struct gn_shadow_view *view, uint32_t texture,
                                 uint32_t tile) {
     if (!is_narrow(view, texture)) return tile_rect(view, tile);
-    return (struct gn_rect){tile * blocks_of(view), 0, blocks_of(view), view->map_px};
+    return (struct gn_rect){tile * blocks_of(view), 0, blocks_of(view), view->map.tile_px};
 }
 
 static void put_constants(const struct gn_shadow_view *view, uint32_t tile, float (*c)[4]) {
     const struct gn_rect r = tile_rect(view, tile);
-    const float size[2] = {(float)view->width_px, (float)view->height_px};
+    const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};
     c[FILTER_RECT][0] = (float)r.x;
     c[FILTER_RECT][1] = (float)r.y;
     c[FILTER_RECT][2] = (float)(r.x + r.width - 1);
@@ -78,7 +78,7 @@ static void put_constants(const struct gn_shadow_view *view, uint32_t tile, floa
     c[FILTER_BLUR][0] = blur_px;
     c[FILTER_BLUR][1] = ceilf(blur_px - 0.5f);
     c[FILTER_BLUR][2] = blur_px > 0.0f ? 0.5f / blur_px : 1.0f;
-    c[FILTER_TABLE][0] = view->reach_px;
+    c[FILTER_TABLE][0] = view->lookup.reach_px;
     c[FILTER_TABLE][1] = (float)(tile * blocks_of(view));
     code_of(view, tile, c[FILTER_CODE]);
     for (int k = 0; k < 2; k++) {
@@ -131,7 +131,7 @@ static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                                       .moments = view->moments,
                                       .index = stage->to,
                                       .mipmaps = stage->to == 0 && gn_view_has_mipmaps(view)};
-    if (view->tile_count > 1) pass->rect = pass->viewport = part_rect(view, stage->to, tile);
+    if (view->map.tile_count > 1) pass->rect = pass->viewport = part_rect(view, stage->to, tile);
     pass->tile = tile;
     pass->content_hash = gn_frame_filter_hash(view, tile);
     pass->completes = last;
@@ -148,6 +148,6 @@ void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     const struct gn_filter_row *filter = &gn_filters[gn_techniques[view->technique].filter];
     for (uint32_t i = 0; i < filter->count; i++)
-        for (uint32_t tile = 0; tile < view->tile_count; tile++)
+        for (uint32_t tile = 0; tile < view->map.tile_count; tile++)
             stage_pass(frame, slot, tile, &filter->stages[i], i + 1 == filter->count);
 }

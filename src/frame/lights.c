@@ -274,29 +274,33 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
 static void put3(float to[4], const float *v) { memcpy(to, v, sizeof(vec3)); }
 
 static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
-    c[SHADOW_CODE][1] = view->far_code;
+    c[SHADOW_CODE][1] = view->code.far_end;
     if (view->encoding == GN_ENCODING_STENCIL) return; /* where it is not marked, all arrives */
-    memcpy(c[SHADOW_MAP], view->map_from_world, sizeof view->map_from_world);
-    if (view->tile_count > 1 && view->cascade_count == 0) {
-        memcpy(c[SHADOW_TILES], view->tangent_uv, sizeof view->tangent_uv);
-        memcpy(&c[SHADOW_TILES][2], view->depth_code, sizeof view->depth_code);
+    memcpy(c[SHADOW_MAP], view->lookup.map_from_world, sizeof view->lookup.map_from_world);
+    if (view->map.tile_count > 1 && view->map.cascade_count == 0) {
+        memcpy(c[SHADOW_TILES], view->lookup.tangent_uv, sizeof view->lookup.tangent_uv);
+        memcpy(&c[SHADOW_TILES][2], view->lookup.depth_code, sizeof view->lookup.depth_code);
     }
-    const float texel = view->cascade_count > 0 ? 1.0f : view->texel;
-    c[SHADOW_BIAS][0] = view->normal_offset * texel;
-    c[SHADOW_BIAS][1] = view->slope_offset * texel;
-    c[SHADOW_BIAS][2] = view->slope_max;
-    c[SHADOW_BIAS][3] = view->ulp_m;
+    const float texel = view->map.cascade_count > 0 ? 1.0f : view->lookup.texel;
+    c[SHADOW_BIAS][0] = view->lookup.normal_offset * texel;
+    c[SHADOW_BIAS][1] = view->lookup.slope_offset * texel;
+    c[SHADOW_BIAS][2] = view->lookup.slope_max;
+    c[SHADOW_BIAS][3] = view->code.ulp_m;
     put3(c[SHADOW_PLACE], view->light_ws);
-    c[SHADOW_PLACE][3] = view->distance_scale;
-    const float size[2] = {(float)view->width_px, (float)view->height_px};
+    c[SHADOW_PLACE][3] = view->code.scale;
+    const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};
     for (int k = 0; k < 2; k++) {
         c[SHADOW_MAP_SIZE][k] = size[k];
         c[SHADOW_MAP_SIZE][k + 2] = 1.0f / size[k];
     }
-    c[SHADOW_CODE][0] = view->distance_offset;
-    c[SHADOW_CODE][2] = view->reach_px;
-    c[SHADOW_CODE][3] = view->cascade_count > 0 ? view->held_px : view->shared;
-    memcpy(c[SHADOW_SOFT], view->soft, sizeof view->soft);
+    c[SHADOW_CODE][0] = view->code.offset;
+    c[SHADOW_CODE][2] = view->lookup.reach_px;
+    c[SHADOW_CODE][3] = view->map.cascade_count > 0 ? view->lookup.held_px : view->lookup.shared;
+    c[SHADOW_SOFT][0] = view->penumbra.radius;
+    c[SHADOW_SOFT][1] =
+        view->map.cascade_count > 0 ? view->penumbra.growth : view->penumbra.nearest;
+    c[SHADOW_SOFT][2] = view->penumbra.scale;
+    c[SHADOW_SOFT][3] = view->penumbra.bias;
 }
 
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
@@ -329,6 +333,6 @@ void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from
     memcpy(constants[PASS_CLIP], clip_from_world, sizeof(mat4));
     put3(constants[PASS_CODE], view->light_ws);
     constants[PASS_CODE][3] =
-        view->perspective ? view->distance_scale : view->distance_scale * view->far_m;
-    constants[PASS_CODE_ADD][0] = view->distance_offset;
+        view->perspective ? view->code.scale : view->code.scale * view->code.far_m;
+    constants[PASS_CODE_ADD][0] = view->code.offset;
 }

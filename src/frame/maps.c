@@ -11,10 +11,10 @@ static void label_shadow(const struct gn_frame *frame, uint32_t slot, uint32_t t
     static const char *const sides[GN_SHADOW_TILES_MAX] = {"+x", "-x", "+y", "-y", "+z", "-z"};
     static const char *const cascades[GN_CASCADES_MAX] = {"1", "2", "3", "4"};
     const struct gn_shadow_view *view = &frame->shadows[slot];
-    const char *side = view->cascade_count > 0 ? cascades[tile] : sides[tile];
-    bool tiles = view->tile_count > 1;
+    const char *side = view->map.cascade_count > 0 ? cascades[tile] : sides[tile];
+    bool tiles = view->map.tile_count > 1;
     snprintf(pass->label, sizeof pass->label, "shadow %u %s%s%.*s", slot, tiles ? side : "",
-             tiles ? " " : "", view->paged || view->cascade_count > 0 ? 29 : 36,
+             tiles ? " " : "", view->raster.drawn.paged || view->map.cascade_count > 0 ? 29 : 36,
              frame->scene->lights[view->light].name);
 }
 
@@ -26,15 +26,15 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, uint32_t slot, uint32_
     label_shadow(frame, slot, tile, pass);
     pass->target = (struct gn_target){.kind = GN_TARGET_SHADOW,
                                       .slot = slot,
-                                      .width_px = view->width_px,
-                                      .height_px = view->height_px,
+                                      .width_px = view->map.width_px,
+                                      .height_px = view->map.height_px,
                                       .encoding = view->encoding};
     pass->clear = true;
-    pass->clear_color[0] = view->far_code;
+    pass->clear_color[0] = view->code.far_end;
     pass->depth_write = view->encoding != GN_ENCODING_MASK;
     pass->discard_depth = pass->depth_write && view->encoding != GN_ENCODING_DEPTH;
     pass->tile = tile;
-    pass->content_hash = view->tiles[tile].content_hash;
+    pass->content_hash = view->raster.tiles[tile].content_hash;
     float(*constants)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS +
                                                          tile * GN_SHADOW_PAGES_MAX + page);
     pass->constants = constants;
@@ -45,13 +45,13 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, uint32_t slot, uint32_
 /* ---- a map, or a tile of one ---- */
 
 static void bound_tile(const struct gn_shadow_view *view, uint32_t index, struct gn_pass *pass) {
-    const struct gn_shadow_tile *tile = &view->tiles[index];
-    if (view->tile_count > 1)
+    const struct gn_shadow_tile *tile = &view->raster.tiles[index];
+    if (view->map.tile_count > 1)
         pass->rect = pass->viewport =
-            (struct gn_rect){tile->x_px, tile->y_px, view->map_px, view->map_px};
-    else if (view->page_count > 0)
-        pass->rect = (struct gn_rect){view->drawn_px[0], view->drawn_px[1], view->drawn_size_px[0],
-                                      view->drawn_size_px[1]};
+            (struct gn_rect){tile->x_px, tile->y_px, view->map.tile_px, view->map.tile_px};
+    else if (view->raster.drawn.page_count > 0)
+        pass->rect = (struct gn_rect){view->raster.drawn.px[0], view->raster.drawn.px[1],
+                                      view->raster.drawn.size_px[0], view->raster.drawn.size_px[1]};
     else
         pass->border_px = 1;
 }
@@ -59,7 +59,7 @@ static void bound_tile(const struct gn_shadow_view *view, uint32_t index, struct
 static void tile_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
                       uint32_t index, const struct gn_frame_opts *opts) {
     struct gn_shadow_view *view = &frame->shadows[slot];
-    struct gn_shadow_tile *tile = &view->tiles[index];
+    struct gn_shadow_tile *tile = &view->raster.tiles[index];
     struct gn_pass *pass = begin_pass(frame, slot, index, 0, tile->clip_from_world);
     bound_tile(view, index, pass);
     struct gn_selection casters = {.casts = frame->memory[slot][index].casts,
@@ -84,7 +84,7 @@ static void page_pass(struct gn_frame *frame, const struct gn_pose *pose, const 
     const size_t used = strlen(pass->label);
     snprintf(pass->label + used, sizeof pass->label - used, " page %u", index);
     pass->target.kind = GN_TARGET_PAGES;
-    pass->target.width_px = pass->target.height_px = frame->shadows[map->slot].map_px;
+    pass->target.width_px = pass->target.height_px = frame->shadows[map->slot].map.tile_px;
     pass->viewport = (struct gn_rect){0, 0, map->page_px, map->page_px};
     pass->clear = index == 0;
     pass->discard_depth = false; /* the next page goes on with it */
@@ -102,7 +102,7 @@ static void copy_pass(struct gn_frame *frame, const struct paged *map) {
     const struct gn_shadow_view *view = &frame->shadows[map->slot];
     struct gn_pass *pass =
         begin_pass(frame, map->slot, map->tile, 0, map->pages[0].clip_from_world);
-    if (view->cascade_count > 0) bound_tile(view, map->tile, pass);
+    if (view->map.cascade_count > 0) bound_tile(view, map->tile, pass);
     pass->copy_count = map->page_count;
     for (uint32_t i = 0; i < map->page_count; i++) {
         const struct gn_shadow_page *page = &map->pages[i];
@@ -124,26 +124,26 @@ static void map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint3
                        const struct gn_frame_opts *opts) {
     struct gn_shadow_view *view = &frame->shadows[slot];
     if (view->encoding == GN_ENCODING_STENCIL) return;
-    if (view->paged) {
+    if (view->raster.drawn.paged) {
         const struct paged map = {.slot = slot,
-                                  .page_px = view->map_px,
-                                  .page_count = view->page_count,
-                                  .pages = view->pages};
+                                  .page_px = view->map.tile_px,
+                                  .page_count = view->raster.drawn.page_count,
+                                  .pages = view->raster.drawn.pages};
         paged_passes(frame, pose, &map, opts);
         return;
     }
-    for (uint32_t tile = 0; tile < view->tile_count; tile++) {
-        if (view->cascade_count == 0 || view->tiles[tile].empty) {
+    for (uint32_t tile = 0; tile < view->map.tile_count; tile++) {
+        if (view->map.cascade_count == 0 || view->raster.tiles[tile].empty) {
             tile_pass(frame, pose, slot, tile, opts);
             continue;
         }
         const struct paged map = {.slot = slot,
                                   .tile = tile,
-                                  .page_px = view->inner_px,
-                                  .page_count = view->cascades[tile].page_count,
-                                  .to_px = {view->tiles[tile].x_px + view->gutter_px,
-                                            view->tiles[tile].y_px + view->gutter_px},
-                                  .pages = view->cascades[tile].pages};
+                                  .page_px = view->map.inner_px,
+                                  .page_count = view->cascades[tile].drawn.page_count,
+                                  .to_px = {view->raster.tiles[tile].x_px + view->map.gutter_px,
+                                            view->raster.tiles[tile].y_px + view->map.gutter_px},
+                                  .pages = view->cascades[tile].drawn.pages};
         paged_passes(frame, pose, &map, opts);
     }
 }

@@ -156,7 +156,7 @@ static void panel_pass(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     if (view->encoding == GN_ENCODING_STENCIL) return; /* it has no map */
     struct gn_rect rect = panel_rect(frame, slot);
-    rect.height = rect.height * view->height_px / view->width_px;
+    rect.height = rect.height * view->map.height_px / view->map.width_px;
     if (rect.height == 0) return;
     char label[48];
     snprintf(label, sizeof label, "panel %u %s", slot, frame->scene->lights[view->light].name);

@@ -138,7 +138,7 @@ struct gn_copy {
 };
 /* Whether samplers weigh what is read, and there is nothing beside it that must not come in. */
 static inline bool gn_view_has_mipmaps(const struct gn_shadow_view *view) {
-    return gn_moments[view->moments].linear && view->tile_count == 1;
+    return gn_moments[view->moments].linear && view->map.tile_count == 1;
 }
 /* Whether casters are drawn to it. */
 static inline bool gn_target_is_map(const struct gn_target *target) {

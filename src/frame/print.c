@@ -54,12 +54,15 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
 
 static void print_shadow_size(const struct gn_shadow_view *view, FILE *to) {
     if (view->encoding == GN_ENCODING_STENCIL) return;
-    fprintf(to, " %u px", view->map_px);
-    if (view->tile_count > 1)
+    fprintf(to, " %u px", view->map.tile_px);
+    if (view->map.tile_count > 1)
         fprintf(to,
-                view->cascade_count > 0 ? " x %u cascades, gutters %u px" : " x %u, gutters %u px",
-                view->cascade_count > 0 ? view->cascade_count : view->tile_count, view->gutter_px);
-    if (view->blur_px > 0.0f) fprintf(to, ", blur %.3g px", 2.0 * (double)view->blur_px);
+                view->map.cascade_count > 0 ? " x %u cascades, gutters %u px"
+                                            : " x %u, gutters %u px",
+                view->map.cascade_count > 0 ? view->map.cascade_count : view->map.tile_count,
+                view->map.gutter_px);
+    if (view->penumbra.blur_px > 0.0f)
+        fprintf(to, ", blur %.3g px", 2.0 * (double)view->penumbra.blur_px);
 }
 
 static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
@@ -72,25 +75,26 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
     if (view->empty)
         fprintf(to, ", empty: it darkens nothing in view\n");
     else if (view->encoding == GN_ENCODING_MASK)
-        fprintf(to, ", texel %.4g m\n", (double)view->texel);
+        fprintf(to, ", texel %.4g m\n", (double)view->lookup.texel);
     else if (view->encoding == GN_ENCODING_STENCIL)
-        fprintf(to, ", from %.4g m to %.4g m over the plane\n", (double)view->near_m,
-                (double)view->far_m);
+        fprintf(to, ", from %.4g m to %.4g m over the plane\n", (double)view->code.near_m,
+                (double)view->code.far_m);
     else
-        fprintf(to, ", texel %.4g %s, near %.4g m, far %.4g m\n", (double)view->texel,
-                view->perspective ? "m per metre" : "m", (double)view->near_m, (double)view->far_m);
+        fprintf(to, ", texel %.4g %s, near %.4g m, far %.4g m\n", (double)view->lookup.texel,
+                view->perspective ? "m per metre" : "m", (double)view->code.near_m,
+                (double)view->code.far_m);
 }
 
 static void print_cascades(const struct gn_shadow_view *view, FILE *to) {
-    for (uint32_t i = 0; i < view->cascade_count; i++) {
+    for (uint32_t i = 0; i < view->map.cascade_count; i++) {
         const struct gn_shadow_cascade *c = &view->cascades[i];
         fprintf(to, "    cascade %u: from %.4g m to %.4g m", i + 1, (double)c->begin_m,
                 (double)c->end_m);
-        if (view->tiles[i].empty) {
+        if (view->raster.tiles[i].empty) {
             fprintf(to, ", empty\n");
             continue;
         }
-        fprintf(to, ", texel %.4g m, %u pages", (double)c->texel, c->page_count);
+        fprintf(to, ", texel %.4g m, %u pages", (double)c->texel, c->drawn.page_count);
         if (c->blur_px > 0.0f) fprintf(to, ", blur %.3g px", 2.0 * (double)c->blur_px);
         fprintf(to, "\n");
     }

@@ -37,8 +37,8 @@ static struct gn_rect rect_of(const struct gn_frame *frame, const struct gn_shad
     const uint32_t size[2] = {frame->plan.width_px, frame->plan.height_px};
     uint32_t low[2], high[2];
     for (int k = 0; k < 2; k++) {
-        low[k] = pixel(view->screen_ndc[0][k], -1.0f, size[k]);
-        high[k] = pixel(view->screen_ndc[1][k], 2.0f, size[k]);
+        low[k] = pixel(view->raster.screen_ndc[0][k], -1.0f, size[k]);
+        high[k] = pixel(view->raster.screen_ndc[1][k], 2.0f, size[k]);
     }
     return (struct gn_rect){low[0], low[1], high[0] - low[0], high[1] - low[1]};
 }
@@ -93,12 +93,12 @@ static float (*fall(const struct gn_frame *frame, uint32_t slot))[4] {
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SHADOW_TILES_MAX);
     const struct gn_shadow_view *view = &frame->shadows[slot];
     mat4 clip_from_world;
-    glm_mat4_mul((vec4 *)frame->eye.clip_from_world, (vec4 *)view->tiles[0].clip_from_world,
+    glm_mat4_mul((vec4 *)frame->eye.clip_from_world, (vec4 *)view->raster.tiles[0].clip_from_world,
                  clip_from_world);
     memcpy(c[PASS_CLIP], clip_from_world, sizeof clip_from_world);
-    for (int k = 0; k < 4; k++) c[FLAT_PLANE][k] = view->tiles[0].light_from_world[k][2];
-    c[FLAT_HEIGHTS][0] = view->near_m;
-    c[FLAT_HEIGHTS][1] = view->far_m;
+    for (int k = 0; k < 4; k++) c[FLAT_PLANE][k] = view->raster.tiles[0].light_from_world[k][2];
+    c[FLAT_HEIGHTS][0] = view->code.near_m;
+    c[FLAT_HEIGHTS][1] = view->code.far_m;
     return c;
 }
 

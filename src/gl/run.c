@@ -307,7 +307,7 @@ static enum clear clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
     if (pass->tile == 0) {
         const struct gn_pass *last = pass, *next;
         while ((next = next_tile(plan, map, last))) last = next;
-        map->cleared = last->tile + 1 == plan->shadows[pass->target.slot].tile_count;
+        map->cleared = last->tile + 1 == plan->shadows[pass->target.slot].map.tile_count;
         if (map->cleared) return CLEAR_ALL;
     }
     return map->cleared ? CLEAR_NOT : CLEAR_RECT;

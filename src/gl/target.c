@@ -304,8 +304,8 @@ struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view 
                                   uint32_t slot, bool moments) {
     const bool map = !moments || !view->moments;
     const struct gn_target target = {.slot = slot,
-                                     .width_px = view->width_px,
-                                     .height_px = view->height_px,
+                                     .width_px = view->map.width_px,
+                                     .height_px = view->map.height_px,
                                      .encoding = map ? view->encoding : (enum gn_encoding)0,
                                      .moments = map ? GN_MOMENTS_NONE : view->moments,
                                      .mipmaps = !map && gn_view_has_mipmaps(view)};

@@ -40,27 +40,28 @@ static bool reads_table(const struct gn_shadow_view *view) {
 static void lay_gutters(struct gn_shadow_view *view, float room) {
     const struct gn_technique_row *row = &gn_techniques[view->technique];
     const uint32_t fixed = row->radius_texels + 1,
-                   soft = row->soft ? (uint32_t)(room * (float)view->map_px) : 0,
+                   soft = row->soft ? (uint32_t)(room * (float)view->map.tile_px) : 0,
                    reach = soft > fixed ? soft : fixed;
-    view->gutter_px = (reads_table(view) ? fixed : reach) + 1;
-    view->inner_px = view->map_px - 2 * view->gutter_px;
-    view->reach_px = reads_table(view) ? least((float)reach, GN_TABLE_REACH_PX) : (float)reach;
-    view->held_px = 0.5f * (float)view->inner_px + view->reach_px;
+    view->map.gutter_px = (reads_table(view) ? fixed : reach) + 1;
+    view->map.inner_px = view->map.tile_px - 2 * view->map.gutter_px;
+    view->lookup.reach_px =
+        reads_table(view) ? least((float)reach, GN_TABLE_REACH_PX) : (float)reach;
+    view->lookup.held_px = 0.5f * (float)view->map.inner_px + view->lookup.reach_px;
 }
 
 /* Of three the map has room for four: what is beside a tile is always one. */
 void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view) {
     uint32_t size_px[2];
-    gn_cascade_map_size(cascades, view->map_px, size_px);
-    view->width_px = size_px[0];
-    view->height_px = size_px[1];
-    view->cascade_count = cascades;
-    view->tile_count = cascades > 2 ? 4 : 2;
+    gn_cascade_map_size(cascades, view->map.tile_px, size_px);
+    view->map.width_px = size_px[0];
+    view->map.height_px = size_px[1];
+    view->map.cascade_count = cascades;
+    view->map.tile_count = cascades > 2 ? 4 : 2;
     lay_gutters(view, LEAST_ROOM);
-    for (uint32_t i = 0; i < view->tile_count; i++) {
-        view->tiles[i].x_px = i % 2 * view->map_px;
-        view->tiles[i].y_px = i / 2 * view->map_px;
-        view->tiles[i].empty = i >= cascades;
+    for (uint32_t i = 0; i < view->map.tile_count; i++) {
+        view->raster.tiles[i].x_px = i % 2 * view->map.tile_px;
+        view->raster.tiles[i].y_px = i / 2 * view->map.tile_px;
+        view->raster.tiles[i].empty = i >= cascades;
         if (gn_techniques[view->technique].filter == GN_FILTER_BLUR)
             view->cascades[i].blur_px = GN_BLUR_LEAST_PX; /* of empty ones */
     }
@@ -78,7 +79,7 @@ static struct gn_distances split_distances(const struct gn_distances *seen, uint
 }
 
 static void split(struct gn_shadow_view *view, struct gn_distances d) {
-    const uint32_t n = view->cascade_count;
+    const uint32_t n = view->map.cascade_count;
     for (uint32_t i = 0; i < n; i++) {
         struct gn_shadow_cascade *c = &view->cascades[i];
         c->end_m =
@@ -113,19 +114,16 @@ static bool cut(const struct gn_eye *eye, const struct gn_shadow_cascade *c, str
 
 /* What is the same for all tiles, from the first that holds anything. */
 static void take_codes(struct gn_shadow_view *view, const struct gn_shadow_view *tile) {
-    view->near_m = tile->near_m;
-    view->far_m = tile->far_m;
-    view->far_code = tile->far_code;
-    view->distance_scale = tile->distance_scale;
-    view->distance_offset = tile->distance_offset;
-    view->ulp_m = tile->ulp_m;
-    view->texel = tile->texel;
-    glm_vec4_copy((float *)tile->soft, view->soft);
-    view->soft[0] = tile->soft[0] * tile->texel;
+    view->code = tile->code;
+    view->lookup.texel = tile->lookup.texel;
+    view->penumbra.scale = tile->penumbra.scale;
+    view->penumbra.bias = tile->penumbra.bias;
+    view->penumbra.radius = tile->penumbra.radius * tile->lookup.texel;
     for (int c = 0; c < 4; c++) {
-        vec4 column = {tile->tiles[0].light_from_world[c][0], tile->tiles[0].light_from_world[c][1],
-                       tile->map_from_world[c][2], c == 3};
-        glm_vec4_copy(column, view->map_from_world[c]);
+        vec4 column = {tile->raster.tiles[0].light_from_world[c][0],
+                       tile->raster.tiles[0].light_from_world[c][1],
+                       tile->lookup.map_from_world[c][2], c == 3};
+        glm_vec4_copy(column, view->lookup.map_from_world[c]);
     }
 }
 
@@ -133,29 +131,26 @@ static void take_codes(struct gn_shadow_view *view, const struct gn_shadow_view 
  * begin at the nearest caster and end at the farthest place in shadow that is seen. By steps, so
  * that they stay while the eye moves little. */
 static void set_span(const struct gn_shadow_view *tile, struct gn_shadow_cascade *c) {
-    const float wanted = most(1.01f * (tile->farthest - tile->soft[1]), LEAST_SPAN * tile->far_m) *
+    const float wanted = most(1.01f * (tile->penumbra.farthest - tile->penumbra.nearest),
+                              LEAST_SPAN * tile->code.far_m) *
                          NEAREST_STEPS / (NEAREST_STEPS - 1.0f);
-    c->span = least(step(wanted, SPAN_STEPS, true), tile->far_m);
+    c->span = least(step(wanted, SPAN_STEPS, true), tile->code.far_m);
     const float part = c->span / NEAREST_STEPS;
-    c->nearest = least(floorf(tile->soft[1] / part) * part, tile->far_m - c->span);
-    if (!gn_technique_filters_map(tile->technique)) c->nearest = tile->soft[1];
+    c->nearest = least(floorf(tile->penumbra.nearest / part) * part, tile->code.far_m - c->span);
+    if (!gn_technique_filters_map(tile->technique)) c->nearest = tile->penumbra.nearest;
 }
 
 static void take_tile(struct gn_shadow_view *view, uint32_t index,
                       const struct gn_shadow_view *tile) {
     struct gn_shadow_cascade *c = &view->cascades[index];
-    c->texel = tile->texel;
-    c->blur_px = tile->blur_px;
+    c->texel = tile->lookup.texel;
+    c->blur_px = tile->penumbra.blur_px;
     set_span(tile, c);
-    c->page_count = tile->page_count;
-    for (int k = 0; k < 2; k++) {
-        c->corner_texels[k] = tile->corner_texels[k];
-        c->drawn_px[k] = tile->drawn_px[k];
-        c->drawn_size_px[k] = tile->drawn_size_px[k];
-    }
-    for (uint32_t p = 0; p < tile->page_count; p++) c->pages[p] = tile->pages[p];
-    glm_mat4_copy((vec4 *)tile->tiles[0].light_from_world, view->tiles[index].light_from_world);
-    glm_mat4_copy((vec4 *)tile->tiles[0].clip_from_world, view->tiles[index].clip_from_world);
+    c->drawn = tile->raster.drawn;
+    glm_mat4_copy((vec4 *)tile->raster.tiles[0].light_from_world,
+                  view->raster.tiles[index].light_from_world);
+    glm_mat4_copy((vec4 *)tile->raster.tiles[0].clip_from_world,
+                  view->raster.tiles[index].clip_from_world);
 }
 
 /* Fits tile `index` as a map of its own; false: it is empty. */
@@ -164,19 +159,20 @@ static bool fit_tile(const struct gn_fitter *f, uint32_t index, float blur_most_
     struct gn_eye eye;
     if (!cut(f->eye, &f->view->cascades[index], &eye)) return false;
     *tile = *f->view;
-    tile->map_px = tile->width_px = tile->height_px = f->view->inner_px;
-    tile->tile_count = 1;
-    tile->cascade_count = 0;
-    tile->tiles[0].empty = false; /* the first may have been */
+    tile->map.tile_px = tile->map.width_px = tile->map.height_px = f->view->map.inner_px;
+    tile->map.tile_count = 1;
+    tile->map.cascade_count = 0;
+    tile->raster.tiles[0].empty = false; /* the first may have been */
     struct gn_fitter own = *f;
     own.is_cascade = true;
     own.blur_most_m = blur_most_m;
     own.eye = &eye;
     own.memory = &f->memory[index];
     own.view = tile;
-    own.tile = tile->tiles;
+    own.tile = tile->raster.tiles;
     if (!gn_single_fit(&own)) return false;
-    tile->tiles[0].content_hash = gn_shadow_hash(f->pose, tile, tile->tiles, own.memory->casts);
+    tile->raster.tiles[0].content_hash =
+        gn_shadow_hash(f->pose, tile, tile->raster.tiles, own.memory->casts);
     return true;
 }
 
@@ -185,23 +181,23 @@ static bool fit_tiles(const struct gn_fitter *f, float widest_m[GN_CASCADES_MAX]
     struct gn_shadow_view *view = f->view, tile;
     float blur_most_m = 0.0f;
     bool found = false;
-    for (uint32_t i = 0; i < view->cascade_count; i++) {
-        view->tiles[i].empty = !fit_tile(f, i, blur_most_m, &tile);
+    for (uint32_t i = 0; i < view->map.cascade_count; i++) {
+        view->raster.tiles[i].empty = !fit_tile(f, i, blur_most_m, &tile);
         widest_m[i] = 0.0f;
-        if (view->tiles[i].empty) continue;
+        if (view->raster.tiles[i].empty) continue;
         take_tile(view, i, &tile);
-        widest_m[i] = f->light_radius * (tile.farthest - tile.soft[1]);
-        view->tiles[i].content_hash = tile.tiles[0].content_hash;
+        widest_m[i] = f->light_radius * (tile.penumbra.farthest - tile.penumbra.nearest);
+        view->raster.tiles[i].content_hash = tile.raster.tiles[0].content_hash;
         if (!found) take_codes(view, &tile);
-        if (!found) blur_most_m = GN_BLUR_MOST_PX * tile.texel;
+        if (!found) blur_most_m = GN_BLUR_MOST_PX * tile.lookup.texel;
         found = true;
     }
     return found;
 }
 
 static bool has_room(const struct gn_shadow_view *view, const float widest_m[GN_CASCADES_MAX]) {
-    for (uint32_t i = 0; i < view->cascade_count; i++)
-        if (widest_m[i] > view->reach_px * view->cascades[i].texel) return false;
+    for (uint32_t i = 0; i < view->map.cascade_count; i++)
+        if (widest_m[i] > view->lookup.reach_px * view->cascades[i].texel) return false;
     return true;
 }
 
@@ -210,9 +206,9 @@ static bool has_room(const struct gn_shadow_view *view, const float widest_m[GN_
 static float bound_of(const struct gn_shadow_view *view, float radius,
                       const float widest_m[GN_CASCADES_MAX]) {
     float bound = UNBOUND;
-    for (uint32_t i = 0; i < view->cascade_count; i++) {
-        const bool last = i + 1 == view->cascade_count;
-        const float room_m = view->reach_px * view->cascades[i].texel,
+    for (uint32_t i = 0; i < view->map.cascade_count; i++) {
+        const bool last = i + 1 == view->map.cascade_count;
+        const float room_m = view->lookup.reach_px * view->cascades[i].texel,
                     to_m = view->cascades[last ? i - 1 : i].end_m;
         if (widest_m[i] > room_m) bound = fminf(bound, room_m / (to_m * radius));
     }
@@ -227,21 +223,22 @@ bool gn_cascades_fit(const struct gn_fitter *f) {
     float widest_m[GN_CASCADES_MAX], room = LEAST_ROOM;
     const float most_room = reads_table(view) ? TABLE_ROOM : MOST_ROOM;
     if (!gn_distances_find(f, &seen)) return false;
-    split(view, split_distances(&seen, view->cascade_count));
+    split(view, split_distances(&seen, view->map.cascade_count));
     if (!fit_tiles(f, widest_m)) return false;
     while (gn_techniques[view->technique].soft && room < most_room && !has_room(view, widest_m)) {
-        const uint32_t fitted_px = view->inner_px;
+        const uint32_t fitted_px = view->map.inner_px;
         do {
-            const uint32_t inner_px = view->inner_px;
+            const uint32_t inner_px = view->map.inner_px;
             lay_gutters(view, room *= 2.0f);
-            for (uint32_t i = 0; i < view->cascade_count; i++)
-                view->cascades[i].texel *= (float)inner_px / (float)view->inner_px;
+            for (uint32_t i = 0; i < view->map.cascade_count; i++)
+                view->cascades[i].texel *= (float)inner_px / (float)view->map.inner_px;
         } while (room < most_room && !has_room(view, widest_m));
-        if (view->inner_px != fitted_px) fit_tiles(f, widest_m);
+        if (view->map.inner_px != fitted_px) fit_tiles(f, widest_m);
     }
-    view->soft[1] = bound_of(view, f->light_radius, widest_m);
-    for (uint32_t i = 0; i < view->tile_count; i++)
-        if (view->tiles[i].empty)
-            view->tiles[i].content_hash = gn_shadow_hash(f->pose, view, &view->tiles[i], NULL);
+    view->penumbra.growth = bound_of(view, f->light_radius, widest_m);
+    for (uint32_t i = 0; i < view->map.tile_count; i++)
+        if (view->raster.tiles[i].empty)
+            view->raster.tiles[i].content_hash =
+                gn_shadow_hash(f->pose, view, &view->raster.tiles[i], NULL);
     return true;
 }

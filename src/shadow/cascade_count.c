@@ -21,16 +21,16 @@ float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struc
                                 .eye = eye,
                                 .memory = memory,
                                 .view = &view,
-                                .tile = view.tiles,
+                                .tile = view.raster.tiles,
                                 .scene_size_m = gn_scene_size_m(pose),
                                 .light_radius = pose->scene->lights[light].radius,
                                 .range_m = INFINITY};
     if (!gn_distances_find(&f, &seen)) return 0.0f;
-    if (view.cascade_count == 0) return view.texel / gn_distances_nearest(&seen);
+    if (view.map.cascade_count == 0) return view.lookup.texel / gn_distances_nearest(&seen);
     float tangent = 0.0f;
-    for (uint32_t i = 0; i < view.cascade_count; i++) {
+    for (uint32_t i = 0; i < view.map.cascade_count; i++) {
         const struct gn_shadow_cascade *c = &view.cascades[i];
-        if (!view.tiles[i].empty)
+        if (!view.raster.tiles[i].empty)
             tangent = fmaxf(tangent, c->texel / fmaxf(c->begin_m, gn_distances_nearest(&seen)));
     }
     return tangent;

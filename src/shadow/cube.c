@@ -9,7 +9,7 @@
 
 static void aim_tile(struct gn_fitter *f, uint32_t index) {
     struct gn_shadow_view *view = f->view;
-    struct gn_shadow_tile *tile = f->tile = &view->tiles[index];
+    struct gn_shadow_tile *tile = f->tile = &view->raster.tiles[index];
     uint32_t axis = index / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
     float side = index % 2 ? -1.0f : 1.0f;
     vec4 *m = tile->light_from_world;
@@ -20,9 +20,9 @@ static void aim_tile(struct gn_fitter *f, uint32_t index) {
     m[3][1] = -view->light_ws[v];
     m[3][2] = side * view->light_ws[axis];
     tile->mirrored = (axis == 1) == (side < 0.0f);
-    tile->x_px = axis * view->map_px;
-    tile->y_px = index % 2 * view->map_px;
-    gn_fitter_set_cone(f, 0.5f * view->texel * (float)view->map_px);
+    tile->x_px = axis * view->map.tile_px;
+    tile->y_px = index % 2 * view->map.tile_px;
+    gn_fitter_set_cone(f, 0.5f * view->lookup.texel * (float)view->map.tile_px);
 }
 
 /* Measures all tiles: the depths of the casters in any of them. False when all are empty. */
@@ -30,7 +30,7 @@ static bool find_tiles(struct gn_fitter *f, struct gn_shadow_region *depths) {
     struct gn_shadow_memory *memories = f->memory;
     bool found = false;
     *depths = nothing;
-    for (uint32_t i = 0; i < f->view->tile_count; i++) {
+    for (uint32_t i = 0; i < f->view->map.tile_count; i++) {
         struct gn_window own;
         f->memory = &memories[i];
         aim_tile(f, i);
@@ -60,12 +60,15 @@ static void set_gutter(struct gn_shadow_view *view) {
     const float beyond =
         EDGE_TEXELS + (shared ? SHARED_TEXELS + 1.4142136f * row->bias_texels : 0.0f);
     const uint32_t wanted = (uint32_t)ceilf((float)row->radius_texels + 1.0f + beyond);
-    view->gutter_px = row->soft && wanted < view->map_px / 8 ? view->map_px / 8 : wanted;
-    if (view->gutter_px > view->map_px / 4) view->gutter_px = view->map_px / 4;
-    view->reach_px = (float)view->gutter_px - 1.0f - beyond;
-    if (row->filter == GN_FILTER_TABLE) view->reach_px = least(view->reach_px, GN_TABLE_REACH_PX);
-    view->texel = 2.0f / ((float)(view->map_px - 2 * view->gutter_px) + 2.0f * EDGE_TEXELS);
-    view->shared = SHARED_TEXELS * view->texel;
+    view->map.gutter_px =
+        row->soft && wanted < view->map.tile_px / 8 ? view->map.tile_px / 8 : wanted;
+    if (view->map.gutter_px > view->map.tile_px / 4) view->map.gutter_px = view->map.tile_px / 4;
+    view->lookup.reach_px = (float)view->map.gutter_px - 1.0f - beyond;
+    if (row->filter == GN_FILTER_TABLE)
+        view->lookup.reach_px = least(view->lookup.reach_px, GN_TABLE_REACH_PX);
+    view->lookup.texel =
+        2.0f / ((float)(view->map.tile_px - 2 * view->map.gutter_px) + 2.0f * EDGE_TEXELS);
+    view->lookup.shared = SHARED_TEXELS * view->lookup.texel;
 }
 
 bool gn_cube_fit(struct gn_fitter *f) {
@@ -74,16 +77,16 @@ bool gn_cube_fit(struct gn_fitter *f) {
     set_gutter(view);
     if (!find_tiles(f, &depths)) return false;
     float near_depth, far_depth;
-    double edge = -0.5 * (double)view->texel * view->map_px;
+    double edge = -0.5 * (double)view->lookup.texel * view->map.tile_px;
     widen_depths(&depths);
     gn_fitter_set_depths(f, &depths, &near_depth, &far_depth);
     gn_fitter_set_code(f, near_depth, far_depth);
     gn_shadow_set_frustums(view, (double[2]){edge, edge}, near_depth, far_depth);
     gn_fitter_set_penumbra(f, &depths, near_depth, far_depth);
     gn_fitter_set_blur(f, near_depth, far_depth);
-    view->tangent_uv[0] = 1.0f / (view->texel * (float)view->width_px);
-    view->tangent_uv[1] = 1.0f / (view->texel * (float)view->height_px);
-    view->depth_code[0] = far_depth / (far_depth - near_depth);
-    view->depth_code[1] = -near_depth * far_depth / (far_depth - near_depth);
+    view->lookup.tangent_uv[0] = 1.0f / (view->lookup.texel * (float)view->map.width_px);
+    view->lookup.tangent_uv[1] = 1.0f / (view->lookup.texel * (float)view->map.height_px);
+    view->lookup.depth_code[0] = far_depth / (far_depth - near_depth);
+    view->lookup.depth_code[1] = -near_depth * far_depth / (far_depth - near_depth);
     return true;
 }

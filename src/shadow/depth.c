@@ -18,8 +18,8 @@ void gn_fitter_set_depths(const struct gn_fitter *f, const struct gn_shadow_regi
     *near_depth =
         view->perspective ? fmaxf(depths->near - pad, 0.5f * depths->near) : depths->near - pad;
     *far_depth = depths->far + pad;
-    view->near_m = view->perspective ? *near_depth : 0.0f;
-    view->far_m = view->perspective ? depths->far_radial + pad : *far_depth - *near_depth;
+    view->code.near_m = view->perspective ? *near_depth : 0.0f;
+    view->code.far_m = view->perspective ? depths->far_radial + pad : *far_depth - *near_depth;
 }
 
 static float half_float_step(float value) {
@@ -29,43 +29,43 @@ static float half_float_step(float value) {
 /* The encoding's code of a distance is distance * scale + offset; ulp_m is its coarsest step. */
 void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_depth) {
     struct gn_shadow_view *view = f->view;
-    float range = view->far_m - view->near_m;
-    float float_step = 7e-7f * view->far_m; /* of the interpolation */
+    float range = view->code.far_m - view->code.near_m;
+    float float_step = 7e-7f * view->code.far_m; /* of the interpolation */
     /* A sun's depths may span less than the scene: then places themselves are coarser. */
     if (!view->perspective) float_step = fmaxf(float_step, 2e-7f * gn_scene_reach_m(f->pose));
-    view->distance_scale = 1.0f;
-    view->distance_offset = 0.0f;
-    view->far_code = view->far_m;
-    view->ulp_m = float_step;
+    view->code.scale = 1.0f;
+    view->code.offset = 0.0f;
+    view->code.far_end = view->code.far_m;
+    view->code.ulp_m = float_step;
     switch (view->encoding) {
     case GN_ENCODING_R16F:
-        view->distance_scale = 2.0f / range;
-        view->distance_offset = -(view->far_m + view->near_m) / range;
-        view->far_code = 1.0f;
-        view->ulp_m = 0.5f * range * exp2f(-11.0f) + float_step;
+        view->code.scale = 2.0f / range;
+        view->code.offset = -(view->code.far_m + view->code.near_m) / range;
+        view->code.far_end = 1.0f;
+        view->code.ulp_m = 0.5f * range * exp2f(-11.0f) + float_step;
         return;
     case GN_ENCODING_R16F_RAW:
-        view->ulp_m = half_float_step(view->far_m) + float_step;
+        view->code.ulp_m = half_float_step(view->code.far_m) + float_step;
         /* a half float itself: what the map is cleared to must be what is compared with */
-        view->far_code =
-            ceilf(view->far_m / half_float_step(view->far_m)) * half_float_step(view->far_m);
+        view->code.far_end = ceilf(view->code.far_m / half_float_step(view->code.far_m)) *
+                             half_float_step(view->code.far_m);
         return;
     case GN_ENCODING_RGBA8:
-        view->distance_scale = 1.0f / range;
-        view->distance_offset = -view->near_m / range;
-        view->far_code = GN_RGBA8_FAR;
-        view->ulp_m = range * exp2f(-22.0f) + float_step;
+        view->code.scale = 1.0f / range;
+        view->code.offset = -view->code.near_m / range;
+        view->code.far_end = GN_RGBA8_FAR;
+        view->code.ulp_m = range * exp2f(-22.0f) + float_step;
         return;
     case GN_ENCODING_DEPTH:
-        view->far_code = 1.0f;
-        view->ulp_m += view->perspective ? far_depth * range / near_depth * exp2f(-23.0f)
-                                         : range * exp2f(-22.0f);
+        view->code.far_end = 1.0f;
+        view->code.ulp_m += view->perspective ? far_depth * range / near_depth * exp2f(-23.0f)
+                                              : range * exp2f(-22.0f);
         return;
     case GN_ENCODING_R32UI:
         if (!gn_technique_filters_map(view->technique)) return;
-        view->distance_scale = 1.0f / range; /* 0..1: what moments are made of */
-        view->distance_offset = -view->near_m / range;
-        view->far_code = 1.0f;
+        view->code.scale = 1.0f / range; /* 0..1: what moments are made of */
+        view->code.offset = -view->code.near_m / range;
+        view->code.far_end = 1.0f;
         return;
     case GN_ENCODING_MASK:
     case GN_ENCODING_STENCIL:
@@ -79,20 +79,22 @@ void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_d
 void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_region *window,
                             float near_depth, float far_depth) {
     struct gn_shadow_view *view = f->view;
-    view->soft[0] = f->light_radius / view->texel;
+    view->penumbra.radius = f->light_radius / view->lookup.texel;
     if (view->perspective && view->encoding == GN_ENCODING_DEPTH) { /* linear in 1 / depth */
-        view->soft[1] = -1.0f / near_depth;
-        view->soft[2] = 1.0f / near_depth - 1.0f / far_depth;
-        view->soft[3] = -1.0f / near_depth;
+        view->penumbra.nearest = -1.0f / near_depth;
+        view->penumbra.scale = 1.0f / near_depth - 1.0f / far_depth;
+        view->penumbra.bias = -1.0f / near_depth;
         return;
     }
-    view->soft[1] = -1.0f / near_depth;
-    if (!view->perspective) view->soft[1] = most(window->near - near_depth, 0.0f);
-    const float part = NEAREST_STEP * view->far_m; /* it stays while the eye moves little */
-    if (!view->perspective && !f->is_cascade) view->soft[1] = floorf(view->soft[1] / part) * part;
-    view->farthest = window->far - near_depth;
-    view->soft[2] = view->encoding == GN_ENCODING_DEPTH ? view->far_m : 1.0f / view->distance_scale;
-    view->soft[3] = -view->distance_offset / view->distance_scale;
+    view->penumbra.nearest = -1.0f / near_depth;
+    if (!view->perspective) view->penumbra.nearest = most(window->near - near_depth, 0.0f);
+    const float part = NEAREST_STEP * view->code.far_m; /* it stays while the eye moves little */
+    if (!view->perspective && !f->is_cascade)
+        view->penumbra.nearest = floorf(view->penumbra.nearest / part) * part;
+    view->penumbra.farthest = window->far - near_depth;
+    view->penumbra.scale =
+        view->encoding == GN_ENCODING_DEPTH ? view->code.far_m : 1.0f / view->code.scale;
+    view->penumbra.bias = -view->code.offset / view->code.scale;
 }
 
 /* A blur cannot know how far blockers are: it is as wide as the penumbra of what stands before the
@@ -105,6 +107,6 @@ void gn_fitter_set_blur(const struct gn_fitter *f, float near_depth, float far_d
         view->perspective ? 1.0f / (far_depth - behind) - 1.0f / far_depth : behind;
     float blur = f->light_radius * spread;
     if (f->blur_most_m > 0.0f) blur = least(blur, f->blur_most_m); /* or it jumps at each split */
-    const float blur_px = blur / view->texel;
-    view->blur_px = least(most(blur_px, GN_BLUR_LEAST_PX), GN_BLUR_MOST_PX);
+    const float blur_px = blur / view->lookup.texel;
+    view->penumbra.blur_px = least(most(blur_px, GN_BLUR_LEAST_PX), GN_BLUR_MOST_PX);
 }

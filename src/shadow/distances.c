@@ -120,7 +120,7 @@ static struct gn_distances seen_distances(const struct gn_fitter *f,
 bool gn_distances_find(const struct gn_fitter *f, struct gn_distances *seen) {
     struct gn_window found;
     struct gn_fitter all = *f;
-    if (f->view->cascade_count > 0) all.memory = &f->memory[GN_CASCADES_MAX];
+    if (f->view->map.cascade_count > 0) all.memory = &f->memory[GN_CASCADES_MAX];
     gn_shadow_look(f->view, f->tile->light_from_world);
     gn_fitter_remember(&all);
     if (!gn_window_find(&all, false, &found)) return false;

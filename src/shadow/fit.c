@@ -26,18 +26,19 @@ static void begin_view(const struct gn_pose *pose, uint32_t light,
     uint32_t size_px[2];
     vec3 direction;
     gn_shadow_map_size(type, opts->technique, opts->map_px, size_px);
-    *view = (struct gn_shadow_view){.light = light,
-                                    .technique = opts->technique,
-                                    .encoding = opts->encoding,
-                                    .moments = opts->moments,
-                                    .map_px = opts->map_px,
-                                    .all_receive = opts->all_receive,
-                                    .width_px = size_px[0],
-                                    .height_px = size_px[1],
-                                    .tile_count = gn_shadow_tile_count(type, opts->technique),
-                                    .perspective = type != GN_LIGHT_DIRECTIONAL};
+    *view =
+        (struct gn_shadow_view){.light = light,
+                                .technique = opts->technique,
+                                .encoding = opts->encoding,
+                                .moments = opts->moments,
+                                .all_receive = opts->all_receive,
+                                .perspective = type != GN_LIGHT_DIRECTIONAL,
+                                .map = {.tile_px = opts->map_px,
+                                        .width_px = size_px[0],
+                                        .height_px = size_px[1],
+                                        .tile_count = gn_shadow_tile_count(type, opts->technique)}};
     if (gn_techniques[view->technique].filter == GN_FILTER_TABLE)
-        view->reach_px = GN_TABLE_REACH_PX;
+        view->lookup.reach_px = GN_TABLE_REACH_PX;
     if (opts->cascades > 1 && !view->perspective && !gn_techniques[opts->technique].on_plane)
         gn_cascades_lay(opts->cascades, view);
     gn_pose_light(pose, light, view->light_ws, direction);
@@ -52,35 +53,37 @@ static void make_empty(struct gn_shadow_view *view) {
     gn_shadow_look(view, m);
     for (int c = 0; c < 4; c++) {
         vec4 column = {m[c][0], m[c][1], 0.0f, view->perspective ? -m[c][2] : c == 3};
-        glm_vec4_copy(column, view->map_from_world[c]);
+        glm_vec4_copy(column, view->lookup.map_from_world[c]);
     }
-    for (int k = 0; k < 2; k++) view->tangent_uv[k] = 1.0f, view->depth_code[k] = 0.0f;
-    view->distance_scale = view->distance_offset = 0.0f;
-    view->texel = view->normal_offset = view->slope_offset = view->ulp_m = 0.0f;
-    glm_vec4_copy((vec4){0.0f, -1.0f, 0.0f, 1.0f}, view->soft); /* no penumbra */
-    view->far_code = view->encoding == GN_ENCODING_RGBA8 ? GN_RGBA8_FAR : 1.0f;
+    for (int k = 0; k < 2; k++)
+        view->lookup.tangent_uv[k] = 1.0f, view->lookup.depth_code[k] = 0.0f;
+    view->code.scale = view->code.offset = 0.0f;
+    view->lookup.texel = view->lookup.normal_offset = view->lookup.slope_offset = 0.0f;
+    view->code.ulp_m = 0.0f;
+    view->penumbra = (struct gn_shadow_penumbra){.nearest = -1.0f, .growth = -1.0f, .bias = 1.0f};
+    view->code.far_end = view->encoding == GN_ENCODING_RGBA8 ? GN_RGBA8_FAR : 1.0f;
     view->empty = true;
-    view->blur_px =
-        gn_techniques[view->technique].filter == GN_FILTER_BLUR ? GN_BLUR_LEAST_PX : 0.0f;
-    for (uint32_t i = 0; i < view->tile_count; i++) {
-        view->tiles[i].empty = true;
-        view->tiles[i].content_hash = 1;
+    if (gn_techniques[view->technique].filter == GN_FILTER_BLUR)
+        view->penumbra.blur_px = GN_BLUR_LEAST_PX;
+    for (uint32_t i = 0; i < view->map.tile_count; i++) {
+        view->raster.tiles[i].empty = true;
+        view->raster.tiles[i].content_hash = 1;
     }
-    for (uint32_t i = 0; i < view->cascade_count; i++) view->cascades[i].page_count = 0;
+    for (uint32_t i = 0; i < view->map.cascade_count; i++) view->cascades[i].drawn.page_count = 0;
 }
 
 /* Normal offset and slope by the width that the technique averages over; figures measured by `make
  * truth`. */
 static void set_bias(struct gn_shadow_view *view) {
     float width = gn_techniques[view->technique].bias_texels;
-    view->normal_offset = width;
-    view->slope_offset = 0.7f * width;
-    view->slope_max = 4.0f;
+    view->lookup.normal_offset = width;
+    view->lookup.slope_offset = 0.7f * width;
+    view->lookup.slope_max = 4.0f;
 }
 
 static bool fit_one(struct gn_fitter *f) {
-    if (f->view->cascade_count > 0) return gn_cascades_fit(f);
-    return f->view->tile_count > 1 ? gn_cube_fit(f) : gn_single_fit(f);
+    if (f->view->map.cascade_count > 0) return gn_cascades_fit(f);
+    return f->view->map.tile_count > 1 ? gn_cube_fit(f) : gn_single_fit(f);
 }
 
 static bool fit_map(const struct gn_pose *pose, const struct gn_eye *eye,
@@ -90,14 +93,15 @@ static bool fit_map(const struct gn_pose *pose, const struct gn_eye *eye,
                           .eye = eye,
                           .memory = memory,
                           .view = view,
-                          .tile = view->tiles,
+                          .tile = view->raster.tiles,
                           .scene_size_m = gn_scene_size_m(pose),
                           .light_radius = light->radius,
                           .range_m = light->range_m > 0.0f ? light->range_m : INFINITY};
     if (!fit_one(&f)) return false;
     set_bias(view);
-    for (uint32_t i = 0; i < view->tile_count && view->cascade_count == 0; i++)
-        view->tiles[i].content_hash = gn_shadow_hash(pose, view, &view->tiles[i], memory[i].casts);
+    for (uint32_t i = 0; i < view->map.tile_count && view->map.cascade_count == 0; i++)
+        view->raster.tiles[i].content_hash =
+            gn_shadow_hash(pose, view, &view->raster.tiles[i], memory[i].casts);
     return true;
 }
 

@@ -51,83 +51,112 @@ struct gn_shadow_tile {
 /* A part of a directional map as it is drawn (shadow/pages.h); px: x, y. */
 enum { GN_SHADOW_PAGES_MAX = 4 };
 struct gn_shadow_page {
-    mat4 clip_from_world; /* draws the page, map_px texels wide, whatever the eye sees */
+    mat4 clip_from_world; /* draws the page, as wide as the map or the tile's inner part, whatever
+                             the camera sees */
     double corner[2];     /* its lower left texel, counted from the light's axis */
-    uint32_t from_px[2], to_px[2], size_px[2]; /* the part that is wanted: where it is drawn and
-                                                  where it stands in the map */
+    uint32_t from_px[2], to_px[2], size_px[2]; /* the part that is needed: where it is drawn and
+                                                  where it goes in the map */
 };
 
-/* A cascade is a tile, too, for what the eye sees from one distance to another (cascade.h). */
+/* What a directional map, or the inner part of a cascade, holds; outside of it the map is cleared.
+ */
+struct gn_shadow_drawn {
+    double corner_texels[2];    /* the map's lower left texel, counted from the light's axis */
+    uint32_t px[2], size_px[2]; /* in the map; at least a texel from its edge */
+    bool paged; /* drawn in pages, then copied; else the one page is the map. Cascades: always */
+    uint32_t page_count; /* 0: nothing is drawn in pages (spot, point, on a plane, empty) */
+    struct gn_shadow_page pages[GN_SHADOW_PAGES_MAX];
+};
+
+/* A cascade is a tile for what the camera sees from one distance to another (cascade.h). */
 enum { GN_CASCADES_MAX = 4 };
 struct gn_shadow_cascade {
-    float begin_m, end_m; /* of what it serves, along the view; the last one's end: INFINITY */
+    float begin_m, end_m; /* along the view; the last one's end: INFINITY */
     float texel;          /* metres */
-    float blur_px;        /* as in gn_shadow_view */
-    float nearest;        /* e of the nearest caster: soft[1] of a map without cascades */
-    float span;           /* from there, e: what moments are of, 0 to 1 */
-    /* As of a map without cascades, of the inner part of its tile: */
-    uint32_t drawn_px[2], drawn_size_px[2];
-    double corner_texels[2];
-    uint32_t page_count; /* 0 where the tile is empty; never is the page the map */
-    struct gn_shadow_page pages[GN_SHADOW_PAGES_MAX]; /* inner_px texels wide */
+    float blur_px;        /* as in gn_shadow_penumbra */
+    float nearest;        /* penumbra depth of the nearest caster, as in gn_shadow_penumbra */
+    float span;           /* what its moments cover, from there on: 0 to 1 */
+    struct gn_shadow_drawn drawn; /* of its inner part */
 };
 
+/* The parts of a view. map: the texture that is allocated. */
+struct gn_shadow_map {
+    uint32_t tile_px;             /* side of a tile; on a plane without a map 0 */
+    uint32_t width_px, height_px; /* all tiles */
+    uint32_t tile_count;          /* 1, point: 6, cascades: 2 or 4 */
+    uint32_t cascade_count;       /* 0, or 2 to 4 */
+    uint32_t gutter_px;           /* point, cascades: of a tile, to each side */
+    uint32_t inner_px;            /* cascades: of a tile, without its gutters */
+};
+
+/* How the encoding keeps a distance d: code = scale * d + offset (but not DEPTH, see lookup). */
+struct gn_shadow_code {
+    float scale, offset;
+    float far_end; /* the far end's code: what the map is cleared to */
+    /* What the codes cover: directional 0 and the depth between the clip planes; spot and point the
+     * near plane's depth and the greatest distance from the light; on a plane 0 and 1, encoding
+     * STENCIL heights over the plane. */
+    float near_m, far_m;
+    float ulp_m; /* added towards the light: the encoding's rounding at the far end */
+};
+
+/* raster: what is drawn into the map. */
+struct gn_shadow_raster {
+    struct gn_shadow_tile tiles[GN_SHADOW_TILES_MAX];
+    struct gn_shadow_drawn drawn; /* directional, not on a plane, without cascades */
+    float screen_ndc[2][2]; /* encoding STENCIL: least and greatest place in view that can be dark
+                             */
+};
+
+/* lookup: where shaders read the map. */
+struct gn_shadow_lookup {
+    /* Directional, spot: xy / w is 0..1 over the map; z / w is the code for a directional light,
+     * and for a spot with encoding DEPTH. Cascades: metres across the light, and the code. */
+    mat4 map_from_world;
+    /* Point: a tangent from a tile's middle times tangent_uv is uv; with encoding DEPTH the code at
+     * depth d along the tile's axis is depth_code[0] + depth_code[1] / d. */
+    float tangent_uv[2], depth_code[2];
+    float texel;         /* plane units: metres, or metres per metre of depth */
+    float normal_offset; /* texels (cascades: each one's), times sin(theta) */
+    float slope_offset;  /* texels towards the light, times tan(theta) clamped at slope_max */
+    float slope_max;
+    float reach_px; /* tiles, SAT: how far beside a place may be read */
+    float shared;   /* point: tangent, to each side of a tile's edge, where two tiles are mixed */
+    float held_px;  /* cascades: how far from a tile's middle it may be read */
+};
+
+/* How wide penumbrae are. A penumbra depth grows linearly with the width of penumbrae: a blocker at
+ * b throws on a receiver at r one of radius * (r - b) texels. It is the distance from the near
+ * plane, or -1 / d for a spot and a point light (shaders_es/lib/shadow_place.glsl). */
+struct gn_shadow_penumbra {
+    float radius;      /* the emitter's, texels per unit of penumbra depth; cascades: metres */
+    float nearest;     /* penumbra depth of the nearest caster; without cascades */
+    float scale, bias; /* penumbra depth = scale * code + bias, or its negative inverse for
+                          distances from a spot or point light */
+    float growth;      /* cascades: how much penumbra depth they may span per metre along the view,
+                          where a tile has no room for more; else 1e9 */
+    float farthest;    /* directional: penumbra depth of the farthest place in a visible shadow */
+    float blur_px; /* of a map that is blurred, without cascades: half the width of the blur; else 0
+                    */
+};
+
+/* All there is to know of a light's map: see the figure in README.md. */
 struct gn_shadow_view {
     uint32_t light;
     enum gn_technique technique;
     enum gn_encoding encoding;
-    enum gn_moments moments;      /* what shaders read in the map's place; NONE: the map */
-    float blur_px;                /* no cascades: half the width of its blur, texels; 0: none */
-    uint32_t map_px;              /* side of a tile */
-    uint32_t width_px, height_px; /* of the map: all tiles */
-    uint32_t gutter_px;           /* point, cascades: of a tile, to each side */
-    float shared;                 /* point: tangent, to each side of a tile's edge */
-    float reach_px;               /* tiles, table: how far beside a place may be read */
-    uint32_t tile_count;          /* 1, point: 6, cascades: 2, 4 */
-    struct gn_shadow_tile tiles[GN_SHADOW_TILES_MAX];
-    uint32_t cascade_count; /* 0, or 2..4: then map_from_world gives metres across the light and
-                               the code, and normal and slope offset go with each one's texel */
-    struct gn_shadow_cascade cascades[GN_CASCADES_MAX];
-    uint32_t inner_px; /* cascades: of a tile, without its gutters */
-    float held_px;     /* cascades: so far from a tile's middle it may be asked */
-    /* Directional, not on a plane, no cascades: all that the map holds, outside of which it is
-     * cleared. Without `paged` it is drawn as it is read: the one page is the map. */
-    uint32_t drawn_px[2], drawn_size_px[2];
-    double corner_texels[2]; /* the map's lower left texel, counted from the light's axis */
-    bool paged;
-    uint32_t page_count; /* else 0 */
-    struct gn_shadow_page pages[GN_SHADOW_PAGES_MAX];
-    bool all_receive; /* as in gn_shadow_opts */
-    bool perspective; /* spot, point */
+    enum gn_moments moments; /* what shaders read in the map's place; NONE: the map */
+    bool all_receive;        /* as in gn_shadow_opts */
+    bool perspective;        /* spot, point */
+    bool empty;       /* nothing in view can be in this light's shadow: the map holds the far end */
     vec3 light_ws;    /* position (spot, point) */
     vec3 to_light_ws; /* unit (directional) */
-    /* Reads the map: xy / w in 0..1 over the map, z / w in the encoding's own unit for a
-     * directional light, and for a spot with encoding depth; for other spot encodings z = |p -
-     * light_ws| * distance_scale + distance_offset. Not for a point light: there a tangent (from a
-     * tile's middle) times tangent_uv is uv, and with encoding depth the code at depth d along the
-     * tile's axis is depth_code[0] + depth_code[1] / d. */
-    mat4 map_from_world;
-    float tangent_uv[2], depth_code[2];
-    float distance_scale, distance_offset;
-    float far_code; /* the far end in the encoding's unit: what the map is cleared to */
-    /* What the codes span: directional 0 and the depth between the clip planes, spot and point the
-     * near plane's depth and the greatest distance from the light; on_plane 0 and 1,
-     * encoding STENCIL heights over the plane. */
-    float near_m, far_m;
-    float texel;         /* plane units: metres, or metres per metre of depth */
-    float normal_offset; /* texels, times sin(theta) */
-    float slope_offset;  /* texels towards the light, times tan(theta) clamped at slope_max */
-    float slope_max;
-    /* How wide penumbrae are (shaders_es/lib/shadow_place.glsl): the emitter's radius in texels per
-     * unit of e, e of the nearest caster, and e = code * [2] + [3], or its negative inverse for
-     * distances from a spot. Cascades: [0] times the texel, and [1] is how much of e they grow per
-     * metre along the view, where there is no room for more (else 1e9). */
-    float soft[4];
-    float farthest; /* directional: e of the farthest place that can be seen in shadow */
-    float screen_ndc[2]
-                    [2]; /* encoding STENCIL: least and greatest place in view that can be dark */
-    float ulp_m;         /* added towards the light: the encoding's rounding at the far end */
-    bool empty; /* nothing in view can be in this light's shadow: the map holds the far end */
+    struct gn_shadow_map map;
+    struct gn_shadow_code code;
+    struct gn_shadow_raster raster;
+    struct gn_shadow_lookup lookup;
+    struct gn_shadow_penumbra penumbra;
+    struct gn_shadow_cascade cascades[GN_CASCADES_MAX]; /* map.cascade_count */
 };
 
 /* What the eye sees, for fitting. */
@@ -172,7 +201,7 @@ void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, ui
 /* Fits the light's view and fills memory->casts, for each tile (as many memories; of cascades
  * GN_CASCADE_MEMORIES). False: nothing
  * that is seen can be in this light's shadow; the view is empty: its size is right, and a map that
- * holds nothing but far_code is read as lit by it. Allocates nothing. */
+ * holds nothing but code.far_end is read as lit by it. Allocates nothing. */
 bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                    const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
                    struct gn_shadow_view *view);

@@ -24,42 +24,42 @@ static bool is_inside(const struct stretch *s, double first, double end, uint32_
 }
 
 /* Of both axes; 1 or 2 stretches of each. */
-static void add_pages(struct gn_page_layout *layout, struct stretch along[2][2],
+static void add_pages(struct gn_shadow_drawn *drawn, struct stretch along[2][2],
                       const uint32_t counts[2]) {
     for (uint32_t j = 0; j < counts[1]; j++)
         for (uint32_t i = 0; i < counts[0]; i++) {
-            struct gn_shadow_page *page = &layout->pages[layout->page_count++];
+            struct gn_shadow_page *page = &drawn->pages[drawn->page_count++];
             const struct stretch *s[2] = {&along[0][i], &along[1][j]};
             for (int k = 0; k < 2; k++) {
                 page->corner[k] = s[k]->corner;
                 page->from_px[k] = s[k]->from_px;
                 page->size_px[k] = s[k]->size_px;
-                page->to_px[k] = (uint32_t)(s[k]->corner + s[k]->from_px - layout->corner[k]);
+                page->to_px[k] = (uint32_t)(s[k]->corner + s[k]->from_px - drawn->corner_texels[k]);
             }
         }
 }
 
 void gn_pages_lay(const double anchor[2], const double first[2], const double last[2],
-                  uint32_t map_px, struct gn_page_layout *layout) {
+                  uint32_t map_px, struct gn_shadow_drawn *drawn) {
     struct stretch along[2][2];
     uint32_t counts[2];
-    *layout = (struct gn_page_layout){.paged = false};
+    *drawn = (struct gn_shadow_drawn){.paged = false};
     for (int k = 0; k < 2; k++) {
         const double end = fmin(last[k] + 1, first[k] + map_px - 2);
         along[k][0] = stretch_at(anchor[k], first[k], end, map_px);
         counts[k] = 1;
-        if (!is_inside(&along[k][0], first[k], end, map_px)) layout->paged = true;
+        if (!is_inside(&along[k][0], first[k], end, map_px)) drawn->paged = true;
         if (first[k] + along[k][0].size_px < end) {
             along[k][1] = stretch_at(anchor[k], first[k] + along[k][0].size_px, end, map_px);
             counts[k] = 2;
         }
-        layout->drawn_size_px[k] = (uint32_t)(end - first[k]);
+        drawn->size_px[k] = (uint32_t)(end - first[k]);
     }
     for (int k = 0; k < 2; k++) {
-        layout->corner[k] = layout->paged ? first[k] - 1 : along[k][0].corner;
-        layout->drawn_px[k] = (uint32_t)(first[k] - layout->corner[k]);
+        drawn->corner_texels[k] = drawn->paged ? first[k] - 1 : along[k][0].corner;
+        drawn->px[k] = (uint32_t)(first[k] - drawn->corner_texels[k]);
     }
-    add_pages(layout, along, counts);
+    add_pages(drawn, along, counts);
 }
 
 /* ---- the view ---- */
@@ -71,7 +71,7 @@ static double beside(const struct gn_shadow_view *view) {
 
 /* Such that the texels of a span, those beside it and the map's edge fit wherever it begins. */
 static float texel_for(const struct gn_fitter *f, const struct gn_shadow_region *r) {
-    const double room = f->view->map_px - 2 * beside(f->view) - 4;
+    const double room = f->view->map.tile_px - 2 * beside(f->view) - 4;
     const float span = fmaxf(r->max[0] - r->min[0], r->max[1] - r->min[1]);
     return gn_shadow_step(fmaxf(span, 1e-6f * f->scene_size_m) / (float)fmax(room, 1.0));
 }
@@ -81,12 +81,12 @@ static void set_clip(const struct gn_shadow_view *view, const double corner[2], 
                      float far_depth, mat4 clip_from_world) {
     mat4 clip_from_light = GLM_MAT4_IDENTITY_INIT;
     for (int k = 0; k < 2; k++) {
-        clip_from_light[k][k] = (float)(2.0 / ((double)view->texel * view->map_px));
-        clip_from_light[3][k] = (float)(-2.0 * corner[k] / view->map_px - 1.0);
+        clip_from_light[k][k] = (float)(2.0 / ((double)view->lookup.texel * view->map.tile_px));
+        clip_from_light[3][k] = (float)(-2.0 * corner[k] / view->map.tile_px - 1.0);
     }
     clip_from_light[2][2] = -2.0f / (far_depth - near_depth);
     clip_from_light[3][2] = -(far_depth + near_depth) / (far_depth - near_depth);
-    glm_mat4_mul(clip_from_light, (vec4 *)view->tiles[0].light_from_world, clip_from_world);
+    glm_mat4_mul(clip_from_light, (vec4 *)view->raster.tiles[0].light_from_world, clip_from_world);
 }
 
 /* What may touch the part of the page that is drawn: a texel more to each side, since rasterisers
@@ -104,14 +104,14 @@ static struct gn_shadow_region part_of(const struct gn_shadow_page *page, float 
 /* Whether or not an eye needs a caster for what it sees, it is in the part of the page that is
  * drawn: what a texel holds does not depend on the eye. */
 static void mark_casts(const struct gn_fitter *f) {
-    const struct gn_shadow_view *view = f->view;
+    const struct gn_shadow_drawn *drawn = &f->view->raster.drawn;
     struct gn_shadow_region parts[GN_SHADOW_PAGES_MAX];
-    for (uint32_t p = 0; p < view->page_count; p++)
-        parts[p] = part_of(&view->pages[p], view->texel);
+    for (uint32_t p = 0; p < drawn->page_count; p++)
+        parts[p] = part_of(&drawn->pages[p], f->view->lookup.texel);
     for (uint32_t i = 0; i < f->memory->item_count; i++) {
         if (!f->memory->casts[i]) continue;
         uint32_t pages = 0;
-        for (uint32_t p = 0; p < view->page_count; p++)
+        for (uint32_t p = 0; p < drawn->page_count; p++)
             pages |= (uint32_t)regions_meet(gn_fitter_whole(f, i), &parts[p]) << p;
         f->memory->casts[i] = (uint8_t)pages;
     }
@@ -123,41 +123,33 @@ static void mark_casts(const struct gn_fitter *f) {
 static struct gn_shadow_region choose_texel(const struct gn_fitter *f,
                                             const struct gn_window *found) {
     const float fine = texel_for(f, &found->window), next = 1.001f * gn_shadow_step(1.01f * fine);
-    f->view->texel = texel_for(f, &found->most);
-    if (f->view->texel <= next) return found->most;
+    f->view->lookup.texel = texel_for(f, &found->most);
+    if (f->view->lookup.texel <= next) return found->most;
     struct gn_window all = *found;
     if (!gn_window_is_all(f)) gn_window_find(f, true, &all);
-    f->view->texel = texel_for(f, &all.window);
-    if (f->view->texel > next) f->view->texel = fine;
+    f->view->lookup.texel = texel_for(f, &all.window);
+    if (f->view->lookup.texel > next) f->view->lookup.texel = fine;
     return all.window;
 }
 
 void gn_pages_fit(const struct gn_fitter *f, const struct gn_window *found, float near_depth,
                   float far_depth) {
     struct gn_shadow_view *view = f->view;
-    struct gn_page_layout layout;
+    struct gn_shadow_drawn *drawn = &view->raster.drawn;
     double anchor[2], first[2], last[2];
     const struct gn_shadow_region all = choose_texel(f, found), *window = &found->window;
     for (int k = 0; k < 2; k++) { /* of rounding, all may end a hair before the window */
         const float low = fmaxf(window->min[k], all.min[k]),
                     high = fminf(window->max[k], all.max[k]);
-        anchor[k] = floor((double)all.min[k] / view->texel) - beside(view) - 1;
-        first[k] = floor((double)low / view->texel) - beside(view);
-        last[k] = fmax(floor((double)high / view->texel) + beside(view), first[k]);
+        anchor[k] = floor((double)all.min[k] / view->lookup.texel) - beside(view) - 1;
+        first[k] = floor((double)low / view->lookup.texel) - beside(view);
+        last[k] = fmax(floor((double)high / view->lookup.texel) + beside(view), first[k]);
     }
-    gn_pages_lay(anchor, first, last, view->map_px, &layout);
-    view->paged = layout.paged;
-    view->page_count = layout.page_count;
-    for (int k = 0; k < 2; k++) {
-        view->corner_texels[k] = layout.corner[k];
-        view->drawn_px[k] = layout.drawn_px[k];
-        view->drawn_size_px[k] = layout.drawn_size_px[k];
-    }
-    set_clip(view, layout.corner, near_depth, far_depth, view->tiles[0].clip_from_world);
-    for (uint32_t p = 0; p < view->page_count; p++) {
-        view->pages[p] = layout.pages[p];
-        set_clip(view, view->pages[p].corner, near_depth, far_depth,
-                 view->pages[p].clip_from_world);
-    }
+    gn_pages_lay(anchor, first, last, view->map.tile_px, drawn);
+    set_clip(view, drawn->corner_texels, near_depth, far_depth,
+             view->raster.tiles[0].clip_from_world);
+    for (uint32_t p = 0; p < drawn->page_count; p++)
+        set_clip(view, drawn->pages[p].corner, near_depth, far_depth,
+                 drawn->pages[p].clip_from_world);
     mark_casts(f);
 }

@@ -17,18 +17,12 @@
 
 #include "shadow/fit.h"
 
-/* What a map of a window (texels of the lattice, first and last, both in it) holds. */
-struct gn_page_layout {
-    double corner[2];                       /* the map's lower left texel */
-    uint32_t drawn_px[2], drawn_size_px[2]; /* in the map; at least a texel from its edge */
-    bool paged;                             /* drawn in pages, then copied */
-    uint32_t page_count;                    /* 1 at least */
-    struct gn_shadow_page pages[GN_SHADOW_PAGES_MAX]; /* all but clip_from_world */
-};
-
-/* anchor: the lower left texel of any page. No window is wider than map_px - 2; map_px is 3 at
+/* Lays pages round a window (texels of the lattice, first and last, both in it): all of `drawn` but
+ * each page's clip_from_world. anchor: the lower left texel of any page. No window is wider than
+ * map_px
+ * - 2; map_px is 3 at
  * least. */
 void gn_pages_lay(const double anchor[2], const double first[2], const double last[2],
-                  uint32_t map_px, struct gn_page_layout *layout);
+                  uint32_t map_px, struct gn_shadow_drawn *drawn);
 
 #endif

@@ -106,7 +106,7 @@ static void set_matrices(struct planar *f) {
     }
     glm_mat4_mul(plane_from_world, f->fallen_from_world, f->shadow_from_world);
     for (int c = 0; c < 4; c++) f->shadow_from_world[c][2] = f->plane[c];
-    glm_mat4_copy(plane_from_world, f->view->tiles[0].light_from_world);
+    glm_mat4_copy(plane_from_world, f->view->raster.tiles[0].light_from_world);
 }
 
 /* ---- casters and receivers ---- */
@@ -170,13 +170,13 @@ static void add_receiver(const struct planar *f, uint32_t item, vec4 *planes, in
     if (g->index_count > 3 * GN_EXACT_TRIANGLES) {
         vec3 corners[8];
         gn_box_corners(&g->box, f->pose->items[item].world_from_item, corners);
-        add_body(r, f->view->tiles[0].light_from_world, corners, planes, count);
+        add_body(r, f->view->raster.tiles[0].light_from_world, corners, planes, count);
         return;
     }
     for (uint32_t i = 0; i < g->index_count; i += 3) {
         struct gn_polygon triangle;
         gn_item_triangle(f->pose, item, i, &triangle);
-        add_polygon(r, f->view->tiles[0].light_from_world, &triangle, planes, count);
+        add_polygon(r, f->view->raster.tiles[0].light_from_world, &triangle, planes, count);
     }
 }
 
@@ -189,7 +189,7 @@ static struct gn_shadow_region receivers_of(const struct planar *f, const struct
         if (is_receiver(f, i)) add_receiver(f, i, planes, count, &r);
     if (light->range_m <= 0.0f || !f->view->perspective) return r;
     vec3 foot; /* of the light, round which its range ends */
-    glm_mat4_mulv3(f->view->tiles[0].light_from_world, f->view->light_ws, 1.0f, foot);
+    glm_mat4_mulv3(f->view->raster.tiles[0].light_from_world, f->view->light_ws, 1.0f, foot);
     float radius = sqrtf(fmaxf(light->range_m * light->range_m - foot[2] * foot[2], 0.0f));
     for (int k = 0; k < 2; k++) {
         in_range.min[k] = foot[k] - radius;
@@ -221,7 +221,7 @@ static struct gn_shadow_region find_window(const struct planar *f, const struct 
 static void set_clip(struct planar *f, const double low[2]) {
     struct gn_shadow_view *view = f->view;
     vec4 *m = f->shadow_from_world;
-    float side = view->texel * (float)view->map_px;
+    float side = view->lookup.texel * (float)view->map.tile_px;
     float light_m = glm_vec4_dot(f->plane, f->light);
     float w_low = view->perspective ? light_m - f->low_m : 1.0f;
     float w_high = view->perspective ? light_m - f->high_m : 1.0f;
@@ -230,15 +230,15 @@ static void set_clip(struct planar *f, const double low[2]) {
     for (int c = 0; c < 4; c++) {
         for (int k = 0; k < 2; k++) {
             float from = (float)low[k];
-            view->tiles[0].clip_from_world[c][k] =
+            view->raster.tiles[0].clip_from_world[c][k] =
                 (2.0f * (m[c][k] - from * m[c][3]) - side * m[c][3]) / side;
-            view->map_from_world[c][k] =
-                (view->tiles[0].light_from_world[c][k] - (c == 3 ? from : 0.0f)) / side;
+            view->lookup.map_from_world[c][k] =
+                (view->raster.tiles[0].light_from_world[c][k] - (c == 3 ? from : 0.0f)) / side;
         }
-        view->tiles[0].clip_from_world[c][2] = slope * m[c][2] + (c == 3 ? at_0 : 0.0f);
-        view->tiles[0].clip_from_world[c][3] = m[c][3];
-        view->map_from_world[c][2] = 0.0f;
-        view->map_from_world[c][3] = c == 3 ? 1.0f : 0.0f;
+        view->raster.tiles[0].clip_from_world[c][2] = slope * m[c][2] + (c == 3 ? at_0 : 0.0f);
+        view->raster.tiles[0].clip_from_world[c][3] = m[c][3];
+        view->lookup.map_from_world[c][2] = 0.0f;
+        view->lookup.map_from_world[c][3] = c == 3 ? 1.0f : 0.0f;
     }
 }
 
@@ -248,7 +248,8 @@ static void set_mask(struct planar *f, const struct gn_shadow_region *window,
     double low[2];
     gn_shadow_snap(f->view, window->min, window->max, 1e-6f * f->scene_size_m, low);
     set_clip(f, low);
-    f->view->tiles[0].content_hash = gn_shadow_hash(f->pose, f->view, f->view->tiles, casts);
+    f->view->raster.tiles[0].content_hash =
+        gn_shadow_hash(f->pose, f->view, f->view->raster.tiles, casts);
 }
 
 /* Where the eye sees the window. False if it does not. */
@@ -256,7 +257,7 @@ static bool find_on_screen(const struct planar *f, const struct gn_shadow_region
                            struct gn_shadow_region *screen) {
     struct gn_polygon quad = {.count = 4};
     mat4 world_from_plane;
-    glm_mat4_inv(f->view->tiles[0].light_from_world, world_from_plane);
+    glm_mat4_inv(f->view->raster.tiles[0].light_from_world, world_from_plane);
     for (int i = 0; i < 4; i++) {
         vec3 corner = {i == 1 || i == 2 ? window->max[0] : window->min[0],
                        i >= 2 ? window->max[1] : window->min[1], 0.0f};
@@ -272,12 +273,12 @@ static bool find_on_screen(const struct planar *f, const struct gn_shadow_region
 static bool set_stencil(struct planar *f, const struct gn_shadow_region *window) {
     struct gn_shadow_region screen;
     if (!find_on_screen(f, window, &screen)) return false;
-    glm_mat4_copy(f->fallen_from_world, f->view->tiles[0].clip_from_world);
-    f->view->near_m = f->low_m;
-    f->view->far_m = f->high_m;
+    glm_mat4_copy(f->fallen_from_world, f->view->raster.tiles[0].clip_from_world);
+    f->view->code.near_m = f->low_m;
+    f->view->code.far_m = f->high_m;
     for (int k = 0; k < 2; k++) {
-        f->view->screen_ndc[0][k] = screen.min[k];
-        f->view->screen_ndc[1][k] = screen.max[k];
+        f->view->raster.screen_ndc[0][k] = screen.min[k];
+        f->view->raster.screen_ndc[1][k] = screen.max[k];
     }
     return true;
 }
@@ -287,7 +288,7 @@ bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
     const struct gn_light *l = &pose->scene->lights[view->light];
     struct planar f = {
         .pose = pose, .eye = eye, .view = view, .scene_size_m = gn_scene_size_m(pose)};
-    view->distance_scale = view->far_code = view->far_m = 1.0f;
+    view->code.scale = view->code.far_end = view->code.far_m = 1.0f;
     if (!find_plane(&f) || !place_light(&f)) return false;
     set_matrices(&f);
     set_heights(&f);

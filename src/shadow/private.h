@@ -57,8 +57,8 @@ void gn_shadow_look(const struct gn_shadow_view *view, mat4 light_from_world);
 /* The least size of a geometric series that is not smaller. */
 float gn_shadow_step(float size);
 /* Lays the map round a window in plane coordinates, on whole texels of a size from a geometric
- * series: sets view->texel and the map's low corner. min, max, least (of the window's side), low:
- * plane units. */
+ * series: sets view->lookup.texel and the map's low corner. min, max, least (of the window's side),
+ * low: plane units. */
 void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float max[2],
                     float least, double low[2]);
 /* Of all that decides the map's content; never 0. */

@@ -7,13 +7,13 @@
 
 static void set_lookup(struct gn_shadow_view *view, float near_depth) {
     mat4 map_from_clip = {{0.5f, 0, 0, 0}, {0, 0.5f, 0, 0}, {0, 0, 0.5f, 0}, {0.5f, 0.5f, 0.5f, 1}};
-    glm_mat4_mul(map_from_clip, view->tiles[0].clip_from_world, view->map_from_world);
+    glm_mat4_mul(map_from_clip, view->raster.tiles[0].clip_from_world, view->lookup.map_from_world);
     if (view->perspective || view->encoding == GN_ENCODING_DEPTH) return;
     for (int c = 0; c < 4;
          c++) { /* z is the code itself: distance from the near plane is -z_ls - near */
-        float depth = -view->tiles[0].light_from_world[c][2] - (c == 3 ? near_depth : 0.0f);
-        view->map_from_world[c][2] =
-            depth * view->distance_scale + (c == 3 ? view->distance_offset : 0.0f);
+        float depth = -view->raster.tiles[0].light_from_world[c][2] - (c == 3 ? near_depth : 0.0f);
+        view->lookup.map_from_world[c][2] =
+            depth * view->code.scale + (c == 3 ? view->code.offset : 0.0f);
     }
 }
 

@@ -32,24 +32,24 @@ float gn_shadow_step(float size) {
 void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float max[2],
                     float least, double low[2]) {
     uint32_t margin = gn_techniques[view->technique].radius_texels + RIM_TEXELS;
-    uint32_t usable = view->map_px > 2 * margin + 2 ? view->map_px - 2 * margin : 2;
+    uint32_t usable = view->map.tile_px > 2 * margin + 2 ? view->map.tile_px - 2 * margin : 2;
     float span = fmaxf(max[0] - min[0], max[1] - min[1]);
-    view->texel = gn_shadow_step(fmaxf(span, least) / (float)(usable - 1));
+    view->lookup.texel = gn_shadow_step(fmaxf(span, least) / (float)(usable - 1));
     for (int k = 0; k < 2; k++)
-        low[k] = (floor((double)min[k] / view->texel) - margin) * view->texel;
+        low[k] = (floor((double)min[k] / view->lookup.texel) - margin) * view->lookup.texel;
 }
 
 void gn_shadow_set_frustums(struct gn_shadow_view *view, const double low[2], float near_depth,
                             float far_depth) {
-    double side = (double)view->texel * view->map_px;
+    double side = (double)view->lookup.texel * view->map.tile_px;
     float left = (float)low[0], right = (float)(low[0] + side), bottom = (float)low[1],
           top = (float)(low[1] + side);
     mat4 clip_from_light;
     glm_frustum(left * near_depth, right * near_depth, bottom * near_depth, top * near_depth,
                 near_depth, far_depth, clip_from_light);
-    for (uint32_t i = 0; i < view->tile_count; i++)
-        glm_mat4_mul(clip_from_light, view->tiles[i].light_from_world,
-                     view->tiles[i].clip_from_world);
+    for (uint32_t i = 0; i < view->map.tile_count; i++)
+        glm_mat4_mul(clip_from_light, view->raster.tiles[i].light_from_world,
+                     view->raster.tiles[i].clip_from_world);
 }
 
 static uint64_t hash_page(uint64_t h, const struct gn_shadow_page *page) {
@@ -60,11 +60,12 @@ static uint64_t hash_page(uint64_t h, const struct gn_shadow_page *page) {
 
 uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view *view,
                         const struct gn_shadow_tile *tile, const uint8_t *casts) {
-    float code[] = {view->distance_scale, view->distance_offset, view->far_code,
-                    (float)view->map_px, (float)view->encoding};
+    float code[] = {view->code.scale, view->code.offset, view->code.far_end,
+                    (float)view->map.tile_px, (float)view->encoding};
     uint64_t h = gn_hash(GN_HASH_INIT, code, sizeof code);
     if (!tile->empty) h = gn_hash(h, tile->clip_from_world, sizeof tile->clip_from_world);
-    for (uint32_t p = 0; p < view->page_count; p++) h = hash_page(h, &view->pages[p]);
+    for (uint32_t p = 0; p < view->raster.drawn.page_count; p++)
+        h = hash_page(h, &view->raster.drawn.pages[p]);
     for (uint32_t i = 0; i < pose->scene->item_count && !tile->empty; i++)
         if (casts[i]) {
             uint64_t item[2] = {i, pose->items[i].hash};

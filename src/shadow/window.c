@@ -155,7 +155,7 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
         struct gn_shadow_region reached = grown(receivers, reach(f, r.near, receivers->far));
         bool matters = regions_meet(&r, &reached) && r.near <= receivers->far;
         /* What a whole tile holds, or a page, does not go with the eye. */
-        casts[i] = matters || f->view->tile_count > 1 || !f->view->perspective;
+        casts[i] = matters || f->view->map.tile_count > 1 || !f->view->perspective;
         if (!matters) continue;
         const bool cut = near_counts && !holds(receivers, &r);
         r = intersect(&r, &reached);

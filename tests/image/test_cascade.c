@@ -69,7 +69,7 @@ static double depth_at(int pixel) {
 /* The coarsest cascade that may be asked at this depth. */
 static const struct gn_shadow_cascade *cascade_at(const struct gn_shadow_view *view, double depth) {
     uint32_t i = 0;
-    while (i + 1 < view->cascade_count && depth >= (double)view->cascades[i + 1].begin_m) i++;
+    while (i + 1 < view->map.cascade_count && depth >= (double)view->cascades[i + 1].begin_m) i++;
     return &view->cascades[i];
 }
 
@@ -78,7 +78,7 @@ static const struct gn_shadow_cascade *cascade_at(const struct gn_shadow_view *v
 static void set_bands(const struct gn_shadow_view *view) {
     for (int i = 0; i < PIXELS; i++) {
         band_px[i] = 2.0f;
-        if (truth.mask.item[i] < 0 || view->cascade_count == 0) continue;
+        if (truth.mask.item[i] < 0 || view->map.cascade_count == 0) continue;
         double point[3];
         for (int k = 0; k < 3; k++) point[k] = (double)truth.mask.point_ws[3 * i + k];
         const double pixel_m = gn_ray_eye_pixel_m(&truth.frame.eye, point);
@@ -104,7 +104,7 @@ static const struct gn_shadow_view *draw_visibility(enum gn_technique technique,
     if (!gn_gl_read_f32(stage.gl, aov, &err)) fail_msg("%s", err.text);
     gn_picture_init(shot, WIDTH_PX, HEIGHT_PX, 1);
     for (int i = 0; i < PIXELS; i++) shot->data[i] = aov[4 * i];
-    assert_int_equal(plan->shadows[0].cascade_count, cascades == 1 ? 0 : cascades);
+    assert_int_equal(plan->shadows[0].map.cascade_count, cascades == 1 ? 0 : cascades);
     set_bands(&plan->shadows[0]);
     return &plan->shadows[0];
 }
@@ -180,7 +180,7 @@ static void test_no_split_is_seen(void **state) {
         long all_away = 0;
         const struct gn_shadow_view *view =
             draw_visibility(techniques[t], GN_ENCODING_DEPTH, 4, &shot);
-        for (uint32_t split = 0; split + 1 < view->cascade_count; split++) {
+        for (uint32_t split = 0; split + 1 < view->map.cascade_count; split++) {
             const double end = (double)view->cascades[split].end_m,
                          begin = (double)view->cascades[split + 1].begin_m;
             const double zone = end - begin;
@@ -239,7 +239,7 @@ static void draw_maps(enum gn_encoding encoding, int eye) {
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     shots[eye].view = plan->shadows[0];
-    assert_int_equal(shots[eye].view.cascade_count, 4);
+    assert_int_equal(shots[eye].view.map.cascade_count, 4);
     if (!gn_gl_read_map(stage.gl, 0, shots[eye].codes, &err)) fail_msg("%s", err.text);
 }
 
@@ -248,11 +248,11 @@ static float code_at(const struct shot *shot, uint32_t i, int x, int y) {
     const struct gn_shadow_cascade *c = &shot->view.cascades[i];
     const int at[2] = {x, y};
     for (int k = 0; k < 2; k++) {
-        const int drawn = at[k] - (int)c->drawn_px[k];
-        if (drawn < 0 || drawn >= (int)c->drawn_size_px[k]) return NAN;
+        const int drawn = at[k] - (int)c->drawn.px[k];
+        if (drawn < 0 || drawn >= (int)c->drawn.size_px[k]) return NAN;
     }
-    const uint32_t u = shot->view.tiles[i].x_px + shot->view.gutter_px + (uint32_t)x,
-                   v = shot->view.tiles[i].y_px + shot->view.gutter_px + (uint32_t)y;
+    const uint32_t u = shot->view.raster.tiles[i].x_px + shot->view.map.gutter_px + (uint32_t)x,
+                   v = shot->view.raster.tiles[i].y_px + shot->view.map.gutter_px + (uint32_t)y;
     return shot->codes[v * ATLAS_PX + u];
 }
 
@@ -262,18 +262,20 @@ struct agreement {
 
 static void compare(const struct shot *a, const struct shot *b, uint32_t i, struct agreement *sum) {
     const struct gn_shadow_cascade *before = &a->view.cascades[i], *after = &b->view.cascades[i];
-    if (a->view.tiles[i].empty || b->view.tiles[i].empty || before->texel != after->texel) return;
+    if (a->view.raster.tiles[i].empty || b->view.raster.tiles[i].empty ||
+        before->texel != after->texel)
+        return;
     int shift[2];
     for (int k = 0; k < 2; k++)
-        shift[k] = (int)(after->corner_texels[k] - before->corner_texels[k]);
+        shift[k] = (int)(after->drawn.corner_texels[k] - before->drawn.corner_texels[k]);
     sum->pairs++;
     sum->moved += shift[0] || shift[1];
-    for (int y = 0; y < (int)b->view.inner_px; y++)
-        for (int x = 0; x < (int)b->view.inner_px; x++) {
+    for (int y = 0; y < (int)b->view.map.inner_px; y++)
+        for (int x = 0; x < (int)b->view.map.inner_px; x++) {
             const float old = code_at(a, i, x + shift[0], y + shift[1]), new = code_at(b, i, x, y);
             if (isnan(old) || isnan(new)) continue;
             sum->compared++;
-            sum->covered += new < b->view.far_code;
+            sum->covered += new < b->view.code.far_end;
             sum->different += memcmp(&old, &new, sizeof new) != 0;
         }
 }
@@ -282,14 +284,14 @@ static void compare(const struct shot *a, const struct shot *b, uint32_t i, stru
  * tile of three cascades. */
 static void expect_cleared(const struct shot *shot) {
     const struct gn_shadow_view *view = &shot->view;
-    const int gutter = (int)view->gutter_px;
-    for (uint32_t v = 0; v < view->height_px; v++)
-        for (uint32_t u = 0; u < view->width_px; u++) {
+    const int gutter = (int)view->map.gutter_px;
+    for (uint32_t v = 0; v < view->map.height_px; v++)
+        for (uint32_t u = 0; u < view->map.width_px; u++) {
             const uint32_t i = v / SMALL_PX * 2 + u / SMALL_PX;
             const int x = (int)(u % SMALL_PX) - gutter, y = (int)(v % SMALL_PX) - gutter;
-            const bool empty = i >= view->cascade_count || view->tiles[i].empty;
+            const bool empty = i >= view->map.cascade_count || view->raster.tiles[i].empty;
             if (empty || isnan(code_at(shot, i, x, y)))
-                assert_true(shot->codes[v * ATLAS_PX + u] >= view->far_code);
+                assert_true(shot->codes[v * ATLAS_PX + u] >= view->code.far_end);
         }
 }
 
@@ -342,7 +344,7 @@ static void test_beside_a_tile_all_is_clear(void **state) {
                                            .cascades = cascades};
         struct gn_err err = {0};
         struct shot shot = {.view = help_stage_draw(&stage, &opts, NULL)->shadows[0]};
-        assert_int_equal(shot.view.cascade_count, cascades);
+        assert_int_equal(shot.view.map.cascade_count, cascades);
         shot.codes = gn_xalloc((size_t)ATLAS_PX * ATLAS_PX, sizeof(float));
         if (!gn_gl_read_map(stage.gl, 0, shot.codes, &err)) fail_msg("%s", err.text);
         expect_cleared(&shot);
@@ -369,9 +371,9 @@ static void test_a_moving_eye_makes_nothing(void **state) {
                                                .map_px = SMALL_PX,
                                                .orbit = orbit_at(eye)};
             const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
-            assert_int_equal(plan->shadows[0].cascade_count, 4);
-            least_px = fminf(least_px, plan->shadows[0].reach_px);
-            most_px = fmaxf(most_px, plan->shadows[0].reach_px);
+            assert_int_equal(plan->shadows[0].map.cascade_count, 4);
+            least_px = fminf(least_px, plan->shadows[0].lookup.reach_px);
+            most_px = fmaxf(most_px, plan->shadows[0].lookup.reach_px);
             const uint64_t now = gn_gl_stats(stage.gl).objects_created;
             if (eye > 0) assert_int_equal(now, objects);
             objects = now;

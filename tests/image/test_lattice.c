@@ -187,7 +187,7 @@ static void check_ground(struct gn_scene *(*make)(void), bool casts) {
     assert_true(lit > 0.6 && lit < 0.8);
     for (int t = 0; t < TECHNIQUES; t++) {
         const struct gn_shadow_view *view = draw(techniques[t]);
-        assert_true(casts == (view->far_m > 9)); /* the lattice's last is nearer */
+        assert_true(casts == (view->code.far_m > 9)); /* the lattice's last is nearer */
         const struct seen seen = see();
         print_message("%-4s, a ground that casts %s: %.3f, truth %.3f\n",
                       gn_techniques[techniques[t]].name, casts ? "too" : "nothing", seen.mean, lit);

@@ -78,8 +78,8 @@ static void draw_map(enum gn_encoding encoding, const struct gn_orbit *orbit, st
 static bool is_drawn(const struct gn_shadow_view *view, int x, int y) {
     const int px[2] = {x, y};
     for (int k = 0; k < 2; k++) {
-        const int at = px[k] - (int)view->drawn_px[k];
-        if (at < 0 || at >= (int)view->drawn_size_px[k]) return false;
+        const int at = px[k] - (int)view->raster.drawn.px[k];
+        if (at < 0 || at >= (int)view->raster.drawn.size_px[k]) return false;
     }
     return true;
 }
@@ -89,14 +89,15 @@ static bool is_drawn(const struct gn_shadow_view *view, int x, int y) {
 static void expect_window(const struct shot *shot) {
     const struct gn_shadow_view *view = &shot->view;
     for (int k = 0; k < 2; k++) {
-        assert_true(fabs(view->corner_texels[k] + (double)view->map_from_world[3][k] * MAP_PX) <
-                    0.02);
-        assert_true(view->drawn_px[k] >= 1);
-        assert_true(view->drawn_px[k] + view->drawn_size_px[k] < MAP_PX);
+        assert_true(fabs(view->raster.drawn.corner_texels[k] +
+                         (double)view->lookup.map_from_world[3][k] * MAP_PX) < 0.02);
+        assert_true(view->raster.drawn.px[k] >= 1);
+        assert_true(view->raster.drawn.px[k] + view->raster.drawn.size_px[k] < MAP_PX);
     }
     for (int y = 0; y < MAP_PX; y++)
         for (int x = 0; x < MAP_PX; x++)
-            if (!is_drawn(view, x, y)) assert_true(shot->codes[y * MAP_PX + x] >= view->far_code);
+            if (!is_drawn(view, x, y))
+                assert_true(shot->codes[y * MAP_PX + x] >= view->code.far_end);
 }
 
 struct agreement {
@@ -107,8 +108,9 @@ struct agreement {
 static void compare(const struct shot *a, const struct shot *b, struct agreement *sum) {
     int shift[2];
     for (int k = 0; k < 2; k++)
-        shift[k] = (int)(b->view.corner_texels[k] - a->view.corner_texels[k]);
-    if (a->view.texel != b->view.texel) return;
+        shift[k] =
+            (int)(b->view.raster.drawn.corner_texels[k] - a->view.raster.drawn.corner_texels[k]);
+    if (a->view.lookup.texel != b->view.lookup.texel) return;
     sum->pairs++;
     for (int k = 0; k < 2; k++) sum->moved[k] += shift[k] != 0;
     sum->diagonal += shift[0] && shift[1];
@@ -118,7 +120,7 @@ static void compare(const struct shot *a, const struct shot *b, struct agreement
             if (!is_drawn(&b->view, x, y) || !is_drawn(&a->view, u, v)) continue;
             const float *before = &a->codes[v * MAP_PX + u], *after = &b->codes[y * MAP_PX + x];
             sum->compared++;
-            sum->covered += *before < a->view.far_code;
+            sum->covered += *before < a->view.code.far_end;
             sum->different += memcmp(before, after, sizeof *before) != 0;
         }
 }
@@ -130,13 +132,14 @@ struct lay {
 };
 
 static void add_lay(const struct gn_shadow_view *view, struct lay *lay) {
-    const struct gn_shadow_page *first = &view->pages[0],
-                                *last = &view->pages[view->page_count - 1];
-    *(view->paged ? &lay->paged : &lay->straight) += 1;
-    lay->four += view->page_count == 4;
+    const struct gn_shadow_page *first = &view->raster.drawn.pages[0],
+                                *last =
+                                    &view->raster.drawn.pages[view->raster.drawn.page_count - 1];
+    *(view->raster.drawn.paged ? &lay->paged : &lay->straight) += 1;
+    lay->four += view->raster.drawn.page_count == 4;
     for (int k = 0; k < 2; k++) {
         lay->wraps[k] += first->corner[k] != last->corner[k];
-        *(view->corner_texels[k] < 0 ? &lay->before[k] : &lay->after[k]) += 1;
+        *(view->raster.drawn.corner_texels[k] < 0 ? &lay->before[k] : &lay->after[k]) += 1;
     }
 }
 
@@ -150,7 +153,7 @@ static void expect_same_map(enum gn_encoding encoding) {
         expect_window(&shots[i]);
         add_lay(&shots[i].view, &lay);
         int first = 0;
-        while (shots[first].view.texel != shots[i].view.texel) first++;
+        while (shots[first].view.lookup.texel != shots[i].view.lookup.texel) first++;
         if (first < i) compare(&shots[first], &shots[i], &sum);
         if (first + 1 < i) compare(&shots[i - 1], &shots[i], &sum);
     }
@@ -176,9 +179,10 @@ static void test_rgba8(void **state) { (void)state, expect_same_map(GN_ENCODING_
 
 /* The ground, y = 0, as the light sees it in the middle of a texel; all casters stand on it. */
 static struct gn_ray_surface ground_at(const struct gn_shadow_view *view, int x, int y) {
-    const double at[2] = {(view->corner_texels[0] + x + 0.5) * (double)view->texel,
-                          (view->corner_texels[1] + y + 0.5) * (double)view->texel};
-    const vec4 *m = view->tiles[0].light_from_world; /* rigid: rows are the light's axes */
+    const double at[2] = {
+        (view->raster.drawn.corner_texels[0] + x + 0.5) * (double)view->lookup.texel,
+        (view->raster.drawn.corner_texels[1] + y + 0.5) * (double)view->lookup.texel};
+    const vec4 *m = view->raster.tiles[0].light_from_world; /* rigid: rows are the light's axes */
     struct gn_ray_surface surface = {.item = GN_RAY_NO_ITEM};
     double p[3];
     for (int c = 0; c < 3; c++) p[c] = at[0] * (double)m[c][0] + at[1] * (double)m[c][1];
@@ -208,7 +212,7 @@ static void test_it_covers_what_rays_hit(void **state) {
                 const bool lit = gn_raycast_visible(&rays, &sun, &surface);
                 asked++;
                 dark += !lit;
-                wrong += lit != (shots[i].codes[y * MAP_PX + x] >= view->far_code);
+                wrong += lit != (shots[i].codes[y * MAP_PX + x] >= view->code.far_end);
             }
     }
     gn_raycast_finish(&rays);

@@ -126,8 +126,9 @@ static void see_two(double x, double seen, struct leak *leak) {
 static struct leak leak_of(enum gn_technique technique, enum gn_moments moments, const char *what) {
     const struct gn_plan *plan = draw(technique, moments);
     const struct gn_shadow_view *view = &plan->shadows[0];
-    struct leak leak = {.filter_m = 9 * (double)(view->texel * (view->blur_px + 1.0f))};
-    assert_true(view->blur_px == GN_BLUR_MOST_PX); /* nine texels wide */
+    struct leak leak = {.filter_m =
+                            9 * (double)(view->lookup.texel * (view->penumbra.blur_px + 1.0f))};
+    assert_true(view->penumbra.blur_px == GN_BLUR_MOST_PX); /* nine texels wide */
     assert_int_equal(view->moments, moments);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         if (!isnan(ground[i][0])) see_two(ground[i][0], (double)picture[4 * i], &leak);
@@ -200,7 +201,7 @@ static void test_contacts_are_dark(void **state) {
         const enum gn_technique technique = (enum gn_technique)t;
         double most[ROWS];
         const struct gn_plan *plan = draw(technique, (enum gn_moments)gn_techniques[t].stores[0]);
-        see_contact(9 * (double)plan->shadows[0].texel, most);
+        see_contact(9 * (double)plan->shadows[0].lookup.texel, most);
         print_message("%-5s at most, by texels from the wall:", gn_techniques[t].name);
         for (int i = 0; i < ROWS; i++) print_message(" %.4f", most[i]);
         print_message("\n");
@@ -223,9 +224,9 @@ static void expect_numbers(uint32_t slot, const struct gn_shadow_view *view, GLu
     assert_non_null(map);
     gn_gl_bind_framebuffer(stage.gl, map->framebuffer);
     GL(stage.gl, ReadPixels)
-    (0, 0, (GLsizei)view->width_px, (GLsizei)view->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-     bits);
-    for (uint32_t i = 0; i < 4 * view->width_px * view->height_px; i++) {
+    (0, 0, (GLsizei)view->map.width_px, (GLsizei)view->map.height_px, GL_RGBA_INTEGER,
+     GL_UNSIGNED_INT, bits);
+    for (uint32_t i = 0; i < 4 * view->map.width_px * view->map.height_px; i++) {
         float value;
         memcpy(&value, &bits[i], sizeof value);
         if (!isfinite(value) || fabsf(value) > 1e36f)
@@ -303,7 +304,7 @@ static void test_mipmaps_are_means_of_the_map(void **state) {
         for (uint32_t slot = 0; slot < plan->shadow_count; slot++) {
             const struct gn_shadow_view *view = &plan->shadows[slot];
             const struct gn_gl_map *map = gn_gl_view_find(stage.gl, view, slot, true);
-            assert_int_equal(map->mipmaps, view->tile_count == 1); /* tiles have neighbours */
+            assert_int_equal(map->mipmaps, view->map.tile_count == 1); /* tiles have neighbours */
             if (!map->mipmaps) continue;
             read_level(map, 0, whole);
             read_level(map, 1, half);

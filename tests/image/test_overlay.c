@@ -136,7 +136,7 @@ static void expect_kept_maps(uint32_t least) {
     opts.show_maps = true;
     const struct gn_plan *plan = draw(shown);
     uint32_t passes = 0;
-    for (uint32_t i = 0; i < plan->shadow_count; i++) passes += plan->shadows[i].tile_count;
+    for (uint32_t i = 0; i < plan->shadow_count; i++) passes += plan->shadows[i].map.tile_count;
     assert_true(passes >= least);
     assert_int_equal(gn_gl_stats(stage.gl).shadow_passes_skipped, passes);
     const uint64_t objects = gn_gl_stats(stage.gl).objects_created;

@@ -94,7 +94,7 @@ static void test_a_tile_whose_shadows_are_not_seen_is_not_drawn(void **state) {
     expect_shadow_work(6, 0);
     const struct gn_shadow_view *view = draw(1, GN_TECHNIQUE_HARD, GN_ENCODING_DEPTH)->shadows;
     expect_shadow_work(0, 1); /* the others are cleared */
-    for (int i = 0; i < 6; i++) assert_true(view->tiles[i].empty == (i > 0));
+    for (int i = 0; i < 6; i++) assert_true(view->raster.tiles[i].empty == (i > 0));
     draw(1, GN_TECHNIQUE_HARD, GN_ENCODING_DEPTH);
     expect_shadow_work(0, 6);
 }
@@ -140,8 +140,8 @@ static void test_what_a_mesh_round_the_light_has_near_it_casts(void **state) {
     const struct gn_shadow_view *view = draw(0, GN_TECHNIQUE_HARD, GN_ENCODING_DEPTH)->shadows;
     assert_true(lamp.scene->geometries[0].index_count / 3 > 32);
     assert_false(view->empty);
-    assert_true(view->near_m > 0.1f && view->near_m < 0.5f);
-    assert_true(view->far_m > 8.6f && view->far_m < 12.0f);
+    assert_true(view->code.near_m > 0.1f && view->code.near_m < 0.5f);
+    assert_true(view->code.far_m > 8.6f && view->code.far_m < 12.0f);
 }
 
 int main(void) {

@@ -134,7 +134,7 @@ static void check_radius(float radius) {
         const struct gn_plan *plan = draw(techniques[t], GN_AOV_VISIBILITY, nearer);
         const struct gn_shadow_view *view = &plan->shadows[0];
         long blocks = 0;
-        assert_int_equal(view->cascade_count, 4);
+        assert_int_equal(view->map.cascade_count, 4);
         for (uint32_t split = 0; split < 2; split++) { /* beyond the third nothing is wide */
             draw_moved(plan, split, 1 - GN_CASCADE_FADE, nearer);
             draw_moved(plan, split, 1 / (1 - GN_CASCADE_FADE), farther);

@@ -68,15 +68,17 @@ static double dice(void) {
 static void code_of(const struct gn_shadow_view *view, uint32_t tile, float code[2]) {
     code[0] = 1.0f;
     code[1] = 0.0f;
-    if (view->cascade_count == 0 || view->tiles[tile].empty) return;
-    code[0] = view->far_m / view->cascades[tile].span;
+    if (view->map.cascade_count == 0 || view->raster.tiles[tile].empty) return;
+    code[0] = view->code.far_m / view->cascades[tile].span;
     code[1] = -view->cascades[tile].nearest / view->cascades[tile].span;
 }
 
 static uint32_t tile_at(const struct gn_shadow_view *view, size_t texel) {
-    const uint32_t x = (uint32_t)(texel % view->width_px), y = (uint32_t)(texel / view->width_px);
-    for (uint32_t i = 0; i < view->tile_count; i++)
-        if (x - view->tiles[i].x_px < view->map_px && y - view->tiles[i].y_px < view->map_px)
+    const uint32_t x = (uint32_t)(texel % view->map.width_px),
+                   y = (uint32_t)(texel / view->map.width_px);
+    for (uint32_t i = 0; i < view->map.tile_count; i++)
+        if (x - view->raster.tiles[i].x_px < view->map.tile_px &&
+            y - view->raster.tiles[i].y_px < view->map.tile_px)
             return i;
     return 0;
 }
@@ -168,20 +170,21 @@ static void check_table(const struct gn_plan *plan, uint32_t slot) {
     float *codes = fill(plan, slot);
     run(plan);
     uint32_t *texels = read_texels(gn_gl_view_find(stage.gl, view, slot, true));
-    for (uint32_t tile = 0; tile < view->tile_count; tile++) {
-        const float side = 2 * view->reach_px + 2;
+    for (uint32_t tile = 0; tile < view->map.tile_count; tile++) {
+        const float side = 2 * view->lookup.reach_px + 2;
         const struct sums s = {.texels = texels,
                                .codes = codes,
-                               .width_px = view->width_px,
-                               .x_px = view->tiles[tile].x_px,
-                               .y_px = view->tiles[tile].y_px,
-                               .side_px = view->map_px,
+                               .width_px = view->map.width_px,
+                               .x_px = view->raster.tiles[tile].x_px,
+                               .y_px = view->raster.tiles[tile].y_px,
+                               .side_px = view->map.tile_px,
                                .scale = (double)(4294966272.0f / (side * side) - 1.0f)};
         const double worst = worst_variance(&s, 9);
-        print_message("%u x %u, tile %u: variance over 9 x 9 at most %.2g off\n", view->map_px,
-                      view->map_px, tile, worst);
+        print_message("%u x %u, tile %u: variance over 9 x 9 at most %.2g off\n", view->map.tile_px,
+                      view->map.tile_px, tile, worst);
         assert_true(worst < 1e-6);
-        if (side < (float)view->map_px) assert_true(worst_variance(&s, (uint32_t)side - 2) < 1e-6);
+        if (side < (float)view->map.tile_px)
+            assert_true(worst_variance(&s, (uint32_t)side - 2) < 1e-6);
     }
     free(texels);
     free(codes);
@@ -194,14 +197,14 @@ static void test_tables_are_right(void **state) {
     for (int i = 0; i < 3; i++) {
         const struct gn_plan *plan = draw(GN_TECHNIQUE_VSSM, sizes[i]);
         for (uint32_t slot = 0; slot < plan->shadow_count; slot++)
-            if (i == 2 || plan->shadows[slot].tile_count == 1) check_table(plan, slot);
+            if (i == 2 || plan->shadows[slot].map.tile_count == 1) check_table(plan, slot);
     }
 }
 
 static void test_tables_of_cascades_are_right(void **state) {
     (void)state;
     const struct gn_plan *plan = draw(GN_TECHNIQUE_VSSM, 300);
-    assert_true(plan->shadows[0].cascade_count > 1);
+    assert_true(plan->shadows[0].map.cascade_count > 1);
     check_table(plan, 0);
 }
 
@@ -317,8 +320,8 @@ static double loops_ms(const struct gn_plan *plan, uint32_t slot) {
     struct gn_gl *gl = stage.gl;
     const struct gn_target scratch = {.kind = GN_TARGET_MOMENTS,
                                       .slot = slot,
-                                      .width_px = view->width_px,
-                                      .height_px = view->height_px,
+                                      .width_px = view->map.width_px,
+                                      .height_px = view->map.height_px,
                                       .moments = view->moments,
                                       .index = 1};
     const struct gn_gl_map *map = gn_gl_view_find(gl, view, slot, false),
@@ -367,7 +370,7 @@ static void test_blocks_take_an_eighth_of_the_time_of_loops(void **state) {
     (void)state;
     const struct gn_plan *plan = draw(GN_TECHNIQUE_VSSM, 512);
     uint32_t slot = 0;
-    while (plan->shadows[slot].tile_count > 1) slot++;
+    while (plan->shadows[slot].map.tile_count > 1) slot++;
     const double blocks = blocks_ms(plan, slot), loops = loops_ms(plan, slot);
     print_message("a table of 512: %.2f ms in blocks, %.2f ms by loops, 1/%.1f (CPU)\n", blocks,
                   loops, loops / blocks);

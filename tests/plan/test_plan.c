@@ -147,7 +147,7 @@ static void test_plan_without_float_and_srgb_targets(void **state) {
 }
 
 static uint64_t hash_of(struct gn_plan_fixture *f, uint32_t slot) {
-    return gn_plan_make(f)->shadows[slot].tiles[0].content_hash;
+    return gn_plan_make(f)->shadows[slot].raster.tiles[0].content_hash;
 }
 
 static void test_still_scene_keeps_its_maps(void **state) {
@@ -188,9 +188,9 @@ static void test_no_allocation_once_grown(void **state) {
 /* The window's corner in texels from the world's origin, which must be whole, and its texel. */
 static void corner_in_texels(const struct gn_shadow_view *view, double out[2]) {
     mat4 map_from_light, light_inverse;
-    glm_mat4_inv_precise((vec4 *)view->tiles[0].light_from_world, light_inverse);
-    glm_mat4_mul((vec4 *)view->map_from_world, light_inverse, map_from_light);
-    for (int k = 0; k < 2; k++) out[k] = -(double)map_from_light[3][k] * view->map_px;
+    glm_mat4_inv_precise((vec4 *)view->raster.tiles[0].light_from_world, light_inverse);
+    glm_mat4_mul((vec4 *)view->lookup.map_from_world, light_inverse, map_from_light);
+    for (int k = 0; k < 2; k++) out[k] = -(double)map_from_light[3][k] * view->map.tile_px;
 }
 
 static void expect_whole_texels(enum gn_technique technique) {
@@ -207,13 +207,13 @@ static void expect_whole_texels(enum gn_technique technique) {
         double corner[2];
         corner_in_texels(view, corner);
         for (int k = 0; k < 2; k++) assert_true(fabs(corner[k] - round(corner[k])) < 0.02);
-        if (view->texel != still.texel) continue;
-        moved += memcmp(view->tiles[0].clip_from_world, still.tiles[0].clip_from_world,
-                        sizeof(mat4)) != 0;
-        assert_true(view->near_m == still.near_m && view->far_m == still.far_m);
+        if (view->lookup.texel != still.lookup.texel) continue;
+        moved += memcmp(view->raster.tiles[0].clip_from_world,
+                        still.raster.tiles[0].clip_from_world, sizeof(mat4)) != 0;
+        assert_true(view->code.near_m == still.code.near_m && view->code.far_m == still.code.far_m);
         for (int c = 0; c < 4; c++)
-            assert_true(view->tiles[0].clip_from_world[c][2] ==
-                        still.tiles[0].clip_from_world[c][2]);
+            assert_true(view->raster.tiles[0].clip_from_world[c][2] ==
+                        still.raster.tiles[0].clip_from_world[c][2]);
     }
     assert_true(moved > 0);
     gn_plan_end(&f);
@@ -237,11 +237,11 @@ static void test_a_sun_over_all_that_is_seen_is_one_page(void **state) {
         const struct gn_plan *plan = gn_plan_make(&f);
         const struct gn_shadow_view *sun = &plan->shadows[0];
         assert_int_equal(plan->culled, 0);
-        assert_true(!sun->paged && sun->page_count == 1);
+        assert_true(!sun->raster.drawn.paged && sun->raster.drawn.page_count == 1);
         assert_int_equal(plan->passes[0].target.kind, GN_TARGET_SHADOW);
         assert_int_equal(plan->passes[0].copy_count, 0);
-        if (step > 0) assert_true(sun->tiles[0].content_hash == kept);
-        kept = sun->tiles[0].content_hash;
+        if (step > 0) assert_true(sun->raster.tiles[0].content_hash == kept);
+        kept = sun->raster.tiles[0].content_hash;
     }
     gn_plan_end(&f);
 }
@@ -254,8 +254,8 @@ static void test_a_page_draws_what_is_in_it(void **state) {
     const struct gn_plan *plan = gn_plan_make(&f);
     const struct gn_shadow_view *sun = &plan->shadows[0];
     uint32_t drawn[GN_SHADOW_PAGES_MAX] = {0}, all = 0;
-    assert_true(sun->paged && sun->page_count == 4);
-    for (uint32_t p = 0; p < sun->page_count; p++) {
+    assert_true(sun->raster.drawn.paged && sun->raster.drawn.page_count == 4);
+    for (uint32_t p = 0; p < sun->raster.drawn.page_count; p++) {
         const struct gn_pass *pass = &plan->passes[p];
         assert_int_equal(pass->target.kind, GN_TARGET_PAGES);
         for (uint32_t i = 0; i < pass->draw_count; i++)

@@ -40,10 +40,10 @@ static void expect_same_at(float scale) {
     begin(&one, gn_field_scene_make(), 4096);
     begin(&other, gn_field_scene_make_scaled(scale), 4096);
     const struct gn_shadow_view *a = view_of(&one), *b = view_of(&other);
-    assert_int_equal(a->cascade_count, 4);
-    assert_int_equal(b->cascade_count, 4);
+    assert_int_equal(a->map.cascade_count, 4);
+    assert_int_equal(b->map.cascade_count, 4);
     for (int i = 0; i < 4; i++) {
-        assert_false(b->tiles[i].empty);
+        assert_false(b->raster.tiles[i].empty);
         const float ratio = b->cascades[i].texel / (scale * a->cascades[i].texel);
         assert_true(ratio > 0.66f && ratio < 1.5f); /* steps of distances and texels */
     }
@@ -63,8 +63,8 @@ static void test_each_serves_what_the_last_does_not(void **state) {
     begin(&f, gn_field_scene_make(), 4096);
     const struct gn_shadow_view *view = view_of(&f);
     assert_true(view->cascades[0].begin_m == 0.0f);
-    assert_true(isinf(view->cascades[view->cascade_count - 1].end_m));
-    for (uint32_t i = 1; i < view->cascade_count; i++) {
+    assert_true(isinf(view->cascades[view->map.cascade_count - 1].end_m));
+    for (uint32_t i = 1; i < view->map.cascade_count; i++) {
         const struct gn_shadow_cascade *last = &view->cascades[i - 1], *c = &view->cascades[i];
         assert_true(c->begin_m < last->end_m && c->begin_m > last->begin_m);
         assert_true(c->begin_m >
@@ -78,14 +78,14 @@ static void test_a_moving_eye_changes_neither_number_nor_program(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 4096);
-    const uint32_t width_px = view_of(&f)->width_px;
+    const uint32_t width_px = view_of(&f)->map.width_px;
     for (int i = 0; i < 40; i++) {
         f.opts.orbit.zoom = 1.0f + 0.1f * (float)i;
         f.opts.orbit.shift_m[2] = -3.0f * (float)i;
         f.opts.turntable_rad = 0.16f * (float)i;
         const struct gn_shadow_view *view = view_of(&f);
-        assert_int_equal(view->cascade_count, 4);
-        assert_int_equal(view->width_px, width_px);
+        assert_int_equal(view->map.cascade_count, 4);
+        assert_int_equal(view->map.width_px, width_px);
         const struct gn_plan *plan = gn_plan_make(&f);
         for (uint32_t p = 0; p < plan->program_count; p++)
             if (plan->programs[p].kind == GN_PROGRAM_LIT)
@@ -100,12 +100,12 @@ static void test_an_eye_that_a_hand_brings_near_gets_more(void **state) {
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 4096);
     f.opts.orbit.zoom = -5.0f;
-    const uint32_t first = view_of(&f)->tile_count;
+    const uint32_t first = view_of(&f)->map.tile_count;
     uint32_t last = first;
     int changes = 0;
     for (int i = 0; i <= 200; i++) {
         f.opts.orbit.zoom = -0.05f * (float)abs(100 - i);
-        const uint32_t count = view_of(&f)->tile_count;
+        const uint32_t count = view_of(&f)->map.tile_count;
         assert_true(count >= last);
         changes += count != last;
         last = count;
@@ -126,9 +126,9 @@ static void test_every_camera_has_a_plan(void **state) {
             f.opts.turn_deg = turn;
             const struct gn_shadow_view *view = view_of(&f);
             const bool some = camera == GN_FIELD_STANDING || camera == GN_FIELD_INSIDE;
-            assert_int_equal(view->cascade_count, some ? 4 : 0);
-            for (uint32_t i = 0; i < view->cascade_count; i++)
-                assert_true(view->tiles[i].empty || isfinite(view->cascades[i].texel));
+            assert_int_equal(view->map.cascade_count, some ? 4 : 0);
+            for (uint32_t i = 0; i < view->map.cascade_count; i++)
+                assert_true(view->raster.tiles[i].empty || isfinite(view->cascades[i].texel));
             gn_plan_end(&f);
         }
 }
@@ -139,11 +139,11 @@ static void test_an_atlas_is_no_larger_than_a_texture(void **state) {
     begin(&f, gn_field_scene_make(), 2048);
     f.opts.map_px = 2048;
     const struct gn_shadow_view *view = view_of(&f);
-    assert_int_equal(view->width_px, 2048);
-    assert_int_equal(view->height_px, 2048);
-    assert_int_equal(view->map_px, 1024);
+    assert_int_equal(view->map.width_px, 2048);
+    assert_int_equal(view->map.height_px, 2048);
+    assert_int_equal(view->map.tile_px, 1024);
     f.opts.cascades = 1;
-    assert_int_equal(view_of(&f)->map_px, 2048);
+    assert_int_equal(view_of(&f)->map.tile_px, 2048);
     gn_plan_end(&f);
 }
 
@@ -154,12 +154,12 @@ static void test_as_many_as_asked_for_at_most(void **state) {
     for (uint32_t most = 1; most <= 4; most++) {
         f.opts.cascades = most;
         const struct gn_shadow_view *view = view_of(&f);
-        assert_int_equal(view->cascade_count, most == 1 ? 0 : most);
+        assert_int_equal(view->map.cascade_count, most == 1 ? 0 : most);
         assert_false(view->empty);
-        assert_int_equal(view->height_px, most > 2 ? 2048 : 1024);
-        for (uint32_t i = 0; i < view->tile_count; i++) {
-            assert_true(view->tiles[i].x_px + view->map_px <= view->width_px);
-            assert_true(view->tiles[i].y_px + view->map_px <= view->height_px);
+        assert_int_equal(view->map.height_px, most > 2 ? 2048 : 1024);
+        for (uint32_t i = 0; i < view->map.tile_count; i++) {
+            assert_true(view->raster.tiles[i].x_px + view->map.tile_px <= view->map.width_px);
+            assert_true(view->raster.tiles[i].y_px + view->map.tile_px <= view->map.height_px);
         }
     }
     gn_plan_end(&f);
@@ -174,7 +174,7 @@ static void test_small_pictures_need_fewer(void **state) {
     for (uint32_t width_px = 1280; width_px >= 4; width_px /= 2) {
         f.opts.width_px = width_px;
         f.opts.height_px = width_px * 9 / 16;
-        const uint32_t count = view_of(&f)->tile_count;
+        const uint32_t count = view_of(&f)->map.tile_count;
         assert_true(count <= last);
         last = count;
     }
@@ -193,7 +193,7 @@ static void test_a_camera_that_flies_has_as_many_all_along(void **state) {
             f.opts.width_px = width_px;
             f.opts.height_px = width_px * 9 / 16;
             gn_pose_step(&f.pose, (int64_t)i * 1999000000);
-            counts[i] = view_of(&f)->tile_count;
+            counts[i] = view_of(&f)->map.tile_count;
             gn_plan_end(&f);
         }
         assert_int_equal(counts[1], counts[0]);
@@ -213,7 +213,7 @@ static void test_more_that_help_little_are_not_taken(void **state) {
         begin(&f, scene, 4096);
         f.opts.width_px = widths_px[i];
         f.opts.height_px = widths_px[i] * 9 / 16;
-        assert_int_equal(view_of(&f)->cascade_count, 2);
+        assert_int_equal(view_of(&f)->map.cascade_count, 2);
         gn_plan_end(&f);
     }
 }
@@ -233,7 +233,7 @@ static void test_all_techniques_agree_on_it(void **state) {
             f.opts.technique = techniques[i];
             f.opts.width_px = 2 * height_px;
             f.opts.height_px = height_px;
-            counts[i] = view_of(&f)->cascade_count;
+            counts[i] = view_of(&f)->map.cascade_count;
             gn_plan_end(&f);
         }
         for (int i = 1; i < 5; i++) assert_int_equal(counts[i], counts[0]);
@@ -249,7 +249,7 @@ static void test_a_larger_map_is_never_coarser(void **state) {
     for (uint32_t px = 256; px <= 4096; px *= 2) {
         f.opts.map_px = px;
         const struct gn_shadow_view *view = view_of(&f);
-        assert_true(view->cascade_count > 0 && view->cascades[0].texel <= last);
+        assert_true(view->map.cascade_count > 0 && view->cascades[0].texel <= last);
         last = view->cascades[0].texel;
     }
     gn_plan_end(&f);
@@ -265,7 +265,7 @@ static void test_blurs_are_as_wide_on_both_sides_of_a_split(void **state) {
         f.opts.technique_given = true;
         f.opts.technique = GN_TECHNIQUE_EVSM;
         const struct gn_shadow_view *view = view_of(&f);
-        assert_int_equal(view->cascade_count, 4);
+        assert_int_equal(view->map.cascade_count, 4);
         const float most_m = GN_BLUR_MOST_PX * view->cascades[0].texel;
         for (int i = 0; i < 4; i++) {
             const struct gn_shadow_cascade *c = &view->cascades[i];
@@ -283,14 +283,14 @@ static void test_tiles_are_drawn_again_one_by_one(void **state) {
     begin(&f, gn_field_scene_make(), 4096);
     uint64_t before[4];
     const struct gn_shadow_view *view = view_of(&f);
-    for (int i = 0; i < 4; i++) before[i] = view->tiles[i].content_hash;
+    for (int i = 0; i < 4; i++) before[i] = view->raster.tiles[i].content_hash;
     view = view_of(&f);
-    for (int i = 0; i < 4; i++) assert_true(view->tiles[i].content_hash == before[i]);
+    for (int i = 0; i < 4; i++) assert_true(view->raster.tiles[i].content_hash == before[i]);
     f.pose.items[1 + 4 * 12].hash++; /* a block of the 13th ring, 167 m away */
     view = view_of(&f);
-    assert_true(view->tiles[0].content_hash == before[0]);
-    assert_true(view->tiles[1].content_hash == before[1]);
-    assert_true(view->tiles[3].content_hash != before[3]);
+    assert_true(view->raster.tiles[0].content_hash == before[0]);
+    assert_true(view->raster.tiles[1].content_hash == before[1]);
+    assert_true(view->raster.tiles[3].content_hash != before[3]);
     gn_plan_end(&f);
 }
 
@@ -299,16 +299,17 @@ static void test_tiles_behind_an_empty_one_are_drawn_again(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 4096);
-    const uint32_t count = view_of(&f)->tile_count, far_block = 1 + 4 * 13;
+    const uint32_t count = view_of(&f)->map.tile_count, far_block = 1 + 4 * 13;
     for (uint32_t i = 1; i < f.scene->item_count; i++) f.pose.items[i].visible = i == far_block;
     const struct gn_shadow_view *view = view_of(&f);
     uint64_t before[4];
-    for (uint32_t i = 0; i < count; i++) before[i] = view->tiles[i].content_hash;
-    assert_true(view->tile_count == count && view->tiles[0].empty && !view->empty);
+    for (uint32_t i = 0; i < count; i++) before[i] = view->raster.tiles[i].content_hash;
+    assert_true(view->map.tile_count == count && view->raster.tiles[0].empty && !view->empty);
     f.pose.items[far_block].hash++;
     view = view_of(&f);
     for (uint32_t i = 0; i < count; i++)
-        assert_true(view->tiles[i].empty == (view->tiles[i].content_hash == before[i]));
+        assert_true(view->raster.tiles[i].empty ==
+                    (view->raster.tiles[i].content_hash == before[i]));
     gn_plan_end(&f);
 }
 
@@ -320,14 +321,14 @@ static void test_penumbrae_are_bound_alike_on_both_sides_of_a_split(void **state
     begin(&f, gn_field_scene_make(), 4096);
     f.opts.technique_given = true;
     f.opts.technique = GN_TECHNIQUE_PCSS;
-    assert_true(view_of(&f)->soft[1] >= 1e9f); /* the sun's have room */
+    assert_true(view_of(&f)->penumbra.growth >= 1e9f); /* the sun's have room */
     f.scene->lights[0].radius = 0.5f;
     const struct gn_shadow_view *view = view_of(&f);
-    assert_true(view->soft[1] > 0.0f && view->soft[1] < 1e9f);
-    for (uint32_t i = 0; i + 1 < view->cascade_count; i++) {
-        const float widest_m = view->soft[1] * 0.5f * view->cascades[i].end_m;
+    assert_true(view->penumbra.growth > 0.0f && view->penumbra.growth < 1e9f);
+    for (uint32_t i = 0; i + 1 < view->map.cascade_count; i++) {
+        const float widest_m = view->penumbra.growth * 0.5f * view->cascades[i].end_m;
         for (uint32_t side = i; side <= i + 1; side++)
-            assert_true(widest_m <= 1.001f * view->reach_px * view->cascades[side].texel);
+            assert_true(widest_m <= 1.001f * view->lookup.reach_px * view->cascades[side].texel);
     }
     gn_plan_end(&f);
 }

@@ -45,7 +45,8 @@ static void test_a_map_that_is_too_large_is_made_smaller_and_said_so(void **stat
     f.opts.cascades = 1;
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     for (uint32_t i = 0; i < plan->shadow_count; i++)
-        assert_int_equal(plan->shadows[i].map_px, plan->shadows[i].tile_count > 1 ? 1000 : 2048);
+        assert_int_equal(plan->shadows[i].map.tile_px,
+                         plan->shadows[i].map.tile_count > 1 ? 1000 : 2048);
     assert_int_equal(warnings.count, 1);
     assert_non_null(strstr(warnings.text[0], "tiles of 2048 px"));
     assert_non_null(strstr(warnings.text[0], "they have 1000 px"));
@@ -69,7 +70,7 @@ static void test_tables_plan(void **state) {
         const struct gn_target *target = &plan->passes[i].target;
         if (target->kind != GN_TARGET_MOMENTS || target->index != 2) continue;
         const struct gn_shadow_view *view = &plan->shadows[target->slot];
-        assert_int_equal(target->width_px, 7 * view->tile_count);
+        assert_int_equal(target->width_px, 7 * view->map.tile_count);
         assert_int_equal(target->height_px, 100);
     }
     gn_plan_end(&f);

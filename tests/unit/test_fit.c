@@ -75,12 +75,12 @@ static void test_casters_in_one_plane_across_the_sun_have_a_depth(void **state) 
     for (int encoding = 0; encoding < GN_ENCODING_MASK; encoding++) {
         s.opts.encoding = (enum gn_encoding)encoding;
         assert_true(fit(&s));
-        expect_finite(s.view.tiles[0].clip_from_world);
-        expect_finite(s.view.map_from_world);
+        expect_finite(s.view.raster.tiles[0].clip_from_world);
+        expect_finite(s.view.lookup.map_from_world);
         vec4 on_table = {0.5f, 0.0f, 0.5f, 1.0f}, clip;
-        glm_mat4_mulv(s.view.tiles[0].clip_from_world, on_table, clip);
+        glm_mat4_mulv(s.view.raster.tiles[0].clip_from_world, on_table, clip);
         assert_true(fabsf(clip[2]) < 0.9f);
-        assert_true(s.view.ulp_m > 1e-7f); /* what a float says of a place some metres off */
+        assert_true(s.view.code.ulp_m > 1e-7f); /* what a float says of a place some metres off */
     }
     end(&s);
 }
@@ -89,7 +89,7 @@ static float spot_texel(float scale) {
     struct stage s;
     begin(&s, "{'type':'spot'}", scale);
     assert_true(fit(&s));
-    float texel = s.view.texel;
+    float texel = s.view.lookup.texel;
     end(&s);
     return texel;
 }
@@ -112,11 +112,11 @@ static void test_a_kept_memory_fits_as_a_new_one(void **state) {
     s.pose.items[0].box_ws.min[1] = s.pose.items[0].box_ws.max[1] = 2.99f;
     s.pose.items[0].hash++;
     assert_true(fit(&s));
-    const float near_m = s.view.near_m;
+    const float near_m = s.view.code.near_m;
     s.pose.box_ws.max[0] = 300; /* the plane is 3 cm away by now: nothing is before it */
     assert_false(fit(&s));
     s.pose.box_ws.max[0] = 5;
-    assert_true(fit(&s) && s.view.near_m == near_m);
+    assert_true(fit(&s) && s.view.code.near_m == near_m);
     end(&s);
 }
 
@@ -126,9 +126,9 @@ static void test_what_is_beyond_the_range_takes_no_part(void **state) {
     begin(&s, "{'type':'point'}", 1);
     struct gn_light *light = &s.scene->lights[0];
     light->range_m = 4.5f; /* the table is 3 away, the floor 4 */
-    assert_true(fit(&s) && !s.view.tiles[3].empty);
+    assert_true(fit(&s) && !s.view.raster.tiles[3].empty);
     for (uint32_t i = 0; i < 6; i++)
-        if (i != 3) assert_true(s.view.tiles[i].empty);
+        if (i != 3) assert_true(s.view.raster.tiles[i].empty);
     light->range_m = 2.9f;
     assert_false(fit(&s));
     end(&s);
@@ -138,9 +138,9 @@ static void test_what_is_beyond_the_range_takes_no_part(void **state) {
     assert_false(fit(&s));
     light->range_m = 4.5f;
     assert_true(fit(&s));
-    const float near_m = s.view.near_m, texel = s.view.texel;
+    const float near_m = s.view.code.near_m, texel = s.view.lookup.texel;
     light->range_m = 0;
-    assert_true(fit(&s) && s.view.near_m == near_m && s.view.texel == texel);
+    assert_true(fit(&s) && s.view.code.near_m == near_m && s.view.lookup.texel == texel);
     end(&s);
 }
 
@@ -153,11 +153,11 @@ static void test_all_receive_where_visibility_is_the_picture(void **state) {
         begin(&s, "{'type':'spot'}", 1);
         s.opts.technique = techniques[t];
         assert_true(fit(&s));
-        const float texel = s.view.texel;
+        const float texel = s.view.lookup.texel;
         for (uint32_t i = 0; i < s.scene->item_count; i++) s.scene->items[i].receives = false;
         assert_false(fit(&s));
         s.opts.all_receive = true;
-        assert_true(fit(&s) && s.view.texel == texel);
+        assert_true(fit(&s) && s.view.lookup.texel == texel);
         end(&s);
     }
 }
@@ -165,7 +165,7 @@ static void test_all_receive_where_visibility_is_the_picture(void **state) {
 /* Where the map is read for a place beside the table: uv and code. */
 static void look_up(struct stage *s, float x, float z, vec3 out) {
     vec4 p = {x, -0.5f, z, 1.0f};
-    glm_mat4_mulv(s->view.map_from_world, p, p);
+    glm_mat4_mulv(s->view.lookup.map_from_world, p, p);
     glm_vec3_scale(p, 1.0f / p[3], out);
 }
 
@@ -177,10 +177,10 @@ static void expect_empty(const char *light, enum gn_technique technique) {
     for (int i = 0; i < 6; i++) glm_vec4_copy((vec4){0, 0, 0, -1}, s.eye.planes[i]);
     assert_false(fit(&s));
     assert_true(s.view.empty);
-    for (uint32_t i = 0; i < s.view.tile_count; i++) assert_true(s.view.tiles[i].empty);
-    assert_true(s.view.depth_code[0] == 0 && s.view.depth_code[1] == 0);
-    assert_true(s.view.tangent_uv[0] > 0 && s.view.tangent_uv[1] > 0);
-    if (s.view.tile_count == 1) {
+    for (uint32_t i = 0; i < s.view.map.tile_count; i++) assert_true(s.view.raster.tiles[i].empty);
+    assert_true(s.view.lookup.depth_code[0] == 0 && s.view.lookup.depth_code[1] == 0);
+    assert_true(s.view.lookup.tangent_uv[0] > 0 && s.view.lookup.tangent_uv[1] > 0);
+    if (s.view.map.tile_count == 1) {
         vec3 at, right, near;
         look_up(&s, 0.5f, 0.5f, at);
         look_up(&s, 0.75f, 0.5f, right);

@@ -229,8 +229,9 @@ static void plan_map(enum gn_encoding encoding, float code, float far_code) {
     s.passes[0].constants = (const float(*)[4])s.constants[1];
     s.passes[1].shadow_count = 1;
     s.plan.pass_count = 2, s.plan.program_count = 2, s.plan.shadow_count = 1;
-    s.shadows[0] = (struct gn_shadow_view){
-        .technique = GN_TECHNIQUE_HARD, .encoding = encoding, .width_px = MAP, .height_px = MAP};
+    s.shadows[0] = (struct gn_shadow_view){.technique = GN_TECHNIQUE_HARD,
+                                           .encoding = encoding,
+                                           .map = {.width_px = MAP, .height_px = MAP}};
     s.programs[0].kind = encoding == GN_ENCODING_DEPTH ? GN_PROGRAM_DEPTH : GN_PROGRAM_DISTANCE;
     s.programs[0].encoding = encoding == GN_ENCODING_DEPTH ? 0 : (uint8_t)encoding;
     s.programs[1].kind = GN_PROGRAM_LIT;
@@ -294,7 +295,7 @@ static void test_maps_take_turns(void **state) {
     const uint64_t bytes = gn_gl_stats(gl).target_bytes;
     for (uint32_t side = 1; side < 3 * GN_GL_MAPS_MAX; side++) {
         s.passes[0].target.width_px = s.passes[0].target.height_px = side;
-        s.shadows[0].width_px = s.shadows[0].height_px = side;
+        s.shadows[0].map.width_px = s.shadows[0].map.height_px = side;
         s.passes[0].border_px = 0;
         show();
     }

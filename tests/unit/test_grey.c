@@ -7,14 +7,14 @@ static bool near_to(float a, float b) { return fabsf(a - b) < 1e-5f; }
 
 static void test_distances_are_linear(void **state) {
     (void)state;
-    struct gn_shadow_view view = {
-        .encoding = GN_ENCODING_R32UI, .near_m = 2, .far_m = 10, .distance_scale = 1};
+    struct gn_shadow_view view = {.encoding = GN_ENCODING_R32UI,
+                                  .code = {.near_m = 2, .far_m = 10, .scale = 1}};
     struct gn_shadow_grey grey = gn_shadow_grey_of(&view); /* metres */
     assert_true(near_to(gn_shadow_grey_at(&grey, 2), 0));
     assert_true(near_to(gn_shadow_grey_at(&grey, 6), 0.5f));
     assert_true(near_to(gn_shadow_grey_at(&grey, 10), 1));
     assert_true(near_to(gn_shadow_grey_at(&grey, 99), 1));
-    view.distance_scale = 0.25f, view.distance_offset = -1.5f; /* -1 .. 1 */
+    view.code.scale = 0.25f, view.code.offset = -1.5f; /* -1 .. 1 */
     view.encoding = GN_ENCODING_R16F;
     grey = gn_shadow_grey_of(&view);
     assert_true(near_to(gn_shadow_grey_at(&grey, -1), 0));
@@ -24,7 +24,8 @@ static void test_distances_are_linear(void **state) {
 
 static void test_depth_has_more_contrast(void **state) {
     (void)state;
-    struct gn_shadow_view view = {.encoding = GN_ENCODING_DEPTH, .near_m = 2, .far_m = 10};
+    struct gn_shadow_view view = {.encoding = GN_ENCODING_DEPTH,
+                                  .code = {.near_m = 2, .far_m = 10}};
     struct gn_shadow_grey grey = gn_shadow_grey_of(&view);
     assert_true(near_to(gn_shadow_grey_at(&grey, 0.5f), 0.0625f));
     assert_true(near_to(gn_shadow_grey_at(&grey, 1), 1));
