@@ -1,24 +1,57 @@
 #!/bin/bash
-# run.sh [NAME=VALUE | PROGRAM]..: runs programs and scripts one after another and counts. NAME=VALUE
-# goes into the environment of those that follow (BUILD=build/asan). Each has its own time limit
-# (tests/timeouts, else LIMIT seconds). Exit status 77 is a skip, whose last line says why; the tests
-# inside a cmocka program count one by one. STRICT=1 makes a skip a failure. A script that ends well
-# with a line "not applicable: why" has nothing to do on this kind of machine and is not counted.
+# run.sh [NAME=VALUE | PROGRAM]..: runs programs and scripts, JOBS (the number of processors) at a
+# time, and counts. NAME=VALUE goes into the environment of those that follow (BUILD=build/asan).
+# tests/timeouts has the processor seconds that each may take, and which of them run alone, after
+# the others; the longest begin first. A line is printed when a test has ended, and with it the end
+# of its log if it failed. Exit status 77 is a skip, whose last line says why; the tests inside a
+# cmocka program count one by one. STRICT=1 makes a skip a failure. A script that succeeds with a
+# line "not applicable: why" has nothing to test on this kind of machine and is not counted.
+#   JOBS      tests at a time
+#   LIMIT     processor seconds that each test may take, whatever tests/timeouts says
+#   GN_FULL=1 the long forms, of 1800 processor seconds at most
 set -u
-passed=0 failed=0 skipped=0 failures=''
 unset DISPLAY WAYLAND_DISPLAY # no test opens windows before the eyes of whoever runs it
+unset MESA_SHADER_CACHE_DISABLE
+ulimit -c 0
 
 export UBSAN_OPTIONS=${UBSAN_OPTIONS-print_stacktrace=1}
 export LSAN_OPTIONS=${LSAN_OPTIONS-suppressions=tests/lsan.supp:print_suppressions=0}
 # intercept_tls_get_addr: up to gcc 13 the leak checker takes some thread-local blocks for those of an
 # older libc and crashes, once in thousands of runs
 export ASAN_OPTIONS=${ASAN_OPTIONS-allocator_may_return_null=1:detect_stack_use_after_return=1:intercept_tls_get_addr=0}
-default_limit=${LIMIT:-$([ -n "${GN_FULL:-}" ] && echo 1800 || echo 120)}
+jobs=${JOBS:-$(nproc)}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 
-limit_of() {
-    [ -n "${GN_FULL:-}" ] || awk -v name="$1" '$1 == name { print $2; exit }' tests/timeouts
+# ---- the plan: what runs, in which order -------------------------------------------------------
+settings=() # NAME=VALUE, in their order
+programs=() # "COUNT PROGRAM FULL": the first COUNT settings hold for it
+full=${GN_FULL:-}
+
+for argument in "$@"; do
+    case $argument in
+    GN_FULL=*) full=${argument#*=} && settings+=("$argument") ;;
+    [A-Z]*=*) settings+=("$argument") ;;
+    *) programs+=("${#settings[@]} $argument $full") ;;
+    esac
+done
+
+# lines "ALONE LIMIT COUNT PROGRAM", in the order in which they run
+plan() {
+    printf '%s\n' "${programs[@]}" |
+        awk -v own_limit="${LIMIT:-}" '
+            FILENAME != "-" { if (!/^#/) { limit[$1] = $2; alone[$1] = / alone/ }; next }
+            {
+                name = $2
+                sub(/.*\//, "", name)
+                known = limit[name] + 0
+                if (name ~ /[.]guest$/) alone[name] = 1
+                print alone[name] + 0, $3 ? 1800 : own_limit ? own_limit : known ? known : 60, $1, $2, known
+            }' tests/timeouts - |
+        sort -s -k 1,1n -k 5,5nr
 }
 
+# ---- one test ----------------------------------------------------------------------------------
 # the number in cmocka's closing line of that word
 count_of() {
     sed -n "s/^\[ *$2 *\] \([0-9]*\) test(s).*/\1/p" "$1" | tail -n 1
@@ -26,9 +59,8 @@ count_of() {
 
 skip() {
     skipped=$((skipped + $2))
-    [ -z "${STRICT:-}" ] || failed=$((failed + $2))
     echo "SKIP  $1: $3"
-    [ -z "${STRICT:-}" ] || failures="$failures"$'\n'"  $1 (skipped, and nothing may be)"
+    [ -z "${STRICT:-}" ] || failed=$((failed + $2)) failures="$1 (skipped, and nothing may be)"
 }
 
 judge() {
@@ -44,35 +76,68 @@ judge() {
     fi
     [ -z "$good$bad" ] && [ "$status" = 0 ] && good=1
     [ "$status" != 0 ] && [ "${bad:-0}" = 0 ] && bad=1
-    passed=$((passed + ${good:-0})) failed=$((failed + ${bad:-0}))
+    passed=${good:-0} failed=${bad:-0}
     [ "${left:-0}" = 0 ] || skip "$name" "$left" "$(grep -m 1 -A 1 'SKIPPED' "$log" | tr '\n' ' ')"
     if [ "${bad:-0}" = 0 ]; then
-        echo "ok    $name (${took} s)"
+        echo "ok    $name ($took)"
         return
     fi
-    failures="$failures"$'\n'"  $name (status $status)"
-    echo "FAIL  $name (status $status, ${took} s); the end of $log:"
+    failures="$name (status $status)"
+    echo "FAIL  $name (status $status, $took); the end of $log:"
     tail -n 40 "$log" | sed 's/^/    /'
 }
 
+# run LIMIT COUNT PROGRAM RESULT: what it prints goes to the log, what is to be said of it to
+# RESULT.out, and "PASSED FAILED SKIPPED FAILURE" to RESULT. The limit in processor time is each
+# process's own; that in wall time is for what hangs, so that a busy machine does not reach it.
 run() {
-    local name=$1 base limit log status start=$SECONDS
-    base=$(basename "$name") log=${BUILD:-build}/log/$(basename "$name").log
-    limit=$(limit_of "$base")
-    mkdir -p "$(dirname "$log")"
-    GNOMON=${BUILD:-build/release}/gnomon timeout --kill-after=5 "${limit:-$default_limit}" \
-        "./$name" > "$log" 2>&1 < /dev/null
+    local limit=$1 program=$3 result=$4 setting name log status cpu wall start=$SECONDS
+    local passed=0 failed=0 skipped=0 failures=''
+    for setting in "${settings[@]:0:$2}"; do export "${setting?}"; done
+    BUILD=${BUILD:-build/release} name=$program
+    case $program in *.sh | *.guest) [ "$2" -lt 2 ] || name="$program in $BUILD" ;; esac
+    log=$BUILD/log/$(basename "$program").log
+    mkdir -p "$BUILD/log" "$result.run"
+    chmod 700 "$result.run"
+    # shaders stay compiled from test to test; a test of starting up has a cache of its own
+    : "${MESA_SHADER_CACHE_DIR=$(realpath -m "$(dirname "$BUILD")/shader-cache")}"
+    export BUILD GNOMON="$BUILD/gnomon" MESA_SHADER_CACHE_DIR XDG_RUNTIME_DIR="$result.run"
+    mkdir -p "$MESA_SHADER_CACHE_DIR" 2> /dev/null
+    wall=$((limit > 60 ? 10 * limit : 600))
+    TIMEFORMAT='%U %S'
+    ulimit -S -t "$limit"
+    { time timeout --kill-after=5 "$wall" "./$program" > "$log" 2>&1 < /dev/null; } 2> "$result.time"
     status=$?
-    [ "$status" != 124 ] || echo "not done after ${limit:-$default_limit} seconds" >> "$log"
-    judge "$name" "$log" "$status" $((SECONDS - start))
+    [ "$status" != 124 ] || echo "not done after $wall seconds" >> "$log"
+    [ "$status" != 152 ] || echo "took more than $limit processor seconds" >> "$log"
+    cpu=$(awk '{ printf "%.1f", $1 + $2 }' "$result.time")
+    judge "$name" "$log" "$status" "$((SECONDS - start)) s, $cpu s of CPU" > "$result.out"
+    echo "$passed $failed $skipped $failures" > "$result"
 }
 
-for argument in "$@"; do
-    case $argument in
-    [A-Z]*=*) export "${argument?}" ;;
-    *) run "$argument" ;;
-    esac
-done
+# ---- all of them -------------------------------------------------------------------------------
+passed=0 failed=0 skipped=0 failures='' number=0
+declare -A result_of=()
+
+# finish: waits for one that runs, and prints and counts it
+finish() {
+    local pid good bad left why
+    wait -n -p pid
+    cat "${result_of[$pid]}.out" && read -r good bad left why < "${result_of[$pid]}" ||
+        { good=0 bad=1 left=0 why="${result_of[$pid]##*/}: run.sh was interrupted"; }
+    unset "result_of[$pid]"
+    passed=$((passed + good)) failed=$((failed + bad)) skipped=$((skipped + left))
+    [ -z "$why" ] || failures="$failures"$'\n'"  $why"
+}
+
+while read -r alone limit count program _; do
+    [ "$alone" = 0 ] || jobs=1
+    while [ "${#result_of[@]}" -ge "$jobs" ]; do finish; done
+    number=$((number + 1))
+    run "$limit" "$count" "$program" "$work/$number" &
+    result_of[$!]=$work/$number
+done < <([ ${#programs[@]} = 0 ] || plan)
+while [ "${#result_of[@]}" -gt 0 ]; do finish; done
 
 [ -z "$failures" ] || echo "failed:$failures"
 [ $((passed + failed)) -gt 0 ] || { echo 'no test ran' && failed=1; }
