@@ -20,7 +20,7 @@
 #include "image/shot.h"
 #include "image/xserver.h"
 
-enum { PATIENCE_S = 10, WIDTH = 640, HEIGHT = 480 };
+enum { PATIENCE_S = 60, WIDTH = 640, HEIGHT = 480 };
 
 static struct gn_xserver *server;
 static const char scene[] = "assets/sundial.glb";

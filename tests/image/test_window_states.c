@@ -20,7 +20,7 @@
 #include "image/shot.h"
 #include "image/xserver.h"
 
-enum { PATIENCE_S = 10 };
+enum { PATIENCE_S = 60 };
 
 static struct gn_xserver *server;
 static bool reset; /* what the GPU says */
