@@ -17,14 +17,16 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DELETE_ON_ERROR:
 .SUFFIXES:
 CHECKS := check-angle check-board check-board-arm64 check-gpus check-gpiod2
-.PHONY: all no-import tests run check $(CHECKS) gpus accept truth gallery contact-sheet readme deps lint format man install uninstall help clean FORCE
+.PHONY: all no-import tests sanitized run check $(CHECKS) gpus accept full truth gallery contact-sheet readme deps \
+        syntax lint lint-changed format man install uninstall help clean FORCE
 
 help:
 	@printf '%s\n' \
 	    'make            build/release/gnomon, gnomon-import, the default scene and assets/bench' \
 	    'make run        install what is missing, build, show the default scene' \
-	    'make check      every quick test: gcc, clang, ASan and UBSan, lint' \
-	    'make accept     the long tests' \
+	    'make check      before a commit: gcc, clang, ASan and UBSan, lint of what changed, quick tests' \
+	    'make accept     what check leaves out: long tests, machines, GPUs, lint of all' \
+	    'make full       the longest forms of all that, hours: once before a release' \
 	    'make check-angle' \
 	    '                strict OpenGL ES 3.0: ANGLE on SwiftShader, by npm; with GN_FULL=1 all of it' \
 	    'make check-board' \
@@ -40,7 +42,7 @@ help:
 	    '                the modes of the default scene, gone through by keys, as one picture' \
 	    'make deps       install the packages that building, running and testing need (apt);' \
 	    '                with CROSS= those that building for it needs' \
-	    'make lint       clang-tidy; make format: clang-format, in place' \
+	    'make lint       clang-tidy; make syntax: clang for its warnings; make format: clang-format, in place' \
 	    'make install    DESTDIR= PREFIX=/usr/local; make uninstall takes it away again' \
 	    'make tests, man, compile_commands.json, clean' \
 	    'CONFIG=release|debug|asan|cov  CROSS=aarch64-linux-gnu SYSROOT=DIR  CC=clang  WERROR=1  V=1'
@@ -55,18 +57,19 @@ uninstall:
 	rm -rf "$(INTO)/share/doc/gnomon"
 
 DEPS_run := build run
-DEPS_check := build run test board gpus
+DEPS_check := build run test board
 DEPS_check-angle := build run test
 DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
 DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
 DEPS_check-gpus := build run gpus
-DEPS_check-gpiod2 := $(DEPS_check)
+DEPS_check-gpiod2 := build run test board
 DEPS_accept := build run test board board-arm64 gpus
+DEPS_full := $(DEPS_accept)
 DEPS_truth := build run test
 DEPS_gallery := build run test
 DEPS_contact-sheet := build run test
 DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept truth gallery contact-sheet readme,$(GOALS)))
+BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept full truth gallery contact-sheet readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -87,7 +90,7 @@ endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm libdrm gbm
-NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests $(CHECKS) truth gallery contact-sheet readme,$(GOALS)),cmocka)
+NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests sanitized syntax $(CHECKS) truth gallery contact-sheet readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # FreeType draws the texts on the picture; without it they are in the font inside the program
@@ -250,20 +253,25 @@ $(O)/gnomon.1: $(O)/host/man
 	$(Q)$< > $@
 
 # ---- checks --------------------------------------------------------------------------------
-programs = $(addprefix $(1)/tests/,$(filter-out tool_%,$(basename $(notdir $(PROG_C)))))
-SCRIPTS := $(sort $(wildcard tests/check_*.sh tests/*/check_*.sh))
+# programs FOLDER,SOURCES; kinds KIND..: the sources of its programs; quick TEST..: those that are not
+# left to accept
+programs = $(addprefix $(1)/tests/,$(filter-out tool_%,$(basename $(notdir $(2)))))
+kinds    = $(filter $(patsubst %,tests/%/%,$(1)),$(PROG_C))
+LATER   := $(shell awk '$$2 ~ /^[0-9]/ && / accept/ { print $$1 }' tests/timeouts)
+quick    = $(foreach t,$(1),$(if $(filter $(LATER),$(notdir $t)),,$t))
+later    = $(foreach t,$(1),$(if $(filter $(LATER),$(notdir $t)),$t))
+SCRIPTS  = $(sort $(wildcard tests/check_*.sh tests/*/check_*.sh))
+SANITIZED := unit plan fuzz kms
 run: all
 	$(BIN)
+sanitized: $(BIN) $(IMPORT) $(SCENES) $(call programs,$(B),$(call kinds,$(SANITIZED)))
 check:
 	+$(SUB) WERROR=1 CONFIG=release all tests
-	+$(SUB) WERROR=1 CONFIG=debug CC=clang tests
-	+$(SUB) WERROR=1 CONFIG=asan tests
-	+$(SUB) lint
-	+$(SUB) gpus
-	@tests/run.sh tests/layers.sh tests/format.sh \
-	    BUILD=$(O)/release $(call programs,$(O)/release) $(SCRIPTS) tests/board/smoke.guest \
-	    BUILD=$(O)/asan $(call programs,$(O)/asan) tests/check_hostile.sh \
-	    BUILD=$(GPUS_B) GPUS=pi4,g52,a618 tests/gpus/gpus.sh
+	+$(SUB) WERROR=1 CONFIG=asan sanitized
+	+$(SUB) syntax lint-changed
+	@tests/run.sh tests/layers.sh tests/format.sh BUILD=$(O)/release \
+	    $(call quick,$(call programs,$(O)/release,$(PROG_C)) $(SCRIPTS) tests/board/smoke.guest) \
+	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(call kinds,$(SANITIZED))) tests/check_hostile.sh
 check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(SCENES)
 	@tests/run.sh BUILD=$(B) tests/angle/check_angle.sh
 BOARD_NEEDS := gnomon tests/firstflip.so tests/keyboard tests/tool_compare
@@ -292,16 +300,27 @@ check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	+@root=$$(SUITE=trixie tests/board/sysroot.sh) || exit 0; $(SUB) WERROR=1 CROSS=$$($(CC) -dumpmachine) SYSROOT=$$root \
 	    $(GPIOD2)/gnomon $(GPIOD2_TESTS) $(addprefix $(GPIOD2)/tests/,firstflip.so keyboard)
 	@SUITE=trixie HOST_BUILD=$(B) tests/run.sh BUILD=$(GPIOD2) tests/board/units.sh tests/board/buttons.guest
+# What check leaves out: the long forms; what tests/timeouts leaves to accept, and the sanitizers
+# over the other kinds, in their quick forms; machines, and processors and GPUs that are not here.
+LONG     = $(shell grep -lE 'gn_shot_full|GN_FULL' $(1))
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
-	@GN_FULL=1 tests/run.sh BUILD=$(O)/release $(call programs,$(O)/release) \
-	    $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh)) \
-	    $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest))) \
-	    BUILD=$(O)/asan $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan))
-	+$(SUB) GN_FULL= check-board-arm64
-	+$(SUB) GN_FULL= check-gpiod2
-	+$(SUB) GN_FULL= check-gpus
+	+$(SUB) lint
+	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) \
+	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(call kinds,$(SANITIZED)),$(PROG_C))) \
+	    GN_FULL=1 $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan,$(PROG_C))) \
+	    BUILD=$(O)/release $(sort $(call programs,$(O)/release,$(call LONG,$(PROG_C))) $(call later,$(call programs,$(O)/release,$(PROG_C)))) \
+	    $(filter-out $(call later,$(SCRIPTS)),$(call LONG,$(SCRIPTS))) $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh)) \
+	    $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest)))
+	+$(SUB) check-board-arm64
+	+$(SUB) check-gpiod2
+	+$(SUB) check-gpus
+full:
+	+$(SUB) GN_FULL=1 check-angle
+	+$(SUB) GN_FULL=1 check-board
+	+$(SUB) GN_FULL=1 check-gpiod2
+	+$(SUB) GN_FULL=1 check-gpus
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
 gallery: $(B)/tests/tool_gallery $(BIN)
@@ -311,10 +330,27 @@ contact-sheet: $(B)/tests/tool_sheet $(BIN)
 	BUILD=$(B) GNOMON=$(BIN) tests/image/accept_terminal.sh $(O)/contact-sheet.png
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$<
-lint: $(patsubst %.c,$(O)/tidy/%.ok,src/main.c $(SRC) $(IMPORT_C))
-$(O)/tidy/%.ok: %.c .clang-tidy $(wildcard src/*/*.h src/*/*/*.h) | $(B)/gen/config.h $(B)/gen/poisson.h
-	@mkdir -p $(@D) && echo "tidy $<"
-	$(Q)clang-tidy --quiet --warnings-as-errors='*' $< -- $(filter-out -f% -Wno%,$(ALL_CFLAGS)) 2> $@.log || { cat $@.log; false; } && touch $@
+# clang looks at all sources and builds nothing; its stamps know the headers. clang-tidy follows them:
+# lint is all of it, lint-changed what has changed since it passed and, where it never ran, what
+# differs from origin's branch (a fresh clone has no such: accept runs lint).
+ifeq ($(if $(findstring clang,$(CC)),$(CONFIG)),debug)
+TIDY    := src/main.c $(SRC) $(IMPORT_C)
+SYNTAX  := $(TIDY) $(wildcard tests/*/*.c board/host/*.c assets/*.c)
+stamps   = $(patsubst %.c,$(B)/obj/%.$(1),$(2))
+syntax: $(call stamps,syntax,$(SYNTAX))
+lint: $(call stamps,tidy,$(TIDY))
+lint-changed: syntax
+	+@$(SUB) syntax $(wildcard $(call stamps,tidy,$(TIDY))) $$(tests/changed.sh $(B)/obj $(TIDY) | sed 's,\(.*\)c$$,$(B)/obj/\1tidy,')
+$(B)/obj/%.syntax: %.c $(B)/flags | $(B)/gen/config.h $(B)/gen/poisson.h
+	@mkdir -p $(@D) && echo "clang $<"
+	$(Q)$(COMPILE) -Werror -Itests -Iassets -fsyntax-only -MF $@.d -MT $@ $< && touch $@
+$(B)/obj/%.tidy: $(B)/obj/%.syntax .clang-tidy
+	@echo "tidy $*.c"
+	$(Q)clang-tidy --quiet --warnings-as-errors='*' $*.c -- $(filter-out -f% -Wno%,$(ALL_CFLAGS)) 2> $@.log || { cat $@.log; false; } && touch $@
+else
+syntax lint lint-changed:
+	+@$(SUB) CC=clang CONFIG=debug $@
+endif
 compile_commands.json: FORCE
 	@for f in src/main.c $(SRC) $(IMPORT_C) $(TESTS_C); do printf \
 	    '{"directory": "$(CURDIR)", "file": "%s", "command": "$(CC) $(ALL_CFLAGS) -Itests -c %s"},\n' \
