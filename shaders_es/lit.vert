@@ -12,7 +12,8 @@ flat out vec4 v_color;
 #endif
 out vec3 v_position;
 out vec3 v_normal;
-out vec2 v_uv_base, v_uv_roughness, v_uv_emissive, v_uv_occlusion;
+#define DECLARE_UV(v_uv, slot, second) out vec2 v_uv;
+EACH_TEXTURE(DECLARE_UV)
 flat out vec4 v_surface;
 flat out vec4 v_emissive;
 #ifdef WITH_FLAT_CONSTANTS
@@ -26,6 +27,8 @@ out vec3 v_shadow[SHADOW_COUNT];
     v_shadow[slot] = SHADOW_LINEAR[slot] \
         ? shadow_point_directional(slot, p, n, u_pass[PASS_LIGHTS + slot * LIGHT_SIZE + LIGHT_PLACE].xyz) : vec3(0.0);
 
+#define SET_UV(v_uv, slot, second) v_uv = slot_uv(slot, second);
+
 void main() {
     vec3 p = position_ws();
     vec3 n = normalize(normal_ws());
@@ -35,10 +38,7 @@ void main() {
     v_color = VERTEX_COLOR ? a_base_color * a_color : a_base_color;
     v_surface = a_surface;
     v_emissive = a_emissive;
-    v_uv_base = slot_uv(0, BASE_UV1);
-    v_uv_roughness = slot_uv(1, ROUGHNESS_UV1);
-    v_uv_emissive = slot_uv(2, EMISSIVE_UV1);
-    v_uv_occlusion = slot_uv(3, OCCLUSION_UV1);
+    EACH_TEXTURE(SET_UV)
 #ifdef WITH_FLAT_CONSTANTS
     v_constant = vec4[7](u_pass[PASS_SKY], u_pass[PASS_GROUND], u_pass[PASS_EYE], u_pass[PASS_LIGHTS + LIGHT_COLOR],
                          u_pass[PASS_LIGHTS + LIGHT_PLACE], u_pass[PASS_SHADOWS + SHADOW_MAP_SIZE],

@@ -11,7 +11,7 @@ flat out float v_cutoff;
 void place_caster(vec3 p) {
     gl_Position = pass_matrix(PASS_CLIP) * vec4(p, 1.0);
 #ifdef WITH_ALPHA_MASK
-    v_uv = slot_uv(0, BASE_UV1);
+    v_uv = slot_uv(SLOT_BASE, BASE_UV1);
     v_alpha = a_base_color.a * (VERTEX_COLOR ? a_color.a : 1.0);
     v_cutoff = a_surface.w;
 #endif

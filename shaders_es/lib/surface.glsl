@@ -8,7 +8,8 @@ flat in vec4 v_color;
 #endif
 in vec3 v_position;
 in vec3 v_normal;
-in vec2 v_uv_base, v_uv_roughness, v_uv_emissive, v_uv_occlusion;
+#define DECLARE_UV(v_uv, slot, second) in vec2 v_uv;
+EACH_TEXTURE(DECLARE_UV)
 flat in vec4 v_surface;  // roughness, metalness, occlusion strength, alpha cutoff
 flat in vec4 v_emissive; // radiance; w: 1 = casts
 #ifdef WITH_SHADOWS

@@ -11,7 +11,7 @@ layout(location = 8) in vec4 a_base_color; // linear
 layout(location = 9) in vec4 a_surface;    // roughness, metalness, occlusion strength, alpha cutoff
 layout(location = 10) in vec4 a_emissive;  // linear radiance; w: 1 = casts
 
-uniform vec4 u_uv[8]; // two rows per texture slot: uv_from_uv
+uniform vec4 u_uv[2 * SLOT_COUNT]; // two rows per texture slot: uv_from_uv
 
 vec3 position_ws() {
     vec4 p = vec4(a_position, 1.0);
@@ -28,7 +28,7 @@ vec3 normal_ws() {
     return dot(a_world_0.xyz, c0) < 0.0 ? -n : n;
 }
 
-// Texture coordinates of slot 0..3 (base, roughness, emissive, occlusion).
+// Texture coordinates of a slot, SLOT_BASE or another; `second`: from the second set.
 vec2 slot_uv(const int slot, const bool second) {
     vec3 uv = vec3(second ? a_uv1 : a_uv0, 1.0);
     return vec2(dot(u_uv[2 * slot].xyz, uv), dot(u_uv[2 * slot + 1].xyz, uv));

@@ -4,7 +4,7 @@
 
 const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT] = {
 #define GN_X(NAME, name, printed, parent, key, texels, shading)                                    \
-    [GN_TEXTURE_##NAME] = {#name, parent, key, GN_TEXELS_##texels, GN_SHADING_##shading},
+    [GN_TEXTURE_##NAME] = {#NAME, #name, parent, key, GN_TEXELS_##texels, GN_SHADING_##shading},
     GN_TEXTURE_SLOTS(GN_X)
 #undef GN_X
 };

@@ -35,7 +35,7 @@ enum gn_shading {
 };
 
 struct gn_texture_slot_row {
-    const char *name;         /* GLSL: u_texture_NAME, v_uv_NAME */
+    const char *glsl, *name;  /* SLOT_BASE, BASE_UV1 ..; u_texture_base, v_uv_base */
     const char *parent, *key; /* in the JSON of a material; parent "": the material itself */
     enum gn_texels texels;
     enum gn_shading shading;
