@@ -31,13 +31,11 @@ static bool may_wake(const struct gn_kms *k) {
            !k->flip.pending && !k->notice[0];
 }
 
-void gn_kms_blank(struct gn_kms *k, bool on, int64_t now_ns) {
-    if (k->blank != on) {
-        k->blank = on;
-        k->sleep_ns = now_ns;
-        struct gn_kms_shot waiting = k->waiting;
-        if (on && waiting.fb) gn_kms_discard(k, &waiting);
-        if (!on && may_wake(k)) gn_kms_send(k, k->front, now_ns);
-    }
-    gn_kms_step(k, 0, now_ns, NULL);
+void gn_kms_set_blank(struct gn_kms *k, bool on, int64_t now_ns) {
+    if (k->blank == on) return;
+    k->blank = on;
+    k->sleep_ns = now_ns;
+    struct gn_kms_shot waiting = k->waiting;
+    if (on && waiting.fb) gn_kms_discard(k, &waiting);
+    if (!on && may_wake(k)) gn_kms_send(k, k->front, now_ns);
 }

@@ -9,74 +9,13 @@
 
 #define STARVED_NS (5 * GN_KMS_S) /* then something else is tried */
 
-/* ---- buffers ---- */
-
-static bool is_copy(const struct gn_kms *k) { return k->surface_opts.rung == GN_RUNG_COPY; }
-
-/* By the buffer, not by the rung: that may have changed since. */
-static bool is_gpus(const struct gn_kms *k, const void *key) {
-    return k->scanout && key && key != &k->copies[0] && key != &k->copies[1];
-}
-
-static void close_fence(struct gn_kms_shot *shot) {
-    if (shot->fb && shot->fence >= 0) close(shot->fence);
-    shot->fence = -1;
-}
-
-/* Nobody reads it any more. */
-static void retire(struct gn_kms *k, struct gn_kms_shot *shot) {
-    close_fence(shot);
-    if (shot->fb && is_gpus(k, shot->key)) k->env.scanout->release(k->scanout, shot->key);
-    *shot = (struct gn_kms_shot){.fence = -1};
-}
-
-void gn_kms_forget_shots(struct gn_kms *k) {
-    if (k->pending.fb == k->front.fb) k->pending = (struct gn_kms_shot){.fence = -1};
-    if (k->waiting.fb == k->front.fb) k->waiting = (struct gn_kms_shot){.fence = -1};
-    retire(k, &k->waiting);
-    retire(k, &k->pending);
-    retire(k, &k->front);
-}
-
-void gn_kms_drop_surface(struct gn_kms *k) {
-    gn_kms_forget_shots(k);
-    if (k->output.drm) gn_kms_output_orphan_fbs(&k->output);
-    if (k->scanout) k->env.scanout->drop_surface(k->scanout);
-    for (int i = 0; i < 2 && k->fd >= 0; i++) gn_dumb_destroy(&k->copies[i], k->env.drm, k->fd);
-    k->surface = (struct gn_surface){0};
-    k->screen.copy_to = NULL;
-}
-
-bool gn_kms_make_copies(struct gn_kms *k) {
-    for (int i = 0; i < 2; i++)
-        if (gn_dumb_create(&k->copies[i], k->env.drm, k->fd, k->surface_opts.width_px,
-                           k->surface_opts.height_px) != 0)
-            return false;
-    return true;
-}
-
-static struct gn_dumb *free_copy(struct gn_kms *k) {
-    return k->front.key == &k->copies[0] ? &k->copies[1] : &k->copies[0];
-}
-
 /* ---- flips ---- */
-
-/* From now on the front is another; `shot` may be the same once more. */
-static void show(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
-    if (shot.fb != k->front.fb) retire(k, &k->front);
-    if (shot.fb == k->front.fb) k->screen.counts.again++;
-    close_fence(&shot);
-    k->front = shot;
-    k->losses = 0;
-    k->starved_ns = 0;
-    k->again_ns = now_ns + (k->opts->again_ns > 0 ? k->opts->again_ns : 10 * GN_KMS_S);
-}
 
 static void done(struct gn_kms *k, int64_t shown_ns, int64_t now_ns) {
     const struct gn_kms_shot shot = k->pending;
     k->pending = (struct gn_kms_shot){.fence = -1};
     gn_flip_done(&k->flip, shown_ns, now_ns);
-    show(k, shot, now_ns);
+    gn_kms_take_front(k, shot, now_ns);
 }
 
 static void on_flip(int fd, unsigned sequence, unsigned s, unsigned us, unsigned crtc, void *user) {
@@ -100,18 +39,6 @@ void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
     }
 }
 
-void gn_kms_flip_is_lost(struct gn_kms *k) {
-    const struct gn_kms_shot shot = k->pending;
-    gn_flip_forget(&k->flip);
-    k->pending = (struct gn_kms_shot){.fence = -1};
-    k->lit = false;
-    if (!shot.fb) return;
-    k->ticket++; /* its event may come yet, whenever */
-    if (shot.fb != k->front.fb) retire(k, &k->front);
-    k->front = shot; /* the kernel may be reading it */
-    close_fence(&k->front);
-}
-
 /* ---- commits ---- */
 
 static int light(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns) {
@@ -124,7 +51,7 @@ static int light(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_n
     gn_flip_committed(&k->flip, now_ns);
     k->flip.due_ns = now_ns; /* no refresh was missed: there was none */
     gn_flip_done(&k->flip, 0, now_ns);
-    show(k, *shot, now_ns);
+    gn_kms_take_front(k, *shot, now_ns);
     return 0;
 }
 
@@ -136,15 +63,6 @@ static int flip(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns
     k->pending = *shot;
     gn_flip_committed(&k->flip, now_ns);
     return 0;
-}
-
-/* It may be the one that waits, which it does no more. */
-void gn_kms_discard(struct gn_kms *k, struct gn_kms_shot *shot) {
-    k->waiting = (struct gn_kms_shot){.fence = -1};
-    if (shot->fb == k->front.fb)
-        close_fence(shot);
-    else
-        retire(k, shot);
 }
 
 static void wait_a_frame(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns) {
@@ -217,7 +135,7 @@ static void without_fb(struct gn_kms *k, int error, int64_t now_ns) {
 }
 
 void gn_kms_show_notice(struct gn_kms *k, int64_t now_ns) {
-    struct gn_dumb *copy = free_copy(k);
+    struct gn_dumb *copy = gn_kms_free_copy(k);
     struct gn_kms_shot shot = {.key = copy, .fence = -1};
     const struct gn_buffer buffer = gn_dumb_buffer(copy);
     const struct gn_notice_picture picture = {copy->pixels, copy->stride, copy->width_px,
@@ -235,8 +153,8 @@ void gn_kms_show_notice(struct gn_kms *k, int64_t now_ns) {
 bool gn_kms_begin(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
     (void)err;
     if (!k->screen.may_draw) return false;
-    if (is_copy(k)) {
-        struct gn_dumb *copy = free_copy(k);
+    if (gn_kms_is_copy(k)) {
+        struct gn_dumb *copy = gn_kms_free_copy(k);
         k->screen.copy_to = copy->pixels;
         k->screen.copy_stride = copy->stride;
     }
@@ -248,8 +166,8 @@ bool gn_kms_begin(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
 static bool take_frame(struct gn_kms *k, struct gn_buffer *buffer, int *fence) {
     struct gn_err why = {0};
     *fence = -1;
-    if (is_copy(k)) {
-        *buffer = gn_dumb_buffer(free_copy(k));
+    if (gn_kms_is_copy(k)) {
+        *buffer = gn_dumb_buffer(gn_kms_free_copy(k));
         return true;
     }
     if (k->env.scanout->swap(k->scanout, gn_kms_output_takes_fence(&k->output), buffer, fence,
@@ -259,23 +177,22 @@ static bool take_frame(struct gn_kms *k, struct gn_buffer *buffer, int *fence) {
     return false;
 }
 
-bool gn_kms_present(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
+void gn_kms_send_drawn(struct gn_kms *k, int64_t now_ns) {
     struct gn_buffer buffer;
     struct gn_kms_shot shot = {.fence = -1};
     k->screen.may_draw = false;
     k->screen.copy_to = NULL;
     if (!take_frame(k, &buffer, &shot.fence)) {
         gn_kms_leave_card(k, true, now_ns);
-        return gn_kms_step(k, 0, now_ns, err);
+        return;
     }
     shot.key = buffer.key;
     const int error = gn_kms_output_fb(&k->output, &buffer, &shot.fb);
     if (error == 0) {
         gn_kms_send(k, shot, now_ns);
-        return gn_kms_step(k, 0, now_ns, err);
+        return;
     }
     if (shot.fence >= 0) close(shot.fence);
-    if (!is_copy(k)) k->env.scanout->release(k->scanout, shot.key);
+    if (!gn_kms_is_copy(k)) k->env.scanout->release(k->scanout, shot.key);
     without_fb(k, error, now_ns);
-    return gn_kms_step(k, 0, now_ns, err);
 }

@@ -211,6 +211,16 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     return ok || give_up(k, err);
 }
 
+bool gn_kms_present(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
+    gn_kms_send_drawn(k, now_ns);
+    return gn_kms_step(k, 0, now_ns, err);
+}
+
+void gn_kms_blank(struct gn_kms *k, bool on, int64_t now_ns) {
+    gn_kms_set_blank(k, on, now_ns);
+    gn_kms_step(k, 0, now_ns, NULL);
+}
+
 bool gn_kms_renew(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
     gn_kms_close_card(k);
     k->screen.lost = false;

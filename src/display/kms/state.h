@@ -70,30 +70,39 @@ struct gn_kms {
     int64_t probe_ns;                     /* looks from then on ask the wires */
 };
 
-/* kms/look.c: cards and connectors. To ask the wires takes tens of milliseconds a connector: that
- * is done when something has happened, and now and then; else the kernel is asked what it knows. */
+/* Files call downwards: kms.c, blank.c, frame.c, look.c, buffers.c. */
+
+/* kms/buffers.c: which buffer the screen, the flip and the queue hold. */
+bool gn_kms_is_copy(const struct gn_kms *kms); /* frames are copied into dumb buffers */
+bool gn_kms_make_copies(struct gn_kms *kms);
+struct gn_dumb *gn_kms_free_copy(struct gn_kms *kms); /* the one that is not on the screen */
+void gn_kms_drop_surface(struct gn_kms *kms);         /* and all buffers */
+/* The screen shows this buffer from now on; it may be the one that it showed before. */
+void gn_kms_take_front(struct gn_kms *kms, struct gn_kms_shot shot, int64_t now_ns);
+void gn_kms_discard(struct gn_kms *kms, struct gn_kms_shot *shot); /* it will not be shown */
+void gn_kms_flip_is_lost(struct gn_kms *kms); /* no event will come for the pending flip */
+
+/* kms/look.c: cards and connectors. Probing a connector takes tens of milliseconds, so it is done
+ * after a hotplug event and every GN_KMS_PROBE_NS; otherwise the kernel's cached state is read. */
 void gn_kms_look(struct gn_kms *kms, int64_t now_ns);
-/* The card is of no more use; `restore`: but it still listens. */
+/* Gives the card up; `restore`: it still accepts commits, so its CRTC is put back first. */
 void gn_kms_leave_card(struct gn_kms *kms, bool restore, int64_t now_ns);
-/* The context ends, and the card is closed. */
+/* Ends the context and closes the card. */
 void gn_kms_close_card(struct gn_kms *kms);
-/* What was tried cannot be lit: other buffers, then another mode. */
+/* The current buffers and mode cannot be lit: takes other buffers, then another mode. */
 void gn_kms_next_try(struct gn_kms *kms, int error, int64_t now_ns);
 bool gn_kms_try_master(struct gn_kms *kms, int64_t now_ns);
 
-/* kms/frame.c: pictures on their way. */
+/* kms/frame.c: commits and their events. */
 void gn_kms_send(struct gn_kms *kms, struct gn_kms_shot shot, int64_t now_ns);
-void gn_kms_forget_shots(struct gn_kms *kms); /* no buffer is in use any more */
+void gn_kms_send_drawn(struct gn_kms *kms, int64_t now_ns); /* the frame that GL has drawn */
 void gn_kms_show_notice(struct gn_kms *kms, int64_t now_ns);
-void gn_kms_flip_is_lost(struct gn_kms *kms); /* no event will tell of the pending one */
-void gn_kms_discard(struct gn_kms *kms, struct gn_kms_shot *shot); /* it will not be shown */
 void gn_kms_lose_master(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_drain(struct gn_kms *kms, int64_t now_ns);
-bool gn_kms_make_copies(struct gn_kms *kms);
-void gn_kms_drop_surface(struct gn_kms *kms);
 
-/* kms/blank.c: switched off on purpose. */
+/* kms/blank.c: a screen that is switched off on purpose. */
 bool gn_kms_may_sleep(const struct gn_kms *kms);
 void gn_kms_sleep(struct gn_kms *kms, int64_t now_ns);
+void gn_kms_set_blank(struct gn_kms *kms, bool on, int64_t now_ns);
 
 #endif
