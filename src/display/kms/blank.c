@@ -4,16 +4,16 @@
 #include "display/kms/state.h"
 
 bool gn_kms_may_sleep(const struct gn_kms *k) {
-    return k->blank && k->fd >= 0 && !k->screen.lost && k->output.drm && k->connected &&
-           k->master && !k->away && !k->flip.pending;
+    return k->blank && k->device.fd >= 0 && !k->screen.lost && k->output.drm &&
+           k->monitor.connected && k->master && !k->away && !k->flip.pending;
 }
 
 void gn_kms_sleep(struct gn_kms *k, int64_t now_ns) {
-    if (!gn_kms_may_sleep(k) || now_ns < k->sleep_ns) return;
+    if (!gn_kms_may_sleep(k) || now_ns < k->due.sleep_ns) return;
     const int error = gn_kms_output_sleep(&k->output);
     k->lit = false;
     /* somebody may light it meanwhile, and leave */
-    k->sleep_ns = now_ns + (error == 0 ? 10 * GN_KMS_S : GN_KMS_S / 10);
+    k->due.sleep_ns = now_ns + (error == 0 ? 10 * GN_KMS_S : GN_KMS_S / 10);
     if (error == 0) return;
     switch (gn_flip_error_of(error)) {
     case GN_FLIP_BUSY:
@@ -22,20 +22,20 @@ void gn_kms_sleep(struct gn_kms *k, int64_t now_ns) {
     case GN_FLIP_CARD_GONE: gn_kms_leave_card(k, false, now_ns); return;
     case GN_FLIP_CHANGED: break;
     }
-    k->sleep_ns = now_ns + GN_KMS_S;
-    if (k->look_ns > k->sleep_ns) k->look_ns = k->sleep_ns;
+    k->due.sleep_ns = now_ns + GN_KMS_S;
+    if (k->due.look_ns > k->due.sleep_ns) k->due.look_ns = k->due.sleep_ns;
 }
 
 static bool may_wake(const struct gn_kms *k) {
-    return k->front.fb && !k->lit && k->connected && k->master && !k->away && !k->screen.lost &&
-           !k->flip.pending && !k->notice[0];
+    return k->frames.front.fb && !k->lit && k->monitor.connected && k->master && !k->away &&
+           !k->screen.lost && !k->flip.pending && !k->text.notice[0];
 }
 
 void gn_kms_set_blank(struct gn_kms *k, bool on, int64_t now_ns) {
     if (k->blank == on) return;
     k->blank = on;
-    k->sleep_ns = now_ns;
-    struct gn_kms_shot waiting = k->waiting;
+    k->due.sleep_ns = now_ns;
+    struct gn_kms_frame waiting = k->frames.waiting;
     if (on && waiting.fb) gn_kms_discard(k, &waiting);
-    if (!on && may_wake(k)) gn_kms_send(k, k->front, now_ns);
+    if (!on && may_wake(k)) gn_kms_send(k, k->frames.front, now_ns);
 }

@@ -3,84 +3,88 @@
 
 #include "display/kms/state.h"
 
-bool gn_kms_is_copy(const struct gn_kms *k) { return k->surface_opts.rung == GN_RUNG_COPY; }
+bool gn_kms_is_copy(const struct gn_kms *k) { return k->buffers.opts.rung == GN_RUNG_COPY; }
 
 /* By the buffer, not by the rung: that may have changed since. */
 static bool is_gpus(const struct gn_kms *k, const void *key) {
-    return k->scanout && key && key != &k->copies[0] && key != &k->copies[1];
+    return k->device.scanout && key && key != &k->buffers.copies[0] && key != &k->buffers.copies[1];
 }
 
-static void close_fence(struct gn_kms_shot *shot) {
-    if (shot->fb && shot->fence >= 0) close(shot->fence);
-    shot->fence = -1;
+static void close_fence(struct gn_kms_frame *frame) {
+    if (frame->fb && frame->fence >= 0) close(frame->fence);
+    frame->fence = -1;
 }
 
 /* Nobody reads it any more. */
-static void retire(struct gn_kms *k, struct gn_kms_shot *shot) {
-    close_fence(shot);
-    if (shot->fb && is_gpus(k, shot->key)) k->env.scanout->release(k->scanout, shot->key);
-    *shot = (struct gn_kms_shot){.fence = -1};
+static void retire(struct gn_kms *k, struct gn_kms_frame *frame) {
+    close_fence(frame);
+    if (frame->fb && is_gpus(k, frame->key)) k->env.scanout->release(k->device.scanout, frame->key);
+    *frame = (struct gn_kms_frame){.fence = -1};
 }
 
-static void forget_shots(struct gn_kms *k) {
-    if (k->pending.fb == k->front.fb) k->pending = (struct gn_kms_shot){.fence = -1};
-    if (k->waiting.fb == k->front.fb) k->waiting = (struct gn_kms_shot){.fence = -1};
-    retire(k, &k->waiting);
-    retire(k, &k->pending);
-    retire(k, &k->front);
+static void forget_frames(struct gn_kms *k) {
+    if (k->frames.pending.fb == k->frames.front.fb)
+        k->frames.pending = (struct gn_kms_frame){.fence = -1};
+    if (k->frames.waiting.fb == k->frames.front.fb)
+        k->frames.waiting = (struct gn_kms_frame){.fence = -1};
+    retire(k, &k->frames.waiting);
+    retire(k, &k->frames.pending);
+    retire(k, &k->frames.front);
 }
 
 void gn_kms_drop_surface(struct gn_kms *k) {
-    forget_shots(k);
+    forget_frames(k);
     if (k->output.drm) gn_kms_output_orphan_fbs(&k->output);
-    if (k->scanout) k->env.scanout->drop_surface(k->scanout);
-    for (int i = 0; i < 2 && k->fd >= 0; i++) gn_dumb_destroy(&k->copies[i], k->env.drm, k->fd);
-    k->surface = (struct gn_surface){0};
+    if (k->device.scanout) k->env.scanout->drop_surface(k->device.scanout);
+    for (int i = 0; i < 2 && k->device.fd >= 0; i++)
+        gn_dumb_destroy(&k->buffers.copies[i], k->env.drm, k->device.fd);
+    k->buffers.surface = (struct gn_surface){0};
     k->screen.copy_to = NULL;
 }
 
 bool gn_kms_make_copies(struct gn_kms *k) {
     for (int i = 0; i < 2; i++)
-        if (gn_dumb_create(&k->copies[i], k->env.drm, k->fd, k->surface_opts.width_px,
-                           k->surface_opts.height_px) != 0)
+        if (gn_dumb_create(&k->buffers.copies[i], k->env.drm, k->device.fd,
+                           k->buffers.opts.width_px, k->buffers.opts.height_px) != 0)
             return false;
     return true;
 }
 
 struct gn_dumb *gn_kms_free_copy(struct gn_kms *k) {
-    return k->front.key == &k->copies[0] ? &k->copies[1] : &k->copies[0];
+    return k->frames.front.key == &k->buffers.copies[0] ? &k->buffers.copies[1]
+                                                        : &k->buffers.copies[0];
 }
 
 /* ---- pictures on their way ---- */
 
-/* From now on the front is another; `shot` may be the same once more. */
-void gn_kms_take_front(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
-    if (shot.fb != k->front.fb) retire(k, &k->front);
-    if (shot.fb == k->front.fb) k->screen.counts.again++;
-    close_fence(&shot);
-    k->front = shot;
+/* From now on the front is another; `frame` may be the same once more. */
+void gn_kms_take_front(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
+    if (frame.fb != k->frames.front.fb) retire(k, &k->frames.front);
+    if (frame.fb == k->frames.front.fb) k->screen.counts.again++;
+    close_fence(&frame);
+    k->frames.front = frame;
     k->losses = 0;
-    k->starved_ns = 0;
-    k->again_ns = now_ns + (k->opts->again_ns > 0 ? k->opts->again_ns : 10 * GN_KMS_S);
+    k->due.starved_ns = 0;
+    k->due.again_ns = now_ns + (k->opts->again_ns > 0 ? k->opts->again_ns : 10 * GN_KMS_S);
 }
 
 /* It may be the one that waits, which it does no more. */
-void gn_kms_discard(struct gn_kms *k, struct gn_kms_shot *shot) {
-    k->waiting = (struct gn_kms_shot){.fence = -1};
-    if (shot->fb == k->front.fb)
-        close_fence(shot);
+void gn_kms_discard(struct gn_kms *k, struct gn_kms_frame *frame) {
+    k->frames.waiting = (struct gn_kms_frame){.fence = -1};
+    if (frame->fb == k->frames.front.fb)
+        close_fence(frame);
     else
-        retire(k, shot);
+        retire(k, frame);
 }
 
 void gn_kms_flip_is_lost(struct gn_kms *k) {
-    const struct gn_kms_shot shot = k->pending;
+    const struct gn_kms_frame frame = k->frames.pending;
     gn_flip_forget(&k->flip);
-    k->pending = (struct gn_kms_shot){.fence = -1};
+    k->frames.pending = (struct gn_kms_frame){.fence = -1};
     k->lit = false;
-    if (!shot.fb) return;
-    k->ticket++; /* its event may come yet, whenever */
-    if (shot.fb != k->front.fb) retire(k, &k->front);
-    k->front = shot; /* the kernel may be reading it */
-    close_fence(&k->front);
+    if (!frame.fb) return;
+    k->frames.ticket++; /* its event may come yet, whenever */
+    if (frame.fb != k->frames.front.fb) retire(k, &k->frames.front);
+    k->frames.front = frame; /* the kernel may be reading it */
+    close_fence(&k->frames.front);
 }

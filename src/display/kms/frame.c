@@ -12,27 +12,27 @@
 /* ---- flips ---- */
 
 static void done(struct gn_kms *k, int64_t shown_ns, int64_t now_ns) {
-    const struct gn_kms_shot shot = k->pending;
-    k->pending = (struct gn_kms_shot){.fence = -1};
+    const struct gn_kms_frame frame = k->frames.pending;
+    k->frames.pending = (struct gn_kms_frame){.fence = -1};
     gn_flip_done(&k->flip, shown_ns, now_ns);
-    gn_kms_take_front(k, shot, now_ns);
+    gn_kms_take_front(k, frame, now_ns);
 }
 
 static void on_flip(int fd, unsigned sequence, unsigned s, unsigned us, unsigned crtc, void *user) {
     (void)fd, (void)sequence, (void)crtc;
     const struct gn_kms_ticket *ticket = user;
     struct gn_kms *k = ticket->kms;
-    if (ticket->number == k->ticket) k->event_ns = s * GN_KMS_S + us * INT64_C(1000);
+    if (ticket->number == k->frames.ticket) k->frames.event_ns = s * GN_KMS_S + us * INT64_C(1000);
 }
 
 void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
     drmEventContext context = {.version = 3, .page_flip_handler2 = on_flip};
     for (int i = 0; i < 8; i++) {
-        k->event_ns = -1;
+        k->frames.event_ns = -1;
         errno = 0;
-        const int result = k->env.drm->HandleEvent(k->fd, &context);
+        const int result = k->env.drm->HandleEvent(k->device.fd, &context);
         const int error = errno;
-        if (k->event_ns >= 0 && k->flip.pending) done(k, k->event_ns, now_ns);
+        if (k->frames.event_ns >= 0 && k->flip.pending) done(k, k->frames.event_ns, now_ns);
         if (result == 0) continue;
         if (error == ENODEV || error == EIO || error == EBADF) gn_kms_leave_card(k, false, now_ns);
         return;
@@ -41,79 +41,80 @@ void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
 
 /* ---- commits ---- */
 
-static int light(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns) {
-    const int error = gn_kms_output_light(&k->output, &k->ladder[k->mode], shot->fb);
+static int light(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
+    const int error =
+        gn_kms_output_light(&k->output, &k->monitor.ladder[k->monitor.mode], frame->fb);
     if (error != 0) return error;
     k->lit = true;
-    k->lit_for = k->monitor;
+    k->monitor.lit_for = k->monitor.id;
     k->screen.counts.relit++;
     k->flip.blind = gn_kms_output_is_blind(&k->output);
     gn_flip_committed(&k->flip, now_ns);
     k->flip.due_ns = now_ns; /* no refresh was missed: there was none */
     gn_flip_done(&k->flip, 0, now_ns);
-    gn_kms_take_front(k, *shot, now_ns);
+    gn_kms_take_front(k, *frame, now_ns);
     return 0;
 }
 
-static int flip(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns) {
-    struct gn_kms_ticket *ticket = &k->tickets[k->ticket % GN_KMS_TICKETS];
-    *ticket = (struct gn_kms_ticket){k, k->ticket};
-    const int error = gn_kms_output_flip(&k->output, shot->fb, shot->fence, ticket);
+static int flip(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
+    struct gn_kms_ticket *ticket = &k->frames.tickets[k->frames.ticket % GN_KMS_TICKETS];
+    *ticket = (struct gn_kms_ticket){k, k->frames.ticket};
+    const int error = gn_kms_output_flip(&k->output, frame->fb, frame->fence, ticket);
     if (error != 0) return error;
-    k->pending = *shot;
+    k->frames.pending = *frame;
     gn_flip_committed(&k->flip, now_ns);
     return 0;
 }
 
-static void wait_a_frame(struct gn_kms *k, const struct gn_kms_shot *shot, int64_t now_ns) {
-    if (!k->waiting.fb) k->waiting_ns = now_ns;
-    k->waiting = *shot;
+static void wait_a_frame(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
+    if (!k->frames.waiting.fb) k->frames.waiting_ns = now_ns;
+    k->frames.waiting = *frame;
     k->screen.counts.retried++;
     gn_flip_refused(&k->flip, now_ns);
 }
 
 void gn_kms_lose_master(struct gn_kms *k, int64_t now_ns) {
     k->master = k->lit = false;
-    k->master_ns = now_ns + GN_KMS_S;
-    k->holder[0] = 0;
-    if (k->env.who) k->env.who(k->node.path, k->holder, sizeof k->holder);
+    k->due.master_ns = now_ns + GN_KMS_S;
+    k->text.holder[0] = 0;
+    if (k->env.who) k->env.who(k->device.node.path, k->text.holder, sizeof k->text.holder);
 }
 
-static void refuse(struct gn_kms *k, struct gn_kms_shot *shot, int error, int64_t now_ns) {
+static void refuse(struct gn_kms *k, struct gn_kms_frame *frame, int error, int64_t now_ns) {
     const bool was_lit = k->lit;
     switch (gn_flip_error_of(error)) {
     case GN_FLIP_BUSY:
-    case GN_FLIP_NO_MEMORY: wait_a_frame(k, shot, now_ns); return;
+    case GN_FLIP_NO_MEMORY: wait_a_frame(k, frame, now_ns); return;
     case GN_FLIP_NO_MASTER:
-        gn_kms_discard(k, shot);
+        gn_kms_discard(k, frame);
         gn_kms_lose_master(k, now_ns);
         return;
     case GN_FLIP_CARD_GONE:
-        gn_kms_discard(k, shot);
+        gn_kms_discard(k, frame);
         gn_kms_leave_card(k, false, now_ns);
         return;
     case GN_FLIP_CHANGED: break;
     }
     k->lit = false;
     if (was_lit) { /* the mode or the connector has changed under us: once more with a modeset */
-        wait_a_frame(k, shot, now_ns);
-        k->look_ns = k->probe_ns = now_ns;
+        wait_a_frame(k, frame, now_ns);
+        k->due.look_ns = k->due.probe_ns = now_ns;
         return;
     }
-    gn_kms_discard(k, shot);
+    gn_kms_discard(k, frame);
     gn_kms_next_try(k, error, now_ns);
 }
 
-void gn_kms_send(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
+void gn_kms_send(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
     if (k->blank) { /* asked for while it was drawn */
-        gn_kms_discard(k, &shot);
+        gn_kms_discard(k, &frame);
         return;
     }
-    const int error = k->lit ? flip(k, &shot, now_ns) : light(k, &shot, now_ns);
+    const int error = k->lit ? flip(k, &frame, now_ns) : light(k, &frame, now_ns);
     if (error == 0)
-        k->waiting = (struct gn_kms_shot){.fence = -1};
+        k->frames.waiting = (struct gn_kms_frame){.fence = -1};
     else
-        refuse(k, &shot, error, now_ns);
+        refuse(k, &frame, error, now_ns);
 }
 
 /* ---- a text instead ---- */
@@ -122,10 +123,10 @@ void gn_kms_send(struct gn_kms *k, struct gn_kms_shot shot, int64_t now_ns) {
 static void without_fb(struct gn_kms *k, int error, int64_t now_ns) {
     const enum gn_flip_error kind = gn_flip_error_of(error);
     const bool waits = kind == GN_FLIP_BUSY || kind == GN_FLIP_NO_MEMORY;
-    if (waits && k->starved_ns == 0) k->starved_ns = now_ns;
+    if (waits && k->due.starved_ns == 0) k->due.starved_ns = now_ns;
     if (kind == GN_FLIP_CARD_GONE) {
         gn_kms_leave_card(k, false, now_ns);
-    } else if (waits && now_ns - k->starved_ns < STARVED_NS) {
+    } else if (waits && now_ns - k->due.starved_ns < STARVED_NS) {
         k->lit = false; /* what was to be seen is drawn again */
         k->screen.counts.retried++;
         gn_flip_refused(&k->flip, now_ns);
@@ -136,14 +137,14 @@ static void without_fb(struct gn_kms *k, int error, int64_t now_ns) {
 
 void gn_kms_show_notice(struct gn_kms *k, int64_t now_ns) {
     struct gn_dumb *copy = gn_kms_free_copy(k);
-    struct gn_kms_shot shot = {.key = copy, .fence = -1};
+    struct gn_kms_frame frame = {.key = copy, .fence = -1};
     const struct gn_buffer buffer = gn_dumb_buffer(copy);
     const struct gn_notice_picture picture = {copy->pixels, copy->stride, copy->width_px,
                                               copy->height_px, k->screen.rotate_deg};
-    gn_notice_draw(&picture, k->notice);
-    const int error = gn_kms_output_fb(&k->output, &buffer, &shot.fb);
+    gn_notice_draw(&picture, k->text.notice);
+    const int error = gn_kms_output_fb(&k->output, &buffer, &frame.fb);
     if (error == 0)
-        gn_kms_send(k, shot, now_ns);
+        gn_kms_send(k, frame, now_ns);
     else
         without_fb(k, error, now_ns);
 }
@@ -170,29 +171,29 @@ static bool take_frame(struct gn_kms *k, struct gn_buffer *buffer, int *fence) {
         *buffer = gn_dumb_buffer(gn_kms_free_copy(k));
         return true;
     }
-    if (k->env.scanout->swap(k->scanout, gn_kms_output_takes_fence(&k->output), buffer, fence,
-                             &why))
+    if (k->env.scanout->swap(k->device.scanout, gn_kms_output_takes_fence(&k->output), buffer,
+                             fence, &why))
         return true;
-    snprintf(k->reason, sizeof k->reason, "%s", why.text);
+    snprintf(k->text.reason, sizeof k->text.reason, "%s", why.text);
     return false;
 }
 
 void gn_kms_send_drawn(struct gn_kms *k, int64_t now_ns) {
     struct gn_buffer buffer;
-    struct gn_kms_shot shot = {.fence = -1};
+    struct gn_kms_frame frame = {.fence = -1};
     k->screen.may_draw = false;
     k->screen.copy_to = NULL;
-    if (!take_frame(k, &buffer, &shot.fence)) {
+    if (!take_frame(k, &buffer, &frame.fence)) {
         gn_kms_leave_card(k, true, now_ns);
         return;
     }
-    shot.key = buffer.key;
-    const int error = gn_kms_output_fb(&k->output, &buffer, &shot.fb);
+    frame.key = buffer.key;
+    const int error = gn_kms_output_fb(&k->output, &buffer, &frame.fb);
     if (error == 0) {
-        gn_kms_send(k, shot, now_ns);
+        gn_kms_send(k, frame, now_ns);
         return;
     }
-    if (shot.fence >= 0) close(shot.fence);
-    if (!gn_kms_is_copy(k)) k->env.scanout->release(k->scanout, shot.key);
+    if (frame.fence >= 0) close(frame.fence);
+    if (!gn_kms_is_copy(k)) k->env.scanout->release(k->device.scanout, frame.key);
     without_fb(k, error, now_ns);
 }

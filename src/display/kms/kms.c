@@ -16,42 +16,43 @@ static void say_status(struct gn_kms *k) {
     char *out = k->screen.status;
     const size_t size = sizeof k->screen.status;
     *out = 0;
-    if (k->fd < 0 || k->screen.lost)
-        snprintf(out, size, "waiting for a card%s%s", k->reason[0] ? ": " : "", k->reason);
+    if (k->device.fd < 0 || k->screen.lost)
+        snprintf(out, size, "waiting for a card%s%s", k->text.reason[0] ? ": " : "",
+                 k->text.reason);
     else if (k->away)
         snprintf(out, size, "another console is shown");
     else if (k->blank)
         snprintf(out, size, "switched off");
-    else if (!k->connected && k->reason[0])
-        snprintf(out, size, "%s", k->reason);
-    else if (!k->connected)
+    else if (!k->monitor.connected && k->text.reason[0])
+        snprintf(out, size, "%s", k->text.reason);
+    else if (!k->monitor.connected)
         snprintf(out, size, "waiting for a monitor%s%s", k->opts->connector ? " on " : "",
                  k->opts->connector ? k->opts->connector : "");
-    else if (k->notice[0])
-        snprintf(out, size, "%s", k->notice);
+    else if (k->text.notice[0])
+        snprintf(out, size, "%s", k->text.notice);
     else if (!k->master)
-        snprintf(out, size, "%s has the screen (%s)", k->holder[0] ? k->holder : "another program",
-                 k->node.path);
+        snprintf(out, size, "%s has the screen (%s)",
+                 k->text.holder[0] ? k->text.holder : "another program", k->device.node.path);
 }
 
 static void update(struct gn_kms *k, int64_t now_ns) {
     struct gn_screen *s = &k->screen;
-    const bool copies = k->surface_opts.rung == GN_RUNG_COPY;
-    const bool ready =
-        k->connected && k->master && !k->away && !k->blank && !s->lost && !k->notice[0] && !k->says;
+    const bool copies = k->buffers.opts.rung == GN_RUNG_COPY;
+    const bool ready = k->monitor.connected && k->master && !k->away && !k->blank && !s->lost &&
+                       !k->text.notice[0] && !k->text.changed;
     s->blank = k->blank;
     s->lit = ready && k->lit;
-    s->may_draw = ready && !k->waiting.fb && gn_flip_may_draw(&k->flip, now_ns) &&
-                  (copies || k->env.scanout->has_free(k->scanout));
-    s->width_px = k->connected ? k->surface_opts.width_px : 0;
-    s->height_px = k->connected ? k->surface_opts.height_px : 0;
+    s->may_draw = ready && !k->frames.waiting.fb && gn_flip_may_draw(&k->flip, now_ns) &&
+                  (copies || k->env.scanout->has_free(k->device.scanout));
+    s->width_px = k->monitor.connected ? k->buffers.opts.width_px : 0;
+    s->height_px = k->monitor.connected ? k->buffers.opts.height_px : 0;
     s->what[0] = 0;
-    if (k->connected)
-        snprintf(s->what, sizeof s->what, "%s %ux%u@%.2f %s", k->connector, s->width_px,
-                 s->height_px, gn_kms_mode_mhz(&k->ladder[k->mode]) / 1000.0,
+    if (k->monitor.connected)
+        snprintf(s->what, sizeof s->what, "%s %ux%u@%.2f %s", k->monitor.connector, s->width_px,
+                 s->height_px, gn_kms_mode_mhz(&k->monitor.ladder[k->monitor.mode]) / 1000.0,
                  k->output.atomic ? "atomic" : "legacy");
-    s->rotate_deg = (k->opts->rotate_deg + k->orientation_deg) % 360;
-    s->srgb = !copies && k->surface.srgb;
+    s->rotate_deg = (k->opts->rotate_deg + k->monitor.orientation_deg) % 360;
+    s->srgb = !copies && k->buffers.surface.srgb;
     s->period_ns = k->flip.period_ns;
     s->seen_ns = k->flip.period_ns > 0 ? gn_flip_seen_ns(&k->flip, now_ns) : now_ns;
     s->counts.shown = k->flip.shown;
@@ -62,28 +63,29 @@ static void update(struct gn_kms *k, int64_t now_ns) {
 
 const struct gn_screen *gn_kms_screen(const struct gn_kms *k) { return &k->screen; }
 
-int gn_kms_fd(const struct gn_kms *k) { return k->screen.lost ? -1 : k->fd; }
+int gn_kms_fd(const struct gn_kms *k) { return k->screen.lost ? -1 : k->device.fd; }
 
 gn_display_proc gn_kms_get_proc(struct gn_kms *k, const char *name) {
-    return k->scanout ? k->env.scanout->get_proc(k->scanout, name) : NULL;
+    return k->device.scanout ? k->env.scanout->get_proc(k->device.scanout, name) : NULL;
 }
 
 static int64_t sooner(int64_t a, int64_t b) { return a < b ? a : b; }
 
 static bool may_send_again(const struct gn_kms *k) {
-    return k->waiting.fb && !k->blank && k->connected && k->master && !k->flip.pending;
+    return k->frames.waiting.fb && !k->blank && k->monitor.connected && k->master &&
+           !k->flip.pending;
 }
 
 int64_t gn_kms_deadline(const struct gn_kms *k, int64_t now_ns) {
-    int64_t at = k->look_ns;
+    int64_t at = k->due.look_ns;
     if (k->screen.lost) return GN_KMS_NEVER;
-    if (!k->master && !k->away && k->fd >= 0) at = sooner(at, k->master_ns);
-    if (!k->connected && !k->flip.pending) return at;
-    if (gn_kms_may_sleep(k)) return sooner(at, k->sleep_ns > now_ns ? k->sleep_ns : now_ns);
+    if (!k->master && !k->away && k->device.fd >= 0) at = sooner(at, k->due.master_ns);
+    if (!k->monitor.connected && !k->flip.pending) return at;
+    if (gn_kms_may_sleep(k)) return sooner(at, k->due.sleep_ns > now_ns ? k->due.sleep_ns : now_ns);
     if (k->blank && !k->flip.pending) return at;
     at = sooner(at, gn_flip_deadline(&k->flip, now_ns));
     if (may_send_again(k)) at = sooner(at, k->flip.next_ns > now_ns ? k->flip.next_ns : now_ns);
-    if (k->lit && !k->flip.pending && !k->waiting.fb) at = sooner(at, k->again_ns);
+    if (k->lit && !k->flip.pending && !k->frames.waiting.fb) at = sooner(at, k->due.again_ns);
     return at;
 }
 
@@ -92,27 +94,28 @@ int64_t gn_kms_deadline(const struct gn_kms *k, int64_t now_ns) {
 static void leave_console(struct gn_kms *k) {
     k->away = true;
     k->lit = false;
-    if (k->fd < 0 || k->screen.lost) return;
-    if (k->master) k->env.drm->DropMaster(k->fd);
+    if (k->device.fd < 0 || k->screen.lost) return;
+    if (k->master) k->env.drm->DropMaster(k->device.fd);
     k->master = false;
-    k->master_ns = GN_KMS_NEVER;
+    k->due.master_ns = GN_KMS_NEVER;
 }
 
 static void enter_console(struct gn_kms *k, int64_t now_ns) {
     k->away = false;
     /* whoever was there in between has ended it; but one may be back within a frame */
     if (k->flip.pending && k->flip.stalled) gn_kms_flip_is_lost(k);
-    if (k->fd >= 0 && !k->screen.lost) gn_kms_try_master(k, now_ns);
-    k->look_ns = k->probe_ns = now_ns;
+    if (k->device.fd >= 0 && !k->screen.lost) gn_kms_try_master(k, now_ns);
+    k->due.look_ns = k->due.probe_ns = now_ns;
 }
 
 static void hear(struct gn_kms *k, unsigned events, int64_t now_ns) {
     if (events & GN_KMS_EVENT_VT_LEFT) leave_console(k);
     if (events & GN_KMS_EVENT_VT_ENTERED) enter_console(k, now_ns);
-    if (events & GN_KMS_EVENT_READABLE && k->fd >= 0 && !k->screen.lost) gn_kms_drain(k, now_ns);
+    if (events & GN_KMS_EVENT_READABLE && k->device.fd >= 0 && !k->screen.lost)
+        gn_kms_drain(k, now_ns);
     if (!(events & GN_KMS_EVENT_HOTPLUG)) return;
-    k->look_ns = sooner(k->look_ns, now_ns + SETTLE_NS);
-    k->probe_ns = sooner(k->probe_ns, k->look_ns);
+    k->due.look_ns = sooner(k->due.look_ns, now_ns + SETTLE_NS);
+    k->due.probe_ns = sooner(k->due.probe_ns, k->due.look_ns);
 }
 
 /* False: the ladder has ended. */
@@ -137,7 +140,7 @@ static bool act(struct gn_kms *k, enum gn_flip_act what, int64_t now_ns) {
 
 static bool give_up(struct gn_kms *k, struct gn_err *err) {
     gn_fail(err, "%s: frames are not shown any more, on %s; the kernel's log may say why",
-            k->connector[0] ? k->connector : "display", k->node.path);
+            k->monitor.connector[0] ? k->monitor.connector : "display", k->device.node.path);
     if (err) err->status = GN_EXIT_DISPLAY;
     return false;
 }
@@ -145,24 +148,26 @@ static bool give_up(struct gn_kms *k, struct gn_err *err) {
 /* A picture that the kernel has refused for as long as a flip may take is as bad as one lost. */
 static bool send_again(struct gn_kms *k, int64_t now_ns) {
     if (!may_send_again(k) || now_ns < k->flip.next_ns) return true;
-    if (now_ns - k->waiting_ns < 12 * GN_KMS_S) {
-        gn_kms_send(k, k->waiting, now_ns);
+    if (now_ns - k->frames.waiting_ns < 12 * GN_KMS_S) {
+        gn_kms_send(k, k->frames.waiting, now_ns);
         return true;
     }
-    k->waiting_ns = now_ns;
+    k->frames.waiting_ns = now_ns;
     return act(k, gn_flip_lost(&k->flip), now_ns);
 }
 
 static void show_again(struct gn_kms *k, int64_t now_ns) {
-    const bool idle = !k->flip.pending && !k->waiting.fb && !k->blank;
-    if (k->lit && k->master && idle && k->front.fb && now_ns >= k->again_ns)
-        gn_kms_send(k, k->front, now_ns);
+    const bool idle = !k->flip.pending && !k->frames.waiting.fb && !k->blank;
+    if (k->lit && k->master && idle && k->frames.front.fb && now_ns >= k->due.again_ns)
+        gn_kms_send(k, k->frames.front, now_ns);
 }
 
 /* Once: what is lit stays. */
 static void show_notice(struct gn_kms *k, int64_t now_ns) {
-    const bool free = !k->flip.pending && !k->waiting.fb && !k->lit && !k->blank && !k->says;
-    if (k->notice[0] && free && k->connected && k->master && !k->away && k->fd >= 0)
+    const bool free =
+        !k->flip.pending && !k->frames.waiting.fb && !k->lit && !k->blank && !k->text.changed;
+    if (k->text.notice[0] && free && k->monitor.connected && k->master && !k->away &&
+        k->device.fd >= 0)
         gn_kms_show_notice(k, now_ns);
 }
 
@@ -173,21 +178,21 @@ void gn_kms_lose(struct gn_kms *k, int64_t now_ns) {
 
 /* Nothing is changed under a flip: the text comes, or goes, when that has ended. */
 static void change_notice(struct gn_kms *k, int64_t now_ns) {
-    if (!k->says || k->flip.pending) return;
-    k->says = false;
+    if (!k->text.changed || k->flip.pending) return;
+    k->text.changed = false;
     gn_kms_drop_surface(k);
-    k->connected = k->lit = false;
-    if (k->look_ns > now_ns) k->look_ns = now_ns;
+    k->monitor.connected = k->lit = false;
+    if (k->due.look_ns > now_ns) k->due.look_ns = now_ns;
 }
 
 /* Where GL does not start there is a text already, and why it does not matters more. */
 void gn_kms_say(struct gn_kms *k, const char *text, int64_t now_ns) {
     const bool ends = !text || !*text;
-    if (k->scanout && (!ends || k->notice[0])) {
-        snprintf(k->notice, sizeof k->notice, "%s", ends ? "" : text);
-        struct gn_kms_shot waiting = k->waiting;
+    if (k->device.scanout && (!ends || k->text.notice[0])) {
+        snprintf(k->text.notice, sizeof k->text.notice, "%s", ends ? "" : text);
+        struct gn_kms_frame waiting = k->frames.waiting;
         if (waiting.fb) gn_kms_discard(k, &waiting);
-        k->says = true;
+        k->text.changed = true;
     }
     gn_kms_step(k, 0, now_ns, NULL);
 }
@@ -195,15 +200,16 @@ void gn_kms_say(struct gn_kms *k, const char *text, int64_t now_ns) {
 bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_err *err) {
     bool ok = true;
     hear(k, events, now_ns);
-    if (!k->screen.lost && k->fd >= 0) {
+    if (!k->screen.lost && k->device.fd >= 0) {
         const enum gn_flip_act what = gn_flip_step(&k->flip, now_ns);
         ok = act(k, what, now_ns) && send_again(k, now_ns);
         show_again(k, now_ns);
     }
-    if (!k->screen.lost && !k->master && !k->away && k->fd >= 0 && now_ns >= k->master_ns)
+    if (!k->screen.lost && !k->master && !k->away && k->device.fd >= 0 &&
+        now_ns >= k->due.master_ns)
         gn_kms_try_master(k, now_ns);
     if (!k->screen.lost) change_notice(k, now_ns);
-    if (!k->screen.lost && now_ns >= k->look_ns) gn_kms_look(k, now_ns);
+    if (!k->screen.lost && now_ns >= k->due.look_ns) gn_kms_look(k, now_ns);
     if (!k->screen.lost) show_notice(k, now_ns);
     gn_kms_sleep(k, now_ns);
     if (k->losses > 3) ok = false;
@@ -224,7 +230,7 @@ void gn_kms_blank(struct gn_kms *k, bool on, int64_t now_ns) {
 bool gn_kms_renew(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
     gn_kms_close_card(k);
     k->screen.lost = false;
-    k->look_ns = now_ns;
+    k->due.look_ns = now_ns;
     return gn_kms_step(k, 0, now_ns, err);
 }
 
@@ -235,17 +241,17 @@ struct gn_kms *gn_kms_create(const struct gn_kms_env *env, const struct gn_scree
     struct gn_kms *k = gn_xalloc(1, sizeof *k);
     k->env = *env;
     k->opts = opts;
-    k->fd = k->screen.fd = -1;
-    k->front.fence = k->pending.fence = k->waiting.fence = -1;
-    k->look_ns = now_ns;
-    k->master_ns = k->again_ns = GN_KMS_NEVER;
+    k->device.fd = k->screen.fd = -1;
+    k->frames.front.fence = k->frames.pending.fence = k->frames.waiting.fence = -1;
+    k->due.look_ns = now_ns;
+    k->due.master_ns = k->due.again_ns = GN_KMS_NEVER;
     gn_kms_step(k, 0, now_ns, NULL);
     return k;
 }
 
 void gn_kms_destroy(struct gn_kms *k) {
     if (!k) return;
-    if (k->fd >= 0 && k->output.drm) {
+    if (k->device.fd >= 0 && k->output.drm) {
         gn_kms_drop_surface(k);
         gn_kms_output_close(&k->output, k->master);
     }

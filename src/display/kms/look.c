@@ -39,13 +39,13 @@ static int rate(struct gn_kms *k, const struct gn_kms_node *node, bool probe, in
     if (!is_asked_for(k, node)) return -1;
     *fd = k->env.drm->open(node->path);
     if (*fd < 0) {
-        snprintf(k->reason, sizeof k->reason, "%s: %s%s", node->path, strerror(errno),
+        snprintf(k->text.reason, sizeof k->text.reason, "%s: %s%s", node->path, strerror(errno),
                  errno == EACCES ? "; add the user to the group video" : "");
         return -1;
     }
     if (k->away) k->env.drm->DropMaster(*fd); /* which the first to open a card becomes */
-    if (gn_kms_card_read(k->env.drm, *fd, probe, &k->fresh, &why))
-        return gn_kms_card_score(&k->fresh, k->opts->connector);
+    if (gn_kms_card_read(k->env.drm, *fd, probe, &k->device.fresh, &why))
+        return gn_kms_card_score(&k->device.fresh, k->opts->connector);
     k->env.drm->close(*fd);
     *fd = -1;
     return -1;
@@ -57,11 +57,11 @@ static int find_card(struct gn_kms *k, int least, bool probe, struct gn_kms_node
     const int count = k->env.drm->list(nodes, GN_KMS_CARDS_MAX);
     int best = least - 1, kept = -1;
     bool is_there = !k->opts->card;
-    k->reason[0] = 0;
+    k->text.reason[0] = 0;
     for (int i = 0; i < count; i++) {
         int fd = -1;
         is_there |= is_asked_for(k, &nodes[i]);
-        if (k->fd >= 0 && strcmp(nodes[i].path, k->node.path) == 0) continue;
+        if (k->device.fd >= 0 && strcmp(nodes[i].path, k->device.node.path) == 0) continue;
         const int score = rate(k, &nodes[i], probe, &fd);
         if (score <= best) {
             if (fd >= 0) k->env.drm->close(fd);
@@ -70,38 +70,39 @@ static int find_card(struct gn_kms *k, int least, bool probe, struct gn_kms_node
         if (kept >= 0) k->env.drm->close(kept);
         kept = fd, best = score;
         *out = nodes[i];
-        k->card = k->fresh;
+        k->device.card = k->device.fresh;
     }
-    if (!is_there) snprintf(k->reason, sizeof k->reason, "%s is not there", k->opts->card);
+    if (!is_there)
+        snprintf(k->text.reason, sizeof k->text.reason, "%s is not there", k->opts->card);
     return kept;
 }
 
 static void start_gl(struct gn_kms *k) {
     struct gn_err why = {0};
-    k->scanout = k->env.scanout->open(k->fd, k->opts->render_node, &why);
-    k->notice[0] = 0;
-    if (!k->scanout) {
-        snprintf(k->reason, sizeof k->reason, "%s: %s", k->node.path, why.text);
-        snprintf(k->notice, sizeof k->notice, "%s", k->reason);
+    k->device.scanout = k->env.scanout->open(k->device.fd, k->opts->render_node, &why);
+    k->text.notice[0] = 0;
+    if (!k->device.scanout) {
+        snprintf(k->text.reason, sizeof k->text.reason, "%s: %s", k->device.node.path, why.text);
+        snprintf(k->text.notice, sizeof k->text.notice, "%s", k->text.reason);
     }
-    k->screen.has_context = k->scanout;
-    if (k->scanout) k->screen.generation++;
+    k->screen.has_context = k->device.scanout;
+    if (k->device.scanout) k->screen.generation++;
 }
 
 bool gn_kms_try_master(struct gn_kms *k, int64_t now_ns) {
-    k->master = k->env.drm->IsMaster(k->fd) || k->env.drm->SetMaster(k->fd) == 0;
+    k->master = k->env.drm->IsMaster(k->device.fd) || k->env.drm->SetMaster(k->device.fd) == 0;
     k->lit = false;
-    k->sleep_ns = now_ns;
-    k->master_ns = k->master ? GN_KMS_NEVER : now_ns + GN_KMS_S;
-    if (!k->master && !k->holder[0] && k->env.who)
-        k->env.who(k->node.path, k->holder, sizeof k->holder);
-    if (k->master) k->holder[0] = 0;
+    k->due.sleep_ns = now_ns;
+    k->due.master_ns = k->master ? GN_KMS_NEVER : now_ns + GN_KMS_S;
+    if (!k->master && !k->text.holder[0] && k->env.who)
+        k->env.who(k->device.node.path, k->text.holder, sizeof k->text.holder);
+    if (k->master) k->text.holder[0] = 0;
     return k->master;
 }
 
 static void open_card(struct gn_kms *k, int64_t now_ns) {
-    k->fd = find_card(k, 0, true, &k->node);
-    if (k->fd < 0) {
+    k->device.fd = find_card(k, 0, true, &k->device.node);
+    if (k->device.fd < 0) {
         k->losses = 0; /* it was the card that went, not a context that is of no use */
         return;
     }
@@ -117,49 +118,51 @@ static void open_card(struct gn_kms *k, int64_t now_ns) {
 void gn_kms_close_card(struct gn_kms *k) {
     gn_kms_drop_surface(k);
     gn_kms_output_close(&k->output, false);
-    if (k->scanout) k->env.scanout->close(k->scanout);
-    k->scanout = NULL;
+    if (k->device.scanout) k->env.scanout->close(k->device.scanout);
+    k->device.scanout = NULL;
     k->screen.has_context = false;
-    if (k->fd >= 0) k->env.drm->close(k->fd);
-    k->fd = -1;
+    if (k->device.fd >= 0) k->env.drm->close(k->device.fd);
+    k->device.fd = -1;
 }
 
 /* The context stays until renew: objects in it are to be destroyed first. */
 void gn_kms_leave_card(struct gn_kms *k, bool restore, int64_t now_ns) {
-    if (k->screen.lost || k->fd < 0) return;
+    if (k->screen.lost || k->device.fd < 0) return;
     gn_kms_flip_is_lost(k);
     gn_kms_drop_surface(k);
     gn_kms_output_close(&k->output, restore && k->master);
-    k->losses += k->connected;
-    k->connected = k->lit = false;
-    k->look_ns = now_ns;
-    k->screen.lost = k->scanout;
-    if (!k->scanout) gn_kms_close_card(k);
+    k->losses += k->monitor.connected;
+    k->monitor.connected = k->lit = false;
+    k->due.look_ns = now_ns;
+    k->screen.lost = k->device.scanout;
+    if (!k->device.scanout) gn_kms_close_card(k);
 }
 
 /* ---- what to show, and how ---- */
 
 static bool take_surface(struct gn_kms *k) {
     struct gn_err why = {0};
-    struct gn_surface_opts *o = &k->surface_opts;
-    o->width_px = k->ladder[k->mode].hdisplay;
-    o->height_px = k->ladder[k->mode].vdisplay;
-    if (k->notice[0]) o->rung = GN_RUNG_COPY;
+    struct gn_surface_opts *o = &k->buffers.opts;
+    o->width_px = k->monitor.ladder[k->monitor.mode].hdisplay;
+    o->height_px = k->monitor.ladder[k->monitor.mode].vdisplay;
+    if (k->text.notice[0]) o->rung = GN_RUNG_COPY;
     for (; o->rung < GN_RUNG_COPY; o->rung++)
-        if (k->env.scanout->set_surface(k->scanout, o, &k->surface, &why)) return true;
+        if (k->env.scanout->set_surface(k->device.scanout, o, &k->buffers.surface, &why))
+            return true;
     return gn_kms_make_copies(k);
 }
 
 static enum gn_rung first_rung(const struct gn_kms *k) {
-    return k->surface_opts.modifier_count > 0 ? GN_RUNG_MODIFIERS : GN_RUNG_PLAIN;
+    return k->buffers.opts.modifier_count > 0 ? GN_RUNG_MODIFIERS : GN_RUNG_PLAIN;
 }
 
 /* From this mode on, the first one for which there are buffers. */
 static bool take_mode(struct gn_kms *k) {
-    for (; k->mode < k->ladder_count; k->mode++, k->surface_opts.rung = first_rung(k)) {
+    for (; k->monitor.mode < k->monitor.ladder_count;
+         k->monitor.mode++, k->buffers.opts.rung = first_rung(k)) {
         gn_kms_drop_surface(k);
         if (!take_surface(k)) continue;
-        const uint32_t mhz = gn_kms_mode_mhz(&k->ladder[k->mode]);
+        const uint32_t mhz = gn_kms_mode_mhz(&k->monitor.ladder[k->monitor.mode]);
         k->flip.period_ns = mhz > 0 ? 1000 * GN_KMS_S / mhz : GN_KMS_S / 60;
         k->flip.shortest_ns = k->opts->max_fps > 0 ? GN_KMS_S / k->opts->max_fps : 0;
         return true;
@@ -169,26 +172,27 @@ static bool take_mode(struct gn_kms *k) {
 }
 
 static void give_up_connector(struct gn_kms *k, const char *why, int64_t now_ns) {
-    k->connected = k->lit = false;
-    snprintf(k->reason, sizeof k->reason, "%s: no mode can be set (%s)", k->connector, why);
-    k->look_ns = now_ns + 5 * GN_KMS_LOOK_NS;
+    k->monitor.connected = k->lit = false;
+    snprintf(k->text.reason, sizeof k->text.reason, "%s: no mode can be set (%s)",
+             k->monitor.connector, why);
+    k->due.look_ns = now_ns + 5 * GN_KMS_LOOK_NS;
 }
 
 void gn_kms_next_try(struct gn_kms *k, int error, int64_t now_ns) {
     k->lit = false;
     gn_flip_forget(&k->flip);
-    if (k->surface_opts.rung < GN_RUNG_COPY)
-        k->surface_opts.rung++;
+    if (k->buffers.opts.rung < GN_RUNG_COPY)
+        k->buffers.opts.rung++;
     else {
-        k->mode++;
-        k->surface_opts.rung = first_rung(k);
+        k->monitor.mode++;
+        k->buffers.opts.rung = first_rung(k);
     }
     if (!take_mode(k)) give_up_connector(k, strerror(error), now_ns);
 }
 
 static int find_mode(const struct gn_kms *k, const drmModeModeInfo *mode) {
-    for (int i = 0; i < k->ladder_count; i++)
-        if (gn_kms_mode_equal(&k->ladder[i], mode)) return i;
+    for (int i = 0; i < k->monitor.ladder_count; i++)
+        if (gn_kms_mode_equal(&k->monitor.ladder[i], mode)) return i;
     return -1;
 }
 
@@ -203,63 +207,65 @@ static void keep_mode(struct gn_kms *k, const struct gn_kms_connector *c,
                       const drmModeModeInfo *mode) {
     if (find_mode(k, mode) < 0 && !is_listed(c, mode)) return;
     int at = find_mode(k, mode);
-    if (at < 0 && k->ladder_count < GN_KMS_LADDER_MAX) k->ladder_count++;
-    if (at < 0) at = k->ladder_count - 1;
-    memmove(&k->ladder[1], &k->ladder[0], (size_t)at * sizeof *mode);
-    k->ladder[0] = *mode;
+    if (at < 0 && k->monitor.ladder_count < GN_KMS_LADDER_MAX) k->monitor.ladder_count++;
+    if (at < 0) at = k->monitor.ladder_count - 1;
+    memmove(&k->monitor.ladder[1], &k->monitor.ladder[0], (size_t)at * sizeof *mode);
+    k->monitor.ladder[0] = *mode;
 }
 
 static bool same_surface(const struct gn_kms *k) {
-    const struct gn_surface_opts *o = &k->surface_opts;
-    const bool is_there = o->rung == GN_RUNG_COPY ? k->copies[0].handle != 0 : k->surface.format;
-    return is_there && o->width_px == k->ladder[0].hdisplay &&
-           o->height_px == k->ladder[0].vdisplay;
+    const struct gn_surface_opts *o = &k->buffers.opts;
+    const bool is_there =
+        o->rung == GN_RUNG_COPY ? k->buffers.copies[0].handle != 0 : k->buffers.surface.format;
+    return is_there && o->width_px == k->monitor.ladder[0].hdisplay &&
+           o->height_px == k->monitor.ladder[0].vdisplay;
 }
 
 static bool is_unreadable(const struct gn_kms *k) {
-    return k->unreadable > 0 && k->unreadable < UNREADABLE_MAX;
+    return k->device.unreadable > 0 && k->device.unreadable < UNREADABLE_MAX;
 }
 
 static bool open_output(struct gn_kms *k, int connector, int crtc) {
-    const bool legacy = k->opts->legacy || k->unreadable >= UNREADABLE_MAX;
+    const bool legacy = k->opts->legacy || k->device.unreadable >= UNREADABLE_MAX;
     struct gn_err why = {0};
-    if (k->output.drm && k->output.connector == k->card.connectors[connector].id &&
-        k->output.crtc == k->card.crtcs[crtc].id)
+    if (k->output.drm && k->output.connector == k->device.card.connectors[connector].id &&
+        k->output.crtc == k->device.card.crtcs[crtc].id)
         return true;
     gn_kms_drop_surface(k);
     gn_kms_output_close(&k->output, k->master);
-    if (!gn_kms_output_open(&k->output, k->env.drm, k->fd, legacy, &k->card, connector, crtc,
-                            &why)) {
-        k->unreadable++;
+    if (!gn_kms_output_open(&k->output, k->env.drm, k->device.fd, legacy, &k->device.card,
+                            connector, crtc, &why)) {
+        k->device.unreadable++;
         return false;
     }
-    gn_kms_output_formats(&k->output, &k->surface_opts);
-    k->surface_opts.unencoded = k->opts->unencoded;
+    gn_kms_output_formats(&k->output, &k->buffers.opts);
+    k->buffers.opts.unencoded = k->opts->unencoded;
     return true;
 }
 
 static void connect(struct gn_kms *k, int connector, int64_t now_ns) {
-    const struct gn_kms_connector *c = &k->card.connectors[connector];
-    const int crtc = gn_kms_choose_crtc(&k->card, connector);
-    snprintf(k->connector, sizeof k->connector, "%s", c->name);
-    k->orientation_deg = c->orientation_deg;
-    k->monitor = c->monitor;
+    const struct gn_kms_connector *c = &k->device.card.connectors[connector];
+    const int crtc = gn_kms_choose_crtc(&k->device.card, connector);
+    snprintf(k->monitor.connector, sizeof k->monitor.connector, "%s", c->name);
+    k->monitor.orientation_deg = c->orientation_deg;
+    k->monitor.id = c->monitor;
     k->lit = false;
-    k->sleep_ns = now_ns;
+    k->due.sleep_ns = now_ns;
     if (crtc < 0 || !open_output(k, connector, crtc)) {
         give_up_connector(k, "nothing drives it", now_ns);
-        if (is_unreadable(k)) k->look_ns = now_ns + GN_KMS_LOOK_NS;
+        if (is_unreadable(k)) k->due.look_ns = now_ns + GN_KMS_LOOK_NS;
         return;
     }
-    const bool was_lit = k->output.mode.hdisplay > 0, known = was_lit && k->lit_for == c->monitor;
-    k->ladder_count =
-        gn_kms_mode_ladder(&k->card, connector, was_lit && !known ? -1 : crtc, k->opts, k->ladder);
+    const bool was_lit = k->output.mode.hdisplay > 0,
+               known = was_lit && k->monitor.lit_for == c->monitor;
+    k->monitor.ladder_count = gn_kms_mode_ladder(
+        &k->device.card, connector, was_lit && !known ? -1 : crtc, k->opts, k->monitor.ladder);
     if (known) keep_mode(k, c, &k->output.mode);
-    k->mode = 0;
-    k->connected = true;
-    k->reason[0] = 0;
+    k->monitor.mode = 0;
+    k->monitor.connected = true;
+    k->text.reason[0] = 0;
     if (same_surface(k)) return;
-    k->surface_opts.rung = first_rung(k);
+    k->buffers.opts.rung = first_rung(k);
     if (!take_mode(k)) give_up_connector(k, "no buffers", now_ns);
 }
 
@@ -271,11 +277,11 @@ static bool is_ours(const struct gn_kms *k, const struct gn_kms_connector *c) {
 
 /* The one in use stays in use for as long as it is connected. */
 static int choose(const struct gn_kms *k) {
-    for (int i = 0; i < k->card.connector_count; i++)
-        if (is_ours(k, &k->card.connectors[i]) && k->card.connectors[i].connected &&
-            k->card.connectors[i].mode_count > 0)
+    for (int i = 0; i < k->device.card.connector_count; i++)
+        if (is_ours(k, &k->device.card.connectors[i]) && k->device.card.connectors[i].connected &&
+            k->device.card.connectors[i].mode_count > 0)
             return i;
-    return gn_kms_choose_connector(&k->card, k->opts->connector);
+    return gn_kms_choose_connector(&k->device.card, k->opts->connector);
 }
 
 /* Another card may have a monitor; ours has none. */
@@ -289,28 +295,32 @@ static void look_elsewhere(struct gn_kms *k, bool probe, int64_t now_ns) {
 
 static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
     struct gn_err why = {0};
-    if (!gn_kms_card_read(k->env.drm, k->fd, probe, &k->card, &why)) {
+    if (!gn_kms_card_read(k->env.drm, k->device.fd, probe, &k->device.card, &why)) {
         gn_kms_leave_card(k, false, now_ns);
         return;
     }
-    k->unreadable = k->card.partial ? k->unreadable + 1 : k->connected ? 0 : k->unreadable;
-    if (k->card.partial) k->look_ns = now_ns + (is_unreadable(k) ? 1 : 15) * GN_KMS_LOOK_NS;
-    if (k->card.partial && is_unreadable(k) && k->connected) return; /* it puts nothing out */
+    k->device.unreadable = k->device.card.partial ? k->device.unreadable + 1
+                           : k->monitor.connected ? 0
+                                                  : k->device.unreadable;
+    if (k->device.card.partial)
+        k->due.look_ns = now_ns + (is_unreadable(k) ? 1 : 15) * GN_KMS_LOOK_NS;
+    if (k->device.card.partial && is_unreadable(k) && k->monitor.connected)
+        return; /* it puts nothing out */
     const int chosen = choose(k);
     if (chosen < 0) {
-        k->connected = k->lit = false;
+        k->monitor.connected = k->lit = false;
         look_elsewhere(k, probe, now_ns);
         return;
     }
-    const struct gn_kms_connector *c = &k->card.connectors[chosen];
-    const bool as_it_was =
-        k->connected && is_ours(k, c) && c->monitor == k->monitor && !c->bad_link &&
-        (c->crtc >= 0 || !k->lit) &&
-        (is_listed(c, &k->ladder[k->mode]) || k->opts->mode_width > 0 || k->opts->modeline);
+    const struct gn_kms_connector *c = &k->device.card.connectors[chosen];
+    const bool as_it_was = k->monitor.connected && is_ours(k, c) && c->monitor == k->monitor.id &&
+                           !c->bad_link && (c->crtc >= 0 || !k->lit) &&
+                           (is_listed(c, &k->monitor.ladder[k->monitor.mode]) ||
+                            k->opts->mode_width > 0 || k->opts->modeline);
     if (as_it_was) return;
     if (k->flip.pending) { /* nothing is changed under a flip */
-        k->connected = false;
-        k->look_ns = now_ns + k->flip.period_ns;
+        k->monitor.connected = false;
+        k->due.look_ns = now_ns + k->flip.period_ns;
         return;
     }
     connect(k, chosen, now_ns);
@@ -319,30 +329,31 @@ static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
 /* It may by now. What it said instead makes room. */
 static void start_gl_again(struct gn_kms *k, int64_t now_ns) {
     if (k->flip.pending) {
-        k->look_ns = now_ns + k->flip.period_ns;
+        k->due.look_ns = now_ns + k->flip.period_ns;
         return;
     }
     start_gl(k);
-    if (!k->scanout) return;
+    if (!k->device.scanout) return;
     gn_kms_drop_surface(k);
-    k->connected = k->lit = false;
+    k->monitor.connected = k->lit = false;
 }
 
 void gn_kms_look(struct gn_kms *k, int64_t now_ns) {
-    bool probe = now_ns >= k->probe_ns;
-    k->look_ns = GN_KMS_NEVER;
-    if (probe) k->probe_ns = now_ns + GN_KMS_PROBE_NS;
-    if (k->fd >= 0 && !k->scanout && k->connected)
+    bool probe = now_ns >= k->due.probe_ns;
+    k->due.look_ns = GN_KMS_NEVER;
+    if (probe) k->due.probe_ns = now_ns + GN_KMS_PROBE_NS;
+    if (k->device.fd >= 0 && !k->device.scanout && k->monitor.connected)
         start_gl_again(k, now_ns);
-    else if (k->fd >= 0 && !k->scanout)
+    else if (k->device.fd >= 0 && !k->device.scanout)
         gn_kms_close_card(k); /* another card may do better */
-    if (k->fd < 0) {
+    if (k->device.fd < 0) {
         open_card(k, now_ns);
-        probe = k->card.partial; /* else it has been */
+        probe = k->device.card.partial; /* else it has been */
     }
-    if (k->fd >= 0) look_at_card(k, probe, now_ns);
-    if (k->card.partial || k->fresh.partial) k->probe_ns = now_ns; /* not all have answered */
-    const bool dumb = k->fd >= 0 && !k->scanout;
-    if (k->look_ns != GN_KMS_NEVER || (k->connected && !dumb && !k->env.deaf)) return;
-    k->look_ns = now_ns + (dumb ? 5 : 1) * GN_KMS_LOOK_NS;
+    if (k->device.fd >= 0) look_at_card(k, probe, now_ns);
+    if (k->device.card.partial || k->device.fresh.partial)
+        k->due.probe_ns = now_ns; /* not all have answered */
+    const bool dumb = k->device.fd >= 0 && !k->device.scanout;
+    if (k->due.look_ns != GN_KMS_NEVER || (k->monitor.connected && !dumb && !k->env.deaf)) return;
+    k->due.look_ns = now_ns + (dumb ? 5 : 1) * GN_KMS_LOOK_NS;
 }

@@ -13,61 +13,80 @@
 
 enum { GN_KMS_TICKETS = 4 };
 
-struct gn_kms_shot { /* a picture with its framebuffer; fb 0: none */
-    void *key;       /* of its buffer */
+struct gn_kms_frame { /* a picture with its framebuffer; fb 0: none */
+    void *key;        /* of its buffer */
     uint32_t fb;
     int fence; /* ours to close, -1: none */
 };
-/* What an event brings back. Flips share one until one of them is lost, whose event may come yet,
+/* What a flip event brings back. Flips share a ticket until one is lost: its event may still come
  * and must not be taken for a later one's. */
 struct gn_kms_ticket {
     struct gn_kms *kms;
     uint64_t number;
 };
 
+struct gn_kms_device {        /* the open card */
+    struct gn_kms_node node;  /* where it is */
+    int fd;                   /* -1: no card */
+    void *scanout;            /* NULL: GL does not start on it, see text.reason */
+    struct gn_kms_card card;  /* as last read */
+    struct gn_kms_card fresh; /* one that is being rated */
+    int unreadable;           /* reads in a row in which some objects could not be read */
+};
+struct gn_kms_text {
+    char notice[256]; /* shown in place of pictures; "": none */
+    bool changed;     /* the notice is another one and not shown yet */
+    char reason[128]; /* why nothing is shown, where nothing better is known */
+    char holder[64];  /* the program that has the screen */
+};
+struct gn_kms_monitor {       /* the connector in use and what is plugged into it */
+    char connector[32];       /* its name */
+    unsigned orientation_deg; /* of its panel */
+    uint64_t id;              /* of the monitor that is plugged in */
+    uint64_t lit_for;         /* the id for which output.mode was set */
+    bool connected;           /* a connector is chosen and there are buffers for it */
+    drmModeModeInfo ladder[GN_KMS_LADDER_MAX];
+    int ladder_count, mode; /* the mode in use is ladder[mode] */
+};
+struct gn_kms_buffers {
+    struct gn_surface_opts opts;
+    struct gn_surface surface; /* unless opts.rung is COPY */
+    struct gn_dumb copies[2];
+};
+struct gn_kms_frames {           /* at most one each */
+    struct gn_kms_frame front;   /* on the screen */
+    struct gn_kms_frame pending; /* its flip is pending; the same as front when flipped again */
+    struct gn_kms_frame waiting; /* refused for the moment, sent again later */
+    int64_t waiting_ns;          /* since when */
+    struct gn_kms_ticket tickets[GN_KMS_TICKETS];
+    uint64_t ticket;  /* of the pending flip */
+    int64_t event_ns; /* the time stamp of its event; -1: no event yet */
+};
+struct gn_kms_due {     /* monotonic; GN_KMS_NEVER */
+    int64_t look_ns;    /* next look at cards and connectors */
+    int64_t probe_ns;   /* looks from then on probe the connectors */
+    int64_t master_ns;  /* next try to become master */
+    int64_t again_ns;   /* next flip of a still picture */
+    int64_t sleep_ns;   /* when the screen is to be switched off, or once more */
+    int64_t starved_ns; /* since when no framebuffer can be made; 0: one can */
+};
+
 struct gn_kms {
     struct gn_kms_env env;
     const struct gn_screen_opts *opts;
     struct gn_screen screen;
-
-    struct gn_kms_node node; /* of the open card */
-    int fd;                  /* -1: no card */
-    void *scanout;           /* NULL: GL does not start on it, see reason */
-    struct gn_kms_card card, fresh;
+    struct gn_kms_device device;
     struct gn_kms_output output; /* drm NULL: none */
-    char notice[256];            /* shown in place of pictures; "": none */
-    bool says;                   /* it is another, and not yet shown */
-    char reason[128];            /* why nothing is shown, when it is nothing better known */
-    char holder[64];             /* who has the screen */
-
-    char connector[32];       /* its name */
-    unsigned orientation_deg; /* of its panel */
-    uint64_t monitor;         /* that is plugged into it */
-    uint64_t lit_for;         /* the one that output.mode was lit for */
-    bool connected;           /* something to show on is chosen, and a surface for it */
-    drmModeModeInfo ladder[GN_KMS_LADDER_MAX];
-    int ladder_count, mode; /* the mode in use is ladder[mode] */
-    struct gn_surface_opts surface_opts;
-    struct gn_surface surface; /* unless rung is COPY */
-    struct gn_dumb copies[2];
-
-    bool master, away;          /* away: on another console */
-    bool blank;                 /* to be switched off */
-    int64_t sleep_ns;           /* when it is to be switched off, or once more */
-    bool lit;                   /* the CRTC shows what was last flipped; else: a modeset */
-    struct gn_kms_shot front;   /* seen */
-    struct gn_kms_shot pending; /* on its way; the same as front when shown again */
-    struct gn_kms_shot waiting; /* refused for the moment */
-    int64_t waiting_ns;         /* since when */
+    struct gn_kms_monitor monitor;
+    struct gn_kms_buffers buffers;
+    struct gn_kms_text text;
+    bool master, away; /* away: another console is shown */
+    bool blank;        /* to be switched off */
+    bool lit;          /* the CRTC shows what was last flipped; false: a modeset is needed */
+    struct gn_kms_frames frames;
     struct gn_flip flip;
-    struct gn_kms_ticket tickets[GN_KMS_TICKETS];
-    uint64_t ticket;    /* of the pending flip */
-    int64_t event_ns;   /* the time that its event tells; -1: no event yet */
-    int unreadable;     /* looks in a row at which not all could be read */
-    int losses;         /* of the context where there is a monitor, since a frame was last seen */
-    int64_t starved_ns; /* since when there is no framebuffer to be had; 0: there is */
-    int64_t look_ns, master_ns, again_ns; /* when next; GN_KMS_NEVER */
-    int64_t probe_ns;                     /* looks from then on ask the wires */
+    int losses; /* of the context while there is a monitor, since a frame was last shown */
+    struct gn_kms_due due;
 };
 
 /* Files call downwards: kms.c, blank.c, frame.c, look.c, buffers.c. */
@@ -78,8 +97,8 @@ bool gn_kms_make_copies(struct gn_kms *kms);
 struct gn_dumb *gn_kms_free_copy(struct gn_kms *kms); /* the one that is not on the screen */
 void gn_kms_drop_surface(struct gn_kms *kms);         /* and all buffers */
 /* The screen shows this buffer from now on; it may be the one that it showed before. */
-void gn_kms_take_front(struct gn_kms *kms, struct gn_kms_shot shot, int64_t now_ns);
-void gn_kms_discard(struct gn_kms *kms, struct gn_kms_shot *shot); /* it will not be shown */
+void gn_kms_take_front(struct gn_kms *kms, struct gn_kms_frame frame, int64_t now_ns);
+void gn_kms_discard(struct gn_kms *kms, struct gn_kms_frame *frame); /* it will not be shown */
 void gn_kms_flip_is_lost(struct gn_kms *kms); /* no event will come for the pending flip */
 
 /* kms/look.c: cards and connectors. Probing a connector takes tens of milliseconds, so it is done
@@ -94,7 +113,7 @@ void gn_kms_next_try(struct gn_kms *kms, int error, int64_t now_ns);
 bool gn_kms_try_master(struct gn_kms *kms, int64_t now_ns);
 
 /* kms/frame.c: commits and their events. */
-void gn_kms_send(struct gn_kms *kms, struct gn_kms_shot shot, int64_t now_ns);
+void gn_kms_send(struct gn_kms *kms, struct gn_kms_frame frame, int64_t now_ns);
 void gn_kms_send_drawn(struct gn_kms *kms, int64_t now_ns); /* the frame that GL has drawn */
 void gn_kms_show_notice(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_lose_master(struct gn_kms *kms, int64_t now_ns);
