@@ -81,6 +81,11 @@ struct gn_import {
 
 /* The child's work: sets the limits, converts into fd, fills the report. */
 void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_report *report);
+
+/* ---- memory.c ---- */
+
+/* Whose limits and report the functions below use. */
+void gn_import_memory_begin(const struct gn_import_opts *opts, struct gn_import_report *report);
 /* size bytes, or the end of this process with a report that says so. */
 void *gn_import_alloc(size_t size);
 void *gn_import_grow(void *old, size_t size); /* as realloc */
@@ -110,7 +115,7 @@ struct gn_import_texture gn_import_texture(struct gn_import *import,
                                            enum aiTextureType type, bool with_opacity, int *uv_set);
 void gn_import_lights(struct gn_import *import);
 void gn_import_cameras(struct gn_import *import);
-/* Column-major, as glTF has it; made finite. */
+/* matrix.c: column-major, as in glTF; values that are not finite become the identity's. */
 json_t *gn_import_matrix(const struct aiMatrix4x4 *matrix);
 
 /* ---- picture.c: alpha ---- */

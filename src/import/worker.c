@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include "import/private.h"
 
@@ -19,28 +18,6 @@ enum { BOUND_MEMORY = 0 };
 #else
 enum { BOUND_MEMORY = 1 };
 #endif
-
-static struct gn_import_report *the_report;
-static const struct gn_import_opts *the_opts;
-
-void gn_import_no_memory(void) {
-    gn_fail(&the_report->err,
-            "%s: needs more than %d MB of memory to be read; gnomon-import --memory MB allows more",
-            the_opts->model, the_opts->memory_mb);
-    _exit(0);
-}
-
-void *gn_import_alloc(size_t size) {
-    void *memory = malloc(size ? size : 1);
-    if (!memory) gn_import_no_memory();
-    return memory;
-}
-
-void *gn_import_grow(void *old, size_t size) {
-    void *memory = realloc(old, size);
-    if (!memory) gn_import_no_memory();
-    return memory;
-}
 
 static void bound(int what, rlim_t most) {
     struct rlimit limit = {most, most};
@@ -60,8 +37,7 @@ static void set_limits(const struct gn_import_opts *opts) {
 
 void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_report *report) {
     static struct gn_import import;
-    the_report = report;
-    the_opts = opts;
+    gn_import_memory_begin(opts, report);
     set_limits(opts);
     import = (struct gn_import){.opts = opts,
                                 .format = gn_model_format_of(opts->model),

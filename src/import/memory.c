@@ -1,0 +1,32 @@
+/* Memory of the child: what cannot be had ends it with a report. */
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "import/private.h"
+
+static struct gn_import_report *the_report;
+static const struct gn_import_opts *the_opts;
+
+void gn_import_memory_begin(const struct gn_import_opts *opts, struct gn_import_report *report) {
+    the_opts = opts;
+    the_report = report;
+}
+
+void gn_import_no_memory(void) {
+    gn_fail(&the_report->err,
+            "%s: needs more than %d MB of memory to be read; gnomon-import --memory MB allows more",
+            the_opts->model, the_opts->memory_mb);
+    _exit(0);
+}
+
+void *gn_import_alloc(size_t size) {
+    void *memory = malloc(size ? size : 1);
+    if (!memory) gn_import_no_memory();
+    return memory;
+}
+
+void *gn_import_grow(void *old, size_t size) {
+    void *memory = realloc(old, size);
+    if (!memory) gn_import_no_memory();
+    return memory;
+}
