@@ -21,12 +21,25 @@ static bool too_small(const uint8_t *data, size_t size, const uint32_t px[2]) {
     return (uint64_t)px[0] * px[1] / 8 * bits / 1100 > size;
 }
 
+/* A chunk before the pixels claims more than the file has: libpng would allocate and clear what the
+ * claim says (2 GB) before it reads. */
+static bool has_long_chunk(const uint8_t *data, size_t size) {
+    for (size_t at = 8; size - at >= 12;) {
+        const size_t length = big_endian(data + at);
+        if (memcmp(data + at + 4, "IDAT", 4) == 0) return false;
+        if (length > size - at - 12) return true;
+        at += 12 + length;
+    }
+    return false;
+}
+
 bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err) {
     if (size < IHDR_END || memcmp(data + 12, "IHDR", 4) != 0) return gn_fail(err, "PNG: cut short");
     px[0] = big_endian(data + 16);
     px[1] = big_endian(data + 20);
     if (px[0] > INT32_MAX || px[1] > INT32_MAX) return gn_fail(err, "PNG: no such size");
-    if (too_small(data, size, px)) return gn_fail(err, "PNG: cut short");
+    if (too_small(data, size, px) || has_long_chunk(data, size))
+        return gn_fail(err, "PNG: cut short");
     return true;
 }
 

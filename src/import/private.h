@@ -101,6 +101,11 @@ bool gn_import_folder_read(const struct gn_import *import, const char *name,
 /* The same for assimp; warns of material files that are not there. */
 struct aiFileIO gn_import_folder_io(struct gn_import *import);
 
+/* ---- ply.c ---- */
+
+/* False, with err filled, where the file's header would hang the reader. */
+bool gn_import_ply_check(const struct gn_import *import);
+
 /* ---- the scene ---- */
 
 bool gn_import_scene_build(struct gn_import *import);

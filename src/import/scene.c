@@ -49,6 +49,7 @@ static bool fail_read(const struct gn_import *import) {
 }
 
 static bool read_scene(struct gn_import *import) {
+    if (import->format == GN_MODEL_PLY && !gn_import_ply_check(import)) return false;
     struct aiFileIO io = gn_import_folder_io(import);
     struct aiPropertyStore *properties = choose(import);
     import->scene = aiImportFileExWithProperties(

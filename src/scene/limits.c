@@ -18,6 +18,8 @@ static const struct row {
     {"texels", offsetof(struct gn_scene_limits, texels), 67108864, 1 << 30},
     {"keys", offsetof(struct gn_scene_limits, keys), 4000000, 1 << 30},
     {"json_depth", offsetof(struct gn_scene_limits, json_depth), 512, 2000},
+    {"triangles_per_frame", offsetof(struct gn_scene_limits, triangles_per_frame), 100000000,
+     UINT64_C(1) << 40},
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof ROWS[0] };
 _Static_assert(sizeof(struct gn_scene_limits) == ROW_COUNT * sizeof(uint64_t), "a row per limit");

@@ -20,9 +20,31 @@ static bool count_textures(struct gn_gltf *g) {
     return !g->failed;
 }
 
+/* What a frame would draw, before any of it is unpacked: a few hundred bytes can name a million
+ * instances of a million triangles, which no GPU comes back from. */
+static bool check_triangles(struct gn_gltf *g) {
+    struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes");
+    uint64_t total = 0;
+    for (uint32_t i = 0; i < g->scene->node_count; i++) {
+        const struct gn_placed *placed = &g->placed[i];
+        if (placed->mesh < 0) continue;
+        const struct gn_mesh *mesh = &g->meshes[placed->mesh];
+        uint64_t triangles = 0;
+        for (uint32_t d = 0; d < mesh->draw_count; d++)
+            triangles += g->shapes[g->draws[mesh->first_draw + d].geometry].corner_count / 3;
+        total += triangles * (placed->instance_count ? placed->instance_count : 1);
+        if (total > g->limits.triangles_per_frame)
+            return gn_gltf_fail(g, &nodes,
+                                "more triangles than the limit triangles_per_frame=%" PRIu64,
+                                g->limits.triangles_per_frame);
+    }
+    return true;
+}
+
 static bool (*const STEPS[])(struct gn_gltf *) = {
-    gn_gltf_check_support, gn_gltf_buffers,    gn_gltf_accessors, count_textures,    gn_gltf_nodes,
-    gn_gltf_meshes,        gn_gltf_geometries, gn_gltf_items,     gn_gltf_materials, gn_gltf_lights,
+    gn_gltf_check_support, gn_gltf_buffers,    gn_gltf_accessors, count_textures,
+    gn_gltf_nodes,         gn_gltf_meshes,     gn_gltf_instances, check_triangles,
+    gn_gltf_geometries,    gn_gltf_items,      gn_gltf_materials, gn_gltf_lights,
     gn_gltf_cameras,       gn_gltf_animations, gn_scene_complete, gn_scene_batch,
 };
 

@@ -20,6 +20,7 @@ struct gn_view { /* a bufferView that lies inside its buffer; data is NULL where
                     placeholder */
     const uint8_t *data;
     size_t size, stride; /* stride 0: tight */
+    bool damaged;        /* holds a picture that could not be decoded */
 };
 
 enum gn_component { /* glTF's numbers */
@@ -126,6 +127,7 @@ struct gn_gltf {
     size_t buffer_count, view_count, accessor_count, mesh_count, draw_count, vertices_count,
         material_count, file_node_count, file_texture_count, file_image_count;
     uint64_t key_total;
+    uint64_t damaged_texels; /* of pictures whose decoding failed */
 
     struct gn_scene *scene;
 };

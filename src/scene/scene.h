@@ -170,14 +170,15 @@ struct gn_scene {
 /* Bounds on what a file may ask for; 0 = the default beside each. Named so in --limit NAME=VALUE.
  */
 struct gn_scene_limits {
-    uint64_t file_mb;    /* 512: any one file read */
-    uint64_t memory_mb;  /* 1024: all that the scene holds */
-    uint64_t nodes;      /* 100000 */
-    uint64_t instances;  /* 1000000 */
-    uint64_t vertices;   /* 20000000 */
-    uint64_t texels;     /* 67108864 per picture (8192 x 8192) */
-    uint64_t keys;       /* 4000000 animation keys */
-    uint64_t json_depth; /* 512 */
+    uint64_t file_mb;             /* 512: any one file read */
+    uint64_t memory_mb;           /* 1024: all that the scene holds */
+    uint64_t nodes;               /* 100000 */
+    uint64_t instances;           /* 1000000 */
+    uint64_t vertices;            /* 20000000 */
+    uint64_t texels;              /* 67108864 per picture (8192 x 8192) */
+    uint64_t keys;                /* 4000000 animation keys */
+    uint64_t json_depth;          /* 512 */
+    uint64_t triangles_per_frame; /* 100000000: of all nodes and their instances */
 };
 /* Sets one limit by its name; false and a usage error that lists the names if there is no such. */
 bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,

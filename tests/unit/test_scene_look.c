@@ -163,6 +163,11 @@ static void test_broken_pictures_cost_a_warning(void **state) {
     expect_dropped("GIF89a", 6, "neither PNG nor JPEG");
     expect_dropped(png.data, 20, "PNG: cut short");
     expect_dropped(png.data, png.size / 2, "PNG: cut short");
+    uint8_t claims[80]; /* a chunk of 2 GB before the pixels */
+    memcpy(claims, png.data, 33);
+    memcpy(claims + 33, "\x7f\xff\xff\xfezTXt", 8);
+    memset(claims + 41, 'x', sizeof claims - 41);
+    expect_dropped(claims, sizeof claims, "PNG: cut short");
     png.data[16] = 0x10; /* 268 million wide */
     expect_dropped(png.data, png.size, "cut short");
     expect_dropped("\xff\xd8\xff\xe0 no jpeg", 12, "JPEG:");
@@ -191,6 +196,28 @@ static void test_broken_pictures_keep_no_memory(void **state) {
     free(glb.data);
     free(png.data);
     free(rgba);
+}
+
+/* Two images in one bufferView: the second is not decoded again. */
+static void test_a_damaged_view_is_decoded_once(void **state) {
+    (void)state;
+    uint8_t rgba[16 * 16 * 4] = {0};
+    struct gn_made png = gn_maker_png(16, 16, rgba);
+    add_picture(png.data, png.size - 30);
+    free(png.data);
+    const int view = (int)json_array_size(json_object_get(maker.root, "bufferViews")) - 1;
+    char json[80];
+    snprintf(json, sizeof json, "{'bufferView':%d,'mimeType':'image/png'}", view);
+    gn_maker_add(&maker, "images", json);
+    gn_maker_add(&maker, "textures", "{'source':1}");
+    gn_maker_set(&maker, "materials",
+                 "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}},"
+                 "'emissiveTexture':{'index':1},'emissiveFactor':[1,1,1]}]");
+    struct gn_scene *scene = load();
+    assert_int_equal(warnings.count, 2);
+    assert_non_null(strstr(warnings.text[0], "images[0]: PNG: "));
+    assert_non_null(strstr(warnings.text[1], " is damaged"));
+    gn_scene_destroy(scene);
 }
 
 static void test_missing_picture_file(void **state) {
@@ -261,6 +288,7 @@ int main(void) {
         cmocka_unit_test_setup(test_jpeg, setup_with_material),
         cmocka_unit_test_setup(test_broken_pictures_cost_a_warning, setup_with_material),
         cmocka_unit_test_setup(test_broken_pictures_keep_no_memory, setup_with_material),
+        cmocka_unit_test_setup(test_a_damaged_view_is_decoded_once, setup_with_material),
         cmocka_unit_test_setup(test_missing_picture_file, setup_with_material),
         cmocka_unit_test_setup(test_later_work_is_named_once, setup_with_material),
         cmocka_unit_test_setup(test_batches, setup_with_material),

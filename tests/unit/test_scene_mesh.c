@@ -1,6 +1,7 @@
 /* Accessors to vertices: formats, sharing, triangles, normals, bounds, nodes, copies. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene/pose.h"
@@ -380,9 +381,32 @@ static void test_only_what_is_whole_and_looks_out_is_closed(void **state) {
     assert_false(cube_is_closed(open_a_seam));
 }
 
+static void test_triangles_of_instances_are_bounded(void **state) {
+    (void)state;
+    const float at[9] = {0};
+    const int translation = gn_maker_accessor(&maker, "VEC3", 5126, 3, at, sizeof at, NULL);
+    char json[160];
+    snprintf(
+        json, sizeof json,
+        "[{'mesh':0,'extensions':{'EXT_mesh_gpu_instancing':{'attributes':{'TRANSLATION':%d}}}}]",
+        translation);
+    gn_maker_set(&maker, "nodes", json);
+    struct gn_made glb = gn_maker_glb(&maker);
+    struct gn_scene_limits limits = {.triangles_per_frame = 6};
+    struct gn_scene *scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
+    if (!scene) fail_msg("%s", err.text);
+    gn_scene_destroy(scene);
+    limits.triangles_per_frame = 5;
+    assert_null(gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err));
+    assert_string_equal(err.text, "t: nodes: more triangles than the limit triangles_per_frame=5");
+    free(glb.data);
+    gn_maker_finish(&maker);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_same_accessors_share_a_geometry, setup),
+        cmocka_unit_test_setup(test_triangles_of_instances_are_bounded, setup),
         cmocka_unit_test_setup(test_same_vertices_are_shared, setup),
         cmocka_unit_test_setup(test_modes, setup),
         cmocka_unit_test_setup(test_strips_keep_their_winding, setup),

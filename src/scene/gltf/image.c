@@ -43,9 +43,13 @@ static bool decode(struct gn_gltf *g, const struct gn_blob *blob, struct gn_imag
                        px[1], g->limits.texels);
     if (4 * texels + with_mipmaps > gn_gltf_room(g))
         return gn_fail(err, "no room for it in memory_mb");
+    if (g->damaged_texels > g->limits.texels)
+        return gn_fail(err, "not decoded: damaged pictures have used up the limit texels=%" PRIu64,
+                       g->limits.texels);
     uint8_t *rgba = gn_gltf_alloc(g, g->arena, texels, 4);
     if (!rgba) return false;
     if (!format->read(blob->data, blob->size, px, rgba, err)) {
+        g->damaged_texels += texels;
         gn_arena_undo(g->arena, rgba, 4 * texels);
         return false;
     }
@@ -56,14 +60,17 @@ static bool decode(struct gn_gltf *g, const struct gn_blob *blob, struct gn_imag
     return true;
 }
 
+/* *view_out: the view that holds it, or NULL. */
 static bool fetch(struct gn_gltf *g, const struct gn_at *at, struct gn_blob *blob,
-                  struct gn_err *err) {
+                  struct gn_view **view_out, struct gn_err *err) {
     const char *uri = gn_at_text(g, at, "uri");
     int32_t view = gn_at_ref(g, at, "bufferView", g->view_count, "bufferViews");
     if (g->failed) return false;
     if (uri) return gn_uri_fetch(g, uri, blob, err);
     if (view < 0) return gn_fail(err, "has neither uri nor bufferView");
     if (!g->views[view].data) return gn_fail(err, "bufferView %d holds no data", view);
+    if (g->views[view].damaged) return gn_fail(err, "bufferView %d is damaged", view);
+    *view_out = &g->views[view];
     blob->data = g->views[view].data;
     blob->size = g->views[view].size;
     return true;
@@ -75,10 +82,12 @@ static int32_t image_at(struct gn_gltf *g, int32_t index) {
     struct gn_at root = gn_at_root(g), images = gn_at_array(g, &root, "images");
     struct gn_at at = gn_at_item(g, &images, (size_t)index);
     struct gn_blob blob = {0};
+    struct gn_view *view = NULL;
     struct gn_err err = {0};
     struct gn_scene *scene = g->scene;
-    bool done =
-        fetch(g, &at, &blob, &err) && decode(g, &blob, &scene->images[scene->image_count], &err);
+    bool done = fetch(g, &at, &blob, &view, &err) &&
+                decode(g, &blob, &scene->images[scene->image_count], &err);
+    if (!done && view) view->damaged = true;
     gn_blob_finish(g, &blob);
     if (done)
         g->scene_image[index] = (int32_t)scene->image_count++;

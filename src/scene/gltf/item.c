@@ -42,7 +42,6 @@ static bool refuse_empty(struct gn_gltf *g) {
 
 bool gn_gltf_items(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
-    if (!gn_gltf_instances(g)) return false;
     uint64_t total = 0;
     struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes");
     for (uint32_t i = 0; i < scene->node_count; i++)
