@@ -57,7 +57,7 @@ uninstall:
 	rm -rf "$(INTO)/share/doc/gnomon"
 
 DEPS_run := build run
-DEPS_check := build run test board
+DEPS_check := build run test
 DEPS_check-angle := build run test
 DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
 DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
@@ -270,7 +270,7 @@ check:
 	+$(SUB) WERROR=1 CONFIG=asan sanitized
 	+$(SUB) syntax lint-changed
 	@tests/run.sh tests/layers.sh tests/format.sh BUILD=$(O)/release \
-	    $(call quick,$(call programs,$(O)/release,$(PROG_C)) $(SCRIPTS) tests/board/smoke.guest) \
+	    $(call quick,$(call programs,$(O)/release,$(PROG_C)) $(SCRIPTS)) \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(call kinds,$(SANITIZED))) tests/check_hostile.sh
 check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(SCENES)
 	@tests/run.sh BUILD=$(B) tests/angle/check_angle.sh
@@ -307,7 +307,7 @@ accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
 	+$(SUB) lint
-	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) \
+	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) tests/board/smoke.guest \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(call kinds,$(SANITIZED)),$(PROG_C))) \
 	    GN_FULL=1 $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan,$(PROG_C))) \
 	    BUILD=$(O)/release $(sort $(call programs,$(O)/release,$(call LONG,$(PROG_C))) $(call later,$(call programs,$(O)/release,$(PROG_C)))) \

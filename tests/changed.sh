@@ -16,7 +16,7 @@ trap 'rm -rf "$work"' EXIT
     git ls-files --others --exclude-standard
 } | grep '\.[ch]$' > "$work/changed" || exit 0
 for file in "$@"; do
-    if tr ' ' '\n' < "$deps/${file%.c}.syntax.d" 2> /dev/null | grep -qxF -f "$work/changed"; then
+    if cat "$deps/${file%.c}.syntax.d" 2> /dev/null | tr ' ' '\n' | grep -qxF -f "$work/changed"; then
         echo "$file"
     fi
 done

@@ -22,6 +22,16 @@ export ASAN_OPTIONS=${ASAN_OPTIONS-allocator_may_return_null=1:detect_stack_use_
 jobs=${JOBS:-$(nproc)}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+# each job waits for a timeout, which ends its test when it is ended itself
+end_jobs() {
+    local job
+    for job in $(jobs -p); do
+        read -ra children 2> /dev/null < "/proc/$job/task/$job/children"
+        kill "$job" "${children[@]}" 2> /dev/null
+    done
+    exit 130
+}
+trap end_jobs INT TERM
 
 # ---- the plan: what runs, in which order -------------------------------------------------------
 settings=() # NAME=VALUE, in their order
