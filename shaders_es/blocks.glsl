@@ -15,13 +15,28 @@
 #define PASS_CONES 32     /* GN_LIGHTS_MAX in two vec4: 1 / (cos inner - cos outer) of light i in [i / 4][i % 4] */
 #define PASS_SHADOWS 34   /* GN_SHADOWS_MAX x SHADOW_SIZE; slot i belongs to light i */
 #define SHADOW_SIZE 9
-#define SHADOW_MAP 0      /* 4 columns of map_from_world; cascades: of metres across the light and code */
-#define SHADOW_TILES 0    /* point, in its place - xy: uv of a tangent of 1; zw: depth maps' code at depth d is z + w / d */
-#define SHADOW_BIAS 4     /* x: normal offset, y: slope offset, both in plane units (texel times texels), cascades: in texels; z: slope_max; w: ulp, metres */
-#define SHADOW_PLACE 5    /* xyz: position of the light; w: distance_scale */
+#define SHADOW_MAP 0      /* directional, spot: 4 columns of map_from_world; cascades: of metres across the light and code */
+#define SHADOW_TILES 0    /* point, in its place - xy: uv of a tangent of 1; zw: the code of a depth map at depth d is z + w / d */
+#define SHADOW_BIAS 4
+#define BIAS_NORMAL 0     /* normal offset, plane units (texel times texels); cascades: texels */
+#define BIAS_SLOPE 1      /* slope offset, the same */
+#define BIAS_SLOPE_MAX 2
+#define BIAS_ULP 3        /* metres */
+#define SHADOW_PLACE 5    /* xyz: position of the light; */
+#define PLACE_CODE_SCALE 3 /* factor on a distance: its code, less CODE_OFFSET */
 #define SHADOW_MAP_SIZE 6 /* xy: width and height of the map in texels; zw: 1 / width, 1 / height */
-#define SHADOW_CODE 7     /* x: distance_offset; y: far_code; z: tiles, table: how far beside a place may be read, texels; w: point: tangent over which tiles are shared; cascades: how far from a tile's middle it may be asked, texels */
-#define SHADOW_SOFT 8     /* how wide a penumbra is: lib/shadow_place.glsl; cascades: x times the texel, y as e per metre along the view */
+#define SHADOW_CODE 7
+#define CODE_OFFSET 0
+#define CODE_FAR_END 1    /* the far end's code: what the map is cleared to */
+#define CODE_REACH 2      /* tiles, SAT: how far beside a place may be read, texels */
+#define CODE_SHARED 3     /* point: tangent over which tiles are mixed */
+#define CODE_HELD 3       /* cascades: how far from a tile's middle it may be read, texels */
+#define SHADOW_PENUMBRA 8 /* how wide a penumbra is: struct shadow_penumbra in lib/shadow_place.glsl */
+#define PENUMBRA_RADIUS 0 /* of the emitter, texels per unit of penumbra depth; cascades: metres */
+#define PENUMBRA_NEAREST 1 /* penumbra depth of the nearest caster; not with cascades */
+#define PENUMBRA_GROWTH 1 /* cascades: penumbra depth per metre along the view */
+#define PENUMBRA_SCALE 2  /* penumbra depth = code * scale + bias */
+#define PENUMBRA_BIAS 3
 #define PASS_SLIDES 70    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides or cascades ends here */
 #define SLIDE_SIZE 4
 #define SLIDE_U 0         /* of a point (p, 1), world space: u times w, 0..1 over the slide from its left edge */
@@ -29,9 +44,11 @@
 #define SLIDE_W 2         /* w: depth along the light's axis, metres */
 #define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide, over 0: what is nearer has not passed it */
 #define PASS_CASCADES 86  /* GN_SHADOWS_MAX x CASCADES_SIZE, as PASS_SHADOWS; a pass without cascades ends here */
-#define CASCADES_SIZE 6   /* four, each - xy: the light's axis, texels from the middle of its tile; z: texel, metres; w: e of its nearest caster (SHADOW_SOFT); and */
-#define CASCADES_ZONES 4  /* of the first three, 1 / width of the zone in which each goes over into the next, 0: there is none */
-#define CASCADES_SPANS 5  /* of each, e from that of its nearest caster on that its moments are of */
+#define CASCADES_SIZE 6   /* four, each - xy: the light's axis, texels from the middle of its tile; */
+#define CASCADE_TEXEL 2   /* metres */
+#define CASCADE_NEAREST 3 /* penumbra depth of its nearest caster; */
+#define CASCADES_ZONES 4  /* of the first three: 1 / width of the zone in which each fades into the next, 0: there is none */
+#define CASCADES_SPANS 5  /* of each: penumbra depth that its moments cover, from that of its nearest caster on */
 #define CASCADE_FADE 0.1  /* width of that zone, up to the split, as a share of the split's distance */
 #define PASS_SIZE 110
 /* Filters of maps */

@@ -5,7 +5,7 @@
 #define SHADOW(slot, what) PASS(PASS_SHADOWS + (slot)*SHADOW_SIZE + (what))
 
 mat4 shadow_matrix(const int slot) {
-    return mat4(SHADOW(slot, 0), SHADOW(slot, 1), SHADOW(slot, 2), SHADOW(slot, 3));
+    return mat4(SHADOW(slot, SHADOW_MAP), SHADOW(slot, SHADOW_MAP + 1), SHADOW(slot, SHADOW_MAP + 2), SHADOW(slot, SHADOW_MAP + 3));
 }
 
 // How far to push, world space. n, l: unit, normal and direction to the light; n_a: cosine of n and a, the unit vector that the
@@ -17,8 +17,8 @@ vec3 shadow_push(const int slot, vec3 n, vec3 l, float n_a, float texel) {
     float c = dot(n, l);
     float s = sqrt(max(1.0 - min(c * c, n_a * n_a), 0.0));
     float side = c < 0.0 ? -1.0 : 1.0;
-    float slope = min(s / max(abs(c), 0.001), bias.z);
-    return n * (side * bias.x * s * texel) + l * (bias.y * slope * texel + bias.w);
+    float slope = min(s / max(abs(c), 0.001), bias[BIAS_SLOPE_MAX]);
+    return n * (side * bias[BIAS_NORMAL] * s * texel) + l * (bias[BIAS_SLOPE] * slope * texel + bias[BIAS_ULP]);
 }
 
 // Directional: linear in p, so it may be made per vertex. uv and code. On a plane with any light: then nothing is pushed, and l
@@ -36,6 +36,6 @@ vec3 shadow_point_spot(const int slot, const bool radial, vec3 p, vec3 n, vec3 l
     vec4 h = m * vec4(q, 1.0);
     vec4 place = SHADOW(slot, SHADOW_PLACE);
     vec3 at = h.xyz / h.w;
-    if (radial) at.z = length(q - place.xyz) * place.w + SHADOW(slot, SHADOW_CODE).x;
+    if (radial) at.z = length(q - place.xyz) * place[PLACE_CODE_SCALE] + SHADOW(slot, SHADOW_CODE)[CODE_OFFSET];
     return at;
 }

@@ -34,7 +34,7 @@ vec3 shadow_tile_at(const int slot, const bool radial, shadow_tile t) {
     vec2 middle = t.along_x ? vec2(1.0 / 6.0, 0.5) : t.along_z ? vec2(5.0 / 6.0, 0.5) : vec2(0.5);
     middle.y = t.side < 0.0 ? 0.75 : 0.25;
     float inverse = 1.0 / t.q.z;
-    float code = radial ? length(t.q) * SHADOW(slot, SHADOW_PLACE).w + SHADOW(slot, SHADOW_CODE).x : tiles.w * inverse + tiles.z;
+    float code = radial ? length(t.q) * SHADOW(slot, SHADOW_PLACE)[PLACE_CODE_SCALE] + SHADOW(slot, SHADOW_CODE)[CODE_OFFSET] : tiles.w * inverse + tiles.z;
     return vec3(t.q.xy * inverse * tiles.xy + middle, code);
 }
 
@@ -46,7 +46,7 @@ shadow_tile shadow_tile_pushed(const int slot, const bool radial, vec3 p, vec3 n
 }
 
 // The texels of two tiles lie differently, so a filter makes different shades of them on either side of an edge. Round it, up to
-// SHADOW_CODE.w to each side, the four pixels of a quad share the tiles that are near: the lower left one asks the nearest, the upper
+// CODE_SHARED to each side, the four pixels of a quad share the tiles that are near: the lower left one asks the nearest, the upper
 // left one the next, and those on the right as well unless a third is near: then both ask that. shadow_mixed() gives all four the
 // same mean, whose weights change from tile to tile without a step: by halves on an edge, by thirds in a corner (Penner, "Shader
 // Amortization using Pixel Quad Message Passing", GPU Pro 2, 2011). Who is who is told from the quad's middle, so all four agree; and
@@ -60,7 +60,7 @@ shadow_tile shadow_tile_shared(const int slot, const bool radial, vec3 p, vec3 n
     vec3 a = abs(v - turn.x * dFdx(p) - turn.y * dFdy(p)) * vec3(1.0, 0.999999, 0.999998); // no two are the same
     float larger = max(a.x, a.y), smaller = min(a.x, a.y);
     float depth = max(larger, a.z), second = max(smaller, min(larger, a.z)), third = min(smaller, a.z);
-    vec2 near = max(1.0 - (depth - vec2(third, second)) / (depth * SHADOW(slot, SHADOW_CODE).w), 0.0);
+    vec2 near = max(1.0 - (depth - vec2(third, second)) / (depth * SHADOW(slot, SHADOW_CODE)[CODE_SHARED]), 0.0);
     bvec2 other = bvec2(turn.x > 0.0 && near.x > 0.0, turn.y > 0.0 && near.y > 0.0);
     float asked = other.x ? third : other.y ? second : depth;
     shadow_tile t;
@@ -83,6 +83,6 @@ vec2 shadow_tile_slope(const int slot, const bool radial, shadow_tile t, vec3 fa
     vec3 n = shadow_tile_turn(t, face) * vec3(1.0, 1.0, t.side);
     vec3 u = vec3(1.0, 0.0, -t.q.x * inverse) * (tiles.x * inverse);
     vec3 v = vec3(0.0, 1.0, -t.q.y * inverse) * (tiles.y * inverse);
-    vec3 code = radial ? -l * SHADOW(slot, SHADOW_PLACE).w : vec3(0.0, 0.0, -tiles.w * inverse * inverse);
+    vec3 code = radial ? -l * SHADOW(slot, SHADOW_PLACE)[PLACE_CODE_SCALE] : vec3(0.0, 0.0, -tiles.w * inverse * inverse);
     return shadow_slope(u, v, code, n, l);
 }

@@ -172,8 +172,8 @@ void gn_frame_cascade_constants(const struct gn_shadow_view *view, float (*const
         float *c = constants[i];
         for (int k = 0; k < 2; k++)
             c[k] = empty ? NOWHERE : (float)(-cascade->drawn.corner_texels[k] - middle);
-        c[2] = empty ? 1.0f : cascade->texel;
-        c[3] = empty ? 0.0f : cascade->nearest;
+        c[CASCADE_TEXEL] = empty ? 1.0f : cascade->texel;
+        c[CASCADE_NEAREST] = empty ? 0.0f : cascade->nearest;
         constants[CASCADES_SPANS][i] = empty ? 1.0f : cascade->span;
         if (i + 1 < GN_CASCADES_MAX)
             constants[CASCADES_ZONES][i] = view->empty || i + 1 >= view->map.cascade_count

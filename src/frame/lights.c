@@ -274,33 +274,41 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
 static void put3(float to[4], const float *v) { memcpy(to, v, sizeof(vec3)); }
 
 static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
-    c[SHADOW_CODE][1] = view->code.far_end;
+    const struct gn_shadow_lookup *lookup = &view->lookup;
+    const bool cascades = view->map.cascade_count > 0;
+    c[SHADOW_CODE][CODE_FAR_END] = view->code.far_end;
     if (view->encoding == GN_ENCODING_STENCIL) return; /* where it is not marked, all arrives */
-    memcpy(c[SHADOW_MAP], view->lookup.map_from_world, sizeof view->lookup.map_from_world);
-    if (view->map.tile_count > 1 && view->map.cascade_count == 0) {
-        memcpy(c[SHADOW_TILES], view->lookup.tangent_uv, sizeof view->lookup.tangent_uv);
-        memcpy(&c[SHADOW_TILES][2], view->lookup.depth_code, sizeof view->lookup.depth_code);
+    memcpy(c[SHADOW_MAP], lookup->map_from_world, sizeof lookup->map_from_world);
+    if (view->map.tile_count > 1 && !cascades) {
+        memcpy(c[SHADOW_TILES], lookup->tangent_uv, sizeof lookup->tangent_uv);
+        memcpy(&c[SHADOW_TILES][2], lookup->depth_code, sizeof lookup->depth_code);
     }
-    const float texel = view->map.cascade_count > 0 ? 1.0f : view->lookup.texel;
-    c[SHADOW_BIAS][0] = view->lookup.normal_offset * texel;
-    c[SHADOW_BIAS][1] = view->lookup.slope_offset * texel;
-    c[SHADOW_BIAS][2] = view->lookup.slope_max;
-    c[SHADOW_BIAS][3] = view->code.ulp_m;
+    const float texel = cascades ? 1.0f : lookup->texel;
+    c[SHADOW_BIAS][BIAS_NORMAL] = lookup->normal_offset * texel;
+    c[SHADOW_BIAS][BIAS_SLOPE] = lookup->slope_offset * texel;
+    c[SHADOW_BIAS][BIAS_SLOPE_MAX] = lookup->slope_max;
+    c[SHADOW_BIAS][BIAS_ULP] = view->code.ulp_m;
     put3(c[SHADOW_PLACE], view->light_ws);
-    c[SHADOW_PLACE][3] = view->code.scale;
+    c[SHADOW_PLACE][PLACE_CODE_SCALE] = view->code.scale;
     const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};
     for (int k = 0; k < 2; k++) {
         c[SHADOW_MAP_SIZE][k] = size[k];
         c[SHADOW_MAP_SIZE][k + 2] = 1.0f / size[k];
     }
-    c[SHADOW_CODE][0] = view->code.offset;
-    c[SHADOW_CODE][2] = view->lookup.reach_px;
-    c[SHADOW_CODE][3] = view->map.cascade_count > 0 ? view->lookup.held_px : view->lookup.shared;
-    c[SHADOW_SOFT][0] = view->penumbra.radius;
-    c[SHADOW_SOFT][1] =
-        view->map.cascade_count > 0 ? view->penumbra.growth : view->penumbra.nearest;
-    c[SHADOW_SOFT][2] = view->penumbra.scale;
-    c[SHADOW_SOFT][3] = view->penumbra.bias;
+    c[SHADOW_CODE][CODE_OFFSET] = view->code.offset;
+    c[SHADOW_CODE][CODE_REACH] = lookup->reach_px;
+    if (cascades)
+        c[SHADOW_CODE][CODE_HELD] = lookup->held_px;
+    else
+        c[SHADOW_CODE][CODE_SHARED] = lookup->shared;
+    const struct gn_shadow_penumbra *penumbra = &view->penumbra;
+    c[SHADOW_PENUMBRA][PENUMBRA_RADIUS] = penumbra->radius;
+    if (cascades)
+        c[SHADOW_PENUMBRA][PENUMBRA_GROWTH] = penumbra->growth;
+    else
+        c[SHADOW_PENUMBRA][PENUMBRA_NEAREST] = penumbra->nearest;
+    c[SHADOW_PENUMBRA][PENUMBRA_SCALE] = penumbra->scale;
+    c[SHADOW_PENUMBRA][PENUMBRA_BIAS] = penumbra->bias;
 }
 
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,

@@ -142,7 +142,7 @@ static float (*darken(struct gn_frame *frame, const struct marks *marks, uint32_
     memcpy(c, gn_frame_constants(frame, GN_CONSTANTS_PICTURE + marks->group), of_pass);
     for (uint32_t i = 0; i < marks->count; i++) {
         const uint32_t at = marks->slots[i] - frame->groups[marks->group].first_shadow;
-        if (set >> i & 1) c[PASS_SHADOWS + at * SHADOW_SIZE + SHADOW_CODE][1] = 0.0f;
+        if (set >> i & 1) c[PASS_SHADOWS + at * SHADOW_SIZE + SHADOW_CODE][CODE_FAR_END] = 0.0f;
     }
     return c;
 }

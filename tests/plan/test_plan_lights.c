@@ -55,6 +55,45 @@ static void test_a_map_that_is_too_large_is_made_smaller_and_said_so(void **stat
     gn_plan_end(&f);
 }
 
+/* What shaders read by a name of blocks.glsl is what the view has under it. */
+static void expect_constants(const struct gn_shadow_view *view, const float (*c)[4]) {
+    const bool cascades = view->map.cascade_count > 0;
+    assert_true(c[SHADOW_BIAS][BIAS_SLOPE_MAX] == view->lookup.slope_max);
+    assert_true(c[SHADOW_BIAS][BIAS_ULP] == view->code.ulp_m);
+    assert_true(c[SHADOW_PLACE][PLACE_CODE_SCALE] == view->code.scale);
+    assert_true(c[SHADOW_CODE][CODE_OFFSET] == view->code.offset);
+    assert_true(c[SHADOW_CODE][CODE_FAR_END] == view->code.far_end);
+    assert_true(c[SHADOW_CODE][CODE_REACH] == view->lookup.reach_px);
+    assert_true(c[SHADOW_PENUMBRA][PENUMBRA_RADIUS] == view->penumbra.radius);
+    assert_true(c[SHADOW_PENUMBRA][PENUMBRA_SCALE] == view->penumbra.scale);
+    assert_true(c[SHADOW_PENUMBRA][PENUMBRA_BIAS] == view->penumbra.bias);
+    if (cascades) {
+        assert_true(c[SHADOW_CODE][CODE_HELD] == view->lookup.held_px);
+        assert_true(c[SHADOW_PENUMBRA][PENUMBRA_GROWTH] == view->penumbra.growth);
+    } else {
+        assert_true(c[SHADOW_CODE][CODE_SHARED] == view->lookup.shared);
+        assert_true(c[SHADOW_PENUMBRA][PENUMBRA_NEAREST] == view->penumbra.nearest);
+    }
+}
+
+static void test_constants_are_those_of_the_view(void **state) {
+    (void)state;
+    for (uint32_t cascades = 1; cascades <= GN_CASCADES_MAX; cascades += 2) {
+        struct gn_plan_fixture f;
+        gn_plan_begin(&f, GN_EVERY_CAP);
+        f.opts.technique_given = true;
+        f.opts.technique = GN_TECHNIQUE_PCSS;
+        f.opts.cascades = cascades;
+        const struct gn_plan *plan = gn_plan_make(&f);
+        const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
+        assert_true(last->shadow_count > 0);
+        for (uint32_t i = 0; i < last->shadow_count; i++)
+            expect_constants(&plan->shadows[last->first_shadow + i],
+                             last->constants + PASS_SHADOWS + i * SHADOW_SIZE);
+        gn_plan_end(&f);
+    }
+}
+
 /* A table per light: five passes a tile; a map of 512 unless it is given. */
 static void test_tables_plan(void **state) {
     (void)state;
@@ -299,6 +338,7 @@ static void test_no_light_is_too_weak_for_an_exposure(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_many_lights_plan),
+        cmocka_unit_test(test_constants_are_those_of_the_view),
         cmocka_unit_test(test_tables_plan),
         cmocka_unit_test(test_a_map_that_is_too_large_is_made_smaller_and_said_so),
         cmocka_unit_test(test_many_lights_without_srgb_plan),
