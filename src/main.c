@@ -19,20 +19,20 @@ _Static_assert(sizeof commands / sizeof commands[0] == GN_COMMAND_COUNT, "a row 
 
 static bool run(const struct gn_options *options, struct gn_warnings *warnings,
                 struct gn_err *err) {
-    if (options->version)
+    if (options->settings->run.version)
         puts("gnomon " GN_VERSION);
-    else if (options->help)
-        gn_help_print(stdout, options->command);
-    else if (options->check)
+    else if (options->settings->run.help)
+        gn_help_print(stdout, options->settings->run.command);
+    else if (options->settings->run.check)
         return gn_cli_check(options, warnings, err);
     else
-        return commands[options->command](options, warnings, err);
+        return commands[options->settings->run.command](options, warnings, err);
     return true;
 }
 
 static int report(bool ok, const struct gn_options *options, const struct gn_warnings *warnings,
                   const struct gn_err *err) {
-    if (ok || options->verbose) gn_warn_print(warnings, stderr);
+    if (ok || options->settings->run.verbose) gn_warn_print(warnings, stderr);
     if (ok) return GN_EXIT_OK;
     fprintf(stderr, "gnomon: %s\n", err->text);
     return err->status == GN_EXIT_OK ? GN_EXIT_WORLD : err->status;

@@ -28,7 +28,7 @@ struct entry { /* a technique that takes part */
 };
 
 struct bench {
-    const struct gn_options *options;
+    const struct gn_settings *settings;
     struct gn_warnings *warnings;
     struct gn_stage stage;
     struct gn_memory_probe probe;
@@ -47,7 +47,8 @@ static bool add_entry(struct bench *b, const char *name, struct gn_err *err) {
     uint32_t count = b->report.run_count;
     for (uint32_t i = 0; i < count; i++)
         if (b->entries[i].opts.technique == technique)
-            return gn_fail_usage(err, "--shadow %s: %s is there twice", b->options->shadow, name);
+            return gn_fail_usage(err, "--shadow %s: %s is there twice", b->settings->render.shadow,
+                                 name);
     b->entries[count].opts.technique = technique;
     b->entries[count].opts.technique_given = true;
     b->report.run_count++;
@@ -56,11 +57,11 @@ static bool add_entry(struct bench *b, const char *name, struct gn_err *err) {
 
 /* The names between the commas; without --shadow one entry, as the scene has it. */
 static bool choose_entries(struct bench *b, struct gn_err *err) {
-    if (!gn_options_given(b->options, shadow) || !b->options->shadow) {
+    if (!gn_settings_given(b->settings, render.shadow) || !b->settings->render.shadow) {
         b->report.run_count = 1;
         return true;
     }
-    for (const char *at = b->options->shadow;; at++) {
+    for (const char *at = b->settings->render.shadow;; at++) {
         char name[32];
         size_t length = strcspn(at, ",");
         snprintf(name, sizeof name, "%.*s", (int)(length < 31 ? length : 31), at);
@@ -71,7 +72,7 @@ static bool choose_entries(struct bench *b, struct gn_err *err) {
 }
 
 static void prepare_entries(struct bench *b) {
-    b->frames = b->options->frames > 0 ? (uint32_t)b->options->frames : FRAMES_DEFAULT;
+    b->frames = b->settings->run.frames > 0 ? (uint32_t)b->settings->run.frames : FRAMES_DEFAULT;
     b->report.runs = gn_xalloc(b->report.run_count, sizeof *b->report.runs);
     for (uint32_t i = 0; i < b->report.run_count; i++) {
         struct entry *e = &b->entries[i];
@@ -87,7 +88,7 @@ static void prepare_entries(struct bench *b) {
 /* ---- frames ---- */
 
 static int64_t time_of(const struct bench *b, uint32_t frame) {
-    return b->options->time_ns + (int64_t)frame * GN_NS_PER_S / FPS;
+    return b->settings->scene.time_ns + (int64_t)frame * GN_NS_PER_S / FPS;
 }
 
 static const struct gn_plan *prepare_frame(struct bench *b, const struct entry *e, uint32_t frame,
@@ -188,11 +189,11 @@ static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
     if (!plan) return false;
     struct gn_bench_run *run = e->run;
     describe(run, e, plan);
-    run->output = b->options->output == GN_PICTURE_LINEAR ? "linear" : "srgb";
+    run->output = b->settings->render.output == GN_PICTURE_LINEAR ? "linear" : "srgb";
     run->ms_median = gn_bench_quantile(e->ms, run->frames, .5);
     run->ms_p95 = gn_bench_quantile(e->ms, run->frames, .95);
     run->cpu_ms = (double)e->cpu_ns / MS_NS / run->frames;
-    run->idle = !b->stage.pose.animated && b->options->turntable_deg_s == 0;
+    run->idle = !b->stage.pose.animated && b->settings->scene.turntable_deg_s == 0;
     if (e->allocations > 0)
         gn_warn(b->warnings, "%s: timed frames asked for memory or GL objects %llu times",
                 run->technique, (unsigned long long)e->allocations);
@@ -202,7 +203,8 @@ static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
 /* ---- the start ---- */
 
 static bool draw_first_picture(struct bench *b, struct gn_err *err) {
-    size_t pixels = (size_t)b->options->size.width_px * (size_t)b->options->size.height_px;
+    size_t pixels =
+        (size_t)b->settings->render.size.width_px * (size_t)b->settings->render.size.height_px;
     uint8_t *rgba = gn_picture_alloc(pixels, 4, err);
     bool ok =
         rgba && draw_frame(b, &b->entries[0], 0, err) && gn_gl_read_rgba8(b->stage.gl, rgba, err);
@@ -212,7 +214,7 @@ static bool draw_first_picture(struct bench *b, struct gn_err *err) {
 }
 
 static bool start(struct bench *b, struct gn_err *err) {
-    const struct gn_options *o = b->options;
+    const struct gn_settings *o = b->settings;
     if (!choose_entries(b, err) || !gn_stage_load(&b->stage, o, b->warnings, err)) return false;
     struct gn_driver_cache before = gn_driver_cache_read();
     prepare_entries(b);
@@ -221,9 +223,9 @@ static bool start(struct bench *b, struct gn_err *err) {
     struct gn_driver_cache after = gn_driver_cache_read();
     b->report.cache_warm = gn_driver_cache_warm(&before, &after);
     b->report.renderer = gn_gl_caps(b->stage.gl)->renderer;
-    b->report.scene = o->scene ? o->scene : "(default scene)";
-    b->report.width_px = (uint32_t)o->size.width_px;
-    b->report.height_px = (uint32_t)o->size.height_px;
+    b->report.scene = o->scene.path ? o->scene.path : "(default scene)";
+    b->report.width_px = (uint32_t)o->render.size.width_px;
+    b->report.height_px = (uint32_t)o->render.size.height_px;
     return true;
 }
 
@@ -237,8 +239,8 @@ static bool measure(struct bench *b, struct gn_err *err) {
 }
 
 static bool print(const struct bench *b, struct gn_err *err) {
-    if (b->options->json && !gn_bench_print_json(&b->report, stdout, err)) return false;
-    if (!b->options->json) gn_bench_print(&b->report, stdout);
+    if (b->settings->run.json && !gn_bench_print_json(&b->report, stdout, err)) return false;
+    if (!b->settings->run.json) gn_bench_print(&b->report, stdout);
     return true;
 }
 
@@ -258,11 +260,11 @@ static void finish(struct bench *b) {
 bool gn_cli_bench(const struct gn_options *options, struct gn_warnings *warnings,
                   struct gn_err *err) {
     struct bench b = {
-        .options = options,
+        .settings = options->settings,
         .warnings = warnings,
         .start_ns = gn_clock_monotonic_ns() - gn_clock_process_cpu_ns(),
     };
-    gn_memory_probe_open(&b.probe, options->backend);
+    gn_memory_probe_open(&b.probe, options->settings->display.backend);
     bool ok = measure(&b, err) && print(&b, err);
     finish(&b);
     return ok;

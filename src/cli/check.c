@@ -13,7 +13,6 @@
 enum { SCENES_MAX = GN_SCENES_MAX + GN_MODES_MAX };
 
 struct check {
-    struct gn_options options; /* read again: modes are applied to it */
     struct gn_warnings *warnings;
     struct gn_scene_limits limits;
     const char *paths[SCENES_MAX];
@@ -28,12 +27,13 @@ static bool same_text(const char *a, const char *b) {
 }
 
 /* Loaded once, however many modes show it. */
-static const struct gn_scene *scene_of(struct check *c, const char *path, struct gn_err *err) {
+static const struct gn_scene *scene_of(struct check *c, const struct gn_settings *settings,
+                                       const char *path, struct gn_err *err) {
     for (int i = 0; i < c->scene_count; i++)
         if (same_text(c->paths[i], path)) return c->scenes[i];
     struct gn_scene *scene = gn_stage_read(path, &c->limits, c->warnings, err);
     if (!scene) {
-        gn_fail_prefix(err, "%s", gn_options_label(&c->options, scene));
+        gn_fail_prefix(err, "%s", gn_settings_label(settings, scene.path));
         return NULL;
     }
     c->paths[c->scene_count] = path;
@@ -47,45 +47,45 @@ static bool has_plane(const struct gn_scene *scene) {
     return false;
 }
 
-static bool check_technique(const struct check *c, const struct gn_stage_look *look,
+static bool check_technique(const struct gn_settings *settings, const struct gn_stage_look *look,
                             const struct gn_scene *scene, struct gn_err *err) {
     const struct gn_frame_opts *f = &look->frame_opts;
     if (!f->technique_given || !gn_techniques[f->technique].on_plane || has_plane(scene))
         return true;
     return gn_fail(err, "%s: %s needs a plane, and nothing in %s is one; gnomon_plane names it",
-                   gn_options_label(&c->options, shadow), gn_techniques[f->technique].name,
+                   gn_settings_label(settings, render.shadow), gn_techniques[f->technique].name,
                    scene->name);
 }
 
-/* The options as they are now, on one scene. */
-static bool check_look(struct check *c, const char *path, struct gn_err *err) {
+/* One mode's settings, on one scene. */
+static bool check_look(struct check *c, const struct gn_settings *settings, const char *path,
+                       struct gn_err *err) {
     struct gn_stage_look look;
-    const struct gn_scene *scene = scene_of(c, path, err);
-    return scene && gn_stage_look(&look, &c->options, scene, c->warnings, err) &&
-           check_technique(c, &look, scene, err);
+    const struct gn_scene *scene = scene_of(c, settings, path, err);
+    return scene && gn_stage_look(&look, settings, scene, c->warnings, err) &&
+           check_technique(settings, &look, scene, err);
 }
 
 /* Of several scenes that next-scene goes through one will do: a camera may be in that one alone. */
-static bool check_looks(struct check *c, struct gn_err *err) {
-    const struct gn_scene_list list = c->options.scenes;
+static bool check_looks(struct check *c, const struct gn_settings *settings, struct gn_err *err) {
+    const struct gn_scene_list *list = &settings->scene.list;
     struct gn_err why = {0};
-    for (int i = 0; i < list.count; i++)
-        if (!scene_of(c, list.paths[i], err)) return false;
-    if (check_look(c, list.paths[0], err)) return true;
-    for (int i = 1; i < list.count; i++)
-        if (check_look(c, list.paths[i], &why)) {
+    for (int i = 0; i < list->count; i++)
+        if (!scene_of(c, settings, list->paths[i], err)) return false;
+    if (check_look(c, settings, list->paths[0], err)) return true;
+    for (int i = 1; i < list->count; i++)
+        if (check_look(c, settings, list->paths[i], &why)) {
             *err = (struct gn_err){0};
             return true;
         }
     return false;
 }
 
-static bool check_all(struct check *c, struct gn_err *err) {
-    if (!gn_stage_limits(&c->options, &c->limits, err) || !check_looks(c, err)) return false;
-    for (int i = 0; i < c->options.mode_count; i++)
-        if (!gn_options_apply_mode(&c->options, c->options.modes[i].name, err) ||
-            !check_looks(c, err))
-            return false;
+static bool check_all(struct check *c, const struct gn_options *o, struct gn_err *err) {
+    if (!gn_stage_limits(o->settings, &c->limits, err) || !check_looks(c, o->settings, err))
+        return false;
+    for (int i = 0; i < o->mode_count; i++)
+        if (!check_looks(c, &o->all[1 + i], err)) return false;
     return true;
 }
 
@@ -97,7 +97,7 @@ static void print_setting(const struct gn_option_row *row, const void *value, in
     printf("%s%s = %s", count ? ", " : "", gn_option_key(row, key, sizeof key), text);
 }
 
-static void print_sections(const struct gn_options *o) {
+static void print_sections(const struct gn_settings *o) {
     static const char *const sections[] = {"display", "scene", "render", "kiosk"};
     for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++) {
         int count = 0;
@@ -107,7 +107,7 @@ static void print_sections(const struct gn_options *o) {
                 o->source[i] == GN_SOURCE_DEFAULT)
                 continue;
             if (count == 0) printf("[%s] ", sections[s]);
-            print_setting(row, (const char *)o + row->offset, count++);
+            print_setting(row, gn_settings_value(o, row), count++);
         }
         if (count) putchar('\n');
     }
@@ -118,9 +118,10 @@ static void print_modes(const struct gn_options *o) {
     for (int i = 0; i < o->mode_count; i++) {
         const struct gn_mode *mode = &o->modes[i];
         printf("mode \"%s\": ", mode->name);
-        for (int k = 0; k < mode->count; k++)
-            print_setting(mode->settings[k].row, mode->settings[k].value, k);
-        puts(mode->count ? "" : "nothing of its own");
+        int count = 0;
+        for (const struct gn_override *set = mode->first; set; set = set->next)
+            print_setting(set->row, set->value, count++);
+        puts(count ? "" : "nothing of its own");
     }
 }
 
@@ -158,7 +159,7 @@ static void print_check(const struct check *c, const struct gn_options *o) {
            o->mode_count == 1 ? "" : "s", o->buttons ? o->buttons->count : 0,
            o->buttons && o->buttons->count == 1 ? "" : "s", c->scene_count,
            c->scene_count == 1 ? "" : "s");
-    print_sections(o);
+    print_sections(o->settings);
     print_modes(o);
     print_buttons(o);
 }
@@ -166,11 +167,12 @@ static void print_check(const struct check *c, const struct gn_options *o) {
 bool gn_cli_check(const struct gn_options *options, struct gn_warnings *warnings,
                   struct gn_err *err) {
     struct check c = {.warnings = warnings};
-    bool ok = gn_args_parse(&c.options, options->argc, options->argv, NULL, err);
-    if (ok) c.options.command = GN_COMMAND_RENDER; /* what is not there is a failure, as there */
-    ok = ok && check_all(&c, err);
+    struct gn_options again;
+    bool ok = gn_args_parse(&again, options->argc, options->argv, NULL, err);
+    if (ok) gn_options_run_as(&again, GN_COMMAND_RENDER); /* a missing camera or clip is an error */
+    ok = ok && check_all(&c, &again, err);
     if (ok) print_check(&c, options);
     for (int i = 0; i < c.scene_count; i++) gn_scene_destroy(c.scenes[i]);
-    gn_options_finish(&c.options);
+    gn_options_finish(&again);
     return ok;
 }

@@ -118,12 +118,12 @@ static bool fail_path(const char *path, int reason, struct gn_err *err) {
     return false;
 }
 
-static bool enter(struct talk *t, const struct gn_options *o, struct gn_err *err) {
+static bool enter(struct talk *t, const struct gn_settings *o, struct gn_err *err) {
     char path[GN_LISTEN_PATH_MAX], tried[3 * GN_LISTEN_PATH_MAX] = "";
-    if (o->socket) {
-        const int reason = try_path(t, o->socket);
-        snprintf(t->path, sizeof t->path, "%s", o->socket);
-        return reason == 0 || fail_path(o->socket, reason, err);
+    if (o->kiosk.socket) {
+        const int reason = try_path(t, o->kiosk.socket);
+        snprintf(t->path, sizeof t->path, "%s", o->kiosk.socket);
+        return reason == 0 || fail_path(o->kiosk.socket, reason, err);
     }
     for (int i = 0; gn_listen_candidate(i, path, sizeof path); i++) {
         const int reason = try_path(t, path);
@@ -228,12 +228,12 @@ static int print_object(const char *prefix, json_t *object) {
     return lines;
 }
 
-static bool report(const struct gn_options *o, json_t *reply, struct gn_err *err) {
+static bool report(const struct gn_settings *o, json_t *reply, struct gn_err *err) {
     const bool ok = json_is_true(json_object_get(reply, "ok"));
     const char *why = json_string_value(json_object_get(reply, "error"));
-    if (o->json && !gn_json_print(json_incref(reply), 9, stdout, err)) return false;
+    if (o->run.json && !gn_json_print(json_incref(reply), 9, stdout, err)) return false;
     if (ok) {
-        if (!o->json && print_object("", reply) == 0) puts("done");
+        if (!o->run.json && print_object("", reply) == 0) puts("done");
         return true;
     }
     const bool wrong = json_integer_value(json_object_get(reply, "status")) == GN_EXIT_USAGE;
@@ -256,11 +256,11 @@ bool gn_cli_ctl(const struct gn_options *options, struct gn_warnings *warnings,
     struct talk *talk = gn_xalloc(1, sizeof *talk);
     talk->fd = -1;
     talk->until_ns = gn_clock_monotonic_ns() + (takes_long ? LONG_PATIENCE_NS : PATIENCE_NS);
-    json_t *reply = enter(talk, options, err) ? ask(talk, request, err) : NULL;
+    json_t *reply = enter(talk, options->settings, err) ? ask(talk, request, err) : NULL;
     json_decref(request);
     if (talk->fd >= 0) close(talk->fd);
     free(talk);
-    const bool ok = reply && report(options, reply, err);
+    const bool ok = reply && report(options->settings, reply, err);
     json_decref(reply);
     return ok;
 }

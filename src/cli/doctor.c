@@ -11,7 +11,7 @@
 #include "display/display.h"
 
 struct attempt { /* what the child is told */
-    const struct gn_options *options;
+    const struct gn_settings *settings;
     const char *backend;
     bool self_test;
     int64_t begun_ns;
@@ -34,8 +34,8 @@ static void try_backend(void *shared, const void *argument) {
     const struct gn_gl_opts opts = {
         .get_proc = gn_display_get_proc,
         .display = &display,
-        .shaders = attempt->options->shaders,
-        .without = attempt->options->without,
+        .shaders = attempt->settings->render.shaders,
+        .without = attempt->settings->render.without,
         .desktop = display.ops->desktop,
     };
     struct gn_gl *gl = gn_gl_create(&opts, NULL, &answer->err);
@@ -80,9 +80,9 @@ static struct gn_doctor_backend *add_backend(struct gn_doctor_report *report, co
 }
 
 /* False only for wrong usage: --without with a name that is none. */
-static bool check_backend(struct gn_doctor_backend *b, const struct gn_options *options,
+static bool check_backend(struct gn_doctor_backend *b, const struct gn_settings *settings,
                           struct answer *answer, struct gn_err *err) {
-    const struct attempt attempt = {.options = options, .backend = b->name};
+    const struct attempt attempt = {.settings = settings, .backend = b->name};
     const struct gn_child child = {.work = try_backend, .argument = &attempt};
     struct gn_err end = {0};
     memset(answer, 0, sizeof *answer);
@@ -100,12 +100,12 @@ static bool check_backend(struct gn_doctor_backend *b, const struct gn_options *
 }
 
 /* All that --backend knows, in the order in which "auto" tries them, then those not built in. */
-static bool check_backends(struct gn_doctor_report *report, const struct gn_options *options,
+static bool check_backends(struct gn_doctor_report *report, const struct gn_settings *settings,
                            struct answer *answer, struct gn_err *err) {
     const struct gn_option_row *row = gn_option_find("backend", strlen("backend"));
     for (const struct gn_display_ops *const *ops = gn_displays; *ops; ops++) {
         struct gn_doctor_backend *b = add_backend(report, (*ops)->name);
-        if (b && !check_backend(b, options, answer, err)) return false;
+        if (b && !check_backend(b, settings, answer, err)) return false;
     }
     for (const struct gn_choice *choice = row->choices; choice->name; choice++)
         if (strcmp(choice->name, "auto") != 0 && !find_built(choice->name))
@@ -121,10 +121,10 @@ static int choose(const struct gn_doctor_report *report, const char *wanted) {
     return -1;
 }
 
-static void self_test(struct gn_doctor_report *report, const struct gn_options *options,
+static void self_test(struct gn_doctor_report *report, const struct gn_settings *settings,
                       struct answer *answer) {
     const char *name = report->backends[report->chosen].name;
-    const struct attempt attempt = {.options = options,
+    const struct attempt attempt = {.settings = settings,
                                     .backend = name,
                                     .self_test = true,
                                     .begun_ns = gn_clock_monotonic_ns()};
@@ -145,16 +145,16 @@ static void self_test(struct gn_doctor_report *report, const struct gn_options *
                       answer->self_test.done, answer->self_test.all, answer->err.text);
 }
 
-static bool verdict(const struct gn_doctor_report *report, const struct gn_options *options,
+static bool verdict(const struct gn_doctor_report *report, const struct gn_settings *settings,
                     const struct answer *answer, struct gn_err *err) {
-    bool any = strcmp(options->backend, "auto") == 0;
-    if (report->chosen < 0 && !any && !find_built(options->backend))
+    bool any = strcmp(settings->display.backend, "auto") == 0;
+    if (report->chosen < 0 && !any && !find_built(settings->display.backend))
         return gn_fail(err, "backend %s is not in this build: try --backend auto",
-                       options->backend);
+                       settings->display.backend);
     if (report->chosen < 0)
         return gn_fail(err, "%s%s cannot draw here: see the problems above",
-                       any ? "gnomon" : "backend ", any ? "" : options->backend);
-    if (!options->self_test) return true;
+                       any ? "gnomon" : "backend ", any ? "" : settings->display.backend);
+    if (!settings->run.self_test) return true;
     uint32_t failures = report->self_test ? gn_selftest_failures(report->self_test) : 0;
     if (failures)
         return gn_fail(err, "self-test: %u of %u rows fail on %s", failures,
@@ -163,7 +163,7 @@ static bool verdict(const struct gn_doctor_report *report, const struct gn_optio
     return answer->self_tested || gn_fail(err, "self-test: %s", answer->err.text);
 }
 
-static bool examine(struct gn_doctor_report *report, const struct gn_options *options,
+static bool examine(struct gn_doctor_report *report, const struct gn_settings *settings,
                     struct answer *answer, struct gn_err *err) {
     gn_machine_read(&report->machine, "");
     gn_input_list_lines(&report->input);
@@ -172,15 +172,15 @@ static bool examine(struct gn_doctor_report *report, const struct gn_options *op
         if (device->kind == GN_DEVICE_CARD)
             gn_display_holder(device->path, device->holder, sizeof device->holder);
     }
-    if (!check_backends(report, options, answer, err)) return false;
-    report->chosen = choose(report, options->backend);
+    if (!check_backends(report, settings, answer, err)) return false;
+    report->chosen = choose(report, settings->display.backend);
     gn_doctor_diagnose(report);
-    if (options->self_test && report->chosen >= 0) self_test(report, options, answer);
-    if (!options->json)
+    if (settings->run.self_test && report->chosen >= 0) self_test(report, settings, answer);
+    if (!settings->run.json)
         gn_doctor_print(report, stdout);
     else if (!gn_doctor_print_json(report, stdout, err))
         return false;
-    return verdict(report, options, answer, err);
+    return verdict(report, settings, answer, err);
 }
 
 bool gn_cli_doctor(const struct gn_options *options, struct gn_warnings *warnings,
@@ -188,7 +188,7 @@ bool gn_cli_doctor(const struct gn_options *options, struct gn_warnings *warning
     (void)warnings;
     struct gn_doctor_report report = {.chosen = -1};
     struct answer *answer = gn_child_share(sizeof *answer, err);
-    bool ok = answer && examine(&report, options, answer, err);
+    bool ok = answer && examine(&report, options->settings, answer, err);
     gn_child_unshare(answer, sizeof *answer);
     gn_input_list_finish(&report.input);
     return ok;

@@ -123,12 +123,13 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
 
 bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnings,
                     struct gn_err *err) {
-    struct gn_scene *scene = gn_stage_scene(options, warnings, err);
+    struct gn_scene *scene = gn_stage_scene(options->settings, warnings, err);
     if (!scene) return false;
     struct gn_inspection in;
     bool ok = true;
-    gn_inspect_build(&in, options->scene ? options->scene : "(default scene)", scene, warnings);
-    if (options->json)
+    const char *path = options->settings->scene.path;
+    gn_inspect_build(&in, path ? path : "(default scene)", scene, warnings);
+    if (options->settings->run.json)
         ok = gn_inspect_print_json(&in, stdout, err);
     else
         gn_inspect_print(&in, stdout);

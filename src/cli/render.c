@@ -30,19 +30,19 @@ static bool is_pattern(const char *path) {
     return *p == 'd' && p - percent <= 4 && !strchr(p, '%');
 }
 
-static bool check_options(const struct gn_options *o, struct render *r, struct gn_err *err) {
-    if (!o->out) return gn_fail_usage(err, "render: where to? Add -o FILE.png");
-    if (!gn_picture_format_of(o->out, &r->format, err)) return false;
-    if (o->frames > 1 && !is_pattern(o->out))
+static bool check_options(const struct gn_settings *o, struct render *r, struct gn_err *err) {
+    if (!o->run.out) return gn_fail_usage(err, "render: where to? Add -o FILE.png");
+    if (!gn_picture_format_of(o->run.out, &r->format, err)) return false;
+    if (o->run.frames > 1 && !is_pattern(o->run.out))
         return gn_fail_usage(
-            err, "-o %s: with --frames %d the name needs a number, as in frame-%%04d.png", o->out,
-            o->frames);
-    if (strchr(o->out, '%') && !is_pattern(o->out))
+            err, "-o %s: with --frames %d the name needs a number, as in frame-%%04d.png",
+            o->run.out, o->run.frames);
+    if (strchr(o->run.out, '%') && !is_pattern(o->run.out))
         return gn_fail_usage(
-            err, "-o %s: only one %%d, as in frame-%%04d.png, can stand in the name", o->out);
-    if (o->aov == GN_AOV_DISTANCE && r->format != GN_PICTURE_PFM)
-        return gn_fail_usage(err, "-o %s: distances are metres and need a .pfm file", o->out);
-    r->map = o->aov == GN_AOV_COUNT;
+            err, "-o %s: only one %%d, as in frame-%%04d.png, can stand in the name", o->run.out);
+    if (o->render.aov == GN_AOV_DISTANCE && r->format != GN_PICTURE_PFM)
+        return gn_fail_usage(err, "-o %s: distances are metres and need a .pfm file", o->run.out);
+    r->map = o->render.aov == GN_AOV_COUNT;
     return true;
 }
 
@@ -58,7 +58,7 @@ static bool write_color(struct render *r, const struct gn_plan *plan, const char
     if (r->format == GN_PICTURE_PNG)
         return gn_gl_read_rgba8(r->stage.gl, r->rgba, err) &&
                gn_picture_write_png8(path, r->rgba, w, h,
-                                     r->stage.options->output == GN_PICTURE_SRGB, err);
+                                     r->stage.settings->render.output == GN_PICTURE_SRGB, err);
     if (plan->output == GN_OUTPUT_FLOAT) {
         if (!gn_gl_read_f32(r->stage.gl, r->floats, err)) return false;
     } else {
@@ -91,15 +91,16 @@ static bool write_grey(const struct render *r, const char *path, const float *gr
 static bool write_map(struct render *r, const struct gn_plan *plan, const char *path,
                       struct gn_err *err) {
     uint32_t slot = 0;
-    while (slot < plan->shadow_count && (int)plan->shadows[slot].light != r->stage.options->light)
+    while (slot < plan->shadow_count &&
+           (int)plan->shadows[slot].light != r->stage.settings->render.light)
         slot++;
     if (slot == plan->shadow_count)
         return gn_fail(err, "light %d has no map: it casts no shadow, or %d stronger lights do",
-                       r->stage.options->light, GN_ALL_SHADOWS_MAX);
+                       r->stage.settings->render.light, GN_ALL_SHADOWS_MAX);
     const struct gn_shadow_view *view = &plan->shadows[slot];
     if (view->encoding == GN_ENCODING_STENCIL)
         return gn_fail(err, "light %d has no map: its shadow is in the stencil; use --planar mask",
-                       r->stage.options->light);
+                       r->stage.settings->render.light);
     const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
     size_t width = view->map.width_px, height = view->map.height_px;
     float *codes = gn_picture_alloc(width * height, sizeof *codes, err),
@@ -131,27 +132,28 @@ static void show_progress(int64_t begun_ns, int done, int all) {
 }
 
 static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct gn_err *err) {
-    const struct gn_options *o = r->stage.options;
+    const struct gn_settings *o = r->stage.settings;
     int64_t begun_ns = gn_clock_monotonic_ns();
-    int frames = o->frames > 0 ? o->frames : 1;
+    int frames = o->run.frames > 0 ? o->run.frames : 1;
     for (int i = 0; i < frames && !gn_stop_asked(); i++) {
         char path[4096];
-        int length = is_pattern(o->out) ? snprintf(path, sizeof path, o->out, i)
-                                        : snprintf(path, sizeof path, "%s", o->out);
+        int length = is_pattern(o->run.out) ? snprintf(path, sizeof path, o->run.out, i)
+                                            : snprintf(path, sizeof path, "%s", o->run.out);
         if (length < 0 || (size_t)length >= sizeof path)
             return gn_fail_usage(err, "-o: that name is too long");
-        int64_t time_ns = o->time_ns + (int64_t)llround((double)i / o->fps * (double)GN_NS_PER_S);
+        int64_t time_ns =
+            o->scene.time_ns + (int64_t)llround((double)i / o->run.fps * (double)GN_NS_PER_S);
         const struct gn_plan *plan = gn_stage_draw(&r->stage, time_ns, warnings, err);
         if (!plan || !write_picture(r, plan, path, err)) return false;
-        if (o->plan && i == 0) gn_plan_print(plan, stdout);
+        if (o->run.plan && i == 0) gn_plan_print(plan, stdout);
         show_progress(begun_ns, i + 1, frames);
     }
     return true;
 }
 
 static bool make_room(struct render *r, struct gn_err *err) {
-    size_t pixels =
-        (size_t)r->stage.options->size.width_px * (size_t)r->stage.options->size.height_px;
+    size_t pixels = (size_t)r->stage.settings->render.size.width_px *
+                    (size_t)r->stage.settings->render.size.height_px;
     bool wants_floats = r->stage.frame_opts.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM;
     r->rgba = gn_picture_alloc(pixels, 4, err);
     if (!r->rgba) return false;
@@ -161,21 +163,23 @@ static bool make_room(struct render *r, struct gn_err *err) {
 
 /* It stays, so that any time will do. */
 static void write_caption(struct render *r, struct gn_warnings *warnings) {
-    const struct gn_options *o = r->stage.options;
-    const struct gn_captions_opts opts = {.font = o->font, .warnings = warnings};
-    if (!o->caption) return;
+    const struct gn_settings *o = r->stage.settings;
+    const struct gn_captions_opts opts = {.font = o->render.font, .warnings = warnings};
+    if (!o->run.caption) return;
     r->captions = gn_captions_create(&opts);
-    gn_captions_set(r->captions, GN_CAPTION_ERROR, o->caption, 0);
-    r->stage.frame_opts.captions =
-        gn_captions_run(r->captions, (uint32_t)o->size.width_px, (uint32_t)o->size.height_px, 0);
+    gn_captions_set(r->captions, GN_CAPTION_ERROR, o->run.caption, 0);
+    r->stage.frame_opts.captions = gn_captions_run(r->captions, (uint32_t)o->render.size.width_px,
+                                                   (uint32_t)o->render.size.height_px, 0);
 }
 
 bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warnings,
                    struct gn_err *err) {
     struct render r = {0};
     gn_stop_block(NULL);
-    bool ok = check_options(options, &r, err) && gn_stage_load(&r.stage, options, warnings, err);
-    r.stage.frame_opts.output_float = options->aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
+    bool ok = check_options(options->settings, &r, err) &&
+              gn_stage_load(&r.stage, options->settings, warnings, err);
+    r.stage.frame_opts.output_float =
+        options->settings->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
     ok = ok && gn_stage_open(&r.stage, warnings, err);
     if (ok) write_caption(&r, warnings);
     ok = ok && make_room(&r, err) && draw_frames(&r, warnings, err);

@@ -165,7 +165,7 @@ static void load(struct gn_show *s, int scene) {
     struct gn_scene_limits limits;
     struct gn_err err = {0};
     if (gn_loader_is_busy(s->scenes.loader)) return;
-    if (!gn_stage_limits(s->options, &limits, &err) ||
+    if (!gn_stage_limits(s->stage.settings, &limits, &err) ||
         !gn_loader_start(s->scenes.loader, scene, s->scenes.paths[scene], &limits, &err))
         fail_scene(s, scene, &err);
 }
@@ -226,7 +226,7 @@ static void show_wanted(struct gn_show *s, int scene) {
     if (scene != s->scenes.shown) show_staged(s);
     gn_show_enter(s);
     s->keeps = s->kept = false;
-    if (!s->options->verbose) return;
+    if (!s->stage.settings->run.verbose) return;
     printf("mode %s, scene %s\n", s->modes.names[s->kiosk.shown.mode],
            s->scenes.paths[scene] ? s->scenes.paths[scene] : "(default scene)");
     fflush(stdout);

@@ -7,7 +7,8 @@
 #include "kiosk/show.h"
 
 void gn_show_open_captions(struct gn_show *s) {
-    const struct gn_captions_opts opts = {.font = s->options->font, .warnings = s->warnings};
+    const struct gn_captions_opts opts = {.font = s->stage.settings->render.font,
+                                          .warnings = s->warnings};
     gn_captions_destroy(s->captions);
     s->captions = gn_captions_create(&opts);
     s->said = (struct gn_kiosk_view){0};

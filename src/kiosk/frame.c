@@ -9,7 +9,8 @@
 
 static bool is_moving(const struct gn_show *s, const struct gn_kiosk_view *view) {
     if (s->most_frames < UINT64_MAX) return true;
-    return !view->stands && (s->stage.pose.animated || s->options->turntable_deg_s != 0.0);
+    return !view->stands &&
+           (s->stage.pose.animated || s->stage.settings->scene.turntable_deg_s != 0.0);
 }
 
 static bool differs(const struct gn_kiosk_view *a, const struct gn_kiosk_view *b) {
@@ -42,7 +43,8 @@ static void keep(struct gn_show *s) {
 static bool draw_view(struct gn_show *s, const struct gn_kiosk_view *view, struct gn_err *err) {
     gn_show_take_view(s, view);
     gn_show_write_captions(s, view, s->stage.display.screen.seen_ns);
-    if (!gn_stage_draw(&s->stage, s->options->time_ns + view->time_ns, s->warnings, err))
+    if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns + view->time_ns, s->warnings,
+                       err))
         return false;
     if (view->old > 0.0f) gn_gl_lay_over(s->stage.gl, view->old);
     if (s->keeps) keep(s);
@@ -84,7 +86,7 @@ static bool draw(struct gn_show *s, struct gn_err *err) {
 static void measure(struct gn_show *s) {
     const uint64_t before = s->latency.count;
     gn_latency_frame(&s->latency, gn_clock_monotonic_ns(), !gn_kiosk_waits(&s->kiosk));
-    if (s->latency.count == before || !s->options->verbose) return;
+    if (s->latency.count == before || !s->stage.settings->run.verbose) return;
     const struct gn_latency_sample last = gn_latency_last(&s->latency);
     printf("seen %.1f ms after the edge, as frame %d\n", (double)last.ns * 1e-6, last.frames);
     fflush(stdout);

@@ -22,7 +22,7 @@ bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
         .buttons = s->button_opts,
         .terminal = !is(s, "window"),
         .devices = is(s, "kms"),
-        .script = s->options->input_script,
+        .script = s->stage.settings->run.input_script,
     };
     s->input = gn_input_open(&opts, gn_clock_monotonic_ns(), s->warnings, err);
     return s->input && gn_show_watch(s, gn_input_fd(s->input), err);
@@ -56,7 +56,8 @@ void gn_show_take_input(struct gn_show *s, const struct gn_hand *hand) {
         gn_show_act(s, &action, event.time_ns);
         measure(s, &before, event.time_ns);
     }
-    const bool tells = s->options->buttons || s->options->verbose; /* few have the default ones */
+    const bool tells =
+        s->options->buttons || s->stage.settings->run.verbose; /* few have the default ones */
     while (gn_input_report(s->input, text, sizeof text))
         if (tells) fprintf(stderr, "gnomon: warning: %s\n", text);
 }

@@ -6,8 +6,10 @@
 
 /* ---- the list ---- */
 
-static void add(struct gn_show_modes *modes, const char *name) {
-    if (modes->count < GN_KIOSK_MODES_MAX) modes->names[modes->count++] = name;
+static void add_mode(struct gn_show_modes *modes, const char *name, int settings) {
+    if (modes->count == GN_KIOSK_MODES_MAX) return;
+    modes->settings[modes->count] = settings;
+    modes->names[modes->count++] = name;
 }
 
 int gn_show_find_mode(const struct gn_show_modes *modes, const char *name) {
@@ -22,21 +24,22 @@ static void list_techniques(struct gn_show *s) {
     static const char *const names[] = {"pcf",  "pcss", "smsm",    "vssm",   "msm",
                                         "evsm", "vsm",  "poisson", "disk",   "pcf2",
                                         "pcf3", "pcf5", "hard",    "planar", "none"};
-    const struct gn_options *o = s->options;
+    const struct gn_settings *o = &s->options->all[0];
     struct gn_show_modes *modes = &s->modes;
-    const bool only = gn_options_source(o, offsetof(struct gn_options, shadow)) == GN_SOURCE_FLAG;
+    const bool only =
+        gn_settings_source(o, offsetof(struct gn_settings, render.shadow)) == GN_SOURCE_FLAG;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         enum gn_technique technique;
-        const bool is_base = strcmp(names[i], o->shadow) == 0;
+        const bool is_base = strcmp(names[i], o->render.shadow) == 0;
         if (!gn_technique_find(names[i], &technique, NULL) || (only && !is_base)) continue;
         if (gn_techniques[technique].on_plane && !is_base && !gn_planar_has_plane(s->stage.scene))
             continue;
-        add(modes, gn_techniques[technique].name);
+        add_mode(modes, gn_techniques[technique].name, is_base ? 0 : 1 + (int)technique);
     }
-    modes->base = gn_show_find_mode(modes, o->shadow);
+    modes->base = gn_show_find_mode(modes, o->render.shadow);
     if (modes->base < 0) { /* one that the list does not know */
         modes->base = modes->count;
-        add(modes, o->shadow);
+        add_mode(modes, o->render.shadow, 0);
     }
 }
 
@@ -54,73 +57,63 @@ static int find_scene(struct gn_show_scenes *scenes, const char *path) {
 }
 
 static void list_scenes(struct gn_show *s) {
-    const struct gn_scene_list *list = &s->options->scenes;
+    const struct gn_scene_list *list = &s->options->all[0].scene.list;
     s->scenes.count = s->scenes.listed = list->count > 0 ? list->count : 1;
     for (int i = 0; i < s->scenes.count; i++) s->scenes.paths[i] = list->paths[i];
 }
 
-static bool comes_from_mode(const struct gn_options *o, size_t offset) {
-    return gn_options_source(o, offset) == GN_SOURCE_MODE;
+static bool comes_from_mode(const struct gn_settings *o, size_t offset) {
+    return gn_settings_source(o, offset) == GN_SOURCE_MODE;
 }
 
 void gn_show_take_rules(struct gn_show *s) {
-    const struct gn_options *o = s->options;
-    s->rules.idle = (enum gn_idle)o->idle;
-    s->rules.idle_after_ns = o->idle_after_ns;
-    s->rules.fade_ns = o->fade_ns;
-    s->rules.caption_ns = o->captions ? o->caption_ns : 0;
+    const struct gn_settings *o = s->stage.settings;
+    s->rules.idle = (enum gn_idle)o->kiosk.idle;
+    s->rules.idle_after_ns = o->kiosk.idle_after_ns;
+    s->rules.fade_ns = o->kiosk.fade_ns;
+    s->rules.caption_ns = o->kiosk.captions ? o->kiosk.caption_ns : 0;
 }
 
 void gn_show_list_modes(struct gn_show *s) {
     const struct gn_options *o = s->options;
-    const char *first = o->mode_now;
     s->modes = (struct gn_show_modes){.base = -1};
-    gn_options_drop_mode(s->options);
     list_scenes(s);
-    for (int i = 0; i < o->mode_count; i++) add(&s->modes, o->modes[i].name);
+    for (int i = 0; i < o->mode_count; i++) add_mode(&s->modes, o->modes[i].name, 1 + i);
     if (o->mode_count == 0) list_techniques(s);
-    const int named = gn_show_find_mode(&s->modes, first);
+    const int named = gn_show_find_mode(&s->modes, o->settings->mode);
     s->modes.first = named >= 0 ? named : s->modes.base >= 0 ? s->modes.base : 0;
     s->rules = (struct gn_kiosk_rules){.mode_count = s->modes.count,
                                        .scene_count = s->scenes.listed,
                                        .first_mode = s->modes.first};
     gn_show_take_rules(s);
     for (int i = 0; i < s->modes.count; i++) {
-        gn_show_apply_options(s, i);
-        if (comes_from_mode(o, offsetof(struct gn_options, scene)))
-            s->rules.own_scene[i] = (uint8_t)(1 + find_scene(&s->scenes, o->scene));
-        if (comes_from_mode(o, offsetof(struct gn_options, camera))) s->rules.own_camera |= 1u << i;
+        const struct gn_settings *mode = gn_show_settings(s, i);
+        if (comes_from_mode(mode, offsetof(struct gn_settings, scene.path)))
+            s->rules.own_scene[i] = (uint8_t)(1 + find_scene(&s->scenes, mode->scene.path));
+        if (comes_from_mode(mode, offsetof(struct gn_settings, scene.camera)))
+            s->rules.own_camera |= 1u << i;
     }
-    gn_options_drop_mode(s->options);
 }
 
 /* ---- one of them ---- */
 
-/* The names are the options' own, or techniques': it cannot fail. */
-void gn_show_apply_options(struct gn_show *s, int mode) {
-    struct gn_err unused = {0};
-    if (mode == s->modes.base)
-        gn_options_drop_mode(s->options);
-    else
-        gn_options_apply_mode(s->options, s->modes.names[mode], &unused);
+const struct gn_settings *gn_show_settings(const struct gn_show *s, int mode) {
+    return &s->options->all[s->modes.settings[mode]];
 }
 
-bool gn_show_look(struct gn_show *s, const struct gn_scene *scene, struct gn_show_looks *looks,
-                  struct gn_err *err) {
-    bool ok = true;
+bool gn_show_look(const struct gn_show *s, const struct gn_scene *scene,
+                  struct gn_show_looks *looks, struct gn_err *err) {
     looks->ready = 0;
-    for (int i = 0; i < s->modes.count && ok; i++) {
-        gn_show_apply_options(s, i);
-        ok = gn_stage_look(&looks->of[i], s->options, scene, s->warnings, err);
-    }
-    gn_show_apply_options(s, s->kiosk.shown.mode);
-    return ok;
+    for (int i = 0; i < s->modes.count; i++)
+        if (!gn_stage_look(&looks->of[i], gn_show_settings(s, i), scene, s->warnings, err))
+            return false;
+    return true;
 }
 
 void gn_show_enter(struct gn_show *s) {
     const struct gn_stage_look *look = &s->looks.of[s->kiosk.shown.mode];
     const struct gn_frame_opts before = s->stage.frame_opts;
-    gn_show_apply_options(s, s->kiosk.shown.mode);
+    s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
     s->stage.frame_opts = look->frame_opts;
     if (look->frame_opts.camera == before.camera) s->stage.frame_opts.orbit = before.orbit;
     if (look->clips != s->stage.pose.clips) gn_pose_choose(&s->stage.pose, look->clips);

@@ -8,7 +8,7 @@
 /* The new scene in the old one's place, in the mode of that name if there still is one. */
 static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_options *options,
                        struct gn_err *err) {
-    const bool keeps_display = gn_show_same_screen(s->options, options);
+    const bool keeps_display = gn_show_same_screen(s->stage.settings, options->settings);
     gn_show_drop_staged(s);
     gn_show_stop_gl(s);
     if (keeps_display) {
@@ -18,6 +18,8 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
     gn_stage_close(&s->stage);
     gn_input_close(s->input); /* its buttons' names are the options' */
     s->input = NULL;
+    gn_changes_destroy(s->changes);
+    s->changes = NULL;
     gn_show_drop_options(s->options);
     s->stage = *fresh;
     s->options = options;
@@ -30,22 +32,16 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why)) gn_show_complain(s, why.text); /* and none can be pressed */
     s->kiosk.blanked = blanked;
-    if (!options->verbose) return true;
+    if (!s->stage.settings->run.verbose) return true;
     printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
     fflush(stdout);
     return true;
 }
 
 static void keep_mode(const struct gn_show *s, struct gn_options *options) {
-    const char *name = s->modes.names[s->kiosk.wanted.mode];
-    struct gn_err unused = {0};
     if (s->kiosk.wanted.mode == s->modes.base && options->mode_count == 0) return;
-    for (int i = 0; i < options->mode_count; i++)
-        if (strcmp(options->modes[i].name, name) == 0)
-            gn_options_apply_mode(options, options->modes[i].name, &unused);
-    enum gn_technique technique;
-    if (options->mode_count == 0 && gn_technique_find(name, &technique, NULL))
-        gn_options_apply_mode(options, gn_techniques[technique].name, &unused);
+    const int found = gn_options_find_mode(options, s->modes.names[s->kiosk.wanted.mode]);
+    if (found) options->settings = &options->all[found];
 }
 
 /* The last good one runs on, and says what is wrong with the one that is there. */
@@ -56,7 +52,7 @@ static void keep_error(struct gn_show *s, const struct gn_err *why) {
 }
 
 static struct gn_options *read_again(const struct gn_show *s, struct gn_err *why) {
-    struct gn_options *options = gn_show_read_options(s, s->options, NULL, why);
+    struct gn_options *options = gn_show_read_options(s->options, NULL, why);
     if (!options || !options->config_error) return options;
     gn_fail_usage(why, "%s", options->config_error);
     gn_show_drop_options(options);

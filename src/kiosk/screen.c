@@ -7,43 +7,44 @@
 #include "kiosk/show.h"
 #include "stage/wake.h"
 
-static bool encodes(const struct gn_options *o) {
+static bool encodes(const struct gn_settings *o) {
     uint32_t without = 0;
-    return !gn_caps_parse(o->without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
+    return !gn_caps_parse(o->render.without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
 }
 
 /* again_ns: 0 by default. */
-static struct gn_screen_opts screen_opts_of(const struct gn_options *o, int64_t again_ns) {
+static struct gn_screen_opts screen_opts_of(const struct gn_settings *o, int64_t again_ns) {
     return (struct gn_screen_opts){
-        .width_px = (uint32_t)o->size.width_px,
-        .height_px = (uint32_t)o->size.height_px,
-        .connector = o->connector,
-        .card = o->card,
-        .render_node = o->render_node,
-        .modeline = o->modeline,
-        .mode_width = (uint32_t)o->display_mode.width_px,
-        .mode_height = (uint32_t)o->display_mode.height_px,
-        .mode_hz = o->display_mode.hz,
-        .cap_width = (uint32_t)o->max_mode.width_px,
-        .cap_height = (uint32_t)o->max_mode.height_px,
-        .cap_hz = o->max_mode.hz,
-        .rotate_deg = (unsigned)o->rotate_deg,
-        .max_fps = (unsigned)o->max_fps,
+        .width_px = (uint32_t)o->render.size.width_px,
+        .height_px = (uint32_t)o->render.size.height_px,
+        .connector = o->display.connector,
+        .card = o->display.card,
+        .render_node = o->display.render_node,
+        .modeline = o->display.modeline,
+        .mode_width = (uint32_t)o->display.mode.width_px,
+        .mode_height = (uint32_t)o->display.mode.height_px,
+        .mode_hz = o->display.mode.hz,
+        .cap_width = (uint32_t)o->display.max_mode.width_px,
+        .cap_height = (uint32_t)o->display.max_mode.height_px,
+        .cap_hz = o->display.max_mode.hz,
+        .rotate_deg = (unsigned)o->display.rotate_deg,
+        .max_fps = (unsigned)o->display.max_fps,
         .unencoded = !encodes(o),
-        .legacy = o->legacy,
+        .legacy = o->display.legacy,
         .again_ns = again_ns,
     };
 }
 
 bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
-    const struct gn_options *o = s->options;
+    const struct gn_settings *o = s->stage.settings;
     struct gn_wake wake = {0};
     /* a still picture, too, is flipped in each half of the supervisor's patience */
     const int64_t again_ns = s->service.every_ns * 3 / 4;
     s->screen_opts = screen_opts_of(o, again_ns < 10 * GN_NS_PER_S ? again_ns : 0);
     gn_wake_begin(&wake, o);
-    const bool ok = gn_display_open_screen(&s->stage.display, o->backend, &s->screen_opts,
-                                           gn_clock_monotonic_ns(), s->warnings, err);
+    const bool ok =
+        gn_display_open_screen(&s->stage.display, s->place ? s->place->backend : o->display.backend,
+                               &s->screen_opts, gn_clock_monotonic_ns(), s->warnings, err);
     gn_wake_end(&wake);
     if (ok && s->place) s->place->opened = true;
     return ok && gn_show_watch(s, s->stage.display.screen.fd, err);
@@ -51,8 +52,8 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
 
 /* What tilers draw on chip costs them next to nothing. */
 static uint32_t samples_of(const struct gn_show *s) {
-    const struct gn_options *o = s->options;
-    if (gn_options_given(o, msaa)) return (uint32_t)o->msaa;
+    const struct gn_settings *o = s->stage.settings;
+    if (gn_settings_given(o, render.msaa)) return (uint32_t)o->render.msaa;
     return gn_gl_caps(s->stage.gl)->tiler ? 4 : 0;
 }
 
@@ -106,7 +107,8 @@ static bool start_gl(struct gn_show *s, struct gn_err *err) {
     s->stage.frame_opts.height_px = 36;
     s->stage.frame_opts.captions = NULL; /* they are for another size */
     gn_gl_set_window(s->stage.gl, NULL);
-    if (!gn_stage_draw(&s->stage, s->options->time_ns, s->warnings, err)) return say(s, err);
+    if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns, s->warnings, err))
+        return say(s, err);
     gn_gl_finish_frame(s->stage.gl); /* many drivers compile as late as they can */
     return true;
 }
@@ -115,7 +117,7 @@ static bool renew(struct gn_show *s, struct gn_err *err) {
     struct gn_wake wake = {0};
     gn_show_stop_gl(s);
     s->generation = 0;
-    gn_wake_begin(&wake, s->options);
+    gn_wake_begin(&wake, s->stage.settings);
     const bool ok = gn_display_renew(&s->stage.display, gn_clock_monotonic_ns(), err);
     gn_wake_end(&wake);
     return ok;
@@ -139,12 +141,16 @@ static bool same_text(const char *a, const char *b) {
 }
 
 /* Does the display have to be opened again? */
-bool gn_show_same_screen(const struct gn_options *a, const struct gn_options *b) {
-    return same_text(a->backend, b->backend) && same_text(a->connector, b->connector) &&
-           same_text(a->card, b->card) && same_text(a->render_node, b->render_node) &&
-           same_text(a->modeline, b->modeline) &&
-           memcmp(&a->display_mode, &b->display_mode, sizeof a->display_mode) == 0 &&
-           memcmp(&a->max_mode, &b->max_mode, sizeof a->max_mode) == 0 &&
-           memcmp(&a->size, &b->size, sizeof a->size) == 0 && a->rotate_deg == b->rotate_deg &&
-           a->max_fps == b->max_fps && a->legacy == b->legacy && encodes(a) == encodes(b);
+bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b) {
+    return same_text(a->display.backend, b->display.backend) &&
+           same_text(a->display.connector, b->display.connector) &&
+           same_text(a->display.card, b->display.card) &&
+           same_text(a->display.render_node, b->display.render_node) &&
+           same_text(a->display.modeline, b->display.modeline) &&
+           memcmp(&a->display.mode, &b->display.mode, sizeof a->display.mode) == 0 &&
+           memcmp(&a->display.max_mode, &b->display.max_mode, sizeof a->display.max_mode) == 0 &&
+           memcmp(&a->render.size, &b->render.size, sizeof a->render.size) == 0 &&
+           a->display.rotate_deg == b->display.rotate_deg &&
+           a->display.max_fps == b->display.max_fps && a->display.legacy == b->display.legacy &&
+           encodes(a) == encodes(b);
 }

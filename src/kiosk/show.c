@@ -43,12 +43,11 @@ void gn_show_drop_options(struct gn_options *options) {
     free(options);
 }
 
-struct gn_options *gn_show_read_options(const struct gn_show *s, const struct gn_options *like,
-                                        struct gn_warnings *warnings, struct gn_err *err) {
+struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
+                                        struct gn_err *err) {
     struct gn_options *o = gn_xalloc(1, sizeof *o);
     if (gn_args_parse(o, like->argc, like->argv, warnings, err)) {
-        o->command = GN_COMMAND_SHOW; /* the bare command, too, is the kiosk by now */
-        if (s->place) o->backend = s->place->backend;
+        gn_options_run_as(o, GN_COMMAND_SHOW); /* the bare command, too, is the kiosk by now */
         return o;
     }
     gn_show_drop_options(o);
@@ -58,9 +57,8 @@ struct gn_options *gn_show_read_options(const struct gn_show *s, const struct gn
 /* Where a file has modes one of them is always on. */
 bool gn_show_load(struct gn_stage *stage, struct gn_options *o, struct gn_warnings *warnings,
                   struct gn_err *err) {
-    if (!o->mode_now && o->mode_count > 0 && !gn_options_apply_mode(o, o->modes[0].name, err))
-        return false;
-    return gn_stage_load(stage, o, warnings, err);
+    if (!o->settings->mode && o->mode_count > 0) o->settings = &o->all[1];
+    return gn_stage_load(stage, o->settings, warnings, err);
 }
 
 bool gn_show_begin(struct gn_show *s, struct gn_err *err) {
@@ -171,7 +169,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
 static bool run(struct gn_show *s, struct gn_err *err) {
     while (!s->ends && s->frames < s->most_frames)
         if (!gn_show_step(s, err)) return false;
-    if (s->options->verbose && s->stage.gl)
+    if (s->stage.settings->run.verbose && s->stage.gl)
         printf("%llu frames, %llu late, %lu allocations and %llu GL objects after the first\n",
                (unsigned long long)s->frames,
                (unsigned long long)s->stage.display.screen.counts.missed, s->allocations,
@@ -190,6 +188,7 @@ void gn_show_close(struct gn_show *s) {
     gn_service_close(&s->service);
     if (s->signals >= 0) close(s->signals);
     if (s->epoll >= 0) close(s->epoll);
+    gn_changes_destroy(s->changes);
     gn_show_drop_options(s->options);
     free(s);
 }
@@ -199,12 +198,13 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     if (!open_loop(s, err) || !gn_service_open(&s->service, gn_clock_monotonic_ns(), err) ||
         (s->service.timer >= 0 && !gn_show_watch(s, s->service.timer, err)))
         return false;
-    s->options = gn_show_read_options(s, options, NULL, err);
+    s->options = gn_show_read_options(options, NULL, err);
     if (!s->options || !gn_show_load(&s->stage, s->options, s->warnings, err)) return false;
     gn_show_open_captions(s);
-    s->most_frames = s->options->frames > 0 ? (uint64_t)s->options->frames : UINT64_MAX;
+    s->most_frames =
+        s->stage.settings->run.frames > 0 ? (uint64_t)s->stage.settings->run.frames : UINT64_MAX;
     if (!gn_show_begin(s, err) || !gn_show_open_display(s, err) || !gn_show_open_input(s, err) ||
-        !gn_show_stats_open(&s->stats, s->options, err) ||
+        !gn_show_stats_open(&s->stats, s->stage.settings, err) ||
         (s->stats.timer >= 0 && !gn_show_watch(s, s->stats.timer, err)))
         return false;
     gn_show_open_control(s);

@@ -10,6 +10,7 @@
 #include "kiosk/service.h"
 #include "kiosk/stats.h"
 #include "options/binding.h"
+#include "options/change.h"
 #include "stage/loader.h"
 #include "stage/stage.h"
 
@@ -17,7 +18,8 @@
 struct gn_show_modes {
     int count, first;
     const char *names[GN_KIOSK_MODES_MAX];
-    int base; /* the one that overrides nothing; -1: none */
+    int settings[GN_KIOSK_MODES_MAX]; /* places in options->all */
+    int base;                         /* the one that overrides nothing; -1: none */
 };
 /* A scene that is drawn or will be: what each mode makes of it, and for which of them all programs
  * are there. */
@@ -38,6 +40,7 @@ struct gn_show_scenes {
 
 struct gn_show {
     struct gn_options *options;  /* ours: a reload makes others */
+    struct gn_changes *changes;  /* by `ctl set`; NULL: none yet */
     struct gn_show_place *place; /* NULL: the options say where */
     struct gn_stage stage;
     struct gn_screen_opts screen_opts;
@@ -97,8 +100,8 @@ void gn_show_close(struct gn_show *show);
 /* Waits for something, and does what it asks for: at most a frame. */
 bool gn_show_step(struct gn_show *show, struct gn_err *err);
 bool gn_show_watch(struct gn_show *show, int fd, struct gn_err *err);
-struct gn_options *gn_show_read_options(const struct gn_show *show, const struct gn_options *like,
-                                        struct gn_warnings *warnings, struct gn_err *err);
+struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
+                                        struct gn_err *err);
 /* What still loads for the one before is not heard of any more. */
 bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
 void gn_show_drop_options(struct gn_options *options);
@@ -112,7 +115,7 @@ void gn_show_complain(struct gn_show *show, const char *text);
 
 /* screen.c: the display and its context */
 bool gn_show_open_display(struct gn_show *show, struct gn_err *err);
-bool gn_show_same_screen(const struct gn_options *a, const struct gn_options *b);
+bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b);
 /* What a frame is drawn with, and how large, follows the screen. */
 void gn_show_fit_to_screen(struct gn_show *show);
 bool gn_show_is_stale(const struct gn_show *show);
@@ -131,17 +134,17 @@ void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *vi
 /* When another frame is due for it; 0: at once, INT64_MAX: never. */
 int64_t gn_show_captions_due_ns(const struct gn_show *show);
 
-/* modes.c: the list of modes, and one of them applied */
-/* Of the options, with the scenes that they name; the options have none applied then. */
+/* modes.c: the list of modes, and one of them entered */
+/* Of the options, with the scenes that they name. */
 void gn_show_list_modes(struct gn_show *show);
 /* -1: none of that name. */
 int gn_show_find_mode(const struct gn_show_modes *modes, const char *name);
-void gn_show_apply_options(struct gn_show *show, int mode);
+const struct gn_settings *gn_show_settings(const struct gn_show *show, int mode);
 /* What the options say of how the kiosk behaves; the modes stay. */
 void gn_show_take_rules(struct gn_show *show);
-/* What each mode makes of a scene; the mode that is applied stays so. */
-bool gn_show_look(struct gn_show *show, const struct gn_scene *scene, struct gn_show_looks *looks,
-                  struct gn_err *err);
+/* What each mode makes of a scene. */
+bool gn_show_look(const struct gn_show *show, const struct gn_scene *scene,
+                  struct gn_show_looks *looks, struct gn_err *err);
 /* The kiosk's mode, on the stage. */
 void gn_show_enter(struct gn_show *show);
 /* The camera of the kiosk's, too; to be called for each frame. */

@@ -8,12 +8,12 @@
 
 #include "core/clock.h"
 
-bool gn_show_stats_open(struct gn_show_stats *s, const struct gn_options *options,
+bool gn_show_stats_open(struct gn_show_stats *s, const struct gn_settings *settings,
                         struct gn_err *err) {
     const struct itimerspec every = {{1, 0}, {1, 0}};
-    s->tells_first = options->stats || options->verbose;
+    s->tells_first = settings->run.stats || settings->run.verbose;
     s->last_ns = gn_clock_monotonic_ns();
-    if (!options->stats) return true;
+    if (!settings->run.stats) return true;
     s->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
     if (s->timer >= 0 && timerfd_settime(s->timer, 0, &every, NULL) == 0) return true;
     return gn_fail(err, "--stats: cannot make a timer: %s", strerror(errno));

@@ -4,7 +4,7 @@
 #define GN_KIOSK_STATS_H
 
 #include "display/display.h"
-#include "options/options.h"
+#include "options/settings.h"
 
 struct gn_show_stats {
     int timer; /* to be watched; -1: no lines are wanted */
@@ -15,7 +15,7 @@ struct gn_show_stats {
 };
 
 /* With the timer at -1 before. */
-bool gn_show_stats_open(struct gn_show_stats *stats, const struct gn_options *options,
+bool gn_show_stats_open(struct gn_show_stats *stats, const struct gn_settings *settings,
                         struct gn_err *err);
 void gn_show_stats_close(struct gn_show_stats *stats);
 /* A frame was sent that took so long to draw. */

@@ -163,15 +163,19 @@ static bool looks_like_file(const char *word) {
     return strpbrk(word, "./") || access(word, F_OK) == 0;
 }
 
+static enum gn_command command_now(const struct args *args) {
+    return args->options->settings->run.command;
+}
+
 static bool find_command(struct args *args, struct gn_err *err) {
-    struct gn_options *options = args->options;
     const char *first = args->words[0];
-    options->command = first ? command_of(first) : GN_COMMAND_AUTO;
-    bool bare = options->command == GN_COMMAND_AUTO;
+    const enum gn_command command = first ? command_of(first) : GN_COMMAND_AUTO;
+    const bool bare = command == GN_COMMAND_AUTO;
+    gn_options_run_as(args->options, command);
     if (bare && first && !looks_like_file(first)) return fail_command(first, err);
     if (bare && args->words[1])
         return gn_fail_usage(err, "one scene at a time; what is \"%.80s\"?", args->words[1]);
-    if (options->command == GN_COMMAND_DOCTOR && args->words[1])
+    if (command == GN_COMMAND_DOCTOR && args->words[1])
         return gn_fail_usage(err, "doctor takes no scene; what is \"%.80s\"?", args->words[1]);
     return true;
 }
@@ -189,7 +193,7 @@ static bool fail_unfit(const struct flag *flag, enum gn_command command, struct 
 }
 
 static bool check_flags(const struct args *args, struct gn_err *err) {
-    enum gn_command command = args->options->command;
+    enum gn_command command = command_now(args);
     for (int i = 0; i < args->flag_count; i++)
         if (!(args->flags[i].row->commands & (1u << command)))
             return fail_unfit(&args->flags[i], command, err);
@@ -203,13 +207,12 @@ static bool check_flags(const struct args *args, struct gn_err *err) {
 static bool run_without_config(struct args *args, bool named, struct gn_warnings *warnings,
                                const struct gn_err *err) {
     struct gn_options *options = args->options;
-    const enum gn_command command = options->command;
+    const enum gn_command command = command_now(args);
     const bool is_show = command == GN_COMMAND_SHOW && !find_flag(args, "check");
     if ((!is_show && command != GN_COMMAND_CTL) || (named && err->status != GN_EXIT_USAGE))
         return false;
     gn_options_finish(options);
-    gn_options_init(options);
-    options->command = command;
+    gn_options_init(options, command);
     options->config_error = gn_arena_strdup(&options->arena, err->text);
     if (is_show) gn_warn(warnings, "%s (running with the defaults)", err->text);
     return true;
@@ -217,7 +220,7 @@ static bool run_without_config(struct args *args, bool named, struct gn_warnings
 
 static bool read_config(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
     char found[PATH_MAX];
-    const enum gn_command command = args->options->command;
+    const enum gn_command command = command_now(args);
     const struct flag *named = find_flag(args, "config");
     if (find_flag(args, "check")) named = find_flag(args, "check");
     bool searches = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW ||
@@ -246,54 +249,58 @@ static bool apply_flags(struct args *args, struct gn_err *err) {
         if (!gn_options_set(args->options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
             return false;
     }
-    if (args->options->command == GN_COMMAND_CTL) return take_words(args, err);
+    if (command_now(args) == GN_COMMAND_CTL) return take_words(args, err);
     const struct gn_option_row *row = gn_option_find_key("scene", "file");
-    for (int i = args->options->command != GN_COMMAND_AUTO; i < args->word_count; i++)
+    for (int i = command_now(args) != GN_COMMAND_AUTO; i < args->word_count; i++)
         if (!gn_options_set(args->options, row, args->words[i], GN_SOURCE_FLAG, "SCENE", err))
             return false;
     return true;
 }
 
-static bool apply_mode(struct gn_options *options, struct gn_err *err) {
-    return !options->mode || options->config_error ||
-           gn_options_apply_mode(options, options->mode, err) ||
-           gn_fail_prefix(err, "%s", gn_options_label(options, mode));
+static bool choose_mode(struct gn_options *options, struct gn_err *err) {
+    const struct gn_settings *s = options->settings;
+    return !s->run.mode || options->config_error || gn_options_choose(options, s->run.mode, err) ||
+           gn_fail_prefix(err, "%s", gn_settings_label(s, run.mode));
 }
 
 /* An INI file has been looked at as it was read. */
-static bool check_shadow(const struct gn_options *options, struct gn_err *err) {
-    return options->command == GN_COMMAND_BENCH || !strchr(options->shadow, ',') ||
+static bool check_shadow(const struct gn_settings *s, struct gn_err *err) {
+    return s->run.command == GN_COMMAND_BENCH || !strchr(s->render.shadow, ',') ||
            gn_fail_usage(err, "--shadow %s: one technique at a time; only bench takes a list",
-                         options->shadow);
+                         s->render.shadow);
 }
 
-/* Said by one and the same, it is not for us to choose. A file that says it is read as it was: only
- * a warning, or a kiosk would end. */
-static bool check_animation(const struct gn_options *o, struct gn_warnings *warnings,
+/* Both come from the same source: reject instead of guessing. In a file only a warning, or a kiosk
+ * would end. */
+static bool check_animation(const struct gn_settings *s, struct gn_warnings *warnings,
                             struct gn_err *err) {
-    enum gn_source source = gn_options_source(o, offsetof(struct gn_options, animation));
-    if (!o->animation || !o->no_animation || strcmp(o->animation, "none") == 0 ||
-        source != gn_options_source(o, offsetof(struct gn_options, no_animation)))
+    const char *clip = s->scene.animation;
+    enum gn_source source = gn_settings_source(s, offsetof(struct gn_settings, scene.animation));
+    if (!clip || !s->scene.no_animation || strcmp(clip, "none") == 0 ||
+        source != gn_settings_source(s, offsetof(struct gn_settings, scene.no_animation)))
         return true;
     if (source == GN_SOURCE_FLAG)
         return gn_fail_usage(err, "--animation %s and --no-animation exclude each other: drop one",
-                             o->animation);
-    gn_warn(warnings, "%s: %s is not played, since %s holds", gn_options_label(o, animation),
-            o->animation, gn_options_label(o, no_animation));
+                             clip);
+    gn_warn(warnings, "%s: %s is not played, since %s holds", gn_settings_label(s, scene.animation),
+            clip, gn_settings_label(s, scene.no_animation));
     return true;
 }
 
 static bool understand(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_options *options = args->options;
     if (!split(args, err)) return false;
-    options->help = find_flag(args, "help");
-    options->version = find_flag(args, "version");
-    if (options->help && args->words[0]) options->command = command_of(args->words[0]);
-    if (options->help || options->version) return true;
+    struct gn_run_settings *run = &options->all[0].run;
+    run->help = find_flag(args, "help");
+    run->version = find_flag(args, "version");
+    if (run->help && args->words[0]) run->command = command_of(args->words[0]);
+    if (run->help || run->version) return true;
     if (!find_command(args, err) || !check_flags(args, err) || !read_config(args, warnings, err) ||
-        !apply_flags(args, err) || !apply_mode(options, err) || !check_shadow(options, err))
+        !apply_flags(args, err))
         return false;
-    return check_animation(options, warnings, err);
+    gn_options_resolve(options);
+    return choose_mode(options, err) && check_shadow(options->settings, err) &&
+           check_animation(options->settings, warnings, err);
 }
 
 bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
@@ -302,7 +309,7 @@ bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
     size_t letters = 0; /* no argument makes more flags than it has letters */
     for (int i = 0; i < argc; i++) letters += strlen(argv[i]);
     args.flags = gn_xalloc(letters + 1, sizeof *args.flags);
-    gn_options_init(options);
+    gn_options_init(options, GN_COMMAND_AUTO);
     bool ok = understand(&args, warnings, err);
     options->argc = argc;
     options->argv = argv;

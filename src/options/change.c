@@ -1,33 +1,39 @@
-/* Options of a running kiosk. A kiosk runs for years, so what a change leaves behind is bounded:
- * each option has two places for its text, which take turns. */
+#include "options/change.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/text.h"
-#include "options/options.h"
 #include "options/value.h"
 
 enum { PLACE_BYTES = 512 }; /* a larger text gets more */
 
-struct change {
+struct change { /* of one option */
     struct gn_arena places[2];
     unsigned now;
-    char label[40];                                     /* "set shadow" */
-    _Alignas(16) char before[sizeof(struct gn_limits)]; /* the last change */
-    const char *label_before;
-    uint8_t source_before;
+    char label[40]; /* "set shadow" */
 };
 struct gn_changes {
+    struct gn_options *options;
+    struct gn_settings *spare; /* as many as options->all */
+    struct change *last;
     struct change rows[GN_OPTION_COUNT];
 };
-_Static_assert(sizeof(struct gn_limits) >= sizeof(struct gn_scene_list), "the largest value");
 
-void gn_options_finish_changes(struct gn_options *options) {
-    for (int i = 0; options->changes && i < GN_OPTION_COUNT; i++)
-        for (int p = 0; p < 2; p++) gn_arena_finish(&options->changes->rows[i].places[p]);
-    free(options->changes);
-    options->changes = NULL;
+struct gn_changes *gn_changes_create(struct gn_options *options) {
+    struct gn_changes *changes = gn_xalloc(1, sizeof *changes);
+    changes->options = options;
+    changes->spare = gn_xalloc((size_t)options->all_count, sizeof *changes->spare);
+    return changes;
+}
+
+void gn_changes_destroy(struct gn_changes *changes) {
+    if (!changes) return;
+    for (int i = 0; i < GN_OPTION_COUNT; i++)
+        for (int p = 0; p < 2; p++) gn_arena_finish(&changes->rows[i].places[p]);
+    free(changes->spare);
+    free(changes);
 }
 
 /* ---- which ---------------------------------------------------------------------------------- */
@@ -70,7 +76,7 @@ static bool fail_key(const char *key, struct gn_err *err) {
     return gn_fail_usage(err, "unknown key \"%.60s\"; expected one of [scene] or [render]", key);
 }
 
-const struct gn_option_row *gn_options_find_change(const char *key, struct gn_err *err) {
+const struct gn_option_row *gn_changes_find(const char *key, struct gn_err *err) {
     char spelled[80], name[64];
     spell(key, spelled, sizeof spelled);
     const char *dot = strchr(spelled, '.');
@@ -98,31 +104,33 @@ static bool check(const struct gn_option_row *row, const char *text, struct gn_e
            gn_fail_usage(err, "set %s: \"%.80s\": one technique at a time", row->name, text);
 }
 
-bool gn_options_change(struct gn_options *options, const struct gn_option_row *row,
-                       const char *text, struct gn_err *err) {
+static void swap_settings(struct gn_changes *changes) {
+    struct gn_options *options = changes->options;
+    struct gn_settings *before = options->all;
+    options->settings = changes->spare + (options->settings - before);
+    options->all = changes->spare;
+    changes->spare = before;
+    changes->last->now = !changes->last->now;
+}
+
+bool gn_changes_set(struct gn_changes *changes, const struct gn_option_row *row, const char *text,
+                    struct gn_err *err) {
     if (!check(row, text, err)) return false;
-    if (!options->changes) options->changes = gn_xalloc(1, sizeof *options->changes);
-    const size_t i = (size_t)(row - gn_option_rows), size = gn_value_size(row->kind);
-    struct change *change = &options->changes->rows[i];
+    const struct gn_options *options = changes->options;
+    struct change *change = &changes->rows[row - gn_option_rows];
     struct gn_arena *place = &change->places[!change->now];
-    _Alignas(16) char value[sizeof change->before] = {0};
+    _Alignas(16) char value[sizeof(struct gn_limits)] = {0};
     snprintf(change->label, sizeof change->label, "set %s", row->name);
     place->block = PLACE_BYTES;
     gn_arena_reset(place);
     if (!gn_value_parse(row, text, value, place, change->label, err)) return false;
-    change->now = !change->now;
-    memcpy(change->before, (char *)options + row->offset, size);
-    change->label_before = options->label[i];
-    change->source_before = options->source[i];
-    gn_options_put(options, row, value, GN_SOURCE_SET, change->label);
+    for (int i = 0; i < options->all_count; i++) {
+        changes->spare[i] = options->all[i];
+        gn_settings_put(&changes->spare[i], row, value, GN_SOURCE_SET, change->label);
+    }
+    changes->last = change;
+    swap_settings(changes);
     return true;
 }
 
-void gn_options_change_back(struct gn_options *options, const struct gn_option_row *row) {
-    const size_t i = (size_t)(row - gn_option_rows);
-    struct change *change = &options->changes->rows[i];
-    memcpy((char *)options + row->offset, change->before, gn_value_size(row->kind));
-    options->label[i] = change->label_before;
-    options->source[i] = change->source_before;
-    change->now = !change->now;
-}
+void gn_changes_undo(struct gn_changes *changes) { swap_settings(changes); }

@@ -32,8 +32,9 @@ struct load {
     struct gn_options *options;
     const char *path;
     struct gn_mode *modes;
-    struct gn_mode *mode; /* whose section this is, or NULL */
-    bool in_button;       /* this is a button's */
+    struct gn_mode *mode;      /* whose section this is, or NULL */
+    struct gn_override **link; /* where its next setting goes */
+    bool in_button;            /* this is a button's */
     struct gn_config_buttons buttons;
     int lines[GN_OPTION_COUNT]; /* where each was set outside of modes */
 };
@@ -53,6 +54,7 @@ static bool open_mode(struct load *load, const struct gn_ini_line *line, struct 
     load->mode = &load->modes[options->mode_count++];
     load->mode->name = gn_arena_strdup(&options->arena, line->name);
     load->mode->line = line->number;
+    load->link = &load->mode->first;
     return load->mode->name || gn_fail(err, "%s: no memory left", line->where);
 }
 
@@ -116,33 +118,34 @@ static const char *resolve(const struct load *load, const struct gn_option_row *
     return buffer;
 }
 
-static struct gn_setting *find_setting(struct gn_mode *mode, const struct gn_option_row *row) {
-    for (int i = 0; i < mode->count; i++)
-        if (mode->settings[i].row == row) return &mode->settings[i];
-    return NULL;
+static struct gn_override *find_override(const struct gn_mode *mode,
+                                         const struct gn_option_row *row) {
+    struct gn_override *override = mode->first;
+    while (override && override->row != row) override = override->next;
+    return override;
 }
 
 static bool set_in_mode(struct load *load, const struct gn_option_row *row, const char *text,
                         const char *label, int number, struct gn_err *err) {
     struct gn_arena *arena = &load->options->arena;
-    struct gn_setting *setting = find_setting(load->mode, row);
-    void *value =
-        setting ? (void *)setting->value : gn_arena_alloc(arena, 1, gn_value_size(row->kind));
-    if (!value) return gn_fail(err, "%s: no memory left", label);
-    if (!gn_value_parse(row, text, value, arena, label, err)) return false;
-    if (setting) return true;
+    struct gn_override *override = find_override(load->mode, row);
+    if (override) return gn_value_parse(row, text, override->value, arena, label, err);
+    override = gn_arena_alloc(arena, 1, sizeof *override);
+    void *value = gn_arena_alloc(arena, 1, gn_value_size(row->kind));
     const char *kept = gn_arena_strdup(arena, label);
-    if (!kept) return gn_fail(err, "%s: no memory left", label);
-    load->mode->settings[load->mode->count++] =
-        (struct gn_setting){.row = row, .value = value, .label = kept, .line = number};
+    if (!override || !value || !kept) return gn_fail(err, "%s: no memory left", label);
+    if (!gn_value_parse(row, text, value, arena, label, err)) return false;
+    *override = (struct gn_override){.row = row, .value = value, .label = kept, .line = number};
+    *load->link = override;
+    load->link = &override->next;
     return true;
 }
 
 /* Where only one technique at a time is drawn a list is a mistake like any other. */
 static bool check_list(const struct load *load, const struct gn_option_row *row, const char *text,
                        const char *label, struct gn_err *err) {
-    return row->kind != GN_KIND_TECHNIQUES || load->options->command == GN_COMMAND_BENCH ||
-           !strchr(text, ',') ||
+    return row->kind != GN_KIND_TECHNIQUES ||
+           load->options->settings->run.command == GN_COMMAND_BENCH || !strchr(text, ',') ||
            gn_fail_usage(err, "%s: \"%s\": one technique at a time; only bench takes a list", label,
                          text);
 }
@@ -151,8 +154,8 @@ static int line_before(struct load *load, const struct gn_option_row *row) {
     if (row->kind == GN_KIND_LIMIT || (row->kind == GN_KIND_SCENES && !load->mode))
         return 0; /* may be given again */
     if (!load->mode) return load->lines[row - gn_option_rows];
-    const struct gn_setting *setting = find_setting(load->mode, row);
-    return setting ? setting->line : 0;
+    const struct gn_override *override = find_override(load->mode, row);
+    return override ? override->line : 0;
 }
 
 static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *err) {

@@ -2,7 +2,9 @@
 #ifndef GN_OPTIONS_VALUE_H
 #define GN_OPTIONS_VALUE_H
 
-#include "options/options.h"
+#include "core/arena.h"
+#include "core/err.h"
+#include "options/settings.h"
 
 /* Parses text into the field (of gn_value_size bytes); all of text must be the value. Texts are
  * kept in the arena. GN_KIND_LIMIT adds to what is in the field. A failure is a usage error:

@@ -23,140 +23,142 @@ struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *l
                                err);
 }
 
-bool gn_stage_limits(const struct gn_options *options, struct gn_scene_limits *limits,
+bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits *limits,
                      struct gn_err *err) {
     *limits = (struct gn_scene_limits){0};
-    for (int i = 0; i < options->limits.count; i++)
-        if (!gn_scene_limits_set(limits, options->limits.items[i].name,
-                                 (uint64_t)options->limits.items[i].value, err))
+    for (int i = 0; i < settings->render.limits.count; i++)
+        if (!gn_scene_limits_set(limits, settings->render.limits.items[i].name,
+                                 (uint64_t)settings->render.limits.items[i].value, err))
             return false;
     return true;
 }
 
 /* Where the name comes from is said if it does not stand on the command line. */
-struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings,
+struct gn_scene *gn_stage_scene(const struct gn_settings *settings, struct gn_warnings *warnings,
                                 struct gn_err *err) {
     struct gn_scene_limits limits;
-    if (!gn_stage_limits(options, &limits, err)) return NULL;
-    struct gn_scene *scene = gn_stage_read(options->scene, &limits, warnings, err);
-    size_t offset = offsetof(struct gn_options, scene);
-    if (!scene && options->scene && gn_options_source(options, offset) != GN_SOURCE_FLAG)
-        gn_fail_prefix(err, "%s", gn_options_label(options, scene));
+    if (!gn_stage_limits(settings, &limits, err)) return NULL;
+    struct gn_scene *scene = gn_stage_read(settings->scene.path, &limits, warnings, err);
+    size_t offset = offsetof(struct gn_settings, scene.path);
+    if (!scene && settings->scene.path && gn_settings_source(settings, offset) != GN_SOURCE_FLAG)
+        gn_fail_prefix(err, "%s", gn_settings_label(settings, scene.path));
     return scene;
 }
 
 /* What the scene does not have. A kiosk whose file names it runs on without, as it does with any
  * bad file; else false, and err says where it stands. */
-static bool do_without(const struct gn_options *o, size_t offset, struct gn_warnings *warnings,
+static bool do_without(const struct gn_settings *o, size_t offset, struct gn_warnings *warnings,
                        struct gn_err *err) {
-    gn_fail_prefix(err, "%s", gn_options_label_at(o, offset));
-    enum gn_source source = gn_options_source(o, offset);
-    if (o->command != GN_COMMAND_SHOW || source >= GN_SOURCE_FLAG) return false;
+    gn_fail_prefix(err, "%s", gn_settings_label_at(o, offset));
+    enum gn_source source = gn_settings_source(o, offset);
+    if (o->run.command != GN_COMMAND_SHOW || source >= GN_SOURCE_FLAG) return false;
     gn_warn(warnings, "%s (running without it)", err->text);
     *err = (struct gn_err){0};
     return true;
 }
 
 /* Of --animation and --no-animation the stronger one holds: command line, mode, file. */
-static bool stands_still(const struct gn_options *o) {
-    if (o->animation && strcmp(o->animation, "none") == 0) return true;
-    size_t still = offsetof(struct gn_options, no_animation),
-           clip = offsetof(struct gn_options, animation);
-    return o->no_animation && gn_options_source(o, still) >= gn_options_source(o, clip);
+static bool stands_still(const struct gn_settings *o) {
+    if (o->scene.animation && strcmp(o->scene.animation, "none") == 0) return true;
+    size_t still = offsetof(struct gn_settings, scene.no_animation),
+           clip = offsetof(struct gn_settings, scene.animation);
+    return o->scene.no_animation && gn_settings_source(o, still) >= gn_settings_source(o, clip);
 }
 
-static bool choose_clips(const struct gn_options *o, const struct gn_scene *scene, int *clips,
+static bool choose_clips(const struct gn_settings *o, const struct gn_scene *scene, int *clips,
                          struct gn_warnings *warnings, struct gn_err *err) {
     *clips = stands_still(o) ? GN_POSE_NONE : GN_POSE_DEFAULT;
-    if (!o->animation || *clips == GN_POSE_NONE) return true;
-    *clips = gn_scene_find_clip(scene, o->animation, err);
+    if (!o->scene.animation || *clips == GN_POSE_NONE) return true;
+    *clips = gn_scene_find_clip(scene, o->scene.animation, err);
     if (*clips >= 0) return true;
     *clips = GN_POSE_DEFAULT;
-    return do_without(o, offsetof(struct gn_options, animation), warnings, err);
+    return do_without(o, offsetof(struct gn_settings, scene.animation), warnings, err);
 }
 
-static bool choose_camera(const struct gn_options *o, const struct gn_scene *scene, int *camera,
+static bool choose_camera(const struct gn_settings *o, const struct gn_scene *scene, int *camera,
                           struct gn_warnings *warnings, struct gn_err *err) {
-    *camera = gn_scene_find_camera(scene, o->camera, err);
+    *camera = gn_scene_find_camera(scene, o->scene.camera, err);
     if (*camera >= 0) return true;
     *camera = 0;
-    return do_without(o, offsetof(struct gn_options, camera), warnings, err);
+    return do_without(o, offsetof(struct gn_settings, scene.camera), warnings, err);
 }
 
-static bool check_light(const struct gn_options *o, const struct gn_scene *scene,
+static bool check_light(const struct gn_settings *o, const struct gn_scene *scene,
                         struct gn_err *err) {
-    if (o->aov == GN_AOV_COLOR || o->aov == GN_AOV_DISTANCE || o->aov == GN_AOV_NORMAL) return true;
-    if (o->light >= 0 && (uint32_t)o->light < scene->light_count) return true;
+    if (o->render.aov == GN_AOV_COLOR || o->render.aov == GN_AOV_DISTANCE ||
+        o->render.aov == GN_AOV_NORMAL)
+        return true;
+    if (o->render.light >= 0 && (uint32_t)o->render.light < scene->light_count) return true;
     return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
-                         gn_options_label(o, light), o->light, scene->light_count,
+                         gn_settings_label(o, render.light), o->render.light, scene->light_count,
                          scene->light_count == 1 ? "" : "s");
 }
 
 /* A frame follows, which a picture in a file has not. */
-static bool is_watched(const struct gn_options *o) {
-    return o->command == GN_COMMAND_SHOW || o->command == GN_COMMAND_AUTO;
+static bool is_watched(const struct gn_settings *o) {
+    return o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
 }
 
-static bool choose_frame(struct gn_frame_opts *f, const struct gn_options *o,
+static bool choose_frame(struct gn_frame_opts *f, const struct gn_settings *o,
                          const struct gn_scene *scene, struct gn_warnings *warnings,
                          struct gn_err *err) {
     *f = (struct gn_frame_opts){
-        .width_px = (uint32_t)o->size.width_px,
-        .height_px = (uint32_t)o->size.height_px,
-        .aov =
-            o->aov == GN_AOV_COUNT ? GN_AOV_VISIBILITY /* this light alone */ : (enum gn_aov)o->aov,
-        .light = o->light,
-        .output_linear = o->output == GN_PICTURE_LINEAR,
-        .exposure_given = !isnan(o->exposure_ev),
-        .exposure_ev = isnan(o->exposure_ev) ? 0.0f : (float)o->exposure_ev,
-        .map_px = gn_options_given(o, map_px) ? (uint32_t)o->map_px : 0,
-        .planar_in_stencil = o->planar_in_stencil,
-        .taps = (unsigned)o->taps,
-        .taps_fixed = o->taps_fixed,
-        .filter_texels = is_watched(o) ? (uint64_t)(o->filter_budget * 1e6) : 0,
-        .strength_given = gn_options_given(o, shadow_strength),
-        .strength = (float)o->shadow_strength,
-        .msaa = (uint32_t)o->msaa,
-        .show_lights = o->show_lights,
-        .show_maps = o->show_maps,
+        .width_px = (uint32_t)o->render.size.width_px,
+        .height_px = (uint32_t)o->render.size.height_px,
+        .aov = o->render.aov == GN_AOV_COUNT ? GN_AOV_VISIBILITY /* this light alone */
+                                             : (enum gn_aov)o->render.aov,
+        .light = o->render.light,
+        .output_linear = o->render.output == GN_PICTURE_LINEAR,
+        .exposure_given = !isnan(o->render.exposure_ev),
+        .exposure_ev = isnan(o->render.exposure_ev) ? 0.0f : (float)o->render.exposure_ev,
+        .map_px = gn_settings_given(o, render.map_px) ? (uint32_t)o->render.map_px : 0,
+        .planar_in_stencil = o->render.planar_in_stencil,
+        .taps = (unsigned)o->render.taps,
+        .taps_fixed = o->render.taps_fixed,
+        .filter_texels = is_watched(o) ? (uint64_t)(o->render.filter_budget * 1e6) : 0,
+        .strength_given = gn_settings_given(o, render.shadow_strength),
+        .strength = (float)o->render.shadow_strength,
+        .msaa = (uint32_t)o->render.msaa,
+        .show_lights = o->render.show_lights,
+        .show_maps = o->render.show_maps,
     };
-    f->technique_given = gn_options_given(o, shadow) && o->shadow;
+    f->technique_given = gn_settings_given(o, render.shadow) && o->render.shadow;
     return choose_camera(o, scene, &f->camera, warnings, err) &&
-           gn_map_format_find(o->map_format, &f->encoding, &f->moments, err) &&
-           (!f->technique_given || strchr(o->shadow, ',') ||
-            gn_technique_find(o->shadow, &f->technique, err));
+           gn_map_format_find(o->render.map_format, &f->encoding, &f->moments, err) &&
+           (!f->technique_given || strchr(o->render.shadow, ',') ||
+            gn_technique_find(o->render.shadow, &f->technique, err));
 }
 
-bool gn_stage_look(struct gn_stage_look *look, const struct gn_options *options,
+bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *settings,
                    const struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err) {
-    return choose_clips(options, scene, &look->clips, warnings, err) &&
-           check_light(options, scene, err) &&
-           choose_frame(&look->frame_opts, options, scene, warnings, err);
+    return choose_clips(settings, scene, &look->clips, warnings, err) &&
+           check_light(settings, scene, err) &&
+           choose_frame(&look->frame_opts, settings, scene, warnings, err);
 }
 
-bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options,
+bool gn_stage_load(struct gn_stage *stage, const struct gn_settings *settings,
                    struct gn_warnings *warnings, struct gn_err *err) {
-    *stage = (struct gn_stage){.options = options};
-    stage->scene = gn_stage_scene(options, warnings, err);
+    *stage = (struct gn_stage){.settings = settings};
+    stage->scene = gn_stage_scene(settings, warnings, err);
     struct gn_stage_look look;
-    if (!stage->scene || !gn_stage_look(&look, options, stage->scene, warnings, err)) return false;
+    if (!stage->scene || !gn_stage_look(&look, settings, stage->scene, warnings, err)) return false;
     stage->frame_opts = look.frame_opts;
     gn_pose_init(&stage->pose, stage->scene, look.clips);
-    gn_pose_step(&stage->pose, options->time_ns);
+    gn_pose_step(&stage->pose, settings->scene.time_ns);
     return true;
 }
 
 bool gn_stage_start_gl(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err) {
-    const struct gn_options *o = stage->options;
+    const struct gn_settings *o = stage->settings;
     struct gn_gl_opts opts = {
         .get_proc = gn_display_get_proc,
         .display = &stage->display,
-        .shaders = o->shaders,
-        .without = o->without,
+        .shaders = o->render.shaders,
+        .without = o->render.without,
         .desktop = stage->display.ops->desktop,
-        .stop = o->command == GN_COMMAND_SHOW ? gn_stop_asked : NULL,
+        .stop = o->run.command == GN_COMMAND_SHOW ? gn_stop_asked : NULL,
         .prove_later = true,
-        .debug = o->verbose,
+        .debug = o->run.verbose,
     };
     stage->gl = gn_gl_create(&opts, warnings, err);
     if (!stage->gl || !gn_gl_load(stage->gl, stage->scene, err)) return false;
@@ -172,14 +174,15 @@ void gn_stage_stop_gl(struct gn_stage *stage) {
 }
 
 bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err) {
-    const struct gn_options *o = stage->options;
+    const struct gn_settings *o = stage->settings;
     if (!gn_wake_display(&stage->display, o, warnings, err)) return false;
     if (!gn_stage_start_gl(stage, warnings, err)) return false;
     const struct gn_caps *caps = gn_gl_caps(stage->gl);
     int most = caps->max_texture_px;
-    if (o->size.width_px > most || o->size.height_px > most)
-        return gn_fail(err, "%s %dx%d: %s draws at most %dx%d", gn_options_label(o, size),
-                       o->size.width_px, o->size.height_px, caps->renderer, most, most);
+    if (o->render.size.width_px > most || o->render.size.height_px > most)
+        return gn_fail(err, "%s %dx%d: %s draws at most %dx%d", gn_settings_label(o, render.size),
+                       o->render.size.width_px, o->render.size.height_px, caps->renderer, most,
+                       most);
     return true;
 }
 
@@ -201,7 +204,8 @@ const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *
 
 void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
     gn_pose_step(&stage->pose, time_ns);
-    double turned_deg = fmod(stage->options->turntable_deg_s * ((double)time_ns * 1e-9), 360.0);
+    double turned_deg =
+        fmod(stage->settings->scene.turntable_deg_s * ((double)time_ns * 1e-9), 360.0);
     stage->frame_opts.turntable_rad = glm_rad((float)turned_deg);
 }
 

@@ -7,7 +7,7 @@
 #include "display/display.h"
 #include "frame/plan.h"
 #include "gl/gl.h"
-#include "options/options.h"
+#include "options/settings.h"
 
 /* How a scene is to be drawn, of what options say. */
 struct gn_stage_look {
@@ -15,7 +15,7 @@ struct gn_stage_look {
     int clips; /* as gn_pose_init() wants them */
 };
 struct gn_stage {
-    const struct gn_options *options; /* must outlive the stage */
+    const struct gn_settings *settings; /* must outlive the stage */
     struct gn_scene *scene;
     struct gn_pose pose;
     struct gn_display display;
@@ -26,22 +26,22 @@ struct gn_stage {
 };
 
 /* --limit, as the loader wants them. */
-bool gn_stage_limits(const struct gn_options *options, struct gn_scene_limits *limits,
+bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits *limits,
                      struct gn_err *err);
 /* A scene by its path, or for NULL the default one inside the program. Asks nothing of anybody: it
  * may run in a thread. */
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err);
 /* Checks what the options say about a scene (camera, animation, light, technique). */
-bool gn_stage_look(struct gn_stage_look *look, const struct gn_options *options,
+bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *settings,
                    const struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err);
 /* The scene that the options name, or the default one inside the program; limits of --limit hold.
  */
-struct gn_scene *gn_stage_scene(const struct gn_options *options, struct gn_warnings *warnings,
+struct gn_scene *gn_stage_scene(const struct gn_settings *settings, struct gn_warnings *warnings,
                                 struct gn_err *err);
 /* Loads the scene, poses it at --time and checks what the options say about it (camera, animation,
  * light, technique). */
-bool gn_stage_load(struct gn_stage *stage, const struct gn_options *options,
+bool gn_stage_load(struct gn_stage *stage, const struct gn_settings *settings,
                    struct gn_warnings *warnings, struct gn_err *err);
 /* Opens the display of --backend, makes the context current, loads the scene into it. */
 bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err);

@@ -20,9 +20,9 @@ static void say_and_end(int signal) {
     _exit(GN_EXIT_WORLD);
 }
 
-void gn_wake_begin(struct gn_wake *wake, const struct gn_options *options) {
+void gn_wake_begin(struct gn_wake *wake, const struct gn_settings *settings) {
     const struct sigaction now = {.sa_handler = say_and_end};
-    wake->kept = options->verbose ? -1 : gn_quiet_begin();
+    wake->kept = settings->run.verbose ? -1 : gn_quiet_begin();
     heard = wake->kept >= 0 ? wake->kept : STDERR_FILENO;
     for (int i = 0; i < GN_WAKE_CRASHES; i++) sigaction(crashes[i], &now, &wake->old[i]);
 }
@@ -32,11 +32,11 @@ void gn_wake_end(struct gn_wake *wake) {
     gn_quiet_end(wake->kept);
 }
 
-bool gn_wake_display(struct gn_display *display, const struct gn_options *options,
+bool gn_wake_display(struct gn_display *display, const struct gn_settings *settings,
                      struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_wake wake = {0};
-    gn_wake_begin(&wake, options);
-    bool ok = gn_display_open(display, options->backend, warnings, err);
+    gn_wake_begin(&wake, settings);
+    bool ok = gn_display_open(display, settings->display.backend, warnings, err);
     gn_wake_end(&wake);
     return ok;
 }

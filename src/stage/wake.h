@@ -7,7 +7,7 @@
 
 #include "core/warn.h"
 #include "display/display.h"
-#include "options/options.h"
+#include "options/settings.h"
 
 enum { GN_WAKE_CRASHES = 5 };
 struct gn_wake { /* zeroed is ready */
@@ -15,11 +15,11 @@ struct gn_wake { /* zeroed is ready */
     struct sigaction old[GN_WAKE_CRASHES];
 };
 /* Around whatever wakes a driver. */
-void gn_wake_begin(struct gn_wake *wake, const struct gn_options *options);
+void gn_wake_begin(struct gn_wake *wake, const struct gn_settings *settings);
 void gn_wake_end(struct gn_wake *wake);
 
 /* gn_display_open() of --backend. */
-bool gn_wake_display(struct gn_display *display, const struct gn_options *options,
+bool gn_wake_display(struct gn_display *display, const struct gn_settings *settings,
                      struct gn_warnings *warnings, struct gn_err *err);
 
 #endif

@@ -73,9 +73,9 @@ static void a_spoilt_file_is_taken_or_names_its_line(void **state) {
         struct gn_err err = {0};
         int line = 0;
         write_file(text, size);
-        gn_options_init(&options);
-        options.command = GN_COMMAND_SHOW;
+        gn_options_init(&options, GN_COMMAND_SHOW);
         if (gn_config_load(&options, path, &err)) {
+            gn_options_resolve(&options);
             taken++;
         } else {
             if (strncmp(err.text, path, strlen(path)) != 0 ||

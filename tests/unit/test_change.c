@@ -7,10 +7,25 @@
 #include "cli/help.h"
 #include "core/file.h"
 #include "options/args.h"
+#include "options/change.h"
 #include "options/command.h"
 #include "options/file.h"
 #include "options/value.h"
 #include "unit/options_help.h"
+
+static struct gn_changes *changes;
+
+static void drop(void) {
+    gn_changes_destroy(changes);
+    changes = NULL;
+    gn_options_finish(&options);
+}
+
+static int drop_all(void **state) {
+    (void)state;
+    drop();
+    return 0;
+}
 
 /* Splits at spaces. */
 static bool parse(const char *line) {
@@ -24,15 +39,17 @@ static bool parse(const char *line) {
         argv[argc] = kept[argc];
         argc++;
     }
-    gn_options_finish(&options);
+    drop();
     err = (struct gn_err){0};
-    return gn_args_parse(&options, argc, argv, &warnings, &err);
+    const bool ok = gn_args_parse(&options, argc, argv, &warnings, &err);
+    if (ok) changes = gn_changes_create(&options);
+    return ok;
 }
 
 static bool change(const char *key, const char *text) {
     err = (struct gn_err){0};
-    const struct gn_option_row *row = gn_options_find_change(key, &err);
-    return row && gn_options_change(&options, row, text, &err);
+    const struct gn_option_row *row = gn_changes_find(key, &err);
+    return row && gn_changes_set(changes, row, text, &err);
 }
 
 static void assert_no_change(const char *key, const char *text, const char *says) {
@@ -47,14 +64,14 @@ static void a_change_beats_the_command_line_and_every_mode(void **state) {
     (void)state;
     assert_true(parse("show --shadow pcf2 --map 512"));
     assert_true(change("shadow", "pcss"));
-    assert_string_equal(options.shadow, "pcss");
-    assert_true(gn_options_apply_mode(&options, "hard", &err));
-    assert_string_equal(options.shadow, "pcss");
-    gn_options_drop_mode(&options);
-    assert_string_equal(options.shadow, "pcss");
-    assert_string_equal(gn_options_label(&options, shadow), "set shadow");
+    assert_string_equal(options.settings->render.shadow, "pcss");
+    assert_true(gn_options_choose(&options, "hard", &err));
+    assert_string_equal(options.settings->render.shadow, "pcss");
+    options.settings = &options.all[0];
+    assert_string_equal(options.settings->render.shadow, "pcss");
+    assert_string_equal(gn_settings_label(options.settings, render.shadow), "set shadow");
     assert_true(change("map", "256"));
-    assert_int_equal(options.map_px, 256);
+    assert_int_equal(options.settings->render.map_px, 256);
 }
 
 static void a_key_may_be_written_in_several_ways(void **state) {
@@ -66,7 +83,7 @@ static void a_key_may_be_written_in_several_ways(void **state) {
         char text[8];
         snprintf(text, sizeof text, "0.%d", i + 1);
         assert_true(change(ways[i], text));
-        assert_true(fabs(options.shadow_strength - (i + 1) / 10.0) < 1e-9);
+        assert_true(fabs(options.settings->render.shadow_strength - (i + 1) / 10.0) < 1e-9);
     }
     assert_no_change("scene.shadow", "pcf", "unknown key");
     assert_no_change("shadwo", "pcf", "unknown key \"shadwo\"; did you mean shadow?");
@@ -100,7 +117,7 @@ static void every_option_of_the_file_is_one_or_the_other(void **state) {
         if (!row->section) continue;
         const char *text = row->fallback ? row->fallback : row->kind == GN_KIND_FLAG ? "yes" : "x";
         err = (struct gn_err){0};
-        if (gn_options_change(&options, row, text, &err)) {
+        if (gn_changes_set(changes, row, text, &err)) {
             can++;
             continue;
         }
@@ -116,17 +133,17 @@ static void every_option_of_the_file_is_one_or_the_other(void **state) {
 static void a_change_can_be_taken_back(void **state) {
     (void)state;
     assert_true(parse("show --camera Top"));
-    const struct gn_option_row *row = gn_options_find_change("camera", &err);
-    assert_true(gn_options_change(&options, row, "Garden", &err));
-    gn_options_change_back(&options, row);
-    assert_string_equal(options.camera, "Top");
-    assert_string_equal(gn_options_label(&options, camera), "--camera");
-    assert_true(gn_options_change(&options, row, "Garden", &err));
-    assert_true(gn_options_change(&options, row, "Dial", &err));
-    gn_options_change_back(&options, row);
-    assert_string_equal(options.camera, "Garden");
-    assert_true(gn_options_change(&options, row, "Top", &err));
-    assert_string_equal(options.camera, "Top");
+    const struct gn_option_row *row = gn_changes_find("camera", &err);
+    assert_true(gn_changes_set(changes, row, "Garden", &err));
+    gn_changes_undo(changes);
+    assert_string_equal(options.settings->scene.camera, "Top");
+    assert_string_equal(gn_settings_label(options.settings, scene.camera), "--camera");
+    assert_true(gn_changes_set(changes, row, "Garden", &err));
+    assert_true(gn_changes_set(changes, row, "Dial", &err));
+    gn_changes_undo(changes);
+    assert_string_equal(options.settings->scene.camera, "Garden");
+    assert_true(gn_changes_set(changes, row, "Top", &err));
+    assert_string_equal(options.settings->scene.camera, "Top");
 }
 
 static void years_of_changes_take_no_more_memory(void **state) {
@@ -146,7 +163,7 @@ static void years_of_changes_take_no_more_memory(void **state) {
         const int length = 1 + i % 200;
         text[length] = '\0';
         assert_true(change("camera", text));
-        assert_int_equal(strlen(options.camera), length);
+        assert_int_equal(strlen(options.settings->scene.camera), length);
         text[length] = 'c';
         assert_true(change("shadow", i % 2 ? "pcf" : "pcss"));
     }
@@ -185,19 +202,19 @@ static void a_value_reads_as_it_was_written(void **state) {
 static void ctl_takes_words_and_values_that_look_like_flags(void **state) {
     (void)state;
     assert_true(parse("ctl status"));
-    assert_int_equal(options.command, GN_COMMAND_CTL);
+    assert_int_equal(options.settings->run.command, GN_COMMAND_CTL);
     assert_int_equal(options.word_count, 1);
     assert_true(parse("ctl --json set exposure -2 --socket /s"));
     assert_int_equal(options.word_count, 3);
     assert_string_equal(options.words[0], "set");
     assert_string_equal(options.words[2], "-2");
-    assert_string_equal(options.socket, "/s");
-    assert_true(options.json);
+    assert_string_equal(options.settings->kiosk.socket, "/s");
+    assert_true(options.settings->run.json);
     assert_true(parse("ctl set turntable -.5"));
     assert_string_equal(options.words[2], "-.5");
     assert_true(parse("ctl mode -- -odd"));
     assert_string_equal(options.words[1], "-odd");
-    assert_null(options.scene);
+    assert_null(options.settings->scene.path);
     assert_true(parse("ctl"));
     assert_int_equal(options.word_count, 0);
     assert_false(parse("ctl set a b c d"));
@@ -216,12 +233,12 @@ static void ctl_looks_where_the_file_says(void **state) {
     assert_true(gn_file_write(path, good, strlen(good), &err));
     snprintf(line, sizeof line, "ctl -c %s status", path);
     assert_true(parse(line));
-    assert_string_equal(options.socket, "/tmp/own/ctl");
+    assert_string_equal(options.settings->kiosk.socket, "/tmp/own/ctl");
     /* with a bad file a kiosk runs with its defaults, so that is where it is looked for */
     warnings.count = 0;
     assert_true(gn_file_write(path, bad, strlen(bad), &err));
     assert_true(parse(line));
-    assert_null(options.socket);
+    assert_null(options.settings->kiosk.socket);
     assert_int_equal(options.word_count, 1);
     assert_int_equal(warnings.count, 0);
     unlink(path);
@@ -271,16 +288,16 @@ static void help_and_manual_list_every_command_and_key(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(a_change_beats_the_command_line_and_every_mode, clean),
-        cmocka_unit_test_teardown(a_key_may_be_written_in_several_ways, clean),
-        cmocka_unit_test_teardown(what_cannot_change_says_why, clean),
-        cmocka_unit_test_teardown(every_option_of_the_file_is_one_or_the_other, clean),
-        cmocka_unit_test_teardown(a_change_can_be_taken_back, clean),
-        cmocka_unit_test_teardown(years_of_changes_take_no_more_memory, clean),
-        cmocka_unit_test_teardown(a_value_reads_as_it_was_written, clean),
-        cmocka_unit_test_teardown(ctl_takes_words_and_values_that_look_like_flags, clean),
-        cmocka_unit_test_teardown(ctl_looks_where_the_file_says, clean),
-        cmocka_unit_test_teardown(a_file_that_is_only_checked_is_read_strictly, clean),
+        cmocka_unit_test_teardown(a_change_beats_the_command_line_and_every_mode, drop_all),
+        cmocka_unit_test_teardown(a_key_may_be_written_in_several_ways, drop_all),
+        cmocka_unit_test_teardown(what_cannot_change_says_why, drop_all),
+        cmocka_unit_test_teardown(every_option_of_the_file_is_one_or_the_other, drop_all),
+        cmocka_unit_test_teardown(a_change_can_be_taken_back, drop_all),
+        cmocka_unit_test_teardown(years_of_changes_take_no_more_memory, drop_all),
+        cmocka_unit_test_teardown(a_value_reads_as_it_was_written, drop_all),
+        cmocka_unit_test_teardown(ctl_takes_words_and_values_that_look_like_flags, drop_all),
+        cmocka_unit_test_teardown(ctl_looks_where_the_file_says, drop_all),
+        cmocka_unit_test_teardown(a_file_that_is_only_checked_is_read_strictly, drop_all),
         cmocka_unit_test(help_and_manual_list_every_command_and_key),
     };
     return cmocka_run_group_tests(tests, without_home, NULL);

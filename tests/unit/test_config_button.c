@@ -15,8 +15,7 @@ static struct gn_err err;
 
 static bool load(const char *text) {
     gn_options_finish(&options);
-    gn_options_init(&options);
-    options.command = GN_COMMAND_SHOW;
+    gn_options_init(&options, GN_COMMAND_SHOW);
     err = (struct gn_err){0};
     assert_true(gn_file_write(path, text, strlen(text), &err));
     return gn_config_load(&options, path, &err);
@@ -206,7 +205,7 @@ static void want_of_memory_is_said(void **state) {
         "[button \"b\"]\nkeys = b\n[button \"ab\"]\nchord = a b\npress = info\n";
     for (unsigned long n = 1; n < 100; n++) {
         gn_options_finish(&options);
-        gn_options_init(&options);
+        gn_options_init(&options, GN_COMMAND_SHOW);
         err = (struct gn_err){0};
         assert_true(gn_file_write(path, text, strlen(text), &err));
         gn_alloc_fail_at(n);

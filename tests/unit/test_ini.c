@@ -144,17 +144,17 @@ static void the_file_of_the_manual_is_read(void **state) {
     char *path = (char *)in_folder("k.ini"), scene[200];
     snprintf(scene, sizeof scene, "%s/sundial.glb", folder);
     assert_true(PARSE("gnomon", "show", "-c", path));
-    assert_string_equal(options.connector, "HDMI-A-1");
-    assert_int_equal(options.display_mode.height_px, 1080);
-    assert_int_equal(options.rotate_deg, 90);
-    assert_int_equal(options.max_fps, 30);
-    assert_string_equal(options.scene, scene);
-    assert_true(options.turntable_deg_s == 6);
-    assert_true(options.show_lights);
-    assert_int_equal(options.limits.count, 2);
+    assert_string_equal(options.settings->display.connector, "HDMI-A-1");
+    assert_int_equal(options.settings->display.mode.height_px, 1080);
+    assert_int_equal(options.settings->display.rotate_deg, 90);
+    assert_int_equal(options.settings->display.max_fps, 30);
+    assert_string_equal(options.settings->scene.path, scene);
+    assert_true(options.settings->scene.turntable_deg_s == 6);
+    assert_true(options.settings->render.show_lights);
+    assert_int_equal(options.settings->render.limits.count, 2);
     assert_int_equal(options.mode_count, 2);
-    assert_null(options.mode_now);
-    assert_true(gn_options_given(&options, shadow));
+    assert_null(options.settings->mode);
+    assert_true(gn_settings_given(options.settings, render.shadow));
 }
 
 static void a_flag_beats_a_mode_beats_the_file(void **state) {
@@ -162,14 +162,14 @@ static void a_flag_beats_a_mode_beats_the_file(void **state) {
     write_file("k.ini", full);
     char *path = (char *)in_folder("k.ini");
     assert_true(PARSE("gnomon", "render", "-c", path));
-    assert_string_equal(options.shadow, "hard");
+    assert_string_equal(options.settings->render.shadow, "hard");
     assert_true(PARSE("gnomon", "render", "-c", path, "--mode", "Soft"));
-    assert_string_equal(options.shadow, "pcf5");
-    assert_int_equal(options.map_px, 512);
+    assert_string_equal(options.settings->render.shadow, "pcf5");
+    assert_int_equal(options.settings->render.map_px, 512);
     assert_true(
         PARSE("gnomon", "render", "-c", path, "--mode", "Soft", "--shadow", "pcf2", "x.glb"));
-    assert_string_equal(options.shadow, "pcf2");
-    assert_string_equal(options.scene, "x.glb");
+    assert_string_equal(options.settings->render.shadow, "pcf2");
+    assert_string_equal(options.settings->scene.path, "x.glb");
 }
 
 static void a_mode_may_show_the_maps(void **state) {
@@ -177,11 +177,11 @@ static void a_mode_may_show_the_maps(void **state) {
     write_file("k.ini", "[mode \"Plain\"]\nshadow = pcf\n[mode \"Maps\"]\nshow_maps = yes\n");
     char *path = (char *)in_folder("k.ini");
     assert_true(PARSE("gnomon", "show", "-c", path));
-    assert_false(options.show_maps);
-    assert_true(gn_options_apply_mode(&options, "Maps", &err));
-    assert_true(options.show_maps);
-    assert_true(gn_options_apply_mode(&options, "Plain", &err));
-    assert_false(options.show_maps);
+    assert_false(options.settings->render.show_maps);
+    assert_true(gn_options_choose(&options, "Maps", &err));
+    assert_true(options.settings->render.show_maps);
+    assert_true(gn_options_choose(&options, "Plain", &err));
+    assert_false(options.settings->render.show_maps);
 }
 
 static void a_mode_is_undone_by_the_next(void **state) {
@@ -190,24 +190,24 @@ static void a_mode_is_undone_by_the_next(void **state) {
     char plan[200];
     snprintf(plan, sizeof plan, "%s/plan.glb", folder);
     assert_true(PARSE("gnomon", "show", "-c", (char *)in_folder("k.ini")));
-    assert_true(gn_options_apply_mode(&options, "Plan", &err));
-    assert_string_equal(options.camera, "Top");
-    assert_string_equal(options.scene, plan);
-    assert_int_equal(options.map_px, 256);
+    assert_true(gn_options_choose(&options, "Plan", &err));
+    assert_string_equal(options.settings->scene.camera, "Top");
+    assert_string_equal(options.settings->scene.path, plan);
+    assert_int_equal(options.settings->render.map_px, 256);
     size_t used = options.arena.used;
     for (int i = 0; i < 100; i++) {
-        assert_true(gn_options_apply_mode(&options, "Soft", &err));
-        assert_null(options.camera);
-        assert_int_equal(options.map_px, 512);
-        assert_string_equal(options.shadow, "pcf5");
-        assert_true(gn_options_apply_mode(&options, "Plan", &err));
-        assert_string_equal(options.shadow, "hard");
+        assert_true(gn_options_choose(&options, "Soft", &err));
+        assert_null(options.settings->scene.camera);
+        assert_int_equal(options.settings->render.map_px, 512);
+        assert_string_equal(options.settings->render.shadow, "pcf5");
+        assert_true(gn_options_choose(&options, "Plan", &err));
+        assert_string_equal(options.settings->render.shadow, "hard");
     }
     assert_int_equal(options.arena.used, used);
-    assert_false(gn_options_apply_mode(&options, "Pla", &err));
+    assert_false(gn_options_choose(&options, "Pla", &err));
     assert_non_null(strstr(err.text, "\"Soft\", \"Plan\""));
-    assert_string_equal(options.mode_now, "Plan");
-    assert_int_equal(options.map_px, 256);
+    assert_string_equal(options.settings->mode, "Plan");
+    assert_int_equal(options.settings->render.map_px, 256);
 }
 
 static void assert_file_refused(const char *text, const char *says) {
@@ -275,8 +275,8 @@ static void a_kiosk_runs_on_without_its_bad_file(void **state) {
     write_file("bad.ini", "[render]\nmap = 64\nmap = 8\n");
     assert_true(PARSE("gnomon", "show", "--size", "8x8", "-c", (char *)in_folder("bad.ini")));
     assert_non_null(strstr(options.config_error, "bad.ini:3"));
-    assert_int_equal(options.map_px, 1024);
-    assert_int_equal(options.size.width_px, 8);
+    assert_int_equal(options.settings->render.map_px, 1024);
+    assert_int_equal(options.settings->render.size.width_px, 8);
     assert_int_equal(warnings.count, 1);
     assert_false(PARSE("gnomon", "-c", (char *)in_folder("bad.ini")));
     write_file("bad.ini", "[mode \"A\"]\nlimit = verts=1\n[mode \"B\"]\nwithout = wings\n");
@@ -293,21 +293,21 @@ static void only_show_and_the_bare_command_search(void **state) {
     write_file("gnomon/kiosk.ini", "[render]\nmap = 64\n");
     setenv("XDG_CONFIG_HOME", folder, 1);
     assert_true(PARSE("gnomon", "show"));
-    assert_int_equal(options.map_px, 64);
+    assert_int_equal(options.settings->render.map_px, 64);
     assert_string_equal(options.config_path, in_folder("gnomon/kiosk.ini"));
     assert_true(PARSE("gnomon"));
-    assert_int_equal(options.map_px, 64);
+    assert_int_equal(options.settings->render.map_px, 64);
     assert_true(PARSE("gnomon", "render"));
-    assert_int_equal(options.map_px, 1024);
+    assert_int_equal(options.settings->render.map_px, 1024);
     setenv("XDG_CONFIG_HOME", "relative", 1);
     assert_true(PARSE("gnomon", "show"));
-    assert_int_equal(options.map_px, 1024);
+    assert_int_equal(options.settings->render.map_px, 1024);
     assert_int_equal(mkdir(in_folder(".config"), 0700), 0);
     assert_int_equal(mkdir(in_folder(".config/gnomon"), 0700), 0);
     write_file(".config/gnomon/kiosk.ini", "[render]\nmap = 32\n");
     setenv("HOME", folder, 1);
     assert_true(PARSE("gnomon", "show"));
-    assert_int_equal(options.map_px, 32);
+    assert_int_equal(options.settings->render.map_px, 32);
 }
 
 static int enter(void **state) {

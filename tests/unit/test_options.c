@@ -33,47 +33,47 @@ static void assert_wrong(const char *line, const char *says) {
 static void nothing_gives_the_defaults(void **state) {
     (void)state;
     assert_true(parse(""));
-    assert_int_equal(options.command, GN_COMMAND_AUTO);
-    assert_null(options.scene);
-    assert_int_equal(options.size.width_px, 1280);
-    assert_int_equal(options.size.height_px, 720);
-    assert_int_equal(options.map_px, 1024);
-    assert_string_equal(options.shadow, "pcf");
-    assert_string_equal(options.backend, "auto");
-    assert_string_equal(options.map_format, "auto");
-    assert_true(isnan(options.exposure_ev));
-    assert_true(options.shadow_strength == 1);
-    assert_false(gn_options_given(&options, shadow));
+    assert_int_equal(options.settings->run.command, GN_COMMAND_AUTO);
+    assert_null(options.settings->scene.path);
+    assert_int_equal(options.settings->render.size.width_px, 1280);
+    assert_int_equal(options.settings->render.size.height_px, 720);
+    assert_int_equal(options.settings->render.map_px, 1024);
+    assert_string_equal(options.settings->render.shadow, "pcf");
+    assert_string_equal(options.settings->display.backend, "auto");
+    assert_string_equal(options.settings->render.map_format, "auto");
+    assert_true(isnan(options.settings->render.exposure_ev));
+    assert_true(options.settings->render.shadow_strength == 1);
+    assert_false(gn_settings_given(options.settings, render.shadow));
 }
 
 static void values_come_in_three_ways(void **state) {
     (void)state;
     assert_true(parse("render a.glb --size 640x480 --map=256 -oout.png"));
-    assert_int_equal(options.command, GN_COMMAND_RENDER);
-    assert_string_equal(options.scene, "a.glb");
-    assert_int_equal(options.size.height_px, 480);
-    assert_int_equal(options.map_px, 256);
-    assert_string_equal(options.out, "out.png");
-    assert_true(gn_options_given(&options, map_px));
+    assert_int_equal(options.settings->run.command, GN_COMMAND_RENDER);
+    assert_string_equal(options.settings->scene.path, "a.glb");
+    assert_int_equal(options.settings->render.size.height_px, 480);
+    assert_int_equal(options.settings->render.map_px, 256);
+    assert_string_equal(options.settings->run.out, "out.png");
+    assert_true(gn_settings_given(options.settings, render.map_px));
     assert_true(parse("-v render -o x.png a.glb"));
-    assert_true(options.verbose);
-    assert_string_equal(options.scene, "a.glb");
+    assert_true(options.settings->run.verbose);
+    assert_string_equal(options.settings->scene.path, "a.glb");
     assert_true(parse("render -vo x.png -- -odd.glb"));
-    assert_string_equal(options.scene, "-odd.glb");
+    assert_string_equal(options.settings->scene.path, "-odd.glb");
 }
 
 static void the_last_of_two_wins(void **state) {
     (void)state;
     assert_true(parse("render --map 64 --map 128"));
-    assert_int_equal(options.map_px, 128);
+    assert_int_equal(options.settings->render.map_px, 128);
 }
 
 static void a_value_knows_where_it_comes_from(void **state) {
     (void)state;
     assert_true(parse("render --camera Top --mode hard"));
-    assert_string_equal(gn_options_label(&options, camera), "--camera");
-    assert_string_equal(gn_options_label(&options, shadow), "--mode");
-    assert_string_equal(gn_options_label(&options, size), "size");
+    assert_string_equal(gn_settings_label(options.settings, scene.camera), "--camera");
+    assert_string_equal(gn_settings_label(options.settings, render.shadow), "--mode");
+    assert_string_equal(gn_settings_label(options.settings, render.size), "size");
     assert_wrong("render --mode nosuch", "--mode: there is no shadow technique 'nosuch'");
 }
 
@@ -87,19 +87,19 @@ static void every_kind_is_read(void **state) {
     (void)state;
     assert_true(parse(
         "render --aov map --output linear --exposure -1.5 --time 1.25 --msaa 4 --no-animation"));
-    assert_int_equal(options.output, GN_PICTURE_LINEAR);
-    assert_true(options.exposure_ev == -1.5);
-    assert_true(options.time_ns == 1250000000);
-    assert_int_equal(options.msaa, 4);
-    assert_true(options.no_animation);
+    assert_int_equal(options.settings->render.output, GN_PICTURE_LINEAR);
+    assert_true(options.settings->render.exposure_ev == -1.5);
+    assert_true(options.settings->scene.time_ns == 1250000000);
+    assert_int_equal(options.settings->render.msaa, 4);
+    assert_true(options.settings->scene.no_animation);
     assert_true(parse("render --limit nodes=5 --limit texels=7"));
-    assert_int_equal(options.limits.count, 2);
-    assert_string_equal(options.limits.items[0].name, "nodes");
-    assert_int_equal(options.limits.items[1].value, 7);
+    assert_int_equal(options.settings->render.limits.count, 2);
+    assert_string_equal(options.settings->render.limits.items[0].name, "nodes");
+    assert_int_equal(options.settings->render.limits.items[1].value, 7);
     assert_true(parse("show --display-mode 1920x1080@59.94 --rotate 90"));
-    assert_int_equal(options.display_mode.width_px, 1920);
-    assert_true(options.display_mode.hz == 59.94);
-    assert_int_equal(options.rotate_deg, 90);
+    assert_int_equal(options.settings->display.mode.width_px, 1920);
+    assert_true(options.settings->display.mode.hz == 59.94);
+    assert_int_equal(options.settings->display.rotate_deg, 90);
 }
 
 static void a_wrong_value_names_option_value_and_range(void **state) {
@@ -148,15 +148,15 @@ static void a_wrong_value_names_option_value_and_range(void **state) {
 static void help_and_version_are_commands_too(void **state) {
     (void)state;
     assert_true(parse("help"));
-    assert_true(options.help);
-    assert_int_equal(options.command, GN_COMMAND_AUTO);
+    assert_true(options.settings->run.help);
+    assert_int_equal(options.settings->run.command, GN_COMMAND_AUTO);
     assert_true(parse("help render"));
-    assert_true(options.help);
-    assert_int_equal(options.command, GN_COMMAND_RENDER);
+    assert_true(options.settings->run.help);
+    assert_int_equal(options.settings->run.command, GN_COMMAND_RENDER);
     assert_true(parse("version"));
-    assert_true(options.version);
+    assert_true(options.settings->run.version);
     assert_true(parse("-V"));
-    assert_true(options.version);
+    assert_true(options.settings->run.version);
     assert_wrong("help rendr", "did you mean render?");
     assert_wrong("version now", "unexpected argument \"now\"");
 }
@@ -165,7 +165,7 @@ static void a_letter_takes_no_equals_sign(void **state) {
     (void)state;
     assert_wrong("render -o=q.png", "-o: write -o VALUE or --out=VALUE, not -o=q.png");
     assert_true(parse("render -oq.png"));
-    assert_string_equal(options.out, "q.png");
+    assert_string_equal(options.settings->run.out, "q.png");
 }
 
 static void wrong_words_are_explained(void **state) {
@@ -195,19 +195,19 @@ static void wrong_words_are_explained(void **state) {
 static void a_missing_file_is_not_a_wrong_command(void **state) {
     (void)state;
     assert_true(parse("missing.glb"));
-    assert_string_equal(options.scene, "missing.glb");
-    assert_int_equal(options.command, GN_COMMAND_AUTO);
+    assert_string_equal(options.settings->scene.path, "missing.glb");
+    assert_int_equal(options.settings->run.command, GN_COMMAND_AUTO);
 }
 
 static void help_and_version_need_nothing_else(void **state) {
     (void)state;
     assert_true(parse("render --help -c /nonexistent.ini"));
-    assert_true(options.help);
-    assert_int_equal(options.command, GN_COMMAND_RENDER);
+    assert_true(options.settings->run.help);
+    assert_int_equal(options.settings->run.command, GN_COMMAND_RENDER);
     assert_true(parse("rendr --version"));
-    assert_true(options.version);
+    assert_true(options.settings->run.version);
     assert_true(parse("-h"));
-    assert_true(options.help);
+    assert_true(options.settings->run.help);
 }
 
 /* ---- modes --------------------------------------------------------------------------------- */
@@ -215,11 +215,12 @@ static void help_and_version_need_nothing_else(void **state) {
 static void without_a_file_the_techniques_are_modes(void **state) {
     (void)state;
     assert_true(parse("render --mode hard"));
-    assert_string_equal(options.shadow, "hard");
-    assert_int_equal(gn_options_source(&options, offsetof(struct gn_options, shadow)),
-                     GN_SOURCE_MODE);
+    assert_string_equal(options.settings->render.shadow, "hard");
+    assert_int_equal(
+        gn_settings_source(options.settings, offsetof(struct gn_settings, render.shadow)),
+        GN_SOURCE_MODE);
     assert_true(parse("render --mode hard --shadow pcf3"));
-    assert_string_equal(options.shadow, "pcf3");
+    assert_string_equal(options.settings->render.shadow, "pcf3");
 }
 
 /* ---- the table ----------------------------------------------------------------------------- */
@@ -244,7 +245,7 @@ static void rows_are_complete_and_different(void **state) {
         assert_non_null(a->help);
         assert_true(a->commands || a->section);
         assert_true(!a->value == (a->kind == GN_KIND_FLAG));
-        assert_true(a->offset + gn_value_size(a->kind) <= sizeof(struct gn_options));
+        assert_true(a->offset + gn_value_size(a->kind) <= sizeof(struct gn_settings));
         for (int k = 0; k < i; k++) {
             const struct gn_option_row *b = &gn_option_rows[k];
             assert_string_not_equal(a->name, b->name);
@@ -275,12 +276,12 @@ static void options_of_the_display_are_taken(void **state) {
     assert_true(parse("show --rotate 90 --connector HDMI-A-2 --card platform-gpu-card --legacy "
                       "--display-mode 1280x720@50"));
     assert_int_equal(warnings.count, 0);
-    assert_int_equal(options.rotate_deg, 90);
-    assert_string_equal(options.connector, "HDMI-A-2");
-    assert_string_equal(options.card, "platform-gpu-card");
-    assert_true(options.legacy);
-    assert_int_equal(options.display_mode.height_px, 720);
-    assert_int_equal(options.max_fps, 0);
+    assert_int_equal(options.settings->display.rotate_deg, 90);
+    assert_string_equal(options.settings->display.connector, "HDMI-A-2");
+    assert_string_equal(options.settings->display.card, "platform-gpu-card");
+    assert_true(options.settings->display.legacy);
+    assert_int_equal(options.settings->display.mode.height_px, 720);
+    assert_int_equal(options.settings->display.max_fps, 0);
     gn_options_finish(&options);
 }
 

@@ -123,8 +123,8 @@ static void fault(void) {
 static void quit(void) { raise(SIGQUIT); } /* Ctrl-\ */
 static void driver_crash(void) {
     struct gn_wake wake = {0};
-    const struct gn_options options = {0};
-    gn_wake_begin(&wake, &options);
+    const struct gn_settings settings = {0};
+    gn_wake_begin(&wake, &settings);
     fault();
 }
 

@@ -15,7 +15,6 @@
 #include "kiosk/control/status.h"
 #include "kiosk/screenshot.h"
 #include "kiosk/show.h"
-#include "options/value.h"
 
 static const int64_t SHOT_NS = 5 * GN_NS_PER_S; /* a frame comes sooner, or nothing is shown */
 
@@ -55,13 +54,13 @@ static void close_all(struct gn_show_control *c) {
 }
 
 static bool is_window(const struct gn_show *s) {
-    return s->place || strcmp(s->options->backend, "window") == 0;
+    return s->place || strcmp(s->stage.settings->display.backend, "window") == 0;
 }
 
 void gn_show_open_control(struct gn_show *s) {
     char path[GN_LISTEN_PATH_MAX];
     struct gn_err err = {0};
-    const char *named = s->options->socket;
+    const char *named = s->stage.settings->kiosk.socket;
     if (!named && (is_window(s) || !gn_listen_default(path, sizeof path))) return;
     struct gn_show_control *c = gn_xalloc(1, sizeof *c);
     *c = (struct gn_show_control){.epoll = -1, .timer = -1};
@@ -117,42 +116,42 @@ static json_t *act(struct gn_show *s, const struct gn_request *r, struct gn_err 
 
 /* ---- options ---- */
 
-/* The mode is taken off meanwhile, so that what it overrides is not mistaken for what was set. */
-static bool change(struct gn_show *s, const struct gn_option_row *row, const char *text,
-                   struct gn_err *err) {
-    gn_options_drop_mode(s->options);
-    bool ok = gn_options_change(s->options, row, text, err);
-    if (ok && !gn_show_look(s, s->stage.scene, &s->looks, err)) {
-        struct gn_err unused = {0};
-        gn_options_drop_mode(s->options);
-        gn_options_change_back(s->options, row);
-        ok = gn_show_look(s, s->stage.scene, &s->looks, &unused) && false;
+/* What cannot be drawn with is taken back, and all stays as it was. */
+static bool change_option(struct gn_show *s, const struct gn_option_row *row, const char *text,
+                          struct gn_err *err) {
+    struct gn_show_looks looks;
+    if (!s->changes) s->changes = gn_changes_create(s->options);
+    if (!gn_changes_set(s->changes, row, text, err)) return false;
+    if (!gn_show_look(s, s->stage.scene, &looks, err)) {
+        gn_changes_undo(s->changes);
+        return false;
     }
-    gn_show_apply_options(s, s->kiosk.shown.mode);
+    s->looks = looks;
+    s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
     s->rests = false; /* whatever was looked at has no programs yet */
-    return ok;
+    return true;
 }
 
 static json_t *set(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
-    const struct gn_option_row *row = gn_options_find_change(r->words[0], err);
+    const struct gn_option_row *row = gn_changes_find(r->words[0], err);
     char text[1024];
-    if (!row || !change(s, row, r->words[1], err)) return NULL;
+    if (!row || !change_option(s, row, r->words[1], err)) return NULL;
     gn_show_take_rules(s);
     gn_show_drop_staged(s); /* it was made ready for the options as they were */
     s->control->status.waits = true;
-    gn_value_text(row, (const char *)s->options + row->offset, text, sizeof text);
+    gn_settings_text(s->stage.settings, row, text, sizeof text);
     return json_pack("{s:s, s:o}", "key", row->name, "value", gn_reply_text(text));
 }
 
 static json_t *get(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
-    const struct gn_option_row *row = gn_options_find_change(r->words[0], err);
+    const struct gn_option_row *row = gn_changes_find(r->words[0], err);
     char text[1024];
     if (!row) return NULL;
-    const struct gn_options *o = s->options;
-    const bool given = gn_options_source(o, row->offset) != GN_SOURCE_DEFAULT;
-    gn_value_text(row, (const char *)o + row->offset, text, sizeof text);
+    const struct gn_settings *o = s->stage.settings;
+    const bool given = gn_settings_source(o, row->offset) != GN_SOURCE_DEFAULT;
+    gn_settings_text(o, row, text, sizeof text);
     return json_pack("{s:s, s:o, s:o}", "key", row->name, "value", gn_reply_text(text), "from",
-                     gn_reply_text(given ? gn_options_label_at(o, row->offset) : "the default"));
+                     gn_reply_text(given ? gn_settings_label_at(o, row->offset) : "the default"));
 }
 
 /* The programs of the mode that is shown are made first, and the old picture stays until then. */

@@ -1,0 +1,131 @@
+/* Settings: a value for each option of the table, resolved, and where each comes from. They are
+ * made once, as the configuration is read (options.h): one for each mode, one without. Nothing
+ * changes them afterwards; entering a mode is choosing a pointer. */
+#ifndef GN_OPTIONS_SETTINGS_H
+#define GN_OPTIONS_SETTINGS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "options/table.h"
+
+struct gn_size {
+    int width_px, height_px;
+};
+struct gn_display_mode {
+    int width_px, height_px;
+    double hz; /* 0: any */
+};
+#define GN_LIMITS_MAX 16
+struct gn_limit {
+    const char *name;
+    int64_t value;
+};
+struct gn_limits {
+    int count;
+    struct gn_limit items[GN_LIMITS_MAX];
+};
+#define GN_SCENES_MAX 16
+struct gn_scene_list {
+    const char *paths[GN_SCENES_MAX]; /* [0] NULL: the default scene inside the program */
+    int count;
+};
+enum gn_picture { GN_PICTURE_SRGB, GN_PICTURE_LINEAR }; /* --output */
+
+enum gn_source {
+    GN_SOURCE_DEFAULT,
+    GN_SOURCE_INI,
+    GN_SOURCE_MODE,
+    GN_SOURCE_FLAG,
+    GN_SOURCE_SET, /* while running; a reload forgets it */
+};                 /* later ones win */
+
+struct gn_scene_settings {
+    union {
+        const char *path;          /* NULL: the default scene inside the program */
+        struct gn_scene_list list; /* that one, and what `show` goes on to */
+    };
+    const char *camera, *animation; /* NAME or number; NULL: the first; animation may be "none" */
+    bool no_animation;
+    int64_t time_ns;
+    double turntable_deg_s;
+};
+struct gn_render_settings {
+    struct gn_size size;
+    const char *shadow; /* technique; a comma list for bench. Given (see below) it beats what a
+                           light says */
+    int map_px;         /* given it beats what a light says */
+    const char *map_format;
+    int planar_in_stencil; /* 0, 1 */
+    int taps;
+    bool taps_fixed;
+    double filter_budget;   /* million texels; 0: no end */
+    double shadow_strength; /* given it beats what a light says */
+    bool show_lights, show_maps;
+    int light; /* number of the light that --aov visibility and map show */
+    int aov;   /* enum gn_aov, or GN_AOV_COUNT: the light's map */
+    enum gn_picture output;
+    double exposure_ev; /* NAN: automatic */
+    int msaa;           /* samples: 0, 2 or 4 */
+    const char *font;   /* of texts on the picture: a file; NULL: the first of the usual ones */
+    const char *shaders, *without;
+    struct gn_limits limits;
+};
+struct gn_display_settings {
+    const char *backend, *card, *render_node, *connector;
+    struct gn_display_mode mode; /* 0x0: the display's */
+    struct gn_display_mode max_mode;
+    const char *modeline;
+    int rotate_deg, max_fps; /* 0: as fast as the display */
+    bool legacy;
+};
+struct gn_kiosk_settings {
+    int idle; /* enum gn_idle */
+    int64_t idle_after_ns, fade_ns;
+    const char *socket; /* NULL: see gn_listen_default() */
+    bool captions;
+    int64_t caption_ns;
+};
+struct gn_run_settings { /* of this run of the program: flags only */
+    enum gn_command command;
+    const char *input_script;
+    const char *config, *mode, *out;
+    const char *check;   /* a configuration file that is only looked at, or NULL */
+    const char *caption; /* text on the picture, or NULL */
+    int frames;
+    double fps;
+    bool plan, json, self_test, stats, verbose, version, help;
+};
+struct gn_settings {
+    const char *mode; /* the name of the mode that is in them, or NULL */
+    struct gn_scene_settings scene;
+    struct gn_render_settings render;
+    struct gn_display_settings display;
+    struct gn_kiosk_settings kiosk;
+    struct gn_run_settings run;
+    uint8_t source[GN_OPTION_COUNT];    /* enum gn_source of each row */
+    const char *label[GN_OPTION_COUNT]; /* see gn_settings_label(); NULL: at its default */
+};
+
+/* For those that make them: sets a value if nothing stronger has set it. The label must outlive the
+ * settings. */
+void gn_settings_put(struct gn_settings *settings, const struct gn_option_row *row,
+                     const void *value, enum gn_source source, const char *label);
+
+const void *gn_settings_value(const struct gn_settings *settings, const struct gn_option_row *row);
+/* As one would write it: "pcf", "1280x720", "auto". */
+void gn_settings_text(const struct gn_settings *settings, const struct gn_option_row *row,
+                      char *out, size_t size);
+
+/* Where a field's value comes from, by the field: gn_settings_source(s, offsetof(struct
+ * gn_settings, render.shadow)). */
+enum gn_source gn_settings_source(const struct gn_settings *settings, size_t offset);
+/* How a message names a field, by where its value comes from: "--camera", "kiosk.ini:9: camera". */
+const char *gn_settings_label_at(const struct gn_settings *settings, size_t offset);
+#define gn_settings_label(settings, field)                                                         \
+    gn_settings_label_at(settings, offsetof(struct gn_settings, field))
+#define gn_settings_given(settings, field)                                                         \
+    (gn_settings_source(settings, offsetof(struct gn_settings, field)) != GN_SOURCE_DEFAULT)
+
+#endif

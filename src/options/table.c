@@ -1,0 +1,101 @@
+#include "options/table.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "frame/plan.h"
+#include "options/action.h"
+#include "options/settings.h"
+
+#define BIT(command) (1u << GN_COMMAND_##command)
+#define KIOSK        (BIT(AUTO) | BIT(SHOW))
+#define DRAW         (KIOSK | BIT(RENDER) | BIT(BENCH))
+#define ANY          ((1u << GN_COMMAND_COUNT) - 1)
+#define FIELD(name)  offsetof(struct gn_settings, name)
+
+static const struct gn_choice backends[] = {{"auto", 0}, {"kms", 0},    {"window", 0},
+                                            {"egl", 0},  {"osmesa", 0}, {0}};
+static const struct gn_choice map_formats[] = {{"auto", 0},
+                                               {"depth", 0},
+                                               {"r32ui", 0},
+                                               {"r16f", 0},
+                                               {"r16f-raw", 0},
+                                               {"rgba8", 0},
+                                               {"rg32ui", 0},
+                                               {"rgba16ui", 0},
+                                               {"rgba16f", 0},
+                                               {"rgba32f-bits", 0},
+                                               {"rgba32f-share", 0},
+                                               {"rgba32ui", 0},
+                                               {0}};
+static const struct gn_choice aovs[] = {
+    {"color", GN_AOV_COLOR},       {"visibility", GN_AOV_VISIBILITY},
+    {"distance", GN_AOV_DISTANCE}, {"normal", GN_AOV_NORMAL},
+    {"map", GN_AOV_COUNT},         {0}};
+static const struct gn_choice outputs[] = {
+    {"srgb", GN_PICTURE_SRGB}, {"linear", GN_PICTURE_LINEAR}, {0}};
+static const struct gn_choice planar_ways[] = {{"mask", 0}, {"stencil", 1}, {0}};
+static const struct gn_choice samples[] = {{"0", 0}, {"2", 2}, {"4", 4}, {0}};
+static const struct gn_choice tap_counts[] = {{"8", 8}, {"16", 16}, {"32", 32}, {0}};
+static const struct gn_choice idles[] = {
+    {"none", GN_IDLE_NONE}, {"first", GN_IDLE_FIRST}, {"next", GN_IDLE_NEXT}, {0}};
+static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};
+
+const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
+    [GN_COMMAND_AUTO] =
+        {NULL, "[OPTION..] [SCENE]",
+         "shows a scene: in a window, without a desktop full screen, else as gnomon.png"},
+    [GN_COMMAND_SHOW] = {"show", "show [OPTION..] [SCENE..]",
+                         "the kiosk: full screen without a desktop, runs until it is told to end"},
+    [GN_COMMAND_RENDER] = {"render", "render [OPTION..] [SCENE] -o FILE",
+                           "draws into a file: .png, .pfm, or frame-%04d.png with --frames"},
+    [GN_COMMAND_BENCH] =
+        {"bench", "bench [OPTION..] [SCENE]",
+         "measures: time per frame and pass, draws, triangles, bytes, first picture, memory"},
+    [GN_COMMAND_INSPECT] = {"inspect", "inspect [OPTION..] [SCENE]",
+                            "says what is in a scene, what it costs and what is wrong with it"},
+    [GN_COMMAND_DOCTOR] = {"doctor", "doctor [OPTION..]",
+                           "says what this machine can do, and the cure for what it cannot"},
+    [GN_COMMAND_CTL] = {"ctl", "ctl [OPTION..] COMMAND [WORD..]", "talks to a running kiosk"},
+};
+
+const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
+#define GN_OPTION(...) {__VA_ARGS__},
+#include "options/rows.h"
+};
+
+static const struct gn_option_row *end_of_rows(void) { return gn_option_rows + GN_OPTION_COUNT; }
+
+const struct gn_option_row *gn_option_find(const char *name, size_t length) {
+    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++)
+        if (row->commands && strlen(row->name) == length && memcmp(row->name, name, length) == 0)
+            return row;
+    return NULL;
+}
+
+const struct gn_option_row *gn_option_find_letter(char letter) {
+    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++)
+        if (row->letter && row->letter == letter) return row;
+    return NULL;
+}
+
+const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t size) {
+    snprintf(buffer, size, "%s", row->key ? row->key : row->name);
+    for (char *c = buffer; *c; c++)
+        if (*c == '-') *c = '_';
+    return buffer;
+}
+
+static bool in_section(const struct gn_option_row *row, const char *section) {
+    if (!row->section) return false;
+    if (section) return strcmp(row->section, section) == 0;
+    return strcmp(row->section, "scene") == 0 || strcmp(row->section, "render") == 0;
+}
+
+const struct gn_option_row *gn_option_find_key(const char *section, const char *key) {
+    char buffer[64];
+    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++)
+        if (in_section(row, section) && strcmp(gn_option_key(row, buffer, sizeof buffer), key) == 0)
+            return row;
+    return NULL;
+}

@@ -1,0 +1,80 @@
+/* The table of options. A row makes a flag, an INI key, a line of --help and of the man page, and
+ * fills a field of struct gn_settings; whoever needs the value reads the field. */
+#ifndef GN_OPTIONS_TABLE_H
+#define GN_OPTIONS_TABLE_H
+
+#include <stddef.h>
+
+enum gn_command {
+    GN_COMMAND_AUTO, /* bare `gnomon [SCENE]` */
+    GN_COMMAND_SHOW,
+    GN_COMMAND_RENDER,
+    GN_COMMAND_BENCH,
+    GN_COMMAND_INSPECT,
+    GN_COMMAND_DOCTOR,
+    GN_COMMAND_CTL,
+    GN_COMMAND_COUNT,
+};
+struct gn_command_row {
+    const char *name;  /* NULL for the bare command */
+    const char *usage; /* what follows `gnomon` */
+    const char *what;  /* a sentence */
+};
+extern const struct gn_command_row gn_commands[GN_COMMAND_COUNT];
+
+enum gn_option_kind {
+    GN_KIND_FLAG,       /* bool; INI: yes or no */
+    GN_KIND_INT,        /* int, min..max */
+    GN_KIND_NUMBER,     /* double, min..max */
+    GN_KIND_SECONDS,    /* int64_t nanoseconds; decimal seconds, min..max */
+    GN_KIND_SIZE,       /* struct gn_size, each min..max */
+    GN_KIND_MODE,       /* struct gn_display_mode: WxH or WxH@HZ, each side min..max */
+    GN_KIND_EV,         /* double, min..max, or NAN for "auto" */
+    GN_KIND_CHOICE,     /* int: the value of a choice */
+    GN_KIND_WORD,       /* const char *: the name of a choice; another room knows what it means */
+    GN_KIND_TECHNIQUES, /* const char *: names of shadow techniques, a comma between two */
+    GN_KIND_TEXT,       /* const char *: anything but nothing */
+    GN_KIND_MODELINE,   /* const char *: a mode as X's configuration has it, without its name */
+    GN_KIND_PATH,       /* const char *: in an INI file seen from the file's folder */
+    GN_KIND_SCENES,     /* struct gn_scene_list: a path, given again it adds */
+    GN_KIND_LIMIT,      /* struct gn_limits: NAME=VALUE, given again it adds */
+    GN_KIND_CAPS,       /* const char *: names of gn_cap, a comma between two */
+    GN_KIND_COUNT,
+};
+struct gn_choice { /* rows end with a NULL name */
+    const char *name;
+    int value;
+};
+
+struct gn_option_row {
+    const char *name;    /* --name; the INI key has _ for - */
+    const char *key;     /* INI key where it is another one, else NULL */
+    const char *section; /* of the INI file: "display", "scene", "render", "kiosk"; NULL: only a
+                            flag */
+    char letter;         /* -x, or 0 */
+    enum gn_option_kind kind;
+    double min, max;
+    const struct gn_choice *choices;
+    const char *value;    /* how help names the value: "PX" */
+    const char *unit;     /* "px", or NULL */
+    const char *fallback; /* the default, as one would write it; NULL: unset (zero) */
+    const char *help;     /* a phrase without full stop */
+    unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
+    size_t offset;        /* of its field in struct gn_settings */
+};
+enum {
+    GN_OPTION_COUNT = 0
+#define GN_OPTION(...) +1
+#include "options/rows.h"
+#undef GN_OPTION
+};
+extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
+
+const struct gn_option_row *gn_option_find(const char *name,
+                                           size_t length); /* by --name, or NULL */
+const struct gn_option_row *gn_option_find_letter(char letter);
+/* By INI section and key; NULL section: any of scene and render, as in [mode "NAME"]. */
+const struct gn_option_row *gn_option_find_key(const char *section, const char *key);
+const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t size);
+
+#endif
