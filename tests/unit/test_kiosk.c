@@ -177,6 +177,21 @@ static void idleness_goes_to_the_first_or_to_the_next(void **state) {
     assert_int_equal(s.wanted.mode, 2);
 }
 
+static void idleness_closes_the_info_page(void **state) {
+    (void)state;
+    static const enum gn_idle ways[] = {GN_IDLE_FIRST, GN_IDLE_NEXT};
+    for (int i = 0; i < 2; i++) {
+        struct gn_kiosk_rules r = three;
+        r.idle = ways[i];
+        r.idle_after_ns = 60 * S;
+        struct gn_kiosk s = act(&r, (struct gn_kiosk){0}, 10 * S, GN_ACTION_INFO);
+        s = on(&r, s, GN_KIOSK_TICK, 69 * S);
+        assert_true(gn_kiosk_view(&r, &s, 69 * S).info);
+        s = on(&r, s, GN_KIOSK_TICK, 70 * S);
+        assert_false(gn_kiosk_view(&r, &s, 70 * S).info);
+    }
+}
+
 /* ---- at random ---- */
 
 static uint32_t dice(uint64_t *seed, uint32_t sides) {
@@ -282,6 +297,7 @@ int main(void) {
         cmocka_unit_test(a_mode_that_does_not_compile_is_passed_over),
         cmocka_unit_test(captions_and_fades_end),
         cmocka_unit_test(idleness_goes_to_the_first_or_to_the_next),
+        cmocka_unit_test(idleness_closes_the_info_page),
         cmocka_unit_test(no_press_is_lost_and_none_counts_twice),
         cmocka_unit_test(the_default_buttons_do_what_the_design_says),
     };
