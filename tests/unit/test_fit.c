@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "shadow/fit.h"
@@ -37,11 +38,11 @@ static void load(struct stage *s, const char *light, float scale) {
     if (!s->scene) fail_msg("%s", err.text);
 }
 
-static void begin(struct stage *s, const char *light, float scale) {
+/* The eye and the rest of the stage, for the scene that is loaded. */
+static void begin_loaded(struct stage *s, float scale) {
     mat4 view_from_world, clip_from_view, clip_from_world;
-    *s = (struct stage){
-        .opts = {.technique = GN_TECHNIQUE_PCF, .encoding = GN_ENCODING_DEPTH, .map_px = 1024}};
-    load(s, light, scale);
+    s->opts = (struct gn_shadow_opts){
+        .technique = GN_TECHNIQUE_PCF, .encoding = GN_ENCODING_DEPTH, .map_px = 1024};
     gn_pose_init(&s->pose, s->scene, GN_POSE_NONE);
     glm_lookat((vec3){0, 8 * scale, 12 * scale}, GLM_VEC3_ZERO, GLM_YUP, view_from_world);
     glm_perspective(1.0f, 1.0f, 0.1f * scale, 100.0f * scale, clip_from_view);
@@ -49,6 +50,12 @@ static void begin(struct stage *s, const char *light, float scale) {
     gn_eye_build(&s->eye, clip_from_world);
     for (int i = 0; i < GN_SHADOW_TILES_MAX; i++)
         gn_shadow_memory_init(&s->memory[i], s->scene->item_count);
+}
+
+static void begin(struct stage *s, const char *light, float scale) {
+    *s = (struct stage){0};
+    load(s, light, scale);
+    begin_loaded(s, scale);
 }
 
 static void end(struct stage *s) {
@@ -169,6 +176,85 @@ static void look_up(struct stage *s, float x, float z, vec3 out) {
     glm_vec3_scale(p, 1.0f / p[3], out);
 }
 
+/* The table under a sun, and one more node: JSON. */
+static void begin_with(struct stage *s, struct gn_maker *maker, const char *node) {
+    struct gn_err err = {0};
+    gn_maker_set(maker, "extensions",
+                 "{'KHR_lights_punctual':{'lights':[{'type':'directional'}]}}");
+    gn_maker_add(maker, "nodes",
+                 "{'rotation':[-0.70710678,0,0,0.70710678],"
+                 "'extensions':{'KHR_lights_punctual':{'light':0}}}");
+    gn_maker_add(maker, "nodes", node);
+    *s = (struct stage){0};
+    s->scene = gn_maker_load(maker, NULL, &err);
+    if (!s->scene) fail_msg("%s", err.text);
+    begin_loaded(s, 1);
+}
+
+/* Two tables, at 0 and 3, over a floor. */
+static void test_a_window_holds_all_casters(void **state) {
+    (void)state;
+    struct stage s;
+    struct gn_maker maker;
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_add(&maker, "nodes", "{'mesh':0,'translation':[0,-1,0],'scale':[9,9,9]}");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3]}]");
+    begin_with(&s, &maker, "{'mesh':0,'translation':[3,0,0]}");
+    assert_true(fit(&s));
+    for (float x = -0.9f; x < 4; x += 0.9f) {
+        vec3 at;
+        look_up(&s, x, 0, at);
+        assert_true(at[0] > 0 && at[0] < 1 && at[1] > 0 && at[1] < 1);
+    }
+    end(&s);
+}
+
+/* A mesh that has too many triangles to look at each, with those positions and these indices, often
+ * enough. */
+static int add_large_mesh(struct gn_maker *maker, int positions, const uint16_t *indices,
+                          size_t count) {
+    enum { LARGE = 30060 };
+    static uint16_t all[LARGE];
+    char text[100];
+    for (size_t i = 0; i < LARGE; i++) all[i] = indices[i % count];
+    const int accessor = gn_maker_accessor(maker, "SCALAR", 5123, LARGE, all, sizeof all, NULL);
+    snprintf(text, sizeof text, "{'primitives':[{'attributes':{'POSITION':%d},'indices':%d}]}",
+             positions, accessor);
+    return gn_maker_add(maker, "meshes", text);
+}
+
+/* Splits go by powers from the nearest to the farthest place in a shadow, each to its next step. */
+static void expect_distances(struct stage *s, float near_m, float far_m) {
+    s->scene->items[0].receives = false;
+    s->opts.cascades = 3;
+    assert_true(fit(s));
+    const float a = s->view.cascades[0].end_m, b = s->view.cascades[1].end_m;
+    assert_float_equal(a * a / b, near_m, 1e-3f);
+    assert_float_equal(b * b / a, far_m, 1e-3f);
+}
+
+/* The eye is at 0 8 12 and looks at 0, 33.7 degrees down: what is below the table is from 16.9 to
+ * 18.6 away, on a floor at -6; and splits are 1.25 apart at least. */
+static void test_distances_of_large_meshes_are_those_of_their_boxes(void **state) {
+    static const uint16_t square[] = {0, 1, 2, 0, 2, 3};
+    (void)state;
+    for (int large = 0; large < 2; large++) {
+        struct stage s;
+        struct gn_maker maker;
+        char node[100];
+        gn_maker_init(&maker);
+        gn_maker_square(&maker);
+        gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2]}]");
+        const int mesh = large ? add_large_mesh(&maker, 0, square, 6) : 0;
+        snprintf(node, sizeof node, "{'mesh':%d,'translation':[0,-6,0],'scale':[9,9,9]}", mesh);
+        begin_with(&s, &maker, node);
+        s.scene->items[1].casts = false;
+        expect_distances(&s, 16, 31.25f);
+        end(&s);
+    }
+}
+
 /* Techniques divide by the area that a step along x and one along z make on the map. */
 static void expect_empty(const char *light, enum gn_technique technique) {
     struct stage s;
@@ -221,6 +307,8 @@ int main(void) {
         cmocka_unit_test(test_a_kept_memory_fits_as_a_new_one),
         cmocka_unit_test(test_what_is_beyond_the_range_takes_no_part),
         cmocka_unit_test(test_all_receive_where_visibility_is_the_picture),
+        cmocka_unit_test(test_a_window_holds_all_casters),
+        cmocka_unit_test(test_distances_of_large_meshes_are_those_of_their_boxes),
         cmocka_unit_test(test_an_empty_view_has_no_slope_and_two_directions),
         cmocka_unit_test(test_an_eye_that_is_not_a_number_sees_nothing),
     };
