@@ -8,7 +8,7 @@
 
 static void count_pass(struct gn_scene_cost *cost, const struct gn_plan *plan,
                        const struct gn_pass *pass) {
-    bool shadow = gn_target_is_map(&pass->target) || pass->target.kind == GN_TARGET_MOMENTS;
+    bool shadow = pass->kind != GN_PASS_PICTURE;
     uint64_t triangles = 0;
     for (uint32_t i = 0; i < pass->draw_count; i++) {
         const struct gn_draw *draw = &plan->draws[pass->first_draw + i];

@@ -47,9 +47,9 @@ static void draw_run(struct gn_frame *frame, const struct gn_program_key *key,
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_CAPTIONS);
     if (gn_frame_is_encoded(frame)) pass->target.kind = GN_TARGET_ENCODED;
     pass->rect = gn_frame_turned_rect(frame, rect);
-    pass->blend = GN_BLEND_ALPHA;
+    pass->picture.blend = GN_BLEND_ALPHA;
     pass->depth_write = false;
-    pass->reads_atlas = true;
+    pass->picture.reads_atlas = true;
     pass->constants = c;
     pass->constant_count = CAPTION_SIZE;
     c[CAPTION_PX][0] = 2.0f / (float)frame->picture_width_px;

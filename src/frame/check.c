@@ -7,9 +7,22 @@
         if (!(what)) return #what;                                                                 \
     } while (0)
 
+/* Which passes draw with a program, and whether it takes bare vertices. */
+static const struct {
+    enum gn_pass_kind pass;
+    bool bare;
+} uses[] = {
+    [GN_PROGRAM_DEPTH] = {GN_PASS_MAP, false},      [GN_PROGRAM_DISTANCE] = {GN_PASS_MAP, false},
+    [GN_PROGRAM_FLAT] = {GN_PASS_PICTURE, false},   [GN_PROGRAM_LIT] = {GN_PASS_PICTURE, false},
+    [GN_PROGRAM_AOV] = {GN_PASS_PICTURE, false},    [GN_PROGRAM_MARK] = {GN_PASS_PICTURE, true},
+    [GN_PROGRAM_PANEL] = {GN_PASS_PICTURE, true},   [GN_PROGRAM_ENCODE] = {GN_PASS_PICTURE, true},
+    [GN_PROGRAM_CAPTION] = {GN_PASS_PICTURE, true}, [GN_PROGRAM_FILTER] = {GN_PASS_FILTER, true},
+};
+_Static_assert(sizeof uses / sizeof uses[0] == GN_PROGRAM_KIND_COUNT, "a row for each program");
+
 static const char *check_draw(const struct gn_plan *plan, const struct gn_draw *draw) {
     REQUIRE(draw->program < plan->program_count);
-    const bool bare = plan->programs[draw->program].kind > GN_PROGRAM_AOV;
+    const bool bare = uses[plan->programs[draw->program].kind].bare;
     REQUIRE(bare == (draw->geometry == GN_NO_GEOMETRY));
     REQUIRE(bare ? draw->vertex_count > 0 : draw->geometry < plan->scene->geometry_count);
     REQUIRE(bare || draw->material < plan->scene->material_count);
@@ -54,21 +67,21 @@ static uint32_t slide_count(const struct gn_program_key *key) {
 
 /* What a program needs of the pass that draws with it. */
 static const char *check_use(const struct gn_pass *pass, const struct gn_program_key *key) {
+    REQUIRE(uses[key->kind].pass == pass->kind);
+    if (key->kind == GN_PROGRAM_FILTER) REQUIRE(key->moments == pass->target.moments);
+    if (pass->kind != GN_PASS_PICTURE) return NULL;
+    const struct gn_pass_picture *picture = &pass->picture;
     const bool adds = key->features & GN_FEATURE(ADDITIVE);
-    const bool panel = key->kind == GN_PROGRAM_PANEL;
-    REQUIRE((key->kind < GN_PROGRAM_FLAT) == gn_target_is_map(&pass->target));
-    REQUIRE((key->kind == GN_PROGRAM_FLAT) == pass->only_stencil);
-    REQUIRE((key->kind == GN_PROGRAM_FILTER) == (pass->target.kind == GN_TARGET_MOMENTS));
-    REQUIRE(key->kind != GN_PROGRAM_FILTER || key->moments == pass->target.moments);
-    const bool caption = key->kind == GN_PROGRAM_CAPTION;
-    REQUIRE(key->kind != GN_PROGRAM_ENCODE || pass->target.kind == GN_TARGET_ENCODED);
-    REQUIRE(key->kind == GN_PROGRAM_ENCODE || caption || pass->target.kind != GN_TARGET_ENCODED);
-    REQUIRE(caption == pass->reads_atlas);
-    REQUIRE(adds == (pass->blend == GN_BLEND_ADD));
-    REQUIRE(key->light_count <= pass->light_count);
-    REQUIRE(key->shadow_count <= pass->shadow_count);
-    REQUIRE(slide_count(key) <= pass->slide_count);
-    REQUIRE(panel == pass->reads_codes && (!panel || pass->shadow_count == 1));
+    const bool panel = key->kind == GN_PROGRAM_PANEL, caption = key->kind == GN_PROGRAM_CAPTION;
+    REQUIRE((key->kind == GN_PROGRAM_FLAT) == picture->only_stencil);
+    REQUIRE(caption ||
+            (key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
+    REQUIRE(caption == picture->reads_atlas);
+    REQUIRE(adds == (picture->blend == GN_BLEND_ADD));
+    REQUIRE(key->light_count <= picture->light_count);
+    REQUIRE(key->shadow_count <= picture->shadow_count);
+    REQUIRE(slide_count(key) <= picture->slide_count);
+    REQUIRE(panel == picture->reads_codes && (!panel || picture->shadow_count == 1));
     return NULL;
 }
 
@@ -77,53 +90,75 @@ static bool rect_is_inside(const struct gn_rect *rect, const struct gn_target *t
            rect->y <= target->height_px && rect->height <= target->height_px - rect->y;
 }
 
+/* ---- passes, by kind ---- */
+
 /* The lights and maps that a pass reads; what is added finds the depth of what it is added to. */
 static const char *check_lights(const struct gn_plan *plan, const struct gn_pass *pass) {
-    REQUIRE(pass->light_count <= GN_LIGHTS_MAX && pass->first_light <= plan->light_count);
-    REQUIRE(pass->light_count <= plan->light_count - pass->first_light);
-    REQUIRE(pass->shadow_count <= GN_SHADOWS_MAX && pass->first_shadow <= plan->shadow_count);
-    REQUIRE(pass->shadow_count <= plan->shadow_count - pass->first_shadow);
-    REQUIRE(pass->slide_count <= GN_SLIDES_MAX);
-    for (uint32_t i = 0; i < pass->slide_count; i++)
-        REQUIRE(pass->slides[i] < plan->scene->texture_count);
-    REQUIRE(pass->blend != GN_BLEND_ADD || (!pass->depth_write && !pass->clear));
-    REQUIRE(pass->blend != GN_BLEND_ADD || plan->output != GN_OUTPUT_LINEAR8 || !plan->encode_srgb);
+    const struct gn_pass_picture *p = &pass->picture;
+    REQUIRE(p->light_count <= GN_LIGHTS_MAX && p->first_light <= plan->light_count);
+    REQUIRE(p->light_count <= plan->light_count - p->first_light);
+    REQUIRE(p->shadow_count <= GN_SHADOWS_MAX && p->first_shadow <= plan->shadow_count);
+    REQUIRE(p->shadow_count <= plan->shadow_count - p->first_shadow);
+    REQUIRE(p->slide_count <= GN_SLIDES_MAX);
+    for (uint32_t i = 0; i < p->slide_count; i++)
+        REQUIRE(p->slides[i] < plan->scene->texture_count);
+    if (p->blend != GN_BLEND_ADD) return NULL;
+    REQUIRE(!pass->depth_write && pass->clear.area == GN_CLEAR_NOTHING);
+    REQUIRE(plan->output != GN_OUTPUT_LINEAR8 || !plan->encode_srgb);
     return NULL;
 }
 
 /* What stencil a pass may use; where it is all that is drawn to. */
 static const char *check_stencil(const struct gn_plan *plan, const struct gn_pass *pass) {
-    const struct gn_stencil *s = &pass->stencil;
-    const bool used = s->reads || s->writes || s->clears;
+    const struct gn_stencil *s = &pass->picture.stencil;
+    const bool used = s->reads || s->writes || pass->clear.stencil_bits;
+    const bool clears = pass->clear.area != GN_CLEAR_NOTHING;
     REQUIRE(!used || (plan->stencil && pass->target.kind == GN_TARGET_OUTPUT));
     REQUIRE((s->value & ~(s->reads | s->writes)) == 0);
-    REQUIRE(!s->clears || !pass->clear);
-    REQUIRE(!pass->only_stencil || (s->writes && !pass->depth_write && !pass->clear));
-    REQUIRE(!pass->only_stencil || pass->blend == GN_BLEND_OFF);
+    REQUIRE(!pass->clear.stencil_bits || !clears);
+    if (!pass->picture.only_stencil) return NULL;
+    REQUIRE(s->writes && !pass->depth_write && !clears);
+    REQUIRE(pass->picture.blend == GN_BLEND_OFF);
     return NULL;
 }
 
-static bool shares_map(const struct gn_pass *a, const struct gn_pass *b) {
-    return gn_target_is_map(&a->target) && gn_target_is_map(&b->target) &&
-           a->target.slot == b->target.slot;
+static const char *check_picture(const struct gn_plan *plan, const struct gn_pass *pass) {
+    const struct gn_pass_picture *p = &pass->picture;
+    REQUIRE(pass->target.kind == GN_TARGET_OUTPUT || pass->target.kind == GN_TARGET_ENCODED);
+    REQUIRE(pass->clear.area != GN_CLEAR_RECT && pass->viewport.width == 0);
+    REQUIRE(pass->content.hash == 0);
+    if (p->reads_atlas) {
+        REQUIRE(plan->atlas && plan->atlas->coverage);
+        REQUIRE(p->blend == GN_BLEND_ALPHA && !pass->depth_write);
+        REQUIRE(plan->output != GN_OUTPUT_AOV);
+    }
+    const char *broken = check_lights(plan, pass);
+    return broken ? broken : check_stencil(plan, pass);
 }
 
-/* Pages are cleared by the first of them, and put together by the pass after the last. */
-static const char *check_pages(const struct gn_plan *plan, const struct gn_pass *pass) {
-    const struct gn_pass *before = pass > plan->passes ? pass - 1 : NULL,
-                         *after = pass + 1 < plan->passes + plan->pass_count ? pass + 1 : NULL;
-    const bool goes_on = before && before->target.kind == GN_TARGET_PAGES;
-    const bool page = pass->target.kind == GN_TARGET_PAGES;
-    REQUIRE(!page || (after && shares_map(pass, after)));
-    REQUIRE(!page || after->content_hash == pass->content_hash);
-    REQUIRE(!page || pass->clear != goes_on);
-    REQUIRE(page || goes_on == (pass->copy_count > 0));
-    REQUIRE(pass->copy_count <= GN_SHADOW_PAGES_MAX);
-    REQUIRE(!pass->copy_count || pass->draw_count == 0);
-    for (uint32_t i = 0; i < pass->copy_count; i++) {
-        const struct gn_copy *copy = &pass->copies[i];
+static const char *check_map(const struct gn_plan *plan, const struct gn_pass *pass) {
+    const bool pages = pass->target.kind == GN_TARGET_PAGES;
+    REQUIRE(pages || pass->target.kind == GN_TARGET_SHADOW);
+    REQUIRE(pass->target.slot < plan->shadow_count);
+    REQUIRE(pass->target.encoding != GN_ENCODING_STENCIL);
+    REQUIRE(pass->content.completes != pages);
+    REQUIRE(pages || pass->clear.area != GN_CLEAR_NOTHING);
+    REQUIRE(!pass->discard_depth || pass->target.encoding != GN_ENCODING_DEPTH);
+    return NULL;
+}
+
+static const char *check_copy(const struct gn_plan *plan, const struct gn_pass *pass) {
+    const struct gn_target *from = &pass->copy.from;
+    REQUIRE(pass->target.kind == GN_TARGET_SHADOW && from->kind == GN_TARGET_PAGES);
+    REQUIRE(pass->target.slot < plan->shadow_count && from->slot == pass->target.slot);
+    REQUIRE(from->encoding == pass->target.encoding);
+    REQUIRE(pass->clear.area != GN_CLEAR_NOTHING && pass->content.completes);
+    REQUIRE(pass->draw_count == 0);
+    REQUIRE(pass->copy.count > 0 && pass->copy.count <= GN_SHADOW_PAGES_MAX);
+    for (uint32_t i = 0; i < pass->copy.count; i++) {
+        const struct gn_copy *copy = &pass->copy.copies[i];
         const struct gn_rect to = {copy->to_x, copy->to_y, copy->from.width, copy->from.height};
-        REQUIRE(rect_is_inside(&copy->from, &pass->target));
+        REQUIRE(rect_is_inside(&copy->from, from));
         REQUIRE(rect_is_inside(&to, &pass->target));
     }
     return NULL;
@@ -131,52 +166,81 @@ static const char *check_pages(const struct gn_plan *plan, const struct gn_pass 
 
 /* A filter of a map draws all of its target once, and reads nothing that it draws to. */
 static const char *check_filter(const struct gn_plan *plan, const struct gn_pass *pass) {
-    const bool filters = pass->target.kind == GN_TARGET_MOMENTS;
-    const enum gn_moments moments = pass->target.moments;
-    REQUIRE(filters == (moments != GN_MOMENTS_NONE) && moments < GN_MOMENTS_COUNT);
-    REQUIRE(filters || !pass->completes);
+    const struct gn_target *to = &pass->target;
+    REQUIRE(to->kind == GN_TARGET_MOMENTS && to->index < GN_FILTER_TEXTURES_MAX);
+    REQUIRE(to->moments != GN_MOMENTS_NONE && to->moments < GN_MOMENTS_COUNT);
+    REQUIRE(to->slot < plan->shadow_count && plan->shadows[to->slot].moments == to->moments);
+    REQUIRE(!pass->content.completes || to->index == 0);
+    REQUIRE(pass->draw_count == 1 && pass->clear.area == GN_CLEAR_NOTHING && !pass->depth_write);
     for (int i = 0; i < GN_FILTER_FROM_MAX; i++) {
-        const struct gn_read *read = &pass->reads[i];
-        REQUIRE(filters || read->kind == GN_READ_NOTHING);
+        const struct gn_read *read = &pass->filter.reads[i];
         if (read->kind != GN_READ_MOMENTS) continue;
-        REQUIRE(read->index != pass->target.index && read->index < GN_FILTER_TEXTURES_MAX);
+        REQUIRE(read->index != to->index && read->index < GN_FILTER_TEXTURES_MAX);
         REQUIRE(read->width_px > 0 && read->height_px > 0);
     }
-    if (!filters) return NULL;
-    REQUIRE(pass->target.index < GN_FILTER_TEXTURES_MAX);
-    REQUIRE(pass->target.slot < plan->shadow_count && pass->content_hash != 0);
-    REQUIRE(plan->shadows[pass->target.slot].moments == moments);
-    REQUIRE(!pass->completes || pass->target.index == 0);
-    REQUIRE(pass->draw_count == 1 && !pass->clear && !pass->depth_write);
     return NULL;
+}
+
+static const char *check_kind(const struct gn_plan *plan, const struct gn_pass *pass) {
+    REQUIRE(pass->kind == GN_PASS_PICTURE || pass->content.hash != 0);
+    switch (pass->kind) {
+    case GN_PASS_PICTURE: return check_picture(plan, pass);
+    case GN_PASS_MAP: return check_map(plan, pass);
+    case GN_PASS_COPY: return check_copy(plan, pass);
+    case GN_PASS_FILTER: return check_filter(plan, pass);
+    }
+    return "a pass of no known kind";
 }
 
 static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *pass) {
     REQUIRE(pass->target.width_px > 0 && pass->target.height_px > 0);
-    const bool shadow = gn_target_is_map(&pass->target);
-    REQUIRE(!shadow || pass->target.slot < plan->shadow_count);
-    REQUIRE(!shadow || pass->content_hash != 0);
-    REQUIRE(pass->target.kind != GN_TARGET_SHADOW || pass->clear);
-    REQUIRE(!shadow || pass->target.encoding != GN_ENCODING_STENCIL);
-    REQUIRE(!pass->reads_atlas || (plan->atlas && plan->atlas->coverage));
-    REQUIRE(!pass->reads_atlas || (pass->blend == GN_BLEND_ALPHA && !pass->depth_write));
-    REQUIRE(!pass->reads_atlas || plan->output != GN_OUTPUT_AOV);
     REQUIRE(rect_is_inside(&pass->rect, &pass->target));
     REQUIRE(rect_is_inside(&pass->viewport, &pass->target));
-    REQUIRE(pass->tile < GN_SHADOW_TILES_MAX);
+    REQUIRE(pass->clear.area != GN_CLEAR_RECT || pass->viewport.width > 0);
+    REQUIRE(pass->content.tile < GN_SHADOW_TILES_MAX);
     REQUIRE(pass->first_draw <= plan->draw_count);
     REQUIRE(pass->draw_count <= plan->draw_count - pass->first_draw);
     REQUIRE(pass->constants != NULL && pass->constant_count > 0);
-    const char *broken = check_lights(plan, pass);
-    if (!broken) broken = check_stencil(plan, pass);
-    if (!broken) broken = check_pages(plan, pass);
-    if (!broken) broken = check_filter(plan, pass);
+    const char *broken = check_kind(plan, pass);
     for (uint32_t i = 0; i < pass->draw_count && !broken; i++) {
         const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
         broken = check_draw(plan, draw);
         if (!broken) broken = check_use(pass, &plan->programs[draw->program]);
     }
     return broken;
+}
+
+/* ---- passes, as they follow each other ---- */
+
+/* Pages are cleared by the first of them, and copied by the pass after the last. */
+static const char *check_pages(const struct gn_pass *before, const struct gn_pass *pass) {
+    const bool goes_on = before && before->target.kind == GN_TARGET_PAGES;
+    REQUIRE(goes_on || pass->kind != GN_PASS_COPY);
+    if (pass->target.kind == GN_TARGET_PAGES)
+        REQUIRE((pass->clear.area == GN_CLEAR_NOTHING) == goes_on);
+    if (!goes_on) return NULL;
+    REQUIRE(pass->target.kind == GN_TARGET_PAGES || pass->kind == GN_PASS_COPY);
+    REQUIRE(pass->target.slot == before->target.slot);
+    REQUIRE(pass->content.hash == before->content.hash);
+    return NULL;
+}
+
+/* The last pass to the output resolves it, and no other. */
+static const char *check_order(const struct gn_plan *plan) {
+    const struct gn_pass *passes = plan->passes;
+    uint32_t last = plan->pass_count;
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const char *broken = check_pages(i > 0 ? &passes[i - 1] : NULL, &passes[i]);
+        if (broken) return broken;
+        if (passes[i].target.kind == GN_TARGET_OUTPUT) last = i;
+    }
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        if (passes[i].kind == GN_PASS_PICTURE) REQUIRE(passes[i].picture.resolves == (i == last));
+    REQUIRE(passes[0].clear.area != GN_CLEAR_NOTHING);
+    REQUIRE(passes[plan->pass_count - 1].kind == GN_PASS_PICTURE);
+    REQUIRE((passes[plan->pass_count - 1].target.kind == GN_TARGET_ENCODED) ==
+            (plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT));
+    return NULL;
 }
 
 const char *gn_plan_check(const struct gn_plan *plan) {
@@ -187,14 +251,11 @@ const char *gn_plan_check(const struct gn_plan *plan) {
     REQUIRE(plan->light_count <= GN_ALL_LIGHTS_MAX);
     for (uint32_t i = 0; i < plan->shadow_count; i++)
         REQUIRE(plan->stencil || plan->shadows[i].encoding != GN_ENCODING_STENCIL);
-    REQUIRE((plan->passes[plan->pass_count - 1].target.kind == GN_TARGET_ENCODED) ==
-            (plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT));
-    REQUIRE(plan->passes[0].clear);
     REQUIRE(isfinite(plan->exposure) && plan->exposure > 0.0f);
     const char *broken = NULL;
     for (uint32_t i = 0; i < plan->program_count && !broken; i++)
         broken = check_key(&plan->programs[i]);
     for (uint32_t i = 0; i < plan->pass_count && !broken; i++)
         broken = check_pass(plan, &plan->passes[i]);
-    return broken;
+    return broken ? broken : check_order(plan);
 }

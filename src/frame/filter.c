@@ -119,7 +119,7 @@ static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
     float(*constants)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS +
                                                          tile * GN_SHADOW_PAGES_MAX) +
                            CONSTANTS_AT;
-    struct gn_pass *pass = gn_frame_begin_pass(frame);
+    struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_FILTER);
     uint32_t size_px[2];
     texture_size(view, stage->to, size_px);
     snprintf(pass->label, sizeof pass->label, "shadow %u %.26s %s", slot,
@@ -132,11 +132,11 @@ static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                                       .index = stage->to,
                                       .mipmaps = stage->to == 0 && gn_view_has_mipmaps(view)};
     if (view->map.tile_count > 1) pass->rect = pass->viewport = part_rect(view, stage->to, tile);
-    pass->tile = tile;
-    pass->content_hash = gn_frame_filter_hash(view, tile);
-    pass->completes = last;
+    pass->content = (struct gn_content){
+        .tile = tile, .hash = gn_frame_filter_hash(view, tile), .completes = last};
     pass->depth_write = false;
-    for (int i = 0; i < GN_FILTER_FROM_MAX; i++) pass->reads[i] = read_of(view, stage->from[i]);
+    for (int i = 0; i < GN_FILTER_FROM_MAX; i++)
+        pass->filter.reads[i] = read_of(view, stage->from[i]);
     put_constants(view, tile, constants);
     pass->constants = constants;
     pass->constant_count = FILTER_CONSTANTS;

@@ -241,10 +241,12 @@ void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first) {
     }
 }
 
-struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame) {
+struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame, enum gn_pass_kind kind) {
     struct gn_pass *pass = &GN_LIST_PUSH(&frame->passes);
-    *pass = (struct gn_pass){
-        .first_draw = frame->draws.count, .depth_write = true, .constant_count = PASS_SLIDES};
+    *pass = (struct gn_pass){.kind = kind,
+                             .first_draw = frame->draws.count,
+                             .depth_write = true,
+                             .constant_count = PASS_SLIDES};
     return pass;
 }
 

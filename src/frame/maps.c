@@ -19,22 +19,22 @@ static void label_shadow(const struct gn_frame *frame, uint32_t slot, uint32_t t
 }
 
 /* What all passes of a map have in common. page: 0 of what is no page. */
-static struct gn_pass *begin_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
-                                  uint32_t page, mat4 clip_from_world) {
+static struct gn_pass *begin_pass(struct gn_frame *frame, enum gn_pass_kind kind, uint32_t slot,
+                                  uint32_t tile, uint32_t page, mat4 clip_from_world) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
-    struct gn_pass *pass = gn_frame_begin_pass(frame);
+    struct gn_pass *pass = gn_frame_begin_pass(frame, kind);
     label_shadow(frame, slot, tile, pass);
     pass->target = (struct gn_target){.kind = GN_TARGET_SHADOW,
                                       .slot = slot,
                                       .width_px = view->map.width_px,
                                       .height_px = view->map.height_px,
                                       .encoding = view->encoding};
-    pass->clear = true;
-    pass->clear_color[0] = view->code.far_end;
+    pass->clear.area = GN_CLEAR_ALL;
+    pass->clear.color[0] = view->code.far_end;
     pass->depth_write = view->encoding != GN_ENCODING_MASK;
     pass->discard_depth = pass->depth_write && view->encoding != GN_ENCODING_DEPTH;
-    pass->tile = tile;
-    pass->content_hash = view->raster.tiles[tile].content_hash;
+    pass->content = (struct gn_content){
+        .tile = tile, .hash = view->raster.tiles[tile].content_hash, .completes = true};
     float(*constants)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS +
                                                          tile * GN_SHADOW_PAGES_MAX + page);
     pass->constants = constants;
@@ -46,22 +46,23 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, uint32_t slot, uint32_
 
 static void bound_tile(const struct gn_shadow_view *view, uint32_t index, struct gn_pass *pass) {
     const struct gn_shadow_tile *tile = &view->raster.tiles[index];
-    if (view->map.tile_count > 1)
-        pass->rect = pass->viewport =
-            (struct gn_rect){tile->x_px, tile->y_px, view->map.tile_px, view->map.tile_px};
-    else if (view->raster.drawn.page_count > 0)
-        pass->rect = (struct gn_rect){view->raster.drawn.px[0], view->raster.drawn.px[1],
-                                      view->raster.drawn.size_px[0], view->raster.drawn.size_px[1]};
-    else
-        pass->border_px = 1;
+    pass->clear.area = GN_CLEAR_RECT;
+    pass->rect = pass->viewport =
+        (struct gn_rect){tile->x_px, tile->y_px, view->map.tile_px, view->map.tile_px};
 }
 
 static void tile_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
                       uint32_t index, const struct gn_frame_opts *opts) {
     struct gn_shadow_view *view = &frame->shadows[slot];
     struct gn_shadow_tile *tile = &view->raster.tiles[index];
-    struct gn_pass *pass = begin_pass(frame, slot, index, 0, tile->clip_from_world);
-    bound_tile(view, index, pass);
+    struct gn_pass *pass = begin_pass(frame, GN_PASS_MAP, slot, index, 0, tile->clip_from_world);
+    if (view->map.tile_count > 1)
+        bound_tile(view, index, pass);
+    else if (view->raster.drawn.page_count > 0)
+        pass->rect = (struct gn_rect){view->raster.drawn.px[0], view->raster.drawn.px[1],
+                                      view->raster.drawn.size_px[0], view->raster.drawn.size_px[1]};
+    else
+        pass->map.border_px = 1;
     struct gn_selection casters = {.casts = frame->memory[slot][index].casts,
                                    .view = view,
                                    .mirrored = tile->mirrored,
@@ -77,16 +78,26 @@ struct paged {
     struct gn_shadow_page *pages;
 };
 
+static struct gn_target pages_target(const struct gn_frame *frame, const struct paged *map) {
+    const struct gn_shadow_view *view = &frame->shadows[map->slot];
+    return (struct gn_target){.kind = GN_TARGET_PAGES,
+                              .slot = map->slot,
+                              .width_px = view->map.tile_px,
+                              .height_px = view->map.tile_px,
+                              .encoding = view->encoding};
+}
+
 static void page_pass(struct gn_frame *frame, const struct gn_pose *pose, const struct paged *map,
                       uint32_t index, const struct gn_frame_opts *opts) {
     struct gn_shadow_page *page = &map->pages[index];
-    struct gn_pass *pass = begin_pass(frame, map->slot, map->tile, index, page->clip_from_world);
+    struct gn_pass *pass =
+        begin_pass(frame, GN_PASS_MAP, map->slot, map->tile, index, page->clip_from_world);
     const size_t used = strlen(pass->label);
     snprintf(pass->label + used, sizeof pass->label - used, " page %u", index);
-    pass->target.kind = GN_TARGET_PAGES;
-    pass->target.width_px = pass->target.height_px = frame->shadows[map->slot].map.tile_px;
+    pass->target = pages_target(frame, map);
     pass->viewport = (struct gn_rect){0, 0, map->page_px, map->page_px};
-    pass->clear = index == 0;
+    pass->clear.area = index == 0 ? GN_CLEAR_ALL : GN_CLEAR_NOTHING;
+    pass->content.completes = false;
     pass->discard_depth = false; /* the next page goes on with it */
     pass->rect =
         (struct gn_rect){page->from_px[0], page->from_px[1], page->size_px[0], page->size_px[1]};
@@ -101,12 +112,13 @@ static void page_pass(struct gn_frame *frame, const struct gn_pose *pose, const 
 static void copy_pass(struct gn_frame *frame, const struct paged *map) {
     const struct gn_shadow_view *view = &frame->shadows[map->slot];
     struct gn_pass *pass =
-        begin_pass(frame, map->slot, map->tile, 0, map->pages[0].clip_from_world);
-    if (view->map.cascade_count > 0) bound_tile(view, map->tile, pass);
-    pass->copy_count = map->page_count;
+        begin_pass(frame, GN_PASS_COPY, map->slot, map->tile, 0, map->pages[0].clip_from_world);
+    if (view->map.tile_count > 1) bound_tile(view, map->tile, pass);
+    pass->copy.from = pages_target(frame, map);
+    pass->copy.count = map->page_count;
     for (uint32_t i = 0; i < map->page_count; i++) {
         const struct gn_shadow_page *page = &map->pages[i];
-        pass->copies[i] = (struct gn_copy){
+        pass->copy.copies[i] = (struct gn_copy){
             .from = {page->from_px[0], page->from_px[1], page->size_px[0], page->size_px[1]},
             .to_x = map->to_px[0] + page->to_px[0],
             .to_y = map->to_px[1] + page->to_px[1]};

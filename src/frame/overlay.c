@@ -93,7 +93,7 @@ static void marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
     struct gn_program_key key = key_of(frame, GN_PROGRAM_MARK);
     struct gn_pass *pass = gn_frame_picture_pass(frame, "marks of lights");
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_MARKS);
-    pass->blend = GN_BLEND_ALPHA;
+    pass->picture.blend = GN_BLEND_ALPHA;
     pass->depth_write = false;
     pass->constants = c;
     memcpy(c[PASS_CLIP], frame->eye.clip_from_world, sizeof frame->eye.clip_from_world);
@@ -167,9 +167,9 @@ static void panel_pass(struct gn_frame *frame, uint32_t slot) {
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     pass->depth_write = false;
     pass->rect = gn_frame_turned_rect(frame, rect);
-    pass->first_shadow = slot;
-    pass->shadow_count = 1;
-    pass->reads_codes = true;
+    pass->picture.first_shadow = slot;
+    pass->picture.shadow_count = 1;
+    pass->picture.reads_codes = true;
     pass->constants = c;
     pass->constant_count = PANEL_SIZE;
     gn_frame_draw_bare(frame, &key, 6, 0, 1);

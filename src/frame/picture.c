@@ -25,7 +25,7 @@ static void set_clear(const struct gn_frame *frame, enum gn_aov aov, float color
 }
 
 struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label) {
-    struct gn_pass *pass = gn_frame_begin_pass(frame);
+    struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_PICTURE);
     snprintf(pass->label, sizeof pass->label, "%s", label);
     pass->target = (struct gn_target){.kind = GN_TARGET_OUTPUT,
                                       .width_px = frame->plan.width_px,
@@ -37,16 +37,16 @@ struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uin
     const struct gn_light_group *g = &frame->groups[group];
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     pass->constants = gn_frame_constants(frame, GN_CONSTANTS_PICTURE + group);
-    pass->first_light = g->first;
-    pass->light_count = g->count;
-    pass->first_shadow = g->first_shadow;
-    pass->shadow_count = g->shadow_count;
+    pass->picture.first_light = g->first;
+    pass->picture.light_count = g->count;
+    pass->picture.first_shadow = g->first_shadow;
+    pass->picture.shadow_count = g->shadow_count;
     gn_frame_pass_slides(frame, g, pass);
     gn_frame_pass_cascades(frame, g, pass);
     if (group == 0) return pass;
     snprintf(pass->label, sizeof pass->label, "%s%slights %u-%u", label, *label ? " " : "",
              g->first + 1, g->first + g->count);
-    pass->blend = GN_BLEND_ADD;
+    pass->picture.blend = GN_BLEND_ADD;
     pass->depth_write = false;
     pass->rect = g->rect;
     return pass;
@@ -98,7 +98,7 @@ static bool add_to_blended(struct gn_frame *frame, const struct gn_pose *pose,
 
 static void begin_blend(struct gn_frame *frame) {
     struct gn_pass *pass = gn_frame_lit_pass(frame, "blend", 0);
-    pass->blend = GN_BLEND_ALPHA;
+    pass->picture.blend = GN_BLEND_ALPHA;
     pass->depth_write = false;
 }
 
@@ -141,8 +141,8 @@ static void opaque_pass(struct gn_frame *frame, const struct gn_pose *pose,
     struct gn_pass *pass =
         gn_frame_lit_pass(frame, opts->aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
     uint32_t first = pass->first_draw;
-    pass->clear = true;
-    set_clear(frame, opts->aov, pass->clear_color);
+    pass->clear.area = GN_CLEAR_ALL;
+    set_clear(frame, opts->aov, pass->clear.color);
     frame->blended.count = 0;
     gn_frame_draw_items(frame, pose, &seen);
     gn_frame_sort_draws(frame, first);
@@ -188,6 +188,8 @@ bool gn_frame_is_encoded(const struct gn_frame *frame) {
 }
 
 void gn_frame_finish_picture(struct gn_frame *frame) {
-    frame->passes.at[frame->passes.count - 1].discard_depth = true;
+    struct gn_pass *last = &frame->passes.at[frame->passes.count - 1];
+    last->discard_depth = true;
+    last->picture.resolves = true;
     if (gn_frame_is_encoded(frame)) encode_pass(frame);
 }

@@ -102,15 +102,14 @@ enum gn_blend {
  * `value`, and there writes those of `value` that it may. Zeroed: nothing. */
 struct gn_stencil {
     uint8_t value, reads, writes;
-    uint8_t clears; /* these are set to 0 everywhere at the pass's start */
 };
 
 enum gn_target_kind {
     GN_TARGET_OUTPUT,
     GN_TARGET_SHADOW,
     GN_TARGET_ENCODED, /* bytes beside a linear output, which the first pass to it reads */
-    GN_TARGET_PAGES,   /* beside a map, of its size, or that of one of its cascades: from here its
-                          next pass copies */
+    GN_TARGET_PAGES,   /* beside a map, of its size, or that of one of its cascades: from here a
+                          later pass copies */
     GN_TARGET_MOMENTS, /* what a map is filtered into */
 };
 struct gn_rect { /* pixels of a target, first row at the bottom */
@@ -118,7 +117,7 @@ struct gn_rect { /* pixels of a target, first row at the bottom */
 };
 struct gn_target {
     enum gn_target_kind kind;
-    uint32_t slot; /* SHADOW, PAGES: which of plan->shadows; its map */
+    uint32_t slot; /* SHADOW, PAGES, MOMENTS: which of plan->shadows */
     uint32_t width_px, height_px;
     enum gn_encoding encoding; /* SHADOW, PAGES */
     enum gn_moments moments;   /* MOMENTS */
@@ -140,42 +139,68 @@ struct gn_copy {
 static inline bool gn_view_has_mipmaps(const struct gn_shadow_view *view) {
     return gn_moments[view->moments].linear && view->map.tile_count == 1;
 }
-/* Whether casters are drawn to it. */
-static inline bool gn_target_is_map(const struct gn_target *target) {
-    return target->kind == GN_TARGET_SHADOW || target->kind == GN_TARGET_PAGES;
-}
+
+/* What a pass clears at its start: colour or encoded distance, depth, stencil. */
+struct gn_clear {
+    enum gn_clear_area {
+        GN_CLEAR_NOTHING,
+        GN_CLEAR_RECT, /* the pass's viewport, a tile. When all tiles of the map are to be drawn,
+                          the first may clear all of it instead. */
+        GN_CLEAR_ALL,
+    } area;
+    float color[4];       /* picture: linear; map: the light's far end, encoded, in [0] */
+    uint8_t stencil_bits; /* with GN_CLEAR_NOTHING: these are set to 0 in the whole picture */
+};
+/* What a tile of a map, or of its moments, holds once it is drawn. Zeroed: nothing is kept. */
+struct gn_content {
+    uint32_t tile;
+    uint64_t hash;  /* skip the pass if the tile already holds this */
+    bool completes; /* after this pass the tile holds it; earlier ones only lead up to it */
+};
+enum gn_pass_kind {
+    GN_PASS_PICTURE, /* target OUTPUT or ENCODED */
+    GN_PASS_MAP,     /* casters: to SHADOW, or to PAGES, which complete nothing */
+    GN_PASS_COPY,    /* pages to SHADOW, which is cleared; draws nothing */
+    GN_PASS_FILTER,  /* a map, or moments, to MOMENTS; one draw, not cleared */
+};
 struct gn_pass {
     char label[48]; /* KHR_debug group, timer, error: "shadow 0 Sun", "opaque", "blend" */
+    enum gn_pass_kind kind;
     struct gn_target target;
-    bool clear;                /* colour (or code) and depth, at the pass's start */
-    float clear_color[4];      /* OUTPUT: linear; SHADOW, PAGES: far_code in [0] */
+    struct gn_clear clear;
+    struct gn_rect viewport;   /* a tile or a page; width 0: all of the target */
+    struct gn_rect rect;       /* draws nothing outside (scissor); width 0: no such bound */
     bool depth_write;          /* the depth test is always LEQUAL */
-    bool only_stencil;         /* draws FLAT programs: no depth test, and colour is left as it is */
-    struct gn_stencil stencil; /* OUTPUT, of a plan with a stencil; `clear` clears that, too */
-    enum gn_blend blend;
-    bool discard_depth;      /* nobody reads the depth after this pass: invalidate */
-    uint32_t border_px;      /* this many texels at the target's rim stay cleared (scissor) */
-    struct gn_rect rect;     /* draws nothing outside (scissor); width 0: no such bound */
-    struct gn_rect viewport; /* SHADOW: a tile, which is all that the pass clears and sees, and its
-                                rect; PAGES: a page; width 0: all of the target */
-    uint32_t tile;           /* SHADOW: which of the map's; the passes of a map follow each other */
-    uint32_t copy_count; /* SHADOW: once it is cleared, these are copied, and nothing is drawn; the
-                            PAGES passes of the map come right before */
-    struct gn_copy copies[GN_SHADOW_PAGES_MAX];
-    uint32_t first_light, light_count;   /* of plan->lights: those that its LIT programs know */
-    uint32_t first_shadow, shadow_count; /* plan->shadows[first_shadow + i] is behind sampler i */
-    uint64_t
-        content_hash; /* SHADOW, PAGES: skip the pass when the tile already holds this; 0: never */
-    struct gn_read reads[GN_FILTER_FROM_MAX]; /* MOMENTS: behind sampler i, of the same slot */
-    bool completes; /* MOMENTS: then the slot's own holds content_hash in `tile`; before, its passes
-                       are skipped if it does */
-    bool reads_codes; /* those samplers compare not, and are of maps, filtered or not */
-    bool reads_atlas; /* plan->atlas is behind sampler 0 */
+    bool discard_depth;        /* nobody reads the depth after this pass: invalidate */
+    struct gn_content content; /* all but PICTURE */
     uint32_t first_draw, draw_count;
-    uint32_t slide_count, slides[GN_SLIDES_MAX]; /* OUTPUT: textures; slide i: sampler i */
     /* Constants of the pass's programs, laid out by shaders_es/blocks.glsl; counts in vec4. */
     const float (*constants)[4];
     uint32_t constant_count;
+    union { /* by kind */
+        struct gn_pass_picture {
+            enum gn_blend blend;
+            bool only_stencil;                   /* draws FLAT programs: no depth test, no colour */
+            struct gn_stencil stencil;           /* of a plan with a stencil */
+            uint32_t first_light, light_count;   /* of plan->lights: what its LIT programs know */
+            uint32_t first_shadow, shadow_count; /* sampler i: plan->shadows[first_shadow + i] */
+            uint32_t slide_count, slides[GN_SLIDES_MAX]; /* textures; slide i: sampler i */
+            bool reads_codes; /* map samplers do not compare, and are of maps, filtered or not */
+            bool reads_atlas; /* plan->atlas is behind sampler 0 */
+            bool resolves;    /* the last to OUTPUT: its samples are averaged after this pass */
+        } picture;
+        struct gn_pass_map {
+            uint32_t border_px; /* this many texels at the target's rim stay cleared (scissor) */
+        } map;
+        struct gn_pass_copy {
+            struct gn_target from; /* holds nothing any more afterwards */
+            uint32_t count;
+            struct gn_copy copies[GN_SHADOW_PAGES_MAX];
+        } copy;
+        struct gn_pass_filter {
+            struct gn_read reads[GN_FILTER_FROM_MAX]; /* sampler i, of the same slot */
+        } filter;
+    };
 };
 
 enum gn_output_format {

@@ -121,7 +121,8 @@ static void print_target(const struct gn_pass *pass, FILE *to) {
     case GN_TARGET_ENCODED: fprintf(to, "picture in bytes"); break;
     case GN_TARGET_SHADOW:
         fprintf(to, "map %u (%s, rim %u px)", pass->target.slot,
-                gn_encodings[pass->target.encoding].name, pass->border_px);
+                gn_encodings[pass->target.encoding].name,
+                pass->kind == GN_PASS_MAP ? pass->map.border_px : 0);
         break;
     case GN_TARGET_PAGES:
         fprintf(to, "pages of map %u (%s)", pass->target.slot,
@@ -136,59 +137,73 @@ static void print_target(const struct gn_pass *pass, FILE *to) {
 
 static void print_reads(const struct gn_pass *pass, FILE *to) {
     for (int i = 0; i < GN_FILTER_FROM_MAX; i++) {
-        if (pass->reads[i].kind == GN_READ_MAP) fprintf(to, ", reads the map");
-        if (pass->reads[i].kind == GN_READ_MOMENTS)
-            fprintf(to, ", reads moments %u", pass->reads[i].index);
+        const struct gn_read *read = &pass->filter.reads[i];
+        if (read->kind == GN_READ_MAP) fprintf(to, ", reads the map");
+        if (read->kind == GN_READ_MOMENTS) fprintf(to, ", reads moments %u", read->index);
     }
 }
 
 /* The lights that a pass adds, by name. */
 static void print_added(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
-    for (uint32_t i = 0; i < pass->light_count; i++) {
-        const uint32_t light = plan->lights[pass->first_light + i];
+    const struct gn_pass_picture *p = &pass->picture;
+    for (uint32_t i = 0; i < p->light_count; i++) {
+        const uint32_t light = plan->lights[p->first_light + i];
         fprintf(to, "%s'%s'", i ? " " : ", adds ", plan->scene->lights[light].name);
-        if (i < pass->shadow_count) fprintf(to, " (map %u)", pass->first_shadow + i);
+        if (i < p->shadow_count) fprintf(to, " (map %u)", p->first_shadow + i);
     }
 }
 
 static void print_copies(const struct gn_pass *pass, FILE *to) {
-    for (uint32_t i = 0; i < pass->copy_count; i++) {
-        const struct gn_copy *copy = &pass->copies[i];
+    for (uint32_t i = 0; i < pass->copy.count; i++) {
+        const struct gn_copy *copy = &pass->copy.copies[i];
         fprintf(to, "%s%u x %u from %u, %u to %u, %u", i ? "; " : ", copies ", copy->from.width,
                 copy->from.height, copy->from.x, copy->from.y, copy->to_x, copy->to_y);
     }
 }
 
+static void print_within(const struct gn_rect *rect, FILE *to) {
+    if (rect->width > 0)
+        fprintf(to, ", within %u x %u at %u, %u", rect->width, rect->height, rect->x, rect->y);
+}
+
 /* Bits in hexadecimal. */
 static void print_stencil(const struct gn_pass *pass, FILE *to) {
-    const struct gn_stencil *s = &pass->stencil;
-    if (pass->only_stencil) fprintf(to, ", no colour, no depth");
-    if (s->clears) fprintf(to, ", clears stencil %02x", s->clears);
+    const struct gn_stencil *s = &pass->picture.stencil;
+    if (pass->picture.only_stencil) fprintf(to, ", no colour, no depth");
+    if (pass->clear.stencil_bits) fprintf(to, ", clears stencil %02x", pass->clear.stencil_bits);
     if (s->reads) fprintf(to, ", where stencil %02x of %02x", s->value & s->reads, s->reads);
     if (s->writes) fprintf(to, ", sets stencil %02x of %02x", s->value & s->writes, s->writes);
 }
 
-static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
-    print_target(pass, to);
-    if (pass->clear && gn_target_is_map(&pass->target))
-        fprintf(to, ", clear %.4g", (double)pass->clear_color[0]);
-    if (pass->clear && pass->target.kind == GN_TARGET_OUTPUT)
-        fprintf(to, ", clear %.3f %.3f %.3f", (double)pass->clear_color[0],
-                (double)pass->clear_color[1], (double)pass->clear_color[2]);
-    for (uint32_t i = 0; i < pass->slide_count; i++)
-        fprintf(to, ", slide %u: texture %u", i, pass->slides[i]);
-    if (pass->blend == GN_BLEND_ALPHA) fprintf(to, ", blend");
-    if (pass->reads_codes) fprintf(to, ", shows map %u", pass->first_shadow);
-    if (pass->reads_atlas)
+static void print_picture(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
+    const struct gn_pass_picture *p = &pass->picture;
+    const float *color = pass->clear.color;
+    if (pass->clear.area != GN_CLEAR_NOTHING)
+        fprintf(to, ", clear %.3f %.3f %.3f", (double)color[0], (double)color[1], (double)color[2]);
+    for (uint32_t i = 0; i < p->slide_count; i++)
+        fprintf(to, ", slide %u: texture %u", i, p->slides[i]);
+    if (p->blend == GN_BLEND_ALPHA) fprintf(to, ", blend");
+    if (p->reads_codes) fprintf(to, ", shows map %u", p->first_shadow);
+    if (p->reads_atlas)
         fprintf(to, ", atlas %u x %u", plan->atlas->width_px, plan->atlas->height_px);
-    if (pass->blend == GN_BLEND_ADD) print_added(plan, pass, to);
-    if (pass->rect.width > 0)
-        fprintf(to, ", within %u x %u at %u, %u", pass->rect.width, pass->rect.height, pass->rect.x,
-                pass->rect.y);
-    print_copies(pass, to);
-    print_reads(pass, to);
+    if (p->blend == GN_BLEND_ADD) print_added(plan, pass, to);
+    print_within(&pass->rect, to);
     print_stencil(pass, to);
-    if (!pass->depth_write && !pass->only_stencil && pass->target.kind != GN_TARGET_MOMENTS)
+}
+
+static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
+    const bool map = pass->kind == GN_PASS_MAP || pass->kind == GN_PASS_COPY;
+    print_target(pass, to);
+    if (map && pass->clear.area != GN_CLEAR_NOTHING)
+        fprintf(to, ", clear %.4g", (double)pass->clear.color[0]);
+    if (pass->kind == GN_PASS_PICTURE)
+        print_picture(plan, pass, to);
+    else
+        print_within(&pass->rect, to);
+    if (pass->kind == GN_PASS_COPY) print_copies(pass, to);
+    if (pass->kind == GN_PASS_FILTER) print_reads(pass, to);
+    const bool only_stencil = pass->kind == GN_PASS_PICTURE && pass->picture.only_stencil;
+    if (!pass->depth_write && !only_stencil && pass->kind != GN_PASS_FILTER)
         fprintf(to, ", depth read-only");
     if (pass->discard_depth) fprintf(to, ", depth discarded");
     fprintf(to, "\n");

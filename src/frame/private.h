@@ -142,7 +142,7 @@ struct gn_selection {
 };
 
 /* frame.c: passes and draws. */
-struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame);
+struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame, enum gn_pass_kind kind);
 void gn_frame_end_pass(struct gn_frame *frame);
 /* Blended items that a picture sees are not drawn but gathered in frame->blended. */
 void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,

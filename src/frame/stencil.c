@@ -117,11 +117,11 @@ static void caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
     char label[48];
     snprintf(label, sizeof label, "shadow %u %.36s", slot, frame->scene->lights[view->light].name);
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
-    pass->only_stencil = true;
+    pass->picture.only_stencil = true;
     pass->depth_write = false;
-    pass->stencil = (struct gn_stencil){.value = SEEN | bit, .reads = SEEN, .writes = bit};
+    pass->picture.stencil = (struct gn_stencil){.value = SEEN | bit, .reads = SEEN, .writes = bit};
     pass->rect = bound(frame, marks->rects[index]);
-    if (marks->group > 0 && index == 0) pass->stencil.clears = SETS - 1;
+    if (marks->group > 0 && index == 0) pass->clear.stencil_bits = SETS - 1;
     const float(*constants)[4] = pass->constants = fall(frame, slot);
     pass->constant_count = FLAT_HEIGHTS + 1;
     struct gn_selection casters = {.casts = frame->memory[slot][0].casts,
@@ -160,13 +160,13 @@ static void set_pass(struct gn_frame *frame, const struct marks *marks, uint32_t
                      const struct gn_pass *lit) {
     const struct gn_rect rect = rect_of_set(marks, set);
     if (rect.width == 0) return;
-    struct gn_pass *pass = gn_frame_begin_pass(frame);
+    struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_PICTURE);
     *pass = *lit;
     pass->rect = bound(frame, rect);
     label_set(marks, set, pass);
     pass->depth_write = false;
-    pass->stencil = (struct gn_stencil){.value = (uint8_t)(SEEN | set),
-                                        .reads = (uint8_t)(SEEN | ((1u << marks->count) - 1))};
+    pass->picture.stencil = (struct gn_stencil){
+        .value = (uint8_t)(SEEN | set), .reads = (uint8_t)(SEEN | ((1u << marks->count) - 1))};
     pass->constants = darken(frame, marks, set);
 }
 
@@ -178,10 +178,10 @@ void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
     if (group > 0) plane.group = &frame->groups[group];
     gn_frame_draw_items(frame, pose, &plane);
     lit.draw_count = frame->draws.count - lit.first_draw;
-    lit.stencil = (struct gn_stencil){.value = SEEN, .writes = 0xff};
+    lit.picture.stencil = (struct gn_stencil){.value = SEEN, .writes = 0xff};
     frame->passes.count--;
     if (lit.draw_count == 0) return;
-    if (group == 0) *gn_frame_begin_pass(frame) = lit;
+    if (group == 0) *gn_frame_begin_pass(frame, GN_PASS_PICTURE) = lit;
     for (uint32_t i = 0; i < marks.count; i++) caster_pass(frame, pose, opts, &marks, i);
     for (uint32_t set = group == 0; set < 1u << marks.count; set++)
         set_pass(frame, &marks, set, &lit);

@@ -14,7 +14,7 @@ static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
     const bool stencil = gl->targets.output.stencil;
     if (gl->targets.output.format == GN_OUTPUT_AOV) {
         GLuint bits[4];
-        memcpy(bits, pass->clear_color, sizeof bits);
+        memcpy(bits, pass->clear.color, sizeof bits);
         GL(gl, ClearBufferuiv)(GL_COLOR, 0, bits);
         if (stencil)
             GL(gl, ClearBufferfi)(GL_DEPTH_STENCIL, 0, far_depth, 0);
@@ -22,7 +22,7 @@ static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
             GL(gl, ClearBufferfv)(GL_DEPTH, 0, &far_depth);
         return;
     }
-    gn_gl_set_clear_color(gl, pass->clear_color);
+    gn_gl_set_clear_color(gl, pass->clear.color);
     GL(gl, Clear)
     (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | (stencil ? GL_STENCIL_BUFFER_BIT : 0u));
 }
@@ -30,7 +30,7 @@ static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
 /* To the light's far end, in the encoding's own unit. What is copied needs no depth. */
 static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     static const float ones[4] = {1, 1, 1, 1};
-    const float far_code[4] = {pass->clear_color[0], 0, 0, 1};
+    const float far_code[4] = {pass->clear.color[0], 0, 0, 1};
     GLuint bits[4] = {0, 0, 0, 1};
     memcpy(bits, far_code, sizeof bits[0]);
     switch (pass->target.encoding) {
@@ -41,7 +41,7 @@ static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     case GN_ENCODING_MASK: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); return; /* no depth */
     default: break;
     }
-    if (pass->copy_count && pass->target.encoding != GN_ENCODING_DEPTH) return;
+    if (pass->kind == GN_PASS_COPY && pass->target.encoding != GN_ENCODING_DEPTH) return;
     GL(gl, ClearBufferfv)(GL_DEPTH, 0, ones);
 }
 
@@ -57,7 +57,7 @@ static struct gn_gl_rect viewport_of(const struct gn_pass *pass) {
 
 /* What a pass may draw on, where that is not all of the target. */
 static bool scissor_of(const struct gn_pass *pass, struct gn_gl_rect *out) {
-    const GLint border = (GLint)pass->border_px;
+    const GLint border = pass->kind == GN_PASS_MAP ? (GLint)pass->map.border_px : 0;
     *out = gl_rect(&pass->rect);
     if (pass->rect.width > 0) return true;
     *out = (struct gn_gl_rect){border, border, (GLsizei)pass->target.width_px - 2 * border,
@@ -65,13 +65,11 @@ static bool scissor_of(const struct gn_pass *pass, struct gn_gl_rect *out) {
     return border > 0;
 }
 
-enum clear { CLEAR_NOT, CLEAR_RECT, CLEAR_ALL };
-
 /* All of the target, or a tile of a map. */
 static void clear_target(struct gn_gl *gl, const struct gn_pass *pass) {
     gn_gl_set_depth(gl, true, true);
     gn_gl_set_color_write(gl, true);
-    if (gn_target_is_map(&pass->target)) {
+    if (pass->kind != GN_PASS_PICTURE) {
         clear_map(gl, pass);
         return;
     }
@@ -85,49 +83,50 @@ static void clear_stencil(struct gn_gl *gl, uint8_t bits) {
     GL(gl, Clear)(GL_STENCIL_BUFFER_BIT);
 }
 
+/* area: of pass->clear, or what the runner makes of it. */
 static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer,
-                         enum clear clear) {
-    const bool tile = pass->viewport.width > 0;
+                         enum gn_clear_area area) {
+    static const struct gn_stencil no_stencil = {0};
+    const struct gn_pass_picture *picture = pass->kind == GN_PASS_PICTURE ? &pass->picture : NULL;
+    const bool only_stencil = picture && picture->only_stencil;
     const struct gn_gl_rect viewport = viewport_of(pass);
     struct gn_gl_rect inner;
     const bool bound = scissor_of(pass, &inner);
     gn_gl_bind_framebuffer(gl, framebuffer);
     gn_gl_set_viewport(gl, viewport);
-    if (clear != CLEAR_NOT) {
-        gn_gl_set_scissor(gl, tile && clear == CLEAR_RECT ? &viewport : NULL);
+    if (area != GN_CLEAR_NOTHING) {
+        gn_gl_set_scissor(gl, area == GN_CLEAR_RECT ? &viewport : NULL);
         clear_target(gl, pass);
     }
-    if (pass->stencil.clears) clear_stencil(gl, pass->stencil.clears);
+    if (pass->clear.stencil_bits) clear_stencil(gl, pass->clear.stencil_bits);
     gn_gl_set_scissor(gl, bound ? &inner : NULL);
-    gn_gl_set_depth(gl,
-                    pass->target.kind != GN_TARGET_ENCODED &&
-                        pass->target.kind != GN_TARGET_MOMENTS && !pass->only_stencil,
-                    pass->depth_write);
-    gn_gl_set_color_write(gl, !pass->only_stencil);
-    gn_gl_set_stencil(gl, &pass->stencil);
-    gn_gl_set_blend(gl, pass->blend);
+    gn_gl_set_depth(
+        gl, pass->target.kind != GN_TARGET_ENCODED && pass->kind != GN_PASS_FILTER && !only_stencil,
+        pass->depth_write);
+    gn_gl_set_color_write(gl, !only_stencil);
+    gn_gl_set_stencil(gl, picture ? &picture->stencil : &no_stencil);
+    gn_gl_set_blend(gl, picture ? picture->blend : GN_BLEND_OFF);
 }
 
-static void end_target(struct gn_gl *gl, const struct gn_pass *pass, bool last) {
+static void discard_depth(struct gn_gl *gl, const struct gn_pass *pass) {
     static const GLenum attachment[] = {GL_DEPTH_ATTACHMENT, GL_STENCIL_ATTACHMENT};
     static const GLenum window[] = {GL_DEPTH, GL_STENCIL};
     const GLenum *depth = gl->state.framebuffer ? attachment : window;
-    const bool is_map = gn_target_is_map(&pass->target);
-    const GLsizei count = !is_map && gl->targets.output.stencil ? 2 : 1;
-    if (is_map && pass->target.encoding == GN_ENCODING_DEPTH) return; /* it is what was wanted */
-    if (pass->discard_depth && last) GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, count, depth);
+    const bool stencil = pass->kind == GN_PASS_PICTURE && gl->targets.output.stencil;
+    GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, stencil ? 2 : 1, depth);
 }
 
 /* From the pages, which hold nothing any more then. */
 static void copy_pages(struct gn_gl *gl, const struct gn_pass *pass) {
     static const GLenum attachments[] = {GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0};
-    const struct gn_gl_map *pages = gn_gl_target_find(gl, &pass[-1].target);
+    const struct gn_gl_map *pages = gn_gl_target_find(gl, &pass->copy.from);
     const bool is_depth = pass->target.encoding == GN_ENCODING_DEPTH;
     if (!pages) return;
     GL(gl, BindFramebuffer)(GL_READ_FRAMEBUFFER, pages->framebuffer);
-    for (uint32_t i = 0; i < pass->copy_count; i++) {
-        const struct gn_gl_rect from = gl_rect(&pass->copies[i].from);
-        const GLint x = (GLint)pass->copies[i].to_x, y = (GLint)pass->copies[i].to_y;
+    for (uint32_t i = 0; i < pass->copy.count; i++) {
+        const struct gn_copy *copy = &pass->copy.copies[i];
+        const struct gn_gl_rect from = gl_rect(&copy->from);
+        const GLint x = (GLint)copy->to_x, y = (GLint)copy->to_y;
         GL(gl, BlitFramebuffer)
         (from.x, from.y, from.x + from.width, from.y + from.height, x, y, x + from.width,
          y + from.height, is_depth ? GL_DEPTH_BUFFER_BIT : GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -171,13 +170,14 @@ static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *v
                                                            : GN_GL_MAP_COMPARE];
 }
 
-static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
-    for (uint32_t i = 0; i < pass->shadow_count; i++) {
-        const uint32_t slot = pass->first_shadow + i;
+static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan,
+                      const struct gn_pass_picture *picture) {
+    for (uint32_t i = 0; i < picture->shadow_count; i++) {
+        const uint32_t slot = picture->first_shadow + i;
         const struct gn_shadow_view *view = &plan->shadows[slot];
-        const struct gn_gl_map *map = gn_gl_view_find(gl, view, slot, !pass->reads_codes);
-        const GLuint sampler =
-            pass->reads_codes ? gl->targets.map_samplers[GN_GL_MAP_NEAREST] : map_sampler(gl, view);
+        const struct gn_gl_map *map = gn_gl_view_find(gl, view, slot, !picture->reads_codes);
+        const GLuint sampler = picture->reads_codes ? gl->targets.map_samplers[GN_GL_MAP_NEAREST]
+                                                    : map_sampler(gl, view);
         if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, sampler);
     }
 }
@@ -186,7 +186,7 @@ static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan, const struct
 static void bind_reads(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
     const uint32_t slot = pass->target.slot;
     for (GLuint i = 0; i < GN_FILTER_FROM_MAX; i++) {
-        const struct gn_read *read = &pass->reads[i];
+        const struct gn_read *read = &pass->filter.reads[i];
         if (read->kind == GN_READ_NOTHING) continue;
         struct gn_target target = pass->target;
         target.index = read->index;
@@ -204,17 +204,17 @@ static void bind_reads(struct gn_gl *gl, const struct gn_plan *plan, const struc
 
 /* What a pass reads beside materials. */
 static void bind_sources(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
-    if (pass->reads_atlas) {
-        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->atlas.texture,
-                           gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
-        return;
-    }
-    if (pass->target.kind == GN_TARGET_MOMENTS) bind_reads(gl, plan, pass);
-    if (pass->target.kind == GN_TARGET_OUTPUT) bind_maps(gl, plan, pass);
-    if (pass->target.kind == GN_TARGET_ENCODED)
-        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output.texture,
-                           gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
-    for (uint32_t i = 0; i < pass->slide_count; i++) gn_gl_slide_bind(gl, i, pass->slides[i]);
+    const GLuint nearest = gl->targets.map_samplers[GN_GL_MAP_NEAREST];
+    const struct gn_pass_picture *picture = &pass->picture;
+    if (pass->kind == GN_PASS_FILTER) bind_reads(gl, plan, pass);
+    if (pass->kind != GN_PASS_PICTURE) return;
+    if (picture->reads_atlas)
+        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->atlas.texture, nearest);
+    else if (pass->target.kind == GN_TARGET_ENCODED)
+        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output.texture, nearest);
+    else
+        bind_maps(gl, plan, picture);
+    for (uint32_t i = 0; i < picture->slide_count; i++) gn_gl_slide_bind(gl, i, picture->slides[i]);
 }
 
 static void set_constants(struct gn_gl *gl, struct gn_gl_program *program,
@@ -236,6 +236,10 @@ static void set_material(struct gn_gl *gl, struct gn_gl_program *program, uint32
     GL(gl, Uniform4fv)(program->u_uv, 2 * GN_TEXTURE_SLOT_COUNT, gl->scene.uv[uv][0]);
 }
 
+static bool is_for_shadows(const struct gn_pass *pass) {
+    return pass->kind != GN_PASS_PICTURE || pass->picture.only_stencil;
+}
+
 static void draw_bare(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
                       uint64_t constants_hash) {
     struct gn_gl_program *program = gl->plan_programs[d->program];
@@ -245,7 +249,7 @@ static void draw_bare(struct gn_gl *gl, const struct gn_pass *pass, const struct
     GL(gl, DrawArraysInstanced)
     (GL_TRIANGLES, 0, (GLsizei)d->vertex_count, (GLsizei)d->instance_count);
     gl->stats.draws++;
-    gl->stats.shadow_draws += pass->target.kind == GN_TARGET_MOMENTS;
+    gl->stats.shadow_draws += is_for_shadows(pass);
     gl->stats.triangles += (uint64_t)d->vertex_count / 3 * d->instance_count;
 }
 
@@ -268,28 +272,14 @@ static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_d
     (GL_TRIANGLES, (GLsizei)count, gl->scene.index_type, (const void *)first,
      (GLsizei)d->instance_count);
     gl->stats.draws++;
-    gl->stats.shadow_draws += gn_target_is_map(&pass->target) || pass->only_stencil;
+    gl->stats.shadow_draws += is_for_shadows(pass);
     gl->stats.triangles += (uint64_t)count / 3 * d->instance_count;
 }
 
 /* ---- passes ---- */
 
-/* A map, its pages or its moments. */
-static bool goes_to_map(const struct gn_pass *pass) {
-    return gn_target_is_map(&pass->target) || pass->target.kind == GN_TARGET_MOMENTS;
-}
-
-static bool is_stale(const struct gn_gl_map *map, const struct gn_pass *pass) {
-    return !pass->content_hash || map->content_hash[pass->tile] != pass->content_hash;
-}
-
-/* The next tile of the same map that is drawn in this frame, right after this one; else NULL. */
-static const struct gn_pass *next_tile(const struct gn_plan *plan, const struct gn_gl_map *map,
-                                       const struct gn_pass *pass) {
-    const struct gn_pass *next = pass + 1;
-    bool same = next < plan->passes + plan->pass_count && next->target.kind == GN_TARGET_SHADOW &&
-                next->target.slot == pass->target.slot;
-    return same && is_stale(map, next) ? next : NULL;
+static bool holds(const struct gn_gl_map *map, uint32_t tile, uint64_t hash) {
+    return hash && map->content_hash[tile] == hash;
 }
 
 static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
@@ -299,18 +289,37 @@ static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
                                                   : gl->targets.output.framebuffer;
 }
 
+/* Whether any tile of a map, from the `first` on, is still to be drawn in this frame. */
+static bool is_any_to_draw(const struct gn_shadow_view *view, const struct gn_gl_map *map,
+                           uint32_t first) {
+    for (uint32_t tile = first; tile < view->map.tile_count; tile++)
+        if (!holds(map, tile, view->raster.tiles[tile].content_hash)) return true;
+    return false;
+}
+
+static bool are_all_to_draw(const struct gn_shadow_view *view, const struct gn_gl_map *map) {
+    for (uint32_t tile = 0; tile < view->map.tile_count; tile++)
+        if (holds(map, tile, view->raster.tiles[tile].content_hash)) return false;
+    return true;
+}
+
 /* To clear all of a map costs a tiler nothing, and a part of it a load and a draw: when all its
- * tiles are drawn, one clear does. */
-static enum clear clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
-                           const struct gn_pass *pass) {
-    if (!map || pass->target.kind != GN_TARGET_SHADOW) return pass->clear ? CLEAR_ALL : CLEAR_NOT;
-    if (pass->tile == 0) {
-        const struct gn_pass *last = pass, *next;
-        while ((next = next_tile(plan, map, last))) last = next;
-        map->cleared = last->tile + 1 == plan->shadows[pass->target.slot].map.tile_count;
-        if (map->cleared) return CLEAR_ALL;
+ * tiles are drawn, the first clears them all. */
+static enum gn_clear_area clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
+                                   const struct gn_pass *pass) {
+    if (pass->clear.area != GN_CLEAR_RECT) return pass->clear.area;
+    if (pass->content.tile == 0) {
+        map->cleared = are_all_to_draw(&plan->shadows[pass->target.slot], map);
+        if (map->cleared) return GN_CLEAR_ALL;
     }
-    return map->cleared ? CLEAR_NOT : CLEAR_RECT;
+    return map->cleared ? GN_CLEAR_NOTHING : GN_CLEAR_RECT;
+}
+
+/* The depth of a tile that the first has cleared is needed until that is drawn, too. */
+static bool is_depth_done(const struct gn_plan *plan, const struct gn_gl_map *map,
+                          const struct gn_pass *pass) {
+    if (!pass->discard_depth || pass->kind != GN_PASS_MAP) return pass->discard_depth;
+    return !is_any_to_draw(&plan->shadows[pass->target.slot], map, pass->content.tile + 1);
 }
 
 static bool is_stopped(const struct gn_gl *gl, struct gn_err *err) {
@@ -327,19 +336,15 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     begin_target(gl, pass, framebuffer_of(gl, pass, map), clear_of(plan, map, pass));
     bind_sources(gl, plan, pass);
     const bool first_time = gl->programs_run != gl->programs_made;
-    if (pass->copy_count) copy_pages(gl, pass);
+    if (pass->kind == GN_PASS_COPY) copy_pages(gl, pass);
     for (uint32_t i = 0; i < pass->draw_count; i++) {
         if (first_time && is_stopped(gl, err)) return false;
         draw(gl, pass, &plan->draws[pass->first_draw + i], hash, UINT32_MAX);
     }
-    end_target(gl, pass, !map || !next_tile(plan, map, pass));
+    if (is_depth_done(plan, map, pass)) discard_depth(gl, pass);
+    if (pass->kind == GN_PASS_PICTURE && pass->picture.resolves) resolve(gl);
     if (grouped) GL(gl, PopDebugGroup)();
     return !gl->debug || gn_gl_error_check(gl, pass->label, err);
-}
-
-/* After this pass its owner holds what the pass stands for. */
-static bool completes(const struct gn_pass *pass) {
-    return pass->target.kind == GN_TARGET_SHADOW || pass->completes;
 }
 
 /* What tells whether a pass has to run: the map, or the light's own moments, whose size may be
@@ -347,31 +352,25 @@ static bool completes(const struct gn_pass *pass) {
 static struct gn_gl_map *owner_of(struct gn_gl *gl, const struct gn_plan *plan,
                                   const struct gn_pass *pass) {
     const uint32_t slot = pass->target.slot;
-    return gn_gl_view_find(gl, &plan->shadows[slot], slot, pass->target.kind == GN_TARGET_MOMENTS);
+    return gn_gl_view_find(gl, &plan->shadows[slot], slot, pass->kind == GN_PASS_FILTER);
 }
 
 static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                      struct gn_err *err) {
-    if (!goes_to_map(pass)) return draw_pass(gl, plan, pass, NULL, err);
+    if (pass->kind == GN_PASS_PICTURE) return draw_pass(gl, plan, pass, NULL, err);
+    const struct gn_content *content = &pass->content;
     struct gn_gl_map *to = gn_gl_target_find(gl, &pass->target), *owner = owner_of(gl, plan, pass);
     if (!to || !owner) return gn_fail(err, "%s: the plan was not prepared", pass->label);
-    if (!is_stale(owner, pass)) {
+    if (holds(owner, content->tile, content->hash)) {
         owner->cleared = false;
         gl->stats.shadow_passes_skipped += pass->target.kind == GN_TARGET_SHADOW;
         return true;
     }
-    if (to == owner) owner->content_hash[pass->tile] = 0; /* now something else, until it is done */
+    if (to == owner) owner->content_hash[content->tile] = 0; /* something else until it is done */
     const bool ok = draw_pass(gl, plan, pass, to, err);
-    if (completes(pass)) owner->content_hash[pass->tile] = ok ? pass->content_hash : 0;
-    if (ok && completes(pass)) gn_gl_target_reduce(gl, owner);
+    if (content->completes) owner->content_hash[content->tile] = ok ? content->hash : 0;
+    if (ok && content->completes) gn_gl_target_reduce(gl, owner);
     return ok;
-}
-
-/* Nothing is drawn to the picture after this pass. */
-static bool is_last_of_picture(const struct gn_plan *plan, uint32_t pass) {
-    return plan->passes[pass].target.kind != GN_TARGET_ENCODED &&
-           (pass + 1 == plan->pass_count ||
-            plan->passes[pass + 1].target.kind == GN_TARGET_ENCODED);
 }
 
 static bool run_passes(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms,
@@ -380,7 +379,6 @@ static bool run_passes(struct gn_gl *gl, const struct gn_plan *plan, double *pas
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const int64_t start_ns = pass_ms ? gn_clock_monotonic_ns() : 0;
         if (!run_pass(gl, plan, &plan->passes[i], err)) return false;
-        if (is_last_of_picture(plan, i)) resolve(gl);
         if (!pass_ms) continue;
         gn_gl_wait(gl);
         pass_ms[i] = (double)(gn_clock_monotonic_ns() - start_ns) * 1e-6;
@@ -470,12 +468,12 @@ static const struct gn_draw *first_draw_of(const struct gn_plan *plan, const str
 static bool touch_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                        const struct gn_draw *d, struct gn_err *err) {
     static const struct gn_gl_rect pixel = {0, 0, 1, 1};
-    const bool is_map = goes_to_map(pass);
+    const bool is_map = pass->kind != GN_PASS_PICTURE;
     struct gn_gl_map *map = is_map ? gn_gl_target_find(gl, &pass->target) : NULL;
     struct gn_draw one = *d;
     one.instance_count = 1;
     if (is_map && !map) return gn_fail(err, "%s: the plan was not prepared", pass->label);
-    begin_target(gl, pass, framebuffer_of(gl, pass, map), CLEAR_NOT);
+    begin_target(gl, pass, framebuffer_of(gl, pass, map), GN_CLEAR_NOTHING);
     gn_gl_set_scissor(gl, &pixel);
     bind_sources(gl, plan, pass);
     draw(gl, pass, &one, 0, 3);

@@ -378,8 +378,8 @@ bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct g
 bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_target *target = &plan->passes[i].target, kept = kept_target(target);
-        const bool wanted = gn_target_is_map(target) || target->kind == GN_TARGET_MOMENTS;
-        if (wanted && !map_ensure(gl, &kept, err)) return false;
+        if (plan->passes[i].kind == GN_PASS_PICTURE) continue;
+        if (!map_ensure(gl, &kept, err)) return false;
     }
     return true;
 }

@@ -264,7 +264,7 @@ static void test_over_many_lights(void **state) {
         assert_true(encodes() || plan->output == GN_OUTPUT_FLOAT);
         plan = draw(run_at(0), shown);
         const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
-        assert_true(last->reads_atlas);
+        assert_true(last->picture.reads_atlas);
         assert_int_equal(last->target.kind, encodes() ? GN_TARGET_OUTPUT : GN_TARGET_ENCODED);
         expect_blended(run_at(0), false, tolerance() + 1);
     }

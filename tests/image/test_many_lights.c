@@ -78,7 +78,8 @@ static uint8_t one[4 * PIXELS], many[4 * PIXELS];
 static uint32_t passes_that_add(const struct gn_plan *plan) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < plan->pass_count; i++)
-        count += plan->passes[i].blend == GN_BLEND_ADD &&
+        count += plan->passes[i].kind == GN_PASS_PICTURE &&
+                 plan->passes[i].picture.blend == GN_BLEND_ADD &&
                  strncmp(plan->passes[i].label, "lights", 6) == 0;
     return count;
 }
@@ -163,7 +164,8 @@ static void test_a_short_range_is_one_too(void **state) {
     expect_one(SPOT, (const uint32_t[4]){5}, GN_SHADOWS_MAX, 1);
     const struct gn_plan *plan = draw(NULL);
     for (uint32_t i = 0; i < plan->pass_count; i++)
-        if (plan->passes[i].blend == GN_BLEND_ADD)
+        if (plan->passes[i].kind == GN_PASS_PICTURE &&
+            plan->passes[i].picture.blend == GN_BLEND_ADD)
             assert_in_range(plan->passes[i].rect.width * plan->passes[i].rect.height, 1,
                             PIXELS * 3 / 4);
 }

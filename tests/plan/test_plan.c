@@ -61,7 +61,9 @@ static void test_a_stencil_is_there_where_a_light_needs_it(void **state) {
     f.opts.camera = 1;
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_true(plan->stencil);
-    for (uint32_t i = 0; i < plan->pass_count; i++) assert_false(plan->passes[i].only_stencil);
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        assert_false(plan->passes[i].kind == GN_PASS_PICTURE &&
+                     plan->passes[i].picture.only_stencil);
     gn_plan_end(&f);
 }
 
@@ -239,7 +241,7 @@ static void test_a_sun_over_all_that_is_seen_is_one_page(void **state) {
         assert_int_equal(plan->culled, 0);
         assert_true(!sun->raster.drawn.paged && sun->raster.drawn.page_count == 1);
         assert_int_equal(plan->passes[0].target.kind, GN_TARGET_SHADOW);
-        assert_int_equal(plan->passes[0].copy_count, 0);
+        assert_int_equal(plan->passes[0].kind, GN_PASS_MAP);
         if (step > 0) assert_true(sun->raster.tiles[0].content_hash == kept);
         kept = sun->raster.tiles[0].content_hash;
     }
@@ -263,7 +265,8 @@ static void test_a_page_draws_what_is_in_it(void **state) {
         all += drawn[p];
     }
     assert_int_equal(plan->passes[4].target.kind, GN_TARGET_SHADOW);
-    assert_int_equal(plan->passes[4].copy_count, 4);
+    assert_int_equal(plan->passes[4].kind, GN_PASS_COPY);
+    assert_int_equal(plan->passes[4].copy.count, 4);
     assert_true(drawn[2] > drawn[1] && drawn[2] > drawn[3]); /* the largest part */
     assert_true(all < 2 * drawn[2]);
     gn_plan_end(&f);
@@ -339,31 +342,32 @@ static void test_check_finds_what_is_broken(void **state) {
     plan.instance_count--;
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
-    plan.passes[0].clear = false;
+    plan.passes[0].clear.area = GN_CLEAR_NOTHING;
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
-    plan.passes[plan.pass_count - 1].blend = GN_BLEND_ADD; /* with programs that do not add */
+    plan.passes[plan.pass_count - 1].picture.blend =
+        GN_BLEND_ADD; /* with programs that do not add */
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
     plan.passes[plan.pass_count - 1].rect = (struct gn_rect){1, 0, plan.width_px, 1};
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
-    plan.passes[plan.pass_count - 1].shadow_count = 1; /* its programs read two */
+    plan.passes[plan.pass_count - 1].picture.shadow_count = 1; /* its programs read two */
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
     plan.draws[0].geometry = GN_NO_GEOMETRY;
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f); /* passes 0-3 are pages, 4 puts them together */
-    plan.passes[3].content_hash++;
+    plan.passes[3].content.hash++;
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
-    plan.passes[1].clear = true;
+    plan.passes[1].clear.area = GN_CLEAR_ALL;
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
-    plan.passes[4].copies[0].to_x = plan.passes[4].target.width_px;
+    plan.passes[4].copy.copies[0].to_x = plan.passes[4].target.width_px;
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
-    plan.passes[4].copy_count = 0;
+    plan.passes[4].copy.count = 0;
     assert_non_null(gn_plan_check(&plan));
     f.opts.technique_given = f.opts.planar_in_stencil = true;
     f.opts.technique = GN_TECHNIQUE_PLANAR;
@@ -372,13 +376,19 @@ static void test_check_finds_what_is_broken(void **state) {
     plan.stencil = false;
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
-    plan.passes[2].only_stencil = false; /* its programs write nothing else */
+    plan.passes[2].picture.only_stencil = false; /* its programs write nothing else */
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
-    plan.passes[1].stencil.value = 0x80, plan.passes[1].stencil.writes = 0x7f;
+    plan.passes[1].picture.stencil.value = 0x80, plan.passes[1].picture.stencil.writes = 0x7f;
     assert_non_null(gn_plan_check(&plan));
     plan = *gn_plan_make(&f);
-    plan.passes[1].reads_atlas = true;
+    plan.passes[1].picture.reads_atlas = true;
+    assert_non_null(gn_plan_check(&plan));
+    plan = *gn_plan_make(&f);
+    plan.passes[plan.pass_count - 1].picture.resolves = false;
+    assert_non_null(gn_plan_check(&plan));
+    plan = *gn_plan_make(&f);
+    plan.passes[0].kind = GN_PASS_COPY; /* with a target and draws of a picture */
     assert_non_null(gn_plan_check(&plan));
     gn_plan_end(&f);
 }

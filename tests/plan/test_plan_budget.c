@@ -17,7 +17,7 @@ static struct hashes hashes_of(const struct gn_plan *plan) {
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_pass *pass = &plan->passes[i];
         if (pass->target.kind == GN_TARGET_MOMENTS)
-            h.of[pass->target.slot] = 31 * h.of[pass->target.slot] + pass->content_hash;
+            h.of[pass->target.slot] = 31 * h.of[pass->target.slot] + pass->content.hash;
     }
     return h;
 }

@@ -22,7 +22,7 @@ static void test_msm_plan(void **state) {
 /* Of the first filter pass in the plan. */
 static uint64_t hash_of(const struct gn_plan *plan) {
     for (uint32_t i = 0; i < plan->pass_count; i++)
-        if (plan->passes[i].target.kind == GN_TARGET_MOMENTS) return plan->passes[i].content_hash;
+        if (plan->passes[i].target.kind == GN_TARGET_MOMENTS) return plan->passes[i].content.hash;
     fail_msg("there is no filter");
     return 0;
 }

@@ -86,9 +86,9 @@ static void test_constants_are_those_of_the_view(void **state) {
         f.opts.cascades = cascades;
         const struct gn_plan *plan = gn_plan_make(&f);
         const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
-        assert_true(last->shadow_count > 0);
-        for (uint32_t i = 0; i < last->shadow_count; i++)
-            expect_constants(&plan->shadows[last->first_shadow + i],
+        assert_true(last->picture.shadow_count > 0);
+        for (uint32_t i = 0; i < last->picture.shadow_count; i++)
+            expect_constants(&plan->shadows[last->picture.first_shadow + i],
                              last->constants + PASS_SHADOWS + i * SHADOW_SIZE);
         gn_plan_end(&f);
     }
@@ -245,7 +245,8 @@ static void test_visibility_has_no_slide(void **state) {
     for (uint32_t i = 0; i < plan->program_count; i++)
         assert_int_equal(plan->programs[i].lights[0].slide, GN_SLIDE_NONE);
     for (uint32_t i = 0; i < plan->pass_count; i++)
-        assert_int_equal(plan->passes[i].slide_count, 0);
+        if (plan->passes[i].kind == GN_PASS_PICTURE)
+            assert_int_equal(plan->passes[i].picture.slide_count, 0);
     gn_plan_end(&f);
 }
 
@@ -258,7 +259,7 @@ static void test_slides_over_four_are_left_out_by_order(void **state) {
     make_spots(&f, lights, 6);
     lights[0].technique = lights[1].technique = "none"; /* they go last, and keep theirs */
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
-    assert_int_equal(plan->passes[plan->pass_count - 1].slide_count, 4);
+    assert_int_equal(plan->passes[plan->pass_count - 1].picture.slide_count, 4);
     assert_int_equal(warnings.count, 2);
     assert_non_null(strstr(warnings.text[0], "light 'Spot 4' shines without its slide"));
     assert_non_null(strstr(warnings.text[1], "light 'Spot 5' shines without its slide"));
@@ -276,8 +277,9 @@ static void test_a_slide_goes_with_its_light_into_an_added_pass(void **state) {
     int added = 0;
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_pass *pass = &plan->passes[i];
-        bool adds = pass->blend == GN_BLEND_ADD;
-        assert_int_equal(pass->slide_count, adds);
+        if (pass->kind != GN_PASS_PICTURE) continue;
+        bool adds = pass->picture.blend == GN_BLEND_ADD;
+        assert_int_equal(pass->picture.slide_count, adds);
         assert_int_equal(pass->constant_count, adds ? PASS_CASCADES : PASS_SLIDES);
         if (adds) assert_true(pass->constants[PASS_SLIDES + SLIDE_PLACE][0] == 300);
         added += adds;

@@ -80,9 +80,10 @@ static inline void begin_plan(enum gn_output_format output) {
                               .exposure = 1};
     s.passes[0] = (struct gn_pass){.label = "opaque",
                                    .target = {.width_px = SIDE, .height_px = SIDE},
-                                   .clear = true,
+                                   .clear.area = GN_CLEAR_ALL,
                                    .depth_write = true,
                                    .discard_depth = true,
+                                   .picture.resolves = true,
                                    .constants = (const float(*)[4])s.constants[0],
                                    .constant_count = 2};
     s.programs[0].kind = output == GN_OUTPUT_AOV ? GN_PROGRAM_AOV : GN_PROGRAM_LIT;

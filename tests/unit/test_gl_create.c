@@ -108,7 +108,8 @@ static void test_liar_found_late(void **state) {
     assert_non_null(gl);
     if (!gn_gl_caps(gl)->software) skip();
     assert_int_equal(gn_gl_caps(gl)->has & halves, halves);
-    struct gn_pass pass = {.target = {.kind = GN_TARGET_SHADOW, .encoding = GN_ENCODING_R16F}};
+    struct gn_pass pass = {.kind = GN_PASS_MAP,
+                           .target = {.kind = GN_TARGET_SHADOW, .encoding = GN_ENCODING_R16F}};
     struct gn_plan plan = {.passes = &pass, .pass_count = 1, .output = GN_OUTPUT_SRGB8};
     assert_false(gn_gl_prove(gl, &plan));
     assert_int_equal(gn_gl_caps(gl)->has & halves, 1u << GN_CAP_RGBA16F);

@@ -25,7 +25,7 @@ static void test_depth_and_srgb(void **state) {
 static void test_clear_and_constants(void **state) {
     (void)state;
     begin_plan(GN_OUTPUT_SRGB8);
-    s.passes[0].clear_color[2] = 0.5f;
+    s.passes[0].clear.color[2] = 0.5f;
     add_draw(HELP_NEAR, instance(0, 0, 0, 1));
     s.constants[0][0][1] = 0.5f;
     show();
@@ -57,8 +57,8 @@ static void test_cull_and_mirror(void **state) {
 static void test_blend(void **state) {
     (void)state;
     begin_plan(GN_OUTPUT_LINEAR8);
-    s.passes[0].clear_color[0] = 1;
-    s.passes[0].blend = GN_BLEND_ALPHA;
+    s.passes[0].clear.color[0] = 1;
+    s.passes[0].picture.blend = GN_BLEND_ALPHA;
     s.passes[0].depth_write = false;
     add_draw(HELP_FAR, instance(0, 0.25f, 0, 0.25f)); /* premultiplied */
     show();
@@ -122,7 +122,7 @@ static void test_float_and_aov(void **state) {
     assert_true(gn_gl_read_f32(gl, &out[0][0][0], &err));
     assert_true(out[8][8][0] == 100 && out[8][8][1] == -0.5f && out[8][8][2] == 0.25f);
     begin_plan(GN_OUTPUT_AOV);
-    s.passes[0].clear_color[0] = INFINITY;
+    s.passes[0].clear.color[0] = INFINITY;
     add_draw(HELP_NEAR, instance(12345.678f, -1, 0, 1));
     prepare();
     run();
@@ -163,20 +163,22 @@ static void plan_stencil(enum gn_output_format output) {
     s.plan.stencil = true;
     s.plan.pass_count = 4, s.plan.program_count = 2;
     s.programs[1].kind = GN_PROGRAM_FLAT;
-    s.passes[0].stencil = (struct gn_stencil){.value = 0x80, .writes = 0xff};
-    s.passes[0].discard_depth = false;
+    s.passes[0].picture.stencil = (struct gn_stencil){.value = 0x80, .writes = 0xff};
+    s.passes[0].discard_depth = s.passes[0].picture.resolves = false;
     for (uint32_t i = 1; i < 4; i++) {
         s.passes[i] = s.passes[0];
-        s.passes[i].clear = s.passes[i].depth_write = false;
+        s.passes[i].clear.area = GN_CLEAR_NOTHING;
+        s.passes[i].depth_write = false;
         s.passes[i].first_draw = i;
     }
     for (int i = 0; i < 4; i++) s.passes[i].draw_count = 1;
-    s.passes[1].only_stencil = true;
-    s.passes[1].stencil = (struct gn_stencil){.value = 0x81, .reads = 0x80, .writes = 0x01};
-    s.passes[2].stencil = (struct gn_stencil){.value = 0x81, .reads = 0x8f};
-    s.passes[3].stencil = (struct gn_stencil){.value = 0x80, .reads = 0x81, .clears = 0x01};
+    s.passes[1].picture.only_stencil = true;
+    s.passes[1].picture.stencil = (struct gn_stencil){.value = 0x81, .reads = 0x80, .writes = 0x01};
+    s.passes[2].picture.stencil = (struct gn_stencil){.value = 0x81, .reads = 0x8f};
+    s.passes[3].picture.stencil = (struct gn_stencil){.value = 0x80, .reads = 0x81};
+    s.passes[3].clear.stencil_bits = 0x01;
     s.passes[3].rect = (struct gn_rect){8, 0, 2, SIDE};
-    s.passes[3].discard_depth = true;
+    s.passes[3].discard_depth = s.passes[3].picture.resolves = true;
 }
 
 static void expect_stencil(void) {
@@ -222,12 +224,14 @@ static void plan_map(enum gn_encoding encoding, float code, float far_code) {
     s.passes[0].draw_count = 1;
     s.passes[0].target = (struct gn_target){
         .kind = GN_TARGET_SHADOW, .width_px = MAP, .height_px = MAP, .encoding = encoding};
-    s.passes[0].border_px = 1;
-    s.passes[0].clear_color[0] = far_code;
-    s.passes[0].content_hash = 77;
+    s.passes[0].kind = GN_PASS_MAP;
+    s.passes[0].map = (struct gn_pass_map){.border_px = 1};
+    s.passes[0].discard_depth = encoding != GN_ENCODING_DEPTH;
+    s.passes[0].clear.color[0] = far_code;
+    s.passes[0].content = (struct gn_content){.hash = 77, .completes = true};
     s.constants[1][0][0] = code;
     s.passes[0].constants = (const float(*)[4])s.constants[1];
-    s.passes[1].shadow_count = 1;
+    s.passes[1].picture.shadow_count = 1;
     s.plan.pass_count = 2, s.plan.program_count = 2, s.plan.shadow_count = 1;
     s.shadows[0] = (struct gn_shadow_view){.technique = GN_TECHNIQUE_HARD,
                                            .encoding = encoding,
@@ -271,13 +275,13 @@ static void test_map_skipped(void **state) {
     expect(8, 8, 191, 191, 191);
     assert_int_equal(gn_gl_stats(gl).shadow_passes_skipped, 1);
     assert_int_equal(gn_gl_stats(gl).shadow_draws, 0);
-    s.passes[0].content_hash = 78;
+    s.passes[0].content.hash = 78;
     show();
     expect(8, 8, 64, 64, 64);
     assert_true(gn_gl_load(gl, &help_scene, &err)); /* another scene: all is drawn again */
     show();
     assert_int_equal(gn_gl_stats(gl).shadow_draws, 1);
-    s.passes[0].content_hash = 0;
+    s.passes[0].content.hash = 0;
     show();
     assert_int_equal(gn_gl_stats(gl).shadow_draws, 1);
 }
@@ -296,7 +300,7 @@ static void test_maps_take_turns(void **state) {
     for (uint32_t side = 1; side < 3 * GN_GL_MAPS_MAX; side++) {
         s.passes[0].target.width_px = s.passes[0].target.height_px = side;
         s.shadows[0].map.width_px = s.shadows[0].map.height_px = side;
-        s.passes[0].border_px = 0;
+        s.passes[0].map.border_px = 0;
         show();
     }
     plan_map(GN_ENCODING_RGBA8, 0.5f, 1);
@@ -318,7 +322,7 @@ static void test_steady(void **state) {
     for (uint64_t i = 0; i < 5; i++) {
         s.instances[1].base_color[0] = 0.1f * (float)i;
         s.constants[0][0][0] = 0.01f * (float)i;
-        s.passes[0].content_hash = 100 + i;
+        s.passes[0].content.hash = 100 + i;
         prepare();
         run();
     }
