@@ -75,7 +75,11 @@ static struct gn_doctor_backend *add_backend(struct gn_doctor_report *report, co
     const struct gn_display_ops *ops = find_built(name);
     if (report->backend_count == GN_DOCTOR_BACKENDS) return NULL;
     struct gn_doctor_backend *b = &report->backends[report->backend_count++];
-    *b = (struct gn_doctor_backend){.name = name, .what = ops ? ops->what : NULL, .built = ops};
+    *b = (struct gn_doctor_backend){.name = name,
+                                    .what = ops ? ops->what : NULL,
+                                    .built = ops,
+                                    .is_window = ops && ops->is_window,
+                                    .is_console = ops && ops->is_console};
     return b;
 }
 

@@ -12,8 +12,7 @@ enum { COLUMNS = 96 };
 /* A window hears keys without reading devices. */
 static bool has_window(const struct gn_doctor_report *report) {
     for (int i = 0; i < report->backend_count; i++)
-        if (strcmp(report->backends[i].name, "window") == 0 && report->backends[i].opens)
-            return true;
+        if (report->backends[i].is_window && report->backends[i].opens) return true;
     return false;
 }
 

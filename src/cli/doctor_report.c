@@ -107,7 +107,7 @@ static void diagnose_backend(struct gn_doctor_report *report, const struct gn_do
 void gn_doctor_diagnose(struct gn_doctor_report *report) {
     for (int i = 0; i < report->backend_count; i++)
         if (report->backends[i].built && !report->backends[i].opens &&
-            !(strcmp(report->backends[i].name, "kms") == 0 &&
+            !(report->backends[i].is_console &&
               !has_device(&report->machine, GN_DEVICE_CARD))) /* which is said below */
             diagnose_backend(report, &report->backends[i]);
     if (report->chosen >= 0) diagnose_gpu(report);

@@ -15,8 +15,9 @@ enum { GN_DOCTOR_BACKENDS = 8, GN_DOCTOR_PROBLEMS = 24 };
 struct gn_doctor_backend {
     const char *name, *what; /* what: a line for people, NULL if it is not built in */
     bool built, opens;
-    char why[320];       /* it does not open */
-    struct gn_caps caps; /* it opens */
+    bool is_window, is_console; /* as in struct gn_display_ops */
+    char why[320];              /* it does not open */
+    struct gn_caps caps;        /* it opens */
 };
 struct gn_doctor_problem { /* one line together: "what: cure" */
     char what[320], cure[200];

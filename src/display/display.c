@@ -6,7 +6,10 @@
 #include "display/private.h"
 
 const struct gn_display_ops *const gn_displays[] = {
-    &gn_display_surfaceless, &gn_display_osmesa, &gn_display_kms, &gn_display_window, NULL,
+#define X(file, name) &gn_display_##file,
+    GN_DISPLAY_TABLE(X)
+#undef X
+        NULL,
 };
 
 static bool open_row(struct gn_display *display, const struct gn_display_ops *ops,

@@ -74,10 +74,20 @@ struct gn_screen {
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
+/* One row and one file add a display, which defines gn_display_FILE. The name is that of --backend;
+ * the order is the one in which "auto" tries them. */
+#define GN_DISPLAY_TABLE(X)                                                                        \
+    X(surfaceless, "egl")                                                                          \
+    X(osmesa, "osmesa")                                                                            \
+    X(kms, "kms")                                                                                  \
+    X(window, "window")
+
 struct gn_display_ops {
-    const char *name; /* as in --backend: "egl", "osmesa" */
+    const char *name; /* as in the table */
     const char *what; /* one line for doctor */
     bool desktop;     /* its context is desktop GL that reads ES 3.0 shaders */
+    bool is_window;   /* on a desktop: it has keys of its own, others are not read */
+    bool is_console;  /* it owns a whole screen: keys are read from input devices */
     bool (*open)(struct gn_display *display, struct gn_warnings *warnings,
                  struct gn_err *err); /* makes a context current; NULL: it is only a screen */
     gn_display_proc (*get_proc)(struct gn_display *display, const char *name);
@@ -103,7 +113,7 @@ struct gn_display {
     void *unseen;            /* private: of a screen that nobody sees */
 };
 
-/* All that were built in, in the order in which "auto" tries them; NULL ends. */
+/* The table's; NULL ends. One whose library is missing in this build fails to open. */
 extern const struct gn_display_ops *const gn_displays[];
 
 /* Opens by name ("auto": the first that opens). A name that exists but was not built in says so. */

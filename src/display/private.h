@@ -4,10 +4,9 @@
 
 #include "display/display.h"
 
-extern const struct gn_display_ops gn_display_surfaceless; /* surfaceless.c */
-extern const struct gn_display_ops gn_display_osmesa;      /* osmesa.c, or osmesa_none.c */
-extern const struct gn_display_ops gn_display_kms;         /* kms/screen.c */
-extern const struct gn_display_ops gn_display_window;      /* window/ */
+#define X(file, name) extern const struct gn_display_ops gn_display_##file;
+GN_DISPLAY_TABLE(X)
+#undef X
 
 /* A screen for displays that have none: lit from the start, its frames are shown at once, a timer
  * paces them. */

@@ -1,13 +1,8 @@
 /* Buttons and keys of a kiosk: what they did becomes actions. */
 #include <stdio.h>
-#include <string.h>
 
 #include "core/clock.h"
 #include "kiosk/show.h"
-
-static bool is(const struct gn_show *s, const char *name) {
-    return strcmp(s->stage.display.ops->name, name) == 0;
-}
 
 /* A window's keys are the window's: who types elsewhere means something else. */
 bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
@@ -20,8 +15,8 @@ bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
     const struct gn_input_opts opts = {
         .button_count = gn_buttons_opts(&s->buttons, s->button_opts),
         .buttons = s->button_opts,
-        .terminal = !is(s, "window"),
-        .devices = is(s, "kms"),
+        .terminal = !s->stage.display.ops->is_window,
+        .devices = s->stage.display.ops->is_console,
         .script = s->stage.settings->run.input_script,
     };
     s->input = gn_input_open(&opts, gn_clock_monotonic_ns(), s->warnings, err);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "display/display.h"
 #include "frame/plan.h"
 #include "options/action.h"
 #include "options/settings.h"
@@ -13,8 +14,11 @@
 #define ANY          ((1u << GN_COMMAND_COUNT) - 1)
 #define FIELD(name)  offsetof(struct gn_settings, name)
 
-static const struct gn_choice backends[] = {{"auto", 0}, {"kms", 0},    {"window", 0},
-                                            {"egl", 0},  {"osmesa", 0}, {0}};
+static const struct gn_choice backends[] = {{"auto", 0},
+#define X(file, name) {name, 0},
+                                            GN_DISPLAY_TABLE(X)
+#undef X
+                                                {0}};
 static const struct gn_choice map_formats[] = {{"auto", 0},
                                                {"depth", 0},
                                                {"r32ui", 0},

@@ -96,7 +96,8 @@ static void test_a_window_needs_no_devices(void **state) {
     static struct gn_doctor_report report;
     fill(&report);
     report.input.chip_count = 0;
-    report.backends[0] = (struct gn_doctor_backend){.name = "window", .built = true, .opens = true};
+    report.backends[0] = (struct gn_doctor_backend){
+        .name = "window", .built = true, .opens = true, .is_window = true};
     report.backend_count = 1;
     gn_doctor_diagnose_input(&report);
     assert_int_equal(report.problem_count, 0);

@@ -123,7 +123,7 @@ static void test_a_backend_brings_its_cure(void **state) {
     report = (struct gn_doctor_report){.chosen = -1, .backend_count = 2};
     report.backends[0] = (struct gn_doctor_backend){
         .name = "egl", .built = true, .why = "libEGL.so.1 is missing; install libegl1"};
-    report.backends[1] = (struct gn_doctor_backend){.name = "kms"};
+    report.backends[1] = (struct gn_doctor_backend){.name = "kms", .is_console = true};
     gn_doctor_diagnose(&report);
     assert_true(has_problem("backend egl: libEGL.so.1 is missing", "install libegl1"));
     assert_false(has_problem("kms", ""));

@@ -126,7 +126,7 @@ static void a_wrong_value_names_option_value_and_range(void **state) {
     assert_wrong("render --time -1", "--time");
     assert_wrong("render --aov colour", "one of color, visibility, distance, normal, map");
     assert_wrong("render --msaa 3", "one of 0, 2, 4");
-    assert_wrong("render --backend EGL", "one of auto, kms, window, egl, osmesa");
+    assert_wrong("render --backend EGL", "one of auto, egl, osmesa, kms, window");
     assert_wrong("render --shadow=", "--shadow");
     assert_wrong("render --shadow nosuch", "--shadow: \"nosuch\" is not one of none, hard, pcf,");
     assert_wrong("bench --shadow pcf,,hard", "--shadow: \"pcf,,hard\" is not");

@@ -238,6 +238,7 @@ static const struct gn_screen_ops kms_screen_ops = {
 
 const struct gn_display_ops gn_display_kms = {
     .name = "kms",
+    .is_console = true,
     .what = "full screen without a desktop (the kernel's modesetting)",
     .open = kms_open,
     .get_proc = kms_get_proc,

@@ -454,6 +454,7 @@ static const struct gn_screen_ops window_screen_ops = {
 
 const struct gn_display_ops gn_display_window = {
     .name = "window",
+    .is_window = true,
     .what = "a window on a desktop, X11 or Wayland (GLFW)",
     .open = window_open,
     .get_proc = window_get_proc,

@@ -15,6 +15,7 @@ static void no_close(struct gn_display *display) { (void)display; }
 
 const struct gn_display_ops gn_display_window = {
     .name = "window",
+    .is_window = true,
     .what = "a window on a desktop (not built in)",
     .open = refuse,
     .get_proc = no_proc,

@@ -53,15 +53,12 @@ static void close_all(struct gn_show_control *c) {
     free(c);
 }
 
-static bool is_window(const struct gn_show *s) {
-    return s->place || strcmp(s->stage.settings->display.backend, "window") == 0;
-}
-
 void gn_show_open_control(struct gn_show *s) {
     char path[GN_LISTEN_PATH_MAX];
     struct gn_err err = {0};
     const char *named = s->stage.settings->kiosk.socket;
-    if (!named && (is_window(s) || !gn_listen_default(path, sizeof path))) return;
+    if (!named && (s->stage.display.ops->is_window || !gn_listen_default(path, sizeof path)))
+        return;
     struct gn_show_control *c = gn_xalloc(1, sizeof *c);
     *c = (struct gn_show_control){.epoll = -1, .timer = -1};
     gn_show_status_begin(&c->status, gn_clock_monotonic_ns());
