@@ -1,15 +1,11 @@
 // Attributes of a vertex and of an instance, and what every vertex shader makes of them.
-layout(location = 0) in vec3 a_position;
-layout(location = 1) in vec3 a_normal;
-layout(location = 2) in vec2 a_uv0;
-layout(location = 3) in vec2 a_uv1;
-layout(location = 4) in vec4 a_color;
-layout(location = 5) in vec4 a_world_0; // rows of world_from_item
-layout(location = 6) in vec4 a_world_1;
-layout(location = 7) in vec4 a_world_2;
-layout(location = 8) in vec4 a_base_color; // linear
-layout(location = 9) in vec4 a_surface;    // roughness, metalness, occlusion strength, alpha cutoff
-layout(location = 10) in vec4 a_emissive;  // linear radiance; w: 1 = casts
+VERTEX_ATTRIBUTES // a_position, a_normal, a_uv0, a_uv1, a_color: the rows of src/scene/attribute.h
+layout(location = 10) in vec4 a_world_0; // rows of world_from_item
+layout(location = 11) in vec4 a_world_1;
+layout(location = 12) in vec4 a_world_2;
+layout(location = 13) in vec4 a_base_color; // linear
+layout(location = 14) in vec4 a_surface;    // roughness, metalness, occlusion strength, alpha cutoff
+layout(location = 15) in vec4 a_emissive;   // linear radiance; w: 1 = casts
 
 uniform vec4 u_uv[2 * SLOT_COUNT]; // two rows per texture slot: uv_from_uv
 

@@ -79,11 +79,9 @@ static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene)
     gn_pose_finish(&pose);
 }
 
-/* As gl/ lays them out: positions, then a packed rest; indices of 16 bits where that is enough. */
+/* As gl/ lays them out: indices have 16 bits where that is enough. */
 static void count_buffers(struct gn_scene_cost *cost, const struct gn_scene *scene) {
-    uint64_t vertex =
-        12 + 8 + (scene->uv0 ? 8 : 0) + (scene->uv1 ? 8 : 0) + (scene->colors ? 4 : 0);
-    cost->vertex_bytes = vertex * scene->vertex_count;
+    cost->vertex_bytes = (uint64_t)gn_scene_vertex_bytes(scene) * scene->vertex_count;
     cost->index_bytes = (uint64_t)scene->index_count * (scene->vertex_count > 65536 ? 4 : 2);
 }
 

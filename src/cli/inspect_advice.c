@@ -80,7 +80,7 @@ static void check_images(struct gn_inspection *in) {
 static void check_normals(struct gn_inspection *in) {
     uint32_t without = 0;
     for (uint32_t i = 0; i < in->scene->geometry_count; i++)
-        without += !in->scene->geometries[i].has_normals_in_file;
+        without += !gn_geometry_has(&in->scene->geometries[i], GN_ATTRIBUTE_NORMAL);
     if (without)
         advise(in, "export normals, unless facets are wanted",
                "%u mesh%s %s no normals: facets show", without, without == 1 ? "" : "es",

@@ -7,8 +7,11 @@ const struct gn_feature_row gn_features[GN_FEATURE_COUNT] = {
 #define GN_X(NAME, name, ...) {GN_BIT_##NAME##_UV1, #NAME "_UV1", #name "-uv1"},
         GN_TEXTURE_SLOTS(GN_X)
 #undef GN_X
+#define GN_X(NAME, name, ...) {GN_BIT_VERTEX_##NAME, "VERTEX_" #NAME, "vertex-" #name},
+            GN_FEATURE_ATTRIBUTES(GN_X)
+#undef GN_X
 #define GN_X(NAME, printed) {GN_BIT_##NAME, #NAME, printed},
-            GN_FEATURES(GN_X)
+                GN_FEATURES(GN_X)
 #undef GN_X
 };
 

@@ -7,11 +7,11 @@
 
 #include <stdint.h>
 
+#include "scene/attribute.h"
 #include "scene/material.h"
 
 /* X(NAME, printed name): what is no texture and no attribute. */
 #define GN_FEATURES(X)                                                                             \
-    X(VERTEX_COLOR, "vertex-color")                                                                \
     X(ALPHA_MASK, "mask")                                                                          \
     X(ALPHA_BLEND, "blend")                                                                        \
     X(DOUBLE_SIDED, "double-sided")                                                                \
@@ -27,27 +27,38 @@
     X(ADDITIVE, "additive") /* LIT: light alone, to be added: no ambient, emission, alpha */
 
 enum gn_feature_bit {
-    GN_FEATURE_FIRST_TEXTURE = 0, /* that slot has a texture */
-    GN_FEATURE_FIRST_UV1 = 12,    /* and reads TEXCOORD_1 */
+    GN_FEATURE_FIRST_TEXTURE = 0,    /* that slot has a texture */
+    GN_FEATURE_FIRST_UV1 = 12,       /* and reads TEXCOORD_1 */
+    GN_FEATURE_FIRST_ATTRIBUTE = 24, /* VERTEX_COLOR ..: the geometry has it */
     GN_FEATURE_FIRST_FLAG = 32,
 #define GN_X(NAME, ...)                                                                            \
     GN_BIT_##NAME##_TEXTURE = GN_FEATURE_FIRST_TEXTURE + GN_TEXTURE_##NAME,                        \
     GN_BIT_##NAME##_UV1 = GN_FEATURE_FIRST_UV1 + GN_TEXTURE_##NAME,
     GN_TEXTURE_SLOTS(GN_X)
 #undef GN_X
-        GN_BIT_BEFORE_FLAGS = GN_FEATURE_FIRST_FLAG - 1,
+#define GN_X(NAME, ...)                                                                            \
+    GN_BIT_VERTEX_##NAME =                                                                         \
+        GN_FEATURE_FIRST_ATTRIBUTE + GN_ATTRIBUTE_##NAME - GN_PLAIN_ATTRIBUTE_COUNT,
+        GN_FEATURE_ATTRIBUTES(GN_X)
+#undef GN_X
+            GN_BIT_BEFORE_FLAGS = GN_FEATURE_FIRST_FLAG - 1,
 #define GN_X(NAME, ...) GN_BIT_##NAME,
     GN_FEATURES(GN_X)
 #undef GN_X
         GN_BIT_END,
 };
 _Static_assert(GN_TEXTURE_SLOT_COUNT <= GN_FEATURE_FIRST_UV1 - GN_FEATURE_FIRST_TEXTURE, "bits");
+_Static_assert(GN_FEATURE_ATTRIBUTE_COUNT <= GN_FEATURE_FIRST_FLAG - GN_FEATURE_FIRST_ATTRIBUTE,
+               "bits");
 _Static_assert(GN_BIT_END <= 64, "bits of gn_program_key.features");
 
 /* The bit as a mask: GN_FEATURE(ALPHA_MASK). */
 #define GN_FEATURE(NAME) (UINT64_C(1) << GN_BIT_##NAME)
 
-enum { GN_FEATURE_COUNT = 2 * GN_TEXTURE_SLOT_COUNT + GN_BIT_END - GN_FEATURE_FIRST_FLAG };
+enum {
+    GN_FEATURE_COUNT =
+        2 * GN_TEXTURE_SLOT_COUNT + GN_FEATURE_ATTRIBUTE_COUNT + GN_BIT_END - GN_FEATURE_FIRST_FLAG
+};
 struct gn_feature_row {
     uint8_t bit;
     const char *glsl, *name;

@@ -9,12 +9,18 @@ static uint64_t texture_features(const struct gn_material *material, enum gn_tex
     return GN_FEATURE(BASE_TEXTURE) << slot | (ref->uv_set ? GN_FEATURE(BASE_UV1) << slot : 0);
 }
 
+static uint64_t vertex_features(const struct gn_geometry *geometry) {
+    const uint64_t has = geometry->attributes >> GN_PLAIN_ATTRIBUTE_COUNT;
+    return has << GN_FEATURE_FIRST_ATTRIBUTE;
+}
+
 /* What decides an item's alpha, if anything asks for it. */
 static uint64_t alpha_features(const struct gn_scene *scene, const struct gn_item *item) {
     const struct gn_material *m = &scene->materials[item->material];
     if (m->alpha != GN_ALPHA_MASK) return 0;
     uint64_t features = GN_FEATURE(ALPHA_MASK) | texture_features(m, GN_TEXTURE_BASE);
-    if (scene->geometries[item->geometry].has_color) features |= GN_FEATURE(VERTEX_COLOR);
+    if (gn_geometry_has(&scene->geometries[item->geometry], GN_ATTRIBUTE_COLOR))
+        features |= GN_FEATURE(VERTEX_COLOR);
     return features;
 }
 
@@ -24,7 +30,7 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     uint64_t features = alpha_features(scene, item);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
         if (gn_material_reads(m, slot)) features |= texture_features(m, slot);
-    if (scene->geometries[item->geometry].has_color) features |= GN_FEATURE(VERTEX_COLOR);
+    features |= vertex_features(&scene->geometries[item->geometry]);
     if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE(ALPHA_BLEND);
     if (frame->plan.output == GN_OUTPUT_LINEAR8 && frame->plan.encode_srgb)
         features |= GN_FEATURE(ENCODE_SRGB);

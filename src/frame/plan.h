@@ -71,7 +71,7 @@ _Static_assert(sizeof(struct gn_program_key) == 24 + sizeof(struct gn_light_key[
 
 /* ---- what a draw reads ---- */
 
-struct gn_instance {     /* instance attributes, locations 5..10 */
+struct gn_instance {     /* instance attributes, locations 10..15 */
     float world[3][4];   /* rows of world_from_item */
     float base_color[4]; /* linear */
     float surface[4];    /* roughness, metalness, occlusion strength, alpha cutoff */

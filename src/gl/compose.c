@@ -65,6 +65,15 @@ static void add_slots(struct gn_gl_text *out) {
     gn_gl_text_add(out, "\n");
 }
 
+/* VERTEX_ATTRIBUTES declares the rows of scene/attribute.h. */
+static void add_attributes(struct gn_gl_text *out) {
+    gn_gl_text_add(out, "#define VERTEX_ATTRIBUTES");
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
+        gn_gl_text_add(out, " layout(location = %d) in vec%d a_%s;", i, gn_attributes[i].components,
+                       gn_attributes[i].name);
+    gn_gl_text_add(out, "\n");
+}
+
 static void add_constants(const struct gn_program_key *key, struct gn_gl_text *out) {
     gn_gl_text_add(out, "#version 300 es\nprecision highp float;\nprecision highp int;\n"
                         "precision highp sampler2D;\nprecision highp sampler2DShadow;\n"
@@ -280,6 +289,7 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
     add_constants(key, out);
     if (!gn_gl_source_add(&source, "blocks.glsl", out, err)) return false;
     if (lit) add_shadow_flags(key, out);
+    if (stage == GN_GL_VERTEX) add_attributes(out);
     if (lit && stage == GN_GL_VERTEX) add_vertex_loop(key, out);
     if (lit && stage == GN_GL_FRAGMENT) {
         if (key->shadow_count && !gn_gl_source_add(&source, "lib/shadow_place.glsl", out, err))

@@ -41,18 +41,15 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size);
 
 /* ---- attributes, texture units ---- */
 
-enum gn_gl_attribute { /* locations in the shaders */
-                       GN_GL_POSITION,
-                       GN_GL_NORMAL,
-                       GN_GL_UV0,
-                       GN_GL_UV1,
-                       GN_GL_COLOR,
-                       GN_GL_WORLD, /* three rows */
-                       GN_GL_BASE_COLOR = GN_GL_WORLD + 3,
-                       GN_GL_SURFACE,
-                       GN_GL_EMISSIVE,
-                       GN_GL_ATTRIBUTE_COUNT,
+enum gn_gl_location { /* of inputs in shaders: a vertex's have the numbers of gn_attribute */
+                      GN_GL_WORLD = 10, /* an instance's: three rows */
+                      GN_GL_BASE_COLOR = GN_GL_WORLD + 3,
+                      GN_GL_SURFACE,
+                      GN_GL_EMISSIVE,
+                      GN_GL_LOCATION_COUNT,
 };
+_Static_assert((int)GN_ATTRIBUTE_COUNT <= (int)GN_GL_WORLD && GN_GL_LOCATION_COUNT <= 16,
+               "ES 3.0 promises 16");
 enum { /* texture units: maps first, then one a gn_texture_slot, then slides; the last is for work
           of our own. ES 3.0 promises 16. */
        GN_GL_UNIT_MAP = 0,
@@ -184,9 +181,10 @@ struct gn_gl_scene {
     GLenum index_type;
     size_t index_size;
     GLsizei attribute_stride;
-    GLint attribute_at[GN_GL_COLOR + 1]; /* byte offsets of NORMAL..COLOR; -1: none in this scene */
-    uint32_t image_count;                /* kept: the scene may be gone when we finish */
-    GLuint *images[2];                   /* by image: linear, sRGB; 0 where not used so */
+    GLint attribute_at[GN_ATTRIBUTE_COUNT]; /* byte offsets; -1: no such in this scene, or the
+                                               position */
+    uint32_t image_count;                   /* kept: the scene may be gone when we finish */
+    GLuint *images[2];                      /* by image: linear, sRGB; 0 where not used so */
     GLuint samplers[GN_GL_SAMPLER_KINDS];
     float (*uv)[2 * GN_TEXTURE_SLOT_COUNT][4]; /* different sets of transforms */
     uint32_t *material_uv;                     /* by material: index into uv */

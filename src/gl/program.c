@@ -115,7 +115,7 @@ static uint32_t active_attributes(struct gn_gl *gl, GLuint program) {
         GLenum type;
         GL(gl, GetActiveAttrib)(program, (GLuint)i, sizeof name, NULL, &size, &type, name);
         GLint location = GL(gl, GetAttribLocation)(program, name);
-        if (location >= 0 && location < GN_GL_ATTRIBUTE_COUNT) mask |= 1u << location;
+        if (location >= 0 && location < GN_GL_LOCATION_COUNT) mask |= 1u << location;
     }
     return mask;
 }

@@ -8,7 +8,17 @@
 #include "core/hash.h"
 #include "gl/private.h"
 
-enum { NORMAL_BYTES = 8, UV_BYTES = 8, COLOR_BYTES = 4, PIECE = 1024 };
+enum { PIECE = 1024 };
+
+/* How a format reaches the GPU. */
+static const struct gl_format {
+    GLint size; /* 0: the row's components */
+    GLenum type;
+} gl_formats[GN_ATTRIBUTE_FORMAT_COUNT] = {
+    [GN_ATTRIBUTE_FLOAT] = {0, GL_FLOAT},
+    [GN_ATTRIBUTE_SNORM16] = {4, GL_SHORT},
+    [GN_ATTRIBUTE_UNORM8] = {4, GL_UNSIGNED_BYTE},
+};
 
 static GLuint make_buffer(struct gn_gl *gl, GLenum target, const void *data, size_t size) {
     GLuint name = gn_gl_object_create(gl, GN_GL_BUFFER);
@@ -24,33 +34,32 @@ static GLuint make_vertex_buffer(struct gn_gl *gl, const void *data, size_t size
     return name;
 }
 
-static int place(GLsizei *stride, bool present, GLsizei bytes) {
-    int at = *stride;
-    *stride += present ? bytes : 0;
-    return present ? at : -1;
-}
-
+/* Positions have a buffer of their own; the other attributes are interleaved. */
 static void lay_out(struct gn_gl_scene *s) {
     s->attribute_stride = 0;
-    s->attribute_at[GN_GL_POSITION] = -1;
-    s->attribute_at[GN_GL_NORMAL] = place(&s->attribute_stride, true, NORMAL_BYTES);
-    s->attribute_at[GN_GL_UV0] = place(&s->attribute_stride, s->scene->uv0, UV_BYTES);
-    s->attribute_at[GN_GL_UV1] = place(&s->attribute_stride, s->scene->uv1, UV_BYTES);
-    s->attribute_at[GN_GL_COLOR] = place(&s->attribute_stride, s->scene->colors, COLOR_BYTES);
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++) {
+        const bool here = s->scene->attributes[i] && i != GN_ATTRIBUTE_POSITION;
+        s->attribute_at[i] = here ? s->attribute_stride : -1;
+        if (here) s->attribute_stride += gn_attributes[i].gpu_bytes;
+    }
 }
 
 static int16_t snorm16(float x) { return (int16_t)lrintf(fmaxf(-1, fminf(1, x)) * 32767); }
 
-static void pack_vertex(const struct gn_gl_scene *s, uint32_t i, uint8_t *out) {
-    const float *n = s->scene->normals + 3 * (size_t)i;
-    const int16_t packed[4] = {snorm16(n[0]), snorm16(n[1]), snorm16(n[2]), 0};
-    memcpy(out, packed, NORMAL_BYTES);
-    if (s->scene->uv0)
-        memcpy(out + s->attribute_at[GN_GL_UV0], s->scene->uv0 + 2 * (size_t)i, UV_BYTES);
-    if (s->scene->uv1)
-        memcpy(out + s->attribute_at[GN_GL_UV1], s->scene->uv1 + 2 * (size_t)i, UV_BYTES);
-    if (s->scene->colors)
-        memcpy(out + s->attribute_at[GN_GL_COLOR], s->scene->colors + 4 * (size_t)i, COLOR_BYTES);
+static void pack_vertex(const struct gn_gl_scene *s, uint32_t vertex, uint8_t *out) {
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++) {
+        const struct gn_attribute_row *row = &gn_attributes[i];
+        if (s->attribute_at[i] < 0) continue;
+        const uint8_t *from =
+            (const uint8_t *)s->scene->attributes[i] + (size_t)vertex * row->bytes;
+        if (row->format == GN_ATTRIBUTE_SNORM16) {
+            int16_t packed[4] = {0};
+            for (int k = 0; k < row->components; k++)
+                packed[k] = snorm16(((const float *)(const void *)from)[k]);
+            memcpy(out + s->attribute_at[i], packed, sizeof packed);
+        } else
+            memcpy(out + s->attribute_at[i], from, row->bytes);
+    }
 }
 
 /* How many of what weighs so much, one at least. */
@@ -75,7 +84,7 @@ static bool send_positions(struct gn_gl *gl, size_t bytes) {
 
 /* Packed and sent in pieces, so that a large scene needs no second copy of itself. */
 static bool send_attributes(struct gn_gl *gl, size_t bytes) {
-    uint8_t packed[PIECE * (NORMAL_BYTES + 2 * UV_BYTES + COLOR_BYTES)];
+    uint8_t packed[PIECE * GN_ATTRIBUTES_GPU_BYTES];
     struct gn_gl_scene *s = &gl->scene;
     const uint32_t all = s->scene->vertex_count;
     const size_t stride = (size_t)s->attribute_stride;
@@ -247,27 +256,21 @@ static void point(struct gn_gl *gl, GLuint location, GLint size, GLenum type, GL
 }
 
 static void point_to_scene(struct gn_gl *gl, uint32_t attributes) {
-    static const struct {
-        GLint size;
-        GLenum type;
-    } forms[] = {
-        [GN_GL_NORMAL] = {4, GL_SHORT},
-        [GN_GL_UV0] = {2, GL_FLOAT},
-        [GN_GL_UV1] = {2, GL_FLOAT},
-        [GN_GL_COLOR] = {4, GL_UNSIGNED_BYTE},
-    };
     const struct gn_gl_scene *s = &gl->scene;
     gn_gl_bind_array_buffer(gl, s->positions);
-    GL(gl, EnableVertexAttribArray)(GN_GL_POSITION);
-    point(gl, GN_GL_POSITION, 3, GL_FLOAT, 0, 0);
+    GL(gl, EnableVertexAttribArray)(GN_ATTRIBUTE_POSITION);
+    point(gl, GN_ATTRIBUTE_POSITION, 3, GL_FLOAT, 0, 0);
     gn_gl_bind_array_buffer(gl, s->attributes);
-    if (reads(attributes, GN_GL_COLOR) && s->attribute_at[GN_GL_COLOR] < 0)
-        GL(gl, VertexAttrib4f)(GN_GL_COLOR, 1.0f, 1.0f, 1.0f, 1.0f);
-    for (int i = GN_GL_NORMAL; i <= GN_GL_COLOR; i++) {
-        if (!reads(attributes, i) || s->attribute_at[i] < 0) continue;
-        GL(gl, EnableVertexAttribArray)((GLuint)i);
-        point(gl, (GLuint)i, forms[i].size, forms[i].type, s->attribute_stride,
-              (size_t)s->attribute_at[i]);
+    for (GLuint i = GN_ATTRIBUTE_POSITION + 1; i < GN_ATTRIBUTE_COUNT; i++) {
+        const struct gn_attribute_row *row = &gn_attributes[i];
+        const struct gl_format *format = &gl_formats[row->format];
+        if (!reads(attributes, (int)i)) continue;
+        if (s->attribute_at[i] >= 0) {
+            GL(gl, EnableVertexAttribArray)(i);
+            point(gl, i, format->size ? format->size : row->components, format->type,
+                  s->attribute_stride, (size_t)s->attribute_at[i]);
+        } else if (row->missing_is_1)
+            GL(gl, VertexAttrib4f)(i, 1.0f, 1.0f, 1.0f, 1.0f);
     }
 }
 
@@ -292,7 +295,7 @@ bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err 
     gn_gl_bind_vertex_array(gl, v->name);
     GL(gl, BindBuffer)(GL_ELEMENT_ARRAY_BUFFER, s->indices);
     point_to_scene(gl, attributes);
-    for (int i = GN_GL_WORLD; i < GN_GL_ATTRIBUTE_COUNT; i++) {
+    for (int i = GN_GL_WORLD; i < GN_GL_LOCATION_COUNT; i++) {
         if (!reads(attributes, i)) continue;
         GL(gl, EnableVertexAttribArray)((GLuint)i);
         GL(gl, VertexAttribDivisor)((GLuint)i, 1);
@@ -310,15 +313,15 @@ void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_i
     v->instances = buffer;
     v->offset = offset;
     gn_gl_bind_array_buffer(gl, buffer);
-    for (int i = GN_GL_WORLD; i < GN_GL_ATTRIBUTE_COUNT; i++)
+    for (int i = GN_GL_WORLD; i < GN_GL_LOCATION_COUNT; i++)
         if (reads(attributes, i))
             point(gl, (GLuint)i, 4, GL_FLOAT, sizeof(struct gn_instance),
                   offset + (size_t)(i - GN_GL_WORLD) * 4 * sizeof(float));
 }
 
 _Static_assert(sizeof(struct gn_instance) ==
-                   (GN_GL_ATTRIBUTE_COUNT - GN_GL_WORLD) * 4 * sizeof(float),
-               "locations 5..10 are the members of gn_instance, a vec4 each");
+                   (GN_GL_LOCATION_COUNT - GN_GL_WORLD) * 4 * sizeof(float),
+               "locations 10..15 are the members of gn_instance, a vec4 each");
 
 void gn_gl_instances_upload(struct gn_gl *gl, const struct gn_instance *instances, size_t count) {
     struct gn_gl_instances *ring = &gl->instances;

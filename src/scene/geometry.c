@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { POSITION, NORMAL, UV0, UV1, COLOR };
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5 };
 
 /* Squares of larger numbers do not fit a float. */
@@ -31,10 +30,9 @@ static float *read_all(struct gn_gltf *g, const struct gn_accessor *a, size_t co
     return all;
 }
 
+/* Floats as they are. */
 static bool put_floats(struct gn_gltf *g, const struct gather *gather, size_t components,
                        float *out) {
-    if (!gather->accessor) return true;
-    out += gather->first * components;
     if (!gather->source) {
         gn_accessor_floats(gather->accessor, components, out);
         return true;
@@ -46,41 +44,47 @@ static bool put_floats(struct gn_gltf *g, const struct gather *gather, size_t co
     return all != NULL;
 }
 
-static bool put_uvs(struct gn_gltf *g, const struct gather *gather, float *out) {
-    if (!gather->accessor) return true;
-    if (!put_floats(g, gather, 2, out)) return false;
-    for (size_t i = 2 * gather->first; i < 2 * (gather->first + gather->count); i++)
-        if (!(fabsf(out[i]) < 1e18f)) out[i] = 0;
-    return true;
-}
-
-static bool put_colors(struct gn_gltf *g, const struct gather *gather, uint8_t *out) {
-    if (!out) return true;
-    out += 4 * gather->first;
-    if (!gather->accessor) {
-        memset(out, 255, 4 * gather->count);
-        return true;
-    }
+static bool put_bytes(struct gn_gltf *g, const struct gather *gather, size_t components,
+                      uint8_t *out) {
     struct gn_accessor a = *gather->accessor;
     a.normalized = true;
-    const float *all = read_all(g, &a, 4);
+    const float *all = read_all(g, &a, components);
     for (size_t i = 0; all && i < gather->count; i++) {
-        const float *from = all + 4 * (gather->source ? gather->source[i] : i);
-        for (int k = 0; k < 4; k++)
-            out[4 * i + (size_t)k] = (uint8_t)(fminf(fmaxf(from[k], 0), 1) * 255 + .5f);
+        const float *from = all + components * (gather->source ? gather->source[i] : i);
+        for (size_t k = 0; k < components; k++)
+            out[components * i + k] = (uint8_t)(fminf(fmaxf(from[k], 0), 1) * 255 + .5f);
     }
     return all != NULL;
 }
 
-/* Everything but positions and normals. */
+/* One attribute of the vertices first .. first + count; huge and infinite values become 0. */
+static bool put_attribute(struct gn_gltf *g, const struct gather *gather,
+                          const struct gn_attribute_row *row, void *array) {
+    if (!array) return true;
+    const size_t components = row->components;
+    uint8_t *out = (uint8_t *)array + gather->first * row->bytes;
+    if (row->format == GN_ATTRIBUTE_UNORM8) {
+        if (gather->accessor) return put_bytes(g, gather, components, out);
+        memset(out, row->missing_is_1 ? 255 : 0, gather->count * row->bytes);
+        return true;
+    }
+    float *floats = (float *)(void *)out;
+    if (!gather->accessor && !row->missing_is_1) return true;
+    if (gather->accessor && !put_floats(g, gather, components, floats)) return false;
+    for (size_t i = 0; i < gather->count * components; i++) {
+        if (!gather->accessor && row->missing_is_1) floats[i] = 1;
+        if (!(fabsf(floats[i]) < 1e18f)) floats[i] = 0;
+    }
+    return true;
+}
+
+/* All but positions and normals. */
 static bool put_rest(struct gn_gltf *g, const int32_t *attribute, struct gather gather) {
-    struct gn_scene *scene = g->scene;
-    gather.accessor = gn_gltf_accessor(g, attribute[UV0]);
-    if (!put_uvs(g, &gather, scene->uv0)) return false;
-    gather.accessor = gn_gltf_accessor(g, attribute[UV1]);
-    if (!put_uvs(g, &gather, scene->uv1)) return false;
-    gather.accessor = gn_gltf_accessor(g, attribute[COLOR]);
-    return put_colors(g, &gather, scene->colors);
+    for (int i = GN_ATTRIBUTE_NORMAL + 1; i < GN_ATTRIBUTE_COUNT; i++) {
+        gather.accessor = gn_gltf_accessor(g, attribute[i]);
+        if (!put_attribute(g, &gather, &gn_attributes[i], g->scene->attributes[i])) return false;
+    }
+    return true;
 }
 
 /* ---- vertices with normals of their own ---- */
@@ -102,10 +106,10 @@ static bool fill_vertices(struct gn_gltf *g, struct gn_vertices *vertices) {
     vertices->first = scene->vertex_count;
     scene->vertex_count += vertices->count;
     struct gather gather = {.first = vertices->first, .count = vertices->count};
-    gather.accessor = gn_gltf_accessor(g, vertices->attribute[POSITION]);
-    if (!put_floats(g, &gather, 3, scene->positions)) return false;
-    gather.accessor = gn_gltf_accessor(g, vertices->attribute[NORMAL]);
-    if (!put_floats(g, &gather, 3, scene->normals)) return false;
+    gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_POSITION]);
+    put_floats(g, &gather, 3, scene->positions + 3 * gather.first);
+    gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
+    put_floats(g, &gather, 3, scene->normals + 3 * gather.first);
     make_unit(vertices, scene->normals + 3 * (size_t)vertices->first);
     return put_rest(g, vertices->attribute, gather);
 }
@@ -114,7 +118,7 @@ static bool fill_vertices(struct gn_gltf *g, struct gn_vertices *vertices) {
 
 static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at,
                               const struct gn_shape *shape, size_t *count) {
-    size_t vertex_count = gn_gltf_accessor(g, shape->attribute[POSITION])->count;
+    size_t vertex_count = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_POSITION])->count;
     const struct gn_accessor *indices = gn_gltf_accessor(g, shape->indices);
     *count = indices ? indices->count : vertex_count;
     uint32_t *raw = gn_gltf_alloc(g, &g->work, *count, sizeof *raw);
@@ -175,7 +179,7 @@ static size_t unroll(struct gn_gltf *g, const struct gn_at *at, const struct gn_
 static bool fill_flat(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
                       struct gn_geometry *geometry) {
     struct gn_scene *scene = g->scene;
-    const struct gn_accessor *a = gn_gltf_accessor(g, shape->attribute[POSITION]);
+    const struct gn_accessor *a = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_POSITION]);
     size_t count = 0, made = 0;
     const float *positions = read_all(g, a, 3);
     const uint32_t *raw = positions ? read_corners(g, at, shape, &count) : NULL;
@@ -214,7 +218,6 @@ static bool fill_shared(struct gn_gltf *g, const struct gn_at *at, const struct 
     geometry->first_vertex = vertices->first;
     geometry->vertex_count = vertices->count;
     geometry->index_count = (uint32_t)count;
-    geometry->has_normals_in_file = true;
     if (vertices->lacks_normals && gn_geometry_repair_normals(scene, geometry) > 0)
         gn_gltf_warn(g, at, "normals without length; those of the faces are used");
     return true;
@@ -227,9 +230,8 @@ static bool fill(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *
     struct gn_at at = gn_at_element(&list, shape->primitive);
     gn_arena_reset(&g->work);
     geometry->first_index = g->scene->index_count;
-    geometry->has_uv0 = shape->attribute[UV0] >= 0;
-    geometry->has_uv1 = shape->attribute[UV1] >= 0;
-    geometry->has_color = shape->attribute[COLOR] >= 0;
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
+        geometry->attributes |= (uint32_t)(shape->attribute[i] >= 0) << i;
     bool flat = shape->vertices == UINT32_MAX;
     if (!(flat ? fill_flat : fill_shared)(g, &at, shape, geometry)) return false;
     g->scene->index_count += geometry->index_count;
@@ -247,14 +249,14 @@ static bool fill(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *
 static bool allocate(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     uint64_t vertices = 0, corners = 0;
-    bool any[GN_ATTRIBUTES] = {false};
+    bool any[GN_ATTRIBUTE_COUNT] = {[GN_ATTRIBUTE_POSITION] = true, [GN_ATTRIBUTE_NORMAL] = true};
     struct gn_at root = gn_at_root(g), meshes = gn_at_any(&root, "meshes");
     for (size_t i = 0; i < g->vertices_count; i++) vertices += g->vertices[i].count;
     for (size_t i = 0; i < scene->geometry_count; i++) {
         const struct gn_shape *shape = &g->shapes[i];
         corners += shape->corner_count;
         if (shape->vertices == UINT32_MAX) vertices += shape->corner_count;
-        for (int k = 0; k < GN_ATTRIBUTES; k++) any[k] |= shape->attribute[k] >= 0;
+        for (int k = 0; k < GN_ATTRIBUTE_COUNT; k++) any[k] |= shape->attribute[k] >= 0;
     }
     if (vertices > g->limits.vertices)
         return gn_gltf_fail(g, &meshes,
@@ -264,12 +266,10 @@ static bool allocate(struct gn_gltf *g) {
         return gn_gltf_fail(g, &meshes, "%" PRIu64 " indices are more than can be drawn", corners);
     scene->geometries =
         gn_gltf_alloc(g, g->arena, scene->geometry_count, sizeof *scene->geometries);
-    scene->positions = gn_gltf_alloc(g, g->arena, vertices, 3 * sizeof *scene->positions);
-    scene->normals = gn_gltf_alloc(g, g->arena, vertices, 3 * sizeof *scene->normals);
     scene->indices = gn_gltf_alloc(g, g->arena, corners, sizeof *scene->indices);
-    if (any[UV0]) scene->uv0 = gn_gltf_alloc(g, g->arena, vertices, 2 * sizeof *scene->uv0);
-    if (any[UV1]) scene->uv1 = gn_gltf_alloc(g, g->arena, vertices, 2 * sizeof *scene->uv1);
-    if (any[COLOR]) scene->colors = gn_gltf_alloc(g, g->arena, vertices, 4);
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
+        if (any[i])
+            scene->attributes[i] = gn_gltf_alloc(g, g->arena, vertices, gn_attributes[i].bytes);
     return !g->failed;
 }
 

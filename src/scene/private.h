@@ -67,14 +67,13 @@ struct gn_mesh {
     uint32_t first_draw, draw_count;
 };
 
-enum { GN_ATTRIBUTES = 5 }; /* position, normal, uv0, uv1, color */
-struct gn_vertices {        /* a set of attribute accessors; geometries with normals share it */
-    int32_t attribute[GN_ATTRIBUTES];
+struct gn_vertices { /* a set of attribute accessors; geometries with normals share it */
+    int32_t attribute[GN_ATTRIBUTE_COUNT];
     uint32_t first, count;
     bool filled, lacks_normals; /* some normal had no length */
 };
 struct gn_shape { /* what a geometry is made of */
-    int32_t attribute[GN_ATTRIBUTES];
+    int32_t attribute[GN_ATTRIBUTE_COUNT];
     int32_t indices, mode;
     uint32_t vertices;        /* index into gltf->vertices */
     uint32_t mesh, primitive; /* the first to use it, for messages */

@@ -11,6 +11,7 @@
 
 #include "core/err.h"
 #include "core/warn.h"
+#include "scene/attribute.h"
 #include "scene/material.h"
 
 struct gn_box { /* axis-aligned; empty when min > max */
@@ -60,13 +61,18 @@ struct gn_material {
 struct gn_geometry {
     uint32_t first_vertex, vertex_count;
     uint32_t first_index,
-        index_count;   /* a multiple of 3; indices are absolute, into scene->positions */
-    struct gn_box box; /* mesh space */
-    bool has_normals_in_file, has_uv0, has_uv1, has_color;
-    bool flat;   /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
+        index_count;     /* a multiple of 3; indices are absolute, into scene->positions */
+    struct gn_box box;   /* mesh space */
+    uint32_t attributes; /* bit per gn_attribute that the file has */
+    bool flat;           /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
     bool closed; /* the boundary of solid bodies, front faces outward; false when in doubt */
     vec4 plane; /* mesh space, if flat: n.p + d = 0, |n| = 1, on the side its front faces look to */
 };
+
+static inline bool gn_geometry_has(const struct gn_geometry *geometry,
+                                   enum gn_attribute attribute) {
+    return geometry->attributes >> attribute & 1;
+}
 
 /* One thing to draw: a primitive of a node's mesh, or of one instance of it
  * (EXT_mesh_gpu_instancing). Sorted so that items that can share an instanced call (same geometry,
@@ -136,10 +142,14 @@ struct gn_clip {
 
 struct gn_scene {
     const char *name;
-    float *positions; /* 3 per vertex */
-    float *normals;   /* 3 per vertex, unit */
-    float *uv0, *uv1; /* 2 per vertex, or NULL if no geometry has any */
-    uint8_t *colors;  /* RGBA per vertex, linear, or NULL */
+    union { /* the rows of scene/attribute.h, an array each; NULL if no geometry has any */
+        struct {
+#define GN_X(NAME, name, type, field, ...) type *field;
+            GN_ATTRIBUTES(GN_X) /* positions, normals, uv0, uv1, colors */
+#undef GN_X
+        };
+        void *attributes[GN_ATTRIBUTE_COUNT];
+    };
     uint32_t *indices;
     uint32_t vertex_count, index_count;
 
@@ -196,6 +206,9 @@ struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t
                                      const struct gn_scene_limits *limits,
                                      struct gn_warnings *warnings, struct gn_err *err);
 void gn_scene_destroy(struct gn_scene *scene);
+
+/* Of one vertex, as GPUs get it. */
+uint32_t gn_scene_vertex_bytes(const struct gn_scene *scene);
 
 /* Finds by name, else by number; -1 and a usage error that lists what there is. `what`: NULL or ""
  * gives 0 (first camera). */

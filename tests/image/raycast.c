@@ -113,7 +113,7 @@ static double alpha_at(const struct gn_scene *scene, const struct gn_bvh_triangl
     const double weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
     const uint32_t *corner = &scene->indices[t->index];
     double alpha = material->base_color[3];
-    if (geometry->has_color && scene->colors) {
+    if (gn_geometry_has(geometry, GN_ATTRIBUTE_COLOR) && scene->colors) {
         double sum = 0;
         for (int c = 0; c < 3; c++) sum += weight[c] * scene->colors[4 * (size_t)corner[c] + 3];
         alpha *= sum / 255;

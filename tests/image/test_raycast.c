@@ -241,7 +241,7 @@ static void test_vertex_alpha_makes_holes(void **state) {
     small_init(&s);
     small_item(&s)->alpha = GN_ALPHA_MASK;
     small_quad(&s, (float[]){-2, 1, 2}, (float[]){4, 0, 0}, (float[]){0, 0, -4});
-    s.geometries[0].has_color = true;
+    s.geometries[0].attributes = 1u << GN_ATTRIBUTE_COLOR;
     s.colors[4 * 1 + 3] = s.colors[4 * 2 + 3] = 0; /* opaque at x = -2, clear at x = 2 */
     struct gn_raycast rays;
     struct gn_ray_lamp lamp = sun(0, -1, 0);

@@ -47,9 +47,8 @@ static const char *check_geometry(const struct gn_scene *scene,
     }
     NEED(geometry->index_count == 0 || box_right(scene, geometry));
     NEED(!geometry->flat || fabsf(glm_vec3_norm((float *)geometry->plane) - 1) < 1e-4f);
-    NEED(!geometry->has_uv0 || scene->uv0);
-    NEED(!geometry->has_uv1 || scene->uv1);
-    NEED(!geometry->has_color || scene->colors);
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
+        NEED(!gn_geometry_has(geometry, i) || scene->attributes[i]);
     return NULL;
 }
 

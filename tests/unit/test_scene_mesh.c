@@ -41,7 +41,7 @@ static void test_same_vertices_are_shared(void **state) {
     struct gn_scene *scene = load();
     assert_int_equal(scene->geometry_count, 2);
     assert_int_equal(scene->vertex_count, 4);
-    assert_true(scene->geometries[0].has_normals_in_file);
+    assert_true(gn_geometry_has(&scene->geometries[0], GN_ATTRIBUTE_NORMAL));
     gn_scene_destroy(scene);
 }
 
@@ -125,7 +125,7 @@ static void test_flat_normals_unweld_where_needed(void **state) {
     struct gn_scene *scene = load();
     assert_int_equal(scene->vertex_count, 8);
     assert_false(scene->geometries[0].flat);
-    assert_false(scene->geometries[0].has_normals_in_file);
+    assert_false(gn_geometry_has(&scene->geometries[0], GN_ATTRIBUTE_NORMAL));
     gn_scene_destroy(scene);
 }
 
@@ -190,7 +190,8 @@ static void test_colors(void **state) {
                  "{'attributes':{'POSITION':0},'indices':1}]}]");
     struct gn_scene *scene = load();
     assert_memory_equal(scene->colors, ((uint8_t[]){0, 128, 255, 255}), 4);
-    assert_true(scene->geometries[0].has_color && !scene->geometries[1].has_color);
+    assert_true(gn_geometry_has(&scene->geometries[0], GN_ATTRIBUTE_COLOR));
+    assert_false(gn_geometry_has(&scene->geometries[1], GN_ATTRIBUTE_COLOR));
     assert_memory_equal(scene->colors + 4 * scene->geometries[1].first_vertex, "\xff\xff\xff\xff",
                         4);
     gn_scene_destroy(scene);

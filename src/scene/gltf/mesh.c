@@ -45,31 +45,16 @@ struct reader {
 
 /* ---- attributes ---- */
 
-#define BIT(c)   (1U << ((c)-GN_I8))
-#define FLOATS   BIT(GN_F32)
-#define SMALL    (BIT(GN_I8) | BIT(GN_U8) | BIT(GN_I16) | BIT(GN_U16))
-#define UNSIGNED (BIT(GN_U8) | BIT(GN_U16))
-
-static const struct semantic {
-    const char *name;
-    uint8_t least, most; /* components */
-    unsigned types;
-} SEMANTICS[GN_ATTRIBUTES] = {{"POSITION", 3, 3, FLOATS | SMALL},
-                              {"NORMAL", 3, 3, FLOATS | BIT(GN_I8) | BIT(GN_I16)},
-                              {"TEXCOORD_0", 2, 2, FLOATS | SMALL},
-                              {"TEXCOORD_1", 2, 2, FLOATS | SMALL},
-                              {"COLOR_0", 3, 4, FLOATS | UNSIGNED}};
-
 static bool check_attribute(struct gn_gltf *g, const struct gn_at *attributes, int which,
                             int32_t index, size_t vertex_count) {
-    const struct semantic *semantic = &SEMANTICS[which];
+    const struct gn_attribute_row *row = &gn_attributes[which];
     const struct gn_accessor *a = gn_gltf_accessor(g, index);
     if (!a) return index < 0;
-    struct gn_at at = gn_at_any(attributes, semantic->name);
-    if (a->components < semantic->least || a->components > semantic->most)
+    struct gn_at at = gn_at_any(attributes, row->semantic);
+    if (a->components < row->components_min || a->components > row->components)
         return gn_gltf_fail(g, &at, "accessor %d has elements of %d numbers, must be VEC%d", index,
-                            a->components, semantic->least);
-    if (!(BIT(a->component) & semantic->types))
+                            a->components, row->components_min);
+    if (!(row->types >> (a->component - GN_I8) & 1))
         return gn_gltf_fail(g, &at, "accessor %d has component type %d, which cannot be here",
                             index, a->component);
     if (a->count != vertex_count)
@@ -80,10 +65,11 @@ static bool check_attribute(struct gn_gltf *g, const struct gn_at *attributes, i
 /* The positions' count, or 0: failed, or nothing to show (which is said). */
 static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, int32_t *out) {
     struct gn_at attributes = gn_at_object(g, primitive, "attributes");
-    for (int i = 0; i < GN_ATTRIBUTES; i++)
-        out[i] = gn_at_ref(g, &attributes, SEMANTICS[i].name, g->accessor_count, "accessors");
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
+        out[i] =
+            gn_at_ref(g, &attributes, gn_attributes[i].semantic, g->accessor_count, "accessors");
     struct gn_at draco = gn_at_extension(g, primitive, "extensions.KHR_draco_mesh_compression");
-    const struct gn_accessor *positions = gn_gltf_accessor(g, out[0]);
+    const struct gn_accessor *positions = gn_gltf_accessor(g, out[GN_ATTRIBUTE_POSITION]);
     if (g->failed) return 0;
     if (draco.json && positions && !positions->backed) {
         g->is_missing[GN_MISSING_DRACO] = true;
@@ -97,7 +83,7 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
         gn_gltf_fail(g, primitive, "%zu vertices are more than can be drawn", positions->count);
         return 0;
     }
-    for (int i = 0; i < GN_ATTRIBUTES; i++)
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
         if (!check_attribute(g, &attributes, i, out[i], positions->count)) return 0;
     return positions->count;
 }
@@ -153,7 +139,7 @@ static uint32_t share_vertices(struct reader *reader, const struct gn_shape *sha
     if (*slot == 0) {
         struct gn_vertices *vertices = &g->vertices[g->vertices_count++];
         memcpy(vertices->attribute, shape->attribute, sizeof vertices->attribute);
-        vertices->count = (uint32_t)g->accessors[shape->attribute[0]].count;
+        vertices->count = (uint32_t)g->accessors[shape->attribute[GN_ATTRIBUTE_POSITION]].count;
         *slot = (uint32_t)g->vertices_count;
     }
     return *slot - 1;
@@ -164,7 +150,8 @@ static uint32_t share_shape(struct reader *reader, const struct gn_shape *shape)
     if (*slot == 0) {
         struct gn_shape *added = &reader->g->shapes[reader->shape_count++];
         *added = *shape;
-        added->vertices = shape->attribute[1] < 0 ? UINT32_MAX : share_vertices(reader, shape);
+        added->vertices =
+            shape->attribute[GN_ATTRIBUTE_NORMAL] < 0 ? UINT32_MAX : share_vertices(reader, shape);
         *slot = reader->shape_count;
     }
     return *slot - 1;
@@ -189,12 +176,13 @@ static bool allocate(struct reader *reader, size_t primitives) {
     g->vertices = gn_gltf_alloc(g, &g->scratch, primitives, sizeof *g->vertices);
     if (g->failed) return false;
     reader->shapes = (struct table){.stride = sizeof *g->shapes,
-                                    .key_size = (GN_ATTRIBUTES + 2) * sizeof(int32_t),
+                                    .key_size = (GN_ATTRIBUTE_COUNT + 2) * sizeof(int32_t),
                                     .keys = (const char *)g->shapes};
     reader->vertices = (struct table){.stride = sizeof *g->vertices,
-                                      .key_size = GN_ATTRIBUTES * sizeof(int32_t),
+                                      .key_size = GN_ATTRIBUTE_COUNT * sizeof(int32_t),
                                       .keys = (const char *)g->vertices};
-    _Static_assert(offsetof(struct gn_shape, mode) == (GN_ATTRIBUTES + 1) * sizeof(int32_t), "key");
+    _Static_assert(offsetof(struct gn_shape, mode) == (GN_ATTRIBUTE_COUNT + 1) * sizeof(int32_t),
+                   "key");
     return table_init(g, &reader->shapes, primitives) &&
            table_init(g, &reader->vertices, primitives);
 }
