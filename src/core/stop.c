@@ -1,7 +1,6 @@
 #include "core/stop.h"
 
 #include <stddef.h>
-#include <sys/signalfd.h>
 #include <unistd.h>
 
 #include "core/err.h"
@@ -19,17 +18,9 @@ void gn_stop_block(sigset_t *signals) {
     if (signals) *signals = both;
 }
 
-int gn_stop_open(void) {
-    sigset_t all;
-    ends(&all);
-    sigaddset(&all, SIGHUP);
-    sigprocmask(SIG_BLOCK, &all, NULL);
-    return signalfd(-1, &all, SFD_CLOEXEC | SFD_NONBLOCK);
-}
-
-int gn_stop_read(int fd) {
-    struct signalfd_siginfo info;
-    return read(fd, &info, sizeof info) == sizeof info ? (int)info.ssi_signo : 0;
+void gn_stop_signals(sigset_t *signals) {
+    ends(signals);
+    sigaddset(signals, SIGHUP);
 }
 
 static void end(int signal) {

@@ -13,10 +13,8 @@ void gn_stop_at_once(void);
 /* From now on, and for good, both signals wait instead of ending the process. Threads made later
  * inherit it. The set, if not NULL, gets the two. */
 void gn_stop_block(sigset_t *signals);
-/* Both, and SIGHUP, from now on as a descriptor that does not block; -1 and errno. */
-int gn_stop_open(void);
-/* The next signal that has come there; 0: none. */
-int gn_stop_read(int fd);
+/* Both and SIGHUP, for gn_loop_add_signals(). */
+void gn_stop_signals(sigset_t *signals);
 /* Has either come? Never waits. */
 bool gn_stop_asked(void);
 

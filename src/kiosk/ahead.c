@@ -1,6 +1,8 @@
 /* What is made ready while other things are shown: programs of other modes, and another scene. One
  * piece a frame, so that no frame is missed for it. */
+#include <errno.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "core/clock.h"
 #include "kiosk/show.h"
@@ -160,6 +162,24 @@ static void take_loaded(struct gn_show *s) {
     gn_loaded_destroy(loaded);
 }
 
+static void on_loaded(void *user, uint32_t events, int64_t now_ns) {
+    (void)events;
+    (void)now_ns;
+    take_loaded(user);
+}
+
+bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
+    struct gn_watch *watch = &s->scenes.loader_watch;
+    gn_loop_remove(watch);
+    gn_loader_close(s->scenes.loader);
+    s->scenes.loader = gn_loader_open(err);
+    if (!s->scenes.loader) return false;
+    *watch = (struct gn_watch){
+        .fd = gn_loader_fd(s->scenes.loader), .events = EPOLLIN, .call = on_loaded, .user = s};
+    return gn_loop_add(s->loop, watch) ||
+           gn_fail(err, "show: cannot wait for scenes: %s", strerror(errno));
+}
+
 /* One at a time: what is not wanted any more is first loaded to its end. */
 static void load(struct gn_show *s, int scene) {
     struct gn_scene_limits limits;
@@ -233,7 +253,6 @@ static void show_wanted(struct gn_show *s, int scene) {
 }
 
 void gn_show_advance(struct gn_show *s) {
-    take_loaded(s);
     const int scene = gn_kiosk_scene(&s->rules, &s->kiosk.wanted);
     if (s->scenes.staged && s->scenes.staged->number != scene) gn_show_drop_staged(s);
     if (!gn_kiosk_waits(&s->kiosk)) {

@@ -119,6 +119,6 @@ bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     s->changed = s->stage.waits;
     if (!gn_display_present(display, drawn_ns, err)) return false;
     measure(s);
-    gn_show_stats_frame(&s->stats, display, drawn_ns - begun_ns);
+    gn_show_stats_frame(&s->stats, drawn_ns - begun_ns);
     return true;
 }

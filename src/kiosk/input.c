@@ -6,6 +6,7 @@
 
 /* A window's keys are the window's: who types elsewhere means something else. */
 bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
+    gn_loop_remove(&s->watches[GN_SHOW_INPUT]);
     gn_input_close(s->input);
     s->input = NULL;
     if (s->options->buttons)
@@ -20,7 +21,7 @@ bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
         .script = s->stage.settings->run.input_script,
     };
     s->input = gn_input_open(&opts, gn_clock_monotonic_ns(), s->warnings, err);
-    return s->input && gn_show_watch(s, gn_input_fd(s->input), err);
+    return s->input && gn_show_watch(s, &s->watches[GN_SHOW_INPUT], gn_input_fd(s->input), err);
 }
 
 static bool other_place(const struct gn_kiosk *a, const struct gn_kiosk *b) {

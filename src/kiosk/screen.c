@@ -47,7 +47,7 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
                                &s->screen_opts, gn_clock_monotonic_ns(), s->warnings, err);
     gn_wake_end(&wake);
     if (ok && s->place) s->place->opened = true;
-    return ok && gn_show_watch(s, s->stage.display.screen.fd, err);
+    return ok && gn_show_watch(s, &s->watches[GN_SHOW_SCREEN], s->stage.display.screen.fd, err);
 }
 
 /* What tilers draw on chip costs them next to nothing. */

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/timerfd.h>
 #include <unistd.h>
 
 #include "core/clock.h"
@@ -39,25 +38,30 @@ static int64_t watchdog_ns(void) {
     return value * 1000;
 }
 
-static bool start_watchdog(struct gn_service *s, int64_t now_ns) {
-    s->every_ns = watchdog_ns() / 2;
-    s->next_ns = now_ns + s->every_ns;
-    if (s->every_ns == 0) return true;
-    const struct timespec every = {s->every_ns / GN_NS_PER_S, s->every_ns % GN_NS_PER_S};
-    s->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
-    return s->timer >= 0 &&
-           timerfd_settime(s->timer, 0, &(struct itimerspec){every, every}, NULL) == 0;
+/* It comes again as long as no flip completes. */
+static void rearm_watchdog(void *user, int64_t now_ns) {
+    struct gn_service *s = user;
+    s->timer.due_ns = now_ns + s->every_ns;
 }
 
-bool gn_service_open(struct gn_service *s, int64_t now_ns, struct gn_err *err) {
+static void start_watchdog(struct gn_service *s, struct gn_loop *loop, int64_t now_ns) {
+    s->every_ns = watchdog_ns() / 2;
+    s->next_ns = now_ns + s->every_ns;
+    if (s->every_ns == 0) return;
+    s->timer = (struct gn_timer){.due_ns = s->next_ns, .call = rearm_watchdog, .user = s};
+    gn_loop_add_timer(loop, &s->timer);
+}
+
+bool gn_service_open(struct gn_service *s, struct gn_loop *loop, int64_t now_ns,
+                     struct gn_err *err) {
     const char *path = getenv("NOTIFY_SOCKET");
-    *s = (struct gn_service){.socket = -1, .timer = -1};
+    *s = (struct gn_service){.socket = -1};
     if (!path || !*path) return true;
     if (!set_address(s, path))
         return gn_fail(err, "NOTIFY_SOCKET=%.80s: it is neither a path nor @ and a name", path);
     s->socket = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    if (s->socket < 0 || !start_watchdog(s, now_ns))
-        return gn_fail(err, "cannot talk to the supervisor: %s", strerror(errno));
+    if (s->socket < 0) return gn_fail(err, "cannot talk to the supervisor: %s", strerror(errno));
+    start_watchdog(s, loop, now_ns);
     unsetenv("NOTIFY_SOCKET");
     unsetenv("WATCHDOG_USEC");
     return true;
@@ -75,9 +79,7 @@ static void tell_status(struct gn_service *s, const struct gn_screen *screen) {
 bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64_t now_ns) {
     const uint64_t shown = screen->counts.shown;
     const bool sleeps = screen->blank || screen->status[0];
-    uint64_t ticks;
     if (s->socket < 0) return false;
-    if (s->timer >= 0 && read(s->timer, &ticks, sizeof ticks) < 0 && errno != EAGAIN) return false;
     if (shown < s->shown) s->shown = 0; /* opened again */
     tell_status(s, screen);
     if (!s->ready && (shown > 0 || sleeps)) tell(s, "READY=1");
@@ -86,7 +88,7 @@ bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64
     if (shown == s->shown && !sleeps) return true;
     tell(s, "WATCHDOG=1");
     s->shown = shown;
-    s->next_ns = now_ns + s->every_ns;
+    s->next_ns = s->timer.due_ns = now_ns + s->every_ns;
     return false;
 }
 
@@ -94,6 +96,6 @@ void gn_service_close(struct gn_service *s) {
     if (s->socket < 0) return;
     tell(s, "STOPPING=1");
     close(s->socket);
-    if (s->timer >= 0) close(s->timer);
-    s->socket = s->timer = -1;
+    gn_loop_remove_timer(&s->timer);
+    s->socket = -1;
 }

@@ -12,12 +12,13 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 
+#include "core/loop.h"
 #include "display/display.h"
 
 struct gn_service {
-    int socket;       /* -1: nobody listens */
-    int timer;        /* readable when step is due; -1: no watchdog */
-    int64_t every_ns; /* half of the watchdog's patience; 0: no watchdog */
+    int socket;            /* -1: nobody listens */
+    struct gn_timer timer; /* ends the wait when step is due; added only with a watchdog */
+    int64_t every_ns;      /* half of the watchdog's patience; 0: no watchdog */
     int64_t next_ns;
     uint64_t shown; /* flips that had completed when it was fed last */
     bool ready;
@@ -27,7 +28,8 @@ struct gn_service {
 };
 
 /* Takes both variables out of the environment: they are not for programs that this one starts. */
-bool gn_service_open(struct gn_service *service, int64_t now_ns, struct gn_err *err);
+bool gn_service_open(struct gn_service *service, struct gn_loop *loop, int64_t now_ns,
+                     struct gn_err *err);
 /* To be called after the screen was dispatched. True: a frame is wanted, so that one completes. */
 bool gn_service_step(struct gn_service *service, const struct gn_screen *screen, int64_t now_ns);
 void gn_service_close(struct gn_service *service); /* STOPPING=1; legal when not open */

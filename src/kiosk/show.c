@@ -1,11 +1,9 @@
-/* gnomon show: the kiosk. One epoll over signals, the screen, buttons, scenes that load and a clock
- * for --stats. It waits for a card and a monitor for as long as it takes. */
+/* gnomon show: the kiosk. One event loop for signals, the screen, buttons, the control socket,
+ * scenes that load and timers. It waits for a card and a monitor for as long as it takes. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/epoll.h>
-#include <unistd.h>
 
 #include "core/arena.h"
 #include "core/clock.h"
@@ -16,26 +14,30 @@
 
 /* ---- opening ---- */
 
-bool gn_show_watch(struct gn_show *s, int fd, struct gn_err *err) {
-    struct epoll_event event = {.events = EPOLLIN, .data.fd = fd};
-    return epoll_ctl(s->epoll, EPOLL_CTL_ADD, fd, &event) == 0 ||
-           gn_fail(err, "show: cannot wait: %s", strerror(errno));
+bool gn_show_watch(struct gn_show *s, struct gn_watch *watch, int fd, struct gn_err *err) {
+    gn_loop_remove(watch);
+    watch->fd = fd;
+    watch->events = EPOLLIN;
+    return gn_loop_add(s->loop, watch) ||
+           gn_fail(err, "show: cannot wait for events: %s", strerror(errno));
 }
 
-bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
-    gn_loader_close(s->scenes.loader);
-    s->scenes.loader = gn_loader_open(err);
-    return s->scenes.loader && gn_show_watch(s, gn_loader_fd(s->scenes.loader), err);
+static void take_signal(void *user, int number) {
+    struct gn_show *s = user;
+    s->reloads |= number == SIGHUP;
+    s->ends |= number != SIGHUP;
 }
 
 /* Before anything else, and for good: a signal that comes while the scene loads, or a second one at
  * the end, ends the kiosk as well as any other. */
 static bool open_loop(struct gn_show *s, struct gn_err *err) {
-    s->signals = gn_stop_open();
-    s->epoll = epoll_create1(EPOLL_CLOEXEC);
-    if (s->signals < 0 || s->epoll < 0)
-        return gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
-    return gn_show_watch(s, s->signals, err) && gn_show_open_loader(s, err);
+    sigset_t set;
+    gn_stop_signals(&set);
+    s->signals = (struct gn_signals){.call = take_signal, .user = s};
+    s->loop = gn_loop_open(err);
+    if (!s->loop) return false;
+    return gn_loop_add_signals(s->loop, &s->signals, &set) ||
+           gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
 }
 
 void gn_show_drop_options(struct gn_options *options) {
@@ -91,13 +93,6 @@ void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
 }
 
-static void hear_signals(struct gn_show *s) {
-    for (int signal; (signal = gn_stop_read(s->signals)) != 0;) {
-        s->reloads |= signal == SIGHUP;
-        s->ends |= signal != SIGHUP;
-    }
-}
-
 static void take_hand(struct gn_show *s) {
     struct gn_screen *screen = &s->stage.display.screen;
     const struct gn_hand hand = screen->hand;
@@ -116,23 +111,15 @@ static void tick(struct gn_show *s) {
 
 /* ---- the loop ---- */
 
-/* Milliseconds until something is due, rounded up; -1: never. */
-static int timeout(const struct gn_show *s) {
+/* When the next step is due by itself; 0: at once. */
+static int64_t due_ns(const struct gn_show *s) {
     if (gn_show_wants_frame(s) || gn_show_is_stale(s) || gn_show_can_advance(s)) return 0;
     const int64_t now_ns = gn_clock_monotonic_ns();
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
     if (gn_show_has_work(s) && s->work_ns < at_ns) at_ns = s->work_ns;
-    const int64_t due_ns = gn_show_captions_due_ns(s); /* what is overdue waits for the screen */
-    if (s->stage.display.screen.lit && due_ns > now_ns && due_ns < at_ns) at_ns = due_ns;
-    if (at_ns == INT64_MAX) return -1;
-    const int64_t ms = at_ns <= now_ns ? 0 : (at_ns - now_ns + 999999) / 1000000;
-    return ms < 1000000 ? (int)ms : 1000000;
-}
-
-static void wait_for_something(const struct gn_show *s) {
-    struct epoll_event ready[8];
-    while (epoll_wait(s->epoll, ready, 8, timeout(s)) < 0 && errno == EINTR) {
-    }
+    const int64_t text_ns = gn_show_captions_due_ns(s); /* what is overdue waits for the screen */
+    if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
+    return at_ns;
 }
 
 /* What no frame takes along. */
@@ -143,8 +130,7 @@ static void work_between_frames(struct gn_show *s) {
 }
 
 bool gn_show_step(struct gn_show *s, struct gn_err *err) {
-    wait_for_something(s);
-    hear_signals(s);
+    gn_loop_step(s->loop, due_ns(s));
     gn_show_hear_control(s);
     if (s->ends) return true;
     if (s->reloads && !gn_show_reload(s, err)) return false;
@@ -152,7 +138,6 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     take_hand(s);
     if (s->ends) return true;
     tick(s);
-    gn_show_stats_step(&s->stats, &s->stage.display, gn_clock_monotonic_ns());
     s->changed |= gn_service_step(&s->service, &s->stage.display.screen, gn_clock_monotonic_ns());
     if (!gn_show_keep_context(s, err)) return false;
     gn_show_advance(s);
@@ -186,8 +171,8 @@ void gn_show_close(struct gn_show *s) {
     gn_stage_close(&s->stage);
     gn_show_stats_close(&s->stats);
     gn_service_close(&s->service);
-    if (s->signals >= 0) close(s->signals);
-    if (s->epoll >= 0) close(s->epoll);
+    gn_loop_remove_signals(&s->signals);
+    gn_loop_close(s->loop);
     gn_changes_destroy(s->changes);
     gn_show_drop_options(s->options);
     free(s);
@@ -195,18 +180,17 @@ void gn_show_close(struct gn_show *s) {
 
 /* Of what fails half-way the caller asks why it ended, and closes it. */
 static bool open_all(struct gn_show *s, const struct gn_options *options, struct gn_err *err) {
-    if (!open_loop(s, err) || !gn_service_open(&s->service, gn_clock_monotonic_ns(), err) ||
-        (s->service.timer >= 0 && !gn_show_watch(s, s->service.timer, err)))
+    if (!open_loop(s, err) || !gn_show_open_loader(s, err) ||
+        !gn_service_open(&s->service, s->loop, gn_clock_monotonic_ns(), err))
         return false;
     s->options = gn_show_read_options(options, NULL, err);
     if (!s->options || !gn_show_load(&s->stage, s->options, s->warnings, err)) return false;
     gn_show_open_captions(s);
     s->most_frames =
         s->stage.settings->run.frames > 0 ? (uint64_t)s->stage.settings->run.frames : UINT64_MAX;
-    if (!gn_show_begin(s, err) || !gn_show_open_display(s, err) || !gn_show_open_input(s, err) ||
-        !gn_show_stats_open(&s->stats, s->stage.settings, err) ||
-        (s->stats.timer >= 0 && !gn_show_watch(s, s->stats.timer, err)))
+    if (!gn_show_begin(s, err) || !gn_show_open_display(s, err) || !gn_show_open_input(s, err))
         return false;
+    gn_show_stats_open(&s->stats, s->stage.settings, &s->stage.display, s->loop);
     gn_show_open_control(s);
     return true;
 }
@@ -214,10 +198,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
 static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *warnings) {
     struct gn_show *s = gn_xalloc(1, sizeof *s);
     *s = (struct gn_show){.place = place,
-                          .epoll = -1,
-                          .signals = -1,
-                          .stats.timer = -1,
-                          .service = {.socket = -1, .timer = -1},
+                          .service.socket = -1,
                           .begun_ns = gn_clock_monotonic_ns(),
                           .warnings = warnings};
     return s;

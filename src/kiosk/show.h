@@ -3,6 +3,7 @@
 #define GN_KIOSK_SHOW_H
 
 #include "caption/captions.h"
+#include "core/loop.h"
 #include "kiosk/control/answer.h"
 #include "kiosk/info_page.h"
 #include "kiosk/latency.h"
@@ -32,11 +33,14 @@ struct gn_show_scenes {
     int count, listed;                      /* next-scene goes through the listed ones */
     int shown;                              /* the stage's */
     struct gn_loader *loader;
+    struct gn_watch loader_watch;
     struct gn_loaded *staged; /* NULL, or the one that will follow */
     struct gn_frame *frame;   /* of the staged one, while there is a context */
     bool whole;               /* the staged one is on the GPU */
     struct gn_show_looks looks;
 };
+
+enum { GN_SHOW_SCREEN, GN_SHOW_INPUT, GN_SHOW_CONTROL, GN_SHOW_WATCHES };
 
 struct gn_show {
     struct gn_options *options;  /* ours: a reload makes others */
@@ -51,8 +55,10 @@ struct gn_show {
     struct gn_button_opts button_opts[GN_BUTTONS_MAX]; /* theirs, for the input */
     struct gn_input *input;                            /* NULL while there is none */
     struct gn_latency latency;                         /* of theirs */
-    int epoll, signals;                                /* descriptors, -1 when not open */
-    uint32_t generation;                               /* of the context that stage.gl lives in */
+    struct gn_loop *loop;
+    struct gn_signals signals;
+    struct gn_watch watches[GN_SHOW_WATCHES];
+    uint32_t generation;   /* of the context that stage.gl lives in */
     uint64_t stalled;      /* frames that were not told of in time, when the GPU was last asked */
     int64_t asked_ns;      /* which was then */
     bool fitted_unencoded; /* what frames are drawn with on this screen */
@@ -99,11 +105,9 @@ struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warning
 void gn_show_close(struct gn_show *show);
 /* Waits for something, and does what it asks for: at most a frame. */
 bool gn_show_step(struct gn_show *show, struct gn_err *err);
-bool gn_show_watch(struct gn_show *show, int fd, struct gn_err *err);
+bool gn_show_watch(struct gn_show *show, struct gn_watch *watch, int fd, struct gn_err *err);
 struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
                                         struct gn_err *err);
-/* What still loads for the one before is not heard of any more. */
-bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
 void gn_show_drop_options(struct gn_options *options);
 bool gn_show_load(struct gn_stage *stage, struct gn_options *options, struct gn_warnings *warnings,
                   struct gn_err *err);
@@ -156,6 +160,8 @@ void gn_show_work(struct gn_show *show);
 bool gn_show_has_work(const struct gn_show *show);
 /* The context is another: programs are to be made again. */
 void gn_show_forget_work(struct gn_show *show);
+/* A new loader; what the one before still loads is dropped. */
+bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
 /* Loads what the kiosk waits for, and shows it once it is ready. */
 void gn_show_advance(struct gn_show *show);
 /* What the kiosk waits for is ready, and nothing else is to come before it. */

@@ -3,26 +3,25 @@
 #ifndef GN_KIOSK_STATS_H
 #define GN_KIOSK_STATS_H
 
+#include "core/loop.h"
 #include "display/display.h"
 #include "options/settings.h"
 
 struct gn_show_stats {
-    int timer; /* to be watched; -1: no lines are wanted */
+    const struct gn_display *display;
+    struct gn_timer timer; /* of the next line; added only where lines are wanted */
+    int64_t due_ns;
     bool first_is_told, tells_first;
     int64_t last_ns, draw_ns; /* since the last line: time spent drawing */
     uint64_t drawn, all_drawn;
     struct gn_screen_counts last;
 };
 
-/* With the timer at -1 before. */
-bool gn_show_stats_open(struct gn_show_stats *stats, const struct gn_settings *settings,
-                        struct gn_err *err);
+/* Zeroed before. From now on the loop prints a line a second to stdout, if the settings want it. */
+void gn_show_stats_open(struct gn_show_stats *stats, const struct gn_settings *settings,
+                        const struct gn_display *display, struct gn_loop *loop);
 void gn_show_stats_close(struct gn_show_stats *stats);
 /* A frame was sent that took so long to draw. */
-void gn_show_stats_frame(struct gn_show_stats *stats, const struct gn_display *display,
-                         int64_t draw_ns);
-/* Prints a line to stdout if it is time. */
-void gn_show_stats_step(struct gn_show_stats *stats, const struct gn_display *display,
-                        int64_t now_ns);
+void gn_show_stats_frame(struct gn_show_stats *stats, int64_t draw_ns);
 
 #endif

@@ -17,6 +17,8 @@
 
 static char path[108];
 static int heard = -1;
+static struct gn_loop *loop;
+static int64_t clock_ns;
 
 static int set_up(void **state) {
     (void)state;
@@ -29,11 +31,15 @@ static int set_up(void **state) {
     setenv("NOTIFY_SOCKET", path, 1);
     setenv("WATCHDOG_USEC", "10000000", 1);
     unsetenv("WATCHDOG_PID");
+    clock_ns = 100 * S;
+    loop = gn_loop_open(NULL);
+    gn_loop_fake_clock(loop, &clock_ns);
     return 0;
 }
 
 static int tear_down(void **state) {
     (void)state;
+    gn_loop_close(loop);
     close(heard);
     return unlink(path);
 }
@@ -53,7 +59,7 @@ static const char *hear(void) {
 
 static void open_it(struct gn_service *service) {
     struct gn_err err = {0};
-    if (!gn_service_open(service, 100 * S, &err)) fail_msg("%s", err.text);
+    if (!gn_service_open(service, loop, 100 * S, &err)) fail_msg("%s", err.text);
 }
 
 static void test_ready_with_the_first_flip(void **state) {
@@ -126,6 +132,27 @@ static void test_fed_while_it_sleeps(void **state) {
     gn_service_close(&service);
 }
 
+static void test_the_loop_wakes_up_for_the_watchdog(void **state) {
+    (void)state;
+    struct gn_service service;
+    struct gn_screen screen = {.counts.shown = 7, .blank = true};
+    open_it(&service);
+    for (int64_t s = 105; s < 125; s += 5) {
+        assert_int_equal(gn_loop_step(loop, GN_LOOP_NEVER), 1);
+        assert_true(clock_ns == s * S);
+        gn_service_step(&service, &screen, clock_ns);
+    }
+    assert_string_equal(hear(), "READY=1 WATCHDOG=1 WATCHDOG=1 WATCHDOG=1 WATCHDOG=1");
+    screen.blank = false; /* awake, and no flip comes */
+    for (int64_t s = 125; s < 145; s += 5) {
+        gn_loop_step(loop, GN_LOOP_NEVER);
+        assert_true(clock_ns == s * S);
+        assert_true(gn_service_step(&service, &screen, clock_ns));
+    }
+    gn_service_close(&service);
+    assert_int_equal(gn_loop_step(loop, GN_LOOP_NEVER), 0);
+}
+
 static void test_without_a_watchdog(void **state) {
     (void)state;
     static const char *const none[][2] = {{"", NULL}, {"0", NULL}, {"x", NULL}, {"10000", "1"}};
@@ -136,7 +163,7 @@ static void test_without_a_watchdog(void **state) {
         setenv("WATCHDOG_USEC", none[i][0], 1);
         if (none[i][1]) setenv("WATCHDOG_PID", none[i][1], 1);
         open_it(&service);
-        assert_int_equal(service.timer, -1);
+        assert_null(service.timer.link.loop);
         for (int64_t s = 100; s < 900; s++) assert_false(gn_service_step(&service, &screen, s * S));
         assert_string_equal(hear(), "READY=1");
         gn_service_close(&service);
@@ -163,10 +190,10 @@ static void test_addresses_that_are_none(void **state) {
     char longer[300] = "/";
     memset(longer + 1, 'x', sizeof longer - 2);
     setenv("NOTIFY_SOCKET", "relative", 1);
-    assert_false(gn_service_open(&service, 0, &err));
+    assert_false(gn_service_open(&service, loop, 0, &err));
     assert_non_null(strstr(err.text, "NOTIFY_SOCKET=relative"));
     setenv("NOTIFY_SOCKET", longer, 1);
-    assert_false(gn_service_open(&service, 0, &err));
+    assert_false(gn_service_open(&service, loop, 0, &err));
     setenv("NOTIFY_SOCKET", "/nowhere/notify", 1); /* gone again: no reason to end */
     open_it(&service);
     assert_false(gn_service_step(&service, &(struct gn_screen){.counts.shown = 1}, 0));
@@ -244,6 +271,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_ready_when_it_waits_for_a_monitor, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_fed_by_flips_alone, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_fed_while_it_sleeps, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_the_loop_wakes_up_for_the_watchdog, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_without_a_watchdog, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_without_a_supervisor, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_addresses_that_are_none, set_up, tear_down),

@@ -62,7 +62,8 @@ void gn_show_open_control(struct gn_show *s) {
     struct gn_show_control *c = gn_xalloc(1, sizeof *c);
     *c = (struct gn_show_control){.epoll = -1, .timer = -1};
     gn_show_status_begin(&c->status, gn_clock_monotonic_ns());
-    if (open_all(c, named ? named : path, &err) && gn_show_watch(s, c->epoll, &err)) {
+    if (open_all(c, named ? named : path, &err) &&
+        gn_show_watch(s, &s->watches[GN_SHOW_CONTROL], c->epoll, &err)) {
         s->control = c;
         return;
     }
