@@ -12,10 +12,9 @@
 #ifndef GN_CORE_LOOP_H
 #define GN_CORE_LOOP_H
 
-#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
-#include <sys/epoll.h>
+#include <sys/epoll.h> /* sigset_t, too */
 
 #include "core/err.h"
 

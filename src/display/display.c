@@ -14,7 +14,7 @@ const struct gn_display_ops *const gn_displays[] = {
 
 static bool open_row(struct gn_display *display, const struct gn_display_ops *ops,
                      struct gn_warnings *warnings, struct gn_err *err) {
-    *display = (struct gn_display){.ops = ops, .screen.fd = -1};
+    *display = (struct gn_display){.ops = ops};
     if (ops->open(display, warnings, err)) return true;
     *display = (struct gn_display){0};
     return false;
@@ -71,7 +71,7 @@ static const struct gn_screen_ops *screen_of(const struct gn_display *display) {
 static bool open_screen(struct gn_display *display, const struct gn_display_ops *row,
                         const struct gn_screen_opts *opts, int64_t now_ns,
                         struct gn_warnings *warnings, struct gn_err *err) {
-    *display = (struct gn_display){.ops = row, .screen.fd = -1};
+    *display = (struct gn_display){.ops = row};
     if (!row->screen && !open_row(display, row, warnings, err)) return false;
     if (screen_of(display)->open(display, opts, now_ns, warnings, err)) return true;
     gn_display_close(display);

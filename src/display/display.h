@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "core/err.h"
+#include "core/loop.h"
 #include "core/warn.h"
 #include "display/pointer.h"
 
@@ -18,6 +19,7 @@ struct gn_display;
 /* ---- screens ------------------------------------------------------------------------------- */
 
 struct gn_screen_opts {               /* zero means the default written beside */
+    struct gn_loop *loop;             /* not NULL: the screen adds its descriptors and timers */
     uint32_t width_px, height_px;     /* of a screen that nobody sees: 1280 x 720 */
     const char *connector;            /* "HDMI-A-1"; any that is connected */
     const char *card;                 /* "platform-gpu-card", as in /dev/dri/by-path; any */
@@ -47,8 +49,6 @@ struct gn_screen_counts {
 
 /* What a screen is now: plain data that changes only inside the functions below. */
 struct gn_screen {
-    int fd;              /* one epoll descriptor: readable when dispatch has to be called;
-                            the display's, -1 where it is no screen */
     bool has_context;    /* a GL context is current; without, there is no card to draw with */
     bool lost;           /* the context is of no use any more: gn_display_renew() */
     uint32_t generation; /* of the context: another number, another context */
@@ -109,7 +109,7 @@ struct gn_screen_ops { /* see the functions of the same names */
 struct gn_display {
     const struct gn_display_ops *ops;
     void *state;             /* private to ops */
-    struct gn_screen screen; /* all zero, fd -1, where it is none */
+    struct gn_screen screen; /* all zero where it is none */
     void *unseen;            /* private: of a screen that nobody sees */
 };
 
@@ -127,7 +127,8 @@ void gn_display_close(struct gn_display *display); /* a zeroed one may be closed
 bool gn_display_open_screen(struct gn_display *display, const char *name,
                             const struct gn_screen_opts *opts, int64_t now_ns,
                             struct gn_warnings *warnings, struct gn_err *err);
-/* Handles whatever is ready; never blocks, but that lighting a monitor takes the kernel up to a
+/* To be called after each step of the loop: handles what became ready in it, and brings the screen
+ * up to now_ns. Never blocks, but that lighting a monitor takes the kernel up to a
  * tenth of a second. False: it gave up for good (status 70: a new process may do better). */
 bool gn_display_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err);
 /* After all that lives in the old context is destroyed: ends it, and makes another where there is a

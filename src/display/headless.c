@@ -1,40 +1,39 @@
 /* A screen that nobody sees, 60 times a second: the kiosk's tests run on it. */
-#include <errno.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/timerfd.h>
-#include <unistd.h>
 
 #include "core/arena.h"
 #include "core/clock.h"
 #include "display/kms/flip.h"
 #include "display/private.h"
 
+struct headless {
+    struct gn_flip flip;
+    struct gn_timer timer; /* of the flip */
+};
+
 static bool settle(struct gn_display *display, int64_t now_ns) {
-    struct gn_flip *flip = display->unseen;
+    struct headless *h = display->unseen;
+    struct gn_flip *flip = &h->flip;
     struct gn_screen *s = &display->screen;
-    const int64_t at_ns = gn_flip_deadline(flip, now_ns);
-    const struct itimerspec never = {0},
-                            when = {.it_value = {at_ns / GN_NS_PER_S, at_ns % GN_NS_PER_S}};
     s->lit = !s->blank;
     s->may_draw = s->lit && gn_flip_may_draw(flip, now_ns);
     s->seen_ns = gn_flip_seen_ns(flip, now_ns);
     s->counts.shown = flip->shown;
     s->counts.missed = flip->missed;
-    timerfd_settime(s->fd, TFD_TIMER_ABSTIME, at_ns == INT64_MAX ? &never : &when, NULL);
+    h->timer.due_ns = gn_flip_deadline(flip, now_ns);
     return true;
 }
 
 static bool unseen_open(struct gn_display *display, const struct gn_screen_opts *opts,
                         int64_t now_ns, struct gn_warnings *warnings, struct gn_err *err) {
-    (void)warnings;
+    (void)warnings, (void)err;
     struct gn_screen *s = &display->screen;
-    struct gn_flip *flip = display->unseen = gn_xalloc(1, sizeof *flip);
+    struct headless *h = display->unseen = gn_xalloc(1, sizeof *h);
+    struct gn_flip *flip = &h->flip;
     flip->blind = true;
     flip->period_ns = GN_NS_PER_S / 60;
     flip->shortest_ns = opts->max_fps > 0 ? GN_NS_PER_S / opts->max_fps : 0;
     *s = (struct gn_screen){
-        .fd = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK),
         .has_context = true,
         .generation = 1,
         .lit = true,
@@ -43,13 +42,13 @@ static bool unseen_open(struct gn_display *display, const struct gn_screen_opts 
         .rotate_deg = opts->rotate_deg,
         .period_ns = flip->period_ns,
     };
-    if (s->fd < 0) return gn_fail(err, "cannot make a timer: %s", strerror(errno));
+    gn_loop_add_timer(opts->loop, &h->timer);
     return settle(display, now_ns);
 }
 
 static bool unseen_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     (void)err;
-    return settle(display, now_ns); /* which sets the timer anew: there is nothing to read */
+    return settle(display, now_ns);
 }
 
 static bool unseen_renew(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
@@ -60,14 +59,16 @@ static bool unseen_renew(struct gn_display *display, int64_t now_ns, struct gn_e
 static bool unseen_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     (void)err;
     if (!display->screen.may_draw) return false;
-    gn_flip_begun(display->unseen, now_ns);
+    struct headless *h = display->unseen;
+    gn_flip_begun(&h->flip, now_ns);
     return settle(display, now_ns);
 }
 
 static bool unseen_present(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     (void)err;
-    gn_flip_committed(display->unseen, now_ns);
-    gn_flip_done(display->unseen, now_ns, now_ns);
+    struct headless *h = display->unseen;
+    gn_flip_committed(&h->flip, now_ns);
+    gn_flip_done(&h->flip, now_ns, now_ns);
     return settle(display, now_ns);
 }
 
@@ -77,9 +78,10 @@ static void unseen_blank(struct gn_display *display, bool on, int64_t now_ns) {
 }
 
 void gn_screen_unseen_close(struct gn_display *display) {
-    if (!display->unseen) return;
-    if (display->screen.fd >= 0) close(display->screen.fd);
-    free(display->unseen);
+    struct headless *h = display->unseen;
+    if (!h) return;
+    gn_loop_remove_timer(&h->timer);
+    free(h);
     display->unseen = NULL;
 }
 

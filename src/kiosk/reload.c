@@ -15,7 +15,6 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
         fresh->display = s->stage.display;
         s->stage.display = (struct gn_display){0};
     }
-    if (!keeps_display) gn_loop_remove(&s->watches[GN_SHOW_SCREEN]);
     gn_stage_close(&s->stage);
     gn_loop_remove(&s->watches[GN_SHOW_INPUT]);
     gn_input_close(s->input); /* its buttons' names are the options' */

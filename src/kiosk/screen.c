@@ -13,8 +13,10 @@ static bool encodes(const struct gn_settings *o) {
 }
 
 /* again_ns: 0 by default. */
-static struct gn_screen_opts screen_opts_of(const struct gn_settings *o, int64_t again_ns) {
+static struct gn_screen_opts screen_opts_of(const struct gn_show *s, int64_t again_ns) {
+    const struct gn_settings *o = s->stage.settings;
     return (struct gn_screen_opts){
+        .loop = s->loop,
         .width_px = (uint32_t)o->render.size.width_px,
         .height_px = (uint32_t)o->render.size.height_px,
         .connector = o->display.connector,
@@ -40,14 +42,14 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
     struct gn_wake wake = {0};
     /* a still picture, too, is flipped in each half of the supervisor's patience */
     const int64_t again_ns = s->service.every_ns * 3 / 4;
-    s->screen_opts = screen_opts_of(o, again_ns < 10 * GN_NS_PER_S ? again_ns : 0);
+    s->screen_opts = screen_opts_of(s, again_ns < 10 * GN_NS_PER_S ? again_ns : 0);
     gn_wake_begin(&wake, o);
     const bool ok =
         gn_display_open_screen(&s->stage.display, s->place ? s->place->backend : o->display.backend,
                                &s->screen_opts, gn_clock_monotonic_ns(), s->warnings, err);
     gn_wake_end(&wake);
     if (ok && s->place) s->place->opened = true;
-    return ok && gn_show_watch(s, &s->watches[GN_SHOW_SCREEN], s->stage.display.screen.fd, err);
+    return ok;
 }
 
 /* What tilers draw on chip costs them next to nothing. */

@@ -41,7 +41,7 @@ struct kiosk {
     struct gn_gl *gl;
     struct gn_frame *frame;
 };
-static const struct gn_screen_opts small = {.width_px = 320, .height_px = 200};
+static struct gn_screen_opts small = {.width_px = 320, .height_px = 200};
 
 static void start_gl(struct kiosk *k) {
     struct gn_err err = {0};
@@ -63,6 +63,7 @@ static void begin(struct kiosk *k) {
     if (!k->scene) fail_msg("%s", err.text);
     gn_pose_init(&k->pose, k->scene, GN_POSE_NONE);
     gn_pose_step(&k->pose, 0);
+    small.loop = gn_loop_open(&err);
     if (!gn_display_open_screen(&k->display, "window", &small, gn_clock_monotonic_ns(), NULL, &err))
         fail_msg("%s", err.text);
     window = k->display.ops;
@@ -76,6 +77,7 @@ static void begin(struct kiosk *k) {
 static void end(struct kiosk *k) {
     stop_gl(k);
     gn_display_close(&k->display);
+    gn_loop_close(small.loop);
     gn_pose_finish(&k->pose);
     gn_scene_destroy(k->scene);
 }

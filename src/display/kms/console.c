@@ -6,7 +6,6 @@
 #include <signal.h>
 #include <stddef.h>
 #include <sys/ioctl.h>
-#include <sys/signalfd.h>
 #include <unistd.h>
 
 enum { LEAVE = SIGUSR1, ENTER = SIGUSR2 };
@@ -26,38 +25,38 @@ static int find_tty(void) {
     return -1;
 }
 
-static int open_signals(void) {
+/* Several in one step: the last one counts. */
+static void take_signal(void *user, int number) {
+    struct gn_console *c = user;
+    c->leaves = number == LEAVE;
+    c->entered = number == ENTER;
+    if (c->entered) ioctl(c->tty, VT_RELDISP, VT_ACKACQ);
+}
+
+static bool open_signals(struct gn_console *c, struct gn_loop *loop) {
     sigset_t both;
     sigemptyset(&both);
     sigaddset(&both, LEAVE);
     sigaddset(&both, ENTER);
-    sigprocmask(SIG_BLOCK, &both, NULL);
-    return signalfd(-1, &both, SFD_CLOEXEC | SFD_NONBLOCK);
+    c->signals = (struct gn_signals){.call = take_signal, .user = c};
+    return gn_loop_add_signals(loop, &c->signals, &both);
 }
 
-void gn_console_open(struct gn_console *c) {
+void gn_console_open(struct gn_console *c, struct gn_loop *loop) {
     struct vt_mode mode = {.mode = VT_PROCESS, .relsig = LEAVE, .acqsig = ENTER};
-    *c = (struct gn_console){.tty = find_tty(), .signals = -1};
+    *c = (struct gn_console){.tty = find_tty()};
     if (c->tty < 0) return;
-    c->signals = open_signals();
-    if (c->signals < 0 || ioctl(c->tty, VT_SETMODE, &mode) != 0) {
+    if (!open_signals(c, loop) || ioctl(c->tty, VT_SETMODE, &mode) != 0) {
         gn_console_close(c);
         return;
     }
     ioctl(c->tty, KDSETMODE, KD_GRAPHICS);
 }
 
-void gn_console_read(struct gn_console *c, bool *left, bool *entered) {
-    struct signalfd_siginfo info;
-    *left = *entered = false;
-    while (c->signals >= 0 && read(c->signals, &info, sizeof info) == sizeof info) {
-        *left = info.ssi_signo == LEAVE;
-        *entered = info.ssi_signo == ENTER;
-        if (*entered) ioctl(c->tty, VT_RELDISP, VT_ACKACQ);
-    }
+void gn_console_let_go(struct gn_console *c) {
+    c->leaves = false;
+    ioctl(c->tty, VT_RELDISP, 1);
 }
-
-void gn_console_let_go(struct gn_console *c) { ioctl(c->tty, VT_RELDISP, 1); }
 
 void gn_console_close(struct gn_console *c) {
     struct vt_mode automatic = {.mode = VT_AUTO};
@@ -66,6 +65,6 @@ void gn_console_close(struct gn_console *c) {
         ioctl(c->tty, KDSETMODE, KD_TEXT);
         close(c->tty);
     }
-    if (c->signals >= 0) close(c->signals);
-    *c = (struct gn_console){-1, -1};
+    gn_loop_remove_signals(&c->signals);
+    *c = (struct gn_console){.tty = -1};
 }

@@ -241,7 +241,7 @@ struct gn_kms *gn_kms_create(const struct gn_kms_env *env, const struct gn_scree
     struct gn_kms *k = gn_xalloc(1, sizeof *k);
     k->env = *env;
     k->opts = opts;
-    k->device.fd = k->screen.fd = -1;
+    k->device.fd = -1;
     k->frames.front.fence = k->frames.pending.fence = k->frames.waiting.fence = -1;
     k->due.look_ns = now_ns;
     k->due.master_ns = k->due.again_ns = GN_KMS_NEVER;

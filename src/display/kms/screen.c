@@ -1,10 +1,8 @@
-/* The screen on the kernel's modesetting, with its descriptors: the card's, the kernel's messages,
- * the console's signals and one timer, behind one epoll. */
+/* The screen on the kernel's modesetting, with what it waits for: the card, the kernel's messages,
+ * the console's signals and a timer. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/epoll.h>
-#include <sys/timerfd.h>
 #include <unistd.h>
 
 #include "core/arena.h"
@@ -21,63 +19,61 @@ struct kms_screen {
     struct gn_screen_opts opts;
     struct gn_kms *kms;
     struct gn_console console;
-    int epoll, timer, uevents;
-    int card;         /* the one that epoll watches */
-    int64_t timer_ns; /* what it is set to */
+    struct gn_watch card, uevents; /* fd -1: none */
+    struct gn_timer timer;         /* when the machine is due */
+    unsigned events;               /* GN_KMS_EVENT_* since the last dispatch */
 };
 
-static bool watch(struct kms_screen *s, int fd) {
-    struct epoll_event event = {.events = EPOLLIN, .data.fd = fd};
-    return fd < 0 || epoll_ctl(s->epoll, EPOLL_CTL_ADD, fd, &event) == 0;
+static void on_card(void *user, uint32_t events, int64_t now_ns) {
+    struct kms_screen *s = user;
+    (void)events, (void)now_ns;
+    s->events |= GN_KMS_EVENT_READABLE;
+}
+
+static void on_uevent(void *user, uint32_t events, int64_t now_ns) {
+    struct kms_screen *s = user;
+    (void)events, (void)now_ns;
+    if (gn_uevent_read(s->uevents.fd)) s->events |= GN_KMS_EVENT_HOTPLUG;
 }
 
 /* A descriptor that was closed has left epoll by itself, and its number may be another's by now. */
 static void watch_card(struct kms_screen *s) {
-    const int card = gn_kms_fd(s->kms);
-    if (card == s->card) return;
-    if (s->card >= 0) epoll_ctl(s->epoll, EPOLL_CTL_DEL, s->card, NULL);
-    s->card = watch(s, card) ? card : -1;
-}
-
-static void set_timer(struct kms_screen *s, int64_t at_ns) {
-    if (at_ns == s->timer_ns) return;
-    s->timer_ns = at_ns;
-    const int64_t ns = at_ns == INT64_MAX ? 0 : at_ns > 0 ? at_ns : 1; /* 0 switches it off */
-    const struct itimerspec when = {.it_value = {ns / 1000000000, ns % 1000000000}};
-    timerfd_settime(s->timer, TFD_TIMER_ABSTIME, &when, NULL);
+    const int fd = gn_kms_fd(s->kms);
+    if (fd == s->card.fd) return;
+    gn_loop_remove(&s->card);
+    s->card.fd = fd;
+    if (fd < 0 || !gn_loop_add(s->opts.loop, &s->card)) s->card.fd = -1;
 }
 
 /* After every call into the machine. */
 static bool settle(struct gn_display *display, bool ok, int64_t now_ns) {
     struct kms_screen *s = display->state;
-    const int fd = display->screen.fd;
     display->screen = *gn_kms_screen(s->kms);
-    display->screen.fd = fd;
     watch_card(s);
-    set_timer(s, gn_kms_deadline(s->kms, now_ns));
+    s->timer.due_ns = gn_kms_deadline(s->kms, now_ns);
     return ok;
 }
 
-static bool open_descriptors(struct kms_screen *s, struct gn_err *err) {
-    s->epoll = epoll_create1(EPOLL_CLOEXEC);
-    s->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
-    s->uevents = gn_uevent_open();
-    if (s->epoll >= 0 && s->timer >= 0 && watch(s, s->timer) && watch(s, s->uevents) &&
-        watch(s, s->console.signals))
-        return true;
-    return gn_fail(err, "cannot wait for the display: %s", strerror(errno));
+static bool add_sources(struct kms_screen *s, struct gn_err *err) {
+    gn_console_open(&s->console, s->opts.loop);
+    s->uevents.fd = gn_uevent_open();
+    s->timer.due_ns = GN_LOOP_NEVER;
+    gn_loop_add_timer(s->opts.loop, &s->timer);
+    return s->uevents.fd < 0 || gn_loop_add(s->opts.loop, &s->uevents) ||
+           gn_fail(err, "cannot wait for the display: %s", strerror(errno));
 }
 
 static void kms_close(struct gn_display *display) {
     struct kms_screen *s = display->state;
     if (!s) return;
+    gn_loop_remove(&s->card);
+    gn_loop_remove(&s->uevents);
+    gn_loop_remove_timer(&s->timer);
     gn_kms_destroy(s->kms);
     if (s->scanout) gn_scanout_gbm.close(s->scanout);
     if (s->node >= 0) s->drm->close(s->node);
     gn_console_close(&s->console);
-    if (s->uevents >= 0) close(s->uevents);
-    if (s->timer >= 0) close(s->timer);
-    if (s->epoll >= 0) close(s->epoll);
+    if (s->uevents.fd >= 0) close(s->uevents.fd);
     free(s);
     display->state = NULL;
 }
@@ -87,8 +83,10 @@ static struct kms_screen *create(struct gn_display *display, struct gn_err *err)
     if (!drm) return NULL;
     struct kms_screen *s = display->state = gn_xalloc(1, sizeof *s);
     s->drm = drm;
-    s->node = s->epoll = s->timer = s->uevents = s->card = -1;
-    s->console = (struct gn_console){-1, -1};
+    s->node = -1;
+    s->card = (struct gn_watch){.fd = -1, .events = EPOLLIN, .call = on_card, .user = s};
+    s->uevents = (struct gn_watch){.fd = -1, .events = EPOLLIN, .call = on_uevent, .user = s};
+    s->console = (struct gn_console){.tty = -1};
     return s;
 }
 
@@ -127,41 +125,25 @@ static bool kms_open_screen(struct gn_display *display, const struct gn_screen_o
     struct kms_screen *s = create(display, err);
     if (!s) return false;
     s->opts = *opts;
-    gn_console_open(&s->console);
-    if (!open_descriptors(s, err)) {
+    if (!add_sources(s, err)) {
         kms_close(display);
         return false;
     }
     const struct gn_kms_env env = {
-        .drm = s->drm, .scanout = &gn_scanout_gbm, .who = gn_kms_who, .deaf = s->uevents < 0};
-    display->screen.fd = s->epoll;
+        .drm = s->drm, .scanout = &gn_scanout_gbm, .who = gn_kms_who, .deaf = s->uevents.fd < 0};
     s->kms = gn_kms_create(&env, &s->opts, now_ns);
     return settle(display, true, now_ns);
 }
 
-static unsigned console_events(struct kms_screen *s) {
-    bool left, entered;
-    gn_console_read(&s->console, &left, &entered);
-    return (left ? GN_KMS_EVENT_VT_LEFT : 0) | (entered ? GN_KMS_EVENT_VT_ENTERED : 0);
-}
-
-static unsigned events_of(struct kms_screen *s, int fd) {
-    uint64_t ticks;
-    if (fd == s->card) return GN_KMS_EVENT_READABLE;
-    if (fd == s->console.signals) return console_events(s);
-    if (fd == s->uevents) return gn_uevent_read(fd) ? GN_KMS_EVENT_HOTPLUG : 0;
-    if (fd == s->timer && read(fd, &ticks, sizeof ticks) == sizeof ticks) s->timer_ns = 0;
-    return 0;
-}
-
 static bool kms_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     struct kms_screen *s = display->state;
-    struct epoll_event ready[8];
-    unsigned events = 0;
-    const int count = epoll_wait(s->epoll, ready, 8, 0);
-    for (int i = 0; i < count; i++) events |= events_of(s, ready[i].data.fd);
+    const bool leaves = s->console.leaves;
+    const unsigned events = s->events | (leaves ? GN_KMS_EVENT_VT_LEFT : 0) |
+                            (s->console.entered ? GN_KMS_EVENT_VT_ENTERED : 0);
+    s->events = 0;
+    s->console.entered = false;
     const bool ok = gn_kms_step(s->kms, events, now_ns, err);
-    if (events & GN_KMS_EVENT_VT_LEFT) gn_console_let_go(&s->console);
+    if (leaves) gn_console_let_go(&s->console);
     return settle(display, ok, now_ns);
 }
 

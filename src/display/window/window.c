@@ -9,9 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/epoll.h>
-#include <sys/timerfd.h>
-#include <unistd.h>
 
 #include "core/arena.h"
 #include "core/clock.h"
@@ -32,7 +29,8 @@ struct window {
     bool iconified;
     bool resized; /* since the last swap: the driver may have drawn to a buffer of the old size */
     int width_px, height_px; /* of the framebuffer, as it was told: to ask is to read events */
-    int epoll, timer;
+    struct gn_watch events;  /* the window system has some */
+    struct gn_timer timer;
     struct gn_flip flip;
     struct gn_hand hand;
     struct gn_pointer pointer;
@@ -205,9 +203,7 @@ static void toggle_full_screen(struct window *w) {
 static void set_timer(struct window *w, bool heard, int64_t now_ns) {
     int64_t at_ns = heard ? now_ns : gn_flip_deadline(&w->flip, now_ns);
     if (glfw.link.fd < 0 && at_ns > now_ns + POLL_NS) at_ns = now_ns + POLL_NS;
-    const int64_t ns = at_ns == INT64_MAX ? 0 : at_ns > 0 ? at_ns : 1; /* 0 switches it off */
-    const struct itimerspec when = {.it_value = {ns / GN_NS_PER_S, ns % GN_NS_PER_S}};
-    timerfd_settime(w->timer, TFD_TIMER_ABSTIME, &when, NULL);
+    w->timer.due_ns = at_ns;
 }
 
 /* After every call and whatever reads events: it reads none. */
@@ -243,8 +239,8 @@ static void window_close(struct gn_display *display) {
     struct window *w = display->state;
     if (!w) return;
     if (w->handle && !glfw.link.gone) glfw.DestroyWindow(w->handle);
-    if (w->timer >= 0) close(w->timer);
-    if (w->epoll >= 0) close(w->epoll);
+    gn_loop_remove(&w->events);
+    gn_loop_remove_timer(&w->timer);
     free(w);
     display->state = NULL;
 }
@@ -252,7 +248,6 @@ static void window_close(struct gn_display *display) {
 static struct window *create(struct gn_display *display, struct gn_err *err) {
     if (!load(err)) return NULL;
     struct window *w = display->state = gn_xalloc(1, sizeof *w);
-    w->epoll = w->timer = -1;
     setenv("EGL_LOG_LEVEL", "fatal", 0); /* or Mesa chats on stderr about what it did not find */
     if (glfw.Init()) {
         if (!glfw.link.name) gn_window_link_open(&glfw.link, glfw.library);
@@ -317,18 +312,13 @@ static bool encodes(const struct window *w) {
            space == EGL_GL_COLORSPACE_SRGB_KHR;
 }
 
-static bool watch(const struct window *w, int fd) {
-    struct epoll_event event = {.events = EPOLLIN, .data.fd = fd};
-    return epoll_ctl(w->epoll, EPOLL_CTL_ADD, fd, &event) == 0;
-}
-
-static bool open_descriptors(struct window *w, struct gn_err *err) {
-    w->epoll = epoll_create1(EPOLL_CLOEXEC);
-    w->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
-    if (w->epoll >= 0 && w->timer >= 0 && watch(w, w->timer) &&
-        (glfw.link.fd < 0 || watch(w, glfw.link.fd)))
-        return true;
-    return gn_fail(err, "cannot wait for the window: %s", strerror(errno));
+static bool add_sources(struct window *w, struct gn_err *err) {
+    w->timer.due_ns = GN_LOOP_NEVER;
+    gn_loop_add_timer(w->opts.loop, &w->timer);
+    if (glfw.link.fd < 0) return true;
+    w->events = (struct gn_watch){.fd = glfw.link.fd, .events = EPOLLIN};
+    return gn_loop_add(w->opts.loop, &w->events) ||
+           gn_fail(err, "cannot wait for the window: %s", strerror(errno));
 }
 
 /* Whatever belongs to the handle, and with it to the context. */
@@ -357,8 +347,8 @@ static bool window_open_screen(struct gn_display *display, const struct gn_scree
     struct window *w = create(display, err);
     if (!w) return false;
     w->opts = *opts;
-    if (open_descriptors(w, err)) {
-        display->screen = (struct gn_screen){.fd = w->epoll, .rotate_deg = opts->rotate_deg};
+    if (add_sources(w, err)) {
+        display->screen = (struct gn_screen){.rotate_deg = opts->rotate_deg};
         if (make_screen(display, opts->width_px ? opts->width_px : 1280,
                         opts->height_px ? opts->height_px : 720, err))
             return settle(display, now_ns, err);
