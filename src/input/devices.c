@@ -5,7 +5,6 @@
 #include <linux/input.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/epoll.h>
 #include <unistd.h>
 
 #include "core/clock.h"
@@ -15,7 +14,7 @@ void gn_devices_init(struct gn_devices *devices) {
 }
 
 static void lose(struct gn_devices *devices, struct gn_device *d, int64_t now_ns) {
-    epoll_ctl(devices->epoll, EPOLL_CTL_DEL, d->fd, NULL);
+    gn_loop_remove(&d->watch);
     close(d->fd);
     gn_keys_lose(devices->keys, &d->keys, now_ns);
     *d = (struct gn_device){.fd = -1};
@@ -41,13 +40,20 @@ static int find_free(const struct gn_devices *devices) {
     return -1;
 }
 
+static void on_readable(void *user, uint32_t events, int64_t now_ns) {
+    struct gn_device *d = user;
+    (void)events;
+    d->readable = true;
+    d->all->timer->due_ns = now_ns;
+}
+
 static void add(struct gn_devices *devices, int i, struct gn_device found, int64_t now_ns) {
     struct gn_device *d = &devices->list[i];
-    struct epoll_event event = {.events = EPOLLIN,
-                                .data.u64 = devices->tag | (uint64_t)(unsigned)i};
     uint8_t bits[GN_KEY_BYTES] = {0};
     *d = found;
-    if (epoll_ctl(devices->epoll, EPOLL_CTL_ADD, d->fd, &event)) {
+    d->all = devices;
+    d->watch = (struct gn_watch){.fd = d->fd, .events = EPOLLIN, .call = on_readable, .user = d};
+    if (!gn_loop_add(devices->loop, &d->watch)) {
         close(d->fd);
         d->fd = -1;
         return;
@@ -118,9 +124,10 @@ static void take(struct gn_devices *devices, struct gn_device *d, const struct i
     gn_keys_set(devices->keys, &d->keys, event->code, event->value, time_ns);
 }
 
-bool gn_devices_read(struct gn_devices *devices, int index, int64_t now_ns) {
-    struct gn_device *d = &devices->list[index];
+/* True: the device is gone. */
+static bool read_device(struct gn_devices *devices, struct gn_device *d, int64_t now_ns) {
     struct input_event events[64];
+    d->readable = false;
     for (int round = 0; d->fd >= 0 && round < 8; round++) {
         const ssize_t size = read(d->fd, events, sizeof events);
         if (size < 0 && (errno == EAGAIN || errno == EINTR)) return false;
@@ -132,4 +139,11 @@ bool gn_devices_read(struct gn_devices *devices, int index, int64_t now_ns) {
         for (size_t i = 0; i < count; i++) take(devices, d, &events[i], now_ns);
     }
     return false;
+}
+
+bool gn_devices_read(struct gn_devices *devices, int64_t now_ns) {
+    bool gone = false;
+    for (int i = 0; i < GN_DEVICES_MAX; i++)
+        if (devices->list[i].readable) gone |= read_device(devices, &devices->list[i], now_ns);
+    return gone;
 }

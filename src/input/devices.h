@@ -4,6 +4,7 @@
 #ifndef GN_INPUT_DEVICES_H
 #define GN_INPUT_DEVICES_H
 
+#include "core/loop.h"
 #include "input/keys.h"
 #include "input/report.h"
 
@@ -20,6 +21,9 @@ extern const struct gn_evdev_ops gn_evdev;
 
 struct gn_device {
     int fd; /* -1: the place is free */
+    struct gn_watch watch;
+    struct gn_devices *all;
+    bool readable; /* since it was read */
     char path[64];
     bool dropped; /* events were lost: until the next report they mean nothing */
     uint8_t has[GN_KEY_BYTES];
@@ -29,8 +33,8 @@ struct gn_devices {
     const struct gn_evdev_ops *ops;
     void *context;
     const char *folder; /* "/dev/input" */
-    int epoll;
-    uint64_t tag; /* tag | index */
+    struct gn_loop *loop;
+    struct gn_timer *timer; /* made due by a device that is readable */
     struct gn_keys *keys;
     struct gn_reports *reports;
     struct gn_device list[GN_DEVICES_MAX];
@@ -44,7 +48,7 @@ void gn_devices_finish(struct gn_devices *devices);
 void gn_devices_search(struct gn_devices *devices, int64_t now_ns);
 /* One of those that are open has this key. */
 bool gn_devices_have(const struct gn_devices *devices, unsigned key);
-/* Reads all that there is; true: the device is gone, and a search is due. */
-bool gn_devices_read(struct gn_devices *devices, int index, int64_t now_ns);
+/* Reads all that there is from those that are readable; true: one is gone, and a search is due. */
+bool gn_devices_read(struct gn_devices *devices, int64_t now_ns);
 
 #endif

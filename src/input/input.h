@@ -1,6 +1,6 @@
 /* Buttons and keys, wherever they are: lines of GPIO chips, input devices, the window, the
- * terminal, a script. One descriptor to wait for, one queue of gestures to read. Nothing here ends
- * the program: what is not there yet is waited for, and said once. */
+ * terminal, a script. They are read by callbacks of the event loop, into one queue of gestures.
+ * Nothing here ends the program: what is not there yet is waited for, and said once. */
 #ifndef GN_INPUT_INPUT_H
 #define GN_INPUT_INPUT_H
 
@@ -9,6 +9,7 @@
 #include "core/arena.h"
 #include "core/err.h"
 #include "core/key.h"
+#include "core/loop.h"
 #include "core/warn.h"
 #include "input/gesture.h"
 #include "input/gpio.h"
@@ -29,6 +30,7 @@ struct gn_button_opts { /* zero means the default written beside; texts outlive 
     int64_t chord_ns;    /* 80 ms */
 };
 struct gn_input_opts {
+    struct gn_loop *loop;                 /* not NULL, outlives the input */
     const struct gn_button_opts *buttons; /* outlive the input */
     int button_count;                     /* at most GN_BUTTONS_MAX */
     bool terminal;                        /* read keys from stdin where it is a terminal; on a
@@ -45,15 +47,11 @@ struct gn_input;
  * errors that name the button; not on what the world lacks. */
 struct gn_input *gn_input_open(const struct gn_input_opts *opts, int64_t now_ns,
                                struct gn_warnings *warnings, struct gn_err *err);
-void gn_input_close(struct gn_input *input);   /* NULL is fine; the terminal is as it was */
-int gn_input_fd(const struct gn_input *input); /* readable when dispatch has to be called: timers
-                                                  are in it too */
-/* Handles whatever is ready; never blocks. */
-void gn_input_dispatch(struct gn_input *input, int64_t now_ns);
+void gn_input_close(struct gn_input *input); /* NULL is fine; the terminal is as it was */
 /* A key that somebody else heard: the window's. */
 void gn_input_key(struct gn_input *input, const struct gn_key_event *event);
-/* After dispatch and after key, until it is false: the next gesture, in order; false: there is
- * none. At most 20 a second for each button. */
+/* After each step of the loop and after key, until it is false: the next gesture, in order; false:
+ * there is none. At most 20 a second for each button. */
 bool gn_input_next(struct gn_input *input, struct gn_gesture_event *out);
 /* The next line for the log that has not been read ("button \"next\": held for 30 s; ignored until
  * it is released"), or false. Each is said once until it changes. */

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/epoll.h>
 
 #define SECOND INT64_C(1000000000)
 #define NEVER  INT64_MAX
@@ -68,7 +67,7 @@ static void have_problem(struct gn_lines *lines, struct gn_line *l, enum problem
 static bool is_pressed(const struct gn_line *l, bool high) { return high == l->opts.active_high; }
 
 static void drop(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
-    epoll_ctl(lines->epoll, EPOLL_CTL_DEL, lines->ops->fd(l->request), NULL);
+    gn_loop_remove(&l->watch);
     lines->ops->release(l->request);
     l->request = NULL;
     l->check_ns = NEVER;
@@ -100,17 +99,25 @@ static int request(struct gn_lines *lines, struct gn_line *l, void *chip, unsign
     return l->no_bias ? 0 : error;
 }
 
+static void on_readable(void *user, uint32_t events, int64_t now_ns) {
+    struct gn_line *l = user;
+    l->readable = true;
+    l->hung_up |= events & (EPOLLHUP | EPOLLERR);
+    l->all->timer->due_ns = now_ns;
+}
+
 static void begin(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
     const int button = (int)(l - lines->lines);
-    struct epoll_event event = {.events = EPOLLIN,
-                                .data.u64 = lines->tag | (uint64_t)(unsigned)button};
     bool high;
+    l->all = lines;
+    l->readable = l->hung_up = false;
     l->problem = FINE;
     l->retry_ns = l->check_ns = NEVER;
     l->seqno = 0;
     const int fd = lines->ops->fd(l->request), error = lines->ops->level(l->request, &high);
     fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) | O_NONBLOCK);
-    if (!error && epoll_ctl(lines->epoll, EPOLL_CTL_ADD, fd, &event) == 0) {
+    l->watch = (struct gn_watch){.fd = fd, .events = EPOLLIN, .call = on_readable, .user = l};
+    if (!error && gn_loop_add(lines->loop, &l->watch)) {
         char text[GN_REPORT_SIZE];
         gn_gestures_start(lines->gestures, button, is_pressed(l, high), now_ns);
         const char *pull = l->opts.bias == GN_BIAS_PULL_DOWN ? "down" : "up";
@@ -290,16 +297,17 @@ static void read_level(struct gn_lines *lines, struct gn_line *l, int64_t now_ns
         gn_gestures_level(lines->gestures, (int)(l - lines->lines), is_pressed(l, high), now_ns);
 }
 
-void gn_lines_read(struct gn_lines *lines, uint32_t ready, uint32_t hung_up, int64_t now_ns) {
+void gn_lines_read(struct gn_lines *lines, int64_t now_ns) {
     struct edges edges = {.count = 0};
     int errors[GN_BUTTONS_MAX] = {0};
     uint32_t gaps = 0;
     for (int i = 0; i < lines->count; i++) {
         struct gn_line *l = &lines->lines[i];
         int total;
-        if (!(ready >> i & 1) || !l->request) continue;
+        if (!l->readable || !l->request) continue;
         if (drain(lines, l, &edges, now_ns, &total, &errors[i])) gaps |= UINT32_C(1) << i;
-        if (!total && !errors[i] && hung_up >> i & 1) errors[i] = ENODEV;
+        if (!total && !errors[i] && l->hung_up) errors[i] = ENODEV;
+        l->readable = l->hung_up = false;
     }
     pass_on(lines, &edges);
     for (int i = 0; i < lines->count; i++)

@@ -12,6 +12,7 @@
 #ifndef GN_INPUT_LINES_H
 #define GN_INPUT_LINES_H
 
+#include "core/loop.h"
 #include "input/gesture.h"
 #include "input/line_find.h"
 #include "input/report.h"
@@ -28,6 +29,9 @@ struct gn_line {
     struct gn_line_spec spec;
     bool wanted;
     void *request; /* NULL: it is waited for */
+    struct gn_watch watch;
+    struct gn_lines *all;
+    bool readable, hung_up; /* since it was read */
     char where[96];
     bool no_bias;
     uint32_t seqno;
@@ -39,8 +43,8 @@ struct gn_lines {
     const struct gn_gpio_ops *ops;
     void *context;      /* of ops */
     const char *folder; /* "/dev" */
-    int epoll;          /* lines that are asked for are in it; data.u64 = tag | button */
-    uint64_t tag;
+    struct gn_loop *loop;
+    struct gn_timer *timer;       /* made due by a line that is readable */
     bool watched;                 /* gn_lines_changed() is called when the folder changes */
     struct gn_gestures *gestures; /* where edges go; button i is line i */
     struct gn_reports *reports;
@@ -57,9 +61,8 @@ void gn_lines_finish(struct gn_lines *lines);
 void gn_lines_search(struct gn_lines *lines, int64_t now_ns);
 /* The folder has changed. */
 void gn_lines_changed(struct gn_lines *lines, int64_t now_ns);
-/* Reads the lines whose bit is in ready (by button); hung_up: those of them that have nothing to
- * read any more. Their edges go on in the order of their times. */
-void gn_lines_read(struct gn_lines *lines, uint32_t ready, uint32_t hung_up, int64_t now_ns);
+/* Reads the lines that are readable. Their edges go on in the order of their times. */
+void gn_lines_read(struct gn_lines *lines, int64_t now_ns);
 /* What is due; and when that will be, after the gestures have been stepped. */
 void gn_lines_step(struct gn_lines *lines, int64_t now_ns);
 int64_t gn_lines_deadline(const struct gn_lines *lines);

@@ -28,9 +28,10 @@ struct gn_input {
     struct gn_play play;
     struct gn_key_source window;
     char devices_folder[64];
-    int epoll, timer, notify;        /* notify -1: folders are looked at every 2 s */
+    struct gn_timer timer;           /* when anything is due, or readable */
+    struct gn_watch notify;          /* of inotify; fd -1: folders are looked at every 2 s */
+    bool has_news;                   /* notify is readable */
     int folder_watch, devices_watch; /* -1: not watched */
-    int64_t armed_ns;                /* the timer's; INT64_MAX: not running */
     int64_t poll_ns;                 /* when the folders are to be looked at; INT64_MAX: never */
     unsigned said_dropped;
 };

@@ -2,7 +2,6 @@
 
 #include <errno.h>
 #include <signal.h>
-#include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <termios.h>
 #include <unistd.h>
@@ -81,20 +80,34 @@ static void install(void) {
     }
 }
 
-static void watch(struct gn_terminal *t, bool on) {
-    struct epoll_event event = {.events = EPOLLIN, .data.u64 = t->tag};
-    if (t->reading == on) return;
-    if (epoll_ctl(t->epoll, on ? EPOLL_CTL_ADD : EPOLL_CTL_DEL, t->fd, &event) == 0)
-        t->reading = on;
+static void on_readable(void *user, uint32_t events, int64_t now_ns) {
+    struct gn_terminal *t = user;
+    (void)events;
+    t->readable = true;
+    t->timer->due_ns = now_ns;
 }
 
-bool gn_terminal_open(struct gn_terminal *t, int fd, int epoll, uint64_t tag) {
+static void on_resumed(void *user, uint32_t events, int64_t now_ns) {
+    struct gn_terminal *t = user;
+    (void)events;
+    t->resumed = true;
+    t->timer->due_ns = now_ns;
+}
+
+static void watch(struct gn_terminal *t, bool on) {
+    if (t->reading == on) return;
+    if (!on) gn_loop_remove(&t->watch);
+    t->reading = on && gn_loop_add(t->loop, &t->watch);
+}
+
+bool gn_terminal_open(struct gn_terminal *t, int fd, struct gn_loop *loop, struct gn_timer *timer) {
     *t = (struct gn_terminal){.fd = -1, .wake_fd = -1};
     if (own.open || !isatty(fd) || tcgetattr(fd, &own.saved)) return false;
-    *t = (struct gn_terminal){.fd = fd, .epoll = epoll, .tag = tag};
+    *t = (struct gn_terminal){.fd = fd, .loop = loop, .timer = timer};
+    t->watch = (struct gn_watch){.fd = fd, .events = EPOLLIN, .call = on_readable, .user = t};
     t->wake_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    struct epoll_event event = {.events = EPOLLIN, .data.u64 = tag + 1};
-    epoll_ctl(epoll, EPOLL_CTL_ADD, t->wake_fd, &event);
+    t->wake = (struct gn_watch){.fd = t->wake_fd, .events = EPOLLIN, .call = on_resumed, .user = t};
+    gn_loop_add(loop, &t->wake);
     own.fd = fd;
     own.wake_fd = t->wake_fd;
     own.raw = false;
@@ -111,6 +124,7 @@ bool gn_terminal_open(struct gn_terminal *t, int fd, int epoll, uint64_t tag) {
 void gn_terminal_close(struct gn_terminal *t) {
     if (t->fd < 0) return;
     watch(t, false);
+    gn_loop_remove(&t->wake);
     set_raw(false);
     own.open = false;
     sigaction(SIGTSTP, &own.old_stop, NULL);
@@ -126,6 +140,7 @@ void gn_terminal_leave(void) {
 
 void gn_terminal_resume(struct gn_terminal *t) {
     uint64_t count;
+    t->resumed = false;
     (void)!read(t->wake_fd, &count, sizeof count);
     set_raw(true);
     watch(t, is_foreground(t->fd));

@@ -9,19 +9,24 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "core/loop.h"
 #include "input/terminal_keys.h"
 
 struct gn_terminal { /* fd -1: there is none */
     int fd;          /* not ours to close */
     int wake_fd;     /* readable after we have been continued */
-    int epoll;
-    uint64_t tag; /* of fd in the epoll; tag + 1: of wake_fd */
-    bool reading; /* fd is in the epoll */
+    struct gn_loop *loop;
+    struct gn_timer *timer;      /* made due by what is readable */
+    struct gn_watch watch, wake; /* of fd and wake_fd */
+    bool readable, resumed;      /* fd, wake_fd, since that was cleared */
+    bool reading;                /* fd is watched */
     struct gn_terminal_keys keys;
 };
 
-/* Takes fd if it is a terminal; false: it is none, or another one is open. */
-bool gn_terminal_open(struct gn_terminal *terminal, int fd, int epoll, uint64_t tag);
+/* Takes fd if it is a terminal; false: it is none, or another one is open. What is readable is
+ * noted, and makes the timer due. */
+bool gn_terminal_open(struct gn_terminal *terminal, int fd, struct gn_loop *loop,
+                      struct gn_timer *timer);
 void gn_terminal_close(struct gn_terminal *terminal);
 /* For handlers that call _exit(): if there is a terminal, it is as it was. Async-signal-safe. */
 void gn_terminal_leave(void);

@@ -6,7 +6,6 @@
 
 /* A window's keys are the window's: who types elsewhere means something else. */
 bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
-    gn_loop_remove(&s->watches[GN_SHOW_INPUT]);
     gn_input_close(s->input);
     s->input = NULL;
     if (s->options->buttons)
@@ -14,6 +13,7 @@ bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
     else
         gn_buttons_defaults(&s->buttons);
     const struct gn_input_opts opts = {
+        .loop = s->loop,
         .button_count = gn_buttons_opts(&s->buttons, s->button_opts),
         .buttons = s->button_opts,
         .terminal = !s->stage.display.ops->is_window,
@@ -21,7 +21,7 @@ bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
         .script = s->stage.settings->run.input_script,
     };
     s->input = gn_input_open(&opts, gn_clock_monotonic_ns(), s->warnings, err);
-    return s->input && gn_show_watch(s, &s->watches[GN_SHOW_INPUT], gn_input_fd(s->input), err);
+    return s->input;
 }
 
 static bool other_place(const struct gn_kiosk *a, const struct gn_kiosk *b) {
@@ -43,7 +43,6 @@ void gn_show_take_input(struct gn_show *s, const struct gn_hand *hand) {
     struct gn_gesture_event event;
     char text[256];
     if (!s->input) return;
-    gn_input_dispatch(s->input, gn_clock_monotonic_ns());
     for (unsigned i = 0; i < hand->key_count; i++) gn_input_key(s->input, &hand->keys[i]);
     while (gn_input_next(s->input, &event)) {
         const struct gn_action action = gn_buttons_action(&s->buttons, &event);

@@ -16,7 +16,6 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
         s->stage.display = (struct gn_display){0};
     }
     gn_stage_close(&s->stage);
-    gn_loop_remove(&s->watches[GN_SHOW_INPUT]);
     gn_input_close(s->input); /* its buttons' names are the options' */
     s->input = NULL;
     gn_changes_destroy(s->changes);

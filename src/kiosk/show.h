@@ -40,7 +40,7 @@ struct gn_show_scenes {
     struct gn_show_looks looks;
 };
 
-enum { GN_SHOW_INPUT, GN_SHOW_CONTROL, GN_SHOW_WATCHES };
+enum { GN_SHOW_CONTROL, GN_SHOW_WATCHES };
 
 struct gn_show {
     struct gn_options *options;  /* ours: a reload makes others */

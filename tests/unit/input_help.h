@@ -8,6 +8,7 @@
 #include "unit/check.h"
 
 static struct gn_input *input;
+static struct gn_loop *loop;
 
 static inline void assert_nothing(void) {
     struct gn_gesture_event event;

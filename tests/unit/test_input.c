@@ -1,11 +1,10 @@
 /* An input as a whole: keys of devices that are pipes, of a terminal that is a pseudo-terminal, of
- * the window and of scripts; its one descriptor, and its timer by the real clock. */
+ * the window and of scripts; by a clock of the test, and by the real one. */
 #include "input/input.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/input.h>
-#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,7 +86,7 @@ static struct gn_button_opts buttons[3];
 static struct gn_input_opts opts;
 static struct gn_err err;
 static struct gn_warnings warnings;
-static int64_t start_ns;
+static int64_t start_ns, clock_ns; /* of the test; the loop's */
 
 static int setup(void **state) {
     (void)state;
@@ -105,7 +104,9 @@ static int setup(void **state) {
     opts = (struct gn_input_opts){.buttons = buttons, .button_count = 3, .devices = true};
     memset(&err, 0, sizeof err);
     memset(&warnings, 0, sizeof warnings);
-    start_ns = 1000 * GN_NS_PER_S;
+    start_ns = clock_ns = 1000 * GN_NS_PER_S;
+    loop = gn_loop_open(&err);
+    gn_loop_fake_clock(loop, &clock_ns);
     return 0;
 }
 
@@ -114,6 +115,7 @@ static int teardown(void **state) {
     char path[96];
     gn_input_close(input);
     input = NULL;
+    gn_loop_close(loop);
     for (int i = 0; i < DEVICES; i++) unplug(i);
     snprintf(path, sizeof path, "%s/input", folder);
     rmdir(path);
@@ -125,6 +127,7 @@ static int teardown(void **state) {
 static void open_with(const int *terminal) {
     const struct gn_input_world world = {
         .gpio = &fake_gpio_none, .evdev = &evdev, .folder = folder, .terminal = terminal};
+    opts.loop = loop;
     input = gn_input_open_in(&world, &opts, start_ns, &warnings, &err);
 }
 
@@ -133,7 +136,10 @@ static void open_input(void) {
     if (!input) fail_msg("%s", err.text);
 }
 
-static void dispatch(int64_t after_ns) { gn_input_dispatch(input, start_ns + after_ns); }
+static void dispatch(int64_t after_ns) {
+    clock_ns = start_ns + after_ns;
+    gn_loop_step(loop, clock_ns);
+}
 
 static void assert_gesture(int button, enum gn_gesture gesture, int64_t after_ns) {
     struct gn_gesture_event event;
@@ -144,9 +150,10 @@ static void assert_gesture(int button, enum gn_gesture gesture, int64_t after_ns
                  (double)after_ns / 1e6);
 }
 
-static bool is_readable(void) {
-    struct pollfd poller = {.fd = gn_input_fd(input), .events = POLLIN};
-    return poll(&poller, 1, 0) == 1;
+/* Was there anything to do? */
+static bool wakes(int64_t after_ns) {
+    clock_ns = start_ns + after_ns;
+    return gn_loop_step(loop, clock_ns) > 0;
 }
 
 /* ---- options ------------------------------------------------------------------------------- */
@@ -187,9 +194,8 @@ static void test_without_anything_it_sleeps(void **state) {
     (void)state;
     opts = (struct gn_input_opts){0};
     open_input();
-    assert_false(is_readable());
-    assert_true(input->armed_ns == INT64_MAX);
-    dispatch(0);
+    assert_true(input->timer.due_ns == INT64_MAX);
+    assert_false(wakes(0));
     assert_nothing();
 }
 
@@ -203,21 +209,19 @@ static void test_a_key_of_a_device_is_its_button(void **state) {
     key(0, KEY_SPACE, 2, start_ns + 40 * MS); /* repeated by the kernel */
     key(0, KEY_A, 1, start_ns + 50 * MS);     /* nobody's */
     key(0, KEY_SPACE, 0, start_ns + 60 * MS);
-    assert_true(is_readable());
-    dispatch(70 * MS);
+    assert_true(wakes(70 * MS));
     assert_gesture(0, GN_GESTURE_PRESS, 10 * MS);
     assert_gesture(0, GN_GESTURE_CLICK, 60 * MS);
     assert_nothing();
-    assert_false(is_readable());
+    assert_false(wakes(70 * MS));
 }
 
 static void test_a_device_that_comes_later_is_heard(void **state) {
     (void)state;
     open_input(); /* not even the folder is there */
-    assert_true(input->armed_ns == INT64_MAX);
+    assert_true(input->timer.due_ns == INT64_MAX);
     plug(3);
-    assert_true(is_readable());
-    dispatch(0);
+    assert_true(wakes(0));
     dispatch(0);
     plug(4);
     dispatch(0);
@@ -353,7 +357,7 @@ static void test_a_script_presses_buttons_and_keys(void **state) {
     (void)state;
     write_script("0.1 click next\n0.12 click left\n0.2 down next\n0.205 up next\n1 down next\n");
     open_input();
-    assert_true(input->armed_ns == start_ns + 100 * MS);
+    assert_true(input->timer.due_ns == start_ns + 100 * MS);
     dispatch(10 * GN_NS_PER_S);
     assert_gesture(0, GN_GESTURE_PRESS, 100 * MS);
     assert_gesture(1, GN_GESTURE_PRESS, 120 * MS);
@@ -370,24 +374,23 @@ static void test_a_script_knows_only_what_there_is(void **state) {
     assert_usage("script:2: no button and no key is called \"nobody\"");
 }
 
-static void test_the_descriptor_wakes_up_for_timers(void **state) {
+static void test_the_loop_wakes_up_for_timers(void **state) {
     (void)state;
     write_script("0.05 click next\n");
     start_ns = gn_clock_monotonic_ns();
+    gn_loop_fake_clock(loop, NULL);
     open_input();
-    assert_false(is_readable());
-    struct pollfd poller = {.fd = gn_input_fd(input), .events = POLLIN};
+    assert_int_equal(gn_loop_step(loop, 0), 0);
     struct gn_gesture_event event;
-    int wakes = 0;
+    int steps = 0;
     bool clicked = false;
-    while (!clicked && poll(&poller, 1, 5000) == 1 && ++wakes < 100) {
-        gn_input_dispatch(input, gn_clock_monotonic_ns());
+    while (!clicked && gn_loop_step(loop, start_ns + 5 * GN_NS_PER_S) > 0 && ++steps < 100) {
         while (gn_input_next(input, &event)) clicked |= event.gesture == GN_GESTURE_CLICK;
     }
     assert_true(clicked);
-    assert_in_range(wakes, 2, 8); /* down, pressed, up, clicked: it does not spin */
+    assert_in_range(steps, 2, 8); /* down, pressed, up, clicked: it does not spin */
     assert_true(gn_clock_monotonic_ns() - start_ns >= 130 * MS);
-    assert_false(is_readable());
+    assert_int_equal(gn_loop_step(loop, 0), 0);
 }
 
 int main(void) {
@@ -406,7 +409,7 @@ int main(void) {
         TEST(test_keys_make_chords_too),
         TEST(test_a_script_presses_buttons_and_keys),
         TEST(test_a_script_knows_only_what_there_is),
-        TEST(test_the_descriptor_wakes_up_for_timers),
+        TEST(test_the_loop_wakes_up_for_timers),
     };
     return RUN(tests);
 }

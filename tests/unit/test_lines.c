@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/epoll.h>
 
 #include "unit/gpio_fake.h"
 #include "unit/input_help.h"
@@ -20,6 +19,8 @@ static int setup(void **state) {
     (void)state;
     fake_gpio_init(&gpio);
     now_ns = START;
+    loop = gn_loop_open(NULL);
+    gn_loop_fake_clock(loop, &now_ns);
     for (int i = 0; i < 2; i++)
         buttons[i] = (struct gn_button_opts){
             .name = i ? "prev" : "next",
@@ -32,12 +33,13 @@ static int teardown(void **state) {
     (void)state;
     gn_input_close(input);
     input = NULL;
+    gn_loop_close(loop);
     fake_gpio_finish(&gpio);
     return gpio.opened; /* whatever was opened was closed */
 }
 
 static void open_input(const struct gn_gpio_ops *ops) {
-    const struct gn_input_opts opts = {.buttons = buttons, .button_count = 2};
+    const struct gn_input_opts opts = {.loop = loop, .buttons = buttons, .button_count = 2};
     const struct gn_input_world world = {.gpio = ops, .gpio_context = &gpio, .folder = gpio.folder};
     struct gn_err err = {0};
     input = gn_input_open_in(&world, &opts, now_ns, NULL, &err);
@@ -45,7 +47,7 @@ static void open_input(const struct gn_gpio_ops *ops) {
 }
 
 static void assert_usage(const char *says) {
-    const struct gn_input_opts opts = {.buttons = buttons, .button_count = 2};
+    const struct gn_input_opts opts = {.loop = loop, .buttons = buttons, .button_count = 2};
     const struct gn_input_world world = {
         .gpio = &fake_gpio_ops, .gpio_context = &gpio, .folder = gpio.folder};
     struct gn_err err = {0};
@@ -54,21 +56,23 @@ static void assert_usage(const char *says) {
     if (!strstr(err.text, says)) fail_msg("\"%s\" does not say %s", err.text, says);
 }
 
+static bool wakes(void) { return gn_loop_step(loop, now_ns) > 0; }
+
 static void wait_ns(int64_t ns) {
     now_ns += ns;
-    gn_input_dispatch(input, now_ns);
+    wakes();
 }
 
 /* As a main loop would: only when the timer says so; how often that was. */
 static int sleep_until(int64_t until_ns) {
-    int wakes = 0;
-    for (; input->armed_ns <= until_ns; wakes++) {
-        now_ns = input->armed_ns;
-        gn_input_dispatch(input, now_ns);
-        if (wakes > 100000) fail_msg("does not sleep");
+    int count = 0;
+    for (; input->timer.due_ns <= until_ns; count++) {
+        now_ns = input->timer.due_ns;
+        wakes();
+        if (count > 100000) fail_msg("does not sleep");
     }
     now_ns = until_ns;
-    return wakes;
+    return count;
 }
 
 static void edge(bool high) { fake_gpio_edge(&gpio, 0, 1, high, now_ns, false); }
@@ -86,11 +90,6 @@ static void assert_silence(void) {
     if (gn_input_report(input, text, sizeof text)) fail_msg("said: %s", text);
 }
 
-static bool is_readable(void) {
-    struct epoll_event event;
-    return epoll_wait(gn_input_fd(input), &event, 1, 0) == 1;
-}
-
 /* ---- finding lines ------------------------------------------------------------------------- */
 
 static void test_a_press_comes_with_its_edge(void **state) {
@@ -103,9 +102,8 @@ static void test_a_press_comes_with_its_edge(void **state) {
     assert_true(gpio.chips[0].line[1].debounce_ns == 5 * MS);
     const int64_t begun_ns = now_ns += S;
     edge(false);
-    assert_true(is_readable());
-    gn_input_dispatch(input, now_ns);
-    assert_true(input->armed_ns == begun_ns + 20 * MS);
+    assert_true(wakes());
+    assert_true(input->timer.due_ns == begun_ns + 20 * MS);
     wait_ns(19 * MS);
     assert_nothing();
     wait_ns(MS);
@@ -255,8 +253,7 @@ static void test_a_chip_that_comes_later_is_waited_for_asleep(void **state) {
     assert_report("no GPIO chip for B");
     assert_int_equal(sleep_until(START + 3600 * S), 0);
     fake_gpio_plug(&gpio, 0, 3, "chip", 4);
-    assert_true(is_readable());
-    gn_input_dispatch(input, now_ns);
+    assert_true(wakes());
     assert_report("B (gpiochip3 line 1)");
     assert_silence();
 }
@@ -267,6 +264,7 @@ static void test_without_news_of_nodes_it_looks_every_two_seconds(void **state) 
     assert_report("no GPIO chip for B");
     input->lines.watched = false;
     gn_lines_search(&input->lines, now_ns);
+    input->timer.due_ns = now_ns;
     wait_ns(0);
     assert_in_range(sleep_until(START + 20 * S), 9, 10);
     assert_silence();
@@ -283,14 +281,14 @@ static void test_a_chip_that_goes_and_comes_under_another_number_works_on(void *
     wait_ns(20 * MS);
     assert_gesture(GN_GESTURE_PRESS, START + S);
     fake_gpio_unplug(&gpio, 0); /* while it is pressed */
-    assert_true(is_readable());
+    assert_true(wakes());
     wait_ns(100 * MS);
     assert_report("went away");
     sleep_until(now_ns + 100 * S);
     assert_nothing(); /* no hold, no click */
     assert_silence();
     fake_gpio_plug(&gpio, 0, 1, "chip", 4);
-    gn_input_dispatch(input, now_ns);
+    assert_true(wakes());
     assert_report("B (gpiochip1 line 1)");
     const int64_t begun_ns = now_ns += S;
     edge(false);
@@ -377,12 +375,12 @@ static void test_a_still_kiosk_sleeps(void **state) {
     open_input(&fake_gpio_ops);
     assert_int_equal(sleep_until(START + 3600 * S), 0);
     edge(false);
-    gn_input_dispatch(input, now_ns);
+    assert_true(wakes());
     assert_in_range(sleep_until(now_ns + 10 * S), 10, 13); /* down: every second */
     sleep_until(now_ns + 100 * S);
     assert_in_range(sleep_until(now_ns + 600 * S), 10, 10); /* stuck: every minute */
     edge(true);
-    gn_input_dispatch(input, now_ns);
+    assert_true(wakes());
     sleep_until(now_ns + S);
     assert_int_equal(sleep_until(now_ns + 3600 * S), 0);
 }

@@ -5,7 +5,6 @@
  * prints "ready", then reports as "# TEXT" and gestures as "GESTURE NAME TIME_NS LATENCY_MS" (from
  * the edge's timestamp to here), and at the end "wakes N": how often anything woke it. */
 #include <inttypes.h>
-#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,8 +52,13 @@ int main(int argc, char **argv) {
         return 2;
     }
     const int64_t end_ns = gn_clock_monotonic_ns() + (int64_t)(atof(argv[1]) * 1e9);
+    struct gn_loop *loop = gn_loop_open(&err);
+    if (!loop) {
+        fprintf(stderr, "%s\n", err.text);
+        return err.status;
+    }
     const struct gn_input_opts opts = {
-        .buttons = buttons, .button_count = count, .devices = true, .terminal = true};
+        .loop = loop, .buttons = buttons, .button_count = count, .devices = true, .terminal = true};
     struct gn_input *input = gn_input_open(&opts, gn_clock_monotonic_ns(), &warnings, &err);
     if (!input) {
         fprintf(stderr, "%s\n", err.text);
@@ -64,14 +68,13 @@ int main(int argc, char **argv) {
     print_all(input, buttons);
     printf("ready\n");
     fflush(stdout);
-    for (int64_t now_ns; (now_ns = gn_clock_monotonic_ns()) < end_ns;) {
-        struct pollfd poller = {.fd = gn_input_fd(input), .events = POLLIN};
-        if (poll(&poller, 1, (int)((end_ns - now_ns) / 1000000) + 1) != 1) continue;
+    while (gn_clock_monotonic_ns() < end_ns) {
+        if (gn_loop_step(loop, end_ns) == 0) continue;
         wakes++;
-        gn_input_dispatch(input, gn_clock_monotonic_ns());
         print_all(input, buttons);
     }
     gn_input_close(input);
+    gn_loop_close(loop);
     printf("wakes %d\n", wakes);
     return 0;
 }
