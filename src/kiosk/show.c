@@ -14,14 +14,6 @@
 
 /* ---- opening ---- */
 
-bool gn_show_watch(struct gn_show *s, struct gn_watch *watch, int fd, struct gn_err *err) {
-    gn_loop_remove(watch);
-    watch->fd = fd;
-    watch->events = EPOLLIN;
-    return gn_loop_add(s->loop, watch) ||
-           gn_fail(err, "show: cannot wait for events: %s", strerror(errno));
-}
-
 static void take_signal(void *user, int number) {
     struct gn_show *s = user;
     s->reloads |= number == SIGHUP;

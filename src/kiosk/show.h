@@ -40,8 +40,6 @@ struct gn_show_scenes {
     struct gn_show_looks looks;
 };
 
-enum { GN_SHOW_CONTROL, GN_SHOW_WATCHES };
-
 struct gn_show {
     struct gn_options *options;  /* ours: a reload makes others */
     struct gn_changes *changes;  /* by `ctl set`; NULL: none yet */
@@ -57,7 +55,6 @@ struct gn_show {
     struct gn_latency latency;                         /* of theirs */
     struct gn_loop *loop;
     struct gn_signals signals;
-    struct gn_watch watches[GN_SHOW_WATCHES];
     uint32_t generation;   /* of the context that stage.gl lives in */
     uint64_t stalled;      /* frames that were not told of in time, when the GPU was last asked */
     int64_t asked_ns;      /* which was then */
@@ -105,7 +102,6 @@ struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warning
 void gn_show_close(struct gn_show *show);
 /* Waits for something, and does what it asks for: at most a frame. */
 bool gn_show_step(struct gn_show *show, struct gn_err *err);
-bool gn_show_watch(struct gn_show *show, struct gn_watch *watch, int fd, struct gn_err *err);
 struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
                                         struct gn_err *err);
 void gn_show_drop_options(struct gn_options *options);

@@ -34,14 +34,14 @@ bool is_readable(int fd) {
     return poll(&p, 1, 0) == 1;
 }
 
+bool step(void) { return gn_loop_step(gn_ctl_test.loop, gn_ctl_test.now_ns) > 0; }
+
 int serve(void) {
     struct gn_control *control = gn_ctl_test.control;
     int answered = 0;
-    while (is_readable(gn_control_fd(control))) {
-        gn_control_dispatch(control, gn_ctl_test.now_ns);
+    while (step())
         for (const struct gn_request *r; (r = gn_control_next(control)) != NULL; answered++)
             gn_control_answer(control, r, json_pack("{s:s}", "did", gn_ctl_rows[r->command].name));
-    }
     return answered;
 }
 
@@ -71,9 +71,12 @@ int count_lines(const char *text) {
 int gn_ctl_test_open(void **state) {
     struct gn_ctl_test *t = &gn_ctl_test;
     (void)state;
-    t->now_ns = gn_clock_monotonic_ns(); /* the kernel's timers go by it */
+    t->now_ns = gn_clock_monotonic_ns();
+    t->loop = gn_loop_open(&t->err);
+    if (!t->loop) return -1;
+    gn_loop_fake_clock(t->loop, &t->now_ns);
     t->err = (struct gn_err){0};
-    t->control = gn_control_open(t->path, &t->err);
+    t->control = gn_control_open(t->path, t->loop, &t->err);
     return t->control ? 0 : -1;
 }
 
@@ -81,6 +84,7 @@ int gn_ctl_test_close(void **state) {
     (void)state;
     gn_control_close(gn_ctl_test.control);
     gn_ctl_test.control = NULL;
+    gn_loop_close(gn_ctl_test.loop);
     return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "kiosk/control/control.h"
 
 extern struct gn_ctl_test {
+    struct gn_loop *loop; /* now_ns is its clock */
     struct gn_control *control;
     int64_t now_ns;
     struct gn_err err;
@@ -22,7 +23,8 @@ int gn_ctl_test_close(void **state);
 int connect_to(const char *path); /* a descriptor that does not block, or -1 */
 int enter_client(void);
 bool is_readable(int fd);
-/* As a kiosk does: dispatches while there is anything to do, and answers {"did":COMMAND}. How many.
+bool step(void); /* of the loop; true: there was something to do */
+/* As a kiosk does: steps while there is anything to do, and answers {"did":COMMAND}. How many.
  */
 int serve(void);
 void say(int fd, const char *text);

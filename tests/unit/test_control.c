@@ -75,7 +75,7 @@ static void a_request_may_be_answered_later(void **state) {
     (void)state;
     const int slow = enter_client(), quick = enter_client();
     say(slow, "{\"cmd\":\"screenshot\",\"file\":\"/x.png\"}\n{\"cmd\":\"status\"}\n");
-    gn_control_dispatch(gn_ctl_test.control, gn_ctl_test.now_ns);
+    step();
     const struct gn_request *later = gn_control_next(gn_ctl_test.control);
     assert_int_equal(later->command, GN_CTL_SCREENSHOT);
     say(quick, "{\"cmd\":\"status\"}\n");
@@ -94,10 +94,10 @@ static void who_has_gone_is_answered_in_vain(void **state) {
     (void)state;
     const int fd = enter_client();
     say(fd, "{\"cmd\":\"status\"}\n");
-    gn_control_dispatch(gn_ctl_test.control, gn_ctl_test.now_ns);
+    step();
     const struct gn_request *r = gn_control_next(gn_ctl_test.control);
     close(fd);
-    gn_control_dispatch(gn_ctl_test.control, gn_ctl_test.now_ns);
+    step();
     gn_control_answer(gn_ctl_test.control, r, json_object());
     serve();
     const int next = enter_client();
@@ -109,7 +109,7 @@ static void who_has_gone_is_answered_in_vain(void **state) {
 
 /* ---- bounds --------------------------------------------------------------------------------- */
 
-static void a_dispatch_does_a_bounded_amount_of_work(void **state) {
+static void a_step_does_a_bounded_amount_of_work(void **state) {
     (void)state;
     char text[200 * 20] = "";
     const int fd = enter_client();
@@ -117,15 +117,14 @@ static void a_dispatch_does_a_bounded_amount_of_work(void **state) {
     say(fd, text);
     struct gn_control_counts before = gn_control_counts(gn_ctl_test.control);
     uint64_t most = 0;
-    int dispatches = 0;
-    for (; is_readable(gn_control_fd(gn_ctl_test.control)); dispatches++) {
-        gn_control_dispatch(gn_ctl_test.control, gn_ctl_test.now_ns);
+    int steps = 0;
+    for (; step(); steps++) {
         const struct gn_control_counts after = gn_control_counts(gn_ctl_test.control);
         if (after.requests - before.requests > most) most = after.requests - before.requests;
         before = after;
     }
-    assert_int_equal(most, GN_CONTROL_PER_DISPATCH);
-    assert_in_range(dispatches, 200 / GN_CONTROL_PER_DISPATCH, 40);
+    assert_int_equal(most, GN_CONTROL_PER_STEP);
+    assert_in_range(steps, 200 / GN_CONTROL_PER_STEP, 40);
     assert_int_equal(count_lines(heard(fd)), 200);
     close(fd);
 }
@@ -136,9 +135,9 @@ static void who_talks_all_the_time_keeps_nobody_waiting(void **state) {
     const int loud = enter_client(), quiet = enter_client();
     for (size_t i = 0; i < 999; i++) memcpy(text + 3 * i, "{}\n", 4);
     say(loud, text);
-    gn_control_dispatch(gn_ctl_test.control, gn_ctl_test.now_ns);
+    step();
     say(quiet, "{\"cmd\":\"status\"}\n");
-    for (int i = 0; i < 2; i++) gn_control_dispatch(gn_ctl_test.control, gn_ctl_test.now_ns);
+    for (int i = 0; i < 2; i++) step();
     const struct gn_request *r = gn_control_next(gn_ctl_test.control);
     assert_non_null(r);
     gn_control_answer(gn_ctl_test.control, r, json_object());
@@ -212,7 +211,7 @@ static void who_does_not_read_is_cut_off(void **state) {
     say(other, "{\"cmd\":\"status\"}\n");
     assert_int_equal(serve(), 1);
     gn_ctl_test.now_ns += 5 * GN_NS_PER_S;
-    gn_control_dispatch(gn_ctl_test.control, gn_ctl_test.now_ns);
+    step();
     assert_int_equal(gn_control_counts(gn_ctl_test.control).cut, 1);
     assert_int_equal(count_lines(heard(other)), 1);
     close(fd);
@@ -252,7 +251,7 @@ int main(void) {
         TEST(a_line_that_is_too_long_has_one_reply),
         TEST(a_request_may_be_answered_later),
         TEST(who_has_gone_is_answered_in_vain),
-        TEST(a_dispatch_does_a_bounded_amount_of_work),
+        TEST(a_step_does_a_bounded_amount_of_work),
         TEST(who_talks_all_the_time_keeps_nobody_waiting),
         TEST(more_changes_than_a_frame_can_take_are_busy),
         TEST(the_65th_client_is_told_so),

@@ -28,12 +28,12 @@ static void the_socket_is_for_its_group_alone(void **state) {
     gn_ctl_test.control = NULL;
     assert_int_not_equal(access(gn_ctl_test.path, F_OK), 0);
     const mode_t mask = umask(0);
-    gn_ctl_test.control = gn_control_open(gn_ctl_test.path, &gn_ctl_test.err);
+    gn_ctl_test.control = gn_control_open(gn_ctl_test.path, gn_ctl_test.loop, &gn_ctl_test.err);
     umask(0777);
     assert_int_equal(stat(gn_ctl_test.path, &info), 0);
     assert_int_equal(info.st_mode & 07777, 0660);
     gn_control_close(gn_ctl_test.control);
-    gn_ctl_test.control = gn_control_open(gn_ctl_test.path, &gn_ctl_test.err);
+    gn_ctl_test.control = gn_control_open(gn_ctl_test.path, gn_ctl_test.loop, &gn_ctl_test.err);
     umask(mask);
     assert_true(gn_ctl_test.control && stat(gn_ctl_test.path, &info) == 0);
     assert_int_equal(info.st_mode & 07777, 0660);
@@ -41,7 +41,7 @@ static void the_socket_is_for_its_group_alone(void **state) {
 
 static void a_living_socket_is_left_alone(void **state) {
     (void)state;
-    assert_null(gn_control_open(gn_ctl_test.path, &gn_ctl_test.err));
+    assert_null(gn_control_open(gn_ctl_test.path, gn_ctl_test.loop, &gn_ctl_test.err));
     assert_non_null(strstr(gn_ctl_test.err.text, "another kiosk has it"));
     const int fd = enter_client();
     say(fd, "{\"cmd\":\"status\"}\n");
@@ -54,11 +54,11 @@ static void a_living_socket_is_left_alone(void **state) {
     const int foreign = socket(AF_UNIX, SOCK_STREAM, 0);
     assert_int_equal(bind(foreign, (struct sockaddr *)&address, sizeof address), 0);
     assert_int_equal(listen(foreign, 1), 0);
-    assert_null(gn_control_open(other, &gn_ctl_test.err));
+    assert_null(gn_control_open(other, gn_ctl_test.loop, &gn_ctl_test.err));
     assert_non_null(strstr(gn_ctl_test.err.text, "another program answers there"));
     assert_int_equal(access(other, F_OK), 0);
     close(foreign); /* as a process that is killed leaves it */
-    struct gn_control *second = gn_control_open(other, &gn_ctl_test.err);
+    struct gn_control *second = gn_control_open(other, gn_ctl_test.loop, &gn_ctl_test.err);
     assert_non_null(second);
     gn_control_close(second);
     assert_int_not_equal(access(other, F_OK), 0);
@@ -72,18 +72,18 @@ static void what_a_killed_kiosk_leaves_is_replaced(void **state) {
     assert_int_equal(pipe(ready), 0);
     const pid_t pid = fork();
     if (pid == 0) {
-        const bool made = gn_control_open(left, NULL);
+        const bool made = gn_control_open(left, gn_loop_open(NULL), NULL);
         if (write(ready[1], &made, 1) == 1) pause();
         _exit(1);
     }
     char made = 0;
     assert_int_equal(read(ready[0], &made, 1), 1);
     assert_int_equal(made, 1);
-    assert_null(gn_control_open(left, &gn_ctl_test.err));
+    assert_null(gn_control_open(left, gn_ctl_test.loop, &gn_ctl_test.err));
     kill(pid, SIGKILL);
     waitpid(pid, NULL, 0);
     assert_int_equal(access(left, F_OK), 0);
-    struct gn_control *second = gn_control_open(left, &gn_ctl_test.err);
+    struct gn_control *second = gn_control_open(left, gn_ctl_test.loop, &gn_ctl_test.err);
     assert_non_null(second);
     const int fd = connect_to(left);
     assert_true(fd >= 0);
@@ -98,18 +98,18 @@ static void what_is_no_socket_stays(void **state) {
     (void)state;
     snprintf(file, sizeof file, "%s/file", gn_ctl_test.folder);
     close(open(file, O_CREAT | O_WRONLY, 0600));
-    assert_null(gn_control_open(file, &gn_ctl_test.err));
+    assert_null(gn_control_open(file, gn_ctl_test.loop, &gn_ctl_test.err));
     assert_non_null(strstr(gn_ctl_test.err.text, "something else is there"));
     assert_int_equal(access(file, F_OK), 0);
     snprintf(deep, sizeof deep, "%s/no/such/ctl", gn_ctl_test.folder);
-    assert_null(gn_control_open(deep, &gn_ctl_test.err));
+    assert_null(gn_control_open(deep, gn_ctl_test.loop, &gn_ctl_test.err));
     assert_non_null(strstr(gn_ctl_test.err.text, "cannot make it"));
     memset(deep, 'x', 150);
     deep[150] = '\0';
-    assert_null(gn_control_open(deep, &gn_ctl_test.err));
+    assert_null(gn_control_open(deep, gn_ctl_test.loop, &gn_ctl_test.err));
     assert_non_null(strstr(gn_ctl_test.err.text, "longer than 107 bytes"));
     snprintf(deep, sizeof deep, "%s/new/ctl", gn_ctl_test.folder);
-    struct gn_control *second = gn_control_open(deep, &gn_ctl_test.err);
+    struct gn_control *second = gn_control_open(deep, gn_ctl_test.loop, &gn_ctl_test.err);
     assert_non_null(second);
     struct stat info;
     snprintf(file, sizeof file, "%s/new", gn_ctl_test.folder);
@@ -160,7 +160,7 @@ static void who_is_not_permitted_is_turned_away(void **state) {
     assert_int_equal(chown(gn_ctl_test.folder, 0, 4242), 0);
     assert_int_equal(chmod(gn_ctl_test.folder, 02755),
                      0); /* the socket belongs to the folder's group */
-    gn_ctl_test.control = gn_control_open(gn_ctl_test.path, &gn_ctl_test.err);
+    gn_ctl_test.control = gn_control_open(gn_ctl_test.path, gn_ctl_test.loop, &gn_ctl_test.err);
     assert_non_null(gn_ctl_test.control);
 
     ask_as(NOBODY, NOBODY, 0, text, sizeof text);

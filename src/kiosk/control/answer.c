@@ -4,9 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/epoll.h>
-#include <sys/timerfd.h>
-#include <unistd.h>
 
 #include "core/arena.h"
 #include "core/clock.h"
@@ -21,7 +18,8 @@ static const int64_t SHOT_NS = 5 * GN_NS_PER_S; /* a frame comes sooner, or noth
 struct gn_show_control {
     struct gn_control *control;
     struct gn_shot *shot;
-    int epoll, timer;                                       /* descriptors; -1: none */
+    struct gn_watch shot_watch;
+    struct gn_timer shot_timer;                             /* until a frame has to come */
     const struct gn_request *shot_request, *reload_request; /* to be answered later; NULL: none */
     bool shot_begun;                                        /* the next frame is the one */
     struct gn_show_status status;
@@ -29,27 +27,27 @@ struct gn_show_control {
 
 /* ---- opening ---- */
 
-static bool watch(const struct gn_show_control *c, int fd) {
-    struct epoll_event event = {.events = EPOLLIN, .data.fd = fd};
-    return epoll_ctl(c->epoll, EPOLL_CTL_ADD, fd, &event) == 0;
-}
+static void on_shot(void *user, uint32_t events, int64_t now_ns);
+static void on_late_shot(void *user, int64_t now_ns);
 
-static bool open_all(struct gn_show_control *c, const char *path, struct gn_err *err) {
-    c->epoll = epoll_create1(EPOLL_CLOEXEC);
-    c->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+static bool open_all(struct gn_show *s, struct gn_show_control *c, const char *path,
+                     struct gn_err *err) {
+    c->shot_timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = on_late_shot, .user = s};
+    gn_loop_add_timer(s->loop, &c->shot_timer);
     c->shot = gn_shot_create(err);
-    c->control = c->shot ? gn_control_open(path, err) : NULL;
+    c->control = c->shot ? gn_control_open(path, s->loop, err) : NULL;
     if (!c->control) return false;
-    return (watch(c, gn_control_fd(c->control)) && watch(c, gn_shot_fd(c->shot)) &&
-            watch(c, c->timer)) ||
+    c->shot_watch =
+        (struct gn_watch){.fd = gn_shot_fd(c->shot), .events = EPOLLIN, .call = on_shot, .user = s};
+    return gn_loop_add(s->loop, &c->shot_watch) ||
            gn_fail(err, "control socket %s: cannot wait: %s", path, strerror(errno));
 }
 
 static void close_all(struct gn_show_control *c) {
+    gn_loop_remove(&c->shot_watch);
+    gn_loop_remove_timer(&c->shot_timer);
     gn_shot_destroy(c->shot);
     gn_control_close(c->control);
-    if (c->epoll >= 0) close(c->epoll);
-    if (c->timer >= 0) close(c->timer);
     free(c);
 }
 
@@ -60,10 +58,8 @@ void gn_show_open_control(struct gn_show *s) {
     if (!named && (s->stage.display.ops->is_window || !gn_listen_default(path, sizeof path)))
         return;
     struct gn_show_control *c = gn_xalloc(1, sizeof *c);
-    *c = (struct gn_show_control){.epoll = -1, .timer = -1};
     gn_show_status_begin(&c->status, gn_clock_monotonic_ns());
-    if (open_all(c, named ? named : path, &err) &&
-        gn_show_watch(s, &s->watches[GN_SHOW_CONTROL], c->epoll, &err)) {
+    if (open_all(s, c, named ? named : path, &err)) {
         s->control = c;
         return;
     }
@@ -162,11 +158,6 @@ void gn_show_enter_changed(struct gn_show *s) {
 
 /* ---- screenshots ---- */
 
-static void set_timer(const struct gn_show_control *c, int64_t after_ns) {
-    const struct itimerspec when = {.it_value = {after_ns / GN_NS_PER_S, after_ns % GN_NS_PER_S}};
-    timerfd_settime(c->timer, 0, &when, NULL);
-}
-
 static bool ask_for_shot(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     struct gn_show_control *c = s->control;
     const struct gn_screen *screen = &s->stage.display.screen;
@@ -179,7 +170,7 @@ static bool ask_for_shot(struct gn_show *s, const struct gn_request *r, struct g
     c->shot_request = r;
     c->shot_begun = true;
     s->changed = true;
-    set_timer(c, SHOT_NS);
+    c->shot_timer.due_ns = gn_loop_now_ns(s->loop) + SHOT_NS;
     return true;
 }
 
@@ -188,7 +179,7 @@ static void answer_shot(struct gn_show_control *c, const struct gn_err *err) {
     const struct gn_request *r = c->shot_request;
     c->shot_request = NULL;
     c->shot_begun = false;
-    set_timer(c, 0);
+    c->shot_timer.due_ns = GN_LOOP_NEVER;
     if (err)
         gn_control_refuse(c->control, r, err);
     else
@@ -210,18 +201,21 @@ void gn_show_take_shot(struct gn_show *s) {
     answer_shot(c, &err);
 }
 
-static void hear_shot(struct gn_show *s) {
-    struct gn_show_control *c = s->control;
+static void on_shot(void *user, uint32_t events, int64_t now_ns) {
+    const struct gn_show *s = user;
     struct gn_err err = {0};
-    uint64_t ticks;
     bool ok;
-    const bool late = read(c->timer, &ticks, sizeof ticks) == sizeof ticks;
-    if (gn_shot_take(c->shot, &ok, &err)) {
-        answer_shot(c, ok ? NULL : &err);
-    } else if (late && c->shot_begun) {
-        gn_fail(&err, "screenshot: no frame came: %s", s->stage.display.screen.status);
-        answer_shot(c, &err);
-    }
+    (void)events, (void)now_ns;
+    if (gn_shot_take(s->control->shot, &ok, &err)) answer_shot(s->control, ok ? NULL : &err);
+}
+
+static void on_late_shot(void *user, int64_t now_ns) {
+    const struct gn_show *s = user;
+    struct gn_err err = {0};
+    (void)now_ns;
+    if (!s->control->shot_begun) return;
+    gn_fail(&err, "screenshot: no frame came: %s", s->stage.display.screen.status);
+    answer_shot(s->control, &err);
 }
 
 /* ---- reloading ---- */
@@ -275,7 +269,5 @@ static void answer(struct gn_show *s, const struct gn_request *r) {
 void gn_show_hear_control(struct gn_show *s) {
     struct gn_show_control *c = s->control;
     if (!c) return;
-    hear_shot(s);
-    gn_control_dispatch(c->control, gn_clock_monotonic_ns());
     for (const struct gn_request *r; (r = gn_control_next(c->control)) != NULL;) answer(s, r);
 }

@@ -5,10 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/epoll.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
-#include <sys/timerfd.h>
 #include <unistd.h>
 
 #include "core/arena.h"
@@ -28,6 +25,8 @@ struct room {
 /* Events of a client are edges, so it is remembered what they said. */
 struct client {
     int fd; /* -1: none */
+    struct gn_watch watch;
+    struct gn_control *control;
     struct room *room;
     bool readable, ended, skips; /* skips: the rest of a line that is too long */
     bool waits;                  /* its request is with the owner */
@@ -39,38 +38,44 @@ struct client {
 
 struct gn_control {
     struct gn_listen listen;
-    int epoll, wake, timer, spare; /* descriptors; spare is given up to turn somebody away */
-    bool knocks;                   /* somebody is at the door */
-    int64_t now_ns, changes_ns;    /* changes_ns: when all changes so far would be due, evenly */
-    int turn;                      /* the client that is served first */
+    struct gn_loop *loop;
+    struct gn_watch door;
+    struct gn_timer timer;      /* when anything is to be done; what is ready makes it due */
+    int spare;                  /* a descriptor that is given up to turn somebody away */
+    bool knocks;                /* a connection is pending */
+    int64_t now_ns, changes_ns; /* changes_ns: when all changes so far would be due, evenly */
+    int turn;                   /* the client that is served first */
     int budget;
     int queue[CLIENTS], queued, first;
     struct gn_control_counts counts;
     struct client clients[CLIENTS];
     struct room rooms[CLIENTS];
 };
-enum { ID_LISTEN = CLIENTS, ID_WAKE, ID_TIMER };
 
 /* ---- opening -------------------------------------------------------------------------------- */
 
-static bool watch(struct gn_control *c, int fd, uint32_t id, uint32_t events) {
-    struct epoll_event event = {.events = events, .data.u32 = id};
-    return epoll_ctl(c->epoll, EPOLL_CTL_ADD, fd, &event) == 0;
+static void on_connection(void *user, uint32_t events, int64_t now_ns) {
+    struct gn_control *c = user;
+    (void)events;
+    c->knocks = true;
+    c->timer.due_ns = now_ns;
 }
 
-struct gn_control *gn_control_open(const char *path, struct gn_err *err) {
+static void serve_clients(void *user, int64_t now_ns);
+
+struct gn_control *gn_control_open(const char *path, struct gn_loop *loop, struct gn_err *err) {
     struct gn_control *c = gn_xalloc(1, sizeof *c);
+    c->loop = loop;
     c->listen = (struct gn_listen){.fd = -1, .lock = -1};
     for (int i = 0; i < CLIENTS; i++)
-        c->clients[i] = (struct client){.fd = -1, .room = &c->rooms[i]};
-    c->epoll = epoll_create1(EPOLL_CLOEXEC);
-    c->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    c->timer = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+        c->clients[i] = (struct client){.fd = -1, .control = c, .room = &c->rooms[i]};
     c->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    c->timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = serve_clients, .user = c};
+    gn_loop_add_timer(loop, &c->timer);
     if (gn_listen_open(&c->listen, path, err)) {
-        if (watch(c, c->listen.fd, ID_LISTEN, EPOLLIN) && watch(c, c->wake, ID_WAKE, EPOLLIN) &&
-            watch(c, c->timer, ID_TIMER, EPOLLIN))
-            return c;
+        c->door = (struct gn_watch){
+            .fd = c->listen.fd, .events = EPOLLIN, .call = on_connection, .user = c};
+        if (gn_loop_add(loop, &c->door)) return c;
         gn_fail(err, "control socket %s: cannot wait: %s", path, strerror(errno));
     }
     gn_control_close(c);
@@ -78,6 +83,7 @@ struct gn_control *gn_control_open(const char *path, struct gn_err *err) {
 }
 
 static void drop(struct client *client) {
+    gn_loop_remove(&client->watch);
     close(client->fd);
     free(client->out);
     client->fd = -1;
@@ -88,10 +94,10 @@ void gn_control_close(struct gn_control *c) {
     if (!c) return;
     for (int i = 0; i < CLIENTS; i++)
         if (c->clients[i].fd >= 0) drop(&c->clients[i]);
+    gn_loop_remove(&c->door);
+    gn_loop_remove_timer(&c->timer);
     gn_listen_close(&c->listen);
-    const int fds[] = {c->epoll, c->wake, c->timer, c->spare};
-    for (size_t i = 0; i < sizeof fds / sizeof fds[0]; i++)
-        if (fds[i] >= 0) close(fds[i]);
+    if (c->spare >= 0) close(c->spare);
     free(c);
 }
 
@@ -99,7 +105,6 @@ const char *gn_control_path(const struct gn_control *c) { return c->listen.path;
 struct gn_control_counts gn_control_counts(const struct gn_control *c) {
     return c->counts;
 }
-int gn_control_fd(const struct gn_control *c) { return c->epoll; }
 
 /* ---- replies -------------------------------------------------------------------------------- */
 
@@ -268,6 +273,15 @@ static void turn_away(struct gn_control *c, int fd, const struct gn_err *err) {
     close(fd);
 }
 
+/* Events of a client are edges: what they told stays noted. */
+static void on_client(void *user, uint32_t events, int64_t now_ns) {
+    struct client *client = user;
+    struct gn_control *c = client->control;
+    c->now_ns = c->timer.due_ns = now_ns;
+    client->readable |= (events & (EPOLLIN | EPOLLRDHUP | EPOLLHUP | EPOLLERR));
+    if (events & (EPOLLOUT | EPOLLHUP | EPOLLERR)) flush(c, client);
+}
+
 static void admit(struct gn_control *c, int fd) {
     struct gn_err err = {0};
     uid_t uid;
@@ -278,8 +292,12 @@ static void admit(struct gn_control *c, int fd) {
         return;
     }
     struct client *client = find_room(c);
-    if (!client ||
-        !watch(c, fd, (uint32_t)(client - c->clients), EPOLLIN | EPOLLOUT | EPOLLRDHUP | EPOLLET)) {
+    if (client)
+        client->watch = (struct gn_watch){.fd = fd,
+                                          .events = EPOLLIN | EPOLLOUT | EPOLLRDHUP | EPOLLET,
+                                          .call = on_client,
+                                          .user = client};
+    if (!client || !gn_loop_add(c->loop, &client->watch)) {
         gn_fail(&err, "busy");
         turn_away(c, fd, &err);
         return;
@@ -318,19 +336,6 @@ static void open_door(struct gn_control *c) {
 
 /* ---- dispatching ---------------------------------------------------------------------------- */
 
-static void hear(struct gn_control *c, const struct epoll_event *event) {
-    const uint32_t id = event->data.u32;
-    uint64_t count;
-    if (id == ID_LISTEN) {
-        c->knocks = true;
-    } else if (id >= CLIENTS) {
-        if (read(id == ID_WAKE ? c->wake : c->timer, &count, sizeof count) < 0) return;
-    } else if (c->clients[id].fd >= 0) {
-        c->clients[id].readable |= (event->events & (EPOLLIN | EPOLLRDHUP | EPOLLHUP | EPOLLERR));
-        if (event->events & (EPOLLOUT | EPOLLHUP | EPOLLERR)) flush(c, &c->clients[id]);
-    }
-}
-
 static void cut_stuck(struct gn_control *c) {
     for (int i = 0; i < CLIENTS; i++) {
         struct client *client = &c->clients[i];
@@ -342,7 +347,7 @@ static void cut_stuck(struct gn_control *c) {
 
 /* Round and round, a line each, so that nobody waits for one who talks all the time. */
 static void serve_all(struct gn_control *c) {
-    c->budget = GN_CONTROL_PER_DISPATCH;
+    c->budget = GN_CONTROL_PER_STEP;
     for (int idle = 0; idle < CLIENTS && c->budget > 0; c->turn = (c->turn + 1) % CLIENTS) {
         struct client *client = &c->clients[c->turn];
         const bool due = is_due(client);
@@ -351,33 +356,25 @@ static void serve_all(struct gn_control *c) {
     }
 }
 
-/* What is left to be done makes the descriptor readable, and so does the time when somebody will be
- * cut off. */
-static void set_alarms(struct gn_control *c) {
-    const uint64_t one = 1;
-    int64_t at_ns = INT64_MAX;
-    bool due = false;
+/* What is left to be done is due at once; else the time when somebody will be cut off is. */
+static void set_timer(struct gn_control *c) {
+    int64_t at_ns = c->knocks ? c->now_ns : GN_LOOP_NEVER;
     for (int i = 0; i < CLIENTS; i++) {
         const struct client *client = &c->clients[i];
-        due |= is_due(client);
+        if (is_due(client)) at_ns = c->now_ns;
         if (client->fd >= 0 && client->out && client->stuck_ns + STUCK_NS < at_ns)
             at_ns = client->stuck_ns + STUCK_NS;
     }
-    const struct itimerspec when = {.it_value = {at_ns / GN_NS_PER_S, at_ns % GN_NS_PER_S}},
-                            never = {0};
-    timerfd_settime(c->timer, TFD_TIMER_ABSTIME, at_ns == INT64_MAX ? &never : &when, NULL);
-    if (due && write(c->wake, &one, sizeof one) < 0) return; /* it is set already */
+    c->timer.due_ns = at_ns;
 }
 
-void gn_control_dispatch(struct gn_control *c, int64_t now_ns) {
-    struct epoll_event events[CLIENTS + 3];
+static void serve_clients(void *user, int64_t now_ns) {
+    struct gn_control *c = user;
     c->now_ns = now_ns;
-    const int count = epoll_wait(c->epoll, events, CLIENTS + 3, 0);
-    for (int i = 0; i < count; i++) hear(c, &events[i]);
     cut_stuck(c);
     if (c->knocks) open_door(c);
     serve_all(c);
-    set_alarms(c);
+    set_timer(c);
 }
 
 const struct gn_request *gn_control_next(struct gn_control *c) {
@@ -393,7 +390,7 @@ void gn_control_answer(struct gn_control *c, const struct gn_request *request, j
     client->waits = false;
     if (json && !json_object_get(json, "ok")) json_object_set_new(json, "ok", json_true());
     reply(c, client, json);
-    set_alarms(c);
+    set_timer(c);
 }
 
 void gn_control_refuse(struct gn_control *c, const struct gn_request *request,

@@ -1,19 +1,20 @@
 /* The control socket of a kiosk: a line with a JSON object is a request, and each gets a line as a
  * reply, in order. The server hands requests out; whoever owns the kiosk answers them. Nothing here
- * blocks, and a dispatch does a bounded amount of work, so that no frame waits for it: what there
- * is not time for now waits, and what is too much is answered with the error "busy". No reply is
- * ever left out, but to a client that does not read for 5 s: it is cut off. */
+ * blocks, and a step of the loop does a bounded amount of work, so that no frame waits for it: what
+ * there is not time for now waits, and what is too much is answered with the error "busy". No reply
+ * is ever left out, but to a client that does not read for 5 s: it is cut off. */
 #ifndef GN_KIOSK_CONTROL_CONTROL_H
 #define GN_KIOSK_CONTROL_CONTROL_H
 
 #include <stdint.h>
 
+#include "core/loop.h"
 #include "kiosk/control/request.h"
 
 enum {
     GN_CONTROL_CLIENTS_MAX = 64,   /* the next is answered "busy", and cut off, unless one of them
                                       has been silent for 30 s: then that one is */
-    GN_CONTROL_PER_DISPATCH = 16,  /* lines that are handled, or pieces of 4 KiB thrown away */
+    GN_CONTROL_PER_STEP = 16,      /* lines that are handled, or pieces of 4 KiB thrown away */
     GN_CONTROL_CHANGES_PER_S = 20, /* of what may cost a frame, of all clients together; 20 at
                                       once; what is more is "busy" */
 };
@@ -25,17 +26,15 @@ struct gn_control_counts {
 };
 
 struct gn_control;
-/* Makes the socket; see gn_listen_open(). NULL: the kiosk runs without, and err says why. */
-struct gn_control *gn_control_open(const char *path, struct gn_err *err);
+/* Makes the socket; see gn_listen_open(). From now on the loop serves clients. NULL: the kiosk runs
+ * without, and err says why. */
+struct gn_control *gn_control_open(const char *path, struct gn_loop *loop, struct gn_err *err);
 void gn_control_close(struct gn_control *control); /* NULL is fine */
 const char *gn_control_path(const struct gn_control *control);
 struct gn_control_counts gn_control_counts(const struct gn_control *control);
 
-/* Readable when dispatch has to be called; timers are in it too. */
-int gn_control_fd(const struct gn_control *control);
-void gn_control_dispatch(struct gn_control *control, int64_t now_ns);
-/* The next request, or NULL. It lives until it is answered, which may be later; until then its
- * client's other requests wait. */
+/* The next request, or NULL; to be called after each step of the loop until it is. It lives until
+ * it is answered, which may be later; until then its client's other requests wait. */
 const struct gn_request *gn_control_next(struct gn_control *control);
 /* Takes the reference; "ok" is added as true unless there is one. The client may have gone by now.
  */
