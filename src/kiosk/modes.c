@@ -4,6 +4,8 @@
 #include "kiosk/show.h"
 #include "shadow/planar.h"
 
+_Static_assert((int)GN_TECHNIQUE_COUNT < GN_KIOSK_MODES_MAX, "every technique is a mode");
+
 /* ---- the list ---- */
 
 static void add_mode(struct gn_show_modes *modes, const char *name, int settings) {
@@ -21,17 +23,16 @@ int gn_show_find_mode(const struct gn_show_modes *modes, const char *name) {
 /* What there is to see of, best first. The one that the options name anyway overrides nothing, so
  * that lights keep what they name themselves; where a flag names it, it is the only one. */
 static void list_techniques(struct gn_show *s) {
-    static const char *const names[] = {"pcf",  "pcss", "smsm",    "vssm",   "msm",
-                                        "evsm", "vsm",  "poisson", "disk",   "pcf2",
-                                        "pcf3", "pcf5", "hard",    "planar", "none"};
+    enum gn_technique order[GN_TECHNIQUE_COUNT];
     const struct gn_settings *o = &s->options->all[0];
     struct gn_show_modes *modes = &s->modes;
     const bool only =
         gn_settings_source(o, offsetof(struct gn_settings, render.shadow)) == GN_SOURCE_FLAG;
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        enum gn_technique technique;
-        const bool is_base = strcmp(names[i], o->render.shadow) == 0;
-        if (!gn_technique_find(names[i], &technique, NULL) || (only && !is_base)) continue;
+    gn_techniques_by_rank(order);
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
+        const enum gn_technique technique = order[i];
+        const bool is_base = strcmp(gn_techniques[technique].name, o->render.shadow) == 0;
+        if (only && !is_base) continue;
         if (gn_techniques[technique].on_plane && !is_base && !gn_planar_has_plane(s->stage.scene))
             continue;
         add_mode(modes, gn_techniques[technique].name, is_base ? 0 : 1 + (int)technique);

@@ -1,4 +1,5 @@
-/* The table of shadow techniques and the table of map encodings. One row and one GLSL file add one.
+/* The table of shadow techniques, whose rows are in technique_rows.h, and the table of map
+ * encodings.
  */
 #ifndef GN_SHADOW_TECHNIQUE_H
 #define GN_SHADOW_TECHNIQUE_H
@@ -10,24 +11,12 @@
 #include "shadow/moments.h"
 #include "shadow/taps.h"
 
+#define ROW(id, ...) GN_TECHNIQUE_##id,
 enum gn_technique {
-    GN_TECHNIQUE_NONE,
-    GN_TECHNIQUE_HARD,
-    GN_TECHNIQUE_PCF,
-    GN_TECHNIQUE_PCF2,
-    GN_TECHNIQUE_PCF3,
-    GN_TECHNIQUE_PCF5,
-    GN_TECHNIQUE_DISK,
-    GN_TECHNIQUE_POISSON,
-    GN_TECHNIQUE_PCSS,
-    GN_TECHNIQUE_VSM,
-    GN_TECHNIQUE_EVSM,
-    GN_TECHNIQUE_MSM,
-    GN_TECHNIQUE_VSSM,
-    GN_TECHNIQUE_SMSM,
-    GN_TECHNIQUE_PLANAR,
+#include "shadow/technique_rows.h"
     GN_TECHNIQUE_COUNT,
 };
+#undef ROW
 
 /* How a map stores the distance from the light. All are cleared to the light's far end. */
 enum gn_encoding {
@@ -45,6 +34,7 @@ enum gn_encoding {
 
 struct gn_technique_row {
     const char *name;
+    int rank;         /* place in the kiosk's order of modes, from 1, best first; 0: last */
     const char *file; /* below shaders_es/, NULL for none */
     bool filters;     /* compares four texels and weighs them: wants a LINEAR compare sampler */
     bool searches; /* asks how far a blocker is: a depth map behind a sampler that compares not */
@@ -80,6 +70,9 @@ bool gn_technique_shades(enum gn_technique technique);
 static inline bool gn_technique_filters_map(enum gn_technique technique) {
     return gn_techniques[technique].filter != GN_FILTER_NONE;
 }
+
+/* All techniques in the order of their ranks. */
+void gn_techniques_by_rank(enum gn_technique out[GN_TECHNIQUE_COUNT]);
 
 /* By name; on failure a usage error that lists the names. */
 bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err);
