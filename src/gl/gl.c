@@ -1,52 +1,10 @@
 #include "gl/gl.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/arena.h"
 #include "gl/private.h"
-
-static void GL_APIENTRY hear(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
-                             const GLchar *message, const void *user) {
-    (void)source, (void)id, (void)severity, (void)length;
-    struct gn_gl *gl = (struct gn_gl *)user;
-    if (type != GL_DEBUG_TYPE_ERROR_KHR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR_KHR) return;
-    if (!gl->debug_text[0]) snprintf(gl->debug_text, sizeof gl->debug_text, "%s", message);
-}
-
-static void listen(struct gn_gl *gl) {
-    if (!(gl->caps.has & 1u << GN_CAP_DEBUG)) return;
-    GL(gl, Enable)(GL_DEBUG_OUTPUT_KHR);
-    GL(gl, Enable)(GL_DEBUG_OUTPUT_SYNCHRONOUS_KHR);
-    GL(gl, DebugMessageCallback)(hear, gl);
-}
-
-static const char *error_name(GLenum error) {
-    switch (error) {
-    case GL_INVALID_ENUM: return "invalid enum";
-    case GL_INVALID_VALUE: return "invalid value";
-    case GL_INVALID_OPERATION: return "invalid operation";
-    case GL_INVALID_FRAMEBUFFER_OPERATION: return "invalid framebuffer operation";
-    case GL_OUT_OF_MEMORY: return "out of GPU memory";
-    default: return "unknown GL error";
-    }
-}
-
-void gn_gl_error_keep(struct gn_gl *gl) {
-    GLenum error = GL(gl, GetError)();
-    if (error != GL_NO_ERROR && !gl->debug_text[0])
-        snprintf(gl->debug_text, sizeof gl->debug_text, "%s", error_name(error));
-}
-
-bool gn_gl_error_check(struct gn_gl *gl, const char *what, struct gn_err *err) {
-    GLenum error = GL(gl, GetError)();
-    if (error == GL_NO_ERROR && !gl->debug_text[0]) return true;
-    gn_fail(err, "%s: %s", what, gl->debug_text[0] ? gl->debug_text : error_name(error));
-    gl->debug_text[0] = 0;
-    for (int i = 0; error != GL_NO_ERROR && i < 8; i++) error = GL(gl, GetError)();
-    return false;
-}
 
 static bool start(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err *err) {
     if (!gn_gl_version_check(opts, err) || !gn_gl_table_load(&gl->fn, opts, err)) return false;
@@ -55,7 +13,7 @@ static bool start(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err
     for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
         gl->instances.buffers[i] = gn_gl_object_create(gl, GN_GL_BUFFER);
     if (!gn_gl_caps_learn(gl, opts, err)) return false;
-    if (gl->debug) listen(gl);
+    if (gl->debug) gn_gl_debug_start(gl);
     return true;
 }
 

@@ -1,0 +1,27 @@
+/* Programs by key (program.c). */
+#ifndef GN_GL_PROGRAM_H
+#define GN_GL_PROGRAM_H
+
+#include "gl/table.h"
+
+struct gn_gl_program {
+    struct gn_program_key key;
+    GLuint name;             /* 0: an empty place of the table */
+    GLint u_pass, u_uv;      /* locations, or -1 */
+    uint32_t attributes;     /* bit per location that it reads */
+    uint32_t texture_slots;  /* bit per gn_texture_slot that it reads */
+    uint64_t constants_hash; /* of what u_pass holds; 0: nothing yet */
+    uint32_t uv;             /* which row of gl->scene.uv u_uv holds; UINT32_MAX: none yet */
+};
+struct gn_gl_programs { /* open addressing, room is a power of two, at most half full */
+    struct gn_gl_program *table;
+    uint32_t room, count;
+};
+struct gn_gl_program *gn_gl_program_find(struct gn_gl *gl, const struct gn_program_key *key);
+bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err);
+void gn_gl_programs_finish(struct gn_gl *gl);
+/* Compiles and links two sources; 0 and the driver's first line on failure. */
+GLuint gn_gl_program_link(struct gn_gl *gl, const char *vertex, const char *fragment,
+                          struct gn_err *err);
+
+#endif

@@ -1,0 +1,93 @@
+/* The scene on the GPU: buffers, vertex arrays, instances, textures (upload.c, texture.c,
+ * mipmap.c). */
+#ifndef GN_GL_SCENE_H
+#define GN_GL_SCENE_H
+
+#include "gl/state.h"
+
+struct gn_gl_curve {   /* sRGB by table (mipmap.c) */
+    float decode[256]; /* of a byte: its light, in quarter steps of encode */
+    uint8_t encode[8192];
+};
+void gn_gl_curve_init(struct gn_gl_curve *curve);
+/* Makes *image half as large, in new memory that is also returned: the caller frees it. */
+uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image, bool srgb);
+/* The same row by row: the size of the half, then some of its rows. */
+struct gn_image gn_gl_image_half(const struct gn_image *image);
+void gn_gl_image_halve_rows(const struct gn_gl_curve *curve, const struct gn_image *image,
+                            uint32_t first, uint32_t count, bool srgb, uint8_t *out);
+
+struct gn_gl_vertices { /* one vertex array per set of attributes in use */
+    GLuint name;
+    uint32_t attributes;
+    GLuint instances; /* the buffer and the byte that its instance attributes point to */
+    size_t offset;
+};
+enum { GN_GL_VERTICES_MAX = 32, GN_GL_INSTANCE_RING = 3, GN_GL_SAMPLER_KINDS = 144 };
+struct gn_gl_picture { /* one that is being sent, a few rows at a time */
+    struct gn_image image;
+    uint8_t *owned; /* its pixels, if they are ours; freed when it is sent */
+    bool open, srgb, mipmaps;
+    GLint level;
+    GLsizei levels;
+    uint32_t row; /* of the level: sent so far */
+    struct gn_image half;
+    uint8_t *half_owned; /* the next level, as far as it is made */
+};
+enum gn_gl_upload_phase {
+    GN_GL_UPLOAD_POSITIONS,
+    GN_GL_UPLOAD_ATTRIBUTES,
+    GN_GL_UPLOAD_INDICES,
+    GN_GL_UPLOAD_PICTURES,
+    GN_GL_UPLOAD_DONE,
+};
+struct gn_gl_upload {
+    enum gn_gl_upload_phase phase;
+    uint32_t first; /* vertex, index or use of a texture that comes next */
+    struct gn_gl_curve *curve;
+    struct gn_gl_picture picture;
+};
+struct gn_gl_scene {
+    const struct gn_scene *scene;
+    struct gn_gl_upload upload;
+    GLuint positions, attributes, indices;
+    GLenum index_type;
+    size_t index_size;
+    GLsizei attribute_stride;
+    GLint attribute_at[GN_ATTRIBUTE_COUNT]; /* byte offsets; -1: no such in this scene, or the
+                                               position */
+    uint32_t image_count;                   /* kept: the scene may be gone when we finish */
+    GLuint *images[2];                      /* by image: linear, sRGB; 0 where not used so */
+    GLuint samplers[GN_GL_SAMPLER_KINDS];
+    float (*uv)[2 * GN_TEXTURE_SLOT_COUNT][4]; /* different sets of transforms */
+    uint32_t *material_uv;                     /* by material: index into uv */
+    uint32_t uv_count;
+    uint64_t buffer_bytes, texture_bytes;
+    struct gn_gl_vertices vertices[GN_GL_VERTICES_MAX];
+    uint32_t vertices_count;
+};
+void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene);
+/* Sends about so many bytes; *done: that was all of it. After a failure nothing is left. */
+bool gn_gl_scene_step(struct gn_gl *gl, size_t bytes, bool *done, struct gn_err *err);
+/* The staged scene and the one that is shown change places. */
+void gn_gl_stage_swap(struct gn_gl *gl);
+void gn_gl_scene_finish(struct gn_gl *gl);
+/* The vertex array for a set of attributes, made if need be; false when there are too many. */
+bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err *err);
+bool gn_gl_vertices_known(struct gn_gl *gl, uint32_t attributes);
+void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_instance);
+/* Sends about so many bytes; true: that was all of it. */
+bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes);
+void gn_gl_textures_finish(struct gn_gl *gl);
+void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref);
+void gn_gl_slide_bind(struct gn_gl *gl, uint32_t slide, uint32_t texture);
+
+struct gn_gl_instances { /* a ring, so that a frame does not wait for the one before */
+    GLuint buffers[GN_GL_INSTANCE_RING];
+    size_t room[GN_GL_INSTANCE_RING];
+    uint32_t current;
+    uint64_t hash; /* of what the current one holds */
+};
+void gn_gl_instances_upload(struct gn_gl *gl, const struct gn_instance *instances, size_t count);
+
+#endif

@@ -1,0 +1,74 @@
+/* The cache of GL state, which is diffed and never restored, and counted GL objects (state.c). */
+#ifndef GN_GL_STATE_H
+#define GN_GL_STATE_H
+
+#include "gl/table.h"
+
+enum gn_gl_location { /* of inputs in shaders: a vertex's have the numbers of gn_attribute */
+                      GN_GL_WORLD = 10, /* an instance's: three rows */
+                      GN_GL_BASE_COLOR = GN_GL_WORLD + 3,
+                      GN_GL_SURFACE,
+                      GN_GL_EMISSIVE,
+                      GN_GL_LOCATION_COUNT,
+};
+_Static_assert((int)GN_ATTRIBUTE_COUNT <= (int)GN_GL_WORLD && GN_GL_LOCATION_COUNT <= 16,
+               "ES 3.0 promises 16");
+enum { /* texture units: maps first, then one a gn_texture_slot, then slides; the last is for work
+          of our own. ES 3.0 promises 16. */
+       GN_GL_UNIT_MAP = 0,
+       GN_GL_UNIT_TEXTURE = GN_SHADOWS_MAX,
+       GN_GL_UNIT_SLIDE = GN_GL_UNIT_TEXTURE + GN_TEXTURE_SLOT_COUNT,
+       GN_GL_UNIT_WORK = GN_GL_UNIT_SLIDE + GN_SLIDES_MAX,
+       GN_GL_UNIT_COUNT,
+};
+_Static_assert(GN_GL_UNIT_COUNT <= 16, "texture units that ES 3.0 promises");
+
+/* ---- the cache ---- */
+
+struct gn_gl_rect {
+    GLint x, y;
+    GLsizei width, height;
+};
+struct gn_gl_state {
+    GLuint framebuffer, program, vertex_array, array_buffer;
+    struct gn_gl_rect viewport, scissor;
+    bool scissor_on, depth_on, depth_write, blend_on, cull_on, mirrored, stencil_on, color_write;
+    struct gn_stencil stencil;
+    uint8_t cull; /* gn_cull, when on */
+    GLuint unit;  /* the active one */
+    GLuint textures[GN_GL_UNIT_COUNT], samplers[GN_GL_UNIT_COUNT];
+    float clear_color[4];
+};
+void gn_gl_state_init(struct gn_gl *gl); /* what every pass has in common; the cache is made true */
+void gn_gl_bind_framebuffer(struct gn_gl *gl, GLuint name);
+void gn_gl_bind_vertex_array(struct gn_gl *gl, GLuint name);
+void gn_gl_bind_array_buffer(struct gn_gl *gl, GLuint name);
+void gn_gl_bind_texture(struct gn_gl *gl, GLuint unit, GLuint texture, GLuint sampler);
+/* Calls that name no texture are about this one from now on, even where it was bound already. */
+void gn_gl_work_on_texture(struct gn_gl *gl, GLuint texture);
+void gn_gl_use_program(struct gn_gl *gl, GLuint name);
+void gn_gl_set_viewport(struct gn_gl *gl, struct gn_gl_rect rect);
+void gn_gl_set_scissor(struct gn_gl *gl, const struct gn_gl_rect *rect); /* NULL: off */
+void gn_gl_set_depth(struct gn_gl *gl, bool test, bool write);
+void gn_gl_set_blend(struct gn_gl *gl, enum gn_blend blend);
+void gn_gl_set_cull(struct gn_gl *gl, enum gn_cull cull, bool mirrored);
+void gn_gl_set_color_write(struct gn_gl *gl, bool write); /* clears heed it, too */
+void gn_gl_set_stencil(struct gn_gl *gl, const struct gn_stencil *stencil);
+void gn_gl_set_stencil_writes(struct gn_gl *gl, uint8_t bits); /* for clears */
+void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]);
+
+/* ---- objects: created here, so that they are counted ---- */
+
+enum gn_gl_object {
+    GN_GL_BUFFER,
+    GN_GL_FRAMEBUFFER,
+    GN_GL_RENDERBUFFER,
+    GN_GL_SAMPLER,
+    GN_GL_TEXTURE,
+    GN_GL_VERTEX_ARRAY,
+};
+GLuint gn_gl_object_create(struct gn_gl *gl, enum gn_gl_object kind);
+/* Also clears *name and what the state cache knows of it; 0 is legal. */
+void gn_gl_object_destroy(struct gn_gl *gl, enum gn_gl_object kind, GLuint *name);
+
+#endif
