@@ -7,6 +7,7 @@
 #include "core/arena.h"
 #include "core/embedded.h"
 #include "core/json.h"
+#include "frame/frame.h"
 
 #define LIT  1
 #define EDGE 2

@@ -1,17 +1,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "blocks.glsl"
 #include "core/hash.h"
 #include "frame/private.h"
 #include "shadow/cascade.h"
 
-_Static_assert(CASCADES_ZONES == GN_CASCADES_MAX && CASCADES_SIZE == CASCADES_ZONES + 2,
-               "one vec4 each, and two of them all");
-
 #define MOST_PIXELS 2.0f /* that a texel covers, before it is rounded up to a step */
 #define TOO_COARSE  2.0f /* times that: the eye has moved to where more are worth it */
-#define NOWHERE     1e9f /* texels from a tile: there is light */
 
 /* Of a surface that faces the eye, at a distance of 1. */
 static float pixel_width(const struct gn_frame *frame, const struct gn_eye *eye) {
@@ -160,31 +155,4 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
         (struct gn_cascade_choice){.choice = choice, .count = chosen};
     note->next_choice = (note->next_choice + 1) % GN_CASCADE_CHOICES;
     return chosen;
-}
-
-void gn_frame_cascade_constants(const struct gn_shadow_view *view, float (*constants)[4]) {
-    const double middle = 0.5 * (double)view->map.inner_px;
-    if (view->map.cascade_count == 0) return;
-    for (uint32_t i = 0; i < GN_CASCADES_MAX; i++) {
-        const struct gn_shadow_cascade *cascade = &view->cascades[i];
-        const bool empty =
-            i >= view->map.cascade_count || view->empty || view->raster.tiles[i].empty;
-        float *c = constants[i];
-        for (int k = 0; k < 2; k++)
-            c[k] = empty ? NOWHERE : (float)(-cascade->drawn.corner_texels[k] - middle);
-        c[CASCADE_TEXEL] = empty ? 1.0f : cascade->texel;
-        c[CASCADE_NEAREST] = empty ? 0.0f : cascade->nearest;
-        constants[CASCADES_SPANS][i] = empty ? 1.0f : cascade->span;
-        if (i + 1 < GN_CASCADES_MAX)
-            constants[CASCADES_ZONES][i] = view->empty || i + 1 >= view->map.cascade_count
-                                               ? 0.0f
-                                               : 1.0f / (GN_CASCADE_FADE * cascade->end_m);
-    }
-}
-
-void gn_frame_pass_cascades(const struct gn_frame *frame, const struct gn_light_group *group,
-                            struct gn_pass *pass) {
-    for (uint32_t i = 0; i < group->shadow_count; i++)
-        if (frame->shadows[group->first_shadow + i].map.cascade_count > 0)
-            pass->constant_count = PASS_SIZE;
 }

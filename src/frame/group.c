@@ -76,11 +76,6 @@ void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose) {
                            frame->lights[frame->groups[g].first + i].light);
 }
 
-/* All groups before the last one with maps have as many as fit. */
-struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot) {
-    return &frame->lights[frame->groups[slot / GN_SHADOWS_MAX].first + slot % GN_SHADOWS_MAX];
-}
-
 void gn_frame_bound_groups(struct gn_frame *frame) {
     for (uint32_t i = 1; i < frame->group_count; i++) {
         struct gn_light_group *g = &frame->groups[i];

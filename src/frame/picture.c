@@ -24,34 +24,6 @@ static void set_clear(const struct gn_frame *frame, enum gn_aov aov, float color
     color[3] = 1.0f;
 }
 
-struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label) {
-    struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_PICTURE);
-    snprintf(pass->label, sizeof pass->label, "%s", label);
-    pass->target = (struct gn_target){.kind = GN_TARGET_OUTPUT,
-                                      .width_px = frame->plan.width_px,
-                                      .height_px = frame->plan.height_px};
-    return pass;
-}
-
-struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group) {
-    const struct gn_light_group *g = &frame->groups[group];
-    struct gn_pass *pass = gn_frame_picture_pass(frame, label);
-    pass->constants = gn_frame_constants(frame, GN_CONSTANTS_PICTURE + group);
-    pass->picture.first_light = g->first;
-    pass->picture.light_count = g->count;
-    pass->picture.first_shadow = g->first_shadow;
-    pass->picture.shadow_count = g->shadow_count;
-    gn_frame_pass_slides(frame, g, pass);
-    gn_frame_pass_cascades(frame, g, pass);
-    if (group == 0) return pass;
-    snprintf(pass->label, sizeof pass->label, "%s%slights %u-%u", label, *label ? " " : "",
-             g->first + 1, g->first + g->count);
-    pass->picture.blend = GN_BLEND_ADD;
-    pass->depth_write = false;
-    pass->rect = g->rect;
-    return pass;
-}
-
 static void add_to_opaque(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts, uint32_t group) {
     const bool marks = gn_frame_marks_plane(frame, group);
@@ -149,16 +121,6 @@ static void opaque_pass(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_end_pass(frame);
 }
 
-void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key,
-                        uint32_t vertex_count, uint32_t first_instance, uint32_t instance_count) {
-    uint32_t program = gn_frame_program(frame, key);
-    GN_LIST_PUSH(&frame->draws) = (struct gn_draw){.program = program,
-                                                   .geometry = GN_NO_GEOMETRY,
-                                                   .vertex_count = vertex_count,
-                                                   .first_instance = first_instance,
-                                                   .instance_count = instance_count};
-}
-
 /* Light was added in linear halves, and there is no target that encodes. */
 static void encode_pass(struct gn_frame *frame) {
     struct gn_program_key key;
@@ -181,10 +143,6 @@ void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
         if (frame->groups[i].seen) add_to_opaque(frame, pose, opts, i);
     blend_passes(frame, pose, opts);
     keep_additive_programs(frame, opts);
-}
-
-bool gn_frame_is_encoded(const struct gn_frame *frame) {
-    return frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_FLOAT;
 }
 
 void gn_frame_finish_picture(struct gn_frame *frame) {

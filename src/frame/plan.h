@@ -9,7 +9,6 @@
 #include "caption/run.h"
 #include "frame/caps.h"
 #include "frame/feature.h"
-#include "frame/orbit.h"
 #include "scene/pose.h"
 #include "shadow/fit.h"
 #include "shadow/slide.h"
@@ -231,53 +230,6 @@ struct gn_plan {
     bool waits;      /* for another frame: a filtered map is older than the pose (filter_texels) */
     float exposure;
 };
-
-/* ---- building ---- */
-
-struct gn_frame_opts {            /* zero means the default written beside */
-    uint32_t width_px, height_px; /* of the output; 1280 x 720 */
-    unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
-                                     clockwise by this; by 90 it is height_px wide */
-    bool unencoded;               /* the output's framebuffer does not encode: shaders do */
-    int camera;                   /* 0; of the scene, there */
-    bool technique_given; /* `technique` overrides the lights' own and the default pcf; a light's
-                             own none holds */
-    enum gn_technique technique;
-    enum gn_encoding encoding; /* GN_ENCODING_AUTO must be set for the automatic choice */
-    enum gn_moments moments;   /* of techniques that filter their map; NONE: the automatic choice */
-    uint32_t map_px;           /* 0: the light's, else the technique's */
-    uint32_t cascades;         /* the most that a light gets; 4 */
-    uint64_t filter_texels; /* of filtered maps that one frame makes again, if that is more than one
-                               map; others stay as they are for a while. 0: all are made */
-    bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
-    unsigned taps;          /* of disk, poisson, pcss: 8, 16, 32; 16 */
-    bool taps_fixed;        /* the same for every pixel */
-    enum gn_aov aov;
-    int light; /* for visibility: which of the scene; one that is not there leaves all lit */
-    bool output_linear, output_float;
-    bool exposure_given;
-    float exposure_ev; /* stops, when given; else automatic */
-    bool strength_given;
-    float strength; /* overrides the lights' gnomon_shadow_strength */
-    uint32_t msaa;
-    struct gn_orbit orbit; /* the eye, moved by hand */
-    float turntable_rad;   /* the eye goes round the scene's centre by this, about +Y */
-    bool show_lights;      /* a mark where each light stands */
-    bool show_maps;        /* the maps as panels along the lower edge */
-    bool all_seen;         /* the eye sees everything: for programs that will be wanted later */
-    const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
-    bool captions_later;                   /* their program is made even while there are none */
-};
-
-struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing
-                  */
-struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_caps *caps);
-void gn_frame_destroy(struct gn_frame *frame);
-/* Builds the plan of this pose. Never fails: what cannot be is left out with a warning, which a
- * builder gives once, and once more when options change. */
-const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
-                                     const struct gn_frame_opts *opts,
-                                     struct gn_warnings *warnings);
 
 /* The plan as text: stable, made for reading and for diff. */
 void gn_plan_print(const struct gn_plan *plan, FILE *to);

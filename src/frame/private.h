@@ -2,20 +2,10 @@
 #ifndef GN_FRAME_PRIVATE_H
 #define GN_FRAME_PRIVATE_H
 
-#include "frame/plan.h"
+#include "frame/frame.h"
+#include "frame/list.h"
+#include "frame/notice.h"
 #include "shadow/reach.h"
-
-/* A growing array: keeps its memory, allocates only while growing. */
-#define GN_LIST(type)                                                                              \
-    struct {                                                                                       \
-        type *at;                                                                                  \
-        uint32_t count, room;                                                                      \
-    }
-void *gn_list_grow(void *at, uint32_t count, uint32_t *room, size_t size);
-/* Room for one more; an lvalue. */
-#define GN_LIST_PUSH(list)                                                                         \
-    (*((list)->at = gn_list_grow((list)->at, (list)->count, &(list)->room, sizeof *(list)->at),    \
-       &(list)->at[(list)->count++]))
 
 struct gn_placed {
     float depth; /* behind the near plane, metres */
@@ -43,22 +33,6 @@ struct gn_light_group {
     bool seen;                              /* by the eye; without, it has no pass */
     struct gn_rect rect;                    /* of the picture; width 0: all of it */
 };
-
-/* What a warning is about. */
-enum gn_notice {
-    GN_NOTICE_TECHNIQUE,
-    GN_NOTICE_PLANE,
-    GN_NOTICE_MOMENTS,
-    GN_NOTICE_ENCODING,
-    GN_NOTICE_MAPS,
-    GN_NOTICE_LIGHTS,
-    GN_NOTICE_SLIDES,
-    GN_NOTICE_FLOAT,
-    GN_NOTICE_MSAA,
-    GN_NOTICE_BLENDED,
-    GN_NOTICE_MAP_PX,
-};
-enum { GN_NOTICE_ABOUT = 10 }; /* options that a warning may be about */
 
 enum { GN_CASCADE_CHOICES = 8 }; /* cameras and sizes of maps and pictures that take turns */
 
@@ -141,9 +115,24 @@ struct gn_selection {
     const struct gn_frame_opts *opts;   /* never NULL */
 };
 
-/* frame.c: passes and draws. */
+/* ---- pass.c: programs, passes, bare draws ---- */
+
+/* Its index in the plan, where each key stands once. */
+uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *key);
 struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame, enum gn_pass_kind kind);
 void gn_frame_end_pass(struct gn_frame *frame);
+/* Begins a pass to the output. */
+struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label);
+/* The same with what the programs of a group of lights read; what a later group gives is added. */
+struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group);
+/* Whether a last pass encodes the picture. */
+bool gn_frame_is_encoded(const struct gn_frame *frame);
+/* A draw of bare vertices. */
+void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key,
+                        uint32_t vertex_count, uint32_t first_instance, uint32_t instance_count);
+
+/* ---- draws.c ---- */
+
 /* Blended items that a picture sees are not drawn but gathered in frame->blended. */
 void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_selection *s);
@@ -152,105 +141,80 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_selection *s, uint32_t item, bool *open);
 /* Opaque before masked, then nearest first. */
 void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first);
-uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *key);
 
-/* maps.c: the passes that draw the shadow maps. */
+/* ---- maps.c, filter.c: passes to the maps ---- */
+
 void gn_frame_map_passes(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_frame_opts *opts);
-
-/* filter.c: the passes that turn a map into what shaders read; none where that is the map. */
+/* The passes that turn a map into what shaders read; none where that is the map. */
 void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot);
 /* Of all that decides what a tile is filtered into; never 0. */
 uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile);
-
 /* budget.c: after the lights' views are known. Puts older ones in the place of those that have to
  * wait. */
 void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts);
 
-/* picture.c: the passes that draw the picture. */
+/* ---- picture.c, stencil.c, overlay.c, caption.c: passes to the picture ---- */
+
 void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts);
-/* A pass with what the programs of a group of lights read; what a later group gives is added. */
-struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group);
-/* Once all is drawn: the depth is of no more use; where no target encodes, a pass does. */
+/* Once all is drawn: the depth is not read any more; where no target encodes, a pass does. */
 void gn_frame_finish_picture(struct gn_frame *frame);
-/* Whether a pass does. */
-bool gn_frame_is_encoded(const struct gn_frame *frame);
-
-/* stencil.c: planar shadows without a map. Draws what takes such shadows in a group's light, and
- * those. */
+/* Planar shadows without a map. Draws what takes such shadows in a group's light, and those. */
 void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts, uint32_t group);
 /* Whether the group has any that can be seen. */
 bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group);
-
-/* overlay.c: marks and panels over the picture. */
+/* Marks and panels over the picture. */
 void gn_frame_overlay_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts);
-
 /* Where a rectangle of the picture is in the output. */
 struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect rect);
-
-/* caption.c: texts over everything. Before the picture is finished, or, where a pass encodes it,
- * after that. */
+/* Texts over everything. Before the picture is finished, or, where a pass encodes it, after that.
+ */
 void gn_frame_caption_pass(struct gn_frame *frame, const struct gn_frame_opts *opts);
 
-/* A draw of bare vertices. */
-void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key,
-                        uint32_t vertex_count, uint32_t first_instance, uint32_t instance_count);
-struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label);
+/* ---- lights.c, group.c, slides.c: which lights ---- */
 
-/* cascade.c: how many cascades a light has, and what the shaders get. By the eye as the camera
- * stands when it is asked first and, if it is animated, as it will at eight places of its way; and
- * again when options change that matter: while the eye moves neither programs nor targets change.
- * opts: of the fit, map_px of a map without cascades, cascades: the most. */
+/* With what technique and map format; then in groups. */
+void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
+                            const struct gn_frame_opts *opts, struct gn_warnings *warnings);
+float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_frame_opts *opts);
+void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose);
+/* Where each group's light can fall in the picture. */
+void gn_frame_bound_groups(struct gn_frame *frame);
+bool gn_group_touches(const struct gn_light_group *group, const struct gn_box *box_ws);
+/* Which of the chosen lights throw a slide. Those of a pass stand in the order of its lights. */
+void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *opts,
+                            struct gn_warnings *warnings);
+void gn_frame_slide_constants(const struct gn_frame *frame, const struct gn_pose *pose,
+                              const struct gn_light_group *group, float (*constants)[4]);
+
+/* ---- fit.c, cascade.c, slot.c: their shadow maps ---- */
+
+void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
+                          const struct gn_frame_opts *opts, struct gn_warnings *warnings);
+/* How many cascades a light has. By the eye as the camera stands when it is asked first and, if it
+ * is animated, as it will at eight places of its way; and again when options change that matter:
+ * while the eye moves neither programs nor targets change. opts: of the fit, map_px of a map
+ * without cascades, cascades: the most. */
 uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose,
                                   const struct gn_frame_opts *frame_opts, uint32_t slot,
                                   const struct gn_shadow_opts *opts);
-void gn_frame_cascade_constants(const struct gn_shadow_view *view, float (*constants)[4]);
-/* Lets the constants of a pass with cascades go on to theirs. */
-void gn_frame_pass_cascades(const struct gn_frame *frame, const struct gn_light_group *group,
-                            struct gn_pass *pass);
-
-/* lights.c: at least so many memories of a slot. */
+struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot);
+/* At least so many memories of a slot. */
 void gn_frame_make_memories(struct gn_frame *frame, uint32_t slot, uint32_t count);
 /* How long a map's side can be, or a tile's, such that all of so many is a texture. */
 uint32_t gn_frame_most_px(const struct gn_frame *frame, const struct gn_frame_light *light,
                           uint32_t cascades);
 
-/* group.c: lights into groups, once they are chosen. */
-void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose);
-struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot);
-/* Where each group's light can fall in the picture. */
-void gn_frame_bound_groups(struct gn_frame *frame);
-bool gn_group_touches(const struct gn_light_group *group, const struct gn_box *box_ws);
+/* ---- constants.c ---- */
 
-/* notice.c: first of all in a build. Notices are said again when options change. */
-void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts);
-/* Whether this is to be said now: it was not yet, and somebody listens. Then it has been. */
-bool gn_frame_notice(uint32_t *said, enum gn_notice notice, const struct gn_warnings *warnings);
-
-/* lights.c: which lights, with what; then what they say to the shaders. */
-void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
-                            const struct gn_frame_opts *opts, struct gn_warnings *warnings);
-void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
-                          const struct gn_frame_opts *opts, struct gn_warnings *warnings);
-float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
-                        const struct gn_frame_opts *opts);
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
                               const struct gn_light_group *group, float (*constants)[4]);
 void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from_world,
                                float (*constants)[4]);
-
-/* slides.c: which of the chosen lights throw a slide; then what the shaders and the pass get. The
- * slides of a pass stand in the order of its lights. */
-void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *opts,
-                            struct gn_warnings *warnings);
-void gn_frame_slide_constants(const struct gn_frame *frame, const struct gn_pose *pose,
-                              const struct gn_light_group *group, float (*constants)[4]);
-/* Also lets the constants of a pass with slides go on to theirs. */
-void gn_frame_pass_slides(const struct gn_frame *frame, const struct gn_light_group *group,
-                          struct gn_pass *pass);
 
 /* key.c: the program that draws an item. */
 /* Whether that asks about the shadows of lights for the plane alone. */

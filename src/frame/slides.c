@@ -59,12 +59,3 @@ void gn_frame_slide_constants(const struct gn_frame *frame, const struct gn_pose
         c += SLIDE_SIZE;
     }
 }
-
-void gn_frame_pass_slides(const struct gn_frame *frame, const struct gn_light_group *group,
-                          struct gn_pass *pass) {
-    for (uint32_t i = group->first; i < group->first + group->count; i++)
-        if (frame->lights[i].slide != GN_SLIDE_NONE)
-            pass->picture.slides[pass->picture.slide_count++] =
-                (uint32_t)frame->scene->lights[frame->lights[i].light].slide;
-    if (pass->picture.slide_count > 0) pass->constant_count = PASS_CASCADES;
-}

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "display/display.h"
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "options/action.h"
 #include "options/settings.h"
 

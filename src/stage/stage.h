@@ -5,7 +5,7 @@
 
 #include "core/warn.h"
 #include "display/display.h"
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "gl/gl.h"
 #include "options/settings.h"
 

@@ -17,7 +17,7 @@
 #include "core/arena.h"
 #include "core/hash.h"
 #include "display/display.h"
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "gpus/cost.h"
 #include "gpus/scenes.h"
 

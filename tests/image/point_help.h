@@ -4,7 +4,7 @@
 #define GN_IMAGE_POINT_HELP_H
 
 #include "display/display.h"
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "gl/gl.h"
 #include "unit/gltf_maker.h"
 

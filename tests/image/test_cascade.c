@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "image/shot.h"
 #include "image/truth.h"
 #include "plan/field_scene.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "plan/stage_scene.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"

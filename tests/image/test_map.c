@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "image/raycast.h"
 #include "plan/stage_scene.h"
 #include "unit/check.h"

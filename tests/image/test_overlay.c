@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "plan/field_scene.h"
 #include "plan/stage_scene.h"
 #include "shadow/grey.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "image/shot.h"
 #include "image/truth.h"
 #include "plan/stage_scene.h"

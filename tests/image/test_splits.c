@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "image/penumbra.h"
 #include "image/picture.h"
 #include "shadow/cascade.h"

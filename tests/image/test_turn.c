@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "plan/stage_scene.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"

@@ -14,7 +14,7 @@
 
 #include "core/clock.h"
 #include "display/display.h"
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "gl/gl.h"
 #include "image/compare.h"
 #include "image/shot.h"

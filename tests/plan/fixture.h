@@ -2,7 +2,7 @@
 #ifndef GN_TESTS_PLAN_FIXTURE_H
 #define GN_TESTS_PLAN_FIXTURE_H
 
-#include "frame/plan.h"
+#include "frame/frame.h"
 
 #define GN_EVERY_CAP ((1u << GN_CAP_COUNT) - 1)
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "blocks.glsl"
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "plan/field_scene.h"
 #include "plan/fixture.h"
 #include "unit/check.h"

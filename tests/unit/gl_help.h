@@ -3,7 +3,7 @@
 #define GN_TESTS_GL_HELP_H
 
 #include "display/display.h"
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "gl/gl.h"
 
 /* Opens the display, or skips the test where there is none. */

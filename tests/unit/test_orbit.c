@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "frame/plan.h"
+#include "frame/frame.h"
 #include "gltf_maker.h"
 
 enum { NEAR_CAMERA, FLAT_CAMERA, TOP_CAMERA };

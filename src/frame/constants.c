@@ -1,0 +1,112 @@
+/* The constants that shaders read of lights and their shadows (shaders_es/blocks.glsl). */
+#include <math.h>
+#include <string.h>
+
+#include "blocks.glsl"
+#include "frame/private.h"
+#include "shadow/cascade.h"
+
+_Static_assert(GN_PASS_SIZE == PASS_SIZE, "room for the constants of a pass");
+_Static_assert(PASS_LIGHTS + GN_LIGHTS_MAX * LIGHT_SIZE <= PASS_CONES, "lights");
+_Static_assert(PASS_SHADOWS + GN_SHADOWS_MAX * SHADOW_SIZE == PASS_SLIDES, "shadows");
+_Static_assert(PASS_SLIDES + GN_SLIDES_MAX * SLIDE_SIZE == PASS_CASCADES, "slides");
+_Static_assert(PASS_CASCADES + GN_SHADOWS_MAX * CASCADES_SIZE == PASS_SIZE, "cascades");
+
+_Static_assert(CASCADES_ZONES == GN_CASCADES_MAX && CASCADES_SIZE == CASCADES_ZONES + 2,
+               "one vec4 each, and two of them all");
+
+#define NOWHERE 1e9f /* texels from a tile: there is light */
+
+static void put3(float to[4], const float *v) { memcpy(to, v, sizeof(vec3)); }
+
+static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
+    const struct gn_shadow_lookup *lookup = &view->lookup;
+    const bool cascades = view->map.cascade_count > 0;
+    c[SHADOW_CODE][CODE_FAR_END] = view->code.far_end;
+    if (view->encoding == GN_ENCODING_STENCIL) return; /* where it is not marked, all arrives */
+    memcpy(c[SHADOW_MAP], lookup->map_from_world, sizeof lookup->map_from_world);
+    if (view->map.tile_count > 1 && !cascades) {
+        memcpy(c[SHADOW_TILES], lookup->tangent_uv, sizeof lookup->tangent_uv);
+        memcpy(&c[SHADOW_TILES][2], lookup->depth_code, sizeof lookup->depth_code);
+    }
+    const float texel = cascades ? 1.0f : lookup->texel;
+    c[SHADOW_BIAS][BIAS_NORMAL] = lookup->normal_offset * texel;
+    c[SHADOW_BIAS][BIAS_SLOPE] = lookup->slope_offset * texel;
+    c[SHADOW_BIAS][BIAS_SLOPE_MAX] = lookup->slope_max;
+    c[SHADOW_BIAS][BIAS_ULP] = view->code.ulp_m;
+    put3(c[SHADOW_PLACE], view->light_ws);
+    c[SHADOW_PLACE][PLACE_CODE_SCALE] = view->code.scale;
+    const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};
+    for (int k = 0; k < 2; k++) {
+        c[SHADOW_MAP_SIZE][k] = size[k];
+        c[SHADOW_MAP_SIZE][k + 2] = 1.0f / size[k];
+    }
+    c[SHADOW_CODE][CODE_OFFSET] = view->code.offset;
+    c[SHADOW_CODE][CODE_REACH] = lookup->reach_px;
+    if (cascades)
+        c[SHADOW_CODE][CODE_HELD] = lookup->held_px;
+    else
+        c[SHADOW_CODE][CODE_SHARED] = lookup->shared;
+    const struct gn_shadow_penumbra *penumbra = &view->penumbra;
+    c[SHADOW_PENUMBRA][PENUMBRA_RADIUS] = penumbra->radius;
+    if (cascades)
+        c[SHADOW_PENUMBRA][PENUMBRA_GROWTH] = penumbra->growth;
+    else
+        c[SHADOW_PENUMBRA][PENUMBRA_NEAREST] = penumbra->nearest;
+    c[SHADOW_PENUMBRA][PENUMBRA_SCALE] = penumbra->scale;
+    c[SHADOW_PENUMBRA][PENUMBRA_BIAS] = penumbra->bias;
+}
+
+static void cascade_constants(const struct gn_shadow_view *view, float (*constants)[4]) {
+    const double middle = 0.5 * (double)view->map.inner_px;
+    if (view->map.cascade_count == 0) return;
+    for (uint32_t i = 0; i < GN_CASCADES_MAX; i++) {
+        const struct gn_shadow_cascade *cascade = &view->cascades[i];
+        const bool empty =
+            i >= view->map.cascade_count || view->empty || view->raster.tiles[i].empty;
+        float *c = constants[i];
+        for (int k = 0; k < 2; k++)
+            c[k] = empty ? NOWHERE : (float)(-cascade->drawn.corner_texels[k] - middle);
+        c[CASCADE_TEXEL] = empty ? 1.0f : cascade->texel;
+        c[CASCADE_NEAREST] = empty ? 0.0f : cascade->nearest;
+        constants[CASCADES_SPANS][i] = empty ? 1.0f : cascade->span;
+        if (i + 1 < GN_CASCADES_MAX)
+            constants[CASCADES_ZONES][i] = view->empty || i + 1 >= view->map.cascade_count
+                                               ? 0.0f
+                                               : 1.0f / (GN_CASCADE_FADE * cascade->end_m);
+    }
+}
+
+void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
+                              const struct gn_light_group *group, float (*constants)[4]) {
+    for (uint32_t i = 0; i < group->count; i++) {
+        const struct gn_frame_light *chosen = &frame->lights[group->first + i];
+        const struct gn_light *light = &frame->scene->lights[chosen->light];
+        float(*c)[4] = constants + PASS_LIGHTS + i * LIGHT_SIZE;
+        vec3 place, direction;
+        gn_pose_light(pose, chosen->light, place, direction);
+        for (int k = 0; k < 3; k++) {
+            c[LIGHT_COLOR][k] = light->color[k] * frame->plan.exposure / GLM_PIf;
+            c[LIGHT_PLACE][k] = light->type == GN_LIGHT_DIRECTIONAL ? -direction[k] : place[k];
+        }
+        c[LIGHT_COLOR][3] = chosen->strength;
+        c[LIGHT_PLACE][3] = light->range_m > 0.0f ? 1.0f / light->range_m : 0.0f;
+        put3(c[LIGHT_AXIS], direction);
+        float outer = cosf(light->outer_rad), inner = cosf(light->inner_rad);
+        c[LIGHT_AXIS][3] = outer;
+        constants[PASS_CONES + i / 4][i % 4] = 1.0f / fmaxf(inner - outer, 1e-4f);
+        if (i >= group->shadow_count) continue;
+        const struct gn_shadow_view *view = &frame->shadows[group->first_shadow + i];
+        shadow_slot(view, constants + PASS_SHADOWS + i * SHADOW_SIZE);
+        cascade_constants(view, constants + PASS_CASCADES + i * CASCADES_SIZE);
+    }
+}
+
+void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from_world,
+                               float (*constants)[4]) {
+    memcpy(constants[PASS_CLIP], clip_from_world, sizeof(mat4));
+    put3(constants[PASS_CODE], view->light_ws);
+    constants[PASS_CODE][3] =
+        view->perspective ? view->code.scale : view->code.scale * view->code.far_m;
+    constants[PASS_CODE_ADD][0] = view->code.offset;
+}

@@ -1,0 +1,194 @@
+/* The draws of a pass. Items are sorted by batch, so a run of them becomes one instanced call (two
+ * when some are mirrored), roughly nearest first. */
+#include <math.h>
+#include <string.h>
+
+#include "frame/private.h"
+
+static void add_instance(struct gn_frame *frame, const struct gn_pose *pose, uint32_t index) {
+    const struct gn_item *item = &frame->scene->items[index];
+    const struct gn_material *m = &frame->scene->materials[item->material];
+    struct gn_instance *instance = &GN_LIST_PUSH(&frame->instances);
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 4; c++)
+            instance->world[r][c] = pose->items[index].world_from_item[c][r];
+    memcpy(instance->base_color, m->base_color, sizeof instance->base_color);
+    instance->surface[0] = m->roughness;
+    instance->surface[1] = m->metalness;
+    instance->surface[2] = m->occlusion_strength;
+    instance->surface[3] = m->alpha_cutoff;
+    memcpy(instance->emissive, m->emissive, sizeof m->emissive);
+    instance->emissive[3] = gn_shadow_item_casts(frame->scene, index) ? 1.0f : 0.0f;
+}
+
+static bool light_is_outside(const struct gn_box *box, const struct gn_shadow_view *view) {
+    if (!view->perspective) return true;
+    for (int k = 0; k < 3; k++)
+        if (view->light_ws[k] < box->min[k] || view->light_ws[k] > box->max[k]) return true;
+    return false;
+}
+
+/* Casting from both sides, a solid body needs only the faces that look to a light outside it;
+ * `auto` gives it the others (second depth: Wang, Molnar 1994), and what is open both. */
+static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_pose *pose,
+                                uint32_t index, const struct gn_shadow_view *view) {
+    const struct gn_item *item = &scene->items[index];
+    if (item->cast_faces == GN_CAST_FRONT) return GN_CULL_BACK;
+    if (item->cast_faces == GN_CAST_BACK) return GN_CULL_FRONT;
+    bool solid = scene->geometries[item->geometry].closed &&
+                 scene->materials[item->material].alpha != GN_ALPHA_MASK;
+    if (!solid || !light_is_outside(&pose->items[index].box_ws, view)) return GN_CULL_NONE;
+    return item->cast_faces == GN_CAST_AUTO ? GN_CULL_FRONT : GN_CULL_BACK;
+}
+
+static enum gn_cull eye_cull(const struct gn_frame *frame, const struct gn_item *item) {
+    return frame->scene->materials[item->material].double_sided ? GN_CULL_NONE : GN_CULL_BACK;
+}
+
+static void begin_draw(struct gn_frame *frame, uint32_t item, const struct gn_program_key *key,
+                       enum gn_cull cull, bool mirrored) {
+    uint32_t program = gn_frame_program(frame, key);
+    GN_LIST_PUSH(&frame->draws) = (struct gn_draw){
+        .program = program,
+        .geometry = frame->scene->items[item].geometry,
+        .material = frame->scene->items[item].material,
+        .first_instance = frame->instances.count,
+        .cull = (uint8_t)cull,
+        .mirrored = mirrored,
+    };
+}
+
+static bool is_blended(const struct gn_frame *frame, uint32_t item) {
+    return frame->scene->materials[frame->scene->items[item].material].alpha == GN_ALPHA_BLEND;
+}
+
+/* How far behind the near plane a box lies: its middle, or its far side. */
+static float depth_of(const struct gn_frame *frame, const struct gn_box *box, bool far_side) {
+    const float *near_plane = frame->eye.planes[4];
+    float depth = near_plane[3];
+    for (int k = 0; k < 3; k++) {
+        depth += near_plane[k] * 0.5f * (box->min[k] + box->max[k]);
+        if (far_side) depth += fabsf(near_plane[k]) * 0.5f * (box->max[k] - box->min[k]);
+    }
+    return depth;
+}
+
+/* Of what the eye sees, opaque: what the lights that are added reach. */
+static bool takes_light(const struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_light_group *group, uint32_t item) {
+    const struct gn_material *m = &frame->scene->materials[frame->scene->items[item].material];
+    const struct gn_pose_item *posed = &pose->items[item];
+    return posed->visible && !m->unlit && m->alpha != GN_ALPHA_BLEND &&
+           gn_eye_sees(&frame->eye, &posed->box_ws) && gn_group_touches(group, &posed->box_ws);
+}
+
+static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_selection *s,
+                  uint32_t item) {
+    if (s->casts) return s->casts[item] >> s->page & 1;
+    if (s->part && gn_key_on_plane(frame, item, s->opts) != (s->part == GN_PART_PLANE))
+        return false;
+    if (s->group) return takes_light(frame, pose, s->group, item);
+    const struct gn_box *box = &pose->items[item].box_ws;
+    if (!pose->items[item].visible || !(s->opts->all_seen || gn_eye_sees(&frame->eye, box))) {
+        frame->plan.culled++;
+        return false;
+    }
+    if (!is_blended(frame, item)) return true;
+    if (s->opts->aov == GN_AOV_COLOR)
+        GN_LIST_PUSH(&frame->blended) = (struct gn_placed){depth_of(frame, box, false), item};
+    return false;
+}
+
+static struct gn_program_key key_of(const struct gn_frame *frame, const struct gn_selection *s,
+                                    uint32_t item) {
+    if (s->casts) return gn_key_caster(frame, item, s->view);
+    struct gn_program_key lit = gn_key_lit(frame, item, s->opts);
+    return s->group ? gn_key_additive(frame, &lit, s->group, s->opts) : lit;
+}
+
+void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_selection *s, uint32_t item, bool *open) {
+    bool mirrored = pose->items[item].mirrored != s->mirrored;
+    enum gn_cull cull = s->casts ? caster_cull(frame->scene, pose, item, s->view)
+                                 : eye_cull(frame, &frame->scene->items[item]);
+    if (*open) { /* one more of the last? */
+        const struct gn_draw *last = &frame->draws.at[frame->draws.count - 1];
+        *open = last->mirrored == mirrored && last->cull == cull;
+    }
+    if (!*open) {
+        struct gn_program_key key = key_of(frame, s, item);
+        begin_draw(frame, item, &key, cull, mirrored);
+        *open = true;
+    }
+    add_instance(frame, pose, item);
+    struct gn_draw *draw = &frame->draws.at[frame->draws.count - 1];
+    float depth_m = s->casts ? 0.0f : depth_of(frame, &pose->items[item].box_ws, true);
+    draw->depth_m += (depth_m - draw->depth_m) / (float)++draw->instance_count;
+}
+
+enum { DEPTH_STEPS = 64 };
+
+/* Which of 2 x DEPTH_STEPS bins an item of a run falls in: by depth, mirrored ones after all
+ * others. */
+static uint32_t bin_of(const struct gn_pose *pose, const struct gn_placed *placed, float least,
+                       float most) {
+    float share = most > least ? (placed->depth - least) / (most - least) : 0.0f;
+    return (uint32_t)((DEPTH_STEPS - 1) * share) +
+           (pose->items[placed->item].mirrored ? DEPTH_STEPS : 0);
+}
+
+/* Draws the gathered run of items of one batch roughly nearest first (a counting sort, so that
+ * thousands cost little). */
+static void draw_run(struct gn_frame *frame, const struct gn_pose *pose,
+                     const struct gn_selection *s) {
+    uint32_t count = frame->run.count, start[2 * DEPTH_STEPS + 1] = {0};
+    float least = INFINITY, most = -INFINITY;
+    frame->sorted.count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        least = fminf(least, frame->run.at[i].depth);
+        most = fmaxf(most, frame->run.at[i].depth);
+        GN_LIST_PUSH(&frame->sorted) = frame->run.at[i];
+    }
+    for (uint32_t i = 0; i < count; i++) start[bin_of(pose, &frame->run.at[i], least, most) + 1]++;
+    for (int k = 0; k < 2 * DEPTH_STEPS; k++) start[k + 1] += start[k];
+    for (uint32_t i = 0; i < count; i++)
+        frame->sorted.at[start[bin_of(pose, &frame->run.at[i], least, most)]++] = frame->run.at[i];
+    bool open = false;
+    for (uint32_t i = 0; i < count; i++)
+        gn_frame_draw_item(frame, pose, s, frame->sorted.at[i].item, &open);
+    frame->run.count = 0;
+}
+
+void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct gn_selection *s) {
+    uint32_t batch = UINT32_MAX;
+    frame->run.count = 0;
+    for (uint32_t i = 0; i < frame->scene->item_count; i++) {
+        if (!takes(frame, pose, s, i)) continue;
+        if (frame->scene->items[i].batch != batch) draw_run(frame, pose, s);
+        batch = frame->scene->items[i].batch;
+        float depth = s->casts ? 0.0f : depth_of(frame, &pose->items[i].box_ws, false);
+        GN_LIST_PUSH(&frame->run) = (struct gn_placed){depth, i};
+    }
+    draw_run(frame, pose, s);
+}
+
+/* Opaque before masked (a discard costs early depth), then nearest first, by the far side: a ground
+ * goes last. */
+static float draw_order(const struct gn_frame *frame, const struct gn_draw *draw) {
+    bool masked = frame->programs.at[draw->program].features & GN_FEATURE(ALPHA_MASK);
+    return draw->depth_m + (masked ? 1e9f : 0.0f);
+}
+
+/* Few draws, nearly sorted from frame to frame: insertion. */
+void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first) {
+    struct gn_draw *draws = frame->draws.at;
+    for (uint32_t i = first + 1; i < frame->draws.count; i++) {
+        struct gn_draw draw = draws[i];
+        float order = draw_order(frame, &draw);
+        uint32_t at = i;
+        for (; at > first && draw_order(frame, &draws[at - 1]) > order; at--)
+            draws[at] = draws[at - 1];
+        draws[at] = draw;
+    }
+}

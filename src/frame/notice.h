@@ -1,0 +1,29 @@
+/* Warnings that are given once, and again when options change. */
+#ifndef GN_FRAME_NOTICE_H
+#define GN_FRAME_NOTICE_H
+
+#include "frame/plan.h"
+
+/* What a warning is about. */
+enum gn_notice {
+    GN_NOTICE_TECHNIQUE,
+    GN_NOTICE_PLANE,
+    GN_NOTICE_MOMENTS,
+    GN_NOTICE_ENCODING,
+    GN_NOTICE_MAPS,
+    GN_NOTICE_LIGHTS,
+    GN_NOTICE_SLIDES,
+    GN_NOTICE_FLOAT,
+    GN_NOTICE_MSAA,
+    GN_NOTICE_BLENDED,
+    GN_NOTICE_MAP_PX,
+};
+enum { GN_NOTICE_ABOUT = 10 }; /* options that a warning may be about */
+
+struct gn_frame;
+/* First of all in a build. */
+void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts);
+/* Whether this is to be said now: it was not yet, and somebody listens. Then it has been. */
+bool gn_frame_notice(uint32_t *said, enum gn_notice notice, const struct gn_warnings *warnings);
+
+#endif
