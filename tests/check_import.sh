@@ -1,6 +1,6 @@
 #!/bin/sh
-# Models of other formats as a user meets them: gnomon-import by hand and by gnomon, its limits, its
-# death; and every such file of GNOMON_SHARED (../shared) is shown, or refused by one line.
+# Models of other formats: gnomon-import run by hand and by gnomon, its limits, its crashes; and every
+# such file of GNOMON_SHARED (../shared) is either shown or refused with one line.
 set -u
 gnomon=${GNOMON:-build/release/gnomon}
 import=$(dirname "$gnomon")/gnomon-import
@@ -39,19 +39,19 @@ grep -q -- '--memory' "$folder/out" || complain 'the help'
 for option in --version --help; do
     expect 1 'standard output: cannot write: No space left' sh -c '"$0" "$1" > /dev/full' "$import" $option
 done
-expect 2 'which model?' "$import"
-expect 2 'a.3ds: not a name that ends in' "$import" a.3ds
+expect 2 'missing MODEL' "$import"
+expect 2 'a.3ds: unknown file extension' "$import" a.3ds
 expect 2 '--up: "x"' "$import" --up x a.obj
 expect 2 '--time: "0"' "$import" --time 0 a.obj
 expect 2 '--nonsense: unknown option' "$import" --nonsense a.obj
 expect 2 '-x: unknown option' "$import" -xy a.obj
-expect 2 '--up: unknown option, or one without its value' "$import" a.obj --up
+expect 2 '--up: unknown option or missing value' "$import" a.obj --up
 
 mkdir "$folder/m"
 model=$folder/m/a.obj
 printf 'v 0 0 0\nv 1 0 0\nv 1 2 0\nf 1 2 3\n' > "$model"
 expect 0 '' "$import" "$model"
-expect 1 'a.glb is there already; -o' "$import" "$model"
+expect 1 'a.glb exists; use -o' "$import" "$model"
 expect 0 '' "$import" "$model" -o "$folder/b.glb"
 cmp -s "$folder/m/a.glb" "$folder/b.glb" || complain 'the same model gives other bytes'
 expect 1 'cannot write' "$import" "$model" -o "$folder/none/b.glb"
@@ -67,7 +67,7 @@ expect 0 '' "$import" --up z "$model" -o "$folder/b.glb"
 
 awk 'BEGIN { n = 150000; print "v 0 0 0"; for (i = 0; i < n; i++) printf "v %d 1 0\n", i
              for (i = 2; i < n; i++) printf "f 1 %d %d\n", i, i + 1 }' > "$folder/m/fan.obj"
-expect 1 'fan.obj: not read within 1 s; gnomon-import --time' "$import" --time 1 "$folder/m/fan.obj" -o "$folder/f.glb"
+expect 1 'fan.obj: not read within 1 s; raise the limit with gnomon-import --time' "$import" --time 1 "$folder/m/fan.obj" -o "$folder/f.glb"
 expect 1 'fan.obj: needs more than 80 MB of memory' "$import" --memory 80 "$folder/m/fan.obj" -o "$folder/f.glb"
 expect 1 'needs more than 80 MB of memory' "$gnomon" inspect --limit memory_mb=40 "$folder/m/fan.obj"
 expect 0 '' "$gnomon" inspect --limit file_mb=1048576 --limit memory_mb=1048576 "$model"

@@ -1,6 +1,5 @@
-/* The model's folder, and nothing else. A model names its materials and pictures by paths of the
- * machine on which it was made: what leads out of the folder is looked for in it by its last part,
- * and is else not there. */
+/* File access confined to the model's folder. Models name materials and textures by paths of the
+ * machine that exported them: a path that leads out of the folder is retried by its base name. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -18,13 +17,15 @@ bool gn_import_folder_open(struct gn_import *import) {
     if (strcmp(import->folder, "/") == 0) import->folder[0] = 0;
     all = snprintf(import->name, sizeof import->name, "%s/%s", import->folder,
                    slash ? slash + 1 : path);
-    return all < (int)sizeof import->name || gn_fail(import->err, "%s: the path is too long", path);
+    return all < (int)sizeof import->name || gn_fail(import->err, "%s: path too long", path);
 }
 
-static size_t limit(const struct gn_import *import) { return (size_t)import->opts->file_mb << 20; }
+static size_t file_limit(const struct gn_import *import) {
+    return (size_t)import->opts->file_mb << 20;
+}
 
-/* The real path, or NULL where it is not in the folder. */
-static char *confine(const struct gn_import *import, const char *relative) {
+/* Returns the real path, or NULL if it is outside the folder. */
+static char *resolve_path(const struct gn_import *import, const char *relative) {
     char path[2 * PATH_MAX];
     size_t length = strlen(import->folder);
     int all = snprintf(path, sizeof path, "%s/%s", import->folder, relative);
@@ -35,14 +36,14 @@ static char *confine(const struct gn_import *import, const char *relative) {
 }
 
 static bool read_in(const struct gn_import *import, const char *relative, struct gn_bytes *bytes) {
-    char *real = confine(import, relative);
-    bool ok = real && gn_file_read(real, limit(import), bytes, NULL);
+    char *real = resolve_path(import, relative);
+    bool ok = real && gn_file_read(real, file_limit(import), bytes, NULL);
     free(real);
     return ok;
 }
 
-/* What follows the folder, if the name begins with it; "./" and "file://" are skipped. */
-static const char *strip(const struct gn_import *import, const char *name) {
+/* The name relative to the folder where it begins with it, without "./" and "file://". */
+static const char *relative_name(const struct gn_import *import, const char *name) {
     size_t length = strlen(import->folder);
     if (strncmp(name, "file://", 7) == 0) name += 7;
     if (strncmp(name, import->folder, length) == 0 && name[length] == '/') name += length + 1;
@@ -57,12 +58,12 @@ bool gn_import_folder_read(const struct gn_import *import, const char *name,
     if (!*name || snprintf(plain, sizeof plain, "%s", name) >= (int)sizeof plain) return false;
     for (char *c = plain; *c; c++)
         if (*c == '\\') *c = '/';
-    const char *relative = strip(import, plain), *slash = strrchr(relative, '/');
+    const char *relative = relative_name(import, plain), *slash = strrchr(relative, '/');
     if (*relative != '/' && read_in(import, relative, bytes)) return true;
     return slash && slash[1] && read_in(import, slash + 1, bytes);
 }
 
-/* ---- as assimp wants it: a file is read when it is opened ---- */
+/* ---- aiFileIO: the whole file is read when it is opened ---- */
 
 struct opened {
     struct aiFile file;
@@ -88,11 +89,11 @@ static size_t write_none(struct aiFile *file, const char *from, size_t size, siz
     return 0;
 }
 
-static size_t tell(struct aiFile *file) { return opened_of(file)->at; }
+static size_t tell_file(struct aiFile *file) { return opened_of(file)->at; }
 
 static size_t size_of(struct aiFile *file) { return opened_of(file)->bytes.size; }
 
-static enum aiReturn seek(struct aiFile *file, size_t offset, enum aiOrigin origin) {
+static enum aiReturn seek_file(struct aiFile *file, size_t offset, enum aiOrigin origin) {
     struct opened *o = opened_of(file);
     size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? o->at : o->bytes.size;
     size_t at = from + offset; /* a negative offset wraps round */
@@ -101,7 +102,7 @@ static enum aiReturn seek(struct aiFile *file, size_t offset, enum aiOrigin orig
     return aiReturn_SUCCESS;
 }
 
-static void flush(struct aiFile *file) { (void)file; }
+static void flush_file(struct aiFile *file) { (void)file; }
 
 static bool is_material_file(const char *name) {
     size_t length = strlen(name);
@@ -110,16 +111,19 @@ static bool is_material_file(const char *name) {
 
 static bool read_any(struct gn_import *import, const char *name, struct gn_bytes *bytes) {
     if (strcmp(name, import->name) == 0)
-        return gn_file_read(import->opts->model, limit(import), bytes, NULL);
+        return gn_file_read(import->opts->model, file_limit(import), bytes, NULL);
     if (gn_import_folder_read(import, name, bytes)) return true;
-    if (is_material_file(name) && !import->warned_materials) /* others are guesses of assimp's */
-        gn_warn(import->warnings, "%s: the materials %.100s are not in its folder; shown without",
-                import->opts->model, strip(import, name));
+    if (is_material_file(name) &&
+        !import
+             ->warned_materials) /* assimp guesses names of other files, so no warning for those */
+        gn_warn(import->warnings,
+                "%s: material file %.100s not found in the model's folder; shown without it",
+                import->opts->model, relative_name(import, name));
     import->warned_materials |= is_material_file(name);
     return false;
 }
 
-static struct aiFile *open_one(struct aiFileIO *io, const char *name, const char *mode) {
+static struct aiFile *open_file(struct aiFileIO *io, const char *name, const char *mode) {
     struct gn_bytes bytes;
     if (*mode != 'r' || !read_any((struct gn_import *)(void *)io->UserData, name, &bytes))
         return NULL;
@@ -127,15 +131,15 @@ static struct aiFile *open_one(struct aiFileIO *io, const char *name, const char
     *o = (struct opened){.bytes = bytes};
     o->file = (struct aiFile){.ReadProc = read_some,
                               .WriteProc = write_none,
-                              .TellProc = tell,
+                              .TellProc = tell_file,
                               .FileSizeProc = size_of,
-                              .SeekProc = seek,
-                              .FlushProc = flush,
+                              .SeekProc = seek_file,
+                              .FlushProc = flush_file,
                               .UserData = (char *)o};
     return &o->file;
 }
 
-static void close_one(struct aiFileIO *io, struct aiFile *file) {
+static void close_file(struct aiFileIO *io, struct aiFile *file) {
     (void)io;
     struct opened *o = opened_of(file);
     gn_bytes_finish(&o->bytes);
@@ -144,5 +148,5 @@ static void close_one(struct aiFileIO *io, struct aiFile *file) {
 
 struct aiFileIO gn_import_folder_io(struct gn_import *import) {
     return (struct aiFileIO){
-        .OpenProc = open_one, .CloseProc = close_one, .UserData = (char *)import};
+        .OpenProc = open_file, .CloseProc = close_file, .UserData = (char *)import};
 }

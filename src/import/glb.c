@@ -110,7 +110,7 @@ json_t *gn_glb_extension(struct gn_glb *glb, const char *name) {
     return object;
 }
 
-static bool put(int fd, const void *data, size_t size) {
+static bool write_bytes(int fd, const void *data, size_t size) {
     const uint8_t *at = data;
     while (size > 0) {
         ssize_t wrote = write(fd, at, size);
@@ -122,27 +122,29 @@ static bool put(int fd, const void *data, size_t size) {
     return true;
 }
 
-static size_t padded(size_t size) { return (size + 3) & ~(size_t)3; }
+static size_t padded_size(size_t size) { return (size + 3) & ~(size_t)3; }
 
-static bool put_chunk(int fd, const char type[4], const void *data, size_t size, char pad) {
-    uint32_t head[2] = {(uint32_t)padded(size)};
+static bool write_chunk(int fd, const char type[4], const void *data, size_t size, char pad) {
+    uint32_t head[2] = {(uint32_t)padded_size(size)};
     char pads[3] = {pad, pad, pad};
     memcpy(&head[1], type, 4);
-    return put(fd, head, sizeof head) && put(fd, data, size) && put(fd, pads, padded(size) - size);
+    return write_bytes(fd, head, sizeof head) && write_bytes(fd, data, size) &&
+           write_bytes(fd, pads, padded_size(size) - size);
 }
 
 static bool write_all(const struct gn_glb *glb, const char *text, int fd, struct gn_err *err) {
     enum { HEADER = 12, CHUNK = 8 };
-    size_t length = strlen(text), bin = glb->size ? CHUNK + padded(glb->size) : 0;
-    size_t total = HEADER + CHUNK + padded(length) + bin;
-    if (total > UINT32_MAX) return gn_fail(err, "is too large for a .glb (4 GB)");
+    size_t length = strlen(text), bin = glb->size ? CHUNK + padded_size(glb->size) : 0;
+    size_t total = HEADER + CHUNK + padded_size(length) + bin;
+    if (total > UINT32_MAX) return gn_fail(err, "too large for a .glb (4 GB)");
     uint32_t head[3] = {0x46546c67, 2, (uint32_t)total}; /* "glTF" */
-    if (put(fd, head, sizeof head) && put_chunk(fd, "JSON", text, length, ' ') &&
-        (!bin || put_chunk(fd, "BIN", glb->bin, glb->size, 0)))
+    if (write_bytes(fd, head, sizeof head) && write_chunk(fd, "JSON", text, length, ' ') &&
+        (!bin || write_chunk(fd, "BIN", glb->bin, glb->size, 0)))
         return true;
     if (errno == EFBIG)
-        return gn_fail(err, "its .glb is larger than allowed; gnomon-import --file MB allows more");
-    return gn_fail(err, "its .glb cannot be kept: %s", strerror(errno));
+        return gn_fail(
+            err, "its .glb exceeds the file size limit; raise it with gnomon-import --file MB");
+    return gn_fail(err, "cannot write its .glb: %s", strerror(errno));
 }
 
 bool gn_glb_write(struct gn_glb *glb, int fd, struct gn_err *err) {

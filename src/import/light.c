@@ -1,5 +1,5 @@
-/* Lights and cameras. They stand in the file's root, where they are in the world: their nodes'
- * scale and axes differ from program to program, and nothing moves. */
+/* Lights and cameras, added at the root in world space: scale and axes of their nodes differ
+ * between exporters, and nothing is animated. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@ static const struct gn_import_node *find_node(const struct gn_import *import, co
     return NULL;
 }
 
-static struct aiVector3D turn(const struct aiMatrix4x4 *m, struct aiVector3D v) {
+static struct aiVector3D transform_direction(const struct aiMatrix4x4 *m, struct aiVector3D v) {
     return (struct aiVector3D){m->a1 * v.x + m->a2 * v.y + m->a3 * v.z,
                                m->b1 * v.x + m->b2 * v.y + m->b3 * v.z,
                                m->c1 * v.x + m->c2 * v.y + m->c3 * v.z};
@@ -21,28 +21,29 @@ static struct aiVector3D turn(const struct aiMatrix4x4 *m, struct aiVector3D v) 
 
 static float length_of(struct aiVector3D v) { return sqrtf(v.x * v.x + v.y * v.y + v.z * v.z); }
 
-static bool normalise(struct aiVector3D *v) {
+static bool normalise_vector(struct aiVector3D *v) {
     float length = length_of(*v);
     if (!isfinite(length) || length < 1e-12f) return false;
     *v = (struct aiVector3D){v->x / length, v->y / length, v->z / length};
     return true;
 }
 
-static struct aiVector3D cross(struct aiVector3D a, struct aiVector3D b) {
+static struct aiVector3D cross_product(struct aiVector3D a, struct aiVector3D b) {
     return (struct aiVector3D){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/* What stands at a place of its node and looks along a direction of it, with a scale of 1. */
-static struct aiMatrix4x4 place(const struct gn_import_node *at, struct aiVector3D position,
-                                struct aiVector3D along, struct aiVector3D up) {
+/* The node's world matrix for a local position and direction, with a scale of 1. */
+static struct aiMatrix4x4 place_matrix(const struct gn_import_node *at, struct aiVector3D position,
+                                       struct aiVector3D along, struct aiVector3D up) {
     const struct aiMatrix4x4 *m = &at->world_from_node;
-    struct aiVector3D p = turn(m, position), z = turn(m, along), y = turn(m, up), x;
-    if (!normalise(&z)) z = (struct aiVector3D){0.0f, -1.0f, 0.0f};
+    struct aiVector3D p = transform_direction(m, position), z = transform_direction(m, along),
+                      y = transform_direction(m, up), x;
+    if (!normalise_vector(&z)) z = (struct aiVector3D){0.0f, -1.0f, 0.0f};
     z = (struct aiVector3D){-z.x, -z.y, -z.z};
-    x = cross(y, z);
-    if (!normalise(&x)) x = cross((struct aiVector3D){0.0f, 1.0f, 0.0f}, z);
-    if (!normalise(&x)) x = (struct aiVector3D){1.0f, 0.0f, 0.0f};
-    y = cross(z, x);
+    x = cross_product(y, z);
+    if (!normalise_vector(&x)) x = cross_product((struct aiVector3D){0.0f, 1.0f, 0.0f}, z);
+    if (!normalise_vector(&x)) x = (struct aiVector3D){1.0f, 0.0f, 0.0f};
+    y = cross_product(z, x);
     return (struct aiMatrix4x4){x.x, y.x, z.x, p.x + m->a4, x.y,  y.y,  z.y,  p.y + m->b4,
                                 x.z, y.z, z.z, p.z + m->c4, 0.0f, 0.0f, 0.0f, 1.0f};
 }
@@ -67,15 +68,16 @@ static float distance_to_centre(const struct gn_import *import, const struct aiM
     return isfinite(distance) && distance > 1e-3f ? distance : 1e-3f;
 }
 
-/* How many metres one unit of the light's node is. */
+/* Metres per unit of the light's node. */
 static float unit_of(const struct gn_import_node *at) {
-    float unit = length_of(turn(&at->world_from_node, (struct aiVector3D){1.0f, 0.0f, 0.0f}));
+    float unit =
+        length_of(transform_direction(&at->world_from_node, (struct aiVector3D){1.0f, 0.0f, 0.0f}));
     return isfinite(unit) && unit > 0.0f ? unit : 1.0f;
 }
 
-/* Lux or candela per unit of colour. Elsewhere a light of 1 shows white paper as white: pi lux. The
- * other falloffs become inverse-square such that it is as bright at the scene's centre as the file
- * says. */
+/* Lux or candela per unit of colour. In other programs a light of intensity 1 shows white paper as
+ * white: pi lux. Other falloffs become inverse-square with the file's intensity at the scene's
+ * centre. */
 static float strength_of(const struct gn_import *import, const struct aiLight *light,
                          const struct gn_import_node *at, const struct aiMatrix4x4 *placed) {
     if (light->mType == aiLightSource_DIRECTIONAL) return PI;
@@ -86,8 +88,8 @@ static float strength_of(const struct gn_import *import, const struct aiLight *l
     return PI * distance_m * distance_m / divisor;
 }
 
-/* assimp gives the whole angles of a cone; for Collada, which has but one, it makes the outer up.
- */
+/* assimp gives full cone angles; for Collada, which has one angle only, it invents the outer one.
+ * */
 static void set_cone(const struct gn_import *import, json_t *object, const struct aiLight *light) {
     float outer = 0.5f * light->mAngleOuterCone, inner = 0.5f * light->mAngleInnerCone;
     if (import->format == GN_MODEL_DAE || !(outer > 0.01f)) outer = inner;
@@ -105,7 +107,7 @@ static const char *type_of(const struct aiLight *light) {
     case aiLightSource_POINT:
     case aiLightSource_AREA: return "point";
     case aiLightSource_SPOT: return "spot";
-    default: return NULL; /* an ambient one is no light here */
+    default: return NULL; /* ambient lights are ignored */
     }
 }
 
@@ -115,7 +117,7 @@ static void add_light(struct gn_import *import, const struct aiLight *light) {
     float rgb[3] = {light->mColorDiffuse.r, light->mColorDiffuse.g, light->mColorDiffuse.b};
     float most = fmaxf(fmaxf(rgb[0], rgb[1]), rgb[2]);
     if (!at || !type || !isfinite(rgb[0] + rgb[1] + rgb[2]) || most <= 0.0f) return;
-    struct aiMatrix4x4 placed = place(at, light->mPosition, light->mDirection, light->mUp);
+    struct aiMatrix4x4 placed = place_matrix(at, light->mPosition, light->mDirection, light->mUp);
     float strength = most * strength_of(import, light, at, &placed);
     if (!isfinite(strength)) return;
     for (int k = 0; k < 3; k++) rgb[k] = fmaxf(rgb[k], 0.0f) / most;
@@ -138,7 +140,7 @@ void gn_import_lights(struct gn_import *import) {
 
 /* ---- cameras ---- */
 
-/* Near planes are in units that nobody agrees on; ours lies where it cuts nothing. */
+/* Exporters' near planes have no common unit; ours is placed where it cuts nothing. */
 static float near_of(const struct gn_import *import) {
     struct aiVector3D size = {import->high[0] - import->low[0], import->high[1] - import->low[1],
                               import->high[2] - import->low[2]};
@@ -168,7 +170,7 @@ static void add_camera(struct gn_import *import, const struct aiCamera *camera) 
     json_t *object = lens_of(import, camera, unit_of(at));
     json_object_set_new(object, "name", gn_glb_text(camera->mName.data));
     int index = gn_glb_add(&import->glb, "cameras", object);
-    struct aiMatrix4x4 placed = place(at, camera->mPosition, camera->mLookAt, camera->mUp);
+    struct aiMatrix4x4 placed = place_matrix(at, camera->mPosition, camera->mLookAt, camera->mUp);
     json_object_set_new(add_node(import, camera->mName.data, &placed), "camera",
                         json_integer(index));
 }

@@ -1,5 +1,5 @@
-/* gnomon-import: arguments, a child that reads the model under limits, and what became of it in one
- * line. This process never calls assimp. */
+/* gnomon-import: parses arguments, converts the model in a child under limits and reports the
+ * result in one line. This process never calls assimp. */
 #include <errno.h>
 #include <getopt.h>
 #include <signal.h>
@@ -19,17 +19,17 @@ static const char help[] =
     "itself when such a file is named. Materials and pictures are read from the model's folder.\n"
     "\n"
     "options:\n"
-    "  -o, --output FILE      where to (MODEL's name with .glb, if there is no such file yet)\n"
+    "  -o, --output FILE      output file (MODEL's name with .glb, unless that file exists)\n"
     "      --up auto|y|z      which axis of the model is up (auto: what FBX and Collada files "
     "say;\n"
     "                         z for STL and PLY; y for OBJ)\n"
-    "      --memory MB        most memory to use (2048, at most 3/4 of the machine's)\n"
-    "      --time S           longest time to take (60 seconds)\n"
-    "      --file MB          largest file to read or write (512)\n"
+    "      --memory MB        memory limit (2048, at most 3/4 of the machine's)\n"
+    "      --time S           time limit (60 seconds)\n"
+    "      --file MB          size limit of files read and written (512)\n"
     "  -h, --help             this text\n"
     "      --version          the version\n"
     "\n"
-    "Exit status: 0 done, 1 the model is not read or not written, 2 wrong usage.\n";
+    "Exit status: 0 done, 1 runtime error: bad model, or output not written, 2 wrong usage.\n";
 
 /* ---- arguments ---- */
 
@@ -56,7 +56,7 @@ static bool parse_up(const char *text, enum gn_import_up *up, struct gn_err *err
     return gn_fail_usage(err, "--up: \"%s\" is not auto, y or z", text);
 }
 
-static bool take(int option, struct gn_import_opts *opts, struct gn_err *err) {
+static bool apply_option(int option, struct gn_import_opts *opts, struct gn_err *err) {
     switch (option) {
     case 'o': opts->out = optarg; return true;
     case OPTION_UP: return parse_up(optarg, &opts->up, err);
@@ -66,11 +66,10 @@ static bool take(int option, struct gn_import_opts *opts, struct gn_err *err) {
     }
 }
 
-/* last: the argument that getopt has left behind; it is still in that of a letter with more behind
- * it. */
+/* last: the argument before optind. In a group of short options it still holds the bad letter. */
 static bool fail_option(const char *last, struct gn_err *err) {
     const char letter[] = {'-', (char)optopt, 0};
-    return gn_fail_usage(err, "%s: unknown option, or one without its value; see --help",
+    return gn_fail_usage(err, "%s: unknown option or missing value; see --help",
                          strncmp(last, "--", 2) == 0 ? last : letter);
 }
 
@@ -81,8 +80,8 @@ static int memory_default_mb(void) {
     return most_mb < 256 ? 256 : most_mb < 2048 ? (int)most_mb : 2048;
 }
 
-/* The model stays NULL when help or the version was printed. */
-static bool parse(int argc, char **argv, struct gn_import_opts *opts, struct gn_err *err) {
+/* opts->model stays NULL when help or the version was printed. */
+static bool parse_args(int argc, char **argv, struct gn_import_opts *opts, struct gn_err *err) {
     static const struct option options[] = {{"output", required_argument, NULL, 'o'},
                                             {"up", required_argument, NULL, OPTION_UP},
                                             {"memory", required_argument, NULL, OPTION_MEMORY},
@@ -98,27 +97,28 @@ static bool parse(int argc, char **argv, struct gn_import_opts *opts, struct gn_
             return true;
         }
         if (c == '?') return fail_option(argv[optind - 1], err);
-        if (!take(c, opts, err)) return false;
+        if (!apply_option(c, opts, err)) return false;
     }
     if (argc - optind != 1)
-        return gn_fail_usage(err, argc == optind ? "which model? See --help"
-                                                 : "one model at a time, please");
+        return gn_fail_usage(err, argc == optind ? "missing MODEL; see --help"
+                                                 : "only one MODEL is accepted");
     opts->model = argv[optind];
     if (gn_model_format_of(opts->model) == GN_MODEL_FORMAT_COUNT)
-        return gn_fail_usage(err, "%s: not a name that ends in .obj, .fbx, .stl, .ply or .dae",
+        return gn_fail_usage(err,
+                             "%s: unknown file extension; expected .obj, .fbx, .stl, .ply or .dae",
                              opts->model);
     return true;
 }
 
-/* MODEL.obj to MODEL.glb, which must not be there yet. */
+/* Output is MODEL with .glb as its extension; that file must not exist. */
 static bool choose_out(struct gn_import_opts *opts, struct gn_err *err) {
     static char out[PATH_MAX];
     if (opts->out) return true;
     int stem = (int)(strrchr(opts->model, '.') - opts->model);
     if (snprintf(out, sizeof out, "%.*s.glb", stem, opts->model) >= (int)sizeof out)
-        return gn_fail(err, "%s: the name is too long; name another by -o", opts->model);
+        return gn_fail(err, "%s: path too long; name the output with -o", opts->model);
     if (access(out, F_OK) == 0)
-        return gn_fail(err, "%s is there already; -o %s writes over it", out, out);
+        return gn_fail(err, "%s exists; use -o %s to overwrite it", out, out);
     opts->out = out;
     return true;
 }
@@ -127,48 +127,49 @@ static bool choose_out(struct gn_import_opts *opts, struct gn_err *err) {
 
 struct job {
     const struct gn_import_opts *opts;
-    int fd; /* of memory: it goes with the last who holds it, however that ends */
+    int fd; /* memfd; the kernel frees it with its last descriptor */
 };
 
-static void work(void *shared, const void *argument) {
+static void run_child(void *shared, const void *argument) {
     const struct job *job = argument;
     gn_import_work(job->opts, job->fd, shared);
 }
 
-static bool run(const struct job *job, struct gn_import_report *report, struct gn_err *err) {
+static bool wait_child(const struct job *job, struct gn_import_report *report, struct gn_err *err) {
     const struct gn_import_opts *o = job->opts;
-    struct gn_child child = {.work = work, .argument = job, .stall_s = o->time_s};
+    struct gn_child child = {.work = run_child, .argument = job, .stall_s = o->time_s};
     struct gn_err end = {0};
     if (gn_child_run(&child, report, &end)) {
-        gn_fail(err, "%.511s", report->err.text); /* who knows what a model has made of it */
+        gn_fail(err, "%.511s", report->err.text); /* a model may have put any bytes there */
         return report->done || err->text[0] ||
-               gn_fail(err, "%s: the importer gave up without a reason", o->model);
+               gn_fail(err, "%s: the importer failed without a reason", o->model);
     }
     if (strncmp(end.text, "hangs", 5) == 0)
-        return gn_fail(err, "%s: not read within %d s; gnomon-import --time S allows more",
+        return gn_fail(err, "%s: not read within %d s; raise the limit with gnomon-import --time S",
                        o->model, o->time_s);
     return gn_fail(err, "%s: the importer %s on it; export it as .glb where it was made", o->model,
                    end.text);
 }
 
-static bool deliver(const struct job *job, struct gn_err *err) {
+static bool write_output(const struct job *job, struct gn_err *err) {
     struct stat info;
     void *data = fstat(job->fd, &info) == 0
                      ? mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, job->fd, 0)
                      : MAP_FAILED;
     if (data == MAP_FAILED)
-        return gn_fail(err, "%s: no memory for its .glb: %s", job->opts->model, strerror(errno));
+        return gn_fail(err, "%s: cannot read back its .glb: %s", job->opts->model, strerror(errno));
     bool ok = gn_file_write(job->opts->out, data, (size_t)info.st_size, err);
     munmap(data, (size_t)info.st_size);
     return ok;
 }
 
-static bool convert(const struct gn_import_opts *opts, struct gn_import_report *report,
-                    struct gn_err *err) {
+static bool convert_model(const struct gn_import_opts *opts, struct gn_import_report *report,
+                          struct gn_err *err) {
     struct job job = {.opts = opts, .fd = memfd_create("gnomon-import", MFD_CLOEXEC)};
     if (job.fd < 0)
-        return gn_fail(err, "%s: no memory for its .glb: %s", opts->model, strerror(errno));
-    bool ok = run(&job, report, err) && report->done && deliver(&job, err);
+        return gn_fail(err, "%s: cannot create a memory file for its .glb: %s", opts->model,
+                       strerror(errno));
+    bool ok = wait_child(&job, report, err) && report->done && write_output(&job, err);
     close(job.fd);
     return ok;
 }
@@ -180,14 +181,14 @@ static void print_warnings(const struct gn_warnings *warnings) {
         fprintf(stderr, "gnomon-import: warning: and %d more\n", warnings->dropped);
 }
 
-static bool import(int argc, char **argv, struct gn_err *err) {
+static bool import_model(int argc, char **argv, struct gn_err *err) {
     struct gn_import_opts opts = {.memory_mb = memory_default_mb(), .time_s = 60, .file_mb = 512};
-    if (!parse(argc, argv, &opts, err)) return false;
+    if (!parse_args(argc, argv, &opts, err)) return false;
     if (!opts.model) return true;
     if (!choose_out(&opts, err)) return false;
     struct gn_import_report *report = gn_child_share(sizeof *report, err);
     if (!report) return false;
-    bool ok = convert(&opts, report, err);
+    bool ok = convert_model(&opts, report, err);
     if (ok) print_warnings(&report->warnings);
     gn_child_unshare(report, sizeof *report);
     return ok;
@@ -197,7 +198,7 @@ int main(int argc, char **argv) {
     struct gn_err err = {0};
     gn_file_fill_standard();
     signal(SIGPIPE, SIG_IGN);
-    if (import(argc, argv, &err) && gn_file_flush_output(&err)) return GN_EXIT_OK;
+    if (import_model(argc, argv, &err) && gn_file_flush_output(&err)) return GN_EXIT_OK;
     fprintf(stderr, "gnomon-import: %s\n", err.text);
     return err.status == GN_EXIT_USAGE ? GN_EXIT_USAGE : GN_EXIT_WORLD;
 }

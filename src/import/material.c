@@ -1,4 +1,4 @@
-/* Materials: what Phong says, as metal and roughness. */
+/* Materials: Phong parameters converted to metallic and roughness. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@ struct look {
     float rgba[4], emissive[3], rough, metal;
 };
 
-/* Keys of assimp are three arguments each. */
+/* assimp's material keys expand to three arguments each. */
 static bool get_color(const struct aiMaterial *material, const char *key, unsigned type, unsigned n,
                       float rgb[3]) {
     struct aiColor4D color;
@@ -32,8 +32,7 @@ static float get_number(const struct aiMaterial *material, const char *key, unsi
 
 static float clamp_unit(float value) { return fminf(fmaxf(value, 0.0f), 1.0f); }
 
-/* The exponent's highlight, by the renderer's own rule (exponent = 2 / roughness^4 - 2). What has
- * no highlight is rough. */
+/* Inverts the renderer's rule exponent = 2 / roughness^4 - 2. No highlight means roughness 1. */
 static float rough_from_phong(const struct aiMaterial *material) {
     float specular[3] = {0.0f, 0.0f, 0.0f};
     get_color(material, AI_MATKEY_COLOR_SPECULAR, specular);
@@ -44,8 +43,7 @@ static float rough_from_phong(const struct aiMaterial *material) {
     return powf(2.0f / (exponent + 2.0f), 0.25f);
 }
 
-/* 0 is what some exporters write for "not transparent", and nobody sends a model that is not to be
- * seen. */
+/* Some exporters write 0 for "opaque"; an invisible model is never intended. */
 static float opacity_of(struct gn_import *import, const struct aiMaterial *material) {
     float opacity = clamp_unit(get_number(material, AI_MATKEY_OPACITY, 1.0f));
     if (opacity > 0.0f) return opacity;
@@ -66,7 +64,7 @@ static bool is_black(const float rgb[3]) { return rgb[0] + rgb[1] + rgb[2] <= 0.
 
 static void set_white(float rgb[3]) { rgb[0] = rgb[1] = rgb[2] = 1.0f; }
 
-/* With a picture the factor is white, except in OBJ, whose files say that both are multiplied. */
+/* With a base texture the factor is white, except in OBJ, which multiplies both. */
 static void read_base(struct gn_import *import, unsigned index, const char *name, bool textured,
                       struct look *look) {
     const struct aiMaterial *material = import->scene->mMaterials[index];
@@ -95,7 +93,7 @@ static struct gn_import_texture base_texture(struct gn_import *import,
     return gn_import_texture(import, material, type, true, uv_set);
 }
 
-/* Factors over 1 need an extension that the loader knows. */
+/* Factors over 1 need KHR_materials_emissive_strength. */
 static void set_emissive(struct gn_import *import, const struct aiMaterial *material,
                          json_t *object) {
     int uv_set;
@@ -118,7 +116,7 @@ static void set_emissive(struct gn_import *import, const struct aiMaterial *mate
                                   "emissiveStrength", (double)strength));
 }
 
-/* OBJ, STL and PLY cannot say it, and their triangles are often wound either way. */
+/* OBJ, STL and PLY have no such flag, and their winding is often inconsistent. */
 static bool is_double_sided(const struct aiMaterial *material) {
     int value = 1;
     unsigned count = 1;
@@ -127,7 +125,7 @@ static bool is_double_sided(const struct aiMaterial *material) {
            value != 0;
 }
 
-static json_t *make(struct gn_import *import, unsigned index) {
+static json_t *make_material(struct gn_import *import, unsigned index) {
     const struct aiMaterial *material = import->scene->mMaterials[index];
     struct aiString name = {0};
     struct look look = {0};
@@ -159,6 +157,6 @@ int gn_import_material(struct gn_import *import, unsigned index) {
     if (index >= import->scene->mNumMaterials) return -1;
     int *known = &import->materials[index];
     if (*known == GN_IMPORT_UNSEEN)
-        *known = gn_glb_add(&import->glb, "materials", make(import, index));
+        *known = gn_glb_add(&import->glb, "materials", make_material(import, index));
     return *known;
 }

@@ -1,4 +1,4 @@
-/* Memory of the child: what cannot be had ends it with a report. */
+/* Memory of the child: a failed allocation ends it with a report. */
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -14,7 +14,7 @@ void gn_import_memory_begin(const struct gn_import_opts *opts, struct gn_import_
 
 void gn_import_no_memory(void) {
     gn_fail(&the_report->err,
-            "%s: needs more than %d MB of memory to be read; gnomon-import --memory MB allows more",
+            "%s: needs more than %d MB of memory; raise the limit with gnomon-import --memory MB",
             the_opts->model, the_opts->memory_mb);
     _exit(0);
 }

@@ -1,4 +1,4 @@
-/* Triangles. What a mesh holds is written once, whoever shows it. */
+/* Meshes to glTF. Each is written once, however many nodes use it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +40,7 @@ static int add_normals(struct gn_import *import, const struct gn_import_shape *s
     return index;
 }
 
-/* assimp's v grows upwards, glTF's downwards. */
+/* assimp's v axis points up, glTF's down. */
 static int add_uvs(struct gn_import *import, const struct gn_import_shape *shape, int set) {
     float *values = gn_import_alloc(2 * (size_t)shape->vertex_count * sizeof *values);
     for (size_t i = 0; i < shape->vertex_count; i++) {
@@ -58,7 +58,7 @@ static int add_uvs(struct gn_import *import, const struct gn_import_shape *shape
 
 static float clamp_unit(float value) { return value > 0.0f ? fminf(value, 1.0f) : 0.0f; }
 
-/* The other formats hold colours as screens do, glTF linear ones: IEC 61966-2-1. */
+/* Colours of the other formats are sRGB, glTF's linear (IEC 61966-2-1). */
 static uint16_t linear_from_srgb(float value) {
     float c = clamp_unit(value);
     return (uint16_t)lrintf(65535.0f *
@@ -158,7 +158,7 @@ static json_t *make_primitive(struct gn_import *import, const struct aiMesh *mes
     return object ? object : json_null();
 }
 
-static json_t *primitive(struct gn_import *import, unsigned index) {
+static json_t *primitive_of(struct gn_import *import, unsigned index) {
     if (!import->primitives[index])
         import->primitives[index] = make_primitive(import, import->scene->mMeshes[index]);
     return import->primitives[index];
@@ -169,7 +169,7 @@ static int add_mesh(struct gn_import *import, const struct aiNode *node) {
     const char *name = "";
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         unsigned index = node->mMeshes[i];
-        json_t *one = index < import->scene->mNumMeshes ? primitive(import, index) : NULL;
+        json_t *one = index < import->scene->mNumMeshes ? primitive_of(import, index) : NULL;
         if (!one || json_is_null(one)) continue;
         json_array_append(primitives, one);
         name = import->scene->mMeshes[index]->mName.data;
@@ -182,7 +182,8 @@ static int add_mesh(struct gn_import *import, const struct aiNode *node) {
     return -1;
 }
 
-/* Nodes that show one and the same mesh share ours; those with several share what these hold. */
+/* Nodes with the same single mesh share one glTF mesh; nodes with several share their primitives.
+ * */
 int gn_import_mesh(struct gn_import *import, const struct aiNode *node) {
     if (node->mNumMeshes == 0) return -1;
     if (node->mNumMeshes > 1 || node->mMeshes[0] >= import->scene->mNumMeshes)

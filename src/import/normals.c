@@ -1,6 +1,6 @@
-/* Normals for meshes that have none: smooth, except where faces meet at an angle. Neighbours count
- * by their angle at the vertex (Thuermer and Wuethrich 1998), so that it does not matter how a
- * polygon was cut into triangles. */
+/* Normals for meshes without them: smooth, except where faces meet at a sharp angle. Neighbours are
+ * weighted by their angle at the vertex (Thuermer and Wuethrich 1998), so the triangulation of a
+ * polygon does not matter. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,24 +8,24 @@
 #include "import/private.h"
 
 static const float CREASE_COS =
-    0.766f; /* 40 degrees: a cylinder of ten sides is smooth, a box not */
+    0.766f; /* cos 40 degrees: a ten-sided cylinder is smooth, a box is not */
 
-struct place {           /* what is at one position, across the seams of texture coordinates */
-    uint32_t *of_vertex; /* per vertex of the mesh */
-    uint32_t *first;     /* per place, and one more: where its corners begin in `corners` */
-    uint32_t *corners;   /* numbers of indices: 3 x face + 0, 1 or 2 */
+struct place {           /* groups vertices by position, across texture seams */
+    uint32_t *of_vertex; /* per vertex: its place */
+    uint32_t *first;     /* per place: its first entry in `corners`; one more at the end */
+    uint32_t *corners;   /* index numbers: 3 x face + 0, 1 or 2 */
     size_t count;
 };
 
 struct faces {
-    struct aiVector3D *normals; /* per face: unit, or 0 */
-    float *angles;              /* per corner: radians */
+    struct aiVector3D *normals; /* per face: unit length, or 0 */
+    float *angles;              /* per corner, radians */
 };
 
-static int compare(const void *a, const void *b, void *positions) {
+static int compare_positions(const void *a, const void *b, void *positions) {
     const struct aiVector3D *p = (struct aiVector3D *)positions + *(const uint32_t *)a,
                             *q = (struct aiVector3D *)positions + *(const uint32_t *)b;
-    const float from[3] = {p->x + 0.0f, p->y + 0.0f, p->z + 0.0f}; /* -0 is 0 */
+    const float from[3] = {p->x + 0.0f, p->y + 0.0f, p->z + 0.0f}; /* turns -0 into 0 */
     const float to[3] = {q->x + 0.0f, q->y + 0.0f, q->z + 0.0f};
     return memcmp(from, to, sizeof from);
 }
@@ -34,9 +34,10 @@ static void find_places(struct place *place, const struct aiMesh *mesh) {
     uint32_t *order = gn_import_alloc(mesh->mNumVertices * sizeof *order);
     place->of_vertex = gn_import_alloc(mesh->mNumVertices * sizeof *order);
     for (uint32_t i = 0; i < mesh->mNumVertices; i++) order[i] = i;
-    qsort_r(order, mesh->mNumVertices, sizeof *order, compare, mesh->mVertices);
+    qsort_r(order, mesh->mNumVertices, sizeof *order, compare_positions, mesh->mVertices);
     for (uint32_t i = 0; i < mesh->mNumVertices; i++) {
-        if (i == 0 || compare(&order[i - 1], &order[i], mesh->mVertices) != 0) place->count++;
+        if (i == 0 || compare_positions(&order[i - 1], &order[i], mesh->mVertices) != 0)
+            place->count++;
         place->of_vertex[order[i]] = (uint32_t)place->count - 1;
     }
     free(order);
@@ -53,20 +54,20 @@ static void list_corners(struct place *place, const struct gn_import_shape *shap
         place->corners[next[place->of_vertex[shape->indices[i]] + 1]++] = (uint32_t)i;
 }
 
-static float dot(struct aiVector3D a, struct aiVector3D b) {
+static float dot_product(struct aiVector3D a, struct aiVector3D b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-static struct aiVector3D unit(struct aiVector3D v) {
-    float length = sqrtf(dot(v, v));
+static struct aiVector3D unit_vector(struct aiVector3D v) {
+    float length = sqrtf(dot_product(v, v));
     if (!isfinite(length) || length <= 0.0f) return (struct aiVector3D){0.0f, 0.0f, 0.0f};
     return (struct aiVector3D){v.x / length, v.y / length, v.z / length};
 }
 
-static struct aiVector3D towards(const struct gn_import_shape *shape, size_t from, size_t to) {
+static struct aiVector3D direction_to(const struct gn_import_shape *shape, size_t from, size_t to) {
     const struct aiVector3D *a = &shape->mesh->mVertices[shape->indices[from]],
                             *b = &shape->mesh->mVertices[shape->indices[to]];
-    return unit((struct aiVector3D){b->x - a->x, b->y - a->y, b->z - a->z});
+    return unit_vector((struct aiVector3D){b->x - a->x, b->y - a->y, b->z - a->z});
 }
 
 static struct faces measure_faces(const struct gn_import_shape *shape) {
@@ -75,13 +76,13 @@ static struct faces measure_faces(const struct gn_import_shape *shape) {
         .angles = gn_import_alloc(shape->index_count * sizeof *f.angles),
     };
     for (size_t i = 0; i < shape->index_count; i += 3) {
-        struct aiVector3D u = towards(shape, i, i + 1), v = towards(shape, i, i + 2),
-                          w = towards(shape, i + 1, i + 2);
-        f.normals[i / 3] = unit((struct aiVector3D){u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z,
-                                                    u.x * v.y - u.y * v.x});
-        f.angles[i] = acosf(fminf(fmaxf(dot(u, v), -1.0f), 1.0f));
-        f.angles[i + 1] = acosf(fminf(fmaxf(-dot(u, w), -1.0f), 1.0f));
-        f.angles[i + 2] = acosf(fminf(fmaxf(dot(v, w), -1.0f), 1.0f));
+        struct aiVector3D u = direction_to(shape, i, i + 1), v = direction_to(shape, i, i + 2),
+                          w = direction_to(shape, i + 1, i + 2);
+        f.normals[i / 3] = unit_vector((struct aiVector3D){
+            u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x});
+        f.angles[i] = acosf(fminf(fmaxf(dot_product(u, v), -1.0f), 1.0f));
+        f.angles[i + 1] = acosf(fminf(fmaxf(-dot_product(u, w), -1.0f), 1.0f));
+        f.angles[i + 2] = acosf(fminf(fmaxf(dot_product(v, w), -1.0f), 1.0f));
     }
     return f;
 }
@@ -91,14 +92,14 @@ static struct aiVector3D corner_normal(const struct place *place, const struct f
     struct aiVector3D sum = {0.0f, 0.0f, 0.0f};
     for (uint32_t i = place->first[at]; i < place->first[at + 1]; i++) {
         struct aiVector3D n = faces->normals[place->corners[i] / 3];
-        float weight = dot(own, n) >= CREASE_COS ? faces->angles[place->corners[i]] : 0.0f;
+        float weight = dot_product(own, n) >= CREASE_COS ? faces->angles[place->corners[i]] : 0.0f;
         sum = (struct aiVector3D){sum.x + weight * n.x, sum.y + weight * n.y, sum.z + weight * n.z};
     }
-    sum = unit(sum);
-    return dot(sum, sum) > 0.0f ? sum : (struct aiVector3D){0.0f, 1.0f, 0.0f};
+    sum = unit_vector(sum);
+    return dot_product(sum, sum) > 0.0f ? sum : (struct aiVector3D){0.0f, 1.0f, 0.0f};
 }
 
-/* A vertex of the mesh becomes as many as it has normals; next chains them. */
+/* The vertex with this normal; splits the mesh's vertex if needed. next chains the copies. */
 static uint32_t vertex_with(struct gn_import_shape *shape, uint32_t *heads, uint32_t *next,
                             uint32_t vertex, struct aiVector3D normal) {
     for (uint32_t i = heads[vertex]; i != UINT32_MAX; i = next[i])
@@ -110,8 +111,8 @@ static uint32_t vertex_with(struct gn_import_shape *shape, uint32_t *heads, uint
     return heads[vertex] = made;
 }
 
-static void split(struct gn_import_shape *shape, const struct place *place,
-                  const struct faces *faces) {
+static void split_vertices(struct gn_import_shape *shape, const struct place *place,
+                           const struct faces *faces) {
     uint32_t *heads = gn_import_alloc(shape->mesh->mNumVertices * sizeof *heads);
     uint32_t *next = gn_import_alloc(shape->index_count * sizeof *next);
     memset(heads, 0xff, shape->mesh->mNumVertices * sizeof *heads);
@@ -133,7 +134,7 @@ void gn_import_normals(struct gn_import_shape *shape) {
     find_places(&place, shape->mesh);
     list_corners(&place, shape);
     struct faces faces = measure_faces(shape);
-    split(shape, &place, &faces);
+    split_vertices(shape, &place, &faces);
     free(faces.normals);
     free(faces.angles);
     free(place.of_vertex);

@@ -1,5 +1,5 @@
-/* Pictures are passed on as they are; only their alpha is looked at, and an opacity picture of its
- * own becomes the alpha of the base picture, which is where glTF has it. */
+/* Images are copied unchanged. Only alpha is examined, and a separate opacity map is merged into
+ * the base image's alpha, where glTF expects it. */
 #include <png.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,14 +22,14 @@ const char *gn_import_picture_type(const struct gn_bytes *picture) {
     return NULL;
 }
 
-static bool fits(uint64_t width, uint64_t height) {
+static bool fits_limit(uint64_t width, uint64_t height) {
     return width && height && width * height <= MOST_TEXELS;
 }
 
 static bool read_png(const struct gn_bytes *picture, struct pixels *out) {
     png_image png = {.version = PNG_IMAGE_VERSION};
     bool ok = png_image_begin_read_from_memory(&png, picture->data, picture->size) &&
-              fits(png.width, png.height);
+              fits_limit(png.width, png.height);
     if (ok) {
         *out = (struct pixels){.width_px = png.width,
                                .height_px = png.height,
@@ -48,7 +48,7 @@ static bool read_jpeg(const struct gn_bytes *picture, struct pixels *out) {
     bool ok = jpeg &&
               tjDecompressHeader3(jpeg, picture->data, picture->size, &width, &height, &sampling,
                                   &space) == 0 &&
-              width > 0 && height > 0 && fits((uint64_t)width, (uint64_t)height);
+              width > 0 && height > 0 && fits_limit((uint64_t)width, (uint64_t)height);
     if (ok) {
         *out = (struct pixels){.width_px = (uint32_t)width, .height_px = (uint32_t)height};
         out->rgba = gn_import_alloc(4 * (size_t)width * (size_t)height);
@@ -70,8 +70,8 @@ static bool read_pixels(const struct gn_bytes *picture, struct pixels *out) {
     return false;
 }
 
-/* Leaves and fences have a rim of soft texels around holes, glass is soft all over. */
-static struct gn_import_alpha judge(const struct pixels *pixels) {
+/* Foliage and fences have few soft texels around holes; glass is soft everywhere. */
+static struct gn_import_alpha classify_alpha(const struct pixels *pixels) {
     size_t count = (size_t)pixels->width_px * pixels->height_px, clear = 0, soft = 0;
     for (size_t i = 0; i < count; i++) {
         uint8_t alpha = pixels->rgba[4 * i + 3];
@@ -86,13 +86,13 @@ struct gn_import_alpha gn_import_picture_alpha(const struct gn_bytes *picture) {
     struct gn_import_alpha alpha = {0};
     const char *type = gn_import_picture_type(picture);
     if (type && strcmp(type, "image/png") == 0 && read_pixels(picture, &pixels) && pixels.has_alpha)
-        alpha = judge(&pixels);
+        alpha = classify_alpha(&pixels);
     free(pixels.rgba);
     return alpha;
 }
 
-/* Both at the size of the larger one, nearest texels. */
-static struct pixels merge(const struct pixels *base, const struct pixels *opacity) {
+/* Both are resampled to the larger size, nearest texel. */
+static struct pixels merge_opacity(const struct pixels *base, const struct pixels *opacity) {
     bool larger = opacity->width_px > base->width_px;
     struct pixels out = {.width_px = (larger ? opacity : base)->width_px,
                          .height_px = (larger ? opacity : base)->height_px};
@@ -130,7 +130,7 @@ bool gn_import_picture_merge(const struct gn_bytes *base, const struct gn_bytes 
     if (!read_pixels(opacity, &alpha)) return false;
     bool ok = !base || read_pixels(base, &colour);
     if (ok) {
-        struct pixels both = merge(&colour, &alpha);
+        struct pixels both = merge_opacity(&colour, &alpha);
         ok = write_png(&both, png);
         free(both.rgba);
     }

@@ -1,10 +1,10 @@
-/* The header of a PLY file, before assimp sees it: 5.2 never returns from a format line that it
- * does not know. */
+/* Checks the header of a PLY file before assimp reads it: assimp 5.2 hangs on an unknown format
+ * line. */
 #include <string.h>
 
 #include "import/private.h"
 
-/* The first word of the line behind `key `, or NULL where no line of the header has it. */
+/* Returns the first word after `key `, or NULL if no header line begins with it. */
 static const char *find_line(const char *header, const char *key) {
     const size_t length = strlen(key);
     for (const char *line = header; line && *line; line = strpbrk(line, "\r\n")) {
@@ -26,15 +26,15 @@ bool gn_import_ply_check(const struct gn_import *import) {
     char header[4096];
     const char *path = import->opts->model;
     FILE *file = fopen(path, "rb");
-    if (!file) return true; /* the reader says why */
+    if (!file) return true; /* the reader reports the error */
     const size_t size = fread(header, 1, sizeof header - 1, file);
     fclose(file);
     header[size] = 0;
-    if (strncmp(header, "ply", 3) != 0) return true; /* assimp refuses it */
+    if (strncmp(header, "ply", 3) != 0) return true; /* assimp rejects it */
     const char *format = find_line(header, "format");
     if (format && is_known(format)) return true;
     return gn_fail(import->err,
-                   "%s: its header has no format line that can be read: expected ascii, "
+                   "%s: bad or missing format line in the header: expected ascii, "
                    "binary_little_endian or binary_big_endian",
                    path);
 }

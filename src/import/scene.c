@@ -1,4 +1,4 @@
-/* The steps of a conversion: assimp reads, the tree of nodes is walked, the rest hangs on it. */
+/* Conversion of one scene: assimp reads it, then nodes, meshes, lights and cameras are written. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,9 +8,8 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 
-/* Up: Blender writes and reads STL and PLY with Z up, f3d shows STL so; OBJ is Y up by convention;
- * Collada says it and assimp obeys; FBX says it and we obey, because assimp does so only since 5.3.
- */
+/* Up axis. STL, PLY: Z, as Blender and f3d have it; OBJ: Y by convention; Collada: assimp converts;
+ * FBX: converted here, since assimp does it only from 5.3 on. */
 static const enum gn_import_up up_of[GN_MODEL_FORMAT_COUNT] = {
     [GN_MODEL_OBJ] = GN_IMPORT_UP_Y, [GN_MODEL_FBX] = GN_IMPORT_UP_AUTO,
     [GN_MODEL_STL] = GN_IMPORT_UP_Z, [GN_MODEL_PLY] = GN_IMPORT_UP_Z,
@@ -19,7 +18,7 @@ static const enum gn_import_up up_of[GN_MODEL_FORMAT_COUNT] = {
 
 /* ---- reading ---- */
 
-static struct aiPropertyStore *choose(const struct gn_import *import) {
+static struct aiPropertyStore *choose_up(const struct gn_import *import) {
     struct aiPropertyStore *p = aiCreatePropertyStore();
     if (!p) gn_import_no_memory();
     bool forced = import->opts->up != GN_IMPORT_UP_AUTO;
@@ -28,13 +27,13 @@ static struct aiPropertyStore *choose(const struct gn_import *import) {
     aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
     aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, 0);
     aiSetImportPropertyInteger(p, "AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION",
-                               1); /* in newer ones */
+                               1); /* newer versions of assimp */
     aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, forced);
     return p;
 }
 
 static bool fail_empty(const struct gn_import *import) {
-    return gn_fail(import->err, "%s: has no triangles; points and lines are not shown",
+    return gn_fail(import->err, "%s: no triangles; points and lines are not supported",
                    import->opts->model);
 }
 
@@ -42,16 +41,15 @@ static bool fail_read(const struct gn_import *import) {
     const char *why = aiGetErrorString();
     if (why && strstr(why, "bad_alloc")) gn_import_no_memory();
     if (why && strcmp(why, "No meshes remaining") == 0) return fail_empty(import);
-    return gn_fail(import->err,
-                   "%s: is not read as %s (%.160s); export it again, or as .glb where it was made",
+    return gn_fail(import->err, "%s: cannot be read as %s (%.160s); export it again, or as .glb",
                    import->opts->model, gn_model_formats[import->format].name,
-                   why && *why ? why : "no reason is given");
+                   why && *why ? why : "no reason given");
 }
 
 static bool read_scene(struct gn_import *import) {
     if (import->format == GN_MODEL_PLY && !gn_import_ply_check(import)) return false;
     struct aiFileIO io = gn_import_folder_io(import);
-    struct aiPropertyStore *properties = choose(import);
+    struct aiPropertyStore *properties = choose_up(import);
     import->scene = aiImportFileExWithProperties(
         import->name,
         aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_FindInvalidData |
@@ -60,7 +58,7 @@ static bool read_scene(struct gn_import *import) {
         &io, properties);
     aiReleasePropertyStore(properties);
     if (!import->scene) return fail_read(import);
-    /* The root is the importer's own. 5.4.3 turns it, and cannot be asked not to. */
+    /* assimp's own root; 5.4.3 rotates it unconditionally */
     if (import->format == GN_MODEL_FBX)
         aiIdentityMatrix4(&import->scene->mRootNode->mTransformation);
     return true;
@@ -89,8 +87,7 @@ static float meta_sign(const struct gn_import *import, const char *key) {
     return meta_number(import, key, 1.0f) < 0.0f ? -1.0f : 1.0f;
 }
 
-/* Rows of the matrix: which axis of an FBX file is our X, Y, Z. Left alone when it is no rotation.
- */
+/* Each row selects the FBX axis that is our X, Y or Z. Left unchanged if it is no rotation. */
 static void set_fbx_axes(const struct gn_import *import, float m[3][3]) {
     int axis[3] = {(int)meta_number(import, "CoordAxis", 0.0f),
                    (int)meta_number(import, "UpAxis", 1.0f),
@@ -104,7 +101,7 @@ static void set_fbx_axes(const struct gn_import *import, float m[3][3]) {
     m[2][axis[2]] = meta_sign(import, "FrontAxisSign");
     bool even = axis[1] == (axis[0] + 1) % 3;
     float determinant = m[0][axis[0]] * m[1][axis[1]] * m[2][axis[2]] * (even ? 1.0f : -1.0f);
-    if (determinant < 0.0f) m[2][axis[2]] = -m[2][axis[2]]; /* no mirrored worlds */
+    if (determinant < 0.0f) m[2][axis[2]] = -m[2][axis[2]]; /* no mirroring */
 }
 
 static struct aiMatrix4x4 world_from_model(const struct gn_import *import) {
@@ -180,9 +177,8 @@ static void queue_node(struct gn_import *import, const struct aiNode *node,
     import->nodes[import->node_count++] = (struct gn_import_node){node, world_from_parent};
 }
 
-/* Breadth first, so a node's place in the queue is its number in the file; and no recursion, since
- * the tree may be as deep as the file is long. */
-static void walk(struct gn_import *import) {
+/* Breadth first: the index in the queue is the glTF node index, and depth needs no recursion. */
+static void add_nodes(struct gn_import *import) {
     queue_node(import, import->scene->mRootNode, world_from_model(import));
     for (size_t i = 0; i < import->node_count; i++) {
         const struct gn_import_node at = import->nodes[i];
@@ -197,9 +193,9 @@ static void walk(struct gn_import *import) {
     }
 }
 
-/* ---- the whole ---- */
+/* ---- scene ---- */
 
-static void prepare(struct gn_import *import) {
+static void init_tables(struct gn_import *import) {
     import->primitives = gn_import_alloc((import->scene->mNumMeshes + 1) * sizeof(json_t *));
     import->meshes = gn_import_alloc((import->scene->mNumMeshes + 1) * sizeof(int));
     import->materials = gn_import_alloc((import->scene->mNumMaterials + 1) * sizeof(int));
@@ -224,11 +220,11 @@ bool gn_import_scene_build(struct gn_import *import) {
     gn_bytes_finish(&probe);
     if (!read_scene(import)) return false;
     if (!import->scene->mRootNode)
-        return gn_fail(import->err, "%s: holds no scene", import->opts->model);
-    prepare(import);
+        return gn_fail(import->err, "%s: no scene in the file", import->opts->model);
+    init_tables(import);
     json_object_set_new(import->glb.root, "scene", json_integer(0));
     gn_glb_add(&import->glb, "scenes", json_pack("{s:[i]}", "nodes", 0));
-    walk(import);
+    add_nodes(import);
     if (!json_object_get(import->glb.root, "meshes")) return fail_empty(import);
     gn_import_lights(import);
     gn_import_cameras(import);

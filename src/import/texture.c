@@ -1,15 +1,17 @@
-/* Textures: found in the model or in its folder, put into the file as they are. */
+/* Textures: images embedded in the model or found in its folder, copied unchanged. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "import/private.h"
 
-enum { NAME_BYTES = sizeof(((struct aiString *)NULL)->data) }; /* its macro changed names */
+enum {
+    NAME_BYTES = sizeof(((struct aiString *)NULL)->data)
+}; /* the name of assimp's macro differs between versions */
 
 struct request {
-    char base[NAME_BYTES], opacity[NAME_BYTES]; /* names, "" for none */
-    int wrap[2];                                /* as glTF has it */
-    bool opaque;                                /* its alpha is to be ignored */
+    char base[NAME_BYTES], opacity[NAME_BYTES]; /* file names, "" for none */
+    int wrap[2];                                /* glTF wrap modes */
+    bool opaque;                                /* ignore alpha */
     unsigned uv_set;
 };
 
@@ -20,8 +22,8 @@ static int wrap_of(enum aiTextureMapMode mode) {
                                                                             : REPEAT;
 }
 
-static bool ask(const struct aiMaterial *material, enum aiTextureType type, char *name,
-                struct request *request) {
+static bool get_texture(const struct aiMaterial *material, enum aiTextureType type, char *name,
+                        struct request *request) {
     struct aiString path = {0};
     unsigned uv_set = 0, flags = 0;
     enum aiTextureMapMode wrap[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
@@ -46,7 +48,7 @@ static const char *last_part(const char *path) {
     return at;
 }
 
-/* A picture inside the model: "*3", or one that has the name. */
+/* An embedded texture by index ("*3") or by name. */
 static const struct aiTexture *find_inside(const struct gn_import *import, const char *name) {
     unsigned count = import->scene->mNumTextures;
     struct aiTexture *const *all = import->scene->mTextures;
@@ -67,18 +69,18 @@ static bool copy_inside(const struct aiTexture *texture, struct gn_bytes *bytes)
     return true;
 }
 
-/* False, and a warning, unless it is a PNG or JPEG. */
-static bool fetch(struct gn_import *import, const char *name, struct gn_bytes *bytes) {
+/* Reads an image; warns and fails unless it is a PNG or JPEG. */
+static bool fetch_image(struct gn_import *import, const char *name, struct gn_bytes *bytes) {
     const struct aiTexture *inside = find_inside(import, name);
     const char *model = import->opts->model;
     *bytes = (struct gn_bytes){0};
     bool found = inside ? copy_inside(inside, bytes) : gn_import_folder_read(import, name, bytes);
     if (!found)
-        gn_warn(import->warnings, "%s: the picture %.100s is not in its folder; shown without it",
-                model, name);
+        gn_warn(import->warnings,
+                "%s: image %.100s not found in the model's folder; shown without it", model, name);
     else if (!gn_import_picture_type(bytes))
-        gn_warn(import->warnings, "%s: the picture %.100s is no PNG or JPEG; shown without it",
-                model, last_part(name));
+        gn_warn(import->warnings, "%s: image %.100s is not PNG or JPEG; shown without it", model,
+                last_part(name));
     if (found && gn_import_picture_type(bytes)) return true;
     gn_bytes_finish(bytes);
     return false;
@@ -100,16 +102,16 @@ static int add_texture(struct gn_import *import, const struct request *request, 
                       json_pack("{s:i,s:i}", "sampler", sampler, "source", image));
 }
 
-/* The base picture, the opacity picture, or one made of both; empty if there is nothing. */
-static struct gn_bytes gather(struct gn_import *import, const struct request *request) {
+/* The base image, the opacity map, or both merged; empty if there is none. */
+static struct gn_bytes gather_image(struct gn_import *import, const struct request *request) {
     struct gn_bytes base = {0}, opacity = {0}, both = {0};
-    bool has_base = request->base[0] && fetch(import, request->base, &base);
+    bool has_base = request->base[0] && fetch_image(import, request->base, &base);
     bool has_opacity = request->opacity[0] && strcmp(request->base, request->opacity) != 0 &&
-                       fetch(import, request->opacity, &opacity);
+                       fetch_image(import, request->opacity, &opacity);
     if (!has_opacity) return base;
     bool merged = gn_import_picture_merge(has_base ? &base : NULL, &opacity, &both);
     if (!merged)
-        gn_warn(import->warnings, "%s: the picture %.100s cannot be read; shown without it",
+        gn_warn(import->warnings, "%s: image %.100s cannot be decoded; shown without it",
                 import->opts->model, request->opacity);
     gn_bytes_finish(&opacity);
     if (!merged) return base;
@@ -117,10 +119,11 @@ static struct gn_bytes gather(struct gn_import *import, const struct request *re
     return both;
 }
 
-/* The picture alone. */
-static struct gn_import_texture make(struct gn_import *import, const struct request *request) {
+/* Writes the image; the caller adds the texture. */
+static struct gn_import_texture make_image(struct gn_import *import,
+                                           const struct request *request) {
     struct gn_import_texture made = {.image = -1};
-    struct gn_bytes picture = gather(import, request);
+    struct gn_bytes picture = gather_image(import, request);
     if (picture.size) {
         made.image = add_image(import, request, &picture);
         made.alpha = gn_import_picture_alpha(&picture);
@@ -141,7 +144,8 @@ static bool same_use(const struct gn_import_texture *known, const struct request
            known->opaque == request->opaque;
 }
 
-static struct gn_import_texture keep(struct gn_import *import, struct gn_import_texture made) {
+static struct gn_import_texture cache_texture(struct gn_import *import,
+                                              struct gn_import_texture made) {
     size_t count = import->texture_count + 1;
     import->textures = gn_import_grow(import->textures, count * sizeof *import->textures);
     import->texture_count = count;
@@ -153,8 +157,9 @@ struct gn_import_texture gn_import_texture(struct gn_import *import,
                                            enum aiTextureType type, bool with_opacity,
                                            int *uv_set) {
     struct request request = {0};
-    bool any = ask(material, type, request.base, &request);
-    if (with_opacity) any |= ask(material, aiTextureType_OPACITY, request.opacity, &request);
+    bool any = get_texture(material, type, request.base, &request);
+    if (with_opacity)
+        any |= get_texture(material, aiTextureType_OPACITY, request.opacity, &request);
     *uv_set = request.uv_set == 1 ? 1 : 0;
     if (!any) return (struct gn_import_texture){.index = -1};
     const struct gn_import_texture *known = NULL;
@@ -163,9 +168,9 @@ struct gn_import_texture gn_import_texture(struct gn_import *import,
         known = &import->textures[i];
         if (same_use(known, &request)) return *known;
     }
-    struct gn_import_texture made = known ? *known : make(import, &request);
+    struct gn_import_texture made = known ? *known : make_image(import, &request);
     memcpy(made.wrap, request.wrap, sizeof made.wrap);
     made.opaque = request.opaque;
     made.index = made.image < 0 ? -1 : add_texture(import, &request, made.image);
-    return keep(import, made);
+    return cache_texture(import, made);
 }

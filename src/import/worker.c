@@ -1,5 +1,5 @@
-/* The child in which a model is read: what it may take of the machine, and what it leaves. All its
- * memory ends with it; nothing is freed one by one. */
+/* The child that reads a model: sets its resource limits and converts. It frees nothing; its memory
+ * goes with the process. */
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/prctl.h>
@@ -7,7 +7,7 @@
 
 #include "import/private.h"
 
-/* The sanitizers reserve more addresses than any limit. */
+/* Sanitizers reserve more address space than any limit. */
 #ifdef __has_feature
 #if __has_feature(address_sanitizer)
 #define UNBOUNDED
@@ -19,20 +19,20 @@ enum { BOUND_MEMORY = 0 };
 enum { BOUND_MEMORY = 1 };
 #endif
 
-static void bound(int what, rlim_t most) {
+static void limit_resource(int what, rlim_t most) {
     struct rlimit limit = {most, most};
     setrlimit(what, &limit);
 }
 
-/* The time is the parent's to watch; the CPU's limit is for the day on which it cannot. */
+/* The parent enforces wall time; RLIMIT_CPU is a second line of defence. */
 static void set_limits(const struct gn_import_opts *opts) {
-    if (BOUND_MEMORY) bound(RLIMIT_AS, (rlim_t)opts->memory_mb << 20);
-    bound(RLIMIT_CPU, (rlim_t)opts->time_s + 2);
-    bound(RLIMIT_FSIZE, (rlim_t)opts->file_mb << 20);
-    bound(RLIMIT_CORE, 0);
-    prctl(PR_SET_DUMPABLE, 0); /* nor a core by way of a pipe */
+    if (BOUND_MEMORY) limit_resource(RLIMIT_AS, (rlim_t)opts->memory_mb << 20);
+    limit_resource(RLIMIT_CPU, (rlim_t)opts->time_s + 2);
+    limit_resource(RLIMIT_FSIZE, (rlim_t)opts->file_mb << 20);
+    limit_resource(RLIMIT_CORE, 0);
+    prctl(PR_SET_DUMPABLE, 0); /* also disables core dumps through a pipe handler */
     signal(SIGXFSZ, SIG_IGN);
-    setenv("LIBC_FATAL_STDERR_", "1", 1); /* else glibc complains to the terminal */
+    setenv("LIBC_FATAL_STDERR_", "1", 1); /* otherwise glibc writes to the terminal */
 }
 
 void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_report *report) {

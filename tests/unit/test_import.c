@@ -144,7 +144,7 @@ static void test_pictures_outside_the_folder_are_not_read(void **state) {
         struct gn_scene *scene = help_import_load("a.obj");
         assert_int_equal(scene->image_count, 0);
         help_import_near(help_import_material(scene)->base_color[2], 0.3f);
-        help_import_warned("is not in its folder; shown without it");
+        help_import_warned("not found in the model's folder; shown without it");
         gn_scene_destroy(scene);
     }
     assert_int_equal(symlink(outside, help_import_path("link.png")), 0);
@@ -169,7 +169,7 @@ static void test_missing_materials_are_told(void **state) {
     (void)state;
     help_import_put("b.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
     struct gn_scene *scene = help_import_load("b.obj");
-    help_import_warned("gone.mtl are not in its folder");
+    help_import_warned("gone.mtl not found in the model's folder");
     gn_scene_destroy(scene);
 }
 
@@ -178,11 +178,11 @@ static void test_missing_materials_are_told(void **state) {
 static void test_what_is_no_model_is_refused_by_one_line(void **state) {
     (void)state;
     help_import_put("bad.fbx", "this is not one");
-    help_import_refused("bad.fbx", "is not read as FBX");
+    help_import_refused("bad.fbx", "cannot be read as FBX");
     help_import_put("bad.dae", "<COLLADA>");
-    help_import_refused("bad.dae", "is not read as Collada");
+    help_import_refused("bad.dae", "cannot be read as Collada");
     help_import_put("empty.stl", "");
-    help_import_refused("empty.stl", "is not read as STL");
+    help_import_refused("empty.stl", "cannot be read as STL");
     help_import_put("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n");
     help_import_refused("points.obj", "no triangles");
     help_import_refused("gone.obj", "cannot open");
