@@ -58,7 +58,7 @@ struct gn_screen {
     bool may_draw;       /* lit, and no frame is on its way: begin and present are due */
     bool damaged;        /* what it showed last is gone, or of another size: draw a still picture
                             again; begin ends it */
-    struct gn_hand hand; /* what somebody did there, added up; whoever reads it zeroes it */
+    struct gn_pointer pointer; /* what somebody did there, added up; whoever reads it zeroes it */
     uint32_t width_px, height_px; /* of what is drawn to; 0 while not lit */
     unsigned rotate_deg;          /* 0, 90, 180, 270: the picture is drawn turned clockwise by it */
     bool srgb;                    /* the window's framebuffer encodes; it has one sample a pixel */

@@ -39,11 +39,11 @@ static void measure(struct gn_show *s, const struct gn_kiosk *before, int64_t ed
         gn_latency_edge(&s->latency, edge_ns);
 }
 
-void gn_show_take_input(struct gn_show *s, const struct gn_hand *hand) {
+void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
     struct gn_gesture_event event;
     char text[256];
     if (!s->input) return;
-    for (unsigned i = 0; i < hand->key_count; i++) gn_input_key(s->input, &hand->keys[i]);
+    for (unsigned i = 0; i < pointer->key_count; i++) gn_input_key(s->input, &pointer->keys[i]);
     while (gn_input_next(s->input, &event)) {
         const struct gn_action action = gn_buttons_action(&s->buttons, &event);
         if (action.kind == GN_ACTION_NONE) continue;

@@ -16,19 +16,19 @@ static float aspect_of(const struct gn_screen *screen) {
     return screen->rotate_deg / 90 % 2 ? 1.0f / aspect : aspect;
 }
 
-static bool moves_nothing(const struct gn_hand *h) {
+static bool moves_nothing(const struct gn_pointer *h) {
     return !h->home && h->turn[0] == 0.0f && h->turn[1] == 0.0f && h->pan[0] == 0.0f &&
            h->pan[1] == 0.0f && h->wheel == 0.0f;
 }
 
-bool gn_show_hand_turn(struct gn_stage *stage, const struct gn_hand *hand) {
+bool gn_show_pointer_turn(struct gn_stage *stage, const struct gn_pointer *pointer) {
     const struct gn_screen *screen = &stage->display.screen;
     struct gn_frame_opts *f = &stage->frame_opts;
-    if (screen->width_px == 0 || screen->height_px == 0 || moves_nothing(hand)) return false;
-    struct gn_orbit_hand moves = {.zoom = NOTCH * hand->wheel, .aspect = aspect_of(screen)};
-    turn_back(screen, hand->turn, moves.turn);
-    turn_back(screen, hand->pan, moves.pan);
-    if (hand->home) f->orbit = (struct gn_orbit){0};
+    if (screen->width_px == 0 || screen->height_px == 0 || moves_nothing(pointer)) return false;
+    struct gn_orbit_hand moves = {.zoom = NOTCH * pointer->wheel, .aspect = aspect_of(screen)};
+    turn_back(screen, pointer->turn, moves.turn);
+    turn_back(screen, pointer->pan, moves.pan);
+    if (pointer->home) f->orbit = (struct gn_orbit){0};
     f->orbit = gn_orbit_step(&f->orbit, &moves, &stage->pose, (uint32_t)f->camera);
     return true;
 }

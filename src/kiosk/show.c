@@ -87,11 +87,11 @@ void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time
 
 static void take_hand(struct gn_show *s) {
     struct gn_screen *screen = &s->stage.display.screen;
-    const struct gn_hand hand = screen->hand;
-    screen->hand = (struct gn_hand){0};
-    s->ends |= hand.quit;
-    s->changed |= gn_show_hand_turn(&s->stage, &hand);
-    gn_show_take_input(s, &hand);
+    const struct gn_pointer pointer = screen->pointer;
+    screen->pointer = (struct gn_pointer){0};
+    s->ends |= pointer.quit;
+    s->changed |= gn_show_pointer_turn(&s->stage, &pointer);
+    gn_show_take_input(s, &pointer);
 }
 
 static void tick(struct gn_show *s) {

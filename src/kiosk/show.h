@@ -168,7 +168,7 @@ void gn_show_drop_staged(struct gn_show *show);
 /* After the display, whose window has keys of its own. Again after a reload. */
 bool gn_show_open_input(struct gn_show *show, struct gn_err *err);
 /* What they did becomes actions, and what is wrong with them a word on stderr. */
-void gn_show_take_input(struct gn_show *show, const struct gn_hand *hand);
+void gn_show_take_input(struct gn_show *show, const struct gn_pointer *pointer);
 
 /* reload.c: what cannot be loaded leaves the picture as it is */
 bool gn_show_reload(struct gn_show *show, struct gn_err *err);

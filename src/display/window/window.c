@@ -32,8 +32,8 @@ struct window {
     struct gn_watch events;  /* the window system has some */
     struct gn_timer timer;
     struct gn_flip flip;
-    struct gn_hand hand;
     struct gn_pointer pointer;
+    struct gn_drag drag;
     int windowed[4]; /* x, y, width, height, before it became full screen */
 };
 
@@ -71,11 +71,13 @@ static void poll_events(void) {
     }
 }
 
-/* ---- what the hand does ---- */
+/* ---- keys and pointer ---- */
 
 static struct window *window_of(GLFWwindow *handle) { return glfw.GetWindowUserPointer(handle); }
 
-static void on_close(GLFWwindow *handle) { gn_hand_act(&window_of(handle)->hand, GN_HAND_QUIT); }
+static void on_close(GLFWwindow *handle) {
+    gn_pointer_act(&window_of(handle)->pointer, GN_POINTER_QUIT);
+}
 
 static void on_refresh(GLFWwindow *handle) { window_of(handle)->damaged = true; }
 
@@ -94,26 +96,27 @@ static void on_iconify(GLFWwindow *handle, int iconified) {
 static void on_key(GLFWwindow *handle, int key, int code, int event, int modifiers) {
     static const struct {
         int key;
-        enum gn_hand_key action;
-    } keys[] = {{GLFW_KEY_ESCAPE, GN_HAND_QUIT},
-                {GLFW_KEY_HOME, GN_HAND_HOME},
-                {GLFW_KEY_F11, GN_HAND_FULL_SCREEN}};
+        enum gn_pointer_key action;
+    } keys[] = {{GLFW_KEY_ESCAPE, GN_POINTER_QUIT},
+                {GLFW_KEY_HOME, GN_POINTER_HOME},
+                {GLFW_KEY_F11, GN_POINTER_FULL_SCREEN}};
     (void)code, (void)modifiers;
     struct window *w = window_of(handle);
     const struct gn_key_event other = {.key = (uint16_t)gn_window_key(key),
                                        .down = event == GLFW_PRESS,
                                        .time_ns = gn_clock_monotonic_ns()};
-    if (other.key && event != GLFW_REPEAT) gn_hand_key(&w->hand, &other);
+    if (other.key && event != GLFW_REPEAT) gn_pointer_key(&w->pointer, &other);
     for (size_t i = 0; i < sizeof keys / sizeof *keys && event == GLFW_PRESS; i++) {
         if (keys[i].key != key) continue;
-        gn_hand_act(&w->hand, keys[i].action);
-        w->toggles |= keys[i].action == GN_HAND_FULL_SCREEN;
+        gn_pointer_act(&w->pointer, keys[i].action);
+        w->toggles |= keys[i].action == GN_POINTER_FULL_SCREEN;
     }
 }
 
 /* Letters by what they print: keyboards differ. */
 static void on_letter(GLFWwindow *handle, unsigned letter) {
-    if (letter == 'q' || letter == 'Q') gn_hand_act(&window_of(handle)->hand, GN_HAND_QUIT);
+    if (letter == 'q' || letter == 'Q')
+        gn_pointer_act(&window_of(handle)->pointer, GN_POINTER_QUIT);
 }
 
 static void on_button(GLFWwindow *handle, int button, int event, int modifiers) {
@@ -121,20 +124,20 @@ static void on_button(GLFWwindow *handle, int button, int event, int modifiers) 
     const enum gn_button which = button == GLFW_MOUSE_BUTTON_LEFT    ? GN_BUTTON_LEFT
                                  : button == GLFW_MOUSE_BUTTON_RIGHT ? GN_BUTTON_RIGHT
                                                                      : GN_BUTTON_MIDDLE;
-    gn_pointer_button(&window_of(handle)->pointer, which, event == GLFW_PRESS,
-                      modifiers & GLFW_MOD_SHIFT);
+    gn_drag_button(&window_of(handle)->drag, which, event == GLFW_PRESS,
+                   modifiers & GLFW_MOD_SHIFT);
 }
 
 static void on_move(GLFWwindow *handle, double x, double y) {
     struct window *w = window_of(handle);
     int width = 0, height = 0;
     glfw.GetWindowSize(handle, &width, &height);
-    gn_pointer_move(&w->pointer, x, y, height, &w->hand);
+    gn_drag_move(&w->drag, x, y, height, &w->pointer);
 }
 
 static void on_wheel(GLFWwindow *handle, double x, double y) {
     (void)x;
-    window_of(handle)->hand.wheel += (float)y;
+    window_of(handle)->pointer.wheel += (float)y;
 }
 
 static void listen_to(struct window *w) {
@@ -226,10 +229,10 @@ static bool settle(struct gn_display *display, int64_t now_ns, struct gn_err *er
     s->seen_ns = gn_flip_seen_ns(&w->flip, now_ns);
     s->counts.shown = w->flip.shown;
     s->counts.missed = w->flip.missed;
-    gn_hand_add(&s->hand, &w->hand);
-    w->hand = (struct gn_hand){0};
+    gn_pointer_add(&s->pointer, &w->pointer);
+    w->pointer = (struct gn_pointer){0};
     snprintf(s->what, sizeof s->what, "window %dx%d %s", w->width_px, w->height_px, glfw.link.name);
-    set_timer(w, w->toggles || !gn_hand_is_zero(&s->hand), now_ns);
+    set_timer(w, w->toggles || !gn_pointer_is_zero(&s->pointer), now_ns);
     return true;
 }
 
@@ -383,7 +386,7 @@ static bool window_renew(struct gn_display *display, int64_t now_ns, struct gn_e
     glfw.DestroyWindow(w->handle);
     w->handle = NULL;
     w->shown = w->iconified = false;
-    w->pointer = (struct gn_pointer){0};
+    w->drag = (struct gn_drag){0};
     display->screen.lost = display->screen.has_context = false;
     if (!make_screen(display, (uint32_t)at[2], (uint32_t)at[3], err)) {
         if (err) err->status = GN_EXIT_DISPLAY;

@@ -12,14 +12,14 @@ static void test_left_turns_and_the_others_pan(void **state) {
     (void)state;
     for (int button = GN_BUTTON_LEFT; button <= GN_BUTTON_MIDDLE; button++)
         for (int shift = 0; shift < 2; shift++) {
-            struct gn_pointer p = {0};
-            struct gn_hand h = {0};
+            struct gn_drag p = {0};
+            struct gn_pointer h = {0};
             const bool pans = shift || button != GN_BUTTON_LEFT;
-            gn_pointer_move(&p, 300, 40, 400, &h);
-            gn_pointer_button(&p, (enum gn_button)button, true, shift);
-            gn_pointer_move(&p, 400, 80, 400, &h);
-            gn_pointer_move(&p, 500, 40, 400, &h);
-            gn_pointer_move(&p, 400, 0, 400, &h);
+            gn_drag_move(&p, 300, 40, 400, &h);
+            gn_drag_button(&p, (enum gn_button)button, true, shift);
+            gn_drag_move(&p, 400, 80, 400, &h);
+            gn_drag_move(&p, 500, 40, 400, &h);
+            gn_drag_move(&p, 400, 0, 400, &h);
             assert_drag(pans ? h.pan : h.turn, .25, .1);
             assert_drag(pans ? h.turn : h.pan, 0, 0);
         }
@@ -27,42 +27,42 @@ static void test_left_turns_and_the_others_pan(void **state) {
 
 static void test_a_pointer_without_a_button_does_nothing(void **state) {
     (void)state;
-    struct gn_pointer p = {0};
-    struct gn_hand h = {0};
-    gn_pointer_move(&p, 10, 10, 100, &h);
-    gn_pointer_button(&p, GN_BUTTON_LEFT, true, false);
-    gn_pointer_button(&p, GN_BUTTON_LEFT, false, false);
-    gn_pointer_move(&p, 90, 90, 100, &h);
-    assert_true(gn_hand_is_zero(&h));
+    struct gn_drag p = {0};
+    struct gn_pointer h = {0};
+    gn_drag_move(&p, 10, 10, 100, &h);
+    gn_drag_button(&p, GN_BUTTON_LEFT, true, false);
+    gn_drag_button(&p, GN_BUTTON_LEFT, false, false);
+    gn_drag_move(&p, 90, 90, 100, &h);
+    assert_true(gn_pointer_is_zero(&h));
 }
 
 static void test_the_button_that_began_a_drag_ends_it(void **state) {
     (void)state;
-    struct gn_pointer p = {0};
-    struct gn_hand h = {0};
-    gn_pointer_button(&p, GN_BUTTON_RIGHT, true, false);
-    gn_pointer_button(&p, GN_BUTTON_LEFT, true, false);
-    gn_pointer_button(&p, GN_BUTTON_LEFT, false, false);
-    gn_pointer_move(&p, 10, 0, 100, &h);
+    struct gn_drag p = {0};
+    struct gn_pointer h = {0};
+    gn_drag_button(&p, GN_BUTTON_RIGHT, true, false);
+    gn_drag_button(&p, GN_BUTTON_LEFT, true, false);
+    gn_drag_button(&p, GN_BUTTON_LEFT, false, false);
+    gn_drag_move(&p, 10, 0, 100, &h);
     assert_drag(h.pan, .1, 0);
-    gn_pointer_button(&p, GN_BUTTON_RIGHT, false, false);
-    gn_pointer_move(&p, 20, 0, 100, &h);
+    gn_drag_button(&p, GN_BUTTON_RIGHT, false, false);
+    gn_drag_move(&p, 20, 0, 100, &h);
     assert_drag(h.pan, .1, 0);
 }
 
 static void test_a_window_without_height_has_no_drags(void **state) {
     (void)state;
-    struct gn_pointer p = {0};
-    struct gn_hand h = {0};
-    gn_pointer_button(&p, GN_BUTTON_LEFT, true, false);
-    gn_pointer_move(&p, 10, 0, 0, &h);
-    assert_true(gn_hand_is_zero(&h));
+    struct gn_drag p = {0};
+    struct gn_pointer h = {0};
+    gn_drag_button(&p, GN_BUTTON_LEFT, true, false);
+    gn_drag_move(&p, 10, 0, 0, &h);
+    assert_true(gn_pointer_is_zero(&h));
 }
 
 static void test_what_was_done_adds_up(void **state) {
     (void)state;
-    struct gn_hand h = {.turn = {1, 2}, .wheel = 1};
-    gn_hand_add(&h, &(struct gn_hand){.turn = {1, 1}, .pan = {3, 4}, .wheel = -3});
+    struct gn_pointer h = {.turn = {1, 2}, .wheel = 1};
+    gn_pointer_add(&h, &(struct gn_pointer){.turn = {1, 1}, .pan = {3, 4}, .wheel = -3});
     assert_drag(h.turn, 2, 3);
     assert_drag(h.pan, 3, 4);
     assert_float_equal((double)h.wheel, -2, 0);
@@ -70,8 +70,8 @@ static void test_what_was_done_adds_up(void **state) {
 
 static void test_home_forgets_what_was_done_before_but_not_after(void **state) {
     (void)state;
-    struct gn_hand h = {.turn = {1, 2}, .quit = true};
-    gn_hand_add(&h, &(struct gn_hand){.home = true, .pan = {3, 4}});
+    struct gn_pointer h = {.turn = {1, 2}, .quit = true};
+    gn_pointer_add(&h, &(struct gn_pointer){.home = true, .pan = {3, 4}});
     assert_true(h.home && h.quit);
     assert_drag(h.turn, 0, 0);
     assert_drag(h.pan, 3, 4);
