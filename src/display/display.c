@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "display/kms/who.h"
+#include "display/kms/holder.h"
 #include "display/private.h"
 
 const struct gn_display_ops *const gn_displays[] = {
@@ -65,7 +65,7 @@ bool gn_display_open(struct gn_display *display, const char *name, struct gn_war
 }
 
 static const struct gn_screen_ops *screen_of(const struct gn_display *display) {
-    return display->ops->screen ? display->ops->screen : &gn_screen_unseen;
+    return display->ops->screen ? display->ops->screen : &gn_screen_headless;
 }
 
 static bool open_screen(struct gn_display *display, const struct gn_display_ops *row,
@@ -113,8 +113,8 @@ void gn_display_blank(struct gn_display *d, bool on, int64_t now_ns) {
     screen_of(d)->blank(d, on, now_ns);
 }
 
-bool gn_display_say(struct gn_display *d, const char *text, int64_t now_ns) {
-    return screen_of(d)->say && screen_of(d)->say(d, text, now_ns);
+bool gn_display_show_message(struct gn_display *d, const char *text, int64_t now_ns) {
+    return screen_of(d)->show_message && screen_of(d)->show_message(d, text, now_ns);
 }
 
 bool gn_display_is_free(const char *name) {
@@ -124,7 +124,7 @@ bool gn_display_is_free(const char *name) {
 
 bool gn_display_holder(const char *path, char *out, size_t size) {
     *out = 0;
-    return gn_kms_who(path, out, size);
+    return gn_kms_find_holder(path, out, size);
 }
 
 gn_display_proc gn_display_get_proc(void *display, const char *name) {
@@ -133,7 +133,7 @@ gn_display_proc gn_display_get_proc(void *display, const char *name) {
 }
 
 void gn_display_close(struct gn_display *display) {
-    gn_screen_unseen_close(display);
+    gn_screen_headless_close(display);
     if (display->ops) display->ops->close(display);
     *display = (struct gn_display){0};
 }

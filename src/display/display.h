@@ -103,14 +103,15 @@ struct gn_screen_ops { /* see the functions of the same names */
     bool (*present)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     void (*lose)(struct gn_display *display, int64_t now_ns); /* NULL: cannot */
     void (*blank)(struct gn_display *display, bool on, int64_t now_ns);
-    bool (*say)(struct gn_display *display, const char *text, int64_t now_ns); /* NULL: cannot */
-    bool (*is_free)(void);                                                     /* NULL: always */
+    bool (*show_message)(struct gn_display *display, const char *text,
+                         int64_t now_ns); /* NULL: cannot */
+    bool (*is_free)(void);                /* NULL: always */
 };
 struct gn_display {
     const struct gn_display_ops *ops;
     void *state;             /* private to ops */
     struct gn_screen screen; /* all zero where it is none */
-    void *unseen;            /* private: of a screen that nobody sees */
+    void *headless;          /* private: of a screen that nobody sees */
 };
 
 /* The table's; NULL ends. One whose library is missing in this build fails to open. */
@@ -149,7 +150,7 @@ bool gn_display_lose(struct gn_display *display, int64_t now_ns);
 void gn_display_blank(struct gn_display *display, bool on, int64_t now_ns);
 /* Shows a text in place of pictures, without GL, from now on until the context is another, or until
  * NULL ends it; where GL does not start, the reason is shown instead. False: this screen cannot. */
-bool gn_display_say(struct gn_display *display, const char *text, int64_t now_ns);
+bool gn_display_show_message(struct gn_display *display, const char *text, int64_t now_ns);
 /* The screen of that name could be seen now: there is a monitor, and nobody else has it. */
 bool gn_display_is_free(const char *name);
 /* The first other process that has a device open, as "Xorg (pid 612)"; "" and false: none that this

@@ -12,7 +12,7 @@ struct headless {
 };
 
 static bool settle(struct gn_display *display, int64_t now_ns) {
-    struct headless *h = display->unseen;
+    struct headless *h = display->headless;
     struct gn_flip *flip = &h->flip;
     struct gn_screen *s = &display->screen;
     s->lit = !s->blank;
@@ -24,13 +24,13 @@ static bool settle(struct gn_display *display, int64_t now_ns) {
     return true;
 }
 
-static bool unseen_open(struct gn_display *display, const struct gn_screen_opts *opts,
-                        int64_t now_ns, struct gn_warnings *warnings, struct gn_err *err) {
+static bool headless_open(struct gn_display *display, const struct gn_screen_opts *opts,
+                          int64_t now_ns, struct gn_warnings *warnings, struct gn_err *err) {
     (void)warnings, (void)err;
     struct gn_screen *s = &display->screen;
-    struct headless *h = display->unseen = gn_xalloc(1, sizeof *h);
+    struct headless *h = display->headless = gn_xalloc(1, sizeof *h);
     struct gn_flip *flip = &h->flip;
-    flip->blind = true;
+    flip->no_vblank = true;
     flip->period_ns = GN_NS_PER_S / 60;
     flip->shortest_ns = opts->max_fps > 0 ? GN_NS_PER_S / opts->max_fps : 0;
     *s = (struct gn_screen){
@@ -46,50 +46,50 @@ static bool unseen_open(struct gn_display *display, const struct gn_screen_opts 
     return settle(display, now_ns);
 }
 
-static bool unseen_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+static bool headless_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     (void)err;
     return settle(display, now_ns);
 }
 
-static bool unseen_renew(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+static bool headless_renew(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     (void)err;
     return settle(display, now_ns);
 }
 
-static bool unseen_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+static bool headless_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     (void)err;
     if (!display->screen.may_draw) return false;
-    struct headless *h = display->unseen;
+    struct headless *h = display->headless;
     gn_flip_begun(&h->flip, now_ns);
     return settle(display, now_ns);
 }
 
-static bool unseen_present(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+static bool headless_present(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     (void)err;
-    struct headless *h = display->unseen;
+    struct headless *h = display->headless;
     gn_flip_committed(&h->flip, now_ns);
     gn_flip_done(&h->flip, now_ns, now_ns);
     return settle(display, now_ns);
 }
 
-static void unseen_blank(struct gn_display *display, bool on, int64_t now_ns) {
+static void headless_blank(struct gn_display *display, bool on, int64_t now_ns) {
     display->screen.blank = on;
     settle(display, now_ns);
 }
 
-void gn_screen_unseen_close(struct gn_display *display) {
-    struct headless *h = display->unseen;
+void gn_screen_headless_close(struct gn_display *display) {
+    struct headless *h = display->headless;
     if (!h) return;
     gn_loop_remove_timer(&h->timer);
     free(h);
-    display->unseen = NULL;
+    display->headless = NULL;
 }
 
-const struct gn_screen_ops gn_screen_unseen = {
-    .open = unseen_open,
-    .dispatch = unseen_dispatch,
-    .renew = unseen_renew,
-    .begin = unseen_begin,
-    .present = unseen_present,
-    .blank = unseen_blank,
+const struct gn_screen_ops gn_screen_headless = {
+    .open = headless_open,
+    .dispatch = headless_dispatch,
+    .renew = headless_renew,
+    .begin = headless_begin,
+    .present = headless_present,
+    .blank = headless_blank,
 };

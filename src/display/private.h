@@ -10,7 +10,7 @@ GN_DISPLAY_TABLE(X)
 
 /* A screen for displays that have none: lit from the start, its frames are shown at once, a timer
  * paces them. */
-extern const struct gn_screen_ops gn_screen_unseen; /* unseen.c */
-void gn_screen_unseen_close(struct gn_display *display);
+extern const struct gn_screen_ops gn_screen_headless; /* headless.c */
+void gn_screen_headless_close(struct gn_display *display);
 
 #endif

@@ -89,7 +89,8 @@ void gn_show_stop_gl(struct gn_show *s) {
 static bool say(struct gn_show *s, struct gn_err *err) {
     if (gn_stop_asked()) return false;
     gn_show_stop_gl(s);
-    if (!gn_display_say(&s->stage.display, err->text, gn_clock_monotonic_ns())) return false;
+    if (!gn_display_show_message(&s->stage.display, err->text, gn_clock_monotonic_ns()))
+        return false;
     s->says = true;
     fprintf(stderr, "gnomon: warning: %s\n", err->text);
     *err = (struct gn_err){0};
@@ -102,7 +103,7 @@ static bool start_gl(struct gn_show *s, struct gn_err *err) {
     s->generation = screen->generation;
     s->changed = true;
     if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return say(s, err);
-    if (s->says) gn_display_say(&s->stage.display, NULL, gn_clock_monotonic_ns());
+    if (s->says) gn_display_show_message(&s->stage.display, NULL, gn_clock_monotonic_ns());
     s->says = false;
     if (screen->may_draw) return true;
     s->stage.frame_opts.width_px = 64;

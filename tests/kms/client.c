@@ -7,15 +7,15 @@
 
 enum { SPINS_MAX = 300 };
 
-static bool who(const char *node, char *out, size_t size) {
+static bool find_holder(const char *node, char *out, size_t size) {
     (void)node;
     if (size > 0) out[0] = 0;
     return false;
 }
 
-static struct gn_kms_env env = {.drm = &sim_drm, .scanout = &sim_gl, .who = who};
+static struct gn_kms_env env = {.drm = &sim_drm, .scanout = &sim_gl, .find_holder = find_holder};
 
-void client_hears(bool uevents) { env.deaf = !uevents; }
+void client_has_uevents(bool uevents) { env.no_uevents = !uevents; }
 
 const struct gn_screen *client_screen(const struct client *c) { return gn_kms_screen(c->kms); }
 
@@ -73,7 +73,7 @@ static unsigned take_events(struct client *c) {
     unsigned events = c->heard;
     c->heard = 0;
     if (sim_readable(gn_kms_fd(c->kms))) events |= GN_KMS_EVENT_READABLE;
-    if (sim_take_uevent() && !env.deaf) events |= GN_KMS_EVENT_HOTPLUG;
+    if (sim_take_uevent() && !env.no_uevents) events |= GN_KMS_EVENT_HOTPLUG;
     return events;
 }
 

@@ -33,7 +33,7 @@ void client_begin(struct client *client, const struct client_kind *kind, int mon
 void client_end(struct client *client, const struct client_kind *kind);
 
 /* Whether all clients are told of monitors and cards: at first they are. */
-void client_hears(bool uevents);
+void client_has_uevents(bool uevents);
 void client_open(struct client *client, const struct gn_screen_opts *opts);
 /* The same in a world of its own, with one card that shows the console, and 3 frames. */
 void client_begin_alone(struct client *client, int monitor, const struct gn_screen_opts *opts);

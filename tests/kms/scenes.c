@@ -11,7 +11,7 @@ static const struct sim_traits good = {.console = true},
                                rich = {.console = true, .modifiers = true, .fences = true},
                                taken = {.console = true, .rotation = true, .overlays = true},
                                old = {.console = true, .legacy = true}, dark = {0},
-                               virtual = {.blind = true}, alone = {.gpu_alone = true};
+                               virtual = {.no_vblank = true}, alone = {.gpu_alone = true};
 
 static void add(const struct sim_traits *traits, int monitor) {
     sim_add_card(0, "/dev/dri/card1", traits);
@@ -224,7 +224,7 @@ static void sleep_and_wake(struct client *c) {
 
 static void say(struct client *c, const char *text) {
     c->told_ns = sim_now();
-    gn_kms_say(c->kms, text, c->told_ns);
+    gn_kms_show_message(c->kms, text, c->told_ns);
 }
 
 static void a_text_and_back(struct client *c) {

@@ -51,7 +51,7 @@ enum sim_incident { /* what may happen between any two calls, and passes after t
 struct sim_traits { /* of a card; zero is a good one */
     bool gpu_alone; /* it shows nothing */
     bool legacy;    /* no atomic interface */
-    bool blind;     /* no vblank: flips end at once, as with virtio */
+    bool no_vblank; /* no vblank: flips end at once, as with virtio */
     bool modifiers, fences;
     bool rotation; /* its planes turn, and the console leaves one turned */
     bool overlays; /* strangers leave one */
@@ -60,7 +60,7 @@ struct sim_traits { /* of a card; zero is a good one */
 #define SIM_RENDER_NODE "/dev/dri/renderD128" /* the only one */
 struct sim_gpu {                              /* of all cards */
     bool no_gl;
-    bool no_surface[GN_RUNG_COUNT]; /* by rung */
+    bool no_surface[GN_FALLBACK_COUNT]; /* by fallback */
 };
 struct sim_mode {
     uint16_t width_px, height_px, hz;

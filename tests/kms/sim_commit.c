@@ -27,7 +27,7 @@ static void tell(struct sim_card *card, int crtc, const struct sim_flip *flip, i
     f->events[f->event_count++] = (struct sim_event){
         .user = flip->user,
         .ns = ns,
-        .sequence = card->traits.blind
+        .sequence = card->traits.no_vblank
                         ? 0
                         : (unsigned)(since_ns / period_ns(&card->state.crtcs[crtc].mode)),
         .crtc = sim_crtc_id(card, crtc)};
@@ -65,7 +65,7 @@ void sim_start_flip(struct sim_card *card, int crtc, const struct sim_flip *how)
     c->flip.fb = sim_fb_ref(sim_fb_find(card, card->state.planes[crtc].fb));
     c->flip.committed_ns = sim.now_ns;
     c->flip.done_ns = c->lit_ns + ((ready_ns - c->lit_ns) / period + 1) * period;
-    if (card->traits.blind) c->flip.done_ns = sim.now_ns + SIM_MS / 20;
+    if (card->traits.no_vblank) c->flip.done_ns = sim.now_ns + SIM_MS / 20;
     if (sim_is_stalled(c)) c->flip.done_ns = INT64_MAX;
 }
 
@@ -324,8 +324,8 @@ static int get_sequence(int fd, uint32_t id, uint64_t *sequence, uint64_t *ns) {
     if (!f) return -1;
     const struct sim_card *card = sim_card_of(f);
     const int crtc = sim_index(id, sim_crtc_id(card, 0), SIM_CRTCS);
-    errno = crtc < 0 ? ENOENT : card->traits.blind ? EOPNOTSUPP : EINVAL;
-    if (crtc < 0 || card->traits.blind || !card->state.crtcs[crtc].active) return -1;
+    errno = crtc < 0 ? ENOENT : card->traits.no_vblank ? EOPNOTSUPP : EINVAL;
+    if (crtc < 0 || card->traits.no_vblank || !card->state.crtcs[crtc].active) return -1;
     *ns = (uint64_t)sim.now_ns;
     *sequence = (uint64_t)(sim.now_ns - card->crtcs[crtc].lit_ns) /
                 (uint64_t)period_ns(&card->state.crtcs[crtc].mode);

@@ -69,11 +69,11 @@ static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_
     struct context *c = check(state, "set_surface");
     if (!c) return gn_fail(err, "no context");
     drop_surface(c);
-    if (o->rung >= GN_RUNG_COPY || o->width_px == 0 || o->format_count == 0)
+    if (o->fallback >= GN_FALLBACK_COPY || o->width_px == 0 || o->format_count == 0)
         sim_complain("a surface of nothing");
     struct sim_file *f = sim_enter(SIM_gl_surface, c->fd);
-    const bool unlisted = o->rung == GN_RUNG_MODIFIERS && o->modifier_count == 0;
-    if (!f || unlisted || sim.gpu.no_surface[o->rung]) return gn_fail(err, "no such surface");
+    const bool unlisted = o->fallback == GN_FALLBACK_MODIFIERS && o->modifier_count == 0;
+    if (!f || unlisted || sim.gpu.no_surface[o->fallback]) return gn_fail(err, "no such surface");
     for (int i = 0; i < BUFFERS; i++) {
         c->buffers[i].bo = sim_bo_create(o->width_px, o->height_px, false);
         c->buffers[i].handle = sim_handle_add(f, c->buffers[i].bo, false);
@@ -91,8 +91,8 @@ static struct buffer *back_buffer(struct context *c) {
 }
 
 static uint64_t modifier_of(const struct gn_surface_opts *o) {
-    if (o->rung == GN_RUNG_MODIFIERS) return o->modifiers[0];
-    return o->rung == GN_RUNG_LINEAR ? DRM_FORMAT_MOD_LINEAR : DRM_FORMAT_MOD_INVALID;
+    if (o->fallback == GN_FALLBACK_MODIFIERS) return o->modifiers[0];
+    return o->fallback == GN_FALLBACK_LINEAR ? DRM_FORMAT_MOD_LINEAR : DRM_FORMAT_MOD_INVALID;
 }
 
 static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence,

@@ -13,7 +13,7 @@ static const struct client_kind kinds[] = {
     {.name = "fences", .traits = {.console = true, .modifiers = true, .fences = true}},
     {.name = "legacy", .traits = {.console = true, .legacy = true}},
     {.name = "legacy, asked for", .opts = {.legacy = true}},
-    {.name = "no vblank", .traits = {.blind = true}},
+    {.name = "no vblank", .traits = {.no_vblank = true}},
     {.name = "copies", .gpu = {.no_surface = {true, true, true}}},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };

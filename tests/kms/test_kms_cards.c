@@ -15,7 +15,7 @@ static void begin(int monitor, const struct gn_screen_opts *opts) {
 
 static void end(void) {
     client_close(&c);
-    client_hears(true);
+    client_has_uevents(true);
     assert_int_equal(sim_end(), 0);
 }
 
@@ -134,7 +134,7 @@ static void test_a_framebuffer_that_is_refused_for_a_moment(void **state) {
 /* In a sandbox nobody tells of monitors. */
 static void test_without_uevents_it_looks_by_itself(void **state) {
     (void)state;
-    client_hears(false);
+    client_has_uevents(false);
     begin(SIM_FULL_HD, &(struct gn_screen_opts){0});
     assert_true(client_screen(&c)->lit);
     sim_plug(0, 0, SIM_NO_MONITOR);

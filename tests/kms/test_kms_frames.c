@@ -18,7 +18,7 @@ struct kind {
 static const struct kind kinds[] = {
     {.name = "atomic, fences", .traits = {.console = true, .modifiers = true, .fences = true}},
     {.name = "legacy", .traits = {.console = true, .legacy = true}},
-    {.name = "no vblank", .traits = {.blind = true}},
+    {.name = "no vblank", .traits = {.no_vblank = true}},
     {.name = "copies", .gpu = {.no_surface = {true, true, true}}},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };

@@ -37,7 +37,7 @@ static void build(void) {
     const int cards = 1 + one_in(3);
     for (int n = 0; n < cards; n++) {
         const struct sim_traits traits = {.legacy = one_in(4),
-                                          .blind = one_in(4),
+                                          .no_vblank = one_in(4),
                                           .modifiers = one_in(2),
                                           .fences = one_in(2),
                                           .console = !one_in(3),

@@ -63,7 +63,7 @@ static void test_auto(void **state) {
 }
 
 /* A frame at a time, at the pace of a timer. */
-static void test_unseen_screen(void **state) {
+static void test_headless_screen(void **state) {
     (void)state;
     struct gn_display d;
     struct gn_err err = {0};
@@ -128,7 +128,7 @@ int main(void) {
         cmocka_unit_test(test_close_zeroed),
         cmocka_unit_test(test_open),
         cmocka_unit_test(test_auto),
-        cmocka_unit_test(test_unseen_screen),
+        cmocka_unit_test(test_headless_screen),
         cmocka_unit_test(test_kms_screen_opens_without_a_card),
         cmocka_unit_test(test_a_render_node_that_does_not_open),
     };

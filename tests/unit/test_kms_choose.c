@@ -71,10 +71,10 @@ static void test_the_crtc_that_is_lit(void **state) {
 }
 
 static void expect_ladder(const struct gn_screen_opts *opts, const char *wanted) {
-    drmModeModeInfo out[GN_KMS_LADDER_MAX];
+    drmModeModeInfo out[GN_KMS_CANDIDATES_MAX];
     char text[200] = "";
     const int crtc = gn_kms_choose_crtc(&card, 0);
-    const int count = gn_kms_mode_ladder(&card, 0, crtc, opts, out);
+    const int count = gn_kms_mode_candidates(&card, 0, crtc, opts, out);
     for (int i = 0; i < count; i++)
         snprintf(text + strlen(text), sizeof text - strlen(text), "%s%ux%u%s%u", i ? " " : "",
                  out[i].hdisplay, out[i].vdisplay,

@@ -63,7 +63,7 @@ static void test_fewer_frames_than_refreshes(void **state) {
 
 static void test_a_timer_paces_where_there_is_no_vblank(void **state) {
     (void)state;
-    struct gn_flip f = {.period_ns = FRAME, .blind = true};
+    struct gn_flip f = {.period_ns = FRAME, .no_vblank = true};
     int64_t now = 5 * MS;
     for (int i = 0; i < 10; i++) {
         assert_true(gn_flip_may_draw(&f, now));

@@ -23,12 +23,12 @@ void gn_kms_sleep(struct gn_kms *k, int64_t now_ns) {
     case GN_FLIP_CHANGED: break;
     }
     k->due.sleep_ns = now_ns + GN_KMS_S;
-    if (k->due.look_ns > k->due.sleep_ns) k->due.look_ns = k->due.sleep_ns;
+    if (k->due.scan_ns > k->due.sleep_ns) k->due.scan_ns = k->due.sleep_ns;
 }
 
 static bool may_wake(const struct gn_kms *k) {
     return k->frames.front.fb && !k->lit && k->monitor.connected && k->master && !k->away &&
-           !k->screen.lost && !k->flip.pending && !k->text.notice[0];
+           !k->screen.lost && !k->flip.pending && !k->text.message[0];
 }
 
 void gn_kms_set_blank(struct gn_kms *k, bool on, int64_t now_ns) {

@@ -3,7 +3,7 @@
 
 #include "display/kms/state.h"
 
-bool gn_kms_is_copy(const struct gn_kms *k) { return k->buffers.opts.rung == GN_RUNG_COPY; }
+bool gn_kms_is_copy(const struct gn_kms *k) { return k->buffers.opts.fallback == GN_FALLBACK_COPY; }
 
 /* By the buffer, not by the rung: that may have changed since. */
 static bool is_gpus(const struct gn_kms *k, const void *key) {

@@ -10,7 +10,7 @@ enum {
     GN_KMS_CONNECTORS_MAX = 16,
     GN_KMS_CRTCS_MAX = 16,
     GN_KMS_MODES_MAX = 64,
-    GN_KMS_LADDER_MAX = 8,
+    GN_KMS_CANDIDATES_MAX = 8,
 };
 
 struct gn_kms_connector {
@@ -55,9 +55,9 @@ int gn_kms_choose_crtc(const struct gn_kms_card *card, int connector);
  * by CVT), current if listed, preferred within the cap, the largest progressive ones of 50-60 Hz
  * (of less where the cap has less) within the cap, first, 640x480. Interlaced only when configured.
  * `crtc` -1: whatever is lit now was meant for another monitor. Returns the count, at most
- * GN_KMS_LADDER_MAX. */
-int gn_kms_mode_ladder(const struct gn_kms_card *card, int connector, int crtc,
-                       const struct gn_screen_opts *opts, drmModeModeInfo *out);
+ * GN_KMS_CANDIDATES_MAX. */
+int gn_kms_mode_candidates(const struct gn_kms_card *card, int connector, int crtc,
+                           const struct gn_screen_opts *opts, drmModeModeInfo *out);
 /* Refreshes in mHz, by the clock where that is known; interlaced: fields. */
 uint32_t gn_kms_mode_mhz(const drmModeModeInfo *mode);
 bool gn_kms_mode_equal(const drmModeModeInfo *a, const drmModeModeInfo *b); /* timing alone */

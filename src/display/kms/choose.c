@@ -151,18 +151,18 @@ static const drmModeModeInfo *find_vga(const struct gn_kms_connector *c) {
     return NULL;
 }
 
-struct ladder {
+struct candidates {
     drmModeModeInfo *out;
     int count;
 };
 
-static void push(struct ladder *l, const drmModeModeInfo *mode) {
+static void push(struct candidates *l, const drmModeModeInfo *mode) {
     for (int i = 0; mode && i < l->count; i++)
         if (gn_kms_mode_equal(&l->out[i], mode)) return;
-    if (mode && l->count < GN_KMS_LADDER_MAX) l->out[l->count++] = *mode;
+    if (mode && l->count < GN_KMS_CANDIDATES_MAX) l->out[l->count++] = *mode;
 }
 
-static void push_asked(struct ladder *l, const struct gn_kms_connector *c,
+static void push_asked(struct candidates *l, const struct gn_kms_connector *c,
                        const struct gn_screen_opts *o) {
     drmModeModeInfo made;
     if (o->modeline && gn_kms_modeline_parse(o->modeline, &made)) push(l, &made);
@@ -187,11 +187,11 @@ static bool is_offered(const struct gn_kms_connector *c, const drmModeModeInfo *
     return false;
 }
 
-int gn_kms_mode_ladder(const struct gn_kms_card *card, int connector, int crtc,
-                       const struct gn_screen_opts *opts, drmModeModeInfo *out) {
+int gn_kms_mode_candidates(const struct gn_kms_card *card, int connector, int crtc,
+                           const struct gn_screen_opts *opts, drmModeModeInfo *out) {
     const struct gn_kms_connector *c = &card->connectors[connector];
     const struct gn_kms_crtc *now = crtc >= 0 && c->crtc == crtc ? &card->crtcs[crtc] : NULL;
-    struct ladder l = {out, 0};
+    struct candidates l = {out, 0};
     push_asked(&l, c, opts);
     if (now && now->lit && is_progressive(&now->mode) && within(&now->mode, opts) &&
         is_offered(c, &now->mode))
@@ -199,7 +199,7 @@ int gn_kms_mode_ladder(const struct gn_kms_card *card, int connector, int crtc,
     push(&l, find_preferred(c, opts));
     const drmModeModeInfo *large = find_largest(c, opts, UINT32_MAX);
     push(&l, large);
-    while (large && l.count < GN_KMS_LADDER_MAX - 2)
+    while (large && l.count < GN_KMS_CANDIDATES_MAX - 2)
         push(&l, large = find_largest(c, opts, pixels(large)));
     push(&l, find_first(c));
     push(&l, find_vga(c));

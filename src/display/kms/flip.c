@@ -27,7 +27,7 @@ enum gn_flip_error gn_flip_error_of(int error) {
 
 /* The first refresh after a time. */
 static int64_t refresh_after(const struct gn_flip *f, int64_t now_ns) {
-    if (f->blind || f->shown_ns == 0 || now_ns < f->shown_ns) return now_ns + f->period_ns;
+    if (f->no_vblank || f->shown_ns == 0 || now_ns < f->shown_ns) return now_ns + f->period_ns;
     return f->shown_ns + ((now_ns - f->shown_ns) / f->period_ns + 1) * f->period_ns;
 }
 
@@ -66,8 +66,8 @@ void gn_flip_done(struct gn_flip *f, int64_t shown_ns, int64_t now_ns) {
     f->missed += (uint64_t)late;
     f->refreshes = (unsigned)(late < REFRESHES_MAX ? late + 1 : 1);
     f->shown++;
-    f->rung = 0;
-    if (f->blind)
+    f->lost_flips = 0;
+    if (f->no_vblank)
         pace_by_timer(f, now_ns);
     else
         pace_by_refresh(f);
@@ -82,10 +82,10 @@ void gn_flip_forget(struct gn_flip *f) {
 void gn_flip_refused(struct gn_flip *f, int64_t now_ns) { f->next_ns = now_ns + f->period_ns; }
 
 enum gn_flip_act gn_flip_lost(struct gn_flip *f) {
-    static const enum gn_flip_act rungs[] = {GN_FLIP_RELIGHT, GN_FLIP_REOPEN, GN_FLIP_GIVE_UP};
-    const int last = (int)(sizeof rungs / sizeof *rungs) - 1;
-    const enum gn_flip_act act = rungs[f->rung < last ? f->rung : last];
-    f->rung++;
+    static const enum gn_flip_act acts[] = {GN_FLIP_RELIGHT, GN_FLIP_REOPEN, GN_FLIP_GIVE_UP};
+    const int last = (int)(sizeof acts / sizeof *acts) - 1;
+    const enum gn_flip_act act = acts[f->lost_flips < last ? f->lost_flips : last];
+    f->lost_flips++;
     gn_flip_forget(f);
     return act;
 }
@@ -108,7 +108,7 @@ bool gn_flip_may_draw(const struct gn_flip *f, int64_t now_ns) {
 }
 
 int64_t gn_flip_seen_ns(const struct gn_flip *f, int64_t now_ns) {
-    const int64_t more = f->blind || f->refreshes < 2 ? 0 : f->refreshes - 1;
+    const int64_t more = f->no_vblank || f->refreshes < 2 ? 0 : f->refreshes - 1;
     return refresh_after(f, now_ns) + more * f->period_ns;
 }
 

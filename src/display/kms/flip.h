@@ -30,14 +30,14 @@ enum gn_flip_error {                    /* what an errno of a commit means */
 struct gn_flip {         /* zeroed is ready, but for period_ns */
     int64_t period_ns;   /* of the mode */
     int64_t shortest_ns; /* between two frames: 1/max_fps; 0: the mode's */
-    bool blind;          /* the driver has no vblank: flips end at once, a timer paces */
+    bool no_vblank;      /* the driver has no vblank: flips end at once, a timer paces */
     bool pending;
     int64_t committed_ns, begun_ns;
     int64_t shown_ns;      /* when the last flip was seen; 0: none yet */
     int64_t next_ns;       /* not to draw before */
     int64_t due_ns;        /* the refresh that the pending one was meant for */
     unsigned refreshes;    /* that the last frame took */
-    int rung;              /* of the ladder: how many lost flips in a row */
+    int lost_flips;        /* in a row */
     bool stalled, drained; /* of the pending flip */
     uint64_t shown, missed, stalls;
 };

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "display/kms/state.h"
-#include "display/notice.h"
+#include "display/message.h"
 
 #define STARVED_NS (5 * GN_KMS_S) /* then something else is tried */
 
@@ -43,12 +43,12 @@ void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
 
 static int light(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
     const int error =
-        gn_kms_output_light(&k->output, &k->monitor.ladder[k->monitor.mode], frame->fb);
+        gn_kms_output_light(&k->output, &k->monitor.candidates[k->monitor.mode], frame->fb);
     if (error != 0) return error;
     k->lit = true;
     k->monitor.lit_for = k->monitor.id;
     k->screen.counts.relit++;
-    k->flip.blind = gn_kms_output_is_blind(&k->output);
+    k->flip.no_vblank = gn_kms_output_lacks_vblank(&k->output);
     gn_flip_committed(&k->flip, now_ns);
     k->flip.due_ns = now_ns; /* no refresh was missed: there was none */
     gn_flip_done(&k->flip, 0, now_ns);
@@ -77,7 +77,8 @@ void gn_kms_lose_master(struct gn_kms *k, int64_t now_ns) {
     k->master = k->lit = false;
     k->due.master_ns = now_ns + GN_KMS_S;
     k->text.holder[0] = 0;
-    if (k->env.who) k->env.who(k->device.node.path, k->text.holder, sizeof k->text.holder);
+    if (k->env.find_holder)
+        k->env.find_holder(k->device.node.path, k->text.holder, sizeof k->text.holder);
 }
 
 static void refuse(struct gn_kms *k, struct gn_kms_frame *frame, int error, int64_t now_ns) {
@@ -98,7 +99,7 @@ static void refuse(struct gn_kms *k, struct gn_kms_frame *frame, int error, int6
     k->lit = false;
     if (was_lit) { /* the mode or the connector has changed under us: once more with a modeset */
         wait_a_frame(k, frame, now_ns);
-        k->due.look_ns = k->due.probe_ns = now_ns;
+        k->due.scan_ns = k->due.probe_ns = now_ns;
         return;
     }
     gn_kms_discard(k, frame);
@@ -135,13 +136,13 @@ static void without_fb(struct gn_kms *k, int error, int64_t now_ns) {
     }
 }
 
-void gn_kms_show_notice(struct gn_kms *k, int64_t now_ns) {
+void gn_kms_send_message(struct gn_kms *k, int64_t now_ns) {
     struct gn_dumb *copy = gn_kms_free_copy(k);
     struct gn_kms_frame frame = {.key = copy, .fence = -1};
     const struct gn_buffer buffer = gn_dumb_buffer(copy);
-    const struct gn_notice_picture picture = {copy->pixels, copy->stride, copy->width_px,
-                                              copy->height_px, k->screen.rotate_deg};
-    gn_notice_draw(&picture, k->text.notice);
+    const struct gn_message_picture picture = {copy->pixels, copy->stride, copy->width_px,
+                                               copy->height_px, k->screen.rotate_deg};
+    gn_message_draw(&picture, k->text.message);
     const int error = gn_kms_output_fb(&k->output, &buffer, &frame.fb);
     if (error == 0)
         gn_kms_send(k, frame, now_ns);

@@ -230,9 +230,10 @@ static gn_display_proc get_proc(void *state, const char *name) {
 static struct gbm_surface *create_buffers(struct scanout *s, const struct gn_surface_opts *o,
                                           uint32_t format) {
     static const uint64_t linear = DRM_FORMAT_MOD_LINEAR;
-    const bool listed = o->rung == GN_RUNG_MODIFIERS;
+    const bool listed = o->fallback == GN_FALLBACK_MODIFIERS;
     if (listed && (o->modifier_count == 0 || format != o->formats[0])) return NULL;
-    if (o->rung == GN_RUNG_PLAIN) /* without a word about it two devices agree on rows alone */
+    if (o->fallback ==
+        GN_FALLBACK_PLAIN) /* without a word about it two devices agree on rows alone */
         return s->gbm_surface_create(s->gbm, o->width_px, o->height_px, format,
                                      GBM_BO_USE_RENDERING |
                                          (s->node >= 0 ? GBM_BO_USE_LINEAR : GBM_BO_USE_SCANOUT));

@@ -28,8 +28,8 @@ static void say_status(struct gn_kms *k) {
     else if (!k->monitor.connected)
         snprintf(out, size, "waiting for a monitor%s%s", k->opts->connector ? " on " : "",
                  k->opts->connector ? k->opts->connector : "");
-    else if (k->text.notice[0])
-        snprintf(out, size, "%s", k->text.notice);
+    else if (k->text.message[0])
+        snprintf(out, size, "%s", k->text.message);
     else if (!k->master)
         snprintf(out, size, "%s has the screen (%s)",
                  k->text.holder[0] ? k->text.holder : "another program", k->device.node.path);
@@ -37,9 +37,9 @@ static void say_status(struct gn_kms *k) {
 
 static void update(struct gn_kms *k, int64_t now_ns) {
     struct gn_screen *s = &k->screen;
-    const bool copies = k->buffers.opts.rung == GN_RUNG_COPY;
+    const bool copies = k->buffers.opts.fallback == GN_FALLBACK_COPY;
     const bool ready = k->monitor.connected && k->master && !k->away && !k->blank && !s->lost &&
-                       !k->text.notice[0] && !k->text.changed;
+                       !k->text.message[0] && !k->text.changed;
     s->blank = k->blank;
     s->lit = ready && k->lit;
     s->may_draw = ready && !k->frames.waiting.fb && gn_flip_may_draw(&k->flip, now_ns) &&
@@ -49,7 +49,7 @@ static void update(struct gn_kms *k, int64_t now_ns) {
     s->what[0] = 0;
     if (k->monitor.connected)
         snprintf(s->what, sizeof s->what, "%s %ux%u@%.2f %s", k->monitor.connector, s->width_px,
-                 s->height_px, gn_kms_mode_mhz(&k->monitor.ladder[k->monitor.mode]) / 1000.0,
+                 s->height_px, gn_kms_mode_mhz(&k->monitor.candidates[k->monitor.mode]) / 1000.0,
                  k->output.atomic ? "atomic" : "legacy");
     s->rotate_deg = (k->opts->rotate_deg + k->monitor.orientation_deg) % 360;
     s->srgb = !copies && k->buffers.surface.srgb;
@@ -77,7 +77,7 @@ static bool may_send_again(const struct gn_kms *k) {
 }
 
 int64_t gn_kms_deadline(const struct gn_kms *k, int64_t now_ns) {
-    int64_t at = k->due.look_ns;
+    int64_t at = k->due.scan_ns;
     if (k->screen.lost) return GN_KMS_NEVER;
     if (!k->master && !k->away && k->device.fd >= 0) at = sooner(at, k->due.master_ns);
     if (!k->monitor.connected && !k->flip.pending) return at;
@@ -105,24 +105,24 @@ static void enter_console(struct gn_kms *k, int64_t now_ns) {
     /* whoever was there in between has ended it; but one may be back within a frame */
     if (k->flip.pending && k->flip.stalled) gn_kms_flip_is_lost(k);
     if (k->device.fd >= 0 && !k->screen.lost) gn_kms_try_master(k, now_ns);
-    k->due.look_ns = k->due.probe_ns = now_ns;
+    k->due.scan_ns = k->due.probe_ns = now_ns;
 }
 
-static void hear(struct gn_kms *k, unsigned events, int64_t now_ns) {
+static void apply_events(struct gn_kms *k, unsigned events, int64_t now_ns) {
     if (events & GN_KMS_EVENT_VT_LEFT) leave_console(k);
     if (events & GN_KMS_EVENT_VT_ENTERED) enter_console(k, now_ns);
     if (events & GN_KMS_EVENT_READABLE && k->device.fd >= 0 && !k->screen.lost)
         gn_kms_drain(k, now_ns);
     if (!(events & GN_KMS_EVENT_HOTPLUG)) return;
-    k->due.look_ns = sooner(k->due.look_ns, now_ns + SETTLE_NS);
-    k->due.probe_ns = sooner(k->due.probe_ns, k->due.look_ns);
+    k->due.scan_ns = sooner(k->due.scan_ns, now_ns + SETTLE_NS);
+    k->due.probe_ns = sooner(k->due.probe_ns, k->due.scan_ns);
 }
 
 /* False: the ladder has ended. */
 static bool act(struct gn_kms *k, enum gn_flip_act what, int64_t now_ns) {
     if (k->blank && what != GN_FLIP_WAIT && what != GN_FLIP_DRAIN) { /* nobody looks */
         gn_kms_flip_is_lost(k);
-        k->flip.rung--;
+        k->flip.lost_flips--;
         return true;
     }
     switch (what) {
@@ -163,12 +163,12 @@ static void show_again(struct gn_kms *k, int64_t now_ns) {
 }
 
 /* Once: what is lit stays. */
-static void show_notice(struct gn_kms *k, int64_t now_ns) {
+static void show_message(struct gn_kms *k, int64_t now_ns) {
     const bool free =
         !k->flip.pending && !k->frames.waiting.fb && !k->lit && !k->blank && !k->text.changed;
-    if (k->text.notice[0] && free && k->monitor.connected && k->master && !k->away &&
+    if (k->text.message[0] && free && k->monitor.connected && k->master && !k->away &&
         k->device.fd >= 0)
-        gn_kms_show_notice(k, now_ns);
+        gn_kms_send_message(k, now_ns);
 }
 
 void gn_kms_lose(struct gn_kms *k, int64_t now_ns) {
@@ -177,19 +177,19 @@ void gn_kms_lose(struct gn_kms *k, int64_t now_ns) {
 }
 
 /* Nothing is changed under a flip: the text comes, or goes, when that has ended. */
-static void change_notice(struct gn_kms *k, int64_t now_ns) {
+static void change_message(struct gn_kms *k, int64_t now_ns) {
     if (!k->text.changed || k->flip.pending) return;
     k->text.changed = false;
     gn_kms_drop_surface(k);
     k->monitor.connected = k->lit = false;
-    if (k->due.look_ns > now_ns) k->due.look_ns = now_ns;
+    if (k->due.scan_ns > now_ns) k->due.scan_ns = now_ns;
 }
 
 /* Where GL does not start there is a text already, and why it does not matters more. */
-void gn_kms_say(struct gn_kms *k, const char *text, int64_t now_ns) {
+void gn_kms_show_message(struct gn_kms *k, const char *text, int64_t now_ns) {
     const bool ends = !text || !*text;
-    if (k->device.scanout && (!ends || k->text.notice[0])) {
-        snprintf(k->text.notice, sizeof k->text.notice, "%s", ends ? "" : text);
+    if (k->device.scanout && (!ends || k->text.message[0])) {
+        snprintf(k->text.message, sizeof k->text.message, "%s", ends ? "" : text);
         struct gn_kms_frame waiting = k->frames.waiting;
         if (waiting.fb) gn_kms_discard(k, &waiting);
         k->text.changed = true;
@@ -199,7 +199,7 @@ void gn_kms_say(struct gn_kms *k, const char *text, int64_t now_ns) {
 
 bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_err *err) {
     bool ok = true;
-    hear(k, events, now_ns);
+    apply_events(k, events, now_ns);
     if (!k->screen.lost && k->device.fd >= 0) {
         const enum gn_flip_act what = gn_flip_step(&k->flip, now_ns);
         ok = act(k, what, now_ns) && send_again(k, now_ns);
@@ -208,9 +208,9 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     if (!k->screen.lost && !k->master && !k->away && k->device.fd >= 0 &&
         now_ns >= k->due.master_ns)
         gn_kms_try_master(k, now_ns);
-    if (!k->screen.lost) change_notice(k, now_ns);
-    if (!k->screen.lost && now_ns >= k->due.look_ns) gn_kms_look(k, now_ns);
-    if (!k->screen.lost) show_notice(k, now_ns);
+    if (!k->screen.lost) change_message(k, now_ns);
+    if (!k->screen.lost && now_ns >= k->due.scan_ns) gn_kms_scan(k, now_ns);
+    if (!k->screen.lost) show_message(k, now_ns);
     gn_kms_sleep(k, now_ns);
     if (k->losses > 3) ok = false;
     update(k, now_ns);
@@ -230,7 +230,7 @@ void gn_kms_blank(struct gn_kms *k, bool on, int64_t now_ns) {
 bool gn_kms_renew(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
     gn_kms_close_card(k);
     k->screen.lost = false;
-    k->due.look_ns = now_ns;
+    k->due.scan_ns = now_ns;
     return gn_kms_step(k, 0, now_ns, err);
 }
 
@@ -243,7 +243,7 @@ struct gn_kms *gn_kms_create(const struct gn_kms_env *env, const struct gn_scree
     k->opts = opts;
     k->device.fd = -1;
     k->frames.front.fence = k->frames.pending.fence = k->frames.waiting.fence = -1;
-    k->due.look_ns = now_ns;
+    k->due.scan_ns = now_ns;
     k->due.master_ns = k->due.again_ns = GN_KMS_NEVER;
     gn_kms_step(k, 0, now_ns, NULL);
     return k;

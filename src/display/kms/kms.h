@@ -14,8 +14,8 @@ struct gn_kms_env { /* what it stands on; must outlive it */
     const struct gn_drm_ops *drm;
     const struct gn_scanout_ops *scanout;
     /* Who has a card open, for people: "Xorg (pid 612)"; false: not known. May be NULL. */
-    bool (*who)(const char *node, char *out, size_t size);
-    bool deaf; /* no uevent will tell of anything: look every 2 s */
+    bool (*find_holder)(const char *node, char *out, size_t size);
+    bool no_uevents; /* no uevent will tell of anything: look every 2 s */
 };
 
 enum gn_kms_event { /* bits: what has happened since the last step */
@@ -49,6 +49,6 @@ bool gn_kms_begin(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
 bool gn_kms_present(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
 void gn_kms_lose(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_blank(struct gn_kms *kms, bool on, int64_t now_ns);
-void gn_kms_say(struct gn_kms *kms, const char *text, int64_t now_ns);
+void gn_kms_show_message(struct gn_kms *kms, const char *text, int64_t now_ns);
 
 #endif

@@ -421,7 +421,7 @@ int gn_kms_output_dark(struct gn_kms_output *o) {
 }
 
 /* Asked while it is lit: a dark CRTC has no refreshes either. */
-bool gn_kms_output_is_blind(const struct gn_kms_output *o) {
+bool gn_kms_output_lacks_vblank(const struct gn_kms_output *o) {
     uint64_t sequence, ns;
     return error_of(o->drm->CrtcGetSequence(o->fd, o->crtc, &sequence, &ns)) == EOPNOTSUPP;
 }

@@ -90,6 +90,6 @@ int gn_kms_output_dark(struct gn_kms_output *output);
 /* Switches the monitor off, to be lit again soon: mode and framebuffer stay; blocks. */
 int gn_kms_output_sleep(struct gn_kms_output *output);
 /* The driver tells of no refreshes. */
-bool gn_kms_output_is_blind(const struct gn_kms_output *output);
+bool gn_kms_output_lacks_vblank(const struct gn_kms_output *output);
 
 #endif

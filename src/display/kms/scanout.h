@@ -5,19 +5,19 @@
 
 #include "display/display.h"
 
-enum gn_rung {                    /* how buffers are asked for, best first */
-               GN_RUNG_MODIFIERS, /* those that the plane lists */
-               GN_RUNG_LINEAR,    /* the modifier LINEAR alone */
-               GN_RUNG_PLAIN,     /* without a word about modifiers */
-               GN_RUNG_COPY,      /* drawn off screen and copied into a dumb buffer */
-               GN_RUNG_COUNT,
+enum gn_fallback {                        /* how buffers are asked for, best first */
+                   GN_FALLBACK_MODIFIERS, /* those that the plane lists */
+                   GN_FALLBACK_LINEAR,    /* the modifier LINEAR alone */
+                   GN_FALLBACK_PLAIN,     /* without a word about modifiers */
+                   GN_FALLBACK_COPY,      /* drawn off screen and copied into a dumb buffer */
+                   GN_FALLBACK_COUNT,
 };
 
 enum { GN_FORMATS_MAX = 8, GN_MODIFIERS_MAX = 64, GN_BUFFER_PLANES_MAX = 4 };
 
 struct gn_surface_opts {
     uint32_t width_px, height_px;
-    enum gn_rung rung;                /* never COPY */
+    enum gn_fallback fallback;        /* never COPY */
     bool unencoded;                   /* GL shall not encode when it writes */
     uint32_t formats[GN_FORMATS_MAX]; /* DRM fourccs that the plane takes, best first */
     int format_count;

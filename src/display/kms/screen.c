@@ -7,9 +7,9 @@
 
 #include "core/arena.h"
 #include "display/kms/console.h"
+#include "display/kms/holder.h"
 #include "display/kms/kms.h"
 #include "display/kms/uevent.h"
-#include "display/kms/who.h"
 #include "display/private.h"
 
 struct kms_screen {
@@ -129,8 +129,10 @@ static bool kms_open_screen(struct gn_display *display, const struct gn_screen_o
         kms_close(display);
         return false;
     }
-    const struct gn_kms_env env = {
-        .drm = s->drm, .scanout = &gn_scanout_gbm, .who = gn_kms_who, .deaf = s->uevents.fd < 0};
+    const struct gn_kms_env env = {.drm = s->drm,
+                                   .scanout = &gn_scanout_gbm,
+                                   .find_holder = gn_kms_find_holder,
+                                   .no_uevents = s->uevents.fd < 0};
     s->kms = gn_kms_create(&env, &s->opts, now_ns);
     return settle(display, true, now_ns);
 }
@@ -175,9 +177,9 @@ static void kms_blank(struct gn_display *display, bool on, int64_t now_ns) {
     settle(display, true, now_ns);
 }
 
-static bool kms_say(struct gn_display *display, const char *text, int64_t now_ns) {
+static bool kms_show_message(struct gn_display *display, const char *text, int64_t now_ns) {
     struct kms_screen *s = display->state;
-    gn_kms_say(s->kms, text, now_ns);
+    gn_kms_show_message(s->kms, text, now_ns);
     return settle(display, true, now_ns);
 }
 
@@ -214,7 +216,7 @@ static const struct gn_screen_ops kms_screen_ops = {
     .present = kms_present,
     .lose = kms_lose,
     .blank = kms_blank,
-    .say = kms_say,
+    .show_message = kms_show_message,
     .is_free = kms_is_free,
 };
 

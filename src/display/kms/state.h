@@ -8,7 +8,7 @@
 
 #define GN_KMS_NEVER    INT64_MAX
 #define GN_KMS_S        INT64_C(1000000000)
-#define GN_KMS_LOOK_NS  (2 * GN_KMS_S)  /* between two looks while nothing is lit */
+#define GN_KMS_SCAN_NS  (2 * GN_KMS_S)  /* between two looks while nothing is lit */
 #define GN_KMS_PROBE_NS (10 * GN_KMS_S) /* and between two that ask the wires */
 
 enum { GN_KMS_TICKETS = 4 };
@@ -34,10 +34,10 @@ struct gn_kms_device {        /* the open card */
     int unreadable;           /* reads in a row in which some objects could not be read */
 };
 struct gn_kms_text {
-    char notice[256]; /* shown in place of pictures; "": none */
-    bool changed;     /* the notice is another one and not shown yet */
-    char reason[128]; /* why nothing is shown, where nothing better is known */
-    char holder[64];  /* the program that has the screen */
+    char message[256]; /* shown in place of pictures; "": none */
+    bool changed;      /* the notice is another one and not shown yet */
+    char reason[128];  /* why nothing is shown, where nothing better is known */
+    char holder[64];   /* the program that has the screen */
 };
 struct gn_kms_monitor {       /* the connector in use and what is plugged into it */
     char connector[32];       /* its name */
@@ -45,12 +45,12 @@ struct gn_kms_monitor {       /* the connector in use and what is plugged into i
     uint64_t id;              /* of the monitor that is plugged in */
     uint64_t lit_for;         /* the id for which output.mode was set */
     bool connected;           /* a connector is chosen and there are buffers for it */
-    drmModeModeInfo ladder[GN_KMS_LADDER_MAX];
-    int ladder_count, mode; /* the mode in use is ladder[mode] */
+    drmModeModeInfo candidates[GN_KMS_CANDIDATES_MAX];
+    int candidate_count, mode; /* the mode in use is ladder[mode] */
 };
 struct gn_kms_buffers {
     struct gn_surface_opts opts;
-    struct gn_surface surface; /* unless opts.rung is COPY */
+    struct gn_surface surface; /* unless opts.fallback is COPY */
     struct gn_dumb copies[2];
 };
 struct gn_kms_frames {           /* at most one each */
@@ -63,7 +63,7 @@ struct gn_kms_frames {           /* at most one each */
     int64_t event_ns; /* the time stamp of its event; -1: no event yet */
 };
 struct gn_kms_due {     /* monotonic; GN_KMS_NEVER */
-    int64_t look_ns;    /* next look at cards and connectors */
+    int64_t scan_ns;    /* next look at cards and connectors */
     int64_t probe_ns;   /* looks from then on probe the connectors */
     int64_t master_ns;  /* next try to become master */
     int64_t again_ns;   /* next flip of a still picture */
@@ -89,7 +89,7 @@ struct gn_kms {
     struct gn_kms_due due;
 };
 
-/* Files call downwards: kms.c, blank.c, frame.c, look.c, buffers.c. */
+/* Files call downwards: kms.c, blank.c, frame.c, scan.c, buffers.c. */
 
 /* kms/buffers.c: which buffer the screen, the flip and the queue hold. */
 bool gn_kms_is_copy(const struct gn_kms *kms); /* frames are copied into dumb buffers */
@@ -101,9 +101,9 @@ void gn_kms_take_front(struct gn_kms *kms, struct gn_kms_frame frame, int64_t no
 void gn_kms_discard(struct gn_kms *kms, struct gn_kms_frame *frame); /* it will not be shown */
 void gn_kms_flip_is_lost(struct gn_kms *kms); /* no event will come for the pending flip */
 
-/* kms/look.c: cards and connectors. Probing a connector takes tens of milliseconds, so it is done
+/* kms/scan.c: cards and connectors. Probing a connector takes tens of milliseconds, so it is done
  * after a hotplug event and every GN_KMS_PROBE_NS; otherwise the kernel's cached state is read. */
-void gn_kms_look(struct gn_kms *kms, int64_t now_ns);
+void gn_kms_scan(struct gn_kms *kms, int64_t now_ns);
 /* Gives the card up; `restore`: it still accepts commits, so its CRTC is put back first. */
 void gn_kms_leave_card(struct gn_kms *kms, bool restore, int64_t now_ns);
 /* Ends the context and closes the card. */
@@ -115,7 +115,7 @@ bool gn_kms_try_master(struct gn_kms *kms, int64_t now_ns);
 /* kms/frame.c: commits and their events. */
 void gn_kms_send(struct gn_kms *kms, struct gn_kms_frame frame, int64_t now_ns);
 void gn_kms_send_drawn(struct gn_kms *kms, int64_t now_ns); /* the frame that GL has drawn */
-void gn_kms_show_notice(struct gn_kms *kms, int64_t now_ns);
+void gn_kms_send_message(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_lose_master(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_drain(struct gn_kms *kms, int64_t now_ns);
 

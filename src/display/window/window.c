@@ -333,8 +333,10 @@ static bool make_screen(struct gn_display *display, uint32_t width_px, uint32_t 
     listen_to(w);
     /* On X11 a swap waits for the screen at most as long as it is late, and does not tear. */
     glfw.SwapInterval(glfw.link.x_pending ? 1 : 0);
-    w->flip = (struct gn_flip){
-        .blind = true, .period_ns = period_of(w), .shown = w->flip.shown, .missed = w->flip.missed};
+    w->flip = (struct gn_flip){.no_vblank = true,
+                               .period_ns = period_of(w),
+                               .shown = w->flip.shown,
+                               .missed = w->flip.missed};
     w->flip.shortest_ns = w->opts.max_fps > 0 ? GN_NS_PER_S / w->opts.max_fps : 0;
     s->has_context = true;
     s->generation++;

@@ -6,14 +6,14 @@
 #include "client.h"
 #include "unit/check.h"
 
-enum { GROUND = 0x00202428 }; /* what notice.c fills its pictures with */
+enum { GROUND = 0x00202428 }; /* what message.c fills its pictures with */
 
 static struct client c;
 static const struct client_kind kinds[] = {
     {.name = "atomic", .traits = {.console = true}},
     {.name = "fences", .traits = {.modifiers = true, .fences = true}},
     {.name = "legacy", .traits = {.console = true, .legacy = true}},
-    {.name = "no vblank", .traits = {.blind = true}},
+    {.name = "no vblank", .traits = {.no_vblank = true}},
     {.name = "copies", .gpu = {.no_surface = {true, true, true}}},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
@@ -23,7 +23,7 @@ static void end(const struct client_kind *kind) { client_end(&c, kind); }
 
 static void say(const char *text) {
     c.told_ns = sim_now();
-    gn_kms_say(c.kms, text, c.told_ns);
+    gn_kms_show_message(c.kms, text, c.told_ns);
 }
 
 static void expect_notice(const struct client_kind *kind, const char *text) {

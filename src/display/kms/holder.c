@@ -1,4 +1,4 @@
-#include "display/kms/who.h"
+#include "display/kms/holder.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -41,7 +41,7 @@ static bool is_broker(const char *name) {
 
 /* The kernel keeps no name of a card's master: the one that has it open, a broker only if there is
  * no other. */
-bool gn_kms_who(const char *node, char *out, size_t size) {
+bool gn_kms_find_holder(const char *node, char *out, size_t size) {
     DIR *all = opendir("/proc");
     bool found = false, sure = false;
     for (struct dirent *entry; all && !sure && (entry = readdir(all));) {

@@ -80,10 +80,10 @@ static int find_card(struct gn_kms *k, int least, bool probe, struct gn_kms_node
 static void start_gl(struct gn_kms *k) {
     struct gn_err why = {0};
     k->device.scanout = k->env.scanout->open(k->device.fd, k->opts->render_node, &why);
-    k->text.notice[0] = 0;
+    k->text.message[0] = 0;
     if (!k->device.scanout) {
         snprintf(k->text.reason, sizeof k->text.reason, "%s: %s", k->device.node.path, why.text);
-        snprintf(k->text.notice, sizeof k->text.notice, "%s", k->text.reason);
+        snprintf(k->text.message, sizeof k->text.message, "%s", k->text.reason);
     }
     k->screen.has_context = k->device.scanout;
     if (k->device.scanout) k->screen.generation++;
@@ -94,8 +94,8 @@ bool gn_kms_try_master(struct gn_kms *k, int64_t now_ns) {
     k->lit = false;
     k->due.sleep_ns = now_ns;
     k->due.master_ns = k->master ? GN_KMS_NEVER : now_ns + GN_KMS_S;
-    if (!k->master && !k->text.holder[0] && k->env.who)
-        k->env.who(k->device.node.path, k->text.holder, sizeof k->text.holder);
+    if (!k->master && !k->text.holder[0] && k->env.find_holder)
+        k->env.find_holder(k->device.node.path, k->text.holder, sizeof k->text.holder);
     if (k->master) k->text.holder[0] = 0;
     return k->master;
 }
@@ -107,7 +107,7 @@ static void open_card(struct gn_kms *k, int64_t now_ns) {
         return;
     }
     k->screen.counts.opened++;
-    k->flip = (struct gn_flip){.rung = k->flip.rung,
+    k->flip = (struct gn_flip){.lost_flips = k->flip.lost_flips,
                                .shown = k->flip.shown,
                                .missed = k->flip.missed,
                                .stalls = k->flip.stalls};
@@ -133,7 +133,7 @@ void gn_kms_leave_card(struct gn_kms *k, bool restore, int64_t now_ns) {
     gn_kms_output_close(&k->output, restore && k->master);
     k->losses += k->monitor.connected;
     k->monitor.connected = k->lit = false;
-    k->due.look_ns = now_ns;
+    k->due.scan_ns = now_ns;
     k->screen.lost = k->device.scanout;
     if (!k->device.scanout) gn_kms_close_card(k);
 }
@@ -143,26 +143,26 @@ void gn_kms_leave_card(struct gn_kms *k, bool restore, int64_t now_ns) {
 static bool take_surface(struct gn_kms *k) {
     struct gn_err why = {0};
     struct gn_surface_opts *o = &k->buffers.opts;
-    o->width_px = k->monitor.ladder[k->monitor.mode].hdisplay;
-    o->height_px = k->monitor.ladder[k->monitor.mode].vdisplay;
-    if (k->text.notice[0]) o->rung = GN_RUNG_COPY;
-    for (; o->rung < GN_RUNG_COPY; o->rung++)
+    o->width_px = k->monitor.candidates[k->monitor.mode].hdisplay;
+    o->height_px = k->monitor.candidates[k->monitor.mode].vdisplay;
+    if (k->text.message[0]) o->fallback = GN_FALLBACK_COPY;
+    for (; o->fallback < GN_FALLBACK_COPY; o->fallback++)
         if (k->env.scanout->set_surface(k->device.scanout, o, &k->buffers.surface, &why))
             return true;
     return gn_kms_make_copies(k);
 }
 
-static enum gn_rung first_rung(const struct gn_kms *k) {
-    return k->buffers.opts.modifier_count > 0 ? GN_RUNG_MODIFIERS : GN_RUNG_PLAIN;
+static enum gn_fallback first_fallback(const struct gn_kms *k) {
+    return k->buffers.opts.modifier_count > 0 ? GN_FALLBACK_MODIFIERS : GN_FALLBACK_PLAIN;
 }
 
 /* From this mode on, the first one for which there are buffers. */
 static bool take_mode(struct gn_kms *k) {
-    for (; k->monitor.mode < k->monitor.ladder_count;
-         k->monitor.mode++, k->buffers.opts.rung = first_rung(k)) {
+    for (; k->monitor.mode < k->monitor.candidate_count;
+         k->monitor.mode++, k->buffers.opts.fallback = first_fallback(k)) {
         gn_kms_drop_surface(k);
         if (!take_surface(k)) continue;
-        const uint32_t mhz = gn_kms_mode_mhz(&k->monitor.ladder[k->monitor.mode]);
+        const uint32_t mhz = gn_kms_mode_mhz(&k->monitor.candidates[k->monitor.mode]);
         k->flip.period_ns = mhz > 0 ? 1000 * GN_KMS_S / mhz : GN_KMS_S / 60;
         k->flip.shortest_ns = k->opts->max_fps > 0 ? GN_KMS_S / k->opts->max_fps : 0;
         return true;
@@ -175,24 +175,24 @@ static void give_up_connector(struct gn_kms *k, const char *why, int64_t now_ns)
     k->monitor.connected = k->lit = false;
     snprintf(k->text.reason, sizeof k->text.reason, "%s: no mode can be set (%s)",
              k->monitor.connector, why);
-    k->due.look_ns = now_ns + 5 * GN_KMS_LOOK_NS;
+    k->due.scan_ns = now_ns + 5 * GN_KMS_SCAN_NS;
 }
 
 void gn_kms_next_try(struct gn_kms *k, int error, int64_t now_ns) {
     k->lit = false;
     gn_flip_forget(&k->flip);
-    if (k->buffers.opts.rung < GN_RUNG_COPY)
-        k->buffers.opts.rung++;
+    if (k->buffers.opts.fallback < GN_FALLBACK_COPY)
+        k->buffers.opts.fallback++;
     else {
         k->monitor.mode++;
-        k->buffers.opts.rung = first_rung(k);
+        k->buffers.opts.fallback = first_fallback(k);
     }
     if (!take_mode(k)) give_up_connector(k, strerror(error), now_ns);
 }
 
 static int find_mode(const struct gn_kms *k, const drmModeModeInfo *mode) {
-    for (int i = 0; i < k->monitor.ladder_count; i++)
-        if (gn_kms_mode_equal(&k->monitor.ladder[i], mode)) return i;
+    for (int i = 0; i < k->monitor.candidate_count; i++)
+        if (gn_kms_mode_equal(&k->monitor.candidates[i], mode)) return i;
     return -1;
 }
 
@@ -207,18 +207,18 @@ static void keep_mode(struct gn_kms *k, const struct gn_kms_connector *c,
                       const drmModeModeInfo *mode) {
     if (find_mode(k, mode) < 0 && !is_listed(c, mode)) return;
     int at = find_mode(k, mode);
-    if (at < 0 && k->monitor.ladder_count < GN_KMS_LADDER_MAX) k->monitor.ladder_count++;
-    if (at < 0) at = k->monitor.ladder_count - 1;
-    memmove(&k->monitor.ladder[1], &k->monitor.ladder[0], (size_t)at * sizeof *mode);
-    k->monitor.ladder[0] = *mode;
+    if (at < 0 && k->monitor.candidate_count < GN_KMS_CANDIDATES_MAX) k->monitor.candidate_count++;
+    if (at < 0) at = k->monitor.candidate_count - 1;
+    memmove(&k->monitor.candidates[1], &k->monitor.candidates[0], (size_t)at * sizeof *mode);
+    k->monitor.candidates[0] = *mode;
 }
 
 static bool same_surface(const struct gn_kms *k) {
     const struct gn_surface_opts *o = &k->buffers.opts;
-    const bool is_there =
-        o->rung == GN_RUNG_COPY ? k->buffers.copies[0].handle != 0 : k->buffers.surface.format;
-    return is_there && o->width_px == k->monitor.ladder[0].hdisplay &&
-           o->height_px == k->monitor.ladder[0].vdisplay;
+    const bool is_there = o->fallback == GN_FALLBACK_COPY ? k->buffers.copies[0].handle != 0
+                                                          : k->buffers.surface.format;
+    return is_there && o->width_px == k->monitor.candidates[0].hdisplay &&
+           o->height_px == k->monitor.candidates[0].vdisplay;
 }
 
 static bool is_unreadable(const struct gn_kms *k) {
@@ -253,19 +253,19 @@ static void connect(struct gn_kms *k, int connector, int64_t now_ns) {
     k->due.sleep_ns = now_ns;
     if (crtc < 0 || !open_output(k, connector, crtc)) {
         give_up_connector(k, "nothing drives it", now_ns);
-        if (is_unreadable(k)) k->due.look_ns = now_ns + GN_KMS_LOOK_NS;
+        if (is_unreadable(k)) k->due.scan_ns = now_ns + GN_KMS_SCAN_NS;
         return;
     }
     const bool was_lit = k->output.mode.hdisplay > 0,
                known = was_lit && k->monitor.lit_for == c->monitor;
-    k->monitor.ladder_count = gn_kms_mode_ladder(
-        &k->device.card, connector, was_lit && !known ? -1 : crtc, k->opts, k->monitor.ladder);
+    k->monitor.candidate_count = gn_kms_mode_candidates(
+        &k->device.card, connector, was_lit && !known ? -1 : crtc, k->opts, k->monitor.candidates);
     if (known) keep_mode(k, c, &k->output.mode);
     k->monitor.mode = 0;
     k->monitor.connected = true;
     k->text.reason[0] = 0;
     if (same_surface(k)) return;
-    k->buffers.opts.rung = first_rung(k);
+    k->buffers.opts.fallback = first_fallback(k);
     if (!take_mode(k)) give_up_connector(k, "no buffers", now_ns);
 }
 
@@ -285,7 +285,7 @@ static int choose(const struct gn_kms *k) {
 }
 
 /* Another card may have a monitor; ours has none. */
-static void look_elsewhere(struct gn_kms *k, bool probe, int64_t now_ns) {
+static void scan_other_cards(struct gn_kms *k, bool probe, int64_t now_ns) {
     struct gn_kms_node other;
     const int fd = find_card(k, 1, probe, &other);
     if (fd < 0) return;
@@ -293,7 +293,7 @@ static void look_elsewhere(struct gn_kms *k, bool probe, int64_t now_ns) {
     gn_kms_leave_card(k, true, now_ns);
 }
 
-static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
+static void scan_card(struct gn_kms *k, bool probe, int64_t now_ns) {
     struct gn_err why = {0};
     if (!gn_kms_card_read(k->env.drm, k->device.fd, probe, &k->device.card, &why)) {
         gn_kms_leave_card(k, false, now_ns);
@@ -303,24 +303,24 @@ static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
                            : k->monitor.connected ? 0
                                                   : k->device.unreadable;
     if (k->device.card.partial)
-        k->due.look_ns = now_ns + (is_unreadable(k) ? 1 : 15) * GN_KMS_LOOK_NS;
+        k->due.scan_ns = now_ns + (is_unreadable(k) ? 1 : 15) * GN_KMS_SCAN_NS;
     if (k->device.card.partial && is_unreadable(k) && k->monitor.connected)
         return; /* it puts nothing out */
     const int chosen = choose(k);
     if (chosen < 0) {
         k->monitor.connected = k->lit = false;
-        look_elsewhere(k, probe, now_ns);
+        scan_other_cards(k, probe, now_ns);
         return;
     }
     const struct gn_kms_connector *c = &k->device.card.connectors[chosen];
     const bool as_it_was = k->monitor.connected && is_ours(k, c) && c->monitor == k->monitor.id &&
                            !c->bad_link && (c->crtc >= 0 || !k->lit) &&
-                           (is_listed(c, &k->monitor.ladder[k->monitor.mode]) ||
+                           (is_listed(c, &k->monitor.candidates[k->monitor.mode]) ||
                             k->opts->mode_width > 0 || k->opts->modeline);
     if (as_it_was) return;
     if (k->flip.pending) { /* nothing is changed under a flip */
         k->monitor.connected = false;
-        k->due.look_ns = now_ns + k->flip.period_ns;
+        k->due.scan_ns = now_ns + k->flip.period_ns;
         return;
     }
     connect(k, chosen, now_ns);
@@ -329,7 +329,7 @@ static void look_at_card(struct gn_kms *k, bool probe, int64_t now_ns) {
 /* It may by now. What it said instead makes room. */
 static void start_gl_again(struct gn_kms *k, int64_t now_ns) {
     if (k->flip.pending) {
-        k->due.look_ns = now_ns + k->flip.period_ns;
+        k->due.scan_ns = now_ns + k->flip.period_ns;
         return;
     }
     start_gl(k);
@@ -338,9 +338,9 @@ static void start_gl_again(struct gn_kms *k, int64_t now_ns) {
     k->monitor.connected = k->lit = false;
 }
 
-void gn_kms_look(struct gn_kms *k, int64_t now_ns) {
+void gn_kms_scan(struct gn_kms *k, int64_t now_ns) {
     bool probe = now_ns >= k->due.probe_ns;
-    k->due.look_ns = GN_KMS_NEVER;
+    k->due.scan_ns = GN_KMS_NEVER;
     if (probe) k->due.probe_ns = now_ns + GN_KMS_PROBE_NS;
     if (k->device.fd >= 0 && !k->device.scanout && k->monitor.connected)
         start_gl_again(k, now_ns);
@@ -350,10 +350,11 @@ void gn_kms_look(struct gn_kms *k, int64_t now_ns) {
         open_card(k, now_ns);
         probe = k->device.card.partial; /* else it has been */
     }
-    if (k->device.fd >= 0) look_at_card(k, probe, now_ns);
+    if (k->device.fd >= 0) scan_card(k, probe, now_ns);
     if (k->device.card.partial || k->device.fresh.partial)
         k->due.probe_ns = now_ns; /* not all have answered */
     const bool dumb = k->device.fd >= 0 && !k->device.scanout;
-    if (k->due.look_ns != GN_KMS_NEVER || (k->monitor.connected && !dumb && !k->env.deaf)) return;
-    k->due.look_ns = now_ns + (dumb ? 5 : 1) * GN_KMS_LOOK_NS;
+    if (k->due.scan_ns != GN_KMS_NEVER || (k->monitor.connected && !dumb && !k->env.no_uevents))
+        return;
+    k->due.scan_ns = now_ns + (dumb ? 5 : 1) * GN_KMS_SCAN_NS;
 }

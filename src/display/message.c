@@ -1,4 +1,4 @@
-#include "display/notice.h"
+#include "display/message.h"
 
 #include <string.h>
 
@@ -9,15 +9,15 @@
 static const uint32_t ground = 0x00202428, ink = 0x00e8e8e8;
 
 /* A picture on its side is as wide as it is high. */
-static uint32_t upright_width(const struct gn_notice_picture *p) {
+static uint32_t upright_width(const struct gn_message_picture *p) {
     return p->turn_deg % 180 ? p->height_px : p->width_px;
 }
 
-static uint32_t upright_height(const struct gn_notice_picture *p) {
+static uint32_t upright_height(const struct gn_message_picture *p) {
     return p->turn_deg % 180 ? p->width_px : p->height_px;
 }
 
-static void put(const struct gn_notice_picture *p, uint32_t x, uint32_t y) {
+static void put(const struct gn_message_picture *p, uint32_t x, uint32_t y) {
     uint32_t at_x = x, at_y = y;
     if (x >= upright_width(p) || y >= upright_height(p)) return;
     if (p->turn_deg == 90) at_x = p->width_px - 1 - y, at_y = x;
@@ -26,7 +26,7 @@ static void put(const struct gn_notice_picture *p, uint32_t x, uint32_t y) {
     memcpy(p->pixels + at_y * p->stride + 4ul * at_x, &ink, sizeof ink);
 }
 
-static void draw_glyph(const struct gn_notice_picture *p, char c, uint32_t x, uint32_t y,
+static void draw_glyph(const struct gn_message_picture *p, char c, uint32_t x, uint32_t y,
                        uint32_t scale) {
     const uint8_t *rows = gn_dot_font_rows((unsigned char)c);
     if (!rows) rows = gn_dot_font_rows('?');
@@ -53,7 +53,7 @@ static size_t count_lines(const char *text, size_t room) {
     return count;
 }
 
-void gn_notice_draw(const struct gn_notice_picture *p, const char *text) {
+void gn_message_draw(const struct gn_message_picture *p, const char *text) {
     const uint32_t width = upright_width(p), height = upright_height(p);
     const uint32_t scale =
         height / 24 / GN_DOT_FONT_HEIGHT > 0 ? height / 24 / GN_DOT_FONT_HEIGHT : 1;

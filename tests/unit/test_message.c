@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "display/notice.h"
+#include "display/message.h"
 #include "unit/check.h"
 
 enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT };
@@ -10,9 +10,9 @@ static uint32_t upright[PIXELS], turned[PIXELS];
 
 static void draw(uint32_t *pixels, unsigned turn_deg, const char *text) {
     const uint32_t width = turn_deg % 180 ? HEIGHT : WIDTH;
-    const struct gn_notice_picture p = {(uint8_t *)pixels, 4ul * width, width, PIXELS / width,
-                                        turn_deg};
-    gn_notice_draw(&p, text);
+    const struct gn_message_picture p = {(uint8_t *)pixels, 4ul * width, width, PIXELS / width,
+                                         turn_deg};
+    gn_message_draw(&p, text);
 }
 
 static unsigned count_ink(const uint32_t *pixels) {
@@ -55,9 +55,9 @@ static void test_any_text_on_any_picture(void **state) {
     for (size_t i = 50; i < 2000; i += 7) text[i] = i % 3 ? ' ' : '\xc3';
     draw(upright, 0, text);
     draw(turned, 90, text);
-    const struct gn_notice_picture p = {(uint8_t *)small, 16, 4, 3, 270};
-    gn_notice_draw(&p, text);
-    gn_notice_draw(&p, "");
+    const struct gn_message_picture p = {(uint8_t *)small, 16, 4, 3, 270};
+    gn_message_draw(&p, text);
+    gn_message_draw(&p, "");
     draw(upright, 0, "");
     assert_int_equal(count_ink(upright), 0);
 }
