@@ -4,10 +4,9 @@
 #ifndef GN_SCENE_PRIVATE_H
 #define GN_SCENE_PRIVATE_H
 
-#include <jansson.h>
-
 #include "core/arena.h"
 #include "core/file.h"
+#include "scene/gltf/json.h"
 #include "scene/scene.h"
 
 struct gn_blob { /* bytes of a file, a data URI or a part of the model itself */
@@ -131,49 +130,13 @@ struct gn_gltf {
     struct gn_scene *scene;
 };
 
-/* ---- gltf/json.c: a cursor into the JSON that knows its path, and typed getters ---- */
-
-struct gn_at {
-    const struct gn_at *up; /* must outlive this one */
-    const char *key;        /* NULL: element `index` of up */
-    size_t index;
-    json_t *json; /* NULL: there is no such thing */
-};
+/* ---- gltf/message.c ---- */
 
 /* "PATH: nodes[3].mesh: text". The first failure stays; both return false. at may be NULL. */
 bool gn_gltf_fail(struct gn_gltf *g, const struct gn_at *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-
-/* Parses text into g->json; offset is where in the file it stands. */
-bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offset);
-
-struct gn_at gn_at_root(const struct gn_gltf *g);
-struct gn_at gn_at_any(const struct gn_at *up, const char *key);
-/* Absent gives an empty cursor; the wrong type fails. */
-struct gn_at gn_at_object(struct gn_gltf *g, const struct gn_at *up, const char *key);
-struct gn_at gn_at_array(struct gn_gltf *g, const struct gn_at *up, const char *key);
-struct gn_at gn_at_element(const struct gn_at *array, size_t index);
-struct gn_at gn_at_item(struct gn_gltf *g, const struct gn_at *array, size_t index); /* an object */
-/* key is written "extensions.NAME", as the messages show it. */
-struct gn_at gn_at_extension(struct gn_gltf *g, const struct gn_at *up, const char *key);
-size_t gn_at_size(const struct gn_at *array);
-
-const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up,
-                       const char *key); /* NULL if absent */
-bool gn_at_flag(struct gn_gltf *g, const struct gn_at *up, const char *key, bool fallback);
-uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *key, uint64_t fallback);
-float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *key, float fallback);
-/* Exactly n numbers into out, which stays as it is if there are none; true if there were. */
-bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t n, float *out);
-/* An index below count, or -1 if absent or wrong; what: plural, for the message. */
-int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t count,
-                  const char *what);
-int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, const char *what);
-/* A number or an integral real, for those who do not want a failure. */
-bool gn_json_number(const json_t *json, double *out);
-bool gn_json_whole(const json_t *json, int64_t *out);
 
 /* ---- gltf/memory.c ---- */
 
