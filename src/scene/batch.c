@@ -42,7 +42,7 @@ static int compare_looks(const void *a, const void *b) {
 /* Numbers the looks; look_number[material]. */
 static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
     uint32_t count = g->scene->material_count, number = 0;
-    struct look *looks = gn_gltf_alloc(g, &g->scratch, count, sizeof *looks);
+    struct look *looks = gn_gltf_alloc(g, &g->memory.load, count, sizeof *looks);
     if (!looks) return false;
     for (uint32_t i = 0; i < count; i++) looks[i] = look_of(&g->scene->materials[i], i);
     qsort(looks, count, sizeof *looks, compare_looks);
@@ -80,9 +80,9 @@ static struct item_key key_of(const struct gn_scene *scene, uint32_t index, cons
 
 bool gn_scene_batch(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
-    gn_arena_reset(&g->work);
-    uint32_t *looks = gn_gltf_alloc(g, &g->work, scene->material_count, sizeof *looks);
-    struct item_key *keys = gn_gltf_alloc(g, &g->work, scene->item_count, sizeof *keys);
+    gn_arena_reset(&g->memory.step);
+    uint32_t *looks = gn_gltf_alloc(g, &g->memory.step, scene->material_count, sizeof *looks);
+    struct item_key *keys = gn_gltf_alloc(g, &g->memory.step, scene->item_count, sizeof *keys);
     if (g->failed || !number_looks(g, looks)) return false;
     for (uint32_t i = 0; i < scene->item_count; i++) keys[i] = key_of(scene, i, looks);
     qsort(keys, scene->item_count, sizeof *keys, compare_items);

@@ -23,7 +23,7 @@ struct gather {
 
 /* All elements of the accessor, in work memory; missing components are 1 (an alpha, for one). */
 static float *read_all(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
-    float *all = gn_gltf_alloc(g, &g->work, (uint64_t)a->count * components, sizeof *all);
+    float *all = gn_gltf_alloc(g, &g->memory.step, (uint64_t)a->count * components, sizeof *all);
     for (size_t i = 0; all && a->components < components && i < a->count * components; i++)
         all[i] = 1;
     if (all) gn_accessor_floats(a, components, all);
@@ -121,7 +121,7 @@ static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at,
     size_t vertex_count = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_POSITION])->count;
     const struct gn_accessor *indices = gn_gltf_accessor(g, shape->indices);
     *count = indices ? indices->count : vertex_count;
-    uint32_t *raw = gn_gltf_alloc(g, &g->work, *count, sizeof *raw);
+    uint32_t *raw = gn_gltf_alloc(g, &g->memory.step, *count, sizeof *raw);
     if (!raw) return NULL;
     for (size_t i = 0; !indices && i < *count; i++) raw[i] = (uint32_t)i;
     if (indices) gn_accessor_indices(indices, raw);
@@ -207,7 +207,7 @@ static bool fill_flat(struct gn_gltf *g, const struct gn_at *at, const struct gn
 static bool fill_shared(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
                         struct gn_geometry *geometry) {
     struct gn_scene *scene = g->scene;
-    struct gn_vertices *vertices = &g->vertices[shape->vertices];
+    struct gn_vertices *vertices = &g->primitives.vertices[shape->vertices];
     size_t count = 0;
     if (!fill_vertices(g, vertices)) return false;
     const uint32_t *raw = read_corners(g, at, shape, &count);
@@ -228,7 +228,7 @@ static bool fill(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *
     struct gn_at mesh = gn_at_element(&meshes, shape->mesh);
     struct gn_at list = gn_at_array(g, &mesh, "primitives");
     struct gn_at at = gn_at_element(&list, shape->primitive);
-    gn_arena_reset(&g->work);
+    gn_arena_reset(&g->memory.step);
     geometry->first_index = g->scene->index_count;
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
         geometry->attributes |= (uint32_t)(shape->attribute[i] >= 0) << i;
@@ -251,9 +251,10 @@ static bool allocate(struct gn_gltf *g) {
     uint64_t vertices = 0, corners = 0;
     bool any[GN_ATTRIBUTE_COUNT] = {[GN_ATTRIBUTE_POSITION] = true, [GN_ATTRIBUTE_NORMAL] = true};
     struct gn_at root = gn_at_root(g), meshes = gn_at_any(&root, "meshes");
-    for (size_t i = 0; i < g->vertices_count; i++) vertices += g->vertices[i].count;
+    for (size_t i = 0; i < g->primitives.vertices_count; i++)
+        vertices += g->primitives.vertices[i].count;
     for (size_t i = 0; i < scene->geometry_count; i++) {
-        const struct gn_shape *shape = &g->shapes[i];
+        const struct gn_shape *shape = &g->primitives.shapes[i];
         corners += shape->corner_count;
         if (shape->vertices == UINT32_MAX) vertices += shape->corner_count;
         for (int k = 0; k < GN_ATTRIBUTE_COUNT; k++) any[k] |= shape->attribute[k] >= 0;
@@ -265,11 +266,12 @@ static bool allocate(struct gn_gltf *g) {
     if (corners > UINT32_MAX)
         return gn_gltf_fail(g, &meshes, "%" PRIu64 " indices are more than can be drawn", corners);
     scene->geometries =
-        gn_gltf_alloc(g, g->arena, scene->geometry_count, sizeof *scene->geometries);
-    scene->indices = gn_gltf_alloc(g, g->arena, corners, sizeof *scene->indices);
+        gn_gltf_alloc(g, g->memory.scene, scene->geometry_count, sizeof *scene->geometries);
+    scene->indices = gn_gltf_alloc(g, g->memory.scene, corners, sizeof *scene->indices);
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
         if (any[i])
-            scene->attributes[i] = gn_gltf_alloc(g, g->arena, vertices, gn_attributes[i].bytes);
+            scene->attributes[i] =
+                gn_gltf_alloc(g, g->memory.scene, vertices, gn_attributes[i].bytes);
     return !g->failed;
 }
 
@@ -285,7 +287,7 @@ static void tidy(struct gn_scene *scene) {
 bool gn_gltf_geometries(struct gn_gltf *g) {
     if (!allocate(g)) return false;
     for (uint32_t i = 0; i < g->scene->geometry_count; i++)
-        if (!fill(g, &g->shapes[i], &g->scene->geometries[i])) return false;
+        if (!fill(g, &g->primitives.shapes[i], &g->scene->geometries[i])) return false;
     tidy(g->scene);
     return true;
 }

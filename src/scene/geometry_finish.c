@@ -35,9 +35,10 @@ static void face_normal(const float *a, const float *b, const float *c, float ou
 bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_t *corners,
                               size_t corner_count, size_t vertex_count, uint32_t **source,
                               float **normals, size_t *made) {
-    uint32_t *latest = gn_gltf_alloc(g, &g->work, vertex_count, sizeof *latest); /* made + 1 */
-    *source = gn_gltf_alloc(g, &g->work, corner_count, sizeof **source);
-    *normals = gn_gltf_alloc(g, &g->work, corner_count, 3 * sizeof **normals);
+    uint32_t *latest =
+        gn_gltf_alloc(g, &g->memory.step, vertex_count, sizeof *latest); /* made + 1 */
+    *source = gn_gltf_alloc(g, &g->memory.step, corner_count, sizeof **source);
+    *normals = gn_gltf_alloc(g, &g->memory.step, corner_count, 3 * sizeof **normals);
     if (g->failed) return false;
     size_t count = 0;
     float normal[3] = {0, 1, 0};

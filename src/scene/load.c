@@ -15,8 +15,8 @@ static bool count_textures(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g);
     struct gn_at textures = gn_at_array(g, &root, "textures"),
                  images = gn_at_array(g, &root, "images");
-    g->file_texture_count = gn_at_size(&textures);
-    g->file_image_count = gn_at_size(&images);
+    g->file.texture_count = gn_at_size(&textures);
+    g->file.image_count = gn_at_size(&images);
     return !g->failed;
 }
 
@@ -28,10 +28,11 @@ static bool check_triangles(struct gn_gltf *g) {
     for (uint32_t i = 0; i < g->scene->node_count; i++) {
         const struct gn_placed *placed = &g->placed[i];
         if (placed->mesh < 0) continue;
-        const struct gn_mesh *mesh = &g->meshes[placed->mesh];
+        const struct gn_mesh *mesh = &g->file.meshes[placed->mesh];
         uint64_t triangles = 0;
-        for (uint32_t d = 0; d < mesh->draw_count; d++)
-            triangles += g->shapes[g->draws[mesh->first_draw + d].geometry].corner_count / 3;
+        const struct gn_primitive *primitives = &g->primitives.list[mesh->first_primitive];
+        for (uint32_t k = 0; k < mesh->primitive_count; k++)
+            triangles += g->primitives.shapes[primitives[k].geometry].corner_count / 3;
         total += triangles * (placed->instance_count ? placed->instance_count : 1);
         if (total > g->limits.triangles_per_frame)
             return gn_gltf_fail(g, &nodes,
@@ -49,19 +50,19 @@ static bool (*const STEPS[])(struct gn_gltf *) = {
 };
 
 static void finish(struct gn_gltf *g) {
-    for (size_t i = 0; i < g->buffer_count; i++) gn_blob_finish(g, &g->buffers[i]);
-    json_decref(g->json);
-    gn_arena_finish(&g->work);
-    gn_arena_finish(&g->scratch);
+    for (size_t i = 0; i < g->file.buffer_count; i++) gn_blob_finish(g, &g->file.buffers[i]);
+    json_decref(g->file.json);
+    gn_arena_finish(&g->memory.step);
+    gn_arena_finish(&g->memory.load);
     free(g->folder);
 }
 
 static struct gn_scene *load(struct gn_gltf *g, const uint8_t *data, size_t size) {
     struct holder *holder = gn_xalloc(1, sizeof *holder);
     holder->scene.memory = holder;
-    g->arena = &holder->arena;
+    g->memory.scene = &holder->arena;
     g->scene = &holder->scene;
-    g->other_bytes = size;
+    g->memory.other_bytes = size;
     bool done = gn_gltf_open(g, data, size);
     for (size_t i = 0; done && i < sizeof STEPS / sizeof STEPS[0]; i++) done = STEPS[i](g);
     done = done && !g->failed;

@@ -71,7 +71,7 @@ void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose) {
             scene->geometries[item->geometry].flat && pose->items[i].visible && item->receives;
         if (!may || g->placed[item->node].plane == GN_NO) continue;
         vec3 normal_ws;
-        double area = g->shapes[item->geometry].area;
+        double area = g->primitives.shapes[item->geometry].area;
         to_world(pose, i, normal_ws, &area);
         if (area <= best || area < LEAST_SHARE * seen_along(&pose->box_ws, normal_ws)) continue;
         best = area;

@@ -57,13 +57,13 @@ enum gn_missing {
     GN_MISSING_COUNT,
 };
 
-struct gn_draw { /* a primitive of a mesh */
+struct gn_primitive { /* of a mesh */
     uint32_t geometry;
     int32_t material; /* the file's number, or -1 */
 };
 struct gn_mesh {
     bool used;
-    uint32_t first_draw, draw_count;
+    uint32_t first_primitive, primitive_count;
 };
 
 struct gn_vertices { /* a set of attribute accessors; geometries with normals share it */
@@ -74,7 +74,7 @@ struct gn_vertices { /* a set of attribute accessors; geometries with normals sh
 struct gn_shape { /* what a geometry is made of */
     int32_t attribute[GN_ATTRIBUTE_COUNT];
     int32_t indices, mode;
-    uint32_t vertices;        /* index into gltf->vertices */
+    uint32_t vertices;        /* index into primitives.vertices; UINT32_MAX: flat normals */
     uint32_t mesh, primitive; /* the first to use it, for messages */
     uint64_t corner_count;    /* most indices that it can come to */
     double area;              /* of its triangles, if it is flat */
@@ -91,6 +91,35 @@ struct gn_placed { /* what a node of the scene carries, beyond its transform */
     enum gn_cast_faces cast_faces;
 };
 
+struct gn_gltf_memory {
+    struct gn_arena *scene;
+    struct gn_arena load; /* until the load ends */
+    struct gn_arena step; /* reset for each geometry, picture and animation */
+    size_t other_bytes;   /* an estimate of what lies outside the arenas: files, JSON, and what the
+                             GPU will have of pictures, which on a board is the same memory */
+};
+struct gn_gltf_file { /* what the file declares, by its own numbers */
+    json_t *json;
+    struct gn_blob bin; /* the BIN chunk of a .glb */
+    struct gn_blob *buffers;
+    struct gn_view *views;
+    struct gn_accessor *accessors;
+    const float **key_times; /* per accessor: times already copied */
+    struct gn_mesh *meshes;
+    size_t buffer_count, view_count, accessor_count, mesh_count, material_count, node_count,
+        texture_count, image_count;
+};
+struct gn_gltf_primitives { /* of the meshes in use, mesh by mesh, and what they share */
+    struct gn_primitive *list;
+    struct gn_shape *shapes; /* scene->geometry_count */
+    struct gn_vertices *vertices;
+    size_t count, vertices_count;
+};
+struct gn_gltf_to_scene { /* from numbers of the file to indices in the scene */
+    int32_t *node;        /* -1: not shown */
+    int32_t *texture;     /* -1: not looked at yet, -2: dropped */
+    int32_t *image;       /* the same */
+};
 struct gn_gltf {
     const char *path; /* names the file in messages */
     char *folder;     /* real path of its folder, or NULL: no other files */
@@ -99,34 +128,14 @@ struct gn_gltf {
     struct gn_err *err;
     bool failed;
     bool is_missing[GN_MISSING_COUNT];
-
-    struct gn_arena *arena;  /* the scene's */
-    struct gn_arena scratch; /* until the load ends */
-    struct gn_arena work;    /* reset for each geometry, picture and animation */
-    size_t other_bytes;      /* an estimate of what lies outside the arenas: files, JSON, and what
-                                the GPU will have of pictures, which on a board is the same memory */
-    size_t misplaced;        /* triangles that are not shown: positions that are not finite */
-
-    json_t *json;
-    struct gn_blob bin; /* the BIN chunk of a .glb */
-    struct gn_blob *buffers;
-    struct gn_view *views;
-    struct gn_accessor *accessors;
-    struct gn_mesh *meshes;
-    struct gn_draw *draws;
-    struct gn_shape *shapes;
-    struct gn_vertices *vertices;
+    struct gn_gltf_memory memory;
+    struct gn_gltf_file file;
+    struct gn_gltf_primitives primitives;
     struct gn_placed *placed; /* scene->node_count, + 2 */
-    int32_t *scene_node;      /* of the file's nodes: index in the scene, or -1 */
-    int32_t *scene_texture;   /* of the file's textures: index in the scene, -1 not looked at, -2
-                                 dropped */
-    int32_t *scene_image;     /* the same for its pictures */
-    const float **key_times;  /* per accessor: times already copied */
-    size_t buffer_count, view_count, accessor_count, mesh_count, draw_count, vertices_count,
-        material_count, file_node_count, file_texture_count, file_image_count;
+    struct gn_gltf_to_scene to_scene;
+    size_t misplaced; /* triangles that are not shown: positions that are not finite */
     uint64_t key_total;
     uint64_t damaged_texels; /* of pictures whose decoding failed */
-
     struct gn_scene *scene;
 };
 

@@ -59,7 +59,7 @@ static bool fetch_data(struct gn_gltf *g, const char *uri, struct gn_blob *out,
     const char *comma = strchr(uri, ',');
     if (!comma) return gn_fail(err, "data URI without a comma");
     size_t length = strlen(comma + 1);
-    uint8_t *bytes = gn_gltf_alloc(g, &g->scratch, length, 1);
+    uint8_t *bytes = gn_gltf_alloc(g, &g->memory.load, length, 1);
     if (!bytes) return false;
     static const char mark[] = ";base64";
     size_t header = (size_t)(comma - uri), tail = sizeof mark - 1;
@@ -137,7 +137,7 @@ static bool fetch_file(struct gn_gltf *g, const char *uri, struct gn_blob *out,
     if (!gn_file_read(full, file_limit(g), &out->file, err)) return false;
     out->data = out->file.data;
     out->size = out->file.size;
-    g->other_bytes += out->size;
+    g->memory.other_bytes += out->size;
     return true;
 }
 
@@ -148,7 +148,7 @@ bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struc
 }
 
 void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob) {
-    if (blob->file.data) g->other_bytes -= blob->size;
+    if (blob->file.data) g->memory.other_bytes -= blob->size;
     gn_bytes_finish(&blob->file);
     *blob = (struct gn_blob){0};
 }

@@ -59,7 +59,7 @@ struct span {
 
 /* The one check: everything that is read lies inside the view. */
 static const uint8_t *span_data(struct gn_gltf *g, const struct gn_at *at, struct span *span) {
-    const struct gn_view *view = &g->views[span->view];
+    const struct gn_view *view = &g->file.views[span->view];
     if (span->stride == 0) span->stride = span->element;
     uint64_t end = 0;
     bool fits = !__builtin_mul_overflow(span->count - 1, span->stride, &end) &&
@@ -85,7 +85,7 @@ static const uint8_t *span_data(struct gn_gltf *g, const struct gn_at *at, struc
 
 /* A dense copy of the base, for the sparse values to go into. */
 static uint8_t *dense_copy(struct gn_gltf *g, struct gn_accessor *a, size_t element) {
-    uint8_t *copy = gn_gltf_alloc(g, &g->scratch, a->count, element);
+    uint8_t *copy = gn_gltf_alloc(g, &g->memory.load, a->count, element);
     if (!copy) return NULL;
     for (size_t i = 0; a->stride > 0 && i < a->count; i++)
         memcpy(copy + i * element, a->data + i * a->stride, element);
@@ -96,7 +96,7 @@ static uint8_t *dense_copy(struct gn_gltf *g, struct gn_accessor *a, size_t elem
 
 static bool place_values(struct gn_gltf *g, const struct gn_at *at, const struct gn_accessor *index,
                          const uint8_t *values, uint8_t *copy, const struct gn_accessor *a) {
-    uint32_t *at_index = gn_gltf_alloc(g, &g->scratch, index->count, sizeof *at_index);
+    uint32_t *at_index = gn_gltf_alloc(g, &g->memory.load, index->count, sizeof *at_index);
     if (!at_index) return false;
     gn_accessor_indices(index, at_index);
     for (size_t i = 0; i < index->count; i++) {
@@ -121,15 +121,15 @@ static bool apply_sparse(struct gn_gltf *g, const struct gn_at *sparse, struct g
     if (!read_component(g, &indices, &index.component)) return false;
     index.stride = component_size(index.component);
     struct span index_span = {
-        .view = gn_at_ref(g, &indices, "bufferView", g->view_count, "bufferViews"),
+        .view = gn_at_ref(g, &indices, "bufferView", g->file.view_count, "bufferViews"),
         .offset = gn_at_uint(g, &indices, "byteOffset", 0),
         .count = count,
         .element = index.stride};
-    struct span value_span = {.view =
-                                  gn_at_ref(g, &values, "bufferView", g->view_count, "bufferViews"),
-                              .offset = gn_at_uint(g, &values, "byteOffset", 0),
-                              .count = count,
-                              .element = element};
+    struct span value_span = {
+        .view = gn_at_ref(g, &values, "bufferView", g->file.view_count, "bufferViews"),
+        .offset = gn_at_uint(g, &values, "byteOffset", 0),
+        .count = count,
+        .element = element};
     if (g->failed || index_span.view < 0 || value_span.view < 0)
         return gn_gltf_fail(g, sparse, "indices.bufferView and values.bufferView are needed");
     if (index.component != GN_U8 && index.component != GN_U16 && index.component != GN_U32)
@@ -146,7 +146,7 @@ static bool apply_sparse(struct gn_gltf *g, const struct gn_at *sparse, struct g
 static bool resolve(struct gn_gltf *g, const struct gn_at *at, struct gn_accessor *a) {
     const struct shape *shape = read_shape(g, at);
     if (!shape || !read_component(g, at, &a->component)) return false;
-    struct span span = {.view = gn_at_ref(g, at, "bufferView", g->view_count, "bufferViews"),
+    struct span span = {.view = gn_at_ref(g, at, "bufferView", g->file.view_count, "bufferViews"),
                         .offset = gn_at_uint(g, at, "byteOffset", 0),
                         .count = gn_at_uint(g, at, "count", 0),
                         .element = element_size(shape, a->component)};
@@ -159,7 +159,7 @@ static bool resolve(struct gn_gltf *g, const struct gn_at *at, struct gn_accesso
     if (!a->backed && span.count > g->limits.vertices)
         return gn_gltf_fail(g, &count, "%" PRIu64 " is more than the limit vertices=%" PRIu64,
                             span.count, g->limits.vertices);
-    if (a->backed) span.stride = g->views[span.view].stride;
+    if (a->backed) span.stride = g->file.views[span.view].stride;
     a->data = a->backed ? span_data(g, at, &span) : ZEROS;
     a->stride = span.stride;
     a->count = (size_t)span.count;
@@ -171,7 +171,7 @@ static bool resolve(struct gn_gltf *g, const struct gn_at *at, struct gn_accesso
 
 const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index) {
     if (index < 0 || g->failed) return NULL;
-    struct gn_accessor *a = &g->accessors[index];
+    struct gn_accessor *a = &g->file.accessors[index];
     if (a->resolved) return a;
     struct gn_at root = gn_at_root(g), array = gn_at_array(g, &root, "accessors");
     struct gn_at at = gn_at_item(g, &array, (size_t)index);
@@ -181,9 +181,11 @@ const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index) {
 
 bool gn_gltf_accessors(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), array = gn_at_array(g, &root, "accessors");
-    g->accessor_count = gn_at_size(&array);
-    g->accessors = gn_gltf_alloc(g, &g->scratch, g->accessor_count, sizeof *g->accessors);
-    g->key_times = gn_gltf_alloc(g, &g->scratch, g->accessor_count, sizeof *g->key_times);
+    g->file.accessor_count = gn_at_size(&array);
+    g->file.accessors =
+        gn_gltf_alloc(g, &g->memory.load, g->file.accessor_count, sizeof *g->file.accessors);
+    g->file.key_times =
+        gn_gltf_alloc(g, &g->memory.load, g->file.accessor_count, sizeof *g->file.key_times);
     return !g->failed;
 }
 

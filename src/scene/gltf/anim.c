@@ -25,8 +25,8 @@ static enum gn_anim_interpolation read_interpolation(struct gn_gltf *g, const st
 }
 
 static bool read_sampler(struct gn_gltf *g, const struct gn_at *at, struct sampler *sampler) {
-    int32_t output = gn_at_ref(g, at, "output", g->accessor_count, "accessors");
-    sampler->input_index = gn_at_ref(g, at, "input", g->accessor_count, "accessors");
+    int32_t output = gn_at_ref(g, at, "output", g->file.accessor_count, "accessors");
+    sampler->input_index = gn_at_ref(g, at, "input", g->file.accessor_count, "accessors");
     sampler->interpolation = read_interpolation(g, at);
     sampler->input = gn_gltf_accessor(g, sampler->input_index);
     sampler->output = gn_gltf_accessor(g, output);
@@ -40,18 +40,19 @@ static bool read_sampler(struct gn_gltf *g, const struct gn_at *at, struct sampl
 static const float *read_times(struct gn_gltf *g, const struct sampler *sampler) {
     const struct gn_accessor *a = sampler->input;
     if (a->components != 1) return NULL;
-    if (g->key_times[sampler->input_index]) return g->key_times[sampler->input_index];
-    float *times = gn_gltf_alloc(g, g->arena, a->count, sizeof *times);
+    if (g->file.key_times[sampler->input_index]) return g->file.key_times[sampler->input_index];
+    float *times = gn_gltf_alloc(g, g->memory.scene, a->count, sizeof *times);
     if (!times) return NULL;
     gn_accessor_floats(a, 1, times);
     for (size_t i = 0; i < a->count; i++)
         if (!(times[i] >= (i > 0 ? times[i - 1] : 0) && times[i] <= 1e9f)) return NULL;
-    g->key_times[sampler->input_index] = times;
+    g->file.key_times[sampler->input_index] = times;
     return times;
 }
 
 static const float *read_values(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
-    float *values = gn_gltf_alloc(g, g->arena, (uint64_t)a->count * components, sizeof *values);
+    float *values =
+        gn_gltf_alloc(g, g->memory.scene, (uint64_t)a->count * components, sizeof *values);
     if (!values) return NULL;
     struct gn_accessor copy = *a;
     if (components == 4) copy.normalized = true; /* integers can only be that for a rotation */
@@ -69,12 +70,12 @@ static int32_t read_target(struct gn_gltf *g, const struct gn_at *at, enum gn_an
                                         [GN_ANIM_ROTATION] = "rotation",
                                         [GN_ANIM_SCALE] = "scale"};
     struct gn_at target = gn_at_object(g, at, "target");
-    int32_t node = gn_at_ref(g, &target, "node", g->file_node_count, "nodes");
+    int32_t node = gn_at_ref(g, &target, "node", g->file.node_count, "nodes");
     const char *name = gn_at_text(g, &target, "path");
     if (g->failed || !name) return -1;
     for (int i = 0; i < 3; i++) {
         *path = (enum gn_anim_path)i;
-        if (strcmp(name, names[i]) == 0) return node < 0 ? -1 : g->scene_node[node];
+        if (strcmp(name, names[i]) == 0) return node < 0 ? -1 : g->to_scene.node[node];
     }
     if (strcmp(name, "weights") == 0)
         g->is_missing[GN_MISSING_MORPHS] = true;
@@ -175,9 +176,9 @@ bool gn_gltf_animations(struct gn_gltf *g) {
         struct gn_at at = gn_at_item(g, &array, i), list = gn_at_array(g, &at, "channels");
         channels += gn_at_size(&list);
     }
-    scene->clips = gn_gltf_alloc(g, g->arena, count, sizeof *scene->clips);
-    scene->channels = gn_gltf_alloc(g, g->arena, channels, sizeof *scene->channels);
-    uint8_t *claimed = gn_gltf_alloc(g, &g->scratch, scene->node_count, 1);
+    scene->clips = gn_gltf_alloc(g, g->memory.scene, count, sizeof *scene->clips);
+    scene->channels = gn_gltf_alloc(g, g->memory.scene, channels, sizeof *scene->channels);
+    uint8_t *claimed = gn_gltf_alloc(g, &g->memory.load, scene->node_count, 1);
     for (size_t i = 0; i < count && !g->failed; i++) {
         struct gn_at at = gn_at_element(&array, i);
         read_clip(g, &at, &scene->clips[scene->clip_count++], claimed);

@@ -11,7 +11,7 @@ static bool buffer_bytes(struct gn_gltf *g, const struct gn_at *at, size_t index
     struct gn_err err = {0};
     struct gn_at place = gn_at_any(at, "uri");
     if (uri) return gn_uri_fetch(g, uri, buffer, &err) || gn_gltf_fail(g, &place, "%s", err.text);
-    if (index == 0) *buffer = g->bin; /* later ones without a URI hold nothing: placeholders */
+    if (index == 0) *buffer = g->file.bin; /* later ones without a URI hold nothing: placeholders */
     return true;
 }
 
@@ -31,12 +31,12 @@ static bool load_buffer(struct gn_gltf *g, const struct gn_at *at, size_t index,
 static bool load_buffers(struct gn_gltf *g, const struct gn_at *root) {
     struct gn_at array = gn_at_array(g, root, "buffers");
     size_t count = gn_at_size(&array);
-    g->buffers = gn_gltf_alloc(g, &g->scratch, count, sizeof *g->buffers);
-    if (!g->buffers) return false;
-    g->buffer_count = count;
+    g->file.buffers = gn_gltf_alloc(g, &g->memory.load, count, sizeof *g->file.buffers);
+    if (!g->file.buffers) return false;
+    g->file.buffer_count = count;
     for (size_t i = 0; i < count; i++) {
         struct gn_at at = gn_at_item(g, &array, i);
-        if (g->failed || !load_buffer(g, &at, i, &g->buffers[i])) return false;
+        if (g->failed || !load_buffer(g, &at, i, &g->file.buffers[i])) return false;
     }
     return true;
 }
@@ -44,14 +44,14 @@ static bool load_buffers(struct gn_gltf *g, const struct gn_at *root) {
 /* ---- views ---- */
 
 static bool load_view(struct gn_gltf *g, const struct gn_at *at, struct gn_view *view) {
-    int32_t index = gn_at_ref(g, at, "buffer", g->buffer_count, "buffers");
+    int32_t index = gn_at_ref(g, at, "buffer", g->file.buffer_count, "buffers");
     uint64_t offset = gn_at_uint(g, at, "byteOffset", 0);
     uint64_t length = gn_at_uint(g, at, "byteLength", 0);
     view->stride = (size_t)gn_at_uint(g, at, "byteStride", 0);
     if (g->failed) return false;
     struct gn_at place = gn_at_any(at, "buffer");
     if (index < 0) return gn_gltf_fail(g, &place, "missing");
-    const struct gn_blob *buffer = &g->buffers[index];
+    const struct gn_blob *buffer = &g->file.buffers[index];
     view->size = (size_t)length;
     if (!buffer->data) return true;
     if (offset > buffer->size || length > buffer->size - offset)
@@ -67,11 +67,11 @@ bool gn_gltf_buffers(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g);
     if (!load_buffers(g, &root)) return false;
     struct gn_at array = gn_at_array(g, &root, "bufferViews");
-    g->view_count = gn_at_size(&array);
-    g->views = gn_gltf_alloc(g, &g->scratch, g->view_count, sizeof *g->views);
-    for (size_t i = 0; i < g->view_count && !g->failed; i++) {
+    g->file.view_count = gn_at_size(&array);
+    g->file.views = gn_gltf_alloc(g, &g->memory.load, g->file.view_count, sizeof *g->file.views);
+    for (size_t i = 0; i < g->file.view_count && !g->failed; i++) {
         struct gn_at at = gn_at_item(g, &array, i);
-        if (!g->failed) load_view(g, &at, &g->views[i]);
+        if (!g->failed) load_view(g, &at, &g->file.views[i]);
     }
     return !g->failed;
 }

@@ -58,7 +58,7 @@ bool gn_gltf_cameras(struct gn_gltf *g) {
     struct gn_at definitions = gn_at_array(g, &root, "cameras");
     struct gn_scene *scene = g->scene;
     scene->cameras =
-        gn_gltf_alloc(g, g->arena, (uint64_t)scene->node_count + 1, sizeof *scene->cameras);
+        gn_gltf_alloc(g, g->memory.scene, (uint64_t)scene->node_count + 1, sizeof *scene->cameras);
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         if (g->placed[i].bare) continue;
         struct gn_at node = gn_at_element(&nodes, g->placed[i].json);

@@ -130,8 +130,8 @@ void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_place
 static void light_slide(struct gn_gltf *g, const struct gn_at *extras, struct gn_light *light) {
     static const char *const outside[] = {"dark", "lit"};
     int64_t slide = -1;
-    if (g->file_texture_count > 0)
-        take_whole(g, extras, "gnomon_slide", 0, (int64_t)g->file_texture_count - 1, &slide);
+    if (g->file.texture_count > 0)
+        take_whole(g, extras, "gnomon_slide", 0, (int64_t)g->file.texture_count - 1, &slide);
     else if (gn_at_any(extras, "gnomon_slide").json)
         gn_gltf_warn(g, extras, "gnomon_slide: the file has no textures; ignored");
     if (slide >= 0) light->slide = gn_gltf_texture(g, (int32_t)slide);

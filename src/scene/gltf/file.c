@@ -56,10 +56,10 @@ static bool take_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
         return parse(g, body, length, at + CHUNK);
     }
     if (type == CHUNK_JSON) return gn_gltf_fail(g, NULL, "byte %zu: a second JSON chunk", at);
-    if (type == CHUNK_BIN && g->bin.data)
+    if (type == CHUNK_BIN && g->file.bin.data)
         gn_gltf_warn(g, NULL, "byte %zu: a second BIN chunk", at);
     else if (type == CHUNK_BIN)
-        g->bin = (struct gn_blob){.data = body, .size = length};
+        g->file.bin = (struct gn_blob){.data = body, .size = length};
     return true;
 }
 

@@ -46,14 +46,14 @@ static bool decode(struct gn_gltf *g, const struct gn_blob *blob, struct gn_imag
     if (g->damaged_texels > g->limits.texels)
         return gn_fail(err, "not decoded: damaged pictures have used up the limit texels=%" PRIu64,
                        g->limits.texels);
-    uint8_t *rgba = gn_gltf_alloc(g, g->arena, texels, 4);
+    uint8_t *rgba = gn_gltf_alloc(g, g->memory.scene, texels, 4);
     if (!rgba) return false;
     if (!format->read(blob->data, blob->size, px, rgba, err)) {
         g->damaged_texels += texels;
-        gn_arena_undo(g->arena, rgba, 4 * texels);
+        gn_arena_undo(g->memory.scene, rgba, 4 * texels);
         return false;
     }
-    g->other_bytes += with_mipmaps;
+    g->memory.other_bytes += with_mipmaps;
     *image = (struct gn_image){.width_px = px[0], .height_px = px[1], .rgba = rgba};
     for (uint64_t i = 0; i < texels && !image->has_alpha; i++)
         image->has_alpha = rgba[4 * i + 3] != 255;
@@ -64,21 +64,21 @@ static bool decode(struct gn_gltf *g, const struct gn_blob *blob, struct gn_imag
 static bool fetch(struct gn_gltf *g, const struct gn_at *at, struct gn_blob *blob,
                   struct gn_view **view_out, struct gn_err *err) {
     const char *uri = gn_at_text(g, at, "uri");
-    int32_t view = gn_at_ref(g, at, "bufferView", g->view_count, "bufferViews");
+    int32_t view = gn_at_ref(g, at, "bufferView", g->file.view_count, "bufferViews");
     if (g->failed) return false;
     if (uri) return gn_uri_fetch(g, uri, blob, err);
     if (view < 0) return gn_fail(err, "has neither uri nor bufferView");
-    if (!g->views[view].data) return gn_fail(err, "bufferView %d holds no data", view);
-    if (g->views[view].damaged) return gn_fail(err, "bufferView %d is damaged", view);
-    *view_out = &g->views[view];
-    blob->data = g->views[view].data;
-    blob->size = g->views[view].size;
+    if (!g->file.views[view].data) return gn_fail(err, "bufferView %d holds no data", view);
+    if (g->file.views[view].damaged) return gn_fail(err, "bufferView %d is damaged", view);
+    *view_out = &g->file.views[view];
+    blob->data = g->file.views[view].data;
+    blob->size = g->file.views[view].size;
     return true;
 }
 
 static int32_t image_at(struct gn_gltf *g, int32_t index) {
-    if (g->scene_image[index] != UNSEEN) return g->scene_image[index];
-    g->scene_image[index] = DROPPED;
+    if (g->to_scene.image[index] != UNSEEN) return g->to_scene.image[index];
+    g->to_scene.image[index] = DROPPED;
     struct gn_at root = gn_at_root(g), images = gn_at_array(g, &root, "images");
     struct gn_at at = gn_at_item(g, &images, (size_t)index);
     struct gn_blob blob = {0};
@@ -90,10 +90,10 @@ static int32_t image_at(struct gn_gltf *g, int32_t index) {
     if (!done && view) view->damaged = true;
     gn_blob_finish(g, &blob);
     if (done)
-        g->scene_image[index] = (int32_t)scene->image_count++;
+        g->to_scene.image[index] = (int32_t)scene->image_count++;
     else if (!g->failed)
         gn_gltf_warn(g, &at, "%s; shown without this picture", err.text);
-    return g->scene_image[index];
+    return g->to_scene.image[index];
 }
 
 /* ---- textures ---- */
@@ -134,7 +134,7 @@ static void read_sampler(struct gn_gltf *g, const struct gn_at *sampler,
 
 /* The picture's index in the file, or -1 if only a format that we cannot read is there. */
 static int32_t source_of(struct gn_gltf *g, const struct gn_at *at) {
-    int32_t source = gn_at_ref(g, at, "source", g->file_image_count, "images");
+    int32_t source = gn_at_ref(g, at, "source", g->file.image_count, "images");
     bool webp = gn_at_extension(g, at, "extensions.EXT_texture_webp").json != NULL;
     bool basisu = gn_at_extension(g, at, "extensions.KHR_texture_basisu").json != NULL;
     if (source < 0 && !g->failed) {
@@ -150,22 +150,23 @@ static int32_t source_of(struct gn_gltf *g, const struct gn_at *at) {
 
 static bool prepare(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
-    if (g->scene_texture) return true;
-    g->scene_texture = gn_gltf_alloc(g, &g->scratch, g->file_texture_count, sizeof(int32_t));
-    g->scene_image = gn_gltf_alloc(g, &g->scratch, g->file_image_count, sizeof(int32_t));
-    scene->textures = gn_gltf_alloc(g, g->arena, g->file_texture_count, sizeof *scene->textures);
-    scene->images = gn_gltf_alloc(g, g->arena, g->file_image_count, sizeof *scene->images);
+    if (g->to_scene.texture) return true;
+    g->to_scene.texture = gn_gltf_alloc(g, &g->memory.load, g->file.texture_count, sizeof(int32_t));
+    g->to_scene.image = gn_gltf_alloc(g, &g->memory.load, g->file.image_count, sizeof(int32_t));
+    scene->textures =
+        gn_gltf_alloc(g, g->memory.scene, g->file.texture_count, sizeof *scene->textures);
+    scene->images = gn_gltf_alloc(g, g->memory.scene, g->file.image_count, sizeof *scene->images);
     if (g->failed) return false;
-    for (size_t i = 0; i < g->file_texture_count; i++) g->scene_texture[i] = UNSEEN;
-    for (size_t i = 0; i < g->file_image_count; i++) g->scene_image[i] = UNSEEN;
+    for (size_t i = 0; i < g->file.texture_count; i++) g->to_scene.texture[i] = UNSEEN;
+    for (size_t i = 0; i < g->file.image_count; i++) g->to_scene.image[i] = UNSEEN;
     return true;
 }
 
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index) {
     if (g->failed || !prepare(g)) return -1;
-    if (g->scene_texture[index] != UNSEEN)
-        return g->scene_texture[index] < 0 ? -1 : g->scene_texture[index];
-    g->scene_texture[index] = DROPPED;
+    if (g->to_scene.texture[index] != UNSEEN)
+        return g->to_scene.texture[index] < 0 ? -1 : g->to_scene.texture[index];
+    g->to_scene.texture[index] = DROPPED;
     struct gn_at root = gn_at_root(g), textures = gn_at_array(g, &root, "textures");
     struct gn_at samplers = gn_at_array(g, &root, "samplers");
     struct gn_at at = gn_at_item(g, &textures, (size_t)index);
@@ -178,6 +179,6 @@ int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index) {
     struct gn_texture *texture = &g->scene->textures[g->scene->texture_count];
     texture->image = (uint32_t)image;
     read_sampler(g, &sampler_at, texture);
-    g->scene_texture[index] = (int32_t)g->scene->texture_count++;
-    return g->scene_texture[index];
+    g->to_scene.texture[index] = (int32_t)g->scene->texture_count++;
+    return g->to_scene.texture[index];
 }

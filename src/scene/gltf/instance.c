@@ -12,7 +12,7 @@ struct copies {
 static const struct gn_accessor *attribute(struct gn_gltf *g, const struct gn_at *attributes,
                                            const char *key, uint8_t components,
                                            struct copies *copies) {
-    int32_t index = gn_at_ref(g, attributes, key, g->accessor_count, "accessors");
+    int32_t index = gn_at_ref(g, attributes, key, g->file.accessor_count, "accessors");
     const struct gn_accessor *a = gn_gltf_accessor(g, index);
     if (!a) return NULL;
     struct gn_at at = gn_at_any(attributes, key);
@@ -43,7 +43,7 @@ static struct copies read_copies(struct gn_gltf *g, const struct gn_placed *plac
 /* n values per copy, or the fallback where there is no such attribute. */
 static float *values(struct gn_gltf *g, const struct gn_accessor *a, size_t count, size_t n,
                      const float *fallback) {
-    float *out = gn_gltf_alloc(g, &g->work, (uint64_t)count * n, sizeof *out);
+    float *out = gn_gltf_alloc(g, &g->memory.step, (uint64_t)count * n, sizeof *out);
     for (size_t i = 0; out && i < count * n; i++) out[i] = fallback[i % n];
     if (!out || !a) return out;
     struct gn_accessor copy = *a;
@@ -53,7 +53,7 @@ static float *values(struct gn_gltf *g, const struct gn_accessor *a, size_t coun
 }
 
 static void fill(struct gn_gltf *g, const struct copies *copies, mat4 *out) {
-    gn_arena_reset(&g->work);
+    gn_arena_reset(&g->memory.step);
     float *t = values(g, copies->translation, copies->count, 3, (float[]){0, 0, 0});
     float *r = values(g, copies->rotation, copies->count, 4, (float[]){0, 0, 0, 1});
     float *s = values(g, copies->scale, copies->count, 3, (float[]){1, 1, 1});
@@ -84,7 +84,7 @@ bool gn_gltf_instances(struct gn_gltf *g) {
         total += copies.count;
     }
     scene->instance_count = (uint32_t)total;
-    scene->instances = gn_gltf_alloc(g, g->arena, total, sizeof *scene->instances);
+    scene->instances = gn_gltf_alloc(g, g->memory.scene, total, sizeof *scene->instances);
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         const struct gn_placed *placed = &g->placed[i];
         if (placed->instance_count == 0) continue;

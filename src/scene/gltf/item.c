@@ -7,16 +7,16 @@ static uint32_t copies_of(const struct gn_placed *placed) {
     return placed->instance_count > 0 ? placed->instance_count : 1;
 }
 
-static void add(struct gn_gltf *g, uint32_t node, const struct gn_draw *draw) {
+static void add(struct gn_gltf *g, uint32_t node, const struct gn_primitive *primitive) {
     struct gn_scene *scene = g->scene;
     const struct gn_placed *placed = &g->placed[node];
-    uint32_t fallback = (uint32_t)g->material_count;
+    uint32_t fallback = (uint32_t)g->file.material_count;
     for (uint32_t k = 0; k < copies_of(placed); k++) {
-        scene->triangle_count += scene->geometries[draw->geometry].index_count / 3;
+        scene->triangle_count += scene->geometries[primitive->geometry].index_count / 3;
         scene->items[scene->item_count++] = (struct gn_item){
             .node = node,
-            .geometry = draw->geometry,
-            .material = draw->material < 0 ? fallback : (uint32_t)draw->material,
+            .geometry = primitive->geometry,
+            .material = primitive->material < 0 ? fallback : (uint32_t)primitive->material,
             .instance = placed->instance_count > 0 ? (int32_t)(placed->first_instance + k) : -1,
             .casts = placed->casts,
             .receives = placed->receives,
@@ -46,18 +46,20 @@ bool gn_gltf_items(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes");
     for (uint32_t i = 0; i < scene->node_count; i++)
         if (g->placed[i].mesh >= 0)
-            total += (uint64_t)copies_of(&g->placed[i]) * g->meshes[g->placed[i].mesh].draw_count;
+            total += (uint64_t)copies_of(&g->placed[i]) *
+                     g->file.meshes[g->placed[i].mesh].primitive_count;
     if (total > g->limits.instances)
         return gn_gltf_fail(g, &nodes,
                             "%" PRIu64 " things to draw are more than the limit instances=%" PRIu64,
                             total, g->limits.instances);
-    scene->items = gn_gltf_alloc(g, g->arena, total, sizeof *scene->items);
+    scene->items = gn_gltf_alloc(g, g->memory.scene, total, sizeof *scene->items);
     if (!scene->items) return false;
     for (uint32_t i = 0; i < scene->node_count; i++) {
-        const struct gn_mesh *mesh = g->placed[i].mesh >= 0 ? &g->meshes[g->placed[i].mesh] : NULL;
-        for (uint32_t k = 0; mesh && k < mesh->draw_count; k++) {
-            const struct gn_draw *draw = &g->draws[mesh->first_draw + k];
-            if (scene->geometries[draw->geometry].index_count > 0) add(g, i, draw);
+        const struct gn_mesh *mesh =
+            g->placed[i].mesh >= 0 ? &g->file.meshes[g->placed[i].mesh] : NULL;
+        for (uint32_t k = 0; mesh && k < mesh->primitive_count; k++) {
+            const struct gn_primitive *primitive = &g->primitives.list[mesh->first_primitive + k];
+            if (scene->geometries[primitive->geometry].index_count > 0) add(g, i, primitive);
         }
     }
     return scene->item_count > 0 || refuse_empty(g);

@@ -37,19 +37,19 @@ static bool bounded(struct gn_gltf *g, const char *text, size_t size, size_t off
     if (bytes > gn_gltf_room(g))
         return gn_gltf_fail(g, NULL, "byte %zu: JSON too large for memory_mb=%" PRIu64, offset,
                             g->limits.memory_mb);
-    g->other_bytes += (size_t)bytes;
+    g->memory.other_bytes += (size_t)bytes;
     return true;
 }
 
 bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
     if (!bounded(g, text, size, offset)) return false;
     json_error_t error;
-    g->json = json_loadb(text, size, 0, &error);
-    if (!g->json) {
+    g->file.json = json_loadb(text, size, 0, &error);
+    if (!g->file.json) {
         size_t byte = offset + (error.position > 0 ? (size_t)error.position : 0);
         return gn_gltf_fail(g, NULL, "byte %zu (line %d): JSON: %s", byte, error.line, error.text);
     }
-    if (!json_is_object(g->json))
+    if (!json_is_object(g->file.json))
         return gn_gltf_fail(g, NULL, "byte %zu: JSON: must be an object", offset);
     return true;
 }
@@ -79,7 +79,7 @@ static bool want(struct gn_gltf *g, struct gn_at *at, bool right, const char *wa
 }
 
 struct gn_at gn_at_root(const struct gn_gltf *g) {
-    return (struct gn_at){.json = g->json};
+    return (struct gn_at){.json = g->file.json};
 }
 
 struct gn_at gn_at_any(const struct gn_at *up, const char *key) {

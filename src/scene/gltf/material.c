@@ -30,7 +30,7 @@ static void read_uv_transform(struct gn_gltf *g, const struct gn_at *at, struct 
 static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
                          struct gn_texture_ref *ref) {
     uint64_t uv_set = gn_at_uint(g, at, "texCoord", 0);
-    int32_t texture = gn_at_ref(g, at, "index", g->file_texture_count, "textures");
+    int32_t texture = gn_at_ref(g, at, "index", g->file.texture_count, "textures");
     ref->texture = -1;
     read_uv_transform(g, at, ref, &uv_set);
     if (!at->json || g->failed || !used) return;
@@ -116,15 +116,16 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
 bool gn_gltf_materials(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     struct gn_at root = gn_at_root(g), materials = gn_at_array(g, &root, "materials");
-    scene->material_count = (uint32_t)g->material_count + 1;
-    scene->materials = gn_gltf_alloc(g, g->arena, scene->material_count, sizeof *scene->materials);
-    bool *used = gn_gltf_alloc(g, &g->scratch, scene->material_count, sizeof *used);
+    scene->material_count = (uint32_t)g->file.material_count + 1;
+    scene->materials =
+        gn_gltf_alloc(g, g->memory.scene, scene->material_count, sizeof *scene->materials);
+    bool *used = gn_gltf_alloc(g, &g->memory.load, scene->material_count, sizeof *used);
     if (g->failed) return false;
     for (uint32_t i = 0; i < scene->item_count; i++) used[scene->items[i].material] = true;
-    for (size_t i = 0; i < g->material_count && !g->failed; i++) {
+    for (size_t i = 0; i < g->file.material_count && !g->failed; i++) {
         struct gn_at at = gn_at_item(g, &materials, i);
         if (!g->failed) read_material(g, &at, used[i], &scene->materials[i]);
     }
-    init_material(&scene->materials[g->material_count]);
+    init_material(&scene->materials[g->file.material_count]);
     return !g->failed;
 }

@@ -6,7 +6,8 @@
 
 size_t gn_gltf_room(const struct gn_gltf *g) {
     uint64_t limit = g->limits.memory_mb << 20;
-    uint64_t used = (uint64_t)g->arena->used + g->scratch.used + g->work.used + g->other_bytes;
+    uint64_t used = (uint64_t)g->memory.scene->used + g->memory.load.used + g->memory.step.used +
+                    g->memory.other_bytes;
     return used < limit ? (size_t)(limit - used) : 0;
 }
 
@@ -25,7 +26,7 @@ void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, s
 
 char *gn_gltf_strdup(struct gn_gltf *g, const char *text) {
     size_t size = text ? strlen(text) + 1 : 1;
-    char *copy = gn_gltf_alloc(g, g->arena, size, 1);
+    char *copy = gn_gltf_alloc(g, g->memory.scene, size, 1);
     if (copy && text) memcpy(copy, text, size);
     return copy;
 }

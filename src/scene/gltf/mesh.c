@@ -22,7 +22,7 @@ static bool table_init(struct gn_gltf *g, struct table *table, size_t most) {
     size_t size = 16;
     while (size < 2 * most) size *= 2;
     table->mask = size - 1;
-    table->slots = gn_gltf_alloc(g, &g->scratch, size, sizeof *table->slots);
+    table->slots = gn_gltf_alloc(g, &g->memory.load, size, sizeof *table->slots);
     return table->slots != NULL;
 }
 
@@ -66,8 +66,8 @@ static bool check_attribute(struct gn_gltf *g, const struct gn_at *attributes, i
 static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, int32_t *out) {
     struct gn_at attributes = gn_at_object(g, primitive, "attributes");
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
-        out[i] =
-            gn_at_ref(g, &attributes, gn_attributes[i].semantic, g->accessor_count, "accessors");
+        out[i] = gn_at_ref(g, &attributes, gn_attributes[i].semantic, g->file.accessor_count,
+                           "accessors");
     struct gn_at draco = gn_at_extension(g, primitive, "extensions.KHR_draco_mesh_compression");
     const struct gn_accessor *positions = gn_gltf_accessor(g, out[GN_ATTRIBUTE_POSITION]);
     if (g->failed) return 0;
@@ -120,7 +120,7 @@ static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive, struct 
         return false;
     }
     shape->mode = (int32_t)mode;
-    shape->indices = gn_at_ref(g, primitive, "indices", g->accessor_count, "accessors");
+    shape->indices = gn_at_ref(g, primitive, "indices", g->file.accessor_count, "accessors");
     size_t count = read_attributes(g, primitive, shape->attribute);
     if (count == 0) return false;
     const struct gn_accessor *indices = gn_gltf_accessor(g, shape->indices);
@@ -137,10 +137,11 @@ static uint32_t share_vertices(struct reader *reader, const struct gn_shape *sha
     struct gn_gltf *g = reader->g;
     uint32_t *slot = table_find(&reader->vertices, shape->attribute);
     if (*slot == 0) {
-        struct gn_vertices *vertices = &g->vertices[g->vertices_count++];
+        struct gn_vertices *vertices = &g->primitives.vertices[g->primitives.vertices_count++];
         memcpy(vertices->attribute, shape->attribute, sizeof vertices->attribute);
-        vertices->count = (uint32_t)g->accessors[shape->attribute[GN_ATTRIBUTE_POSITION]].count;
-        *slot = (uint32_t)g->vertices_count;
+        vertices->count =
+            (uint32_t)g->file.accessors[shape->attribute[GN_ATTRIBUTE_POSITION]].count;
+        *slot = (uint32_t)g->primitives.vertices_count;
     }
     return *slot - 1;
 }
@@ -148,7 +149,7 @@ static uint32_t share_vertices(struct reader *reader, const struct gn_shape *sha
 static uint32_t share_shape(struct reader *reader, const struct gn_shape *shape) {
     uint32_t *slot = table_find(&reader->shapes, shape->attribute);
     if (*slot == 0) {
-        struct gn_shape *added = &reader->g->shapes[reader->shape_count++];
+        struct gn_shape *added = &reader->g->primitives.shapes[reader->shape_count++];
         *added = *shape;
         added->vertices =
             shape->attribute[GN_ATTRIBUTE_NORMAL] < 0 ? UINT32_MAX : share_vertices(reader, shape);
@@ -161,26 +162,29 @@ static void read_primitive(struct reader *reader, const struct gn_at *primitive,
                            uint32_t index) {
     struct gn_gltf *g = reader->g;
     struct gn_shape shape = {.mesh = mesh, .primitive = index};
-    int32_t material = gn_at_ref(g, primitive, "material", g->material_count, "materials");
+    int32_t material = gn_at_ref(g, primitive, "material", g->file.material_count, "materials");
     if (gn_at_size(&(struct gn_at){.json = json_object_get(primitive->json, "targets")}) > 0)
         g->is_missing[GN_MISSING_MORPHS] = true;
     if (g->failed || !read_shape(g, primitive, &shape) || g->failed) return;
-    g->draws[g->draw_count++] = (struct gn_draw){share_shape(reader, &shape), material};
-    g->meshes[mesh].draw_count++;
+    g->primitives.list[g->primitives.count++] =
+        (struct gn_primitive){share_shape(reader, &shape), material};
+    g->file.meshes[mesh].primitive_count++;
 }
 
 static bool allocate(struct reader *reader, size_t primitives) {
     struct gn_gltf *g = reader->g;
-    g->draws = gn_gltf_alloc(g, &g->scratch, primitives, sizeof *g->draws);
-    g->shapes = gn_gltf_alloc(g, &g->scratch, primitives, sizeof *g->shapes);
-    g->vertices = gn_gltf_alloc(g, &g->scratch, primitives, sizeof *g->vertices);
+    g->primitives.list = gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.list);
+    g->primitives.shapes =
+        gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.shapes);
+    g->primitives.vertices =
+        gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.vertices);
     if (g->failed) return false;
-    reader->shapes = (struct table){.stride = sizeof *g->shapes,
+    reader->shapes = (struct table){.stride = sizeof *g->primitives.shapes,
                                     .key_size = (GN_ATTRIBUTE_COUNT + 2) * sizeof(int32_t),
-                                    .keys = (const char *)g->shapes};
-    reader->vertices = (struct table){.stride = sizeof *g->vertices,
+                                    .keys = (const char *)g->primitives.shapes};
+    reader->vertices = (struct table){.stride = sizeof *g->primitives.vertices,
                                       .key_size = GN_ATTRIBUTE_COUNT * sizeof(int32_t),
-                                      .keys = (const char *)g->vertices};
+                                      .keys = (const char *)g->primitives.vertices};
     _Static_assert(offsetof(struct gn_shape, mode) == (GN_ATTRIBUTE_COUNT + 1) * sizeof(int32_t),
                    "key");
     return table_init(g, &reader->shapes, primitives) &&
@@ -191,16 +195,16 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), meshes = gn_at_array(g, &root, "meshes");
     struct gn_at materials = gn_at_array(g, &root, "materials");
     struct reader reader = {.g = g};
-    g->material_count = gn_at_size(&materials);
+    g->file.material_count = gn_at_size(&materials);
     size_t primitives = 0;
-    for (size_t i = 0; i < g->mesh_count && !g->failed; i++) {
+    for (size_t i = 0; i < g->file.mesh_count && !g->failed; i++) {
         struct gn_at mesh = gn_at_item(g, &meshes, i), list = gn_at_array(g, &mesh, "primitives");
-        if (g->meshes[i].used) primitives += gn_at_size(&list);
+        if (g->file.meshes[i].used) primitives += gn_at_size(&list);
     }
     if (g->failed || !allocate(&reader, primitives)) return false;
-    for (size_t i = 0; i < g->mesh_count && !g->failed; i++) {
-        if (!g->meshes[i].used) continue;
-        g->meshes[i].first_draw = (uint32_t)g->draw_count;
+    for (size_t i = 0; i < g->file.mesh_count && !g->failed; i++) {
+        if (!g->file.meshes[i].used) continue;
+        g->file.meshes[i].first_primitive = (uint32_t)g->primitives.count;
         struct gn_at mesh = gn_at_item(g, &meshes, i), list = gn_at_array(g, &mesh, "primitives");
         for (size_t k = 0; k < gn_at_size(&list) && !g->failed; k++) {
             struct gn_at primitive = gn_at_item(g, &list, k);

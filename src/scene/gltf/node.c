@@ -68,13 +68,13 @@ static bool read_tree(struct tree *tree) {
     if (tree->count > g->limits.nodes)
         return gn_gltf_fail(g, &tree->array, "%zu are more than the limit nodes=%" PRIu64,
                             tree->count, g->limits.nodes);
-    tree->sources = gn_gltf_alloc(g, &g->scratch, tree->count, sizeof *tree->sources);
-    tree->stack = gn_gltf_alloc(g, &g->scratch, tree->count, sizeof *tree->stack);
-    g->scene_node = gn_gltf_alloc(g, &g->scratch, tree->count, sizeof *g->scene_node);
-    if (!tree->sources || !tree->stack || !g->scene_node) return false;
+    tree->sources = gn_gltf_alloc(g, &g->memory.load, tree->count, sizeof *tree->sources);
+    tree->stack = gn_gltf_alloc(g, &g->memory.load, tree->count, sizeof *tree->stack);
+    g->to_scene.node = gn_gltf_alloc(g, &g->memory.load, tree->count, sizeof *g->to_scene.node);
+    if (!tree->sources || !tree->stack || !g->to_scene.node) return false;
     for (size_t i = 0; i < tree->count; i++) {
         tree->sources[i].parent = -1;
-        g->scene_node[i] = -1;
+        g->to_scene.node[i] = -1;
     }
     for (size_t i = 0; i < tree->count && !g->failed; i++) adopt(tree, i);
     return !g->failed && check_cycles(tree);
@@ -154,16 +154,16 @@ static void emit(struct tree *tree, int32_t source) {
     uint32_t index = g->scene->node_count++;
     struct gn_node *node = &g->scene->nodes[index];
     struct gn_placed *placed = &g->placed[index];
-    g->scene_node[source] = (int32_t)index;
+    g->to_scene.node[source] = (int32_t)index;
     int32_t parent = tree->sources[source].parent;
-    node->parent = parent < 0 ? -1 : g->scene_node[parent];
+    node->parent = parent < 0 ? -1 : g->to_scene.node[parent];
     node->name = gn_gltf_strdup(g, gn_at_text(g, &at, "name"));
     read_transform(g, &at, node);
     placed->json = (size_t)source;
     placed->bare = !tree->sources[source].shown;
-    placed->mesh = gn_at_ref(g, &at, "mesh", g->mesh_count, "meshes");
+    placed->mesh = gn_at_ref(g, &at, "mesh", g->file.mesh_count, "meshes");
     if (placed->bare) placed->mesh = -1;
-    if (placed->mesh >= 0) g->meshes[placed->mesh].used = true;
+    if (placed->mesh >= 0) g->file.meshes[placed->mesh].used = true;
     if (gn_at_any(&at, "skin").json && !placed->bare) g->is_missing[GN_MISSING_SKINS] = true;
     gn_extras_node(g, &at, placed);
 }
@@ -180,11 +180,11 @@ static void lay_out(struct tree *tree, int32_t root) {
 
 static bool allocate(struct gn_gltf *g, size_t count) {
     struct gn_at root = gn_at_root(g), meshes = gn_at_array(g, &root, "meshes");
-    g->mesh_count = gn_at_size(&meshes);
-    g->file_node_count = count;
-    g->meshes = gn_gltf_alloc(g, &g->scratch, g->mesh_count, sizeof *g->meshes);
-    g->scene->nodes = gn_gltf_alloc(g, g->arena, count + 2, sizeof *g->scene->nodes);
-    g->placed = gn_gltf_alloc(g, &g->scratch, count + 2, sizeof *g->placed);
+    g->file.mesh_count = gn_at_size(&meshes);
+    g->file.node_count = count;
+    g->file.meshes = gn_gltf_alloc(g, &g->memory.load, g->file.mesh_count, sizeof *g->file.meshes);
+    g->scene->nodes = gn_gltf_alloc(g, g->memory.scene, count + 2, sizeof *g->scene->nodes);
+    g->placed = gn_gltf_alloc(g, &g->memory.load, count + 2, sizeof *g->placed);
     return !g->failed;
 }
 
@@ -215,8 +215,8 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     struct tree tree = {.g = g, .array = gn_at_array(g, &root, "nodes")};
     tree.count = gn_at_size(&tree.array);
     if (g->failed || !allocate(g, tree.count) || !read_tree(&tree)) return false;
-    int32_t *listed = gn_gltf_alloc(g, &g->scratch, tree.count, sizeof *listed);
-    int32_t *roots = gn_gltf_alloc(g, &g->scratch, tree.count, sizeof *roots);
+    int32_t *listed = gn_gltf_alloc(g, &g->memory.load, tree.count, sizeof *listed);
+    int32_t *roots = gn_gltf_alloc(g, &g->memory.load, tree.count, sizeof *roots);
     struct gn_at scene = shown_scene(g, &scenes);
     struct gn_at list = gn_at_array(g, &scene, "nodes");
     if (g->failed || !tree.sources || !listed || !roots) return false;
