@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "core/clock.h"
+#include "input/private.h"
 
 void gn_devices_init(struct gn_devices *devices) {
     for (int i = 0; i < GN_DEVICES_MAX; i++) devices->list[i] = (struct gn_device){.fd = -1};
@@ -147,3 +148,46 @@ bool gn_devices_read(struct gn_devices *devices, int64_t now_ns) {
         if (devices->list[i].readable) gone |= read_device(devices, &devices->list[i], now_ns);
     return gone;
 }
+
+/* ---- the source ---- */
+
+static void open_devices(struct gn_input *input, const struct gn_input_world *world, int64_t now_ns,
+                         struct gn_warnings *warnings) {
+    (void)world;
+    input->devices.loop = input->opts.loop;
+    input->devices.timer = &input->timer;
+    input->devices.reports = &input->reports;
+    input->devices.keys = &input->keys;
+    if (!input->opts.devices) return;
+    gn_devices_search(&input->devices, now_ns);
+    if (input->folder_watch < 0) input->poll_ns = now_ns + 2 * GN_NS_PER_S;
+    if (input->devices.denied)
+        gn_warn(warnings,
+                "%d input devices may not be read: keys there are not heard; add the user to group "
+                "input (sudo usermod -aG input USER) and log in again",
+                input->devices.denied);
+}
+
+static void read_devices(struct gn_input *input, int64_t now_ns) {
+    if (gn_devices_read(&input->devices, now_ns)) gn_devices_search(&input->devices, now_ns);
+}
+
+static void step_devices(struct gn_input *input, int64_t now_ns) {
+    if (input->poll_ns > now_ns) return;
+    input->poll_ns = now_ns + 2 * GN_NS_PER_S;
+    gn_devices_search(&input->devices, now_ns);
+}
+
+static int64_t devices_deadline(const struct gn_input *input) { return input->poll_ns; }
+
+static void close_devices(struct gn_input *input) {
+    if (input->devices.keys) gn_devices_finish(&input->devices);
+}
+
+const struct gn_input_source gn_source_devices = {
+    .open = open_devices,
+    .read = read_devices,
+    .step = step_devices,
+    .deadline = devices_deadline,
+    .close = close_devices,
+};

@@ -3,13 +3,10 @@
  * kernel has stamped before now_ns is in its buffers by then. */
 #include "input/input.h"
 
-#include <errno.h>
-#include <linux/kd.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/inotify.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "core/arena.h"
@@ -17,6 +14,13 @@
 #include "input/private.h"
 
 #define NEVER INT64_MAX
+
+static const struct gn_input_source *const sources[] = {
+#define X(name) &gn_source_##name,
+    GN_SOURCE_TABLE(X)
+#undef X
+};
+enum { SOURCES = sizeof sources / sizeof *sources };
 
 /* ---- opening ------------------------------------------------------------------------------- */
 
@@ -65,37 +69,15 @@ static void open_notify(struct gn_input *input) {
     if (input->notify.fd >= 0 && gn_loop_add(input->opts.loop, &input->notify)) watch(input);
 }
 
-static void open_sources(struct gn_input *input, const struct gn_input_world *world, int64_t now_ns,
-                         struct gn_warnings *warnings) {
-    const bool watched = input->folder_watch >= 0;
-    input->lines.loop = input->devices.loop = input->opts.loop;
-    input->lines.timer = input->devices.timer = &input->timer;
-    input->lines.gestures = &input->gestures;
-    input->lines.reports = input->devices.reports = &input->reports;
-    input->lines.watched = watched;
-    input->devices.keys = &input->keys;
-    gn_lines_search(&input->lines, now_ns);
-    if (input->opts.devices) gn_devices_search(&input->devices, now_ns);
-    if (input->opts.devices && !watched) input->poll_ns = now_ns + 2 * GN_NS_PER_S;
-    if (input->devices.denied)
-        gn_warn(warnings,
-                "%d input devices may not be read: keys there are not heard; add the user to group "
-                "input (sudo usermod -aG input USER) and log in again",
-                input->devices.denied);
-    if (input->opts.terminal)
-        gn_terminal_open(&input->terminal, world->terminal ? *world->terminal : STDIN_FILENO,
-                         input->opts.loop, &input->timer);
-}
-
 /* ---- the timer ----------------------------------------------------------------------------- */
 
 static int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
 
 static void set_timer(struct gn_input *input) {
-    int64_t due_ns = least(gn_gestures_deadline(&input->gestures), input->poll_ns);
-    due_ns = least(due_ns, gn_lines_deadline(&input->lines));
-    due_ns = least(due_ns, gn_play_deadline(&input->play));
-    input->timer.due_ns = least(due_ns, gn_terminal_keys_deadline(&input->terminal.keys));
+    int64_t due_ns = gn_gestures_deadline(&input->gestures);
+    for (size_t i = 0; i < SOURCES; i++)
+        if (sources[i]->deadline) due_ns = least(due_ns, sources[i]->deadline(input));
+    input->timer.due_ns = due_ns;
 }
 
 static void dispatch(void *user, int64_t now_ns);
@@ -114,7 +96,8 @@ struct gn_input *gn_input_open_in(const struct gn_input_world *world,
     input->timer = (struct gn_timer){.call = dispatch, .user = input};
     gn_loop_add_timer(opts->loop, &input->timer);
     open_notify(input);
-    open_sources(input, world, now_ns, warnings);
+    for (size_t i = 0; i < SOURCES; i++)
+        if (sources[i]->open) sources[i]->open(input, world, now_ns, warnings);
     set_timer(input);
     return input;
 }
@@ -127,10 +110,8 @@ struct gn_input *gn_input_open(const struct gn_input_opts *opts, int64_t now_ns,
 
 void gn_input_close(struct gn_input *input) {
     if (!input) return;
-    gn_terminal_close(&input->terminal);
-    if (input->lines.gestures) gn_lines_finish(&input->lines);
-    if (input->devices.keys) gn_devices_finish(&input->devices);
-    gn_play_finish(&input->play);
+    for (size_t i = SOURCES; i-- > 0;)
+        if (sources[i]->close) sources[i]->close(input);
     gn_loop_remove(&input->notify);
     gn_loop_remove_timer(&input->timer);
     if (input->notify.fd >= 0) close(input->notify.fd);
@@ -138,25 +119,6 @@ void gn_input_close(struct gn_input *input) {
 }
 
 /* ---- dispatching --------------------------------------------------------------------------- */
-
-/* On a text console a keyboard is heard twice, by the terminal and as a device. */
-static bool is_heard_twice(const struct gn_input *input, unsigned key) {
-    char type;
-    return gn_devices_have(&input->devices, key) &&
-           ioctl(input->terminal.fd, KDGKBTYPE, &type) == 0;
-}
-
-static void click(struct gn_input *input, unsigned key, int64_t now_ns) {
-    if (key != GN_KEY_NONE && !is_heard_twice(input, key)) gn_keys_click(&input->keys, key, now_ns);
-}
-
-static void read_terminal(struct gn_input *input, int64_t now_ns) {
-    uint8_t bytes[256];
-    input->terminal.readable = false;
-    const int count = gn_terminal_read(&input->terminal, bytes, sizeof bytes);
-    for (int i = 0; i < count; i++)
-        click(input, gn_terminal_keys_step(&input->terminal.keys, bytes[i], now_ns), now_ns);
-}
 
 /* What the news is about. */
 struct news {
@@ -209,28 +171,18 @@ static void report_notes(struct gn_input *input) {
     }
 }
 
-/* Everything that is due by then, in the order of its time where that matters. */
-static void pass_time(struct gn_input *input, int64_t now_ns) {
-    gn_play_step(&input->play, &input->keys, now_ns);
-    click(input, gn_terminal_keys_wait(&input->terminal.keys, now_ns), now_ns);
-    if (input->poll_ns <= now_ns) {
-        input->poll_ns = now_ns + 2 * GN_NS_PER_S;
-        gn_devices_search(&input->devices, now_ns);
-    }
-    gn_gestures_step(&input->gestures, now_ns);
-    gn_lines_step(&input->lines, now_ns);
-    report_notes(input);
-    set_timer(input);
-}
-
 static void dispatch(void *user, int64_t now_ns) {
     struct gn_input *input = user;
-    gn_lines_read(&input->lines, now_ns);
-    if (gn_devices_read(&input->devices, now_ns)) gn_devices_search(&input->devices, now_ns);
-    if (input->terminal.resumed) gn_terminal_resume(&input->terminal);
-    if (input->terminal.readable) read_terminal(input, now_ns);
+    for (size_t i = 0; i < SOURCES; i++)
+        if (sources[i]->read) sources[i]->read(input, now_ns);
     if (input->has_news) read_news(input, now_ns);
-    pass_time(input, now_ns);
+    for (size_t i = 0; i < SOURCES; i++)
+        if (sources[i]->step) sources[i]->step(input, now_ns);
+    gn_gestures_step(&input->gestures, now_ns);
+    for (size_t i = 0; i < SOURCES; i++)
+        if (sources[i]->check) sources[i]->check(input, now_ns);
+    report_notes(input);
+    set_timer(input);
 }
 
 void gn_input_key(struct gn_input *input, const struct gn_key_event *event) {

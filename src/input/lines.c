@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "input/private.h"
+
 #define SECOND INT64_C(1000000000)
 #define NEVER  INT64_MAX
 
@@ -363,3 +365,40 @@ void gn_lines_finish(struct gn_lines *lines) {
     for (int i = 0; i < lines->count; i++)
         if (lines->lines[i].request) drop(lines, &lines->lines[i], lines->gestures->now_ns);
 }
+
+/* ---- the source ---- */
+
+static void open_lines(struct gn_input *input, const struct gn_input_world *world, int64_t now_ns,
+                       struct gn_warnings *warnings) {
+    (void)world, (void)warnings;
+    input->lines.loop = input->opts.loop;
+    input->lines.timer = &input->timer;
+    input->lines.gestures = &input->gestures;
+    input->lines.reports = &input->reports;
+    input->lines.watched = input->folder_watch >= 0;
+    gn_lines_search(&input->lines, now_ns);
+}
+
+static void read_lines(struct gn_input *input, int64_t now_ns) {
+    gn_lines_read(&input->lines, now_ns);
+}
+
+static void check_lines(struct gn_input *input, int64_t now_ns) {
+    gn_lines_step(&input->lines, now_ns);
+}
+
+static int64_t lines_deadline(const struct gn_input *input) {
+    return gn_lines_deadline(&input->lines);
+}
+
+static void close_lines(struct gn_input *input) {
+    if (input->lines.gestures) gn_lines_finish(&input->lines);
+}
+
+const struct gn_input_source gn_source_lines = {
+    .open = open_lines,
+    .read = read_lines,
+    .check = check_lines,
+    .deadline = lines_deadline,
+    .close = close_lines,
+};

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/file.h"
+#include "input/private.h"
 #include "input/script.h"
 
 enum { SCRIPT_BYTES = 1 << 20 };
@@ -64,3 +65,21 @@ int64_t gn_play_deadline(const struct gn_play *play) {
 }
 
 void gn_play_finish(struct gn_play *play) { gn_arena_finish(&play->arena); }
+
+/* ---- the source ---- */
+
+static void step_script(struct gn_input *input, int64_t now_ns) {
+    gn_play_step(&input->play, &input->keys, now_ns);
+}
+
+static int64_t script_deadline(const struct gn_input *input) {
+    return gn_play_deadline(&input->play);
+}
+
+static void close_script(struct gn_input *input) { gn_play_finish(&input->play); }
+
+const struct gn_input_source gn_source_script = {
+    .step = step_script,
+    .deadline = script_deadline,
+    .close = close_script,
+};

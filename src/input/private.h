@@ -6,6 +6,7 @@
 #include "input/input.h"
 #include "input/lines.h"
 #include "input/play.h"
+#include "input/source.h"
 #include "input/terminal.h"
 
 struct gn_input_world {             /* zero means the default written beside */

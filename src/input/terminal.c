@@ -1,10 +1,14 @@
 #include "input/terminal.h"
 
 #include <errno.h>
+#include <linux/kd.h>
 #include <signal.h>
 #include <sys/eventfd.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
+
+#include "input/private.h"
 
 /* Signals that end us before gn_terminal_close(). */
 enum { ENDS = 6 };
@@ -156,3 +160,52 @@ int gn_terminal_read(struct gn_terminal *t, uint8_t *out, int size) {
     if (count == 0 || (errno != EAGAIN && errno != EINTR)) watch(t, false);
     return 0;
 }
+
+/* ---- the source ---- */
+
+static void open_terminal(struct gn_input *input, const struct gn_input_world *world,
+                          int64_t now_ns, struct gn_warnings *warnings) {
+    (void)now_ns, (void)warnings;
+    if (input->opts.terminal)
+        gn_terminal_open(&input->terminal, world->terminal ? *world->terminal : STDIN_FILENO,
+                         input->opts.loop, &input->timer);
+}
+
+/* On a text console the terminal and the input device report the same key. */
+static bool is_device_key(const struct gn_input *input, unsigned key) {
+    char type;
+    return gn_devices_have(&input->devices, key) &&
+           ioctl(input->terminal.fd, KDGKBTYPE, &type) == 0;
+}
+
+static void click_key(struct gn_input *input, unsigned key, int64_t now_ns) {
+    if (key != GN_KEY_NONE && !is_device_key(input, key)) gn_keys_click(&input->keys, key, now_ns);
+}
+
+static void read_terminal(struct gn_input *input, int64_t now_ns) {
+    uint8_t bytes[256];
+    if (input->terminal.resumed) gn_terminal_resume(&input->terminal);
+    if (!input->terminal.readable) return;
+    input->terminal.readable = false;
+    const int count = gn_terminal_read(&input->terminal, bytes, sizeof bytes);
+    for (int i = 0; i < count; i++)
+        click_key(input, gn_terminal_keys_step(&input->terminal.keys, bytes[i], now_ns), now_ns);
+}
+
+static void step_terminal(struct gn_input *input, int64_t now_ns) {
+    click_key(input, gn_terminal_keys_wait(&input->terminal.keys, now_ns), now_ns);
+}
+
+static int64_t terminal_deadline(const struct gn_input *input) {
+    return gn_terminal_keys_deadline(&input->terminal.keys);
+}
+
+static void close_terminal(struct gn_input *input) { gn_terminal_close(&input->terminal); }
+
+const struct gn_input_source gn_source_terminal = {
+    .open = open_terminal,
+    .read = read_terminal,
+    .step = step_terminal,
+    .deadline = terminal_deadline,
+    .close = close_terminal,
+};
