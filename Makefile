@@ -17,7 +17,7 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DELETE_ON_ERROR:
 .SUFFIXES:
 CHECKS := check-angle check-board check-board-arm64 check-gpus check-gpiod2
-.PHONY: all no-import tests sanitized run check $(CHECKS) gpus accept full truth gallery contact-sheet readme deps \
+.PHONY: all no-import tests sanitized run check $(CHECKS) gpus accept full truth gallery contact-sheet readme options-page deps \
         syntax lint lint-changed format man install uninstall help clean FORCE
 
 help:
@@ -37,6 +37,8 @@ help:
 	    '                buttons with libgpiod 2, and the rest of Debian 13; with GN_FULL=1 its long form' \
 	    'make truth      shadows against ray-traced truth, as a table' \
 	    'make readme     the table of techniques (src/shadow/README.md), measured' \
+	    'make options-page' \
+	    '                the table of keys in src/options/README.md, from the table of options' \
 	    'make gallery    one scene with every technique and the truth, into assets/gallery' \
 	    'make contact-sheet' \
 	    '                the modes of the default scene, gone through by keys, as one picture' \
@@ -53,7 +55,8 @@ deps:
 format:
 	clang-format -i $(wildcard src/*.c src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*.c)
 uninstall:
-	rm -f "$(INTO)/bin/gnomon" "$(INTO)/bin/gnomon-import" "$(INTO)/share/man/man1/gnomon.1"
+	rm -f "$(INTO)/bin/gnomon" "$(INTO)/bin/gnomon-import" "$(INTO)/share/man/man1/gnomon.1" \
+	    "$(INTO)/share/man/man1/gnomon-import.1" "$(INTO)/share/man/man5/gnomon.ini.5"
 	rm -rf "$(INTO)/share/doc/gnomon"
 
 DEPS_run := build run
@@ -157,7 +160,7 @@ KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
 
 all: $(BIN) $(IMPORT) $(SCENES) man
 tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth
-man: $(O)/gnomon.1
+man: $(O)/gnomon.1 $(O)/gnomon.ini.5
 
 $(BIN): $(call OBJ,src/main.c) $(KEEP) $(LIB)
 	@echo "link $@"
@@ -231,7 +234,7 @@ HOST     = $(HOSTCC) -std=c11 -D_GNU_SOURCE -O2 -Wall -Wextra -Isrc -Iassets -I$
 ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c))
 HOST_ASSETS := $(patsubst assets/%.c,$(O)/host/%,$(wildcard assets/make_*.c))
 MAN_C   := $(addprefix src/,options/buttons.c cli/help.c options/table.c options/value.c \
-           core/arena.c core/err.c core/key.c core/text.c frame/caps.c options/action.c options/command.c \
+           core/arena.c core/err.c core/key.c core/text.c frame/caps.c options/action.c options/binding.c options/command.c \
            display/kms/modeline.c scene/limits.c shadow/moments.c shadow/technique.c)
 $(O)/host/embed: board/host/embed.c
 $(O)/host/man: board/host/man.c $(MAN_C) $(wildcard src/*/*.h src/*/*/*.h) | $(B)/gen/config.h
@@ -249,8 +252,8 @@ assets/bench/%.glb: $(O)/host/make_bench
 $(O)/selftest/%.glb $(O)/selftest/%.truth: $(O)/host/make_selftest
 	@mkdir -p $(@D)
 	$(Q)$< $* $(basename $@)
-$(O)/gnomon.1: $(O)/host/man
-	$(Q)$< > $@
+$(O)/gnomon.1 $(O)/gnomon.ini.5: $(O)/host/man
+	$(Q)$< $(@F) > $@
 
 # ---- checks --------------------------------------------------------------------------------
 # programs FOLDER,SOURCES; kinds KIND..: the sources of its programs; quick TEST..: those that are not
@@ -321,6 +324,9 @@ full:
 	+$(SUB) GN_FULL=1 check-board
 	+$(SUB) GN_FULL=1 check-gpiod2
 	+$(SUB) GN_FULL=1 check-gpus
+# the table of keys in src/options/README.md
+options-page: $(O)/host/man
+	sh tests/options_page.sh $< > src/options/README.md.new && mv src/options/README.md.new src/options/README.md
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
 gallery: $(B)/tests/tool_gallery $(BIN)
@@ -361,6 +367,8 @@ install: all
 	install -D -m 755 $(BIN) "$(INTO)/bin/gnomon"
 	$(if $(IMPORT_C),install -D -m 755 $(IMPORT) "$(INTO)/bin/gnomon-import")
 	install -D -m 644 $(O)/gnomon.1 "$(INTO)/share/man/man1/gnomon.1"
+	install -D -m 644 $(O)/gnomon.ini.5 "$(INTO)/share/man/man5/gnomon.ini.5"
+	$(if $(IMPORT_C),install -D -m 644 board/gnomon-import.1 "$(INTO)/share/man/man1/gnomon-import.1")
 	install -D -m 644 LICENSE "$(INTO)/share/doc/gnomon/LICENSE"
 
 -include $(shell find $(B)/obj -name '*.d' 2> /dev/null)

@@ -34,8 +34,11 @@ for command in '' show render bench inspect doctor ctl; do
     # shellcheck disable=SC2086
     "$gnomon" $command --help
 done > "$folder/help"
-[ ! -x "$(dirname "$gnomon")/gnomon-import" ] || "$(dirname "$gnomon")/gnomon-import" --help >> "$folder/help"
-grep -oE -- '--[a-z][a-z-]+' "$folder/help" | sort -u > "$folder/options"
+import=$(dirname "$gnomon")/gnomon-import
+options_of() { grep -oE -- '--[a-z][a-z-]+' "$1" | sort -u; }
+options_of "$folder/help" > "$folder/own"
+[ ! -x "$import" ] || "$import" --help >> "$folder/help"
+options_of "$folder/help" > "$folder/options"
 grep -ohE -- '--[a-z][a-z-]+' README.md assets/SCENES.md board/README.md src/options/README.md src/shadow/README.md | sort -u |
     grep -vxF -f "$folder/options" | grep -vx -- '--now' > "$folder/unknown"
 [ ! -s "$folder/unknown" ] || complain "options that do not exist: $(tr '\n' ' ' < "$folder/unknown")"
@@ -51,6 +54,19 @@ sh tests/image/readme.sh --check || bad=1
 sed -n '/^```ini/,/^```/p' README.md | grep -v '^```' > "$folder/kiosk.ini"
 cp assets/sundial.glb "$folder"
 "$gnomon" show --check "$folder/kiosk.ini" > "$folder/out" 2> "$folder/err" < /dev/null || complain "README's kiosk.ini: $(cat "$folder/out" "$folder/err")"
+
+# ---- what is generated, and the manuals ----------------------------------------------------------
+out=$(dirname "${BUILD:-build/release}")
+sh tests/options_page.sh "$out/host/man" | cmp - src/options/README.md || complain 'src/options/README.md is old: make options-page'
+for page in "$out/gnomon.1" "$out/gnomon.ini.5" board/gnomon-import.1; do
+    [ -s "$page" ] || complain "no $page"
+    ! command -v groff > /dev/null || groff -man -Tascii -ww "$page" 2>&1 > /dev/null | grep . && complain "warnings about $page"
+done
+# the tags of a page, as "--option"
+tags() { tr -d '\\' < "$1" | grep -E '^\.B ' | grep -oE -- '--[a-z][a-z-]+' | sort -u; }
+tags "$out/gnomon.1" | diff "$folder/own" - || complain 'options of gnomon.1, and those of --help'
+[ ! -x "$import" ] || { "$import" --help > "$folder/help" && options_of "$folder/help" > "$folder/own"; }
+[ ! -x "$import" ] || tags board/gnomon-import.1 | diff "$folder/own" - || complain 'options of gnomon-import.1, and those of --help'
 
 # ---- keys for artists ----------------------------------------------------------------------------
 grep -ohE '"gnomon_[a-z_]+"' src/scene/gltf/extras.c | tr -d '"' | sort -u > "$folder/read"

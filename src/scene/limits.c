@@ -53,3 +53,10 @@ struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *
     }
     return result;
 }
+
+void gn_scene_limits_list(char *out, size_t size) {
+    out[0] = '\0';
+    for (size_t i = 0, at = 0; i < ROW_COUNT && at < size; i++)
+        at += (size_t)snprintf(out + at, size - at, "%s%s=%" PRIu64, i ? ", " : "", ROWS[i].name,
+                               ROWS[i].normal);
+}

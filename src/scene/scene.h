@@ -195,6 +195,8 @@ bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint6
                          struct gn_err *err);
 /* With each default filled in; limits may be NULL. */
 struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *limits);
+/* "file_mb=512, memory_mb=1024, ..": all names with their defaults. */
+void gn_scene_limits_list(char *out, size_t size);
 
 /* Loads a .glb or .gltf (by content, not by name) with the files it names, which must lie in its
  * folder or below. NULL and one line with the file and the JSON path or byte offset on failure.

@@ -260,13 +260,12 @@ static void a_file_that_is_only_checked_is_read_strictly(void **state) {
     unlink(path);
 }
 
-static void help_and_manual_list_every_command_and_key(void **state) {
+static void help_lists_every_command(void **state) {
     char *text = NULL;
     size_t size;
     (void)state;
     FILE *to = open_memstream(&text, &size);
     gn_help_print(to, GN_COMMAND_CTL);
-    gn_help_print_man(to, "1");
     fclose(to);
     for (int i = 0; i < GN_CTL_COUNT; i++) {
         char line[80];
@@ -274,15 +273,6 @@ static void help_and_manual_list_every_command_and_key(void **state) {
         snprintf(line, sizeof line, "\n  %s%s%s ", row->name, row->words[0] ? " " : "", row->words);
         if (!strstr(text, line)) fail_msg("no \"%s\" in --help", line + 1);
     }
-    static const char *const keys[] = {
-        "[button \\(dqNAME\\(dq] line = NAME",
-        "[button \\(dqNAME\\(dq] hold_ms = MS",
-        "[button \\(dqNAME\\(dq] press = ACTION",
-        "[kiosk] captions = yes|no",
-        "[kiosk] caption_seconds = S",
-    };
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
-        if (!strstr(text, keys[i])) fail_msg("no \"%s\" in the manual", keys[i]);
     free(text);
 }
 
@@ -298,7 +288,7 @@ int main(void) {
         cmocka_unit_test_teardown(ctl_takes_words_and_values_that_look_like_flags, drop_all),
         cmocka_unit_test_teardown(ctl_looks_where_the_file_says, drop_all),
         cmocka_unit_test_teardown(a_file_that_is_only_checked_is_read_strictly, drop_all),
-        cmocka_unit_test(help_and_manual_list_every_command_and_key),
+        cmocka_unit_test(help_lists_every_command),
     };
     return cmocka_run_group_tests(tests, without_home, NULL);
 }
