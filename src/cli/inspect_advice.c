@@ -129,11 +129,11 @@ static void check_light(struct gn_inspection *in, const struct gn_light *light) 
     enum gn_technique technique;
     if (light->color[0] + light->color[1] + light->color[2] <= 0.0f)
         advise(in, "give it an intensity, or take it out", "light '%s' is dark", light->name);
-    if (light->type == GN_LIGHT_SPOT && GN_DEG(light->outer_rad) > (double)CONE_MAX_DEG)
+    if (gn_light_types[light->type].has_cone && GN_DEG(light->outer_rad) > (double)CONE_MAX_DEG)
         advise(in, "make the cone narrower, or use two spots",
                "spot '%s' opens to %.0f degrees: beyond 80 its shadows end", light->name,
                GN_DEG(light->outer_rad));
-    bool point = light->type == GN_LIGHT_POINT; /* three tiles lie side by side */
+    bool point = gn_light_types[light->type].shines_around; /* three tiles lie side by side */
     if (light->map_px > (point ? TEXTURE_MAX_PX / 3 : TEXTURE_MAX_PX))
         advise(in,
                point ? "set gnomon_map_px to 1365 at most: a Raspberry Pi draws no larger tiles"

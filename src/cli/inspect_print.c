@@ -8,15 +8,8 @@
 #include "core/json.h"
 #include "core/text.h"
 
-static const char *const light_types[] = {
-    [GN_LIGHT_DIRECTIONAL] = "directional", [GN_LIGHT_POINT] = "point", [GN_LIGHT_SPOT] = "spot"};
-
 static double intensity(const struct gn_light *light) {
     return (double)fmaxf(light->color[0], fmaxf(light->color[1], light->color[2]));
-}
-
-static const char *unit(const struct gn_light *light) {
-    return light->type == GN_LIGHT_DIRECTIONAL ? "lux" : "candela";
 }
 
 static bool is_made(bool made, uint32_t i, uint32_t count) { return made && i + 1 == count; }
@@ -87,14 +80,15 @@ static void print_images(const struct gn_scene *s, FILE *to) {
 static void print_light(const struct gn_scene *s, uint32_t i, FILE *to) {
     const struct gn_light *light = &s->lights[i];
     char cone[64] = "", range[32] = "", map[32] = "", slide[32] = "";
-    if (light->type == GN_LIGHT_SPOT)
+    if (gn_light_types[light->type].has_cone)
         snprintf(cone, sizeof cone, ", cone %.3g to %.3g degrees", GN_DEG(light->inner_rad),
                  GN_DEG(light->outer_rad));
     if (light->range_m > 0) snprintf(range, sizeof range, ", range %.4g m", (double)light->range_m);
     if (light->map_px) snprintf(map, sizeof map, ", map %u px", light->map_px);
     if (light->slide >= 0) snprintf(slide, sizeof slide, ", slide texture %d", light->slide);
     line(to, "%-3u %s: %s, %.4g %s%s%s, shadow %s%s, radius %.3g, strength %.3g%s%s", i,
-         light->name, light_types[light->type], intensity(light), unit(light), cone, range,
+         light->name, gn_light_types[light->type].name, intensity(light),
+         gn_light_types[light->type].unit, cone, range,
          light->technique ? light->technique : "by mode", map, (double)light->radius,
          (double)light->shadow_strength, slide,
          is_made(s->made_light, i, s->light_count) ? " (made: the file has none)" : "");
@@ -201,14 +195,14 @@ static json_t *image_json(const struct gn_scene *s, uint32_t i) {
 static json_t *light_json(const struct gn_scene *s, uint32_t i) {
     const struct gn_light *l = &s->lights[i];
     double strongest = intensity(l);
-    bool spot = l->type == GN_LIGHT_SPOT;
+    bool spot = gn_light_types[l->type].has_cone;
     vec3 color;
     for (int k = 0; k < 3; k++) color[k] = strongest > 0 ? l->color[k] / (float)strongest : 0.0f;
     return json_pack("{so ss so ss so so so so so so so so so sb}", "name",
-                     gn_json_make_text(l->name), "type", light_types[l->type], "intensity",
-                     gn_json_make_number(strongest), "unit", unit(l), "color", vector(color),
-                     "range_m", number_or_null(l->range_m > 0, l->range_m), "inner_deg",
-                     number_or_null(spot, GN_DEG(l->inner_rad)), "outer_deg",
+                     gn_json_make_text(l->name), "type", gn_light_types[l->type].name, "intensity",
+                     gn_json_make_number(strongest), "unit", gn_light_types[l->type].unit, "color",
+                     vector(color), "range_m", number_or_null(l->range_m > 0, l->range_m),
+                     "inner_deg", number_or_null(spot, GN_DEG(l->inner_rad)), "outer_deg",
                      number_or_null(spot, GN_DEG(l->outer_rad)), "gnomon_shadow",
                      gn_json_make_text(l->technique), "gnomon_map_px",
                      l->map_px ? gn_json_make_count(l->map_px) : json_null(), "gnomon_radius",

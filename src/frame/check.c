@@ -53,8 +53,10 @@ static const char *check_key(const struct gn_program_key *key) {
         REQUIRE(gn_technique_filters_map((enum gn_technique)key->lights[i].technique) ==
                 (key->lights[i].moments != GN_MOMENTS_NONE));
         REQUIRE(key->lights[i].slide < GN_SLIDE_COUNT);
-        REQUIRE(!key->lights[i].cascades || key->lights[i].type == GN_LIGHT_DIRECTIONAL);
-        REQUIRE(key->lights[i].slide == GN_SLIDE_NONE || key->lights[i].type == GN_LIGHT_SPOT);
+        REQUIRE(key->lights[i].type < GN_LIGHT_TYPE_COUNT);
+        const struct gn_light_type_row *type = &gn_light_types[key->lights[i].type];
+        REQUIRE(!key->lights[i].cascades || !type->has_position);
+        REQUIRE(key->lights[i].slide == GN_SLIDE_NONE || type->has_cone);
     }
     return NULL;
 }

@@ -87,7 +87,7 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
         gn_pose_light(pose, chosen->light, place, direction);
         for (int k = 0; k < 3; k++) {
             c[LIGHT_COLOR][k] = light->color[k] * frame->plan.exposure / GLM_PIf;
-            c[LIGHT_PLACE][k] = light->type == GN_LIGHT_DIRECTIONAL ? -direction[k] : place[k];
+            c[LIGHT_PLACE][k] = gn_light_types[light->type].has_position ? place[k] : -direction[k];
         }
         c[LIGHT_COLOR][3] = chosen->strength;
         c[LIGHT_PLACE][3] = light->range_m > 0.0f ? 1.0f / light->range_m : 0.0f;

@@ -8,7 +8,7 @@ static float luminance(const vec3 c) { return 0.2126f * c[0] + 0.7152f * c[1] + 
 /* Lux on a surface at the scene's centre that faces the light; cones are left out of account. */
 static float illuminance(const struct gn_pose *pose, uint32_t index) {
     const struct gn_light *light = &pose->scene->lights[index];
-    if (light->type == GN_LIGHT_DIRECTIONAL) return luminance(light->color);
+    if (!gn_light_types[light->type].has_position) return luminance(light->color);
     vec3 place, direction, centre;
     gn_pose_light(pose, index, place, direction);
     glm_vec3_center((float *)pose->box_ws.min, (float *)pose->box_ws.max, centre);

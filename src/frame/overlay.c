@@ -81,7 +81,7 @@ static struct gn_instance make_mark(const struct gn_frame *frame, const struct g
     mark.surface[1] = light->range_m > 0.0f ? light->range_m : 0.2f * size_m;
     mark.surface[2] = tanf(fminf(light->outer_rad, 1.5f));
     mark.surface[3] = light->range_m > 0.0f ? 1.0f : 0.0f;
-    if (light->type == GN_LIGHT_DIRECTIONAL)
+    if (!gn_light_types[light->type].has_position)
         mark.surface[1] = 0.5f * place_sun(frame, pose, direction, place);
     set_frame(&mark, direction, place);
     return mark;

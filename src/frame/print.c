@@ -12,8 +12,6 @@ static const char *const aovs[GN_AOV_COUNT] = {"color", "visibility", "distance"
 static const char *const receivers[] = {[GN_RECEIVES_MAPS] = "",
                                         [GN_RECEIVES_NOTHING] = ", receives nothing",
                                         [GN_RECEIVES_ALL] = ", receives all"};
-static const char *const light_types[] = {
-    [GN_LIGHT_DIRECTIONAL] = "directional", [GN_LIGHT_POINT] = "point", [GN_LIGHT_SPOT] = "spot"};
 static const char *const slides[GN_SLIDE_COUNT] = {
     [GN_SLIDE_NONE] = "", [GN_SLIDE_DARK] = "+slide", [GN_SLIDE_LIT] = "+film"};
 static const char *const culls[] = {
@@ -43,7 +41,7 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
         if (key->features >> gn_features[i].bit & 1) fprintf(to, " +%s", gn_features[i].name);
     for (int i = 0; i < key->light_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
-        fprintf(to, " %s", light_types[light->type]);
+        fprintf(to, " %s", gn_light_types[light->type].name);
         if (i < key->shadow_count)
             fprintf(to, ":%s/%s%s", gn_techniques[light->technique].name,
                     format_of(light->encoding, light->moments), light->cascades ? "+cascades" : "");
@@ -69,8 +67,8 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
     const struct gn_shadow_view *view = &plan->shadows[slot];
     fprintf(to, "shadow %u: light %u '%s' %s %s/%s", slot, view->light,
             plan->scene->lights[view->light].name,
-            light_types[plan->scene->lights[view->light].type], gn_techniques[view->technique].name,
-            format_of(view->encoding, view->moments));
+            gn_light_types[plan->scene->lights[view->light].type].name,
+            gn_techniques[view->technique].name, format_of(view->encoding, view->moments));
     print_shadow_size(view, to);
     if (view->empty)
         fprintf(to, ", empty: it darkens nothing in view\n");

@@ -7,11 +7,6 @@
 
 #include "gl/private.h"
 
-static const char *const light_names[] = {
-    [GN_LIGHT_DIRECTIONAL] = "LIGHT_DIRECTIONAL",
-    [GN_LIGHT_POINT] = "LIGHT_POINT",
-    [GN_LIGHT_SPOT] = "LIGHT_SPOT",
-};
 static const char *const aov_names[GN_AOV_COUNT] = {
     [GN_AOV_COLOR] = "AOV_COLOR",
     [GN_AOV_VISIBILITY] = "AOV_VISIBILITY",
@@ -88,7 +83,8 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
     if (key->shadow_count) gn_gl_text_add(out, "#define WITH_SHADOWS 1\n");
     gn_gl_text_add(out, "const int LIGHT_COUNT = %d;\nconst int SHADOW_COUNT = %d;\n",
                    key->light_count, key->shadow_count);
-    for (int i = 0; i < 3; i++) gn_gl_text_add(out, "const int %s = %d;\n", light_names[i], i);
+    for (int i = 0; i < GN_LIGHT_TYPE_COUNT; i++)
+        gn_gl_text_add(out, "const int %s = %d;\n", gn_light_types[i].glsl, i);
     for (int i = 0; i < GN_AOV_COUNT; i++)
         gn_gl_text_add(out, "const int %s = %d;\n", aov_names[i], i);
     gn_gl_text_add(out, "const int AOV = %d;\n", key->aov);
@@ -185,7 +181,7 @@ static bool add_maps(struct gn_gl_source *source, const struct gn_program_key *k
 
 static bool is_linear(const struct gn_program_key *key, int i) {
     const struct gn_light_key *light = &key->lights[i];
-    return (light->type == GN_LIGHT_DIRECTIONAL && !light->cascades) ||
+    return (!gn_light_types[light->type].has_position && !light->cascades) ||
            gn_techniques[light->technique].on_plane;
 }
 
@@ -195,7 +191,7 @@ static bool has_cascades(const struct gn_program_key *key, int i) {
 
 static bool is_shared(const struct gn_program_key *key, int i) {
     const struct gn_light_key *light = &key->lights[i];
-    return (light->type == GN_LIGHT_POINT || light->cascades) &&
+    return (gn_light_types[light->type].shines_around || light->cascades) &&
            gn_technique_shades(light->technique);
 }
 
@@ -232,13 +228,15 @@ static void add_light_loops(const struct gn_program_key *key, struct gn_gl_text 
     gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT(F)");
     for (int i = 0; i < key->shadow_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
-        bool radial = light->type != GN_LIGHT_DIRECTIONAL && light->encoding != GN_ENCODING_DEPTH;
+        bool radial =
+            gn_light_types[light->type].has_position && light->encoding != GN_ENCODING_DEPTH;
         gn_gl_text_add(out, " F(%d, %s, %s, shadow_visibility_%d, u_map_%d)", i,
-                       light_names[light->type], radial ? "true" : "false", pair_of(key, i), i);
+                       gn_light_types[light->type].glsl, radial ? "true" : "false", pair_of(key, i),
+                       i);
     }
     gn_gl_text_add(out, "\n#define EACH_OPEN_LIGHT(F)");
     for (int i = key->shadow_count; i < key->light_count; i++)
-        gn_gl_text_add(out, " F(%d, %s)", i, light_names[key->lights[i].type]);
+        gn_gl_text_add(out, " F(%d, %s)", i, gn_light_types[key->lights[i].type].glsl);
     gn_gl_text_add(out, "\n");
 }
 
@@ -331,7 +329,7 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
     }
     for (int i = 0; i < key->light_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
-        append(out, size, ", ", light_names[light->type] + sizeof "LIGHT_" - 1);
+        append(out, size, ", ", gn_light_types[light->type].glsl + sizeof "LIGHT_" - 1);
         if (light->slide) append(out, size, " ", light->slide == GN_SLIDE_LIT ? "film" : "slide");
         if (i >= key->shadow_count) continue;
         append(out, size, " ", gn_techniques[light->technique].name);

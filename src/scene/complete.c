@@ -36,7 +36,7 @@ static void make_light(struct gn_gltf *g) {
         .node = add_node(g, "key light", middle, (vec3){-.2f, -1, -.6f}),
         .type = GN_LIGHT_DIRECTIONAL,
         .color = {2.8f, 2.8f * .95f, 2.8f * .87f},
-        .radius = .00465f,
+        .radius = gn_light_types[GN_LIGHT_DIRECTIONAL].radius,
         .shadow_strength = 1,
         .slide = -1,
     };

@@ -8,7 +8,7 @@ bool gn_cascade_can(const struct gn_light *light, const struct gn_eye *eye,
                     const struct gn_shadow_opts *opts) {
     vec4 depth;
     gn_eye_depth_plane(eye, depth);
-    return light->type == GN_LIGHT_DIRECTIONAL && glm_vec3_norm2(depth) > 0.0f &&
+    return !gn_light_types[light->type].has_position && glm_vec3_norm2(depth) > 0.0f &&
            !gn_techniques[opts->technique].on_plane && opts->map_px >= GN_CASCADE_LEAST_PX;
 }
 

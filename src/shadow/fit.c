@@ -9,7 +9,9 @@
 #include "shadow/private.h"
 
 uint32_t gn_shadow_tile_count(enum gn_light_type type, enum gn_technique technique) {
-    return type == GN_LIGHT_POINT && !gn_techniques[technique].on_plane ? GN_SHADOW_TILES_MAX : 1;
+    return gn_light_types[type].shines_around && !gn_techniques[technique].on_plane
+               ? GN_SHADOW_TILES_MAX
+               : 1;
 }
 
 void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, uint32_t map_px,
@@ -32,7 +34,7 @@ static void begin_view(const struct gn_pose *pose, uint32_t light,
                                 .encoding = opts->encoding,
                                 .moments = opts->moments,
                                 .all_receive = opts->all_receive,
-                                .perspective = type != GN_LIGHT_DIRECTIONAL,
+                                .perspective = gn_light_types[type].has_position,
                                 .map = {.tile_px = opts->map_px,
                                         .width_px = size_px[0],
                                         .height_px = size_px[1],

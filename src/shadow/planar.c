@@ -154,7 +154,7 @@ static struct gn_shadow_region shadow_of(const struct planar *f, uint32_t item) 
  * spot's cone. Returns how many. */
 static int seen_planes(const struct planar *f, const struct gn_light *light, vec4 planes[12]) {
     memcpy(planes, f->eye->planes, sizeof f->eye->planes);
-    if (light->type != GN_LIGHT_SPOT) return 6;
+    if (!gn_light_types[light->type].has_cone) return 6;
     mat4 look, lens;
     gn_shadow_look(f->view, look);
     glm_perspective(2.0f * fminf(light->outer_rad, CONE_MAX_RAD), 1.0f, 1e-3f * f->scene_size_m,

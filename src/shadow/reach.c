@@ -11,8 +11,8 @@
 
 void gn_reach_build(struct gn_reach *reach, const struct gn_pose *pose, uint32_t light) {
     const struct gn_light *l = &pose->scene->lights[light];
-    *reach = (struct gn_reach){.everywhere = l->type == GN_LIGHT_DIRECTIONAL,
-                               .cone = l->type == GN_LIGHT_SPOT,
+    *reach = (struct gn_reach){.everywhere = !gn_light_types[l->type].has_position,
+                               .cone = gn_light_types[l->type].has_cone,
                                .sin_cone = sinf(l->outer_rad),
                                .cos_cone = cosf(l->outer_rad)};
     gn_pose_light(pose, light, reach->place_ws, reach->axis_ws);

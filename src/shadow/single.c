@@ -34,7 +34,7 @@ bool gn_single_fit(struct gn_fitter *f) {
     struct gn_window found;
     float near_depth, far_depth;
     gn_shadow_look(f->view, f->tile->light_from_world);
-    if (light->type == GN_LIGHT_SPOT)
+    if (gn_light_types[light->type].has_cone)
         gn_fitter_set_cone(f, tanf(fminf(light->outer_rad, GN_SPOT_MAX_RAD)));
     gn_fitter_remember(f);
     if (!gn_window_find(f, false, &found)) return false;

@@ -7,7 +7,7 @@
 #define LEAST_M 1e-4f /* what is nearer to the lamp has no place on a slide */
 
 enum gn_slide gn_slide_of(const struct gn_light *light) {
-    if (light->type != GN_LIGHT_SPOT || light->slide < 0) return GN_SLIDE_NONE;
+    if (!gn_light_types[light->type].has_cone || light->slide < 0) return GN_SLIDE_NONE;
     return light->slide_lit_outside ? GN_SLIDE_LIT : GN_SLIDE_DARK;
 }
 

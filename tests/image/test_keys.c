@@ -73,7 +73,7 @@ static void test_techniques(void **state) {
     (void)state;
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
         for (int e = 0; e < GN_ENCODING_COUNT; e++)
-            for (int type = GN_LIGHT_DIRECTIONAL; type <= GN_LIGHT_SPOT; type++) {
+            for (int type = GN_LIGHT_DIRECTIONAL; type < GN_LIGHT_TYPE_COUNT; type++) {
                 if (!go_together(t, e)) continue;
                 struct gn_program_key key = key_of(GN_PROGRAM_LIT);
                 add_light(&key, type, t, e);
@@ -93,7 +93,7 @@ static void test_moments(void **state) {
     (void)state;
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
         for (int i = 0; i < GN_STORES_MAX && gn_techniques[t].stores[i]; i++) {
-            for (int type = GN_LIGHT_DIRECTIONAL; type <= GN_LIGHT_SPOT; type++) {
+            for (int type = GN_LIGHT_DIRECTIONAL; type < GN_LIGHT_TYPE_COUNT; type++) {
                 struct gn_program_key key = key_of(GN_PROGRAM_LIT);
                 add_light(&key, type, t, 0);
                 filter_map(&key.lights[0], gn_techniques[t].stores[i]);

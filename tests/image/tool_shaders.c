@@ -130,7 +130,7 @@ static bool write(const char *folder, const char *name, const struct gn_program_
 static bool write_all(const char *folder, struct gn_err *err) {
     static const char *const lights[] = {"sun", "point", "spot"};
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
-        for (int type = GN_LIGHT_DIRECTIONAL; type <= GN_LIGHT_SPOT; type++) {
+        for (int type = GN_LIGHT_DIRECTIONAL; type < GN_LIGHT_TYPE_COUNT; type++) {
             if (gn_technique_filters_map((enum gn_technique)t)) {
                 const char *moments = gn_moments[gn_techniques[t].stores[0]].name;
                 char name[80];

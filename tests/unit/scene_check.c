@@ -121,10 +121,10 @@ static const char *check_items(const struct gn_scene *scene) {
 
 static const char *check_light(const struct gn_scene *scene, const struct gn_light *light) {
     NEED(light->name && light->node < scene->node_count);
-    NEED(light->type <= GN_LIGHT_SPOT && finite_all(light->color, 3));
+    NEED(light->type < GN_LIGHT_TYPE_COUNT && finite_all(light->color, 3));
     NEED(light->color[0] >= 0 && light->color[1] >= 0 && light->color[2] >= 0);
     NEED(light->range_m >= 0 && light->radius >= 0 && isfinite(light->radius));
-    NEED(light->type != GN_LIGHT_SPOT ||
+    NEED(!gn_light_types[light->type].has_cone ||
          (light->inner_rad >= 0 && light->inner_rad < light->outer_rad));
     NEED(light->outer_rad <= GLM_PI_2f);
     NEED(light->shadow_strength >= 0 && light->shadow_strength <= 1);

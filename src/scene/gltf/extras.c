@@ -155,7 +155,7 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
         light->technique = gn_gltf_strdup(g, name);
     else if (technique.json)
         complain(g, &technique, "the name of a technique, or none");
-    if (light->type == GN_LIGHT_SPOT)
+    if (gn_light_types[light->type].has_cone)
         light_slide(g, &extras, light);
     else if (gn_at_any(&extras, "gnomon_slide").json)
         gn_gltf_warn(g, &extras, "gnomon_slide: only a spot can project a slide; ignored");

@@ -4,18 +4,12 @@
 #include <math.h>
 #include <string.h>
 
-static const float SUN_TANGENT = .00465f; /* of the sun's angular radius */
-static const float LAMP_RADIUS_M = .05f;
-
 static bool read_type(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
-    static const char *const names[] = {[GN_LIGHT_DIRECTIONAL] = "directional",
-                                        [GN_LIGHT_POINT] = "point",
-                                        [GN_LIGHT_SPOT] = "spot"};
     const char *name = gn_at_text(g, at, "type");
     struct gn_at place = gn_at_any(at, "type");
-    for (int i = 0; name && i < 3; i++) {
+    for (int i = 0; name && i < GN_LIGHT_TYPE_COUNT; i++) {
         light->type = (enum gn_light_type)i;
-        if (strcmp(name, names[i]) == 0) return true;
+        if (strcmp(name, gn_light_types[i].name) == 0) return true;
     }
     if (!g->failed)
         gn_gltf_warn(g, &place, "'%.20s' is none of directional, point, spot; light ignored",
@@ -60,10 +54,10 @@ static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_ligh
         gn_gltf_warn(g, &range, "must be over 0; taken as unlimited");
         light->range_m = 0;
     }
-    light->radius = light->type == GN_LIGHT_DIRECTIONAL ? SUN_TANGENT : LAMP_RADIUS_M;
+    light->radius = gn_light_types[light->type].radius;
     light->shadow_strength = 1;
     light->slide = -1;
-    if (light->type == GN_LIGHT_SPOT) read_cone(g, at, light);
+    if (gn_light_types[light->type].has_cone) read_cone(g, at, light);
     return !g->failed;
 }
 
