@@ -58,6 +58,18 @@ static void count(struct gn_show *s, unsigned long allocations, uint64_t objects
     s->objects += gn_gl_stats(s->stage.gl).objects_created - objects;
 }
 
+/* A screenshot that is asked for is of this frame. */
+static void fill_screenshot(struct gn_show *s) {
+    const struct gn_frame_opts *f = &s->stage.frame_opts;
+    struct gn_err err = {0};
+    if (!s->screenshot || !gn_screenshot_is_asked(s->screenshot)) return;
+    uint8_t *rgba =
+        gn_screenshot_begin(s->screenshot, f->width_px, f->height_px, f->turn_deg, &err);
+    if (!rgba || !gn_gl_read_rgba8(s->stage.gl, rgba, &err) ||
+        !gn_screenshot_start(s->screenshot, &err))
+        gn_screenshot_fail(s->screenshot, &err);
+}
+
 static bool draw(struct gn_show *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const int64_t seen_ns = screen->seen_ns;
@@ -77,7 +89,8 @@ static bool draw(struct gn_show *s, struct gn_err *err) {
     s->drawn = view;
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
     if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
-    gn_show_take_shot(s);
+    gn_frame_times_add(&s->times, gn_clock_monotonic_ns());
+    fill_screenshot(s);
     return !screen->copy_to ||
            gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
 }

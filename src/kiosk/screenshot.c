@@ -15,9 +15,9 @@
 #include "core/file.h"
 #include "image/write.h"
 
-struct gn_shot {
-    int done; /* an eventfd */
-    bool runs;
+struct gn_screenshot {
+    int done;                 /* an eventfd */
+    bool asked, runs, failed; /* at most one of them */
     pthread_t thread;
     char path[PATH_MAX];
     uint32_t width_px, height_px;
@@ -32,7 +32,7 @@ static bool ends_in_png(const char *path) {
     return length > 4 && strcmp(path + length - 4, ".png") == 0 && path[length - 5] != '/';
 }
 
-bool gn_shot_check(const char *path, struct gn_err *err) {
+bool gn_screenshot_check(const char *path, struct gn_err *err) {
     struct stat info;
     if (path[0] != '/')
         return gn_fail_usage(err, "screenshot: \"%.200s\" is not an absolute path", path);
@@ -40,12 +40,12 @@ bool gn_shot_check(const char *path, struct gn_err *err) {
         return gn_fail_usage(err, "screenshot: \"%.200s\" does not end in .png", path);
     if (strlen(path) >= PATH_MAX) return gn_fail_usage(err, "screenshot: the path is too long");
     if (lstat(path, &info) == 0 && !S_ISREG(info.st_mode))
-        return gn_fail(err, "screenshot: %.200s is no file, and stays what it is", path);
+        return gn_fail(err, "screenshot: %.200s is no regular file; not replacing it", path);
     return true;
 }
 
-struct gn_shot *gn_shot_create(struct gn_err *err) {
-    struct gn_shot *shot = gn_xalloc(1, sizeof *shot);
+struct gn_screenshot *gn_screenshot_create(struct gn_err *err) {
+    struct gn_screenshot *shot = gn_xalloc(1, sizeof *shot);
     shot->done = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (shot->done >= 0) return shot;
     gn_fail(err, "screenshots: cannot wait: %s", strerror(errno));
@@ -53,36 +53,37 @@ struct gn_shot *gn_shot_create(struct gn_err *err) {
     return NULL;
 }
 
-void gn_shot_destroy(struct gn_shot *shot) {
+void gn_screenshot_destroy(struct gn_screenshot *shot) {
     if (!shot) return;
     if (shot->runs) pthread_join(shot->thread, NULL);
-    gn_shot_drop(shot);
+    free(shot->rgba);
     close(shot->done);
     free(shot);
 }
 
-int gn_shot_fd(const struct gn_shot *shot) { return shot->done; }
+int gn_screenshot_fd(const struct gn_screenshot *shot) { return shot->done; }
 
-uint8_t *gn_shot_begin(struct gn_shot *shot, const char *path, uint32_t width_px,
-                       uint32_t height_px, unsigned turn_deg, struct gn_err *err) {
-    gn_shot_drop(shot);
+void gn_screenshot_ask(struct gn_screenshot *shot, const char *path) {
+    snprintf(shot->path, sizeof shot->path, "%s", path);
+    shot->asked = true;
+}
+
+bool gn_screenshot_is_asked(const struct gn_screenshot *shot) { return shot->asked; }
+
+uint8_t *gn_screenshot_begin(struct gn_screenshot *shot, uint32_t width_px, uint32_t height_px,
+                             unsigned turn_deg, struct gn_err *err) {
+    free(shot->rgba);
     shot->rgba = gn_picture_alloc((size_t)width_px * height_px, 4, err);
     shot->width_px = width_px;
     shot->height_px = height_px;
     shot->turn_deg = turn_deg;
-    snprintf(shot->path, sizeof shot->path, "%s", path);
     return shot->rgba;
-}
-
-void gn_shot_drop(struct gn_shot *shot) {
-    free(shot->rgba);
-    shot->rgba = NULL;
 }
 
 /* ---- in the thread -------------------------------------------------------------------------- */
 
 /* Where the pixel (u, v) of the upright picture stands in one that is turned clockwise. */
-static size_t index_of(const struct gn_shot *s, uint32_t u, uint32_t v) {
+static size_t index_of(const struct gn_screenshot *s, uint32_t u, uint32_t v) {
     const uint32_t w = s->width_px, h = s->height_px;
     switch (s->turn_deg) {
     case 90: return (size_t)u * w + (w - 1 - v);
@@ -92,7 +93,7 @@ static size_t index_of(const struct gn_shot *s, uint32_t u, uint32_t v) {
     }
 }
 
-static bool write_shot(struct gn_shot *s) {
+static bool write_shot(struct gn_screenshot *s) {
     const bool lies = s->turn_deg % 180 != 0;
     const uint32_t width = lies ? s->height_px : s->width_px;
     const uint32_t height = lies ? s->width_px : s->height_px;
@@ -109,32 +110,46 @@ static bool write_shot(struct gn_shot *s) {
     return ok;
 }
 
+static void signal_done(const struct gn_screenshot *shot) {
+    const uint64_t one = 1;
+    if (write(shot->done, &one, sizeof one) < 0) abort(); /* there is room for more than that */
+}
+
 /* Frames come first: on Linux a thread has a niceness of its own. */
 static void *run(void *user) {
-    struct gn_shot *shot = user;
-    const uint64_t one = 1;
+    struct gn_screenshot *shot = user;
     setpriority(PRIO_PROCESS, 0, 10);
     shot->ok = write_shot(shot);
-    if (write(shot->done, &one, sizeof one) < 0) abort(); /* there is room for more than that */
+    signal_done(shot);
     return NULL;
 }
 
 /* ---- here ----------------------------------------------------------------------------------- */
 
-bool gn_shot_start(struct gn_shot *shot, struct gn_err *err) {
+bool gn_screenshot_start(struct gn_screenshot *shot, struct gn_err *err) {
     shot->err = (struct gn_err){0};
     const int reason = pthread_create(&shot->thread, NULL, run, shot);
     shot->runs = reason == 0;
-    if (!shot->runs) gn_shot_drop(shot);
+    shot->asked = shot->asked && !shot->runs;
     return shot->runs || gn_fail(err, "screenshot: no thread: %s", strerror(reason));
 }
 
-bool gn_shot_take(struct gn_shot *shot, bool *ok, struct gn_err *err) {
+void gn_screenshot_fail(struct gn_screenshot *shot, const struct gn_err *err) {
+    shot->asked = false;
+    shot->failed = true;
+    shot->ok = false;
+    shot->err = *err;
+    signal_done(shot);
+}
+
+bool gn_screenshot_take(struct gn_screenshot *shot, bool *ok, struct gn_err *err) {
     uint64_t count;
-    if (!shot->runs || read(shot->done, &count, sizeof count) != sizeof count) return false;
-    pthread_join(shot->thread, NULL);
-    shot->runs = false;
-    gn_shot_drop(shot);
+    if ((!shot->runs && !shot->failed) || read(shot->done, &count, sizeof count) != sizeof count)
+        return false;
+    if (shot->runs) pthread_join(shot->thread, NULL);
+    shot->runs = shot->failed = false;
+    free(shot->rgba);
+    shot->rgba = NULL;
     *ok = shot->ok;
     if (!*ok) *err = shot->err;
     return true;

@@ -1,5 +1,5 @@
 /* A screenshot: the pixels of one frame, turned upright, encoded and written by a thread of its own
- * while frames go on. One at a time. */
+ * while frames go on. One at a time: asked for, filled by the next frame, taken when it is done. */
 #ifndef GN_KIOSK_SCREENSHOT_H
 #define GN_KIOSK_SCREENSHOT_H
 
@@ -8,23 +8,26 @@
 
 #include "core/err.h"
 
-/* May a picture be written there? An absolute path that ends in .png, and there is a regular file
- * or nothing: what somebody over a socket names may be no link and no device. */
-bool gn_shot_check(const char *path, struct gn_err *err);
+/* May a picture be written there? An absolute path that ends in .png; there is a regular file or
+ * nothing: a path that comes over a socket may be no link and no device. */
+bool gn_screenshot_check(const char *path, struct gn_err *err);
 
-struct gn_shot;
-struct gn_shot *gn_shot_create(struct gn_err *err);
-void gn_shot_destroy(struct gn_shot *shot); /* waits for the thread; NULL is fine */
-int gn_shot_fd(const struct gn_shot *shot); /* readable when there is something to take */
+struct gn_screenshot;
+struct gn_screenshot *gn_screenshot_create(struct gn_err *err);
+void gn_screenshot_destroy(struct gn_screenshot *shot); /* waits for the thread; NULL is legal */
+int gn_screenshot_fd(const struct gn_screenshot *shot); /* readable when one can be taken */
 
-/* Begins one: room for RGBA of that size, top row first, which stands turned clockwise by turn_deg
- * (0, 90, 180, 270). The path is copied. NULL: no memory. Whoever has filled it starts the thread.
- */
-uint8_t *gn_shot_begin(struct gn_shot *shot, const char *path, uint32_t width_px,
-                       uint32_t height_px, unsigned turn_deg, struct gn_err *err);
-bool gn_shot_start(struct gn_shot *shot, struct gn_err *err);
-void gn_shot_drop(struct gn_shot *shot); /* what was begun and not started */
-/* Is it done? Then *ok says how it ended, and another can begin. */
-bool gn_shot_take(struct gn_shot *shot, bool *ok, struct gn_err *err);
+/* The next frame is to be written there; the path is copied. Not while another one is under way. */
+void gn_screenshot_ask(struct gn_screenshot *shot, const char *path);
+bool gn_screenshot_is_asked(const struct gn_screenshot *shot); /* and no frame has filled it */
+/* Memory for the frame: RGBA of that size, top row first, turned clockwise by turn_deg (0, 90, 180,
+ * 270). Whoever has filled it starts the thread. NULL: no memory. */
+uint8_t *gn_screenshot_begin(struct gn_screenshot *shot, uint32_t width_px, uint32_t height_px,
+                             unsigned turn_deg, struct gn_err *err);
+bool gn_screenshot_start(struct gn_screenshot *shot, struct gn_err *err);
+/* What was asked for cannot be had; gn_screenshot_take() returns the reason. */
+void gn_screenshot_fail(struct gn_screenshot *shot, const struct gn_err *err);
+/* True: it is done, *ok and err say how it ended, and another can be asked for. */
+bool gn_screenshot_take(struct gn_screenshot *shot, bool *ok, struct gn_err *err);
 
 #endif

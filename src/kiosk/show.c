@@ -123,7 +123,7 @@ static void work_between_frames(struct gn_show *s) {
 
 bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     gn_loop_step(s->loop, due_ns(s));
-    gn_show_hear_control(s);
+    gn_show_answer_requests(s);
     if (s->ends) return true;
     if (s->reloads && !gn_show_reload(s, err)) return false;
     if (!gn_display_dispatch(&s->stage.display, gn_clock_monotonic_ns(), err)) return false;

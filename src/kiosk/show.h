@@ -8,6 +8,7 @@
 #include "kiosk/info_page.h"
 #include "kiosk/latency.h"
 #include "kiosk/machine.h"
+#include "kiosk/screenshot.h"
 #include "kiosk/service.h"
 #include "kiosk/stats.h"
 #include "options/binding.h"
@@ -68,13 +69,15 @@ struct gn_show {
     struct gn_kiosk kiosk;
     struct gn_captions *captions;
     struct gn_info_page page;
-    struct gn_kiosk_view said;       /* what the last caption was about, */
-    int64_t said_ns;                 /* and since when */
-    int64_t begun_ns;                /* when the program was started, about */
-    struct gn_kiosk_view drawn;      /* what the last frame showed */
-    struct gn_show_control *control; /* NULL: nobody can ask anything */
-    char config_error[512];          /* of the last reload; options->config_error */
-    char problem[512];               /* what a caption may say of it; "" */
+    struct gn_kiosk_view said;        /* what the last caption was about, */
+    int64_t said_ns;                  /* and since when */
+    int64_t begun_ns;                 /* when the program was started, about */
+    struct gn_kiosk_view drawn;       /* what the last frame showed */
+    struct gn_show_control *control;  /* NULL: nobody can ask anything */
+    struct gn_screenshot *screenshot; /* NULL without control */
+    struct gn_frame_times times;
+    char config_error[512]; /* of the last reload; options->config_error */
+    char problem[512];      /* what a caption may say of it; "" */
 
     uint64_t frames, most_frames;
     unsigned long allocations; /* in frames after the first, but for work ahead */

@@ -4,6 +4,17 @@
 
 #include "core/clock.h"
 
+void gn_frame_times_add(struct gn_frame_times *times, int64_t now_ns) {
+    times->ns[times->next++ % GN_FRAME_TIMES] = now_ns;
+}
+
+int gn_frame_times_fps(const struct gn_frame_times *times, int64_t now_ns) {
+    int frames = 0;
+    for (int i = 0; i < GN_FRAME_TIMES; i++)
+        frames += times->ns[i] != 0 && now_ns - times->ns[i] < GN_NS_PER_S;
+    return frames;
+}
+
 static void print_line(void *user, int64_t now_ns) {
     struct gn_show_stats *s = user;
     const struct gn_screen *screen = &s->display->screen;

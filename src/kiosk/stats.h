@@ -7,6 +7,16 @@
 #include "display/display.h"
 #include "options/settings.h"
 
+/* When the last frames were drawn: a ring. Zeroed: none. */
+enum { GN_FRAME_TIMES = 256 };
+struct gn_frame_times {
+    int64_t ns[GN_FRAME_TIMES];
+    unsigned next;
+};
+void gn_frame_times_add(struct gn_frame_times *times, int64_t now_ns);
+/* How many were drawn in the second before; at most GN_FRAME_TIMES. */
+int gn_frame_times_fps(const struct gn_frame_times *times, int64_t now_ns);
+
 struct gn_show_stats {
     const struct gn_display *display;
     struct gn_timer timer; /* of the next line; added only where lines are wanted */

@@ -147,7 +147,7 @@ expect 0 "file: $folder/one.png" screenshot one.png
 "$gnomon" render sundial.glb --no-animation --size 160x90 --shadow none -o two.png || complain 'render'
 cmp -s one.png two.png || complain 'a screenshot is not what render draws'
 ln -s "$folder/victim" link.png && echo kept > victim
-expect 1 'stays what it is' screenshot link.png
+expect 1 'not replacing it' screenshot link.png
 expect 2 'does not end in .png' screenshot victim
 [ "$(cat victim)" = kept ] || complain 'a screenshot was written through a link'
 expect 1 'cannot write' screenshot no/such.png

@@ -13,40 +13,42 @@
 #include "kiosk/screenshot.h"
 #include "kiosk/show.h"
 
-static const int64_t SHOT_NS = 5 * GN_NS_PER_S; /* a frame comes sooner, or nothing is shown */
+static const int64_t SCREENSHOT_NS = 5 * GN_NS_PER_S; /* no frame until then: nothing is shown */
 
 struct gn_show_control {
     struct gn_control *control;
-    struct gn_shot *shot;
-    struct gn_watch shot_watch;
-    struct gn_timer shot_timer;                             /* until a frame has to come */
-    const struct gn_request *shot_request, *reload_request; /* to be answered later; NULL: none */
-    bool shot_begun;                                        /* the next frame is the one */
+    struct gn_watch screenshot_done;
+    struct gn_timer screenshot_late;
+    const struct gn_request *screenshot, *reload; /* to be answered later; NULL: none */
     struct gn_show_status status;
 };
 
 /* ---- opening ---- */
 
-static void on_shot(void *user, uint32_t events, int64_t now_ns);
-static void on_late_shot(void *user, int64_t now_ns);
+static void answer_screenshot(void *user, uint32_t events, int64_t now_ns);
+static void give_up_screenshot(void *user, int64_t now_ns);
 
 static bool open_all(struct gn_show *s, struct gn_show_control *c, const char *path,
                      struct gn_err *err) {
-    c->shot_timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = on_late_shot, .user = s};
-    gn_loop_add_timer(s->loop, &c->shot_timer);
-    c->shot = gn_shot_create(err);
-    c->control = c->shot ? gn_control_open(path, s->loop, err) : NULL;
+    c->screenshot_late =
+        (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = give_up_screenshot, .user = s};
+    gn_loop_add_timer(s->loop, &c->screenshot_late);
+    s->screenshot = gn_screenshot_create(err);
+    c->control = s->screenshot ? gn_control_open(path, s->loop, err) : NULL;
     if (!c->control) return false;
-    c->shot_watch =
-        (struct gn_watch){.fd = gn_shot_fd(c->shot), .events = EPOLLIN, .call = on_shot, .user = s};
-    return gn_loop_add(s->loop, &c->shot_watch) ||
+    c->screenshot_done = (struct gn_watch){.fd = gn_screenshot_fd(s->screenshot),
+                                           .events = EPOLLIN,
+                                           .call = answer_screenshot,
+                                           .user = s};
+    return gn_loop_add(s->loop, &c->screenshot_done) ||
            gn_fail(err, "control socket %s: cannot wait: %s", path, strerror(errno));
 }
 
-static void close_all(struct gn_show_control *c) {
-    gn_loop_remove(&c->shot_watch);
-    gn_loop_remove_timer(&c->shot_timer);
-    gn_shot_destroy(c->shot);
+static void close_all(struct gn_show *s, struct gn_show_control *c) {
+    gn_loop_remove(&c->screenshot_done);
+    gn_loop_remove_timer(&c->screenshot_late);
+    gn_screenshot_destroy(s->screenshot);
+    s->screenshot = NULL;
     gn_control_close(c->control);
     free(c);
 }
@@ -58,17 +60,16 @@ void gn_show_open_control(struct gn_show *s) {
     if (!named && (s->stage.display.ops->is_window || !gn_listen_default(path, sizeof path)))
         return;
     struct gn_show_control *c = gn_xalloc(1, sizeof *c);
-    gn_show_status_begin(&c->status, gn_clock_monotonic_ns());
     if (open_all(s, c, named ? named : path, &err)) {
         s->control = c;
         return;
     }
     gn_warn(s->warnings, "%s", err.text);
-    close_all(c);
+    close_all(s, c);
 }
 
 void gn_show_close_control(struct gn_show *s) {
-    if (s->control) close_all(s->control);
+    if (s->control) close_all(s, s->control);
     s->control = NULL;
 }
 
@@ -158,72 +159,53 @@ void gn_show_enter_changed(struct gn_show *s) {
 
 /* ---- screenshots ---- */
 
-static bool ask_for_shot(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+static bool ask_for_screenshot(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     struct gn_show_control *c = s->control;
     const struct gn_screen *screen = &s->stage.display.screen;
-    if (!gn_shot_check(r->words[0], err)) return false;
-    if (c->shot_request) return gn_fail(err, "busy");
-    if (s->kiosk.blanked) return gn_fail(err, "screenshot: the screen is dark");
+    if (!gn_screenshot_check(r->words[0], err)) return false;
+    if (c->screenshot) return gn_fail(err, "busy");
+    if (s->kiosk.blanked) return gn_fail(err, "screenshot: the screen is switched off");
     if (!screen->lit || !s->stage.gl)
         return gn_fail(err, "screenshot: nothing is shown: %s",
                        screen->status[0] ? screen->status : "there is no picture");
-    c->shot_request = r;
-    c->shot_begun = true;
+    c->screenshot = r;
+    c->screenshot_late.due_ns = gn_loop_now_ns(s->loop) + SCREENSHOT_NS;
+    gn_screenshot_ask(s->screenshot, r->words[0]);
     s->changed = true;
-    c->shot_timer.due_ns = gn_loop_now_ns(s->loop) + SHOT_NS;
     return true;
 }
 
-/* NULL err: it is done. */
-static void answer_shot(struct gn_show_control *c, const struct gn_err *err) {
-    const struct gn_request *r = c->shot_request;
-    c->shot_request = NULL;
-    c->shot_begun = false;
-    c->shot_timer.due_ns = GN_LOOP_NEVER;
-    if (err)
-        gn_control_refuse(c->control, r, err);
-    else
-        gn_control_answer(c->control, r, json_pack("{s:o}", "file", gn_reply_text(r->words[0])));
-}
-
-void gn_show_take_shot(struct gn_show *s) {
-    struct gn_show_control *c = s->control;
-    const struct gn_frame_opts *f = &s->stage.frame_opts;
-    struct gn_err err = {0};
-    if (!c) return;
-    gn_show_status_frame(&c->status, gn_clock_monotonic_ns());
-    if (!c->shot_begun) return;
-    c->shot_begun = false;
-    uint8_t *rgba = gn_shot_begin(c->shot, c->shot_request->words[0], f->width_px, f->height_px,
-                                  f->turn_deg, &err);
-    if (rgba && gn_gl_read_rgba8(s->stage.gl, rgba, &err) && gn_shot_start(c->shot, &err)) return;
-    gn_shot_drop(c->shot);
-    answer_shot(c, &err);
-}
-
-static void on_shot(void *user, uint32_t events, int64_t now_ns) {
-    const struct gn_show *s = user;
-    struct gn_err err = {0};
-    bool ok;
-    (void)events, (void)now_ns;
-    if (gn_shot_take(s->control->shot, &ok, &err)) answer_shot(s->control, ok ? NULL : &err);
-}
-
-static void on_late_shot(void *user, int64_t now_ns) {
+static void give_up_screenshot(void *user, int64_t now_ns) {
     const struct gn_show *s = user;
     struct gn_err err = {0};
     (void)now_ns;
-    if (!s->control->shot_begun) return;
+    if (!gn_screenshot_is_asked(s->screenshot)) return;
     gn_fail(&err, "screenshot: no frame came: %s", s->stage.display.screen.status);
-    answer_shot(s->control, &err);
+    gn_screenshot_fail(s->screenshot, &err);
+}
+
+static void answer_screenshot(void *user, uint32_t events, int64_t now_ns) {
+    const struct gn_show *s = user;
+    struct gn_show_control *c = s->control;
+    const struct gn_request *r = c->screenshot;
+    struct gn_err err = {0};
+    bool ok;
+    (void)events, (void)now_ns;
+    if (!gn_screenshot_take(s->screenshot, &ok, &err)) return;
+    c->screenshot = NULL;
+    c->screenshot_late.due_ns = GN_LOOP_NEVER;
+    if (ok)
+        gn_control_answer(c->control, r, json_pack("{s:o}", "file", gn_reply_text(r->words[0])));
+    else
+        gn_control_refuse(c->control, r, &err);
 }
 
 /* ---- reloading ---- */
 
 static bool ask_for_reload(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     struct gn_show_control *c = s->control;
-    if (c->reload_request) return gn_fail(err, "busy");
-    c->reload_request = r;
+    if (c->reload) return gn_fail(err, "busy");
+    c->reload = r;
     s->reloads = true;
     return true;
 }
@@ -232,8 +214,8 @@ void gn_show_answer_reload(struct gn_show *s, const struct gn_err *why) {
     struct gn_show_control *c = s->control;
     if (!c) return;
     if (!why) c->status.waits = false;
-    const struct gn_request *r = c->reload_request;
-    c->reload_request = NULL;
+    const struct gn_request *r = c->reload;
+    c->reload = NULL;
     if (r && why) gn_control_refuse(c->control, r, why);
     if (r && !why) gn_control_answer(c->control, r, gn_show_status_short(s));
 }
@@ -248,7 +230,7 @@ static void answer(struct gn_show *s, const struct gn_request *r) {
     switch (r->command) {
     case GN_CTL_SET: reply = set(s, r, &err); break;
     case GN_CTL_GET: reply = get(s, r, &err); break;
-    case GN_CTL_SCREENSHOT: later = ask_for_shot(s, r, &err); break;
+    case GN_CTL_SCREENSHOT: later = ask_for_screenshot(s, r, &err); break;
     case GN_CTL_RELOAD: later = ask_for_reload(s, r, &err); break;
     case GN_CTL_STATUS:
         reply = gn_show_status_make(s, &s->control->status, gn_control_counts(control));
@@ -266,7 +248,7 @@ static void answer(struct gn_show *s, const struct gn_request *r) {
         gn_control_answer(control, r, reply);
 }
 
-void gn_show_hear_control(struct gn_show *s) {
+void gn_show_answer_requests(struct gn_show *s) {
     struct gn_show_control *c = s->control;
     if (!c) return;
     for (const struct gn_request *r; (r = gn_control_next(c->control)) != NULL;) answer(s, r);

@@ -17,10 +17,8 @@ struct gn_show_control;
 void gn_show_open_control(struct gn_show *show);
 void gn_show_close_control(struct gn_show *show);
 
-/* Answers what is asked, a bounded number of requests. */
-void gn_show_hear_control(struct gn_show *show);
-/* A frame is drawn, and not sent yet: if a screenshot is wanted it is this one. */
-void gn_show_take_shot(struct gn_show *show);
+/* Answers the requests that have come, a bounded number. */
+void gn_show_answer_requests(struct gn_show *show);
 /* Options that were set are shown once their programs are there; to be called after any work. */
 void gn_show_enter_changed(struct gn_show *show);
 /* A reload that was asked for is done; why: it is not, and everything is as it was. */

@@ -9,21 +9,6 @@
 #include "core/json.h"
 #include "kiosk/show.h"
 
-void gn_show_status_begin(struct gn_show_status *status, int64_t now_ns) {
-    *status = (struct gn_show_status){.begun_ns = now_ns};
-}
-
-void gn_show_status_frame(struct gn_show_status *status, int64_t now_ns) {
-    status->frames_ns[status->next++ % GN_STATUS_FRAMES] = now_ns;
-}
-
-int gn_show_status_fps(const struct gn_show_status *status, int64_t now_ns) {
-    int frames = 0;
-    for (int i = 0; i < GN_STATUS_FRAMES; i++)
-        frames += status->frames_ns[i] != 0 && now_ns - status->frames_ns[i] < GN_NS_PER_S;
-    return frames;
-}
-
 /* What is resident, in megabytes (2^20 bytes): cheap to ask for, and what tells of a leak. */
 static double memory_mb(struct gn_show_status *status, int64_t now_ns) {
     long pages = 0;
@@ -103,14 +88,14 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     const struct gn_options *o = s->options;
     const int64_t now_ns = gn_clock_monotonic_ns();
     json_t *reply = json_pack("{s:s, s:i, s:f}", "version", GN_VERSION, "pid", (int)getpid(),
-                              "uptime_s", (double)(now_ns - status->begun_ns) * 1e-9);
+                              "uptime_s", (double)(now_ns - s->begun_ns) * 1e-9);
     json_object_update_new(reply, gn_show_status_short(s));
     json_object_set_new(reply, "waits", json_boolean(status->waits || gn_kiosk_waits(&s->kiosk)));
     json_object_set_new(reply, "modes", mode_names(s));
     json_object_set_new(reply, "screen", screen_status(s));
     json_object_set_new(reply, "frames", frame_status(s));
     json_object_set_new(reply, "input", input_status(s));
-    json_object_set_new(reply, "fps", json_integer(gn_show_status_fps(status, now_ns)));
+    json_object_set_new(reply, "fps", json_integer(gn_frame_times_fps(&s->times, now_ns)));
     json_object_set_new(reply, "config",
                         json_pack("{s:o, s:o}", "path", gn_json_make_text(o->config_path), "error",
                                   gn_json_make_text(o->config_error)));

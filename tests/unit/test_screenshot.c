@@ -14,7 +14,7 @@
 
 static char folder[] = "/tmp/gnomon-shot-XXXXXX", path[100];
 static struct gn_err err;
-static struct gn_shot *shot;
+static struct gn_screenshot *shot;
 
 static const char *in_folder(const char *name) {
     snprintf(path, sizeof path, "%s/%s", folder, name);
@@ -23,10 +23,10 @@ static const char *in_folder(const char *name) {
 
 /* Waits for the thread; what it says. */
 static bool finish(void) {
-    struct pollfd p = {.fd = gn_shot_fd(shot), .events = POLLIN};
+    struct pollfd p = {.fd = gn_screenshot_fd(shot), .events = POLLIN};
     bool ok = false;
     assert_int_equal(poll(&p, 1, 10000), 1);
-    assert_true(gn_shot_take(shot, &ok, &err));
+    assert_true(gn_screenshot_take(shot, &ok, &err));
     return ok;
 }
 
@@ -47,12 +47,14 @@ static void a_turned_screen_gives_an_upright_picture(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof screens / sizeof screens[0]; i++) {
         struct gn_picture picture = {0};
-        uint8_t *rgba = gn_shot_begin(shot, in_folder("a.png"), screens[i].width_px,
-                                      screens[i].height_px, screens[i].turn_deg, &err);
+        gn_screenshot_ask(shot, in_folder("a.png"));
+        uint8_t *rgba = gn_screenshot_begin(shot, screens[i].width_px, screens[i].height_px,
+                                            screens[i].turn_deg, &err);
         assert_non_null(rgba);
         for (int k = 0; k < 6; k++)
             memcpy(rgba + 4 * k, (uint8_t[]){(uint8_t)(screens[i].red[k] * 40), 7, 9, 0}, 4);
-        assert_true(gn_shot_start(shot, &err));
+        assert_true(gn_screenshot_is_asked(shot) && gn_screenshot_start(shot, &err));
+        assert_false(gn_screenshot_is_asked(shot));
         if (!finish()) fail_msg("%s", err.text);
         if (!gn_picture_read(&picture, in_folder("a.png"), &err)) fail_msg("%s", err.text);
         assert_int_equal(picture.width_px, 3);
@@ -69,20 +71,20 @@ static void a_turned_screen_gives_an_upright_picture(void **state) {
 
 static void a_name_that_is_not_fit_is_refused_before(void **state) {
     (void)state;
-    assert_true(gn_shot_check("/tmp/x.png", &err));
-    assert_false(gn_shot_check("x.png", &err));
+    assert_true(gn_screenshot_check("/tmp/x.png", &err));
+    assert_false(gn_screenshot_check("x.png", &err));
     assert_int_equal(err.status, GN_EXIT_USAGE);
-    assert_false(gn_shot_check("/tmp/x.jpg", &err));
-    assert_false(gn_shot_check("/tmp/.png", &err));
-    assert_false(gn_shot_check("", &err));
-    assert_false(gn_shot_check("/dev/null", &err));
+    assert_false(gn_screenshot_check("/tmp/x.jpg", &err));
+    assert_false(gn_screenshot_check("/tmp/.png", &err));
+    assert_false(gn_screenshot_check("", &err));
+    assert_false(gn_screenshot_check("/dev/null", &err));
     assert_int_equal(symlink("/etc/passwd", in_folder("link.png")), 0);
-    assert_false(gn_shot_check(path, &err));
-    assert_non_null(strstr(err.text, "stays what it is"));
+    assert_false(gn_screenshot_check(path, &err));
+    assert_non_null(strstr(err.text, "not replacing it"));
     assert_int_equal(mkdir(in_folder("folder.png"), 0700), 0);
-    assert_false(gn_shot_check(path, &err));
+    assert_false(gn_screenshot_check(path, &err));
     assert_int_equal(mkfifo(in_folder("fifo.png"), 0600), 0);
-    assert_false(gn_shot_check(path, &err));
+    assert_false(gn_screenshot_check(path, &err));
 }
 
 /* Whatever comes there after the check. */
@@ -106,32 +108,41 @@ static void nothing_but_a_file_is_written_over(void **state) {
     assert_true(gn_file_replace(victim, "new", 3, &err));
     assert_int_equal(stat(victim, &info), 0);
     assert_int_equal(info.st_size, 3);
-    assert_true(gn_shot_begin(shot, in_folder("no/such.png"), 2, 2, 0, &err));
-    assert_true(gn_shot_start(shot, &err));
+    gn_screenshot_ask(shot, in_folder("no/such.png"));
+    assert_non_null(gn_screenshot_begin(shot, 2, 2, 0, &err));
+    assert_true(gn_screenshot_start(shot, &err));
     assert_false(finish());
     assert_non_null(strstr(err.text, "no/such.png: cannot write"));
 }
 
-static void what_is_begun_may_be_dropped(void **state) {
+static void what_fails_is_taken_with_its_reason(void **state) {
     (void)state;
-    bool ok;
-    assert_non_null(gn_shot_begin(shot, in_folder("b.png"), 1000, 1000, 0, &err));
-    gn_shot_drop(shot);
-    assert_false(gn_shot_take(shot, &ok, &err));
-    assert_non_null(gn_shot_begin(shot, in_folder("b.png"), 1000, 1000, 0, &err));
-    assert_true(gn_shot_start(shot, &err)); /* the end waits for it */
+    struct gn_err why = {0};
+    bool ok = true;
+    gn_screenshot_ask(shot, in_folder("b.png"));
+    assert_non_null(gn_screenshot_begin(shot, 1000, 1000, 0, &err));
+    assert_false(gn_screenshot_take(shot, &ok, &err));
+    gn_fail(&why, "no frame came");
+    gn_screenshot_fail(shot, &why);
+    assert_false(gn_screenshot_is_asked(shot));
+    assert_false(finish());
+    assert_string_equal(err.text, "no frame came");
+    assert_false(gn_screenshot_take(shot, &ok, &err));
+    gn_screenshot_ask(shot, path);
+    assert_non_null(gn_screenshot_begin(shot, 1000, 1000, 0, &err));
+    assert_true(gn_screenshot_start(shot, &err)); /* the end waits for it */
 }
 
 static int begin(void **state) {
     (void)state;
     err = (struct gn_err){0};
-    shot = gn_shot_create(&err);
+    shot = gn_screenshot_create(&err);
     return shot ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
-    gn_shot_destroy(shot);
+    gn_screenshot_destroy(shot);
     return 0;
 }
 
@@ -152,7 +163,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(a_turned_screen_gives_an_upright_picture, begin, end),
         cmocka_unit_test(a_name_that_is_not_fit_is_refused_before),
         cmocka_unit_test_setup_teardown(nothing_but_a_file_is_written_over, begin, end),
-        cmocka_unit_test_setup_teardown(what_is_begun_may_be_dropped, begin, end),
+        cmocka_unit_test_setup_teardown(what_fails_is_taken_with_its_reason, begin, end),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
