@@ -35,7 +35,7 @@ static void fail_mode(struct gn_show *s, struct gn_show_looks *looks, int mode,
         .kind = GN_KIOSK_MODE_FAILED, .time_ns = gn_clock_monotonic_ns(), .mode = mode};
     char text[sizeof err->text + 64];
     snprintf(text, sizeof text, "mode \"%.40s\": %s", s->modes.names[mode], err->text);
-    gn_show_complain(s, text);
+    gn_show_report_problem(s, text);
     looks->ready |= 1u << mode; /* not tried again */
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
     gn_latency_drop(&s->latency);
@@ -82,7 +82,7 @@ static bool warm_if_need_be(struct gn_show *s, int mode) {
 static void fail_scene(struct gn_show *s, int scene, const struct gn_err *err) {
     const struct gn_kiosk_event failed = {
         .kind = GN_KIOSK_SCENE_FAILED, .time_ns = gn_clock_monotonic_ns(), .scene = scene};
-    gn_show_complain(s, err->text);
+    gn_show_report_problem(s, err->text);
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
     gn_latency_drop(&s->latency);
 }
@@ -168,10 +168,15 @@ static void on_loaded(void *user, uint32_t events, int64_t now_ns) {
     take_loaded(user);
 }
 
+void gn_show_close_loader(struct gn_show *s) {
+    gn_loop_remove(&s->scenes.loader_watch);
+    gn_loader_close(s->scenes.loader);
+    s->scenes.loader = NULL;
+}
+
 bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
     struct gn_watch *watch = &s->scenes.loader_watch;
-    gn_loop_remove(watch);
-    gn_loader_close(s->scenes.loader);
+    gn_show_close_loader(s);
     s->scenes.loader = gn_loader_open(err);
     if (!s->scenes.loader) return false;
     *watch = (struct gn_watch){

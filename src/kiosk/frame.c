@@ -33,7 +33,7 @@ bool gn_show_wants_frame(const struct gn_show *s) {
 static void keep(struct gn_show *s) {
     struct gn_err err = {0};
     if (!gn_gl_keep(s->stage.gl, &err)) {
-        gn_show_complain(s, err.text);
+        gn_show_report_problem(s, err.text);
         s->rules.fade_ns = 0;
     }
     s->keeps = false;

@@ -30,7 +30,8 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
         return false;
     gn_show_open_captions(s);
     struct gn_err why = {0};
-    if (!gn_show_open_input(s, &why)) gn_show_complain(s, why.text); /* and none can be pressed */
+    if (!gn_show_open_input(s, &why))
+        gn_show_report_problem(s, why.text); /* and none can be pressed */
     s->kiosk.blanked = blanked;
     if (!s->stage.settings->run.verbose) return true;
     printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
@@ -74,7 +75,7 @@ bool gn_show_reload(struct gn_show *s, struct gn_err *err) {
     keep_error(s, &why);
     char text[sizeof why.text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why.text);
-    gn_show_complain(s, text);
+    gn_show_report_problem(s, text);
     gn_stage_close(&fresh);
     gn_show_drop_options(options);
     return true;

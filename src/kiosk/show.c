@@ -10,7 +10,6 @@
 #include "core/stop.h"
 #include "kiosk/pointer.h"
 #include "kiosk/show.h"
-#include "options/args.h"
 
 /* ---- opening ---- */
 
@@ -32,58 +31,7 @@ static bool open_loop(struct gn_show *s, struct gn_err *err) {
            gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
 }
 
-void gn_show_drop_options(struct gn_options *options) {
-    if (options) gn_options_finish(options);
-    free(options);
-}
-
-struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
-                                        struct gn_err *err) {
-    struct gn_options *o = gn_xalloc(1, sizeof *o);
-    if (gn_args_parse(o, like->argc, like->argv, warnings, err)) {
-        gn_options_run_as(o, GN_COMMAND_SHOW); /* the bare command, too, is the kiosk by now */
-        return o;
-    }
-    gn_show_drop_options(o);
-    return NULL;
-}
-
-/* Where a file has modes one of them is always on. */
-bool gn_show_load(struct gn_stage *stage, struct gn_options *o, struct gn_warnings *warnings,
-                  struct gn_err *err) {
-    if (!o->settings->mode && o->mode_count > 0) o->settings = &o->all[1];
-    return gn_stage_load(stage, o->settings, warnings, err);
-}
-
-bool gn_show_begin(struct gn_show *s, struct gn_err *err) {
-    gn_show_list_modes(s);
-    s->kiosk = (struct gn_kiosk){.shown.mode = s->modes.first, .wanted.mode = s->modes.first};
-    s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
-    if (!gn_show_look(s, s->stage.scene, &s->looks, err)) return false;
-    gn_show_enter(s);
-    return true;
-}
-
-/* ---- what is heard ---- */
-
-void gn_show_complain(struct gn_show *s, const char *text) {
-    if (strcmp(s->problem, text) == 0) return;
-    snprintf(s->problem, sizeof s->problem, "%s", text);
-    fprintf(stderr, "gnomon: warning: %s\n", text);
-}
-
-void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time_ns) {
-    const struct gn_kiosk_event event = {.kind = GN_KIOSK_ACTION,
-                                         .time_ns = time_ns,
-                                         .action = action->kind,
-                                         .mode = gn_show_find_mode(&s->modes, action->name)};
-    if (action->kind == GN_ACTION_MODE && event.mode < 0) {
-        char text[100];
-        snprintf(text, sizeof text, "there is no mode \"%.60s\"", action->name);
-        gn_show_complain(s, text);
-    }
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
-}
+/* ---- a step ---- */
 
 static void take_hand(struct gn_show *s) {
     struct gn_screen *screen = &s->stage.display.screen;
@@ -100,8 +48,6 @@ static void tick(struct gn_show *s) {
     if (s->kiosk.blanked != s->stage.display.screen.blank)
         gn_display_blank(&s->stage.display, s->kiosk.blanked, event.time_ns);
 }
-
-/* ---- the loop ---- */
 
 /* When the next step is due by itself; 0: at once. */
 static int64_t due_ns(const struct gn_show *s) {
@@ -158,7 +104,7 @@ void gn_show_close(struct gn_show *s) {
     gn_show_close_control(s);
     gn_input_close(s->input);
     gn_captions_destroy(s->captions);
-    gn_loader_close(s->scenes.loader);
+    gn_show_close_loader(s);
     gn_show_drop_staged(s);
     gn_stage_close(&s->stage);
     gn_show_stats_close(&s->stats);

@@ -105,6 +105,8 @@ struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warning
 void gn_show_close(struct gn_show *show);
 /* Waits for something, and does what it asks for: at most a frame. */
 bool gn_show_step(struct gn_show *show, struct gn_err *err);
+
+/* begin.c: from arguments to a first mode */
 struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
                                         struct gn_err *err);
 void gn_show_drop_options(struct gn_options *options);
@@ -112,9 +114,11 @@ bool gn_show_load(struct gn_stage *stage, struct gn_options *options, struct gn_
                   struct gn_err *err);
 /* With options and a stage that was loaded by them: modes, scenes, and the first of both. */
 bool gn_show_begin(struct gn_show *show, struct gn_err *err);
+
+/* events.c: actions as events of the machine; problems */
 void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
-/* What went wrong without ending anything: said once, also on the screen. */
-void gn_show_complain(struct gn_show *show, const char *text);
+/* What went wrong without ending anything: printed once, also on the screen. */
+void gn_show_report_problem(struct gn_show *show, const char *text);
 
 /* screen.c: the display and its context */
 bool gn_show_open_display(struct gn_show *show, struct gn_err *err);
@@ -129,7 +133,7 @@ void gn_show_stop_gl(struct gn_show *show);
 bool gn_show_wants_frame(const struct gn_show *show);
 bool gn_show_frame(struct gn_show *show, struct gn_err *err);
 
-/* caption.c */
+/* captions.c */
 /* With the options' font; again after a reload. */
 void gn_show_open_captions(struct gn_show *show);
 /* What a frame says that is seen then. */
@@ -161,6 +165,7 @@ bool gn_show_has_work(const struct gn_show *show);
 void gn_show_forget_work(struct gn_show *show);
 /* A new loader; what the one before still loads is dropped. */
 bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
+void gn_show_close_loader(struct gn_show *show);
 /* Loads what the kiosk waits for, and shows it once it is ready. */
 void gn_show_advance(struct gn_show *show);
 /* What the kiosk waits for is ready, and nothing else is to come before it. */

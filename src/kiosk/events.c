@@ -1,0 +1,24 @@
+/* What happens, as events of the kiosk's machine, and what went wrong. */
+#include <stdio.h>
+#include <string.h>
+
+#include "kiosk/show.h"
+
+void gn_show_report_problem(struct gn_show *s, const char *text) {
+    if (strcmp(s->problem, text) == 0) return;
+    snprintf(s->problem, sizeof s->problem, "%s", text);
+    fprintf(stderr, "gnomon: warning: %s\n", text);
+}
+
+void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time_ns) {
+    const struct gn_kiosk_event event = {.kind = GN_KIOSK_ACTION,
+                                         .time_ns = time_ns,
+                                         .action = action->kind,
+                                         .mode = gn_show_find_mode(&s->modes, action->name)};
+    if (action->kind == GN_ACTION_MODE && event.mode < 0) {
+        char text[100];
+        snprintf(text, sizeof text, "there is no mode \"%.60s\"", action->name);
+        gn_show_report_problem(s, text);
+    }
+    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+}
