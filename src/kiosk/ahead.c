@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/clock.h"
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 
 enum { SLICE_BYTES = 1 << 20 };
 
@@ -14,7 +14,7 @@ void gn_show_forget_work(struct gn_show *s) {
     s->scenes.whole = false;
     gn_frame_destroy(s->scenes.frame);
     s->scenes.frame = NULL;
-    s->rests = s->can_keep = false;
+    s->ahead.idle = s->fade.prepared = false;
 }
 
 void gn_show_drop_staged(struct gn_show *s) {
@@ -38,7 +38,7 @@ static void fail_mode(struct gn_show *s, struct gn_show_looks *looks, int mode,
     gn_show_report_problem(s, text);
     looks->ready |= 1u << mode; /* not tried again */
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
-    gn_latency_drop(&s->latency);
+    gn_latency_drop(&s->buttons.latency);
 }
 
 /* The options that a mode's frames are drawn with on this screen. */
@@ -84,7 +84,7 @@ static void fail_scene(struct gn_show *s, int scene, const struct gn_err *err) {
         .kind = GN_KIOSK_SCENE_FAILED, .time_ns = gn_clock_monotonic_ns(), .scene = scene};
     gn_show_report_problem(s, err->text);
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
-    gn_latency_drop(&s->latency);
+    gn_latency_drop(&s->buttons.latency);
 }
 
 /* It begins again where the context was lost. */
@@ -118,9 +118,9 @@ static bool work_on_staged(struct gn_show *s) {
 /* Where it cannot be made the first fade says so. */
 static bool prepare_fade(struct gn_show *s) {
     struct gn_err unused = {0};
-    if (s->rules.fade_ns == 0 || s->can_keep || s->frames == 0) return false;
+    if (s->rules.fade_ns == 0 || s->fade.prepared || s->counts.frames == 0) return false;
     gn_gl_keep_prepare(s->stage.gl, &unused);
-    s->can_keep = true;
+    s->fade.prepared = true;
     return true;
 }
 
@@ -135,14 +135,14 @@ static bool do_piece(struct gn_show *s) {
 
 bool gn_show_has_work(const struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
-    return !s->rests && s->stage.gl && (s->frames > 0 || !screen->lit);
+    return !s->ahead.idle && s->stage.gl && (s->counts.frames > 0 || !screen->lit);
 }
 
 void gn_show_work(struct gn_show *s) {
     if (!gn_show_has_work(s)) return;
-    s->rests = !do_piece(s);
-    if (s->rests) gn_gl_warm_end(s->stage.gl);
-    s->work_ns = gn_clock_monotonic_ns() + 2 * s->stage.display.screen.period_ns;
+    s->ahead.idle = !do_piece(s);
+    if (s->ahead.idle) gn_gl_warm_end(s->stage.gl);
+    s->ahead.due_ns = gn_clock_monotonic_ns() + 2 * s->stage.display.screen.period_ns;
 }
 
 /* ---- what the kiosk waits for ---- */
@@ -155,7 +155,7 @@ static void take_loaded(struct gn_show *s) {
     if (loaded->scene && gn_show_look(s, loaded->scene, &s->scenes.looks, &loaded->err)) {
         gn_show_drop_staged(s);
         s->scenes.staged = loaded;
-        s->rests = false;
+        s->ahead.idle = false;
         return;
     }
     fail_scene(s, loaded->number, &loaded->err);
@@ -216,7 +216,7 @@ static void show_staged(struct gn_show *s) {
     staged->scene = NULL;
     staged->pose = (struct gn_pose){0};
     gn_show_drop_staged(s);
-    s->rests = false;
+    s->ahead.idle = false;
 }
 
 static bool is_ready(const struct gn_show *s, int scene) {
@@ -228,17 +228,17 @@ static bool is_ready(const struct gn_show *s, int scene) {
 }
 
 bool gn_show_can_advance(const struct gn_show *s) {
-    return gn_kiosk_waits(&s->kiosk) && !s->keeps &&
+    return gn_kiosk_waits(&s->kiosk) && !s->fade.keeps &&
            is_ready(s, gn_kiosk_scene(&s->rules, &s->kiosk.wanted));
 }
 
 /* A fade begins with the picture that was seen last: it is drawn once more, and kept. */
 static bool waits_for_kept(struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
-    if (s->rules.fade_ns == 0 || !s->stage.gl || !screen->lit || s->frames == 0 || s->kept ||
-        s->kiosk.blanked)
+    if (s->rules.fade_ns == 0 || !s->stage.gl || !screen->lit || s->counts.frames == 0 ||
+        s->fade.kept || s->kiosk.blanked)
         return false;
-    s->keeps = true;
+    s->fade.keeps = true;
     return true;
 }
 
@@ -250,7 +250,7 @@ static void show_wanted(struct gn_show *s, int scene) {
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &ready);
     if (scene != s->scenes.shown) show_staged(s);
     gn_show_enter(s);
-    s->keeps = s->kept = false;
+    s->fade.keeps = s->fade.kept = false;
     if (!s->stage.settings->run.verbose) return;
     printf("mode %s, scene %s\n", s->modes.names[s->kiosk.shown.mode],
            s->scenes.paths[scene] ? s->scenes.paths[scene] : "(default scene)");
@@ -261,10 +261,11 @@ void gn_show_advance(struct gn_show *s) {
     const int scene = gn_kiosk_scene(&s->rules, &s->kiosk.wanted);
     if (s->scenes.staged && s->scenes.staged->number != scene) gn_show_drop_staged(s);
     if (!gn_kiosk_waits(&s->kiosk)) {
-        s->keeps = s->kept = false;
+        s->fade.keeps = s->fade.kept = false;
         return;
     }
     if (scene != s->scenes.shown && !s->scenes.staged) load(s, scene);
-    if (s->scenes.staged && !(s->scenes.looks.ready >> s->kiosk.wanted.mode & 1)) s->rests = false;
+    if (s->scenes.staged && !(s->scenes.looks.ready >> s->kiosk.wanted.mode & 1))
+        s->ahead.idle = false;
     if (is_ready(s, scene) && !waits_for_kept(s)) show_wanted(s, scene);
 }

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "core/arena.h"
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 #include "options/args.h"
 
 void gn_show_drop_options(struct gn_options *options) {

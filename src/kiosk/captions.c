@@ -4,15 +4,15 @@
 #include <string.h>
 
 #include "core/clock.h"
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 
 void gn_show_open_captions(struct gn_show *s) {
     const struct gn_captions_opts opts = {.font = s->stage.settings->render.font,
                                           .warnings = s->warnings};
-    gn_captions_destroy(s->captions);
-    s->captions = gn_captions_create(&opts);
-    s->said = (struct gn_kiosk_view){0};
-    s->said_ns = 0;
+    gn_captions_destroy(s->text.captions);
+    s->text.captions = gn_captions_create(&opts);
+    s->text.view = (struct gn_kiosk_view){0};
+    s->text.since_ns = 0;
 }
 
 /* The last part of a path; without one it is the scene inside the program. */
@@ -34,13 +34,13 @@ static const char *caption_of(const struct gn_show *s, const struct gn_kiosk_vie
 
 /* A text is set again only when there is something new to say. */
 static void write_changes(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
-    const char *error = s->options->config_error;
-    if (!error && view->caption == GN_KIOSK_SAYS_PROBLEM) error = s->problem;
-    gn_captions_set(s->captions, GN_CAPTION_ERROR, error, now_ns);
-    if (view->caption == s->said.caption && s->kiosk.caption_ns == s->said_ns) return;
-    s->said = *view;
-    s->said_ns = s->kiosk.caption_ns;
-    gn_captions_set(s->captions, GN_CAPTION_MODE, caption_of(s, view),
+    const char *error = s->config.options->config_error;
+    if (!error && view->caption == GN_KIOSK_SAYS_PROBLEM) error = s->text.problem;
+    gn_captions_set(s->text.captions, GN_CAPTION_ERROR, error, now_ns);
+    if (view->caption == s->text.view.caption && s->kiosk.caption_ns == s->text.since_ns) return;
+    s->text.view = *view;
+    s->text.since_ns = s->kiosk.caption_ns;
+    gn_captions_set(s->text.captions, GN_CAPTION_MODE, caption_of(s, view),
                     now_ns + s->rules.caption_ns - GN_CAPTION_MODE_NS); /* so that it ends then */
 }
 
@@ -50,13 +50,13 @@ static void write_page(struct gn_show *s, const struct gn_kiosk_view *view, int6
         .mode = s->modes.names[view->mode],
         .screen = &s->stage.display.screen,
         .caps = gn_gl_caps(s->stage.gl),
-        .uptime_ns = now_ns - s->begun_ns,
+        .uptime_ns = now_ns - s->counts.begun_ns,
     };
     if (!view->info) {
-        s->page.made = false;
-        gn_captions_set(s->captions, GN_CAPTION_INFO, NULL, now_ns);
-    } else if (gn_info_page_step(&s->page, &info, now_ns))
-        gn_captions_set(s->captions, GN_CAPTION_INFO, s->page.text, now_ns);
+        s->text.page.made = false;
+        gn_captions_set(s->text.captions, GN_CAPTION_INFO, NULL, now_ns);
+    } else if (gn_info_page_step(&s->text.page, &info, now_ns))
+        gn_captions_set(s->text.captions, GN_CAPTION_INFO, s->text.page.text, now_ns);
 }
 
 void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
@@ -65,13 +65,13 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
     write_changes(s, view, now_ns);
     write_page(s, view, now_ns);
     f->captions_later = true;
-    f->captions = gn_captions_run(s->captions, on_side ? f->height_px : f->width_px,
+    f->captions = gn_captions_run(s->text.captions, on_side ? f->height_px : f->width_px,
                                   on_side ? f->width_px : f->height_px, now_ns);
 }
 
 /* A page is made anew once a second. */
 int64_t gn_show_captions_due_ns(const struct gn_show *s) {
-    const int64_t next_ns = gn_captions_next_ns(s->captions),
-                  page_ns = s->page.made ? s->page.made_ns + GN_NS_PER_S : INT64_MAX;
+    const int64_t next_ns = gn_captions_next_ns(s->text.captions),
+                  page_ns = s->text.page.made ? s->text.page.made_ns + GN_NS_PER_S : INT64_MAX;
     return next_ns < page_ns ? next_ns : page_ns;
 }

@@ -2,11 +2,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 
 void gn_show_report_problem(struct gn_show *s, const char *text) {
-    if (strcmp(s->problem, text) == 0) return;
-    snprintf(s->problem, sizeof s->problem, "%s", text);
+    if (strcmp(s->text.problem, text) == 0) return;
+    snprintf(s->text.problem, sizeof s->text.problem, "%s", text);
     fprintf(stderr, "gnomon: warning: %s\n", text);
 }
 

@@ -3,12 +3,12 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 
 #define ASK_NS (10 * GN_NS_PER_S) /* the GPU is asked no more often: that takes a program */
 
 static bool is_moving(const struct gn_show *s, const struct gn_kiosk_view *view) {
-    if (s->most_frames < UINT64_MAX) return true;
+    if (s->counts.most_frames < UINT64_MAX) return true;
     return !view->stands &&
            (s->stage.pose.animated || s->stage.settings->scene.turntable_deg_s != 0.0);
 }
@@ -23,7 +23,8 @@ static bool differs(const struct gn_kiosk_view *a, const struct gn_kiosk_view *b
 bool gn_show_wants_frame(const struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     if (!screen->may_draw || !s->stage.gl) return false;
-    if (screen->black || s->changed || s->keeps || screen->damaged || !screen->lit) return true;
+    if (screen->black || s->changed || s->fade.keeps || screen->damaged || !screen->lit)
+        return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
     return is_moving(s, &view) || differs(&view, &s->drawn) ||
            gn_show_captions_due_ns(s) <= screen->seen_ns;
@@ -36,8 +37,8 @@ static void keep(struct gn_show *s) {
         gn_show_report_problem(s, err.text);
         s->rules.fade_ns = 0;
     }
-    s->keeps = false;
-    s->kept = true;
+    s->fade.keeps = false;
+    s->fade.kept = true;
 }
 
 static bool draw_view(struct gn_show *s, const struct gn_kiosk_view *view, struct gn_err *err) {
@@ -47,15 +48,15 @@ static bool draw_view(struct gn_show *s, const struct gn_kiosk_view *view, struc
                        err))
         return false;
     if (view->old > 0.0f) gn_gl_lay_over(s->stage.gl, view->old);
-    if (s->keeps) keep(s);
+    if (s->fade.keeps) keep(s);
     return true;
 }
 
 /* What frames cost beside what is made ahead, or loaded; the first makes what it needs. */
 static void count(struct gn_show *s, unsigned long allocations, uint64_t objects) {
-    if (s->frames++ == 0 || gn_loader_is_busy(s->scenes.loader)) return;
-    s->allocations += gn_alloc_count() - allocations;
-    s->objects += gn_gl_stats(s->stage.gl).objects_created - objects;
+    if (s->counts.frames++ == 0 || gn_loader_is_busy(s->scenes.loader)) return;
+    s->counts.allocations += gn_alloc_count() - allocations;
+    s->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;
 }
 
 /* A screenshot that is asked for is of this frame. */
@@ -89,7 +90,7 @@ static bool draw(struct gn_show *s, struct gn_err *err) {
     s->drawn = view;
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
     if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
-    gn_frame_times_add(&s->times, gn_clock_monotonic_ns());
+    gn_frame_times_add(&s->counts.times, gn_clock_monotonic_ns());
     fill_screenshot(s);
     return !screen->copy_to ||
            gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
@@ -97,10 +98,10 @@ static bool draw(struct gn_show *s, struct gn_err *err) {
 
 /* It is on its way: how long did whoever pressed a button have to wait for it? */
 static void measure(struct gn_show *s) {
-    const uint64_t before = s->latency.count;
-    gn_latency_frame(&s->latency, gn_clock_monotonic_ns(), !gn_kiosk_waits(&s->kiosk));
-    if (s->latency.count == before || !s->stage.settings->run.verbose) return;
-    const struct gn_latency_sample last = gn_latency_last(&s->latency);
+    const uint64_t before = s->buttons.latency.count;
+    gn_latency_frame(&s->buttons.latency, gn_clock_monotonic_ns(), !gn_kiosk_waits(&s->kiosk));
+    if (s->buttons.latency.count == before || !s->stage.settings->run.verbose) return;
+    const struct gn_latency_sample last = gn_latency_last(&s->buttons.latency);
     printf("seen %.1f ms after the edge, as frame %d\n", (double)last.ns * 1e-6, last.frames);
     fflush(stdout);
 }
@@ -111,9 +112,10 @@ static bool is_well(struct gn_show *s) {
     const uint64_t stalled = s->stage.display.screen.counts.stalled;
     const int64_t now_ns = gn_clock_monotonic_ns();
     if (gn_gl_is_lost(s->stage.gl)) return false;
-    if (stalled == s->stalled || now_ns < s->asked_ns + ASK_NS) return true;
-    s->stalled = stalled;
-    s->asked_ns = now_ns;
+    if (stalled == s->context.checked_stalls || now_ns < s->context.checked_ns + ASK_NS)
+        return true;
+    s->context.checked_stalls = stalled;
+    s->context.checked_ns = now_ns;
     return gn_gl_draws_right(s->stage.gl);
 }
 

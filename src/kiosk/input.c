@@ -2,26 +2,26 @@
 #include <stdio.h>
 
 #include "core/clock.h"
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 
 /* A window's keys are the window's: who types elsewhere means something else. */
 bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
-    gn_input_close(s->input);
-    s->input = NULL;
-    if (s->options->buttons)
-        s->buttons = *s->options->buttons;
+    gn_input_close(s->buttons.input);
+    s->buttons.input = NULL;
+    if (s->config.options->buttons)
+        s->buttons.map = *s->config.options->buttons;
     else
-        gn_buttons_defaults(&s->buttons);
+        gn_buttons_defaults(&s->buttons.map);
     const struct gn_input_opts opts = {
         .loop = s->loop,
-        .button_count = gn_buttons_opts(&s->buttons, s->button_opts),
-        .buttons = s->button_opts,
+        .button_count = gn_buttons_opts(&s->buttons.map, s->buttons.opts),
+        .buttons = s->buttons.opts,
         .terminal = !s->stage.display.ops->is_window,
         .devices = s->stage.display.ops->is_console,
         .script = s->stage.settings->run.input_script,
     };
-    s->input = gn_input_open(&opts, gn_clock_monotonic_ns(), s->warnings, err);
-    return s->input;
+    s->buttons.input = gn_input_open(&opts, gn_clock_monotonic_ns(), s->warnings, err);
+    return s->buttons.input;
 }
 
 static bool other_place(const struct gn_kiosk *a, const struct gn_kiosk *b) {
@@ -34,25 +34,26 @@ static void measure(struct gn_show *s, const struct gn_kiosk *before, int64_t ed
     const bool changes =
         other_place(before, now) || before->camera != now->camera || before->info != now->info;
     if (now->blanked || (gn_kiosk_waits(before) && !gn_kiosk_waits(now)))
-        gn_latency_drop(&s->latency);
+        gn_latency_drop(&s->buttons.latency);
     else if (changes)
-        gn_latency_edge(&s->latency, edge_ns);
+        gn_latency_edge(&s->buttons.latency, edge_ns);
 }
 
 void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
     struct gn_gesture_event event;
     char text[256];
-    if (!s->input) return;
-    for (unsigned i = 0; i < pointer->key_count; i++) gn_input_key(s->input, &pointer->keys[i]);
-    while (gn_input_next(s->input, &event)) {
-        const struct gn_action action = gn_buttons_action(&s->buttons, &event);
+    if (!s->buttons.input) return;
+    for (unsigned i = 0; i < pointer->key_count; i++)
+        gn_input_key(s->buttons.input, &pointer->keys[i]);
+    while (gn_input_next(s->buttons.input, &event)) {
+        const struct gn_action action = gn_buttons_action(&s->buttons.map, &event);
         if (action.kind == GN_ACTION_NONE) continue;
         const struct gn_kiosk before = s->kiosk;
         gn_show_act(s, &action, event.time_ns);
         measure(s, &before, event.time_ns);
     }
-    const bool tells =
-        s->options->buttons || s->stage.settings->run.verbose; /* few have the default ones */
-    while (gn_input_report(s->input, text, sizeof text))
+    const bool tells = s->config.options->buttons ||
+                       s->stage.settings->run.verbose; /* few have the default ones */
+    while (gn_input_report(s->buttons.input, text, sizeof text))
         if (tells) fprintf(stderr, "gnomon: warning: %s\n", text);
 }

@@ -1,7 +1,7 @@
 /* The modes of a kiosk: which there are, with which scenes, and one of them applied. */
 #include <string.h>
 
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 #include "shadow/planar.h"
 
 _Static_assert((int)GN_TECHNIQUE_COUNT < GN_KIOSK_MODES_MAX, "every technique is a mode");
@@ -24,7 +24,7 @@ int gn_show_find_mode(const struct gn_show_modes *modes, const char *name) {
  * that lights keep what they name themselves; where a flag names it, it is the only one. */
 static void list_techniques(struct gn_show *s) {
     enum gn_technique order[GN_TECHNIQUE_COUNT];
-    const struct gn_settings *o = &s->options->all[0];
+    const struct gn_settings *o = &s->config.options->all[0];
     struct gn_show_modes *modes = &s->modes;
     const bool only =
         gn_settings_source(o, offsetof(struct gn_settings, render.shadow)) == GN_SOURCE_FLAG;
@@ -58,7 +58,7 @@ static int find_scene(struct gn_show_scenes *scenes, const char *path) {
 }
 
 static void list_scenes(struct gn_show *s) {
-    const struct gn_scene_list *list = &s->options->all[0].scene.list;
+    const struct gn_scene_list *list = &s->config.options->all[0].scene.list;
     s->scenes.count = s->scenes.listed = list->count > 0 ? list->count : 1;
     for (int i = 0; i < s->scenes.count; i++) s->scenes.paths[i] = list->paths[i];
 }
@@ -76,7 +76,7 @@ void gn_show_take_rules(struct gn_show *s) {
 }
 
 void gn_show_list_modes(struct gn_show *s) {
-    const struct gn_options *o = s->options;
+    const struct gn_options *o = s->config.options;
     s->modes = (struct gn_show_modes){.base = -1};
     list_scenes(s);
     for (int i = 0; i < o->mode_count; i++) add_mode(&s->modes, o->modes[i].name, 1 + i);
@@ -99,7 +99,7 @@ void gn_show_list_modes(struct gn_show *s) {
 /* ---- one of them ---- */
 
 const struct gn_settings *gn_show_settings(const struct gn_show *s, int mode) {
-    return &s->options->all[s->modes.settings[mode]];
+    return &s->config.options->all[s->modes.settings[mode]];
 }
 
 bool gn_show_look(const struct gn_show *s, const struct gn_scene *scene,

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 
 /* The new scene in the old one's place, in the mode of that name if there still is one. */
 static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_options *options,
@@ -16,14 +16,14 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
         s->stage.display = (struct gn_display){0};
     }
     gn_stage_close(&s->stage);
-    gn_input_close(s->input); /* its buttons' names are the options' */
-    s->input = NULL;
-    gn_changes_destroy(s->changes);
-    s->changes = NULL;
-    gn_show_drop_options(s->options);
+    gn_input_close(s->buttons.input); /* its buttons' names are the options' */
+    s->buttons.input = NULL;
+    gn_changes_destroy(s->config.changes);
+    s->config.changes = NULL;
+    gn_show_drop_options(s->config.options);
     s->stage = *fresh;
-    s->options = options;
-    s->generation = 0;
+    s->config.options = options;
+    s->context.generation = 0;
     const bool blanked = s->kiosk.blanked;
     if (!gn_show_open_loader(s, err) || !gn_show_begin(s, err) ||
         (!keeps_display && !gn_show_open_display(s, err)))
@@ -47,13 +47,13 @@ static void keep_mode(const struct gn_show *s, struct gn_options *options) {
 
 /* The last good one runs on, and says what is wrong with the one that is there. */
 static void keep_error(struct gn_show *s, const struct gn_err *why) {
-    snprintf(s->config_error, sizeof s->config_error, "%s", why->text);
-    s->options->config_error = s->config_error;
+    snprintf(s->config.error, sizeof s->config.error, "%s", why->text);
+    s->config.options->config_error = s->config.error;
     s->changed = true; /* it is said on the screen */
 }
 
 static struct gn_options *read_again(const struct gn_show *s, struct gn_err *why) {
-    struct gn_options *options = gn_show_read_options(s->options, NULL, why);
+    struct gn_options *options = gn_show_read_options(s->config.options, NULL, why);
     if (!options || !options->config_error) return options;
     gn_fail_usage(why, "%s", options->config_error);
     gn_show_drop_options(options);

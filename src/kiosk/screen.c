@@ -4,7 +4,7 @@
 
 #include "core/clock.h"
 #include "core/stop.h"
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 #include "stage/wake.h"
 
 static bool encodes(const struct gn_settings *o) {
@@ -42,13 +42,13 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
     struct gn_wake wake = {0};
     /* a still picture, too, is flipped in each half of the supervisor's patience */
     const int64_t again_ns = s->service.every_ns * 3 / 4;
-    s->screen_opts = screen_opts_of(s, again_ns < 10 * GN_NS_PER_S ? again_ns : 0);
+    s->context.screen_opts = screen_opts_of(s, again_ns < 10 * GN_NS_PER_S ? again_ns : 0);
     gn_wake_begin(&wake, o);
-    const bool ok =
-        gn_display_open_screen(&s->stage.display, s->place ? s->place->backend : o->display.backend,
-                               &s->screen_opts, gn_clock_monotonic_ns(), s->warnings, err);
+    const bool ok = gn_display_open_screen(
+        &s->stage.display, s->config.place ? s->config.place->backend : o->display.backend,
+        &s->context.screen_opts, gn_clock_monotonic_ns(), s->warnings, err);
     gn_wake_end(&wake);
-    if (ok && s->place) s->place->opened = true;
+    if (ok && s->config.place) s->config.place->opened = true;
     return ok;
 }
 
@@ -70,12 +70,12 @@ void gn_show_fit_to_screen(struct gn_show *s) {
     f->turn_deg = screen->rotate_deg;
     const bool unencoded = direct && !screen->srgb;
     const uint32_t msaa = samples_of(s);
-    if (s->fitted_unencoded != unencoded || s->fitted_msaa != msaa) { /* other programs */
+    if (s->context.unencoded != unencoded || s->context.msaa != msaa) { /* other programs */
         s->looks.ready = s->scenes.looks.ready = 0;
-        s->rests = false;
+        s->ahead.idle = false;
     }
-    f->unencoded = s->fitted_unencoded = unencoded;
-    f->msaa = s->fitted_msaa = msaa;
+    f->unencoded = s->context.unencoded = unencoded;
+    f->msaa = s->context.msaa = msaa;
     gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
 }
 
@@ -91,7 +91,7 @@ static bool say(struct gn_show *s, struct gn_err *err) {
     gn_show_stop_gl(s);
     if (!gn_display_show_message(&s->stage.display, err->text, gn_clock_monotonic_ns()))
         return false;
-    s->says = true;
+    s->context.notice = true;
     fprintf(stderr, "gnomon: warning: %s\n", err->text);
     *err = (struct gn_err){0};
     return true;
@@ -100,11 +100,12 @@ static bool say(struct gn_show *s, struct gn_err *err) {
 /* Programs are made before there is a monitor; what size it will have matters not to them. */
 static bool start_gl(struct gn_show *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
-    s->generation = screen->generation;
+    s->context.generation = screen->generation;
     s->changed = true;
     if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return say(s, err);
-    if (s->says) gn_display_show_message(&s->stage.display, NULL, gn_clock_monotonic_ns());
-    s->says = false;
+    if (s->context.notice)
+        gn_display_show_message(&s->stage.display, NULL, gn_clock_monotonic_ns());
+    s->context.notice = false;
     if (screen->may_draw) return true;
     s->stage.frame_opts.width_px = 64;
     s->stage.frame_opts.height_px = 36;
@@ -119,7 +120,7 @@ static bool start_gl(struct gn_show *s, struct gn_err *err) {
 static bool renew(struct gn_show *s, struct gn_err *err) {
     struct gn_wake wake = {0};
     gn_show_stop_gl(s);
-    s->generation = 0;
+    s->context.generation = 0;
     gn_wake_begin(&wake, s->stage.settings);
     const bool ok = gn_display_renew(&s->stage.display, gn_clock_monotonic_ns(), err);
     gn_wake_end(&wake);
@@ -128,13 +129,14 @@ static bool renew(struct gn_show *s, struct gn_err *err) {
 
 bool gn_show_is_stale(const struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
-    return screen->lost || (screen->has_context && screen->generation != s->generation);
+    return screen->lost || (screen->has_context && screen->generation != s->context.generation);
 }
 
 bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
     if (screen->lost && !renew(s, err)) return false;
-    if (screen->lost || !screen->has_context || screen->generation == s->generation) return true;
+    if (screen->lost || !screen->has_context || screen->generation == s->context.generation)
+        return true;
     gn_show_stop_gl(s);
     return start_gl(s, err);
 }

@@ -9,6 +9,7 @@
 #include "core/clock.h"
 #include "core/stop.h"
 #include "kiosk/pointer.h"
+#include "kiosk/private.h"
 #include "kiosk/show.h"
 
 /* ---- opening ---- */
@@ -54,7 +55,7 @@ static int64_t due_ns(const struct gn_show *s) {
     if (gn_show_wants_frame(s) || gn_show_is_stale(s) || gn_show_can_advance(s)) return 0;
     const int64_t now_ns = gn_clock_monotonic_ns();
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
-    if (gn_show_has_work(s) && s->work_ns < at_ns) at_ns = s->work_ns;
+    if (gn_show_has_work(s) && s->ahead.due_ns < at_ns) at_ns = s->ahead.due_ns;
     const int64_t text_ns = gn_show_captions_due_ns(s); /* what is overdue waits for the screen */
     if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
     return at_ns;
@@ -62,7 +63,7 @@ static int64_t due_ns(const struct gn_show *s) {
 
 /* What no frame takes along. */
 static void work_between_frames(struct gn_show *s) {
-    if (!gn_show_has_work(s) || gn_clock_monotonic_ns() < s->work_ns) return;
+    if (!gn_show_has_work(s) || gn_clock_monotonic_ns() < s->ahead.due_ns) return;
     gn_gl_set_window(s->stage.gl, NULL); /* which is not ours to draw to now */
     gn_show_work(s);
 }
@@ -90,20 +91,20 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
 }
 
 static bool run(struct gn_show *s, struct gn_err *err) {
-    while (!s->ends && s->frames < s->most_frames)
+    while (!s->ends && s->counts.frames < s->counts.most_frames)
         if (!gn_show_step(s, err)) return false;
     if (s->stage.settings->run.verbose && s->stage.gl)
         printf("%llu frames, %llu late, %lu allocations and %llu GL objects after the first\n",
-               (unsigned long long)s->frames,
-               (unsigned long long)s->stage.display.screen.counts.missed, s->allocations,
-               (unsigned long long)s->objects);
+               (unsigned long long)s->counts.frames,
+               (unsigned long long)s->stage.display.screen.counts.missed, s->counts.allocations,
+               (unsigned long long)s->counts.objects);
     return true;
 }
 
 void gn_show_close(struct gn_show *s) {
     gn_show_close_control(s);
-    gn_input_close(s->input);
-    gn_captions_destroy(s->captions);
+    gn_input_close(s->buttons.input);
+    gn_captions_destroy(s->text.captions);
     gn_show_close_loader(s);
     gn_show_drop_staged(s);
     gn_stage_close(&s->stage);
@@ -111,8 +112,8 @@ void gn_show_close(struct gn_show *s) {
     gn_service_close(&s->service);
     gn_loop_remove_signals(&s->signals);
     gn_loop_close(s->loop);
-    gn_changes_destroy(s->changes);
-    gn_show_drop_options(s->options);
+    gn_changes_destroy(s->config.changes);
+    gn_show_drop_options(s->config.options);
     free(s);
 }
 
@@ -121,10 +122,11 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     if (!open_loop(s, err) || !gn_show_open_loader(s, err) ||
         !gn_service_open(&s->service, s->loop, gn_clock_monotonic_ns(), err))
         return false;
-    s->options = gn_show_read_options(options, NULL, err);
-    if (!s->options || !gn_show_load(&s->stage, s->options, s->warnings, err)) return false;
+    s->config.options = gn_show_read_options(options, NULL, err);
+    if (!s->config.options || !gn_show_load(&s->stage, s->config.options, s->warnings, err))
+        return false;
     gn_show_open_captions(s);
-    s->most_frames =
+    s->counts.most_frames =
         s->stage.settings->run.frames > 0 ? (uint64_t)s->stage.settings->run.frames : UINT64_MAX;
     if (!gn_show_begin(s, err) || !gn_show_open_display(s, err) || !gn_show_open_input(s, err))
         return false;
@@ -135,9 +137,9 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
 
 static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *warnings) {
     struct gn_show *s = gn_xalloc(1, sizeof *s);
-    *s = (struct gn_show){.place = place,
+    *s = (struct gn_show){.config.place = place,
                           .service.socket = -1,
-                          .begun_ns = gn_clock_monotonic_ns(),
+                          .counts.begun_ns = gn_clock_monotonic_ns(),
                           .warnings = warnings};
     return s;
 }

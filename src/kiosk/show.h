@@ -1,97 +1,12 @@
-/* What the files of `gnomon show` share. */
+/* The kiosk: `gnomon show` while it runs. */
 #ifndef GN_KIOSK_SHOW_H
 #define GN_KIOSK_SHOW_H
 
-#include "caption/captions.h"
-#include "core/loop.h"
-#include "kiosk/control/answer.h"
-#include "kiosk/info_page.h"
-#include "kiosk/latency.h"
-#include "kiosk/machine.h"
-#include "kiosk/screenshot.h"
-#include "kiosk/service.h"
-#include "kiosk/stats.h"
-#include "options/binding.h"
-#include "options/change.h"
-#include "stage/loader.h"
-#include "stage/stage.h"
+#include <stdbool.h>
 
-/* Modes: those of the INI file, else the techniques that there are. */
-struct gn_show_modes {
-    int count, first;
-    const char *names[GN_KIOSK_MODES_MAX];
-    int settings[GN_KIOSK_MODES_MAX]; /* places in options->all */
-    int base;                         /* the one that overrides nothing; -1: none */
-};
-/* A scene that is drawn or will be: what each mode makes of it, and for which of them all programs
- * are there. */
-struct gn_show_looks {
-    struct gn_stage_look of[GN_KIOSK_MODES_MAX];
-    uint32_t ready; /* a bit a mode */
-};
-struct gn_show_scenes {
-    const char *paths[GN_KIOSK_SCENES_MAX]; /* NULL: the default scene */
-    int count, listed;                      /* next-scene goes through the listed ones */
-    int shown;                              /* the stage's */
-    struct gn_loader *loader;
-    struct gn_watch loader_watch;
-    struct gn_loaded *staged; /* NULL, or the one that will follow */
-    struct gn_frame *frame;   /* of the staged one, while there is a context */
-    bool whole;               /* the staged one is on the GPU */
-    struct gn_show_looks looks;
-};
+#include "core/warn.h"
+#include "options/options.h"
 
-struct gn_show {
-    struct gn_options *options;  /* ours: a reload makes others */
-    struct gn_changes *changes;  /* by `ctl set`; NULL: none yet */
-    struct gn_show_place *place; /* NULL: the options say where */
-    struct gn_stage stage;
-    struct gn_screen_opts screen_opts;
-    struct gn_show_stats stats;
-    struct gn_service service;
-    struct gn_warnings *warnings;
-    struct gn_buttons buttons;
-    struct gn_button_opts button_opts[GN_BUTTONS_MAX]; /* theirs, for the input */
-    struct gn_input *input;                            /* NULL while there is none */
-    struct gn_latency latency;                         /* of theirs */
-    struct gn_loop *loop;
-    struct gn_signals signals;
-    uint32_t generation;   /* of the context that stage.gl lives in */
-    uint64_t stalled;      /* frames that were not told of in time, when the GPU was last asked */
-    int64_t asked_ns;      /* which was then */
-    bool fitted_unencoded; /* what frames are drawn with on this screen */
-    uint32_t fitted_msaa;
-
-    struct gn_show_modes modes;
-    struct gn_show_looks looks; /* of the stage's scene */
-    struct gn_show_scenes scenes;
-    struct gn_kiosk_rules rules;
-    struct gn_kiosk kiosk;
-    struct gn_captions *captions;
-    struct gn_info_page page;
-    struct gn_kiosk_view said;        /* what the last caption was about, */
-    int64_t said_ns;                  /* and since when */
-    int64_t begun_ns;                 /* when the program was started, about */
-    struct gn_kiosk_view drawn;       /* what the last frame showed */
-    struct gn_show_control *control;  /* NULL: nobody can ask anything */
-    struct gn_screenshot *screenshot; /* NULL without control */
-    struct gn_frame_times times;
-    char config_error[512]; /* of the last reload; options->config_error */
-    char problem[512];      /* what a caption may say of it; "" */
-
-    uint64_t frames, most_frames;
-    unsigned long allocations; /* in frames after the first, but for work ahead */
-    uint64_t objects;
-    int64_t work_ns;  /* when the next piece of work ahead is due, if there is any */
-    bool rests;       /* there was none when it was last looked for */
-    bool can_keep;    /* what that takes is there */
-    bool keeps, kept; /* the next frame's picture is to be kept for a fade; it was */
-    bool changed;     /* there is another picture to be seen */
-    bool says;        /* a text, in place of pictures */
-    bool ends, reloads;
-};
-
-/* show.c */
 /* Where gn_show_run() runs, whatever the options say. */
 struct gn_show_place {
     const char *backend; /* as in --backend; must outlive the call */
@@ -100,85 +15,5 @@ struct gn_show_place {
 /* The kiosk from its start to its end. place NULL: as the options say. */
 bool gn_show_run(const struct gn_options *options, struct gn_show_place *place,
                  struct gn_warnings *warnings, struct gn_err *err);
-struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warnings *warnings,
-                             struct gn_err *err);
-void gn_show_close(struct gn_show *show);
-/* Waits for something, and does what it asks for: at most a frame. */
-bool gn_show_step(struct gn_show *show, struct gn_err *err);
-
-/* begin.c: from arguments to a first mode */
-struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
-                                        struct gn_err *err);
-void gn_show_drop_options(struct gn_options *options);
-bool gn_show_load(struct gn_stage *stage, struct gn_options *options, struct gn_warnings *warnings,
-                  struct gn_err *err);
-/* With options and a stage that was loaded by them: modes, scenes, and the first of both. */
-bool gn_show_begin(struct gn_show *show, struct gn_err *err);
-
-/* events.c: actions as events of the machine; problems */
-void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
-/* What went wrong without ending anything: printed once, also on the screen. */
-void gn_show_report_problem(struct gn_show *show, const char *text);
-
-/* screen.c: the display and its context */
-bool gn_show_open_display(struct gn_show *show, struct gn_err *err);
-bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b);
-/* What a frame is drawn with, and how large, follows the screen. */
-void gn_show_fit_to_screen(struct gn_show *show);
-bool gn_show_is_stale(const struct gn_show *show);
-bool gn_show_keep_context(struct gn_show *show, struct gn_err *err);
-void gn_show_stop_gl(struct gn_show *show);
-
-/* frame.c */
-bool gn_show_wants_frame(const struct gn_show *show);
-bool gn_show_frame(struct gn_show *show, struct gn_err *err);
-
-/* captions.c */
-/* With the options' font; again after a reload. */
-void gn_show_open_captions(struct gn_show *show);
-/* What a frame says that is seen then. */
-void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *view, int64_t now_ns);
-/* When another frame is due for it; 0: at once, INT64_MAX: never. */
-int64_t gn_show_captions_due_ns(const struct gn_show *show);
-
-/* modes.c: the list of modes, and one of them entered */
-/* Of the options, with the scenes that they name. */
-void gn_show_list_modes(struct gn_show *show);
-/* -1: none of that name. */
-int gn_show_find_mode(const struct gn_show_modes *modes, const char *name);
-const struct gn_settings *gn_show_settings(const struct gn_show *show, int mode);
-/* What the options say of how the kiosk behaves; the modes stay. */
-void gn_show_take_rules(struct gn_show *show);
-/* What each mode makes of a scene. */
-bool gn_show_look(const struct gn_show *show, const struct gn_scene *scene,
-                  struct gn_show_looks *looks, struct gn_err *err);
-/* The kiosk's mode, on the stage. */
-void gn_show_enter(struct gn_show *show);
-/* The camera of the kiosk's, too; to be called for each frame. */
-void gn_show_take_view(struct gn_show *show, const struct gn_kiosk_view *view);
-
-/* ahead.c: what is made ready while other things are shown */
-/* Does a piece of it, if there is any: a program, or a few hundred kilobytes. */
-void gn_show_work(struct gn_show *show);
-bool gn_show_has_work(const struct gn_show *show);
-/* The context is another: programs are to be made again. */
-void gn_show_forget_work(struct gn_show *show);
-/* A new loader; what the one before still loads is dropped. */
-bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
-void gn_show_close_loader(struct gn_show *show);
-/* Loads what the kiosk waits for, and shows it once it is ready. */
-void gn_show_advance(struct gn_show *show);
-/* What the kiosk waits for is ready, and nothing else is to come before it. */
-bool gn_show_can_advance(const struct gn_show *show);
-void gn_show_drop_staged(struct gn_show *show);
-
-/* input.c: buttons and keys */
-/* After the display, whose window has keys of its own. Again after a reload. */
-bool gn_show_open_input(struct gn_show *show, struct gn_err *err);
-/* What they did becomes actions, and what is wrong with them a word on stderr. */
-void gn_show_take_input(struct gn_show *show, const struct gn_pointer *pointer);
-
-/* reload.c: what cannot be loaded leaves the picture as it is */
-bool gn_show_reload(struct gn_show *show, struct gn_err *err);
 
 #endif

@@ -11,7 +11,7 @@
 #include "core/arena.h"
 #include "core/clock.h"
 #include "gl/private.h"
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 #include "options/args.h"
 #include "unit/gl_help.h"
 
@@ -47,9 +47,9 @@ static void step(struct gn_show *show) {
 
 /* Frames, at most a minute's. */
 static void frames(struct gn_show *show, unsigned count) {
-    const uint64_t end = show->frames + count;
+    const uint64_t end = show->counts.frames + count;
     const int64_t begun_ns = gn_clock_monotonic_ns();
-    while (show->frames < end) {
+    while (show->counts.frames < end) {
         step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
@@ -67,7 +67,7 @@ static void until_warm(struct gn_show *show) {
     do {
         step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
-    } while (show->frames == 0 || gn_show_has_work(show));
+    } while (show->counts.frames == 0 || gn_show_has_work(show));
 }
 
 static void read_picture(struct gn_show *show, uint8_t out[4 * PIXELS]) {
@@ -85,9 +85,9 @@ static void one_program_a_frame_is_made_ahead_and_no_more(void **state) {
     unsigned busy = 0;
     while (gn_show_has_work(show)) {
         const uint64_t made = show->stage.gl->programs_made, proofs = show->stage.gl->probed;
-        const uint64_t before = show->frames;
+        const uint64_t before = show->counts.frames;
         step(show);
-        assert_true(show->frames - before <= 1);
+        assert_true(show->counts.frames - before <= 1);
         if (proofs == show->stage.gl->probed)
             assert_true(show->stage.gl->programs_made - made <= 1);
         busy += show->stage.gl->programs_made > made;
@@ -230,7 +230,8 @@ static void the_page_names_the_scene_inside_the_program(void **state) {
     frames(show, 1);
     act(show, GN_ACTION_INFO);
     frames(show, 1);
-    if (!strstr(show->page.text, "\nScene: default scene\n")) fail_msg("%s", show->page.text);
+    if (!strstr(show->text.page.text, "\nScene: default scene\n"))
+        fail_msg("%s", show->text.page.text);
     gn_show_close(show);
 }
 
@@ -252,12 +253,12 @@ static void pause_stands_and_blank_is_dark(void **state) {
     step(show);
     assert_true(show->stage.display.screen.blank);
     assert_false(gn_show_wants_frame(show));
-    const uint64_t dark = show->frames;
+    const uint64_t dark = show->counts.frames;
     act(show, GN_ACTION_NEXT_CAMERA); /* lights it, and no more */
     step(show);
     assert_false(show->stage.display.screen.blank);
     assert_int_equal(show->kiosk.camera, 0);
-    assert_true(show->frames - dark <= 1);
+    assert_true(show->counts.frames - dark <= 1);
     read_picture(show, after);
     assert_memory_equal(before, after, sizeof before);
     gn_show_close(show);
@@ -338,7 +339,7 @@ static void a_bad_scene_changes_nothing(void **state) {
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     assert_int_equal(show->drawn.scene, 0);
-    assert_non_null(strstr(show->problem, "bad.glb"));
+    assert_non_null(strstr(show->text.problem, "bad.glb"));
     frames(show, 2);
     gn_show_close(show);
     help_remove(folder);

@@ -10,8 +10,8 @@
 #include "kiosk/control/control.h"
 #include "kiosk/control/listen.h"
 #include "kiosk/control/status.h"
+#include "kiosk/private.h"
 #include "kiosk/screenshot.h"
-#include "kiosk/show.h"
 
 static const int64_t SCREENSHOT_NS = 5 * GN_NS_PER_S; /* no frame until then: nothing is shown */
 
@@ -115,15 +115,15 @@ static json_t *act(struct gn_show *s, const struct gn_request *r, struct gn_err 
 static bool change_option(struct gn_show *s, const struct gn_option_row *row, const char *text,
                           struct gn_err *err) {
     struct gn_show_looks looks;
-    if (!s->changes) s->changes = gn_changes_create(s->options);
-    if (!gn_changes_set(s->changes, row, text, err)) return false;
+    if (!s->config.changes) s->config.changes = gn_changes_create(s->config.options);
+    if (!gn_changes_set(s->config.changes, row, text, err)) return false;
     if (!gn_show_look(s, s->stage.scene, &looks, err)) {
-        gn_changes_undo(s->changes);
+        gn_changes_undo(s->config.changes);
         return false;
     }
     s->looks = looks;
     s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
-    s->rests = false; /* whatever was looked at has no programs yet */
+    s->ahead.idle = false; /* whatever was looked at has no programs yet */
     return true;
 }
 

@@ -7,7 +7,7 @@
 
 #include "core/clock.h"
 #include "core/json.h"
-#include "kiosk/show.h"
+#include "kiosk/private.h"
 
 /* What is resident, in megabytes (2^20 bytes): cheap to ask for, and what tells of a leak. */
 static double memory_mb(struct gn_show_status *status, int64_t now_ns) {
@@ -60,16 +60,16 @@ static json_t *screen_status(const struct gn_show *s) {
 
 static json_t *frame_status(const struct gn_show *s) {
     const struct gn_screen_counts *c = &s->stage.display.screen.counts;
-    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "drawn", (json_int_t)s->frames,
-                     "shown", (json_int_t)c->shown, "again", (json_int_t)c->again, "missed",
-                     (json_int_t)c->missed, "retried", (json_int_t)c->retried, "stalled",
-                     (json_int_t)c->stalled, "relit", (json_int_t)c->relit, "opened",
-                     (json_int_t)c->opened);
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "drawn",
+                     (json_int_t)s->counts.frames, "shown", (json_int_t)c->shown, "again",
+                     (json_int_t)c->again, "missed", (json_int_t)c->missed, "retried",
+                     (json_int_t)c->retried, "stalled", (json_int_t)c->stalled, "relit",
+                     (json_int_t)c->relit, "opened", (json_int_t)c->opened);
 }
 
 /* From the kernel's time of the edge to the commit of the frame. */
 static json_t *input_status(const struct gn_show *s) {
-    const struct gn_latency_report r = gn_latency_read(&s->latency);
+    const struct gn_latency_report r = gn_latency_read(&s->buttons.latency);
     return json_pack("{s:I, s:o, s:o, s:i, s:i}", "seen", (json_int_t)r.count, "median_ms",
                      gn_json_make_number((double)r.median.ns * 1e-6), "worst_ms",
                      gn_json_make_number((double)r.worst.ns * 1e-6), "median_frames",
@@ -85,21 +85,22 @@ static json_t *control_status(struct gn_control_counts c) {
 
 json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *status,
                             struct gn_control_counts counts) {
-    const struct gn_options *o = s->options;
+    const struct gn_options *o = s->config.options;
     const int64_t now_ns = gn_clock_monotonic_ns();
     json_t *reply = json_pack("{s:s, s:i, s:f}", "version", GN_VERSION, "pid", (int)getpid(),
-                              "uptime_s", (double)(now_ns - s->begun_ns) * 1e-9);
+                              "uptime_s", (double)(now_ns - s->counts.begun_ns) * 1e-9);
     json_object_update_new(reply, gn_show_status_short(s));
     json_object_set_new(reply, "waits", json_boolean(status->waits || gn_kiosk_waits(&s->kiosk)));
     json_object_set_new(reply, "modes", mode_names(s));
     json_object_set_new(reply, "screen", screen_status(s));
     json_object_set_new(reply, "frames", frame_status(s));
     json_object_set_new(reply, "input", input_status(s));
-    json_object_set_new(reply, "fps", json_integer(gn_frame_times_fps(&s->times, now_ns)));
+    json_object_set_new(reply, "fps", json_integer(gn_frame_times_fps(&s->counts.times, now_ns)));
     json_object_set_new(reply, "config",
                         json_pack("{s:o, s:o}", "path", gn_json_make_text(o->config_path), "error",
                                   gn_json_make_text(o->config_error)));
-    json_object_set_new(reply, "problem", gn_json_make_text(s->problem[0] ? s->problem : NULL));
+    json_object_set_new(reply, "problem",
+                        gn_json_make_text(s->text.problem[0] ? s->text.problem : NULL));
     json_object_set_new(reply, "memory_mb", gn_json_make_number(memory_mb(status, now_ns)));
     json_object_set_new(reply, "control", control_status(counts));
     return reply;

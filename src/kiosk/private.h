@@ -1,0 +1,216 @@
+/* The kiosk, inside: its state in parts, and what its files call of each other. The files stand
+ * from the top to the bottom: each calls only those after it. */
+#ifndef GN_KIOSK_PRIVATE_H
+#define GN_KIOSK_PRIVATE_H
+
+#include "caption/captions.h"
+#include "core/loop.h"
+#include "kiosk/control/answer.h"
+#include "kiosk/info_page.h"
+#include "kiosk/latency.h"
+#include "kiosk/machine.h"
+#include "kiosk/screenshot.h"
+#include "kiosk/service.h"
+#include "kiosk/show.h"
+#include "kiosk/stats.h"
+#include "options/binding.h"
+#include "options/change.h"
+#include "stage/loader.h"
+#include "stage/stage.h"
+
+/* ---- the state ------------------------------------------------------------------------------ */
+
+struct gn_show_config {
+    struct gn_options *options;  /* owned: a reload makes others */
+    struct gn_changes *changes;  /* by `ctl set`; NULL: none yet */
+    struct gn_show_place *place; /* NULL: the options say where */
+    char error[512];             /* of the last reload; options->config_error */
+};
+/* The screen's context, and what frames are drawn with in it. */
+struct gn_show_context {
+    struct gn_screen_opts screen_opts;
+    uint32_t generation; /* of the context that stage.gl lives in; 0: none */
+    bool notice;         /* the screen shows a text in place of pictures */
+    bool unencoded;      /* as frames are drawn now */
+    uint32_t msaa;
+    uint64_t checked_stalls; /* stalled flips when the GPU was last tested, */
+    int64_t checked_ns;      /* which was then */
+};
+struct gn_show_buttons {
+    struct gn_buttons map;
+    struct gn_button_opts opts[GN_BUTTONS_MAX]; /* of the map, for the input */
+    struct gn_input *input;                     /* NULL while there is none */
+    struct gn_latency latency;
+};
+/* Modes: those of the INI file, else the techniques that there are. */
+struct gn_show_modes {
+    int count, first;
+    const char *names[GN_KIOSK_MODES_MAX];
+    int settings[GN_KIOSK_MODES_MAX]; /* places in options->all */
+    int base;                         /* the one that overrides nothing; -1: none */
+};
+/* A scene that is drawn or will be: what each mode makes of it, and for which of them all programs
+ * are there. */
+struct gn_show_looks {
+    struct gn_stage_look of[GN_KIOSK_MODES_MAX];
+    uint32_t ready; /* a bit a mode */
+};
+struct gn_show_scenes {
+    const char *paths[GN_KIOSK_SCENES_MAX]; /* NULL: the default scene */
+    int count, listed;                      /* next-scene goes through the listed ones */
+    int shown;                              /* the stage's */
+    struct gn_loader *loader;
+    struct gn_watch loader_watch;
+    struct gn_loaded *staged; /* NULL, or the one that will follow */
+    struct gn_frame *frame;   /* of the staged one, while there is a context */
+    bool whole;               /* the staged one is on the GPU */
+    struct gn_show_looks looks;
+};
+
+/* Texts on the picture. */
+struct gn_show_text {
+    struct gn_captions *captions;
+    struct gn_info_page page;
+    struct gn_kiosk_view view; /* that the last caption is about, */
+    int64_t since_ns;          /* and since when */
+    char problem[512];         /* reported last; "" */
+};
+/* Work ahead: pieces that are done between frames. */
+struct gn_show_ahead {
+    int64_t due_ns; /* when the next piece is, if there is any */
+    bool idle;      /* there was none when it was last looked for */
+};
+/* A fade begins with a kept picture. */
+struct gn_show_fade {
+    bool prepared;    /* the GPU has what keeping takes */
+    bool keeps, kept; /* the next frame's picture is to be kept; it was */
+};
+struct gn_show_counts {
+    int64_t begun_ns; /* the program, about */
+    uint64_t frames, most_frames;
+    unsigned long allocations; /* in frames after the first, without work ahead */
+    uint64_t objects;          /* of GL, in the same frames */
+    struct gn_frame_times times;
+};
+
+struct gn_show {
+    struct gn_show_config config;
+    struct gn_warnings *warnings;
+    struct gn_loop *loop;
+    struct gn_signals signals;
+    struct gn_stage stage;
+    struct gn_show_context context;
+    struct gn_show_buttons buttons;
+    struct gn_show_modes modes;
+    struct gn_show_looks looks; /* of the stage's scene */
+    struct gn_show_scenes scenes;
+    struct gn_kiosk_rules rules;
+    struct gn_kiosk kiosk;
+    struct gn_kiosk_view drawn; /* by the last frame */
+    struct gn_show_text text;
+    struct gn_show_ahead ahead;
+    struct gn_show_fade fade;
+    struct gn_show_counts counts;
+    struct gn_show_stats stats;
+    struct gn_service service;
+    struct gn_show_control *control;  /* NULL: no control socket */
+    struct gn_screenshot *screenshot; /* NULL without control */
+    bool changed;                     /* the next picture differs: draw it */
+    bool ends, reloads;
+};
+
+/* ---- show.c: the top; these for tests ------------------------------------------------------- */
+
+struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warnings *warnings,
+                             struct gn_err *err);
+void gn_show_close(struct gn_show *show);
+/* Waits until something is to be done, and does it: at most a frame. */
+bool gn_show_step(struct gn_show *show, struct gn_err *err);
+
+/* ---- reload.c: SIGHUP and ctl reload --------------------------------------------------------- */
+
+bool gn_show_reload(struct gn_show *show, struct gn_err *err);
+
+/* control/answer.c stands here; see control/answer.h. */
+
+/* ---- frame.c: from the state to a frame ------------------------------------------------------ */
+
+bool gn_show_wants_frame(const struct gn_show *show);
+bool gn_show_frame(struct gn_show *show, struct gn_err *err);
+
+/* ---- screen.c: the display and its context --------------------------------------------------- */
+
+bool gn_show_open_display(struct gn_show *show, struct gn_err *err);
+bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b);
+/* What a frame is drawn with, and how large, follows the screen. */
+void gn_show_fit_to_screen(struct gn_show *show);
+bool gn_show_is_stale(const struct gn_show *show);
+bool gn_show_keep_context(struct gn_show *show, struct gn_err *err);
+void gn_show_stop_gl(struct gn_show *show);
+
+/* ---- ahead.c: programs and scenes made ready while others are shown -------------------------- */
+
+/* Does a piece of it, if there is any: a program, or a few hundred kilobytes. */
+void gn_show_work(struct gn_show *show);
+bool gn_show_has_work(const struct gn_show *show);
+/* The context is another: programs are to be made again. */
+void gn_show_forget_work(struct gn_show *show);
+/* A new loader; what the one before still loads is dropped. */
+bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
+void gn_show_close_loader(struct gn_show *show);
+/* Loads what the kiosk waits for, and shows it once it is ready. */
+void gn_show_advance(struct gn_show *show);
+/* What the kiosk waits for is ready, and nothing else is to come before it. */
+bool gn_show_can_advance(const struct gn_show *show);
+void gn_show_drop_staged(struct gn_show *show);
+
+/* ---- captions.c: texts on the picture -------------------------------------------------------- */
+
+/* With the options' font; again after a reload. */
+void gn_show_open_captions(struct gn_show *show);
+/* What a frame says that is seen then. */
+void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *view, int64_t now_ns);
+/* When another frame is due for it; 0: at once, INT64_MAX: never. */
+int64_t gn_show_captions_due_ns(const struct gn_show *show);
+
+/* ---- input.c: buttons and keys --------------------------------------------------------------- */
+
+/* After the display, whose window has keys of its own. Again after a reload. */
+bool gn_show_open_input(struct gn_show *show, struct gn_err *err);
+/* What they did becomes actions, and what is wrong with them a word on stderr. */
+void gn_show_take_input(struct gn_show *show, const struct gn_pointer *pointer);
+
+/* ---- begin.c: from arguments to a first mode ------------------------------------------------- */
+
+struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
+                                        struct gn_err *err);
+void gn_show_drop_options(struct gn_options *options);
+bool gn_show_load(struct gn_stage *stage, struct gn_options *options, struct gn_warnings *warnings,
+                  struct gn_err *err);
+/* With options and a stage that was loaded by them: modes, scenes, and the first of both. */
+bool gn_show_begin(struct gn_show *show, struct gn_err *err);
+
+/* ---- events.c: actions as events of the machine; problems ------------------------------------ */
+
+void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
+/* What went wrong without ending anything: printed once, also on the screen. */
+void gn_show_report_problem(struct gn_show *show, const char *text);
+
+/* ---- modes.c: the list of modes, and one of them entered ------------------------------------- */
+
+/* Of the options, with the scenes that they name. */
+void gn_show_list_modes(struct gn_show *show);
+/* -1: none of that name. */
+int gn_show_find_mode(const struct gn_show_modes *modes, const char *name);
+const struct gn_settings *gn_show_settings(const struct gn_show *show, int mode);
+/* What the options say of how the kiosk behaves; the modes stay. */
+void gn_show_take_rules(struct gn_show *show);
+/* What each mode makes of a scene. */
+bool gn_show_look(const struct gn_show *show, const struct gn_scene *scene,
+                  struct gn_show_looks *looks, struct gn_err *err);
+/* The kiosk's mode, on the stage. */
+void gn_show_enter(struct gn_show *show);
+/* The camera of the kiosk's, too; to be called for each frame. */
+void gn_show_take_view(struct gn_show *show, const struct gn_kiosk_view *view);
+
+#endif
