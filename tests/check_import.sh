@@ -83,7 +83,7 @@ fake() {
     chmod +x "$folder/bin/gnomon-import"
 }
 if [ ! -e /usr/local/bin/gnomon-import ]; then
-    expect 1 'a.obj: such files are read by gnomon-import, which is not' env PATH=/nowhere "$folder/bin/gnomon" inspect "$model"
+    expect 1 'a.obj: needs gnomon-import, which is not' env PATH=/nowhere "$folder/bin/gnomon" inspect "$model"
 fi
 fake 'echo chatter; echo more >&2; kill -SEGV $$'
 expect 1 'a.obj: gnomon-import crashes (Segmentation fault)' "$folder/bin/gnomon" inspect "$model"
@@ -92,7 +92,7 @@ expect 1 'a.obj: no' "$folder/bin/gnomon" inspect "$model"
 fake 'echo garbage, and more than a header of it'
 expect 1 'a.obj: byte 0: neither .glb' "$folder/bin/gnomon" inspect "$model"
 fake 'exit 0'
-expect 1 'a.obj: gnomon-import made nothing of it' "$folder/bin/gnomon" inspect "$model"
+expect 1 'a.obj: gnomon-import wrote no output' "$folder/bin/gnomon" inspect "$model"
 fake "echo 'gnomon-import: warning: of a kind' >&2; exec cat '$folder/m/a.glb'"
 expect 0 'gnomon: warning: of a kind' "$folder/bin/gnomon" render "$model" --size 64x64 -o "$folder/a.png"
 

@@ -1,5 +1,5 @@
-/* What is made ready while other things are shown: programs of other modes, and another scene. One
- * piece a frame, so that no frame is missed for it. */
+/* Work ahead: programs of other modes and another scene are made ready while the kiosk shows
+ * something else, one piece a frame, so that no frame is missed. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -41,7 +41,7 @@ static void fail_mode(struct gn_show *s, struct gn_show_looks *looks, int mode,
     gn_latency_drop(&s->buttons.latency);
 }
 
-/* The options that a mode's frames are drawn with on this screen. */
+/* Frame options of a mode on this screen. */
 static struct gn_frame_opts opts_of(const struct gn_show *s, const struct gn_stage_look *look) {
     const struct gn_frame_opts *now = &s->stage.frame_opts;
     struct gn_frame_opts opts = look->frame_opts;
@@ -55,9 +55,9 @@ static struct gn_frame_opts opts_of(const struct gn_show *s, const struct gn_sta
     return opts;
 }
 
-/* True: something was done; false: the mode was ready. */
-static bool warm(struct gn_show *s, struct gn_show_looks *looks, struct gn_frame **frame,
-                 const struct gn_pose *pose, int mode) {
+/* True: it did a piece; false: the mode is ready. */
+static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_frame **frame,
+                      const struct gn_pose *pose, int mode) {
     const struct gn_frame_opts opts = opts_of(s, &looks->of[mode]);
     struct gn_err err = {0};
     const struct gn_plan *plan = gn_frame_build(*frame, pose, &opts, NULL);
@@ -72,9 +72,9 @@ static bool warm(struct gn_show *s, struct gn_show_looks *looks, struct gn_frame
     }
 }
 
-static bool warm_if_need_be(struct gn_show *s, int mode) {
+static bool warm_cold_mode(struct gn_show *s, int mode) {
     return !(s->looks.ready >> mode & 1) &&
-           warm(s, &s->looks, &s->stage.frame, &s->stage.pose, mode);
+           warm_mode(s, &s->looks, &s->stage.frame, &s->stage.pose, mode);
 }
 
 /* ---- the staged scene ---- */
@@ -87,8 +87,8 @@ static void fail_scene(struct gn_show *s, int scene, const struct gn_err *err) {
     gn_latency_drop(&s->buttons.latency);
 }
 
-/* It begins again where the context was lost. */
-static bool upload(struct gn_show *s) {
+/* After a lost context it begins again. */
+static bool upload_staged(struct gn_show *s) {
     struct gn_show_scenes *scenes = &s->scenes;
     struct gn_loaded *staged = scenes->staged;
     struct gn_err err = {0};
@@ -108,14 +108,14 @@ static bool work_on_staged(struct gn_show *s) {
     struct gn_show_scenes *scenes = &s->scenes;
     const int mode = s->kiosk.wanted.mode;
     if (!scenes->staged) return false;
-    if (!scenes->whole) return upload(s);
+    if (!scenes->whole) return upload_staged(s);
     return !(scenes->looks.ready >> mode & 1) &&
-           warm(s, &scenes->looks, &scenes->frame, &scenes->staged->pose, mode);
+           warm_mode(s, &scenes->looks, &scenes->frame, &scenes->staged->pose, mode);
 }
 
-/* ---- in the order in which it will be wanted ---- */
+/* ---- pieces, most urgent first ---- */
 
-/* Where it cannot be made the first fade says so. */
+/* The first fade reports a failure. */
 static bool prepare_fade(struct gn_show *s) {
     struct gn_err unused = {0};
     if (s->rules.fade_ns == 0 || s->fade.prepared || s->counts.frames == 0) return false;
@@ -129,7 +129,7 @@ static bool do_piece(struct gn_show *s) {
     if (prepare_fade(s)) return true;
     if (work_on_staged(s)) return true;
     for (int i = 0; i < s->modes.count; i++)
-        if (warm_if_need_be(s, (mode + i) % s->modes.count)) return true;
+        if (warm_cold_mode(s, (mode + i) % s->modes.count)) return true;
     return false;
 }
 
@@ -145,7 +145,7 @@ void gn_show_work(struct gn_show *s) {
     s->ahead.due_ns = gn_clock_monotonic_ns() + 2 * s->stage.display.screen.period_ns;
 }
 
-/* ---- what the kiosk waits for ---- */
+/* ---- the wanted scene and mode ---- */
 
 static void take_loaded(struct gn_show *s) {
     struct gn_loaded *loaded = gn_loader_take(s->scenes.loader);
@@ -185,8 +185,8 @@ bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
            gn_fail(err, "show: cannot wait for scenes: %s", strerror(errno));
 }
 
-/* One at a time: what is not wanted any more is first loaded to its end. */
-static void load(struct gn_show *s, int scene) {
+/* One at a time: also a load whose scene is no longer wanted is finished first. */
+static void load_scene(struct gn_show *s, int scene) {
     struct gn_scene_limits limits;
     struct gn_err err = {0};
     if (gn_loader_is_busy(s->scenes.loader)) return;
@@ -195,7 +195,7 @@ static void load(struct gn_show *s, int scene) {
         fail_scene(s, scene, &err);
 }
 
-/* The staged scene becomes the stage's; what was there goes. */
+/* The staged scene replaces the stage's. */
 static void show_staged(struct gn_show *s) {
     struct gn_show_scenes *scenes = &s->scenes;
     struct gn_loaded *staged = scenes->staged;
@@ -232,7 +232,7 @@ bool gn_show_can_advance(const struct gn_show *s) {
            is_ready(s, gn_kiosk_scene(&s->rules, &s->kiosk.wanted));
 }
 
-/* A fade begins with the picture that was seen last: it is drawn once more, and kept. */
+/* A fade begins with the last picture: it is drawn once more, and kept. */
 static bool waits_for_kept(struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     if (s->rules.fade_ns == 0 || !s->stage.gl || !screen->lit || s->counts.frames == 0 ||
@@ -264,7 +264,7 @@ void gn_show_advance(struct gn_show *s) {
         s->fade.keeps = s->fade.kept = false;
         return;
     }
-    if (scene != s->scenes.shown && !s->scenes.staged) load(s, scene);
+    if (scene != s->scenes.shown && !s->scenes.staged) load_scene(s, scene);
     if (s->scenes.staged && !(s->scenes.looks.ready >> s->kiosk.wanted.mode & 1))
         s->ahead.idle = false;
     if (is_ready(s, scene) && !waits_for_kept(s)) show_wanted(s, scene);

@@ -14,14 +14,14 @@ struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn
                                         struct gn_err *err) {
     struct gn_options *o = gn_xalloc(1, sizeof *o);
     if (gn_args_parse(o, like->argc, like->argv, warnings, err)) {
-        gn_options_run_as(o, GN_COMMAND_SHOW); /* the bare command, too, is the kiosk by now */
+        gn_options_run_as(o, GN_COMMAND_SHOW); /* also if it was the bare command */
         return o;
     }
     gn_show_drop_options(o);
     return NULL;
 }
 
-/* Where a file has modes one of them is always on. */
+/* With modes in the file one of them is always on. */
 bool gn_show_load(struct gn_stage *stage, struct gn_options *o, struct gn_warnings *warnings,
                   struct gn_err *err) {
     if (!o->settings->mode && o->mode_count > 0) o->settings = &o->all[1];

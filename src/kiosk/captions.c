@@ -1,5 +1,5 @@
-/* What stands on a kiosk's picture: for a while what has changed, the page of information, and
- * what is wrong as long as it is. */
+/* Texts on the picture: captions of changes, the information page, and a problem of the
+ * configuration as long as it lasts. */
 #include <stdio.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ void gn_show_open_captions(struct gn_show *s) {
     s->text.since_ns = 0;
 }
 
-/* The last part of a path; without one it is the scene inside the program. */
+/* The last part of the path; NULL: the built-in scene. */
 static const char *scene_name(const struct gn_show *s, int scene) {
     const char *path = s->scenes.paths[scene];
     const char *slash = path ? strrchr(path, '/') : NULL;
@@ -24,24 +24,25 @@ static const char *scene_name(const struct gn_show *s, int scene) {
 
 static const char *caption_of(const struct gn_show *s, const struct gn_kiosk_view *view) {
     switch (view->caption) {
-    case GN_KIOSK_SAYS_MODE: return s->modes.names[view->caption_mode];
-    case GN_KIOSK_SAYS_SCENE: return scene_name(s, view->caption_scene);
-    case GN_KIOSK_SAYS_CAMERA: return s->stage.scene->cameras[s->stage.frame_opts.camera].name;
-    case GN_KIOSK_SAYS_PAUSE: return view->stands ? "pause" : NULL;
+    case GN_KIOSK_CAPTION_MODE: return s->modes.names[view->caption_mode];
+    case GN_KIOSK_CAPTION_SCENE: return scene_name(s, view->caption_scene);
+    case GN_KIOSK_CAPTION_CAMERA: return s->stage.scene->cameras[s->stage.frame_opts.camera].name;
+    case GN_KIOSK_CAPTION_PAUSE: return view->stands ? "pause" : NULL;
     default: return NULL;
     }
 }
 
-/* A text is set again only when there is something new to say. */
+/* A text is set only when it changes. */
 static void write_changes(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
     const char *error = s->config.options->config_error;
-    if (!error && view->caption == GN_KIOSK_SAYS_PROBLEM) error = s->text.problem;
+    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = s->text.problem;
     gn_captions_set(s->text.captions, GN_CAPTION_ERROR, error, now_ns);
     if (view->caption == s->text.view.caption && s->kiosk.caption_ns == s->text.since_ns) return;
     s->text.view = *view;
     s->text.since_ns = s->kiosk.caption_ns;
     gn_captions_set(s->text.captions, GN_CAPTION_MODE, caption_of(s, view),
-                    now_ns + s->rules.caption_ns - GN_CAPTION_MODE_NS); /* so that it ends then */
+                    now_ns + s->rules.caption_ns -
+                        GN_CAPTION_MODE_NS); /* so that it ends at that time */
 }
 
 static void write_page(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
@@ -69,7 +70,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
                                   on_side ? f->width_px : f->height_px, now_ns);
 }
 
-/* A page is made anew once a second. */
+/* The information page is updated once a second. */
 int64_t gn_show_captions_due_ns(const struct gn_show *s) {
     const int64_t next_ns = gn_captions_next_ns(s->text.captions),
                   page_ns = s->text.page.made ? s->text.page.made_ns + GN_NS_PER_S : INT64_MAX;

@@ -1,4 +1,4 @@
-/* What happens, as events of the kiosk's machine, and what went wrong. */
+/* Actions as events of the machine; problems. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,11 +1,11 @@
-/* From what the kiosk shows to a frame on the screen. Nothing is drawn while nothing changes. */
+/* From the state of the kiosk to a frame on the screen. Nothing is drawn while nothing changes. */
 #include <stdio.h>
 
 #include "core/arena.h"
 #include "core/clock.h"
 #include "kiosk/private.h"
 
-#define ASK_NS (10 * GN_NS_PER_S) /* the GPU is asked no more often: that takes a program */
+#define ASK_NS (10 * GN_NS_PER_S) /* the GPU is tested at most this often */
 
 static bool is_moving(const struct gn_show *s, const struct gn_kiosk_view *view) {
     if (s->counts.most_frames < UINT64_MAX) return true;
@@ -13,7 +13,7 @@ static bool is_moving(const struct gn_show *s, const struct gn_kiosk_view *view)
            (s->stage.pose.animated || s->stage.settings->scene.turntable_deg_s != 0.0);
 }
 
-static bool differs(const struct gn_kiosk_view *a, const struct gn_kiosk_view *b) {
+static bool views_differ(const struct gn_kiosk_view *a, const struct gn_kiosk_view *b) {
     return a->mode != b->mode || a->scene != b->scene || a->camera != b->camera ||
            a->info != b->info || a->old > 0.0f || b->old > 0.0f || a->caption != b->caption ||
            a->caption_mode != b->caption_mode || a->caption_scene != b->caption_scene ||
@@ -26,12 +26,12 @@ bool gn_show_wants_frame(const struct gn_show *s) {
     if (screen->black || s->changed || s->fade.keeps || screen->damaged || !screen->lit)
         return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
-    return is_moving(s, &view) || differs(&view, &s->drawn) ||
+    return is_moving(s, &view) || views_differ(&view, &s->drawn) ||
            gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
-/* For a fade; without the picture there is none. */
-static void keep(struct gn_show *s) {
+/* Keeps the picture for a fade. On failure fades are switched off. */
+static void keep_picture(struct gn_show *s) {
     struct gn_err err = {0};
     if (!gn_gl_keep(s->stage.gl, &err)) {
         gn_show_report_problem(s, err.text);
@@ -48,18 +48,18 @@ static bool draw_view(struct gn_show *s, const struct gn_kiosk_view *view, struc
                        err))
         return false;
     if (view->old > 0.0f) gn_gl_lay_over(s->stage.gl, view->old);
-    if (s->fade.keeps) keep(s);
+    if (s->fade.keeps) keep_picture(s);
     return true;
 }
 
-/* What frames cost beside what is made ahead, or loaded; the first makes what it needs. */
-static void count(struct gn_show *s, unsigned long allocations, uint64_t objects) {
+/* Counts allocations of frames, except in the first one and while a scene loads. */
+static void count_costs(struct gn_show *s, unsigned long allocations, uint64_t objects) {
     if (s->counts.frames++ == 0 || gn_loader_is_busy(s->scenes.loader)) return;
     s->counts.allocations += gn_alloc_count() - allocations;
     s->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;
 }
 
-/* A screenshot that is asked for is of this frame. */
+/* If a screenshot is asked for, it is this frame. */
 static void fill_screenshot(struct gn_show *s) {
     const struct gn_frame_opts *f = &s->stage.frame_opts;
     struct gn_err err = {0};
@@ -71,7 +71,7 @@ static void fill_screenshot(struct gn_show *s) {
         gn_screenshot_fail(s->screenshot, &err);
 }
 
-static bool draw(struct gn_show *s, struct gn_err *err) {
+static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const int64_t seen_ns = screen->seen_ns;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, seen_ns);
@@ -86,7 +86,7 @@ static bool draw(struct gn_show *s, struct gn_err *err) {
     const unsigned long allocations = gn_alloc_count();
     const uint64_t objects = gn_gl_stats(s->stage.gl).objects_created;
     if (!draw_view(s, &view, err)) return false;
-    count(s, allocations, objects);
+    count_costs(s, allocations, objects);
     s->drawn = view;
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
     if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
@@ -96,8 +96,8 @@ static bool draw(struct gn_show *s, struct gn_err *err) {
            gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
 }
 
-/* It is on its way: how long did whoever pressed a button have to wait for it? */
-static void measure(struct gn_show *s) {
+/* Latency of buttons, when a frame was committed. */
+static void measure_latency(struct gn_show *s) {
     const uint64_t before = s->buttons.latency.count;
     gn_latency_frame(&s->buttons.latency, gn_clock_monotonic_ns(), !gn_kiosk_waits(&s->kiosk));
     if (s->buttons.latency.count == before || !s->stage.settings->run.verbose) return;
@@ -106,9 +106,9 @@ static void measure(struct gn_show *s) {
     fflush(stdout);
 }
 
-/* A GPU that hung and was reset may come back without its memory, and its driver say nothing: where
- * a frame was not told of in time, known values are drawn. */
-static bool is_well(struct gn_show *s) {
+/* A GPU that was reset may have lost its memory without an error from the driver: after a stalled
+ * flip known values are drawn and read back. */
+static bool gpu_is_well(struct gn_show *s) {
     const uint64_t stalled = s->stage.display.screen.counts.stalled;
     const int64_t now_ns = gn_clock_monotonic_ns();
     if (gn_gl_is_lost(s->stage.gl)) return false;
@@ -122,9 +122,9 @@ static bool is_well(struct gn_show *s) {
 bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     struct gn_display *display = &s->stage.display;
     const int64_t begun_ns = gn_clock_monotonic_ns();
-    if (!is_well(s) && gn_display_lose(display, begun_ns)) return true;
+    if (!gpu_is_well(s) && gn_display_lose(display, begun_ns)) return true;
     if (!gn_display_begin(display, begun_ns, err)) return !err->text[0];
-    const bool drawn = draw(s, err);
+    const bool drawn = draw_frame(s, err);
     if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_clock_monotonic_ns())) {
         *err = (struct gn_err){0};
         return true;
@@ -133,7 +133,7 @@ bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     const int64_t drawn_ns = gn_clock_monotonic_ns();
     s->changed = s->stage.waits;
     if (!gn_display_present(display, drawn_ns, err)) return false;
-    measure(s);
+    measure_latency(s);
     gn_show_stats_frame(&s->stats, drawn_ns - begun_ns);
     return true;
 }

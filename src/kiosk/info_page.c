@@ -10,13 +10,13 @@
 #include <sys/utsname.h>
 
 #include "core/clock.h"
-#include <config.h> /* made by the build; not cli/config.h */
+#include <config.h> /* the generated one */
 
 enum { ADDRESSES_MAX = 4, ZONES_MAX = 16 };
 
-/* One line more; what has no room is not there. */
-__attribute__((format(printf, 2, 3))) static void add(struct gn_info_page *page, const char *format,
-                                                      ...) {
+/* Adds a line; one that does not fit is left out. */
+__attribute__((format(printf, 2, 3))) static void add_line(struct gn_info_page *page,
+                                                           const char *format, ...) {
     const size_t used = strlen(page->text), room = sizeof page->text - used;
     va_list args;
     va_start(args, format);
@@ -31,16 +31,16 @@ static void add_screen(struct gn_info_page *page, const struct gn_screen *screen
     const struct gn_screen_counts *c = &screen->counts;
     const bool again = page->made && c->shown >= page->shown && now_ns > page->made_ns;
     if (again)
-        add(page, "Frames: %.1f a second, %llu missed",
-            (double)(c->shown - page->shown) / ((double)(now_ns - page->made_ns) * 1e-9),
-            (unsigned long long)c->missed);
+        add_line(page, "Frames: %.1f a second, %llu missed",
+                 (double)(c->shown - page->shown) / ((double)(now_ns - page->made_ns) * 1e-9),
+                 (unsigned long long)c->missed);
     else
-        add(page, "Frames: %llu missed", (unsigned long long)c->missed);
+        add_line(page, "Frames: %llu missed", (unsigned long long)c->missed);
     page->shown = c->shown;
     if (screen->what[0])
-        add(page, "Screen: %s", screen->what);
+        add_line(page, "Screen: %s", screen->what);
     else
-        add(page, "Screen: %ux%u", screen->width_px, screen->height_px);
+        add_line(page, "Screen: %ux%u", screen->width_px, screen->height_px);
 }
 
 static const char *address_of(const struct ifaddrs *i, char *out, socklen_t size) {
@@ -59,14 +59,14 @@ static void add_addresses(struct gn_info_page *page) {
     if (getifaddrs(&all) != 0) return;
     for (const struct ifaddrs *i = all; i && count < ADDRESSES_MAX; i = i->ifa_next)
         if (address_of(i, text, sizeof text)) {
-            add(page, "Address: %s (%s)", text, i->ifa_name);
+            add_line(page, "Address: %s (%s)", text, i->ifa_name);
             count++;
         }
     freeifaddrs(all);
-    if (count == 0) add(page, "Address: none");
+    if (count == 0) add_line(page, "Address: none");
 }
 
-/* Of the kernel's zones the hottest. */
+/* Of the kernel's thermal zones the hottest. */
 static void add_temperature(struct gn_info_page *page, const char *root) {
     long hottest = 0; /* thousandths of a degree */
     for (int zone = 0; zone < ZONES_MAX; zone++) {
@@ -79,39 +79,39 @@ static void add_temperature(struct gn_info_page *page, const char *root) {
             hottest = strtol(text, NULL, 10);
         fclose(file);
     }
-    if (hottest > 0) add(page, "Temperature: %.0f C", (double)hottest * 1e-3);
+    if (hottest > 0) add_line(page, "Temperature: %.0f C", (double)hottest * 1e-3);
 }
 
 static void add_uptime(struct gn_info_page *page, int64_t uptime_ns) {
     const long long s = uptime_ns / GN_NS_PER_S, days = s / 86400;
     if (days > 0)
-        add(page, "Running: %lld day%s %02lld:%02lld:%02lld", days, days == 1 ? "" : "s",
-            s / 3600 % 24, s / 60 % 60, s % 60);
+        add_line(page, "Running: %lld day%s %02lld:%02lld:%02lld", days, days == 1 ? "" : "s",
+                 s / 3600 % 24, s / 60 % 60, s % 60);
     else
-        add(page, "Running: %02lld:%02lld:%02lld", s / 3600, s / 60 % 60, s % 60);
+        add_line(page, "Running: %02lld:%02lld:%02lld", s / 3600, s / 60 % 60, s % 60);
 }
 
-static void make(struct gn_info_page *page, const struct gn_info *info, int64_t now_ns) {
+static void make_text(struct gn_info_page *page, const struct gn_info *info, int64_t now_ns) {
     struct utsname system;
     page->text[0] = '\0';
-    add(page, "gnomon %s", GN_VERSION);
-    if (info->mode) add(page, "Mode: %.60s", info->mode);
-    if (info->scene) add(page, "Scene: %.200s", info->scene);
+    add_line(page, "gnomon %s", GN_VERSION);
+    if (info->mode) add_line(page, "Mode: %.60s", info->mode);
+    if (info->scene) add_line(page, "Scene: %.200s", info->scene);
     if (info->screen) add_screen(page, info->screen, now_ns);
     if (info->caps) {
-        add(page, "GPU: %s", info->caps->renderer);
-        add(page, "Driver: %s", info->caps->version);
+        add_line(page, "GPU: %s", info->caps->renderer);
+        add_line(page, "Driver: %s", info->caps->version);
     }
     add_addresses(page);
     if (uname(&system) == 0)
-        add(page, "System: %s %s %s", system.sysname, system.release, system.machine);
+        add_line(page, "System: %s %s %s", system.sysname, system.release, system.machine);
     add_temperature(page, info->root);
     if (info->uptime_ns > 0) add_uptime(page, info->uptime_ns);
 }
 
 bool gn_info_page_step(struct gn_info_page *page, const struct gn_info *info, int64_t now_ns) {
     if (page->made && now_ns - page->made_ns < GN_NS_PER_S) return false;
-    make(page, info, now_ns);
+    make_text(page, info, now_ns);
     page->made_ns = now_ns;
     page->made = true;
     return true;

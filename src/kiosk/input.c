@@ -1,10 +1,10 @@
-/* Buttons and keys of a kiosk: what they did becomes actions. */
+/* Buttons and keys: gestures become actions. */
 #include <stdio.h>
 
 #include "core/clock.h"
 #include "kiosk/private.h"
 
-/* A window's keys are the window's: who types elsewhere means something else. */
+/* A window has keys of its own: then the terminal's are not read. */
 bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
     gn_input_close(s->buttons.input);
     s->buttons.input = NULL;
@@ -24,15 +24,15 @@ bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
     return s->buttons.input;
 }
 
-static bool other_place(const struct gn_kiosk *a, const struct gn_kiosk *b) {
+static bool place_changes(const struct gn_kiosk *a, const struct gn_kiosk *b) {
     return a->wanted.mode != b->wanted.mode || a->wanted.scene != b->wanted.scene;
 }
 
-/* What changes the picture; who goes back before it was shown has asked for nothing. */
-static void measure(struct gn_show *s, const struct gn_kiosk *before, int64_t edge_ns) {
+/* Only edges that change the picture; one that is undone before it was shown is dropped. */
+static void measure_edge(struct gn_show *s, const struct gn_kiosk *before, int64_t edge_ns) {
     const struct gn_kiosk *now = &s->kiosk;
     const bool changes =
-        other_place(before, now) || before->camera != now->camera || before->info != now->info;
+        place_changes(before, now) || before->camera != now->camera || before->info != now->info;
     if (now->blanked || (gn_kiosk_waits(before) && !gn_kiosk_waits(now)))
         gn_latency_drop(&s->buttons.latency);
     else if (changes)
@@ -50,10 +50,11 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
         if (action.kind == GN_ACTION_NONE) continue;
         const struct gn_kiosk before = s->kiosk;
         gn_show_act(s, &action, event.time_ns);
-        measure(s, &before, event.time_ns);
+        measure_edge(s, &before, event.time_ns);
     }
-    const bool tells = s->config.options->buttons ||
-                       s->stage.settings->run.verbose; /* few have the default ones */
+    const bool tells =
+        s->config.options->buttons ||
+        s->stage.settings->run.verbose; /* not of the default buttons, which few kiosks have */
     while (gn_input_report(s->buttons.input, text, sizeof text))
         if (tells) fprintf(stderr, "gnomon: warning: %s\n", text);
 }

@@ -15,7 +15,7 @@ static int frames_since(const struct gn_latency *l, int64_t edge_ns) {
     return frames;
 }
 
-static void keep(struct gn_latency *l, struct gn_latency_sample sample) {
+static void keep_sample(struct gn_latency *l, struct gn_latency_sample sample) {
     l->kept[l->count++ % GN_LATENCY_KEPT] = sample;
     if (sample.ns > l->worst.ns) l->worst.ns = sample.ns;
     if (sample.frames > l->worst.frames) l->worst.frames = sample.frames;
@@ -25,8 +25,8 @@ void gn_latency_frame(struct gn_latency *l, int64_t now_ns, bool shows) {
     l->frames_ns[l->frames++ % GN_LATENCY_FRAMES] = now_ns;
     if (!shows) return;
     for (int i = 0; i < l->waiting; i++)
-        keep(l,
-             (struct gn_latency_sample){now_ns - l->edges_ns[i], frames_since(l, l->edges_ns[i])});
+        keep_sample(l, (struct gn_latency_sample){now_ns - l->edges_ns[i],
+                                                  frames_since(l, l->edges_ns[i])});
     l->waiting = 0;
 }
 

@@ -1,6 +1,5 @@
-/* How long it takes from somebody's finger to the screen: from the time of the edge that made a
- * gesture, as the kernel stamped it, to the commit of the first frame that shows what came of it.
- * The debouncing is part of it. Pure. */
+/* Latency from a button to the screen: from the kernel's timestamp of the edge that made a gesture
+ * to the commit of the first frame that shows its effect. It includes debouncing. Pure. */
 #ifndef GN_KIOSK_LATENCY_H
 #define GN_KIOSK_LATENCY_H
 
@@ -11,28 +10,28 @@ enum { GN_LATENCY_WAITING = 32, GN_LATENCY_FRAMES = 64, GN_LATENCY_KEPT = 256 };
 
 struct gn_latency_sample {
     int64_t ns;
-    int frames; /* committed since the edge, the one that shows it among them: 1, the very next; at
+    int frames; /* committed since the edge, including the one that shows it: 1 is the next one; at
                    most GN_LATENCY_FRAMES */
 };
-struct gn_latency {                       /* zeroed: nothing has happened yet */
-    int64_t edges_ns[GN_LATENCY_WAITING]; /* what came of them is not on its way yet */
+struct gn_latency {                       /* zeroed: no edge yet */
+    int64_t edges_ns[GN_LATENCY_WAITING]; /* not shown by any frame yet */
     int waiting;
     int64_t frames_ns[GN_LATENCY_FRAMES]; /* when the last frames were committed, a ring */
     unsigned frames;
     struct gn_latency_sample kept[GN_LATENCY_KEPT]; /* a ring */
-    uint64_t count;                                 /* of all that were ever seen */
-    struct gn_latency_sample worst;                 /* ever, each of its own */
+    uint64_t count;                                 /* samples since the start */
+    struct gn_latency_sample worst;                 /* of each field, since the start */
 };
 
-/* All times are monotonic. An edge that will change the picture; where more than
- * GN_LATENCY_WAITING wait the rest is not measured. */
+/* All times are monotonic. An edge that will change the picture. When GN_LATENCY_WAITING edges wait
+ * already it is not measured. */
 void gn_latency_edge(struct gn_latency *latency, int64_t edge_ns);
-/* A frame is committed; shows: what all edges so far have asked for is in it. */
+/* A frame was committed; shows: it has the effect of all edges so far. */
 void gn_latency_frame(struct gn_latency *latency, int64_t now_ns, bool shows);
-/* What was asked for will not be shown. */
+/* The effect of the waiting edges will not be shown: forget them. */
 void gn_latency_drop(struct gn_latency *latency);
 
-/* Of what was seen last; zeroed where nothing was. */
+/* The last sample; zeroed if there is none. */
 struct gn_latency_sample gn_latency_last(const struct gn_latency *latency);
 
 struct gn_latency_report {

@@ -15,13 +15,15 @@ int gn_kiosk_scene(const struct gn_kiosk_rules *rules, const struct gn_kiosk_pla
     return own > 0 ? own - 1 : place->scene;
 }
 
-static bool same(const struct gn_kiosk_place *a, const struct gn_kiosk_place *b) {
+static bool same_place(const struct gn_kiosk_place *a, const struct gn_kiosk_place *b) {
     return a->mode == b->mode && a->scene == b->scene;
 }
 
-bool gn_kiosk_waits(const struct gn_kiosk *state) { return !same(&state->shown, &state->wanted); }
+bool gn_kiosk_waits(const struct gn_kiosk *state) {
+    return !same_place(&state->shown, &state->wanted);
+}
 
-static void caption(struct gn_kiosk *s, enum gn_kiosk_caption what, int64_t time_ns) {
+static void set_caption(struct gn_kiosk *s, enum gn_kiosk_caption what, int64_t time_ns) {
     s->caption = what;
     s->caption_ns = time_ns;
 }
@@ -33,7 +35,7 @@ static bool mode_is_bad(const struct gn_kiosk_rules *rules, const struct gn_kios
     return s->bad_modes >> mode & 1 || (own > 0 && s->bad_scenes >> (own - 1) & 1);
 }
 
-/* The next one that can be shown, or the same. */
+/* The next mode that has not failed; if all have, the same one. */
 static void want_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int by) {
     const int count = modes_of(rules);
     int mode = s->wanted.mode;
@@ -44,7 +46,7 @@ static void want_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, in
     s->wanted.mode = mode;
 }
 
-/* When all others are bad they are tried once more: somebody may have mended them. */
+/* When all others have failed they are tried again: their files may be fixed by now. */
 static void want_next_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s) {
     const int count = scenes_of(rules);
     int scene = s->wanted.scene;
@@ -62,22 +64,21 @@ static void want_next_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk 
 static void want_named(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int mode) {
     if (mode < 0 || mode >= modes_of(rules)) return;
     const int own = rules->own_scene[mode];
-    s->bad_modes &= ~(1u << mode); /* whoever names it may know better */
+    s->bad_modes &= ~(1u << mode); /* asked for by name: try again */
     if (own > 0) s->bad_scenes &= ~(UINT64_C(1) << (own - 1));
     s->wanted.mode = mode;
 }
 
 /* ---- actions ---- */
 
-/* The pause ends where it began: the time between two frames before it and after it is not counted.
- */
+/* The scene's time continues where it was paused. */
 static void toggle_pause(struct gn_kiosk *s, int64_t time_ns) {
     s->paused = !s->paused;
     if (!s->paused && s->seen_ns != 0 && time_ns > s->seen_ns) s->seen_ns = time_ns;
 }
 
-static void act(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
-                const struct gn_kiosk_event *e) {
+static void apply_action(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                         const struct gn_kiosk_event *e) {
     if (e->action == GN_ACTION_NONE) return;
     s->used_ns = e->time_ns;
     if (s->blanked) {
@@ -96,33 +97,34 @@ static void act(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     default: return;
     }
     static const enum gn_kiosk_caption captions[GN_ACTION_KIND_COUNT] = {
-        [GN_ACTION_NEXT] = GN_KIOSK_SAYS_MODE,
-        [GN_ACTION_PREV] = GN_KIOSK_SAYS_MODE,
-        [GN_ACTION_MODE] = GN_KIOSK_SAYS_MODE,
-        [GN_ACTION_NEXT_SCENE] = GN_KIOSK_SAYS_SCENE,
-        [GN_ACTION_NEXT_CAMERA] = GN_KIOSK_SAYS_CAMERA,
-        [GN_ACTION_PAUSE] = GN_KIOSK_SAYS_PAUSE,
+        [GN_ACTION_NEXT] = GN_KIOSK_CAPTION_MODE,
+        [GN_ACTION_PREV] = GN_KIOSK_CAPTION_MODE,
+        [GN_ACTION_MODE] = GN_KIOSK_CAPTION_MODE,
+        [GN_ACTION_NEXT_SCENE] = GN_KIOSK_CAPTION_SCENE,
+        [GN_ACTION_NEXT_CAMERA] = GN_KIOSK_CAPTION_CAMERA,
+        [GN_ACTION_PAUSE] = GN_KIOSK_CAPTION_PAUSE,
     };
-    if (captions[e->action]) caption(s, captions[e->action], e->time_ns);
+    if (captions[e->action]) set_caption(s, captions[e->action], e->time_ns);
 }
 
 /* ---- other events ---- */
 
-static void frame(struct gn_kiosk *s, int64_t seen_ns) {
+static void advance_scene(struct gn_kiosk *s, int64_t seen_ns) {
     if (!s->paused && s->seen_ns != 0) s->scene_ns += seen_ns - s->seen_ns;
     s->seen_ns = seen_ns;
 }
 
-/* What is wrong takes longer to read. */
-static int64_t stands_ns(const struct gn_kiosk_rules *rules, enum gn_kiosk_caption caption) {
-    return (caption == GN_KIOSK_SAYS_PROBLEM ? 5 : 1) * rules->caption_ns;
+/* A problem is a longer text to read. */
+static int64_t caption_duration_ns(const struct gn_kiosk_rules *rules,
+                                   enum gn_kiosk_caption caption) {
+    return (caption == GN_KIOSK_CAPTION_PROBLEM ? 5 : 1) * rules->caption_ns;
 }
 
-static void tick(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t now_ns) {
+static void check_timeouts(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t now_ns) {
     if (s->used_ns == 0) s->used_ns = now_ns;
     if (s->fade_ns != 0 && now_ns - s->fade_ns >= rules->fade_ns) s->fade_ns = 0;
-    if (s->caption && now_ns - s->caption_ns >= stands_ns(rules, s->caption))
-        s->caption = GN_KIOSK_SAYS_NOTHING;
+    if (s->caption && now_ns - s->caption_ns >= caption_duration_ns(rules, s->caption))
+        s->caption = GN_KIOSK_CAPTION_NONE;
     if (rules->idle == GN_IDLE_NONE || rules->idle_after_ns <= 0 || s->blanked ||
         now_ns - s->used_ns < rules->idle_after_ns)
         return;
@@ -137,8 +139,8 @@ static void tick(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t
     s->camera = 0;
 }
 
-static void show(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
-                 const struct gn_kiosk_event *e) {
+static void enter_wanted(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                         const struct gn_kiosk_event *e) {
     const int before = gn_kiosk_scene(rules, &s->shown);
     if (e->mode != s->wanted.mode || e->scene != gn_kiosk_scene(rules, &s->wanted) ||
         !gn_kiosk_waits(s))
@@ -158,7 +160,7 @@ static void give_up_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s
         s->wanted.mode = s->shown.mode;
     else
         s->wanted.scene = s->shown.scene;
-    caption(s, GN_KIOSK_SAYS_PROBLEM, e->time_ns);
+    set_caption(s, GN_KIOSK_CAPTION_PROBLEM, e->time_ns);
 }
 
 static void give_up_mode(struct gn_kiosk *s, const struct gn_kiosk_event *e) {
@@ -166,17 +168,17 @@ static void give_up_mode(struct gn_kiosk *s, const struct gn_kiosk_event *e) {
     s->bad_modes |= 1u << e->mode;
     if (s->wanted.mode != e->mode || s->shown.mode == e->mode) return;
     s->wanted.mode = s->shown.mode;
-    caption(s, GN_KIOSK_SAYS_PROBLEM, e->time_ns);
+    set_caption(s, GN_KIOSK_CAPTION_PROBLEM, e->time_ns);
 }
 
 struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state,
                               const struct gn_kiosk_event *event) {
     struct gn_kiosk next = *state;
     switch (event->kind) {
-    case GN_KIOSK_ACTION: act(rules, &next, event); break;
-    case GN_KIOSK_FRAME: frame(&next, event->time_ns); break;
-    case GN_KIOSK_TICK: tick(rules, &next, event->time_ns); break;
-    case GN_KIOSK_READY: show(rules, &next, event); break;
+    case GN_KIOSK_ACTION: apply_action(rules, &next, event); break;
+    case GN_KIOSK_FRAME: advance_scene(&next, event->time_ns); break;
+    case GN_KIOSK_TICK: check_timeouts(rules, &next, event->time_ns); break;
+    case GN_KIOSK_READY: enter_wanted(rules, &next, event); break;
     case GN_KIOSK_MODE_FAILED: give_up_mode(&next, event); break;
     case GN_KIOSK_SCENE_FAILED: give_up_scene(rules, &next, event); break;
     default: break;
@@ -184,7 +186,7 @@ struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct g
     return next;
 }
 
-/* ---- what there is to see ---- */
+/* ---- what a frame shows ---- */
 
 static float share_of_old(const struct gn_kiosk_rules *rules, const struct gn_kiosk *s,
                           int64_t seen_ns) {
@@ -208,20 +210,20 @@ struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const str
         .caption_scene = gn_kiosk_scene(rules, &state->wanted),
     };
     if (!state->paused && state->seen_ns != 0) view.time_ns += seen_ns - state->seen_ns;
-    if (seen_ns - state->caption_ns < stands_ns(rules, state->caption))
+    if (seen_ns - state->caption_ns < caption_duration_ns(rules, state->caption))
         view.caption = state->caption;
     return view;
 }
 
-static int64_t earlier(int64_t a, int64_t b) { return a < b ? a : b; }
+static int64_t earlier_ns(int64_t a, int64_t b) { return a < b ? a : b; }
 
 int64_t gn_kiosk_deadline(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state) {
     int64_t at_ns = INT64_MAX;
-    if (state->fade_ns != 0) at_ns = earlier(at_ns, state->fade_ns + rules->fade_ns);
+    if (state->fade_ns != 0) at_ns = earlier_ns(at_ns, state->fade_ns + rules->fade_ns);
     if (state->caption)
-        at_ns = earlier(at_ns, state->caption_ns + stands_ns(rules, state->caption));
+        at_ns = earlier_ns(at_ns, state->caption_ns + caption_duration_ns(rules, state->caption));
     if (rules->idle != GN_IDLE_NONE && rules->idle_after_ns > 0 && !state->blanked)
-        at_ns = earlier(at_ns, state->used_ns + rules->idle_after_ns);
+        at_ns = earlier_ns(at_ns, state->used_ns + rules->idle_after_ns);
     return at_ns;
 }
 

@@ -1,4 +1,4 @@
-/* The modes of a kiosk: which there are, with which scenes, and one of them applied. */
+/* The modes of the kiosk: their list, their scenes, and one of them entered. */
 #include <string.h>
 
 #include "kiosk/private.h"
@@ -20,8 +20,9 @@ int gn_show_find_mode(const struct gn_show_modes *modes, const char *name) {
     return -1;
 }
 
-/* What there is to see of, best first. The one that the options name anyway overrides nothing, so
- * that lights keep what they name themselves; where a flag names it, it is the only one. */
+/* Without modes in the file each technique is one, the best first. The technique of the options
+ * gets no settings of its own, so that lights keep the technique that the scene names; if it comes
+ * from the command line it is the only mode. */
 static void list_techniques(struct gn_show *s) {
     enum gn_technique order[GN_TECHNIQUE_COUNT];
     const struct gn_settings *o = &s->config.options->all[0];
@@ -48,7 +49,7 @@ static bool same_text(const char *a, const char *b) {
     return a == b || (a && b && strcmp(a, b) == 0);
 }
 
-/* The number of a path, which becomes one of the list if there is room. */
+/* The number of a path; a new one is added if there is room. */
 static int find_scene(struct gn_show_scenes *scenes, const char *path) {
     for (int i = 0; i < scenes->count; i++)
         if (same_text(scenes->paths[i], path)) return i;

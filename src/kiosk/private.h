@@ -30,7 +30,7 @@ struct gn_show_config {
 struct gn_show_context {
     struct gn_screen_opts screen_opts;
     uint32_t generation; /* of the context that stage.gl lives in; 0: none */
-    bool notice;         /* the screen shows a text in place of pictures */
+    bool message;        /* the screen shows a text in place of pictures */
     bool unencoded;      /* as frames are drawn now */
     uint32_t msaa;
     uint64_t checked_stalls; /* stalled flips when the GPU was last tested, */
@@ -42,28 +42,27 @@ struct gn_show_buttons {
     struct gn_input *input;                     /* NULL while there is none */
     struct gn_latency latency;
 };
-/* Modes: those of the INI file, else the techniques that there are. */
+/* Modes: those of the INI file, else the techniques. */
 struct gn_show_modes {
     int count, first;
     const char *names[GN_KIOSK_MODES_MAX];
     int settings[GN_KIOSK_MODES_MAX]; /* places in options->all */
-    int base;                         /* the one that overrides nothing; -1: none */
+    int base;                         /* the one without settings of its own; -1: none */
 };
-/* A scene that is drawn or will be: what each mode makes of it, and for which of them all programs
- * are there. */
+/* Of one scene, for each mode: how it is drawn, and whether its programs are made. */
 struct gn_show_looks {
     struct gn_stage_look of[GN_KIOSK_MODES_MAX];
-    uint32_t ready; /* a bit a mode */
+    uint32_t ready; /* bits 1 << mode */
 };
 struct gn_show_scenes {
     const char *paths[GN_KIOSK_SCENES_MAX]; /* NULL: the default scene */
-    int count, listed;                      /* next-scene goes through the listed ones */
-    int shown;                              /* the stage's */
+    int count, listed;                      /* the first `listed` are those of next-scene */
+    int shown;                              /* the number of the stage's scene */
     struct gn_loader *loader;
     struct gn_watch loader_watch;
-    struct gn_loaded *staged; /* NULL, or the one that will follow */
-    struct gn_frame *frame;   /* of the staged one, while there is a context */
-    bool whole;               /* the staged one is on the GPU */
+    struct gn_loaded *staged; /* loaded, to be shown next; NULL: none */
+    struct gn_frame *frame;   /* of the staged scene, while there is a context */
+    bool whole;               /* all of the staged scene is on the GPU */
     struct gn_show_looks looks;
 };
 
@@ -141,43 +140,45 @@ bool gn_show_frame(struct gn_show *show, struct gn_err *err);
 /* ---- screen.c: the display and its context --------------------------------------------------- */
 
 bool gn_show_open_display(struct gn_show *show, struct gn_err *err);
+/* False: between these settings the display has to be opened again. */
 bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b);
-/* What a frame is drawn with, and how large, follows the screen. */
+/* Frame options that follow from the screen: size, rotation, encoding, MSAA. */
 void gn_show_fit_to_screen(struct gn_show *show);
-bool gn_show_is_stale(const struct gn_show *show);
+bool gn_show_is_stale(const struct gn_show *show); /* gn_show_keep_context() is due */
+/* Renews a lost context and starts GL in a new one. A failure of GL is shown on the screen. */
 bool gn_show_keep_context(struct gn_show *show, struct gn_err *err);
 void gn_show_stop_gl(struct gn_show *show);
 
 /* ---- ahead.c: programs and scenes made ready while others are shown -------------------------- */
 
-/* Does a piece of it, if there is any: a program, or a few hundred kilobytes. */
+/* Does one piece, if there is any: a program, or an upload of at most 1 MiB. */
 void gn_show_work(struct gn_show *show);
 bool gn_show_has_work(const struct gn_show *show);
-/* The context is another: programs are to be made again. */
+/* The context ends, and with it all programs and uploads. */
 void gn_show_forget_work(struct gn_show *show);
 /* A new loader; what the one before still loads is dropped. */
 bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
 void gn_show_close_loader(struct gn_show *show);
-/* Loads what the kiosk waits for, and shows it once it is ready. */
+/* Loads the wanted scene, and shows the wanted mode and scene once they are ready. */
 void gn_show_advance(struct gn_show *show);
-/* What the kiosk waits for is ready, and nothing else is to come before it. */
+/* gn_show_advance() can show the wanted mode and scene now. */
 bool gn_show_can_advance(const struct gn_show *show);
 void gn_show_drop_staged(struct gn_show *show);
 
 /* ---- captions.c: texts on the picture -------------------------------------------------------- */
 
-/* With the options' font; again after a reload. */
+/* With the font of the settings; called again after a reload. */
 void gn_show_open_captions(struct gn_show *show);
-/* What a frame says that is seen then. */
+/* Sets the texts of the frame of that view. */
 void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *view, int64_t now_ns);
-/* When another frame is due for it; 0: at once, INT64_MAX: never. */
+/* When the texts need another frame; 0: at once, INT64_MAX: never. */
 int64_t gn_show_captions_due_ns(const struct gn_show *show);
 
 /* ---- input.c: buttons and keys --------------------------------------------------------------- */
 
-/* After the display, whose window has keys of its own. Again after a reload. */
+/* After the display is open: a window has keys of its own. Called again after a reload. */
 bool gn_show_open_input(struct gn_show *show, struct gn_err *err);
-/* What they did becomes actions, and what is wrong with them a word on stderr. */
+/* Turns gestures into actions, and reports of the input into warnings on stderr. */
 void gn_show_take_input(struct gn_show *show, const struct gn_pointer *pointer);
 
 /* ---- begin.c: from arguments to a first mode ------------------------------------------------- */
@@ -187,30 +188,30 @@ struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn
 void gn_show_drop_options(struct gn_options *options);
 bool gn_show_load(struct gn_stage *stage, struct gn_options *options, struct gn_warnings *warnings,
                   struct gn_err *err);
-/* With options and a stage that was loaded by them: modes, scenes, and the first of both. */
+/* After the options and the stage are loaded: lists modes and scenes, enters the first. */
 bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 
 /* ---- events.c: actions as events of the machine; problems ------------------------------------ */
 
 void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
-/* What went wrong without ending anything: printed once, also on the screen. */
+/* A problem that does not end the kiosk: printed once, and shown by a caption. */
 void gn_show_report_problem(struct gn_show *show, const char *text);
 
 /* ---- modes.c: the list of modes, and one of them entered ------------------------------------- */
 
-/* Of the options, with the scenes that they name. */
+/* Fills modes, scenes and rules from the options. */
 void gn_show_list_modes(struct gn_show *show);
-/* -1: none of that name. */
+/* -1: no mode of that name. */
 int gn_show_find_mode(const struct gn_show_modes *modes, const char *name);
 const struct gn_settings *gn_show_settings(const struct gn_show *show, int mode);
-/* What the options say of how the kiosk behaves; the modes stay. */
+/* Rules that `ctl set` may change: idle, fade, captions. */
 void gn_show_take_rules(struct gn_show *show);
-/* What each mode makes of a scene. */
+/* How each mode draws that scene. */
 bool gn_show_look(const struct gn_show *show, const struct gn_scene *scene,
                   struct gn_show_looks *looks, struct gn_err *err);
-/* The kiosk's mode, on the stage. */
+/* Puts the settings of the mode that is shown on the stage. */
 void gn_show_enter(struct gn_show *show);
-/* The camera of the kiosk's, too; to be called for each frame. */
+/* Sets the camera of a view; called for each frame. */
 void gn_show_take_view(struct gn_show *show, const struct gn_kiosk_view *view);
 
 #endif

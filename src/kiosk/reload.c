@@ -1,11 +1,11 @@
-/* SIGHUP: all that the options say, once more, from the start. What cannot be loaded leaves the
- * picture as it is, and a bad file the last good one. */
+/* Reload (SIGHUP, ctl): all options are read again. If that or the scene fails the kiosk keeps the
+ * last good configuration and its picture. */
 #include <stdio.h>
 #include <string.h>
 
 #include "kiosk/private.h"
 
-/* The new scene in the old one's place, in the mode of that name if there still is one. */
+/* Replaces stage and options; the display stays open if its settings are the same. */
 static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_options *options,
                        struct gn_err *err) {
     const bool keeps_display = gn_show_same_screen(s->stage.settings, options->settings);
@@ -16,7 +16,7 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
         s->stage.display = (struct gn_display){0};
     }
     gn_stage_close(&s->stage);
-    gn_input_close(s->buttons.input); /* its buttons' names are the options' */
+    gn_input_close(s->buttons.input); /* it points to names in the options */
     s->buttons.input = NULL;
     gn_changes_destroy(s->config.changes);
     s->config.changes = NULL;
@@ -31,7 +31,7 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
     gn_show_open_captions(s);
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why))
-        gn_show_report_problem(s, why.text); /* and none can be pressed */
+        gn_show_report_problem(s, why.text); /* the kiosk runs without buttons */
     s->kiosk.blanked = blanked;
     if (!s->stage.settings->run.verbose) return true;
     printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
@@ -45,11 +45,11 @@ static void keep_mode(const struct gn_show *s, struct gn_options *options) {
     if (found) options->settings = &options->all[found];
 }
 
-/* The last good one runs on, and says what is wrong with the one that is there. */
+/* The error of the file on disk is shown on the screen. */
 static void keep_error(struct gn_show *s, const struct gn_err *why) {
     snprintf(s->config.error, sizeof s->config.error, "%s", why->text);
     s->config.options->config_error = s->config.error;
-    s->changed = true; /* it is said on the screen */
+    s->changed = true; /* draw its caption */
 }
 
 static struct gn_options *read_again(const struct gn_show *s, struct gn_err *why) {

@@ -1,4 +1,4 @@
-/* The display of a kiosk, and the context that it draws with. */
+/* The display of the kiosk, and its GL context. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "kiosk/private.h"
 #include "stage/wake.h"
 
-static bool encodes(const struct gn_settings *o) {
+static bool is_srgb(const struct gn_settings *o) {
     uint32_t without = 0;
     return !gn_caps_parse(o->render.without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
 }
@@ -31,7 +31,7 @@ static struct gn_screen_opts screen_opts_of(const struct gn_show *s, int64_t aga
         .cap_hz = o->display.max_mode.hz,
         .rotate_deg = (unsigned)o->display.rotate_deg,
         .max_fps = (unsigned)o->display.max_fps,
-        .unencoded = !encodes(o),
+        .unencoded = !is_srgb(o),
         .legacy = o->display.legacy,
         .again_ns = again_ns,
     };
@@ -40,7 +40,7 @@ static struct gn_screen_opts screen_opts_of(const struct gn_show *s, int64_t aga
 bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
     const struct gn_settings *o = s->stage.settings;
     struct gn_wake wake = {0};
-    /* a still picture, too, is flipped in each half of the supervisor's patience */
+    /* a still picture must be flipped within half of the watchdog's timeout */
     const int64_t again_ns = s->service.every_ns * 3 / 4;
     s->context.screen_opts = screen_opts_of(s, again_ns < 10 * GN_NS_PER_S ? again_ns : 0);
     gn_wake_begin(&wake, o);
@@ -52,14 +52,13 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
     return ok;
 }
 
-/* What tilers draw on chip costs them next to nothing. */
+/* MSAA costs tile-based GPUs next to nothing. */
 static uint32_t samples_of(const struct gn_show *s) {
     const struct gn_settings *o = s->stage.settings;
     if (gn_settings_given(o, render.msaa)) return (uint32_t)o->render.msaa;
     return gn_gl_caps(s->stage.gl)->tiler ? 4 : 0;
 }
 
-/* What a frame is drawn with, and how large, follows the screen. */
 void gn_show_fit_to_screen(struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const bool direct = s->stage.display.ops->screen && !screen->copy_to;
@@ -70,7 +69,7 @@ void gn_show_fit_to_screen(struct gn_show *s) {
     f->turn_deg = screen->rotate_deg;
     const bool unencoded = direct && !screen->srgb;
     const uint32_t msaa = samples_of(s);
-    if (s->context.unencoded != unencoded || s->context.msaa != msaa) { /* other programs */
+    if (s->context.unencoded != unencoded || s->context.msaa != msaa) { /* needs other programs */
         s->looks.ready = s->scenes.looks.ready = 0;
         s->ahead.idle = false;
     }
@@ -79,45 +78,44 @@ void gn_show_fit_to_screen(struct gn_show *s) {
     gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
 }
 
-/* With it goes all that was made ahead. */
 void gn_show_stop_gl(struct gn_show *s) {
     gn_show_forget_work(s);
     gn_stage_stop_gl(&s->stage);
 }
 
-/* A kiosk that cannot draw shows why, and stays: somebody will come and read it. */
-static bool say(struct gn_show *s, struct gn_err *err) {
+/* If GL fails the kiosk shows the reason as a text and keeps running. */
+static bool show_failure(struct gn_show *s, struct gn_err *err) {
     if (gn_stop_asked()) return false;
     gn_show_stop_gl(s);
     if (!gn_display_show_message(&s->stage.display, err->text, gn_clock_monotonic_ns()))
         return false;
-    s->context.notice = true;
+    s->context.message = true;
     fprintf(stderr, "gnomon: warning: %s\n", err->text);
     *err = (struct gn_err){0};
     return true;
 }
 
-/* Programs are made before there is a monitor; what size it will have matters not to them. */
+/* Without a monitor the programs are made by drawing a small frame. */
 static bool start_gl(struct gn_show *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
     s->context.generation = screen->generation;
     s->changed = true;
-    if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return say(s, err);
-    if (s->context.notice)
+    if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return show_failure(s, err);
+    if (s->context.message)
         gn_display_show_message(&s->stage.display, NULL, gn_clock_monotonic_ns());
-    s->context.notice = false;
+    s->context.message = false;
     if (screen->may_draw) return true;
     s->stage.frame_opts.width_px = 64;
     s->stage.frame_opts.height_px = 36;
-    s->stage.frame_opts.captions = NULL; /* they are for another size */
+    s->stage.frame_opts.captions = NULL; /* laid out for another size */
     gn_gl_set_window(s->stage.gl, NULL);
     if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns, s->warnings, err))
-        return say(s, err);
-    gn_gl_finish_frame(s->stage.gl); /* many drivers compile as late as they can */
+        return show_failure(s, err);
+    gn_gl_finish_frame(s->stage.gl); /* many drivers compile at the first draw */
     return true;
 }
 
-static bool renew(struct gn_show *s, struct gn_err *err) {
+static bool renew_context(struct gn_show *s, struct gn_err *err) {
     struct gn_wake wake = {0};
     gn_show_stop_gl(s);
     s->context.generation = 0;
@@ -134,7 +132,7 @@ bool gn_show_is_stale(const struct gn_show *s) {
 
 bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
-    if (screen->lost && !renew(s, err)) return false;
+    if (screen->lost && !renew_context(s, err)) return false;
     if (screen->lost || !screen->has_context || screen->generation == s->context.generation)
         return true;
     gn_show_stop_gl(s);
@@ -145,7 +143,6 @@ static bool same_text(const char *a, const char *b) {
     return a == b || (a && b && strcmp(a, b) == 0);
 }
 
-/* Does the display have to be opened again? */
 bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b) {
     return same_text(a->display.backend, b->display.backend) &&
            same_text(a->display.connector, b->display.connector) &&
@@ -157,5 +154,5 @@ bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *
            memcmp(&a->render.size, &b->render.size, sizeof a->render.size) == 0 &&
            a->display.rotate_deg == b->display.rotate_deg &&
            a->display.max_fps == b->display.max_fps && a->display.legacy == b->display.legacy &&
-           encodes(a) == encodes(b);
+           is_srgb(a) == is_srgb(b);
 }

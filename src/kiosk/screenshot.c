@@ -17,13 +17,13 @@
 
 struct gn_screenshot {
     int done;                 /* an eventfd */
-    bool asked, runs, failed; /* at most one of them */
+    bool asked, runs, failed; /* at most one is true */
     pthread_t thread;
     char path[PATH_MAX];
     uint32_t width_px, height_px;
     unsigned turn_deg;
     uint8_t *rgba;
-    bool ok; /* of the thread, until it is taken */
+    bool ok; /* the result, until it is taken */
     struct gn_err err;
 };
 
@@ -82,8 +82,8 @@ uint8_t *gn_screenshot_begin(struct gn_screenshot *shot, uint32_t width_px, uint
 
 /* ---- in the thread -------------------------------------------------------------------------- */
 
-/* Where the pixel (u, v) of the upright picture stands in one that is turned clockwise. */
-static size_t index_of(const struct gn_screenshot *s, uint32_t u, uint32_t v) {
+/* The index of pixel (u, v) of the upright picture in the turned one. */
+static size_t pixel_index(const struct gn_screenshot *s, uint32_t u, uint32_t v) {
     const uint32_t w = s->width_px, h = s->height_px;
     switch (s->turn_deg) {
     case 90: return (size_t)u * w + (w - 1 - v);
@@ -93,16 +93,16 @@ static size_t index_of(const struct gn_screenshot *s, uint32_t u, uint32_t v) {
     }
 }
 
-static bool write_shot(struct gn_screenshot *s) {
-    const bool lies = s->turn_deg % 180 != 0;
-    const uint32_t width = lies ? s->height_px : s->width_px;
-    const uint32_t height = lies ? s->width_px : s->height_px;
+static bool write_png(struct gn_screenshot *s) {
+    const bool on_side = s->turn_deg % 180 != 0;
+    const uint32_t width = on_side ? s->height_px : s->width_px;
+    const uint32_t height = on_side ? s->width_px : s->height_px;
     struct gn_bytes png = {0};
     uint8_t *rgb = gn_picture_alloc((size_t)width * height, 3, &s->err);
     if (!rgb) return false;
     for (uint32_t v = 0; v < height; v++)
         for (uint32_t u = 0; u < width; u++)
-            memcpy(rgb + 3 * ((size_t)v * width + u), s->rgba + 4 * index_of(s, u, v), 3);
+            memcpy(rgb + 3 * ((size_t)v * width + u), s->rgba + 4 * pixel_index(s, u, v), 3);
     const bool ok = gn_picture_encode_png8(rgb, (int)width, (int)height, &png, &s->err) &&
                     gn_file_replace(s->path, png.data, png.size, &s->err);
     gn_bytes_finish(&png);
@@ -112,14 +112,14 @@ static bool write_shot(struct gn_screenshot *s) {
 
 static void signal_done(const struct gn_screenshot *shot) {
     const uint64_t one = 1;
-    if (write(shot->done, &one, sizeof one) < 0) abort(); /* there is room for more than that */
+    if (write(shot->done, &one, sizeof one) < 0) abort(); /* an eventfd takes more than that */
 }
 
-/* Frames come first: on Linux a thread has a niceness of its own. */
-static void *run(void *user) {
+/* Frames have priority: on Linux a thread has its own nice value. */
+static void *write_in_thread(void *user) {
     struct gn_screenshot *shot = user;
     setpriority(PRIO_PROCESS, 0, 10);
-    shot->ok = write_shot(shot);
+    shot->ok = write_png(shot);
     signal_done(shot);
     return NULL;
 }
@@ -128,7 +128,7 @@ static void *run(void *user) {
 
 bool gn_screenshot_start(struct gn_screenshot *shot, struct gn_err *err) {
     shot->err = (struct gn_err){0};
-    const int reason = pthread_create(&shot->thread, NULL, run, shot);
+    const int reason = pthread_create(&shot->thread, NULL, write_in_thread, shot);
     shot->runs = reason == 0;
     shot->asked = shot->asked && !shot->runs;
     return shot->runs || gn_fail(err, "screenshot: no thread: %s", strerror(reason));

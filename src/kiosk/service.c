@@ -10,8 +10,8 @@
 #include "core/clock.h"
 #include "options/value.h"
 
-/* Whether it arrives is the supervisor's business. */
-static void tell(const struct gn_service *s, const char *text) {
+/* Best effort: a lost datagram is not an error. */
+static void notify(const struct gn_service *s, const char *text) {
     if (s->socket < 0) return;
     const ssize_t sent = sendto(s->socket, text, strlen(text), MSG_NOSIGNAL | MSG_DONTWAIT,
                                 (const struct sockaddr *)&s->to, s->to_length);
@@ -29,7 +29,7 @@ static bool set_address(struct gn_service *s, const char *path) {
     return true;
 }
 
-/* 0: none, or for another process. */
+/* 0: no watchdog, or one for another process. */
 static int64_t watchdog_ns(void) {
     const char *us = getenv("WATCHDOG_USEC"), *pid = getenv("WATCHDOG_PID");
     int64_t value, whose;
@@ -58,22 +58,22 @@ bool gn_service_open(struct gn_service *s, struct gn_loop *loop, int64_t now_ns,
     *s = (struct gn_service){.socket = -1};
     if (!path || !*path) return true;
     if (!set_address(s, path))
-        return gn_fail(err, "NOTIFY_SOCKET=%.80s: it is neither a path nor @ and a name", path);
+        return gn_fail(err, "NOTIFY_SOCKET=%.80s: expected a path or @NAME", path);
     s->socket = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    if (s->socket < 0) return gn_fail(err, "cannot talk to the supervisor: %s", strerror(errno));
+    if (s->socket < 0) return gn_fail(err, "cannot notify the supervisor: %s", strerror(errno));
     start_watchdog(s, loop, now_ns);
     unsetenv("NOTIFY_SOCKET");
     unsetenv("WATCHDOG_USEC");
     return true;
 }
 
-static void tell_status(struct gn_service *s, const struct gn_screen *screen) {
+static void notify_status(struct gn_service *s, const struct gn_screen *screen) {
     char line[sizeof s->status + sizeof "STATUS="];
     const char *now = screen->status[0] ? screen->status : screen->what;
     if (!*now || strcmp(now, s->status) == 0) return;
     snprintf(s->status, sizeof s->status, "%s", now);
     snprintf(line, sizeof line, "STATUS=%s", now);
-    tell(s, line);
+    notify(s, line);
 }
 
 bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64_t now_ns) {
@@ -81,12 +81,12 @@ bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64
     const bool sleeps = screen->blank || screen->status[0];
     if (s->socket < 0) return false;
     if (shown < s->shown) s->shown = 0; /* opened again */
-    tell_status(s, screen);
-    if (!s->ready && (shown > 0 || sleeps)) tell(s, "READY=1");
+    notify_status(s, screen);
+    if (!s->ready && (shown > 0 || sleeps)) notify(s, "READY=1");
     s->ready |= shown > 0 || sleeps;
     if (s->every_ns == 0 || now_ns < s->next_ns) return false;
     if (shown == s->shown && !sleeps) return true;
-    tell(s, "WATCHDOG=1");
+    notify(s, "WATCHDOG=1");
     s->shown = shown;
     s->next_ns = s->timer.due_ns = now_ns + s->every_ns;
     return false;
@@ -94,7 +94,7 @@ bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64
 
 void gn_service_close(struct gn_service *s) {
     if (s->socket < 0) return;
-    tell(s, "STOPPING=1");
+    notify(s, "STOPPING=1");
     close(s->socket);
     gn_loop_remove_timer(&s->timer);
     s->socket = -1;

@@ -1,9 +1,9 @@
-/* What the supervisor is told (sd_notify(3)): a datagram each, to $NOTIFY_SOCKET. READY=1 with the
- * first flip that has completed, or when it is known what is waited for; WATCHDOG=1, every half of
- * $WATCHDOG_USEC, only if a flip has completed since the last one, or the screen sleeps: it was
- * switched off, or waits for a card, a monitor, a console. So whatever hangs - a flip, the GPU, the
- * loop - ends with a restart, and a picture that is still is drawn once more to prove that it can
- * be. Without $NOTIFY_SOCKET all of it does nothing. */
+/* The systemd protocol (sd_notify(3)): a datagram each, to $NOTIFY_SOCKET. READY=1 with the first
+ * completed flip, or as soon as the screen's status says what it waits for. WATCHDOG=1 every half
+ * of $WATCHDOG_USEC, only if a flip has completed since the last one or the screen sleeps: it is
+ * switched off, or waits for a card, a monitor or a console. So a flip, GPU or loop that hangs ends
+ * with a restart, and a still picture is drawn again in time to feed the watchdog. Without
+ * $NOTIFY_SOCKET nothing is done. */
 #ifndef GN_KIOSK_SERVICE_H
 #define GN_KIOSK_SERVICE_H
 
@@ -20,18 +20,18 @@ struct gn_service {
     struct gn_timer timer; /* ends the wait when step is due; added only with a watchdog */
     int64_t every_ns;      /* half of the watchdog's patience; 0: no watchdog */
     int64_t next_ns;
-    uint64_t shown; /* flips that had completed when it was fed last */
+    uint64_t shown; /* completed flips when it was fed last */
     bool ready;
-    char status[160]; /* told last */
+    char status[160]; /* sent last */
     struct sockaddr_un to;
     socklen_t to_length;
 };
 
-/* Takes both variables out of the environment: they are not for programs that this one starts. */
+/* Removes both variables from the environment: child processes must not see them. */
 bool gn_service_open(struct gn_service *service, struct gn_loop *loop, int64_t now_ns,
                      struct gn_err *err);
-/* To be called after the screen was dispatched. True: a frame is wanted, so that one completes. */
+/* To be called after gn_display_dispatch(). True: draw a frame, so that a flip completes. */
 bool gn_service_step(struct gn_service *service, const struct gn_screen *screen, int64_t now_ns);
-void gn_service_close(struct gn_service *service); /* STOPPING=1; legal when not open */
+void gn_service_close(struct gn_service *service); /* sends STOPPING=1; legal when not open */
 
 #endif

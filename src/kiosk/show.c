@@ -20,8 +20,8 @@ static void take_signal(void *user, int number) {
     s->ends |= number != SIGHUP;
 }
 
-/* Before anything else, and for good: a signal that comes while the scene loads, or a second one at
- * the end, ends the kiosk as well as any other. */
+/* First, and until the process ends: a signal while the scene loads, or a second one while the
+ * kiosk closes, must be handled like any other. */
 static bool open_loop(struct gn_show *s, struct gn_err *err) {
     sigset_t set;
     gn_stop_signals(&set);
@@ -34,7 +34,7 @@ static bool open_loop(struct gn_show *s, struct gn_err *err) {
 
 /* ---- a step ---- */
 
-static void take_hand(struct gn_show *s) {
+static void take_pointer(struct gn_show *s) {
     struct gn_screen *screen = &s->stage.display.screen;
     const struct gn_pointer pointer = screen->pointer;
     screen->pointer = (struct gn_pointer){0};
@@ -43,7 +43,7 @@ static void take_hand(struct gn_show *s) {
     gn_show_take_input(s, &pointer);
 }
 
-static void tick(struct gn_show *s) {
+static void tick_machine(struct gn_show *s) {
     const struct gn_kiosk_event event = {.kind = GN_KIOSK_TICK, .time_ns = gn_clock_monotonic_ns()};
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
     if (s->kiosk.blanked != s->stage.display.screen.blank)
@@ -56,15 +56,15 @@ static int64_t due_ns(const struct gn_show *s) {
     const int64_t now_ns = gn_clock_monotonic_ns();
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
     if (gn_show_has_work(s) && s->ahead.due_ns < at_ns) at_ns = s->ahead.due_ns;
-    const int64_t text_ns = gn_show_captions_due_ns(s); /* what is overdue waits for the screen */
+    const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue one waits for the screen */
     if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
     return at_ns;
 }
 
-/* What no frame takes along. */
+/* Background work, done when no frame is due. */
 static void work_between_frames(struct gn_show *s) {
     if (!gn_show_has_work(s) || gn_clock_monotonic_ns() < s->ahead.due_ns) return;
-    gn_gl_set_window(s->stage.gl, NULL); /* which is not ours to draw to now */
+    gn_gl_set_window(s->stage.gl, NULL); /* not bound between begin and present */
     gn_show_work(s);
 }
 
@@ -74,9 +74,9 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     if (s->ends) return true;
     if (s->reloads && !gn_show_reload(s, err)) return false;
     if (!gn_display_dispatch(&s->stage.display, gn_clock_monotonic_ns(), err)) return false;
-    take_hand(s);
+    take_pointer(s);
     if (s->ends) return true;
-    tick(s);
+    tick_machine(s);
     s->changed |= gn_service_step(&s->service, &s->stage.display.screen, gn_clock_monotonic_ns());
     if (!gn_show_keep_context(s, err)) return false;
     gn_show_advance(s);
@@ -85,7 +85,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
         work_between_frames(s);
     else if (!gn_show_frame(s, err))
         return false;
-    gn_show_advance(s); /* the last piece of work may have been what was waited for */
+    gn_show_advance(s); /* the piece of work may have completed what it waits for */
     gn_show_enter_changed(s);
     return true;
 }
@@ -117,7 +117,7 @@ void gn_show_close(struct gn_show *s) {
     free(s);
 }
 
-/* Of what fails half-way the caller asks why it ended, and closes it. */
+/* If it fails half-way the caller closes. */
 static bool open_all(struct gn_show *s, const struct gn_options *options, struct gn_err *err) {
     if (!open_loop(s, err) || !gn_show_open_loader(s, err) ||
         !gn_service_open(&s->service, s->loop, gn_clock_monotonic_ns(), err))
@@ -157,7 +157,7 @@ bool gn_show_run(const struct gn_options *options, struct gn_show_place *place,
     struct gn_show *s = create(place, warnings);
     const bool ok = (open_all(s, options, err) && run(s, err)) ||
                     (err->status != GN_EXIT_DISPLAY &&
-                     (s->ends || gn_stop_asked())); /* what that broke off is no failure */
+                     (s->ends || gn_stop_asked())); /* stopped on purpose: not a failure */
     gn_show_close(s);
     return ok;
 }

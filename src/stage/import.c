@@ -1,6 +1,6 @@
 #include "stage/import.h"
 
-#include <config.h> /* the generated one, not this room's */
+#include <config.h> /* the generated one */
 #include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -14,17 +14,17 @@
 #include "core/stop.h"
 
 enum {
-    LONGEST_S = 75, /* it ends by itself after 60 */
+    LONGEST_S = 75, /* it times out by itself after 60 */
     MOST_FILE_MB = 4095,
-    MOST_MEMORY_MB = 1 << 20, /* it takes no larger numbers */
+    MOST_MEMORY_MB = 1 << 20, /* its largest value of --memory */
 };
 #define PROGRAM "gnomon-import"
 
 bool gn_import_wants(const char *path) { return gn_model_format_of(path) != GN_MODEL_FORMAT_COUNT; }
 
-/* ---- where it is ---- */
+/* ---- finding the program ---- */
 
-static bool is_there(char *out, size_t size, int length, const char *folder, const char *more) {
+static bool is_program(char *out, size_t size, int length, const char *folder, const char *more) {
     struct stat info;
     int all = snprintf(out, size, "%.*s%s/" PROGRAM, length, folder, more);
     return all < (int)size && stat(out, &info) == 0 && S_ISREG(info.st_mode) &&
@@ -37,14 +37,15 @@ static bool find_beside(char *out, size_t size) {
     if (length <= 0) return false;
     own[length] = 0;
     int folder = (int)(strrchr(own, '/') - own);
-    return is_there(out, size, folder, own, "") || is_there(out, size, folder, own, "/../libexec");
+    return is_program(out, size, folder, own, "") ||
+           is_program(out, size, folder, own, "/../libexec");
 }
 
 static bool find_in_path(char *out, size_t size) {
     const char *at = getenv("PATH");
     while (at && *at) {
         int length = (int)strcspn(at, ":");
-        if (length > 0 && is_there(out, size, length, at, "")) return true;
+        if (length > 0 && is_program(out, size, length, at, "")) return true;
         at += length + (at[length] == ':');
     }
     return false;
@@ -52,21 +53,21 @@ static bool find_in_path(char *out, size_t size) {
 
 static bool find_program(char *out, size_t size) {
     static const char prefix[] = GN_PREFIX;
-    return find_beside(out, size) || is_there(out, size, INT32_MAX, prefix, "/libexec") ||
-           is_there(out, size, INT32_MAX, prefix, "/bin") || find_in_path(out, size);
+    return find_beside(out, size) || is_program(out, size, INT32_MAX, prefix, "/libexec") ||
+           is_program(out, size, INT32_MAX, prefix, "/bin") || find_in_path(out, size);
 }
 
 /* ---- running it ---- */
 
 struct job {
     const char *program, *path;
-    uint64_t file_mb, memory_mb; /* 0: as it likes */
-    int glb, log;                /* descriptors of memory, which goes with their last holder */
+    uint64_t file_mb, memory_mb; /* 0: its defaults */
+    int glb, log;                /* memfds: its output and its messages */
 };
 
 static uint64_t at_most(uint64_t value, uint64_t most) { return value < most ? value : most; }
 
-static void exec(void *shared, const void *argument) {
+static void exec_program(void *shared, const void *argument) {
     (void)shared;
     const struct job *job = argument;
     char file[24], memory[24];
@@ -93,8 +94,8 @@ static void exec(void *shared, const void *argument) {
     _exit(127);
 }
 
-/* All that a descriptor of memory holds, or NULL; munmap it. */
-static char *map(int fd, size_t *size) {
+/* The contents of a memfd, to be unmapped; NULL: empty. */
+static char *map_memfd(int fd, size_t *size) {
     struct stat info;
     if (fstat(fd, &info) != 0 || info.st_size <= 0) return NULL;
     void *data = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
@@ -102,12 +103,11 @@ static char *map(int fd, size_t *size) {
     return data == MAP_FAILED ? NULL : data;
 }
 
-/* Lines of "gnomon-import: warning: .." and the one of "gnomon-import: ..", which is why it failed.
- */
+/* Its lines "gnomon-import: warning: .." become warnings, a line "gnomon-import: .." the error. */
 static void read_log(int fd, struct gn_warnings *warnings, struct gn_err *err) {
     static const char start[] = PROGRAM ": ", warning[] = PROGRAM ": warning: ";
     size_t size = 0;
-    char *text = map(fd, &size);
+    char *text = map_memfd(fd, &size);
     for (size_t at = 0, end; text && at < size; at = end + 1) {
         const char *line = text + at, *newline = memchr(line, '\n', size - at);
         end = newline ? (size_t)(newline - text) : size;
@@ -120,9 +120,9 @@ static void read_log(int fd, struct gn_warnings *warnings, struct gn_err *err) {
     if (text) munmap(text, size);
 }
 
-static bool run(const struct job *job, struct gn_warnings *warnings, struct gn_err *err) {
+static bool run_program(const struct job *job, struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_child child = {
-        .work = exec, .argument = job, .stop = gn_stop_asked, .stall_s = LONGEST_S};
+        .work = exec_program, .argument = job, .stop = gn_stop_asked, .stall_s = LONGEST_S};
     struct gn_err end = {0}, said = {0};
     bool ok = gn_child_run(&child, NULL, &end);
     read_log(job->log, warnings, &said);
@@ -132,15 +132,15 @@ static bool run(const struct job *job, struct gn_warnings *warnings, struct gn_e
                    end.text);
 }
 
-static struct gn_scene *load(const struct job *job, const struct gn_scene_limits *limits,
-                             struct gn_warnings *warnings, struct gn_err *err) {
+static struct gn_scene *load_output(const struct job *job, const struct gn_scene_limits *limits,
+                                    struct gn_warnings *warnings, struct gn_err *err) {
     size_t size = 0;
-    char *glb = map(job->glb, &size);
+    char *glb = map_memfd(job->glb, &size);
     struct gn_scene *scene = NULL;
     if (glb)
         scene = gn_scene_load_bytes(job->path, glb, size, limits, warnings, err);
     else
-        gn_fail(err, "%s: " PROGRAM " made nothing of it", job->path);
+        gn_fail(err, "%s: " PROGRAM " wrote no output", job->path);
     if (glb) munmap(glb, size);
     return scene;
 }
@@ -150,8 +150,8 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
     char program[4096];
     if (!find_program(program, sizeof program)) {
         gn_fail(err,
-                "%s: such files are read by " PROGRAM ", which is not installed: put it beside "
-                "gnomon, or name a .glb",
+                "%s: needs " PROGRAM ", which is not installed: install it beside gnomon, or "
+                "convert the file to .glb",
                 path);
         return NULL;
     }
@@ -164,8 +164,8 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
     struct gn_scene *scene = NULL;
     if (job.glb < 0 || job.log < 0)
         gn_fail(err, "%s: no memory to import it: %s", path, strerror(errno));
-    else if (run(&job, warnings, err))
-        scene = load(&job, limits, warnings, err);
+    else if (run_program(&job, warnings, err))
+        scene = load_output(&job, limits, warnings, err);
     if (job.glb >= 0) close(job.glb);
     if (job.log >= 0) close(job.log);
     return scene;

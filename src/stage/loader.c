@@ -12,12 +12,12 @@
 #include "core/arena.h"
 #include "stage/stage.h"
 
-/* Shared by two; the one that comes last frees it. The thread touches nothing else. */
+/* Shared by loader and thread; whichever leaves last frees it. The thread uses nothing else. */
 struct job {
     struct gn_loaded *loaded;
     struct gn_scene_limits limits;
     char *path; /* NULL: the default scene */
-    int event;  /* its own descriptor of the loader's */
+    int event;  /* a duplicate of the loader's */
     atomic_int state;
 };
 enum { RUNS, IS_DONE, IS_LEFT };
@@ -41,13 +41,13 @@ static void job_destroy(struct job *job) {
     free(job);
 }
 
-static void *work(void *argument) {
+static void *load_in_thread(void *argument) {
     static const uint64_t one = 1;
     struct job *job = argument;
     struct gn_loaded *l = job->loaded;
     l->scene = gn_stage_read(job->path, &job->limits, &l->warnings, &l->err);
     if (l->scene) gn_pose_init(&l->pose, l->scene, GN_POSE_DEFAULT);
-    const int event = dup(job->event); /* the job may be gone once it is done */
+    const int event = dup(job->event); /* the job may be freed once it is done */
     if (atomic_exchange(&job->state, IS_DONE) == IS_LEFT) job_destroy(job);
     if (event >= 0 && write(event, &one, sizeof one) < 0) {
     }
@@ -73,7 +73,7 @@ static bool start_thread(struct job *job, struct gn_err *err) {
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
     pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
-    const int error = pthread_create(&thread, &attributes, work, job);
+    const int error = pthread_create(&thread, &attributes, load_in_thread, job);
     pthread_attr_destroy(&attributes);
     return error == 0 || gn_fail(err, "no thread to load a scene: %s", strerror(error));
 }

@@ -7,23 +7,23 @@
 
 struct gn_loader;
 struct gn_loaded {
-    int number;             /* as it was given to start */
-    struct gn_scene *scene; /* NULL: it failed, and err says why */
+    int number;             /* of gn_loader_start() */
+    struct gn_scene *scene; /* NULL: failed, see err */
     struct gn_pose pose;    /* of the scene, with its default clips, at 0 */
     struct gn_err err;
     struct gn_warnings warnings;
 };
 
 struct gn_loader *gn_loader_open(struct gn_err *err);
-int gn_loader_fd(const struct gn_loader *loader); /* readable when there is something to take */
+int gn_loader_fd(const struct gn_loader *loader); /* readable when a scene can be taken */
 bool gn_loader_is_busy(const struct gn_loader *loader);
-/* Begins; not while it is busy. path is copied, NULL: the default scene. */
+/* Starts the thread; not while busy. The path is copied; NULL: the built-in scene. */
 bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
                      const struct gn_scene_limits *limits, struct gn_err *err);
-/* What was loaded; it is the caller's. NULL: nothing yet. */
+/* The loaded scene, owned by the caller; NULL: not done yet. */
 struct gn_loaded *gn_loader_take(struct gn_loader *loader);
 void gn_loaded_destroy(struct gn_loaded *loaded); /* NULL is legal */
-/* Never waits: what still loads is left to itself, and nobody hears of it. */
+/* Does not wait: a thread that still loads frees its scene when it is done. */
 void gn_loader_close(struct gn_loader *loader);
 
 #endif

@@ -16,7 +16,7 @@ struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *l
                                      : gn_scene_load(path, limits, warnings, err);
     const struct gn_embedded *sundial = gn_embedded_find("sundial.glb");
     if (!sundial) {
-        gn_fail(err, "this build has no scene inside: name one");
+        gn_fail(err, "this build has no built-in scene: name a file");
         return NULL;
     }
     return gn_scene_load_bytes("(default scene)", sundial->data, sundial->size, limits, warnings,
@@ -33,7 +33,7 @@ bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits 
     return true;
 }
 
-/* Where the name comes from is said if it does not stand on the command line. */
+/* A name that is not from the command line is reported with its source. */
 struct gn_scene *gn_stage_scene(const struct gn_settings *settings, struct gn_warnings *warnings,
                                 struct gn_err *err) {
     struct gn_scene_limits limits;
@@ -45,8 +45,8 @@ struct gn_scene *gn_stage_scene(const struct gn_settings *settings, struct gn_wa
     return scene;
 }
 
-/* What the scene does not have. A kiosk whose file names it runs on without, as it does with any
- * bad file; else false, and err says where it stands. */
+/* The scene lacks something that a setting names. A kiosk whose file names it continues with a
+ * warning; else false, with the source in err. */
 static bool do_without(const struct gn_settings *o, size_t offset, struct gn_warnings *warnings,
                        struct gn_err *err) {
     gn_fail_prefix(err, "%s", gn_settings_label_at(o, offset));
@@ -57,7 +57,7 @@ static bool do_without(const struct gn_settings *o, size_t offset, struct gn_war
     return true;
 }
 
-/* Of --animation and --no-animation the stronger one holds: command line, mode, file. */
+/* Of --animation and --no-animation the stronger source wins: command line, mode, file. */
 static bool stands_still(const struct gn_settings *o) {
     if (o->scene.animation && strcmp(o->scene.animation, "none") == 0) return true;
     size_t still = offsetof(struct gn_settings, scene.no_animation),
@@ -94,7 +94,7 @@ static bool check_light(const struct gn_settings *o, const struct gn_scene *scen
                          scene->light_count == 1 ? "" : "s");
 }
 
-/* A frame follows, which a picture in a file has not. */
+/* Frames follow one another, unlike a picture in a file. */
 static bool is_watched(const struct gn_settings *o) {
     return o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
 }

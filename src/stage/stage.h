@@ -1,4 +1,4 @@
-/* What render, bench and show have in common: a scene at a time, a display, a GPU, a frame builder.
+/* A scene, a display, its GL and a frame builder together, for render, bench, doctor and the kiosk.
  */
 #ifndef GN_STAGE_STAGE_H
 #define GN_STAGE_STAGE_H
@@ -9,7 +9,7 @@
 #include "gl/gl.h"
 #include "options/settings.h"
 
-/* How a scene is to be drawn, of what options say. */
+/* How a scene is drawn, by the settings. */
 struct gn_stage_look {
     struct gn_frame_opts frame_opts;
     int clips; /* as gn_pose_init() wants them */
@@ -28,8 +28,7 @@ struct gn_stage {
 /* --limit, as the loader wants them. */
 bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits *limits,
                      struct gn_err *err);
-/* A scene by its path, or for NULL the default one inside the program. Asks nothing of anybody: it
- * may run in a thread. */
+/* A scene by its path; NULL: the built-in one. Uses no shared state: it may run in a thread. */
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err);
 /* Checks what the options say about a scene (camera, animation, light, technique). */
@@ -50,13 +49,12 @@ bool gn_stage_start_gl(struct gn_stage *stage, struct gn_warnings *warnings, str
 void gn_stage_stop_gl(struct gn_stage *stage);
 /* The scene and the turntable at a time. */
 void gn_stage_pose(struct gn_stage *stage, int64_t time_ns);
-/* Builds the plan of the pose and frame_opts as they are and makes what it needs. What the GPU
- * turns out not to have, against its own word, is done without, as if it stood in --without; a
- * warning says so. NULL on failure; with -v the source of a shader that does not compile has then
- * been printed, for it is too long for any other way. */
+/* Builds the plan of the current pose and frame_opts and makes its GL objects. A capability that
+ * the GPU claims and a test draw disproves is left out, as by --without, with a warning. NULL on
+ * failure; with -v the source of a shader that does not compile is printed. */
 const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *warnings,
                                     struct gn_err *err);
-/* Poses at a time, builds the plan, makes what it needs and draws it. NULL on failure. */
+/* Poses at a time, builds the plan, makes its objects and draws it. NULL on failure. */
 const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
                                     struct gn_warnings *warnings, struct gn_err *err);
 void gn_stage_close(

@@ -9,11 +9,12 @@
 
 static const int crashes[GN_WAKE_CRASHES] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
-static int heard = STDERR_FILENO; /* where our own line goes */
+static int heard = STDERR_FILENO; /* for our own line */
 
-static void say_and_end(int signal) {
-    static const char line[] = "gnomon: the graphics driver crashes as it starts; gnomon doctor "
-                               "tells which do, --backend chooses one\n";
+static void report_crash(int signal) {
+    static const char line[] =
+        "gnomon: the graphics driver crashed while starting; run gnomon doctor "
+        "to find one that works, choose it with --backend\n";
     (void)signal;
     gn_terminal_leave();
     if (write(heard, line, sizeof line - 1) < 0) _exit(GN_EXIT_WORLD);
@@ -21,7 +22,7 @@ static void say_and_end(int signal) {
 }
 
 void gn_wake_begin(struct gn_wake *wake, const struct gn_settings *settings) {
-    const struct sigaction now = {.sa_handler = say_and_end};
+    const struct sigaction now = {.sa_handler = report_crash};
     wake->kept = settings->run.verbose ? -1 : gn_quiet_begin();
     heard = wake->kept >= 0 ? wake->kept : STDERR_FILENO;
     for (int i = 0; i < GN_WAKE_CRASHES; i++) sigaction(crashes[i], &now, &wake->old[i]);

@@ -1,5 +1,5 @@
-/* Opening a display wakes up a driver: what libraries print meanwhile is not heard, unless -v asks
- * for it, and a driver that crashes ends the program with one line like any other failure. */
+/* Opening a display starts a driver. Meanwhile output of libraries to stderr is discarded, except
+ * with -v, and a crash of the driver ends the program with one line like any other failure. */
 #ifndef GN_STAGE_WAKE_H
 #define GN_STAGE_WAKE_H
 
@@ -11,10 +11,10 @@
 
 enum { GN_WAKE_CRASHES = 5 };
 struct gn_wake { /* zeroed is ready */
-    int kept;    /* the descriptor that stderr had; -1: left as it is */
+    int kept;    /* a duplicate of stderr; -1: stderr is unchanged */
     struct sigaction old[GN_WAKE_CRASHES];
 };
-/* Around whatever wakes a driver. */
+/* Around code that starts a driver. */
 void gn_wake_begin(struct gn_wake *wake, const struct gn_settings *settings);
 void gn_wake_end(struct gn_wake *wake);
 

@@ -107,7 +107,7 @@ expect 0 'mode: Dial' next
 expect 0 'mode: Plain' next
 expect 0 'mode: Dial' prev
 expect 0 'mode: Top' mode Top
-expect 2 'no mode "Nosuch"; there are "Plain", "Top", "Dial"' mode Nosuch
+expect 2 'no mode "Nosuch"; expected "Plain", "Top", "Dial"' mode Nosuch
 expect 0 'paused: yes' pause
 expect 0 'paused: no' pause
 expect 0 'blanked: yes' blank
@@ -176,7 +176,7 @@ cmp -s before.png after.png || complain 'a good file leaves something on the scr
 # ---- a second one, and what a killed one leaves -------------------------------------------------
 "$gnomon" show --backend egl --size 32x32 --frames 3 --socket "$folder/ctl" > out 2> err ||
     complain "a second kiosk: $(cat err)"
-grep -q 'warning: .*another kiosk has it' err || complain "a second kiosk says: $(cat err)"
+grep -q 'warning: .*in use by another kiosk' err || complain "a second kiosk says: $(cat err)"
 expect 0 'mode: Plain' status
 kill -KILL "$kiosk"
 wait "$kiosk" 2> /dev/null

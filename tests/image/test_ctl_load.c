@@ -312,7 +312,7 @@ static void nobody_comes_in_by_an_open_door(void **state) {
     waitpid(pid, &status, 0);
     assert_int_equal(status, 0);
     assert_true(read(ends[0], text, sizeof text - 1) > 0);
-    assert_non_null(strstr(text, "{\"ok\":false,\"error\":\"user 65534 may not"));
+    assert_non_null(strstr(text, "{\"ok\":false,\"error\":\"permission denied: user 65534"));
     json_t *now = ask_status(watcher);
     assert_int_equal(number_at(now, "control", "refused"), 1);
     json_decref(now);

@@ -66,7 +66,7 @@ static void a_line_that_is_too_long_has_one_reply(void **state) {
     assert_int_equal(serve(), 1);
     const char *replies = heard(fd);
     assert_int_equal(count_lines(replies), 2);
-    assert_non_null(strstr(replies, "more than 4096 bytes"));
+    assert_non_null(strstr(replies, "longer than 4096 bytes"));
     assert_non_null(strstr(replies, "\"next\""));
     close(fd);
 }

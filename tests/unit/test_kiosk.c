@@ -36,7 +36,7 @@ static void the_old_mode_is_shown_until_the_new_one_is_ready(void **state) {
     struct gn_kiosk s = act(&three, (struct gn_kiosk){0}, S, GN_ACTION_NEXT);
     assert_true(gn_kiosk_waits(&s));
     assert_int_equal(gn_kiosk_view(&three, &s, S).mode, 0);
-    assert_int_equal(gn_kiosk_view(&three, &s, S).caption, GN_KIOSK_SAYS_MODE);
+    assert_int_equal(gn_kiosk_view(&three, &s, S).caption, GN_KIOSK_CAPTION_MODE);
     assert_int_equal(gn_kiosk_view(&three, &s, S).caption_mode, 1);
     s = ready(&three, s, 2 * S, 2, 0); /* not what is wanted */
     assert_int_equal(s.shown.mode, 0);
@@ -90,7 +90,7 @@ static void a_bad_scene_leaves_the_one_that_is_shown(void **state) {
     const struct gn_kiosk_event failed = {.kind = GN_KIOSK_SCENE_FAILED, .time_ns = S, .scene = 1};
     s = gn_kiosk_step(&r, &s, &failed);
     assert_false(gn_kiosk_waits(&s));
-    assert_int_equal(gn_kiosk_view(&r, &s, S).caption, GN_KIOSK_SAYS_PROBLEM);
+    assert_int_equal(gn_kiosk_view(&r, &s, S).caption, GN_KIOSK_CAPTION_PROBLEM);
     s = act(&r, s, S, GN_ACTION_NEXT_SCENE); /* the one behind it */
     assert_int_equal(s.wanted.scene, 2);
     s = ready(&r, s, S, 0, 2);
@@ -150,7 +150,7 @@ static void captions_and_fades_end(void **state) {
     assert_float_equal(gn_kiosk_view(&three, &s, 2 * S).old, 0.0f, 0.0f);
     assert_int_equal(gn_kiosk_deadline(&three, &s), 3 * S);
     s = on(&three, s, GN_KIOSK_TICK, 3 * S);
-    assert_int_equal(gn_kiosk_view(&three, &s, 3 * S).caption, GN_KIOSK_SAYS_NOTHING);
+    assert_int_equal(gn_kiosk_view(&three, &s, 3 * S).caption, GN_KIOSK_CAPTION_NONE);
     assert_int_equal(gn_kiosk_deadline(&three, &s), INT64_MAX);
 }
 

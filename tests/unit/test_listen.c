@@ -42,7 +42,7 @@ static void the_socket_is_for_its_group_alone(void **state) {
 static void a_living_socket_is_left_alone(void **state) {
     (void)state;
     assert_null(gn_control_open(gn_ctl_test.path, gn_ctl_test.loop, &gn_ctl_test.err));
-    assert_non_null(strstr(gn_ctl_test.err.text, "another kiosk has it"));
+    assert_non_null(strstr(gn_ctl_test.err.text, "in use by another kiosk"));
     const int fd = enter_client();
     say(fd, "{\"cmd\":\"status\"}\n");
     assert_int_equal(serve(), 1);
@@ -55,7 +55,7 @@ static void a_living_socket_is_left_alone(void **state) {
     assert_int_equal(bind(foreign, (struct sockaddr *)&address, sizeof address), 0);
     assert_int_equal(listen(foreign, 1), 0);
     assert_null(gn_control_open(other, gn_ctl_test.loop, &gn_ctl_test.err));
-    assert_non_null(strstr(gn_ctl_test.err.text, "another program answers there"));
+    assert_non_null(strstr(gn_ctl_test.err.text, "another program listens there"));
     assert_int_equal(access(other, F_OK), 0);
     close(foreign); /* as a process that is killed leaves it */
     struct gn_control *second = gn_control_open(other, gn_ctl_test.loop, &gn_ctl_test.err);
@@ -99,11 +99,11 @@ static void what_is_no_socket_stays(void **state) {
     snprintf(file, sizeof file, "%s/file", gn_ctl_test.folder);
     close(open(file, O_CREAT | O_WRONLY, 0600));
     assert_null(gn_control_open(file, gn_ctl_test.loop, &gn_ctl_test.err));
-    assert_non_null(strstr(gn_ctl_test.err.text, "something else is there"));
+    assert_non_null(strstr(gn_ctl_test.err.text, "path exists and is not a socket"));
     assert_int_equal(access(file, F_OK), 0);
     snprintf(deep, sizeof deep, "%s/no/such/ctl", gn_ctl_test.folder);
     assert_null(gn_control_open(deep, gn_ctl_test.loop, &gn_ctl_test.err));
-    assert_non_null(strstr(gn_ctl_test.err.text, "cannot make it"));
+    assert_non_null(strstr(gn_ctl_test.err.text, "cannot create it"));
     memset(deep, 'x', 150);
     deep[150] = '\0';
     assert_null(gn_control_open(deep, gn_ctl_test.loop, &gn_ctl_test.err));
@@ -167,7 +167,7 @@ static void who_is_not_permitted_is_turned_away(void **state) {
     assert_string_equal(text, "no connection");         /* the file's mode keeps it out */
     assert_int_equal(chmod(gn_ctl_test.path, 0666), 0); /* and if somebody opens that */
     ask_as(NOBODY, NOBODY, 0, text, sizeof text);
-    assert_non_null(strstr(text, "{\"ok\":false,\"error\":\"user 65534 may not"));
+    assert_non_null(strstr(text, "{\"ok\":false,\"error\":\"permission denied: user 65534"));
     assert_int_equal(gn_control_counts(gn_ctl_test.control).accepted, 0);
     assert_int_equal(gn_control_counts(gn_ctl_test.control).refused, 1);
     ask_as(NOBODY, 4242, 0, text, sizeof text);

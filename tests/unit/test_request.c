@@ -49,7 +49,7 @@ static void a_value_may_be_a_number_or_a_boolean(void **state) {
     assert_string_equal(request.words[1], "yes");
     assert_true(parse(" {\"value\":false , \"key\":\"a\",\"cmd\":\"set\"}\r"));
     assert_string_equal(request.words[1], "no");
-    assert_wrong("{\"cmd\":\"set\",\"key\":1,\"value\":1}", "set: expected a text as \"key\"");
+    assert_wrong("{\"cmd\":\"set\",\"key\":1,\"value\":1}", "set: expected a string as \"key\"");
     assert_wrong("{\"cmd\":\"set\",\"key\":\"a\",\"value\":[1]}", "or a number, true or false");
     assert_wrong("{\"cmd\":\"set\",\"key\":\"a\",\"value\":null}", "\"value\"");
 }
@@ -69,7 +69,7 @@ static void what_is_no_request_is_explained(void **state) {
     assert_wrong("{\"cmd\":1}", "expected {\"cmd\":\"..\"}");
     assert_wrong("{\"cmd\":\"nxt\"}", "unknown command \"nxt\"; did you mean next?");
     assert_wrong("{\"cmd\":\"frobnicate\"}", "expected one of next, prev, mode NAME,");
-    assert_wrong("{\"cmd\":\"mode\"}", "mode: expected a text as \"name\"");
+    assert_wrong("{\"cmd\":\"mode\"}", "mode: expected a string as \"name\"");
     assert_wrong("{\"cmd\":\"next\",\"name\":\"x\"}", "next: unknown member \"name\"");
 }
 
@@ -95,7 +95,7 @@ static void the_longest_line_fits_and_one_byte_more_does_not(void **state) {
     assert_int_equal(strlen(request.words[0]), GN_REQUEST_LINE_MAX - 2 - head);
     memcpy(line + GN_REQUEST_LINE_MAX - 2, "x\"}", 3);
     assert_false(gn_request_parse(line, GN_REQUEST_LINE_MAX + 1, &request, &err));
-    assert_non_null(strstr(err.text, "more than 4096 bytes"));
+    assert_non_null(strstr(err.text, "longer than 4096 bytes"));
 }
 
 static void a_zero_byte_is_no_end(void **state) {

@@ -86,21 +86,21 @@ static const enum gn_action_kind actions[GN_CTL_COUNT] = {
     [GN_CTL_INFO] = GN_ACTION_INFO,
 };
 
-static bool fail_mode(const struct gn_show *s, const char *name, struct gn_err *err) {
+static bool fail_unknown_mode(const struct gn_show *s, const char *name, struct gn_err *err) {
     char names[400] = "";
     size_t used = 0;
     for (int i = 0; i < s->modes.count && used < sizeof names; i++)
         used += (size_t)snprintf(names + used, sizeof names - used, "%s \"%s\"", i ? "," : "",
                                  s->modes.names[i]);
-    return gn_fail_usage(err, "no mode \"%.60s\"; there are%s", name, names);
+    return gn_fail_usage(err, "no mode \"%.60s\"; expected%s", name, names);
 }
 
-/* A button that is pressed in the dark only lights the screen; who sends a command means it. */
-static json_t *act(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+/* While the screen is off a button only switches it on; a command is carried out, too. */
+static json_t *answer_action(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     const struct gn_action action = {actions[r->command], r->words[0]};
     const int64_t now_ns = gn_clock_monotonic_ns();
     if (action.kind == GN_ACTION_MODE && gn_show_find_mode(&s->modes, action.name) < 0) {
-        fail_mode(s, action.name, err);
+        fail_unknown_mode(s, action.name, err);
         return NULL;
     }
     const bool was_dark = s->kiosk.blanked;
@@ -111,7 +111,7 @@ static json_t *act(struct gn_show *s, const struct gn_request *r, struct gn_err 
 
 /* ---- options ---- */
 
-/* What cannot be drawn with is taken back, and all stays as it was. */
+/* A value that a mode cannot be drawn with is taken back. */
 static bool change_option(struct gn_show *s, const struct gn_option_row *row, const char *text,
                           struct gn_err *err) {
     struct gn_show_looks looks;
@@ -123,22 +123,22 @@ static bool change_option(struct gn_show *s, const struct gn_option_row *row, co
     }
     s->looks = looks;
     s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
-    s->ahead.idle = false; /* whatever was looked at has no programs yet */
+    s->ahead.idle = false; /* the changed settings have no programs yet */
     return true;
 }
 
-static json_t *set(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+static json_t *answer_set(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     const struct gn_option_row *row = gn_changes_find(r->words[0], err);
     char text[1024];
     if (!row || !change_option(s, row, r->words[1], err)) return NULL;
     gn_show_take_rules(s);
-    gn_show_drop_staged(s); /* it was made ready for the options as they were */
+    gn_show_drop_staged(s); /* it was prepared with the old options */
     s->control->status.waits = true;
     gn_settings_text(s->stage.settings, row, text, sizeof text);
     return json_pack("{s:s, s:o}", "key", row->name, "value", gn_reply_text(text));
 }
 
-static json_t *get(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+static json_t *answer_get(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     const struct gn_option_row *row = gn_changes_find(r->words[0], err);
     char text[1024];
     if (!row) return NULL;
@@ -149,7 +149,7 @@ static json_t *get(struct gn_show *s, const struct gn_request *r, struct gn_err 
                      gn_reply_text(given ? gn_settings_label_at(o, row->offset) : "the default"));
 }
 
-/* The programs of the mode that is shown are made first, and the old picture stays until then. */
+/* The old picture stays until the programs are made. */
 void gn_show_enter_changed(struct gn_show *s) {
     if (!s->control || !s->control->status.waits) return;
     if (s->stage.gl && !(s->looks.ready >> s->kiosk.shown.mode & 1)) return;
@@ -167,7 +167,7 @@ static bool ask_for_screenshot(struct gn_show *s, const struct gn_request *r, st
     if (s->kiosk.blanked) return gn_fail(err, "screenshot: the screen is switched off");
     if (!screen->lit || !s->stage.gl)
         return gn_fail(err, "screenshot: nothing is shown: %s",
-                       screen->status[0] ? screen->status : "there is no picture");
+                       screen->status[0] ? screen->status : "no frame was drawn yet");
     c->screenshot = r;
     c->screenshot_late.due_ns = gn_loop_now_ns(s->loop) + SCREENSHOT_NS;
     gn_screenshot_ask(s->screenshot, r->words[0]);
@@ -222,14 +222,14 @@ void gn_show_answer_reload(struct gn_show *s, const struct gn_err *why) {
 
 /* ---- requests ---- */
 
-static void answer(struct gn_show *s, const struct gn_request *r) {
+static void answer_request(struct gn_show *s, const struct gn_request *r) {
     struct gn_control *control = s->control->control;
     struct gn_err err = {0};
     json_t *reply = NULL;
     bool later = false;
     switch (r->command) {
-    case GN_CTL_SET: reply = set(s, r, &err); break;
-    case GN_CTL_GET: reply = get(s, r, &err); break;
+    case GN_CTL_SET: reply = answer_set(s, r, &err); break;
+    case GN_CTL_GET: reply = answer_get(s, r, &err); break;
     case GN_CTL_SCREENSHOT: later = ask_for_screenshot(s, r, &err); break;
     case GN_CTL_RELOAD: later = ask_for_reload(s, r, &err); break;
     case GN_CTL_STATUS:
@@ -239,7 +239,7 @@ static void answer(struct gn_show *s, const struct gn_request *r) {
         s->ends = true;
         reply = json_object();
         break;
-    default: reply = act(s, r, &err); break;
+    default: reply = answer_action(s, r, &err); break;
     }
     if (later) return;
     if (err.text[0])
@@ -251,5 +251,6 @@ static void answer(struct gn_show *s, const struct gn_request *r) {
 void gn_show_answer_requests(struct gn_show *s) {
     struct gn_show_control *c = s->control;
     if (!c) return;
-    for (const struct gn_request *r; (r = gn_control_next(c->control)) != NULL;) answer(s, r);
+    for (const struct gn_request *r; (r = gn_control_next(c->control)) != NULL;)
+        answer_request(s, r);
 }

@@ -13,43 +13,45 @@
 #include "kiosk/control/listen.h"
 
 enum { CLIENTS = GN_CONTROL_CLIENTS_MAX, ACCEPTS_PER_DISPATCH = 16 };
-static const int64_t STUCK_NS = 5 * GN_NS_PER_S;   /* a reply that is not read for as long */
-static const int64_t SILENT_NS = 30 * GN_NS_PER_S; /* no line for as long makes room for others */
+static const int64_t STUCK_NS =
+    5 * GN_NS_PER_S; /* a client that does not read a reply for as long is cut off */
+static const int64_t SILENT_NS =
+    30 * GN_NS_PER_S; /* a client without a line for as long may be replaced */
 static const int64_t CHANGE_NS = GN_NS_PER_S / GN_CONTROL_CHANGES_PER_S;
 
-/* What is large of a client: memory of the kernel's zero page until it is used. */
-struct room {
+/* The large part of a client: zero pages of the kernel until it is used. */
+struct buffers {
     char in[GN_REQUEST_LINE_MAX + 1];
     struct gn_request request;
 };
-/* Events of a client are edges, so it is remembered what they said. */
+/* Its events are edge-triggered, so they are remembered. */
 struct client {
     int fd; /* -1: none */
     struct gn_watch watch;
     struct gn_control *control;
-    struct room *room;
-    bool readable, ended, skips; /* skips: the rest of a line that is too long */
-    bool waits;                  /* its request is with the owner */
-    size_t used;                 /* of room->in */
-    char *out;                   /* what is left of a reply; from malloc */
+    struct buffers *buffers;
+    bool readable, ended, skips; /* skips: it discards the rest of a line that is too long */
+    bool waits;                  /* for the owner to answer its request */
+    size_t used;                 /* of buffers->in */
+    char *out;                   /* the unsent part of a reply; from malloc */
     size_t out_size, out_at;
-    int64_t stuck_ns, line_ns; /* since when it has not read; when its last line came */
+    int64_t stuck_ns, line_ns; /* last progress in sending; its last line */
 };
 
 struct gn_control {
     struct gn_listen listen;
     struct gn_loop *loop;
-    struct gn_watch door;
-    struct gn_timer timer;      /* when anything is to be done; what is ready makes it due */
-    int spare;                  /* a descriptor that is given up to turn somebody away */
-    bool knocks;                /* a connection is pending */
+    struct gn_watch listener;
+    struct gn_timer timer; /* when anything is to be done; what is ready makes it due */
+    int spare;             /* a descriptor that is closed to refuse a connection without any left */
+    bool pending;          /* connections are */
     int64_t now_ns, changes_ns; /* changes_ns: when all changes so far would be due, evenly */
     int turn;                   /* the client that is served first */
     int budget;
     int queue[CLIENTS], queued, first;
     struct gn_control_counts counts;
     struct client clients[CLIENTS];
-    struct room rooms[CLIENTS];
+    struct buffers buffers[CLIENTS];
 };
 
 /* ---- opening -------------------------------------------------------------------------------- */
@@ -57,7 +59,7 @@ struct gn_control {
 static void on_connection(void *user, uint32_t events, int64_t now_ns) {
     struct gn_control *c = user;
     (void)events;
-    c->knocks = true;
+    c->pending = true;
     c->timer.due_ns = now_ns;
 }
 
@@ -68,21 +70,21 @@ struct gn_control *gn_control_open(const char *path, struct gn_loop *loop, struc
     c->loop = loop;
     c->listen = (struct gn_listen){.fd = -1, .lock = -1};
     for (int i = 0; i < CLIENTS; i++)
-        c->clients[i] = (struct client){.fd = -1, .control = c, .room = &c->rooms[i]};
+        c->clients[i] = (struct client){.fd = -1, .control = c, .buffers = &c->buffers[i]};
     c->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
     c->timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = serve_clients, .user = c};
     gn_loop_add_timer(loop, &c->timer);
     if (gn_listen_open(&c->listen, path, err)) {
-        c->door = (struct gn_watch){
+        c->listener = (struct gn_watch){
             .fd = c->listen.fd, .events = EPOLLIN, .call = on_connection, .user = c};
-        if (gn_loop_add(loop, &c->door)) return c;
+        if (gn_loop_add(loop, &c->listener)) return c;
         gn_fail(err, "control socket %s: cannot wait: %s", path, strerror(errno));
     }
     gn_control_close(c);
     return NULL;
 }
 
-static void drop(struct client *client) {
+static void drop_client(struct client *client) {
     gn_loop_remove(&client->watch);
     close(client->fd);
     free(client->out);
@@ -93,8 +95,8 @@ static void drop(struct client *client) {
 void gn_control_close(struct gn_control *c) {
     if (!c) return;
     for (int i = 0; i < CLIENTS; i++)
-        if (c->clients[i].fd >= 0) drop(&c->clients[i]);
-    gn_loop_remove(&c->door);
+        if (c->clients[i].fd >= 0) drop_client(&c->clients[i]);
+    gn_loop_remove(&c->listener);
     gn_loop_remove_timer(&c->timer);
     gn_listen_close(&c->listen);
     if (c->spare >= 0) close(c->spare);
@@ -108,7 +110,7 @@ struct gn_control_counts gn_control_counts(const struct gn_control *c) {
 
 /* ---- replies -------------------------------------------------------------------------------- */
 
-/* The line, to be freed, without memory one that fits always. */
+/* The line, to be freed. Without memory a fixed one. */
 static char *line_of(json_t *reply, size_t *size) {
     char *text = reply ? json_dumps(reply, JSON_COMPACT) : NULL;
     json_decref(reply);
@@ -119,13 +121,13 @@ static char *line_of(json_t *reply, size_t *size) {
     return text;
 }
 
-static void flush(struct gn_control *c, struct client *client) {
+static void flush_reply(struct gn_control *c, struct client *client) {
     while (client->out) {
         const ssize_t sent = send(client->fd, client->out + client->out_at,
                                   client->out_size - client->out_at, MSG_NOSIGNAL | MSG_DONTWAIT);
         if (sent < 0 && errno == EINTR) continue;
         if (sent < 0 && errno == EAGAIN) return;
-        if (sent < 0) { /* nobody is there any more */
+        if (sent < 0) { /* the client has closed the connection */
             client->ended = true;
             client->used = 0;
             client->readable = false;
@@ -138,24 +140,24 @@ static void flush(struct gn_control *c, struct client *client) {
     }
 }
 
-static void reply(struct gn_control *c, struct client *client, json_t *json) {
+static void send_reply(struct gn_control *c, struct client *client, json_t *json) {
     client->out = line_of(json, &client->out_size);
     client->out_at = 0;
     client->stuck_ns = c->now_ns;
     c->counts.answered++;
-    flush(c, client);
+    flush_reply(c, client);
 }
 
 static void reply_busy(struct gn_control *c, struct client *client) {
     struct gn_err err = {0};
     gn_fail(&err, "busy");
     c->counts.busy++;
-    reply(c, client, gn_reply_failure(&err));
+    send_reply(c, client, gn_reply_failure(&err));
 }
 
 /* ---- lines ---------------------------------------------------------------------------------- */
 
-/* So many in a row as there are in a second, then one by one (a leaky bucket as a virtual time). */
+/* A leaky bucket as a virtual time: a burst of one second's changes, then an even rate. */
 static bool is_too_much(struct gn_control *c, enum gn_ctl command) {
     if (!gn_ctl_rows[command].changes) return false;
     if (c->changes_ns - c->now_ns > GN_NS_PER_S - CHANGE_NS) return true;
@@ -168,40 +170,40 @@ static void take_line(struct gn_control *c, struct client *client, const char *l
     struct gn_err err = {0};
     client->line_ns = c->now_ns;
     c->counts.requests++;
-    if (!gn_request_parse(line, length, &client->room->request, &err)) {
+    if (!gn_request_parse(line, length, &client->buffers->request, &err)) {
         c->counts.wrong++;
-        reply(c, client, gn_reply_failure(&err));
-    } else if (is_too_much(c, client->room->request.command)) {
+        send_reply(c, client, gn_reply_failure(&err));
+    } else if (is_too_much(c, client->buffers->request.command)) {
         reply_busy(c, client);
     } else {
         const int index = (int)(client - c->clients);
-        client->room->request.from = (uint64_t)index;
+        client->buffers->request.from = (uint64_t)index;
         client->waits = true;
         c->queue[(c->first + c->queued++) % CLIENTS] = index;
     }
 }
 
-/* After the last byte a line needs no newline. */
+/* The last line before the end of the stream needs no newline. */
 static bool has_line(const struct client *client, size_t *length) {
-    const char *newline = memchr(client->room->in, '\n', client->used);
-    *length = newline ? (size_t)(newline - client->room->in) : client->used;
+    const char *newline = memchr(client->buffers->in, '\n', client->used);
+    *length = newline ? (size_t)(newline - client->buffers->in) : client->used;
     return newline || (client->ended && client->used > 0);
 }
 
-static void forget(struct client *client, size_t bytes) {
+static void forget_bytes(struct client *client, size_t bytes) {
     bytes = bytes < client->used ? bytes : client->used;
-    memmove(client->room->in, client->room->in + bytes, client->used - bytes);
+    memmove(client->buffers->in, client->buffers->in + bytes, client->used - bytes);
     client->used -= bytes;
 }
 
 static void handle_line(struct gn_control *c, struct client *client, size_t length) {
     const bool skipped = client->skips;
     client->skips = false;
-    if (!skipped) take_line(c, client, client->room->in, length);
-    forget(client, length + 1);
+    if (!skipped) take_line(c, client, client->buffers->in, length);
+    forget_bytes(client, length + 1);
 }
 
-/* A line that does not fit has its reply at once, and what is left of it none. */
+/* A line that does not fit is answered at once; the rest of it is discarded. */
 static void handle_overlong(struct gn_control *c, struct client *client) {
     struct gn_err err = {0};
     client->used = 0;
@@ -210,13 +212,13 @@ static void handle_overlong(struct gn_control *c, struct client *client) {
     client->line_ns = c->now_ns;
     c->counts.requests++;
     c->counts.wrong++;
-    gn_request_parse(client->room->in, GN_REQUEST_LINE_MAX + 1, &client->room->request, &err);
-    reply(c, client, gn_reply_failure(&err));
+    gn_request_parse(client->buffers->in, GN_REQUEST_LINE_MAX + 1, &client->buffers->request, &err);
+    send_reply(c, client, gn_reply_failure(&err));
 }
 
-static void fill(struct client *client) {
-    const size_t room = sizeof client->room->in - client->used;
-    const ssize_t got = recv(client->fd, client->room->in + client->used, room, MSG_DONTWAIT);
+static void read_client(struct client *client) {
+    const size_t room = sizeof client->buffers->in - client->used;
+    const ssize_t got = recv(client->fd, client->buffers->in + client->used, room, MSG_DONTWAIT);
     if (got > 0) client->used += (size_t)got;
     if (got < 0 && errno == EINTR) return;
     if (got < 0 && errno == EAGAIN) client->readable = false;
@@ -226,26 +228,26 @@ static void fill(struct client *client) {
     }
 }
 
-/* Can anything be done for it now? */
+/* Is there anything to do for it now? */
 static bool is_due(const struct client *client) {
     size_t length;
     return client->fd >= 0 && !client->out && !client->waits &&
            (client->readable || client->ended || has_line(client, &length) ||
-            client->used == sizeof client->room->in);
+            client->used == sizeof client->buffers->in);
 }
 
-/* A line, or a piece of input. */
-static void serve(struct gn_control *c, struct client *client) {
+/* Handles one line, or reads one piece of input. */
+static void serve_client(struct gn_control *c, struct client *client) {
     size_t length;
     c->budget--;
     if (has_line(client, &length))
         handle_line(c, client, length);
-    else if (client->used == sizeof client->room->in)
+    else if (client->used == sizeof client->buffers->in)
         handle_overlong(c, client);
     else if (client->readable)
-        fill(client);
+        read_client(client);
     else
-        drop(client); /* it ended, and all is answered */
+        drop_client(client); /* its stream has ended, and all is answered */
 }
 
 /* ---- clients -------------------------------------------------------------------------------- */
@@ -259,12 +261,12 @@ static struct client *find_room(struct gn_control *c) {
             silent = client;
     }
     if (!silent || c->now_ns - silent->line_ns < SILENT_NS) return NULL;
-    drop(silent);
+    drop_client(silent);
     return silent;
 }
 
-/* Its only line; there is room for it in a socket that nobody has written to. */
-static void turn_away(struct gn_control *c, int fd, const struct gn_err *err) {
+/* Sends its only reply; a fresh socket has room for it. */
+static void refuse_connection(struct gn_control *c, int fd, const struct gn_err *err) {
     size_t size;
     char *line = line_of(gn_reply_failure(err), &size);
     c->counts.refused++;
@@ -273,22 +275,21 @@ static void turn_away(struct gn_control *c, int fd, const struct gn_err *err) {
     close(fd);
 }
 
-/* Events of a client are edges: what they told stays noted. */
 static void on_client(void *user, uint32_t events, int64_t now_ns) {
     struct client *client = user;
     struct gn_control *c = client->control;
     c->now_ns = c->timer.due_ns = now_ns;
     client->readable |= (events & (EPOLLIN | EPOLLRDHUP | EPOLLHUP | EPOLLERR));
-    if (events & (EPOLLOUT | EPOLLHUP | EPOLLERR)) flush(c, client);
+    if (events & (EPOLLOUT | EPOLLHUP | EPOLLERR)) flush_reply(c, client);
 }
 
-static void admit(struct gn_control *c, int fd) {
+static void admit_client(struct gn_control *c, int fd) {
     struct gn_err err = {0};
     uid_t uid;
     if (!gn_listen_permits(&c->listen, fd, &uid)) {
-        gn_fail(&err, "user %ld may not: not of the group that %s belongs to", (long)uid,
+        gn_fail(&err, "permission denied: user %ld is not in the group of %s", (long)uid,
                 c->listen.path);
-        turn_away(c, fd, &err);
+        refuse_connection(c, fd, &err);
         return;
     }
     struct client *client = find_room(c);
@@ -299,7 +300,7 @@ static void admit(struct gn_control *c, int fd) {
                                           .user = client};
     if (!client || !gn_loop_add(c->loop, &client->watch)) {
         gn_fail(&err, "busy");
-        turn_away(c, fd, &err);
+        refuse_connection(c, fd, &err);
         return;
     }
     client->fd = fd;
@@ -310,25 +311,25 @@ static void admit(struct gn_control *c, int fd) {
     c->counts.accepted++;
 }
 
-/* Without a descriptor left the one that is kept for it takes somebody in and puts him out: else he
- * would knock for ever. */
-static void turn_away_blindly(struct gn_control *c) {
+/* Without a descriptor left the pending connection would keep the listener readable for ever: the
+ * spare one is closed to accept and refuse it. */
+static void refuse_without_descriptor(struct gn_control *c) {
     struct gn_err err = {0};
     if (c->spare >= 0) close(c->spare);
     const int fd = accept4(c->listen.fd, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
     gn_fail(&err, "busy");
-    if (fd >= 0) turn_away(c, fd, &err);
+    if (fd >= 0) refuse_connection(c, fd, &err);
     c->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
 }
 
-static void open_door(struct gn_control *c) {
-    c->knocks = false;
+static void accept_connections(struct gn_control *c) {
+    c->pending = false;
     for (int i = 0; i < ACCEPTS_PER_DISPATCH; i++) {
         const int fd = accept4(c->listen.fd, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
         if (fd >= 0)
-            admit(c, fd);
+            admit_client(c, fd);
         else if (errno == EMFILE || errno == ENFILE)
-            turn_away_blindly(c);
+            refuse_without_descriptor(c);
         else if (errno != EINTR && errno != ECONNABORTED)
             return;
     }
@@ -336,29 +337,29 @@ static void open_door(struct gn_control *c) {
 
 /* ---- dispatching ---------------------------------------------------------------------------- */
 
-static void cut_stuck(struct gn_control *c) {
+static void cut_stuck_clients(struct gn_control *c) {
     for (int i = 0; i < CLIENTS; i++) {
         struct client *client = &c->clients[i];
         if (client->fd < 0 || !client->out || c->now_ns - client->stuck_ns < STUCK_NS) continue;
-        drop(client);
+        drop_client(client);
         c->counts.cut++;
     }
 }
 
-/* Round and round, a line each, so that nobody waits for one who talks all the time. */
-static void serve_all(struct gn_control *c) {
+/* Round robin, a line each, so that a busy client does not starve the others. */
+static void serve_in_turn(struct gn_control *c) {
     c->budget = GN_CONTROL_PER_STEP;
     for (int idle = 0; idle < CLIENTS && c->budget > 0; c->turn = (c->turn + 1) % CLIENTS) {
         struct client *client = &c->clients[c->turn];
         const bool due = is_due(client);
-        if (due) serve(c, client);
+        if (due) serve_client(c, client);
         idle = due ? 0 : idle + 1;
     }
 }
 
-/* What is left to be done is due at once; else the time when somebody will be cut off is. */
+/* Due at once while there is anything to do, else when a client has to be cut off. */
 static void set_timer(struct gn_control *c) {
-    int64_t at_ns = c->knocks ? c->now_ns : GN_LOOP_NEVER;
+    int64_t at_ns = c->pending ? c->now_ns : GN_LOOP_NEVER;
     for (int i = 0; i < CLIENTS; i++) {
         const struct client *client = &c->clients[i];
         if (is_due(client)) at_ns = c->now_ns;
@@ -371,9 +372,9 @@ static void set_timer(struct gn_control *c) {
 static void serve_clients(void *user, int64_t now_ns) {
     struct gn_control *c = user;
     c->now_ns = now_ns;
-    cut_stuck(c);
-    if (c->knocks) open_door(c);
-    serve_all(c);
+    cut_stuck_clients(c);
+    if (c->pending) accept_connections(c);
+    serve_in_turn(c);
     set_timer(c);
 }
 
@@ -382,14 +383,14 @@ const struct gn_request *gn_control_next(struct gn_control *c) {
     const int index = c->queue[c->first];
     c->first = (c->first + 1) % CLIENTS;
     c->queued--;
-    return &c->rooms[index].request;
+    return &c->buffers[index].request;
 }
 
 void gn_control_answer(struct gn_control *c, const struct gn_request *request, json_t *json) {
     struct client *client = &c->clients[request->from];
     client->waits = false;
     if (json && !json_object_get(json, "ok")) json_object_set_new(json, "ok", json_true());
-    reply(c, client, json);
+    send_reply(c, client, json);
     set_timer(c);
 }
 

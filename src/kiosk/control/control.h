@@ -1,8 +1,8 @@
-/* The control socket of a kiosk: a line with a JSON object is a request, and each gets a line as a
- * reply, in order. The server hands requests out; whoever owns the kiosk answers them. Nothing here
- * blocks, and a step of the loop does a bounded amount of work, so that no frame waits for it: what
- * there is not time for now waits, and what is too much is answered with the error "busy". No reply
- * is ever left out, but to a client that does not read for 5 s: it is cut off. */
+/* The server of the control socket: a request is a line with a JSON object, and each gets one line
+ * as a reply, in order. The owner of the kiosk takes the requests and answers them. Nothing here
+ * blocks, and a step of the loop does a bounded amount of work, so that no frame waits for it: the
+ * rest waits for the next step, and what exceeds the limits is answered with the error "busy". Each
+ * request is answered, except when a client does not read for 5 s: it is cut off. */
 #ifndef GN_KIOSK_CONTROL_CONTROL_H
 #define GN_KIOSK_CONTROL_CONTROL_H
 
@@ -12,17 +12,17 @@
 #include "kiosk/control/request.h"
 
 enum {
-    GN_CONTROL_CLIENTS_MAX = 64,   /* the next is answered "busy", and cut off, unless one of them
-                                      has been silent for 30 s: then that one is */
-    GN_CONTROL_PER_STEP = 16,      /* lines that are handled, or pieces of 4 KiB thrown away */
-    GN_CONTROL_CHANGES_PER_S = 20, /* of what may cost a frame, of all clients together; 20 at
-                                      once; what is more is "busy" */
+    GN_CONTROL_CLIENTS_MAX = 64,   /* one more replaces a client that was silent for 30 s, else it
+                                      is answered "busy" and cut off */
+    GN_CONTROL_PER_STEP = 16,      /* lines handled, or pieces of 4 KiB discarded */
+    GN_CONTROL_CHANGES_PER_S = 20, /* commands that may cost a frame, of all clients together,
+                                      with a burst of 20; more are "busy" */
 };
 
 struct gn_control_counts {
     uint64_t accepted, refused; /* clients; refused: not permitted, or too many */
     uint64_t requests, wrong, busy, answered;
-    uint64_t cut; /* clients that did not read */
+    uint64_t cut; /* clients cut off because they did not read */
 };
 
 struct gn_control;
@@ -36,7 +36,7 @@ struct gn_control_counts gn_control_counts(const struct gn_control *control);
 /* The next request, or NULL; to be called after each step of the loop until it is. It lives until
  * it is answered, which may be later; until then its client's other requests wait. */
 const struct gn_request *gn_control_next(struct gn_control *control);
-/* Takes the reference; "ok" is added as true unless there is one. The client may have gone by now.
+/* Takes the reference; "ok": true is added unless it has an "ok". The client may be gone by then.
  */
 void gn_control_answer(struct gn_control *control, const struct gn_request *request, json_t *reply);
 void gn_control_refuse(struct gn_control *control, const struct gn_request *request,

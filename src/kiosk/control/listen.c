@@ -20,19 +20,19 @@ enum { GROUPS_MAX = 1024, BACKLOG = 64 };
 
 /* ---- where ---------------------------------------------------------------------------------- */
 
-static bool of_user(char *path, size_t size) {
+static bool user_path(char *path, size_t size) {
     const char *folder = getenv("XDG_RUNTIME_DIR");
     return folder && folder[0] == '/' && snprintf(path, size, "%s/gnomon/ctl", folder) < (int)size;
 }
 
 bool gn_listen_default(char *path, size_t size) {
-    if (access(SYSTEM_FOLDER, W_OK | X_OK) != 0) return of_user(path, size);
+    if (access(SYSTEM_FOLDER, W_OK | X_OK) != 0) return user_path(path, size);
     snprintf(path, size, "%s/ctl", SYSTEM_FOLDER);
     return true;
 }
 
 bool gn_listen_candidate(int index, char *path, size_t size) {
-    if (index == 1) return of_user(path, size);
+    if (index == 1) return user_path(path, size);
     if (index == 0) snprintf(path, size, "%s/ctl", SYSTEM_FOLDER);
     return index == 0;
 }
@@ -53,25 +53,25 @@ static bool is_same_file(int fd, const char *path) {
            open.st_ino == there.st_ino;
 }
 
-/* Held for as long as the process lives, however it ends. Whoever had it before may have taken it
- * away just before we got it: then it locks nothing. */
+/* Held until the process ends, in whatever way. The previous holder may have unlinked the file just
+ * before we locked it: then it locks nothing, and we try again. */
 static bool take_lock(struct gn_listen *l, struct gn_err *err) {
     char path[GN_LISTEN_PATH_MAX + 8];
     lock_path(l, path, sizeof path);
     for (int attempt = 0; attempt < 10; attempt++) {
         l->lock = open(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK, 0600);
-        if (l->lock < 0) return fail_errno(l, "cannot make it", err);
+        if (l->lock < 0) return fail_errno(l, "cannot create it", err);
         const bool locked = flock(l->lock, LOCK_EX | LOCK_NB) == 0;
         if (locked && is_same_file(l->lock, path)) return true;
         close(l->lock);
         l->lock = -1;
         if (!locked)
             return gn_fail(err,
-                           "control socket %s: another kiosk has it; this one runs without "
-                           "(--socket gives it another)",
+                           "control socket %s: in use by another kiosk; running without it "
+                           "(choose another with --socket)",
                            l->path);
     }
-    return gn_fail(err, "control socket %s: its lock comes and goes", l->path);
+    return gn_fail(err, "control socket %s: its lock file is replaced again and again", l->path);
 }
 
 /* ---- the socket ----------------------------------------------------------------------------- */
@@ -82,7 +82,7 @@ static struct sockaddr_un address_of(const struct gn_listen *l) {
     return address;
 }
 
-static bool is_alive(const struct gn_listen *l) {
+static bool is_listened_on(const struct gn_listen *l) {
     const struct sockaddr_un address = address_of(l);
     const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     const bool refused = fd >= 0 &&
@@ -92,30 +92,30 @@ static bool is_alive(const struct gn_listen *l) {
     return !refused;
 }
 
-static bool clear_place(const struct gn_listen *l, struct gn_err *err) {
+static bool remove_stale_socket(const struct gn_listen *l, struct gn_err *err) {
     struct stat info;
-    if (lstat(l->path, &info) != 0)
-        return errno == ENOENT || fail_errno(l, "cannot look at it", err);
+    if (lstat(l->path, &info) != 0) return errno == ENOENT || fail_errno(l, "cannot stat it", err);
     if (!S_ISSOCK(info.st_mode))
-        return gn_fail(err, "control socket %s: something else is there, and stays", l->path);
-    if (is_alive(l))
+        return gn_fail(err, "control socket %s: path exists and is not a socket; not replacing it",
+                       l->path);
+    if (is_listened_on(l))
         return gn_fail(err,
-                       "control socket %s: another program answers there; this kiosk runs "
-                       "without (--socket gives it another)",
+                       "control socket %s: another program listens there; running without it "
+                       "(choose another with --socket)",
                        l->path);
     return unlink(l->path) == 0 || fail_errno(l, "cannot replace it", err);
 }
 
-/* On Linux the file gets the mode of the descriptor, so it is never wider than it should be; the
- * mask of the process may have made it narrower. */
+/* On Linux the file gets the mode of the descriptor, so it is never more permissive than 0660; the
+ * umask may have made it less, which chmod() corrects. */
 static bool bind_socket(struct gn_listen *l, struct gn_err *err) {
     const struct sockaddr_un address = address_of(l);
     struct stat info;
     l->fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (l->fd < 0 || fchmod(l->fd, 0660) != 0 ||
         bind(l->fd, (const struct sockaddr *)&address, sizeof address) != 0)
-        return fail_errno(l, "cannot make it", err);
-    if (lstat(l->path, &info) != 0) return fail_errno(l, "cannot look at it", err);
+        return fail_errno(l, "cannot create it", err);
+    if (lstat(l->path, &info) != 0) return fail_errno(l, "cannot stat it", err);
     l->device = info.st_dev;
     l->inode = info.st_ino;
     l->gid = info.st_gid;
@@ -131,7 +131,7 @@ static void make_folder(const char *path) {
     char *slash = strrchr(folder, '/');
     if (!slash || slash == folder) return;
     *slash = '\0';
-    if (mkdir(folder, 0700) != 0) return; /* what is wrong with it is said when it is used */
+    if (mkdir(folder, 0700) != 0) return; /* a failure shows when it is used */
 }
 
 bool gn_listen_open(struct gn_listen *l, const char *path, struct gn_err *err) {
@@ -141,12 +141,12 @@ bool gn_listen_open(struct gn_listen *l, const char *path, struct gn_err *err) {
                        sizeof l->path - 1);
     snprintf(l->path, sizeof l->path, "%s", path);
     make_folder(path);
-    if (take_lock(l, err) && clear_place(l, err) && bind_socket(l, err)) return true;
+    if (take_lock(l, err) && remove_stale_socket(l, err) && bind_socket(l, err)) return true;
     gn_listen_close(l);
     return false;
 }
 
-static void remove_ours(const struct gn_listen *l) {
+static void remove_files(const struct gn_listen *l) {
     char path[GN_LISTEN_PATH_MAX + 8];
     struct stat info;
     if (l->inode && lstat(l->path, &info) == 0 && info.st_dev == l->device &&
@@ -157,7 +157,7 @@ static void remove_ours(const struct gn_listen *l) {
 }
 
 void gn_listen_close(struct gn_listen *l) {
-    remove_ours(l);
+    remove_files(l);
     if (l->fd >= 0) close(l->fd);
     if (l->lock >= 0) close(l->lock);
     *l = (struct gn_listen){.fd = -1, .lock = -1};

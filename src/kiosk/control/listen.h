@@ -1,4 +1,4 @@
-/* The control socket in the file system: where it is, who made it, and who may come in. */
+/* The control socket in the file system: its path, lock and permissions. */
 #ifndef GN_KIOSK_CONTROL_LISTEN_H
 #define GN_KIOSK_CONTROL_LISTEN_H
 
@@ -13,27 +13,27 @@
 struct gn_listen { /* descriptors -1: none */
     int fd, lock;
     char path[GN_LISTEN_PATH_MAX];
-    dev_t device; /* of the socket's file, so that no other one is taken away */
+    dev_t device; /* of the socket's file, so that no other file is removed */
     ino_t inode;
     uid_t uid; /* the kiosk's */
     gid_t gid; /* of the socket's file */
 };
 
-/* Where a kiosk makes its socket if nobody says: /run/gnomon/ctl where that folder may be written
- * to, else $XDG_RUNTIME_DIR/gnomon/ctl. False: neither is there. */
+/* The default path: /run/gnomon/ctl if that folder is writable, else $XDG_RUNTIME_DIR/gnomon/ctl.
+ * False: neither exists. */
 bool gn_listen_default(char *path, size_t size);
-/* Where to look for one that somebody else made: index 0, 1, ..; false: there are no more. */
+/* Paths where a client looks for a kiosk: index 0, 1, ..; false: no more. */
 bool gn_listen_candidate(int index, char *path, size_t size);
 
-/* Makes the socket, of mode 0660, and a lock beside it (".lock"). What a dead process has left is
- * replaced; a living one's, and what is no socket, is left alone and a failure. The last folder of
- * the path is made, of mode 0700, if it alone is missing. */
+/* Makes the socket with mode 0660 and a lock file beside it (".lock"). The socket of a dead process
+ * is replaced; fails if a process listens on it or the path is not a socket. Makes the last folder
+ * of the path, with mode 0700, if only that is missing. */
 bool gn_listen_open(struct gn_listen *listen, const char *path, struct gn_err *err);
-/* Takes both away, if they are still ours. */
+/* Removes both files, if they are still ours. */
 void gn_listen_close(struct gn_listen *listen);
 
-/* May whoever is at the other end ask? The kiosk's own user, root, and members of the socket's
- * group; *uid gets who it is. */
+/* Is the peer permitted: the kiosk's user, root, or a member of the socket's group? *uid is the
+ * peer's. */
 bool gn_listen_permits(const struct gn_listen *listen, int fd, uid_t *uid);
 
 #endif

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* jansson goes as deep as 2048; nothing that we are asked needs more than one. */
+/* jansson allows a depth of 2048; a request needs 1. */
 static bool is_deep(const char *line, size_t length) {
     int depth = 0;
     bool in_text = false;
@@ -32,7 +32,7 @@ static bool fail_command(const char *name, struct gn_err *err) {
 
 static bool find_command(const json_t *root, struct gn_request *out, struct gn_err *err) {
     const char *name = json_string_value(json_object_get(root, "cmd"));
-    if (!name) return gn_fail_usage(err, "expected {\"cmd\":\"..\"}, and a text there");
+    if (!name) return gn_fail_usage(err, "expected {\"cmd\":\"..\"} with a string");
     const int command = gn_ctl_find(name);
     if (command < 0) return fail_command(name, err);
     out->command = (enum gn_ctl)command;
@@ -56,7 +56,7 @@ static bool check_members(json_t *root, const struct gn_ctl_row *row, struct gn_
     return true;
 }
 
-/* A member as a word; NULL: it is not there, or of another type. */
+/* A member as a word; NULL: missing, or of another type. */
 static const char *word_of(const json_t *value, bool any, char *number, size_t size) {
     if (json_is_string(value)) return json_string_value(value);
     if (!any) return NULL;
@@ -77,8 +77,8 @@ static bool take_words(const json_t *root, struct gn_request *out, struct gn_err
         const char *word =
             word_of(json_object_get(root, row->members[i]), any, number, sizeof number);
         if (!word)
-            return gn_fail_usage(err, "%s: expected a text as \"%s\"%s", row->name, row->members[i],
-                                 any ? ", or a number, true or false" : "");
+            return gn_fail_usage(err, "%s: expected a string as \"%s\"%s", row->name,
+                                 row->members[i], any ? ", or a number, true or false" : "");
         const size_t size = strlen(word) + 1;
         if (used + size > sizeof out->text)
             return gn_fail_usage(err, "%s: \"%s\" is too long", row->name, row->members[i]);
@@ -93,7 +93,7 @@ bool gn_request_parse(const char *line, size_t length, struct gn_request *out, s
     json_error_t why;
     for (int i = 0; i < GN_CTL_WORDS_MAX; i++) out->words[i] = NULL;
     if (length > GN_REQUEST_LINE_MAX)
-        return gn_fail_usage(err, "a line of more than %d bytes", GN_REQUEST_LINE_MAX);
+        return gn_fail_usage(err, "request is longer than %d bytes", GN_REQUEST_LINE_MAX);
     if (is_deep(line, length))
         return gn_fail_usage(err, "brackets nested deeper than %d", GN_REQUEST_DEPTH_MAX);
     json_t *root = json_loadb(line, length, JSON_REJECT_DUPLICATES, &why);

@@ -3,13 +3,13 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include <config.h> /* not ours of that name */
+#include <config.h> /* the generated one */
 
 #include "core/clock.h"
 #include "core/json.h"
 #include "kiosk/private.h"
 
-/* What is resident, in megabytes (2^20 bytes): cheap to ask for, and what tells of a leak. */
+/* Resident memory in MiB: cheap to read, and shows leaks. */
 static double memory_mb(struct gn_show_status *status, int64_t now_ns) {
     long pages = 0;
     if (status->memory_ns != 0 && now_ns - status->memory_ns < GN_NS_PER_S)
@@ -34,7 +34,7 @@ static json_t *mode_names(const struct gn_show *s) {
     return list;
 }
 
-/* As of the next frame. */
+/* Of the next frame. */
 static int camera_of(const struct gn_show *s) {
     const int first = s->looks.of[s->kiosk.shown.mode].frame_opts.camera;
     return (int)(((uint32_t)first + s->kiosk.camera) % s->stage.scene->camera_count);

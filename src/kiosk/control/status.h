@@ -16,7 +16,7 @@ struct gn_show_status {
     double memory_mb;
 };
 
-/* New references: all of it; what an action may have changed. */
+/* New references: the full status; the part that actions change. */
 json_t *gn_show_status_make(const struct gn_show *show, struct gn_show_status *status,
                             struct gn_control_counts counts);
 json_t *gn_show_status_short(const struct gn_show *show);
