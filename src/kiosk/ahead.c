@@ -72,11 +72,6 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
     }
 }
 
-static bool warm_cold_mode(struct gn_show *s, int mode) {
-    return !(s->looks.ready >> mode & 1) &&
-           warm_mode(s, &s->looks, &s->stage.frame, &s->stage.pose, mode);
-}
-
 /* ---- the staged scene ---- */
 
 static void fail_scene(struct gn_show *s, int scene, const struct gn_err *err) {
@@ -115,21 +110,20 @@ static bool work_on_staged(struct gn_show *s) {
 
 /* ---- pieces, most urgent first ---- */
 
-/* The first fade reports a failure. */
-static bool prepare_fade(struct gn_show *s) {
-    struct gn_err unused = {0};
-    if (s->rules.fade_ns == 0 || s->fade.prepared || s->counts.frames == 0) return false;
-    gn_gl_keep_prepare(s->stage.gl, &unused);
-    s->fade.prepared = true;
-    return true;
-}
-
 static bool do_piece(struct gn_show *s) {
-    const int mode = s->kiosk.wanted.mode;
-    if (prepare_fade(s)) return true;
+    if (s->rules.fade_ns > 0 && !s->fade.prepared && s->counts.frames > 0) {
+        struct gn_err unused = {0}; /* the first fade reports a failure */
+        gn_gl_keep_prepare(s->stage.gl, &unused);
+        s->fade.prepared = true;
+        return true;
+    }
     if (work_on_staged(s)) return true;
-    for (int i = 0; i < s->modes.count; i++)
-        if (warm_cold_mode(s, (mode + i) % s->modes.count)) return true;
+    for (int i = 0; i < s->modes.count; i++) {
+        const int mode = (s->kiosk.wanted.mode + i) % s->modes.count;
+        if (!(s->looks.ready >> mode & 1) &&
+            warm_mode(s, &s->looks, &s->stage.frame, &s->stage.pose, mode))
+            return true;
+    }
     return false;
 }
 
@@ -147,8 +141,10 @@ void gn_show_work(struct gn_show *s) {
 
 /* ---- the wanted scene and mode ---- */
 
-static void take_loaded(struct gn_show *s) {
+static void take_loaded(void *user, uint32_t events, int64_t now_ns) {
+    struct gn_show *s = user;
     struct gn_loaded *loaded = gn_loader_take(s->scenes.loader);
+    (void)events, (void)now_ns;
     if (!loaded) return;
     for (int i = 0; i < loaded->warnings.count; i++)
         gn_warn(s->warnings, "%s", loaded->warnings.text[i]);
@@ -160,12 +156,6 @@ static void take_loaded(struct gn_show *s) {
     }
     fail_scene(s, loaded->number, &loaded->err);
     gn_loaded_destroy(loaded);
-}
-
-static void on_loaded(void *user, uint32_t events, int64_t now_ns) {
-    (void)events;
-    (void)now_ns;
-    take_loaded(user);
 }
 
 void gn_show_close_loader(struct gn_show *s) {
@@ -180,7 +170,7 @@ bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
     s->scenes.loader = gn_loader_open(err);
     if (!s->scenes.loader) return false;
     *watch = (struct gn_watch){
-        .fd = gn_loader_fd(s->scenes.loader), .events = EPOLLIN, .call = on_loaded, .user = s};
+        .fd = gn_loader_fd(s->scenes.loader), .events = EPOLLIN, .call = take_loaded, .user = s};
     return gn_loop_add(s->loop, watch) ||
            gn_fail(err, "show: cannot wait for scenes: %s", strerror(errno));
 }

@@ -7,12 +7,6 @@
 
 #define ASK_NS (10 * GN_NS_PER_S) /* the GPU is tested at most this often */
 
-static bool is_moving(const struct gn_show *s, const struct gn_kiosk_view *view) {
-    if (s->counts.most_frames < UINT64_MAX) return true;
-    return !view->stands &&
-           (s->stage.pose.animated || s->stage.settings->scene.turntable_deg_s != 0.0);
-}
-
 static bool views_differ(const struct gn_kiosk_view *a, const struct gn_kiosk_view *b) {
     return a->mode != b->mode || a->scene != b->scene || a->camera != b->camera ||
            a->info != b->info || a->old > 0.0f || b->old > 0.0f || a->caption != b->caption ||
@@ -26,8 +20,10 @@ bool gn_show_wants_frame(const struct gn_show *s) {
     if (screen->black || s->changed || s->fade.keeps || screen->damaged || !screen->lit)
         return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
-    return is_moving(s, &view) || views_differ(&view, &s->drawn) ||
-           gn_show_captions_due_ns(s) <= screen->seen_ns;
+    const bool moves = s->counts.most_frames < UINT64_MAX ||
+                       (!view.stands && (s->stage.pose.animated ||
+                                         s->stage.settings->scene.turntable_deg_s != 0.0));
+    return moves || views_differ(&view, &s->drawn) || gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
 /* Keeps the picture for a fade. On failure fades are switched off. */
@@ -39,24 +35,6 @@ static void keep_picture(struct gn_show *s) {
     }
     s->fade.keeps = false;
     s->fade.kept = true;
-}
-
-static bool draw_view(struct gn_show *s, const struct gn_kiosk_view *view, struct gn_err *err) {
-    gn_show_take_view(s, view);
-    gn_show_write_captions(s, view, s->stage.display.screen.seen_ns);
-    if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns + view->time_ns, s->warnings,
-                       err))
-        return false;
-    if (view->old > 0.0f) gn_gl_lay_over(s->stage.gl, view->old);
-    if (s->fade.keeps) keep_picture(s);
-    return true;
-}
-
-/* Counts allocations of frames, except in the first one and while a scene loads. */
-static void count_costs(struct gn_show *s, unsigned long allocations, uint64_t objects) {
-    if (s->counts.frames++ == 0 || gn_loader_is_busy(s->scenes.loader)) return;
-    s->counts.allocations += gn_alloc_count() - allocations;
-    s->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;
 }
 
 /* If a screenshot is asked for, it is this frame. */
@@ -85,8 +63,19 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     gn_show_work(s);
     const unsigned long allocations = gn_alloc_count();
     const uint64_t objects = gn_gl_stats(s->stage.gl).objects_created;
-    if (!draw_view(s, &view, err)) return false;
-    count_costs(s, allocations, objects);
+    gn_show_take_view(s, &view);
+    gn_show_write_captions(s, &view, seen_ns);
+    if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns + view.time_ns, s->warnings,
+                       err))
+        return false;
+    if (view.old > 0.0f) gn_gl_lay_over(s->stage.gl, view.old);
+    if (s->fade.keeps) keep_picture(s);
+
+    /* count allocations, except in the first frame and while a scene loads */
+    if (s->counts.frames++ > 0 && !gn_loader_is_busy(s->scenes.loader)) {
+        s->counts.allocations += gn_alloc_count() - allocations;
+        s->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;
+    }
     s->drawn = view;
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
     if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);

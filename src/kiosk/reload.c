@@ -39,40 +39,35 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
     return true;
 }
 
-static void keep_mode(const struct gn_show *s, struct gn_options *options) {
-    if (s->kiosk.wanted.mode == s->modes.base && options->mode_count == 0) return;
-    const int found = gn_options_find_mode(options, s->modes.names[s->kiosk.wanted.mode]);
-    if (found) options->settings = &options->all[found];
-}
-
-/* The error of the file on disk is shown on the screen. */
-static void keep_error(struct gn_show *s, const struct gn_err *why) {
-    snprintf(s->config.error, sizeof s->config.error, "%s", why->text);
-    s->config.options->config_error = s->config.error;
-    s->changed = true; /* draw its caption */
-}
-
-static struct gn_options *read_again(const struct gn_show *s, struct gn_err *why) {
-    struct gn_options *options = gn_show_read_options(s->config.options, NULL, why);
-    if (!options || !options->config_error) return options;
-    gn_fail_usage(why, "%s", options->config_error);
-    gn_show_drop_options(options);
-    return NULL;
-}
-
 bool gn_show_reload(struct gn_show *s, struct gn_err *err) {
     struct gn_err why = {0};
     struct gn_stage fresh = {0};
     s->reloads = false;
-    struct gn_options *options = read_again(s, &why);
-    if (options) keep_mode(s, options);
+
+    /* read the options; an error in the file is one of the reload */
+    struct gn_options *options = gn_show_read_options(s->config.options, NULL, &why);
+    if (options && options->config_error) {
+        gn_fail_usage(&why, "%s", options->config_error);
+        gn_show_drop_options(options);
+        options = NULL;
+    }
+
+    /* stay in the mode of the same name */
+    if (options && (s->kiosk.wanted.mode != s->modes.base || options->mode_count > 0)) {
+        const int found = gn_options_find_mode(options, s->modes.names[s->kiosk.wanted.mode]);
+        if (found) options->settings = &options->all[found];
+    }
     if (options && gn_show_load(&fresh, options, s->warnings, &why)) {
         const bool ok = take_stage(s, &fresh, options, err);
         gn_show_answer_reload(s, ok ? NULL : err);
         return ok;
     }
+
+    /* it failed: the last good configuration stays, and the screen shows the error */
     gn_show_answer_reload(s, &why);
-    keep_error(s, &why);
+    snprintf(s->config.error, sizeof s->config.error, "%s", why.text);
+    s->config.options->config_error = s->config.error;
+    s->changed = true;
     char text[sizeof why.text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why.text);
     gn_show_report_problem(s, text);

@@ -52,13 +52,6 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
     return ok;
 }
 
-/* MSAA costs tile-based GPUs next to nothing. */
-static uint32_t samples_of(const struct gn_show *s) {
-    const struct gn_settings *o = s->stage.settings;
-    if (gn_settings_given(o, render.msaa)) return (uint32_t)o->render.msaa;
-    return gn_gl_caps(s->stage.gl)->tiler ? 4 : 0;
-}
-
 void gn_show_fit_to_screen(struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const bool direct = s->stage.display.ops->screen && !screen->copy_to;
@@ -68,7 +61,10 @@ void gn_show_fit_to_screen(struct gn_show *s) {
     f->height_px = screen->height_px;
     f->turn_deg = screen->rotate_deg;
     const bool unencoded = direct && !screen->srgb;
-    const uint32_t msaa = samples_of(s);
+    const struct gn_settings *o = s->stage.settings;
+    const uint32_t msaa = gn_settings_given(o, render.msaa) ? (uint32_t)o->render.msaa
+                          : gn_gl_caps(s->stage.gl)->tiler ? 4 /* costs such GPUs next to nothing */
+                                                           : 0;
     if (s->context.unencoded != unencoded || s->context.msaa != msaa) { /* needs other programs */
         s->looks.ready = s->scenes.looks.ready = 0;
         s->ahead.idle = false;
@@ -115,16 +111,6 @@ static bool start_gl(struct gn_show *s, struct gn_err *err) {
     return true;
 }
 
-static bool renew_context(struct gn_show *s, struct gn_err *err) {
-    struct gn_wake wake = {0};
-    gn_show_stop_gl(s);
-    s->context.generation = 0;
-    gn_wake_begin(&wake, s->stage.settings);
-    const bool ok = gn_display_renew(&s->stage.display, gn_clock_monotonic_ns(), err);
-    gn_wake_end(&wake);
-    return ok;
-}
-
 bool gn_show_is_stale(const struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     return screen->lost || (screen->has_context && screen->generation != s->context.generation);
@@ -132,7 +118,15 @@ bool gn_show_is_stale(const struct gn_show *s) {
 
 bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
-    if (screen->lost && !renew_context(s, err)) return false;
+    if (screen->lost) {
+        struct gn_wake wake = {0};
+        gn_show_stop_gl(s);
+        s->context.generation = 0;
+        gn_wake_begin(&wake, s->stage.settings);
+        const bool ok = gn_display_renew(&s->stage.display, gn_clock_monotonic_ns(), err);
+        gn_wake_end(&wake);
+        if (!ok) return false;
+    }
     if (screen->lost || !screen->has_context || screen->generation == s->context.generation)
         return true;
     gn_show_stop_gl(s);

@@ -44,14 +44,6 @@ static void rearm_watchdog(void *user, int64_t now_ns) {
     s->timer.due_ns = now_ns + s->every_ns;
 }
 
-static void start_watchdog(struct gn_service *s, struct gn_loop *loop, int64_t now_ns) {
-    s->every_ns = watchdog_ns() / 2;
-    s->next_ns = now_ns + s->every_ns;
-    if (s->every_ns == 0) return;
-    s->timer = (struct gn_timer){.due_ns = s->next_ns, .call = rearm_watchdog, .user = s};
-    gn_loop_add_timer(loop, &s->timer);
-}
-
 bool gn_service_open(struct gn_service *s, struct gn_loop *loop, int64_t now_ns,
                      struct gn_err *err) {
     const char *path = getenv("NOTIFY_SOCKET");
@@ -61,7 +53,10 @@ bool gn_service_open(struct gn_service *s, struct gn_loop *loop, int64_t now_ns,
         return gn_fail(err, "NOTIFY_SOCKET=%.80s: expected a path or @NAME", path);
     s->socket = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (s->socket < 0) return gn_fail(err, "cannot notify the supervisor: %s", strerror(errno));
-    start_watchdog(s, loop, now_ns);
+    s->every_ns = watchdog_ns() / 2;
+    s->next_ns = now_ns + s->every_ns;
+    s->timer = (struct gn_timer){.due_ns = s->next_ns, .call = rearm_watchdog, .user = s};
+    if (s->every_ns > 0) gn_loop_add_timer(loop, &s->timer);
     unsetenv("NOTIFY_SOCKET");
     unsetenv("WATCHDOG_USEC");
     return true;

@@ -34,22 +34,6 @@ static bool open_loop(struct gn_show *s, struct gn_err *err) {
 
 /* ---- a step ---- */
 
-static void take_pointer(struct gn_show *s) {
-    struct gn_screen *screen = &s->stage.display.screen;
-    const struct gn_pointer pointer = screen->pointer;
-    screen->pointer = (struct gn_pointer){0};
-    s->ends |= pointer.quit;
-    s->changed |= gn_show_pointer_turn(&s->stage, &pointer);
-    gn_show_take_input(s, &pointer);
-}
-
-static void tick_machine(struct gn_show *s) {
-    const struct gn_kiosk_event event = {.kind = GN_KIOSK_TICK, .time_ns = gn_clock_monotonic_ns()};
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
-    if (s->kiosk.blanked != s->stage.display.screen.blank)
-        gn_display_blank(&s->stage.display, s->kiosk.blanked, event.time_ns);
-}
-
 /* When the next step is due by itself; 0: at once. */
 static int64_t due_ns(const struct gn_show *s) {
     if (gn_show_wants_frame(s) || gn_show_is_stale(s) || gn_show_can_advance(s)) return 0;
@@ -61,31 +45,40 @@ static int64_t due_ns(const struct gn_show *s) {
     return at_ns;
 }
 
-/* Background work, done when no frame is due. */
-static void work_between_frames(struct gn_show *s) {
-    if (!gn_show_has_work(s) || gn_clock_monotonic_ns() < s->ahead.due_ns) return;
-    gn_gl_set_window(s->stage.gl, NULL); /* not bound between begin and present */
-    gn_show_work(s);
-}
-
 bool gn_show_step(struct gn_show *s, struct gn_err *err) {
+    struct gn_screen *screen = &s->stage.display.screen;
     gn_loop_step(s->loop, due_ns(s));
+
+    /* what has come: requests, a reload, events of the display, buttons and keys */
     gn_show_answer_requests(s);
     if (s->ends) return true;
     if (s->reloads && !gn_show_reload(s, err)) return false;
     if (!gn_display_dispatch(&s->stage.display, gn_clock_monotonic_ns(), err)) return false;
-    take_pointer(s);
+    const struct gn_pointer pointer = screen->pointer;
+    screen->pointer = (struct gn_pointer){0};
+    s->ends |= pointer.quit;
+    s->changed |= gn_show_pointer_turn(&s->stage, &pointer);
+    gn_show_take_input(s, &pointer);
     if (s->ends) return true;
-    tick_machine(s);
-    s->changed |= gn_service_step(&s->service, &s->stage.display.screen, gn_clock_monotonic_ns());
+
+    /* the machine: its timeouts, and what it wants to be shown */
+    const struct gn_kiosk_event tick = {.kind = GN_KIOSK_TICK, .time_ns = gn_clock_monotonic_ns()};
+    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &tick);
+    if (s->kiosk.blanked != screen->blank)
+        gn_display_blank(&s->stage.display, s->kiosk.blanked, tick.time_ns);
+    s->changed |= gn_service_step(&s->service, screen, gn_clock_monotonic_ns());
     if (!gn_show_keep_context(s, err)) return false;
     gn_show_advance(s);
     gn_show_enter_changed(s);
-    if (!gn_show_wants_frame(s))
-        work_between_frames(s);
-    else if (!gn_show_frame(s, err))
-        return false;
-    gn_show_advance(s); /* the piece of work may have completed what it waits for */
+
+    /* a frame if one is due, else a piece of background work */
+    if (gn_show_wants_frame(s)) {
+        if (!gn_show_frame(s, err)) return false;
+    } else if (gn_show_has_work(s) && gn_clock_monotonic_ns() >= s->ahead.due_ns) {
+        gn_gl_set_window(s->stage.gl, NULL); /* no drawing to it outside of begin and present */
+        gn_show_work(s);
+    }
+    gn_show_advance(s); /* that piece may have been the last one it waits for */
     gn_show_enter_changed(s);
     return true;
 }

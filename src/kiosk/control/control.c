@@ -148,13 +148,6 @@ static void send_reply(struct gn_control *c, struct client *client, json_t *json
     flush_reply(c, client);
 }
 
-static void reply_busy(struct gn_control *c, struct client *client) {
-    struct gn_err err = {0};
-    gn_fail(&err, "busy");
-    c->counts.busy++;
-    send_reply(c, client, gn_reply_failure(&err));
-}
-
 /* ---- lines ---------------------------------------------------------------------------------- */
 
 /* A leaky bucket as a virtual time: a burst of one second's changes, then an even rate. */
@@ -174,7 +167,9 @@ static void take_line(struct gn_control *c, struct client *client, const char *l
         c->counts.wrong++;
         send_reply(c, client, gn_reply_failure(&err));
     } else if (is_too_much(c, client->buffers->request.command)) {
-        reply_busy(c, client);
+        c->counts.busy++;
+        gn_fail(&err, "busy");
+        send_reply(c, client, gn_reply_failure(&err));
     } else {
         const int index = (int)(client - c->clients);
         client->buffers->request.from = (uint64_t)index;
@@ -190,17 +185,13 @@ static bool has_line(const struct client *client, size_t *length) {
     return newline || (client->ended && client->used > 0);
 }
 
-static void forget_bytes(struct client *client, size_t bytes) {
-    bytes = bytes < client->used ? bytes : client->used;
-    memmove(client->buffers->in, client->buffers->in + bytes, client->used - bytes);
-    client->used -= bytes;
-}
-
 static void handle_line(struct gn_control *c, struct client *client, size_t length) {
     const bool skipped = client->skips;
     client->skips = false;
     if (!skipped) take_line(c, client, client->buffers->in, length);
-    forget_bytes(client, length + 1);
+    const size_t bytes = length + 1 < client->used ? length + 1 : client->used;
+    memmove(client->buffers->in, client->buffers->in + bytes, client->used - bytes);
+    client->used -= bytes;
 }
 
 /* A line that does not fit is answered at once; the rest of it is discarded. */
@@ -337,26 +328,6 @@ static void accept_connections(struct gn_control *c) {
 
 /* ---- dispatching ---------------------------------------------------------------------------- */
 
-static void cut_stuck_clients(struct gn_control *c) {
-    for (int i = 0; i < CLIENTS; i++) {
-        struct client *client = &c->clients[i];
-        if (client->fd < 0 || !client->out || c->now_ns - client->stuck_ns < STUCK_NS) continue;
-        drop_client(client);
-        c->counts.cut++;
-    }
-}
-
-/* Round robin, a line each, so that a busy client does not starve the others. */
-static void serve_in_turn(struct gn_control *c) {
-    c->budget = GN_CONTROL_PER_STEP;
-    for (int idle = 0; idle < CLIENTS && c->budget > 0; c->turn = (c->turn + 1) % CLIENTS) {
-        struct client *client = &c->clients[c->turn];
-        const bool due = is_due(client);
-        if (due) serve_client(c, client);
-        idle = due ? 0 : idle + 1;
-    }
-}
-
 /* Due at once while there is anything to do, else when a client has to be cut off. */
 static void set_timer(struct gn_control *c) {
     int64_t at_ns = c->pending ? c->now_ns : GN_LOOP_NEVER;
@@ -372,9 +343,23 @@ static void set_timer(struct gn_control *c) {
 static void serve_clients(void *user, int64_t now_ns) {
     struct gn_control *c = user;
     c->now_ns = now_ns;
-    cut_stuck_clients(c);
+
+    for (int i = 0; i < CLIENTS; i++) {
+        struct client *client = &c->clients[i];
+        if (client->fd < 0 || !client->out || now_ns - client->stuck_ns < STUCK_NS) continue;
+        drop_client(client);
+        c->counts.cut++;
+    }
     if (c->pending) accept_connections(c);
-    serve_in_turn(c);
+
+    /* round robin, a line each, so that a busy client does not starve the others */
+    c->budget = GN_CONTROL_PER_STEP;
+    for (int idle = 0; idle < CLIENTS && c->budget > 0; c->turn = (c->turn + 1) % CLIENTS) {
+        struct client *client = &c->clients[c->turn];
+        const bool due = is_due(client);
+        if (due) serve_client(c, client);
+        idle = due ? 0 : idle + 1;
+    }
     set_timer(c);
 }
 

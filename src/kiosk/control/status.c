@@ -22,30 +22,15 @@ static double memory_mb(struct gn_show_status *status, int64_t now_ns) {
     return status->memory_mb;
 }
 
-static json_t *scene_of(const struct gn_show *s, int scene) {
-    const char *path = s->scenes.paths[scene];
-    return gn_json_make_text(path ? path : "(default scene)");
-}
-
-static json_t *mode_names(const struct gn_show *s) {
-    json_t *list = json_array();
-    for (int i = 0; i < s->modes.count; i++)
-        json_array_append_new(list, gn_json_make_text(s->modes.names[i]));
-    return list;
-}
-
-/* Of the next frame. */
-static int camera_of(const struct gn_show *s) {
-    const int first = s->looks.of[s->kiosk.shown.mode].frame_opts.camera;
-    return (int)(((uint32_t)first + s->kiosk.camera) % s->stage.scene->camera_count);
-}
-
 json_t *gn_show_status_short(const struct gn_show *s) {
+    const char *scene = s->scenes.paths[gn_kiosk_scene(&s->rules, &s->kiosk.wanted)];
+    const int first_camera = s->looks.of[s->kiosk.shown.mode].frame_opts.camera;
+    const uint32_t camera =
+        ((uint32_t)first_camera + s->kiosk.camera) % s->stage.scene->camera_count;
     return json_pack("{s:o, s:o, s:i, s:b, s:b, s:b}", "mode",
                      gn_json_make_text(s->modes.names[s->kiosk.wanted.mode]), "scene",
-                     scene_of(s, gn_kiosk_scene(&s->rules, &s->kiosk.wanted)), "camera",
-                     camera_of(s), "paused", s->kiosk.paused, "blanked", s->kiosk.blanked, "info",
-                     s->kiosk.info);
+                     gn_json_make_text(scene ? scene : "(default scene)"), "camera", (int)camera,
+                     "paused", s->kiosk.paused, "blanked", s->kiosk.blanked, "info", s->kiosk.info);
 }
 
 static json_t *screen_status(const struct gn_show *s) {
@@ -67,34 +52,28 @@ static json_t *frame_status(const struct gn_show *s) {
                      (json_int_t)c->relit, "opened", (json_int_t)c->opened);
 }
 
-/* From the kernel's time of the edge to the commit of the frame. */
-static json_t *input_status(const struct gn_show *s) {
-    const struct gn_latency_report r = gn_latency_read(&s->buttons.latency);
-    return json_pack("{s:I, s:o, s:o, s:i, s:i}", "seen", (json_int_t)r.count, "median_ms",
-                     gn_json_make_number((double)r.median.ns * 1e-6), "worst_ms",
-                     gn_json_make_number((double)r.worst.ns * 1e-6), "median_frames",
-                     r.median.frames, "worst_frames", r.worst.frames);
-}
-
-static json_t *control_status(struct gn_control_counts c) {
-    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "accepted", (json_int_t)c.accepted,
-                     "refused", (json_int_t)c.refused, "requests", (json_int_t)c.requests, "wrong",
-                     (json_int_t)c.wrong, "busy", (json_int_t)c.busy, "answered",
-                     (json_int_t)c.answered, "cut", (json_int_t)c.cut);
-}
-
 json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *status,
-                            struct gn_control_counts counts) {
+                            struct gn_control_counts c) {
     const struct gn_options *o = s->config.options;
+    const struct gn_latency_report latency = gn_latency_read(&s->buttons.latency);
     const int64_t now_ns = gn_clock_monotonic_ns();
+    json_t *modes = json_array();
+    for (int i = 0; i < s->modes.count; i++)
+        json_array_append_new(modes, gn_json_make_text(s->modes.names[i]));
+
     json_t *reply = json_pack("{s:s, s:i, s:f}", "version", GN_VERSION, "pid", (int)getpid(),
                               "uptime_s", (double)(now_ns - s->counts.begun_ns) * 1e-9);
     json_object_update_new(reply, gn_show_status_short(s));
     json_object_set_new(reply, "waits", json_boolean(status->waits || gn_kiosk_waits(&s->kiosk)));
-    json_object_set_new(reply, "modes", mode_names(s));
+    json_object_set_new(reply, "modes", modes);
     json_object_set_new(reply, "screen", screen_status(s));
     json_object_set_new(reply, "frames", frame_status(s));
-    json_object_set_new(reply, "input", input_status(s));
+    json_object_set_new(
+        reply, "input",
+        json_pack("{s:I, s:o, s:o, s:i, s:i}", "seen", (json_int_t)latency.count, "median_ms",
+                  gn_json_make_number((double)latency.median.ns * 1e-6), "worst_ms",
+                  gn_json_make_number((double)latency.worst.ns * 1e-6), "median_frames",
+                  latency.median.frames, "worst_frames", latency.worst.frames));
     json_object_set_new(reply, "fps", json_integer(gn_frame_times_fps(&s->counts.times, now_ns)));
     json_object_set_new(reply, "config",
                         json_pack("{s:o, s:o}", "path", gn_json_make_text(o->config_path), "error",
@@ -102,6 +81,11 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     json_object_set_new(reply, "problem",
                         gn_json_make_text(s->text.problem[0] ? s->text.problem : NULL));
     json_object_set_new(reply, "memory_mb", gn_json_make_number(memory_mb(status, now_ns)));
-    json_object_set_new(reply, "control", control_status(counts));
+    json_object_set_new(reply, "control",
+                        json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "accepted",
+                                  (json_int_t)c.accepted, "refused", (json_int_t)c.refused,
+                                  "requests", (json_int_t)c.requests, "wrong", (json_int_t)c.wrong,
+                                  "busy", (json_int_t)c.busy, "answered", (json_int_t)c.answered,
+                                  "cut", (json_int_t)c.cut));
     return reply;
 }
