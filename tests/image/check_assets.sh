@@ -54,7 +54,7 @@ fi
 find "$assets" -name '*.gltf' -o -name '*.glb' | sort > "$folder/list"
 while IFS= read -r file; do
     rm -f "$folder/picture.pfm"
-    timeout 20 "$gnomon" render "$file" -o "$folder/picture.pfm" --size 320x240 > "$folder/out" 2> "$folder/err" < /dev/null
+    timeout 120 "$gnomon" render "$file" -o "$folder/picture.pfm" --size 320x240 > "$folder/out" 2> "$folder/err" < /dev/null
     status=$?
     case $status in
     0) check_drawn ;;

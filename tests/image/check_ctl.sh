@@ -93,7 +93,7 @@ expect 1 "no kiosk answers at $folder/ctl; is gnomon show running?" status
 expect 2 'unknown command "stauts"; did you mean status?' stauts
 expect 2 'expected KEY VALUE' set shadow
 expect 2 'which command? expected one of next, prev, mode NAME'
-timeout 20 "$gnomon" ctl status > out 2> err
+timeout 90 "$gnomon" ctl status > out 2> err
 [ $? = 1 ] && grep -q 'no kiosk answers at /run/gnomon/ctl' err || complain "the usual place: $(cat err)"
 
 # ---- commands -----------------------------------------------------------------------------------

@@ -39,6 +39,6 @@ says() {
 says '^10 frames, [0-9]* late, 0 allocations and 0 GL objects' \
     "$gnomon" show -v --backend egl --size 64x64 --frames 10
 says '^1 frames, 0 late, 0 allocations and 0 GL objects' \
-    timeout -s TERM 3 "$gnomon" show -v --backend egl --size 64x64 --no-animation
+    timeout -s TERM 8 "$gnomon" show -v --backend egl --size 64x64 --no-animation
 
 exit $bad

@@ -373,7 +373,7 @@ static int64_t cpu_ms_of(pid_t pid) {
 /* The programs of other modes are made once the first picture is seen. */
 static void await_rest(pid_t pid) {
     int64_t before_ms = -1000, now_ms = cpu_ms_of(pid);
-    for (int i = 0; i < 90 && now_ms - before_ms > 10; i++) {
+    for (int i = 0; i < 600 && now_ms - before_ms > 10; i++) {
         sleep(1);
         before_ms = now_ms;
         now_ms = cpu_ms_of(pid);
