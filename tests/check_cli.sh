@@ -51,6 +51,13 @@ expect 0 '' render --size 64x64 --font /nowhere/x.ttf -o "$folder/plain.png" # n
 cmp -s "$folder/note.png" "$folder/plain.png" && complain 'a caption that is not in the picture'
 expect 2 '--size: "100000x10"' render -v --size 100000x10 -o "$folder/a.png"
 expect 2 'nosuch' render --shadow nosuch -o "$folder/a.png"
+printf '#?RADIANCE\n' > "$folder/sky.hdr"
+printf 'ISO-10303-21;\n' > "$folder/part.step"
+printf 'BLENDER-v304' > "$folder/model.blend"
+printf '\253KTX 20\273' > "$folder/wood.ktx2"
+for file in sky.hdr part.step model.blend wood.ktx2; do
+    expect 1 "$file: byte 0: neither .glb ('glTF') nor .gltf ('{'); what can be read is .glb and .gltf, and .obj .fbx" inspect "$folder/$file"
+done
 expect 1 "$folder/missing.glb" render "$folder/missing.glb" -o "$folder/a.png"
 expect 1 "$folder/missing.ini" render -c "$folder/missing.ini" -o "$folder/a.png"
 printf '[render]\nmap = 1\n' > "$folder/bad.ini"

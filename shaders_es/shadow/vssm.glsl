@@ -1,5 +1,5 @@
 //@ names shadow_visibility vssm_blockers
-// Variance soft shadow maps (Yang, Dong, Feng, Seidel, Guo, "Variance Soft Shadow Mapping", 2010): as pcss, but how far blockers are and
+// Variance soft shadow maps (Yang, Dong, Feng, Seidel, Kautz, "Variance Soft Shadow Mapping", 2010): as pcss, but how far blockers are and
 // how much they let through is read from the mean and the variance over a square, by Chebyshev's inequality, which is exact where
 // there are but two distances: that of the blockers and that of the receiver. Both are those of casters: where the map is clear light
 // passes, and a receiver that is in no map leaves the blockers alone. Behind m + v / (m - z) there is as much as in front.

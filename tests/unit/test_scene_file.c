@@ -38,7 +38,9 @@ static void refuse_text(const char *text, const char *message) {
 static void test_not_gltf(void **state) {
     (void)state;
     refuse_bytes("", 0, "t: byte 0: the file is empty");
-    refuse_text("  hello", "t: byte 2: neither .glb ('glTF') nor .gltf ('{')");
+    refuse_text("  hello",
+                "t: byte 2: neither .glb ('glTF') nor .gltf ('{'); what can be read is .glb and "
+                ".gltf, and .obj .fbx .stl .ply .dae through gnomon-import: export it as .glb");
     refuse_text("glTF", "t: byte 4: the file ends within the .glb header");
     refuse_text("{\"a\":[}", "t: byte 7 (line 1): JSON: unexpected token near '}'");
     refuse_text("{\"a\":\"\xff\"}",

@@ -3,8 +3,11 @@
 #include "scene/private.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "core/model.h"
 
 enum { HEADER = 12, CHUNK = 8 };
 #define CHUNK_JSON 0x4e4f534aU
@@ -80,11 +83,22 @@ static bool open_glb(struct gn_gltf *g, const uint8_t *data, size_t size) {
 
 /* ---- .gltf ---- */
 
+/* Whatever else it is: a .blend, a .hdr, a .step. */
+static bool fail_format(struct gn_gltf *g, size_t at) {
+    char others[80] = "";
+    for (size_t i = 0, used = 0; i < GN_MODEL_FORMAT_COUNT && used < sizeof others; i++)
+        used += (size_t)snprintf(others + used, sizeof others - used, "%s%s", i ? " " : "",
+                                 gn_model_formats[i].suffix);
+    return gn_gltf_fail(g, NULL,
+                        "byte %zu: neither .glb ('glTF') nor .gltf ('{'); what can be read is .glb "
+                        "and .gltf, and %s through gnomon-import: export it as .glb",
+                        at, others);
+}
+
 static bool open_json(struct gn_gltf *g, const uint8_t *data, size_t size) {
     size_t start = has_bom(data, size) ? 3 : 0;
     while (start < size && data[start] && strchr(" \t\r\n", data[start])) start++;
-    if (start == size || data[start] != '{')
-        return gn_gltf_fail(g, NULL, "byte %zu: neither .glb ('glTF') nor .gltf ('{')", start);
+    if (start == size || data[start] != '{') return fail_format(g, start);
     return parse(g, data, size, 0);
 }
 
