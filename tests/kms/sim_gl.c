@@ -101,7 +101,7 @@ static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence
     struct buffer *b = c ? back_buffer(c) : NULL;
     *fence = -1;
     if (!b) sim_complain("a frame without a buffer");
-    if (sim_fails(SIM_gl_swap) || !b) return gn_fail(err, "the GPU ends no frame");
+    if (sim_fails(SIM_gl_swap) || !b) return gn_fail(err, "eglSwapBuffers failed");
     b->locked = true;
     *out = (struct gn_buffer){.key = b,
                               .width_px = c->opts.width_px,

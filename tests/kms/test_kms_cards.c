@@ -106,7 +106,7 @@ static void test_one_that_is_not_there_is_named(void **state) {
     (void)state;
     begin(SIM_FULL_HD, &(struct gn_screen_opts){.card = "platform-gpu7-card"});
     assert_string_equal(client_screen(&c)->status,
-                        "waiting for a card: platform-gpu7-card is not there");
+                        "waiting for a card: platform-gpu7-card not found");
     end();
 }
 

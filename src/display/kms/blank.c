@@ -1,6 +1,6 @@
-/* A screen that is switched off on purpose, for the night or to spare it. Whatever happens
- * meanwhile - monitors, consoles, cards that come and go - it is switched off again; a flip that is
- * never told of is no failure then. The last picture stays, and is the first to be seen again. */
+/* Screen blanking: the CRTC is switched off until unblanked, also after hotplug, VT switches and
+ * card changes; a lost flip is no failure while blanked. The last frame is kept and shown first
+ * when the screen comes back. */
 #include "display/kms/state.h"
 
 bool gn_kms_may_sleep(const struct gn_kms *k) {
@@ -12,7 +12,7 @@ void gn_kms_sleep(struct gn_kms *k, int64_t now_ns) {
     if (!gn_kms_may_sleep(k) || now_ns < k->due.sleep_ns) return;
     const int error = gn_kms_output_sleep(&k->output);
     k->lit = false;
-    /* somebody may light it meanwhile, and leave */
+    /* another program may switch it on meanwhile */
     k->due.sleep_ns = now_ns + (error == 0 ? 10 * GN_KMS_S : GN_KMS_S / 10);
     if (error == 0) return;
     switch (gn_flip_error_of(error)) {

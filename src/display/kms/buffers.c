@@ -1,11 +1,11 @@
-/* Who holds which buffer: at most one is on the screen, one on its way, one waits. */
+/* Buffer ownership: at most one is scanned out, one in flight, one queued. */
 #include <unistd.h>
 
 #include "display/kms/state.h"
 
 bool gn_kms_is_copy(const struct gn_kms *k) { return k->buffers.opts.fallback == GN_FALLBACK_COPY; }
 
-/* By the buffer, not by the rung: that may have changed since. */
+/* Decided by the buffer's key: the fallback level may have changed since. */
 static bool is_gpus(const struct gn_kms *k, const void *key) {
     return k->device.scanout && key && key != &k->buffers.copies[0] && key != &k->buffers.copies[1];
 }
@@ -15,8 +15,8 @@ static void close_fence(struct gn_kms_frame *frame) {
     frame->fence = -1;
 }
 
-/* Nobody reads it any more. */
-static void retire(struct gn_kms *k, struct gn_kms_frame *frame) {
+/* Returns the buffer to its owner. */
+static void release_buffer(struct gn_kms *k, struct gn_kms_frame *frame) {
     close_fence(frame);
     if (frame->fb && is_gpus(k, frame->key)) k->env.scanout->release(k->device.scanout, frame->key);
     *frame = (struct gn_kms_frame){.fence = -1};
@@ -27,9 +27,9 @@ static void forget_frames(struct gn_kms *k) {
         k->frames.pending = (struct gn_kms_frame){.fence = -1};
     if (k->frames.waiting.fb == k->frames.front.fb)
         k->frames.waiting = (struct gn_kms_frame){.fence = -1};
-    retire(k, &k->frames.waiting);
-    retire(k, &k->frames.pending);
-    retire(k, &k->frames.front);
+    release_buffer(k, &k->frames.waiting);
+    release_buffer(k, &k->frames.pending);
+    release_buffer(k, &k->frames.front);
 }
 
 void gn_kms_drop_surface(struct gn_kms *k) {
@@ -55,11 +55,11 @@ struct gn_dumb *gn_kms_free_copy(struct gn_kms *k) {
                                                         : &k->buffers.copies[0];
 }
 
-/* ---- pictures on their way ---- */
+/* ---- buffers in flight ---- */
 
-/* From now on the front is another; `frame` may be the same once more. */
+/* `frame` replaces the front; it may be the same buffer. */
 void gn_kms_take_front(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
-    if (frame.fb != k->frames.front.fb) retire(k, &k->frames.front);
+    if (frame.fb != k->frames.front.fb) release_buffer(k, &k->frames.front);
     if (frame.fb == k->frames.front.fb) k->screen.counts.again++;
     close_fence(&frame);
     k->frames.front = frame;
@@ -68,13 +68,13 @@ void gn_kms_take_front(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_
     k->due.again_ns = now_ns + (k->opts->again_ns > 0 ? k->opts->again_ns : 10 * GN_KMS_S);
 }
 
-/* It may be the one that waits, which it does no more. */
+/* `frame` may be the queued one, which is then cleared. */
 void gn_kms_discard(struct gn_kms *k, struct gn_kms_frame *frame) {
     k->frames.waiting = (struct gn_kms_frame){.fence = -1};
     if (frame->fb == k->frames.front.fb)
         close_fence(frame);
     else
-        retire(k, frame);
+        release_buffer(k, frame);
 }
 
 void gn_kms_flip_is_lost(struct gn_kms *k) {
@@ -83,8 +83,8 @@ void gn_kms_flip_is_lost(struct gn_kms *k) {
     k->frames.pending = (struct gn_kms_frame){.fence = -1};
     k->lit = false;
     if (!frame.fb) return;
-    k->frames.ticket++; /* its event may come yet, whenever */
-    if (frame.fb != k->frames.front.fb) retire(k, &k->frames.front);
-    k->frames.front = frame; /* the kernel may be reading it */
+    k->frames.ticket++; /* a late event must not match the next flip */
+    if (frame.fb != k->frames.front.fb) release_buffer(k, &k->frames.front);
+    k->frames.front = frame; /* the kernel may still scan it out */
     close_fence(&k->frames.front);
 }

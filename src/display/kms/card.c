@@ -1,4 +1,4 @@
-/* A card's snapshot, read from the kernel. */
+/* Reads a snapshot of a card from the kernel. */
 #include "display/kms/card.h"
 
 #include <errno.h>
@@ -7,7 +7,7 @@
 
 #include "core/hash.h"
 
-/* By connector type, as the kernel names them. */
+/* names by connector type, as the kernel has them */
 static const char *const type_names[] = {
     "Unknown", "VGA",       "DVI-I", "DVI-D", "DVI-A",     "Composite", "SVIDEO",
     "LVDS",    "Component", "DIN",   "DP",    "HDMI-A",    "HDMI-B",    "TV",
@@ -53,7 +53,7 @@ static void read_encoders(struct reader *r, const drmModeConnector *from,
     out->crtcs &= (1u << r->card->crtc_count) - 1;
 }
 
-/* "panel orientation": what of the panel is up, so how the picture is to be turned. */
+/* Rotation that compensates the "panel orientation" property. */
 static unsigned degrees_of(const char *orientation) {
     if (strcmp(orientation, "Upside Down") == 0) return 180;
     if (strcmp(orientation, "Left Side Up") == 0) return 270;
@@ -69,7 +69,7 @@ static void read_property(const drmModePropertyRes *p, uint64_t value,
         if (p->enums[i].value == value) out->orientation_deg = degrees_of(p->enums[i].name);
 }
 
-/* A monitor's own description of itself, with its serial number. */
+/* Identifies the monitor by its EDID, which has the serial number. */
 static void read_edid(struct reader *r, uint32_t id, struct gn_kms_connector *out) {
     drmModePropertyBlobRes *blob = id ? r->drm->ModeGetPropertyBlob(r->fd, id) : NULL;
     r->card->partial |= id && !blob;
@@ -90,7 +90,7 @@ static void read_properties(struct reader *r, const drmModeConnector *from,
     }
 }
 
-/* Of those that do not describe themselves: which one is preferred counts, too. */
+/* Identifies monitors without EDID; includes the preferred flag. */
 static uint64_t hash_modes(const struct gn_kms_connector *c) {
     uint64_t hash = GN_HASH_INIT;
     for (int i = 0; i < c->mode_count; i++) {
@@ -134,7 +134,7 @@ static void read_connectors(struct reader *r, bool probe) {
         const uint32_t id = r->resources->connectors[i];
         drmModeConnector *c = probe ? r->drm->ModeGetConnector(r->fd, id)
                                     : r->drm->ModeGetConnectorCurrent(r->fd, id);
-        r->card->partial |= !c; /* it went while we looked: as with DisplayPort's branches */
+        r->card->partial |= !c; /* it disappeared during the scan, as DisplayPort MST branches do */
         if (!c) continue;
         if (c->connector_type != DRM_MODE_CONNECTOR_WRITEBACK) read_connector(r, c);
         r->drm->ModeFreeConnector(c);
@@ -154,7 +154,7 @@ bool gn_kms_card_read(const struct gn_drm_ops *drm, int fd, bool probe, struct g
     drmModeRes *resources = drm->ModeGetResources(fd);
     if (!resources) {
         const int error = errno;
-        gn_fail(err, "it shows no pictures: %s", strerror(error));
+        gn_fail(err, "no modesetting on this node: %s", strerror(error));
         errno = error;
         return false;
     }
@@ -164,7 +164,7 @@ bool gn_kms_card_read(const struct gn_drm_ops *drm, int fd, bool probe, struct g
     read_connectors(&r, probe);
     const bool can = out->crtc_count > 0 && (out->connector_count > 0 || out->partial);
     drm->ModeFreeResources(resources);
-    if (!can) gn_fail(err, "it has nothing to plug a monitor into");
+    if (!can) gn_fail(err, "it has no connectors or CRTCs");
     errno = ENOTSUP;
     return can;
 }

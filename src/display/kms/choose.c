@@ -1,15 +1,15 @@
-/* What is chosen from a card's snapshot. */
+/* Selects connector, CRTC and modes from a card's snapshot. */
 #include <string.h>
 
 #include "display/kms/card.h"
 
 /* ---- connectors and CRTCs ---- */
 
-static bool will_do(const struct gn_kms_connector *c) {
+static bool is_usable(const struct gn_kms_connector *c) {
     return (c->connected || c->unknown) && c->mode_count > 0 && c->crtcs;
 }
 
-/* A monitor that is certainly there goes before one that may be. */
+/* A connected one is preferred to one of unknown state. */
 static bool is_better(const struct gn_kms_connector *a, const struct gn_kms_connector *b) {
     if (a->connected != b->connected) return a->connected;
     return a->id < b->id;
@@ -20,7 +20,7 @@ int gn_kms_choose_connector(const struct gn_kms_card *card, const char *name) {
     for (int i = 0; i < card->connector_count; i++) {
         const struct gn_kms_connector *c = &card->connectors[i];
         if (name && strcmp(c->name, name) != 0) continue;
-        if (!will_do(c)) continue;
+        if (!is_usable(c)) continue;
         if (best < 0 || is_better(c, &card->connectors[best])) best = i;
     }
     return best;
@@ -60,8 +60,8 @@ static bool is_progressive(const drmModeModeInfo *m) {
     return !(m->flags & (DRM_MODE_FLAG_INTERLACE | DRM_MODE_FLAG_DBLSCAN));
 }
 
-static uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
-static uint32_t most(uint32_t a, uint32_t b) { return a < b ? b : a; }
+static uint32_t min_u32(uint32_t a, uint32_t b) { return a < b ? a : b; }
+static uint32_t max_u32(uint32_t a, uint32_t b) { return a < b ? b : a; }
 
 static uint64_t pixel_rate(const drmModeModeInfo *m) {
     return (uint64_t)m->hdisplay * m->vdisplay * gn_kms_mode_mhz(m);
@@ -71,12 +71,12 @@ static uint32_t cap_mhz(const struct gn_screen_opts *o) {
     return (uint32_t)((o->cap_hz > 0 ? o->cap_hz : 60) * 1000) + SLACK_MHZ;
 }
 
-/* Neither larger nor more pixels in a second than the cap: a small monitor may be faster. A panel
- * on its side is as large as one that is not. */
-static bool within(const drmModeModeInfo *m, const struct gn_screen_opts *o) {
+/* The cap limits size and pixel rate, not the refresh rate of smaller modes. A rotated panel counts
+ * as unrotated. */
+static bool is_within_cap(const drmModeModeInfo *m, const struct gn_screen_opts *o) {
     const uint32_t w = o->cap_width ? o->cap_width : 1920, h = o->cap_height ? o->cap_height : 1080;
-    return most(m->hdisplay, m->vdisplay) <= most(w, h) &&
-           least(m->hdisplay, m->vdisplay) <= least(w, h) &&
+    return max_u32(m->hdisplay, m->vdisplay) <= max_u32(w, h) &&
+           min_u32(m->hdisplay, m->vdisplay) <= min_u32(w, h) &&
            pixel_rate(m) <= (uint64_t)w * h * cap_mhz(o);
 }
 
@@ -85,7 +85,7 @@ static double distance_hz(const drmModeModeInfo *m, double hz) {
     return d < 0 ? -d : d;
 }
 
-/* Of two listed modes of the size that was asked for. */
+/* Compares two listed modes of the configured size. */
 static bool fits_better(const drmModeModeInfo *a, const drmModeModeInfo *b, double hz) {
     if (hz > 0 && distance_hz(a, hz) != distance_hz(b, hz))
         return distance_hz(a, hz) < distance_hz(b, hz);
@@ -94,8 +94,8 @@ static bool fits_better(const drmModeModeInfo *a, const drmModeModeInfo *b, doub
     return distance_hz(a, 60) < distance_hz(b, 60);
 }
 
-static const drmModeModeInfo *find_asked(const struct gn_kms_connector *c,
-                                         const struct gn_screen_opts *o) {
+static const drmModeModeInfo *find_configured(const struct gn_kms_connector *c,
+                                              const struct gn_screen_opts *o) {
     const drmModeModeInfo *best = NULL;
     for (int i = 0; i < c->mode_count; i++) {
         const drmModeModeInfo *m = &c->modes[i];
@@ -110,28 +110,28 @@ static const drmModeModeInfo *find_preferred(const struct gn_kms_connector *c,
                                              const struct gn_screen_opts *o) {
     for (int i = 0; i < c->mode_count; i++)
         if (c->modes[i].type & DRM_MODE_TYPE_PREFERRED && is_progressive(&c->modes[i]) &&
-            within(&c->modes[i], o))
+            is_within_cap(&c->modes[i], o))
             return &c->modes[i];
     return NULL;
 }
 
-static uint32_t pixels(const drmModeModeInfo *m) { return (uint32_t)m->hdisplay * m->vdisplay; }
+static uint32_t pixels_of(const drmModeModeInfo *m) { return (uint32_t)m->hdisplay * m->vdisplay; }
 
 static bool is_larger(const drmModeModeInfo *a, const drmModeModeInfo *b) {
-    if (pixels(a) != pixels(b)) return pixels(a) > pixels(b);
+    if (pixels_of(a) != pixels_of(b)) return pixels_of(a) > pixels_of(b);
     return distance_hz(a, 60) < distance_hz(b, 60);
 }
 
 static const drmModeModeInfo *find_largest(const struct gn_kms_connector *c,
                                            const struct gn_screen_opts *o, uint32_t below_px) {
     const drmModeModeInfo *best = NULL;
-    /* a cap of 3840x2160@30 asks for fewer */
-    const uint32_t least_mhz = least(LEAST_MHZ, cap_mhz(o) - 2 * SLACK_MHZ);
+    /* a cap of 3840x2160@30 allows lower rates */
+    const uint32_t least_mhz = min_u32(LEAST_MHZ, cap_mhz(o) - 2 * SLACK_MHZ);
     for (int i = 0; i < c->mode_count; i++) {
         const drmModeModeInfo *m = &c->modes[i];
-        if (!is_progressive(m) || !within(m, o)) continue;
+        if (!is_progressive(m) || !is_within_cap(m, o)) continue;
         if (gn_kms_mode_mhz(m) < least_mhz || gn_kms_mode_mhz(m) > MOST_MHZ) continue;
-        if (pixels(m) >= below_px) continue;
+        if (pixels_of(m) >= below_px) continue;
         if (!best || is_larger(m, best)) best = m;
     }
     return best;
@@ -156,28 +156,28 @@ struct candidates {
     int count;
 };
 
-static void push(struct candidates *l, const drmModeModeInfo *mode) {
+static void push_mode(struct candidates *l, const drmModeModeInfo *mode) {
     for (int i = 0; mode && i < l->count; i++)
         if (gn_kms_mode_equal(&l->out[i], mode)) return;
     if (mode && l->count < GN_KMS_CANDIDATES_MAX) l->out[l->count++] = *mode;
 }
 
-static void push_asked(struct candidates *l, const struct gn_kms_connector *c,
-                       const struct gn_screen_opts *o) {
+static void push_configured(struct candidates *l, const struct gn_kms_connector *c,
+                            const struct gn_screen_opts *o) {
     drmModeModeInfo made;
-    if (o->modeline && gn_kms_modeline_parse(o->modeline, &made)) push(l, &made);
+    if (o->modeline && gn_kms_modeline_parse(o->modeline, &made)) push_mode(l, &made);
     if (o->mode_width == 0) return;
-    const drmModeModeInfo *listed = find_asked(c, o);
+    const drmModeModeInfo *listed = find_configured(c, o);
     if (listed) {
-        push(l, listed);
+        push_mode(l, listed);
         return;
     }
     made = gn_kms_mode_cvt(o->mode_width, o->mode_height, o->mode_hz > 0 ? o->mode_hz : 60);
-    push(l, &made);
+    push_mode(l, &made);
 }
 
-/* The mode in use, as of this monitor; firmware may have rounded its clock otherwise. Without it,
- * it is that of a monitor that is gone. */
+/* Whether the current mode is this monitor's; firmware may have rounded its clock differently. If
+ * not, it was set for another monitor. */
 static bool is_offered(const struct gn_kms_connector *c, const drmModeModeInfo *mode) {
     for (int i = 0; i < c->mode_count; i++)
         if (c->modes[i].hdisplay == mode->hdisplay && c->modes[i].vdisplay == mode->vdisplay &&
@@ -192,17 +192,17 @@ int gn_kms_mode_candidates(const struct gn_kms_card *card, int connector, int cr
     const struct gn_kms_connector *c = &card->connectors[connector];
     const struct gn_kms_crtc *now = crtc >= 0 && c->crtc == crtc ? &card->crtcs[crtc] : NULL;
     struct candidates l = {out, 0};
-    push_asked(&l, c, opts);
-    if (now && now->lit && is_progressive(&now->mode) && within(&now->mode, opts) &&
+    push_configured(&l, c, opts);
+    if (now && now->lit && is_progressive(&now->mode) && is_within_cap(&now->mode, opts) &&
         is_offered(c, &now->mode))
-        push(&l, &now->mode);
-    push(&l, find_preferred(c, opts));
+        push_mode(&l, &now->mode);
+    push_mode(&l, find_preferred(c, opts));
     const drmModeModeInfo *large = find_largest(c, opts, UINT32_MAX);
-    push(&l, large);
+    push_mode(&l, large);
     while (large && l.count < GN_KMS_CANDIDATES_MAX - 2)
-        push(&l, large = find_largest(c, opts, pixels(large)));
-    push(&l, find_first(c));
-    push(&l, find_vga(c));
-    if (l.count == 0 && c->mode_count > 0) push(&l, &c->modes[0]);
+        push_mode(&l, large = find_largest(c, opts, pixels_of(large)));
+    push_mode(&l, find_first(c));
+    push_mode(&l, find_vga(c));
+    if (l.count == 0 && c->mode_count > 0) push_mode(&l, &c->modes[0]);
     return l.count;
 }

@@ -16,7 +16,7 @@ static bool is_console(int fd) {
     return ioctl(fd, KDGETMODE, &mode) == 0 && ioctl(fd, VT_GETMODE, &vt) == 0;
 }
 
-/* Ours: that of standard input, else the controlling one. */
+/* The VT of standard input, else the controlling terminal. */
 static int find_tty(void) {
     int fd = is_console(STDIN_FILENO) ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)
                                       : open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY);

@@ -1,5 +1,6 @@
-/* The text console under the screen: quiet while we show pictures, and told to ask before it
- * switches. Where there is none (a container, a service without a terminal) nothing is done. */
+/* The virtual terminal under the screen: graphics mode while frames are shown, with VT switches
+ * under our control (VT_PROCESS). Does nothing without a VT (container, service without terminal).
+ * */
 #ifndef GN_DISPLAY_KMS_CONSOLE_H
 #define GN_DISPLAY_KMS_CONSOLE_H
 
@@ -10,14 +11,15 @@
 struct gn_console {
     int tty; /* -1: none */
     struct gn_signals signals;
-    bool leaves;  /* it wants to switch: call gn_console_let_go() once the screen is free */
-    bool entered; /* the screen is ours again; whoever reads it clears it */
+    bool leaves;  /* signalfd, readable on a request to switch; -1: none */
+    bool entered; /* Blocks SIGUSR1 and SIGUSR2 permanently: call before creating threads. */
 };
 
-/* Blocks SIGUSR1 and SIGUSR2 for good: to be called before other threads are made. */
+/* Reads the signals. *left: a switch away is requested, call gn_console_let_go() when the screen is
+ * released; *entered: switched back to us. */
 void gn_console_open(struct gn_console *console, struct gn_loop *loop);
 void gn_console_let_go(struct gn_console *console);
-/* It shows text again, whoever left it without: one of us that was killed, or a splash. */
+/* Restores text mode, also if it was left in graphics mode by a killed process or a splash. */
 void gn_console_close(struct gn_console *console);
 
 #endif

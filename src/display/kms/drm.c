@@ -13,7 +13,7 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
-/* ---- where a node is on the board ---- */
+/* ---- stable place of a node, as udev's path_id ---- */
 
 static bool last_part(const char *link, char *out, size_t size) {
     char target[PATH_MAX];
@@ -25,7 +25,7 @@ static bool last_part(const char *link, char *out, size_t size) {
     return true;
 }
 
-/* Up the tree of devices to the first on a bus whose names last: as udev's path_id has it. */
+/* Walks up the device tree to the first bus with persistent names. */
 static void find_place(const char *node, char *out, size_t size) {
     struct stat st;
     char at[PATH_MAX], link[PATH_MAX + 16], bus[32];
@@ -43,11 +43,10 @@ static void find_place(const char *node, char *out, size_t size) {
     }
 }
 
-/* ---- ours ---- */
+/* ---- functions of our own ---- */
 
-/* By the names in the folder: what is not the kernel's own numbering of primary nodes is no card.
- * libdrm's drmGetDevices2 reads much of sysfs, and differs from release to release in what it takes
- * for a card. */
+/* Lists primary nodes by name: drmGetDevices2 reads much of sysfs, and what it accepts as a card
+ * differs between releases. */
 static int by_number(const void *a, const void *b) {
     const struct gn_kms_node *x = a, *y = b;
     return atoi(x->path + strlen("/dev/dri/card")) - atoi(y->path + strlen("/dev/dri/card"));
@@ -75,16 +74,16 @@ static int open_node(const char *path) { return open(path, O_RDWR | O_CLOEXEC | 
 
 static void close_node(int fd) { close(fd); }
 
-static void *map(int fd, uint64_t offset, size_t size) {
+static void *map_buffer(int fd, uint64_t offset, size_t size) {
     void *memory = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd, (off_t)offset);
     return memory == MAP_FAILED ? NULL : memory;
 }
 
-static void unmap(void *memory, size_t size) { munmap(memory, size); }
+static void unmap_buffer(void *memory, size_t size) { munmap(memory, size); }
 
-/* ---- libdrm's ---- */
+/* ---- libdrm ---- */
 
-static bool load(struct gn_drm_ops *ops, struct gn_err *err) {
+static bool load_libdrm(struct gn_drm_ops *ops, struct gn_err *err) {
     void *library = dlopen("libdrm.so.2", RTLD_NOW | RTLD_LOCAL);
     if (!library) return gn_fail(err, "libdrm.so.2 is missing; install libdrm2");
 #define X(function, name)                                                                          \
@@ -96,9 +95,12 @@ static bool load(struct gn_drm_ops *ops, struct gn_err *err) {
 }
 
 const struct gn_drm_ops *gn_drm_real(struct gn_err *err) {
-    static struct gn_drm_ops ops = {
-        .list = list_nodes, .open = open_node, .close = close_node, .map = map, .unmap = unmap};
+    static struct gn_drm_ops ops = {.list = list_nodes,
+                                    .open = open_node,
+                                    .close = close_node,
+                                    .map = map_buffer,
+                                    .unmap = unmap_buffer};
     static bool loaded;
-    if (!loaded) loaded = load(&ops, err);
+    if (!loaded) loaded = load_libdrm(&ops, err);
     return loaded ? &ops : NULL;
 }

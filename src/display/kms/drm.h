@@ -1,7 +1,7 @@
-/* The kernel's display interface as a table of functions, so that a test can be the kernel: those
- * of libdrm by their own names and with their own contracts (drmModeGetCrtc is ModeGetCrtc), and a
- * few of ours. The real table is filled when it is first asked for; libdrm is opened at run time,
- * so that the program starts, and says what to install, where it is missing. */
+/* The kernel's display interface as a table of functions that tests can replace: libdrm's under
+ * their own names and contracts (drmModeGetCrtc is ModeGetCrtc) and a few of our own. libdrm is
+ * opened at run time on first use, so that the program starts without it and names the missing
+ * package. */
 #ifndef GN_DISPLAY_KMS_DRM_H
 #define GN_DISPLAY_KMS_DRM_H
 
@@ -13,7 +13,7 @@
 
 #include "core/err.h"
 
-/* What is freed by a function of libdrm's stands before that function. */
+/* A libdrm function that frees an object precedes the one that returns it. */
 #define GN_DRM_TABLE(X)                                                                            \
     X(drmGetVersion, GetVersion)                                                                   \
     X(drmFreeVersion, FreeVersion)                                                                 \
@@ -62,7 +62,7 @@ enum { GN_KMS_CARDS_MAX = 8 };
 
 struct gn_kms_node {
     char path[64];  /* "/dev/dri/card1" */
-    char place[96]; /* where it is on the board: "platform-gpu", "pci-0000:00:02.0"; or "" */
+    char place[96]; /* place on the board: "platform-gpu", "pci-0000:00:02.0"; or "" */
 };
 
 struct gn_drm_ops {
@@ -70,18 +70,17 @@ struct gn_drm_ops {
 #define X(function, name) __typeof__(function) *name;
     GN_DRM_TABLE(X)
 #undef X
-    /* All primary nodes, whatever they can do; at most `most` are written, the count is returned.
-     */
+    /* Lists all primary nodes; writes at most `most`, returns the count. */
     int (*list)(struct gn_kms_node *out, int most);
-    /* A descriptor that does not block and is not inherited, or -1 and errno. */
+    /* Returns a non-blocking, close-on-exec descriptor, or -1 and errno. */
     int (*open)(const char *path);
     void (*close)(int fd);
-    /* Memory of a dumb buffer, or NULL and errno. */
+    /* Maps a dumb buffer; NULL and errno on failure. */
     void *(*map)(int fd, uint64_t offset, size_t size);
     void (*unmap)(void *memory, size_t size);
 };
 
-/* The kernel's; NULL where libdrm is missing: err says what to install. */
+/* libdrm's table; NULL with an error if it is missing. */
 const struct gn_drm_ops *gn_drm_real(struct gn_err *err);
 
 #endif

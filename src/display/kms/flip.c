@@ -5,9 +5,9 @@
 #define NS_PER_MS  INT64_C(1000000)
 #define STALLED_NS (250 * NS_PER_MS)
 #define DRAIN_NS   (2000 * NS_PER_MS)
-#define LOST_NS    (12000 * NS_PER_MS) /* the kernel's own wait is 10 s */
+#define LOST_NS    (12000 * NS_PER_MS) /* the kernel itself waits 10 s */
 
-enum { REFRESHES_MAX = 8 }; /* a longer pause says nothing about the next frame */
+enum { REFRESHES_MAX = 8 }; /* a longer pause does not predict the next frame */
 
 enum gn_flip_error gn_flip_error_of(int error) {
     switch (error) {
@@ -25,7 +25,7 @@ enum gn_flip_error gn_flip_error_of(int error) {
     }
 }
 
-/* The first refresh after a time. */
+/* The first refresh after now_ns. */
 static int64_t refresh_after(const struct gn_flip *f, int64_t now_ns) {
     if (f->no_vblank || f->shown_ns == 0 || now_ns < f->shown_ns) return now_ns + f->period_ns;
     return f->shown_ns + ((now_ns - f->shown_ns) / f->period_ns + 1) * f->period_ns;
@@ -43,7 +43,7 @@ void gn_flip_committed(struct gn_flip *f, int64_t now_ns) {
     f->committed_ns = now_ns;
 }
 
-/* Where a timer paces, on a grid of its own, which a late frame moves. */
+/* Timer pacing, on a grid of its own; a late frame shifts the grid. */
 static void pace_by_timer(struct gn_flip *f, int64_t now_ns) {
     const int64_t interval = f->shortest_ns > f->period_ns ? f->shortest_ns : f->period_ns;
     const bool on_grid = f->next_ns > 0 && f->begun_ns - f->next_ns < interval;
@@ -51,7 +51,7 @@ static void pace_by_timer(struct gn_flip *f, int64_t now_ns) {
     if (f->next_ns < now_ns) f->next_ns = now_ns;
 }
 
-/* Where the screen paces: every kth refresh, drawing from the one before on. */
+/* Vblank pacing: every kth refresh, drawing from the refresh before it. */
 static void pace_by_refresh(struct gn_flip *f) {
     const int64_t k = (f->shortest_ns - f->period_ns / 10 + f->period_ns - 1) / f->period_ns;
     f->next_ns = k > 1 ? f->shown_ns + (k - 1) * f->period_ns : 0;

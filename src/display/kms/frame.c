@@ -1,4 +1,4 @@
-/* Pictures on their way to the screen: one flip in flight, at most two buffers held. */
+/* Frames: one flip in flight, at most two buffers held. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,11 +7,11 @@
 #include "display/kms/state.h"
 #include "display/message.h"
 
-#define STARVED_NS (5 * GN_KMS_S) /* then something else is tried */
+#define STARVED_NS (5 * GN_KMS_S) /* no framebuffer for so long: try other buffers */
 
 /* ---- flips ---- */
 
-static void done(struct gn_kms *k, int64_t shown_ns, int64_t now_ns) {
+static void end_flip(struct gn_kms *k, int64_t shown_ns, int64_t now_ns) {
     const struct gn_kms_frame frame = k->frames.pending;
     k->frames.pending = (struct gn_kms_frame){.fence = -1};
     gn_flip_done(&k->flip, shown_ns, now_ns);
@@ -32,7 +32,7 @@ void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
         errno = 0;
         const int result = k->env.drm->HandleEvent(k->device.fd, &context);
         const int error = errno;
-        if (k->frames.event_ns >= 0 && k->flip.pending) done(k, k->frames.event_ns, now_ns);
+        if (k->frames.event_ns >= 0 && k->flip.pending) end_flip(k, k->frames.event_ns, now_ns);
         if (result == 0) continue;
         if (error == ENODEV || error == EIO || error == EBADF) gn_kms_leave_card(k, false, now_ns);
         return;
@@ -41,7 +41,7 @@ void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
 
 /* ---- commits ---- */
 
-static int light(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
+static int light_frame(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
     const int error =
         gn_kms_output_light(&k->output, &k->monitor.candidates[k->monitor.mode], frame->fb);
     if (error != 0) return error;
@@ -50,13 +50,13 @@ static int light(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now
     k->screen.counts.relit++;
     k->flip.no_vblank = gn_kms_output_lacks_vblank(&k->output);
     gn_flip_committed(&k->flip, now_ns);
-    k->flip.due_ns = now_ns; /* no refresh was missed: there was none */
+    k->flip.due_ns = now_ns; /* a modeset misses no refresh */
     gn_flip_done(&k->flip, 0, now_ns);
     gn_kms_take_front(k, *frame, now_ns);
     return 0;
 }
 
-static int flip(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
+static int flip_frame(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
     struct gn_kms_ticket *ticket = &k->frames.tickets[k->frames.ticket % GN_KMS_TICKETS];
     *ticket = (struct gn_kms_ticket){k, k->frames.ticket};
     const int error = gn_kms_output_flip(&k->output, frame->fb, frame->fence, ticket);
@@ -81,7 +81,8 @@ void gn_kms_lose_master(struct gn_kms *k, int64_t now_ns) {
         k->env.find_holder(k->device.node.path, k->text.holder, sizeof k->text.holder);
 }
 
-static void refuse(struct gn_kms *k, struct gn_kms_frame *frame, int error, int64_t now_ns) {
+static void handle_commit_error(struct gn_kms *k, struct gn_kms_frame *frame, int error,
+                                int64_t now_ns) {
     const bool was_lit = k->lit;
     switch (gn_flip_error_of(error)) {
     case GN_FLIP_BUSY:
@@ -97,7 +98,7 @@ static void refuse(struct gn_kms *k, struct gn_kms_frame *frame, int error, int6
     case GN_FLIP_CHANGED: break;
     }
     k->lit = false;
-    if (was_lit) { /* the mode or the connector has changed under us: once more with a modeset */
+    if (was_lit) { /* mode or connector changed: retry with a modeset */
         wait_a_frame(k, frame, now_ns);
         k->due.scan_ns = k->due.probe_ns = now_ns;
         return;
@@ -107,28 +108,28 @@ static void refuse(struct gn_kms *k, struct gn_kms_frame *frame, int error, int6
 }
 
 void gn_kms_send(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
-    if (k->blank) { /* asked for while it was drawn */
+    if (k->blank) { /* blanking was requested while it was drawn */
         gn_kms_discard(k, &frame);
         return;
     }
-    const int error = k->lit ? flip(k, &frame, now_ns) : light(k, &frame, now_ns);
+    const int error = k->lit ? flip_frame(k, &frame, now_ns) : light_frame(k, &frame, now_ns);
     if (error == 0)
         k->frames.waiting = (struct gn_kms_frame){.fence = -1};
     else
-        refuse(k, &frame, error, now_ns);
+        handle_commit_error(k, &frame, error, now_ns);
 }
 
-/* ---- a text instead ---- */
+/* ---- message without GL ---- */
 
-/* Memory that is short comes back, or other buffers, or smaller ones, may need less. */
-static void without_fb(struct gn_kms *k, int error, int64_t now_ns) {
+/* ENOMEM: retry; memory may be freed, and other or smaller buffers may fit. */
+static void handle_fb_error(struct gn_kms *k, int error, int64_t now_ns) {
     const enum gn_flip_error kind = gn_flip_error_of(error);
     const bool waits = kind == GN_FLIP_BUSY || kind == GN_FLIP_NO_MEMORY;
     if (waits && k->due.starved_ns == 0) k->due.starved_ns = now_ns;
     if (kind == GN_FLIP_CARD_GONE) {
         gn_kms_leave_card(k, false, now_ns);
     } else if (waits && now_ns - k->due.starved_ns < STARVED_NS) {
-        k->lit = false; /* what was to be seen is drawn again */
+        k->lit = false; /* draw the discarded content again */
         k->screen.counts.retried++;
         gn_flip_refused(&k->flip, now_ns);
     } else {
@@ -147,7 +148,7 @@ void gn_kms_send_message(struct gn_kms *k, int64_t now_ns) {
     if (error == 0)
         gn_kms_send(k, frame, now_ns);
     else
-        without_fb(k, error, now_ns);
+        handle_fb_error(k, error, now_ns);
 }
 
 /* ---- drawing ---- */
@@ -164,7 +165,7 @@ bool gn_kms_begin(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
     return true;
 }
 
-/* The GPU's frame; false: the context has ended. */
+/* Takes GL's frame. Returns false if the context is lost. */
 static bool take_frame(struct gn_kms *k, struct gn_buffer *buffer, int *fence) {
     struct gn_err why = {0};
     *fence = -1;
@@ -196,5 +197,5 @@ void gn_kms_send_drawn(struct gn_kms *k, int64_t now_ns) {
     }
     if (frame.fence >= 0) close(frame.fence);
     if (!gn_kms_is_copy(k)) k->env.scanout->release(k->device.scanout, frame.key);
-    without_fb(k, error, now_ns);
+    handle_fb_error(k, error, now_ns);
 }

@@ -1,6 +1,6 @@
-/* GBM and EGL on a card. Both libraries are opened at run time. The context is made without a
- * surface, so that programs are ready before there is a monitor; where the card's GPU is another
- * device, Mesa finds it by itself. */
+/* GBM and EGL on a card, both opened at run time. The context is surfaceless, so that programs
+ * compile before a monitor is connected. Where display and GPU are separate devices, Mesa finds the
+ * GPU. */
 #include <dlfcn.h>
 #include <drm_fourcc.h>
 #include <errno.h>
@@ -45,21 +45,21 @@ struct scanout {
 #undef X
     struct gn_egl egl;
     PFNEGLCREATEPLATFORMWINDOWSURFACEEXTPROC create_window;
-    PFNEGLCREATESYNCKHRPROC create_sync; /* with the next two, or none of them */
+    PFNEGLCREATESYNCKHRPROC create_sync; /* all three or none */
     PFNEGLDESTROYSYNCKHRPROC destroy_sync;
     PFNEGLDUPNATIVEFENCEFDANDROIDPROC dup_fence;
     struct gbm_device *gbm;
     EGLDisplay display;
     EGLContext context;
-    EGLConfig context_config; /* NULL: it goes with any */
+    EGLConfig context_config; /* EGL_NO_CONFIG_KHR if supported */
     EGLSurface window;
     struct gbm_surface *surface;
-    int node; /* of another GPU than the card's own, else -1 */
+    int node; /* render node of another GPU, else -1 */
     struct gn_imports imports;
-    bool has_colorspace, can_show; /* can_show: the card takes this GPU's buffers */
+    bool has_colorspace, can_show; /* can_show: the card accepts this GPU's buffers */
 };
 
-/* ---- a GPU that is another device than the card ---- */
+/* ---- render node of another GPU ---- */
 
 static bool open_node(struct scanout *s, int card, const char *path, struct gn_err *err) {
     s->imports.card = card;
@@ -73,8 +73,8 @@ static int export_plane(void *state, void *bo, int plane) {
     return ((struct scanout *)state)->gbm_bo_get_fd_for_plane(bo, plane);
 }
 
-/* By one that nobody will see: where it is refused, pictures are copied. */
-static bool takes_its_buffers(struct scanout *s) {
+/* Tries one buffer; if the card refuses it, frames are copied. */
+static bool accepts_buffers(struct scanout *s) {
     struct gbm_bo *bo = s->gbm_bo_create(s->gbm, 64, 64, DRM_FORMAT_XRGB8888,
                                          GBM_BO_USE_RENDERING | GBM_BO_USE_LINEAR);
     const bool takes = bo && gn_import_get(&s->imports, bo, 1, export_plane, s);
@@ -85,7 +85,7 @@ static bool takes_its_buffers(struct scanout *s) {
 
 /* ---- opening ---- */
 
-static bool load(struct scanout *s, struct gn_err *err) {
+static bool load_libraries(struct scanout *s, struct gn_err *err) {
     void *library = dlopen("libgbm.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!library) return gn_fail(err, "libgbm.so.1 is missing; install libgbm1");
 #define X(name)                                                                                    \
@@ -105,21 +105,21 @@ static bool open_display(struct scanout *s, struct gn_err *err) {
     if (!get_display || !s->create_window ||
         (!gn_egl_has(client, "EGL_KHR_platform_gbm") &&
          !gn_egl_has(client, "EGL_MESA_platform_gbm")))
-        return gn_fail(err, "this EGL knows no screens (platform gbm); install libegl-mesa0");
+        return gn_fail(err, "EGL does not support platform gbm; install libegl-mesa0");
     s->gbm = s->gbm_create_device(s->node >= 0 ? s->node : s->imports.card);
-    if (!s->gbm) return gn_fail(err, "there is no driver for it (GBM); install libgl1-mesa-dri");
+    if (!s->gbm) return gn_fail(err, "no GBM driver for this device; install libgl1-mesa-dri");
     s->display = get_display(EGL_PLATFORM_GBM_KHR, s->gbm, NULL);
     if (s->display == EGL_NO_DISPLAY || !s->egl.Initialize(s->display, NULL, NULL))
-        return gn_fail(err, "EGL finds no driver for it (0x%x); install libgl1-mesa-dri",
+        return gn_fail(err, "eglInitialize failed (0x%x); install libgl1-mesa-dri",
                        s->egl.GetError());
     s->egl.BindAPI(EGL_OPENGL_ES_API);
     return true;
 }
 
-static void learn(struct scanout *s) {
+static void read_extensions(struct scanout *s) {
     const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
     s->has_colorspace = gn_egl_has(has, "EGL_KHR_gl_colorspace");
-    s->can_show = s->node < 0 || takes_its_buffers(s);
+    s->can_show = s->node < 0 || accepts_buffers(s);
     if (!gn_egl_has(has, "EGL_ANDROID_native_fence_sync")) return;
     s->create_sync = (PFNEGLCREATESYNCKHRPROC)s->egl.GetProcAddress("eglCreateSyncKHR");
     s->destroy_sync = (PFNEGLDESTROYSYNCKHRPROC)s->egl.GetProcAddress("eglDestroySyncKHR");
@@ -136,22 +136,22 @@ static EGLint attribute(struct scanout *s, EGLConfig config, EGLint name) {
     return value;
 }
 
-/* eglChooseConfig ignores the visual, and that is what counts. One sample: a surface with more
- * averages values as they are encoded, and not as light. */
-static bool fits(struct scanout *s, EGLConfig c, uint32_t format) {
+/* eglChooseConfig ignores EGL_NATIVE_VISUAL_ID, so it is compared here. Single-sampled: a
+ * multisampled surface would resolve encoded values. */
+static bool config_fits(struct scanout *s, EGLConfig c, uint32_t format) {
     return (uint32_t)attribute(s, c, EGL_NATIVE_VISUAL_ID) == format &&
            attribute(s, c, EGL_SURFACE_TYPE) & EGL_WINDOW_BIT &&
            attribute(s, c, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES3_BIT_KHR &&
            attribute(s, c, EGL_DEPTH_SIZE) == 24 && attribute(s, c, EGL_SAMPLES) == 0;
 }
 
-/* With a stencil, by which some planar shadows are drawn: beside 24 bits of depth it is free. */
+/* With a stencil buffer, needed by planar shadows: it is free beside 24 bits of depth. */
 static EGLConfig find_config(struct scanout *s, uint32_t format) {
     EGLConfig *all = gn_xalloc(CONFIGS_MAX, sizeof *all), found = NULL, best = NULL;
     EGLint count = 0;
     s->egl.GetConfigs(s->display, all, CONFIGS_MAX, &count);
     for (EGLint i = 0; i < count && !best; i++) {
-        if (!fits(s, all[i], format)) continue;
+        if (!config_fits(s, all[i], format)) continue;
         found = all[i];
         if (attribute(s, all[i], EGL_STENCIL_SIZE) == 8) best = all[i];
     }
@@ -171,7 +171,7 @@ static EGLContext create_context(struct scanout *s, EGLint major, bool robust) {
 static bool make_context(struct scanout *s, struct gn_err *err) {
     const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
     if (!gn_egl_has(has, "EGL_KHR_surfaceless_context"))
-        return gn_fail(err, "its driver draws on surfaces only (EGL_KHR_surfaceless_context)");
+        return gn_fail(err, "the EGL driver lacks EGL_KHR_surfaceless_context");
     if (!gn_egl_has(has, "EGL_KHR_no_config_context"))
         s->context_config = find_config(s, DRM_FORMAT_XRGB8888);
     if (gn_egl_has(has, "EGL_EXT_create_context_robustness"))
@@ -179,10 +179,9 @@ static bool make_context(struct scanout *s, struct gn_err *err) {
     if (s->context == EGL_NO_CONTEXT) s->context = create_context(s, 3, false);
     if (s->context == EGL_NO_CONTEXT) s->context = create_context(s, 2, false);
     if (s->context == EGL_NO_CONTEXT)
-        return gn_fail(err, "its driver makes no OpenGL ES context (0x%x)", s->egl.GetError());
+        return gn_fail(err, "cannot create an OpenGL ES context (0x%x)", s->egl.GetError());
     if (!s->egl.MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context))
-        return gn_fail(err, "its driver does not make its context current (0x%x)",
-                       s->egl.GetError());
+        return gn_fail(err, "eglMakeCurrent failed (0x%x)", s->egl.GetError());
     return true;
 }
 
@@ -206,14 +205,14 @@ static void close_all(void *state) {
     }
     if (s->gbm) s->gbm_device_destroy(s->gbm);
     if (s->node >= 0) close(s->node);
-    free(s); /* the libraries stay: what they have started does not survive being unloaded */
+    free(s); /* the libraries stay loaded: threads they started do not survive dlclose */
 }
 
 static void *open_on(int card, const char *render_node, struct gn_err *err) {
     struct scanout *s = gn_xalloc(1, sizeof *s);
-    if (open_node(s, card, render_node, err) && load(s, err) && open_display(s, err) &&
+    if (open_node(s, card, render_node, err) && load_libraries(s, err) && open_display(s, err) &&
         make_context(s, err)) {
-        learn(s);
+        read_extensions(s);
         return s;
     }
     close_all(s);
@@ -233,7 +232,7 @@ static struct gbm_surface *create_buffers(struct scanout *s, const struct gn_sur
     const bool listed = o->fallback == GN_FALLBACK_MODIFIERS;
     if (listed && (o->modifier_count == 0 || format != o->formats[0])) return NULL;
     if (o->fallback ==
-        GN_FALLBACK_PLAIN) /* without a word about it two devices agree on rows alone */
+        GN_FALLBACK_PLAIN) /* without modifiers two devices share linear layout only */
         return s->gbm_surface_create(s->gbm, o->width_px, o->height_px, format,
                                      GBM_BO_USE_RENDERING |
                                          (s->node >= 0 ? GBM_BO_USE_LINEAR : GBM_BO_USE_SCANOUT));
@@ -242,7 +241,7 @@ static struct gbm_surface *create_buffers(struct scanout *s, const struct gn_sur
                                                 listed ? (unsigned)o->modifier_count : 1);
 }
 
-/* srgb: wanted, and whether it came true. */
+/* srgb: wanted; on return, whether the surface encodes. */
 static bool create_window(struct scanout *s, EGLConfig config, bool *srgb) {
     static const EGLint encoded[] = {EGL_GL_COLORSPACE_KHR, EGL_GL_COLORSPACE_SRGB_KHR, EGL_NONE};
     if (*srgb) s->window = s->create_window(s->display, config, s->surface, encoded);
@@ -269,13 +268,13 @@ static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_
                         struct gn_err *err) {
     struct scanout *s = state;
     drop_surface(s);
-    if (!s->can_show) return gn_fail(err, "the card takes no buffers of the render node");
+    if (!s->can_show) return gn_fail(err, "the card accepts no buffers of the render node");
     for (int i = 0; i < o->format_count; i++) {
         if (!try_surface(s, o, o->formats[i], &out->srgb)) continue;
         out->format = o->formats[i];
         return true;
     }
-    return gn_fail(err, "no %ux%u surface that can be shown (0x%x)", o->width_px, o->height_px,
+    return gn_fail(err, "cannot create a %ux%u scanout surface (0x%x)", o->width_px, o->height_px,
                    s->egl.GetError());
 }
 
@@ -294,7 +293,7 @@ static bool describe(struct scanout *s, struct gbm_bo *bo, struct gn_buffer *out
     const struct gn_import *import =
         s->node >= 0 ? gn_import_get(&s->imports, bo, out->plane_count, export_plane, s) : NULL;
     if (s->node >= 0 && !import)
-        return gn_fail(err, "the card takes no buffers of the render node: %s", strerror(errno));
+        return gn_fail(err, "the card refuses a buffer of the render node: %s", strerror(errno));
     for (int i = 0; i < out->plane_count && i < GN_BUFFER_PLANES_MAX; i++) {
         out->handles[i] = import ? import->handles[i] : s->gbm_bo_get_handle_for_plane(bo, i).u32;
         out->strides[i] = s->gbm_bo_get_stride_for_plane(bo, i);
@@ -313,9 +312,9 @@ static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence
     const bool swapped = s->egl.SwapBuffers(s->display, s->window);
     if (swapped && sync != EGL_NO_SYNC_KHR) *fence = s->dup_fence(s->display, sync);
     if (sync != EGL_NO_SYNC_KHR) s->destroy_sync(s->display, sync);
-    if (!swapped) return gn_fail(err, "the GPU ends no frame (0x%x)", s->egl.GetError());
+    if (!swapped) return gn_fail(err, "eglSwapBuffers failed (0x%x)", s->egl.GetError());
     struct gbm_bo *bo = s->gbm_surface_lock_front_buffer(s->surface);
-    if (!bo) return gn_fail(err, "the GPU hands over no frame");
+    if (!bo) return gn_fail(err, "gbm_surface_lock_front_buffer failed");
     if (describe(s, bo, out, err)) return true;
     s->gbm_surface_release_buffer(s->surface, bo);
     return false;

@@ -31,7 +31,7 @@ static void read_name(long pid, char *out, size_t size) {
     out[strcspn(out, "\n")] = 0;
 }
 
-/* These hold cards for others. */
+/* Session managers hold cards on behalf of others. */
 static bool is_broker(const char *name) {
     static const char *const names[] = {"systemd-logind", "elogind", "seatd"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
@@ -39,8 +39,8 @@ static bool is_broker(const char *name) {
     return false;
 }
 
-/* The kernel keeps no name of a card's master: the one that has it open, a broker only if there is
- * no other. */
+/* The kernel does not report a card's master: returns the process that has it open, a session
+ * manager only if there is no other. */
 bool gn_kms_find_holder(const char *node, char *out, size_t size) {
     DIR *all = opendir("/proc");
     bool found = false, sure = false;

@@ -19,8 +19,8 @@ static bool import_plane(int card, int dma_buf, uint32_t *handle) {
     return true;
 }
 
-/* Planes in the same memory share one. */
-static void drop(int card, struct gn_import *import) {
+/* Planes may share one handle, which is closed once. */
+static void close_handles(int card, struct gn_import *import) {
     for (int i = 0; i < import->count; i++) {
         struct drm_gem_close which = {.handle = import->handles[i]};
         bool closed = false;
@@ -47,7 +47,7 @@ const struct gn_import *gn_import_get(struct gn_imports *imports, void *key, int
         const int error = errno;
         if (dma_buf >= 0) close(dma_buf);
         if (ok) continue;
-        drop(imports->card, place);
+        close_handles(imports->card, place);
         errno = error;
         return NULL;
     }
@@ -55,5 +55,5 @@ const struct gn_import *gn_import_get(struct gn_imports *imports, void *key, int
 }
 
 void gn_import_drop(struct gn_imports *imports) {
-    for (int i = 0; i < GN_IMPORTS_MAX; i++) drop(imports->card, &imports->all[i]);
+    for (int i = 0; i < GN_IMPORTS_MAX; i++) close_handles(imports->card, &imports->all[i]);
 }

@@ -1,4 +1,4 @@
-/* Buffers of a GPU that is not the card's own: a card shows what it has a handle of. */
+/* Buffers of another GPU imported into the card as GEM handles. */
 #ifndef GN_DISPLAY_KMS_IMPORT_H
 #define GN_DISPLAY_KMS_IMPORT_H
 
@@ -8,21 +8,21 @@
 enum { GN_IMPORTS_MAX = 8 }; /* more buffers than any surface has */
 
 struct gn_import {
-    const void *key; /* NULL: an empty place */
+    const void *key; /* NULL: unused entry */
     int count;
-    uint32_t handles[4]; /* of its planes, ours to close */
+    uint32_t handles[4]; /* one per plane; closed by gn_import_drop() */
 };
 struct gn_imports {
-    int card; /* an open descriptor, the caller's */
+    int card; /* borrowed descriptor */
     struct gn_import all[GN_IMPORTS_MAX];
 };
 
-/* The handles of a buffer, which is told by its key: found, or made of its planes' DMA-BUFs, which
- * `export` opens and this closes. NULL and errno on failure. */
+/* Returns the handles of the buffer with this key, importing its planes' DMA-BUFs if new; `export`
+ * opens them and this closes them. NULL and errno on failure. */
 const struct gn_import *gn_import_get(struct gn_imports *imports, void *key, int plane_count,
                                       int (*export)(void *context, void *key, int plane),
                                       void *context);
-/* All buffers are gone. */
+/* Closes all handles. */
 void gn_import_drop(struct gn_imports *imports);
 
 #endif

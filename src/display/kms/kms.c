@@ -8,11 +8,11 @@
 #include "core/arena.h"
 #include "display/kms/state.h"
 
-#define SETTLE_NS (GN_KMS_S / 10) /* a monitor that is plugged in bounces */
+#define SETTLE_NS (GN_KMS_S / 10) /* connectors bounce when a monitor is plugged in */
 
-/* ---- the screen as others see it ---- */
+/* ---- published state ---- */
 
-static void say_status(struct gn_kms *k) {
+static void write_status(struct gn_kms *k) {
     char *out = k->screen.status;
     const size_t size = sizeof k->screen.status;
     *out = 0;
@@ -20,7 +20,7 @@ static void say_status(struct gn_kms *k) {
         snprintf(out, size, "waiting for a card%s%s", k->text.reason[0] ? ": " : "",
                  k->text.reason);
     else if (k->away)
-        snprintf(out, size, "another console is shown");
+        snprintf(out, size, "another console is active");
     else if (k->blank)
         snprintf(out, size, "switched off");
     else if (!k->monitor.connected && k->text.reason[0])
@@ -31,11 +31,11 @@ static void say_status(struct gn_kms *k) {
     else if (k->text.message[0])
         snprintf(out, size, "%s", k->text.message);
     else if (!k->master)
-        snprintf(out, size, "%s has the screen (%s)",
+        snprintf(out, size, "%s controls the screen (%s)",
                  k->text.holder[0] ? k->text.holder : "another program", k->device.node.path);
 }
 
-static void update(struct gn_kms *k, int64_t now_ns) {
+static void publish_state(struct gn_kms *k, int64_t now_ns) {
     struct gn_screen *s = &k->screen;
     const bool copies = k->buffers.opts.fallback == GN_FALLBACK_COPY;
     const bool ready = k->monitor.connected && k->master && !k->away && !k->blank && !s->lost &&
@@ -58,7 +58,7 @@ static void update(struct gn_kms *k, int64_t now_ns) {
     s->counts.shown = k->flip.shown;
     s->counts.missed = k->flip.missed;
     s->counts.stalled = k->flip.stalls;
-    say_status(k);
+    write_status(k);
 }
 
 const struct gn_screen *gn_kms_screen(const struct gn_kms *k) { return &k->screen; }
@@ -102,7 +102,7 @@ static void leave_console(struct gn_kms *k) {
 
 static void enter_console(struct gn_kms *k, int64_t now_ns) {
     k->away = false;
-    /* whoever was there in between has ended it; but one may be back within a frame */
+    /* a program in between has ended the flip; after a short switch its event may still come */
     if (k->flip.pending && k->flip.stalled) gn_kms_flip_is_lost(k);
     if (k->device.fd >= 0 && !k->screen.lost) gn_kms_try_master(k, now_ns);
     k->due.scan_ns = k->due.probe_ns = now_ns;
@@ -118,9 +118,9 @@ static void apply_events(struct gn_kms *k, unsigned events, int64_t now_ns) {
     k->due.probe_ns = sooner(k->due.probe_ns, k->due.scan_ns);
 }
 
-/* False: the ladder has ended. */
-static bool act(struct gn_kms *k, enum gn_flip_act what, int64_t now_ns) {
-    if (k->blank && what != GN_FLIP_WAIT && what != GN_FLIP_DRAIN) { /* nobody looks */
+/* Returns false when recovery has failed. */
+static bool apply_flip_act(struct gn_kms *k, enum gn_flip_act what, int64_t now_ns) {
+    if (k->blank && what != GN_FLIP_WAIT && what != GN_FLIP_DRAIN) { /* no recovery while blanked */
         gn_kms_flip_is_lost(k);
         k->flip.lost_flips--;
         return true;
@@ -139,13 +139,13 @@ static bool act(struct gn_kms *k, enum gn_flip_act what, int64_t now_ns) {
 }
 
 static bool give_up(struct gn_kms *k, struct gn_err *err) {
-    gn_fail(err, "%s: frames are not shown any more, on %s; the kernel's log may say why",
+    gn_fail(err, "%s: page flips on %s no longer complete; see the kernel log",
             k->monitor.connector[0] ? k->monitor.connector : "display", k->device.node.path);
     if (err) err->status = GN_EXIT_DISPLAY;
     return false;
 }
 
-/* A picture that the kernel has refused for as long as a flip may take is as bad as one lost. */
+/* A frame refused by the kernel for as long as a flip may take counts as a lost flip. */
 static bool send_again(struct gn_kms *k, int64_t now_ns) {
     if (!may_send_again(k) || now_ns < k->flip.next_ns) return true;
     if (now_ns - k->frames.waiting_ns < 12 * GN_KMS_S) {
@@ -153,7 +153,7 @@ static bool send_again(struct gn_kms *k, int64_t now_ns) {
         return true;
     }
     k->frames.waiting_ns = now_ns;
-    return act(k, gn_flip_lost(&k->flip), now_ns);
+    return apply_flip_act(k, gn_flip_lost(&k->flip), now_ns);
 }
 
 static void show_again(struct gn_kms *k, int64_t now_ns) {
@@ -162,7 +162,7 @@ static void show_again(struct gn_kms *k, int64_t now_ns) {
         gn_kms_send(k, k->frames.front, now_ns);
 }
 
-/* Once: what is lit stays. */
+/* Sent once; the screen keeps it. */
 static void show_message(struct gn_kms *k, int64_t now_ns) {
     const bool free =
         !k->flip.pending && !k->frames.waiting.fb && !k->lit && !k->blank && !k->text.changed;
@@ -173,10 +173,10 @@ static void show_message(struct gn_kms *k, int64_t now_ns) {
 
 void gn_kms_lose(struct gn_kms *k, int64_t now_ns) {
     gn_kms_leave_card(k, true, now_ns);
-    update(k, now_ns);
+    publish_state(k, now_ns);
 }
 
-/* Nothing is changed under a flip: the text comes, or goes, when that has ended. */
+/* Buffers are not changed during a flip: waits for its end. */
 static void change_message(struct gn_kms *k, int64_t now_ns) {
     if (!k->text.changed || k->flip.pending) return;
     k->text.changed = false;
@@ -185,7 +185,7 @@ static void change_message(struct gn_kms *k, int64_t now_ns) {
     if (k->due.scan_ns > now_ns) k->due.scan_ns = now_ns;
 }
 
-/* Where GL does not start there is a text already, and why it does not matters more. */
+/* Without GL the reason is shown already and is more important. */
 void gn_kms_show_message(struct gn_kms *k, const char *text, int64_t now_ns) {
     const bool ends = !text || !*text;
     if (k->device.scanout && (!ends || k->text.message[0])) {
@@ -202,7 +202,7 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     apply_events(k, events, now_ns);
     if (!k->screen.lost && k->device.fd >= 0) {
         const enum gn_flip_act what = gn_flip_step(&k->flip, now_ns);
-        ok = act(k, what, now_ns) && send_again(k, now_ns);
+        ok = apply_flip_act(k, what, now_ns) && send_again(k, now_ns);
         show_again(k, now_ns);
     }
     if (!k->screen.lost && !k->master && !k->away && k->device.fd >= 0 &&
@@ -213,7 +213,7 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     if (!k->screen.lost) show_message(k, now_ns);
     gn_kms_sleep(k, now_ns);
     if (k->losses > 3) ok = false;
-    update(k, now_ns);
+    publish_state(k, now_ns);
     return ok || give_up(k, err);
 }
 
@@ -234,7 +234,7 @@ bool gn_kms_renew(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
     return gn_kms_step(k, 0, now_ns, err);
 }
 
-/* ---- life ---- */
+/* ---- create and destroy ---- */
 
 struct gn_kms *gn_kms_create(const struct gn_kms_env *env, const struct gn_screen_opts *opts,
                              int64_t now_ns) {

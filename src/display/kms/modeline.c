@@ -1,4 +1,4 @@
-/* A mode's rate, and modes that no monitor has listed. */
+/* Refresh rate of a mode; modes from modelines and CVT. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@ uint32_t gn_kms_mode_mhz(const drmModeModeInfo *m) {
     return (uint32_t)mhz;
 }
 
-static void finish(drmModeModeInfo *m) {
+static void complete_mode(drmModeModeInfo *m) {
     m->type = DRM_MODE_TYPE_USERDEF;
     m->vrefresh = (gn_kms_mode_mhz(m) + 500) / 1000;
     snprintf(m->name, sizeof m->name, "%ux%u", m->hdisplay, m->vdisplay);
@@ -43,7 +43,7 @@ static bool read_flags(const char *text, uint32_t *flags) {
     return true;
 }
 
-static bool rises(const unsigned t[4]) {
+static bool is_ascending(const unsigned t[4]) {
     return t[0] > 0 && t[0] <= t[1] && t[1] < t[2] && t[2] <= t[3] && t[3] < 65536;
 }
 
@@ -55,18 +55,18 @@ bool gn_kms_modeline_parse(const char *text, drmModeModeInfo *out) {
     if (sscanf(text, "%lf %u %u %u %u %u %u %u %u%n", &mhz, &h[0], &h[1], &h[2], &h[3], &v[0],
                &v[1], &v[2], &v[3], &used) < 9)
         return false;
-    if (!(mhz > 0 && mhz < 10000) || !rises(h) || !rises(v)) return false;
+    if (!(mhz > 0 && mhz < 10000) || !is_ascending(h) || !is_ascending(v)) return false;
     out->clock = (uint32_t)lround(mhz * 1000);
     out->hdisplay = (uint16_t)h[0], out->hsync_start = (uint16_t)h[1];
     out->hsync_end = (uint16_t)h[2], out->htotal = (uint16_t)h[3];
     out->vdisplay = (uint16_t)v[0], out->vsync_start = (uint16_t)v[1];
     out->vsync_end = (uint16_t)v[2], out->vtotal = (uint16_t)v[3];
     if (!read_flags(text + used, &out->flags)) return false;
-    finish(out);
+    complete_mode(out);
     return true;
 }
 
-/* CVT tells the aspect by the width of the vertical sync. */
+/* CVT encodes the aspect ratio in the vertical sync width. */
 static unsigned vsync_lines(uint32_t w, uint32_t h) {
     if (w * 3 == h * 4) return 4;
     if (w * 9 == h * 16) return 5;
@@ -93,6 +93,6 @@ drmModeModeInfo gn_kms_mode_cvt(uint32_t width_px, uint32_t height_px, double hz
                          .vtotal = (uint16_t)(h + blank),
                          .flags = DRM_MODE_FLAG_PHSYNC | DRM_MODE_FLAG_NVSYNC};
     m.clock = (uint32_t)(floor(hz * (w + H_BLANK) * (h + blank) / 1000.0 / step_khz) * step_khz);
-    finish(&m);
+    complete_mode(&m);
     return m;
 }

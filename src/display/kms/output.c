@@ -4,7 +4,7 @@
 #include <errno.h>
 #include <string.h>
 
-/* libdrm's functions return -errno, and some of them -1 and errno. */
+/* libdrm returns -errno, or -1 with errno set. */
 static int error_of(int result) {
     if (result == 0) return 0;
     if (result != -1) return result < 0 ? -result : result;
@@ -29,8 +29,7 @@ struct plane_values {
     uint64_t values[GN_PROP_PLANE_COUNT];
 };
 
-/* Is it a primary plane for this CRTC, and how good: 0 no, 3 it shows there now; -1: nobody knows.
- */
+/* Rates a plane as primary for this CRTC: 0 unusable, 3 active on it now, -1 unknown. */
 static int rate_plane(const struct gn_kms_output *o, uint32_t id, struct plane_values *v) {
     drmModePlane *plane = o->drm->ModeGetPlane(o->fd, id);
     if (!plane) return -1;
@@ -46,7 +45,7 @@ static int rate_plane(const struct gn_kms_output *o, uint32_t id, struct plane_v
     return now == 0 ? 2 : 1;
 }
 
-/* False: there is none, or not all can be read. */
+/* Fails if there is none or not all could be read. */
 static bool choose_plane(struct gn_kms_output *o) {
     drmModePlaneRes *all = o->drm->ModeGetPlaneResources(o->fd);
     int best = 0;
@@ -74,7 +73,7 @@ static bool set_caps(const struct gn_kms_output *o, uint64_t on) {
     return o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_ATOMIC, on) == 0 && planes;
 }
 
-/* What every atomic driver has. */
+/* Mandatory properties of every atomic driver. */
 static bool find_objects(struct gn_kms_output *o) {
     return choose_plane(o) &&
            gn_kms_props_read(o->drm, o->fd, o->connector, DRM_MODE_OBJECT_CONNECTOR,
@@ -91,7 +90,7 @@ bool gn_kms_output_open(struct gn_kms_output *o, const struct gn_drm_ops *drm, i
                         const struct gn_kms_card *card, int connector, int crtc,
                         struct gn_err *err) {
     const char *name = card->connectors[connector].name;
-    if (crtc < 0) return gn_fail(err, "%s: nothing drives it", name);
+    if (crtc < 0) return gn_fail(err, "%s: no usable CRTC or plane", name);
     *o = (struct gn_kms_output){.drm = drm,
                                 .fd = fd,
                                 .connector = card->connectors[connector].id,
@@ -99,14 +98,14 @@ bool gn_kms_output_open(struct gn_kms_output *o, const struct gn_drm_ops *drm, i
                                 .crtc_index = crtc};
     save_old(o);
     o->atomic = !legacy && set_caps(o, 1);
-    if (!o->atomic) set_caps(o, 0); /* the older interface does all but fences */
+    if (!o->atomic) set_caps(o, 0); /* the legacy interface has everything except fences */
     if (!o->atomic) o->dpms = GN_MAY_SLEEP;
     if (!o->atomic || find_objects(o)) return true;
     *o = (struct gn_kms_output){0};
     return gn_fail(err, "%s: its properties cannot be read", name);
 }
 
-/* ---- what the plane takes ---- */
+/* ---- formats and modifiers ---- */
 
 static const uint32_t formats[] = {DRM_FORMAT_XRGB8888, DRM_FORMAT_ARGB8888, DRM_FORMAT_XBGR8888,
                                    DRM_FORMAT_RGB565};
@@ -122,12 +121,13 @@ static void plane_formats(const struct gn_kms_output *o, struct gn_surface_opts 
             }
     if (plane) o->drm->ModeFreePlane(plane);
     if (out->format_count > 0) return;
-    memcpy(out->formats, formats, sizeof formats); /* the older interface does not tell */
+    memcpy(out->formats, formats,
+           sizeof formats); /* the legacy interface does not list modifiers */
     out->format_count = FORMATS;
 }
 
-/* Modifiers of one format: the blob has two tables, and in the second a window of 64 bits on the
- * first. */
+/* Modifiers of one format: each entry of the blob's second table has a 64-bit mask, offset into the
+ * format table. */
 static void read_modifiers(const drmModePropertyBlobRes *blob, struct gn_surface_opts *out) {
     const struct drm_format_modifier_blob *head = blob->data;
     if (blob->length < sizeof *head) return;
@@ -175,7 +175,7 @@ bool gn_kms_output_takes_fence(const struct gn_kms_output *o) {
 
 /* ---- framebuffers ---- */
 
-static void sweep(struct gn_kms_output *o, uint32_t shown) {
+static void remove_old_fbs(struct gn_kms_output *o, uint32_t shown) {
     for (int i = 0; i < GN_KMS_FBS_MAX; i++) {
         if (!o->fbs[i].id || o->fbs[i].key || o->fbs[i].id == shown) continue;
         o->drm->ModeRmFB(o->fd, o->fbs[i].id);
@@ -190,7 +190,7 @@ static int add_fb(struct gn_kms_output *o, const struct gn_buffer *b, uint32_t *
         const int result = o->drm->ModeAddFB2WithModifiers(
             o->fd, b->width_px, b->height_px, b->format, b->handles, b->strides, b->offsets,
             modifiers, out, DRM_MODE_FB_MODIFIERS);
-        /* where it is the only layout, nothing needs to be said */
+        /* without AddFB2 modifiers LINEAR is implied */
         if (result == 0 || b->modifier != DRM_FORMAT_MOD_LINEAR) return error_of(result);
     }
     return error_of(o->drm->ModeAddFB2(o->fd, b->width_px, b->height_px, b->format, b->handles,
@@ -209,14 +209,14 @@ int gn_kms_output_fb(struct gn_kms_output *o, const struct gn_buffer *b, uint32_
         if (o->fbs[i].id && o->fbs[i].key == b->key) return 0;
     }
     struct gn_kms_fb *place = free_place(o);
-    if (!place) { /* many surfaces, and none could be lit */
-        sweep(o, 0);
+    if (!place) { /* framebuffers of many surfaces, none of which could be lit */
+        remove_old_fbs(o, 0);
         place = free_place(o);
     }
     if (!place) return ENOMEM; /* more buffers than any surface has */
     int error = add_fb(o, b, out);
-    if (error == ENOMEM) { /* what can be dropped, is */
-        sweep(o, 0);
+    if (error == ENOMEM) { /* drop unused ones and retry */
+        remove_old_fbs(o, 0);
         error = add_fb(o, b, out);
     }
     if (error == 0) *place = (struct gn_kms_fb){b->key, *out};
@@ -229,14 +229,14 @@ void gn_kms_output_orphan_fbs(struct gn_kms_output *o) {
 
 /* ---- commits ---- */
 
-struct request { /* the first failure sticks */
+struct request { /* the first error is kept */
     drmModeAtomicReq *list;
     const struct gn_kms_output *o;
     bool bad;
 };
 
-static void put(struct request *r, uint32_t object, uint32_t property, uint64_t value) {
-    if (property == 0) return; /* an optional one */
+static void add_property(struct request *r, uint32_t object, uint32_t property, uint64_t value) {
+    if (property == 0) return; /* optional property */
     if (r->o->drm->ModeAtomicAddProperty(r->list, object, property, value) < 0) r->bad = true;
 }
 
@@ -246,25 +246,25 @@ static int commit(struct request *r, uint32_t flags, void *user) {
     return error_of(o->drm->ModeAtomicCommit(o->fd, r->list, flags, user));
 }
 
-static void put_plane(struct request *r, uint32_t fb, const drmModeModeInfo *mode) {
+static void add_plane(struct request *r, uint32_t fb, const drmModeModeInfo *mode) {
     const struct gn_kms_output *o = r->o;
     const uint32_t *p = o->plane_props;
-    put(r, o->plane, p[GN_PROP_PLANE_FB], fb);
-    put(r, o->plane, p[GN_PROP_PLANE_CRTC], o->crtc);
-    put(r, o->plane, p[GN_PROP_PLANE_SRC_X], 0);
-    put(r, o->plane, p[GN_PROP_PLANE_SRC_Y], 0);
-    put(r, o->plane, p[GN_PROP_PLANE_SRC_W], (uint64_t)mode->hdisplay << 16);
-    put(r, o->plane, p[GN_PROP_PLANE_SRC_H], (uint64_t)mode->vdisplay << 16);
-    put(r, o->plane, p[GN_PROP_PLANE_X], 0);
-    put(r, o->plane, p[GN_PROP_PLANE_Y], 0);
-    put(r, o->plane, p[GN_PROP_PLANE_W], mode->hdisplay);
-    put(r, o->plane, p[GN_PROP_PLANE_H], mode->vdisplay);
-    put(r, o->plane, p[GN_PROP_PLANE_ROTATION], DRM_MODE_ROTATE_0);
+    add_property(r, o->plane, p[GN_PROP_PLANE_FB], fb);
+    add_property(r, o->plane, p[GN_PROP_PLANE_CRTC], o->crtc);
+    add_property(r, o->plane, p[GN_PROP_PLANE_SRC_X], 0);
+    add_property(r, o->plane, p[GN_PROP_PLANE_SRC_Y], 0);
+    add_property(r, o->plane, p[GN_PROP_PLANE_SRC_W], (uint64_t)mode->hdisplay << 16);
+    add_property(r, o->plane, p[GN_PROP_PLANE_SRC_H], (uint64_t)mode->vdisplay << 16);
+    add_property(r, o->plane, p[GN_PROP_PLANE_X], 0);
+    add_property(r, o->plane, p[GN_PROP_PLANE_Y], 0);
+    add_property(r, o->plane, p[GN_PROP_PLANE_W], mode->hdisplay);
+    add_property(r, o->plane, p[GN_PROP_PLANE_H], mode->vdisplay);
+    add_property(r, o->plane, p[GN_PROP_PLANE_ROTATION], DRM_MODE_ROTATE_0);
 }
 
-/* Whoever had the CRTC before may have left more on it: a cursor, an overlay, a second monitor.
- * What cannot be read is in the way, perhaps: not now. */
-static void put_others_off(struct request *r) {
+/* Another program may have left a cursor, an overlay or a second connector on the CRTC. Unreadable
+ * planes may be active on it: fail for now. */
+static void disable_others(struct request *r) {
     const struct gn_kms_output *o = r->o;
     drmModePlaneRes *planes = o->drm->ModeGetPlaneResources(o->fd);
     if (!planes) r->bad = true;
@@ -276,15 +276,15 @@ static void put_others_off(struct request *r) {
             if (!gn_kms_props_read(o->drm, o->fd, p->plane_id, DRM_MODE_OBJECT_PLANE,
                                    gn_kms_plane_props, GN_PROP_PLANE_COUNT, ids, NULL))
                 r->bad = true;
-            put(r, p->plane_id, ids[GN_PROP_PLANE_FB], 0);
-            put(r, p->plane_id, ids[GN_PROP_PLANE_CRTC], 0);
+            add_property(r, p->plane_id, ids[GN_PROP_PLANE_FB], 0);
+            add_property(r, p->plane_id, ids[GN_PROP_PLANE_CRTC], 0);
         }
         if (p) o->drm->ModeFreePlane(p);
     }
     if (planes) o->drm->ModeFreePlaneResources(planes);
 }
 
-static void put_connectors_off(struct request *r, bool ours) {
+static void disable_connectors(struct request *r, bool ours) {
     const struct gn_kms_output *o = r->o;
     drmModeRes *all = o->drm->ModeGetResources(o->fd);
     if (!all) r->bad = true;
@@ -296,7 +296,7 @@ static void put_connectors_off(struct request *r, bool ours) {
                                gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, ids, values))
             r->bad = true;
         if (values[GN_PROP_CONNECTOR_CRTC] == o->crtc)
-            put(r, all->connectors[i], ids[GN_PROP_CONNECTOR_CRTC], 0);
+            add_property(r, all->connectors[i], ids[GN_PROP_CONNECTOR_CRTC], 0);
     }
     if (all) o->drm->ModeFreeResources(all);
 }
@@ -305,13 +305,14 @@ static int light_request(struct gn_kms_output *o, const drmModeModeInfo *mode, u
                          uint32_t blob) {
     struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
     if (!r.list) return ENOMEM;
-    put_others_off(&r);
-    put_connectors_off(&r, false);
-    put(&r, o->connector, o->connector_props[GN_PROP_CONNECTOR_CRTC], o->crtc);
-    put(&r, o->connector, o->connector_props[GN_PROP_CONNECTOR_LINK], DRM_MODE_LINK_STATUS_GOOD);
-    put(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_MODE], blob);
-    put(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 1);
-    put_plane(&r, fb, mode);
+    disable_others(&r);
+    disable_connectors(&r, false);
+    add_property(&r, o->connector, o->connector_props[GN_PROP_CONNECTOR_CRTC], o->crtc);
+    add_property(&r, o->connector, o->connector_props[GN_PROP_CONNECTOR_LINK],
+                 DRM_MODE_LINK_STATUS_GOOD);
+    add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_MODE], blob);
+    add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 1);
+    add_plane(&r, fb, mode);
     int error = commit(&r, DRM_MODE_ATOMIC_TEST_ONLY | DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
     if (error == 0) error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
     o->drm->ModeAtomicFree(r.list);
@@ -323,7 +324,7 @@ static int light_atomic(struct gn_kms_output *o, const drmModeModeInfo *mode, ui
     const int error = error_of(o->drm->ModeCreatePropertyBlob(o->fd, mode, sizeof *mode, &blob));
     if (error != 0) return error;
     const int lit = light_request(o, mode, fb, blob);
-    o->drm->ModeDestroyPropertyBlob(o->fd, blob); /* the CRTC holds it for as long as it needs */
+    o->drm->ModeDestroyPropertyBlob(o->fd, blob); /* the CRTC holds its own reference */
     return lit;
 }
 
@@ -333,18 +334,18 @@ static int light_legacy(struct gn_kms_output *o, const drmModeModeInfo *mode, ui
     return error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, fb, 0, 0, &o->connector, 1, &copy));
 }
 
-/* ---- sleeping ---- */
+/* ---- DPMS ---- */
 
 static int sleep_atomic(struct gn_kms_output *o) {
     struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
     if (!r.list) return ENOMEM;
-    put(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 0);
+    add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 0);
     const int error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
     o->drm->ModeAtomicFree(r.list);
     return error;
 }
 
-/* By the older interface it is the connector that sleeps. 0 where it has no such property. */
+/* Legacy DPMS property of the connector. Returns 0 if it has none. */
 static int set_dpms(struct gn_kms_output *o, uint64_t value) {
     uint32_t *ids = o->connector_props;
     if (!ids[GN_PROP_CONNECTOR_DPMS])
@@ -366,8 +367,9 @@ int gn_kms_output_sleep(struct gn_kms_output *o) {
     return o->atomic ? sleep_atomic(o) : sleep_legacy(o);
 }
 
-/* To set a mode that is set already wakes nobody. Who was here before may have put it to sleep. */
-static int wake(struct gn_kms_output *o) {
+/* Setting the same mode again does not wake the monitor, and another program may have put it to
+ * sleep. */
+static int wake_connector(struct gn_kms_output *o) {
     const int error = o->dpms != GN_AWAKE ? set_dpms(o, DRM_MODE_DPMS_ON) : 0;
     const bool cannot = error == EOPNOTSUPP || (error == EINVAL && o->dpms == GN_MAY_SLEEP);
     if (error != 0 && !cannot) return error;
@@ -375,22 +377,23 @@ static int wake(struct gn_kms_output *o) {
     return 0;
 }
 
-/* ---- lighting ---- */
+/* ---- modeset ---- */
 
 int gn_kms_output_light(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb) {
-    int error = wake(o);
+    int error = wake_connector(o);
     if (error == 0) error = o->atomic ? light_atomic(o, mode, fb) : light_legacy(o, mode, fb);
     if (error != 0) return error;
     o->mode = *mode;
-    sweep(o, fb);
+    remove_old_fbs(o, fb);
     return 0;
 }
 
 static int flip_atomic(struct gn_kms_output *o, uint32_t fb, int fence, void *user) {
     struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
     if (!r.list) return ENOMEM;
-    put(&r, o->plane, o->plane_props[GN_PROP_PLANE_FB], fb);
-    if (fence >= 0) put(&r, o->plane, o->plane_props[GN_PROP_PLANE_FENCE], (uint64_t)fence);
+    add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_FB], fb);
+    if (fence >= 0)
+        add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_FENCE], (uint64_t)fence);
     const int error = commit(&r, DRM_MODE_ATOMIC_NONBLOCK | DRM_MODE_PAGE_FLIP_EVENT, user);
     o->drm->ModeAtomicFree(r.list);
     return error;
@@ -404,12 +407,12 @@ int gn_kms_output_flip(struct gn_kms_output *o, uint32_t fb, int fence, void *us
 static int dark_atomic(struct gn_kms_output *o) {
     struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
     if (!r.list) return ENOMEM;
-    put_others_off(&r);
-    put_connectors_off(&r, true);
-    put(&r, o->plane, o->plane_props[GN_PROP_PLANE_FB], 0);
-    put(&r, o->plane, o->plane_props[GN_PROP_PLANE_CRTC], 0);
-    put(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_MODE], 0);
-    put(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 0);
+    disable_others(&r);
+    disable_connectors(&r, true);
+    add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_FB], 0);
+    add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_CRTC], 0);
+    add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_MODE], 0);
+    add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 0);
     const int error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
     o->drm->ModeAtomicFree(r.list);
     return error;
@@ -420,7 +423,7 @@ int gn_kms_output_dark(struct gn_kms_output *o) {
     return error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, 0, 0, 0, NULL, 0, NULL));
 }
 
-/* Asked while it is lit: a dark CRTC has no refreshes either. */
+/* Asked while it is active: an inactive CRTC reports no vblanks either. */
 bool gn_kms_output_lacks_vblank(const struct gn_kms_output *o) {
     uint64_t sequence, ns;
     return error_of(o->drm->CrtcGetSequence(o->fd, o->crtc, &sequence, &ns)) == EOPNOTSUPP;
@@ -428,9 +431,9 @@ bool gn_kms_output_lacks_vblank(const struct gn_kms_output *o) {
 
 /* ---- closing ---- */
 
-/* The console's framebuffer is still there; another program's may not be. */
-static void put_back(struct gn_kms_output *o) {
-    wake(o);
+/* Restores the console's framebuffer; another program's may be gone. */
+static void restore_crtc(struct gn_kms_output *o) {
+    wake_connector(o);
     if (o->was_lit && o->drm->ModeSetCrtc(o->fd, o->crtc, o->old_fb, o->old_x, o->old_y,
                                           &o->connector, 1, &o->old_mode) == 0)
         return;
@@ -439,8 +442,8 @@ static void put_back(struct gn_kms_output *o) {
 
 void gn_kms_output_close(struct gn_kms_output *o, bool restore) {
     if (!o->drm) return;
-    if (restore && (o->mode.hdisplay > 0 || o->dpms == GN_ASLEEP)) put_back(o);
+    if (restore && (o->mode.hdisplay > 0 || o->dpms == GN_ASLEEP)) restore_crtc(o);
     gn_kms_output_orphan_fbs(o);
-    sweep(o, 0);
+    remove_old_fbs(o, 0);
     *o = (struct gn_kms_output){0};
 }

@@ -1,4 +1,4 @@
-/* Properties by name. Their numbers differ from card to card, and hold as long as it is open. */
+/* Object properties by name. Ids differ between cards and are constant while the card is open. */
 #include <string.h>
 
 #include "display/kms/output.h"

@@ -1,4 +1,4 @@
-/* Looking for something to show on: cards, connectors, modes, and what to do without. */
+/* Selects card, connector, mode and buffers, with fallbacks. */
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 #include "display/kms/state.h"
 
-enum { UNREADABLE_MAX = 4 }; /* then it is how it is */
+enum { UNREADABLE_MAX = 4 }; /* scans before an unreadable object is ignored */
 
 /* ---- cards ---- */
 
@@ -19,8 +19,8 @@ static bool leads_to(const char *link, const char *path) {
     return realpath(link, target) && strcmp(target, path) == 0;
 }
 
-/* By its path, a link to that, or its place: "platform-gpu-card" and "platform-gpu" are one, with
- * and without the folder of such links, which only udev makes. */
+/* Matches the path, a link to it, or its place: "platform-gpu-card" is the same as "platform-gpu",
+ * with or without /dev/dri/by-path, which only udev creates. */
 static bool is_asked_for(const struct gn_kms *k, const struct gn_kms_node *node) {
     const size_t folder = sizeof BY_PATH - 1, length = strlen(node->place);
     const char *asked = k->opts->card;
@@ -33,8 +33,8 @@ static bool is_asked_for(const struct gn_kms *k, const struct gn_kms_node *node)
            (asked[length] == 0 || strcmp(asked + length, "-card") == 0);
 }
 
-/* -1: it is no card that shows pictures. The snapshot is left in fresh. */
-static int rate(struct gn_kms *k, const struct gn_kms_node *node, bool probe, int *fd) {
+/* Score of a card, -1 if it cannot show anything. The snapshot is left in device.fresh. */
+static int score_card(struct gn_kms *k, const struct gn_kms_node *node, bool probe, int *fd) {
     struct gn_err why = {0};
     if (!is_asked_for(k, node)) return -1;
     *fd = k->env.drm->open(node->path);
@@ -43,7 +43,7 @@ static int rate(struct gn_kms *k, const struct gn_kms_node *node, bool probe, in
                  errno == EACCES ? "; add the user to the group video" : "");
         return -1;
     }
-    if (k->away) k->env.drm->DropMaster(*fd); /* which the first to open a card becomes */
+    if (k->away) k->env.drm->DropMaster(*fd); /* the first to open a card becomes its master */
     if (gn_kms_card_read(k->env.drm, *fd, probe, &k->device.fresh, &why))
         return gn_kms_card_score(&k->device.fresh, k->opts->connector);
     k->env.drm->close(*fd);
@@ -51,7 +51,8 @@ static int rate(struct gn_kms *k, const struct gn_kms_node *node, bool probe, in
     return -1;
 }
 
-/* The best card that rates at least `least`; its descriptor, or -1. The snapshot goes to card. */
+/* Returns the descriptor of the best card with at least this score, or -1; its snapshot goes to
+ * device.card. */
 static int find_card(struct gn_kms *k, int least, bool probe, struct gn_kms_node *out) {
     struct gn_kms_node nodes[GN_KMS_CARDS_MAX];
     const int count = k->env.drm->list(nodes, GN_KMS_CARDS_MAX);
@@ -62,7 +63,7 @@ static int find_card(struct gn_kms *k, int least, bool probe, struct gn_kms_node
         int fd = -1;
         is_there |= is_asked_for(k, &nodes[i]);
         if (k->device.fd >= 0 && strcmp(nodes[i].path, k->device.node.path) == 0) continue;
-        const int score = rate(k, &nodes[i], probe, &fd);
+        const int score = score_card(k, &nodes[i], probe, &fd);
         if (score <= best) {
             if (fd >= 0) k->env.drm->close(fd);
             continue;
@@ -72,8 +73,7 @@ static int find_card(struct gn_kms *k, int least, bool probe, struct gn_kms_node
         *out = nodes[i];
         k->device.card = k->device.fresh;
     }
-    if (!is_there)
-        snprintf(k->text.reason, sizeof k->text.reason, "%s is not there", k->opts->card);
+    if (!is_there) snprintf(k->text.reason, sizeof k->text.reason, "%s not found", k->opts->card);
     return kept;
 }
 
@@ -103,7 +103,7 @@ bool gn_kms_try_master(struct gn_kms *k, int64_t now_ns) {
 static void open_card(struct gn_kms *k, int64_t now_ns) {
     k->device.fd = find_card(k, 0, true, &k->device.node);
     if (k->device.fd < 0) {
-        k->losses = 0; /* it was the card that went, not a context that is of no use */
+        k->losses = 0; /* the card was lost, not an unusable context */
         return;
     }
     k->screen.counts.opened++;
@@ -125,7 +125,7 @@ void gn_kms_close_card(struct gn_kms *k) {
     k->device.fd = -1;
 }
 
-/* The context stays until renew: objects in it are to be destroyed first. */
+/* The context stays until renew: its objects must be destroyed first. */
 void gn_kms_leave_card(struct gn_kms *k, bool restore, int64_t now_ns) {
     if (k->screen.lost || k->device.fd < 0) return;
     gn_kms_flip_is_lost(k);
@@ -138,7 +138,7 @@ void gn_kms_leave_card(struct gn_kms *k, bool restore, int64_t now_ns) {
     if (!k->device.scanout) gn_kms_close_card(k);
 }
 
-/* ---- what to show, and how ---- */
+/* ---- mode and buffers ---- */
 
 static bool take_surface(struct gn_kms *k) {
     struct gn_err why = {0};
@@ -156,7 +156,7 @@ static enum gn_fallback first_fallback(const struct gn_kms *k) {
     return k->buffers.opts.modifier_count > 0 ? GN_FALLBACK_MODIFIERS : GN_FALLBACK_PLAIN;
 }
 
-/* From this mode on, the first one for which there are buffers. */
+/* Takes the first mode, from monitor.mode on, for which buffers can be allocated. */
 static bool take_mode(struct gn_kms *k) {
     for (; k->monitor.mode < k->monitor.candidate_count;
          k->monitor.mode++, k->buffers.opts.fallback = first_fallback(k)) {
@@ -202,7 +202,7 @@ static bool is_listed(const struct gn_kms_connector *c, const drmModeModeInfo *m
     return false;
 }
 
-/* A monitor that comes back gets the mode that it had, if that is still one of its. */
+/* A monitor that comes back keeps its mode if it still lists it. */
 static void keep_mode(struct gn_kms *k, const struct gn_kms_connector *c,
                       const drmModeModeInfo *mode) {
     if (find_mode(k, mode) < 0 && !is_listed(c, mode)) return;
@@ -243,7 +243,7 @@ static bool open_output(struct gn_kms *k, int connector, int crtc) {
     return true;
 }
 
-static void connect(struct gn_kms *k, int connector, int64_t now_ns) {
+static void use_connector(struct gn_kms *k, int connector, int64_t now_ns) {
     const struct gn_kms_connector *c = &k->device.card.connectors[connector];
     const int crtc = gn_kms_choose_crtc(&k->device.card, connector);
     snprintf(k->monitor.connector, sizeof k->monitor.connector, "%s", c->name);
@@ -252,7 +252,7 @@ static void connect(struct gn_kms *k, int connector, int64_t now_ns) {
     k->lit = false;
     k->due.sleep_ns = now_ns;
     if (crtc < 0 || !open_output(k, connector, crtc)) {
-        give_up_connector(k, "nothing drives it", now_ns);
+        give_up_connector(k, "no usable CRTC or plane", now_ns);
         if (is_unreadable(k)) k->due.scan_ns = now_ns + GN_KMS_SCAN_NS;
         return;
     }
@@ -269,14 +269,14 @@ static void connect(struct gn_kms *k, int connector, int64_t now_ns) {
     if (!take_mode(k)) give_up_connector(k, "no buffers", now_ns);
 }
 
-/* ---- looking ---- */
+/* ---- scanning ---- */
 
 static bool is_ours(const struct gn_kms *k, const struct gn_kms_connector *c) {
     return k->output.drm && c->id == k->output.connector;
 }
 
-/* The one in use stays in use for as long as it is connected. */
-static int choose(const struct gn_kms *k) {
+/* The connector in use is kept while it is connected. */
+static int choose_connector(const struct gn_kms *k) {
     for (int i = 0; i < k->device.card.connector_count; i++)
         if (is_ours(k, &k->device.card.connectors[i]) && k->device.card.connectors[i].connected &&
             k->device.card.connectors[i].mode_count > 0)
@@ -284,7 +284,7 @@ static int choose(const struct gn_kms *k) {
     return gn_kms_choose_connector(&k->device.card, k->opts->connector);
 }
 
-/* Another card may have a monitor; ours has none. */
+/* Leaves this card, which has no monitor, if another one has. */
 static void scan_other_cards(struct gn_kms *k, bool probe, int64_t now_ns) {
     struct gn_kms_node other;
     const int fd = find_card(k, 1, probe, &other);
@@ -305,8 +305,8 @@ static void scan_card(struct gn_kms *k, bool probe, int64_t now_ns) {
     if (k->device.card.partial)
         k->due.scan_ns = now_ns + (is_unreadable(k) ? 1 : 15) * GN_KMS_SCAN_NS;
     if (k->device.card.partial && is_unreadable(k) && k->monitor.connected)
-        return; /* it puts nothing out */
-    const int chosen = choose(k);
+        return; /* keep what is shown */
+    const int chosen = choose_connector(k);
     if (chosen < 0) {
         k->monitor.connected = k->lit = false;
         scan_other_cards(k, probe, now_ns);
@@ -318,15 +318,15 @@ static void scan_card(struct gn_kms *k, bool probe, int64_t now_ns) {
                            (is_listed(c, &k->monitor.candidates[k->monitor.mode]) ||
                             k->opts->mode_width > 0 || k->opts->modeline);
     if (as_it_was) return;
-    if (k->flip.pending) { /* nothing is changed under a flip */
+    if (k->flip.pending) { /* nothing is changed during a flip */
         k->monitor.connected = false;
         k->due.scan_ns = now_ns + k->flip.period_ns;
         return;
     }
-    connect(k, chosen, now_ns);
+    use_connector(k, chosen, now_ns);
 }
 
-/* It may by now. What it said instead makes room. */
+/* GL may work now; the buffers of the message are dropped. */
 static void start_gl_again(struct gn_kms *k, int64_t now_ns) {
     if (k->flip.pending) {
         k->due.scan_ns = now_ns + k->flip.period_ns;
@@ -345,14 +345,14 @@ void gn_kms_scan(struct gn_kms *k, int64_t now_ns) {
     if (k->device.fd >= 0 && !k->device.scanout && k->monitor.connected)
         start_gl_again(k, now_ns);
     else if (k->device.fd >= 0 && !k->device.scanout)
-        gn_kms_close_card(k); /* another card may do better */
+        gn_kms_close_card(k); /* another card may be usable */
     if (k->device.fd < 0) {
         open_card(k, now_ns);
-        probe = k->device.card.partial; /* else it has been */
+        probe = k->device.card.partial; /* already probed otherwise */
     }
     if (k->device.fd >= 0) scan_card(k, probe, now_ns);
     if (k->device.card.partial || k->device.fresh.partial)
-        k->due.probe_ns = now_ns; /* not all have answered */
+        k->due.probe_ns = now_ns; /* some objects were not readable */
     const bool dumb = k->device.fd >= 0 && !k->device.scanout;
     if (k->due.scan_ns != GN_KMS_NEVER || (k->monitor.connected && !dumb && !k->env.no_uevents))
         return;

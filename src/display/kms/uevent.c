@@ -6,7 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-enum { FROM_KERNEL = 1 }; /* the group; udevd speaks in group 2 */
+enum { FROM_KERNEL = 1 }; /* multicast group 1; udevd uses group 2 */
 
 int gn_uevent_open(void) {
     struct sockaddr_nl address = {.nl_family = AF_NETLINK, .nl_groups = FROM_KERNEL};
@@ -27,7 +27,7 @@ bool gn_uevent_is_drm(const char *message, size_t size) {
     return false;
 }
 
-/* Anybody may send to a netlink socket: the kernel's port is 0. */
+/* Any process may send to a netlink socket; the kernel's port is 0. */
 static bool is_kernel(const struct sockaddr_nl *from, socklen_t length) {
     return length == sizeof *from && from->nl_pid == 0;
 }
@@ -41,7 +41,7 @@ bool gn_uevent_read(int fd) {
         const ssize_t size =
             recvfrom(fd, message, sizeof message, 0, (struct sockaddr *)&from, &length);
         if (size < 0 && errno == EINTR) continue;
-        if (size < 0 && errno == ENOBUFS) { /* too many at once: some are lost */
+        if (size < 0 && errno == ENOBUFS) { /* queue overflow: messages were dropped */
             heard = true;
             continue;
         }
