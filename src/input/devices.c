@@ -14,7 +14,7 @@ void gn_devices_init(struct gn_devices *devices) {
     for (int i = 0; i < GN_DEVICES_MAX; i++) devices->list[i] = (struct gn_device){.fd = -1};
 }
 
-static void lose(struct gn_devices *devices, struct gn_device *d, int64_t now_ns) {
+static void lose_device(struct gn_devices *devices, struct gn_device *d, int64_t now_ns) {
     gn_loop_remove(&d->watch);
     close(d->fd);
     gn_keys_lose(devices->keys, &d->keys, now_ns);
@@ -24,10 +24,10 @@ static void lose(struct gn_devices *devices, struct gn_device *d, int64_t now_ns
 void gn_devices_finish(struct gn_devices *devices) {
     for (int i = 0; i < GN_DEVICES_MAX; i++)
         if (devices->list[i].fd >= 0)
-            lose(devices, &devices->list[i], devices->keys->gestures->now_ns);
+            lose_device(devices, &devices->list[i], devices->keys->gestures->now_ns);
 }
 
-/* ---- finding them -------------------------------------------------------------------------- */
+/* ---- finding devices ----------------------------------------------------------------------- */
 
 static bool is_open(const struct gn_devices *devices, const char *path) {
     for (int i = 0; i < GN_DEVICES_MAX; i++)
@@ -48,7 +48,7 @@ static void on_readable(void *user, uint32_t events, int64_t now_ns) {
     d->all->timer->due_ns = now_ns;
 }
 
-static void add(struct gn_devices *devices, int i, struct gn_device found, int64_t now_ns) {
+static void add_device(struct gn_devices *devices, int i, struct gn_device found, int64_t now_ns) {
     struct gn_device *d = &devices->list[i];
     uint8_t bits[GN_KEY_BYTES] = {0};
     *d = found;
@@ -72,13 +72,12 @@ static void try_device(struct gn_devices *devices, const char *path, int64_t now
     if (error) return;
     const int place = find_free(devices);
     if (place >= 0) {
-        add(devices, place, found, now_ns);
+        add_device(devices, place, found, now_ns);
         return;
     }
     close(found.fd);
     if (!devices->full)
-        gn_report(devices->reports,
-                  "%s and others are not listened to: %d input devices are enough", path,
+        gn_report(devices->reports, "%s and others are not read: at most %d input devices", path,
                   GN_DEVICES_MAX);
     devices->full = true;
 }
@@ -103,29 +102,30 @@ bool gn_devices_have(const struct gn_devices *devices, unsigned key) {
     return false;
 }
 
-/* ---- reading them -------------------------------------------------------------------------- */
+/* ---- reading devices ----------------------------------------------------------------------- */
 
-/* What was lost in between is found by asking where the keys are. */
-static void heal(struct gn_devices *devices, struct gn_device *d, int64_t time_ns) {
+/* After lost events, reads the state of all keys. */
+static void resync_device(struct gn_devices *devices, struct gn_device *d, int64_t time_ns) {
     uint8_t bits[GN_KEY_BYTES] = {0};
     d->dropped = false;
     if (devices->ops->state(devices->context, d->fd, bits) == 0)
         gn_keys_set_all(devices->keys, &d->keys, bits, false, time_ns);
 }
 
-static void take(struct gn_devices *devices, struct gn_device *d, const struct input_event *event,
-                 int64_t now_ns) {
+static void take_event(struct gn_devices *devices, struct gn_device *d,
+                       const struct input_event *event, int64_t now_ns) {
     const int64_t time_ns = gn_gesture_time_ns((int64_t)event->input_event_sec * GN_NS_PER_S +
                                                    (int64_t)event->input_event_usec * 1000,
                                                now_ns);
     if (event->type == EV_SYN && event->code == SYN_DROPPED) d->dropped = true;
-    if (event->type == EV_SYN && event->code == SYN_REPORT && d->dropped) heal(devices, d, time_ns);
+    if (event->type == EV_SYN && event->code == SYN_REPORT && d->dropped)
+        resync_device(devices, d, time_ns);
     if (event->type != EV_KEY || d->dropped || event->value < 0 || event->value > 1)
-        return; /* 2: repeated by the kernel */
+        return; /* autorepeat */
     gn_keys_set(devices->keys, &d->keys, event->code, event->value, time_ns);
 }
 
-/* True: the device is gone. */
+/* Returns true if the device is gone. */
 static bool read_device(struct gn_devices *devices, struct gn_device *d, int64_t now_ns) {
     struct input_event events[64];
     d->readable = false;
@@ -133,11 +133,11 @@ static bool read_device(struct gn_devices *devices, struct gn_device *d, int64_t
         const ssize_t size = read(d->fd, events, sizeof events);
         if (size < 0 && (errno == EAGAIN || errno == EINTR)) return false;
         if (size <= 0) {
-            lose(devices, d, now_ns);
+            lose_device(devices, d, now_ns);
             return true;
         }
         const size_t count = (size_t)size / sizeof *events;
-        for (size_t i = 0; i < count; i++) take(devices, d, &events[i], now_ns);
+        for (size_t i = 0; i < count; i++) take_event(devices, d, &events[i], now_ns);
     }
     return false;
 }
@@ -163,7 +163,7 @@ static void open_devices(struct gn_input *input, const struct gn_input_world *wo
     if (input->folder_watch < 0) input->poll_ns = now_ns + 2 * GN_NS_PER_S;
     if (input->devices.denied)
         gn_warn(warnings,
-                "%d input devices may not be read: keys there are not heard; add the user to group "
+                "%d input devices cannot be read, permission denied; add the user to group "
                 "input (sudo usermod -aG input USER) and log in again",
                 input->devices.denied);
 }

@@ -1,6 +1,6 @@
-/* Keys of the kernel's input devices (evdev): keyboards, remote controls, buttons that the kernel's
- * gpio-keys owns. Only devices that have a key of ours are listened to, and the kernel is asked for
- * those keys alone; none is ever grabbed, so a power key still does what it did. */
+/* Keys of the kernel's input devices (evdev): keyboards, remote controls, gpio-keys. Only devices
+ * with a bound key are opened, and only bound keys wake us; none is grabbed, so a power key keeps
+ * its function. */
 #ifndef GN_INPUT_DEVICES_H
 #define GN_INPUT_DEVICES_H
 
@@ -11,21 +11,21 @@
 enum { GN_DEVICES_MAX = 16 };
 
 struct gn_evdev_ops { /* each returns 0 or an errno value */
-    /* A descriptor that does not block and tells of these keys (GN_KEY_BYTES) with monotonic times;
-     * has: the keys that it has at all. ENOTSUP: none of them is bound. */
+    /* Opens a non-blocking descriptor that reports the bound keys (GN_KEY_BYTES) with monotonic
+     * times; has: all keys of the device. ENOTSUP: none of them is bound. */
     int (*open)(void *context, const char *path, const uint8_t *bound, uint8_t *has, int *fd);
-    /* The keys that are down. */
+    /* Reads which keys are down. */
     int (*state)(void *context, int fd, uint8_t *bits);
 };
 extern const struct gn_evdev_ops gn_evdev;
 
 struct gn_device {
-    int fd; /* -1: the place is free */
+    int fd; /* -1: unused entry */
     struct gn_watch watch;
     struct gn_devices *all;
-    bool readable; /* since it was read */
+    bool readable; /* the descriptor became readable and was not read yet */
     char path[64];
-    bool dropped; /* events were lost: until the next report they mean nothing */
+    bool dropped; /* SYN_DROPPED: events are invalid until the next report */
     uint8_t has[GN_KEY_BYTES];
     struct gn_key_source keys;
 };
@@ -34,21 +34,22 @@ struct gn_devices {
     void *context;
     const char *folder; /* "/dev/input" */
     struct gn_loop *loop;
-    struct gn_timer *timer; /* made due by a device that is readable */
+    struct gn_timer *timer; /* armed when a device becomes readable */
     struct gn_keys *keys;
     struct gn_reports *reports;
     struct gn_device list[GN_DEVICES_MAX];
-    int denied; /* devices that could not be opened for want of permission, at the last search */
-    bool full;  /* and that was said */
+    int denied; /* devices without read permission in the last search */
+    bool full;  /* the limit was reported */
 };
 
-void gn_devices_init(struct gn_devices *devices); /* the fields above list are set */
+void gn_devices_init(struct gn_devices *devices); /* Initialises `list`; the fields above it are set
+                                                     by the caller. */
 void gn_devices_finish(struct gn_devices *devices);
-/* Opens those that are new. */
+/* Opens new devices. */
 void gn_devices_search(struct gn_devices *devices, int64_t now_ns);
-/* One of those that are open has this key. */
+/* Whether an open device has this key. */
 bool gn_devices_have(const struct gn_devices *devices, unsigned key);
-/* Reads all that there is from those that are readable; true: one is gone, and a search is due. */
+/* Reads all pending events of readable devices. Returns true if one is gone: search again. */
 bool gn_devices_read(struct gn_devices *devices, int64_t now_ns);
 
 #endif

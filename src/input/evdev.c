@@ -13,9 +13,8 @@ static int read_keys(int fd, uint8_t *bits) {
     return ioctl(fd, EVIOCGBIT(EV_KEY, GN_KEY_BYTES), bits) < 0 ? errno : 0;
 }
 
-/* Only what we want wakes us up: not the mouse's ways, not the letters of a text. Kernels
- * before 4.4 do not know how, and wake us. */
-static void mask(int fd, const uint8_t *bound) {
+/* EVIOCSMASK: only bound keys wake us, not pointer motion or typing. Kernels before 4.4 lack it. */
+static void set_event_mask(int fd, const uint8_t *bound) {
     const uint8_t types[EV_CNT / 8] = {1u << EV_SYN | 1u << EV_KEY};
     const struct input_mask keys = {
         .type = EV_KEY, .codes_size = GN_KEY_BYTES, .codes_ptr = (uintptr_t)bound};
@@ -39,7 +38,7 @@ static int open_device(void *context, const char *path, const uint8_t *bound, ui
         close(fd);
         return error;
     }
-    mask(fd, bound);
+    set_event_mask(fd, bound);
     *out = fd;
     return 0;
 }

@@ -1,6 +1,6 @@
-/* Time here is that of the debounced edges, one debounce behind the wires: edges and timers of all
- * buttons are taken in its order, whenever somebody calls. A timer that ends as an edge counts goes
- * first: held for exactly hold_ns is a hold. */
+/* Gestures use the time of debounced edges, one debounce interval behind the wire; edges and timers
+ * of all buttons are processed in that order, however often step is called. A timer precedes an
+ * edge at the same time: held for exactly hold_ns is a hold. */
 #include "input/gesture.h"
 
 #include <assert.h>
@@ -14,20 +14,20 @@ const char *const gn_gesture_names[GN_GESTURE_COUNT] = {
     [GN_GESTURE_HOLD] = "hold",   [GN_GESTURE_REPEAT] = "repeat", [GN_GESTURE_CHORD] = "chord",
 };
 
-/* ---- what comes out ------------------------------------------------------------------------ */
+/* ---- output -------------------------------------------------------------------------------- */
 
-static void note(struct gn_gestures *g, int i, enum gn_gesture_note_kind kind) {
+static void set_note(struct gn_gestures *g, int i, enum gn_gesture_note_kind kind) {
     if (g->note_end - g->note_begin < GN_GESTURE_NOTES)
         g->notes[g->note_end++ % GN_GESTURE_NOTES] =
             (struct gn_gesture_note){.button = i, .kind = kind};
 }
 
-/* Counts one more, unless as many as may be have been in the second up to now. */
+/* Rate limit: false if GN_GESTURE_RATE gestures happened in the last second. */
 static bool may_act(struct gn_gestures *g, int i) {
     struct gn_gesture_button *b = &g->buttons[i];
     int64_t *oldest = &b->recent_ns[b->recent % GN_GESTURE_RATE];
     if (b->recent >= GN_GESTURE_RATE && g->now_ns - *oldest < 1000 * MS) {
-        if (!b->fast) note(g, i, GN_NOTE_FAST);
+        if (!b->fast) set_note(g, i, GN_NOTE_FAST);
         b->fast = true;
         return false;
     }
@@ -38,7 +38,7 @@ static bool may_act(struct gn_gestures *g, int i) {
     return true;
 }
 
-static void emit(struct gn_gestures *g, int i, enum gn_gesture gesture, int64_t time_ns) {
+static void emit_gesture(struct gn_gestures *g, int i, enum gn_gesture gesture, int64_t time_ns) {
     if (!(g->buttons[i].opts.gestures & 1u << gesture) || !may_act(g, i)) return;
     if (g->queue_end - g->queue_begin == GN_GESTURE_QUEUE) {
         g->dropped++;
@@ -71,16 +71,16 @@ static void clear_due(struct gn_gesture_button *b) {
         if (due != GN_DUE_CLICK) b->due_ns[due] = NEVER;
 }
 
-/* Its own press, whether it waited for a chord or not. */
-static void begin(struct gn_gestures *g, int i) {
+/* Starts the button's own press, after waiting for a chord if it is in one. */
+static void begin_press(struct gn_gestures *g, int i) {
     struct gn_gesture_button *b = &g->buttons[i];
     b->state = GN_BUTTON_DOWN;
     b->due_ns[GN_DUE_CHORD] = NEVER;
-    emit(g, i, GN_GESTURE_PRESS, b->down_first_ns);
+    emit_gesture(g, i, GN_GESTURE_PRESS, b->down_first_ns);
     b->acted = b->second;
     b->second = false;
     if (b->acted) {
-        emit(g, i, GN_GESTURE_DOUBLE, b->down_first_ns);
+        emit_gesture(g, i, GN_GESTURE_DOUBLE, b->down_first_ns);
         return;
     }
     if (binds(b, 1u << GN_GESTURE_HOLD)) b->due_ns[GN_DUE_HOLD] = b->down_ns + b->opts.hold_ns;
@@ -91,28 +91,28 @@ static void click(struct gn_gestures *g, int i, int64_t first_ns) {
     struct gn_gesture_button *b = &g->buttons[i];
     if (b->acted) return;
     if (!binds(b, 1u << GN_GESTURE_DOUBLE)) {
-        emit(g, i, GN_GESTURE_CLICK, first_ns);
+        emit_gesture(g, i, GN_GESTURE_CLICK, first_ns);
         return;
     }
     b->click_ns = first_ns;
     b->due_ns[GN_DUE_CLICK] = g->now_ns + b->opts.double_ns;
 }
 
-/* The press became something else: the click before it stands alone. */
+/* The press became another gesture: reports the click before it. */
 static void click_before(struct gn_gestures *g, int i) {
     struct gn_gesture_button *b = &g->buttons[i];
-    if (b->second) emit(g, i, GN_GESTURE_CLICK, b->click_ns);
+    if (b->second) emit_gesture(g, i, GN_GESTURE_CLICK, b->click_ns);
     b->second = false;
 }
 
-static void mute(struct gn_gesture_button *b) {
+static void mute_button(struct gn_gesture_button *b) {
     clear_due(b);
     b->state = GN_BUTTON_MUTED;
 }
 
 /* ---- chords -------------------------------------------------------------------------------- */
 
-static uint32_t waiting(const struct gn_gestures *g) {
+static uint32_t waiting_buttons(const struct gn_gestures *g) {
     uint32_t set = 0;
     for (int i = 0; i < g->count; i++)
         if (g->buttons[i].state == GN_BUTTON_WAITING) set |= UINT32_C(1) << i;
@@ -132,7 +132,7 @@ static bool is_complete(const struct gn_gestures *g, int chord, uint32_t set) {
     return newest_ns - oldest_ns < opts->chord_ns;
 }
 
-/* The complete chord with most buttons, of those with this one; -1: none. */
+/* The complete chord with most buttons that contains this one; -1: none. */
 static int find_complete(const struct gn_gestures *g, int with, uint32_t set) {
     int best = -1;
     for (int i = 0; i < g->count; i++) {
@@ -144,7 +144,7 @@ static int find_complete(const struct gn_gestures *g, int with, uint32_t set) {
     return best;
 }
 
-/* Those still missing in a larger chord can come in time. */
+/* Whether a larger chord can still be completed in time. */
 static bool may_grow(const struct gn_gestures *g, int chord, uint32_t set) {
     const uint32_t inner = g->buttons[chord].opts.chord;
     for (int i = 0; i < g->count; i++) {
@@ -162,9 +162,9 @@ static bool may_grow(const struct gn_gestures *g, int chord, uint32_t set) {
     return false;
 }
 
-static void update(struct gn_gestures *g, int i, int64_t first_ns);
+static void update_button(struct gn_gestures *g, int i, int64_t first_ns);
 
-static void fire(struct gn_gestures *g, int chord) {
+static void fire_chord(struct gn_gestures *g, int chord) {
     struct gn_gesture_button *c = &g->buttons[chord];
     int64_t first_ns = INT64_MIN;
     for (int i = 0; i < g->count; i++) {
@@ -175,34 +175,34 @@ static void fire(struct gn_gestures *g, int chord) {
         click_before(g, i);
         if (b->down_first_ns > first_ns) first_ns = b->down_first_ns;
     }
-    emit(g, chord, GN_GESTURE_CHORD, first_ns);
+    emit_gesture(g, chord, GN_GESTURE_CHORD, first_ns);
     c->together = true;
-    update(g, chord, first_ns);
+    update_button(g, chord, first_ns);
 }
 
-/* The button waits no longer: the best chord that there is, or itself alone. */
-static void resolve(struct gn_gestures *g, int i) {
-    const int chord = find_complete(g, i, waiting(g));
+/* The wait for a chord is over: fires the best complete chord, else the button itself. */
+static void resolve_chord(struct gn_gestures *g, int i) {
+    const int chord = find_complete(g, i, waiting_buttons(g));
     if (chord >= 0)
-        fire(g, chord);
+        fire_chord(g, chord);
     else
-        begin(g, i);
+        begin_press(g, i);
 }
 
-/* The chord that this button was one of is over: ends as if released, or without a gesture. */
+/* Ends the chords of this member: as if released, or without a gesture. */
 static void end_chords(struct gn_gestures *g, int member, int64_t first_ns, bool quietly) {
     for (int i = 0; i < g->count; i++) {
         struct gn_gesture_button *c = &g->buttons[i];
         if (!c->together || !(c->opts.chord >> member & 1)) continue;
-        if (quietly) mute(c);
+        if (quietly) mute_button(c);
         c->together = false;
-        update(g, i, first_ns);
+        update_button(g, i, first_ns);
     }
 }
 
 /* ---- edges --------------------------------------------------------------------------------- */
 
-static void press(struct gn_gestures *g, int i, int64_t first_ns) {
+static void press_button(struct gn_gestures *g, int i, int64_t first_ns) {
     struct gn_gesture_button *b = &g->buttons[i];
     b->down_ns = g->now_ns;
     b->down_first_ns = first_ns;
@@ -210,7 +210,7 @@ static void press(struct gn_gestures *g, int i, int64_t first_ns) {
     b->due_ns[GN_DUE_CLICK] = NEVER;
     if (!b->together) b->due_ns[GN_DUE_STUCK] = g->now_ns + b->opts.stuck_ns;
     if (!b->chords) {
-        begin(g, i);
+        begin_press(g, i);
         return;
     }
     int64_t longest_ns = 0;
@@ -219,14 +219,14 @@ static void press(struct gn_gestures *g, int i, int64_t first_ns) {
             longest_ns = g->buttons[c].opts.chord_ns;
     b->state = GN_BUTTON_WAITING;
     b->due_ns[GN_DUE_CHORD] = g->now_ns + longest_ns;
-    const uint32_t set = waiting(g);
+    const uint32_t set = waiting_buttons(g);
     const int chord = find_complete(g, i, set);
-    if (chord >= 0 && !may_grow(g, chord, set)) fire(g, chord);
+    if (chord >= 0 && !may_grow(g, chord, set)) fire_chord(g, chord);
 }
 
-static void release(struct gn_gestures *g, int i, int64_t first_ns) {
+static void release_button(struct gn_gestures *g, int i, int64_t first_ns) {
     struct gn_gesture_button *b = &g->buttons[i];
-    if (b->state == GN_BUTTON_WAITING) resolve(g, i);
+    if (b->state == GN_BUTTON_WAITING) resolve_chord(g, i);
     const enum gn_gesture_state was = b->state;
     b->state = GN_BUTTON_UP;
     clear_due(b);
@@ -234,63 +234,63 @@ static void release(struct gn_gestures *g, int i, int64_t first_ns) {
     if (was == GN_BUTTON_DOWN) click(g, i, first_ns);
 }
 
-/* What counts as down may have changed. */
-static void update(struct gn_gestures *g, int i, int64_t first_ns) {
+/* The combined state may have changed. */
+static void update_button(struct gn_gestures *g, int i, int64_t first_ns) {
     struct gn_gesture_button *b = &g->buttons[i];
     const bool down = b->line.settled || b->keys > 0 || b->together;
     if (down == b->down) return;
     b->down = down;
     if (down)
-        press(g, i, first_ns);
+        press_button(g, i, first_ns);
     else
-        release(g, i, first_ns);
+        release_button(g, i, first_ns);
 }
 
 static void be_stuck(struct gn_gestures *g, int i) {
     struct gn_gesture_button *b = &g->buttons[i];
-    note(g, i, GN_NOTE_STUCK);
+    set_note(g, i, GN_NOTE_STUCK);
     const bool used = b->state == GN_BUTTON_USED;
-    mute(b);
+    mute_button(b);
     if (used) end_chords(g, i, g->now_ns, true);
 }
 
-static void act(struct gn_gestures *g, int i, enum gn_gesture_due due) {
+static void run_due(struct gn_gestures *g, int i, enum gn_gesture_due due) {
     struct gn_gesture_button *b = &g->buttons[i];
     const int64_t due_ns = b->due_ns[due];
     b->due_ns[due] = NEVER;
     switch (due) {
-    case GN_DUE_CHORD: resolve(g, i); break;
-    case GN_DUE_CLICK: emit(g, i, GN_GESTURE_CLICK, b->click_ns); break;
+    case GN_DUE_CHORD: resolve_chord(g, i); break;
+    case GN_DUE_CLICK: emit_gesture(g, i, GN_GESTURE_CLICK, b->click_ns); break;
     case GN_DUE_HOLD:
         b->acted = true;
-        emit(g, i, GN_GESTURE_HOLD, due_ns);
+        emit_gesture(g, i, GN_GESTURE_HOLD, due_ns);
         break;
     case GN_DUE_REPEAT:
         b->acted = true;
         b->due_ns[due] = due_ns + b->opts.repeat_ns;
-        emit(g, i, GN_GESTURE_REPEAT, due_ns);
+        emit_gesture(g, i, GN_GESTURE_REPEAT, due_ns);
         break;
     case GN_DUE_STUCK: be_stuck(g, i); break;
     case GN_DUE_NOISY:
-        if (!b->noisy) note(g, i, GN_NOTE_NOISY);
+        if (!b->noisy) set_note(g, i, GN_NOTE_NOISY);
         b->noisy = true;
         break;
     case GN_DUE_COUNT: break;
     }
 }
 
-static void settle(struct gn_gestures *g, int i) {
+static void settle_edge(struct gn_gestures *g, int i) {
     struct gn_gesture_button *b = &g->buttons[i];
     struct gn_debounced edge;
     b->due_ns[GN_DUE_NOISY] = NEVER;
     if (!gn_debounce_step(&b->line, g->now_ns, &edge)) return;
     b->noisy = false;
-    update(g, i, edge.first_ns);
+    update_button(g, i, edge.first_ns);
 }
 
 /* ---- time ---------------------------------------------------------------------------------- */
 
-/* The first thing that is due, and when; timers before edges. */
+/* The first thing due, and when; timers before edges. */
 static int64_t find_due(const struct gn_gestures *g, int *button, enum gn_gesture_due *due) {
     int64_t first_ns = NEVER;
     *button = 0;
@@ -325,9 +325,9 @@ void gn_gestures_step(struct gn_gestures *g, int64_t now_ns) {
         if (first_ns == NEVER) break;
         if (first_ns > g->now_ns) g->now_ns = first_ns;
         if (due == GN_DUE_COUNT)
-            settle(g, button);
+            settle_edge(g, button);
         else
-            act(g, button, due);
+            run_due(g, button, due);
     }
     if (now_ns > g->now_ns) g->now_ns = now_ns;
 }
@@ -337,7 +337,7 @@ int64_t gn_gesture_time_ns(int64_t time_ns, int64_t now_ns) {
     return sane ? time_ns : now_ns;
 }
 
-/* ---- what goes in -------------------------------------------------------------------------- */
+/* ---- input --------------------------------------------------------------------------------- */
 
 static int64_t or_default(int64_t value_ns, int64_t default_ns) {
     return value_ns > 0 ? value_ns : default_ns;
@@ -365,50 +365,50 @@ void gn_gestures_init(struct gn_gestures *g, const struct gn_gesture_opts *opts,
     }
 }
 
-static struct gn_gesture_button *at(struct gn_gestures *g, int button, int64_t time_ns) {
+static struct gn_gesture_button *clamp_time(struct gn_gestures *g, int button, int64_t time_ns) {
     assert(button >= 0 && button < g->count);
     gn_gestures_step(g, time_ns);
     return &g->buttons[button];
 }
 
-/* Down from before: nobody has pressed it now. */
+/* Held since before the start: not a press. */
 static void find_held(struct gn_gestures *g, struct gn_gesture_button *b) {
     if (b->down) return;
     b->down = true;
-    mute(b);
+    mute_button(b);
     b->due_ns[GN_DUE_STUCK] = g->now_ns + b->opts.stuck_ns;
 }
 
 void gn_gestures_start(struct gn_gestures *g, int button, bool level, int64_t time_ns) {
-    struct gn_gesture_button *b = at(g, button, time_ns);
+    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     gn_debounce_init(&b->line, b->opts.debounce_ns, level);
     b->due_ns[GN_DUE_NOISY] = NEVER;
     if (level)
         find_held(g, b);
     else
-        update(g, button, g->now_ns);
+        update_button(g, button, g->now_ns);
 }
 
-/* What held it is gone. */
+/* Its source is gone. */
 static void let_go(struct gn_gestures *g, int i) {
     struct gn_gesture_button *b = &g->buttons[i];
     if (!b->down || b->line.settled || b->keys > 0 || b->together) return;
     const bool used = b->state == GN_BUTTON_USED;
     click_before(g, i);
-    mute(b);
-    update(g, i, g->now_ns);
+    mute_button(b);
+    update_button(g, i, g->now_ns);
     if (used) end_chords(g, i, g->now_ns, true);
 }
 
 void gn_gestures_lose(struct gn_gestures *g, int button, int64_t time_ns) {
-    struct gn_gesture_button *b = at(g, button, time_ns);
+    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     gn_debounce_init(&b->line, b->opts.debounce_ns, false);
     b->due_ns[GN_DUE_NOISY] = NEVER;
     let_go(g, button);
 }
 
 void gn_gestures_key_gone(struct gn_gestures *g, int button, int64_t time_ns) {
-    struct gn_gesture_button *b = at(g, button, time_ns);
+    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     assert(b->keys > 0);
     b->keys--;
     let_go(g, button);
@@ -420,26 +420,26 @@ static void start_watching(struct gn_gesture_button *b) {
 }
 
 void gn_gestures_edge(struct gn_gestures *g, int button, bool level, int64_t time_ns) {
-    struct gn_gesture_button *b = at(g, button, time_ns);
+    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     gn_debounce_edge(&b->line, level, g->now_ns);
     start_watching(b);
 }
 
 void gn_gestures_level(struct gn_gestures *g, int button, bool level, int64_t time_ns) {
-    struct gn_gesture_button *b = at(g, button, time_ns);
+    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     gn_debounce_level(&b->line, level, g->now_ns);
     start_watching(b);
 }
 
 void gn_gestures_key(struct gn_gestures *g, int button, bool down, int64_t time_ns) {
-    struct gn_gesture_button *b = at(g, button, time_ns);
+    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     assert(down || b->keys > 0);
     b->keys += down ? 1 : -1;
-    update(g, button, g->now_ns);
+    update_button(g, button, g->now_ns);
 }
 
 void gn_gestures_key_held(struct gn_gestures *g, int button, int64_t time_ns) {
-    struct gn_gesture_button *b = at(g, button, time_ns);
+    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     b->keys++;
     find_held(g, b);
 }

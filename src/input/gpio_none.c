@@ -1,4 +1,4 @@
-/* A build without libgpiod. */
+/* Built without libgpiod. */
 #include <errno.h>
 
 #include "input/gpio.h"

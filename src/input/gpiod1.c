@@ -9,7 +9,7 @@
 #include "input/gpio.h"
 
 struct line {
-    struct gpiod_chip *chip; /* its own: a line lives no longer than its chip */
+    struct gpiod_chip *chip; /* owned: a line cannot outlive its chip */
     struct gpiod_line *line;
 };
 
@@ -27,7 +27,7 @@ static int open_chip(void *context, const char *path, void **chip, struct gn_gpi
 
 static void close_chip(void *chip) { gpiod_chip_close(chip); }
 
-static int look(void *chip, unsigned offset, struct gn_gpio_line *out) {
+static int get_line_info(void *chip, unsigned offset, struct gn_gpio_line *out) {
     struct gpiod_line *line = gpiod_chip_get_line(chip, offset);
     if (!line) return errno;
     const char *name = gpiod_line_name(line), *consumer = gpiod_line_consumer(line);
@@ -37,14 +37,14 @@ static int look(void *chip, unsigned offset, struct gn_gpio_line *out) {
     return 0;
 }
 
-/* The same chip once more, for a line that stays. */
+/* Opens the chip a second time, for the line to own. */
 static struct gpiod_chip *open_again(struct gpiod_chip *chip) {
     char path[64];
     snprintf(path, sizeof path, "/dev/%s", gpiod_chip_name(chip));
     return gpiod_chip_open(path);
 }
 
-static int request(void *chip, const struct gn_gpio_wish *wish, void **line) {
+static int request_line(void *chip, const struct gn_gpio_wish *wish, void **line) {
     static const int flags[] = {[GN_BIAS_PULL_UP] = GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP,
                                 [GN_BIAS_PULL_DOWN] = GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN};
     const int bias = wish->bias == GN_BIAS_NONE ? 0 : flags[wish->bias];
@@ -82,7 +82,7 @@ static int read_level(void *line, bool *high) {
     return 0;
 }
 
-static void release(void *line) {
+static void release_line(void *line) {
     struct line *kept = line;
     gpiod_line_release(kept->line);
     gpiod_chip_close(kept->chip);
@@ -92,11 +92,11 @@ static void release(void *line) {
 const struct gn_gpio_ops gn_gpio_library = {
     .library = "libgpiod 1",
     .open = open_chip,
-    .look = look,
-    .request = request,
+    .look = get_line_info,
+    .request = request_line,
     .close = close_chip,
     .fd = line_fd,
     .read = read_events,
     .level = read_level,
-    .release = release,
+    .release = release_line,
 };

@@ -13,16 +13,16 @@ struct line {
     unsigned offset;
 };
 
-static int why(void) { return errno ? errno : ENODEV; }
+static int error_of(void) { return errno ? errno : ENODEV; }
 
 static int open_chip(void *context, const char *path, void **chip, struct gn_gpio_chip *out) {
     (void)context;
     errno = 0;
     struct gpiod_chip *opened = gpiod_chip_open(path);
-    if (!opened) return why();
+    if (!opened) return error_of();
     struct gpiod_chip_info *info = gpiod_chip_get_info(opened);
     if (!info) {
-        const int error = why();
+        const int error = error_of();
         gpiod_chip_close(opened);
         return error;
     }
@@ -36,9 +36,9 @@ static int open_chip(void *context, const char *path, void **chip, struct gn_gpi
 
 static void close_chip(void *chip) { gpiod_chip_close(chip); }
 
-static int look(void *chip, unsigned offset, struct gn_gpio_line *out) {
+static int get_line_info(void *chip, unsigned offset, struct gn_gpio_line *out) {
     struct gpiod_line_info *info = gpiod_chip_get_line_info(chip, offset);
-    if (!info) return why();
+    if (!info) return error_of();
     const char *name = gpiod_line_info_get_name(info);
     const char *consumer = gpiod_line_info_get_consumer(info);
     snprintf(out->name, sizeof out->name, "%s", name ? name : "");
@@ -48,14 +48,14 @@ static int look(void *chip, unsigned offset, struct gn_gpio_line *out) {
     return 0;
 }
 
-/* Everything that a request is made of; what could not be had is NULL. */
+/* libgpiod objects of a request; NULL where allocation failed. */
 struct parts {
     struct gpiod_line_settings *settings;
     struct gpiod_line_config *lines;
     struct gpiod_request_config *request;
 };
 
-static bool fill(struct parts *parts, const struct gn_gpio_wish *wish) {
+static bool fill_request(struct parts *parts, const struct gn_gpio_wish *wish) {
     static const enum gpiod_line_bias biases[] = {[GN_BIAS_PULL_UP] = GPIOD_LINE_BIAS_PULL_UP,
                                                   [GN_BIAS_PULL_DOWN] = GPIOD_LINE_BIAS_PULL_DOWN,
                                                   [GN_BIAS_NONE] = GPIOD_LINE_BIAS_AS_IS};
@@ -71,16 +71,16 @@ static bool fill(struct parts *parts, const struct gn_gpio_wish *wish) {
            0;
 }
 
-static int request(void *chip, const struct gn_gpio_wish *wish, void **line) {
+static int request_line(void *chip, const struct gn_gpio_wish *wish, void **line) {
     struct parts parts = {.settings = gpiod_line_settings_new(),
                           .lines = gpiod_line_config_new(),
                           .request = gpiod_request_config_new()};
     struct line made = {.events = gpiod_edge_event_buffer_new(GN_GPIO_EVENTS),
                         .offset = wish->offset};
     errno = 0;
-    if (made.events && fill(&parts, wish))
+    if (made.events && fill_request(&parts, wish))
         made.request = gpiod_chip_request_lines(chip, parts.request, parts.lines);
-    const int error = made.request ? 0 : why();
+    const int error = made.request ? 0 : error_of();
     gpiod_request_config_free(parts.request);
     gpiod_line_config_free(parts.lines);
     gpiod_line_settings_free(parts.settings);
@@ -114,12 +114,12 @@ static int read_events(void *line, struct gn_gpio_event *out) {
 static int read_level(void *line, bool *high) {
     struct line *l = line;
     const enum gpiod_line_value value = gpiod_line_request_get_value(l->request, l->offset);
-    if (value == GPIOD_LINE_VALUE_ERROR) return why();
+    if (value == GPIOD_LINE_VALUE_ERROR) return error_of();
     *high = value == GPIOD_LINE_VALUE_ACTIVE;
     return 0;
 }
 
-static void release(void *line) {
+static void release_line(void *line) {
     struct line *l = line;
     gpiod_line_request_release(l->request);
     gpiod_edge_event_buffer_free(l->events);
@@ -129,11 +129,11 @@ static void release(void *line) {
 const struct gn_gpio_ops gn_gpio_library = {
     .library = "libgpiod 2",
     .open = open_chip,
-    .look = look,
-    .request = request,
+    .look = get_line_info,
+    .request = request_line,
     .close = close_chip,
     .fd = line_fd,
     .read = read_events,
     .level = read_level,
-    .release = release,
+    .release = release_line,
 };

@@ -1,6 +1,6 @@
-/* Whatever is readable only makes the one timer due, which also has the earliest of all deadlines.
- * When it is called it first takes what there is to read and only then lets time pass: what the
- * kernel has stamped before now_ns is in its buffers by then. */
+/* Readable descriptors only arm the one timer, which also has the earliest deadline. Its callback
+ * reads everything first and advances time afterwards: events with kernel timestamps before now_ns
+ * are in the buffers by then. */
 #include "input/input.h"
 
 #include <stdio.h>
@@ -44,8 +44,8 @@ static bool wants_lines(const struct gn_input *input) {
     return false;
 }
 
-/* For news of devices, as far as there can be any. */
-static void watch(struct gn_input *input) {
+/* Watches the device folders with inotify, as far as possible. */
+static void watch_folders(struct gn_input *input) {
     const uint32_t news = IN_CREATE | IN_ATTRIB | IN_MOVED_TO | IN_DELETE | IN_ONLYDIR;
     if (input->folder_watch < 0)
         input->folder_watch = inotify_add_watch(input->notify.fd, input->lines.folder, news);
@@ -66,17 +66,18 @@ static void open_notify(struct gn_input *input) {
                                       .events = EPOLLIN,
                                       .call = on_news,
                                       .user = input};
-    if (input->notify.fd >= 0 && gn_loop_add(input->opts.loop, &input->notify)) watch(input);
+    if (input->notify.fd >= 0 && gn_loop_add(input->opts.loop, &input->notify))
+        watch_folders(input);
 }
 
 /* ---- the timer ----------------------------------------------------------------------------- */
 
-static int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
+static int64_t min_i64(int64_t a, int64_t b) { return a < b ? a : b; }
 
 static void set_timer(struct gn_input *input) {
     int64_t due_ns = gn_gestures_deadline(&input->gestures);
     for (size_t i = 0; i < SOURCES; i++)
-        if (sources[i]->deadline) due_ns = least(due_ns, sources[i]->deadline(input));
+        if (sources[i]->deadline) due_ns = min_i64(due_ns, sources[i]->deadline(input));
     input->timer.due_ns = due_ns;
 }
 
@@ -120,7 +121,7 @@ void gn_input_close(struct gn_input *input) {
 
 /* ---- dispatching --------------------------------------------------------------------------- */
 
-/* What the news is about. */
+/* what inotify reported */
 struct news {
     bool chips, devices;
 };
@@ -150,15 +151,15 @@ static void read_news(struct gn_input *input, int64_t now_ns) {
         }
     if (news.chips) gn_lines_changed(&input->lines, now_ns);
     if (!news.devices || !input->opts.devices) return;
-    watch(input);
+    watch_folders(input);
     gn_devices_search(&input->devices, now_ns);
 }
 
 static void report_notes(struct gn_input *input) {
     static const char *const texts[] = {
-        [GN_NOTE_STUCK] = "held for 30 s; ignored until it is released",
-        [GN_NOTE_NOISY] = "its line does not come to rest; without a resistor, or a wire too long?",
-        [GN_NOTE_FAST] = "more than 20 times in a second; the rest is ignored",
+        [GN_NOTE_STUCK] = "held for 30 s; ignored until released",
+        [GN_NOTE_NOISY] = "its line does not settle; check its pull resistor and wire length",
+        [GN_NOTE_FAST] = "more than 20 gestures in a second; the rest is ignored",
     };
     struct gn_gesture_note note;
     while (gn_gestures_note(&input->gestures, &note))
@@ -166,7 +167,7 @@ static void report_notes(struct gn_input *input) {
                   texts[note.kind]);
     const unsigned dropped = input->gestures.dropped - input->said_dropped;
     if (dropped && input->gestures.queue_begin == input->gestures.queue_end) {
-        gn_report(&input->reports, "buttons: %u gestures were dropped: too many at once", dropped);
+        gn_report(&input->reports, "buttons: %u gestures dropped, queue full", dropped);
         input->said_dropped += dropped;
     }
 }

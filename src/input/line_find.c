@@ -8,11 +8,10 @@
 
 enum { CHIPS_MAX = 32 };
 
-/* ---- what is meant ------------------------------------------------------------------------- */
+/* ---- line specifications ------------------------------------------------------------------- */
 
-/* The header's pins on a Raspberry Pi: the kernel's own device trees (bcm2711-rpi-4-b.dts,
- * bcm2837-rpi-3-b.dts) name some after what they can do besides, those of Raspberry Pi all by their
- * number. */
+/* Header pins of the Raspberry Pi: mainline device trees (bcm2711-rpi-4-b.dts, bcm2837-rpi-3-b.dts)
+ * name some by their alternate function, Raspberry Pi's kernels all by number. */
 static const struct {
     const char *number, *function;
 } aliases[] = {
@@ -46,19 +45,19 @@ bool gn_line_parse(const char *text, struct gn_line_spec *out, struct gn_err *er
     const bool by_label = strncmp(text, "label:", 6) == 0;
     const char *slash = strrchr(text, '/');
     unsigned number;
-    if (strlen(text) >= sizeof out->name) return gn_fail_usage(err, "is too long for a line");
+    if (strlen(text) >= sizeof out->name) return gn_fail_usage(err, "line name too long");
     if (!by_label && (parse_offset(text, &number) || strncmp(text, "gpiochip", 8) == 0 ||
                       strncmp(text, "/dev/", 5) == 0))
         return gn_fail_usage(
-            err, "\"%s\" is the number of a chip or a line, and those change: write its name, %s",
-            text, how);
-    if (!by_label && !*text) return gn_fail_usage(err, "names no line: write %s", how);
+            err, "\"%s\" is a chip or line number, which is not stable: use its name, %s", text,
+            how);
+    if (!by_label && !*text) return gn_fail_usage(err, "empty line name: expected %s", how);
     if (!by_label) {
         snprintf(out->name, sizeof out->name, "%s", text);
         return true;
     }
     if (!slash || slash == text + 6 || !parse_offset(slash + 1, &out->offset))
-        return gn_fail_usage(err, "\"%s\" is no label with a line's number: write %s", text, how);
+        return gn_fail_usage(err, "\"%s\" is not label:LABEL/NUMBER: expected %s", text, how);
     snprintf(out->label, sizeof out->label, "%.*s", (int)(slash - text - 6), text + 6);
     return true;
 }
@@ -73,7 +72,7 @@ int gn_line_fits(const struct gn_line_spec *spec, const struct gn_gpio_chip *chi
     return 0;
 }
 
-/* ---- what there is ------------------------------------------------------------------------- */
+/* ---- lines of all chips -------------------------------------------------------------------- */
 
 static int by_number(const void *a, const void *b) { return strverscmp(a, b); }
 
@@ -93,9 +92,9 @@ int gn_line_list_chips(const char *folder, char (*paths)[64], int max) {
     return count;
 }
 
-static void take(struct gn_line_match *match, int fits, const char *path,
-                 const struct gn_gpio_chip *chip, unsigned offset,
-                 const struct gn_gpio_line *line) {
+static void take_line(struct gn_line_match *match, int fits, const char *path,
+                      const struct gn_gpio_chip *chip, unsigned offset,
+                      const struct gn_gpio_line *line) {
     if (fits == 0 || fits < match->fits) return;
     if (fits > match->fits) {
         *match =
@@ -116,8 +115,8 @@ static void search_chip(const struct gn_gpio_ops *ops, void *chip, const char *p
         if (ops->look(chip, offset, &line)) continue;
         for (int i = 0; i < count; i++)
             if (wanted[i])
-                take(&matches[i], gn_line_fits(wanted[i], info, offset, &line), path, info, offset,
-                     &line);
+                take_line(&matches[i], gn_line_fits(wanted[i], info, offset, &line), path, info,
+                          offset, &line);
     }
 }
 

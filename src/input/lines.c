@@ -11,7 +11,7 @@
 #define SECOND INT64_C(1000000000)
 #define NEVER  INT64_MAX
 
-enum { ENOTSUPP_ = 524 /* the kernel's own, which libc does not know */, READS_MAX = 4 };
+enum { ENOTSUPP_ = 524 /* kernel-internal value, not in libc */, READS_MAX = 4 };
 enum { EDGES_MAX = 256 };
 
 enum problem { FINE, NO_LIBRARY, MISSING, AMBIGUOUS, DENIED, BUSY, BROKEN };
@@ -27,24 +27,24 @@ bool gn_lines_init(struct gn_lines *lines, const struct gn_line_opts *opts, int 
             return gn_fail_prefix(err, "button \"%s\": line", opts[i].button);
         for (int k = 0; opts[i].text && k < i; k++)
             if (opts[k].text && strcmp(opts[k].text, opts[i].text) == 0)
-                return gn_fail_usage(err, "button \"%s\": line %s is that of button \"%s\"",
+                return gn_fail_usage(err, "button \"%s\": line %s is used by button \"%s\" already",
                                      opts[i].button, opts[i].text, opts[k].button);
     }
     return true;
 }
 
-/* ---- saying it ----------------------------------------------------------------------------- */
+/* ---- reports ------------------------------------------------------------------------------- */
 
-/* Once, until something else is said of this line. */
-static void say(struct gn_lines *lines, struct gn_line *l, const char *text) {
+/* Reported once, until the text for this line changes. */
+static void report_once(struct gn_lines *lines, struct gn_line *l, const char *text) {
     if (strcmp(l->said, text) == 0) return;
     snprintf(l->said, sizeof l->said, "%s", text);
     gn_report(lines->reports, "button \"%s\": %s%s", l->opts.button, text,
-              l->opts.optional && l->problem ? " (a default: keys do as well)" : "");
+              l->opts.optional && l->problem ? " (default button: its keys still work)" : "");
 }
 
-/* Tried again soon, while it may be a matter of the system's start. */
-static int64_t patience_ns(const struct gn_line *l, int64_t now_ns) {
+/* Retry interval: short during system start. */
+static int64_t retry_interval_ns(const struct gn_line *l, int64_t now_ns) {
     return now_ns + (now_ns - l->since_ns < 30 * SECOND ? 2 : 60) * SECOND;
 }
 
@@ -52,23 +52,23 @@ static void have_problem(struct gn_lines *lines, struct gn_line *l, enum problem
                          const char *text, int64_t now_ns) {
     if (l->problem != (int)problem) l->since_ns = now_ns;
     l->problem = problem;
-    say(lines, l, text);
+    report_once(lines, l, text);
     switch (problem) {
     case MISSING: l->retry_ns = lines->watched ? NEVER : now_ns + 2 * SECOND; break;
     case AMBIGUOUS: l->retry_ns = lines->watched ? NEVER : now_ns + 60 * SECOND; break;
     case DENIED:
     case BUSY:
-    case BROKEN: l->retry_ns = patience_ns(l, now_ns); break;
+    case BROKEN: l->retry_ns = retry_interval_ns(l, now_ns); break;
     case FINE:
     case NO_LIBRARY: l->retry_ns = NEVER; break;
     }
 }
 
-/* ---- having it ----------------------------------------------------------------------------- */
+/* ---- requesting lines ---------------------------------------------------------------------- */
 
 static bool is_pressed(const struct gn_line *l, bool high) { return high == l->opts.active_high; }
 
-static void drop(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
+static void release_request(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
     gn_loop_remove(&l->watch);
     lines->ops->release(l->request);
     l->request = NULL;
@@ -76,18 +76,18 @@ static void drop(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
     gn_gestures_lose(lines->gestures, (int)(l - lines->lines), now_ns);
 }
 
-static void lose(struct gn_lines *lines, struct gn_line *l, int error, int64_t now_ns) {
+static void lose_line(struct gn_lines *lines, struct gn_line *l, int error, int64_t now_ns) {
     char text[GN_REPORT_SIZE];
-    drop(lines, l, now_ns);
-    snprintf(text, sizeof text, "%s went away (%s); waiting for it", l->where, strerror(error));
+    release_request(lines, l, now_ns);
+    snprintf(text, sizeof text, "%s disappeared (%s); waiting for it", l->where, strerror(error));
     l->problem = MISSING;
     l->since_ns = now_ns;
     l->retry_ns = now_ns + (lines->watched ? SECOND / 2 : 2 * SECOND);
-    say(lines, l, text);
+    report_once(lines, l, text);
 }
 
-/* With the bias that is wanted, or without, where the chip has none. */
-static int request(struct gn_lines *lines, struct gn_line *l, void *chip, unsigned offset) {
+/* Requests with the configured bias, or without if the chip has none. */
+static int request_line(struct gn_lines *lines, struct gn_line *l, void *chip, unsigned offset) {
     const int64_t kernel_ns = INT64_C(5000000);
     struct gn_gpio_wish wish = {.offset = offset, .bias = l->opts.bias, .debounce_ns = kernel_ns};
     if (l->opts.debounce_ns > 0 && l->opts.debounce_ns < 4 * kernel_ns)
@@ -108,7 +108,7 @@ static void on_readable(void *user, uint32_t events, int64_t now_ns) {
     l->all->timer->due_ns = now_ns;
 }
 
-static void begin(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
+static void begin_line(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
     const int button = (int)(l - lines->lines);
     bool high;
     l->all = lines;
@@ -124,12 +124,12 @@ static void begin(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
         gn_gestures_start(lines->gestures, button, is_pressed(l, high), now_ns);
         const char *pull = l->opts.bias == GN_BIAS_PULL_DOWN ? "down" : "up";
         snprintf(text, sizeof text, "%s%s%s%s", l->where,
-                 l->no_bias ? ", whose chip has no pull-" : "", l->no_bias ? pull : "",
-                 l->no_bias ? ": without a resistor it may press itself" : "");
-        say(lines, l, text);
+                 l->no_bias ? ", whose chip has no internal pull-" : "", l->no_bias ? pull : "",
+                 l->no_bias ? ": add a resistor against spurious presses" : "");
+        report_once(lines, l, text);
         return;
     }
-    lose(lines, l, error ? error : errno, now_ns);
+    lose_line(lines, l, error ? error : errno, now_ns);
 }
 
 static const char *name_of(const struct gn_line *l) { return l->opts.text; }
@@ -137,23 +137,23 @@ static const char *name_of(const struct gn_line *l) { return l->opts.text; }
 static void describe_error(const struct gn_line *l, const struct gn_line_match *match, int error,
                            char *text, size_t size) {
     if (error == EBUSY)
-        snprintf(text, size, "%s is in use by %s%s%s; free it, or take another line", l->where,
+        snprintf(text, size, "%s is in use by %s%s%s; free it or use another line", l->where,
                  match->line.consumer[0] ? "\"" : "",
                  match->line.consumer[0] ? match->line.consumer : "another program",
                  match->line.consumer[0] ? "\"" : "");
     else
-        snprintf(text, size, "%s cannot be had: %s", l->where, strerror(error));
+        snprintf(text, size, "cannot request %s: %s", l->where, strerror(error));
 }
 
 static void describe_denied(const char *path, const char *name, char *text, size_t size) {
     snprintf(text, size,
-             "%s may not be opened to look for %s; add the user to group gpio "
+             "no permission to open %s to find %s; add the user to group gpio "
              "(sudo usermod -aG gpio USER) and log in again",
              path, name);
 }
 
-static void acquire(struct gn_lines *lines, struct gn_line *l, const struct gn_line_match *match,
-                    int64_t now_ns) {
+static void acquire_line(struct gn_lines *lines, struct gn_line *l,
+                         const struct gn_line_match *match, int64_t now_ns) {
     struct gn_gpio_chip info;
     void *chip;
     char text[GN_REPORT_SIZE];
@@ -161,11 +161,11 @@ static void acquire(struct gn_lines *lines, struct gn_line *l, const struct gn_l
              match->offset);
     int error = lines->ops->open(lines->context, match->path, &chip, &info);
     if (!error) {
-        error = request(lines, l, chip, match->offset);
+        error = request_line(lines, l, chip, match->offset);
         lines->ops->close(chip);
     }
     if (!error) {
-        begin(lines, l, now_ns);
+        begin_line(lines, l, now_ns);
         return;
     }
     const bool denied = error == EACCES || error == EPERM;
@@ -176,35 +176,35 @@ static void acquire(struct gn_lines *lines, struct gn_line *l, const struct gn_l
     have_problem(lines, l, denied ? DENIED : error == EBUSY ? BUSY : BROKEN, text, now_ns);
 }
 
-/* ---- looking for it ------------------------------------------------------------------------ */
+/* ---- searching lines ----------------------------------------------------------------------- */
 
-static void not_found(struct gn_lines *lines, struct gn_line *l,
-                      const struct gn_line_search *search, int64_t now_ns) {
+static void report_missing(struct gn_lines *lines, struct gn_line *l,
+                           const struct gn_line_search *search, int64_t now_ns) {
     char text[GN_REPORT_SIZE];
     const bool denied = search->refused && (search->error == EACCES || search->error == EPERM);
-    if (l->problem == MISSING && !denied) /* said already, perhaps that it went away */
+    if (l->problem == MISSING && !denied) /* reported already, perhaps as disconnected */
         snprintf(text, sizeof text, "%s", l->said);
     else if (denied)
         describe_denied(search->refused_path, name_of(l), text, sizeof text);
     else if (search->chips == 0)
-        snprintf(text, sizeof text, "there is no GPIO chip for %s; waiting for one", name_of(l));
+        snprintf(text, sizeof text, "no GPIO chip found for %s; waiting for one", name_of(l));
     else
-        snprintf(
-            text, sizeof text,
-            "no GPIO line is called %s; waiting for it (`gnomon doctor` lists those there are)",
-            name_of(l));
+        snprintf(text, sizeof text,
+                 "no GPIO line named %s; waiting for it (`gnomon doctor` lists the lines)",
+                 name_of(l));
     have_problem(lines, l, denied ? DENIED : MISSING, text, now_ns);
 }
 
-static void judge(struct gn_lines *lines, struct gn_line *l, const struct gn_line_match *match,
-                  const struct gn_line_search *search, int64_t now_ns) {
+static void take_search_result(struct gn_lines *lines, struct gn_line *l,
+                               const struct gn_line_match *match,
+                               const struct gn_line_search *search, int64_t now_ns) {
     char text[GN_REPORT_SIZE];
     if (match->count == 0) {
-        not_found(lines, l, search, now_ns);
+        report_missing(lines, l, search, now_ns);
     } else if (match->count == 1) {
-        acquire(lines, l, match, now_ns);
+        acquire_line(lines, l, match, now_ns);
     } else {
-        snprintf(text, sizeof text, "%d lines are called %s: %.150s; write label:CHIP/NUMBER",
+        snprintf(text, sizeof text, "%d lines are named %s: %.150s; use label:CHIP/NUMBER",
                  match->count, name_of(l), match->list);
         have_problem(lines, l, AMBIGUOUS, text, now_ns);
     }
@@ -221,17 +221,17 @@ void gn_lines_search(struct gn_lines *lines, int64_t now_ns) {
         wanted[i] = &l->spec;
         missing++;
         if (!lines->ops->library)
-            have_problem(lines, l, NO_LIBRARY, "GPIO lines need libgpiod, not in this build",
+            have_problem(lines, l, NO_LIBRARY, "GPIO lines need libgpiod, missing in this build",
                          now_ns);
     }
     if (!missing || !lines->ops->library) return;
     gn_line_search(lines->ops, lines->context, lines->folder, wanted, matches, lines->count,
                    &search);
     for (int i = 0; i < lines->count; i++)
-        if (wanted[i]) judge(lines, &lines->lines[i], &matches[i], &search, now_ns);
+        if (wanted[i]) take_search_result(lines, &lines->lines[i], &matches[i], &search, now_ns);
 }
 
-/* ---- reading it ---------------------------------------------------------------------------- */
+/* ---- reading lines ------------------------------------------------------------------------- */
 
 struct edge {
     int64_t time_ns;
@@ -249,7 +249,7 @@ static int by_time(const void *a, const void *b) {
     return p->order - q->order;
 }
 
-static void pass_on(struct gn_lines *lines, struct edges *edges) {
+static void pass_edges(struct gn_lines *lines, struct edges *edges) {
     if (edges->count) qsort(edges->list, (size_t)edges->count, sizeof *edges->list, by_time);
     for (int i = 0; i < edges->count; i++)
         gn_gestures_edge(lines->gestures, edges->list[i].button, edges->list[i].level,
@@ -257,16 +257,16 @@ static void pass_on(struct gn_lines *lines, struct edges *edges) {
     edges->count = 0;
 }
 
-/* True: no edge has been lost before this one. */
-static bool follows(struct gn_line *l, uint32_t seqno) {
+/* Returns true if no edge was lost before this one. */
+static bool is_next_seqno(struct gn_line *l, uint32_t seqno) {
     const bool next = !seqno || seqno == l->seqno + 1;
     l->seqno = seqno;
     return next;
 }
 
-/* True: edges may have been lost, or be left; *error: the line is gone. */
-static bool drain(struct gn_lines *lines, struct gn_line *l, struct edges *edges, int64_t now_ns,
-                  int *total, int *error) {
+/* Returns true if edges were lost or are left; *error: the line is gone. */
+static bool drain_line(struct gn_lines *lines, struct gn_line *l, struct edges *edges,
+                       int64_t now_ns, int *total, int *error) {
     bool gap = false;
     *total = 0;
     for (int round = 0; round < READS_MAX; round++) {
@@ -274,8 +274,8 @@ static bool drain(struct gn_lines *lines, struct gn_line *l, struct edges *edges
         const int count = lines->ops->read(l->request, events);
         if (count < 0) *error = -count;
         for (int i = 0; i < count; i++) {
-            if (edges->count == EDGES_MAX) pass_on(lines, edges);
-            gap |= !follows(l, events[i].seqno);
+            if (edges->count == EDGES_MAX) pass_edges(lines, edges);
+            gap |= !is_next_seqno(l, events[i].seqno);
             edges->list[edges->count] =
                 (struct edge){.time_ns = gn_gesture_time_ns(events[i].time_ns, now_ns),
                               .button = (int)(l - lines->lines),
@@ -294,7 +294,7 @@ static void read_level(struct gn_lines *lines, struct gn_line *l, int64_t now_ns
     bool high;
     const int error = lines->ops->level(l->request, &high);
     if (error)
-        lose(lines, l, error, now_ns);
+        lose_line(lines, l, error, now_ns);
     else
         gn_gestures_level(lines->gestures, (int)(l - lines->lines), is_pressed(l, high), now_ns);
 }
@@ -307,14 +307,14 @@ void gn_lines_read(struct gn_lines *lines, int64_t now_ns) {
         struct gn_line *l = &lines->lines[i];
         int total;
         if (!l->readable || !l->request) continue;
-        if (drain(lines, l, &edges, now_ns, &total, &errors[i])) gaps |= UINT32_C(1) << i;
+        if (drain_line(lines, l, &edges, now_ns, &total, &errors[i])) gaps |= UINT32_C(1) << i;
         if (!total && !errors[i] && l->hung_up) errors[i] = ENODEV;
         l->readable = l->hung_up = false;
     }
-    pass_on(lines, &edges);
+    pass_edges(lines, &edges);
     for (int i = 0; i < lines->count; i++)
         if (errors[i])
-            lose(lines, &lines->lines[i], errors[i], now_ns);
+            lose_line(lines, &lines->lines[i], errors[i], now_ns);
         else if (gaps >> i & 1)
             read_level(lines, &lines->lines[i], now_ns);
 }
@@ -327,7 +327,7 @@ void gn_lines_changed(struct gn_lines *lines, int64_t now_ns) {
     gn_lines_search(lines, now_ns);
 }
 
-static void check(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
+static void check_line(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
     const int button = (int)(l - lines->lines);
     if (gn_gestures_at_rest(lines->gestures, button)) {
         l->check_ns = NEVER;
@@ -345,7 +345,7 @@ void gn_lines_step(struct gn_lines *lines, int64_t now_ns) {
     bool search = false;
     for (int i = 0; i < lines->count; i++) {
         struct gn_line *l = &lines->lines[i];
-        if (l->request) check(lines, l, now_ns);
+        if (l->request) check_line(lines, l, now_ns);
         search |= l->wanted && !l->request && l->retry_ns <= now_ns;
     }
     if (search) gn_lines_search(lines, now_ns);
@@ -363,7 +363,8 @@ int64_t gn_lines_deadline(const struct gn_lines *lines) {
 
 void gn_lines_finish(struct gn_lines *lines) {
     for (int i = 0; i < lines->count; i++)
-        if (lines->lines[i].request) drop(lines, &lines->lines[i], lines->gestures->now_ns);
+        if (lines->lines[i].request)
+            release_request(lines, &lines->lines[i], lines->gestures->now_ns);
 }
 
 /* ---- the source ---- */

@@ -1,14 +1,14 @@
-/* The buttons that are lines of GPIO chips: found, asked for, read, and found again after whatever
- * happened to them. Nothing here is an error: what is wrong is said once, and tried again.
+/* Buttons on GPIO lines: found, requested, read, and found again after a failure. Failures are
+ * reported once and retried, never errors.
  *
- * A line that is not there: when the folder of devices changes; without news of that, every 2 s.
- * One that may not be opened or that somebody else has: every 2 s for half a minute, then every
- * minute. A chip that goes takes its lines with it, and comes back under any number.
+ * A missing line is searched for when the folder of devices changes; without inotify, every 2 s.
+ * A line without permission or in use: every 2 s for half a minute, then every minute. A chip
+ * that disappears takes its lines with it and may return under any number.
  *
- * A still kiosk sleeps: edges that are lost are lost out of a full buffer, so a line at rest - up,
- * and quiet - wakes us for every edge that matters. Its level is read after each gap in the
- * kernel's numbers and each full buffer; and every second as long as it is down or moving, so that
- * a lost release is no long press; every minute once it is stuck. */
+ * An idle kiosk must sleep. Edges are lost only when a buffer is full, so a line at rest (up and
+ * settled) is not polled. The level is read after each gap in sequence numbers and each full
+ * buffer; every second while the line is down or moving, so that a lost release is not taken for
+ * a long press; every minute once it is stuck. */
 #ifndef GN_INPUT_LINES_H
 #define GN_INPUT_LINES_H
 
@@ -19,19 +19,19 @@
 
 struct gn_line_opts {
     const char *button; /* its name */
-    const char *text;   /* the line, as in gn_button_opts; NULL: none */
+    const char *text;   /* as in gn_button_opts; NULL: none */
     bool active_high, optional;
     enum gn_bias bias;
-    int64_t debounce_ns; /* of the button: the kernel's is shorter */
+    int64_t debounce_ns; /* of the button; the kernel's is shorter */
 };
 struct gn_line {
     struct gn_line_opts opts;
     struct gn_line_spec spec;
     bool wanted;
-    void *request; /* NULL: it is waited for */
+    void *request; /* NULL: waiting for the line */
     struct gn_watch watch;
     struct gn_lines *all;
-    bool readable, hung_up; /* since it was read */
+    bool readable, hung_up; /* the descriptor became readable and was not read yet */
     char where[96];
     bool no_bias;
     uint32_t seqno;
@@ -41,29 +41,29 @@ struct gn_line {
 };
 struct gn_lines {
     const struct gn_gpio_ops *ops;
-    void *context;      /* of ops */
+    void *context;      /* for ops */
     const char *folder; /* "/dev" */
     struct gn_loop *loop;
-    struct gn_timer *timer;       /* made due by a line that is readable */
-    bool watched;                 /* gn_lines_changed() is called when the folder changes */
-    struct gn_gestures *gestures; /* where edges go; button i is line i */
+    struct gn_timer *timer;       /* armed when a line becomes readable */
+    bool watched;                 /* gn_lines_changed() is called on changes of the folder */
+    struct gn_gestures *gestures; /* receives edges; button i is line i */
     struct gn_reports *reports;
     struct gn_line lines[GN_BUTTONS_MAX];
     int count;
 };
 
-/* Wrong usage is all that fails. The fields above are set, lines are not. */
+/* Fails only on usage errors. The fields above are set by the caller, lines are not. */
 bool gn_lines_init(struct gn_lines *lines, const struct gn_line_opts *opts, int count,
                    struct gn_err *err);
 void gn_lines_finish(struct gn_lines *lines);
 
-/* Looks for all that are missing. */
+/* Searches for all missing lines. */
 void gn_lines_search(struct gn_lines *lines, int64_t now_ns);
 /* The folder has changed. */
 void gn_lines_changed(struct gn_lines *lines, int64_t now_ns);
-/* Reads the lines that are readable. Their edges go on in the order of their times. */
+/* Reads the readable lines; passes edges on in time order. */
 void gn_lines_read(struct gn_lines *lines, int64_t now_ns);
-/* What is due; and when that will be, after the gestures have been stepped. */
+/* Runs what is due. The deadline is valid after the gestures have been stepped. */
 void gn_lines_step(struct gn_lines *lines, int64_t now_ns);
 int64_t gn_lines_deadline(const struct gn_lines *lines);
 

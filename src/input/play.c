@@ -8,8 +8,8 @@
 
 enum { SCRIPT_BYTES = 1 << 20 };
 
-/* Behind all that are not later: in order but for the ends of clicks. */
-static void insert(struct gn_play *play, struct gn_play_step step) {
+/* Inserts after all steps that are not later: keeps the order of equal times. */
+static void insert_step(struct gn_play *play, struct gn_play_step step) {
     int at = play->count++;
     for (; at > 0 && play->steps[at - 1].time_ns > step.time_ns; at--)
         play->steps[at] = play->steps[at - 1];
@@ -23,14 +23,14 @@ static bool add_line(struct gn_play *play, const struct gn_script_line *line,
         if (strcmp(names[i], line->name) == 0) step.button = i;
     if (step.button < 0) step.key = gn_key_find(line->name);
     if (step.button < 0 && step.key == GN_KEY_NONE)
-        return gn_fail_usage(err, "no button and no key is called \"%s\"", line->name);
+        return gn_fail_usage(err, "unknown button or key \"%s\"", line->name);
     if (step.button >= 0) play->buttons |= UINT32_C(1) << step.button;
     step.down = line->what != GN_SCRIPT_UP;
-    insert(play, step);
+    insert_step(play, step);
     if (line->what != GN_SCRIPT_CLICK) return true;
     step.down = false;
     if (step.button >= 0) step.time_ns += GN_SCRIPT_CLICK_NS;
-    insert(play, step);
+    insert_step(play, step);
     return true;
 }
 
@@ -43,7 +43,7 @@ bool gn_play_load(struct gn_play *play, const char *path, const char *const *nam
     gn_bytes_finish(&file);
     if (!ok) return false;
     play->steps = gn_arena_alloc(&play->arena, 2 * (size_t)script.count, sizeof *play->steps);
-    if (!play->steps) return gn_fail(err, "%s: no memory for so many lines", path);
+    if (!play->steps) return gn_fail(err, "%s: out of memory for its lines", path);
     for (int i = 0; i < script.count; i++)
         if (!add_line(play, &script.lines[i], names, count, now_ns, err))
             return gn_fail_prefix(err, "%s:%d", path, script.lines[i].number);

@@ -1,4 +1,4 @@
-/* A script that is played: its clicks taken apart, its names looked up. */
+/* A script being played: clicks split into down and up, names resolved. */
 #ifndef GN_INPUT_PLAY_H
 #define GN_INPUT_PLAY_H
 
@@ -9,20 +9,20 @@ struct gn_play_step {
     int64_t time_ns; /* monotonic */
     bool down;
     int button;   /* -1: a key */
-    unsigned key; /* of a button: GN_KEY_NONE */
+    unsigned key; /* GN_KEY_NONE for a button */
 };
-struct gn_play { /* zeroed: none */
+struct gn_play { /* ready when zeroed */
     struct gn_arena arena;
     struct gn_play_step *steps;
     int count, next;
-    uint32_t buttons; /* bits 1 << button: those that are played */
+    uint32_t buttons; /* bits 1 << button used in the script */
     struct gn_key_source source;
 };
 
-/* names: of the buttons, by index. Fails as the file or the script does. */
+/* names: of the buttons, by index. Fails as reading or parsing does. */
 bool gn_play_load(struct gn_play *play, const char *path, const char *const *names, int count,
                   int64_t now_ns, struct gn_err *err);
-/* Plays what is due; when the next will be (INT64_MAX: none). */
+/* Plays the steps that are due; deadline of the next (INT64_MAX: none). */
 void gn_play_step(struct gn_play *play, struct gn_keys *keys, int64_t now_ns);
 int64_t gn_play_deadline(const struct gn_play *play);
 void gn_play_finish(struct gn_play *play);

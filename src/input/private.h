@@ -1,4 +1,4 @@
-/* The room's inside: what an input is made of, and the world that a test can put round it. */
+/* Parts of an input, and the system interfaces that tests replace. */
 #ifndef GN_INPUT_PRIVATE_H
 #define GN_INPUT_PRIVATE_H
 
@@ -10,9 +10,9 @@
 #include "input/terminal.h"
 
 struct gn_input_world {             /* zero means the default written beside */
-    const struct gn_gpio_ops *gpio; /* the library */
+    const struct gn_gpio_ops *gpio; /* libgpiod */
     void *gpio_context;
-    const struct gn_evdev_ops *evdev; /* the kernel's */
+    const struct gn_evdev_ops *evdev; /* evdev */
     void *evdev_context;
     const char *folder;  /* "/dev" */
     const int *terminal; /* stdin */
@@ -29,11 +29,11 @@ struct gn_input {
     struct gn_play play;
     struct gn_key_source window;
     char devices_folder[64];
-    struct gn_timer timer;           /* when anything is due, or readable */
-    struct gn_watch notify;          /* of inotify; fd -1: folders are looked at every 2 s */
+    struct gn_timer timer;           /* due when anything is due or readable */
+    struct gn_watch notify;          /* inotify; fd -1: folders are scanned every 2 s */
     bool has_news;                   /* notify is readable */
     int folder_watch, devices_watch; /* -1: not watched */
-    int64_t poll_ns;                 /* when the folders are to be looked at; INT64_MAX: never */
+    int64_t poll_ns;                 /* when to scan the folders; INT64_MAX: never */
     unsigned said_dropped;
 };
 
@@ -41,10 +41,10 @@ struct gn_input *gn_input_open_in(const struct gn_input_world *world,
                                   const struct gn_input_opts *opts, int64_t now_ns,
                                   struct gn_warnings *warnings, struct gn_err *err);
 
-/* The same in another folder than /dev. */
+/* As gn_input_list_lines() in another folder than /dev. */
 void gn_input_list_in(const struct gn_input_world *world, struct gn_input_list *out);
 
-/* setup.c: what the options say, as the machines want it. */
+/* setup.c: converts options of buttons to gestures, lines and keys. */
 bool gn_input_set_up(struct gn_input *input, int64_t now_ns, struct gn_err *err);
 
 #endif

@@ -21,7 +21,7 @@ bool gn_report_next(struct gn_reports *reports, char *out, size_t size) {
         return true;
     }
     if (!reports->dropped) return false;
-    snprintf(out, size, "buttons: %u more lines were not kept", reports->dropped);
+    snprintf(out, size, "buttons: %u more messages dropped", reports->dropped);
     reports->dropped = 0;
     return true;
 }

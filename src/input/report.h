@@ -1,4 +1,4 @@
-/* Lines for the log, from the moment when something changes until somebody reads them. */
+/* Messages for the log, queued until they are read. */
 #ifndef GN_INPUT_REPORT_H
 #define GN_INPUT_REPORT_H
 
@@ -7,13 +7,13 @@
 
 enum { GN_REPORTS = 48, GN_REPORT_SIZE = 320 };
 
-struct gn_reports { /* zeroed is ready */
+struct gn_reports { /* ready when zeroed */
     char text[GN_REPORTS][GN_REPORT_SIZE];
     unsigned begin, end;
     unsigned dropped; /* since the last one that was read */
 };
 
-/* One line, without a newline; one too many is counted, and said. */
+/* Queues one line, without a newline; counts it as dropped if the queue is full. */
 void gn_report(struct gn_reports *reports, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 bool gn_report_next(struct gn_reports *reports, char *out, size_t size);

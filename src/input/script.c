@@ -4,7 +4,7 @@
 
 enum { SECONDS_MAX = 1000000, DIGITS = 9 };
 
-struct text { /* a line, or what is left of it */
+struct text { /* rest of a line */
     const char *at, *end;
 };
 
@@ -21,7 +21,7 @@ static bool is_word(struct text word, const char *text) {
     return (size_t)(word.end - word.at) == length && memcmp(word.at, text, length) == 0;
 }
 
-/* Decimal seconds, to the nanosecond; -1: it is none. */
+/* Decimal seconds to nanoseconds; -1: not a time. */
 static int64_t parse_time_ns(struct text word) {
     int64_t seconds = 0, ns = 0;
     int digits = 0, decimals = 0;
@@ -41,20 +41,20 @@ static bool parse_line(struct text line, struct gn_arena *arena, struct gn_scrip
         [GN_SCRIPT_DOWN] = "down", [GN_SCRIPT_UP] = "up", [GN_SCRIPT_CLICK] = "click"};
     out->time_ns = parse_time_ns(next_word(&line));
     if (out->time_ns < 0)
-        return gn_fail_usage(err, "begins with no time; for example: 0.5 click next");
+        return gn_fail_usage(err, "missing time; expected for example: 0.5 click next");
     const struct text what = next_word(&line);
     int i = 0;
     while (i < 3 && !is_word(what, words[i])) i++;
-    if (i == 3) return gn_fail_usage(err, "what is done is none of down, up and click");
+    if (i == 3) return gn_fail_usage(err, "unknown action; expected down, up or click");
     out->what = (enum gn_script_what)i;
-    const char *begin = next_word(&line).at; /* names may have spaces inside */
+    const char *begin = next_word(&line).at; /* names may have spaces */
     const char *end = line.end;
     while (end > begin && (end[-1] == ' ' || end[-1] == '\t')) end--;
     const size_t length = (size_t)(end - begin);
     if (!length || length > 63 || memchr(begin, 0, length))
-        return gn_fail_usage(err, "names no button or key; for example: 0.5 click next");
+        return gn_fail_usage(err, "missing button or key; expected for example: 0.5 click next");
     char *name = gn_arena_alloc(arena, length + 1, 1);
-    if (!name) return gn_fail(err, "no memory for so many lines");
+    if (!name) return gn_fail(err, "out of memory for the lines");
     memcpy(name, begin, length);
     out->name = name;
     return true;
@@ -72,7 +72,7 @@ bool gn_script_parse(const char *text, size_t size, const char *path, struct gn_
     struct gn_script_line *lines =
         gn_arena_alloc(arena, (size_t)count_lines(text, size), sizeof *lines);
     *out = (struct gn_script){.lines = lines};
-    if (!lines) return gn_fail(err, "%s: no memory for so many lines", path);
+    if (!lines) return gn_fail(err, "%s: out of memory for its lines", path);
     int number = 0;
     for (const char *at = text, *end = text + size; at < end; number++) {
         const char *newline = memchr(at, '\n', (size_t)(end - at));
@@ -87,7 +87,8 @@ bool gn_script_parse(const char *text, size_t size, const char *path, struct gn_
         if (!parse_line(line, arena, to, err))
             return gn_fail_prefix(err, "%s:%d", path, number + 1);
         if (out->count && to->time_ns < to[-1].time_ns)
-            return gn_fail_usage(err, "%s:%d: is earlier than the line before", path, number + 1);
+            return gn_fail_usage(err, "%s:%d: time is earlier than that of the line before", path,
+                                 number + 1);
         out->count++;
     }
     return true;

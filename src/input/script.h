@@ -18,15 +18,15 @@ enum gn_script_what { GN_SCRIPT_DOWN, GN_SCRIPT_UP, GN_SCRIPT_CLICK };
 struct gn_script_line {
     int64_t time_ns; /* since the start */
     enum gn_script_what what;
-    const char *name; /* of a button or a key: whoever runs it knows */
-    int number;       /* in the file, the first is 1 */
+    const char *name; /* of a button or key, resolved by the caller */
+    int number;       /* line number, from 1 */
 };
 struct gn_script {
-    const struct gn_script_line *lines; /* in the order of their times */
+    const struct gn_script_line *lines; /* in time order */
     int count;
 };
 
-/* Fails as a usage error that begins with "path:line: ". Everything is in the arena. */
+/* Fails with a usage error that begins with "path:line: ". All memory is the arena's. */
 bool gn_script_parse(const char *text, size_t size, const char *path, struct gn_arena *arena,
                      struct gn_script *out, struct gn_err *err);
 

@@ -1,5 +1,4 @@
-/* Options of buttons to gestures, lines and keys. All that can be wrong about them is found here.
- */
+/* Converts options of buttons to gestures, lines and keys, and validates them. */
 #include <stdio.h>
 #include <string.h>
 
@@ -20,7 +19,7 @@ static bool parse_chord(const struct gn_input_opts *opts, int chord, uint32_t *o
         const size_t length = strcspn(at, " \t");
         const int i = find_button(opts, at, length);
         if (i < 0)
-            return gn_fail_usage(err, "chord: no button is called \"%.*s\"",
+            return gn_fail_usage(err, "chord: unknown button \"%.*s\"",
                                  (int)(length < 60 ? length : 60), at);
         if (i == chord || opts->buttons[i].chord)
             return gn_fail_usage(err, "chord: \"%s\" is a chord itself", opts->buttons[i].name);
@@ -28,7 +27,7 @@ static bool parse_chord(const struct gn_input_opts *opts, int chord, uint32_t *o
         at += length;
     }
     if (opts->buttons[chord].chord && __builtin_popcount(*out) < 2)
-        return gn_fail_usage(err, "chord: takes two buttons or more, a space between two");
+        return gn_fail_usage(err, "chord: expected two buttons or more, separated by spaces");
     return true;
 }
 
@@ -51,7 +50,7 @@ static bool set_up_button(struct gn_input *input, int i, struct gn_gesture_opts 
         .bias = b->bias,
         .debounce_ns = b->debounce_ns,
     };
-    if (b->chord && b->line) return gn_fail_usage(err, "is a chord, and can have no line");
+    if (b->chord && b->line) return gn_fail_usage(err, "a chord cannot have a line");
     if (b->keys && !gn_keys_bind(&input->keys, i, b->keys, err)) return gn_fail_prefix(err, "keys");
     return parse_chord(&input->opts, i, &gesture->chord, err);
 }
@@ -62,8 +61,7 @@ bool gn_input_set_up(struct gn_input *input, int64_t now_ns, struct gn_err *err)
     struct gn_line_opts lines[GN_BUTTONS_MAX];
     const char *names[GN_BUTTONS_MAX];
     if (opts->button_count > GN_BUTTONS_MAX)
-        return gn_fail_usage(err, "%d buttons are too many: %d can be", opts->button_count,
-                             GN_BUTTONS_MAX);
+        return gn_fail_usage(err, "%d buttons: at most %d", opts->button_count, GN_BUTTONS_MAX);
     for (int i = 0; i < opts->button_count; i++) names[i] = opts->buttons[i].name;
     if (opts->script &&
         !gn_play_load(&input->play, opts->script, names, opts->button_count, now_ns, err))

@@ -1,5 +1,5 @@
-/* Where keys and edges come from. One file that defines gn_source_NAME and one row of the table add
- * a source: its state is a field of struct gn_input. */
+/* Sources of keys and edges. A file that defines gn_source_NAME and a row of the table add one; its
+ * state is a field of struct gn_input. */
 #ifndef GN_INPUT_SOURCE_H
 #define GN_INPUT_SOURCE_H
 
@@ -8,17 +8,17 @@
 
 struct gn_input_world;
 
-/* All may be NULL. Each source adds its descriptors to the input's loop, and makes the input's
- * timer due when one is readable; then read, step and check of all sources are called, in this
- * order. */
+/* All may be NULL. A source adds its descriptors to the input's loop and arms the input's timer
+ * when one becomes readable; then read, step and check of all sources are called, in this order. */
 struct gn_input_source {
     void (*open)(struct gn_input *input, const struct gn_input_world *world, int64_t now_ns,
                  struct gn_warnings *warnings);
-    void (*read)(struct gn_input *input, int64_t now_ns);  /* events of before now_ns */
-    void (*step)(struct gn_input *input, int64_t now_ns);  /* what is due; gestures follow */
-    void (*check)(struct gn_input *input, int64_t now_ns); /* what depends on the gestures */
+    void (*read)(struct gn_input *input, int64_t now_ns); /* takes events from before now_ns */
+    void (*step)(struct gn_input *input,
+                 int64_t now_ns); /* runs what is due, before the gestures */
+    void (*check)(struct gn_input *input, int64_t now_ns); /* runs what depends on the gestures */
     int64_t (*deadline)(const struct gn_input *input);     /* of step and check; INT64_MAX: none */
-    void (*close)(struct gn_input *input); /* legal when not open, and after a failed set-up */
+    void (*close)(struct gn_input *input); /* legal when not open, and after a failed open */
 };
 
 /* In the order in which they are read. */

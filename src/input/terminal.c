@@ -10,12 +10,12 @@
 
 #include "input/private.h"
 
-/* Signals that end us before gn_terminal_close(). */
+/* Signals that end the process before gn_terminal_close(). */
 enum { ENDS = 6 };
 static const int ends[ENDS] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
 
-/* What the handlers need, which run between any two instructions: the one thing in this program
- * that is neither a constant nor handed on. Everything that they call is async-signal-safe. */
+/* State of the signal handlers, the one mutable global of this program. All functions they call are
+ * async-signal-safe. */
 static struct {
     volatile sig_atomic_t open, raw; /* raw: the terminal has our settings */
     int fd, wake_fd;
@@ -23,14 +23,14 @@ static struct {
     struct sigaction old_stop, old_continue, old_ends[ENDS];
 } own;
 
-/* One that does not control us cannot stop us either. */
+/* A terminal that is not our controlling one cannot stop us. */
 static bool is_foreground(int fd) {
     const pid_t group = tcgetpgrp(fd);
     return group == getpgrp() || (group < 0 && errno == ENOTTY);
 }
 
 static void set_raw(bool raw) {
-    /* in the background SIGTTOU would stop us, and the shell has set what it wants */
+    /* in the background SIGTTOU would stop us, and the shell has set the terminal up */
     if ((!raw && !own.raw) || !is_foreground(own.fd)) return;
     if (tcsetattr(own.fd, TCSANOW, raw ? &own.ours : &own.saved) == 0) own.raw = raw;
 }
@@ -55,14 +55,13 @@ static void on_stop(int number) {
     sigemptyset(&stop);
     sigaddset(&stop, number);
     raise(number);
-    sigprocmask(SIG_UNBLOCK, &stop, &mask); /* here we stand until we are continued */
+    sigprocmask(SIG_UNBLOCK, &stop, &mask); /* stopped here until continued */
     sigprocmask(SIG_SETMASK, &mask, NULL);
     sigaction(number, &mine, NULL);
     errno = error;
 }
 
-/* Then it goes on as it would have without us: a fault by itself, since what caused it is done
- * again. */
+/* Re-raises the signal with its default action; a fault recurs by itself. */
 static void on_end(int number, siginfo_t *info, void *context) {
     (void)context;
     gn_terminal_leave();
@@ -71,7 +70,7 @@ static void on_end(int number, siginfo_t *info, void *context) {
     if (info->si_code <= 0 || number == SIGQUIT) raise(number);
 }
 
-static void install(void) {
+static void install_handler(void) {
     struct sigaction end = {.sa_sigaction = on_end, .sa_flags = SA_SIGINFO | SA_ONSTACK};
     struct sigaction stop = {.sa_handler = on_stop, .sa_flags = SA_RESTART};
     struct sigaction resume = {.sa_handler = on_continue, .sa_flags = SA_RESTART};
@@ -98,7 +97,7 @@ static void on_resumed(void *user, uint32_t events, int64_t now_ns) {
     t->timer->due_ns = now_ns;
 }
 
-static void watch(struct gn_terminal *t, bool on) {
+static void watch_fd(struct gn_terminal *t, bool on) {
     if (t->reading == on) return;
     if (!on) gn_loop_remove(&t->watch);
     t->reading = on && gn_loop_add(t->loop, &t->watch);
@@ -119,7 +118,7 @@ bool gn_terminal_open(struct gn_terminal *t, int fd, struct gn_loop *loop, struc
     own.ours.c_lflag &= ~(tcflag_t)(ICANON | ECHO);
     own.ours.c_cc[VMIN] = 1;
     own.ours.c_cc[VTIME] = 0;
-    install();
+    install_handler();
     own.open = true;
     gn_terminal_resume(t);
     return true;
@@ -127,7 +126,7 @@ bool gn_terminal_open(struct gn_terminal *t, int fd, struct gn_loop *loop, struc
 
 void gn_terminal_close(struct gn_terminal *t) {
     if (t->fd < 0) return;
-    watch(t, false);
+    watch_fd(t, false);
     gn_loop_remove(&t->wake);
     set_raw(false);
     own.open = false;
@@ -147,17 +146,18 @@ void gn_terminal_resume(struct gn_terminal *t) {
     t->resumed = false;
     (void)!read(t->wake_fd, &count, sizeof count);
     set_raw(true);
-    watch(t, is_foreground(t->fd));
+    watch_fd(t, is_foreground(t->fd));
 }
 
 int gn_terminal_read(struct gn_terminal *t, uint8_t *out, int size) {
-    if (!is_foreground(t->fd)) { /* reading would stop us; SIGCONT tells when it is ours again */
-        watch(t, false);
+    if (!is_foreground(
+            t->fd)) { /* reading would stop us; SIGCONT reports the return to the foreground */
+        watch_fd(t, false);
         return 0;
     }
     const ssize_t count = read(t->fd, out, (size_t)size);
     if (count > 0) return (int)count;
-    if (count == 0 || (errno != EAGAIN && errno != EINTR)) watch(t, false);
+    if (count == 0 || (errno != EAGAIN && errno != EINTR)) watch_fd(t, false);
     return 0;
 }
 

@@ -1,8 +1,7 @@
-/* Keys from the terminal that the program was started in. Its line editing and echo are off while
- * we are in its foreground, signals work as ever; on Ctrl-Z, and at the end, which may be a crash,
- * it is as it was. In the background it is left alone: it is not ours. Its end is not ours either:
- * it is just not read any more. There is at most one in a process, since signals are the process's.
- */
+/* Keys from the controlling terminal. Line editing and echo are off while in the foreground;
+ * signals work as usual. Settings are restored on Ctrl-Z and at the end, also after a crash. In the
+ * background, and at end of file, the terminal is not read. At most one per process, since signals
+ * are per process. */
 #ifndef GN_INPUT_TERMINAL_H
 #define GN_INPUT_TERMINAL_H
 
@@ -12,27 +11,27 @@
 #include "core/loop.h"
 #include "input/terminal_keys.h"
 
-struct gn_terminal { /* fd -1: there is none */
-    int fd;          /* not ours to close */
-    int wake_fd;     /* readable after we have been continued */
+struct gn_terminal { /* fd -1: none */
+    int fd;          /* borrowed */
+    int wake_fd;     /* becomes readable after SIGCONT */
     struct gn_loop *loop;
-    struct gn_timer *timer;      /* made due by what is readable */
+    struct gn_timer *timer;      /* armed when a descriptor becomes readable */
     struct gn_watch watch, wake; /* of fd and wake_fd */
-    bool readable, resumed;      /* fd, wake_fd, since that was cleared */
+    bool readable, resumed;      /* of fd and wake_fd; not cleared yet */
     bool reading;                /* fd is watched */
     struct gn_terminal_keys keys;
 };
 
-/* Takes fd if it is a terminal; false: it is none, or another one is open. What is readable is
- * noted, and makes the timer due. */
+/* Uses fd if it is a terminal; false if it is not, or another one is open. A readable descriptor is
+ * noted and arms the timer. */
 bool gn_terminal_open(struct gn_terminal *terminal, int fd, struct gn_loop *loop,
                       struct gn_timer *timer);
 void gn_terminal_close(struct gn_terminal *terminal);
-/* For handlers that call _exit(): if there is a terminal, it is as it was. Async-signal-safe. */
+/* Restores the terminal, for handlers that call _exit(). Async-signal-safe. */
 void gn_terminal_leave(void);
-/* What can be read now, at most size bytes; 0: nothing, for now or for ever. Never blocks. */
+/* Reads at most size bytes; 0: nothing now, or end of file. Never blocks. */
 int gn_terminal_read(struct gn_terminal *terminal, uint8_t *out, int size);
-/* We have been continued: perhaps in the foreground. */
+/* SIGCONT arrived: we may be in the foreground. */
 void gn_terminal_resume(struct gn_terminal *terminal);
 
 #endif

@@ -1,5 +1,5 @@
-/* The sequences are those of ECMA-48 (CSI, 5.4), of xterm (ctlseqs: PC-style function keys) and of
- * the Linux console (console_codes(4)). */
+/* Sequences of ECMA-48 (CSI, 5.4), xterm (ctlseqs, PC-style function keys) and the Linux console
+ * (console_codes(4)). */
 #include "input/terminal_keys.h"
 
 #include <string.h>
@@ -19,7 +19,7 @@ enum state {
 static const uint8_t f_keys[] = {0,  59, 60,  61,  62,  63,  64,  65,  66,  67, 68,
                                  87, 88, 183, 184, 185, 186, 187, 188, 189, 190};
 
-/* By what stands on an American keyboard, both layers. */
+/* Key of a printable character on a US keyboard, with or without shift. */
 static unsigned find_printable(uint8_t byte) {
     static const struct {
         const char *plain, *shifted;
@@ -49,7 +49,7 @@ static unsigned find_plain(uint8_t byte) {
     }
 }
 
-/* The last byte of ESC [ and of ESC O. */
+/* Final byte of ESC [ and ESC O. */
 static unsigned find_letter(uint8_t byte) {
     switch (byte) {
     case 'A': return GN_KEY_UP;
@@ -90,9 +90,9 @@ static unsigned step_csi(struct gn_terminal_keys *keys, uint8_t byte) {
         keys->state = CONSOLE;
         return GN_KEY_NONE;
     }
-    if (byte < 0x40) { /* parameters and intermediate bytes */
+    if (byte < 0x40) { /* parameter and intermediate bytes */
         if (byte >= '<' && !keys->number && !keys->more)
-            keys->state = OTHER; /* a mouse, a report */
+            keys->state = OTHER; /* a mouse event or a report */
         keys->more = true;
         return GN_KEY_NONE;
     }
@@ -104,11 +104,11 @@ static unsigned step_csi(struct gn_terminal_keys *keys, uint8_t byte) {
 
 unsigned gn_terminal_keys_step(struct gn_terminal_keys *keys, uint8_t byte, int64_t now_ns) {
     const enum state state = (enum state)keys->state;
-    if (byte == 27) { /* whatever it was has ended; of two ESC the first is the key */
+    if (byte == 27) { /* aborts any sequence; of two ESC the first is the key */
         *keys = (struct gn_terminal_keys){.state = ESCAPED, .esc_ns = now_ns};
         return state == ESCAPED ? GN_KEY_ESC : GN_KEY_NONE;
     }
-    if (state != PLAIN && byte < ' ') keys->state = PLAIN; /* no sequence has such a byte */
+    if (state != PLAIN && byte < ' ') keys->state = PLAIN; /* not valid inside a sequence */
     switch ((enum state)keys->state) {
     case ESCAPED:
         if (byte == '[' || byte == 'O') {

@@ -168,21 +168,21 @@ static void assert_usage(const char *says) {
 static void test_what_is_said_wrongly_is_wrong_usage(void **state) {
     (void)state;
     buttons[1].keys = "left spcae";
-    assert_usage("button \"prev\": keys: no key is called \"spcae\"");
+    assert_usage("button \"prev\": keys: unknown key \"spcae\"");
     buttons[1].keys = "  ";
-    assert_usage("button \"prev\": keys: no key is named");
+    assert_usage("button \"prev\": keys: no key given");
     buttons[1].keys = NULL;
     buttons[2].chord = "next nobody";
-    assert_usage("button \"both\": chord: no button is called \"nobody\"");
+    assert_usage("button \"both\": chord: unknown button \"nobody\"");
     buttons[2].chord = "next";
-    assert_usage("button \"both\": chord: takes two buttons");
+    assert_usage("button \"both\": chord: expected two buttons");
     buttons[2].chord = "";
-    assert_usage("button \"both\": chord: takes two buttons");
+    assert_usage("button \"both\": chord: expected two buttons");
     buttons[2].chord = "next both";
     assert_usage("chord itself");
     buttons[2].chord = "next prev";
     buttons[2].line = "GPIO17";
-    assert_usage("can have no line");
+    assert_usage("a chord cannot have a line");
     buttons[2].line = NULL;
     opts.script = "/nowhere/to/be/found";
     open_with(NULL);
@@ -274,7 +274,7 @@ static void test_a_keyboard_held_at_the_start_does_nothing(void **state) {
     dispatch(5 * GN_NS_PER_S);
     assert_nothing();
     dispatch(31 * GN_NS_PER_S);
-    assert_report("button \"next\": held for 30 s; ignored until it is released");
+    assert_report("button \"next\": held for 30 s; ignored until released");
     key(0, KEY_SPACE, 0, start_ns + 32 * GN_NS_PER_S);
     dispatch(32 * GN_NS_PER_S);
     assert_nothing();
@@ -290,7 +290,7 @@ static void test_devices_that_may_not_be_read_are_a_warning(void **state) {
     keyboards[0].error = keyboards[1].error = EACCES;
     open_input();
     assert_int_equal(warnings.count, 1);
-    assert_non_null(strstr(warnings.text[0], "2 input devices may not be read"));
+    assert_non_null(strstr(warnings.text[0], "2 input devices cannot be read"));
     assert_non_null(strstr(warnings.text[0], "group input"));
     keyboards[0].error = 0; /* udev gives it to the group later */
     char path[96];
@@ -306,7 +306,7 @@ static void test_more_devices_than_places_are_said_once(void **state) {
     (void)state;
     for (int i = 0; i < DEVICES; i++) plug(i);
     open_input();
-    assert_report("16 input devices are enough");
+    assert_report("at most 16 input devices");
     char text[GN_REPORT_SIZE];
     assert_false(gn_input_report(input, text, sizeof text));
     for (int i = 0; i < DEVICES; i++) /* those that were opened and closed again */
@@ -371,7 +371,7 @@ static void test_a_script_presses_buttons_and_keys(void **state) {
 static void test_a_script_knows_only_what_there_is(void **state) {
     (void)state;
     write_script("0.1 click next\n0.2 click nobody\n");
-    assert_usage("script:2: no button and no key is called \"nobody\"");
+    assert_usage("script:2: unknown button or key \"nobody\"");
 }
 
 static void test_the_loop_wakes_up_for_timers(void **state) {

@@ -154,7 +154,7 @@ static void test_on_other_boards_those_names_mean_something_else(void **state) {
     fake_gpio_plug(&gpio, 0, 0, "pinctrl-rockchip", 4);
     strcpy(gpio.chips[0].line[2].name, "SDA1");
     open_input(&fake_gpio_ops);
-    assert_report("no GPIO line is called GPIO2");
+    assert_report("no GPIO line named GPIO2");
 }
 
 static void test_two_lines_of_one_name_are_refused_with_both_chips(void **state) {
@@ -164,7 +164,7 @@ static void test_two_lines_of_one_name_are_refused_with_both_chips(void **state)
     open_input(&fake_gpio_ops);
     char text[GN_REPORT_SIZE];
     assert_true(gn_input_report(input, text, sizeof text));
-    assert_non_null(strstr(text, "2 lines are called B"));
+    assert_non_null(strstr(text, "2 lines are named B"));
     assert_non_null(strstr(text, "gpiochip0 (brcmstb) line 1, gpiochip1 (rp1) line 1"));
     assert_false(gpio.chips[0].line[1].requested || gpio.chips[1].line[1].requested);
     fake_gpio_unplug(&gpio, 0); /* now there is one */
@@ -182,7 +182,7 @@ static void test_numbers_of_chips_and_wrong_specs_are_wrong_usage(void **state) 
         assert_usage("button \"next\": line: ");
     }
     buttons[0].line = buttons[1].line = "B";
-    assert_usage("line B is that of button \"next\"");
+    assert_usage("line B is used by button \"next\"");
 }
 
 static void test_a_build_without_a_library_says_so(void **state) {
@@ -228,7 +228,7 @@ static void test_a_chip_without_a_pull_up_is_used_without_and_said_once(void **s
     fake_gpio_plug(&gpio, 0, 0, "chip", 4);
     gpio.chips[0].no_bias = true;
     open_input(&fake_gpio_ops);
-    assert_report("no pull-up");
+    assert_report("no internal pull-up");
     assert_silence();
     assert_true(gpio.chips[0].line[1].requested);
     assert_int_equal(gpio.chips[0].line[1].bias, GN_BIAS_NONE);
@@ -250,7 +250,7 @@ static void test_other_errors_are_named_and_retried(void **state) {
 static void test_a_chip_that_comes_later_is_waited_for_asleep(void **state) {
     (void)state;
     open_input(&fake_gpio_ops);
-    assert_report("no GPIO chip for B");
+    assert_report("no GPIO chip found for B");
     assert_int_equal(sleep_until(START + 3600 * S), 0);
     fake_gpio_plug(&gpio, 0, 3, "chip", 4);
     assert_true(wakes());
@@ -261,7 +261,7 @@ static void test_a_chip_that_comes_later_is_waited_for_asleep(void **state) {
 static void test_without_news_of_nodes_it_looks_every_two_seconds(void **state) {
     (void)state;
     open_input(&fake_gpio_ops);
-    assert_report("no GPIO chip for B");
+    assert_report("no GPIO chip found for B");
     input->lines.watched = false;
     gn_lines_search(&input->lines, now_ns);
     input->timer.due_ns = now_ns;
@@ -283,7 +283,7 @@ static void test_a_chip_that_goes_and_comes_under_another_number_works_on(void *
     fake_gpio_unplug(&gpio, 0); /* while it is pressed */
     assert_true(wakes());
     wait_ns(100 * MS);
-    assert_report("went away");
+    assert_report("disappeared");
     sleep_until(now_ns + 100 * S);
     assert_nothing(); /* no hold, no click */
     assert_silence();
@@ -305,7 +305,7 @@ static void test_a_button_held_as_it_is_found_waits_for_its_release(void **state
     assert_report("B (gpiochip0 line 1)");
     sleep_until(START + 60 * S);
     assert_nothing();
-    assert_report("held for 30 s; ignored until it is released");
+    assert_report("held for 30 s; ignored until released");
     assert_silence();
     edge(true);
     wait_ns(0);

@@ -53,18 +53,19 @@ static void test_what_is_wrong_is_named_with_its_line(void **state) {
     static const struct {
         const char *text, *says;
     } rows[] = {
-        {"0 down a\nnow up a", "a.script:2: begins with no time"},
-        {"-1 down a", "a.script:1: begins with no time"},
-        {"1e3 down a", "begins with no time"},
-        {". down a", "begins with no time"},
-        {"1.5.2 down a", "begins with no time"},
-        {"99999999999999999999 down a", "begins with no time"},
-        {"1 press a", "none of down, up and click"},
-        {"1", "none of down, up and click"},
-        {"1 down", "names no button or key"},
-        {"1 down  \t ", "names no button or key"},
-        {"2 down a\n1.999 up a", "a.script:2: is earlier than the line before"},
-        {"1 down aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa", "names no"},
+        {"0 down a\nnow up a", "a.script:2: missing time"},
+        {"-1 down a", "a.script:1: missing time"},
+        {"1e3 down a", "missing time"},
+        {". down a", "missing time"},
+        {"1.5.2 down a", "missing time"},
+        {"99999999999999999999 down a", "missing time"},
+        {"1 press a", "unknown action"},
+        {"1", "unknown action"},
+        {"1 down", "missing button or key"},
+        {"1 down  \t ", "missing button or key"},
+        {"2 down a\n1.999 up a", "a.script:2: time is earlier than that of the line before"},
+        {"1 down aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa",
+         "missing button or key"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct gn_err err = {0};
