@@ -15,12 +15,8 @@ int gn_kiosk_scene(const struct gn_kiosk_rules *rules, const struct gn_kiosk_pla
     return own > 0 ? own - 1 : place->scene;
 }
 
-static bool same_place(const struct gn_kiosk_place *a, const struct gn_kiosk_place *b) {
-    return a->mode == b->mode && a->scene == b->scene;
-}
-
-bool gn_kiosk_waits(const struct gn_kiosk *state) {
-    return !same_place(&state->shown, &state->wanted);
+bool gn_kiosk_waits(const struct gn_kiosk *s) {
+    return s->shown.mode != s->wanted.mode || s->shown.scene != s->wanted.scene;
 }
 
 static void set_caption(struct gn_kiosk *s, enum gn_kiosk_caption what, int64_t time_ns) {
@@ -30,18 +26,15 @@ static void set_caption(struct gn_kiosk *s, enum gn_kiosk_caption what, int64_t 
 
 /* ---- what is wanted ---- */
 
-static bool mode_is_bad(const struct gn_kiosk_rules *rules, const struct gn_kiosk *s, int mode) {
-    const int own = rules->own_scene[mode];
-    return s->bad_modes >> mode & 1 || (own > 0 && s->bad_scenes >> (own - 1) & 1);
-}
-
 /* The next mode that has not failed; if all have, the same one. */
 static void want_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int by) {
     const int count = modes_of(rules);
     int mode = s->wanted.mode;
     for (int i = 0; i < count; i++) {
         mode = (mode + by + count) % count;
-        if (!mode_is_bad(rules, s, mode)) break;
+        const int own = rules->own_scene[mode];
+        const bool bad = s->bad_modes >> mode & 1 || (own > 0 && s->bad_scenes >> (own - 1) & 1);
+        if (!bad) break;
     }
     s->wanted.mode = mode;
 }
@@ -109,11 +102,6 @@ static void apply_action(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
 
 /* ---- other events ---- */
 
-static void advance_scene(struct gn_kiosk *s, int64_t seen_ns) {
-    if (!s->paused && s->seen_ns != 0) s->scene_ns += seen_ns - s->seen_ns;
-    s->seen_ns = seen_ns;
-}
-
 /* A problem is a longer text to read. */
 static int64_t caption_duration_ns(const struct gn_kiosk_rules *rules,
                                    enum gn_kiosk_caption caption) {
@@ -176,7 +164,10 @@ struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct g
     struct gn_kiosk next = *state;
     switch (event->kind) {
     case GN_KIOSK_ACTION: apply_action(rules, &next, event); break;
-    case GN_KIOSK_FRAME: advance_scene(&next, event->time_ns); break;
+    case GN_KIOSK_FRAME:
+        if (!next.paused && next.seen_ns != 0) next.scene_ns += event->time_ns - next.seen_ns;
+        next.seen_ns = event->time_ns;
+        break;
     case GN_KIOSK_TICK: check_timeouts(rules, &next, event->time_ns); break;
     case GN_KIOSK_READY: enter_wanted(rules, &next, event); break;
     case GN_KIOSK_MODE_FAILED: give_up_mode(&next, event); break;
@@ -188,13 +179,6 @@ struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct g
 
 /* ---- what a frame shows ---- */
 
-static float share_of_old(const struct gn_kiosk_rules *rules, const struct gn_kiosk *s,
-                          int64_t seen_ns) {
-    if (s->fade_ns == 0 || rules->fade_ns <= 0) return 0.0f;
-    const double share = (double)(seen_ns - s->fade_ns) / (double)rules->fade_ns;
-    return share <= 0.0 ? 1.0f : share >= 1.0 ? 0.0f : (float)(1.0 - share);
-}
-
 struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state,
                                    int64_t seen_ns) {
     struct gn_kiosk_view view = {
@@ -205,10 +189,13 @@ struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const str
         .stands = state->paused,
         .dark = state->blanked,
         .info = state->info,
-        .old = share_of_old(rules, state, seen_ns),
         .caption_mode = state->wanted.mode,
         .caption_scene = gn_kiosk_scene(rules, &state->wanted),
     };
+    if (state->fade_ns != 0 && rules->fade_ns > 0) {
+        const double share = (double)(seen_ns - state->fade_ns) / (double)rules->fade_ns;
+        view.old = share <= 0.0 ? 1.0f : share >= 1.0 ? 0.0f : (float)(1.0 - share);
+    }
     if (!state->paused && state->seen_ns != 0) view.time_ns += seen_ns - state->seen_ns;
     if (seen_ns - state->caption_ns < caption_duration_ns(rules, state->caption))
         view.caption = state->caption;

@@ -31,30 +31,30 @@ static bool is_program(char *out, size_t size, int length, const char *folder, c
            access(out, X_OK) == 0;
 }
 
-static bool find_beside(char *out, size_t size) {
-    char own[4096];
-    ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
-    if (length <= 0) return false;
-    own[length] = 0;
-    int folder = (int)(strrchr(own, '/') - own);
-    return is_program(out, size, folder, own, "") ||
-           is_program(out, size, folder, own, "/../libexec");
-}
-
-static bool find_in_path(char *out, size_t size) {
-    const char *at = getenv("PATH");
-    while (at && *at) {
-        int length = (int)strcspn(at, ":");
-        if (length > 0 && is_program(out, size, length, at, "")) return true;
-        at += length + (at[length] == ':');
-    }
-    return false;
-}
-
 static bool find_program(char *out, size_t size) {
     static const char prefix[] = GN_PREFIX;
-    return find_beside(out, size) || is_program(out, size, INT32_MAX, prefix, "/libexec") ||
-           is_program(out, size, INT32_MAX, prefix, "/bin") || find_in_path(out, size);
+    char own[4096];
+
+    /* beside our own program */
+    const ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
+    if (length > 0) {
+        own[length] = 0;
+        const int folder = (int)(strrchr(own, '/') - own);
+        if (is_program(out, size, folder, own, "") ||
+            is_program(out, size, folder, own, "/../libexec"))
+            return true;
+    }
+
+    /* where it is installed, and in PATH */
+    if (is_program(out, size, INT32_MAX, prefix, "/libexec") ||
+        is_program(out, size, INT32_MAX, prefix, "/bin"))
+        return true;
+    for (const char *at = getenv("PATH"); at && *at;) {
+        const int part = (int)strcspn(at, ":");
+        if (part > 0 && is_program(out, size, part, at, "")) return true;
+        at += part + (at[part] == ':');
+    }
+    return false;
 }
 
 /* ---- running it ---- */

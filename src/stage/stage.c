@@ -57,22 +57,20 @@ static bool do_without(const struct gn_settings *o, size_t offset, struct gn_war
     return true;
 }
 
-/* Of --animation and --no-animation the stronger source wins: command line, mode, file. */
-static bool stands_still(const struct gn_settings *o) {
-    if (o->scene.animation && strcmp(o->scene.animation, "none") == 0) return true;
-    size_t still = offsetof(struct gn_settings, scene.no_animation),
-           clip = offsetof(struct gn_settings, scene.animation);
-    return o->scene.no_animation && gn_settings_source(o, still) >= gn_settings_source(o, clip);
-}
-
 static bool choose_clips(const struct gn_settings *o, const struct gn_scene *scene, int *clips,
                          struct gn_warnings *warnings, struct gn_err *err) {
-    *clips = stands_still(o) ? GN_POSE_NONE : GN_POSE_DEFAULT;
-    if (!o->scene.animation || *clips == GN_POSE_NONE) return true;
+    const size_t still = offsetof(struct gn_settings, scene.no_animation),
+                 clip = offsetof(struct gn_settings, scene.animation);
+    /* of --animation and --no-animation the stronger source wins: command line, mode, file */
+    const bool none =
+        (o->scene.animation && strcmp(o->scene.animation, "none") == 0) ||
+        (o->scene.no_animation && gn_settings_source(o, still) >= gn_settings_source(o, clip));
+    *clips = none ? GN_POSE_NONE : GN_POSE_DEFAULT;
+    if (none || !o->scene.animation) return true;
     *clips = gn_scene_find_clip(scene, o->scene.animation, err);
     if (*clips >= 0) return true;
     *clips = GN_POSE_DEFAULT;
-    return do_without(o, offsetof(struct gn_settings, scene.animation), warnings, err);
+    return do_without(o, clip, warnings, err);
 }
 
 static bool choose_camera(const struct gn_settings *o, const struct gn_scene *scene, int *camera,
@@ -94,14 +92,10 @@ static bool check_light(const struct gn_settings *o, const struct gn_scene *scen
                          scene->light_count == 1 ? "" : "s");
 }
 
-/* Frames follow one another, unlike a picture in a file. */
-static bool is_watched(const struct gn_settings *o) {
-    return o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
-}
-
 static bool choose_frame(struct gn_frame_opts *f, const struct gn_settings *o,
                          const struct gn_scene *scene, struct gn_warnings *warnings,
                          struct gn_err *err) {
+    const bool continuous = o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
     *f = (struct gn_frame_opts){
         .width_px = (uint32_t)o->render.size.width_px,
         .height_px = (uint32_t)o->render.size.height_px,
@@ -115,7 +109,7 @@ static bool choose_frame(struct gn_frame_opts *f, const struct gn_settings *o,
         .planar_in_stencil = o->render.planar_in_stencil,
         .taps = (unsigned)o->render.taps,
         .taps_fixed = o->render.taps_fixed,
-        .filter_texels = is_watched(o) ? (uint64_t)(o->render.filter_budget * 1e6) : 0,
+        .filter_texels = continuous ? (uint64_t)(o->render.filter_budget * 1e6) : 0,
         .strength_given = gn_settings_given(o, render.shadow_strength),
         .strength = (float)o->render.shadow_strength,
         .msaa = (uint32_t)o->render.msaa,
