@@ -1,4 +1,4 @@
-// The mark of a light: its colour with a dark edge, so that it can be seen on anything.
+// The gizmo of a light: its colour with a dark edge, so that it can be seen on anything.
 #include "lib/srgb.glsl"
 
 flat in vec4 v_hue;

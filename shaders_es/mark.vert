@@ -1,4 +1,4 @@
-// The mark of a light, of quads that are made from the vertex's number: a disc where it stands; lines that tell what it is like.
+// The gizmo of a light, of quads made from the vertex's number: a disc at its position, lines for its kind and extent.
 // Point: eight rays, and three circles as wide as its range. Spot: its cone, with the circle it ends in where it has a range.
 // Directional: a sun with an arrow. Sizes on the screen are in pixels.
 #include "lib/pass.glsl"
@@ -68,7 +68,7 @@ vec4 clip_of(vec3 p) {
     return pass_matrix(PASS_CLIP) * vec4(dot(a_world_0, at), dot(a_world_1, at), dot(a_world_2, at), 1.0);
 }
 
-// Cut off behind the eye.
+// Clipped behind the camera.
 vec4 before_eye(vec4 a, vec4 b) {
     const float least = 0.001;
     return a.w < least && b.w > least ? mix(a, b, (least - a.w) / (b.w - a.w)) : a;

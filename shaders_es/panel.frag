@@ -1,5 +1,5 @@
-// A shadow map, near dark and far white, in a thin frame of its light's colour. The grey is what is to be seen, as `--aov map`
-// writes it: encoded already. The file of the map's encoding defines map_code().
+// A shadow map, near dark and far white, in a thin frame of its light's colour. The grey is already sRGB-encoded, as
+// `--aov map` writes it. The file of the map's encoding defines map_code().
 #include "lib/pass.glsl"
 #include "lib/srgb.glsl"
 

@@ -1,5 +1,5 @@
 //@ names map_code
-// Depth texture behind a sampler that does not compare, NEAREST: for techniques that want to know how far the blocker is.
+// Depth texture behind a sampler that does not compare, NEAREST: for techniques that need the distance of blockers.
 #undef MAP_SAMPLER
 #undef MAP_OUT
 #define MAP_SAMPLER sampler2D

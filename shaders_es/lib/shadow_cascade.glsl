@@ -1,4 +1,4 @@
-// Directional lights with cascades: the map is an atlas, two tiles in a row, each for what the eye sees from one distance to another.
+// Directional lights with cascades: the map is an atlas, two tiles in a row, each for the view between two distances.
 // Their codes are the same, but of moments; their texels are not.
 
 #define CASCADE(slot, i) u_pass[PASS_CASCADES + (slot)*CASCADES_SIZE + (i)]
@@ -16,8 +16,8 @@ float shadow_cascade_share(float distance_m, float per_m) {
     return clamp(distance_m * per_m + (1.0 - 1.0 / CASCADE_FADE), 0.0, 1.0); // per_m 0: none
 }
 
-// By the distance along the view, which is the eye's w. Up to each split lies a zone in which, where they are shared, the pixels of
-// a row ask by turns, the left one of two the nearer cascade, the right one the other, and shadow_mixed() gives each both answers
+// By the distance along the view, which is the clip coordinate w. Up to each split lies a zone in which, where they are shared, the pixels of
+// a row sample by turns, the left one of two the nearer cascade, the right one the other, and shadow_mixed() gives each both answers
 // by their shares.
 shadow_cascade shadow_cascade_of(const int slot, const bool shared) {
     vec4 c = CASCADE(slot, 0);

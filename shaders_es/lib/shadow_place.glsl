@@ -1,5 +1,5 @@
-// Where a shadow is looked up, and what a technique may ask about the place. What it does not ask for costs nothing: compilers
-// drop it.
+// Where a shadow is looked up, and what a technique can use about the place. What it does not use costs nothing: compilers
+// remove it.
 #include "lib/flat_constants.glsl"
 #include "lib/shadow_point.glsl"
 
@@ -15,7 +15,7 @@ struct shadow_place {
     vec2 slope; // how the code of the receiver's plane changes, per uv
     shadow_penumbra penumbra;
     bool inverse; // penumbra depth is the negative inverse
-    float reach;  // how far from here a technique may read that says so, texels: tables, and all techniques of tiles
+    float reach;  // how far from here a technique may read, texels: SAT, and all techniques of tiles
     vec4 window;  // and where: lower left and upper right edge of the tile, texels
     vec2 beside;  // as in shadow_tile and shadow_cascade
 };
@@ -61,7 +61,7 @@ vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 
 #include "lib/shadow_cascade.glsl"
 
 // p, n, l: the surface, its normal and the direction to the light, world space; face: normal of the triangle itself; from_vertex:
-// what the vertex shader found where SHADOW_LINEAR. radial: the map of this lamp holds distances, not depths.
+// what the vertex shader found where SHADOW_LINEAR. radial: the map holds distances, not depths.
 shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
     shadow_place s;
     s.size = SHADOW(slot, SHADOW_MAP_SIZE);
@@ -112,7 +112,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     return s;
 }
 
-// What is seen of a light at s, 1 = lit; seen: what a technique says. Takes derivatives: not behind a branch.
+// Visibility of a light at s, 1 = lit; seen: the technique's result. Takes derivatives: not behind a branch.
 float shadow_mixed(const int slot, shadow_place s, float seen) {
     if (!SHADOW_SHARED[slot]) return seen;
     seen += s.beside.y * dFdy(seen);

@@ -38,7 +38,7 @@ vec3 shadow_tile_at(const int slot, const bool radial, shadow_tile t) {
     return vec3(t.q.xy * inverse * tiles.xy + middle, code);
 }
 
-// The tile is that of the pushed point: all that is asked about a point just beside an edge lies on one side of it.
+// The tile is that of the pushed point: all that is looked up for a point just beside an edge lies on one side of it.
 shadow_tile shadow_tile_pushed(const int slot, const bool radial, vec3 p, vec3 n, vec3 l) {
     vec3 v = p - SHADOW(slot, SHADOW_PLACE).xyz;
     shadow_tile t = shadow_tile_of(v);

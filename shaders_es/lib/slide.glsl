@@ -5,9 +5,9 @@
 #define SLIDE(index, what) u_pass[PASS_SLIDES + (index)*SLIDE_SIZE + (what)]
 
 // What a slide leaves of the light that goes to p, world space; 0..1, linear. film: light that misses the slide goes on, else it
-// is stopped, and so for what lies between the lamp and the slide. Its alpha is the film's opacity: clear film is white.
+// is stopped, and so for what lies between the light and the slide. Its alpha is the film's opacity: clear film is white.
 //
-// uv is divided by no depth less than the slide's own: so it has no jump and no end, behind the lamp either, and its differences
+// uv is divided by no depth less than the slide's own: so it has no jump and no end, behind the light either, and its differences
 // from pixel to pixel may choose the level. The frame's edge lies inwards over one pixel: outside there is exactly nothing.
 vec3 slide_light(const int index, const bool film, mediump sampler2D slide, vec3 p) {
     vec4 u = SLIDE(index, SLIDE_U), v = SLIDE(index, SLIDE_V), w = SLIDE(index, SLIDE_W), place = SLIDE(index, SLIDE_PLACE);

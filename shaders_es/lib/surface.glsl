@@ -1,4 +1,4 @@
-// The surface under a fragment: what lit.frag and aov.frag know about it.
+// The surface under a fragment: what lit.frag and aov.frag share.
 #include "lib/pass.glsl"
 
 #ifdef WITH_VERTEX_COLOR
@@ -40,7 +40,7 @@ vec3 surface_normal() {
     return DOUBLE_SIDED && !gl_FrontFacing ? -n : n;
 }
 
-// Unit vector towards the eye.
+// Unit vector towards the camera.
 vec3 surface_to_eye() { return normalize(PASS(PASS_EYE).xyz - v_position * PASS(PASS_EYE).w); }
 
 // Of the triangle itself, towards the viewer; unit. Takes derivatives: not behind a branch.

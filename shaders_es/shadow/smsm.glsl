@@ -1,6 +1,6 @@
 //@ names shadow_visibility SMSM_BIAS SMSM_CLEAR smsm_moments smsm_blocked
 // Moment soft shadow mapping (Peters, Muenstermann, Wetzstein, Klein, "Improved Moment Shadow Maps for Translucent Occluders, Soft
-// Shadows and Single Scattering", JCGT 6 (1), 2017): as vssm, from four moments, which tell three distances apart.
+// Shadows and Single Scattering", JCGT 6 (1), 2017): as vssm, from four moments, which separate three distances.
 #include "lib/table.glsl"
 
 const vec4 SMSM_CLEAR = vec4(0.0, 0.0, 0.98112522, 1.0); // the far end's moments

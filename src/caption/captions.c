@@ -10,7 +10,7 @@
 enum {
     TEXT_BYTES = 2048,
     LINES_MAX = 32,
-    QUADS_MAX = 1536, /* what is more is not drawn */
+    QUADS_MAX = 1536, /* more are not drawn */
     LINE_MIN_PX = 8,
     LINE_MAX_PX = 128,
 };
@@ -98,7 +98,7 @@ int64_t gn_captions_next_ns(const struct gn_captions *c) {
 
 /* ---- laying out ---- */
 
-/* What cannot be read is said once, and done without. */
+/* Warns once about a font that cannot be read, and continues without it. */
 static void open_font(struct gn_captions *c) {
     struct gn_err err = {0};
     const char *path = c->opts.font;

@@ -1,4 +1,4 @@
-/* The texts that are on the picture now. */
+/* The texts that are on the screen now. */
 #ifndef GN_CAPTION_CAPTIONS_H
 #define GN_CAPTION_CAPTIONS_H
 
@@ -12,7 +12,7 @@ struct gn_captions;
 struct gn_captions_opts { /* zero means the default written beside */
     const char
         *font; /* file; the first of where packages put them; "" the font inside the program */
-    struct gn_warnings *warnings; /* who hears that a font is not used; nobody */
+    struct gn_warnings *warnings; /* receives a warning when a font is not used; none */
 };
 /* Reads nothing yet: the font is opened when a text is first laid out. The texts in opts must
  * outlive it. */
@@ -23,17 +23,17 @@ void gn_captions_destroy(struct gn_captions *captions); /* NULL is legal */
  * Equal text: a mode's time starts again, else nothing changes. */
 void gn_captions_set(struct gn_captions *captions, enum gn_caption_kind kind, const char *text,
                      int64_t now_ns);
-/* How strong a caption is that was set so long ago: 1, at the end of a mode's time less and less,
- * then 0. Pure. */
+/* Opacity of a caption that was set that long ago: 1, fading at the end of a mode's time, then 0.
+ * Pure. */
 float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns);
 
-/* What is on a picture of that size (before it is turned) at that time; NULL: nothing. Valid until
- * the next call of this or set. Allocates, reads the font and looks at a text only when that or the
- * size is another. */
+/* The captions on a picture of that size (before rotation) at that time; NULL: none. Valid until
+ * the next call of this or set. Allocates, reads the font and lays out text only when text or size
+ * changed. */
 const struct gn_caption_run *gn_captions_run(struct gn_captions *captions, uint32_t width_px,
                                              uint32_t height_px, int64_t now_ns);
-/* From when on another picture is to be seen than that of the last run, as far as that is due to
- * captions: a time, 0 for at once, INT64_MAX for never. */
+/* When captions next change the picture since the last run: a time, 0 for at once, INT64_MAX for
+ * never. */
 int64_t gn_captions_next_ns(const struct gn_captions *captions);
 
 #endif

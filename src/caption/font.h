@@ -1,4 +1,4 @@
-/* What gives glyphs: a font at one size at a time. */
+/* A source of glyphs: a font at one size at a time. */
 #ifndef GN_CAPTION_FONT_H
 #define GN_CAPTION_FONT_H
 
@@ -8,7 +8,7 @@
 
 #include "core/err.h"
 
-struct gn_glyph {      /* valid until the font is asked again */
+struct gn_glyph {      /* valid until the next glyph */
     int32_t left, top; /* pixels from the pen to the left edge, from the base line up to the top */
     uint32_t width_px, height_px;
     int32_t advance_px;      /* to the next pen; not negative */
@@ -28,20 +28,20 @@ struct gn_font {
     uint32_t ascent_px; /* from a line's upper edge to its base line */
 };
 
-/* What is larger is no font for captions. */
+/* Larger files and glyphs are rejected. */
 enum { GN_FONT_BYTES_MAX = 32 << 20, GN_FONT_GLYPH_PX_MAX = 512 };
 
 /* The font inside the program, in whole multiples of its dots: ASCII only. Never fails. */
 struct gn_font *gn_font_open_dots(void);
-/* A font that FreeType reads, hinted, from memory that must outlive it; fails where it can make
- * nothing of it, or was not built in. */
+/* A font that FreeType reads, hinted, from memory that must outlive it; fails if it cannot be
+ * read or FreeType was not built in. */
 struct gn_font *gn_font_open_bytes(const uint8_t *data, size_t size, struct gn_err *err);
 /* The file of that name; NULL: the first there is of the places where packages put DejaVu Sans and
  * others like it. A file that is no font, or too large, is a failure that names it. */
 struct gn_font *gn_font_open_file(const char *path, struct gn_err *err);
 void gn_font_close(struct gn_font *font); /* NULL is legal */
 
-/* Its size from now on, as close as it comes to lines of so many pixels. */
+/* Sets the size closest to lines of that many pixels. */
 bool gn_font_resize(struct gn_font *font, uint32_t line_px);
 /* False: it has no such character. */
 bool gn_font_glyph(struct gn_font *font, uint32_t code, struct gn_glyph *out);

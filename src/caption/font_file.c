@@ -1,5 +1,5 @@
-/* Fonts from files, by FreeType. All that it says is believed no further than gn_font_glyph() does:
- * the file may be anybody's. */
+/* Fonts from files, by FreeType. The file is untrusted: gn_font_glyph() checks all that FreeType
+ * returns. */
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H

@@ -1,5 +1,5 @@
-/* A text into lines that have room. Pure. The text is UTF-8 that anybody may have written: what is
- * no character becomes U+FFFD, controls and marks of direction nothing, a tab a space. */
+/* Breaks a text into lines that fit. Pure. The text is untrusted UTF-8: invalid bytes become
+ * U+FFFD, control characters and direction marks are dropped, a tab becomes a space. */
 #ifndef GN_CAPTION_LAYOUT_H
 #define GN_CAPTION_LAYOUT_H
 
@@ -9,8 +9,8 @@
 
 #define GN_LAYOUT_GAP "..." /* in place of what is cut */
 
-/* The character at *text, which moves on behind it; 0: the text ends. Never anything that is not to
- * be drawn, but '\n'. */
+/* The character at *text, which moves on behind it; 0: the text ends. Only characters that are
+ * drawn, and '\n'. */
 uint32_t gn_layout_next(const char **text, const char *end);
 
 struct gn_layout_opts {
@@ -25,8 +25,8 @@ struct gn_layout_line {
     int32_t width_px;        /* with the gap, where it is cut */
     bool cut;                /* a gap follows */
 };
-/* The lines of a text, into `lines` (most_lines of them); how many. Each fits into width_px, but
- * where not even a character does. What has no room at the end is cut off the last line. */
+/* The lines of a text, into `lines` (most_lines of them); how many. Each fits into width_px,
+ * unless a single character does not. Text that does not fit is cut off the last line. */
 uint32_t gn_layout_build(const struct gn_layout_opts *opts, const char *text, const char *end,
                          struct gn_layout_line *lines);
 

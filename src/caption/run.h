@@ -1,4 +1,4 @@
-/* What is written on a picture, ready to be drawn: rectangles, in their order. Plain data. */
+/* Captions ready to be drawn: rectangles, in their order. Plain data. */
 #ifndef GN_CAPTION_RUN_H
 #define GN_CAPTION_RUN_H
 
@@ -6,9 +6,9 @@
 #include <stdint.h>
 
 enum gn_caption_kind {
-    GN_CAPTION_INFO,  /* a page: several lines, top left, until it is taken away */
+    GN_CAPTION_INFO,  /* a page: several lines, top left, until removed */
     GN_CAPTION_MODE,  /* a name: one line, bottom left, for 2 s */
-    GN_CAPTION_ERROR, /* what went wrong: wrapped, bottom left, until it is taken away */
+    GN_CAPTION_ERROR, /* an error message: wrapped, bottom left, until removed */
     GN_CAPTION_KIND_COUNT,
 };
 
@@ -27,7 +27,7 @@ struct gn_caption_run {
     uint32_t width_px, height_px; /* of the picture that it was laid out for, before it is turned */
     const struct gn_caption_quad *quads;
     uint32_t quad_count;
-    float alpha[GN_CAPTION_KIND_COUNT]; /* 0: not to be seen, 1: in full */
+    float alpha[GN_CAPTION_KIND_COUNT]; /* 0: invisible, 1: opaque */
     const struct gn_caption_atlas *atlas;
 };
 

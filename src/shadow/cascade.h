@@ -1,23 +1,23 @@
-/* Cascades: a directional light's map in up to four tiles, each for what the eye sees from one
- * distance to another, so that what is near gets small texels, too. Pure.
+/* Cascades: a directional light's map in up to four tiles, each for the view between two distances
+ * from the camera, so that near parts get small texels. Pure.
  *
  * They lie side by side in one map, two in a row. A tile's inner part is a map like any other: its
- * window is found from pairs, casters and what is seen behind them within those distances, it is
+ * extent is found from pairs, casters and visible receivers within those distances, it is
  * drawn in pages, and moves by whole texels (pages.h). It is always copied from there to its tile,
- * so a texel holds the same bits wherever the eye is. Round it lies a gutter that stays cleared,
+ * so a texel holds the same bits wherever the camera is. Round it lies a gutter that stays cleared,
  * as wide as a technique may read: a place beside what is drawn, whose filter reaches in, is in its
  * own tile's, and what it reads on its other side in the next one's, or past the map's edge, which
  * goes on as it is. So of three cascades the map has a fourth tile, which is empty. A soft
  * technique reads as far as the widest penumbra that may be seen, by powers of two; one that reads
  * a table knows where its tile ends, and needs no more than a few texels. All tiles span the same
- * depths and have the same codes, for which no eye matters; moments alone are of what lies between
- * a tile's nearest caster and the farthest place that is seen in its shadow, since they tell depths
- * apart the better the fewer there are.
+ * depths and have the same codes, which do not depend on the camera; moments alone are of what lies
+ * between a tile's nearest caster and the farthest place visible in its shadow, since they tell
+ * depths apart the better the fewer there are.
  *
  * The splits go by equal ratios of distance (Lloyd et al., "Warping and Partitioning for Low Error
  * Shadow Maps", 2006) between the nearest and the farthest place that can be in a seen shadow, both
- * by steps: they stand still while the eye moves little. Before each split lies a zone that two
- * cascades serve, which shaders mix (shaders_es/lib/shadow_cascade.glsl).
+ * by steps: they do not change while the camera moves little. Before each split lies a zone that
+ * two cascades serve, which shaders mix (shaders_es/lib/shadow_cascade.glsl).
  */
 #ifndef GN_SHADOW_CASCADE_H
 #define GN_SHADOW_CASCADE_H
@@ -28,13 +28,13 @@
 /* What fitting cascades remembers: each tile, and all that is seen. */
 enum { GN_CASCADE_MEMORIES = GN_CASCADES_MAX + 1, GN_CASCADE_LEAST_PX = 64 };
 
-/* Whether there can be any: not of lamps, nor on a plane, nor in a map under GN_CASCADE_LEAST_PX,
- * nor for an eye without perspective, to which all pixels are as large. */
+/* Whether there can be any: not for spot and point lights, on a plane, in a map smaller than
+ * GN_CASCADE_LEAST_PX, or with an orthographic camera, whose pixels all have one size. */
 bool gn_cascade_can(const struct gn_light *light, const struct gn_eye *eye,
                     const struct gn_shadow_opts *opts);
 
-/* How large a texel of such a view is where it is seen largest: metres per metre of distance from
- * the eye; 0 when nothing that is seen is in shadow. Allocates nothing; memory: one where
+/* How large a texel of such a view is where it appears largest: metres per metre of distance from
+ * the camera; 0 when nothing visible is in shadow. Allocates nothing; memory: one where
  * opts->cascades is 0 or 1, else GN_CASCADE_MEMORIES. */
 float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                          const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory);

@@ -1,18 +1,18 @@
-/* From a light, a pose and an eye to a shadow view: what a shadow map shows and how it is read.
+/* From a light, a pose and a camera to a shadow view: what a shadow map shows and how it is read.
  * Pure.
  *
  * Plane coordinates: for a directional light metres across the light's direction, for a spot
- * tangents (x/z, y/z). The map is a window in them: as small as holds every place where a caster
- * can darken something that the eye sees, of a width from a geometric series and with its corner on
- * a whole texel, so that it moves by whole texels when the eye moves, and a directional one
- * then holds the same bits (shadow/pages.h).
+ * tangents (x/z, y/z). The map is an extent in them: the smallest that holds every place where a
+ * caster can darken something visible, of a width from a geometric series and with its corner on a
+ * whole texel, so that it moves by whole texels when the camera moves, and a directional one then
+ * holds the same bits (shadow/pages.h).
  *
  * A point light has six such maps, the tiles of an atlas: each looks along an axis of the world, 45
  * degrees to each side and a gutter more, as wide as the technique's filter, so that what is read
- * beside a place near a tile's edge is right and a technique need not know of tiles. Tile 2 a + s
+ * beside a place near a tile's edge is right and techniques are independent of tiles. Tile 2 a + s
  * looks along axis a, to its negative end if s is 1, and lies in column a and row s of the atlas.
- * The texels of two tiles lie differently, so a filter would make different shades of them on
- * either side of their edge: near it both are asked, and what they answer is mixed.
+ * The texels of two tiles have different grids, so a filter gives different values on either side
+ * of their edge: near it both tiles are sampled and the results are mixed.
  */
 #ifndef GN_SHADOW_FIT_H
 #define GN_SHADOW_FIT_H
@@ -28,14 +28,14 @@ struct gn_shadow_opts {
     enum gn_encoding encoding;   /* a proved one, never AUTO */
     enum gn_moments moments;     /* of a technique that filters its map: proved ones */
     uint32_t map_px;             /* side of the map, or of a tile; with STENCIL 0 */
-    bool all_receive;            /* gnomon_receive is not asked: for pictures of visibility */
+    bool all_receive;            /* ignore gnomon_receive: for pictures of visibility */
     uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
                           one need an eye with a perspective */
 };
 
-/* A table is read no farther than so many texels from a place, so the widest penumbra is some twice
- * that. The fixed point of its sums (shaders_es/blocks.glsl) is coarser by as much as the square of
- * it: so they are right to a millionth. */
+/* A SAT is read at most this many texels from a place, so the widest penumbra is about twice that.
+ * The fixed point of its sums (shaders_es/blocks.glsl) gets coarser with the square of it: with
+ * this value they are right to a millionth. */
 #define GN_TABLE_REACH_PX 90
 
 enum { GN_SHADOW_TILES_MAX = 6 };
@@ -159,7 +159,7 @@ struct gn_shadow_view {
     struct gn_shadow_cascade cascades[GN_CASCADES_MAX]; /* map.cascade_count */
 };
 
-/* What the eye sees, for fitting. */
+/* The camera's frustum, for fitting. */
 struct gn_eye {
     mat4 clip_from_world;
     vec4 planes[6]; /* inside: dot(plane, (p,1)) >= 0 */
@@ -168,9 +168,9 @@ struct gn_eye {
 void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world);
 bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box); /* conservative */
 
-/* What fitting remembers of a light from frame to frame, so that what stands still is measured
- * once, and what it found out. One per tile; of one scene, for any light at any pose: a view does
- * not depend on those before it. */
+/* A cache of what items cover, kept for a light from frame to frame, so that what stands still is
+ * measured once; and the casters found. One per tile, of one scene, for any light at any pose: a
+ * view does not depend on earlier ones. */
 struct gn_shadow_region { /* in plane coordinates and depth along the light's axis; empty when min >
                              max */
     float min[2], max[2];
@@ -180,16 +180,16 @@ struct gn_shadow_region { /* in plane coordinates and depth along the light's ax
 struct gn_shadow_memory {
     uint32_t item_count;
     uint8_t *casts;                 /* per item: bit p = draw it into page p, or into the tile */
-    uint8_t *seen;                  /* per item: how much of it the eye sees; private */
+    uint8_t *seen;                  /* per item: how much of it is visible; private */
     struct gn_shadow_region *whole; /* per item: all that it covers; private */
-    struct gn_shadow_region *part;  /* per item seen partly: what of it is seen; private */
+    struct gn_shadow_region *part;  /* per item partly visible: the visible part; private */
     uint64_t *pose_hash;            /* per item: of the pose that `whole` is of; private */
     uint64_t light_hash, eye_hash;  /* private */
 };
 void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count);
 void gn_shadow_memory_finish(struct gn_shadow_memory *memory);
 
-/* Whether an item is drawn into maps at all: what is blended casts no shadow. */
+/* Whether an item is drawn into maps at all: blended items cast no shadow. */
 bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item);
 
 /* How many tiles a light's map without cascades has, and the size of the map for a tile of so many
@@ -200,8 +200,8 @@ void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, ui
 
 /* Fits the light's view and fills memory->casts, for each tile (as many memories; of cascades
  * GN_CASCADE_MEMORIES). False: nothing
- * that is seen can be in this light's shadow; the view is empty: its size is right, and a map that
- * holds nothing but code.far_end is read as lit by it. Allocates nothing. */
+ * visible can be in this light's shadow; the view is empty: its size is right, and a map that holds
+ * only code.far_end is read as lit. Allocates nothing. */
 bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                    const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
                    struct gn_shadow_view *view);

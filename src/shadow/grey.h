@@ -1,11 +1,11 @@
-/* A map for people: near dark, far white. Distances are linear; hardware depth crowds at the far
- * end, so its contrast is raised by the fourth power. */
+/* A map as a grey picture: near dark, far white. Distances are linear; hardware depth is crowded at
+ * the far end, so its contrast is raised by the fourth power. */
 #ifndef GN_SHADOW_GREY_H
 #define GN_SHADOW_GREY_H
 
 #include "shadow/fit.h"
 
-/* grey = clamp(code * scale + offset, 0, 1) ^ power, as one shows it: encoded already. */
+/* grey = clamp(code * scale + offset, 0, 1) ^ power, already sRGB-encoded. */
 struct gn_shadow_grey {
     float scale, offset, power;
 };

@@ -1,8 +1,8 @@
-/* Filtered shadow maps: what a map's codes are turned into (moments of the distribution of
- * distances), how textures keep that, and by which passes it is made. Three small tables.
+/* Filtered shadow maps: how the moments of the distribution of distances are stored, and the passes
+ * that make them from a map's codes. Three small tables.
  *
  * Moments of neighbouring texels may be averaged, which distances may not: so the map is blurred
- * once, when it has changed, instead of by every pixel that reads it. A code of such a map is the
+ * once, when it has changed, instead of in every pixel that reads it. A code of such a map is the
  * distance itself, 0 at the near end and 1 at the far one.
  *
  * A map knows casters alone, and is the far end where there are none, whatever the eye sees there.
@@ -14,7 +14,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* How a texture keeps moments. */
+/* How a texture stores moments. */
 enum gn_moments {
     GN_MOMENTS_NONE,
     GN_MOMENTS_RG32UI,         /* three of 0..1 in 21 bits each */

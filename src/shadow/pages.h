@@ -1,8 +1,8 @@
-/* A directional light's map under a moving eye: bit for bit the same, shifted by whole texels.
+/* A directional light's map under a moving camera: bit for bit the same, shifted by whole texels.
  *
  * A rasteriser's depth of a texel depends, in its last bits, on where in its target the texel lies.
  * So each texel of the light's lattice has one place for good: the lattice is cut into pages as
- * large as the map, each drawn by a projection of its own that knows nothing of the eye. A map
+ * large as the map, each drawn by a projection of its own that does not depend on the camera. A map
  * holds a window of the lattice. What of it lies in a page is drawn there and nowhere else, and is
  * then copied to where it stands in the map: so shaders read a map like any other. A window is
  * narrower than a page, so its parts in up to four of them would overlap nowhere if the pages lay

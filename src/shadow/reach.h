@@ -1,5 +1,5 @@
-/* How far a light reaches: a ball round it (its range, or all of the scene), for a spot the part of
- * the ball that its cone cuts out. Pure; every answer errs towards "it reaches". */
+/* A light's influence: a ball round it (its range, or all of the scene), for a spot the part of the
+ * ball inside its cone. Pure; every answer is conservative: it may say "inside" wrongly. */
 #ifndef GN_SHADOW_REACH_H
 #define GN_SHADOW_REACH_H
 
@@ -17,9 +17,9 @@ struct gn_reach_rect { /* pixels, first row at the bottom, ends not included; em
 };
 
 void gn_reach_build(struct gn_reach *reach, const struct gn_pose *pose, uint32_t light);
-/* Can the light shine on anything in the box? */
+/* Whether the light can shine on anything in the box. */
 bool gn_reach_touches(const struct gn_reach *reach, const struct gn_box *box_ws);
-/* Where in a picture of that size the eye may see what the light shines on. */
+/* The part of a picture of that size where lit surfaces may be visible. */
 struct gn_reach_rect gn_reach_rect(const struct gn_reach *reach, const struct gn_eye *eye,
                                    uint32_t width_px, uint32_t height_px);
 struct gn_reach_rect gn_reach_rect_unite(struct gn_reach_rect a, struct gn_reach_rect b);

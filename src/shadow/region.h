@@ -1,4 +1,4 @@
-/* Rectangles in plane coordinates with a range of depths: what fitting reckons with. */
+/* Rectangles in plane coordinates with a range of depths, for fitting. */
 #ifndef GN_SHADOW_REGION_H
 #define GN_SHADOW_REGION_H
 

@@ -1,17 +1,17 @@
 /* A slide in the beam of a spot: where a point of the world falls on its picture. Pure.
  *
- * The slide stands upright across the light's axis, its middle on it: seen from the lamp its right
+ * The slide stands upright across the light's axis, its middle on it: seen from the light its right
  * is the node's +X and its top the node's +Y, so it rolls with the node. */
 #ifndef GN_SHADOW_SLIDE_H
 #define GN_SHADOW_SLIDE_H
 
 #include "scene/pose.h"
 
-enum gn_slide { /* what is outside the slide's frame, and between the lamp and the slide */
+enum gn_slide { /* what is outside the slide's frame, and between the light and the slide */
                 GN_SLIDE_NONE,
-                GN_SLIDE_DARK, /* a projector: no light, its housing takes it */
-                GN_SLIDE_LIT,  /* a film held before a lamp: the light that did not pass through it
-                                */
+                GN_SLIDE_DARK, /* a projector: no light, its housing blocks it */
+                GN_SLIDE_LIT, /* a film in front of a light: the light that does not pass through it
+                               */
                 GN_SLIDE_COUNT,
 };
 
@@ -22,10 +22,11 @@ struct gn_slide_view {
     float near_m; /* depth of the slide, over 0: only what is farther is behind it */
 };
 
-/* GN_SLIDE_NONE if the light throws none. */
+/* GN_SLIDE_NONE if the light has none. */
 enum gn_slide gn_slide_of(const struct gn_light *light);
 /* Of a spot. Size 0, 0: as large as the cone is there, square (cones are cut at 80 degrees, as maps
- * are). Distance 0: at the lamp itself, or, if it has a size, where its longer side spans the cone.
+ * are). Distance 0: at the light itself, or, if it has a size, where its longer side spans the
+ * cone.
  */
 void gn_slide_build(const struct gn_pose *pose, uint32_t light, struct gn_slide_view *view);
 

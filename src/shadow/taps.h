@@ -1,6 +1,6 @@
-/* Where the techniques that take many samples take them: points in the unit disk, evenly spread,
- * each with its opposite: a shader then works out half of them, and their middle is the disk's.
- * Pure. */
+/* Sample positions of the techniques that take many samples: points in the unit disk, evenly
+ * spread, each with its opposite: a shader transforms half of them, and their mean is the disk's
+ * centre. Pure. */
 #ifndef GN_SHADOW_TAPS_H
 #define GN_SHADOW_TAPS_H
 

@@ -26,7 +26,7 @@ enum gn_encoding {
     GN_ENCODING_R16F_RAW, /* metres, half float: coarse far off, shown for comparison */
     GN_ENCODING_RGBA8,    /* (d - near) / (far - near) in four bytes */
     GN_ENCODING_MASK,     /* of a plane: how much light arrives, 0..1. From here on only for
-                             techniques that are on_plane; nobody can ask for it by name */
+                             techniques that are on_plane; not selectable by name */
     GN_ENCODING_STENCIL,  /* of a plane: no map, but marks in the picture's own stencil */
     GN_ENCODING_COUNT,
     GN_ENCODING_AUTO = GN_ENCODING_COUNT,
@@ -37,9 +37,9 @@ struct gn_technique_row {
     int rank;         /* place in the kiosk's order of modes, from 1, best first; 0: last */
     const char *file; /* below shaders_es/, NULL for none */
     bool filters;     /* compares four texels and weighs them: wants a LINEAR compare sampler */
-    bool searches; /* asks how far a blocker is: a depth map behind a sampler that compares not */
-    bool reads_distance; /* `auto` gives it a distance map; else a depth map */
-    bool on_plane;       /* what the scene's plane receives, and nothing else: planar.h */
+    bool searches;    /* needs a blocker's distance: samples a depth map without hardware compare */
+    bool reads_distance; /* `auto` selects a distance map for it; else a depth map */
+    bool on_plane;       /* only the scene's plane receives its shadows: planar.h */
     bool soft; /* its penumbrae are as wide as the light is large: the map reaches as far */
     enum gn_taps taps;
     enum gn_filter filter;         /* passes turn its map into moments, which it reads; else NONE */
@@ -51,7 +51,7 @@ struct gn_technique_row {
     float bias_texels; /* what the normal offset and slope grow with. Of a flat surface what is read
                           up to 1.7 times as far away stays lit; beyond that lie under 2 % of the
                           filter's weight */
-    const char *what;  /* one line for people */
+    const char *what;  /* one line of help */
     const char *source;
 };
 extern const struct gn_technique_row gn_techniques[GN_TECHNIQUE_COUNT];
@@ -63,7 +63,8 @@ struct gn_encoding_row {
 };
 extern const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT];
 
-/* Whether it answers in shades: then what two tiles say near their common edge can be mixed. */
+/* Whether its visibility has values between 0 and 1: then those of two tiles can be mixed near
+ * their common edge. */
 bool gn_technique_shades(enum gn_technique technique);
 
 /* Whether it reads a filtered map. */
