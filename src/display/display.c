@@ -20,7 +20,7 @@ static bool open_row(struct gn_display *display, const struct gn_display_ops *op
     return false;
 }
 
-static void append(char *list, size_t size, const char *text) {
+static void append_text(char *list, size_t size, const char *text) {
     size_t used = strlen(list), room = size - 1 - used;
     size_t length = strlen(text) < room ? strlen(text) : room;
     memcpy(list + used, text, length);
@@ -32,21 +32,21 @@ static bool open_any(struct gn_display *display, struct gn_warnings *warnings, s
     for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
         struct gn_err why = {0};
         if (open_row(display, *row, warnings, &why)) return true;
-        if (*reasons) append(reasons, sizeof reasons, "; ");
-        append(reasons, sizeof reasons, (*row)->name);
-        append(reasons, sizeof reasons, ": ");
-        append(reasons, sizeof reasons, why.text);
+        if (*reasons) append_text(reasons, sizeof reasons, "; ");
+        append_text(reasons, sizeof reasons, (*row)->name);
+        append_text(reasons, sizeof reasons, ": ");
+        append_text(reasons, sizeof reasons, why.text);
     }
-    return gn_fail(err, "no display opens: %s", reasons);
+    return gn_fail(err, "no display can be opened: %s", reasons);
 }
 
 static bool fail_unknown(const char *name, struct gn_err *err) {
     char names[sizeof err->text] = "auto";
     for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
-        append(names, sizeof names, ", ");
-        append(names, sizeof names, (*row)->name);
+        append_text(names, sizeof names, ", ");
+        append_text(names, sizeof names, (*row)->name);
     }
-    return gn_fail_usage(err, "there is no backend \"%s\": use one of %s", name, names);
+    return gn_fail_usage(err, "unknown backend \"%s\": expected one of %s", name, names);
 }
 
 static const struct gn_display_ops *find_row(const char *name) {

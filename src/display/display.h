@@ -1,6 +1,6 @@
-/* Where pictures go, behind one vtable: a row and a file add one. A display owns the GL context and
- * makes it current in the thread that opened it. One that is asked to be a screen also shows what
- * is drawn; screens come and go while the program runs, and never block it. */
+/* Displays behind one vtable: a row and a file add one. A display owns the GL context and makes it
+ * current in the thread that opened it. Opened as a screen it also shows frames; it survives the
+ * loss of monitors and cards, and never blocks the program. */
 #ifndef GN_DISPLAY_DISPLAY_H
 #define GN_DISPLAY_DISPLAY_H
 
@@ -19,63 +19,63 @@ struct gn_display;
 /* ---- screens ------------------------------------------------------------------------------- */
 
 struct gn_screen_opts {               /* zero means the default written beside */
-    struct gn_loop *loop;             /* not NULL: the screen adds its descriptors and timers */
-    uint32_t width_px, height_px;     /* of a screen that nobody sees: 1280 x 720 */
-    const char *connector;            /* "HDMI-A-1"; any that is connected */
+    struct gn_loop *loop;             /* if not NULL, the screen adds its descriptors and timers */
+    uint32_t width_px, height_px;     /* headless screen: 1280 x 720 */
+    const char *connector;            /* "HDMI-A-1"; any connected one */
     const char *card;                 /* "platform-gpu-card", as in /dev/dri/by-path; any */
-    const char *render_node;          /* "/dev/dri/renderD129": the GPU; the card's own */
-    const char *modeline;             /* as in an xorg.conf, without its name; none */
-    uint32_t mode_width, mode_height; /* the current mode, else the preferred within the cap */
+    const char *render_node;          /* "/dev/dri/renderD129", another GPU; the card's own */
+    const char *modeline;             /* xorg.conf syntax without a name; none */
+    uint32_t mode_width, mode_height; /* the current mode, else the preferred one within the cap */
     double mode_hz;                   /* any */
-    uint32_t cap_width, cap_height;   /* 1920 x 1080: what is chosen unasked is no larger, */
-    double cap_hz;                    /* nor has more pixels a second than that at 60 */
-    unsigned rotate_deg;              /* 0, 90, 180, 270, clockwise; beside what the panel says */
-    unsigned max_fps;                 /* the mode's rate */
-    bool unencoded;                   /* the window's framebuffer shall not encode */
-    bool legacy;                      /* page flips by the old interface even where atomic is */
-    int64_t again_ns;                 /* a still picture is flipped again this often; 10 s */
+    uint32_t cap_width, cap_height;   /* 1920 x 1080: limit of modes not configured, in size */
+    double cap_hz;                    /* and in pixel rate: that size at 60 Hz */
+    unsigned rotate_deg; /* 0, 90, 180, 270, clockwise; added to the panel's orientation */
+    unsigned max_fps;    /* the mode's rate */
+    bool unencoded;      /* no sRGB encoding in the window's framebuffer */
+    bool legacy;         /* legacy page flips even if atomic is available */
+    int64_t again_ns;    /* interval of flips while nothing changes; 10 s */
 };
 
 /* Counters since the screen was opened. */
 struct gn_screen_counts {
-    uint64_t shown;   /* flips that the screen has told of, those of the same picture too */
-    uint64_t again;   /* of them, the same picture once more */
-    uint64_t missed;  /* refreshes that went by while a frame was on its way */
-    uint64_t retried; /* flips that the kernel refused for the moment (EBUSY, ENOMEM) */
-    uint64_t stalled; /* flips that were not told of in time (250 ms) */
-    uint64_t relit;   /* modesets, the first one too */
+    uint64_t shown;   /* completed flips, repeated frames included */
+    uint64_t again;   /* of them, repeats of the same frame */
+    uint64_t missed;  /* refreshes missed while a frame was in flight */
+    uint64_t retried; /* commits refused temporarily (EBUSY, ENOMEM) */
+    uint64_t stalled; /* flips not completed in time (250 ms) */
+    uint64_t relit;   /* modesets, including the first */
     uint64_t opened;  /* cards opened */
 };
 
-/* What a screen is now: plain data that changes only inside the functions below. */
+/* State of a screen: plain data, changed only by the functions below. */
 struct gn_screen {
-    bool has_context;    /* a GL context is current; without, there is no card to draw with */
-    bool lost;           /* the context is of no use any more: gn_display_renew() */
-    uint32_t generation; /* of the context: another number, another context */
-    bool blank;          /* switched off by gn_display_blank(): not lit, as it should be */
-    bool black;          /* and it can only be black: that is the picture due when may_draw */
-    bool lit;            /* somebody may see it */
-    bool may_draw;       /* lit, and no frame is on its way: begin and present are due */
-    bool damaged;        /* what it showed last is gone, or of another size: draw a still picture
-                            again; begin ends it */
-    struct gn_pointer pointer; /* what somebody did there, added up; whoever reads it zeroes it */
-    uint32_t width_px, height_px; /* of what is drawn to; 0 while not lit */
-    unsigned rotate_deg;          /* 0, 90, 180, 270: the picture is drawn turned clockwise by it */
-    bool srgb;                    /* the window's framebuffer encodes; it has one sample a pixel */
-    uint8_t *copy_to;             /* not NULL between begin and present: the picture is drawn off
-                                     screen, and copied there as XRGB8888, top row first */
-    size_t copy_stride;           /* bytes */
-    int64_t period_ns;            /* between two refreshes */
-    int64_t seen_ns;              /* monotonic: when a frame that is begun now will be seen */
+    bool has_context;    /* a GL context is current; false: no usable card */
+    bool lost;           /* the context is lost: call gn_display_renew() */
+    uint32_t generation; /* of the context: changes when it is recreated */
+    bool blank;          /* switched off by gn_display_blank(), so not lit */
+    bool black;          /* blanking by a black frame only: draw one when may_draw */
+    bool lit;            /* frames are visible */
+    bool may_draw;       /* lit and no frame in flight: begin and present are due */
+    bool damaged; /* the last frame is gone or has another size: draw again even if nothing changed;
+                     cleared by begin */
+    struct gn_pointer pointer;    /* accumulated input; the reader zeroes it */
+    uint32_t width_px, height_px; /* of the framebuffer; 0 while not lit */
+    unsigned rotate_deg;          /* 0, 90, 180, 270: draw rotated clockwise by this */
+    bool srgb;                    /* the window's framebuffer is sRGB, single-sampled */
+    uint8_t *copy_to;   /* not NULL between begin and present: draw off screen and copy here as
+                           XRGB8888, top row first */
+    size_t copy_stride; /* bytes */
+    int64_t period_ns;  /* refresh interval */
+    int64_t seen_ns;    /* monotonic: when a frame begun now becomes visible */
     struct gn_screen_counts counts;
-    char what[80];    /* "HDMI-A-1 1920x1080@60.00 atomic"; "" while there is nothing */
-    char status[160]; /* what it waits for, one line; "" while it shows */
+    char what[80];    /* "HDMI-A-1 1920x1080@60.00 atomic"; "": nothing shown */
+    char status[160]; /* one line: why nothing is shown; "" while shown */
 };
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
-/* One row and one file add a display, which defines gn_display_FILE. The name is that of --backend;
- * the order is the one in which "auto" tries them. */
+/* Rows of the displays, each in a file that defines gn_display_FILE. The name is that of --backend;
+ * "auto" tries them in this order. */
 #define GN_DISPLAY_TABLE(X)                                                                        \
     X(surfaceless, "egl")                                                                          \
     X(osmesa, "osmesa")                                                                            \
@@ -84,15 +84,15 @@ struct gn_screen {
 
 struct gn_display_ops {
     const char *name; /* as in the table */
-    const char *what; /* one line for doctor */
-    bool desktop;     /* its context is desktop GL that reads ES 3.0 shaders */
-    bool is_window;   /* on a desktop: it has keys of its own, others are not read */
-    bool is_console;  /* it owns a whole screen: keys are read from input devices */
+    const char *what; /* description for doctor */
+    bool desktop;     /* desktop GL context that accepts ES 3.0 shaders */
+    bool is_window;   /* on a desktop: only its own keys are read */
+    bool is_console;  /* full screen: keys are read from input devices */
     bool (*open)(struct gn_display *display, struct gn_warnings *warnings,
-                 struct gn_err *err); /* makes a context current; NULL: it is only a screen */
+                 struct gn_err *err); /* makes a context current; NULL: opens as a screen only */
     gn_display_proc (*get_proc)(struct gn_display *display, const char *name);
     void (*close)(struct gn_display *display);
-    const struct gn_screen_ops *screen; /* NULL: as a screen it is one that nobody sees */
+    const struct gn_screen_ops *screen; /* NULL: headless */
 };
 struct gn_screen_ops { /* see the functions of the same names */
     bool (*open)(struct gn_display *display, const struct gn_screen_opts *opts, int64_t now_ns,
@@ -101,60 +101,58 @@ struct gn_screen_ops { /* see the functions of the same names */
     bool (*renew)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*begin)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*present)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
-    void (*lose)(struct gn_display *display, int64_t now_ns); /* NULL: cannot */
+    void (*lose)(struct gn_display *display, int64_t now_ns); /* NULL: unsupported */
     void (*blank)(struct gn_display *display, bool on, int64_t now_ns);
     bool (*show_message)(struct gn_display *display, const char *text,
-                         int64_t now_ns); /* NULL: cannot */
+                         int64_t now_ns); /* NULL: unsupported */
     bool (*is_free)(void);                /* NULL: always */
 };
 struct gn_display {
     const struct gn_display_ops *ops;
     void *state;             /* private to ops */
     struct gn_screen screen; /* all zero where it is none */
-    void *headless;          /* private: of a screen that nobody sees */
+    void *headless;          /* private: the headless screen */
 };
 
-/* The table's; NULL ends. One whose library is missing in this build fails to open. */
+/* NULL-terminated. One whose library was missing at build time fails to open. */
 extern const struct gn_display_ops *const gn_displays[];
 
-/* Opens by name ("auto": the first that opens). A name that exists but was not built in says so. */
+/* Opens by name ("auto": the first that opens). */
 bool gn_display_open(struct gn_display *display, const char *name, struct gn_warnings *warnings,
                      struct gn_err *err);
 gn_display_proc gn_display_get_proc(void *display, const char *name); /* for gn_gl_opts */
 void gn_display_close(struct gn_display *display); /* a zeroed one may be closed */
 
-/* Opens by name as a screen ("auto": KMS). Succeeds without card or monitor: it then waits, see
- * `lost`, `lit` and `status`. What the options name must outlive the display. */
+/* Opens by name as a screen ("auto": KMS). Succeeds without card or monitor: see `lost`, `lit` and
+ * `status`. The options' texts must outlive the display. */
 bool gn_display_open_screen(struct gn_display *display, const char *name,
                             const struct gn_screen_opts *opts, int64_t now_ns,
                             struct gn_warnings *warnings, struct gn_err *err);
-/* To be called after each step of the loop: handles what became ready in it, and brings the screen
- * up to now_ns. Never blocks, but that lighting a monitor takes the kernel up to a
- * tenth of a second. False: it gave up for good (status 70: a new process may do better). */
+/* Call after each step of the loop: handles ready descriptors and updates the screen to now_ns.
+ * Does not block, except for a modeset (up to a tenth of a second). Fails when recovery is
+ * impossible (exit status 70: restart the process). */
 bool gn_display_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err);
-/* After all that lives in the old context is destroyed: ends it, and makes another where there is a
- * card. To be called when `lost`. Fails as dispatch does. */
+/* Replaces a `lost` context, if there is a card. Objects of the old one must be destroyed first.
+ * Fails as dispatch does. */
 bool gn_display_renew(struct gn_display *display, int64_t now_ns, struct gn_err *err);
-/* Makes the window's framebuffer the one that GL calls 0. To be called when may_draw; false with an
- * empty err: not now after all. */
+/* Makes the window's framebuffer GL's framebuffer 0. Call when may_draw; false with an empty err:
+ * draw later. */
 bool gn_display_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err);
-/* Sends what was drawn on its way. Never waits for it. Fails as dispatch does; what the kernel
- * refuses is tried again by itself. */
+/* Submits the frame without waiting. Commits refused temporarily are retried. Fails as dispatch
+ * does. */
 bool gn_display_present(struct gn_display *display, int64_t now_ns, struct gn_err *err);
-/* GL says that its context is of no use any more: from now on the screen is `lost`. False: there is
- * no other context to be had. */
+/* Reports a context lost by GL: the screen becomes `lost`. False: it cannot be recreated. */
 bool gn_display_lose(struct gn_display *display, int64_t now_ns);
-/* Switches the screen off, or on again; on comes with the last picture at once, where it is still
- * there. Nothing is drawn while it is off, but one black picture where `black`; monitors, consoles
- * and contexts may come and go. Blocks as lighting does. */
+/* Switches the screen off or on; switching on shows the last frame at once, if it still exists.
+ * Nothing is drawn while off, except one black frame if `black`. Blocks as a modeset does. */
 void gn_display_blank(struct gn_display *display, bool on, int64_t now_ns);
-/* Shows a text in place of pictures, without GL, from now on until the context is another, or until
- * NULL ends it; where GL does not start, the reason is shown instead. False: this screen cannot. */
+/* Shows a text instead of frames, without GL, until the context changes or NULL ends it; if GL does
+ * not start, the reason is shown instead. False: unsupported. */
 bool gn_display_show_message(struct gn_display *display, const char *text, int64_t now_ns);
-/* The screen of that name could be seen now: there is a monitor, and nobody else has it. */
+/* Whether that screen could be shown now: a monitor is connected and no other process has it. */
 bool gn_display_is_free(const char *name);
-/* The first other process that has a device open, as "Xorg (pid 612)"; "" and false: none that this
- * user may see. */
+/* The first other process that has a device open, as "Xorg (pid 612)"; "" and false if none is
+ * visible to this user. */
 bool gn_display_holder(const char *path, char *out, size_t size);
 
 #endif

@@ -5,7 +5,7 @@
 #include <string.h>
 
 bool gn_egl_load(struct gn_egl *egl, struct gn_err *err) {
-    setenv("EGL_LOG_LEVEL", "fatal", 0); /* or Mesa chats on stderr about what it did not find */
+    setenv("EGL_LOG_LEVEL", "fatal", 0); /* otherwise Mesa prints to stderr */
     void *library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
     egl->gles = dlopen("libGLESv2.so.2", RTLD_NOW | RTLD_LOCAL);
     if (!library || !egl->gles)

@@ -1,6 +1,5 @@
-/* libEGL and libGLESv2, opened at run time, so that the program starts, and says what to install,
- * where they are missing. They are never closed: what they have started does not always survive
- * being unloaded. */
+/* libEGL and libGLESv2, opened at run time, so that the program starts without them and names the
+ * missing package. Never closed: threads they started do not always survive dlclose. */
 #ifndef GN_DISPLAY_EGL_H
 #define GN_DISPLAY_EGL_H
 
@@ -28,15 +27,15 @@
     X(PFNEGLGETERRORPROC, GetError)
 
 struct gn_egl {
-    void *gles; /* libGLESv2: not every eglGetProcAddress gives core functions */
+    void *gles; /* libGLESv2: not every eglGetProcAddress returns core functions */
 #define X(type, name) type name;
     GN_EGL_TABLE(X)
 #undef X
 };
 
-/* False: err says what to install. */
+/* Fails with the package to install. */
 bool gn_egl_load(struct gn_egl *egl, struct gn_err *err);
-/* Is it one of the words of a list with spaces? NULL is an empty list. */
+/* Whether a space-separated list has this word; NULL is an empty list. */
 bool gn_egl_has(const char *list, const char *word);
 
 #endif

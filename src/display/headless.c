@@ -1,4 +1,4 @@
-/* A screen that nobody sees, 60 times a second: the kiosk's tests run on it. */
+/* Headless screen, 60 Hz by a timer; used by the kiosk's tests. */
 #include <stdlib.h>
 
 #include "core/arena.h"
@@ -8,10 +8,10 @@
 
 struct headless {
     struct gn_flip flip;
-    struct gn_timer timer; /* of the flip */
+    struct gn_timer timer; /* of the pending flip */
 };
 
-static bool settle(struct gn_display *display, int64_t now_ns) {
+static bool update_screen(struct gn_display *display, int64_t now_ns) {
     struct headless *h = display->headless;
     struct gn_flip *flip = &h->flip;
     struct gn_screen *s = &display->screen;
@@ -43,17 +43,17 @@ static bool headless_open(struct gn_display *display, const struct gn_screen_opt
         .period_ns = flip->period_ns,
     };
     gn_loop_add_timer(opts->loop, &h->timer);
-    return settle(display, now_ns);
+    return update_screen(display, now_ns);
 }
 
 static bool headless_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     (void)err;
-    return settle(display, now_ns);
+    return update_screen(display, now_ns);
 }
 
 static bool headless_renew(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     (void)err;
-    return settle(display, now_ns);
+    return update_screen(display, now_ns);
 }
 
 static bool headless_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
@@ -61,7 +61,7 @@ static bool headless_begin(struct gn_display *display, int64_t now_ns, struct gn
     if (!display->screen.may_draw) return false;
     struct headless *h = display->headless;
     gn_flip_begun(&h->flip, now_ns);
-    return settle(display, now_ns);
+    return update_screen(display, now_ns);
 }
 
 static bool headless_present(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
@@ -69,12 +69,12 @@ static bool headless_present(struct gn_display *display, int64_t now_ns, struct 
     struct headless *h = display->headless;
     gn_flip_committed(&h->flip, now_ns);
     gn_flip_done(&h->flip, now_ns, now_ns);
-    return settle(display, now_ns);
+    return update_screen(display, now_ns);
 }
 
 static void headless_blank(struct gn_display *display, bool on, int64_t now_ns) {
     display->screen.blank = on;
-    settle(display, now_ns);
+    update_screen(display, now_ns);
 }
 
 void gn_screen_headless_close(struct gn_display *display) {

@@ -8,7 +8,7 @@
 
 static const uint32_t ground = 0x00202428, ink = 0x00e8e8e8;
 
-/* A picture on its side is as wide as it is high. */
+/* Width and height as seen, with the rotation applied. */
 static uint32_t upright_width(const struct gn_message_picture *p) {
     return p->turn_deg % 180 ? p->height_px : p->width_px;
 }
@@ -17,7 +17,7 @@ static uint32_t upright_height(const struct gn_message_picture *p) {
     return p->turn_deg % 180 ? p->width_px : p->height_px;
 }
 
-static void put(const struct gn_message_picture *p, uint32_t x, uint32_t y) {
+static void put_pixels(const struct gn_message_picture *p, uint32_t x, uint32_t y) {
     uint32_t at_x = x, at_y = y;
     if (x >= upright_width(p) || y >= upright_height(p)) return;
     if (p->turn_deg == 90) at_x = p->width_px - 1 - y, at_y = x;
@@ -32,10 +32,11 @@ static void draw_glyph(const struct gn_message_picture *p, char c, uint32_t x, u
     if (!rows) rows = gn_dot_font_rows('?');
     for (uint32_t i = 0; i < GN_DOT_FONT_ROWS * scale; i++)
         for (uint32_t k = 0; k < GN_DOT_FONT_COLUMNS * scale; k++)
-            if (rows[i / scale] >> (GN_DOT_FONT_COLUMNS - 1 - k / scale) & 1) put(p, x + k, y + i);
+            if (rows[i / scale] >> (GN_DOT_FONT_COLUMNS - 1 - k / scale) & 1)
+                put_pixels(p, x + k, y + i);
 }
 
-/* How much of the text goes on a line of so many characters. */
+/* Number of characters for a line of `room` characters. */
 static size_t line_length(const char *text, size_t room) {
     const size_t length = strlen(text);
     if (length <= room) return length;

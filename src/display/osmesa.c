@@ -1,6 +1,6 @@
-/* Mesa's off-screen library, opened at run time. A desktop core context; ARB_ES3_compatibility
- * makes it read the same shaders. It wants a buffer of its own to be current; pictures never go
- * there. */
+/* Mesa's off-screen library, opened at run time. A desktop core context; with ARB_ES3_compatibility
+ * it accepts the same shaders. OSMesa needs a buffer to be made current; frames are rendered to
+ * FBOs instead. */
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "core/arena.h"
 #include "display/private.h"
 
-enum { BUFFER_PX = 16 }; /* the side of the buffer that nobody draws to */
+enum { BUFFER_PX = 16 }; /* side of the unused buffer */
 
 struct osmesa {
     void *library;
@@ -20,7 +20,7 @@ struct osmesa {
     unsigned char buffer[BUFFER_PX * BUFFER_PX * 4];
 };
 
-static bool load(struct osmesa *o, struct gn_err *err) {
+static bool load_library(struct osmesa *o, struct gn_err *err) {
     o->library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
     if (!o->library) o->library = dlopen("libOSMesa.so.6", RTLD_NOW | RTLD_LOCAL);
     if (!o->library) return gn_fail(err, "libOSMesa.so.8 is missing; install libosmesa6");
@@ -44,9 +44,9 @@ static bool make_context(struct osmesa *o, struct gn_err *err) {
                                  3,
                                  0};
     o->context = o->create(wanted, NULL);
-    if (!o->context) return gn_fail(err, "libOSMesa makes no OpenGL 3.3 core context");
+    if (!o->context) return gn_fail(err, "libOSMesa cannot create an OpenGL 3.3 core context");
     if (!o->make_current(o->context, o->buffer, GL_UNSIGNED_BYTE, BUFFER_PX, BUFFER_PX))
-        return gn_fail(err, "libOSMesa does not make its context current");
+        return gn_fail(err, "OSMesaMakeCurrent failed");
     return true;
 }
 
@@ -55,7 +55,7 @@ static void osmesa_close(struct gn_display *display) {
     if (!o) return;
     if (o->context) o->make_current(NULL, NULL, 0, 0, 0);
     if (o->context) o->destroy(o->context);
-    free(o); /* the library stays: what it has started does not survive being unloaded */
+    free(o); /* the library stays loaded: threads it started do not survive dlclose */
     display->state = NULL;
 }
 
@@ -63,7 +63,7 @@ static bool osmesa_open(struct gn_display *display, struct gn_warnings *warnings
                         struct gn_err *err) {
     (void)warnings;
     struct osmesa *o = display->state = gn_xalloc(1, sizeof *o);
-    if (load(o, err) && make_context(o, err)) return true;
+    if (load_library(o, err) && make_context(o, err)) return true;
     osmesa_close(display);
     return false;
 }

@@ -1,7 +1,8 @@
-/* Stands in for osmesa.c where its package was missing at build time. */
+/* Replaces osmesa.c if its package was missing at build time. */
 #include "display/private.h"
 
-static bool refuse(struct gn_display *display, struct gn_warnings *warnings, struct gn_err *err) {
+static bool fail_open(struct gn_display *display, struct gn_warnings *warnings,
+                      struct gn_err *err) {
     (void)display, (void)warnings;
     return gn_fail(err, "not built in; install libosmesa6-dev and build again");
 }
@@ -17,7 +18,7 @@ const struct gn_display_ops gn_display_osmesa = {
     .name = "osmesa",
     .what = "off-screen rendering by the CPU (not built in)",
     .desktop = true,
-    .open = refuse,
+    .open = fail_open,
     .get_proc = no_proc,
     .close = no_close,
 };

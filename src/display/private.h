@@ -1,4 +1,4 @@
-/* The rows of the table of displays, one a file, and the screen that nobody sees. */
+/* Rows of the table of displays, and the headless screen. */
 #ifndef GN_DISPLAY_PRIVATE_H
 #define GN_DISPLAY_PRIVATE_H
 
@@ -8,8 +8,7 @@
 GN_DISPLAY_TABLE(X)
 #undef X
 
-/* A screen for displays that have none: lit from the start, its frames are shown at once, a timer
- * paces them. */
+/* Screen for displays without one: lit from the start; a timer paces frames, which end at once. */
 extern const struct gn_screen_ops gn_screen_headless; /* headless.c */
 void gn_screen_headless_close(struct gn_display *display);
 

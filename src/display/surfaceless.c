@@ -1,6 +1,6 @@
-/* EGL without any surface or window system: whatever GPU Mesa finds, or llvmpipe. The libraries are
- * opened at run time, so that the program starts, and says what to install, where they are missing.
- * Where there is no ES 3 a context of ES 2 is made current all the same: gl/ then names the GPU. */
+/* Surfaceless EGL on the GPU that Mesa selects, or llvmpipe. Libraries are opened at run time, so
+ * that the program starts without them and names the missing package. Without ES 3 an ES 2 context
+ * is made current, so that gl/ can name the GPU in its error. */
 #include <dlfcn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,19 +13,19 @@ struct surfaceless {
     struct gn_egl egl;
     EGLDisplay display;
     EGLContext context;
-    EGLSurface surface; /* EGL_NO_SURFACE where the driver needs none */
+    EGLSurface surface; /* EGL_NO_SURFACE if not needed */
 };
 
 static bool open_display(struct surfaceless *s, struct gn_err *err) {
     const char *client = s->egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!gn_egl_has(client, "EGL_MESA_platform_surfaceless"))
-        return gn_fail(err, "this EGL cannot draw without a window; install libegl-mesa0");
+        return gn_fail(err, "EGL lacks surfaceless contexts; install libegl-mesa0");
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_display =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)s->egl.GetProcAddress("eglGetPlatformDisplayEXT");
-    if (!get_display) return gn_fail(err, "this EGL has no eglGetPlatformDisplayEXT");
+    if (!get_display) return gn_fail(err, "EGL lacks eglGetPlatformDisplayEXT");
     s->display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
     if (s->display == EGL_NO_DISPLAY || !s->egl.Initialize(s->display, NULL, NULL))
-        return gn_fail(err, "EGL finds no driver (0x%x); install libgl1-mesa-dri",
+        return gn_fail(err, "eglInitialize failed (0x%x); install libgl1-mesa-dri",
                        s->egl.GetError());
     s->egl.BindAPI(EGL_OPENGL_ES_API);
     return true;
@@ -38,7 +38,7 @@ static bool choose_config(struct surfaceless *s, EGLint renderable, EGLint surfa
     return s->egl.ChooseConfig(s->display, wanted, out, 1, &count) && count > 0;
 }
 
-/* No config where that is allowed: nothing is ever drawn to a surface of EGL's. */
+/* Without a config if supported: nothing is drawn to an EGL surface. */
 static bool make_context(struct surfaceless *s, EGLint major, bool needs_surface) {
     const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
     const EGLint renderable = major >= 3 ? EGL_OPENGL_ES3_BIT_KHR : EGL_OPENGL_ES2_BIT;
@@ -58,10 +58,9 @@ static bool make_current(struct surfaceless *s, struct gn_err *err) {
     bool needs_surface =
         !gn_egl_has(s->egl.QueryString(s->display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context");
     if (!make_context(s, 3, needs_surface) && !make_context(s, 2, needs_surface))
-        return gn_fail(err, "the driver makes no OpenGL ES context (0x%x)", s->egl.GetError());
+        return gn_fail(err, "cannot create an OpenGL ES context (0x%x)", s->egl.GetError());
     if (!s->egl.MakeCurrent(s->display, s->surface, s->surface, s->context))
-        return gn_fail(err, "the driver does not make its context current (0x%x)",
-                       s->egl.GetError());
+        return gn_fail(err, "eglMakeCurrent failed (0x%x)", s->egl.GetError());
     return true;
 }
 
@@ -73,8 +72,8 @@ static void surfaceless_close(struct gn_display *display) {
         if (s->surface != EGL_NO_SURFACE) s->egl.DestroySurface(s->display, s->surface);
         if (s->context != EGL_NO_CONTEXT) s->egl.DestroyContext(s->display, s->context);
     }
-    /* The libraries stay, and so does the EGL display, which the next open gets again: terminating
-     * it unloads the driver, and what that has started does not always survive it. */
+    /* The libraries and the EGL display stay, and the next open reuses them: terminating unloads
+     * the driver, which its threads do not always survive. */
     free(s);
     display->state = NULL;
 }

@@ -35,8 +35,7 @@ void gn_glb_finish(struct gn_glb *glb);
 int gn_glb_add(struct gn_glb *glb, const char *array, json_t *item);
 /* Adds a bufferView with a copy of these bytes; returns its index. */
 int gn_glb_view(struct gn_glb *glb, const void *data, size_t size);
-/* Adds a bufferView and an accessor on it; returns the accessor's index. All floats must be finite.
- * */
+/* Adds a bufferView and an accessor on it; returns the accessor's index. Floats must be finite. */
 int gn_glb_accessor(struct gn_glb *glb, const struct gn_glb_accessor *accessor);
 json_t *gn_glb_floats(const float *values, int count);
 /* A JSON string; bytes that are not UTF-8 become question marks. */

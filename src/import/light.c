@@ -88,8 +88,7 @@ static float strength_of(const struct gn_import *import, const struct aiLight *l
     return PI * distance_m * distance_m / divisor;
 }
 
-/* assimp gives full cone angles; for Collada, which has one angle only, it invents the outer one.
- * */
+/* assimp gives full cone angles; for Collada, which has one only, it invents the outer one. */
 static void set_cone(const struct gn_import *import, json_t *object, const struct aiLight *light) {
     float outer = 0.5f * light->mAngleOuterCone, inner = 0.5f * light->mAngleInnerCone;
     if (import->format == GN_MODEL_DAE || !(outer > 0.01f)) outer = inner;

@@ -182,8 +182,7 @@ static int add_mesh(struct gn_import *import, const struct aiNode *node) {
     return -1;
 }
 
-/* Nodes with the same single mesh share one glTF mesh; nodes with several share their primitives.
- * */
+/* Nodes with the same single mesh share one glTF mesh; nodes with several share primitives. */
 int gn_import_mesh(struct gn_import *import, const struct aiNode *node) {
     if (node->mNumMeshes == 0) return -1;
     if (node->mNumMeshes > 1 || node->mMeshes[0] >= import->scene->mNumMeshes)

@@ -424,9 +424,9 @@ static void test_without_a_desktop_there_is_one_line(void **state) {
     const char *args[] = {"show", "--backend", "window", NULL};
     char *name = strdup(getenv("DISPLAY"));
     setenv("DISPLAY", ":no-such-display", 1);
-    assert_says(args, 1, "no desktop to be reached");
+    assert_says(args, 1, "no display server found");
     unsetenv("DISPLAY");
-    assert_says(args, 1, "no desktop to be reached");
+    assert_says(args, 1, "no display server found");
     setenv("DISPLAY", name, 1);
     free(name);
 }

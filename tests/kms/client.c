@@ -77,7 +77,7 @@ static unsigned take_events(struct client *c) {
     return events;
 }
 
-/* The supervisor's part. */
+/* As the supervisor does: a new process. */
 static void start_anew(struct client *c) {
     c->gave_up = true;
     c->restarts++;
@@ -141,7 +141,7 @@ static void step(struct client *c) {
 
 /* ---- time ---- */
 
-/* What `show` would do at once. */
+/* The kiosk would step again at once. */
 static bool is_busy(const struct client *c) {
     return client_screen(c)->lost || wants_frame(c) || c->heard || sim_readable(gn_kms_fd(c->kms));
 }
@@ -190,7 +190,7 @@ bool client_settle(struct client *c, int64_t within_ns, int64_t *took_ns) {
     c->moves = false;
     c->changed = true;
     *took_ns = 0;
-    for (int i = 0; i < 3; i++) { /* what is to happen may happen while we look on */
+    for (int i = 0; i < 3; i++) { /* other programs may act between these steps */
         const int64_t now_ns = i == 0 ? from_ns : sim_now();
         run_until_right(c, now_ns + within_ns);
         if (sim_now() - now_ns > *took_ns) *took_ns = sim_now() - now_ns;

@@ -5,7 +5,7 @@
 
 #define WITHIN (30 * SIM_S)
 
-/* ---- worlds ---- */
+/* ---- machines ---- */
 
 static const struct sim_traits good = {.console = true},
                                rich = {.console = true, .modifiers = true, .fences = true},
@@ -58,9 +58,9 @@ static void build_stranger(void) {
     sim_stranger_takes(0);
 }
 
-/* ---- plays ---- */
+/* ---- scenarios ---- */
 
-/* As client_run(), but of a picture that is still: where time shall pass, and not frames. */
+/* As client_run() with a still picture: for time to pass without frames. */
 static void rest(struct client *c, int64_t for_ns) {
     c->moves = false;
     client_run(c, for_ns);
@@ -92,7 +92,7 @@ static void change_monitor(struct client *c) {
     client_run(c, SIM_S / 2);
 }
 
-/* A twin, whose modes are the same, gets what it prefers and not what the other one had. */
+/* The twin has the same modes but gets its own preferred one. */
 static void change_twin(struct client *c) {
     sim_refuse_mode((struct sim_refusal){96, EINVAL, false});
     client_frames(c, 3);
@@ -202,7 +202,7 @@ static void gl_starts_late(struct client *c) {
     rest(c, 11 * SIM_S);
 }
 
-/* A night, in which much happens. */
+/* Blanked for a night with many events. */
 static void sleep_and_wake(struct client *c) {
     client_frames(c, 3);
     client_blank(c, true);
@@ -278,7 +278,7 @@ const struct scene scenes[] = {
 };
 const int scene_count = (int)(sizeof scenes / sizeof *scenes);
 
-/* ---- one of them ---- */
+/* ---- running one ---- */
 
 struct ending scene_run(const struct scene *scene, void (*prepare)(void *), void *context) {
     struct ending e = {0};

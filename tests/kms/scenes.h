@@ -1,5 +1,4 @@
-/* What screens go through, as short plays: each begins in a world of its own, and ends with
- * something that can be seen. */
+/* Scenarios for screens: each starts with a new simulated machine and ends in a visible result. */
 #ifndef GN_KMS_SCENES_H
 #define GN_KMS_SCENES_H
 
@@ -7,24 +6,24 @@
 
 struct scene {
     const char *name;
-    void (*build)(void);            /* the world */
-    void (*play)(struct client *c); /* between the opening and the end; NULL: a few frames */
+    void (*build)(void);            /* sets the machine up */
+    void (*play)(struct client *c); /* between opening and end; NULL: a few frames */
     struct gn_screen_opts opts;
-    int64_t slack_ns; /* it may take that much longer than others */
+    int64_t slack_ns; /* extra time it may take */
     bool may_give_up;
-    bool put_back;     /* the console's picture is there again when it has ended */
-    bool needs_atomic; /* what it shows cannot be mended by the older interface */
+    bool put_back;     /* the console is visible again at the end */
+    bool needs_atomic; /* the legacy interface cannot recover from it */
 };
 extern const struct scene scenes[];
 extern const int scene_count;
 
-/* The scene from its beginning to a picture that stays, or a complaint; then the end of the world.
- * `prepare`, if not NULL, is called when the world is built. */
+/* Runs a scenario until its picture is stable or a complaint, then closes everything. `prepare`, if
+ * not NULL, is called when the machine is set up. */
 struct ending {
-    int64_t took_ns; /* to a right picture, from the play's end */
+    int64_t took_ns; /* from the end of `play` to the right picture */
     long frames, calls;
     bool gave_up;
-    char complaint[240]; /* "": all is well */
+    char complaint[240]; /* "": success */
 };
 struct ending scene_run(const struct scene *scene, void (*prepare)(void *), void *context);
 

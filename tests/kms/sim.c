@@ -1,4 +1,4 @@
-/* The world: cards, monitors, strangers, and the clock. */
+/* The simulated machine: cards, monitors, other programs and the clock. */
 #include "sim.h"
 
 #include <dirent.h>
@@ -26,7 +26,7 @@ void sim_complain(const char *format, ...) {
 
 const char *sim_complaint(void) { return sim_counts.complaints > 0 ? first_complaint : ""; }
 
-/* ---- life ---- */
+/* ---- begin and end ---- */
 
 static int open_descriptors(void) {
     DIR *folder = opendir("/proc/self/fd");
@@ -126,7 +126,7 @@ void sim_refuse_mode(struct sim_refusal refusal) {
 
 void sim_allow_modes(void) { sim.refusal_count = 0; }
 
-/* ---- what happens ---- */
+/* ---- events ---- */
 
 void sim_plug(int n, int connector, int kind) {
     struct sim_card *card = &sim.cards[n];
@@ -169,7 +169,7 @@ void sim_stall(int n, enum sim_stall how) {
     }
 }
 
-/* Whoever takes the CRTCs waits for the flip, or the kernel gives it up. */
+/* A new owner of the CRTCs waits for the flip, or the kernel times it out. */
 static void take_over(struct sim_card *card, int owner) {
     for (int i = 0; i < SIM_CRTCS; i++)
         if (card->crtcs[i].flip.pending) sim_finish_flip(card, i);
@@ -248,7 +248,7 @@ bool sim_take_uevent(void) {
     return was;
 }
 
-/* ---- what is seen ---- */
+/* ---- what is visible ---- */
 
 static bool is_listed(int monitor, const drmModeModeInfo *mode) {
     drmModeModeInfo modes[SIM_MODES];
@@ -273,7 +273,7 @@ static bool connector_shows(const struct sim_card *card, int i, uint32_t colour)
     const struct sim_crtc_state *crtc = &card->state.crtcs[c->crtc];
     const struct sim_fb *shown = card->crtcs[c->crtc].shown;
     if (!crtc->active || !shown || !is_listed(card->plugged[i], &crtc->mode)) return false;
-    for (int p = SIM_CRTCS; p < SIM_PLANES; p++) /* an overlay is in the way */
+    for (int p = SIM_CRTCS; p < SIM_PLANES; p++) /* an overlay covers it */
         if (card->state.planes[p].crtc == c->crtc) return false;
     return colour_of(shown->bo) == colour;
 }

@@ -1,11 +1,10 @@
-/* A kernel and a GPU for tests of the screen on modesetting: libdrm's functions and GBM's behind
- * the two tables that gn_kms stands on, on a virtual clock. There is one world at a time.
+/* Simulated kernel and GPU for tests of the KMS screen: libdrm and GBM behind the two tables
+ * gn_kms uses, on a virtual clock. One machine at a time.
  *
- * It knows the kernel's rules: who is master, what an atomic commit must look like, that nothing is
- * committed while a flip is pending, that to remove a framebuffer that is shown darkens the CRTC.
- * It counts whatever is handed out, complains of what no program may do, and can let any call fail.
- * A picture is one colour, a number, so that what is on the screen can be told from what was drawn.
- */
+ * It implements the kernel's rules: who is master, what an atomic commit must contain, EBUSY
+ * while a flip is pending, removing a visible framebuffer switches the CRTC off. It counts
+ * objects, reports violations, and can make any call fail. A frame is one colour, a number, so
+ * that what is shown can be compared with what was drawn. */
 #ifndef GN_KMS_SIM_H
 #define GN_KMS_SIM_H
 
@@ -86,10 +85,9 @@ void sim_set_gpu(const struct sim_gpu *gpu);
 void sim_refuse_mode(struct sim_refusal refusal);
 void sim_allow_modes(void);
 
-/* Monitors: 0 none; `kind` 1.. chooses its modes and its EDID. SIM_TWIN: the same modes as
- * SIM_FULL_HD, another monitor. SIM_NO_EDID: the connector cannot tell. SIM_VIEWER and
- * SIM_WIDE_VIEWER have no EDID, and the same modes, of which they prefer another: as a virtual
- * card's when its viewer is resized. */
+/* Monitors: 0 none; `kind` 1.. selects modes and EDID. SIM_TWIN: same modes as SIM_FULL_HD, another
+ * monitor. SIM_NO_EDID: connection unknown. SIM_VIEWER and SIM_WIDE_VIEWER have no EDID and the
+ * same modes with another preferred one, like a virtual card whose viewer is resized. */
 enum {
     SIM_NO_MONITOR,
     SIM_FULL_HD,

@@ -1,4 +1,5 @@
-/* The atomic interface: a request is read into a copy of the card's state, and that is checked. */
+/* The atomic interface: a request is applied to a copy of the card's state, which is then
+ * validated. */
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>

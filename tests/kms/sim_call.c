@@ -1,5 +1,4 @@
-/* What all calls have in common: they are counted, some are made to fail, and between them things
- * happen. */
+/* Common entry of all calls: counting, fault injection and incidents between calls. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,9 +13,9 @@ static struct {
     uint64_t random;
     unsigned often;
     enum sim_incident incident;
-    long incident_at; /* 0: none to come */
+    long incident_at; /* 0: none pending */
     int64_t pass_ns;
-    int card, connector, monitor; /* that it hit */
+    int card, connector, monitor; /* what it affected */
 } plan;
 static bool traced;
 
@@ -25,7 +24,7 @@ void sim_call_reset(void) {
     plan.pass_ns = INT64_MAX;
 }
 
-/* ---- what fails ---- */
+/* ---- faults ---- */
 
 static const char *const op_names[SIM_OPS] = {
 #define X(function, name) [SIM_##name] = #function,
@@ -127,7 +126,7 @@ static int error_of(enum sim_op op) {
     return error_by_chance(op);
 }
 
-/* ---- what happens between calls ---- */
+/* ---- incidents ---- */
 
 void sim_happen(enum sim_incident what, long nth) {
     plan.incident = what;
@@ -148,7 +147,7 @@ static void happen(int card, int connector) {
     plan.pass_ns = sim.now_ns + 2 * SIM_S;
 }
 
-/* To the first card that is there, and its first monitor. */
+/* Affects the first card and its first monitor. */
 static void happen_somewhere(void) {
     plan.incident_at = 0;
     for (int n = 0; n < SIM_CARDS; n++)
@@ -197,7 +196,7 @@ struct sim_file *sim_find_file(int fd) {
 
 int sim_index_of(const struct sim_file *file) { return (int)(file - sim.files); }
 
-/* NULL: it has gone, whatever has come in its place. */
+/* NULL if the card is gone, also when another took its place. */
 struct sim_card *sim_card_of(const struct sim_file *file) {
     struct sim_card *card = &sim.cards[file->card];
     return card->present && card->life == file->life ? card : NULL;

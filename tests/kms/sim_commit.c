@@ -1,4 +1,4 @@
-/* What a card is told to show: the rules that a commit must keep, and flips on their way. */
+/* Commits: the rules they must obey, and pending flips. */
 #include <drm_fourcc.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -69,7 +69,7 @@ void sim_start_flip(struct sim_card *card, int crtc, const struct sim_flip *how)
     if (sim_is_stalled(c)) c->flip.done_ns = INT64_MAX;
 }
 
-/* A commit that blocks waits for flips, but not longer than 10 s. */
+/* A blocking commit waits for flips, at most 10 s. */
 void sim_wait_for_flips(struct sim_card *card) {
     for (int i = 0; i < SIM_CRTCS; i++) {
         const struct sim_flip *flip = &card->crtcs[i].flip;
@@ -115,7 +115,7 @@ static int check_crtc(const struct sim_card *card, const struct sim_state *next,
     for (int i = 0; i < SIM_CONNECTORS; i++) driven |= next->connectors[i].crtc == crtc;
     if (c->active && !c->has_mode) return EINVAL;
     if (c->has_mode != driven) return EINVAL;
-    if (next->connectors[1].crtc == 0) return EINVAL; /* its encoder cannot */
+    if (next->connectors[1].crtc == 0) return EINVAL; /* its encoder cannot drive it */
     if (!needs_modeset(&card->state, next, crtc)) return 0;
     if (!modeset) return EINVAL;
     return c->has_mode ? check_mode(&c->mode, test) : 0;
@@ -132,7 +132,7 @@ static int check_plane(struct sim_card *card, const struct sim_state *next, int 
         p->src[1] + p->src[3] > (uint64_t)fb->height_px << 16)
         return ENOSPC;
     if (p->src[2] >> 16 != (uint64_t)p->dst[2] || p->src[3] >> 16 != (uint64_t)p->dst[3])
-        return ERANGE; /* it does not scale */
+        return ERANGE; /* no scaling */
     const bool covers = p->dst[0] == 0 && p->dst[1] == 0 && p->dst[2] == mode->hdisplay &&
                         p->dst[3] == mode->vdisplay;
     return i < SIM_CRTCS && !covers ? EINVAL : 0;
@@ -146,7 +146,7 @@ int sim_check(struct sim_card *card, const struct sim_state *next, bool modeset,
     return error;
 }
 
-/* ---- taking ---- */
+/* ---- applying ---- */
 
 void sim_refresh(struct sim_card *card) {
     for (int i = 0; i < SIM_CRTCS; i++) {
@@ -187,7 +187,7 @@ static void drive(struct sim_state *next, int crtc, int connector, const drmMode
     const int old = next->connectors[connector].crtc;
     next->connectors[connector].crtc = crtc;
     next->connectors[connector].bad_link = false;
-    /* without a change of mode it sleeps on */
+    /* without a mode change it stays asleep */
     if (!same_mode(&next->crtcs[crtc].mode, mode)) next->connectors[connector].asleep = false;
     next->crtcs[crtc] = (struct sim_crtc_state){.active = true, .has_mode = true, .mode = *mode};
     bool still_driven = false;
@@ -197,7 +197,7 @@ static void drive(struct sim_state *next, int crtc, int connector, const drmMode
     next->planes[old].fb = 0, next->planes[old].crtc = -1;
 }
 
-/* Not one of the program's: the picture of the text console, or of somebody else. */
+/* Framebuffer of the text console or another program. */
 static struct sim_fb *owners_fb(struct sim_card *card, int owner, const drmModeModeInfo *mode) {
     for (int i = 0; i < SIM_FBS; i++)
         if (card->fbs[i].id && card->fbs[i].file == owner) {
@@ -230,7 +230,7 @@ void sim_set_console(struct sim_card *card, int owner) {
     sim_take(card, &next);
 }
 
-/* ---- the older interface ---- */
+/* ---- legacy interface ---- */
 
 struct sim_file *sim_enter_as_master(enum sim_op op, int fd) {
     struct sim_file *f = sim_enter(op, fd);
@@ -276,7 +276,7 @@ static int set_cursor(int fd, uint32_t id, uint32_t handle, uint32_t width, uint
     return f ? -ENXIO : -errno;
 }
 
-/* Of a connector there is DPMS alone to be set. */
+/* Only DPMS can be set on a connector. */
 static int set_connector(int fd, uint32_t id, uint32_t property, uint64_t value) {
     struct sim_file *f = sim_enter_as_master(SIM_ModeConnectorSetProperty, fd);
     if (!f) return -errno;
@@ -288,7 +288,7 @@ static int set_connector(int fd, uint32_t id, uint32_t property, uint64_t value)
     const int crtc = card->state.connectors[i].crtc;
     if (card->traits.legacy)
         card->state.connectors[i].asleep = !on;
-    else if (crtc >= 0) /* to drivers with the atomic interface it is that */
+    else if (crtc >= 0) /* drivers with the atomic interface map DPMS to ACTIVE */
         card->state.crtcs[crtc].active = on;
     return 0;
 }

@@ -1,4 +1,4 @@
-/* A GPU that paints numbers: contexts, surfaces of four buffers, frames. */
+/* A GPU that draws colours as numbers: contexts, surfaces of four buffers, frames. */
 #include <drm_fourcc.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -159,13 +159,13 @@ void sim_gl_reset(void) {
 
 /* ---- painting ---- */
 
-/* Where flips do not end in time, nobody knows what is shown. */
+/* While flips are stalled, it is undefined which buffer is shown. */
 static bool is_stalled(const struct sim_crtc *c) {
     return c->stall != SIM_FLOWS ||
            (c->flip.pending && sim.now_ns - c->flip.committed_ns > 250 * SIM_MS);
 }
 
-/* Nobody may be looking at it, and nobody soon. */
+/* The buffer must not be scanned out or queued. */
 static void check_unseen(const struct sim_bo *bo) {
     for (int n = 0; n < SIM_CARDS; n++)
         for (int i = 0; i < SIM_CRTCS; i++) {

@@ -1,4 +1,4 @@
-/* Memory, and what refers to it: files with their handles, framebuffers, blobs, mappings. */
+/* Memory and its references: files with handles, framebuffers, blobs, mappings. */
 #include <drm_fourcc.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -95,7 +95,7 @@ void sim_fb_unref(struct sim_fb *fb) {
     *fb = (struct sim_fb){0};
 }
 
-/* As drm_framebuffer_remove(): what shows it goes dark. */
+/* As drm_framebuffer_remove(): switches off what shows it. */
 void sim_fb_remove(struct sim_card *card, struct sim_fb *fb) {
     struct sim_state next = card->state;
     bool dark = false;
@@ -156,7 +156,7 @@ static int add_fb2_modifiers(int fd, uint32_t width, uint32_t height, uint32_t f
     return add_fb(file, width, height, format, handles, modifier[0], out);
 }
 
-/* A card that has gone takes its objects with it. */
+/* NULL for a card that is gone; its objects are gone with it. */
 static struct sim_card *card_of_fd(int fd, int *file) {
     const struct sim_file *f = sim_find_file(fd);
     *file = f ? sim_index_of(f) : -1;
@@ -291,7 +291,7 @@ static void unmap(void *memory, size_t size) {
 
 /* ---- files ---- */
 
-/* -1, errno. */
+/* Returns -1 with errno set. */
 static int open_card(const char *path) {
     if (sim_fails(SIM_open)) return -1;
     errno = ENOENT;

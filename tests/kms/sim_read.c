@@ -1,4 +1,4 @@
-/* What a program may ask a card: its objects, their properties, who is master. */
+/* Queries: a card's objects, their properties, and who is master. */
 #include <drm_fourcc.h>
 #include <errno.h>
 #include <stdio.h>
@@ -105,7 +105,7 @@ static uint32_t crtc_or_0(const struct sim_card *card, int crtc) {
 
 static uint32_t formats_id(const struct sim_card *card) { return card->base + 90; }
 
-/* A blob; 0 where the monitor has none. */
+/* 0 for a monitor without EDID. */
 static uint32_t edid_id(const struct sim_card *card, int kind) {
     const bool has = kind != SIM_NO_MONITOR && kind < SIM_VIEWER && kind != SIM_NO_EDID;
     return has ? card->base + 50 + (uint32_t)kind : 0;
@@ -173,7 +173,7 @@ static drmModePropertyPtr property(int fd, uint32_t id) {
     return p;
 }
 
-/* All alike but for the serial number. */
+/* They differ in the serial number only. */
 static drmModePropertyBlobPtr edid_blob(uint32_t id, int kind) {
     struct reply {
         drmModePropertyBlobRes blob;
@@ -296,7 +296,7 @@ static drmModeEncoderPtr encoder(int fd, uint32_t id) {
     drmModeEncoder *e = sim_reply(sizeof *e);
     e->encoder_id = id;
     e->crtc_id = crtc_or_0(card, card->state.connectors[i].crtc);
-    e->possible_crtcs = i == 0 ? 3 : 2; /* the second one has no choice */
+    e->possible_crtcs = i == 0 ? 3 : 2; /* the second encoder drives the second CRTC only */
     return e;
 }
 

@@ -1,11 +1,11 @@
-/* Inside the simulator. */
+/* State shared by the simulator's files. */
 #ifndef GN_KMS_SIM_STATE_H
 #define GN_KMS_SIM_STATE_H
 
 #include "sim.h"
 
 enum {
-    SIM_PLANES = 2 * SIM_CRTCS, /* a primary and an overlay for each CRTC */
+    SIM_PLANES = 2 * SIM_CRTCS, /* one primary and one overlay per CRTC */
     SIM_FBS = 48,
     SIM_BLOBS = 32,
     SIM_FILES = 8,
@@ -47,15 +47,15 @@ enum { SIM_PROP_BASE = 700 };
 struct sim_bo { /* memory */
     int refs;
     uint32_t colour;
-    uint8_t *pixels; /* a dumb buffer's */
+    uint8_t *pixels; /* of a dumb buffer */
     size_t size;
     uint32_t width_px, height_px;
 };
 struct sim_fb {
-    uint32_t id; /* 0: removed, but shown yet */
+    uint32_t id; /* 0: removed but still shown */
     int refs;
     int file;   /* owner, or SIM_CONSOLE.. */
-    bool asked; /* to be removed, in vain */
+    bool asked; /* removal was requested while shown */
     struct sim_bo *bo;
     uint32_t width_px, height_px, format;
 };
@@ -68,7 +68,7 @@ struct sim_blob {
 
 struct sim_crtc_state {
     bool active, has_mode;
-    uint32_t blob; /* that it was set with; the property's value */
+    uint32_t blob; /* of the mode property */
     drmModeModeInfo mode;
 };
 struct sim_plane_state {
@@ -82,9 +82,9 @@ struct sim_plane_state {
 struct sim_connector_state {
     int crtc;
     bool bad_link;
-    bool asleep; /* by the older interface */
+    bool asleep; /* legacy DPMS */
 };
-struct sim_state { /* what has been committed, though a flip may be on its way */
+struct sim_state { /* committed state; a flip to it may be pending */
     struct sim_crtc_state crtcs[SIM_CRTCS];
     struct sim_plane_state planes[SIM_PLANES];
     struct sim_connector_state connectors[SIM_CONNECTORS];
@@ -104,11 +104,11 @@ struct sim_crtc {
     int64_t lit_ns;
 };
 struct sim_card {
-    bool there, present; /* there: it has been added */
+    bool there, present; /* there: the card was added */
     char path[64], place[96];
     struct sim_traits traits;
-    unsigned life; /* counts its returns */
-    uint32_t base; /* of its objects' ids */
+    unsigned life; /* counts how often it was added */
+    uint32_t base; /* of its object ids */
     uint32_t next_id;
     int master;
     int plugged[SIM_CONNECTORS], known[SIM_CONNECTORS]; /* kinds of monitors */
@@ -129,7 +129,7 @@ struct sim_handle {
     bool dumb, asked;
 };
 struct sim_file {
-    int fd; /* 0: none */
+    int fd; /* 0: unused */
     int card;
     unsigned life;
     bool atomic, universal, was_master;
@@ -148,23 +148,23 @@ struct sim_world {
     struct sim_refusal refusals[SIM_BROKEN];
     int refusal_count, next_fd;
     bool uevent;
-    struct { /* an event that comes too late */
+    struct { /* a delayed event */
         struct sim_flip flip;
         int card, crtc;
     } late;
 };
 extern struct sim_world sim;
 
-/* sim_call.c: every call goes through one of these; NULL or true: it fails, and errno is set. */
+/* sim_call.c: entry of every call; NULL or true: the call fails with errno set. */
 struct sim_file *sim_enter(enum sim_op op, int fd);
 bool sim_fails(enum sim_op op);
 void sim_call_reset(void);
 int64_t sim_call_next(void);
-void sim_call_pass(void); /* what had happened has passed */
+void sim_call_pass(void); /* ends the current incident */
 struct sim_file *sim_find_file(int fd);
 struct sim_card *sim_card_of(const struct sim_file *file);
 int sim_index_of(const struct sim_file *file);
-void *sim_reply(size_t size); /* what libdrm would have allocated */
+void *sim_reply(size_t size); /* allocates as libdrm would */
 void sim_reply_free(void *reply);
 
 /* sim_memory.c */
@@ -189,9 +189,9 @@ uint32_t sim_connector_id(const struct sim_card *card, int i);
 uint32_t sim_encoder_id(const struct sim_card *card, int i);
 uint32_t sim_crtc_id(const struct sim_card *card, int i);
 uint32_t sim_plane_id(const struct sim_card *card, int i);
-int sim_index(uint32_t id, uint32_t first, int count); /* -1: none of these */
+int sim_index(uint32_t id, uint32_t first, int count); /* -1: not among these */
 
-/* sim_commit.c: 0 or an errno; what is taken becomes the card's state and is seen at once. */
+/* sim_commit.c: 0 or an errno; an accepted state is applied at once. */
 int sim_check(struct sim_card *card, const struct sim_state *next, bool modeset, bool test);
 void sim_take(struct sim_card *card, const struct sim_state *next);
 void sim_set_console(struct sim_card *card, int owner);
@@ -201,9 +201,9 @@ void sim_tell_late(void);
 bool sim_is_stalled(const struct sim_crtc *crtc);
 void sim_wait_for_flips(struct sim_card *card);
 struct sim_file *sim_enter_as_master(enum sim_op op, int fd);
-void sim_refresh(struct sim_card *card); /* what is shown is what has been committed */
+void sim_refresh(struct sim_card *card); /* updates what is shown from the committed state */
 
-/* The drm table's functions, by file. */
+/* Fill the drm table's functions, one per file. */
 void sim_fill_read(struct gn_drm_ops *ops);
 void sim_fill_commit(struct gn_drm_ops *ops);
 void sim_fill_atomic(struct gn_drm_ops *ops);

@@ -1,5 +1,5 @@
-/* A screen that is switched off on purpose: dark whatever happens, no failure however long it
- * takes, and at once there again. */
+/* Blanking: the screen stays dark through all events, never fails however long it takes, and
+ * returns at once. */
 #include <errno.h>
 #include <stdlib.h>
 
@@ -35,7 +35,7 @@ static void expect_right(const struct client_kind *kind) {
     assert_false(client_screen(&c)->blank);
 }
 
-/* Far beyond the ladder of a lost flip. */
+/* Much longer than the recovery of a lost flip takes. */
 static void test_a_night(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
@@ -50,7 +50,7 @@ static void test_a_night(void **state) {
         assert_string_equal(client_screen(&c)->status, "switched off");
         assert_int_equal(c.frames, frames);
         assert_int_equal(sim_counts.flips, flips);
-        assert_in_range(sim_counts.all_calls, calls, calls + 600); /* it sleeps, too */
+        assert_in_range(sim_counts.all_calls, calls, calls + 600); /* it is idle, too */
         assert_false(c.gave_up);
         assert_int_equal(client_screen(&c)->counts.opened, opened);
         const uint32_t last = c.colour;
@@ -81,7 +81,7 @@ static void test_in_the_middle_of_a_flip(void **state) {
         }
 }
 
-/* No event will tell of the flip that was on its way. */
+/* The pending flip gets no event. */
 static void test_a_flip_that_is_lost_is_no_failure_now(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
@@ -145,7 +145,7 @@ static void test_consoles_come_and_go(void **state) {
         expect_right(&kinds[i]);
         client_leave_console(&c);
         client_run(&c, SIM_S);
-        client_blank(&c, true); /* while it is away */
+        client_blank(&c, true); /* while another console is shown */
         client_run(&c, SIM_S);
         if (kinds[i].traits.console) assert_true(sim_shows_console(0));
         client_enter_console(&c);
@@ -207,7 +207,7 @@ static void test_at_the_end_the_console_is_seen(void **state) {
     }
 }
 
-/* Whatever the kernel says to it, it is dark in the end. */
+/* The screen ends dark whatever commits were refused. */
 static void test_the_kernel_refuses_for_a_while(void **state) {
     (void)state;
     static const int errors[] = {EBUSY, EINTR, ENOMEM, EACCES, EINVAL, ENOSPC, ENODEV};

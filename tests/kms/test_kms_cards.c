@@ -1,4 +1,4 @@
-/* Which card is taken, and what a card that comes and goes may not do. */
+/* Selection of cards, and cards that disappear and return. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,7 +32,7 @@ static void test_without_a_monitor_it_may_go_as_often_as_it_likes(void **state) 
     end();
 }
 
-/* Who opens a card that nobody has becomes its master. */
+/* Opening a card without a master makes the opener master. */
 static void test_one_that_returns_is_left_to_who_has_the_console(void **state) {
     (void)state;
     begin(SIM_FULL_HD, &(struct gn_screen_opts){0});
@@ -64,7 +64,7 @@ static void test_by_any_of_its_names(void **state) {
     expect_taken("/dev/dri/by-path/platform-gpu0-card");
 }
 
-/* udev makes such links in /dev/dri/by-path; their names need not be the card's place. */
+/* udev creates such links in /dev/dri/by-path; their names need not match the card's place. */
 static void test_by_a_link_to_it(void **state) {
     (void)state;
     char folder[] = "/tmp/gnomon-cards-XXXXXX", node[80], link[80], other[80];
@@ -74,7 +74,7 @@ static void test_by_a_link_to_it(void **state) {
     snprintf(other, sizeof other, "%s/pci-0000:01:00.0-card", folder);
     fclose(fopen(node, "w"));
     assert_int_equal(symlink("card1", link), 0);
-    assert_int_equal(symlink("card0", other), 0); /* leads to nothing */
+    assert_int_equal(symlink("card0", other), 0); /* dangling */
     for (int i = 0; i < 2; i++) {
         sim_begin();
         sim_add_card(0, "/dev/dri/card0", &(struct sim_traits){0});
@@ -93,7 +93,7 @@ static void test_by_a_link_to_it(void **state) {
     rmdir(folder);
 }
 
-/* What firmware or the console has set needs no switch, even if another mode is preferred. */
+/* The mode set by firmware or console is kept, even if another one is preferred. */
 static void test_the_mode_in_use_is_kept_at_the_start(void **state) {
     (void)state;
     begin(SIM_WIDE_VIEWER, &(struct gn_screen_opts){0});
@@ -124,14 +124,14 @@ static void expect_a_wait(int error) {
     }
 }
 
-/* A framebuffer that is refused for the moment is asked for again: no smaller mode, no copy. */
+/* A framebuffer refused temporarily is retried: no smaller mode, no copy. */
 static void test_a_framebuffer_that_is_refused_for_a_moment(void **state) {
     (void)state;
     expect_a_wait(ENOMEM);
     expect_a_wait(EBUSY);
 }
 
-/* In a sandbox nobody tells of monitors. */
+/* Containers receive no uevents. */
 static void test_without_uevents_it_looks_by_itself(void **state) {
     (void)state;
     client_has_uevents(false);

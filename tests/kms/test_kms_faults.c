@@ -1,9 +1,9 @@
-/* Every call of every scene is made to fail, with each errno that it can give, once and three times
- * in a row; and between every two calls the card goes, the monitor goes, another one comes,
- * somebody else becomes master, the link goes bad. Whatever happens, the right picture is seen at
- * the end, within bounded time, and nothing is left over.
+/* Fault injection: every call of every scenario fails, with each errno it can return, once and
+ * three times in a row; and between every two calls a card or monitor disappears, the monitor
+ * changes, another process becomes master, or the link goes bad. The right picture must be shown
+ * at the end, within bounded time, and nothing leak.
  *
- *   test_kms_faults SCENE                          one of them, by number, in full
+ *   test_kms_faults SCENE                          one scenario, by number, with details
  *   test_kms_faults SCENE plain                    its calls
  *   test_kms_faults SCENE OP NTH ERRNO [TIMES]     with that fault: drmModeRmFB 3 22
  *   test_kms_faults SCENE INCIDENT CALL            with that incident, both by number */

@@ -1,4 +1,4 @@
-/* Many frames in a row, on virtual time: no memory grows, nothing is allocated, none is missed. */
+/* Many frames in a row on virtual time: no growth, no allocation, no missed refresh. */
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static size_t bytes_in_use(void) {
     return info.uordblks + info.hblkhd;
 }
 
-/* 0, or 1 and what was wrong on standard output. */
+/* Returns 0, or 1 and prints what was wrong. */
 static int check(const struct kind *kind, long frames, size_t grown, unsigned long allocations,
                  const struct gn_screen_counts *counts) {
     const char *wrong = sim_complaint();

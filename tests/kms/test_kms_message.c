@@ -1,12 +1,11 @@
-/* A text in place of pictures: whenever it is asked for, it waits for no flip, stays through all
- * that comes and goes, and ends when it is told to. */
+/* A message in place of frames: it waits for no flip, survives all events, and ends on request. */
 #include <errno.h>
 #include <string.h>
 
 #include "client.h"
 #include "unit/check.h"
 
-enum { GROUND = 0x00202428 }; /* what message.c fills its pictures with */
+enum { GROUND = 0x00202428 }; /* background of message.c */
 
 static struct client c;
 static const struct client_kind kinds[] = {
@@ -48,7 +47,7 @@ static void test_it_waits_for_no_flip(void **state) {
             const int64_t from_ns = sim_now();
             const long waits = sim_counts.waits;
             say("no such scene");
-            assert_true(sim_now() - from_ns < 20 * SIM_MS); /* a modeset, at most */
+            assert_true(sim_now() - from_ns < 20 * SIM_MS); /* at most a modeset */
             client_run(&c, 100 * SIM_MS);
             expect_notice(&kinds[i], "no such scene");
             assert_int_equal(sim_counts.waits, waits);
@@ -68,7 +67,7 @@ static void test_one_after_another(void **state) {
         expect_notice(&kinds[i], "two");
         say("three");
         say(NULL);
-        say(NULL); /* there is none to end */
+        say(NULL); /* there is none */
         expect_right(&kinds[i]);
         say(NULL);
         expect_right(&kinds[i]);
@@ -109,7 +108,7 @@ static void test_it_stays_through_much(void **state) {
     }
 }
 
-/* Its event never comes: the ladder ends it, and then the text is seen. */
+/* Its event never comes: recovery ends it, then the text is shown. */
 static void test_after_a_flip_that_is_lost(void **state) {
     (void)state;
     begin(&kinds[0]);
@@ -123,7 +122,7 @@ static void test_after_a_flip_that_is_lost(void **state) {
     end(&kinds[0]);
 }
 
-/* GL does not start at all: the reason is the text, and nobody ends it but GL. */
+/* Without GL the reason is shown until GL starts. */
 static void test_without_gl(void **state) {
     (void)state;
     sim_begin();

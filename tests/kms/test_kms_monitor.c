@@ -1,4 +1,4 @@
-/* Which mode a monitor gets that comes after another one, or after itself. */
+/* Which mode a monitor gets after another one, or after itself. */
 #include <errno.h>
 
 #include "client.h"
@@ -22,7 +22,7 @@ static void expect_width(unsigned width_px) {
     c.moves = true;
 }
 
-/* Lit with its second mode, since the first could not be set then. */
+/* Lit with its second mode because the first was refused. */
 static void begin_with_second_mode(void) {
     sim_begin();
     sim_add_card(0, "/dev/dri/card0", &(struct sim_traits){0});
@@ -64,7 +64,7 @@ static void test_another_one_in_a_moment(void **state) {
     end();
 }
 
-/* The twin's mode could not be set either: when it comes back, the first one's is not its own. */
+/* The twin's mode was refused too: a returning monitor must not take over the other one's. */
 static void test_a_mode_belongs_to_the_one_it_was_lit_for(void **state) {
     (void)state;
     begin_with_second_mode();
@@ -120,7 +120,7 @@ static void test_a_cap_on_what_is_chosen_unasked(void **state) {
     end();
 }
 
-/* It says which, on the screen, too. */
+/* The reason is shown on the screen, too. */
 static void test_a_render_node_that_is_not_there(void **state) {
     (void)state;
     begin(SIM_FULL_HD, &(struct gn_screen_opts){.render_node = "/dev/dri/renderD200"});
@@ -135,7 +135,7 @@ static void test_a_render_node_that_is_not_there(void **state) {
     end();
 }
 
-/* A look at the wires stops a slow machine: only when something has happened, and now and then. */
+/* Probing stalls slow machines: only after events, and every 10 s. */
 static void test_while_there_is_none_the_wires_are_seldom_asked(void **state) {
     (void)state;
     begin(SIM_NO_MONITOR, &(struct gn_screen_opts){0});
@@ -155,13 +155,13 @@ static void test_without_a_uevent_it_is_seen_later(void **state) {
     (void)state;
     begin(SIM_NO_MONITOR, &(struct gn_screen_opts){0});
     sim_plug(0, 0, SIM_FULL_HD);
-    assert_true(sim_take_uevent()); /* nobody hears it */
+    assert_true(sim_take_uevent()); /* discarded */
     client_run(&c, 10500 * SIM_MS);
     assert_true(client_screen(&c)->lit);
     end();
 }
 
-/* Nobody has asked the wires while another console was shown. */
+/* No probing while another console was shown. */
 static void test_another_one_came_while_it_was_away(void **state) {
     (void)state;
     begin_with_second_mode();

@@ -1,6 +1,6 @@
-/* Random lives of a screen: monitors that come and go, consoles, cards that are lost, strangers,
- * stalls, calls that fail by chance, on cards of all kinds. At the end the world is whole again,
- * and then the right picture must be seen within bounded time, and nothing be left over.
+/* Random schedules: hotplug, VT switches, lost cards, other programs, stalls, random faults, on
+ * cards of all kinds. After each, the right picture must be shown within bounded time, and
+ * nothing leak.
  *
  *   test_kms_schedules [SEED]     one of them, with every call */
 #include <inttypes.h>

@@ -1,4 +1,4 @@
-/* The simulator itself: it keeps the kernel's rules, and sees what breaks them. */
+/* The simulator itself: it implements the kernel's rules and detects violations. */
 #include <drm_fourcc.h>
 #include <errno.h>
 
@@ -145,7 +145,7 @@ static void test_to_free_twice_is_seen(void **state) {
     assert_true(sim_counts.complaints == 1);
     sim_drm.close(k.fd);
     sim_drm.close(k.fd);
-    assert_true(sim_counts.complaints >= 3); /* the dumb buffer, too, is left */
+    assert_true(sim_counts.complaints >= 3); /* the dumb buffer is reported, too */
 }
 
 static void test_a_test_changes_nothing(void **state) {

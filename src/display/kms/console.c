@@ -25,7 +25,7 @@ static int find_tty(void) {
     return -1;
 }
 
-/* Several in one step: the last one counts. */
+/* Of several signals in one step, the last one counts. */
 static void take_signal(void *user, int number) {
     struct gn_console *c = user;
     c->leaves = number == LEAVE;

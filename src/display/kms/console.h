@@ -1,6 +1,5 @@
 /* The virtual terminal under the screen: graphics mode while frames are shown, with VT switches
- * under our control (VT_PROCESS). Does nothing without a VT (container, service without terminal).
- * */
+ * under our control (VT_PROCESS). Does nothing without a VT (container, service, ssh). */
 #ifndef GN_DISPLAY_KMS_CONSOLE_H
 #define GN_DISPLAY_KMS_CONSOLE_H
 

@@ -1,5 +1,4 @@
-/* The screen on the kernel's modesetting, with what it waits for: the card, the kernel's messages,
- * the console's signals and a timer. */
+/* The row `kms`: a KMS screen with its event sources: card, uevents, VT signals and a timer. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,13 +13,13 @@
 
 struct kms_screen {
     const struct gn_drm_ops *drm;
-    void *scanout; /* when it only draws off screen; else kms has one */
-    int node;      /* and its card */
+    void *scanout; /* GL context while only drawing off screen; otherwise kms has one */
+    int node;      /* descriptor of its card */
     struct gn_screen_opts opts;
     struct gn_kms *kms;
     struct gn_console console;
     struct gn_watch card, uevents; /* fd -1: none */
-    struct gn_timer timer;         /* when the machine is due */
+    struct gn_timer timer;         /* due at the state machine's deadline */
     unsigned events;               /* GN_KMS_EVENT_* since the last dispatch */
 };
 
@@ -36,7 +35,7 @@ static void on_uevent(void *user, uint32_t events, int64_t now_ns) {
     if (gn_uevent_read(s->uevents.fd)) s->events |= GN_KMS_EVENT_HOTPLUG;
 }
 
-/* A descriptor that was closed has left epoll by itself, and its number may be another's by now. */
+/* A closed descriptor has left epoll already, and its number may be reused. */
 static void watch_card(struct kms_screen *s) {
     const int fd = gn_kms_fd(s->kms);
     if (fd == s->card.fd) return;
@@ -45,8 +44,8 @@ static void watch_card(struct kms_screen *s) {
     if (fd < 0 || !gn_loop_add(s->opts.loop, &s->card)) s->card.fd = -1;
 }
 
-/* After every call into the machine. */
-static bool settle(struct gn_display *display, bool ok, int64_t now_ns) {
+/* Updates sources and state after every call of the state machine. */
+static bool update_screen(struct gn_display *display, bool ok, int64_t now_ns) {
     struct kms_screen *s = display->state;
     display->screen = *gn_kms_screen(s->kms);
     watch_card(s);
@@ -78,7 +77,7 @@ static void kms_close(struct gn_display *display) {
     display->state = NULL;
 }
 
-static struct kms_screen *create(struct gn_display *display, struct gn_err *err) {
+static struct kms_screen *create_screen(struct gn_display *display, struct gn_err *err) {
     const struct gn_drm_ops *drm = gn_drm_real(err);
     if (!drm) return NULL;
     struct kms_screen *s = display->state = gn_xalloc(1, sizeof *s);
@@ -95,7 +94,7 @@ static bool draw_on(struct kms_screen *s, const char *path, struct gn_err *err) 
     if (s->node < 0)
         return gn_fail(err, "%s: %s%s", path, strerror(errno),
                        errno == EACCES ? "; add the user to the group video" : "");
-    s->drm->DropMaster(s->node); /* whoever shows something is not to be kept from it */
+    s->drm->DropMaster(s->node); /* opening made us master, which would block other programs */
     s->scanout = gn_scanout_gbm.open(s->node, NULL, err);
     if (s->scanout) return true;
     s->drm->close(s->node);
@@ -103,15 +102,15 @@ static bool draw_on(struct kms_screen *s, const char *path, struct gn_err *err) 
     return gn_fail_prefix(err, "%s", path);
 }
 
-/* Off screen: the first card with which GL starts. */
+/* Off screen: the first card on which GL starts. */
 static bool kms_open(struct gn_display *display, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_kms_node nodes[GN_KMS_CARDS_MAX];
     struct gn_err why = {0};
     (void)warnings;
-    struct kms_screen *s = create(display, err);
+    struct kms_screen *s = create_screen(display, err);
     if (!s) return false;
     const int count = s->drm->list(nodes, GN_KMS_CARDS_MAX);
-    gn_fail(&why, "there is no card; load the kernel driver of the display");
+    gn_fail(&why, "no card in /dev/dri; load the kernel driver of the display");
     for (int i = 0; i < count; i++)
         if (draw_on(s, nodes[i].path, &why)) return true;
     *err = why;
@@ -122,7 +121,7 @@ static bool kms_open(struct gn_display *display, struct gn_warnings *warnings, s
 static bool kms_open_screen(struct gn_display *display, const struct gn_screen_opts *opts,
                             int64_t now_ns, struct gn_warnings *warnings, struct gn_err *err) {
     (void)warnings;
-    struct kms_screen *s = create(display, err);
+    struct kms_screen *s = create_screen(display, err);
     if (!s) return false;
     s->opts = *opts;
     if (!add_sources(s, err)) {
@@ -134,7 +133,7 @@ static bool kms_open_screen(struct gn_display *display, const struct gn_screen_o
                                    .find_holder = gn_kms_find_holder,
                                    .no_uevents = s->uevents.fd < 0};
     s->kms = gn_kms_create(&env, &s->opts, now_ns);
-    return settle(display, true, now_ns);
+    return update_screen(display, true, now_ns);
 }
 
 static bool kms_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
@@ -146,41 +145,41 @@ static bool kms_dispatch(struct gn_display *display, int64_t now_ns, struct gn_e
     s->console.entered = false;
     const bool ok = gn_kms_step(s->kms, events, now_ns, err);
     if (leaves) gn_console_let_go(&s->console);
-    return settle(display, ok, now_ns);
+    return update_screen(display, ok, now_ns);
 }
 
 static bool kms_renew(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     struct kms_screen *s = display->state;
     watch_card(s); /* before another descriptor gets its number */
-    return settle(display, gn_kms_renew(s->kms, now_ns, err), now_ns);
+    return update_screen(display, gn_kms_renew(s->kms, now_ns, err), now_ns);
 }
 
 static bool kms_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     struct kms_screen *s = display->state;
-    return settle(display, gn_kms_begin(s->kms, now_ns, err), now_ns);
+    return update_screen(display, gn_kms_begin(s->kms, now_ns, err), now_ns);
 }
 
 static bool kms_present(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     struct kms_screen *s = display->state;
-    return settle(display, gn_kms_present(s->kms, now_ns, err), now_ns);
+    return update_screen(display, gn_kms_present(s->kms, now_ns, err), now_ns);
 }
 
 static void kms_lose(struct gn_display *display, int64_t now_ns) {
     struct kms_screen *s = display->state;
     gn_kms_lose(s->kms, now_ns);
-    settle(display, true, now_ns);
+    update_screen(display, true, now_ns);
 }
 
 static void kms_blank(struct gn_display *display, bool on, int64_t now_ns) {
     struct kms_screen *s = display->state;
     gn_kms_blank(s->kms, on, now_ns);
-    settle(display, true, now_ns);
+    update_screen(display, true, now_ns);
 }
 
 static bool kms_show_message(struct gn_display *display, const char *text, int64_t now_ns) {
     struct kms_screen *s = display->state;
     gn_kms_show_message(s->kms, text, now_ns);
-    return settle(display, true, now_ns);
+    return update_screen(display, true, now_ns);
 }
 
 static bool is_free(const struct gn_drm_ops *drm, const char *path, struct gn_kms_card *card) {
@@ -223,7 +222,7 @@ static const struct gn_screen_ops kms_screen_ops = {
 const struct gn_display_ops gn_display_kms = {
     .name = "kms",
     .is_console = true,
-    .what = "full screen without a desktop (the kernel's modesetting)",
+    .what = "full screen without a desktop (kernel modesetting)",
     .open = kms_open,
     .get_proc = kms_get_proc,
     .close = kms_close,

@@ -1,4 +1,4 @@
-/* The functions of GLFW that window.c calls, as a table that it fills at run time. */
+/* The functions of GLFW used by window.c, as a table filled at run time. */
 #ifndef GN_DISPLAY_WINDOW_GLFW_H
 #define GN_DISPLAY_WINDOW_GLFW_H
 
@@ -49,7 +49,7 @@
 
 struct glfw {
     void *library;
-    struct gn_window_link link; /* once initialised */
+    struct gn_window_link link; /* valid once initialised */
 #define X(name) __typeof__(glfw##name) *(name);
     GLFW_TABLE(X)
 #undef X

@@ -1,9 +1,9 @@
 #include "display/window/key.h"
 
-/* By GLFW's numbers, which are part of its interface and never change (glfw3.h): keys that print
- * have that of their letter on an American keyboard. */
+/* GLFW's numbers are constant across versions (glfw3.h); printable keys have the code of their US
+ * layout character. */
 static const struct {
-    uint16_t from, to, first; /* from..to become first, first + 1, .. */
+    uint16_t from, to, first; /* from..to map to first, first + 1, .. */
 } ranges[] = {
     {32, 32, 57},    {39, 39, 40},    {44, 44, 51},    {45, 45, 12},    {46, 46, 52},
     {47, 47, 53},    {48, 48, 11},    {49, 57, 2},     {59, 59, 39},    {61, 61, 13},
@@ -18,7 +18,7 @@ static const struct {
 };
 
 unsigned gn_window_key(int glfw) {
-    /* where A to Z stand; Q is the window's own */
+    /* A to Z; Q belongs to the window */
     static const uint8_t letters[26] = {30, 48, 46, 32, 18, 33, 34, 35, 23, 36, 37, 38, 50,
                                         49, 24, 25, 0,  19, 31, 20, 22, 47, 17, 45, 21, 44};
     if (glfw >= 'A' && glfw <= 'Z') return letters[glfw - 'A'];

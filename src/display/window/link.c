@@ -8,7 +8,7 @@
 #define X11     "libX11.so.6"
 #define WAYLAND "libwayland-client.so.0"
 
-/* A function of a library that GLFW has loaded already; NULL without. The library stays. */
+/* A function of a library that GLFW has loaded; NULL if not loaded. Adds a reference. */
 static void *function_of(const char *library, const char *name) {
     void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
     return handle ? dlsym(handle, name) : NULL;
@@ -20,7 +20,7 @@ static void *ask_for_display(void *library, const char *name) {
     return get ? get() : NULL;
 }
 
-/* What is in the middle of something talks to it on, and Xlib complains of each request. */
+/* Requests in progress continue after the connection broke, and Xlib reports each on stderr. */
 static struct gn_window_link *only;
 static int end_quietly(void *display) {
     (void)display;
@@ -33,7 +33,7 @@ static void end_later(void *display, void *link) {
     ((struct gn_window_link *)link)->gone = true;
 }
 
-/* Else Xlib ends the program by itself, with a line of its own. */
+/* Otherwise Xlib prints a message and exits. */
 static void survive_the_server(struct gn_window_link *link) {
     void (*set_exit)(void *display, void (*handler)(void *, void *), void *data);
     void *(*set)(int (*handler)(void *));

@@ -1,9 +1,8 @@
-/* A window on a desktop, by GLFW: X11 or Wayland. Its libraries are opened at run time.
+/* A window on X11 or Wayland by GLFW. Libraries are opened at run time.
  *
- * GLFW has no descriptor to wait for, so the window system's connection is asked for its own. A
- * library below us may read that empty, and keep what is for us: after every call that might have,
- * events are polled. Frames are paced by a timer: a swap that waits for the screen would wait for
- * ever in a window that nobody sees. */
+ * GLFW exposes no descriptor, so that of the window system's connection is used. A library below
+ * may read that empty and queue our events, so events are polled after every call that might. A
+ * timer paces frames: a vsynced swap blocks forever while the window is hidden. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <stdio.h>
@@ -17,24 +16,25 @@
 #include "display/window/glfw.h"
 #include "display/window/key.h"
 
-/* One in a process, as the library is. It is never terminated: that unloads the driver, and what
- * that has started does not always survive it. */
+/* One per process, like the library. Never terminated: that unloads the driver, which its threads
+ * do not always survive. */
 static struct glfw glfw;
 
 struct window {
     GLFWwindow *handle;
     struct gn_screen_opts opts;
     bool shown, damaged;
-    bool toggles; /* full screen, when the events have been heard */
+    bool toggles; /* toggle full screen after event handling */
     bool iconified;
-    bool resized; /* since the last swap: the driver may have drawn to a buffer of the old size */
-    int width_px, height_px; /* of the framebuffer, as it was told: to ask is to read events */
-    struct gn_watch events;  /* the window system has some */
+    bool resized; /* resized since the last swap: that frame may have the old size */
+    int width_px,
+        height_px; /* framebuffer size from the last event; querying it would read events */
+    struct gn_watch events; /* the connection is readable */
     struct gn_timer timer;
     struct gn_flip flip;
     struct gn_pointer pointer;
     struct gn_drag drag;
-    int windowed[4]; /* x, y, width, height, before it became full screen */
+    int windowed[4]; /* x, y, width, height before full screen */
 };
 
 #define POLL_NS INT64_C(10000000)
@@ -42,7 +42,7 @@ enum { POLLS_MAX = 16 };
 
 /* ---- libraries ---- */
 
-static bool load(struct gn_err *err) {
+static bool load_glfw(struct gn_err *err) {
     if (glfw.library) return true;
     void *library = dlopen("libglfw.so.3", RTLD_NOW | RTLD_LOCAL);
     if (!library) return gn_fail(err, "libglfw.so.3 is missing; install libglfw3");
@@ -55,8 +55,8 @@ static bool load(struct gn_err *err) {
     return true;
 }
 
-/* What GLFW says about its last failure; never NULL. */
-static const char *why(void) {
+/* GLFW's last error; never NULL. */
+static const char *glfw_error(void) {
     const char *text = NULL;
     glfw.GetError(&text);
     return text ? text : "no reason given";
@@ -113,7 +113,7 @@ static void on_key(GLFWwindow *handle, int key, int code, int event, int modifie
     }
 }
 
-/* Letters by what they print: keyboards differ. */
+/* By character, not by key: layouts differ. */
 static void on_letter(GLFWwindow *handle, unsigned letter) {
     if (letter == 'q' || letter == 'Q')
         gn_pointer_act(&window_of(handle)->pointer, GN_POINTER_QUIT);
@@ -140,7 +140,7 @@ static void on_wheel(GLFWwindow *handle, double x, double y) {
     window_of(handle)->pointer.wheel += (float)y;
 }
 
-static void listen_to(struct window *w) {
+static void set_callbacks(struct window *w) {
     glfw.SetWindowUserPointer(w->handle, w);
     glfw.SetWindowCloseCallback(w->handle, on_close);
     glfw.SetWindowRefreshCallback(w->handle, on_refresh);
@@ -155,7 +155,7 @@ static void listen_to(struct window *w) {
 
 /* ---- full screen ---- */
 
-/* The monitor with the middle of the window; where windows do not know their place, the first. */
+/* The monitor below the window's centre; without window positions (Wayland), the first. */
 static GLFWmonitor *monitor_at(const int at[4]) {
     int count = 0;
     GLFWmonitor **all = glfw.GetMonitors(&count);
@@ -200,17 +200,17 @@ static void toggle_full_screen(struct window *w) {
     w->flip.period_ns = period_of(w);
 }
 
-/* ---- the screen as it is ---- */
+/* ---- published state ---- */
 
-/* What was heard while a frame was drawn is to be dispatched at once. */
+/* Events that arrived while drawing are dispatched at once. */
 static void set_timer(struct window *w, bool heard, int64_t now_ns) {
     int64_t at_ns = heard ? now_ns : gn_flip_deadline(&w->flip, now_ns);
     if (glfw.link.fd < 0 && at_ns > now_ns + POLL_NS) at_ns = now_ns + POLL_NS;
     w->timer.due_ns = at_ns;
 }
 
-/* After every call and whatever reads events: it reads none. */
-static bool settle(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+/* Updates the state after every call that may have read events; reads none itself. */
+static bool update_screen(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     struct window *w = display->state;
     struct gn_screen *s = &display->screen;
     if (gn_window_link_has_ended(&glfw.link)) {
@@ -248,21 +248,22 @@ static void window_close(struct gn_display *display) {
     display->state = NULL;
 }
 
-static struct window *create(struct gn_display *display, struct gn_err *err) {
-    if (!load(err)) return NULL;
+static struct window *create_window(struct gn_display *display, struct gn_err *err) {
+    if (!load_glfw(err)) return NULL;
     struct window *w = display->state = gn_xalloc(1, sizeof *w);
-    setenv("EGL_LOG_LEVEL", "fatal", 0); /* or Mesa chats on stderr about what it did not find */
+    setenv("EGL_LOG_LEVEL", "fatal", 0); /* otherwise Mesa prints to stderr */
     if (glfw.Init()) {
         if (!glfw.link.name) gn_window_link_open(&glfw.link, glfw.library);
         return w;
     }
-    gn_fail(err, "no desktop to be reached (%s); see WAYLAND_DISPLAY and DISPLAY", why());
+    gn_fail(err, "no display server found (%s); check WAYLAND_DISPLAY and DISPLAY", glfw_error());
     window_close(display);
     return NULL;
 }
 
-/* Hidden: it is shown with its first picture. */
-static bool make(struct window *w, uint32_t width_px, uint32_t height_px, bool srgb, bool robust) {
+/* Hidden until its first frame. */
+static bool make_window(struct window *w, uint32_t width_px, uint32_t height_px, bool srgb,
+                        bool robust) {
     const int hints[][2] = {
         {GLFW_CLIENT_API, GLFW_OPENGL_ES_API},
         {GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API},
@@ -270,7 +271,7 @@ static bool make(struct window *w, uint32_t width_px, uint32_t height_px, bool s
         {GLFW_CONTEXT_VERSION_MINOR, 0},
         {GLFW_CONTEXT_ROBUSTNESS, robust ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS},
         {GLFW_SRGB_CAPABLE, srgb},
-        {GLFW_SAMPLES, 0}, /* with more it averages values as they are encoded */
+        {GLFW_SAMPLES, 0}, /* multisampling would resolve encoded values */
         {GLFW_ALPHA_BITS, 0},
         {GLFW_STENCIL_BITS, 8},
         {GLFW_VISIBLE, GLFW_FALSE},
@@ -285,28 +286,29 @@ static bool make(struct window *w, uint32_t width_px, uint32_t height_px, bool s
     return w->handle;
 }
 
-/* With an encoding framebuffer and a context that tells of its loss, or without one of them. */
-static bool make_any(struct window *w, uint32_t width_px, uint32_t height_px, struct gn_err *err) {
+/* Prefers an sRGB framebuffer and a robust context; falls back to one or none of them. */
+static bool make_best_window(struct window *w, uint32_t width_px, uint32_t height_px,
+                             struct gn_err *err) {
     for (int i = w->opts.unencoded ? 2 : 0; i < 4; i++)
-        if (make(w, width_px, height_px, i < 2, i % 2 == 0)) return true;
-    return gn_fail(err, "the driver makes no window with OpenGL ES 3.0 (%s)", why());
+        if (make_window(w, width_px, height_px, i < 2, i % 2 == 0)) return true;
+    return gn_fail(err, "cannot create a window with OpenGL ES 3.0 (%s)", glfw_error());
 }
 
-/* Off screen: a window that is never shown. */
+/* Off screen: a hidden window. */
 static bool window_open(struct gn_display *display, struct gn_warnings *warnings,
                         struct gn_err *err) {
     (void)warnings;
-    struct window *w = create(display, err);
+    struct window *w = create_window(display, err);
     if (!w) return false;
-    if (make_any(w, 16, 16, err)) return true;
+    if (make_best_window(w, 16, 16, err)) return true;
     window_close(display);
     return false;
 }
 
 /* ---- the window as a screen ---- */
 
-/* What the driver gave of what was asked. */
-static bool encodes(const struct window *w) {
+/* Whether the framebuffer is really sRGB. */
+static bool is_srgb(const struct window *w) {
     __typeof__(eglQuerySurface) *query = (__typeof__(query))glfw.GetProcAddress("eglQuerySurface");
     EGLint space = 0;
     return query &&
@@ -324,14 +326,14 @@ static bool add_sources(struct window *w, struct gn_err *err) {
            gn_fail(err, "cannot wait for the window: %s", strerror(errno));
 }
 
-/* Whatever belongs to the handle, and with it to the context. */
+/* Everything bound to the window handle, including the context. */
 static bool make_screen(struct gn_display *display, uint32_t width_px, uint32_t height_px,
                         struct gn_err *err) {
     struct window *w = display->state;
     struct gn_screen *s = &display->screen;
-    if (!make_any(w, width_px, height_px, err)) return false;
-    listen_to(w);
-    /* On X11 a swap waits for the screen at most as long as it is late, and does not tear. */
+    if (!make_best_window(w, width_px, height_px, err)) return false;
+    set_callbacks(w);
+    /* X11: the swap waits at most when late, and does not tear */
     glfw.SwapInterval(glfw.link.x_pending ? 1 : 0);
     w->flip = (struct gn_flip){.no_vblank = true,
                                .period_ns = period_of(w),
@@ -340,7 +342,7 @@ static bool make_screen(struct gn_display *display, uint32_t width_px, uint32_t 
     w->flip.shortest_ns = w->opts.max_fps > 0 ? GN_NS_PER_S / w->opts.max_fps : 0;
     s->has_context = true;
     s->generation++;
-    s->srgb = encodes(w);
+    s->srgb = is_srgb(w);
     glfw.GetFramebufferSize(w->handle, &w->width_px, &w->height_px);
     poll_events();
     return true;
@@ -349,14 +351,14 @@ static bool make_screen(struct gn_display *display, uint32_t width_px, uint32_t 
 static bool window_open_screen(struct gn_display *display, const struct gn_screen_opts *opts,
                                int64_t now_ns, struct gn_warnings *warnings, struct gn_err *err) {
     (void)warnings;
-    struct window *w = create(display, err);
+    struct window *w = create_window(display, err);
     if (!w) return false;
     w->opts = *opts;
     if (add_sources(w, err)) {
         display->screen = (struct gn_screen){.rotate_deg = opts->rotate_deg};
         if (make_screen(display, opts->width_px ? opts->width_px : 1280,
                         opts->height_px ? opts->height_px : 720, err))
-            return settle(display, now_ns, err);
+            return update_screen(display, now_ns, err);
     }
     window_close(display);
     return false;
@@ -369,19 +371,19 @@ static bool window_dispatch(struct gn_display *display, int64_t now_ns, struct g
         toggle_full_screen(w);
         poll_events();
     }
-    return settle(display, now_ns, err);
+    return update_screen(display, now_ns, err);
 }
 
 static void window_lose(struct gn_display *display, int64_t now_ns) {
     display->screen.lost = true;
-    settle(display, now_ns, NULL);
+    update_screen(display, now_ns, NULL);
 }
 
-/* A window and its context are one: another takes its place. */
+/* Window and context are one object: recreates both. */
 static bool window_renew(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     struct window *w = display->state;
     int at[4];
-    if (!display->screen.lost) return settle(display, now_ns, err);
+    if (!display->screen.lost) return update_screen(display, now_ns, err);
     const bool full = glfw.GetWindowMonitor(w->handle);
     read_place(w, at);
     if (full) memcpy(at, w->windowed, sizeof at);
@@ -397,7 +399,7 @@ static bool window_renew(struct gn_display *display, int64_t now_ns, struct gn_e
     if (glfw.link.x_pending) glfw.SetWindowPos(w->handle, at[0], at[1]);
     if (full) toggle_full_screen(w);
     w->damaged = true;
-    return settle(display, now_ns, err);
+    return update_screen(display, now_ns, err);
 }
 
 static bool window_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
@@ -409,7 +411,7 @@ static bool window_begin(struct gn_display *display, int64_t now_ns, struct gn_e
         w->shown = true;
     }
     gn_flip_begun(&w->flip, now_ns);
-    if (!settle(display, now_ns, err) || !display->screen.may_draw) return false;
+    if (!update_screen(display, now_ns, err) || !display->screen.may_draw) return false;
     w->damaged = display->screen.damaged = false;
     return true;
 }
@@ -422,14 +424,14 @@ static bool window_present(struct gn_display *display, int64_t now_ns, struct gn
     gn_flip_committed(&w->flip, now_ns);
     gn_flip_done(&w->flip, now_ns, now_ns);
     poll_events();
-    return settle(display, now_ns, err);
+    return update_screen(display, now_ns, err);
 }
 
 static void window_blank(struct gn_display *display, bool on, int64_t now_ns) {
     struct window *w = display->state;
     w->damaged |= display->screen.blank != on;
     display->screen.blank = on;
-    settle(display, now_ns, NULL);
+    update_screen(display, now_ns, NULL);
 }
 
 static gn_display_proc window_get_proc(struct gn_display *display, const char *name) {
