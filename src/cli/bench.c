@@ -41,33 +41,14 @@ struct bench {
 
 /* ---- what takes part ---- */
 
-static bool add_entry(struct bench *b, const char *name, struct gn_err *err) {
-    enum gn_technique technique;
-    if (!gn_technique_find(name, &technique, err)) return false;
-    uint32_t count = b->report.run_count;
-    for (uint32_t i = 0; i < count; i++)
-        if (b->entries[i].opts.technique == technique)
-            return gn_fail_usage(err, "--shadow %s: %s is there twice", b->settings->render.shadow,
-                                 name);
-    b->entries[count].opts.technique = technique;
-    b->entries[count].opts.technique_given = true;
-    b->report.run_count++;
-    return true;
-}
-
-/* The names between the commas; without --shadow one entry, as the scene has it. */
-static bool choose_entries(struct bench *b, struct gn_err *err) {
-    if (!gn_settings_given(b->settings, render.shadow) || !b->settings->render.shadow) {
-        b->report.run_count = 1;
-        return true;
-    }
-    for (const char *at = b->settings->render.shadow;; at++) {
-        char name[32];
-        size_t length = strcspn(at, ",");
-        snprintf(name, sizeof name, "%.*s", (int)(length < 31 ? length : 31), at);
-        if (!add_entry(b, name, err)) return false;
-        at += length;
-        if (!*at) return true;
+/* Without --shadow one entry, as the scene has it. */
+static void choose_entries(struct bench *b) {
+    const struct gn_technique_list *list = &b->settings->render.shadow;
+    const bool given = gn_settings_given(b->settings, render.shadow);
+    b->report.run_count = given ? (uint32_t)list->count : 1;
+    for (uint32_t i = 0; given && i < b->report.run_count; i++) {
+        b->entries[i].opts.technique = (enum gn_technique)list->items[i];
+        b->entries[i].opts.technique_given = true;
     }
 }
 
@@ -215,7 +196,8 @@ static bool draw_first_picture(struct bench *b, struct gn_err *err) {
 
 static bool start(struct bench *b, struct gn_err *err) {
     const struct gn_settings *o = b->settings;
-    if (!choose_entries(b, err) || !gn_stage_load(&b->stage, o, b->warnings, err)) return false;
+    choose_entries(b);
+    if (!gn_stage_load(&b->stage, o, b->warnings, err)) return false;
     struct gn_driver_cache before = gn_driver_cache_read();
     prepare_entries(b);
     if (!gn_stage_open(&b->stage, b->warnings, err) || !draw_first_picture(b, err)) return false;

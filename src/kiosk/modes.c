@@ -32,16 +32,12 @@ static void list_techniques(struct gn_show *s) {
     gn_techniques_by_rank(order);
     for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
         const enum gn_technique technique = order[i];
-        const bool is_base = strcmp(gn_techniques[technique].name, o->render.shadow) == 0;
+        const bool is_base = technique == (enum gn_technique)o->render.shadow.items[0];
         if (only && !is_base) continue;
         if (gn_techniques[technique].on_plane && !is_base && !gn_planar_has_plane(s->stage.scene))
             continue;
+        if (is_base) modes->base = modes->count;
         add_mode(modes, gn_techniques[technique].name, is_base ? 0 : 1 + (int)technique);
-    }
-    modes->base = gn_show_find_mode(modes, o->render.shadow);
-    if (modes->base < 0) { /* one that the list does not know */
-        modes->base = modes->count;
-        add_mode(modes, o->render.shadow, 0);
     }
 }
 

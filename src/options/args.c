@@ -263,13 +263,6 @@ static bool choose_mode(struct gn_options *options, struct gn_err *err) {
            gn_fail_prefix(err, "%s", gn_settings_label(s, run.mode));
 }
 
-/* An INI file has been looked at as it was read. */
-static bool check_shadow(const struct gn_settings *s, struct gn_err *err) {
-    return s->run.command == GN_COMMAND_BENCH || !strchr(s->render.shadow, ',') ||
-           gn_fail_usage(err, "--shadow %s: one technique at a time; only bench takes a list",
-                         s->render.shadow);
-}
-
 /* Both come from the same source: reject instead of guessing. In a file only a warning, or a kiosk
  * would end. */
 static bool check_animation(const struct gn_settings *s, struct gn_warnings *warnings,
@@ -299,8 +292,7 @@ static bool understand(struct args *args, struct gn_warnings *warnings, struct g
         !apply_flags(args, err))
         return false;
     gn_options_resolve(options);
-    return choose_mode(options, err) && check_shadow(options->settings, err) &&
-           check_animation(options->settings, warnings, err);
+    return choose_mode(options, err) && check_animation(options->settings, warnings, err);
 }
 
 bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,

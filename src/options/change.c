@@ -97,13 +97,6 @@ const struct gn_option_row *gn_changes_find(const char *key, struct gn_err *err)
 
 /* ---- changing ------------------------------------------------------------------------------- */
 
-static bool check(const struct gn_option_row *row, const char *text, struct gn_err *err) {
-    const char *fixed = why_fixed(row);
-    if (fixed) return gn_fail_usage(err, "%s %s", row->name, fixed);
-    return row->kind != GN_KIND_TECHNIQUES || !strchr(text, ',') ||
-           gn_fail_usage(err, "set %s: \"%.80s\": one technique at a time", row->name, text);
-}
-
 static void swap_settings(struct gn_changes *changes) {
     struct gn_options *options = changes->options;
     struct gn_settings *before = options->all;
@@ -115,15 +108,16 @@ static void swap_settings(struct gn_changes *changes) {
 
 bool gn_changes_set(struct gn_changes *changes, const struct gn_option_row *row, const char *text,
                     struct gn_err *err) {
-    if (!check(row, text, err)) return false;
     const struct gn_options *options = changes->options;
+    const char *fixed = why_fixed(row);
+    if (fixed) return gn_fail_usage(err, "%s %s", row->name, fixed);
     struct change *change = &changes->rows[row - gn_option_rows];
     struct gn_arena *place = &change->places[!change->now];
     _Alignas(16) char value[sizeof(struct gn_limits)] = {0};
     snprintf(change->label, sizeof change->label, "set %s", row->name);
     place->block = PLACE_BYTES;
     gn_arena_reset(place);
-    if (!gn_value_parse(row, text, value, place, change->label, err)) return false;
+    if (!gn_options_parse(options, row, text, value, place, change->label, err)) return false;
     for (int i = 0; i < options->all_count; i++) {
         changes->spare[i] = options->all[i];
         gn_settings_put(&changes->spare[i], row, value, GN_SOURCE_SET, change->label);

@@ -129,25 +129,17 @@ static bool set_in_mode(struct load *load, const struct gn_option_row *row, cons
                         const char *label, int number, struct gn_err *err) {
     struct gn_arena *arena = &load->options->arena;
     struct gn_override *override = find_override(load->mode, row);
-    if (override) return gn_value_parse(row, text, override->value, arena, label, err);
+    if (override)
+        return gn_options_parse(load->options, row, text, override->value, arena, label, err);
     override = gn_arena_alloc(arena, 1, sizeof *override);
     void *value = gn_arena_alloc(arena, 1, gn_value_size(row->kind));
     const char *kept = gn_arena_strdup(arena, label);
     if (!override || !value || !kept) return gn_fail(err, "%s: no memory left", label);
-    if (!gn_value_parse(row, text, value, arena, label, err)) return false;
+    if (!gn_options_parse(load->options, row, text, value, arena, label, err)) return false;
     *override = (struct gn_override){.row = row, .value = value, .label = kept, .line = number};
     *load->link = override;
     load->link = &override->next;
     return true;
-}
-
-/* Where only one technique at a time is drawn a list is a mistake like any other. */
-static bool check_list(const struct load *load, const struct gn_option_row *row, const char *text,
-                       const char *label, struct gn_err *err) {
-    return row->kind != GN_KIND_TECHNIQUES ||
-           load->options->settings->run.command == GN_COMMAND_BENCH || !strchr(text, ',') ||
-           gn_fail_usage(err, "%s: \"%s\": one technique at a time; only bench takes a list", label,
-                         text);
 }
 
 static int line_before(struct load *load, const struct gn_option_row *row) {
@@ -171,7 +163,6 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
     char label[400], buffer[PATH_MAX];
     snprintf(label, sizeof label, "%s: %s", line->where, line->key);
     const char *text = resolve(load, row, line->value, buffer, sizeof buffer);
-    if (!check_list(load, row, text, label, err)) return false;
     if (load->mode) return set_in_mode(load, row, text, label, line->number, err);
     load->lines[row - gn_option_rows] = line->number;
     return gn_options_set(load->options, row, text, GN_SOURCE_INI, label, err);

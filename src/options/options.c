@@ -30,13 +30,23 @@ void gn_options_finish(struct gn_options *options) {
     *options = (struct gn_options){0};
 }
 
+bool gn_options_parse(const struct gn_options *options, const struct gn_option_row *row,
+                      const char *text, void *value, struct gn_arena *arena, const char *label,
+                      struct gn_err *err) {
+    if (!gn_value_parse(row, text, value, arena, label, err)) return false;
+    return row->kind != GN_KIND_TECHNIQUES || ((struct gn_technique_list *)value)->count < 2 ||
+           options->all[0].run.command == GN_COMMAND_BENCH ||
+           gn_fail_usage(err, "%s: \"%s\": one technique at a time; only bench takes a list", label,
+                         text);
+}
+
 bool gn_options_set(struct gn_options *options, const struct gn_option_row *row, const char *text,
                     enum gn_source source, const char *label, struct gn_err *err) {
     struct gn_settings *settings = &options->all[0];
     _Alignas(16) char value[sizeof(struct gn_limits)] = {0};
     if (settings->source[row - gn_option_rows] == source) /* NAME=VALUE adds */
         memcpy(value, gn_settings_value(settings, row), gn_value_size(row->kind));
-    if (!gn_value_parse(row, text, value, &options->arena, label, err)) return false;
+    if (!gn_options_parse(options, row, text, value, &options->arena, label, err)) return false;
     const char *kept = gn_arena_strdup(&options->arena, label);
     if (!kept) return gn_fail(err, "%s: no memory left", label);
     gn_settings_put(settings, row, value, source, kept);
@@ -56,7 +66,9 @@ void gn_options_resolve(struct gn_options *options) {
         *settings = options->all[0];
         if (options->mode_count == 0) {
             settings->mode = gn_techniques[i].name;
-            gn_settings_put(settings, shadow, &gn_techniques[i].name, GN_SOURCE_MODE, "--mode");
+            gn_settings_put(settings, shadow,
+                            &(struct gn_technique_list){.count = 1, .items = {(uint8_t)i}},
+                            GN_SOURCE_MODE, "--mode");
             continue;
         }
         settings->mode = options->modes[i].name;

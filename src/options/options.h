@@ -46,6 +46,11 @@ struct gn_options {
 void gn_options_init(struct gn_options *options, enum gn_command command);
 void gn_options_finish(struct gn_options *options);
 
+/* Reads one value, for this command: only bench takes a list of techniques. Texts are kept in the
+ * arena. See gn_value_parse(). */
+bool gn_options_parse(const struct gn_options *options, const struct gn_option_row *row,
+                      const char *text, void *value, struct gn_arena *arena, const char *label,
+                      struct gn_err *err);
 /* Sets one option from text, before the modes are resolved, if nothing stronger has set it. `label`
  * is how a message names it: "--size", "kiosk.ini:3: size". */
 bool gn_options_set(struct gn_options *options, const struct gn_option_row *row, const char *text,

@@ -24,7 +24,7 @@ GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .va
           .help = "shadow technique, for bench also a list with commas", .commands = DRAW, .offset = FIELD(render.shadow))
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
           .fallback = "1024", .help = "side of a shadow map, and of the table of one; of vssm and smsm 512 by itself", .commands = DRAW, .offset = FIELD(render.map_px))
-GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_WORD, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
+GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
           .help = "how a shadow map stores distance; from rg32ui on: what is kept of one that is filtered", .commands = DRAW, .offset = FIELD(render.map_format))
 GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
           .help = "planar shadows by a map in the plane, with soft edges, or by the picture's stencil, with exact ones", .commands = DRAW, .offset = FIELD(render.planar_in_stencil))

@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "options/table.h"
+#include "shadow/technique.h"
 
 struct gn_size {
     int width_px, height_px;
@@ -31,6 +32,15 @@ struct gn_scene_list {
     const char *paths[GN_SCENES_MAX]; /* [0] NULL: the default scene inside the program */
     int count;
 };
+struct gn_technique_list { /* each once */
+    int count;
+    uint8_t items[GN_TECHNIQUE_COUNT + 1]; /* enum gn_technique */
+};
+/* --map-format: an encoding for techniques that read the map itself, or moments for those that
+ * filter it. */
+#define GN_MAP_FORMAT(encoding, moments) ((int)(encoding) | (int)(moments) << 8)
+#define GN_MAP_FORMAT_ENCODING(format)   ((enum gn_encoding)((format)&0xff))
+#define GN_MAP_FORMAT_MOMENTS(format)    ((enum gn_moments)((format) >> 8))
 enum gn_picture { GN_PICTURE_SRGB, GN_PICTURE_LINEAR }; /* --output */
 
 enum gn_source {
@@ -53,11 +63,11 @@ struct gn_scene_settings {
 };
 struct gn_render_settings {
     struct gn_size size;
-    const char *shadow; /* technique; a comma list for bench. Given (see below) it beats what a
-                           light says */
-    int map_px;         /* given it beats what a light says */
-    const char *map_format;
-    int planar_in_stencil; /* 0, 1 */
+    struct gn_technique_list shadow; /* one; for bench any number. Given (see below) it beats what
+                                        a light says */
+    int map_px;                      /* given it beats what a light says */
+    int map_format;                  /* GN_MAP_FORMAT() */
+    int planar_in_stencil;           /* 0, 1 */
     int taps;
     bool taps_fixed;
     double filter_budget;   /* million texels; 0: no end */

@@ -19,19 +19,21 @@ static const struct gn_choice backends[] = {{"auto", 0},
                                             GN_DISPLAY_TABLE(X)
 #undef X
                                                 {0}};
-static const struct gn_choice map_formats[] = {{"auto", 0},
-                                               {"depth", 0},
-                                               {"r32ui", 0},
-                                               {"r16f", 0},
-                                               {"r16f-raw", 0},
-                                               {"rgba8", 0},
-                                               {"rg32ui", 0},
-                                               {"rgba16ui", 0},
-                                               {"rgba16f", 0},
-                                               {"rgba32f-bits", 0},
-                                               {"rgba32f-share", 0},
-                                               {"rgba32ui", 0},
-                                               {0}};
+static const struct gn_choice map_formats[] = {
+    {"auto", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE)},
+    {"depth", GN_MAP_FORMAT(GN_ENCODING_DEPTH, GN_MOMENTS_NONE)},
+    {"r32ui", GN_MAP_FORMAT(GN_ENCODING_R32UI, GN_MOMENTS_NONE)},
+    {"r16f", GN_MAP_FORMAT(GN_ENCODING_R16F, GN_MOMENTS_NONE)},
+    {"r16f-raw", GN_MAP_FORMAT(GN_ENCODING_R16F_RAW, GN_MOMENTS_NONE)},
+    {"rgba8", GN_MAP_FORMAT(GN_ENCODING_RGBA8, GN_MOMENTS_NONE)},
+    {"rg32ui", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RG32UI)},
+    {"rgba16ui", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA16UI)},
+    {"rgba16f", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA16F)},
+    {"rgba32f-bits", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA32F_BITS)},
+    {"rgba32f-share", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA32F_SHARE)},
+    {"rgba32ui", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_TABLE_RGBA32UI)},
+    {0},
+};
 static const struct gn_choice aovs[] = {
     {"color", GN_AOV_COLOR},       {"visibility", GN_AOV_VISIBILITY},
     {"distance", GN_AOV_DISTANCE}, {"normal", GN_AOV_NORMAL},

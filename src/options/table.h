@@ -32,7 +32,7 @@ enum gn_option_kind {
     GN_KIND_EV,         /* double, min..max, or NAN for "auto" */
     GN_KIND_CHOICE,     /* int: the value of a choice */
     GN_KIND_WORD,       /* const char *: the name of a choice; another room knows what it means */
-    GN_KIND_TECHNIQUES, /* const char *: names of shadow techniques, a comma between two */
+    GN_KIND_TECHNIQUES, /* struct gn_technique_list: names, a comma between two */
     GN_KIND_TEXT,       /* const char *: anything but nothing */
     GN_KIND_MODELINE,   /* const char *: a mode as X's configuration has it, without its name */
     GN_KIND_PATH,       /* const char *: in an INI file seen from the file's folder */

@@ -148,22 +148,29 @@ static bool parse_text(const struct gn_option_row *row, const char *text, void *
     return copy;
 }
 
-static bool is_technique(const char *name, size_t length) {
+static int find_technique(const char *name, size_t length) {
     for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
         if (strlen(gn_techniques[i].name) == length &&
             memcmp(gn_techniques[i].name, name, length) == 0)
-            return true;
-    return false;
+            return i;
+    return -1;
 }
 
+/* Of more names than there are techniques one is there twice, which check_techniques() finds. */
 static bool parse_techniques(const struct gn_option_row *row, const char *text, void *field,
                              struct gn_arena *arena) {
+    struct gn_technique_list list = {0};
+    (void)row, (void)arena;
     for (const char *at = text;; at++) {
-        size_t length = strcspn(at, ",");
-        if (!is_technique(at, length)) return false;
+        const size_t length = strcspn(at, ",");
+        const int found = find_technique(at, length);
+        if (found < 0) return false;
+        if (list.count <= GN_TECHNIQUE_COUNT) list.items[list.count++] = (uint8_t)found;
         at += length;
-        if (!*at) return parse_text(row, text, field, arena);
+        if (!*at) break;
     }
+    *(struct gn_technique_list *)field = list;
+    return true;
 }
 
 static bool parse_scenes(const struct gn_option_row *row, const char *text, void *field,
@@ -254,6 +261,15 @@ static bool check_limit(const void *field, struct gn_err *err) {
     return gn_scene_limits_set(&unused, last->name, (uint64_t)last->value, err);
 }
 
+static bool check_techniques(const void *field, struct gn_err *err) {
+    const struct gn_technique_list *list = field;
+    for (int i = 0; i < list->count; i++)
+        for (int k = 0; k < i; k++)
+            if (list->items[i] == list->items[k])
+                return gn_fail_usage(err, "%s is there twice", gn_techniques[list->items[i]].name);
+    return true;
+}
+
 static bool check_caps(const void *field, struct gn_err *err) {
     uint32_t unused;
     return gn_caps_parse(*(const char *const *)field, &unused, err);
@@ -335,6 +351,17 @@ static void text_of_text(const struct gn_option_row *row, const void *field, cha
     snprintf(out, size, "%s", text ? text : "");
 }
 
+static void text_of_techniques(const struct gn_option_row *row, const void *field, char *out,
+                               size_t size) {
+    const struct gn_technique_list *list = field;
+    size_t used = 0;
+    (void)row;
+    out[0] = '\0';
+    for (int i = 0; i < list->count && used < size; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i ? "," : "",
+                                 gn_techniques[list->items[i]].name);
+}
+
 static void text_of_scenes(const struct gn_option_row *row, const void *field, char *out,
                            size_t size) {
     const struct gn_scene_list *list = field;
@@ -371,8 +398,8 @@ static const struct {
     [GN_KIND_EV] = {sizeof(double), parse_ev, expect_ev, text_of_ev},
     [GN_KIND_CHOICE] = {sizeof(int), parse_choice, expect_choice, text_of_choice},
     [GN_KIND_WORD] = {sizeof(const char *), parse_word, expect_choice, text_of_text},
-    [GN_KIND_TECHNIQUES] = {sizeof(const char *), parse_techniques, expect_techniques,
-                            text_of_text},
+    [GN_KIND_TECHNIQUES] = {sizeof(struct gn_technique_list), parse_techniques, expect_techniques,
+                            text_of_techniques},
     [GN_KIND_TEXT] = {sizeof(const char *), parse_text, expect_text, text_of_text},
     [GN_KIND_MODELINE] = {sizeof(const char *), parse_text, expect_text, text_of_text},
     [GN_KIND_PATH] = {sizeof(const char *), parse_text, expect_text, text_of_text},
@@ -384,6 +411,7 @@ _Static_assert(sizeof kinds / sizeof kinds[0] == GN_KIND_COUNT, "a row per kind"
 
 static check_fn *const checks[GN_KIND_COUNT] = {
     /* or NULL */
+    [GN_KIND_TECHNIQUES] = check_techniques,
     [GN_KIND_LIMIT] = check_limit,
     [GN_KIND_CAPS] = check_caps,
     [GN_KIND_MODELINE] = check_modeline,
@@ -405,7 +433,7 @@ static const char *guess_value(const struct gn_option_row *row, const char *text
     char word[32];
     for (const struct gn_choice *c = row->choices; c && c->name; c++)
         gn_text_guess(&guess, text, c->name);
-    while (row->kind == GN_KIND_TECHNIQUES && is_technique(text, strcspn(text, ",")) &&
+    while (row->kind == GN_KIND_TECHNIQUES && find_technique(text, strcspn(text, ",")) >= 0 &&
            strchr(text, ','))
         text = strchr(text, ',') + 1;
     snprintf(word, sizeof word, "%.*s", (int)strcspn(text, ","), text);

@@ -67,14 +67,6 @@ bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *er
     return gn_fail_usage(err, "there is no map format '%s'; there are %s", name, names);
 }
 
-bool gn_map_format_find(const char *name, enum gn_encoding *encoding, enum gn_moments *moments,
-                        struct gn_err *err) {
-    *moments = GN_MOMENTS_NONE;
-    if (!gn_moments_find(name, moments)) return gn_encoding_find(name, encoding, err);
-    *encoding = GN_ENCODING_AUTO;
-    return true;
-}
-
 enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted,
                                     uint32_t proved, bool *fell_back) {
     static const enum gn_encoding by_distance[] = {GN_ENCODING_R16F, GN_ENCODING_R32UI,

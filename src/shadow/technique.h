@@ -80,11 +80,6 @@ bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *
 bool gn_encoding_find(const char *name, enum gn_encoding *out,
                       struct gn_err *err); /* knows "auto" */
 
-/* What --map-format names: an encoding, for techniques that read the map itself, or moments, for
- * the others. Of "auto" AUTO and NONE. */
-bool gn_map_format_find(const char *name, enum gn_encoding *encoding, enum gn_moments *moments,
-                        struct gn_err *err);
-
 /* The encoding that a technique gets: the wanted one, or for AUTO the first in the technique's
  * order that `proved` (a bit per encoding) has, else RGBA8. Where the wanted one is missing,
  * *fell_back is set and the automatic one taken. On the plane it is MASK, whatever is wanted; a map

@@ -105,6 +105,8 @@ static bool choose_frame(struct gn_frame_opts *f, const struct gn_settings *o,
         .output_linear = o->render.output == GN_PICTURE_LINEAR,
         .exposure_given = !isnan(o->render.exposure_ev),
         .exposure_ev = isnan(o->render.exposure_ev) ? 0.0f : (float)o->render.exposure_ev,
+        .encoding = GN_MAP_FORMAT_ENCODING(o->render.map_format),
+        .moments = GN_MAP_FORMAT_MOMENTS(o->render.map_format),
         .map_px = gn_settings_given(o, render.map_px) ? (uint32_t)o->render.map_px : 0,
         .planar_in_stencil = o->render.planar_in_stencil,
         .taps = (unsigned)o->render.taps,
@@ -116,11 +118,10 @@ static bool choose_frame(struct gn_frame_opts *f, const struct gn_settings *o,
         .show_lights = o->render.show_lights,
         .show_maps = o->render.show_maps,
     };
-    f->technique_given = gn_settings_given(o, render.shadow) && o->render.shadow;
-    return choose_camera(o, scene, &f->camera, warnings, err) &&
-           gn_map_format_find(o->render.map_format, &f->encoding, &f->moments, err) &&
-           (!f->technique_given || strchr(o->render.shadow, ',') ||
-            gn_technique_find(o->render.shadow, &f->technique, err));
+    f->technique_given = gn_settings_given(o, render.shadow);
+    if (f->technique_given && o->render.shadow.count == 1)
+        f->technique = (enum gn_technique)o->render.shadow.items[0];
+    return choose_camera(o, scene, &f->camera, warnings, err);
 }
 
 bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *settings,

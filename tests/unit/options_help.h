@@ -12,6 +12,12 @@ static struct gn_options options;
 static struct gn_warnings warnings;
 static struct gn_err err;
 
+static inline void assert_shadow(const char *name) {
+    const struct gn_technique_list *list = &options.settings->render.shadow;
+    assert_int_equal(list->count, 1);
+    assert_string_equal(gn_techniques[list->items[0]].name, name);
+}
+
 /* A teardown. */
 static inline int clean(void **state) {
     (void)state;

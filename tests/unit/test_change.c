@@ -64,11 +64,11 @@ static void a_change_beats_the_command_line_and_every_mode(void **state) {
     (void)state;
     assert_true(parse("show --shadow pcf2 --map 512"));
     assert_true(change("shadow", "pcss"));
-    assert_string_equal(options.settings->render.shadow, "pcss");
+    assert_shadow("pcss");
     assert_true(gn_options_choose(&options, "hard", &err));
-    assert_string_equal(options.settings->render.shadow, "pcss");
+    assert_shadow("pcss");
     options.settings = &options.all[0];
-    assert_string_equal(options.settings->render.shadow, "pcss");
+    assert_shadow("pcss");
     assert_string_equal(gn_settings_label(options.settings, render.shadow), "set shadow");
     assert_true(change("map", "256"));
     assert_int_equal(options.settings->render.map_px, 256);

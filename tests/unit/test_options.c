@@ -38,9 +38,10 @@ static void nothing_gives_the_defaults(void **state) {
     assert_int_equal(options.settings->render.size.width_px, 1280);
     assert_int_equal(options.settings->render.size.height_px, 720);
     assert_int_equal(options.settings->render.map_px, 1024);
-    assert_string_equal(options.settings->render.shadow, "pcf");
+    assert_shadow("pcf");
     assert_string_equal(options.settings->display.backend, "auto");
-    assert_string_equal(options.settings->render.map_format, "auto");
+    assert_int_equal(options.settings->render.map_format,
+                     GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE));
     assert_true(isnan(options.settings->render.exposure_ev));
     assert_true(options.settings->render.shadow_strength == 1);
     assert_false(gn_settings_given(options.settings, render.shadow));
@@ -132,6 +133,11 @@ static void a_wrong_value_names_option_value_and_range(void **state) {
     assert_wrong("bench --shadow pcf,,hard", "--shadow: \"pcf,,hard\" is not");
     assert_wrong("bench --shadow pcf,", "--shadow: \"pcf,\" is not");
     assert_wrong("show --shadow pcf,hard", "only bench takes a list");
+    assert_wrong("bench --shadow pcf,hard,pcf", "--shadow: pcf is there twice");
+    assert_wrong("bench --shadow "
+                 "pcf,hard,hard,hard,hard,hard,hard,hard,hard,hard,hard,hard,hard,hard,hard,hard,"
+                 "hard,hard,hard",
+                 "--shadow: hard is there twice");
     assert_wrong("render --limit nodes", "NAME=VALUE");
     assert_wrong("render --limit =5", "NAME=VALUE");
     assert_wrong("render --limit nodes=0", "NAME=VALUE");
@@ -215,12 +221,12 @@ static void help_and_version_need_nothing_else(void **state) {
 static void without_a_file_the_techniques_are_modes(void **state) {
     (void)state;
     assert_true(parse("render --mode hard"));
-    assert_string_equal(options.settings->render.shadow, "hard");
+    assert_shadow("hard");
     assert_int_equal(
         gn_settings_source(options.settings, offsetof(struct gn_settings, render.shadow)),
         GN_SOURCE_MODE);
     assert_true(parse("render --mode hard --shadow pcf3"));
-    assert_string_equal(options.settings->render.shadow, "pcf3");
+    assert_shadow("pcf3");
 }
 
 /* ---- the table ----------------------------------------------------------------------------- */
@@ -254,6 +260,25 @@ static void rows_are_complete_and_different(void **state) {
                         b->offset + gn_value_size(b->kind) <= a->offset);
         }
     }
+}
+
+/* The names of --map-format are those of two tables, and each stands for its own row. */
+static void a_map_format_is_named_as_its_row(void **state) {
+    (void)state;
+    int encodings = 0, moments = 0;
+    const struct gn_option_row *row = gn_option_find_key("render", "map_format");
+    for (const struct gn_choice *c = row->choices; c->name; c++) {
+        const enum gn_encoding encoding = GN_MAP_FORMAT_ENCODING(c->value);
+        const enum gn_moments kept = GN_MAP_FORMAT_MOMENTS(c->value);
+        if (kept != GN_MOMENTS_NONE)
+            assert_string_equal(c->name, gn_moments[kept].name), moments++;
+        else if (encoding != GN_ENCODING_AUTO)
+            assert_string_equal(c->name, gn_encodings[encoding].name), encodings++;
+        else
+            assert_string_equal(c->name, "auto");
+    }
+    assert_int_equal(moments, GN_MOMENTS_COUNT - 1);
+    assert_int_equal(encodings, GN_ENCODING_MASK); /* those before it have names for people */
 }
 
 static void every_key_finds_its_row(void **state) {
@@ -375,6 +400,7 @@ int main(void) {
         cmocka_unit_test_teardown(without_a_file_the_techniques_are_modes, clean),
         cmocka_unit_test(every_default_is_in_its_range),
         cmocka_unit_test(rows_are_complete_and_different),
+        cmocka_unit_test(a_map_format_is_named_as_its_row),
         cmocka_unit_test(every_key_finds_its_row),
         cmocka_unit_test(help_lists_what_the_parser_takes_and_nothing_else),
         cmocka_unit_test(options_of_the_display_are_taken),
