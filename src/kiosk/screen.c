@@ -5,6 +5,7 @@
 #include "core/clock.h"
 #include "core/stop.h"
 #include "kiosk/private.h"
+#include "options/value.h"
 #include "stage/wake.h"
 
 static bool is_srgb(const struct gn_settings *o) {
@@ -133,20 +134,12 @@ bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     return start_gl(s, err);
 }
 
-static bool same_text(const char *a, const char *b) {
-    return a == b || (a && b && strcmp(a, b) == 0);
-}
-
 bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b) {
-    return same_text(a->display.backend, b->display.backend) &&
-           same_text(a->display.connector, b->display.connector) &&
-           same_text(a->display.card, b->display.card) &&
-           same_text(a->display.render_node, b->display.render_node) &&
-           same_text(a->display.modeline, b->display.modeline) &&
-           memcmp(&a->display.mode, &b->display.mode, sizeof a->display.mode) == 0 &&
-           memcmp(&a->display.max_mode, &b->display.max_mode, sizeof a->display.max_mode) == 0 &&
-           memcmp(&a->render.size, &b->render.size, sizeof a->render.size) == 0 &&
-           a->display.rotate_deg == b->display.rotate_deg &&
-           a->display.max_fps == b->display.max_fps && a->display.legacy == b->display.legacy &&
-           is_srgb(a) == is_srgb(b);
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        const struct gn_option_row *row = &gn_option_rows[i];
+        if (row->reopens &&
+            !gn_value_same(row, gn_settings_value(a, row), gn_settings_value(b, row)))
+            return false;
+    }
+    return true;
 }

@@ -38,23 +38,14 @@ void gn_changes_destroy(struct gn_changes *changes) {
 
 /* ---- which ---------------------------------------------------------------------------------- */
 
-static const char *why_fixed(const struct gn_option_row *row) {
-    static const char *const of_the_start[] = {"shaders", "without", "limit", "socket"};
-    static const char *const of_the_display[] = {"size", "msaa"};
-    if (row->commands && !(row->commands & 1u << GN_COMMAND_SHOW)) return "is not for show";
-    if (row->kind == GN_KIND_SCENES)
-        return "is a list: change it in the configuration file, and reload; next-scene goes "
-               "through it";
-    for (size_t i = 0; i < sizeof of_the_start / sizeof of_the_start[0]; i++)
-        if (strcmp(row->name, of_the_start[i]) == 0)
-            return "is read as the kiosk starts: change it in the configuration file, and restart";
-    for (size_t i = 0; i < sizeof of_the_display / sizeof of_the_display[0]; i++)
-        if (strcmp(row->name, of_the_display[i]) == 0)
-            return "belongs to the display: change it in the configuration file, and reload";
-    return strcmp(row->section, "display") == 0
-               ? "belongs to the display: change it in the configuration file, and reload"
-               : NULL;
-}
+static const char *const why_fixed[] = {
+    [GN_CHANGE_NEVER] = "is not for show",
+    [GN_CHANGE_LIVE] = NULL,
+    [GN_CHANGE_RELOAD] =
+        "takes a reload: change it in the configuration file, then gnomon ctl reload",
+    [GN_CHANGE_RESTART] =
+        "takes a restart: change it in the configuration file, then restart the kiosk",
+};
 
 /* "max-fps" as "max_fps" */
 static void spell(const char *key, char *out, size_t size) {
@@ -68,8 +59,7 @@ static bool fail_key(const char *key, struct gn_err *err) {
     char names[GN_OPTION_COUNT][32];
     for (int i = 0; i < GN_OPTION_COUNT; i++) {
         gn_option_key(&gn_option_rows[i], names[i], sizeof names[i]);
-        if (gn_option_rows[i].section && !why_fixed(&gn_option_rows[i]))
-            gn_text_guess(&guess, key, names[i]);
+        if (gn_option_rows[i].change == GN_CHANGE_LIVE) gn_text_guess(&guess, key, names[i]);
     }
     if (guess.name)
         return gn_fail_usage(err, "unknown key \"%.60s\"; did you mean %s?", key, guess.name);
@@ -109,8 +99,8 @@ static void swap_settings(struct gn_changes *changes) {
 bool gn_changes_set(struct gn_changes *changes, const struct gn_option_row *row, const char *text,
                     struct gn_err *err) {
     const struct gn_options *options = changes->options;
-    const char *fixed = why_fixed(row);
-    if (fixed) return gn_fail_usage(err, "%s %s", row->name, fixed);
+    if (row->change != GN_CHANGE_LIVE)
+        return gn_fail_usage(err, "%s %s", row->name, why_fixed[row->change]);
     struct change *change = &changes->rows[row - gn_option_rows];
     struct gn_arena *place = &change->places[!change->now];
     _Alignas(16) char value[sizeof(struct gn_limits)] = {0};

@@ -5,41 +5,41 @@
 
 /* the scene, and how it stands */
 GN_OPTION(.name = "scene", .key = "file", .section = "scene", .kind = GN_KIND_SCENES, .value = "FILE",
-          .help = "the scene (.glb, .gltf, .obj, .fbx, .stl, .ply, .dae); given again it adds one that next-scene goes on to; on the command line it needs no flag", .offset = FIELD(scene.path))
+          .help = "the scene (.glb, .gltf, .obj, .fbx, .stl, .ply, .dae); given again it adds one that next-scene goes on to; on the command line it needs no flag", .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.path))
 GN_OPTION(.name = "camera", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N",
-          .help = "look through this camera of the scene", .commands = DRAW, .offset = FIELD(scene.camera))
+          .help = "look through this camera of the scene", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.camera))
 GN_OPTION(.name = "animation", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|none",
-          .help = "play only this clip; without it, all that do not collide", .commands = DRAW, .offset = FIELD(scene.animation))
+          .help = "play only this clip; without it, all that do not collide", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation))
 GN_OPTION(.name = "no-animation", .section = "scene", .kind = GN_KIND_FLAG,
-          .help = "leave the nodes as the file places them", .commands = DRAW, .offset = FIELD(scene.no_animation))
+          .help = "leave the nodes as the file places them", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.no_animation))
 GN_OPTION(.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",
-          .help = "start at this time of the animation", .commands = DRAW, .offset = FIELD(scene.time_ns))
+          .help = "start at this time of the animation", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.time_ns))
 GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min = -3600, .max = 3600, .value = "DEG",
           .unit = "degrees per second", .fallback = "0",
-          .help = "turn the camera around the scene", .commands = DRAW, .offset = FIELD(scene.turntable_deg_s))
+          .help = "turn the camera around the scene", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_deg_s))
 /* the picture */
 GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
-          .fallback = "1280x720", .help = "size of the picture", .commands = DRAW, .offset = FIELD(render.size))
+          .fallback = "1280x720", .help = "size of the picture", .commands = DRAW, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
 GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
-          .help = "shadow technique, for bench also a list with commas", .commands = DRAW, .offset = FIELD(render.shadow))
+          .help = "shadow technique, for bench also a list with commas", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.shadow))
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
-          .fallback = "1024", .help = "side of a shadow map, and of the table of one; of vssm and smsm 512 by itself", .commands = DRAW, .offset = FIELD(render.map_px))
+          .fallback = "1024", .help = "side of a shadow map, and of the table of one; of vssm and smsm 512 by itself", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_px))
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
-          .help = "how a shadow map stores distance; from rg32ui on: what is kept of one that is filtered", .commands = DRAW, .offset = FIELD(render.map_format))
+          .help = "how a shadow map stores distance; from rg32ui on: what is kept of one that is filtered", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_format))
 GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
-          .help = "planar shadows by a map in the plane, with soft edges, or by the picture's stencil, with exact ones", .commands = DRAW, .offset = FIELD(render.planar_in_stencil))
+          .help = "planar shadows by a map in the plane, with soft edges, or by the picture's stencil, with exact ones", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar_in_stencil))
 GN_OPTION(.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "16",
-          .help = "how many samples disk, poisson and pcss take", .commands = DRAW, .offset = FIELD(render.taps))
+          .help = "how many samples disk, poisson and pcss take", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps))
 GN_OPTION(.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,
-          .help = "take them alike in every pixel: bands instead of grain", .commands = DRAW, .offset = FIELD(render.taps_fixed))
+          .help = "take them alike in every pixel: bands instead of grain", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps_fixed))
 GN_OPTION(.name = "filter-budget", .section = "render", .kind = GN_KIND_NUMBER, .max = 10000, .value = "N", .unit = "million texels", .fallback = "4",
-          .help = "filtered maps that one frame makes again, when many lights move; the others wait a frame; 0: all", .commands = KIOSK, .offset = FIELD(render.filter_budget))
+          .help = "filtered maps that one frame makes again, when many lights move; the others wait a frame; 0: all", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(render.filter_budget))
 GN_OPTION(.name = "shadow-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1, .value = "X", .fallback = "1",
-          .help = "how much direct light a shadow takes away", .commands = DRAW, .offset = FIELD(render.shadow_strength))
+          .help = "how much direct light a shadow takes away", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.shadow_strength))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
-          .help = "draw a mark where each light stands", .commands = DRAW, .offset = FIELD(render.show_lights))
+          .help = "draw a mark where each light stands", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.show_lights))
 GN_OPTION(.name = "show-maps", .section = "render", .kind = GN_KIND_FLAG,
-          .help = "show the lights' shadow maps along the lower edge of the picture", .commands = DRAW, .offset = FIELD(render.show_maps))
+          .help = "show the lights' shadow maps along the lower edge of the picture", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.show_maps))
 GN_OPTION(.name = "light", .section = "render", .kind = GN_KIND_INT, .max = 65535, .value = "N", .fallback = "0",
           .help = "the light that --aov visibility and map show", .commands = BIT(RENDER), .offset = FIELD(render.light))
 GN_OPTION(.name = "aov", .section = "render", .kind = GN_KIND_CHOICE, .choices = aovs, .value = "WHAT", .fallback = "color",
@@ -47,52 +47,52 @@ GN_OPTION(.name = "aov", .section = "render", .kind = GN_KIND_CHOICE, .choices =
 GN_OPTION(.name = "output", .section = "render", .kind = GN_KIND_CHOICE, .choices = outputs, .value = "SPACE", .fallback = "srgb",
           .help = "linear writes linear colour as it is, for measurement", .commands = BIT(RENDER) | BIT(BENCH), .offset = FIELD(render.output))
 GN_OPTION(.name = "exposure", .section = "render", .kind = GN_KIND_EV, .min = -24, .max = 24, .value = "auto|EV", .unit = "stops",
-          .fallback = "auto", .help = "brightness: 0 shows radiance 1 as white", .commands = DRAW, .offset = FIELD(render.exposure_ev))
+          .fallback = "auto", .help = "brightness: 0 shows radiance 1 as white", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.exposure_ev))
 GN_OPTION(.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices = samples, .value = "N", .unit = "samples", .fallback = "0",
-          .help = "antialiasing; on a screen 4 where the GPU makes it cheap", .commands = DRAW, .offset = FIELD(render.msaa))
+          .help = "antialiasing; on a screen 4 where the GPU makes it cheap", .commands = DRAW, .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
 GN_OPTION(.name = "font", .section = "render", .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "write captions in this font (.ttf, .otf); without it in DejaVu Sans or the like, where there is one", .commands = KIOSK | BIT(RENDER), .offset = FIELD(render.font))
+          .help = "write captions in this font (.ttf, .otf); without it in DejaVu Sans or the like, where there is one", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_LIVE, .offset = FIELD(render.font))
 GN_OPTION(.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value = "DIR",
-          .help = "read the shaders from this folder", .commands = DRAW | BIT(DOCTOR), .offset = FIELD(render.shaders))
+          .help = "read the shaders from this folder", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.shaders))
 GN_OPTION(.name = "without", .section = "render", .kind = GN_KIND_CAPS, .value = "CAP,..",
-          .help = "pretend that these capabilities, named as doctor prints them, are missing", .commands = DRAW | BIT(DOCTOR), .offset = FIELD(render.without))
+          .help = "pretend that these capabilities, named as doctor prints them, are missing", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.without))
 GN_OPTION(.name = "limit", .section = "render", .kind = GN_KIND_LIMIT, .min = 1, .max = 1099511627776.0, .value = "NAME=VALUE",
-          .help = "a bound on what a scene may ask for; may be given again", .commands = DRAW | BIT(INSPECT), .offset = FIELD(render.limits))
+          .help = "a bound on what a scene may ask for; may be given again", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.limits))
 /* where it goes */
 GN_OPTION(.name = "backend", .section = "display", .kind = GN_KIND_WORD, .choices = backends, .value = "NAME", .fallback = "auto",
-          .help = "where pictures are drawn", .commands = DRAW | BIT(DOCTOR), .offset = FIELD(display.backend))
+          .help = "where pictures are drawn", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.backend))
 GN_OPTION(.name = "card", .section = "display", .kind = GN_KIND_TEXT, .value = "NAME",
-          .help = "the display's card, as in /dev/dri/by-path; without it, the first with a monitor", .commands = KIOSK, .offset = FIELD(display.card))
+          .help = "the display's card, as in /dev/dri/by-path; without it, the first with a monitor", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.card))
 GN_OPTION(.name = "render-node", .section = "display", .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "the GPU that draws, as in /dev/dri/by-path; without it, the one that goes with the card", .commands = KIOSK, .offset = FIELD(display.render_node))
+          .help = "the GPU that draws, as in /dev/dri/by-path; without it, the one that goes with the card", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.render_node))
 GN_OPTION(.name = "connector", .section = "display", .kind = GN_KIND_TEXT, .value = "NAME",
-          .help = "the display's connector; without it, the first connected", .commands = KIOSK, .offset = FIELD(display.connector))
+          .help = "the display's connector; without it, the first connected", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.connector))
 GN_OPTION(.name = "display-mode", .key = "mode", .section = "display", .kind = GN_KIND_MODE, .min = 16, .max = 16384,
-          .value = "WxH@HZ", .help = "the display's mode; without it, its current or preferred one up to --max-mode", .commands = KIOSK, .offset = FIELD(display.mode))
+          .value = "WxH@HZ", .help = "the display's mode; without it, its current or preferred one up to --max-mode", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.mode))
 GN_OPTION(.name = "max-mode", .section = "display", .kind = GN_KIND_MODE, .min = 16, .max = 16384, .value = "WxH@HZ",
-          .fallback = "1920x1080@60", .help = "a mode that is chosen unasked is no larger than this, and has no more pixels a second", .commands = KIOSK, .offset = FIELD(display.max_mode))
+          .fallback = "1920x1080@60", .help = "a mode that is chosen unasked is no larger than this, and has no more pixels a second", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.max_mode))
 GN_OPTION(.name = "modeline", .section = "display", .kind = GN_KIND_MODELINE, .value = "LINE",
-          .help = "a mode that the display does not list, as the program cvt prints it, without its name", .commands = KIOSK, .offset = FIELD(display.modeline))
+          .help = "a mode that the display does not list, as the program cvt prints it, without its name", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.modeline))
 GN_OPTION(.name = "rotate", .section = "display", .kind = GN_KIND_CHOICE, .choices = turns, .value = "DEG", .unit = "degrees",
-          .fallback = "0", .help = "turn the picture clockwise for a display on its side", .commands = KIOSK, .offset = FIELD(display.rotate_deg))
+          .fallback = "0", .help = "turn the picture clockwise for a display on its side", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.rotate_deg))
 GN_OPTION(.name = "max-fps", .section = "display", .kind = GN_KIND_INT, .min = 1, .max = 1000, .value = "N", .unit = "frames per second",
-          .help = "draw no faster than this; without it, as fast as the display", .commands = KIOSK, .offset = FIELD(display.max_fps))
+          .help = "draw no faster than this; without it, as fast as the display", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.max_fps))
 GN_OPTION(.name = "legacy", .section = "display", .kind = GN_KIND_FLAG,
-          .help = "use the kernel's older interface for displays", .commands = KIOSK, .offset = FIELD(display.legacy))
+          .help = "use the kernel's older interface for displays", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.legacy))
 /* what a kiosk does by itself */
 GN_OPTION(.name = "idle", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = idles, .value = "WHAT", .fallback = "none",
-          .help = "when nobody has done anything for a while, go back to the first mode, or on to the next", .commands = KIOSK, .offset = FIELD(kiosk.idle))
+          .help = "when nobody has done anything for a while, go back to the first mode, or on to the next", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle))
 GN_OPTION(.name = "idle-after", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = 1, .max = 86400, .value = "S", .unit = "seconds",
-          .fallback = "60", .help = "how long that while is", .commands = KIOSK, .offset = FIELD(kiosk.idle_after_ns))
+          .fallback = "60", .help = "how long that while is", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle_after_ns))
 GN_OPTION(.name = "fade", .section = "kiosk", .kind = GN_KIND_SECONDS, .max = 10, .value = "S", .unit = "seconds", .fallback = "0",
-          .help = "fade from one mode to the next for so long", .commands = KIOSK, .offset = FIELD(kiosk.fade_ns))
+          .help = "fade from one mode to the next for so long", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.fade_ns))
 /* what a kiosk lets itself be told, and says */
 GN_OPTION(.name = "socket", .section = "kiosk", .kind = GN_KIND_PATH, .value = "PATH",
-          .help = "the socket that ctl talks to; without it /run/gnomon/ctl, else $XDG_RUNTIME_DIR/gnomon/ctl", .commands = BIT(SHOW) | BIT(CTL), .offset = FIELD(kiosk.socket))
+          .help = "the socket that ctl talks to; without it /run/gnomon/ctl, else $XDG_RUNTIME_DIR/gnomon/ctl", .commands = BIT(SHOW) | BIT(CTL), .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.socket))
 GN_OPTION(.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallback = "yes",
-          .help = "name the mode when it changes", .offset = FIELD(kiosk.captions))
+          .help = "name the mode when it changes", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.captions))
 GN_OPTION(.name = "caption-seconds", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = .1, .max = 60, .value = "S", .unit = "seconds",
-          .fallback = "2", .help = "how long a caption stays", .offset = FIELD(kiosk.caption_ns))
+          .fallback = "2", .help = "how long a caption stays", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.caption_ns))
 /* the command's own */
 GN_OPTION(.name = "input-script", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "press keys and buttons as this file says: TIME_S down|up|click NAME a line", .commands = BIT(SHOW), .offset = FIELD(run.input_script))

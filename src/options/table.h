@@ -3,6 +3,7 @@
 #ifndef GN_OPTIONS_TABLE_H
 #define GN_OPTIONS_TABLE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum gn_command {
@@ -46,6 +47,13 @@ struct gn_choice { /* rows end with a NULL name */
     int value;
 };
 
+enum gn_change {                  /* when another value takes effect in a kiosk that runs */
+                 GN_CHANGE_NEVER, /* not an option of the kiosk's file */
+                 GN_CHANGE_LIVE,  /* `ctl set`, or a reload */
+                 GN_CHANGE_RELOAD,
+                 GN_CHANGE_RESTART,
+};
+
 struct gn_option_row {
     const char *name;    /* --name; the INI key has _ for - */
     const char *key;     /* INI key where it is another one, else NULL */
@@ -60,7 +68,9 @@ struct gn_option_row {
     const char *fallback; /* the default, as one would write it; NULL: unset (zero) */
     const char *help;     /* a phrase without full stop */
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
-    size_t offset;        /* of its field in struct gn_settings */
+    enum gn_change change;
+    bool reopens;  /* a reload that changes it opens the display again */
+    size_t offset; /* of its field in struct gn_settings */
 };
 enum {
     GN_OPTION_COUNT = 0

@@ -423,6 +423,12 @@ void gn_value_expected(const struct gn_option_row *row, char *out, size_t size) 
     kinds[row->kind].expected(row, out, size);
 }
 
+bool gn_value_same(const struct gn_option_row *row, const void *a, const void *b) {
+    if (kinds[row->kind].text != text_of_text) return memcmp(a, b, kinds[row->kind].size) == 0;
+    const char *x = *(const char *const *)a, *y = *(const char *const *)b;
+    return x == y || (x && y && strcmp(x, y) == 0);
+}
+
 void gn_value_text(const struct gn_option_row *row, const void *field, char *out, size_t size) {
     kinds[row->kind].text(row, field, out, size);
 }

@@ -17,6 +17,9 @@ size_t gn_value_size(enum gn_option_kind kind);
  * is not there. */
 void gn_value_text(const struct gn_option_row *row, const void *field, char *out, size_t size);
 
+/* Whether two fields hold the same. Not for limits and lists of scenes. */
+bool gn_value_same(const struct gn_option_row *row, const void *a, const void *b);
+
 /* "a whole number from 16 to 16384" */
 void gn_value_expected(const struct gn_option_row *row, char *out, size_t size);
 

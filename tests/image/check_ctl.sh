@@ -136,7 +136,7 @@ expect 2 '"99" is not auto or a number from -24 to 24' set exposure 99
 expect 2 "no camera is called 'Nosuch'" set camera Nosuch
 settle
 expect 0 'value: Top' get camera
-expect 2 'backend belongs to the display' set backend kms
+expect 2 'backend takes a reload' set backend kms
 expect 2 'did you mean shadow?' set shadwo pcf
 
 # ---- screenshots --------------------------------------------------------------------------------

@@ -250,6 +250,9 @@ static void rows_are_complete_and_different(void **state) {
         assert_non_null(a->name);
         assert_non_null(a->help);
         assert_true(a->commands || a->section);
+        const bool of_show = !a->commands || a->commands & 1u << GN_COMMAND_SHOW;
+        assert_int_equal(a->change != GN_CHANGE_NEVER, a->section && of_show);
+        assert_true(!a->reopens || a->change == GN_CHANGE_RELOAD);
         assert_true(!a->value == (a->kind == GN_KIND_FLAG));
         assert_true(a->offset + gn_value_size(a->kind) <= sizeof(struct gn_settings));
         for (int k = 0; k < i; k++) {
