@@ -52,9 +52,9 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
         gn_show_act(s, &action, event.time_ns);
         measure_edge(s, &before, event.time_ns);
     }
-    const bool tells =
+    const bool prints =
         s->config.options->buttons ||
         s->stage.settings->run.verbose; /* not of the default buttons, which few kiosks have */
     while (gn_input_report(s->buttons.input, text, sizeof text))
-        if (tells) fprintf(stderr, "gnomon: warning: %s\n", text);
+        if (prints) fprintf(stderr, "gnomon: warning: %s\n", text);
 }

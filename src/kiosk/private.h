@@ -77,7 +77,7 @@ struct gn_show_text {
 /* Work ahead: pieces that are done between frames. */
 struct gn_show_ahead {
     int64_t due_ns; /* when the next piece is, if there is any */
-    bool idle;      /* there was none when it was last looked for */
+    bool idle;      /* there was none at the last attempt */
 };
 /* A fade begins with a kept picture. */
 struct gn_show_fade {

@@ -16,9 +16,9 @@
 #include "display/display.h"
 
 struct gn_service {
-    int socket;            /* -1: nobody listens */
+    int socket;            /* -1: no $NOTIFY_SOCKET */
     struct gn_timer timer; /* ends the wait when step is due; added only with a watchdog */
-    int64_t every_ns;      /* half of the watchdog's patience; 0: no watchdog */
+    int64_t every_ns;      /* half of the watchdog's timeout; 0: no watchdog */
     int64_t next_ns;
     uint64_t shown; /* completed flips when it was fed last */
     bool ready;

@@ -42,7 +42,7 @@ static void print_line(void *user, int64_t now_ns) {
 void gn_show_stats_open(struct gn_show_stats *s, const struct gn_settings *settings,
                         const struct gn_display *display, struct gn_loop *loop) {
     s->display = display;
-    s->tells_first = settings->run.stats || settings->run.verbose;
+    s->prints_first = settings->run.stats || settings->run.verbose;
     s->last_ns = gn_loop_now_ns(loop);
     if (!settings->run.stats) return;
     s->due_ns = s->last_ns + GN_NS_PER_S;
@@ -57,8 +57,8 @@ void gn_show_stats_frame(struct gn_show_stats *s, int64_t draw_ns) {
     s->draw_ns += draw_ns;
     s->drawn++;
     s->all_drawn++;
-    if (!s->tells_first || s->first_is_told || !screen->lit) return;
-    s->first_is_told = true;
+    if (!s->prints_first || s->first_printed || !screen->lit) return;
+    s->first_printed = true;
     printf("first frame on %s\n", screen->what[0] ? screen->what : s->display->ops->name);
     fflush(stdout);
 }

@@ -1,5 +1,4 @@
-/* What a running kiosk says of itself: with --stats a line a second, with -v when the first frame
- * is sent. */
+/* Statistics on stdout: with --stats a line a second, with -v a line with the first frame. */
 #ifndef GN_KIOSK_STATS_H
 #define GN_KIOSK_STATS_H
 
@@ -21,7 +20,7 @@ struct gn_show_stats {
     const struct gn_display *display;
     struct gn_timer timer; /* of the next line; added only where lines are wanted */
     int64_t due_ns;
-    bool first_is_told, tells_first;
+    bool first_printed, prints_first;
     int64_t last_ns, draw_ns; /* since the last line: time spent drawing */
     uint64_t drawn, all_drawn;
     struct gn_screen_counts last;

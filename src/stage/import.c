@@ -123,11 +123,11 @@ static void read_log(int fd, struct gn_warnings *warnings, struct gn_err *err) {
 static bool run_program(const struct job *job, struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_child child = {
         .work = exec_program, .argument = job, .stop = gn_stop_asked, .stall_s = LONGEST_S};
-    struct gn_err end = {0}, said = {0};
+    struct gn_err end = {0}, reported = {0};
     bool ok = gn_child_run(&child, NULL, &end);
-    read_log(job->log, warnings, &said);
+    read_log(job->log, warnings, &reported);
     if (ok) return true;
-    if (said.text[0]) return gn_fail(err, "%s", said.text);
+    if (reported.text[0]) return gn_fail(err, "%s", reported.text);
     return gn_fail(err, "%s: " PROGRAM " %s; export it as .glb where it was made", job->path,
                    end.text);
 }

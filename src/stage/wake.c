@@ -9,7 +9,7 @@
 
 static const int crashes[GN_WAKE_CRASHES] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
-static int heard = STDERR_FILENO; /* for our own line */
+static int error_fd = STDERR_FILENO; /* for our own line */
 
 static void report_crash(int signal) {
     static const char line[] =
@@ -17,14 +17,14 @@ static void report_crash(int signal) {
         "to find one that works, choose it with --backend\n";
     (void)signal;
     gn_terminal_leave();
-    if (write(heard, line, sizeof line - 1) < 0) _exit(GN_EXIT_WORLD);
+    if (write(error_fd, line, sizeof line - 1) < 0) _exit(GN_EXIT_WORLD);
     _exit(GN_EXIT_WORLD);
 }
 
 void gn_wake_begin(struct gn_wake *wake, const struct gn_settings *settings) {
     const struct sigaction now = {.sa_handler = report_crash};
     wake->kept = settings->run.verbose ? -1 : gn_quiet_begin();
-    heard = wake->kept >= 0 ? wake->kept : STDERR_FILENO;
+    error_fd = wake->kept >= 0 ? wake->kept : STDERR_FILENO;
     for (int i = 0; i < GN_WAKE_CRASHES; i++) sigaction(crashes[i], &now, &wake->old[i]);
 }
 
