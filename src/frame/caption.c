@@ -34,7 +34,7 @@ static struct gn_rect add_quads(struct gn_frame *frame, const struct gn_caption_
         if (q->y + q->height > bottom) bottom = q->y + q->height;
     }
     if (right <= left) return (struct gn_rect){0};
-    return (struct gn_rect){(uint32_t)left, frame->picture_height_px - (uint32_t)bottom,
+    return (struct gn_rect){(uint32_t)left, frame->picture.height_px - (uint32_t)bottom,
                             (uint32_t)(right - left), (uint32_t)(bottom - top)};
 }
 
@@ -52,10 +52,10 @@ static void draw_run(struct gn_frame *frame, const struct gn_program_key *key,
     pass->picture.reads_atlas = true;
     pass->constants = c;
     pass->constant_count = CAPTION_SIZE;
-    c[CAPTION_PX][0] = 2.0f / (float)frame->picture_width_px;
-    c[CAPTION_PX][1] = 2.0f / (float)frame->picture_height_px;
-    c[CAPTION_PX][2] = frame->turn[0];
-    c[CAPTION_PX][3] = frame->turn[1];
+    c[CAPTION_PX][0] = 2.0f / (float)frame->picture.width_px;
+    c[CAPTION_PX][1] = 2.0f / (float)frame->picture.height_px;
+    c[CAPTION_PX][2] = frame->picture.turn[0];
+    c[CAPTION_PX][3] = frame->picture.turn[1];
     frame->plan.atlas = run->atlas;
     gn_frame_draw_bare(frame, key, 6, first, frame->instances.count - first);
     gn_frame_end_pass(frame);
@@ -66,7 +66,7 @@ void gn_frame_caption_pass(struct gn_frame *frame, const struct gn_frame_opts *o
     const struct gn_program_key key = key_of(frame);
     if (opts->aov != GN_AOV_COLOR) return;
     if (opts->captions_later) gn_frame_program(frame, &key);
-    if (run && run->width_px == frame->picture_width_px &&
-        run->height_px == frame->picture_height_px)
+    if (run && run->width_px == frame->picture.width_px &&
+        run->height_px == frame->picture.height_px)
         draw_run(frame, &key, run);
 }

@@ -25,7 +25,7 @@ static float pixel_width(const struct gn_frame *frame, const struct gn_eye *eye)
 static uint64_t choice_of(const struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_shadow_opts *opts) {
     const uint32_t by[] = {opts->map_px,         opts->all_receive,       opts->cascades,
-                           frame->camera,        frame->picture_width_px, frame->picture_height_px,
+                           frame->camera,        frame->picture.width_px, frame->picture.height_px,
                            (uint32_t)pose->clips};
     return gn_hash(GN_HASH_INIT, by, sizeof by);
 }
@@ -138,7 +138,7 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
                                   const struct gn_frame_opts *frame_opts, uint32_t slot,
                                   const struct gn_shadow_opts *opts) {
     const uint32_t light = gn_frame_light_of_slot(frame, slot)->light;
-    struct gn_light_note *note = &frame->notes.at[light];
+    struct gn_light_note *note = &frame->notes.lights.at[light];
     const uint64_t choice = choice_of(frame, pose, opts);
     if (!gn_cascade_can(&frame->scene->lights[light], &frame->eye, opts)) return 1;
     struct gn_cascade_choice *c = find_choice(note, choice);

@@ -95,7 +95,7 @@ static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const stru
     }
     if (!is_blended(frame, item)) return true;
     if (s->opts->aov == GN_AOV_COLOR)
-        GN_LIST_PUSH(&frame->blended) = (struct gn_placed){depth_of(frame, box, false), item};
+        GN_LIST_PUSH(&frame->items.blended) = (struct gn_placed){depth_of(frame, box, false), item};
     return false;
 }
 
@@ -141,34 +141,36 @@ static uint32_t bin_of(const struct gn_pose *pose, const struct gn_placed *place
  * thousands cost little). */
 static void draw_run(struct gn_frame *frame, const struct gn_pose *pose,
                      const struct gn_selection *s) {
-    uint32_t count = frame->run.count, start[2 * DEPTH_STEPS + 1] = {0};
+    uint32_t count = frame->items.run.count, start[2 * DEPTH_STEPS + 1] = {0};
     float least = INFINITY, most = -INFINITY;
-    frame->sorted.count = 0;
+    frame->items.sorted.count = 0;
     for (uint32_t i = 0; i < count; i++) {
-        least = fminf(least, frame->run.at[i].depth);
-        most = fmaxf(most, frame->run.at[i].depth);
-        GN_LIST_PUSH(&frame->sorted) = frame->run.at[i];
+        least = fminf(least, frame->items.run.at[i].depth);
+        most = fmaxf(most, frame->items.run.at[i].depth);
+        GN_LIST_PUSH(&frame->items.sorted) = frame->items.run.at[i];
     }
-    for (uint32_t i = 0; i < count; i++) start[bin_of(pose, &frame->run.at[i], least, most) + 1]++;
+    for (uint32_t i = 0; i < count; i++)
+        start[bin_of(pose, &frame->items.run.at[i], least, most) + 1]++;
     for (int k = 0; k < 2 * DEPTH_STEPS; k++) start[k + 1] += start[k];
     for (uint32_t i = 0; i < count; i++)
-        frame->sorted.at[start[bin_of(pose, &frame->run.at[i], least, most)]++] = frame->run.at[i];
+        frame->items.sorted.at[start[bin_of(pose, &frame->items.run.at[i], least, most)]++] =
+            frame->items.run.at[i];
     bool open = false;
     for (uint32_t i = 0; i < count; i++)
-        gn_frame_draw_item(frame, pose, s, frame->sorted.at[i].item, &open);
-    frame->run.count = 0;
+        gn_frame_draw_item(frame, pose, s, frame->items.sorted.at[i].item, &open);
+    frame->items.run.count = 0;
 }
 
 void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_selection *s) {
     uint32_t batch = UINT32_MAX;
-    frame->run.count = 0;
+    frame->items.run.count = 0;
     for (uint32_t i = 0; i < frame->scene->item_count; i++) {
         if (!takes(frame, pose, s, i)) continue;
         if (frame->scene->items[i].batch != batch) draw_run(frame, pose, s);
         batch = frame->scene->items[i].batch;
         float depth = s->casts ? 0.0f : depth_of(frame, &pose->items[i].box_ws, false);
-        GN_LIST_PUSH(&frame->run) = (struct gn_placed){depth, i};
+        GN_LIST_PUSH(&frame->items.run) = (struct gn_placed){depth, i};
     }
     draw_run(frame, pose, s);
 }

@@ -40,7 +40,7 @@ static void turn(const struct gn_pose *pose, float angle_rad, mat4 view_from_wor
 
 /* Turned in the output: to a screen on its side it costs nothing. */
 static void turn_picture(const struct gn_frame *frame, mat4 clip_from_view) {
-    const float c = frame->turn[0], s = frame->turn[1];
+    const float c = frame->picture.turn[0], s = frame->picture.turn[1];
     for (int k = 0; k < 4; k++) {
         const float x = clip_from_view[k][0], y = clip_from_view[k][1];
         clip_from_view[k][0] = c * x + s * y;
@@ -74,7 +74,7 @@ struct look {
 static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
                       const struct gn_frame_opts *opts, struct look *look) {
     const struct gn_camera *camera = &frame->scene->cameras[opts->camera];
-    float aspect = (float)frame->picture_width_px / (float)frame->picture_height_px;
+    float aspect = (float)frame->picture.width_px / (float)frame->picture.height_px;
     mat4 clip_from_view;
     float reach_m[2]; /* to what is looked at, and to the end of the scene */
     reach_m[0] = gn_orbit_view(&opts->orbit, pose, (uint32_t)opts->camera, look->view_from_world,

@@ -14,7 +14,7 @@ static uint32_t asked_px(const struct gn_frame *frame, const struct gn_frame_lig
 static void say_smaller(struct gn_frame *frame, const struct gn_frame_light *light, uint32_t asked,
                         uint32_t map_px, struct gn_warnings *warnings) {
     if (map_px >= asked ||
-        !gn_frame_notice(&frame->notes.at[light->light].said, GN_NOTICE_MAP_PX, warnings))
+        !gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_MAP_PX, warnings))
         return;
     gn_warn(warnings,
             "light \"%s\": tiles of %u px in its map are more than this GPU holds; they have %u px",

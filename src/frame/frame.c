@@ -23,11 +23,11 @@ void gn_frame_destroy(struct gn_frame *frame) {
     free(frame->draws.at);
     free(frame->instances.at);
     free(frame->programs.at);
-    free(frame->blended.at);
-    free(frame->run.at);
-    free(frame->sorted.at);
+    free(frame->items.blended.at);
+    free(frame->items.run.at);
+    free(frame->items.sorted.at);
     free(frame->passes.at);
-    free(frame->notes.at);
+    free(frame->notes.lights.at);
     for (int i = 0; i < GN_ALL_SHADOWS_MAX; i++)
         for (int tile = 0; tile < GN_SHADOW_TILES_MAX; tile++)
             gn_shadow_memory_finish(&frame->memory[i][tile]);
@@ -56,11 +56,11 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
         plan->encode_srgb = true;
     }
     if (opts->aov == GN_AOV_COLOR && opts->output_float && plan->output != GN_OUTPUT_FLOAT &&
-        gn_frame_notice(&frame->said, GN_NOTICE_FLOAT, warnings))
+        gn_frame_notice(&frame->notes.said, GN_NOTICE_FLOAT, warnings))
         gn_warn(warnings, "this GPU cannot draw to half floats: colour has 8 bits and ends at 1");
     if (plan->msaa && !(frame->caps.has & 1u << GN_CAP_MSAA4)) {
         plan->msaa = 0;
-        if (gn_frame_notice(&frame->said, GN_NOTICE_MSAA, warnings))
+        if (gn_frame_notice(&frame->notes.said, GN_NOTICE_MSAA, warnings))
             gn_warn(warnings, "this GPU cannot antialias by multisampling: --msaa 0 is used");
     }
 }
@@ -84,9 +84,9 @@ static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose
 static void turn(struct gn_frame *frame, unsigned deg) {
     static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const bool on_side = deg / 90 % 2;
-    frame->picture_width_px = on_side ? frame->plan.height_px : frame->plan.width_px;
-    frame->picture_height_px = on_side ? frame->plan.width_px : frame->plan.height_px;
-    memcpy(frame->turn, turns[deg / 90 % 4], sizeof frame->turn);
+    frame->picture.width_px = on_side ? frame->plan.height_px : frame->plan.width_px;
+    frame->picture.height_px = on_side ? frame->plan.width_px : frame->plan.height_px;
+    memcpy(frame->picture.turn, turns[deg / 90 % 4], sizeof frame->picture.turn);
 }
 
 static void reset(struct gn_frame *frame, const struct gn_frame_opts *opts) {

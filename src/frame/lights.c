@@ -19,20 +19,20 @@ static float illuminance(const struct gn_pose *pose, uint32_t index) {
 float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_frame_opts *opts) {
     if (opts->exposure_given) return exp2f(opts->exposure_ev);
-    if (frame->exposure_known) return frame->auto_exposure;
+    if (frame->auto_exposure.known) return frame->auto_exposure.value;
     float sum = 0.0f, strongest = 0.0f;
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
         float lux = illuminance(pose, i);
         sum += lux;
         strongest = fmaxf(strongest, lux);
     }
-    frame->exposure_known = true;
-    frame->auto_exposure = 1.0f;
+    frame->auto_exposure.known = true;
+    frame->auto_exposure.value = 1.0f;
     if (strongest > 0.0f && isfinite(strongest) && (sum < 0.3f || sum > 30.0f))
         /* not farther than a float can be scaled and stay a normal one */
-        frame->auto_exposure =
+        frame->auto_exposure.value =
             exp2f(glm_clamp(roundf(log2f(0.8f * GLM_PIf / strongest)), -126.0f, 126.0f));
-    return frame->auto_exposure;
+    return frame->auto_exposure.value;
 }
 
 static bool can_filter(const struct gn_frame *frame, enum gn_technique technique) {
@@ -45,7 +45,7 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
                                       const struct gn_frame_opts *opts,
                                       struct gn_warnings *warnings) {
     const struct gn_light *light = &frame->scene->lights[index];
-    struct gn_light_note *note = &frame->notes.at[index];
+    struct gn_light_note *note = &frame->notes.lights.at[index];
     if (note->unknown && gn_frame_notice(&note->said, GN_NOTICE_TECHNIQUE, warnings))
         gn_warn(warnings,
                 "light '%s': gnomon_shadow '%s' is not a technique of this version; it gets pcf",
@@ -59,7 +59,7 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
                     light->name, gn_techniques[technique].name);
         return GN_TECHNIQUE_PCF;
     }
-    if (!gn_techniques[technique].on_plane || frame->has_plane) return technique;
+    if (!gn_techniques[technique].on_plane || frame->plane.exists) return technique;
     if (gn_frame_notice(&note->said, GN_NOTICE_PLANE, warnings))
         gn_warn(warnings,
                 "light '%s' casts no shadow: %s needs a plane, and nothing in the scene is one; "
@@ -80,7 +80,8 @@ static void choose_moments(struct gn_frame *frame, const struct gn_frame_opts *o
                                            gn_caps_moments(&frame->caps), &fell_back);
     const bool wants_map = opts->encoding != GN_ENCODING_AUTO, wants_moments = opts->moments;
     if (!(filters ? fell_back || wants_map : wants_moments)) return;
-    if (!gn_frame_notice(&frame->notes.at[light->light].said, GN_NOTICE_ENCODING, warnings)) return;
+    if (!gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_ENCODING, warnings))
+        return;
     gn_warn(warnings, "%s keeps no shadows in map format %s%s; %s is used", technique,
             wants_map ? gn_encodings[opts->encoding].name : gn_moments[opts->moments].name,
             fell_back ? " on this GPU" : "",
@@ -89,7 +90,7 @@ static void choose_moments(struct gn_frame *frame, const struct gn_frame_opts *o
 
 static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *opts,
                             struct gn_frame_light *light, struct gn_warnings *warnings) {
-    uint32_t *said = &frame->notes.at[light->light].said;
+    uint32_t *said = &frame->notes.lights.at[light->light].said;
     bool fell_back;
     light->encoding = gn_encoding_choose(light->technique, opts->encoding,
                                          gn_caps_encodings(&frame->caps), &fell_back);
@@ -98,9 +99,9 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
         gn_warn(warnings, "this GPU cannot draw map format %s; %s is used",
                 gn_encodings[opts->encoding].name, gn_encodings[light->encoding].name);
     if (light->encoding != GN_ENCODING_MASK || !opts->planar_in_stencil) return;
-    if (!frame->plane_is_blended)
+    if (!frame->plane.blended)
         light->encoding = GN_ENCODING_STENCIL;
-    else if (gn_frame_notice(&frame->said, GN_NOTICE_BLENDED, warnings))
+    else if (gn_frame_notice(&frame->notes.said, GN_NOTICE_BLENDED, warnings))
         gn_warn(warnings, "the plane is transparent: its shadows are a mask, not in the stencil");
 }
 
@@ -139,7 +140,7 @@ static bool adds(const struct gn_frame *frame) {
 
 static void warn_of_most(struct gn_frame *frame, uint32_t light, enum gn_notice notice,
                          uint32_t most, struct gn_warnings *warnings) {
-    if (!gn_frame_notice(&frame->notes.at[light].said, notice, warnings)) return;
+    if (!gn_frame_notice(&frame->notes.lights.at[light].said, notice, warnings)) return;
     gn_warn(warnings, "light '%s' %s: %u lights %sare the most at once%s",
             frame->scene->lights[light].name,
             notice == GN_NOTICE_MAPS ? "casts no shadow" : "is left out", most,

@@ -23,20 +23,20 @@ static bool plane_is_blended(const struct gn_scene *scene) {
 }
 
 void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts) {
-    if (frame->notes.count < frame->scene->light_count) {
-        frame->has_plane = gn_planar_has_plane(frame->scene);
-        frame->plane_is_blended = plane_is_blended(frame->scene);
+    if (frame->notes.lights.count < frame->scene->light_count) {
+        frame->plane.exists = gn_planar_has_plane(frame->scene);
+        frame->plane.blended = plane_is_blended(frame->scene);
     }
-    for (uint32_t i = frame->notes.count; i < frame->scene->light_count; i++)
-        GN_LIST_PUSH(&frame->notes) = note_of(&frame->scene->lights[i]);
+    for (uint32_t i = frame->notes.lights.count; i < frame->scene->light_count; i++)
+        GN_LIST_PUSH(&frame->notes.lights) = note_of(&frame->scene->lights[i]);
     const uint32_t about[GN_NOTICE_ABOUT] = {
         opts->technique_given, opts->technique,     opts->encoding, opts->aov,
         opts->output_float,    opts->output_linear, opts->msaa,     opts->planar_in_stencil,
         opts->moments,         opts->map_px};
-    if (memcmp(frame->said_about, about, sizeof about) == 0) return;
-    memcpy(frame->said_about, about, sizeof about);
-    frame->said = 0;
-    for (uint32_t i = 0; i < frame->notes.count; i++) frame->notes.at[i].said = 0;
+    if (memcmp(frame->notes.about, about, sizeof about) == 0) return;
+    memcpy(frame->notes.about, about, sizeof about);
+    frame->notes.said = 0;
+    for (uint32_t i = 0; i < frame->notes.lights.count; i++) frame->notes.lights.at[i].said = 0;
 }
 
 bool gn_frame_notice(uint32_t *said, enum gn_notice notice, const struct gn_warnings *warnings) {

@@ -26,7 +26,7 @@ static void hue_of(const struct gn_light *light, float out[3]) {
 
 /* Pixels of the picture as large as one of 720 rows. */
 static float pixel_scale(const struct gn_frame *frame) {
-    return fmaxf((float)frame->picture_height_px / 720.0f, 1.0f);
+    return fmaxf((float)frame->picture.height_px / 720.0f, 1.0f);
 }
 
 /* ---- marks ---- */
@@ -113,7 +113,7 @@ static void marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
 
 /* Along the lower edge, from the left, as large as a quarter of the height and as all have room. */
 static struct gn_rect panel_rect(const struct gn_frame *frame, uint32_t slot) {
-    const uint32_t width = frame->picture_width_px, height = frame->picture_height_px;
+    const uint32_t width = frame->picture.width_px, height = frame->picture.height_px;
     const uint32_t gap = (uint32_t)(GAP_PX * pixel_scale(frame)),
                    each = width / frame->shadow_count;
     uint32_t side = height / 4 < each ? height / 4 : each;
@@ -124,8 +124,8 @@ static struct gn_rect panel_rect(const struct gn_frame *frame, uint32_t slot) {
 }
 
 struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect r) {
-    const uint32_t w = frame->picture_width_px, h = frame->picture_height_px;
-    const float c = frame->turn[0], s = frame->turn[1];
+    const uint32_t w = frame->picture.width_px, h = frame->picture.height_px;
+    const float c = frame->picture.turn[0], s = frame->picture.turn[1];
     if (s > 0) return (struct gn_rect){r.y, w - r.x - r.width, r.height, r.width};
     if (s < 0) return (struct gn_rect){h - r.y - r.height, r.x, r.height, r.width};
     if (c < 0) return (struct gn_rect){w - r.x - r.width, h - r.y - r.height, r.width, r.height};
@@ -134,7 +134,7 @@ struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect
 
 static void panel_constants(const struct gn_frame *frame, const struct gn_shadow_view *view,
                             const struct gn_rect *rect, float (*c)[4]) {
-    const float size[2] = {(float)frame->picture_width_px, (float)frame->picture_height_px};
+    const float size[2] = {(float)frame->picture.width_px, (float)frame->picture.height_px};
     const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
     const float rectangle[4] = {2.0f * (float)rect->x / size[0] - 1.0f,
                                 2.0f * (float)rect->y / size[1] - 1.0f,
@@ -148,8 +148,8 @@ static void panel_constants(const struct gn_frame *frame, const struct gn_shadow
     c[PANEL_FRAME][3] = rect->width > 24 ? FRAME_PX * pixel_scale(frame) : 1.0f;
     c[PANEL_PX][0] = (float)rect->width;
     c[PANEL_PX][1] = (float)rect->height;
-    c[PANEL_PX][2] = frame->turn[0];
-    c[PANEL_PX][3] = frame->turn[1];
+    c[PANEL_PX][2] = frame->picture.turn[0];
+    c[PANEL_PX][3] = frame->picture.turn[1];
 }
 
 static void panel_pass(struct gn_frame *frame, uint32_t slot) {

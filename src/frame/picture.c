@@ -77,11 +77,11 @@ static void begin_blend(struct gn_frame *frame) {
 static void blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_frame_opts *opts) {
     const struct gn_selection seen = {.opts = opts};
-    const struct gn_placed *placed = frame->blended.at;
+    const struct gn_placed *placed = frame->items.blended.at;
     bool begun = false, open = false;
-    if (frame->blended.count == 0) return; /* nor is there a list yet */
-    qsort(frame->blended.at, frame->blended.count, sizeof *placed, by_depth);
-    for (uint32_t i = 0; i < frame->blended.count; i++) {
+    if (frame->items.blended.count == 0) return; /* nor is there a list yet */
+    qsort(frame->items.blended.at, frame->items.blended.count, sizeof *placed, by_depth);
+    for (uint32_t i = 0; i < frame->items.blended.count; i++) {
         if (!begun) begin_blend(frame);
         open = begun && frame->scene->items[placed[i].item].batch ==
                             frame->scene->items[placed[i - 1].item].batch;
@@ -115,7 +115,7 @@ static void opaque_pass(struct gn_frame *frame, const struct gn_pose *pose,
     uint32_t first = pass->first_draw;
     pass->clear.area = GN_CLEAR_ALL;
     set_clear(frame, opts->aov, pass->clear.color);
-    frame->blended.count = 0;
+    frame->items.blended.count = 0;
     gn_frame_draw_items(frame, pose, &seen);
     gn_frame_sort_draws(frame, first);
     gn_frame_end_pass(frame);

@@ -56,11 +56,17 @@ struct gn_light_note {
 struct gn_frame {
     const struct gn_scene *scene;
     struct gn_caps caps;
-    GN_LIST(struct gn_light_note) notes; /* by the scene's lights */
-    bool has_plane, plane_is_blended;    /* the scene */
-    uint32_t said, said_about[GN_NOTICE_ABOUT];
-    bool exposure_known;
-    float auto_exposure;                             /* fixed at the first build */
+    struct {
+        GN_LIST(struct gn_light_note) lights; /* by the scene's lights */
+        uint32_t said, about[GN_NOTICE_ABOUT];
+    } notes;
+    struct {
+        bool exists, blended;
+    } plane; /* of the scene, for planar shadows */
+    struct {
+        bool known;
+        float value;
+    } auto_exposure;                                 /* fixed at the first build */
     struct gn_frame_light lights[GN_ALL_LIGHTS_MAX]; /* group by group */
     uint32_t scene_lights[GN_ALL_LIGHTS_MAX];        /* the same, as the plan shows them */
     uint32_t light_count, shadow_count;
@@ -73,17 +79,21 @@ struct gn_frame {
             view;        /* of the filtered map that is there; no moments: there is none */
         uint32_t waited; /* frames */
     } kept[GN_ALL_SHADOWS_MAX];
-    GN_LIST(struct gn_draw) draws;
+    GN_LIST(struct gn_draw) draws; /* these four: of the plan */
     GN_LIST(struct gn_instance) instances;
     GN_LIST(struct gn_program_key) programs;
-    GN_LIST(struct gn_placed) blended, run, sorted;
     GN_LIST(struct gn_pass) passes;
+    struct {
+        GN_LIST(struct gn_placed) blended, run, sorted;
+    } items;               /* of the pass that is being built */
     float (*constants)[4]; /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
     float (*sets)[4];      /* stencil.c's, likewise; NULL until there are any */
-    struct gn_eye eye;
-    uint32_t picture_width_px, picture_height_px; /* before it is turned */
     uint32_t camera;
-    float turn[2]; /* its cosine and sine, clockwise */
+    struct gn_eye eye;
+    struct {
+        uint32_t width_px, height_px; /* before it is turned */
+        float turn[2];                /* cosine and sine of that, clockwise */
+    } picture;
     struct gn_plan plan;
 };
 

@@ -20,7 +20,7 @@ void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *
         light->slide = opts->aov == GN_AOV_COLOR ? gn_slide_of(l) : GN_SLIDE_NONE;
         if (light->slide == GN_SLIDE_NONE || rank(frame, light) < GN_SLIDES_MAX) continue;
         light->slide = GN_SLIDE_NONE;
-        if (gn_frame_notice(&frame->notes.at[light->light].said, GN_NOTICE_SLIDES, warnings))
+        if (gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_SLIDES, warnings))
             gn_warn(warnings, "light '%s' shines without its slide: %d slides are the most at once",
                     l->name, GN_SLIDES_MAX);
     }

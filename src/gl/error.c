@@ -9,7 +9,7 @@ static void GL_APIENTRY keep_debug_message(GLenum source, GLenum type, GLuint id
     (void)source, (void)id, (void)severity, (void)length;
     struct gn_gl *gl = (struct gn_gl *)user;
     if (type != GL_DEBUG_TYPE_ERROR_KHR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR_KHR) return;
-    if (!gl->debug_text[0]) snprintf(gl->debug_text, sizeof gl->debug_text, "%s", message);
+    if (!gl->debug.text[0]) snprintf(gl->debug.text, sizeof gl->debug.text, "%s", message);
 }
 
 void gn_gl_debug_start(struct gn_gl *gl) {
@@ -32,15 +32,15 @@ static const char *error_name(GLenum error) {
 
 void gn_gl_error_keep(struct gn_gl *gl) {
     GLenum error = GL(gl, GetError)();
-    if (error != GL_NO_ERROR && !gl->debug_text[0])
-        snprintf(gl->debug_text, sizeof gl->debug_text, "%s", error_name(error));
+    if (error != GL_NO_ERROR && !gl->debug.text[0])
+        snprintf(gl->debug.text, sizeof gl->debug.text, "%s", error_name(error));
 }
 
 bool gn_gl_error_check(struct gn_gl *gl, const char *what, struct gn_err *err) {
     GLenum error = GL(gl, GetError)();
-    if (error == GL_NO_ERROR && !gl->debug_text[0]) return true;
-    gn_fail(err, "%s: %s", what, gl->debug_text[0] ? gl->debug_text : error_name(error));
-    gl->debug_text[0] = 0;
+    if (error == GL_NO_ERROR && !gl->debug.text[0]) return true;
+    gn_fail(err, "%s: %s", what, gl->debug.text[0] ? gl->debug.text : error_name(error));
+    gl->debug.text[0] = 0;
     for (int i = 0; error != GL_NO_ERROR && i < 8; i++) error = GL(gl, GetError)();
     return false;
 }

@@ -13,7 +13,7 @@ static bool start(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err
     for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
         gl->instances.buffers[i] = gn_gl_object_create(gl, GN_GL_BUFFER);
     if (!gn_gl_caps_learn(gl, opts, err)) return false;
-    if (gl->debug) gn_gl_debug_start(gl);
+    if (gl->debug.on) gn_gl_debug_start(gl);
     return true;
 }
 
@@ -21,7 +21,7 @@ struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *wa
                            struct gn_err *err) {
     struct gn_gl *gl = gn_xalloc(1, sizeof *gl);
     gl->desktop = opts->desktop;
-    gl->debug = opts->debug;
+    gl->debug.on = opts->debug;
     gl->stop = opts->stop;
     gl->warnings = warnings;
     gl->shaders = opts->shaders ? strdup(opts->shaders) : NULL;
@@ -41,13 +41,13 @@ void gn_gl_destroy(struct gn_gl *gl) {
         gn_gl_atlas_finish(gl);
         for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
             gn_gl_object_destroy(gl, GN_GL_BUFFER, &gl->instances.buffers[i]);
-        if (gl->debug && gl->caps.has & 1u << GN_CAP_DEBUG)
+        if (gl->debug.on && gl->caps.has & 1u << GN_CAP_DEBUG)
             GL(gl, DebugMessageCallback)(NULL, NULL);
     }
-    free(gl->plan_programs);
+    free(gl->plan_programs.at);
     free(gl->shaders);
-    free(gl->failed_source);
-    free(gl->read_buffer);
+    free(gl->debug.failed_source);
+    free(gl->read_buffer.data);
     free(gl);
 }
 
@@ -62,7 +62,7 @@ bool gn_gl_draws_right(struct gn_gl *gl) {
     return gn_gl_probe(gl, known) == known;
 }
 
-const char *gn_gl_failed_source(const struct gn_gl *gl) { return gl->failed_source; }
+const char *gn_gl_failed_source(const struct gn_gl *gl) { return gl->debug.failed_source; }
 
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err) {
     bool done = false;

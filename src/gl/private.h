@@ -68,9 +68,14 @@ void gn_gl_kept_finish(struct gn_gl *gl);
 struct gn_gl {
     struct gn_gl_table fn;
     uint32_t calls;
-    bool desktop, debug, robust; /* robust: it tells when the GPU was reset */
-    uint32_t probed;             /* gn_cap bits that were tried: caps holds how it ended */
-    char *shaders;               /* folder, or NULL */
+    bool desktop, robust; /* robust: it tells when the GPU was reset */
+    struct {
+        bool on;
+        char text[256];      /* the driver's first complaint since the last check */
+        char *failed_source; /* see gn_gl_failed_source() */
+    } debug;
+    uint32_t probed; /* gn_cap bits that were tried: caps holds how it ended */
+    char *shaders;   /* folder, or NULL */
     struct gn_warnings *warnings;
     struct gn_caps caps;
     struct gn_gl_state state;
@@ -81,18 +86,17 @@ struct gn_gl {
     struct gn_gl_kept kept;
     struct gn_gl_atlas atlas;
     struct gn_gl_window window; /* width 0: none */
-    uint8_t *read_buffer;       /* of gn_gl_read_xrgb8888() */
-    size_t read_size;
-    struct gn_gl_program **plan_programs; /* of the plan that runs; room grows in prepare */
-    uint32_t plan_programs_room;
+    struct {
+        uint8_t *data; /* of gn_gl_read_xrgb8888() */
+        size_t size;
+    } read_buffer;
+    struct {
+        struct gn_gl_program **at; /* grows in prepare */
+        uint32_t room;
+    } plan_programs; /* of the plan that runs */
     struct gn_gl_stats stats;
     uint64_t objects_created;
-    uint64_t programs_made; /* tried ones too */
-    uint64_t
-        programs_run;     /* of them, when a plan had run last: many drivers compile as they draw */
-    bool (*stop)(void);   /* see gn_gl_opts */
-    char debug_text[256]; /* the driver's first complaint since the last check */
-    char *failed_source;  /* see gn_gl_failed_source() */
+    bool (*stop)(void); /* see gn_gl_opts */
 };
 
 #define GL(gl, name) ((gl)->calls++, (gl)->fn.name)

@@ -82,7 +82,7 @@ static bool complete(struct gn_gl *gl) {
 
 static void drop_errors(struct gn_gl *gl) {
     while (GL(gl, GetError)() != GL_NO_ERROR) continue;
-    gl->debug_text[0] = 0;
+    gl->debug.text[0] = 0;
 }
 
 /* A renderbuffer of its own on the framebuffer that is bound. */

@@ -65,7 +65,7 @@ static GLuint build(struct gn_gl *gl, const char *const sources[2], int *failed,
                     struct gn_err *err) {
     GLuint program = GL(gl, CreateProgram)();
     gl->objects_created++;
-    gl->programs_made++;
+    gl->programs.made++;
     for (*failed = 0; *failed < 2; ++*failed)
         if (!compile(gl, program, *failed, sources[*failed], err)) goto fail;
     if (link(gl, program, err)) return program;
@@ -161,11 +161,11 @@ struct gn_gl_program *gn_gl_program_find(struct gn_gl *gl, const struct gn_progr
 }
 
 static void grow(struct gn_gl_programs *programs) {
-    struct gn_gl_programs more = {.room = programs->room ? 2 * programs->room : 32};
+    struct gn_gl_programs more = *programs;
+    more.room = programs->room ? 2 * programs->room : 32;
     more.table = gn_xalloc(more.room, sizeof *more.table);
     for (uint32_t i = 0; i < programs->room; i++)
         if (programs->table[i].name) *place_of(&more, &programs->table[i].key) = programs->table[i];
-    more.count = programs->count;
     free(programs->table);
     *programs = more;
 }
@@ -181,9 +181,9 @@ static void add(struct gn_gl *gl, const struct gn_program_key *key, GLuint name)
 }
 
 static void keep_failed(struct gn_gl *gl, const struct sources *sources, struct gn_err *err) {
-    free(gl->failed_source);
-    gl->failed_source = gl->debug ? sources_log(sources) : NULL;
-    if (gl->debug || !err) return;
+    free(gl->debug.failed_source);
+    gl->debug.failed_source = gl->debug.on ? sources_log(sources) : NULL;
+    if (gl->debug.on || !err) return;
     const struct gn_err said = *err;
     gn_fail(err, "%.440s (-v prints the source)", said.text);
 }

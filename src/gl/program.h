@@ -16,6 +16,8 @@ struct gn_gl_program {
 struct gn_gl_programs { /* open addressing, room is a power of two, at most half full */
     struct gn_gl_program *table;
     uint32_t room, count;
+    uint64_t made; /* tried ones too */
+    uint64_t run;  /* of them, when a plan had run last: many drivers compile as they draw */
 };
 struct gn_gl_program *gn_gl_program_find(struct gn_gl *gl, const struct gn_program_key *key);
 bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err);

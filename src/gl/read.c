@@ -54,13 +54,13 @@ static void reorder(const uint8_t *from, uint8_t *to, uint32_t width) {
 bool gn_gl_read_xrgb8888(struct gn_gl *gl, uint8_t *out, size_t stride, struct gn_err *err) {
     const struct gn_gl_output *o = &gl->targets.output;
     const size_t row = 4ul * o->width_px, size = row * o->height_px;
-    if (gl->read_size < size) {
-        gl->read_buffer = gn_xrealloc(gl->read_buffer, size, 1);
-        gl->read_size = size;
+    if (gl->read_buffer.size < size) {
+        gl->read_buffer.data = gn_xrealloc(gl->read_buffer.data, size, 1);
+        gl->read_buffer.size = size;
     }
-    if (!gn_gl_read_rgba8(gl, gl->read_buffer, err)) return false;
+    if (!gn_gl_read_rgba8(gl, gl->read_buffer.data, err)) return false;
     for (uint32_t y = 0; y < o->height_px; y++)
-        reorder(gl->read_buffer + y * row, out + y * stride, o->width_px);
+        reorder(gl->read_buffer.data + y * row, out + y * stride, o->width_px);
     return true;
 }
 

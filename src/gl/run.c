@@ -242,7 +242,7 @@ static bool is_for_shadows(const struct gn_pass *pass) {
 
 static void draw_bare(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
                       uint64_t constants_hash) {
-    struct gn_gl_program *program = gl->plan_programs[d->program];
+    struct gn_gl_program *program = gl->plan_programs.at[d->program];
     set_constants(gl, program, pass, constants_hash);
     gn_gl_set_cull(gl, GN_CULL_NONE, false);
     gn_gl_vertices_bind(gl, program->attributes, d->first_instance);
@@ -259,7 +259,7 @@ static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_d
         draw_bare(gl, pass, d, constants_hash);
         return;
     }
-    struct gn_gl_program *program = gl->plan_programs[d->program];
+    struct gn_gl_program *program = gl->plan_programs.at[d->program];
     const struct gn_geometry *geometry = &gl->scene.scene->geometries[d->geometry];
     const size_t first = geometry->first_index * gl->scene.index_size;
     const uint32_t count =
@@ -329,13 +329,13 @@ static bool is_stopped(const struct gn_gl *gl, struct gn_err *err) {
 /* map: NULL for what is no shadow pass. */
 static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                       struct gn_gl_map *map, struct gn_err *err) {
-    const bool grouped = gl->debug && gl->caps.has & 1u << GN_CAP_DEBUG;
+    const bool grouped = gl->debug.on && gl->caps.has & 1u << GN_CAP_DEBUG;
     const uint64_t hash =
         gn_hash(GN_HASH_INIT, pass->constants, pass->constant_count * sizeof *pass->constants);
     if (grouped) GL(gl, PushDebugGroup)(GL_DEBUG_SOURCE_APPLICATION_KHR, 0, -1, pass->label);
     begin_target(gl, pass, framebuffer_of(gl, pass, map), clear_of(plan, map, pass));
     bind_sources(gl, plan, pass);
-    const bool first_time = gl->programs_run != gl->programs_made;
+    const bool first_time = gl->programs.run != gl->programs.made;
     if (pass->kind == GN_PASS_COPY) copy_pages(gl, pass);
     for (uint32_t i = 0; i < pass->draw_count; i++) {
         if (first_time && is_stopped(gl, err)) return false;
@@ -344,7 +344,7 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     if (is_depth_done(plan, map, pass)) discard_depth(gl, pass);
     if (pass->kind == GN_PASS_PICTURE && pass->picture.resolves) resolve(gl);
     if (grouped) GL(gl, PopDebugGroup)();
-    return !gl->debug || gn_gl_error_check(gl, pass->label, err);
+    return !gl->debug.on || gn_gl_error_check(gl, pass->label, err);
 }
 
 /* What tells whether a pass has to run: the map, or the light's own moments, whose size may be
@@ -387,11 +387,11 @@ static bool run_passes(struct gn_gl *gl, const struct gn_plan *plan, double *pas
 }
 
 static bool find_programs(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    if (plan->program_count > gl->plan_programs_room || plan->scene != gl->scene.scene ||
+    if (plan->program_count > gl->plan_programs.room || plan->scene != gl->scene.scene ||
         !gn_gl_atlas_holds(gl, plan->atlas))
         return gn_fail(err, "the plan was not prepared");
     for (uint32_t i = 0; i < plan->program_count; i++) {
-        const struct gn_gl_program *p = gl->plan_programs[i] =
+        const struct gn_gl_program *p = gl->plan_programs.at[i] =
             gn_gl_program_find(gl, &plan->programs[i]);
         if (!p || !gn_gl_vertices_known(gl, p->attributes))
             return gn_fail(err, "program %u was not prepared", i);
@@ -405,7 +405,7 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
     if (!find_programs(gl, plan, err)) return false;
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     bool ok = run_passes(gl, plan, pass_ms, err);
-    if (ok) gl->programs_run = gl->programs_made;
+    if (ok) gl->programs.run = gl->programs.made;
     gl->stats.gl_calls = gl->calls - calls_before;
     return ok;
 }
@@ -422,10 +422,10 @@ void gn_gl_black(struct gn_gl *gl) {
 /* ---- preparing ---- */
 
 static void grow_plan_programs(struct gn_gl *gl, uint32_t count) {
-    if (count <= gl->plan_programs_room) return;
-    gl->plan_programs_room = 2 * count;
-    gl->plan_programs =
-        gn_xrealloc(gl->plan_programs, gl->plan_programs_room, sizeof(struct gn_gl_program *));
+    if (count <= gl->plan_programs.room) return;
+    gl->plan_programs.room = 2 * count;
+    gl->plan_programs.at =
+        gn_xrealloc(gl->plan_programs.at, gl->plan_programs.room, sizeof(struct gn_gl_program *));
 }
 
 bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err) {
@@ -445,13 +445,13 @@ static bool make_programs(struct gn_gl *gl, const struct gn_plan *plan, struct g
 /* Between plans the driver need not keep its compiler. In Mesa it holds 3 MB, 1.4 ms to free and 5
  * to make again; released later, after the first picture, its memory is not given back any more. */
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    const uint64_t made = gl->programs_made;
+    const uint64_t made = gl->programs.made;
     if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
     if (!gn_gl_prove(gl, plan))
         return gn_fail(err, "this GPU fails at what it says it has; try again, or see --without");
     const bool ok = make_programs(gl, plan, err) && gn_gl_targets_ensure(gl, plan, err) &&
                     gn_gl_atlas_ensure(gl, plan->atlas, err);
-    if (made != gl->programs_made) GL(gl, ReleaseShaderCompiler)();
+    if (made != gl->programs.made) GL(gl, ReleaseShaderCompiler)();
     return ok;
 }
 
@@ -485,7 +485,7 @@ bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
                  struct gn_err *err) {
     struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[program]);
     grow_plan_programs(gl, plan->program_count);
-    gl->plan_programs[program] = p;
+    gl->plan_programs.at[program] = p;
     p->constants_hash = ~UINT64_C(0); /* so that they are sent, and sent again for a frame */
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     for (uint32_t i = 0; i < plan->pass_count; i++) {

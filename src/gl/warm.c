@@ -36,9 +36,9 @@ static bool is_there(struct gn_gl *gl, const struct gn_program_key *key) {
 }
 
 static enum gn_gl_warmth warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    const uint64_t made = gl->programs_made;
+    const uint64_t made = gl->programs.made;
     if (!gn_gl_prove(gl, plan)) return GN_GL_WARM_REBUILD;
-    if (made != gl->programs_made) return GN_GL_WARM_MORE; /* proofs compile, too */
+    if (made != gl->programs.made) return GN_GL_WARM_MORE; /* proofs compile, too */
     gl->targets.wants_stencil |= plan->stencil;
     if (!gn_gl_maps_ensure(gl, plan, err)) return GN_GL_WARM_FAILED;
     for (uint32_t i = 0; i < plan->program_count; i++)

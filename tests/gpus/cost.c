@@ -68,8 +68,8 @@ static void GL_APIENTRY hear(GLenum source, GLenum type, GLuint id, GLenum sever
     (void)id, (void)severity, (void)length;
     if (type == GL_DEBUG_TYPE_ERROR_KHR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR_KHR) {
         l->errors++;
-        if (!l->gl->debug_text[0])
-            snprintf(l->gl->debug_text, sizeof l->gl->debug_text, "%s", message);
+        if (!l->gl->debug.text[0])
+            snprintf(l->gl->debug.text, sizeof l->gl->debug.text, "%s", message);
     } else if (l->into && source == GL_DEBUG_SOURCE_SHADER_COMPILER_KHR)
         gn_cost_read(l->into, message);
 }

@@ -84,13 +84,13 @@ static void one_program_a_frame_is_made_ahead_and_no_more(void **state) {
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     unsigned busy = 0;
     while (gn_show_has_work(show)) {
-        const uint64_t made = show->stage.gl->programs_made, proofs = show->stage.gl->probed;
+        const uint64_t made = show->stage.gl->programs.made, proofs = show->stage.gl->probed;
         const uint64_t before = show->counts.frames;
         step(show);
         assert_true(show->counts.frames - before <= 1);
         if (proofs == show->stage.gl->probed)
-            assert_true(show->stage.gl->programs_made - made <= 1);
-        busy += show->stage.gl->programs_made > made;
+            assert_true(show->stage.gl->programs.made - made <= 1);
+        busy += show->stage.gl->programs.made > made;
         assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
     }
     assert_true(busy >= 8); /* there was something to do at all */
@@ -111,7 +111,7 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
         most = now > most ? now : most;
     }
     const uint64_t objects = gn_gl_stats(show->stage.gl).objects_created,
-                   made = show->stage.gl->programs_made;
+                   made = show->stage.gl->programs.made;
     const unsigned long allocations = gn_alloc_count();
     for (int i = 0; i < switches; i++) {
         const int next = (show->kiosk.shown.mode + 1) % show->modes.count;
@@ -126,7 +126,7 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
         if (i >= switches / 2 && now < least) least = now;
     }
     assert_int_equal(gn_gl_stats(show->stage.gl).objects_created, objects);
-    assert_int_equal(show->stage.gl->programs_made, made);
+    assert_int_equal(show->stage.gl->programs.made, made);
     assert_int_equal(gn_alloc_count(), allocations);
     /* A software driver's scratch, megabytes of it, comes and goes; what is lost stays. */
     if (least > most) fail_msg("%zu bytes more", least - most);
@@ -188,12 +188,12 @@ static void what_is_not_ready_keeps_the_old_picture(void **state) {
     assert_int_equal(show->looks.ready >> wanted & 1, 0);
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (show->drawn.mode != wanted) {
-        const uint64_t made = show->stage.gl->programs_made;
+        const uint64_t made = show->stage.gl->programs.made;
         const bool was_ready = show->looks.ready >> wanted & 1;
         step(show);
         if (was_ready) assert_int_equal(show->drawn.mode, wanted);
         if (show->drawn.mode == wanted) /* nothing of it was left to be made for its frame */
-            assert_true(show->stage.gl->programs_made - made <= 1);
+            assert_true(show->stage.gl->programs.made - made <= 1);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     gn_show_close(show);
@@ -308,9 +308,9 @@ static void the_next_scene_comes_when_it_is_whole(void **state) {
     act(show, GN_ACTION_NEXT_SCENE);
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (show->drawn.scene == 0) {
-        const uint64_t made = show->stage.gl->programs_made;
+        const uint64_t made = show->stage.gl->programs.made;
         step(show);
-        assert_true(show->stage.gl->programs_made - made <= 1);
+        assert_true(show->stage.gl->programs.made - made <= 1);
         if (show->scenes.shown == 0) assert_ptr_equal(show->stage.scene->name, name);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }

@@ -190,16 +190,16 @@ static void test_stopped_between_programs(void **state) {
     const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
     const int count = (int)plan->program_count;
     assert_true(count > 2);
-    const uint64_t made = gl->programs_made;
+    const uint64_t made = gl->programs.made;
     for (int i = 0; i < count - 1; i++) { /* one more each time */
         programs_left = 1;
         assert_false(gn_gl_prepare(gl, plan, &err));
         assert_string_equal(err.text, "stopped while programs are made");
-        assert_int_equal(gl->programs_made, made + (uint64_t)i + 1);
+        assert_int_equal(gl->programs.made, made + (uint64_t)i + 1);
     }
     programs_left = 1000;
     assert_true(gn_gl_prepare(gl, plan, &err));
-    assert_int_equal(gl->programs_made, made + (uint64_t)count);
+    assert_int_equal(gl->programs.made, made + (uint64_t)count);
     programs_left = 1; /* drivers compile as they draw: so each first draw is asked for, too */
     assert_false(gn_gl_run(gl, plan, NULL, &err));
     programs_left = 1000;
