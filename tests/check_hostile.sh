@@ -95,7 +95,7 @@ expect 2 'SCENE: ""' inspect ''
 expect 2 'exclude each other' render $picture --animation hoop --no-animation
 # shellcheck disable=SC2086
 expect 2 '--mode: there is no shadow technique' render $picture --mode nosuch
-expect 2 '--without: there is no capability "wings"' bench --without r16f,wings
+expect 2 '--without: unknown capability "wings"' bench --without r16f,wings
 expect 2 "--limit: no limit is called 'verts'" inspect --limit verts=1
 expect 1 'more than the limit nodes=1' inspect --limit nodes=1
 expect 0 '' inspect --limit nodes=100000000

@@ -8,7 +8,7 @@ static bool is_filtered(const struct gn_shadow_view *view) {
 }
 
 /* Whether shaders may read the old map in the new one's place. */
-static bool may_stay(const struct gn_shadow_view *old, const struct gn_shadow_view *new) {
+static bool can_keep_map(const struct gn_shadow_view *old, const struct gn_shadow_view *new) {
     return is_filtered(old) && old->light == new->light && old->technique == new->technique &&
            old->encoding == new->encoding && old->moments == new->moments &&
            old->map.width_px == new->map.width_px && old->map.height_px == new->map.height_px &&
@@ -24,13 +24,13 @@ static uint64_t texels_to_make(const struct gn_shadow_view *old, const struct gn
     return tiles * new->map.tile_px *new->map.tile_px;
 }
 
-static void take(struct gn_frame *frame, uint32_t slot) {
+static void update_kept(struct gn_frame *frame, uint32_t slot) {
     frame->kept[slot].view = frame->shadows[slot];
     frame->kept[slot].waited = 0;
 }
 
 /* Of those that wait, the one that has done so longest; shadow_count: none waits. */
-static uint32_t oldest(const struct gn_frame *frame, const uint64_t *texels) {
+static uint32_t find_longest_waiting(const struct gn_frame *frame, const uint64_t *texels) {
     uint32_t found = frame->shadow_count;
     for (uint32_t slot = 0; slot < frame->shadow_count; slot++)
         if (texels[slot] > 0 &&
@@ -45,16 +45,17 @@ void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts
     for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
         const struct gn_shadow_view *view = &frame->shadows[slot];
         if (!is_filtered(view)) continue;
-        if (may_stay(&frame->kept[slot].view, view))
+        if (can_keep_map(&frame->kept[slot].view, view))
             texels[slot] = texels_to_make(&frame->kept[slot].view, view);
         else
             spent += (uint64_t)view->map.width_px * view->map.height_px;
-        if (texels[slot] == 0) take(frame, slot);
+        if (texels[slot] == 0) update_kept(frame, slot);
     }
-    for (uint32_t slot; (slot = oldest(frame, texels)) < frame->shadow_count; texels[slot] = 0) {
+    for (uint32_t slot; (slot = find_longest_waiting(frame, texels)) < frame->shadow_count;
+         texels[slot] = 0) {
         if (spent == 0 || spent + texels[slot] <= opts->filter_texels) {
             spent += texels[slot];
-            take(frame, slot);
+            update_kept(frame, slot);
         } else {
             frame->shadows[slot] = frame->kept[slot].view;
             frame->kept[slot].waited++;

@@ -60,7 +60,7 @@ static bool fail_unknown(const char *name, size_t length, struct gn_err *err) {
         size_t used = strlen(names);
         snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", gn_cap_names[i]);
     }
-    return gn_fail_usage(err, "there is no capability \"%.*s\"; there are %s",
+    return gn_fail_usage(err, "unknown capability \"%.*s\"; expected %s",
                          (int)(length < 80 ? length : 80), name, names);
 }
 

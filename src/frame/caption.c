@@ -5,7 +5,7 @@
 #include "blocks.glsl"
 #include "frame/private.h"
 
-static struct gn_program_key key_of(const struct gn_frame *frame) {
+static struct gn_program_key caption_key(const struct gn_frame *frame) {
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = GN_PROGRAM_CAPTION;
@@ -38,8 +38,8 @@ static struct gn_rect add_quads(struct gn_frame *frame, const struct gn_caption_
                             (uint32_t)(right - left), (uint32_t)(bottom - top)};
 }
 
-static void draw_run(struct gn_frame *frame, const struct gn_program_key *key,
-                     const struct gn_caption_run *run) {
+static void draw_captions(struct gn_frame *frame, const struct gn_program_key *key,
+                          const struct gn_caption_run *run) {
     const uint32_t first = frame->instances.count;
     const struct gn_rect rect = add_quads(frame, run);
     if (rect.width == 0) return;
@@ -63,10 +63,10 @@ static void draw_run(struct gn_frame *frame, const struct gn_program_key *key,
 
 void gn_frame_caption_pass(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     const struct gn_caption_run *run = opts->captions;
-    const struct gn_program_key key = key_of(frame);
+    const struct gn_program_key key = caption_key(frame);
     if (opts->aov != GN_AOV_COLOR) return;
     if (opts->captions_later) gn_frame_program(frame, &key);
     if (run && run->width_px == frame->picture.width_px &&
         run->height_px == frame->picture.height_px)
-        draw_run(frame, &key, run);
+        draw_captions(frame, &key, run);
 }

@@ -22,8 +22,8 @@ static float pixel_width(const struct gn_frame *frame, const struct gn_eye *eye)
 
 /* All that the number goes by, but the eye; nor does it by the technique: modes agree on it,
  * whichever comes first. */
-static uint64_t choice_of(const struct gn_frame *frame, const struct gn_pose *pose,
-                          const struct gn_shadow_opts *opts) {
+static uint64_t hash_choice(const struct gn_frame *frame, const struct gn_pose *pose,
+                            const struct gn_shadow_opts *opts) {
     const uint32_t by[] = {opts->map_px,         opts->all_receive,       opts->cascades,
                            frame->camera,        frame->picture.width_px, frame->picture.height_px,
                            (uint32_t)pose->clips};
@@ -71,8 +71,8 @@ static const struct gn_pose *take_view(struct views *v, int number, struct gn_ey
 
 /* How many pixels a texel of so many cascades covers where it is seen largest; 0: the eye sees
  * nothing in shadow, which says nothing. */
-static float pixels_of(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts,
-                       uint32_t cascades) {
+static float texel_pixels(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts,
+                          uint32_t cascades) {
     const struct gn_frame_light *light = gn_frame_light_of_slot(v->frame, slot);
     const uint32_t most_px = gn_frame_most_px(v->frame, light, cascades);
     const struct gn_shadow_opts some = {.technique = GN_TECHNIQUE_PCF,
@@ -95,10 +95,10 @@ static float pixels_of(struct views *v, uint32_t slot, const struct gn_shadow_op
 
 /* As few as keep a texel under MOST_PIXELS; where none do, as few as come near to what the best
  * number does. 0: it is not known yet. */
-static uint32_t count(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts) {
+static uint32_t count_cascades(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts) {
     float pixels[GN_CASCADES_MAX + 1] = {0}, least = INFINITY;
     for (uint32_t cascades = 1; cascades <= opts->cascades; cascades++) {
-        pixels[cascades] = pixels_of(v, slot, opts, cascades);
+        pixels[cascades] = texel_pixels(v, slot, opts, cascades);
         if (pixels[cascades] == 0.0f) return 0;
         if (pixels[cascades] <= MOST_PIXELS * GN_SHADOW_STEP) return cascades;
         least = fminf(least, pixels[cascades]);
@@ -111,18 +111,18 @@ static uint32_t count(struct views *v, uint32_t slot, const struct gn_shadow_opt
 /* A hand may bring the eye to where the number that the first one chose is far too coarse. There
  * are never fewer again: each change takes programs and targets. Where more do not help, that is
  * not asked again until it is twice as bad; nor while the hand rests. */
-static void judge(struct gn_frame *frame, const struct gn_pose *pose,
-                  const struct gn_frame_opts *frame_opts, uint32_t slot,
-                  const struct gn_shadow_opts *opts, struct gn_cascade_choice *c) {
+static void judge_cascades(struct gn_frame *frame, const struct gn_pose *pose,
+                           const struct gn_frame_opts *frame_opts, uint32_t slot,
+                           const struct gn_shadow_opts *opts, struct gn_cascade_choice *c) {
     const struct gn_orbit *orbit = &frame_opts->orbit;
     if (c->count >= opts->cascades || gn_orbit_is_zero(orbit)) return;
     const uint64_t by = gn_hash(GN_HASH_INIT, orbit, sizeof *orbit);
     if (by == c->judged) return;
     c->judged = by;
     struct views now = {.frame = frame, .opts = frame_opts, .now = pose, .count = 1};
-    const float pixels = pixels_of(&now, slot, opts, c->count);
+    const float pixels = texel_pixels(&now, slot, opts, c->count);
     if (pixels <= fmaxf(TOO_COARSE * MOST_PIXELS, c->borne_px)) return;
-    const uint32_t chosen = count(&now, slot, opts);
+    const uint32_t chosen = count_cascades(&now, slot, opts);
     c->borne_px = chosen > c->count ? 0.0f : 2.0f * pixels;
     if (chosen > c->count) c->count = chosen;
 }
@@ -139,16 +139,16 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
                                   const struct gn_shadow_opts *opts) {
     const uint32_t light = gn_frame_light_of_slot(frame, slot)->light;
     struct gn_light_note *note = &frame->notes.lights.at[light];
-    const uint64_t choice = choice_of(frame, pose, opts);
+    const uint64_t choice = hash_choice(frame, pose, opts);
     if (!gn_cascade_can(&frame->scene->lights[light], &frame->eye, opts)) return 1;
     struct gn_cascade_choice *c = find_choice(note, choice);
     if (c) {
-        judge(frame, pose, frame_opts, slot, opts, c);
+        judge_cascades(frame, pose, frame_opts, slot, opts, c);
         return c->count;
     }
     struct views views;
     open_views(&views, frame, pose, frame_opts);
-    const uint32_t chosen = count(&views, slot, opts);
+    const uint32_t chosen = count_cascades(&views, slot, opts);
     close_views(&views);
     if (chosen == 0) return 1;
     note->cascades[note->next_choice] =

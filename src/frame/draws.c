@@ -82,8 +82,8 @@ static bool takes_light(const struct gn_frame *frame, const struct gn_pose *pose
            gn_eye_sees(&frame->eye, &posed->box_ws) && gn_group_touches(group, &posed->box_ws);
 }
 
-static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const struct gn_selection *s,
-                  uint32_t item) {
+static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
+                       const struct gn_selection *s, uint32_t item) {
     if (s->casts) return s->casts[item] >> s->page & 1;
     if (s->part && gn_key_on_plane(frame, item, s->opts) != (s->part == GN_PART_PLANE))
         return false;
@@ -99,8 +99,8 @@ static bool takes(struct gn_frame *frame, const struct gn_pose *pose, const stru
     return false;
 }
 
-static struct gn_program_key key_of(const struct gn_frame *frame, const struct gn_selection *s,
-                                    uint32_t item) {
+static struct gn_program_key item_key(const struct gn_frame *frame, const struct gn_selection *s,
+                                      uint32_t item) {
     if (s->casts) return gn_key_caster(frame, item, s->view);
     struct gn_program_key lit = gn_key_lit(frame, item, s->opts);
     return s->group ? gn_key_additive(frame, &lit, s->group, s->opts) : lit;
@@ -116,7 +116,7 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
         *open = last->mirrored == mirrored && last->cull == cull;
     }
     if (!*open) {
-        struct gn_program_key key = key_of(frame, s, item);
+        struct gn_program_key key = item_key(frame, s, item);
         begin_draw(frame, item, &key, cull, mirrored);
         *open = true;
     }
@@ -166,7 +166,7 @@ void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
     uint32_t batch = UINT32_MAX;
     frame->items.run.count = 0;
     for (uint32_t i = 0; i < frame->scene->item_count; i++) {
-        if (!takes(frame, pose, s, i)) continue;
+        if (!takes_item(frame, pose, s, i)) continue;
         if (frame->scene->items[i].batch != batch) draw_run(frame, pose, s);
         batch = frame->scene->items[i].batch;
         float depth = s->casts ? 0.0f : depth_of(frame, &pose->items[i].box_ws, false);

@@ -7,7 +7,7 @@
 #define FAR_TIMES 1e4f /* the scene's reach */
 
 /* As far as the scene goes. */
-static float farthest(const struct gn_pose *pose, vec3 eye_ws, float near_m) {
+static float scene_far_m(const struct gn_pose *pose, vec3 eye_ws, float near_m) {
     vec3 reach;
     for (int k = 0; k < 3; k++)
         reach[k] =
@@ -18,12 +18,13 @@ static float farthest(const struct gn_pose *pose, vec3 eye_ws, float near_m) {
 
 /* A far plane out of all proportion to what there is to see shows nothing more, and costs the depth
  * its precision, or its range. */
-static float far_of(const struct gn_camera *camera, float scene_m) {
+static float camera_far_m(const struct gn_camera *camera, float scene_m) {
     return camera->far_m > 0.0f && camera->far_m < FAR_TIMES * scene_m ? camera->far_m : scene_m;
 }
 
 /* Carries the eye round the vertical through the scene's centre. */
-static void turn(const struct gn_pose *pose, float angle_rad, mat4 view_from_world, vec3 eye_ws) {
+static void turn_camera(const struct gn_pose *pose, float angle_rad, mat4 view_from_world,
+                        vec3 eye_ws) {
     if (angle_rad == 0.0f) return;
     vec3 centre, back;
     mat4 turned_from_world = GLM_MAT4_IDENTITY_INIT;
@@ -50,10 +51,10 @@ static void turn_picture(const struct gn_frame *frame, mat4 clip_from_view) {
 
 /* A hand that moves the eye expects to see all of the scene from there: then the camera's own near
  * and far planes only widen what is seen. */
-static void project(const struct gn_camera *camera, const struct gn_orbit *orbit, float aspect,
-                    const float reach_m[2], mat4 clip_from_view) {
+static void make_projection(const struct gn_camera *camera, const struct gn_orbit *orbit,
+                            float aspect, const float reach_m[2], mat4 clip_from_view) {
     const bool moved = !gn_orbit_is_zero(orbit);
-    float near_m = camera->near_m, far_m = far_of(camera, reach_m[1]);
+    float near_m = camera->near_m, far_m = camera_far_m(camera, reach_m[1]);
     if (moved) far_m = fmaxf(far_m, reach_m[1]);
     if (camera->orthographic) {
         float half[2];
@@ -79,9 +80,9 @@ static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
     float reach_m[2]; /* to what is looked at, and to the end of the scene */
     reach_m[0] = gn_orbit_view(&opts->orbit, pose, (uint32_t)opts->camera, look->view_from_world,
                                look->eye_ws);
-    turn(pose, opts->turntable_rad, look->view_from_world, look->eye_ws);
-    reach_m[1] = farthest(pose, look->eye_ws, camera->near_m);
-    project(camera, &opts->orbit, aspect, reach_m, clip_from_view);
+    turn_camera(pose, opts->turntable_rad, look->view_from_world, look->eye_ws);
+    reach_m[1] = scene_far_m(pose, look->eye_ws, camera->near_m);
+    make_projection(camera, &opts->orbit, aspect, reach_m, clip_from_view);
     turn_picture(frame, clip_from_view);
     glm_mat4_mul(clip_from_view, look->view_from_world, look->clip_from_world);
 }

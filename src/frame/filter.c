@@ -16,7 +16,7 @@ static float blur_of(const struct gn_shadow_view *view, uint32_t tile) {
 
 /* Factor and sum that make 0..1 of what moments span. A cascade without casters holds the far end
  * alone, whatever is made of it. */
-static void code_of(const struct gn_shadow_view *view, uint32_t tile, float code[2]) {
+static void code_transform(const struct gn_shadow_view *view, uint32_t tile, float code[2]) {
     code[0] = 1.0f;
     code[1] = 0.0f;
     if (view->map.cascade_count == 0 || view->raster.tiles[tile].empty) return;
@@ -32,7 +32,7 @@ uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) 
     const float blur_px = blur_of(view, tile);
     h = gn_hash(h, &blur_px, sizeof blur_px);
     float code[2];
-    code_of(view, tile, code);
+    code_transform(view, tile, code);
     h = gn_hash(h, code, sizeof code);
     h = gn_hash(h, &view->lookup.reach_px, sizeof view->lookup.reach_px);
     return h ? h : 1;
@@ -80,14 +80,14 @@ static void put_constants(const struct gn_shadow_view *view, uint32_t tile, floa
     c[FILTER_BLUR][2] = blur_px > 0.0f ? 0.5f / blur_px : 1.0f;
     c[FILTER_TABLE][0] = view->lookup.reach_px;
     c[FILTER_TABLE][1] = (float)(tile * blocks_of(view));
-    code_of(view, tile, c[FILTER_CODE]);
+    code_transform(view, tile, c[FILTER_CODE]);
     for (int k = 0; k < 2; k++) {
         c[FILTER_SIZE][k] = size[k];
         c[FILTER_SIZE][k + 2] = 1.0f / size[k];
     }
 }
 
-static struct gn_read read_of(const struct gn_shadow_view *view, int from) {
+static struct gn_read filter_read(const struct gn_shadow_view *view, int from) {
     if (from == GN_FROM_NOTHING) return (struct gn_read){.kind = GN_READ_NOTHING};
     if (from == GN_FROM_MAP) return (struct gn_read){.kind = GN_READ_MAP};
     uint32_t size_px[2];
@@ -95,7 +95,8 @@ static struct gn_read read_of(const struct gn_shadow_view *view, int from) {
     return (struct gn_read){GN_READ_MOMENTS, (uint32_t)from, size_px[0], size_px[1]};
 }
 
-static struct gn_program_key key_of(const struct gn_shadow_view *view, enum gn_filter_step step) {
+static struct gn_program_key filter_key(const struct gn_shadow_view *view,
+                                        enum gn_filter_step step) {
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = GN_PROGRAM_FILTER;
@@ -115,7 +116,7 @@ _Static_assert(PASS_CODE_ADD < CONSTANTS_AT && CONSTANTS_AT + FILTER_CONSTANTS <
 static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                        const struct gn_filter_stage *stage, bool last) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
-    const struct gn_program_key key = key_of(view, stage->step);
+    const struct gn_program_key key = filter_key(view, stage->step);
     float(*constants)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS +
                                                          tile * GN_SHADOW_PAGES_MAX) +
                            CONSTANTS_AT;
@@ -136,7 +137,7 @@ static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
         .tile = tile, .hash = gn_frame_filter_hash(view, tile), .completes = last};
     pass->depth_write = false;
     for (int i = 0; i < GN_FILTER_FROM_MAX; i++)
-        pass->filter.reads[i] = read_of(view, stage->from[i]);
+        pass->filter.reads[i] = filter_read(view, stage->from[i]);
     put_constants(view, tile, constants);
     pass->constants = constants;
     pass->constant_count = FILTER_CONSTANTS;

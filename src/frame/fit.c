@@ -17,7 +17,7 @@ static void say_smaller(struct gn_frame *frame, const struct gn_frame_light *lig
         !gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_MAP_PX, warnings))
         return;
     gn_warn(warnings,
-            "light \"%s\": tiles of %u px in its map are more than this GPU holds; they have %u px",
+            "light '%s': map tiles of %u px exceed the texture size of this GPU; using %u px",
             frame->scene->lights[light->light].name, asked, map_px);
 }
 

@@ -57,11 +57,11 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
     }
     if (opts->aov == GN_AOV_COLOR && opts->output_float && plan->output != GN_OUTPUT_FLOAT &&
         gn_frame_notice(&frame->notes.said, GN_NOTICE_FLOAT, warnings))
-        gn_warn(warnings, "this GPU cannot draw to half floats: colour has 8 bits and ends at 1");
+        gn_warn(warnings, "this GPU cannot render to half floats: colour is 8 bits, clamped to 1");
     if (plan->msaa && !(frame->caps.has & 1u << GN_CAP_MSAA4)) {
         plan->msaa = 0;
         if (gn_frame_notice(&frame->notes.said, GN_NOTICE_MSAA, warnings))
-            gn_warn(warnings, "this GPU cannot antialias by multisampling: --msaa 0 is used");
+            gn_warn(warnings, "this GPU has no multisampling; using --msaa 0");
     }
 }
 
@@ -81,7 +81,7 @@ static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose
     }
 }
 
-static void turn(struct gn_frame *frame, unsigned deg) {
+static void set_turn(struct gn_frame *frame, unsigned deg) {
     static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const bool on_side = deg / 90 % 2;
     frame->picture.width_px = on_side ? frame->plan.height_px : frame->plan.width_px;
@@ -89,16 +89,16 @@ static void turn(struct gn_frame *frame, unsigned deg) {
     memcpy(frame->picture.turn, turns[deg / 90 % 4], sizeof frame->picture.turn);
 }
 
-static void reset(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+static void reset_plan(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
     frame->plan = (struct gn_plan){.scene = frame->scene};
     frame->plan.width_px = opts->width_px ? opts->width_px : 1280;
     frame->plan.height_px = opts->height_px ? opts->height_px : 720;
     frame->camera = (uint32_t)opts->camera;
-    turn(frame, opts->turn_deg);
+    set_turn(frame, opts->turn_deg);
 }
 
-static void publish(struct gn_frame *frame) {
+static void publish_plan(struct gn_frame *frame) {
     struct gn_plan *plan = &frame->plan;
     plan->passes = frame->passes.at;
     plan->draws = frame->draws.at;
@@ -115,7 +115,7 @@ static void publish(struct gn_frame *frame) {
 }
 
 /* Samples, which are to be averaged as light, before they are encoded. */
-static bool averages(const struct gn_frame *frame) {
+static bool resolves_to_float(const struct gn_frame *frame) {
     return frame->plan.msaa > 1 && frame->caps.has & 1u << GN_CAP_RGBA16F;
 }
 
@@ -123,13 +123,13 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
                                      const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings) {
     struct gn_plan *plan = &frame->plan;
-    reset(frame, opts);
+    reset_plan(frame, opts);
     gn_frame_take_note(frame, opts);
     choose_output(frame, opts, warnings);
     gn_frame_eye(frame, pose, opts, gn_frame_constants(frame, GN_CONSTANTS_PICTURE));
     plan->exposure = gn_frame_exposure(frame, pose, opts);
     gn_frame_choose_lights(frame, pose, opts, warnings);
-    if (plan->encode_srgb && (frame->group_count > 1 || averages(frame)))
+    if (plan->encode_srgb && (frame->group_count > 1 || resolves_to_float(frame)))
         plan->output = GN_OUTPUT_FLOAT;
     gn_frame_fit_shadows(frame, pose, opts, warnings);
     gn_frame_hold_maps(frame, opts);
@@ -140,7 +140,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     if (!gn_frame_is_encoded(frame)) gn_frame_caption_pass(frame, opts);
     gn_frame_finish_picture(frame);
     if (gn_frame_is_encoded(frame)) gn_frame_caption_pass(frame, opts);
-    publish(frame);
+    publish_plan(frame);
     assert(gn_plan_check(plan) == NULL);
     return plan;
 }

@@ -24,8 +24,8 @@ static int is_for_plane(const struct gn_frame *frame, const struct gn_frame_ligh
 }
 
 /* Insertion: stable, and they are few. */
-static void sort_by(struct gn_frame *frame, uint32_t first, uint32_t end,
-                    int (*rank)(const struct gn_frame *, const struct gn_frame_light *)) {
+static void sort_lights(struct gn_frame *frame, uint32_t first, uint32_t end,
+                        int (*rank)(const struct gn_frame *, const struct gn_frame_light *)) {
     for (uint32_t i = first + 1; i < end; i++) {
         struct gn_frame_light light = frame->lights[i];
         uint32_t at = i;
@@ -38,7 +38,7 @@ static void sort_by(struct gn_frame *frame, uint32_t first, uint32_t end,
 static uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
 /* From "all with maps, then all without" to one group after the other. */
-static void deal(struct gn_frame *frame) {
+static void deal_groups(struct gn_frame *frame) {
     struct gn_frame_light dealt[GN_ALL_LIGHTS_MAX];
     uint32_t count = 0, map = 0, open = frame->shadow_count;
     for (; count < frame->light_count; frame->group_count++) {
@@ -58,16 +58,16 @@ void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose) {
     memset(frame->groups, 0, sizeof frame->groups);
     frame->group_count = 0;
     if (!fits_one(frame)) {
-        sort_by(frame, 0, frame->shadow_count, rank_of);
-        sort_by(frame, frame->shadow_count, frame->light_count, rank_of);
+        sort_lights(frame, 0, frame->shadow_count, rank_of);
+        sort_lights(frame, frame->shadow_count, frame->light_count, rank_of);
     }
     if (frame->light_count > 0)
-        deal(frame);
+        deal_groups(frame);
     else
         frame->group_count = 1;
     for (uint32_t g = 0; g < frame->group_count; g++) {
         const uint32_t first = frame->groups[g].first;
-        sort_by(frame, first, first + frame->groups[g].shadow_count, is_for_plane);
+        sort_lights(frame, first, first + frame->groups[g].shadow_count, is_for_plane);
     }
     for (uint32_t i = 0; i < frame->light_count; i++)
         frame->scene_lights[i] = frame->lights[i].light;

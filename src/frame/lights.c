@@ -47,24 +47,23 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
     const struct gn_light *light = &frame->scene->lights[index];
     struct gn_light_note *note = &frame->notes.lights.at[index];
     if (note->unknown && gn_frame_notice(&note->said, GN_NOTICE_TECHNIQUE, warnings))
-        gn_warn(warnings,
-                "light '%s': gnomon_shadow '%s' is not a technique of this version; it gets pcf",
+        gn_warn(warnings, "light '%s': gnomon_shadow '%s' is not a known technique; using pcf",
                 light->name, light->technique);
     bool own = note->technique == GN_TECHNIQUE_NONE || !opts->technique_given;
     enum gn_technique technique = own ? note->technique : opts->technique;
     if (gn_technique_filters_map(technique) && !can_filter(frame, technique)) {
         if (gn_frame_notice(&note->said, GN_NOTICE_MOMENTS, warnings))
             gn_warn(warnings,
-                    "light '%s' gets pcf: this GPU draws to nothing that keeps what %s needs",
+                    "light '%s' falls back to pcf: this GPU has no renderable format for %s",
                     light->name, gn_techniques[technique].name);
         return GN_TECHNIQUE_PCF;
     }
     if (!gn_techniques[technique].on_plane || frame->plane.exists) return technique;
     if (gn_frame_notice(&note->said, GN_NOTICE_PLANE, warnings))
-        gn_warn(warnings,
-                "light '%s' casts no shadow: %s needs a plane, and nothing in the scene is one; "
-                "gnomon_plane would name it",
-                light->name, gn_techniques[technique].name);
+        gn_warn(
+            warnings,
+            "light '%s' casts no shadow: %s needs a plane; mark one in the scene with gnomon_plane",
+            light->name, gn_techniques[technique].name);
     return GN_TECHNIQUE_NONE;
 }
 
@@ -82,7 +81,7 @@ static void choose_moments(struct gn_frame *frame, const struct gn_frame_opts *o
     if (!(filters ? fell_back || wants_map : wants_moments)) return;
     if (!gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_ENCODING, warnings))
         return;
-    gn_warn(warnings, "%s keeps no shadows in map format %s%s; %s is used", technique,
+    gn_warn(warnings, "%s does not support map format %s%s; using %s", technique,
             wants_map ? gn_encodings[opts->encoding].name : gn_moments[opts->moments].name,
             fell_back ? " on this GPU" : "",
             filters ? gn_moments[light->moments].name : gn_encodings[light->encoding].name);
@@ -96,18 +95,19 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
                                          gn_caps_encodings(&frame->caps), &fell_back);
     choose_moments(frame, opts, light, warnings);
     if (fell_back && gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
-        gn_warn(warnings, "this GPU cannot draw map format %s; %s is used",
+        gn_warn(warnings, "this GPU cannot render to map format %s; using %s",
                 gn_encodings[opts->encoding].name, gn_encodings[light->encoding].name);
     if (light->encoding != GN_ENCODING_MASK || !opts->planar_in_stencil) return;
     if (!frame->plane.blended)
         light->encoding = GN_ENCODING_STENCIL;
     else if (gn_frame_notice(&frame->notes.said, GN_NOTICE_BLENDED, warnings))
-        gn_warn(warnings, "the plane is transparent: its shadows are a mask, not in the stencil");
+        gn_warn(warnings,
+                "the plane is transparent: its shadows use a mask instead of the stencil");
 }
 
-static struct gn_frame_light describe(struct gn_frame *frame, const struct gn_pose *pose,
-                                      uint32_t index, const struct gn_frame_opts *opts,
-                                      struct gn_warnings *warnings) {
+static struct gn_frame_light describe_light(struct gn_frame *frame, const struct gn_pose *pose,
+                                            uint32_t index, const struct gn_frame_opts *opts,
+                                            struct gn_warnings *warnings) {
     const struct gn_light *light = &frame->scene->lights[index];
     struct gn_frame_light l = {.light = index,
                                .technique = technique_of(frame, index, opts, warnings)};
@@ -122,7 +122,7 @@ static bool has_map(const struct gn_frame_light *light) {
 }
 
 /* Of equals the last. There is one. */
-static uint32_t weakest(const struct gn_frame *frame, bool with_map) {
+static uint32_t find_weakest(const struct gn_frame *frame, bool with_map) {
     uint32_t found = UINT32_MAX;
     for (uint32_t i = 0; i < frame->light_count; i++) {
         if (with_map && !has_map(&frame->lights[i])) continue;
@@ -134,28 +134,28 @@ static uint32_t weakest(const struct gn_frame *frame, bool with_map) {
 
 /* Light is added to light: a picture that the shaders encode, of which there is no linear one,
  * holds the lights of one pass. */
-static bool adds(const struct gn_frame *frame) {
+static bool can_add_light(const struct gn_frame *frame) {
     return !frame->plan.encode_srgb || frame->caps.has & 1u << GN_CAP_RGBA16F;
 }
 
-static void warn_of_most(struct gn_frame *frame, uint32_t light, enum gn_notice notice,
-                         uint32_t most, struct gn_warnings *warnings) {
+static void warn_of_limit(struct gn_frame *frame, uint32_t light, enum gn_notice notice,
+                          uint32_t most, struct gn_warnings *warnings) {
     if (!gn_frame_notice(&frame->notes.lights.at[light].said, notice, warnings)) return;
-    gn_warn(warnings, "light '%s' %s: %u lights %sare the most at once%s",
+    gn_warn(warnings, "light '%s' %s: at most %u %slights at once%s",
             frame->scene->lights[light].name,
             notice == GN_NOTICE_MAPS ? "casts no shadow" : "is left out", most,
-            notice == GN_NOTICE_MAPS ? "with shadows " : "",
-            adds(frame) ? "" : " on a GPU without srgb and rgba16f targets");
+            notice == GN_NOTICE_MAPS ? "shadowed " : "",
+            can_add_light(frame) ? "" : " on a GPU without srgb and rgba16f targets");
 }
 
 /* Full: the weakest goes. */
-static void add(struct gn_frame *frame, struct gn_frame_light light, uint32_t most,
-                struct gn_warnings *warnings) {
+static void add_light(struct gn_frame *frame, struct gn_frame_light light, uint32_t most,
+                      struct gn_warnings *warnings) {
     if (frame->light_count == most) {
-        uint32_t least = weakest(frame, false);
+        uint32_t least = find_weakest(frame, false);
         struct gn_frame_light *at = &frame->lights[least];
         bool stays = at->illuminance >= light.illuminance;
-        warn_of_most(frame, stays ? light.light : at->light, GN_NOTICE_LIGHTS, most, warnings);
+        warn_of_limit(frame, stays ? light.light : at->light, GN_NOTICE_LIGHTS, most, warnings);
         if (stays) return;
         memmove(at, at + 1, (--frame->light_count - least) * sizeof *at);
     }
@@ -163,7 +163,7 @@ static void add(struct gn_frame *frame, struct gn_frame_light light, uint32_t mo
 }
 
 /* Those with maps first, else by the scene's order. */
-static void order(struct gn_frame *frame) {
+static void order_lights(struct gn_frame *frame) {
     struct gn_frame_light open[GN_ALL_LIGHTS_MAX];
     uint32_t open_count = 0;
     frame->shadow_count = 0;
@@ -184,19 +184,19 @@ static uint32_t count_maps(const struct gn_frame *frame) {
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     bool visibility = opts->aov == GN_AOV_VISIBILITY;
-    const uint32_t most = adds(frame) ? GN_ALL_LIGHTS_MAX : GN_LIGHTS_MAX,
-                   most_maps = adds(frame) ? GN_ALL_SHADOWS_MAX : GN_SHADOWS_MAX;
+    const uint32_t most = can_add_light(frame) ? GN_ALL_LIGHTS_MAX : GN_LIGHTS_MAX,
+                   most_maps = can_add_light(frame) ? GN_ALL_SHADOWS_MAX : GN_SHADOWS_MAX;
     frame->light_count = 0;
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
         if (visibility ? (int)i != opts->light : opts->aov != GN_AOV_COLOR) continue;
-        add(frame, describe(frame, pose, i, opts, warnings), most, warnings);
+        add_light(frame, describe_light(frame, pose, i, opts, warnings), most, warnings);
     }
     for (uint32_t count = count_maps(frame); count > most_maps; count--) {
-        struct gn_frame_light *light = &frame->lights[weakest(frame, true)];
-        warn_of_most(frame, light->light, GN_NOTICE_MAPS, most_maps, warnings);
+        struct gn_frame_light *light = &frame->lights[find_weakest(frame, true)];
+        warn_of_limit(frame, light->light, GN_NOTICE_MAPS, most_maps, warnings);
         light->technique = GN_TECHNIQUE_NONE;
     }
-    order(frame);
+    order_lights(frame);
     for (uint32_t i = 0; i < frame->shadow_count; i++) /* whatever is in view */
         frame->plan.stencil |= frame->lights[i].encoding == GN_ENCODING_STENCIL;
     gn_frame_choose_slides(frame, opts, warnings);

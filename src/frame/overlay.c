@@ -9,7 +9,7 @@
 
 enum { MARK_VERTICES = 6 * MARK_QUADS, GAP_PX = 8, FRAME_PX = 2 };
 
-static struct gn_program_key key_of(const struct gn_frame *frame, enum gn_program_kind kind) {
+static struct gn_program_key overlay_key(const struct gn_frame *frame, enum gn_program_kind kind) {
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = (uint8_t)kind;
@@ -90,7 +90,7 @@ static struct gn_instance make_mark(const struct gn_frame *frame, const struct g
 /* All marks twice: first pale, through everything, then what is not hidden. */
 static void marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
     const uint32_t first = frame->instances.count, count = frame->scene->light_count;
-    struct gn_program_key key = key_of(frame, GN_PROGRAM_MARK);
+    struct gn_program_key key = overlay_key(frame, GN_PROGRAM_MARK);
     struct gn_pass *pass = gn_frame_picture_pass(frame, "marks of lights");
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_MARKS);
     pass->picture.blend = GN_BLEND_ALPHA;
@@ -160,7 +160,7 @@ static void panel_pass(struct gn_frame *frame, uint32_t slot) {
     if (rect.height == 0) return;
     char label[48];
     snprintf(label, sizeof label, "panel %u %s", slot, frame->scene->lights[view->light].name);
-    struct gn_program_key key = key_of(frame, GN_PROGRAM_PANEL);
+    struct gn_program_key key = overlay_key(frame, GN_PROGRAM_PANEL);
     key.encoding = (uint8_t)view->encoding;
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PANELS) + (size_t)slot * PANEL_SIZE;
     panel_constants(frame, view, &rect, c);

@@ -4,7 +4,7 @@
 #include "frame/private.h"
 
 /* How many lights before this one in the scene throw a slide too. */
-static uint32_t rank(const struct gn_frame *frame, const struct gn_frame_light *light) {
+static uint32_t slide_rank(const struct gn_frame *frame, const struct gn_frame_light *light) {
     uint32_t before = 0;
     for (uint32_t i = 0; i < frame->light_count; i++)
         before += frame->lights[i].light < light->light &&
@@ -18,11 +18,11 @@ void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *
         struct gn_frame_light *light = &frame->lights[i];
         const struct gn_light *l = &frame->scene->lights[light->light];
         light->slide = opts->aov == GN_AOV_COLOR ? gn_slide_of(l) : GN_SLIDE_NONE;
-        if (light->slide == GN_SLIDE_NONE || rank(frame, light) < GN_SLIDES_MAX) continue;
+        if (light->slide == GN_SLIDE_NONE || slide_rank(frame, light) < GN_SLIDES_MAX) continue;
         light->slide = GN_SLIDE_NONE;
         if (gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_SLIDES, warnings))
-            gn_warn(warnings, "light '%s' shines without its slide: %d slides are the most at once",
-                    l->name, GN_SLIDES_MAX);
+            gn_warn(warnings, "light '%s' has no slide: at most %d slides at once", l->name,
+                    GN_SLIDES_MAX);
     }
 }
 

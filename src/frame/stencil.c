@@ -23,11 +23,11 @@ struct marks {
 
 /* ---- where ---- */
 
-static struct gn_rect whole(const struct gn_frame *frame) {
+static struct gn_rect output_rect(const struct gn_frame *frame) {
     return (struct gn_rect){0, 0, frame->plan.width_px, frame->plan.height_px};
 }
 
-static uint32_t pixel(float ndc, float extra_px, uint32_t size_px) {
+static uint32_t pixel_of_ndc(float ndc, float extra_px, uint32_t size_px) {
     const float at = (0.5f * ndc + 0.5f) * (float)size_px + extra_px;
     return (uint32_t)fminf(fmaxf(at, 0.0f), (float)size_px);
 }
@@ -37,37 +37,37 @@ static struct gn_rect rect_of(const struct gn_frame *frame, const struct gn_shad
     const uint32_t size[2] = {frame->plan.width_px, frame->plan.height_px};
     uint32_t low[2], high[2];
     for (int k = 0; k < 2; k++) {
-        low[k] = pixel(view->raster.screen_ndc[0][k], -1.0f, size[k]);
-        high[k] = pixel(view->raster.screen_ndc[1][k], 2.0f, size[k]);
+        low[k] = pixel_of_ndc(view->raster.screen_ndc[0][k], -1.0f, size[k]);
+        high[k] = pixel_of_ndc(view->raster.screen_ndc[1][k], 2.0f, size[k]);
     }
     return (struct gn_rect){low[0], low[1], high[0] - low[0], high[1] - low[1]};
 }
 
-static uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
-static uint32_t most(uint32_t a, uint32_t b) { return a > b ? a : b; }
+static uint32_t min_u32(uint32_t a, uint32_t b) { return a < b ? a : b; }
+static uint32_t max_u32(uint32_t a, uint32_t b) { return a > b ? a : b; }
 
 /* Width 0: they do not meet. */
-static struct gn_rect meet(struct gn_rect a, struct gn_rect b) {
-    const uint32_t x0 = most(a.x, b.x), x1 = least(a.x + a.width, b.x + b.width),
-                   y0 = most(a.y, b.y), y1 = least(a.y + a.height, b.y + b.height);
+static struct gn_rect intersect_rects(struct gn_rect a, struct gn_rect b) {
+    const uint32_t x0 = max_u32(a.x, b.x), x1 = min_u32(a.x + a.width, b.x + b.width),
+                   y0 = max_u32(a.y, b.y), y1 = min_u32(a.y + a.height, b.y + b.height);
     if (x0 >= x1 || y0 >= y1) return (struct gn_rect){0};
     return (struct gn_rect){x0, y0, x1 - x0, y1 - y0};
 }
 
 /* As a pass has it. */
-static struct gn_rect bound(const struct gn_frame *frame, struct gn_rect rect) {
-    const struct gn_rect all = whole(frame);
+static struct gn_rect pass_rect(const struct gn_frame *frame, struct gn_rect rect) {
+    const struct gn_rect all = output_rect(frame);
     return rect.width == all.width && rect.height == all.height ? (struct gn_rect){0} : rect;
 }
 
 static struct marks marks_of(const struct gn_frame *frame, uint32_t group) {
     const struct gn_light_group *g = &frame->groups[group];
-    struct marks marks = {.group = group, .all = whole(frame)};
+    struct marks marks = {.group = group, .all = output_rect(frame)};
     if (g->rect.width > 0) marks.all = g->rect;
     for (uint32_t i = g->first_shadow; i < g->first_shadow + g->shadow_count; i++) {
         const struct gn_shadow_view *view = &frame->shadows[i];
         if (view->encoding != GN_ENCODING_STENCIL || view->empty) continue;
-        const struct gn_rect rect = meet(marks.all, rect_of(frame, view));
+        const struct gn_rect rect = intersect_rects(marks.all, rect_of(frame, view));
         if (rect.width == 0) continue;
         marks.rects[marks.count] = rect;
         marks.slots[marks.count++] = i;
@@ -79,7 +79,7 @@ static struct marks marks_of(const struct gn_frame *frame, uint32_t group) {
 static struct gn_rect rect_of_set(const struct marks *marks, uint32_t set) {
     struct gn_rect rect = marks->all;
     for (uint32_t i = 0; i < marks->count; i++)
-        if (set >> i & 1) rect = meet(rect, marks->rects[i]);
+        if (set >> i & 1) rect = intersect_rects(rect, marks->rects[i]);
     return rect;
 }
 
@@ -89,7 +89,7 @@ bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group) {
 
 /* ---- casters ---- */
 
-static float (*fall(const struct gn_frame *frame, uint32_t slot))[4] {
+static float (*fall_constants(const struct gn_frame *frame, uint32_t slot))[4] {
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SHADOW_TILES_MAX);
     const struct gn_shadow_view *view = &frame->shadows[slot];
     mat4 clip_from_world;
@@ -120,9 +120,9 @@ static void caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
     pass->picture.only_stencil = true;
     pass->depth_write = false;
     pass->picture.stencil = (struct gn_stencil){.value = SEEN | bit, .reads = SEEN, .writes = bit};
-    pass->rect = bound(frame, marks->rects[index]);
+    pass->rect = pass_rect(frame, marks->rects[index]);
     if (marks->group > 0 && index == 0) pass->clear.stencil_bits = SETS - 1;
-    const float(*constants)[4] = pass->constants = fall(frame, slot);
+    const float(*constants)[4] = pass->constants = fall_constants(frame, slot);
     pass->constant_count = FLAT_HEIGHTS + 1;
     struct gn_selection casters = {.casts = frame->memory[slot][0].casts,
                                    .view = view,
@@ -135,7 +135,7 @@ static void caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
 /* ---- the plane ---- */
 
 /* The group's constants, but no light from where a set says so. */
-static float (*darken(struct gn_frame *frame, const struct marks *marks, uint32_t set))[4] {
+static float (*set_constants(struct gn_frame *frame, const struct marks *marks, uint32_t set))[4] {
     const size_t of_pass = GN_PASS_SIZE * sizeof *frame->sets;
     if (!frame->sets) frame->sets = gn_xalloc(GN_GROUPS_MAX * SETS, of_pass);
     float(*c)[4] = frame->sets + (size_t)(marks->group * SETS + set) * GN_PASS_SIZE;
@@ -162,12 +162,12 @@ static void set_pass(struct gn_frame *frame, const struct marks *marks, uint32_t
     if (rect.width == 0) return;
     struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_PICTURE);
     *pass = *lit;
-    pass->rect = bound(frame, rect);
+    pass->rect = pass_rect(frame, rect);
     label_set(marks, set, pass);
     pass->depth_write = false;
     pass->picture.stencil = (struct gn_stencil){
         .value = (uint8_t)(SEEN | set), .reads = (uint8_t)(SEEN | ((1u << marks->count) - 1))};
-    pass->constants = darken(frame, marks, set);
+    pass->constants = set_constants(frame, marks, set);
 }
 
 void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,

@@ -19,7 +19,7 @@ bool gn_gl_version_check(const struct gn_gl_opts *opts, struct gn_err *err) {
     static const char es[] = "OpenGL ES ";
     PFNGLGETSTRINGPROC get = (PFNGLGETSTRINGPROC)opts->get_proc(opts->display, "glGetString");
     const char *version = get ? (const char *)get(GL_VERSION) : NULL;
-    if (!version) return gn_fail(err, "there is no OpenGL ES context");
+    if (!version) return gn_fail(err, "no OpenGL ES context");
     const char *number =
         strncmp(version, es, sizeof es - 1) == 0 ? version + sizeof es - 1 : version;
     int major = 0, minor = 0;
@@ -74,7 +74,7 @@ static const uint32_t together =
     1u << GN_CAP_R16F | 1u << GN_CAP_R32UI | 1u << GN_CAP_SRGB | 1u << GN_CAP_DEPTH_COMPARE;
 
 /* False when one fails, of these or of those tried with them: it is claimed no more. */
-static bool prove(struct gn_gl *gl, uint32_t caps) {
+static bool prove_caps(struct gn_gl *gl, uint32_t caps) {
     const uint32_t open = gl->caps.has & ~gl->probed;
     if (!(caps & open)) return true;
     const uint32_t wanted = open & (caps | (caps & open & together ? together : 0));
@@ -83,7 +83,7 @@ static bool prove(struct gn_gl *gl, uint32_t caps) {
     gl->caps.has &= ~failed;
     for (int i = 0; i < GN_CAP_COUNT; i++)
         if (failed >> i & 1)
-            gn_warn(gl->warnings, "this GPU says that it has %s and fails at it: not used",
+            gn_warn(gl->warnings, "this GPU claims %s but a test draw failed; not using it",
                     gn_cap_names[i]);
     return !failed;
 }
@@ -98,7 +98,7 @@ static uint32_t cap_of_encoding(enum gn_encoding encoding) {
     }
 }
 
-static uint32_t needs(const struct gn_plan *plan) {
+static uint32_t plan_caps(const struct gn_plan *plan) {
     uint32_t caps = plan->msaa > 1 ? 1u << GN_CAP_MSAA4 : 0;
     if (plan->output == GN_OUTPUT_SRGB8) caps |= 1u << GN_CAP_SRGB;
     if (plan->output == GN_OUTPUT_FLOAT) caps |= 1u << GN_CAP_RGBA16F;
@@ -110,7 +110,9 @@ static uint32_t needs(const struct gn_plan *plan) {
     return caps;
 }
 
-bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan) { return prove(gl, needs(plan)); }
+bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan) {
+    return prove_caps(gl, plan_caps(plan));
+}
 
 /* ---- all of it ---- */
 
@@ -132,6 +134,6 @@ bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn
     caps->has |= gn_gl_probe_claims(gl);
     caps->has &= ~without;
     gl->probed = asked_only;
-    if (!opts->prove_later) prove(gl, caps->has);
+    if (!opts->prove_later) prove_caps(gl, caps->has);
     return gn_gl_error_check(gl, "learning what the GPU can do", err);
 }

@@ -51,7 +51,7 @@ bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
     const struct gn_gl_output *o = &gl->targets.output;
     const enum gn_output_format format = gn_gl_output_format(o);
     if (!o->made || (format != GN_OUTPUT_SRGB8 && format != GN_OUTPUT_LINEAR8))
-        return gn_fail(err, "there is no picture of bytes to keep");
+        return gn_fail(err, "the last picture is not 8 bits per channel: cannot keep a copy");
     if (fits(k, o)) return true;
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &k->framebuffer);
     gn_gl_object_destroy(gl, GN_GL_TEXTURE, &k->texture);

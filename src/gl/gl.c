@@ -6,7 +6,7 @@
 #include "core/arena.h"
 #include "gl/private.h"
 
-static bool start(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err *err) {
+static bool start_context(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err *err) {
     if (!gn_gl_version_check(opts, err) || !gn_gl_table_load(&gl->fn, opts, err)) return false;
     gn_gl_state_init(gl);
     gn_gl_targets_init(gl);
@@ -25,7 +25,7 @@ struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *wa
     gl->stop = opts->stop;
     gl->warnings = warnings;
     gl->shaders = opts->shaders ? strdup(opts->shaders) : NULL;
-    if (start(gl, opts, err)) return gl;
+    if (start_context(gl, opts, err)) return gl;
     gn_gl_destroy(gl);
     return NULL;
 }

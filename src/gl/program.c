@@ -31,7 +31,8 @@ static bool fail_log(const char *log, const char *stage, struct gn_err *err) {
     }
     if (!*line) line = log;
     while (isspace((unsigned char)*line)) line++;
-    return gn_fail(err, "%s: %.*s", stage, (int)strcspn(line, "\n"), *line ? line : "no reason");
+    return gn_fail(err, "%s: %.*s", stage, (int)strcspn(line, "\n"),
+                   *line ? line : "the driver gave no reason");
 }
 
 static bool compile(struct gn_gl *gl, GLuint program, int stage, const char *source,
@@ -145,8 +146,8 @@ static void set_units(struct gn_gl *gl, struct gn_gl_program *program) {
             program->texture_slots |= 1u << i;
 }
 
-static struct gn_gl_program *place_of(struct gn_gl_programs *programs,
-                                      const struct gn_program_key *key) {
+static struct gn_gl_program *program_place(struct gn_gl_programs *programs,
+                                           const struct gn_program_key *key) {
     uint32_t i = (uint32_t)gn_hash(GN_HASH_INIT, key, sizeof *key);
     for (;; i++) {
         struct gn_gl_program *p = &programs->table[i & (programs->room - 1)];
@@ -156,27 +157,28 @@ static struct gn_gl_program *place_of(struct gn_gl_programs *programs,
 
 struct gn_gl_program *gn_gl_program_find(struct gn_gl *gl, const struct gn_program_key *key) {
     if (!gl->programs.room) return NULL;
-    struct gn_gl_program *p = place_of(&gl->programs, key);
+    struct gn_gl_program *p = program_place(&gl->programs, key);
     return p->name ? p : NULL;
 }
 
-static void grow(struct gn_gl_programs *programs) {
+static void grow_table(struct gn_gl_programs *programs) {
     struct gn_gl_programs more = *programs;
     more.room = programs->room ? 2 * programs->room : 32;
     more.table = gn_xalloc(more.room, sizeof *more.table);
     for (uint32_t i = 0; i < programs->room; i++)
-        if (programs->table[i].name) *place_of(&more, &programs->table[i].key) = programs->table[i];
+        if (programs->table[i].name)
+            *program_place(&more, &programs->table[i].key) = programs->table[i];
     free(programs->table);
     *programs = more;
 }
 
-static void add(struct gn_gl *gl, const struct gn_program_key *key, GLuint name) {
+static void add_program(struct gn_gl *gl, const struct gn_program_key *key, GLuint name) {
     struct gn_gl_program p = {.key = *key, .name = name, .uv = UINT32_MAX};
     p.u_pass = GL(gl, GetUniformLocation)(name, "u_pass");
     p.u_uv = GL(gl, GetUniformLocation)(name, "u_uv");
     p.attributes = active_attributes(gl, name);
     set_units(gl, &p);
-    *place_of(&gl->programs, key) = p;
+    *program_place(&gl->programs, key) = p;
     gl->programs.count++;
 }
 
@@ -190,10 +192,10 @@ static void keep_failed(struct gn_gl *gl, const struct sources *sources, struct 
 
 bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err) {
     if (gn_gl_program_find(gl, key)) return true;
-    if (2 * (gl->programs.count + 1) > gl->programs.room) grow(&gl->programs);
+    if (2 * (gl->programs.count + 1) > gl->programs.room) grow_table(&gl->programs);
     struct sources sources = {0};
     GLuint name = compose_and_build(gl, key, &sources, err);
-    if (name) add(gl, key, name);
+    if (name) add_program(gl, key, name);
     if (!name && sources.composed) keep_failed(gl, &sources, err);
     sources_finish(&sources);
     return name;

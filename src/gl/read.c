@@ -8,7 +8,7 @@
 #include "gl/private.h"
 
 static bool has_output(struct gn_gl *gl, struct gn_err *err) {
-    if (!gl->targets.output.made) return gn_fail(err, "there is no picture to read yet");
+    if (!gl->targets.output.made) return gn_fail(err, "no picture was drawn yet");
     gn_gl_bind_framebuffer(gl, gn_gl_output_finished(&gl->targets.output));
     return true;
 }
@@ -35,7 +35,7 @@ bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err) {
     const enum gn_output_format format = gn_gl_output_format(o);
     if (!has_output(gl, err)) return false;
     if (format == GN_OUTPUT_FLOAT || format == GN_OUTPUT_AOV)
-        return gn_fail(err, "the picture is not of bytes");
+        return gn_fail(err, "the picture is not 8 bits per channel");
     read_pixels(gl, o->width_px, o->height_px, GL_RGBA, GL_UNSIGNED_BYTE, out);
     flip_rows(out, 4ul * o->width_px, o->height_px);
     return gn_gl_error_check(gl, "reading the picture", err);
@@ -100,7 +100,7 @@ bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err) {
     else if (format == GN_OUTPUT_FLOAT)
         gn_gl_read_floats(gl, o->width_px, o->height_px, out);
     else
-        return gn_fail(err, "the picture is not of floats");
+        return gn_fail(err, "the picture is not floats");
     flip_rows(out, 4ul * sizeof *out * o->width_px, o->height_px);
     return gn_gl_error_check(gl, "reading the picture", err);
 }
@@ -223,7 +223,7 @@ static void decode(const struct gn_gl_map *map, const uint32_t *rgba, float *out
 
 bool gn_gl_read_map(struct gn_gl *gl, uint32_t slot, float *out, struct gn_err *err) {
     const struct gn_gl_map *map = gn_gl_map_of_slot(gl, slot);
-    if (!map) return gn_fail(err, "there is no shadow map %u", slot);
+    if (!map) return gn_fail(err, "no shadow map %u", slot);
     uint32_t *rgba = gn_xalloc((size_t)map->width_px * map->height_px, 4 * sizeof *rgba);
     bool ok = read_raw(gl, map, rgba, err) && gn_gl_error_check(gl, "reading a shadow map", err);
     if (ok) decode(map, rgba, out);

@@ -136,7 +136,7 @@ static void copy_pages(struct gn_gl *gl, const struct gn_pass *pass) {
 }
 
 /* What is read is of no more use. */
-static void blit(struct gn_gl *gl, GLuint from, GLuint to) {
+static void blit_output(struct gn_gl *gl, GLuint from, GLuint to) {
     static const GLenum color = GL_COLOR_ATTACHMENT0;
     const GLint w = (GLint)gl->targets.output.width_px, h = (GLint)gl->targets.output.height_px;
     gn_gl_set_scissor(gl, NULL);
@@ -149,11 +149,11 @@ static void blit(struct gn_gl *gl, GLuint from, GLuint to) {
 
 /* In linear light: samples are averaged in a target of ours, since a window that has some of its
  * own averages values as they are encoded. */
-static void resolve(struct gn_gl *gl) {
+static void resolve_output(struct gn_gl *gl) {
     const struct gn_gl_output *o = &gl->targets.output;
     if (o->resolved == o->framebuffer) return;
-    blit(gl, o->framebuffer, o->resolved);
-    if (o->window && !o->encodes) blit(gl, o->resolved, 0);
+    blit_output(gl, o->framebuffer, o->resolved);
+    if (o->window && !o->encodes) blit_output(gl, o->resolved, 0);
 }
 
 /* ---- what draws read ---- */
@@ -253,8 +253,8 @@ static void draw_bare(struct gn_gl *gl, const struct gn_pass *pass, const struct
     gl->stats.triangles += (uint64_t)d->vertex_count / 3 * d->instance_count;
 }
 
-static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
-                 uint64_t constants_hash, uint32_t most_indices) {
+static void draw_geometry(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
+                          uint64_t constants_hash, uint32_t most_indices) {
     if (d->geometry == GN_NO_GEOMETRY) {
         draw_bare(gl, pass, d, constants_hash);
         return;
@@ -278,7 +278,7 @@ static void draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_d
 
 /* ---- passes ---- */
 
-static bool holds(const struct gn_gl_map *map, uint32_t tile, uint64_t hash) {
+static bool holds_content(const struct gn_gl_map *map, uint32_t tile, uint64_t hash) {
     return hash && map->content_hash[tile] == hash;
 }
 
@@ -293,13 +293,13 @@ static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
 static bool is_any_to_draw(const struct gn_shadow_view *view, const struct gn_gl_map *map,
                            uint32_t first) {
     for (uint32_t tile = first; tile < view->map.tile_count; tile++)
-        if (!holds(map, tile, view->raster.tiles[tile].content_hash)) return true;
+        if (!holds_content(map, tile, view->raster.tiles[tile].content_hash)) return true;
     return false;
 }
 
 static bool are_all_to_draw(const struct gn_shadow_view *view, const struct gn_gl_map *map) {
     for (uint32_t tile = 0; tile < view->map.tile_count; tile++)
-        if (holds(map, tile, view->raster.tiles[tile].content_hash)) return false;
+        if (holds_content(map, tile, view->raster.tiles[tile].content_hash)) return false;
     return true;
 }
 
@@ -323,7 +323,7 @@ static bool is_depth_done(const struct gn_plan *plan, const struct gn_gl_map *ma
 }
 
 static bool is_stopped(const struct gn_gl *gl, struct gn_err *err) {
-    return gl->stop && gl->stop() && !gn_fail(err, "stopped while programs are made");
+    return gl->stop && gl->stop() && !gn_fail(err, "interrupted while compiling programs");
 }
 
 /* map: NULL for what is no shadow pass. */
@@ -339,10 +339,10 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     if (pass->kind == GN_PASS_COPY) copy_pages(gl, pass);
     for (uint32_t i = 0; i < pass->draw_count; i++) {
         if (first_time && is_stopped(gl, err)) return false;
-        draw(gl, pass, &plan->draws[pass->first_draw + i], hash, UINT32_MAX);
+        draw_geometry(gl, pass, &plan->draws[pass->first_draw + i], hash, UINT32_MAX);
     }
     if (is_depth_done(plan, map, pass)) discard_depth(gl, pass);
-    if (pass->kind == GN_PASS_PICTURE && pass->picture.resolves) resolve(gl);
+    if (pass->kind == GN_PASS_PICTURE && pass->picture.resolves) resolve_output(gl);
     if (grouped) GL(gl, PopDebugGroup)();
     return !gl->debug.on || gn_gl_error_check(gl, pass->label, err);
 }
@@ -361,7 +361,7 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
     const struct gn_content *content = &pass->content;
     struct gn_gl_map *to = gn_gl_target_find(gl, &pass->target), *owner = owner_of(gl, plan, pass);
     if (!to || !owner) return gn_fail(err, "%s: the plan was not prepared", pass->label);
-    if (holds(owner, content->tile, content->hash)) {
+    if (holds_content(owner, content->tile, content->hash)) {
         owner->cleared = false;
         gl->stats.shadow_passes_skipped += pass->target.kind == GN_TARGET_SHADOW;
         return true;
@@ -448,7 +448,8 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
     const uint64_t made = gl->programs.made;
     if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
     if (!gn_gl_prove(gl, plan))
-        return gn_fail(err, "this GPU fails at what it says it has; try again, or see --without");
+        return gn_fail(err,
+                       "this GPU fails at a capability it claims; try again, or use --without");
     const bool ok = make_programs(gl, plan, err) && gn_gl_targets_ensure(gl, plan, err) &&
                     gn_gl_atlas_ensure(gl, plan->atlas, err);
     if (made != gl->programs.made) GL(gl, ReleaseShaderCompiler)();
@@ -476,7 +477,7 @@ static bool touch_pass(struct gn_gl *gl, const struct gn_plan *plan, const struc
     begin_target(gl, pass, framebuffer_of(gl, pass, map), GN_CLEAR_NOTHING);
     gn_gl_set_scissor(gl, &pixel);
     bind_sources(gl, plan, pass);
-    draw(gl, pass, &one, 0, 3);
+    draw_geometry(gl, pass, &one, 0, 3);
     if (map) memset(map->content_hash, 0, sizeof map->content_hash);
     return true;
 }

@@ -61,7 +61,7 @@ static const char *file_text(const struct gn_gl_source *source, const char *name
         return gn_file_read(path, SHADER_BYTES_MAX, owned, err) ? (const char *)owned->data : NULL;
     }
     const struct gn_embedded *file = gn_embedded_find(name);
-    if (!file) gn_fail(err, "the program holds no shader file %s", name);
+    if (!file) gn_fail(err, "no embedded shader file %s", name);
     return file ? (const char *)file->data : NULL;
 }
 

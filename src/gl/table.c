@@ -11,7 +11,7 @@ bool gn_gl_table_load(struct gn_gl_table *table, const struct gn_gl_opts *opts,
 #define X(type, name)                                                                              \
     table->name = (type)opts->get_proc(opts->display, "gl" #name);                                 \
     if (!table->name)                                                                              \
-        return gn_fail(err, "the driver has no gl" #name ": gnomon needs OpenGL ES 3.0");
+        return gn_fail(err, "the driver lacks gl" #name ": gnomon needs OpenGL ES 3.0");
     GN_GL_TABLE(X)
 #undef X
 #define X(type, name, suffix) table->name = (type)find(opts, "gl" #name, "gl" #name suffix);

@@ -31,8 +31,8 @@ void gn_gl_set_window(struct gn_gl *gl, const struct gn_gl_window *window) {
 bool gn_gl_framebuffer_check(struct gn_gl *gl, const char *what, struct gn_err *err) {
     GLenum status = GL(gl, CheckFramebufferStatus)(GL_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE) return true;
-    return gn_fail(err, "%s: the driver cannot draw to it (0x%x); try a smaller --size or --map",
-                   what, status);
+    return gn_fail(err, "%s: incomplete framebuffer (0x%x); try a smaller --size or --map", what,
+                   status);
 }
 
 /* ---- the output ---- */

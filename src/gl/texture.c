@@ -21,7 +21,8 @@ static uint8_t *shrink(struct gn_gl *gl, const struct gn_gl_curve *curve, uint32
         free(old);
     }
     if (owned)
-        gn_warn(gl->warnings, "image %u: %ux%u pixels are too many for this GPU; shown as %ux%u",
+        gn_warn(gl->warnings,
+                "image %u: %ux%u pixels exceed the texture size of this GPU; reduced to %ux%u",
                 index, before.width_px, before.height_px, image->width_px, image->height_px);
     return owned;
 }

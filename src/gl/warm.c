@@ -30,30 +30,31 @@ static enum gn_gl_warmth warm_program(struct gn_gl *gl, const struct gn_plan *pl
 }
 
 /* Made before, but with vertices of another scene. */
-static bool is_there(struct gn_gl *gl, const struct gn_program_key *key) {
+static bool is_program_ready(struct gn_gl *gl, const struct gn_program_key *key) {
     const struct gn_gl_program *p = gn_gl_program_find(gl, key);
     return p && gn_gl_vertices_known(gl, p->attributes);
 }
 
-static enum gn_gl_warmth warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
+static enum gn_gl_warmth warm_plan(struct gn_gl *gl, const struct gn_plan *plan,
+                                   struct gn_err *err) {
     const uint64_t made = gl->programs.made;
     if (!gn_gl_prove(gl, plan)) return GN_GL_WARM_REBUILD;
     if (made != gl->programs.made) return GN_GL_WARM_MORE; /* proofs compile, too */
     gl->targets.wants_stencil |= plan->stencil;
     if (!gn_gl_maps_ensure(gl, plan, err)) return GN_GL_WARM_FAILED;
     for (uint32_t i = 0; i < plan->program_count; i++)
-        if (!is_there(gl, &plan->programs[i])) return warm_program(gl, plan, i, err);
+        if (!is_program_ready(gl, &plan->programs[i])) return warm_program(gl, plan, i, err);
     return GN_GL_WARM_DONE;
 }
 
 enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    if (plan->scene == gl->scene.scene) return warm(gl, plan, err);
+    if (plan->scene == gl->scene.scene) return warm_plan(gl, plan, err);
     if (!gl->staged || plan->scene != gl->staged->scene) {
         gn_fail(err, "the plan's scene is not loaded");
         return GN_GL_WARM_FAILED;
     }
     gn_gl_stage_swap(gl);
-    const enum gn_gl_warmth warmth = warm(gl, plan, err);
+    const enum gn_gl_warmth warmth = warm_plan(gl, plan, err);
     gn_gl_stage_swap(gl);
     return warmth;
 }

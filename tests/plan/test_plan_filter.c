@@ -67,15 +67,15 @@ static void test_what_a_gpu_lacks_is_replaced(void **state) {
                      GN_MOMENTS_RG32UI);
     assert_int_equal(moments_with(no_bits, GN_TECHNIQUE_VSM, GN_MOMENTS_NONE, NULL),
                      GN_MOMENTS_RGBA16UI);
-    assert_int_equal(moments_with(no_bits, GN_TECHNIQUE_EVSM, GN_MOMENTS_NONE, "gets pcf"),
+    assert_int_equal(moments_with(no_bits, GN_TECHNIQUE_EVSM, GN_MOMENTS_NONE, "falls back to pcf"),
                      GN_MOMENTS_NONE);
     assert_int_equal(moments_with(GN_EVERY_CAP, GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA16F, NULL),
                      GN_MOMENTS_RGBA16F);
     assert_int_equal(moments_with(GN_EVERY_CAP, GN_TECHNIQUE_MSM, GN_MOMENTS_RG32UI,
-                                  "msm keeps no shadows in map format rg32ui"),
+                                  "msm does not support map format rg32ui"),
                      GN_MOMENTS_RGBA16UI);
     assert_int_equal(moments_with(GN_EVERY_CAP, GN_TECHNIQUE_PCF, GN_MOMENTS_RG32UI,
-                                  "pcf keeps no shadows in map format rg32ui; depth is used"),
+                                  "pcf does not support map format rg32ui; using depth"),
                      GN_MOMENTS_NONE);
 }
 
