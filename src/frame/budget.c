@@ -1,6 +1,6 @@
-/* How many filtered maps are made again in one frame, where many lights move. A light that is left
- * keeps its map, and the view that this was made for: its shadow is some frames old, but of one
- * piece. Those that have waited longest come first. */
+/* Limits how many filtered maps are updated in one frame when many lights move. A light over the
+ * budget keeps its map and the view that it was drawn for: its shadow is some frames old but
+ * consistent. Lights that have waited longest come first. */
 #include "frame/private.h"
 
 static bool is_filtered(const struct gn_shadow_view *view) {

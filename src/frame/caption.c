@@ -1,5 +1,5 @@
-/* Texts over the finished picture: one draw, an instance per rectangle. What is to be seen is in
- * the space that the target stores, so the pass comes after all that is linear. */
+/* Texts over the finished picture: one draw, an instance per rectangle. Colours are in the target's
+ * encoded space, so the pass comes after all linear ones. */
 #include <string.h>
 
 #include "blocks.glsl"

@@ -73,7 +73,7 @@ static float depth_of(const struct gn_frame *frame, const struct gn_box *box, bo
     return depth;
 }
 
-/* Of what the eye sees, opaque: what the lights that are added reach. */
+/* Whether an item is visible, opaque and within range of a group of added lights. */
 static bool takes_light(const struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_light_group *group, uint32_t item) {
     const struct gn_material *m = &frame->scene->materials[frame->scene->items[item].material];

@@ -4,9 +4,9 @@
 #include "blocks.glsl"
 #include "frame/private.h"
 
-#define FAR_TIMES 1e4f /* the scene's reach */
+#define FAR_TIMES 1e4f /* times the extent of the scene */
 
-/* As far as the scene goes. */
+/* Distance from the camera to the far end of the scene. */
 static float scene_far_m(const struct gn_pose *pose, vec3 eye_ws, float near_m) {
     vec3 reach;
     for (int k = 0; k < 3; k++)
@@ -16,13 +16,12 @@ static float scene_far_m(const struct gn_pose *pose, vec3 eye_ws, float near_m) 
     return isfinite(far_m) && far_m > 2.0f * near_m ? far_m : 2.0f * near_m;
 }
 
-/* A far plane out of all proportion to what there is to see shows nothing more, and costs the depth
- * its precision, or its range. */
+/* A far plane far beyond the scene shows nothing more and costs depth precision. */
 static float camera_far_m(const struct gn_camera *camera, float scene_m) {
     return camera->far_m > 0.0f && camera->far_m < FAR_TIMES * scene_m ? camera->far_m : scene_m;
 }
 
-/* Carries the eye round the vertical through the scene's centre. */
+/* Rotates the camera about the vertical axis through the scene's centre. */
 static void turn_camera(const struct gn_pose *pose, float angle_rad, mat4 view_from_world,
                         vec3 eye_ws) {
     if (angle_rad == 0.0f) return;
@@ -39,7 +38,7 @@ static void turn_camera(const struct gn_pose *pose, float angle_rad, mat4 view_f
     glm_vec3_add(eye_ws, centre, eye_ws);
 }
 
-/* Turned in the output: to a screen on its side it costs nothing. */
+/* Rotates the picture in clip space: free for a rotated screen. */
 static void turn_picture(const struct gn_frame *frame, mat4 clip_from_view) {
     const float c = frame->picture.turn[0], s = frame->picture.turn[1];
     for (int k = 0; k < 4; k++) {
@@ -49,8 +48,8 @@ static void turn_picture(const struct gn_frame *frame, mat4 clip_from_view) {
     }
 }
 
-/* A hand that moves the eye expects to see all of the scene from there: then the camera's own near
- * and far planes only widen what is seen. */
+/* A camera moved by the user shows all of the scene: the camera's own near and far planes then only
+ * extend the range. */
 static void make_projection(const struct gn_camera *camera, const struct gn_orbit *orbit,
                             float aspect, const float reach_m[2], mat4 clip_from_view) {
     const bool moved = !gn_orbit_is_zero(orbit);
@@ -102,7 +101,7 @@ void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
     gn_eye_build(&frame->eye, look.clip_from_world);
     memcpy(constants[PASS_CLIP], look.clip_from_world, sizeof look.clip_from_world);
     for (int k = 0; k < 3;
-         k++) { /* orthographic: the unit vector towards the eye is the view's +Z */
+         k++) { /* orthographic: the unit vector towards the camera is the view's +Z */
         constants[PASS_EYE][k] = camera->orthographic ? look.view_from_world[k][2] : look.eye_ws[k];
         constants[PASS_EXPOSURE][1 + k] = look.eye_ws[k];
     }

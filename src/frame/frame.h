@@ -17,27 +17,27 @@ struct gn_frame_opts {            /* zero means the default written beside */
     enum gn_encoding encoding; /* GN_ENCODING_AUTO must be set for the automatic choice */
     enum gn_moments moments;   /* of techniques that filter their map; NONE: the automatic choice */
     uint32_t map_px;           /* 0: the light's, else the technique's */
-    uint32_t cascades;         /* the most that a light gets; 4 */
+    uint32_t cascades;         /* limit per light; 4 */
     uint64_t filter_texels; /* of filtered maps that one frame makes again, if that is more than one
                                map; others stay as they are for a while. 0: all are made */
     bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
     unsigned taps;          /* of disk, poisson, pcss: 8, 16, 32; 16 */
     bool taps_fixed;        /* the same for every pixel */
     enum gn_aov aov;
-    int light; /* for visibility: which of the scene; one that is not there leaves all lit */
+    int light; /* for visibility: index in the scene; out of range: everything is lit */
     bool output_linear, output_float;
     bool exposure_given;
     float exposure_ev; /* stops, when given; else automatic */
     bool strength_given;
     float strength; /* overrides the lights' gnomon_shadow_strength */
     uint32_t msaa;
-    struct gn_orbit orbit; /* the eye, moved by hand */
-    float turntable_rad;   /* the eye goes round the scene's centre by this, about +Y */
-    bool show_lights;      /* a mark where each light stands */
-    bool show_maps;        /* the maps as panels along the lower edge */
-    bool all_seen;         /* the eye sees everything: for programs that will be wanted later */
+    struct gn_orbit orbit; /* the camera moved by the user */
+    float turntable_rad;   /* the camera is rotated about +Y through the scene's centre by this */
+    bool show_lights;      /* draw a gizmo at each light */
+    bool show_maps;        /* draw the maps as panels along the lower edge */
+    bool all_seen;         /* no culling: for programs that will be needed later */
     const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
-    bool captions_later;                   /* their program is made even while there are none */
+    bool captions_later;                   /* include their program even without captions */
 };
 
 struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing

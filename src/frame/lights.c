@@ -5,7 +5,7 @@
 
 static float luminance(const vec3 c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
 
-/* Lux on a surface at the scene's centre that faces the light; cones are left out of account. */
+/* Lux on a surface at the scene's centre that faces the light; ignores cones. */
 static float illuminance(const struct gn_pose *pose, uint32_t index) {
     const struct gn_light *light = &pose->scene->lights[index];
     if (!gn_light_types[light->type].has_position) return luminance(light->color);
@@ -29,7 +29,7 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
     frame->auto_exposure.known = true;
     frame->auto_exposure.value = 1.0f;
     if (strongest > 0.0f && isfinite(strongest) && (sum < 0.3f || sum > 30.0f))
-        /* not farther than a float can be scaled and stay a normal one */
+        /* keeps the factor a normal float */
         frame->auto_exposure.value =
             exp2f(glm_clamp(roundf(log2f(0.8f * GLM_PIf / strongest)), -126.0f, 126.0f));
     return frame->auto_exposure.value;
@@ -67,7 +67,8 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
     return GN_TECHNIQUE_NONE;
 }
 
-/* What a filtered map is kept in; of the map itself nothing can be wanted, and the other way round.
+/* The format of a filtered map. A format can be requested for the moments of a filtered map, or for
+ * an unfiltered map, not for both.
  */
 static void choose_moments(struct gn_frame *frame, const struct gn_frame_opts *opts,
                            struct gn_frame_light *light, struct gn_warnings *warnings) {
@@ -121,7 +122,7 @@ static bool has_map(const struct gn_frame_light *light) {
     return light->technique != GN_TECHNIQUE_NONE;
 }
 
-/* Of equals the last. There is one. */
+/* The last of equals; there is at least one light. */
 static uint32_t find_weakest(const struct gn_frame *frame, bool with_map) {
     uint32_t found = UINT32_MAX;
     for (uint32_t i = 0; i < frame->light_count; i++) {
@@ -148,7 +149,7 @@ static void warn_of_limit(struct gn_frame *frame, uint32_t light, enum gn_notice
             can_add_light(frame) ? "" : " on a GPU without srgb and rgba16f targets");
 }
 
-/* Full: the weakest goes. */
+/* When full, replaces the weakest light. */
 static void add_light(struct gn_frame *frame, struct gn_frame_light light, uint32_t most,
                       struct gn_warnings *warnings) {
     if (frame->light_count == most) {

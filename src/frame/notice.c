@@ -1,6 +1,6 @@
-/* What is asked and said once: names of techniques are looked up at the first build, and a warning
- * is worded again only when the options that it is about have changed. A frame is built from
- * numbers. */
+/* Lookups and warnings that happen once: technique names are resolved at the first build, and a
+ * warning is formatted again only when options it depends on change. Building a frame handles no
+ * text. */
 #include <string.h>
 
 #include "frame/private.h"

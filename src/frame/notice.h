@@ -23,7 +23,8 @@ enum { GN_NOTICE_ABOUT = 10 }; /* options that a warning may be about */
 struct gn_frame;
 /* First of all in a build. */
 void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts);
-/* Whether this is to be said now: it was not yet, and somebody listens. Then it has been. */
+/* Whether to give this warning now: not given yet, and `warnings` is not NULL. Marks it as given.
+ */
 bool gn_frame_notice(uint32_t *said, enum gn_notice notice, const struct gn_warnings *warnings);
 
 #endif

@@ -1,5 +1,5 @@
-/* What is drawn over the picture when asked for: marks where lights stand, and their maps as
- * panels. Neither has geometry of the scene: vertices are made from their number. */
+/* Optional overlays: light gizmos, and shadow maps as panels. Vertices are generated from
+ * gl_VertexID. */
 #include <math.h>
 #include <string.h>
 

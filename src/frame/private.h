@@ -20,8 +20,7 @@ struct gn_frame_light {
     enum gn_moments moments; /* of a technique that filters its map */
     enum gn_slide slide;
     float strength;
-    float illuminance; /* of its light on the scene's centre, lux; orders them when there are too
-                          many */
+    float illuminance; /* at the scene's centre, lux; the weakest are dropped over the limit */
     uint32_t cascades; /* 1: one map; once maps are fitted */
 };
 
@@ -30,27 +29,29 @@ struct gn_frame_light {
 struct gn_light_group {
     uint32_t first, count, first_shadow, shadow_count;
     struct gn_reach reaches[GN_LIGHTS_MAX]; /* of groups that are added */
-    bool seen;                              /* by the eye; without, it has no pass */
+    bool seen;                              /* in the camera's view; else it has no pass */
     struct gn_rect rect;                    /* of the picture; width 0: all of it */
 };
 
-enum { GN_CASCADE_CHOICES = 8 }; /* cameras and sizes of maps and pictures that take turns */
+enum {
+    GN_CASCADE_CHOICES = 8
+}; /* combinations of camera, map and picture size that are remembered */
 
 /* How many cascades a light has. */
 struct gn_cascade_choice {
-    uint64_t choice; /* the options that they are for */
+    uint64_t choice; /* hash of the options that it is for */
     uint32_t count;  /* 0: not known yet */
     uint64_t judged; /* hash of the orbit that was judged last */
-    float borne_px;  /* a texel that is seen so large is borne: more would not help */
+    float borne_px;  /* accepted texel size: more cascades would not help */
 };
 
-/* What is known of a light of the scene, and was said of it. */
+/* What is known of a scene's light, and which warnings it had. */
 struct gn_light_note {
     enum gn_technique technique; /* its own, or pcf */
-    bool unknown;                /* it names one that there is not */
+    bool unknown;                /* it names an unknown one */
     uint32_t said;               /* bits: enum gn_notice */
     struct gn_cascade_choice cascades[GN_CASCADE_CHOICES];
-    uint32_t next_choice; /* the one that makes room */
+    uint32_t next_choice; /* replaced next */
 };
 
 struct gn_frame {
@@ -112,7 +113,7 @@ enum gn_frame_constants {
 };
 float (*gn_frame_constants(const struct gn_frame *frame, uint32_t which))[4];
 
-/* Of what the eye sees: what is lit by the plane's own shadows, too, or the rest. */
+/* Of visible items: receivers of planar shadows, or the rest. */
 enum gn_part { GN_PART_ALL, GN_PART_PLANE, GN_PART_REST };
 /* Which items a pass takes, and with which program. */
 struct gn_selection {
@@ -175,12 +176,12 @@ void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts, uint32_t group);
 /* Whether the group has any that can be seen. */
 bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group);
-/* Marks and panels over the picture. */
+/* Light gizmos and map panels over the picture. */
 void gn_frame_overlay_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts);
 /* Where a rectangle of the picture is in the output. */
 struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect rect);
-/* Texts over everything. Before the picture is finished, or, where a pass encodes it, after that.
+/* Captions, on top. Before the picture is finished, or after it where a pass encodes it.
  */
 void gn_frame_caption_pass(struct gn_frame *frame, const struct gn_frame_opts *opts);
 
@@ -213,9 +214,9 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
                                   const struct gn_frame_opts *frame_opts, uint32_t slot,
                                   const struct gn_shadow_opts *opts);
 struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot);
-/* At least so many memories of a slot. */
+/* Creates at least so many memories of a slot. */
 void gn_frame_make_memories(struct gn_frame *frame, uint32_t slot, uint32_t count);
-/* How long a map's side can be, or a tile's, such that all of so many is a texture. */
+/* Largest resolution of a map, or of its tiles, whose texture this GPU supports. */
 uint32_t gn_frame_most_px(const struct gn_frame *frame, const struct gn_frame_light *light,
                           uint32_t cascades);
 

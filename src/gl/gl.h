@@ -34,10 +34,10 @@ struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *wa
                            struct gn_err *err);
 void gn_gl_destroy(struct gn_gl *gl);
 const struct gn_caps *gn_gl_caps(const struct gn_gl *gl);
-/* The GPU hung and was reset: all of this is void, and the context with it. */
+/* Whether the GPU was reset: this object and its context are unusable then. */
 bool gn_gl_is_lost(struct gn_gl *gl);
-/* Draws known values and reads them back. False: it does not draw what it is told, and may be a GPU
- * that hung, and whose driver says nothing of it. Waits for the GPU, and compiles a program. */
+/* Draws known values and reads them back. False: wrong results, possibly from a GPU that hung
+ * without the driver reporting it. Waits for the GPU, and compiles a program. */
 bool gn_gl_draws_right(struct gn_gl *gl);
 
 /* Uploads a scene, replacing the one before. The scene must outlive its use here. */
@@ -62,12 +62,12 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
  * all_seen. */
 enum gn_gl_warmth {
     GN_GL_WARM_FAILED,  /* err says why */
-    GN_GL_WARM_MORE,    /* something was done */
+    GN_GL_WARM_MORE,    /* call again */
     GN_GL_WARM_DONE,    /* nothing was left to do */
     GN_GL_WARM_REBUILD, /* the GPU fails at some of it: build the plan again from what is left */
 };
 enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
-/* For now there is nothing more to make: the driver need not keep its compiler. */
+/* Warm-up is done: releases the driver's compiler. */
 void gn_gl_warm_end(struct gn_gl *gl);
 /* The composed source of the stage that failed last in a program of gn_gl_prepare(), its lines
  * numbered as the driver counts them; NULL when none did, or without `debug`. */
@@ -90,9 +90,10 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
  * sending it on its way. prepare() makes what that takes, for the output of the last plan. */
 bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err);
 bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err);
-/* share: 0..1 of what is kept. Nothing happens if that is not of the same size. */
+/* Blends the kept picture over the current one. share: its weight, 0..1. No effect if sizes differ.
+ */
 void gn_gl_lay_over(struct gn_gl *gl, float share);
-/* Makes the window black, in place of a plan. */
+/* Clears the window to black instead of running a plan. */
 void gn_gl_black(struct gn_gl *gl);
 
 /* The last picture, top row first. rgba8: what is stored (sRGB-encoded for GN_OUTPUT_SRGB8). f32:
@@ -102,7 +103,7 @@ bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err);
 /* The same picture as XRGB8888, top row first, `stride` bytes from row to row. */
 bool gn_gl_read_xrgb8888(struct gn_gl *gl, uint8_t *out, size_t stride, struct gn_err *err);
 void gn_gl_finish_frame(struct gn_gl *gl); /* a 1-pixel read-back: ends a timed frame */
-/* A shadow map as codes in its encoding's unit (metres for r32ui and r16f-raw, -1..1 for r16f, 0..1
+/* A shadow map as encoded distances (metres for r32ui and r16f-raw, -1..1 for r16f, 0..1
  * else), width_px x height_px floats of the view, first row at v = 0. For tests and --aov map. */
 bool gn_gl_read_map(struct gn_gl *gl, uint32_t slot, float *out, struct gn_err *err);
 

@@ -12,10 +12,10 @@
 
 /* Collects KHR_debug messages from now on, if the context has them. */
 void gn_gl_debug_start(struct gn_gl *gl);
-/* What the driver said since the last time; true when nothing. */
+/* Fails with the first driver error since the last check; true: none. */
 bool gn_gl_error_check(struct gn_gl *gl, const char *what, struct gn_err *err);
-/* Takes a pending error out of the driver's hands, for the next gn_gl_error_check: what GetError
- * says then is about what comes between. */
+/* Stores a pending error for the next gn_gl_error_check, so that GetError reports only later errors
+ * until then. */
 void gn_gl_error_keep(struct gn_gl *gl);
 
 /* ---- the glyphs of captions (atlas.c) ---- */
@@ -23,21 +23,21 @@ void gn_gl_error_keep(struct gn_gl *gl);
 struct gn_gl_atlas {
     GLuint texture;
     uint32_t width_px, height_px;
-    uint64_t generation; /* of what it holds; 0: nothing */
+    uint64_t generation; /* of its content; 0: none */
 };
-/* Sends what the plan's captions read, if it is not there; NULL: they read nothing. */
+/* Uploads the glyph atlas of the plan's captions if it changed; NULL: no captions. */
 bool gn_gl_atlas_ensure(struct gn_gl *gl, const struct gn_caption_atlas *atlas, struct gn_err *err);
 bool gn_gl_atlas_holds(const struct gn_gl *gl, const struct gn_caption_atlas *atlas);
 void gn_gl_atlas_finish(struct gn_gl *gl);
 
 /* ---- running and reading (run.c, read.c) ---- */
 
-/* Draws once, a triangle on one pixel, with a program of the plan wherever the plan does. What maps
- * hold is forgotten where that was in one. */
+/* Draws one triangle on one pixel with a program, in each pass of the plan that uses it. Maps drawn
+ * to this way lose their content. */
 bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
                  struct gn_err *err);
 bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err);
-/* Waits until all is drawn, maps too. */
+/* Waits until the GPU has finished all draws, maps included. */
 void gn_gl_wait(struct gn_gl *gl);
 /* RGBA of the framebuffer that is bound, half floats or floats. out: 4 x width x height. */
 void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float *out);
@@ -68,19 +68,19 @@ void gn_gl_kept_finish(struct gn_gl *gl);
 struct gn_gl {
     struct gn_gl_table fn;
     uint32_t calls;
-    bool desktop, robust; /* robust: it tells when the GPU was reset */
+    bool desktop, robust; /* robust: reset notification */
     struct {
         bool on;
-        char text[256];      /* the driver's first complaint since the last check */
+        char text[256];      /* the first driver error since the last check */
         char *failed_source; /* see gn_gl_failed_source() */
     } debug;
-    uint32_t probed; /* gn_cap bits that were tried: caps holds how it ended */
+    uint32_t probed; /* gn_cap bits that were tested; caps holds the result */
     char *shaders;   /* folder, or NULL */
     struct gn_warnings *warnings;
     struct gn_caps caps;
     struct gn_gl_state state;
     struct gn_gl_programs programs;
-    struct gn_gl_scene scene, *staged; /* staged: NULL, or one beside it */
+    struct gn_gl_scene scene, *staged; /* staged: NULL, or the next scene */
     struct gn_gl_instances instances;
     struct gn_gl_targets targets;
     struct gn_gl_kept kept;

@@ -6,7 +6,7 @@
 
 struct gn_gl_program {
     struct gn_program_key key;
-    GLuint name;             /* 0: an empty place of the table */
+    GLuint name;             /* 0: free slot */
     GLint u_pass, u_uv;      /* locations, or -1 */
     uint32_t attributes;     /* bit per location that it reads */
     uint32_t texture_slots;  /* bit per gn_texture_slot that it reads */
@@ -16,8 +16,8 @@ struct gn_gl_program {
 struct gn_gl_programs { /* open addressing, room is a power of two, at most half full */
     struct gn_gl_program *table;
     uint32_t room, count;
-    uint64_t made; /* tried ones too */
-    uint64_t run;  /* of them, when a plan had run last: many drivers compile as they draw */
+    uint64_t made; /* includes gn_gl_try_program() */
+    uint64_t run; /* value of `made` when a plan last ran: many drivers compile at the first draw */
 };
 struct gn_gl_program *gn_gl_program_find(struct gn_gl *gl, const struct gn_program_key *key);
 bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err);

@@ -27,7 +27,8 @@ static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
     (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | (stencil ? GL_STENCIL_BUFFER_BIT : 0u));
 }
 
-/* To the light's far end, in the encoding's own unit. What is copied needs no depth. */
+/* Clears to the light's far end, as an encoded distance. A map that is copied from pages needs no
+ * depth. */
 static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     static const float ones[4] = {1, 1, 1, 1};
     const float far_code[4] = {pass->clear.color[0], 0, 0, 1};
@@ -55,7 +56,7 @@ static struct gn_gl_rect viewport_of(const struct gn_pass *pass) {
                                (GLsizei)pass->target.height_px};
 }
 
-/* What a pass may draw on, where that is not all of the target. */
+/* The scissor rectangle of a pass; false: it draws to all of the target. */
 static bool scissor_of(const struct gn_pass *pass, struct gn_gl_rect *out) {
     const GLint border = pass->kind == GN_PASS_MAP ? (GLint)pass->map.border_px : 0;
     *out = gl_rect(&pass->rect);
@@ -83,7 +84,7 @@ static void clear_stencil(struct gn_gl *gl, uint8_t bits) {
     GL(gl, Clear)(GL_STENCIL_BUFFER_BIT);
 }
 
-/* area: of pass->clear, or what the runner makes of it. */
+/* area: of pass->clear, or what clear_of() reduces it to. */
 static void begin_target(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer,
                          enum gn_clear_area area) {
     static const struct gn_stencil no_stencil = {0};
@@ -116,7 +117,7 @@ static void discard_depth(struct gn_gl *gl, const struct gn_pass *pass) {
     GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, stencil ? 2 : 1, depth);
 }
 
-/* From the pages, which hold nothing any more then. */
+/* Copies pages into the map; their contents are invalidated afterwards. */
 static void copy_pages(struct gn_gl *gl, const struct gn_pass *pass) {
     static const GLenum attachments[] = {GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0};
     const struct gn_gl_map *pages = gn_gl_target_find(gl, &pass->copy.from);
@@ -135,7 +136,7 @@ static void copy_pages(struct gn_gl *gl, const struct gn_pass *pass) {
     GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, gl->state.framebuffer); /* as the cache says */
 }
 
-/* What is read is of no more use. */
+/* Copies the picture between framebuffers; the source is invalidated. */
 static void blit_output(struct gn_gl *gl, GLuint from, GLuint to) {
     static const GLenum color = GL_COLOR_ATTACHMENT0;
     const GLint w = (GLint)gl->targets.output.width_px, h = (GLint)gl->targets.output.height_px;
@@ -147,8 +148,8 @@ static void blit_output(struct gn_gl *gl, GLuint from, GLuint to) {
     GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, from); /* as the cache says */
 }
 
-/* In linear light: samples are averaged in a target of ours, since a window that has some of its
- * own averages values as they are encoded. */
+/* Averages samples in linear light, in an off-screen target: a multisampled window would average
+ * encoded values. */
 static void resolve_output(struct gn_gl *gl) {
     const struct gn_gl_output *o = &gl->targets.output;
     if (o->resolved == o->framebuffer) return;
@@ -182,7 +183,7 @@ static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan,
     }
 }
 
-/* What a filter reads: texels as they are. */
+/* Binds what a filter reads, unfiltered. */
 static void bind_reads(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
     const uint32_t slot = pass->target.slot;
     for (GLuint i = 0; i < GN_FILTER_FROM_MAX; i++) {
@@ -202,7 +203,7 @@ static void bind_reads(struct gn_gl *gl, const struct gn_plan *plan, const struc
     }
 }
 
-/* What a pass reads beside materials. */
+/* Binds what a pass reads besides material textures. */
 static void bind_sources(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
     const GLuint nearest = gl->targets.map_samplers[GN_GL_MAP_NEAREST];
     const struct gn_pass_picture *picture = &pass->picture;
@@ -303,8 +304,8 @@ static bool are_all_to_draw(const struct gn_shadow_view *view, const struct gn_g
     return true;
 }
 
-/* To clear all of a map costs a tiler nothing, and a part of it a load and a draw: when all its
- * tiles are drawn, the first clears them all. */
+/* Clearing a whole map is free on a tiled GPU; clearing one tile of it costs a load and a draw.
+ * When all tiles are drawn, the first clears them all. */
 static enum gn_clear_area clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
                                    const struct gn_pass *pass) {
     if (pass->clear.area != GN_CLEAR_RECT) return pass->clear.area;
@@ -315,7 +316,7 @@ static enum gn_clear_area clear_of(const struct gn_plan *plan, struct gn_gl_map 
     return map->cleared ? GN_CLEAR_NOTHING : GN_CLEAR_RECT;
 }
 
-/* The depth of a tile that the first has cleared is needed until that is drawn, too. */
+/* The first tile may have cleared the depth of later ones, which is needed until they are drawn. */
 static bool is_depth_done(const struct gn_plan *plan, const struct gn_gl_map *map,
                           const struct gn_pass *pass) {
     if (!pass->discard_depth || pass->kind != GN_PASS_MAP) return pass->discard_depth;
@@ -326,7 +327,7 @@ static bool is_stopped(const struct gn_gl *gl, struct gn_err *err) {
     return gl->stop && gl->stop() && !gn_fail(err, "interrupted while compiling programs");
 }
 
-/* map: NULL for what is no shadow pass. */
+/* map: NULL for passes of the picture. */
 static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                       struct gn_gl_map *map, struct gn_err *err) {
     const bool grouped = gl->debug.on && gl->caps.has & 1u << GN_CAP_DEBUG;
@@ -347,8 +348,8 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     return !gl->debug.on || gn_gl_error_check(gl, pass->label, err);
 }
 
-/* What tells whether a pass has to run: the map, or the light's own moments, whose size may be
- * another than of what it draws to. */
+/* The map whose content hash decides whether a pass has to run: the shadow map, or the light's own
+ * moments, which may differ in size from the pass's target. */
 static struct gn_gl_map *owner_of(struct gn_gl *gl, const struct gn_plan *plan,
                                   const struct gn_pass *pass) {
     const uint32_t slot = pass->target.slot;
@@ -366,7 +367,8 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
         gl->stats.shadow_passes_skipped += pass->target.kind == GN_TARGET_SHADOW;
         return true;
     }
-    if (to == owner) owner->content_hash[content->tile] = 0; /* something else until it is done */
+    if (to == owner)
+        owner->content_hash[content->tile] = 0; /* undefined until the pass is complete */
     const bool ok = draw_pass(gl, plan, pass, to, err);
     if (content->completes) owner->content_hash[content->tile] = ok ? content->hash : 0;
     if (ok && content->completes) gn_gl_target_reduce(gl, owner);
@@ -442,7 +444,7 @@ static bool make_programs(struct gn_gl *gl, const struct gn_plan *plan, struct g
     return true;
 }
 
-/* Between plans the driver need not keep its compiler. In Mesa it holds 3 MB, 1.4 ms to free and 5
+/* Releases the driver's compiler between plans. In Mesa it holds 3 MB, 1.4 ms to free and 5
  * to make again; released later, after the first picture, its memory is not given back any more. */
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     const uint64_t made = gl->programs.made;
@@ -456,7 +458,7 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
     return ok;
 }
 
-/* ---- one draw ahead of time ---- */
+/* ---- warm-up draws ---- */
 
 static const struct gn_draw *first_draw_of(const struct gn_plan *plan, const struct gn_pass *pass,
                                            uint32_t program) {
@@ -487,7 +489,7 @@ bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
     struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[program]);
     grow_plan_programs(gl, plan->program_count);
     gl->plan_programs.at[program] = p;
-    p->constants_hash = ~UINT64_C(0); /* so that they are sent, and sent again for a frame */
+    p->constants_hash = ~UINT64_C(0); /* forces an upload now and at the next frame */
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_draw *d = first_draw_of(plan, &plan->passes[i], program);

@@ -39,12 +39,13 @@ struct gn_gl_state {
     GLuint textures[GN_GL_UNIT_COUNT], samplers[GN_GL_UNIT_COUNT];
     float clear_color[4];
 };
-void gn_gl_state_init(struct gn_gl *gl); /* what every pass has in common; the cache is made true */
+void gn_gl_state_init(
+    struct gn_gl *gl); /* sets the state common to all passes; initialises the cache */
 void gn_gl_bind_framebuffer(struct gn_gl *gl, GLuint name);
 void gn_gl_bind_vertex_array(struct gn_gl *gl, GLuint name);
 void gn_gl_bind_array_buffer(struct gn_gl *gl, GLuint name);
 void gn_gl_bind_texture(struct gn_gl *gl, GLuint unit, GLuint texture, GLuint sampler);
-/* Calls that name no texture are about this one from now on, even where it was bound already. */
+/* Binds a texture for calls that name none (storage, upload), on a unit of its own. */
 void gn_gl_work_on_texture(struct gn_gl *gl, GLuint texture);
 void gn_gl_use_program(struct gn_gl *gl, GLuint name);
 void gn_gl_set_viewport(struct gn_gl *gl, struct gn_gl_rect rect);
@@ -52,7 +53,7 @@ void gn_gl_set_scissor(struct gn_gl *gl, const struct gn_gl_rect *rect); /* NULL
 void gn_gl_set_depth(struct gn_gl *gl, bool test, bool write);
 void gn_gl_set_blend(struct gn_gl *gl, enum gn_blend blend);
 void gn_gl_set_cull(struct gn_gl *gl, enum gn_cull cull, bool mirrored);
-void gn_gl_set_color_write(struct gn_gl *gl, bool write); /* clears heed it, too */
+void gn_gl_set_color_write(struct gn_gl *gl, bool write); /* affects clears */
 void gn_gl_set_stencil(struct gn_gl *gl, const struct gn_stencil *stencil);
 void gn_gl_set_stencil_writes(struct gn_gl *gl, uint8_t bits); /* for clears */
 void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]);

@@ -71,7 +71,7 @@ static void output_finish(struct gn_gl *gl, struct gn_gl_output *o) {
     *o = (struct gn_gl_output){0};
 }
 
-/* A shader turns the linear picture into bytes. */
+/* A last pass encodes the linear picture to 8 bits. */
 static bool is_encoded(const struct gn_plan *plan) {
     return plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT;
 }
@@ -94,7 +94,8 @@ static bool output_is(const struct gn_gl *gl, const struct gn_gl_output *o,
            o->encodes == is_encoded(plan);
 }
 
-/* The one colour of the framebuffer that is bound: as a texture, if shaders are to read it. */
+/* Attaches the colour of the bound framebuffer: a texture if shaders read it, else a renderbuffer.
+ */
 static void attach_color(struct gn_gl *gl, struct gn_gl_output *o, GLuint *color, GLsizei samples,
                          bool readable) {
     const GLenum format = output_formats[o->format].format;
@@ -145,7 +146,7 @@ static uint64_t bytes_of(const struct gn_gl_output *o, bool encoded) {
 
 static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err *err) {
     const bool encoded = o->encodes;
-    if (o->window && !encoded && !o->msaa) return true; /* all of it is the display's */
+    if (o->window && !encoded && !o->msaa) return true; /* the display provides everything */
     o->depth = make_renderbuffer(gl, o->stencil ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT24,
                                  (GLsizei)o->msaa, o->width_px, o->height_px);
     o->framebuffer = make_framebuffer(gl);
@@ -236,7 +237,7 @@ static void attach_map(struct gn_gl *gl, struct gn_gl_map *map) {
         return;
     }
     if (map->moments) return;
-    if (map->encoding == GN_ENCODING_MASK) return; /* the order of casters is all the same to it */
+    if (map->encoding == GN_ENCODING_MASK) return; /* a mask needs no depth test */
     map->depth = make_renderbuffer(gl, GL_DEPTH_COMPONENT24, 0, map->width_px, map->height_px);
     attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, map->depth);
 }
@@ -269,7 +270,7 @@ static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err
     return false;
 }
 
-/* t: as kept_target() makes it. */
+/* t: normalised by kept_target(). */
 static struct gn_gl_map *map_find(struct gn_gl *gl, const struct gn_target *t) {
     for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
         struct gn_gl_map *m = &gl->targets.maps[i];
@@ -281,7 +282,8 @@ static struct gn_gl_map *map_find(struct gn_gl *gl, const struct gn_target *t) {
     return NULL;
 }
 
-/* Where a target is kept: pages, and all moments but a light's own, are shared by those of a kind.
+/* Normalises a target for lookup: pages, and intermediate moments, are shared by all lights with
+ * the same format and size.
  */
 static struct gn_target kept_target(const struct gn_target *target) {
     struct gn_target kept = *target;
@@ -323,7 +325,7 @@ struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot) {
     return latest;
 }
 
-/* An empty place, else the one unused for longest: never one of this plan, which has far fewer. */
+/* A free slot, else the least recently used map. Never one of this plan, which has far fewer. */
 static struct gn_gl_map *free_place(struct gn_gl *gl) {
     struct gn_gl_map *oldest = &gl->targets.maps[0];
     for (int i = 1; i < GN_GL_MAPS_MAX; i++)
@@ -332,7 +334,8 @@ static struct gn_gl_map *free_place(struct gn_gl *gl) {
     return oldest;
 }
 
-/* Of those that no plan of now uses, the ones unused for longest go while all are too much. */
+/* Frees least recently used maps that the current plan does not use while the total is over the
+ * limit. */
 static void make_room(struct gn_gl *gl) {
     for (;;) {
         struct gn_gl_map *oldest = NULL;
