@@ -49,7 +49,7 @@ static void test_a_map_that_is_too_large_is_made_smaller_and_said_so(void **stat
                          plan->shadows[i].map.tile_count > 1 ? 1000 : 2048);
     assert_int_equal(warnings.count, 1);
     assert_non_null(strstr(warnings.text[0], "tiles of 2048 px"));
-    assert_non_null(strstr(warnings.text[0], "they have 1000 px"));
+    assert_non_null(strstr(warnings.text[0], "using 1000 px"));
     gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     assert_int_equal(warnings.count, 1); /* once */
     gn_plan_end(&f);

@@ -145,8 +145,7 @@ static void a_wrong_value_names_option_value_and_range(void **state) {
                  "--limit: no limit is called 'verts'; there are: file_mb");
     assert_wrong("render --limit nodes=1099511627776", "--limit: limit nodes: 1099511627776");
     assert_wrong("show --modeline 65", "--modeline: \"65\" is no mode: MHz, four rising widths");
-    assert_wrong("render --without wings",
-                 "--without: unknown capability \"wings\"; expected");
+    assert_wrong("render --without wings", "--without: unknown capability \"wings\"; expected");
     assert_wrong("show --display-mode 1920x1080@", "WxH@HZ");
     assert_wrong("show --rotate 45", "one of 0, 90, 180, 270");
 }
