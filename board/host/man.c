@@ -234,8 +234,10 @@ static void print_ini(void) {
         snprintf(tag, sizeof tag, "%s = %s", gn_button_key(i)->name, gn_button_key(i)->value);
         print_tagged(tag, gn_button_key(i)->help);
     }
-    print_text("\nACTION is next, prev, mode NAME, next-scene, next-camera, pause, blank, info or "
-               "none.\n");
+    char actions[160], sentence[200];
+    gn_action_list(actions, sizeof actions);
+    snprintf(sentence, sizeof sentence, "\nACTION is one of %s.\n", actions);
+    print_text(sentence);
     puts(".SH EXAMPLES");
     print_text("\t[display]\n\tmode = 1920x1080@60\n\t[scene]\n\tfile = sundial.glb\n"
                "\t[mode \"Sharp\"]\n\tshadow = pcf\n\t[mode \"Soft\"]\n\tshadow = pcss\n"

@@ -252,10 +252,10 @@ bool gn_cli_ctl(const struct gn_options *options, struct gn_warnings *warnings,
     if (!check_words(options, command, err)) return false;
     json_t *request = request_of(options, command, err);
     if (!request) return false;
-    const bool takes_long = command == GN_CTL_RELOAD || command == GN_CTL_SCREENSHOT;
+    const bool is_slow = gn_ctl_rows[command].flags & GN_CTL_SLOW;
     struct talk *talk = gn_xalloc(1, sizeof *talk);
     talk->fd = -1;
-    talk->until_ns = gn_clock_monotonic_ns() + (takes_long ? LONG_PATIENCE_NS : PATIENCE_NS);
+    talk->until_ns = gn_clock_monotonic_ns() + (is_slow ? LONG_PATIENCE_NS : PATIENCE_NS);
     json_t *reply = enter(talk, options->settings, err) ? ask(talk, request, err) : NULL;
     json_decref(request);
     if (talk->fd >= 0) close(talk->fd);

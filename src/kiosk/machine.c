@@ -70,34 +70,72 @@ static void toggle_pause(struct gn_kiosk *s, int64_t time_ns) {
     if (!s->paused && s->seen_ns != 0 && time_ns > s->seen_ns) s->seen_ns = time_ns;
 }
 
+typedef void act_fn(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                    const struct gn_kiosk_event *e);
+
+static void act_next(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                     const struct gn_kiosk_event *e) {
+    want_mode(rules, s, 1);
+    set_caption(s, GN_KIOSK_CAPTION_MODE, e->time_ns);
+}
+
+static void act_prev(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                     const struct gn_kiosk_event *e) {
+    want_mode(rules, s, -1);
+    set_caption(s, GN_KIOSK_CAPTION_MODE, e->time_ns);
+}
+
+static void act_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                     const struct gn_kiosk_event *e) {
+    want_named(rules, s, e->mode);
+    set_caption(s, GN_KIOSK_CAPTION_MODE, e->time_ns);
+}
+
+static void act_next_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                           const struct gn_kiosk_event *e) {
+    want_next_scene(rules, s);
+    set_caption(s, GN_KIOSK_CAPTION_SCENE, e->time_ns);
+}
+
+static void act_next_camera(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                            const struct gn_kiosk_event *e) {
+    (void)rules;
+    s->camera++;
+    set_caption(s, GN_KIOSK_CAPTION_CAMERA, e->time_ns);
+}
+
+static void act_pause(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                      const struct gn_kiosk_event *e) {
+    (void)rules;
+    toggle_pause(s, e->time_ns);
+    set_caption(s, GN_KIOSK_CAPTION_PAUSE, e->time_ns);
+}
+
+static void act_blank(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                      const struct gn_kiosk_event *e) {
+    (void)rules, (void)e;
+    s->blanked = true;
+}
+
+static void act_info(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                     const struct gn_kiosk_event *e) {
+    (void)rules, (void)e;
+    s->info = !s->info;
+}
+
 static void apply_action(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                          const struct gn_kiosk_event *e) {
+    static act_fn *const acts[GN_ACTION_KIND_COUNT] = {
+#define X(ID, id, ...) [GN_ACTION_##ID] = act_##id,
+        GN_ACTIONS(X)
+#undef X
+    };
     if (e->action == GN_ACTION_NONE) return;
     s->used_ns = e->time_ns;
-    if (s->blanked) {
+    if (s->blanked)
         s->blanked = false;
-        return;
-    }
-    switch (e->action) {
-    case GN_ACTION_NEXT: want_mode(rules, s, 1); break;
-    case GN_ACTION_PREV: want_mode(rules, s, -1); break;
-    case GN_ACTION_MODE: want_named(rules, s, e->mode); break;
-    case GN_ACTION_NEXT_SCENE: want_next_scene(rules, s); break;
-    case GN_ACTION_NEXT_CAMERA: s->camera++; break;
-    case GN_ACTION_PAUSE: toggle_pause(s, e->time_ns); break;
-    case GN_ACTION_BLANK: s->blanked = true; break;
-    case GN_ACTION_INFO: s->info = !s->info; break;
-    default: return;
-    }
-    static const enum gn_kiosk_caption captions[GN_ACTION_KIND_COUNT] = {
-        [GN_ACTION_NEXT] = GN_KIOSK_CAPTION_MODE,
-        [GN_ACTION_PREV] = GN_KIOSK_CAPTION_MODE,
-        [GN_ACTION_MODE] = GN_KIOSK_CAPTION_MODE,
-        [GN_ACTION_NEXT_SCENE] = GN_KIOSK_CAPTION_SCENE,
-        [GN_ACTION_NEXT_CAMERA] = GN_KIOSK_CAPTION_CAMERA,
-        [GN_ACTION_PAUSE] = GN_KIOSK_CAPTION_PAUSE,
-    };
-    if (captions[e->action]) set_caption(s, captions[e->action], e->time_ns);
+    else
+        acts[e->action](rules, s, e);
 }
 
 /* ---- other events ---- */

@@ -3,20 +3,31 @@
 #define GN_OPTIONS_ACTION_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "core/err.h"
 
+/* The table of actions: X(ID, id, name, argument, help, member of a request..). A row and the
+ * function act_<id> of kiosk/machine.c make an action of buttons, keys and `gnomon ctl`. The first
+ * mode follows the last; any action lights a blanked screen, and does no more then. */
+/* clang-format off */
+#define GN_ACTIONS(X)                                                                              \
+    X(NEXT, next, "next", "", "go to the next mode", NULL)                                         \
+    X(PREV, prev, "prev", "", "go to the previous mode", NULL)                                     \
+    X(MODE, mode, "mode", "NAME", "go to that mode", "name")                                       \
+    X(NEXT_SCENE, next_scene, "next-scene", "", "show the next scene", NULL)                       \
+    X(NEXT_CAMERA, next_camera, "next-camera", "", "use the scene's next camera", NULL)            \
+    X(PAUSE, pause, "pause", "", "stop the animation, or resume it", NULL)                         \
+    X(BLANK, blank, "blank", "", "turn the screen off, or on again", NULL)                         \
+    X(INFO, info, "info", "", "show or hide the information page", NULL)
+/* clang-format on */
+
 enum gn_action_kind {
     GN_ACTION_NONE,
-    GN_ACTION_NEXT, /* mode, as the file has them; the first follows the last */
-    GN_ACTION_PREV,
-    GN_ACTION_MODE, /* of that name */
-    GN_ACTION_NEXT_SCENE,
-    GN_ACTION_NEXT_CAMERA,
-    GN_ACTION_PAUSE, /* time stands still, and goes on where it stood */
-    GN_ACTION_BLANK, /* the screen goes dark; any action lights it again, and does no more */
-    GN_ACTION_INFO,  /* the page with frame rate, GPU, address, versions; and away again */
-    GN_ACTION_KIND_COUNT,
+#define X(ID, ...) GN_ACTION_##ID,
+    GN_ACTIONS(X)
+#undef X
+        GN_ACTION_KIND_COUNT,
 };
 struct gn_action { /* zeroed: none */
     enum gn_action_kind kind;
@@ -30,6 +41,7 @@ enum gn_idle { /* what a kiosk does after idle_after seconds without an event */
 };
 
 const char *gn_action_name(enum gn_action_kind kind); /* "next-scene" */
+void gn_action_list(char *out, size_t size);          /* "none, next, prev, mode NAME, .." */
 /* "next", "mode Soft": the name of a mode begins behind the first space and points into text, which
  * must live as long as the action. Else a usage error "label: .." that lists the actions. */
 bool gn_action_parse(const char *text, const char *label, struct gn_action *out,

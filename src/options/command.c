@@ -5,25 +5,25 @@
 
 #include "core/text.h"
 
-/* clang-format off */
 const struct gn_ctl_row gn_ctl_rows[GN_CTL_COUNT] = {
-    [GN_CTL_NEXT] = {"next", {0}, "", "go to the next mode", true},
-    [GN_CTL_PREV] = {"prev", {0}, "", "go to the mode before", true},
-    [GN_CTL_MODE] = {"mode", {"name"}, "NAME", "go to that mode", true},
-    [GN_CTL_NEXT_SCENE] = {"next-scene", {0}, "", "show the next scene", true},
-    [GN_CTL_NEXT_CAMERA] = {"next-camera", {0}, "", "look through the scene's next camera", true},
-    [GN_CTL_PAUSE] = {"pause", {0}, "", "let time stand still, or go on", true},
-    [GN_CTL_BLANK] = {"blank", {0}, "", "darken the screen, or light it again", true},
-    [GN_CTL_INFO] = {"info", {0}, "", "show the page about this kiosk, or hide it", true},
-    [GN_CTL_SET] = {"set", {"key", "value"}, "KEY VALUE",
-        "change an option of [scene] or [render] until reload; stronger than modes and flags", true},
-    [GN_CTL_GET] = {"get", {"key"}, "KEY", "say what an option is now", false},
-    [GN_CTL_STATUS] = {"status", {0}, "", "say how the kiosk is", false},
-    [GN_CTL_SCREENSHOT] = {"screenshot", {"file"}, "FILE", "write the next frame as a .png", true},
-    [GN_CTL_RELOAD] = {"reload", {0}, "", "read the configuration and the scene again", true},
-    [GN_CTL_QUIT] = {"quit", {0}, "", "end the kiosk", false},
+#define X(ID, id, name, argument, help, ...)                                                       \
+    [GN_CTL_##ID] = {name, argument, GN_CTL_CHANGES, help, {__VA_ARGS__}},
+    GN_ACTIONS(X)
+#undef X
+#define X(ID, id, name, arguments, flags, help, ...)                                               \
+    [GN_CTL_##ID] = {name, arguments, flags, help, {__VA_ARGS__}},
+        GN_REQUESTS(X)
+#undef X
 };
-/* clang-format on */
+
+enum gn_action_kind gn_ctl_action(enum gn_ctl command) {
+    static const enum gn_action_kind actions[GN_CTL_COUNT] = {
+#define X(ID, ...) [GN_CTL_##ID] = GN_ACTION_##ID,
+        GN_ACTIONS(X)
+#undef X
+    };
+    return actions[command];
+}
 
 int gn_ctl_find(const char *name) {
     for (int i = 0; i < GN_CTL_COUNT; i++)

@@ -3,39 +3,50 @@
 #ifndef GN_OPTIONS_COMMAND_H
 #define GN_OPTIONS_COMMAND_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
-enum gn_ctl { /* those of an action are called as it is */
-              GN_CTL_NEXT,
-              GN_CTL_PREV,
-              GN_CTL_MODE,
-              GN_CTL_NEXT_SCENE,
-              GN_CTL_NEXT_CAMERA,
-              GN_CTL_PAUSE,
-              GN_CTL_BLANK,
-              GN_CTL_INFO,
-              GN_CTL_SET,
-              GN_CTL_GET,
-              GN_CTL_STATUS,
-              GN_CTL_SCREENSHOT,
-              GN_CTL_RELOAD,
-              GN_CTL_QUIT,
-              GN_CTL_COUNT,
+#include "options/action.h"
+
+/* The commands that are no actions: X(ID, id, name, arguments, flags, help, members..). A row and
+ * the function answer_<id> of kiosk/control/answer.c make a command. */
+/* clang-format off */
+#define GN_REQUESTS(X)                                                                             \
+    X(SET, set, "set", "KEY VALUE", GN_CTL_CHANGES,                                                \
+      "change an option of [scene] or [render] until reload; stronger than modes and flags",       \
+      "key", "value")                                                                              \
+    X(GET, get, "get", "KEY", 0, "print an option's value and where it comes from", "key")         \
+    X(STATUS, status, "status", "", 0, "print the state of the kiosk", NULL)                       \
+    X(SCREENSHOT, screenshot, "screenshot", "FILE", GN_CTL_CHANGES | GN_CTL_SLOW,                  \
+      "write the next frame as a .png", "file")                                                    \
+    X(RELOAD, reload, "reload", "", GN_CTL_CHANGES | GN_CTL_SLOW,                                  \
+      "read the configuration and the scene again", NULL)                                          \
+    X(QUIT, quit, "quit", "", 0, "end the kiosk", NULL)
+/* clang-format on */
+
+enum {                     /* flags */
+       GN_CTL_CHANGES = 1, /* it may cost a frame: at most GN_CONTROL_CHANGES_PER_S a second */
+       GN_CTL_SLOW = 2,    /* it is answered when it is done, which may take seconds */
+};
+enum gn_ctl { /* first the actions, in their order: gn_ctl_action() */
+#define X(ID, ...) GN_CTL_##ID,
+              GN_ACTIONS(X) GN_REQUESTS(X)
+#undef X
+                  GN_CTL_COUNT,
 };
 enum { GN_CTL_WORDS_MAX = 2 };
 struct gn_ctl_row {
     const char *name;
-    const char *members[GN_CTL_WORDS_MAX]; /* of the request, beside "cmd"; NULL: none */
-    const char *words;                     /* how they are written on a command line: "KEY VALUE" */
+    const char *words; /* how arguments are written on a command line: "KEY VALUE" */
+    unsigned flags;
     const char *what;                      /* a phrase */
-    bool changes; /* it may cost a frame: at most GN_CONTROL_CHANGES_PER_S of those a second */
+    const char *members[GN_CTL_WORDS_MAX]; /* of the request, beside "cmd"; NULL: none */
 };
 extern const struct gn_ctl_row gn_ctl_rows[GN_CTL_COUNT];
 
-int gn_ctl_find(const char *name);                  /* enum gn_ctl, or -1 */
-int gn_ctl_words(enum gn_ctl command);              /* how many words it takes */
-void gn_ctl_list(char *out, size_t size);           /* " next, prev, mode NAME, .." */
-const char *gn_ctl_nearest(const char *misspelled); /* or NULL */
+enum gn_action_kind gn_ctl_action(enum gn_ctl command); /* GN_ACTION_NONE: it is no action */
+int gn_ctl_find(const char *name);                      /* enum gn_ctl, or -1 */
+int gn_ctl_words(enum gn_ctl command);                  /* how many words it takes */
+void gn_ctl_list(char *out, size_t size);               /* " next, prev, mode NAME, .." */
+const char *gn_ctl_nearest(const char *misspelled);     /* or NULL */
 
 #endif

@@ -208,7 +208,7 @@ stop
 # ---- a bad file at the start ---------------------------------------------------------------------
 sed 's/press = next/press = nxt/' good.ini > kiosk.ini
 start -c kiosk.ini
-expect 0 'config.error: kiosk.ini:15: press: "nxt" is no action' status
+expect 0 'config.error: kiosk.ini:15: press: unknown action "nxt"' status
 expect 0 'modes: pcf, ' status
 stop
 grep -q 'warning: kiosk.ini:15: press' kiosk.err || complain "a bad file at the start: $(cat kiosk.err)"
@@ -225,7 +225,7 @@ checks() {
 checks 0 'good.ini is right: 3 modes, 1 button, 1 scene' good.ini
 checks 0 'mode "Dial": camera = Dial, shadow = none' good.ini
 checks 0 'button "next": keys space; press = next' good.ini
-checks 2 'kiosk.ini:15: press: "nxt" is no action' kiosk.ini
+checks 2 'kiosk.ini:15: press: unknown action "nxt"' kiosk.ini
 sed 's/camera = Top/camera = Tpo/' good.ini > kiosk.ini
 checks 2 "kiosk.ini:9: camera: no camera is called 'Tpo'" kiosk.ini
 sed 's/file = sundial.glb/file = moondial.glb/' good.ini > kiosk.ini

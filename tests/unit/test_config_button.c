@@ -127,9 +127,9 @@ static void values_that_are_none(void **state) {
                    "hold_ms: \"10\" is not a whole number from 50 to 60000");
     assert_refused("[button \"a\"]\ndebounce_ms = 1.5\n", 2, "debounce_ms: \"1.5\"");
     assert_refused("[button \"a\"]\npress = nxt\n", 2,
-                   "press: \"nxt\" is no action; expected none");
-    assert_refused("[button \"a\"]\nhold = mode\n", 2, "hold: which mode?");
-    assert_refused("[button \"a\"]\nhold = next now\n", 2, "nothing follows next");
+                   "press: unknown action \"nxt\"; expected none");
+    assert_refused("[button \"a\"]\nhold = mode\n", 2, "hold: expected \"mode NAME\"");
+    assert_refused("[button \"a\"]\nhold = next now\n", 2, "next takes no argument");
     assert_refused("[button \"a\"]\nchord = b\n", 2, "chord: \"b\" is not two or more");
 }
 

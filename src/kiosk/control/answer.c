@@ -25,7 +25,7 @@ struct gn_show_control {
 
 /* ---- opening ---- */
 
-static void answer_screenshot(void *user, uint32_t events, int64_t now_ns);
+static void finish_screenshot(void *user, uint32_t events, int64_t now_ns);
 static void give_up_screenshot(void *user, int64_t now_ns);
 
 static bool open_all(struct gn_show *s, struct gn_show_control *c, const char *path,
@@ -38,7 +38,7 @@ static bool open_all(struct gn_show *s, struct gn_show_control *c, const char *p
     if (!c->control) return false;
     c->screenshot_done = (struct gn_watch){.fd = gn_screenshot_fd(s->screenshot),
                                            .events = EPOLLIN,
-                                           .call = answer_screenshot,
+                                           .call = finish_screenshot,
                                            .user = s};
     return gn_loop_add(s->loop, &c->screenshot_done) ||
            gn_fail(err, "control socket %s: cannot wait: %s", path, strerror(errno));
@@ -75,17 +75,6 @@ void gn_show_close_control(struct gn_show *s) {
 
 /* ---- actions ---- */
 
-static const enum gn_action_kind actions[GN_CTL_COUNT] = {
-    [GN_CTL_NEXT] = GN_ACTION_NEXT,
-    [GN_CTL_PREV] = GN_ACTION_PREV,
-    [GN_CTL_MODE] = GN_ACTION_MODE,
-    [GN_CTL_NEXT_SCENE] = GN_ACTION_NEXT_SCENE,
-    [GN_CTL_NEXT_CAMERA] = GN_ACTION_NEXT_CAMERA,
-    [GN_CTL_PAUSE] = GN_ACTION_PAUSE,
-    [GN_CTL_BLANK] = GN_ACTION_BLANK,
-    [GN_CTL_INFO] = GN_ACTION_INFO,
-};
-
 static bool fail_unknown_mode(const struct gn_show *s, const char *name, struct gn_err *err) {
     char names[400] = "";
     size_t used = 0;
@@ -97,7 +86,7 @@ static bool fail_unknown_mode(const struct gn_show *s, const char *name, struct 
 
 /* While the screen is off a button only switches it on; a command is carried out, too. */
 static json_t *answer_action(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
-    const struct gn_action action = {actions[r->command], r->words[0]};
+    const struct gn_action action = {gn_ctl_action(r->command), r->words[0]};
     const int64_t now_ns = gn_clock_monotonic_ns();
     if (action.kind == GN_ACTION_MODE && gn_show_find_mode(&s->modes, action.name) < 0) {
         fail_unknown_mode(s, action.name, err);
@@ -159,20 +148,26 @@ void gn_show_enter_changed(struct gn_show *s) {
 
 /* ---- screenshots ---- */
 
-static bool ask_for_screenshot(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+/* Answered once the picture is written. */
+static json_t *answer_screenshot(struct gn_show *s, const struct gn_request *r,
+                                 struct gn_err *err) {
     struct gn_show_control *c = s->control;
     const struct gn_screen *screen = &s->stage.display.screen;
-    if (!gn_screenshot_check(r->words[0], err)) return false;
-    if (c->screenshot) return gn_fail(err, "busy");
-    if (s->kiosk.blanked) return gn_fail(err, "screenshot: the screen is switched off");
-    if (!screen->lit || !s->stage.gl)
-        return gn_fail(err, "screenshot: nothing is shown: %s",
-                       screen->status[0] ? screen->status : "no frame was drawn yet");
-    c->screenshot = r;
-    c->screenshot_late.due_ns = gn_loop_now_ns(s->loop) + SCREENSHOT_NS;
-    gn_screenshot_ask(s->screenshot, r->words[0]);
-    s->changed = true;
-    return true;
+    if (!gn_screenshot_check(r->words[0], err)) return NULL;
+    if (c->screenshot) {
+        gn_fail(err, "busy");
+    } else if (s->kiosk.blanked) {
+        gn_fail(err, "screenshot: the screen is switched off");
+    } else if (!screen->lit || !s->stage.gl) {
+        gn_fail(err, "screenshot: nothing is shown: %s",
+                screen->status[0] ? screen->status : "no frame was drawn yet");
+    } else {
+        c->screenshot = r;
+        c->screenshot_late.due_ns = gn_loop_now_ns(s->loop) + SCREENSHOT_NS;
+        gn_screenshot_ask(s->screenshot, r->words[0]);
+        s->changed = true;
+    }
+    return NULL;
 }
 
 static void give_up_screenshot(void *user, int64_t now_ns) {
@@ -184,7 +179,7 @@ static void give_up_screenshot(void *user, int64_t now_ns) {
     gn_screenshot_fail(s->screenshot, &err);
 }
 
-static void answer_screenshot(void *user, uint32_t events, int64_t now_ns) {
+static void finish_screenshot(void *user, uint32_t events, int64_t now_ns) {
     const struct gn_show *s = user;
     struct gn_show_control *c = s->control;
     const struct gn_request *r = c->screenshot;
@@ -202,12 +197,16 @@ static void answer_screenshot(void *user, uint32_t events, int64_t now_ns) {
 
 /* ---- reloading ---- */
 
-static bool ask_for_reload(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+/* Answered once it is done. */
+static json_t *answer_reload(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     struct gn_show_control *c = s->control;
-    if (c->reload) return gn_fail(err, "busy");
+    if (c->reload) {
+        gn_fail(err, "busy");
+        return NULL;
+    }
     c->reload = r;
     s->reloads = true;
-    return true;
+    return NULL;
 }
 
 void gn_show_answer_reload(struct gn_show *s, const struct gn_err *why) {
@@ -222,30 +221,35 @@ void gn_show_answer_reload(struct gn_show *s, const struct gn_err *why) {
 
 /* ---- requests ---- */
 
+static json_t *answer_status(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+    (void)r, (void)err;
+    return gn_show_status_make(s, &s->control->status, gn_control_counts(s->control->control));
+}
+
+static json_t *answer_quit(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+    (void)r, (void)err;
+    s->ends = true;
+    return json_object();
+}
+
+/* The reply; NULL with an error: refused; NULL without: it is answered later. */
+typedef json_t *answer_fn(struct gn_show *s, const struct gn_request *r, struct gn_err *err);
+static answer_fn *const answers[GN_CTL_COUNT] = {
+#define X(ID, ...) [GN_CTL_##ID] = answer_action,
+    GN_ACTIONS(X)
+#undef X
+#define X(ID, id, ...) [GN_CTL_##ID] = answer_##id,
+        GN_REQUESTS(X)
+#undef X
+};
+
 static void answer_request(struct gn_show *s, const struct gn_request *r) {
-    struct gn_control *control = s->control->control;
     struct gn_err err = {0};
-    json_t *reply = NULL;
-    bool later = false;
-    switch (r->command) {
-    case GN_CTL_SET: reply = answer_set(s, r, &err); break;
-    case GN_CTL_GET: reply = answer_get(s, r, &err); break;
-    case GN_CTL_SCREENSHOT: later = ask_for_screenshot(s, r, &err); break;
-    case GN_CTL_RELOAD: later = ask_for_reload(s, r, &err); break;
-    case GN_CTL_STATUS:
-        reply = gn_show_status_make(s, &s->control->status, gn_control_counts(control));
-        break;
-    case GN_CTL_QUIT:
-        s->ends = true;
-        reply = json_object();
-        break;
-    default: reply = answer_action(s, r, &err); break;
-    }
-    if (later) return;
+    json_t *reply = answers[r->command](s, r, &err);
     if (err.text[0])
-        gn_control_refuse(control, r, &err);
-    else
-        gn_control_answer(control, r, reply);
+        gn_control_refuse(s->control->control, r, &err);
+    else if (reply)
+        gn_control_answer(s->control->control, r, reply);
 }
 
 void gn_show_answer_requests(struct gn_show *s) {

@@ -152,7 +152,7 @@ static void send_reply(struct gn_control *c, struct client *client, json_t *json
 
 /* A leaky bucket as a virtual time: a burst of one second's changes, then an even rate. */
 static bool is_too_much(struct gn_control *c, enum gn_ctl command) {
-    if (!gn_ctl_rows[command].changes) return false;
+    if (!(gn_ctl_rows[command].flags & GN_CTL_CHANGES)) return false;
     if (c->changes_ns - c->now_ns > GN_NS_PER_S - CHANGE_NS) return true;
     c->changes_ns = (c->changes_ns > c->now_ns ? c->changes_ns : c->now_ns) + CHANGE_NS;
     return false;
