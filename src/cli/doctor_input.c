@@ -1,45 +1,10 @@
 #include "cli/doctor_input.h"
 
-#include <errno.h>
 #include <string.h>
 
 #include "core/json.h"
 
 enum { COLUMNS = 96 };
-
-/* ---- problems ------------------------------------------------------------------------------ */
-
-/* A window hears keys without reading devices. */
-static bool has_window(const struct gn_doctor_report *report) {
-    for (int i = 0; i < report->backend_count; i++)
-        if (report->backends[i].is_window && report->backends[i].opens) return true;
-    return false;
-}
-
-static bool has_chips(const struct gn_machine *machine) {
-    for (int i = 0; i < machine->device_count; i++)
-        if (machine->devices[i].kind == GN_DEVICE_GPIO) return true;
-    return false;
-}
-
-void gn_doctor_diagnose_input(struct gn_doctor_report *report) {
-    const struct gn_input_list *input = &report->input;
-    if (!input->library && has_chips(&report->machine))
-        gn_doctor_add(report, "install libgpiod-dev and build gnomon again",
-                      "this build hears no buttons on GPIO lines: it is without libgpiod");
-    for (int i = 0; i < input->chip_count; i++) {
-        const struct gn_input_chip *chip = &input->chips[i];
-        if (chip->error && chip->error != EACCES && chip->error != EPERM) /* said of the node */
-            gn_doctor_add(report, "look for the chip in the kernel's messages (dmesg)",
-                          "%s cannot be opened: %s", chip->path, strerror(chip->error));
-    }
-    if (!input->devices_denied || has_window(report)) return;
-    char cure[100];
-    snprintf(cure, sizeof cure, "sudo usermod -aG input %s, then log in again",
-             report->machine.user);
-    gn_doctor_add(report, cure, "%d of %d input devices may not be read: keys there are not heard",
-                  input->devices_denied, input->devices);
-}
 
 /* ---- for people ---------------------------------------------------------------------------- */
 

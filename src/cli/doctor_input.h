@@ -7,7 +7,6 @@
 
 #include "cli/doctor_report.h"
 
-void gn_doctor_diagnose_input(struct gn_doctor_report *report);
 void gn_doctor_print_input(const struct gn_doctor_report *report, FILE *to);
 /* Adds label and lines of that chip to an object: both null where it was not opened. */
 void gn_doctor_describe_chip(const struct gn_doctor_report *report, const char *path,

@@ -33,11 +33,12 @@ struct gn_doctor_report {
     const struct gn_selftest *self_test; /* NULL: not asked for, or it did not start */
 };
 
-/* Adds a problem; one too many is left out. */
+/* doctor_problems.c. Adds a problem; one too many is left out. */
 void gn_doctor_add(struct gn_doctor_report *report, const char *cure, const char *what, ...)
     __attribute__((format(printf, 3, 4)));
 /* The problems that can be read off the machine and the backends, as filled so far. */
 void gn_doctor_diagnose(struct gn_doctor_report *report);
+void gn_doctor_diagnose_input(struct gn_doctor_report *report); /* of buttons and keys alone */
 
 void gn_doctor_print(const struct gn_doctor_report *report, FILE *to);
 /* One object:
