@@ -35,7 +35,7 @@ static int report(bool ok, const struct gn_options *options, const struct gn_war
     if (ok || options->settings->run.verbose) gn_warn_print(warnings, stderr);
     if (ok) return GN_EXIT_OK;
     fprintf(stderr, "gnomon: %s\n", err->text);
-    return err->status == GN_EXIT_OK ? GN_EXIT_WORLD : err->status;
+    return err->status == GN_EXIT_OK ? GN_EXIT_RUNTIME : err->status;
 }
 
 int main(int argc, char **argv) {

@@ -15,7 +15,7 @@ static void fill(struct gn_err *err, enum gn_exit status, const char *format, va
 bool gn_fail(struct gn_err *err, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    fill(err, GN_EXIT_WORLD, format, args);
+    fill(err, GN_EXIT_RUNTIME, format, args);
     va_end(args);
     return false;
 }

@@ -9,14 +9,14 @@
 
 enum gn_exit {
     GN_EXIT_OK = 0,
-    GN_EXIT_WORLD = 1,    /* the world said no: a file, a driver, a scene */
+    GN_EXIT_RUNTIME = 1,  /* runtime error: bad file, driver, device or scene */
     GN_EXIT_USAGE = 2,    /* wrong usage, also a value outside its range */
     GN_EXIT_DISPLAY = 70, /* gave up on the display: restart me */
 };
 
 struct gn_err {
     char text[512];      /* one line, no newline at its end, cut at a whole UTF-8 character */
-    enum gn_exit status; /* GN_EXIT_WORLD unless gn_fail_usage() made it */
+    enum gn_exit status; /* GN_EXIT_RUNTIME unless gn_fail_usage() made it */
 };
 
 /* Both write the text, drop control characters, and return false, so that `return gn_fail(err, ..)`

@@ -200,5 +200,5 @@ int main(int argc, char **argv) {
     signal(SIGPIPE, SIG_IGN);
     if (import_model(argc, argv, &err) && gn_file_flush_output(&err)) return GN_EXIT_OK;
     fprintf(stderr, "gnomon-import: %s\n", err.text);
-    return err.status == GN_EXIT_USAGE ? GN_EXIT_USAGE : GN_EXIT_WORLD;
+    return err.status == GN_EXIT_USAGE ? GN_EXIT_USAGE : GN_EXIT_RUNTIME;
 }

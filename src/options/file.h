@@ -8,8 +8,8 @@
  * /etc/gnomon/kiosk.ini. */
 bool gn_config_find(char *path, size_t size);
 
-/* Puts the settings of a file into options. A file that cannot be read is the world's fault, one
- * that says what it should not a usage error: file, line, key, and what was expected. */
+/* Puts the settings of a file into options. A file that cannot be read is a runtime error, bad
+ * content a usage error: file, line, key, and what was expected. */
 bool gn_config_load(struct gn_options *options, const char *path, struct gn_err *err);
 
 #endif

@@ -17,8 +17,8 @@ static void report_crash(int signal) {
         "to find one that works, choose it with --backend\n";
     (void)signal;
     gn_terminal_leave();
-    if (write(error_fd, line, sizeof line - 1) < 0) _exit(GN_EXIT_WORLD);
-    _exit(GN_EXIT_WORLD);
+    if (write(error_fd, line, sizeof line - 1) < 0) _exit(GN_EXIT_RUNTIME);
+    _exit(GN_EXIT_RUNTIME);
 }
 
 void gn_wake_begin(struct gn_wake *wake, const struct gn_settings *settings) {

@@ -15,7 +15,7 @@ static struct gn_run result;
 
 static int bench(const char *const args[]) {
     const char *argv[32] = {gn_shot_program(), "bench"};
-    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
     for (int i = 0; args[i]; i++) argv[2 + i] = args[i];
     if (!gn_run(&result, argv, 0, &err)) fail_msg("%s", err.text);
     return result.status;

@@ -151,7 +151,7 @@ static int measure(struct gn_table *table, const struct arguments *a, const char
 int main(int argc, char **argv) {
     static struct gn_table table;
     struct arguments a = {.contact = true};
-    struct gn_err err = {{0}, GN_EXIT_WORLD};
+    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
     if (!parse(argc, argv, &a)) return refuse("wrong options");
     if (!fill(&table, &a, NULL)) return refuse("wrong list of scenes, or wrong map size");
     char *folder = gn_table_scenes(false, &err);

@@ -9,7 +9,7 @@ static void failing_returns_false_and_tells(void **state) {
     struct gn_err err = {0};
     assert_false(gn_fail(&err, "%s: line %d", "a.gltf", 3));
     assert_string_equal(err.text, "a.gltf: line 3");
-    assert_int_equal(err.status, GN_EXIT_WORLD);
+    assert_int_equal(err.status, GN_EXIT_RUNTIME);
     assert_false(gn_fail_usage(&err, "--size"));
     assert_int_equal(err.status, GN_EXIT_USAGE);
 }

@@ -266,13 +266,13 @@ static void every_line_broken_in_turn_is_found(void **state) {
     assert_int_equal(line, 21);
 }
 
-static void a_missing_file_is_the_worlds_fault(void **state) {
+static void a_missing_file_is_a_runtime_error(void **state) {
     (void)state;
     char *path = (char *)in_folder("missing.ini");
     assert_false(PARSE("gnomon", "render", "-c", path));
-    assert_int_equal(err.status, GN_EXIT_WORLD);
+    assert_int_equal(err.status, GN_EXIT_RUNTIME);
     assert_false(PARSE("gnomon", "show", "-c", path));
-    assert_int_equal(err.status, GN_EXIT_WORLD);
+    assert_int_equal(err.status, GN_EXIT_RUNTIME);
     assert_non_null(strstr(err.text, "missing.ini"));
 }
 
@@ -345,7 +345,7 @@ int main(void) {
         cmocka_unit_test(a_mode_is_undone_by_the_next),
         cmocka_unit_test(what_a_file_may_not_say),
         cmocka_unit_test(every_line_broken_in_turn_is_found),
-        cmocka_unit_test(a_missing_file_is_the_worlds_fault),
+        cmocka_unit_test(a_missing_file_is_a_runtime_error),
         cmocka_unit_test(a_kiosk_runs_on_without_its_bad_file),
         cmocka_unit_test(only_show_and_the_bare_command_search),
     };

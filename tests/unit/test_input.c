@@ -187,7 +187,7 @@ static void test_what_is_said_wrongly_is_wrong_usage(void **state) {
     opts.script = "/nowhere/to/be/found";
     open_with(NULL);
     assert_null(input);
-    assert_int_equal(err.status, GN_EXIT_WORLD);
+    assert_int_equal(err.status, GN_EXIT_RUNTIME);
 }
 
 static void test_without_anything_it_sleeps(void **state) {

@@ -26,7 +26,7 @@ static void refuse_bytes(const void *data, size_t size, const char *message) {
     reset(NULL);
     assert_null(gn_scene_load_bytes("t", data, size, NULL, NULL, &err));
     assert_string_equal(err.text, message);
-    assert_int_equal(err.status, GN_EXIT_WORLD);
+    assert_int_equal(err.status, GN_EXIT_RUNTIME);
 }
 
 static void refuse_text(const char *text, const char *message) {

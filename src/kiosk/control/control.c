@@ -381,6 +381,6 @@ void gn_control_answer(struct gn_control *c, const struct gn_request *request, j
 
 void gn_control_refuse(struct gn_control *c, const struct gn_request *request,
                        const struct gn_err *err) {
-    if (err->status == GN_EXIT_WORLD && strcmp(err->text, "busy") == 0) c->counts.busy++;
+    if (err->status == GN_EXIT_RUNTIME && strcmp(err->text, "busy") == 0) c->counts.busy++;
     gn_control_answer(c, request, gn_reply_failure(err));
 }

@@ -117,5 +117,5 @@ json_t *gn_reply_text(const char *text) {
 
 json_t *gn_reply_failure(const struct gn_err *err) {
     return json_pack("{s:b, s:o, s:i}", "ok", 0, "error", gn_reply_text(err->text), "status",
-                     err->status == GN_EXIT_USAGE ? GN_EXIT_USAGE : GN_EXIT_WORLD);
+                     err->status == GN_EXIT_USAGE ? GN_EXIT_USAGE : GN_EXIT_RUNTIME);
 }
