@@ -1,4 +1,4 @@
-/* A horizontal sundial that tells the time: hour lines, numerals and the gnomon, computed for a
+/* A horizontal sundial that shows the time: hour lines, numerals and the gnomon, computed for a
  * latitude.
  *
  * The plate lies in the pen's xz plane with its surface at y = 0, north towards -z, east towards

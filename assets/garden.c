@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-static void paint(struct gn_garden *g) {
+static void paint_pictures(struct gn_garden *g) {
     static const char *const names[PICTURES] = {"",     "grain",   "paving", "timber",
                                                 "bush", "lattice", "branch", "window"};
     struct gn_image images[PICTURES] = {{0}};
@@ -65,7 +65,7 @@ static void mix_materials(struct gn_garden *g) {
 
 void gn_garden_init(struct gn_garden *g, struct gn_glb *glb) {
     *g = (struct gn_garden){.glb = glb};
-    paint(g);
+    paint_pictures(g);
     mix_materials(g);
 }
 

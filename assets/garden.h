@@ -1,5 +1,5 @@
-/* What the parts of the sundial scene share: its pictures and materials, and how a thing is put
- * into it. +x is east, -z north; the court is a circle of 7 m about the origin. */
+/* Shared by the parts of the sundial scene: textures, materials, placement of objects. +x is east,
+ * -z north; the court is a circle of 7 m about the origin. */
 #ifndef GN_ASSETS_GARDEN_H
 #define GN_ASSETS_GARDEN_H
 

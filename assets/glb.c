@@ -51,38 +51,38 @@ static json_t *numbers(const float *values, int count) {
     return array;
 }
 
-static bool any(const float *values, int count) {
+static bool any_nonzero(const float *values, int count) {
     for (int i = 0; i < count; i++)
         if (values[i] != 0) return true;
     return false;
 }
 
-static void set(json_t *object, const char *key, json_t *value) {
+static void set_member(json_t *object, const char *key, json_t *value) {
     int failed = json_object_set_new(object, key, value);
     assert(!failed);
     (void)failed;
 }
 
 static void set_text(json_t *object, const char *key, const char *text) {
-    if (text) set(object, key, json_string(text));
+    if (text) set_member(object, key, json_string(text));
 }
 
 static void set_handle(json_t *object, const char *key, int handle) {
-    if (handle) set(object, key, json_integer(handle - 1));
+    if (handle) set_member(object, key, json_integer(handle - 1));
 }
 
 static void set_json(json_t *object, const char *key, const char *text) {
-    if (text) set(object, key, json_loads(text, 0, NULL));
+    if (text) set_member(object, key, json_loads(text, 0, NULL));
 }
 
-static int append(json_t *array, json_t *value) {
+static int append_item(json_t *array, json_t *value) {
     json_array_append_new(array, value);
     return (int)json_array_size(array);
 }
 
 /* ---- the binary chunk ---- */
 
-static size_t store(struct gn_glb *glb, const void *bytes, size_t size) {
+static size_t append_bytes(struct gn_glb *glb, const void *bytes, size_t size) {
     size_t start = (glb->bin_size + 3) & ~(size_t)3;
     if (start + size > glb->bin_room) {
         glb->bin_room = 2 * (start + size);
@@ -96,10 +96,11 @@ static size_t store(struct gn_glb *glb, const void *bytes, size_t size) {
 }
 
 static int add_view(struct gn_glb *glb, const void *bytes, size_t size, int target) {
-    json_t *view = json_pack("{s:i,s:I,s:I}", "buffer", 0, "byteOffset",
-                             (json_int_t)store(glb, bytes, size), "byteLength", (json_int_t)size);
-    if (target) set(view, "target", json_integer(target));
-    return append(glb->views, view) - 1;
+    json_t *view =
+        json_pack("{s:i,s:I,s:I}", "buffer", 0, "byteOffset",
+                  (json_int_t)append_bytes(glb, bytes, size), "byteLength", (json_int_t)size);
+    if (target) set_member(view, "target", json_integer(target));
+    return append_item(glb->views, view) - 1;
 }
 
 static void set_bounds(json_t *accessor, const float *values, size_t count, int width) {
@@ -110,8 +111,8 @@ static void set_bounds(json_t *accessor, const float *values, size_t count, int 
         low[c] = fminf(low[c], values[i]);
         high[c] = fmaxf(high[c], values[i]);
     }
-    set(accessor, "min", numbers(low, width));
-    set(accessor, "max", numbers(high, width));
+    set_member(accessor, "min", numbers(low, width));
+    set_member(accessor, "max", numbers(high, width));
 }
 
 static int add_floats(struct gn_glb *glb, const float *values, size_t count, int width,
@@ -121,7 +122,7 @@ static int add_floats(struct gn_glb *glb, const float *values, size_t count, int
     json_t *accessor = json_pack("{s:i,s:i,s:I,s:s}", "bufferView", view, "componentType", FLOAT,
                                  "count", (json_int_t)count, "type", type[width]);
     set_bounds(accessor, values, count, width);
-    return append(glb->accessors, accessor) - 1;
+    return append_item(glb->accessors, accessor) - 1;
 }
 
 static int add_indices(struct gn_glb *glb, const struct gn_shape *shape) {
@@ -133,9 +134,10 @@ static int add_indices(struct gn_glb *glb, const struct gn_shape *shape) {
                       : add_view(glb, shape->indices, shape->index_count * sizeof *shape->indices,
                                  INDICES);
     free(halves);
-    return append(glb->accessors, json_pack("{s:i,s:i,s:I,s:s}", "bufferView", view,
-                                            "componentType", narrow ? U16 : U32, "count",
-                                            (json_int_t)shape->index_count, "type", "SCALAR")) -
+    return append_item(glb->accessors,
+                       json_pack("{s:i,s:i,s:I,s:s}", "bufferView", view, "componentType",
+                                 narrow ? U16 : U32, "count", (json_int_t)shape->index_count,
+                                 "type", "SCALAR")) -
            1;
 }
 
@@ -175,34 +177,36 @@ int gn_glb_texture(struct gn_glb *glb, const char *name, const struct gn_image *
     void *png = gn_image_png(image, &size);
     int view = add_view(glb, png, size, 0);
     free(png);
-    int source = append(glb->images, json_pack("{s:s,s:s,s:i}", "name", name, "mimeType",
-                                               "image/png", "bufferView", view));
+    int source = append_item(glb->images, json_pack("{s:s,s:s,s:i}", "name", name, "mimeType",
+                                                    "image/png", "bufferView", view));
     int sampler =
-        append(glb->samplers, json_pack("{s:i,s:i,s:i,s:i}", "magFilter", 9729, "minFilter", 9987,
-                                        "wrapS", modes[wrap], "wrapT", modes[wrap]));
-    return append(glb->textures, json_pack("{s:s,s:i,s:i}", "name", name, "sampler", sampler - 1,
-                                           "source", source - 1));
+        append_item(glb->samplers, json_pack("{s:i,s:i,s:i,s:i}", "magFilter", 9729, "minFilter",
+                                             9987, "wrapS", modes[wrap], "wrapT", modes[wrap]));
+    return append_item(glb->textures, json_pack("{s:s,s:i,s:i}", "name", name, "sampler",
+                                                sampler - 1, "source", source - 1));
 }
 
 static json_t *surface(const struct gn_glb_material *m) {
     float rgba[4] = {m->rgba[0], m->rgba[1], m->rgba[2], m->rgba[3] != 0 ? m->rgba[3] : 1};
     json_t *object = json_object();
-    set(object, "baseColorFactor", numbers(rgba, 4));
-    set(object, "metallicFactor", number(m->metal));
-    set(object, "roughnessFactor", number(m->rough));
-    if (m->texture) set(object, "baseColorTexture", json_pack("{s:i}", "index", m->texture - 1));
+    set_member(object, "baseColorFactor", numbers(rgba, 4));
+    set_member(object, "metallicFactor", number(m->metal));
+    set_member(object, "roughnessFactor", number(m->rough));
+    if (m->texture)
+        set_member(object, "baseColorTexture", json_pack("{s:i}", "index", m->texture - 1));
     return object;
 }
 
 int gn_glb_material(struct gn_glb *glb, const struct gn_glb_material *material) {
     json_t *object = json_object();
     set_text(object, "name", material->name);
-    set(object, "pbrMetallicRoughness", surface(material));
-    if (any(material->emissive, 3)) set(object, "emissiveFactor", numbers(material->emissive, 3));
+    set_member(object, "pbrMetallicRoughness", surface(material));
+    if (any_nonzero(material->emissive, 3))
+        set_member(object, "emissiveFactor", numbers(material->emissive, 3));
     if (material->alpha == GN_GLB_MASK) set_text(object, "alphaMode", "MASK");
     if (material->alpha == GN_GLB_BLEND) set_text(object, "alphaMode", "BLEND");
-    if (material->double_sided) set(object, "doubleSided", json_true());
-    return append(glb->materials, object);
+    if (material->double_sided) set_member(object, "doubleSided", json_true());
+    return append_item(glb->materials, object);
 }
 
 /* ---- meshes, cameras, lights ---- */
@@ -211,7 +215,7 @@ static json_t *primitive(const struct gn_glb *glb, int geometry, int material) {
     assert(geometry > 0 && (size_t)geometry <= glb->geometry_count);
     const struct attributes *a = &glb->geometries[geometry - 1];
     json_t *attributes = json_pack("{s:i,s:i}", "POSITION", a->position, "NORMAL", a->normal);
-    if (a->uv >= 0) set(attributes, "TEXCOORD_0", json_integer(a->uv));
+    if (a->uv >= 0) set_member(attributes, "TEXCOORD_0", json_integer(a->uv));
     json_t *object = json_pack("{s:o,s:i}", "attributes", attributes, "indices", a->indices);
     set_handle(object, "material", material);
     return object;
@@ -220,14 +224,14 @@ static json_t *primitive(const struct gn_glb *glb, int geometry, int material) {
 int gn_glb_mesh(struct gn_glb *glb, const char *name, int geometry, int material) {
     json_t *object = json_object();
     set_text(object, "name", name);
-    set(object, "primitives", json_pack("[o]", primitive(glb, geometry, material)));
-    return append(glb->meshes, object);
+    set_member(object, "primitives", json_pack("[o]", primitive(glb, geometry, material)));
+    return append_item(glb->meshes, object);
 }
 
 void gn_glb_mesh_add(struct gn_glb *glb, int mesh, int geometry, int material) {
     json_t *primitives =
         json_object_get(json_array_get(glb->meshes, (size_t)mesh - 1), "primitives");
-    append(primitives, primitive(glb, geometry, material));
+    append_item(primitives, primitive(glb, geometry, material));
 }
 
 int gn_glb_camera(struct gn_glb *glb, const struct gn_glb_camera *camera) {
@@ -235,17 +239,17 @@ int gn_glb_camera(struct gn_glb *glb, const struct gn_glb_camera *camera) {
     const char *type = perspective ? "perspective" : "orthographic";
     json_t *lens = json_object(), *object = json_object();
     if (perspective) {
-        set(lens, "yfov", number(camera->yfov));
+        set_member(lens, "yfov", number(camera->yfov));
     } else {
-        set(lens, "xmag", number(camera->xmag));
-        set(lens, "ymag", number(camera->ymag));
+        set_member(lens, "xmag", number(camera->xmag));
+        set_member(lens, "ymag", number(camera->ymag));
     }
-    set(lens, "znear", number(camera->znear));
-    if (camera->zfar > 0) set(lens, "zfar", number(camera->zfar));
+    set_member(lens, "znear", number(camera->znear));
+    if (camera->zfar > 0) set_member(lens, "zfar", number(camera->zfar));
     set_text(object, "name", camera->name);
     set_text(object, "type", type);
-    set(object, type, lens);
-    return append(glb->cameras, object);
+    set_member(object, type, lens);
+    return append_item(glb->cameras, object);
 }
 
 int gn_glb_light(struct gn_glb *glb, const struct gn_glb_light *light) {
@@ -253,38 +257,38 @@ int gn_glb_light(struct gn_glb *glb, const struct gn_glb_light *light) {
     json_t *object = json_object();
     set_text(object, "name", light->name);
     set_text(object, "type", types[light->kind]);
-    if (any(light->rgb, 3)) set(object, "color", numbers(light->rgb, 3));
-    set(object, "intensity", number(light->intensity));
-    if (light->range > 0) set(object, "range", number(light->range));
+    if (any_nonzero(light->rgb, 3)) set_member(object, "color", numbers(light->rgb, 3));
+    set_member(object, "intensity", number(light->intensity));
+    if (light->range > 0) set_member(object, "range", number(light->range));
     if (light->kind == GN_GLB_SPOT)
-        set(object, "spot",
-            json_pack("{s:o,s:o}", "innerConeAngle", number(light->inner), "outerConeAngle",
-                      number(light->outer)));
+        set_member(object, "spot",
+                   json_pack("{s:o,s:o}", "innerConeAngle", number(light->inner), "outerConeAngle",
+                             number(light->outer)));
     set_json(object, "extras", light->extras);
-    return append(glb->lights, object);
+    return append_item(glb->lights, object);
 }
 
 /* ---- nodes ---- */
 
 static void set_placement(json_t *object, const struct gn_glb_node *node) {
     if (node->matrix) {
-        set(object, "matrix", numbers(node->matrix, 16));
+        set_member(object, "matrix", numbers(node->matrix, 16));
         return;
     }
-    if (any(node->move, 3)) set(object, "translation", numbers(node->move, 3));
-    if (any(node->turn, 4)) set(object, "rotation", numbers(node->turn, 4));
-    if (any(node->scale, 3)) set(object, "scale", numbers(node->scale, 3));
+    if (any_nonzero(node->move, 3)) set_member(object, "translation", numbers(node->move, 3));
+    if (any_nonzero(node->turn, 4)) set_member(object, "rotation", numbers(node->turn, 4));
+    if (any_nonzero(node->scale, 3)) set_member(object, "scale", numbers(node->scale, 3));
 }
 
-static void adopt(struct gn_glb *glb, int parent, int child) {
+static void add_child(struct gn_glb *glb, int parent, int child) {
     json_t *list = glb->roots;
     if (parent) {
         json_t *node = json_array_get(glb->nodes, (size_t)parent - 1);
         assert(node);
-        if (!json_object_get(node, "children")) set(node, "children", json_array());
+        if (!json_object_get(node, "children")) set_member(node, "children", json_array());
         list = json_object_get(node, "children");
     }
-    append(list, json_integer(child - 1));
+    append_item(list, json_integer(child - 1));
 }
 
 int gn_glb_node(struct gn_glb *glb, const struct gn_glb_node *node) {
@@ -294,11 +298,11 @@ int gn_glb_node(struct gn_glb *glb, const struct gn_glb_node *node) {
     set_handle(object, "mesh", node->mesh);
     set_handle(object, "camera", node->camera);
     if (node->light)
-        set(object, "extensions",
-            json_pack("{s:{s:i}}", "KHR_lights_punctual", "light", node->light - 1));
+        set_member(object, "extensions",
+                   json_pack("{s:{s:i}}", "KHR_lights_punctual", "light", node->light - 1));
     set_json(object, "extras", node->extras);
-    int handle = append(glb->nodes, object);
-    adopt(glb, node->parent, handle);
+    int handle = append_item(glb->nodes, object);
+    add_child(glb, node->parent, handle);
     return handle;
 }
 
@@ -307,7 +311,7 @@ int gn_glb_node(struct gn_glb *glb, const struct gn_glb_node *node) {
 int gn_glb_animation(struct gn_glb *glb, const char *name) {
     json_t *object = json_pack("{s:[],s:[]}", "channels", "samplers");
     set_text(object, "name", name);
-    return append(glb->animations, object);
+    return append_item(glb->animations, object);
 }
 
 void gn_glb_channel(struct gn_glb *glb, int animation, const struct gn_glb_channel *channel) {
@@ -319,12 +323,12 @@ void gn_glb_channel(struct gn_glb *glb, int animation, const struct gn_glb_chann
     size_t values = channel->interpolation == GN_GLB_CUBICSPLINE ? 3 * keys : keys;
     int input = add_floats(glb, channel->times, keys, 1, 0);
     int output = add_floats(glb, channel->values, values, width, 0);
-    int sampler = append(json_object_get(object, "samplers"),
-                         json_pack("{s:i,s:s,s:i}", "input", input, "interpolation",
-                                   kinds[channel->interpolation], "output", output));
-    append(json_object_get(object, "channels"),
-           json_pack("{s:i,s:{s:i,s:s}}", "sampler", sampler - 1, "target", "node",
-                     channel->node - 1, "path", paths[channel->path]));
+    int sampler = append_item(json_object_get(object, "samplers"),
+                              json_pack("{s:i,s:s,s:i}", "input", input, "interpolation",
+                                        kinds[channel->interpolation], "output", output));
+    append_item(json_object_get(object, "channels"),
+                json_pack("{s:i,s:{s:i,s:s}}", "sampler", sampler - 1, "target", "node",
+                          channel->node - 1, "path", paths[channel->path]));
 }
 
 /* ---- the file ---- */
@@ -367,16 +371,16 @@ static json_t *document(struct gn_glb *glb) {
     json_t *scene = json_object(), *root = json_object();
     json_object_set(scene, "nodes", glb->roots);
     if (glb->scene_extras) json_object_set(scene, "extras", glb->scene_extras);
-    set(root, "asset",
-        json_pack("{s:s,s:s,s:s}", "version", "2.0", "generator", "gnomon assets", "copyright",
-                  glb->copyright));
+    set_member(root, "asset",
+               json_pack("{s:s,s:s,s:s}", "version", "2.0", "generator", "gnomon assets",
+                         "copyright", glb->copyright));
     if (json_array_size(glb->lights)) {
-        set(root, "extensionsUsed", json_pack("[s]", "KHR_lights_punctual"));
-        set(root, "extensions",
-            json_pack("{s:{s:O}}", "KHR_lights_punctual", "lights", glb->lights));
+        set_member(root, "extensionsUsed", json_pack("[s]", "KHR_lights_punctual"));
+        set_member(root, "extensions",
+                   json_pack("{s:{s:O}}", "KHR_lights_punctual", "lights", glb->lights));
     }
-    set(root, "scene", json_integer(0));
-    set(root, "scenes", json_pack("[o]", scene));
+    set_member(root, "scene", json_integer(0));
+    set_member(root, "scenes", json_pack("[o]", scene));
     set_filled(root, "nodes", glb->nodes);
     set_filled(root, "cameras", glb->cameras);
     set_filled(root, "meshes", glb->meshes);
@@ -387,7 +391,7 @@ static json_t *document(struct gn_glb *glb) {
     set_filled(root, "animations", glb->animations);
     set_filled(root, "accessors", glb->accessors);
     set_filled(root, "bufferViews", glb->views);
-    set(root, "buffers", json_pack("[{s:I}]", "byteLength", (json_int_t)glb->bin_size));
+    set_member(root, "buffers", json_pack("[{s:I}]", "byteLength", (json_int_t)glb->bin_size));
     return root;
 }
 

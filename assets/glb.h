@@ -1,9 +1,8 @@
 /* A writer of binary glTF 2.0, for the generators of this folder.
  *
- * Things are added one after the other and named by handles; a handle of 0 means "none", so that a
- * zeroed description is a legal one. Floats are stored in the shortest decimal form that reads back
- * as the same float, and the same calls give the same bytes. Want of memory aborts; a description
- * that makes no sense is a bug (assert). */
+ * Objects are identified by handles; handle 0 means "none", so a zeroed description is legal.
+ * Floats are stored in the shortest decimal form that reads back as the same float, and the same
+ * calls give the same bytes. Out of memory aborts; an invalid description is a bug (assert). */
 #ifndef GN_ASSETS_GLB_H
 #define GN_ASSETS_GLB_H
 
@@ -89,7 +88,7 @@ int gn_glb_animation(struct gn_glb *glb, const char *name);
 void gn_glb_channel(struct gn_glb *glb, int animation, const struct gn_glb_channel *channel);
 void gn_glb_scene_extras(struct gn_glb *glb, const char *json);
 
-/* Returns false, having said why on stderr, if the file cannot be written. */
+/* Returns false, with a message on stderr, if the file cannot be written. */
 bool gn_glb_write(struct gn_glb *glb, const char *path);
 
 /* The rotation that makes a camera or light (both look along their -Z) at `eye` look at `target`, Y

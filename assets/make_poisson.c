@@ -24,7 +24,7 @@ static double dice(uint64_t *state) { /* 0 <= x < 1; splitmix64 */
     return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
 }
 
-static bool fits(const struct disk *disk, const double p[2], double apart) {
+static bool fits_point(const struct disk *disk, const double p[2], double apart) {
     double radius = hypot(p[0], p[1]);
     if (radius > 1 || 2 * radius < apart) return false;
     for (int i = 0; i < disk->count; i++)
@@ -34,31 +34,31 @@ static bool fits(const struct disk *disk, const double p[2], double apart) {
     return true;
 }
 
-static void add(struct disk *disk, const double p[2]) {
+static void add_point(struct disk *disk, const double p[2]) {
     memcpy(disk->at[disk->count++], p, sizeof disk->at[0]);
 }
 
-/* A neighbour of the point, if one fits. */
+/* Adds a neighbour of the point if one fits. */
 static bool neighbour(struct disk *disk, const double from[2], double apart, uint64_t *state) {
     for (int i = 0; i < TRIES; i++) {
         double angle = 2 * M_PI * dice(state), radius = apart * sqrt(1 + 3 * dice(state));
         double p[2] = {from[0] + radius * cos(angle), from[1] + radius * sin(angle)};
-        if (!fits(disk, p, apart)) continue;
-        add(disk, p);
+        if (!fits_point(disk, p, apart)) continue;
+        add_point(disk, p);
         return true;
     }
     return false;
 }
 
-static void fill(struct disk *disk, double apart, uint64_t state) {
+static void fill_disk(struct disk *disk, double apart, uint64_t state) {
     int active[POINTS_MAX], active_count = 1;
     double first[2];
     disk->count = 0;
     do {
         double radius = sqrt(dice(&state)), angle = 2 * M_PI * dice(&state);
         first[0] = radius * cos(angle), first[1] = radius * sin(angle);
-    } while (!fits(disk, first, apart));
-    add(disk, first);
+    } while (!fits_point(disk, first, apart));
+    add_point(disk, first);
     active[0] = 0;
     while (active_count > 0 && disk->count < POINTS_MAX) {
         int pick = (int)(dice(&state) * active_count);
@@ -69,15 +69,15 @@ static void fill(struct disk *disk, double apart, uint64_t state) {
     }
 }
 
-/* The widest spread of exactly `count` pairs that some seed gives. */
-static struct disk spread(int count) {
+/* The disk of exactly `count` pairs with the largest distance over all seeds. */
+static struct disk widest_disk(int count) {
     struct disk best = {0}, disk;
     double best_apart = 0;
     for (uint64_t seed = 1; seed <= SEEDS; seed++) {
         double low = 0.3 / sqrt(count), high = 1.9 / sqrt(count);
         for (int step = 0; step < 20; step++) {
             double apart = 0.5 * (low + high);
-            fill(&disk, apart, seed);
+            fill_disk(&disk, apart, seed);
             if (disk.count == count && apart > best_apart) best = disk, best_apart = apart;
             if (disk.count >= count)
                 low = apart;
@@ -88,7 +88,7 @@ static struct disk spread(int count) {
     return best;
 }
 
-static void scale(struct disk *disk) {
+static void scale_disk(struct disk *disk) {
     double square = 0;
     for (int i = 0; i < disk->count; i++)
         for (int k = 0; k < 2; k++) square += disk->at[i][k] * disk->at[i][k] / disk->count;
@@ -100,9 +100,9 @@ int main(void) {
     static const int counts[] = {8, 16, 32};
     printf("/* made by assets/make_poisson.c */\n");
     for (int i = 0; i < 3; i++) {
-        struct disk disk = spread(counts[i] / 2);
+        struct disk disk = widest_disk(counts[i] / 2);
         if (disk.count != counts[i] / 2) return 1;
-        scale(&disk);
+        scale_disk(&disk);
         printf("static const float poisson_%d[%d][2] = {\n", counts[i], disk.count);
         for (int k = 0; k < disk.count; k++)
             printf("    {%.6ff, %.6ff},\n", disk.at[k][0], disk.at[k][1]);

@@ -1,10 +1,10 @@
-/* The scenes of `gnomon doctor --self-test` and the truth about them: `make_selftest NAME PATH`
- * writes PATH.glb and PATH.truth (its format: src/cli/selftest.h). The truth is found by testing
- * rays against every triangle, in double precision; the scenes are small enough for that.
+/* Scenes of `gnomon doctor --self-test` with their ground truth: `make_selftest NAME PATH` writes
+ * PATH.glb and PATH.truth (format: src/cli/selftest.h). The truth is computed by brute-force ray
+ * casting in double precision; the scenes are small enough for that.
  *
- * What casts, and what is lit: opaque and masked surfaces cast from both sides, masked ones with
- * their holes; a surface seen from the side turned away from the light is dark; outside a spot's
- * cone and on the background all is lit. */
+ * Rules: opaque and masked surfaces cast from both sides, masked ones with their holes; a surface
+ * seen from the side away from the light is dark; outside a spot's cone and on the background
+ * everything is lit. */
 #include "glb.h"
 #include "outline.h"
 #include "paint.h"
@@ -41,36 +41,36 @@ static const float eye_yfov = (float)(29 * RADIANS);
 
 /* ---- the scenes ---- */
 
-static struct gn_shape *add(struct scene *scene, const char *name) {
+static struct gn_shape *add_part(struct scene *scene, const char *name) {
     struct part *part = &scene->parts[scene->part_count++];
     part->name = name;
     gn_shape_init(&part->shape, 1);
     return &part->shape;
 }
 
-static void add_ground(struct scene *scene) { gn_shape_plane(add(scene, "ground"), 8, 8); }
+static void add_ground(struct scene *scene) { gn_shape_plane(add_part(scene, "ground"), 8, 8); }
 
 static void make_box(struct scene *scene) {
     add_ground(scene);
-    struct gn_shape *box = add(scene, "box");
+    struct gn_shape *box = add_part(scene, "box");
     gn_shape_turn(box, 'y', 25);
     gn_shape_block(box, 1.4f, 1.6f, 1.2f);
 }
 
 static void make_ball(struct scene *scene) {
     add_ground(scene);
-    struct gn_shape *ball = add(scene, "ball");
+    struct gn_shape *ball = add_part(scene, "ball");
     gn_shape_at(ball, 0, .95f, 0);
     gn_shape_sphere(ball, .8f, 32, 20);
 }
 
 static void make_fence(struct scene *scene) {
     add_ground(scene);
-    struct gn_shape *wall = add(scene, "wall");
+    struct gn_shape *wall = add_part(scene, "wall");
     gn_shape_at(wall, -.4f, 0, -1.4f);
     gn_shape_turn(wall, 'y', 15);
     gn_shape_block(wall, 2.4f, 1.1f, .03f);
-    struct gn_shape *fence = add(scene, "fence");
+    struct gn_shape *fence = add_part(scene, "fence");
     gn_shape_at(fence, -1.2f, 0, .6f);
     gn_shape_fence(fence, &(struct gn_fence){.length = 2.6f,
                                              .height = 1.2f,
@@ -82,7 +82,7 @@ static void make_fence(struct scene *scene) {
 
 static void make_lattice(struct scene *scene) {
     add_ground(scene);
-    struct gn_shape *card = add(scene, "lattice");
+    struct gn_shape *card = add_part(scene, "lattice");
     scene->parts[1].double_sided = scene->parts[1].lattice = true;
     gn_shape_at(card, 0, .2f, -.6f);
     gn_shape_card(card, 3.2f, 2.6f);
@@ -91,7 +91,7 @@ static void make_lattice(struct scene *scene) {
 static void make_tilt(struct scene *scene) {
     add_ground(scene);
     for (int i = 0; i < 2; i++) {
-        struct gn_shape *plane = add(scene, i ? "seen from above" : "seen from below");
+        struct gn_shape *plane = add_part(scene, i ? "seen from above" : "seen from below");
         scene->parts[1 + i].double_sided = true;
         gn_shape_at(plane, i ? 1.3f : -1.2f, i ? .8f : 1.3f, i ? 1.0f : -.6f);
         gn_shape_turn(plane, 'x', i ? 20 : -50);
@@ -101,10 +101,10 @@ static void make_tilt(struct scene *scene) {
 
 static void make_stack(struct scene *scene) {
     add_ground(scene);
-    struct gn_shape *low = add(scene, "low");
+    struct gn_shape *low = add_part(scene, "low");
     gn_shape_at(low, -.5f, 0, .5f);
     gn_shape_block(low, 1, .8f, 1);
-    struct gn_shape *high = add(scene, "high");
+    struct gn_shape *high = add_part(scene, "high");
     gn_shape_at(high, .4f, 2.1f, -.5f);
     gn_shape_turn(high, 'y', 30);
     gn_shape_box(high, 1.5f, .1f, 1.5f);
@@ -115,12 +115,12 @@ static void make_lamp(struct scene *scene) {
     static const float at[3][3] = {{-1.3f, -.9f, 20}, {1.2f, -.7f, 50}, {-.3f, 1.3f, 5}};
     add_ground(scene);
     for (int i = 0; i < 3; i++) {
-        struct gn_shape *box = add(scene, "box");
+        struct gn_shape *box = add_part(scene, "box");
         gn_shape_at(box, at[i][0], 0, at[i][1]);
         gn_shape_turn(box, 'y', at[i][2]);
         gn_shape_block(box, .5f, .6f, .4f);
     }
-    struct gn_shape *wall = add(scene, "wall");
+    struct gn_shape *wall = add_part(scene, "wall");
     gn_shape_at(wall, 0, 0, -2.2f);
     gn_shape_block(wall, 5, 2, .1f);
 }
@@ -256,8 +256,8 @@ static bool in_hole(const struct gn_vertex *const v[3], double b, double c) {
 
 /* Möller, Trumbore, "Fast, minimum storage ray-triangle intersection", 1997. `cull`: not the back
  * of a single-sided surface. */
-static bool meets(const struct part *part, size_t first, const struct ray *ray, bool cull,
-                  struct hit *hit) {
+static bool hits_triangle(const struct part *part, size_t first, const struct ray *ray, bool cull,
+                          struct hit *hit) {
     const struct gn_vertex *v[3];
     double p[3][3], e1[3], e2[3], h[3], s[3], q[3], normal[3];
     for (int k = 0; k < 3; k++) {
@@ -282,11 +282,12 @@ static bool meets(const struct part *part, size_t first, const struct ray *ray, 
     return true;
 }
 
-static struct hit cast(const struct scene *scene, const struct ray *ray, bool cull, double within) {
+static struct hit cast_ray(const struct scene *scene, const struct ray *ray, bool cull,
+                           double within) {
     struct hit hit = {.t = within, .part = -1};
     for (int i = 0; i < scene->part_count; i++)
         for (size_t k = 0; k < scene->parts[i].shape.index_count; k += 3)
-            if (meets(&scene->parts[i], k, ray, cull, &hit)) hit.part = i;
+            if (hits_triangle(&scene->parts[i], k, ray, cull, &hit)) hit.part = i;
     return hit;
 }
 
@@ -330,14 +331,14 @@ static bool is_lit(const struct scene *scene, const struct pixel *pixel) {
     }
     if (dot(ray.along, pixel->hit.normal) <= 0) return false;
     for (int k = 0; k < 3; k++) ray.from[k] = pixel->point[k] + 1e-4 * pixel->hit.normal[k];
-    return cast(scene, &ray, false, within).part < 0;
+    return cast_ray(scene, &ray, false, within).part < 0;
 }
 
-static void look(const struct scene *scene, struct pixel *pixels) {
+static void trace_pixels(const struct scene *scene, struct pixel *pixels) {
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         struct pixel *pixel = &pixels[i];
         struct ray ray = eye_ray(i % WIDTH, i / WIDTH);
-        pixel->hit = cast(scene, &ray, true, INFINITY);
+        pixel->hit = cast_ray(scene, &ray, true, INFINITY);
         pixel->lit = true;
         if (pixel->hit.part < 0) continue;
         for (int k = 0; k < 3; k++) pixel->point[k] = ray.from[k] + pixel->hit.t * ray.along[k];
@@ -345,8 +346,9 @@ static void look(const struct scene *scene, struct pixel *pixels) {
     }
 }
 
-/* Next to each other lie two answers, two parts, a crease of over 45 degrees or a step in depth. */
-static bool differ(const struct pixel *a, const struct pixel *b) {
+/* Neighbours differ in light or part, or are separated by a crease over 45 degrees or a depth step.
+ */
+static bool is_discontinuity(const struct pixel *a, const struct pixel *b) {
     double between[3];
     if (a->lit != b->lit || a->hit.part != b->hit.part) return true;
     if (a->hit.part < 0) return false;
@@ -355,14 +357,14 @@ static bool differ(const struct pixel *a, const struct pixel *b) {
     return dot(a->hit.normal, b->hit.normal) < sqrt(.5) || step > .02 * a->hit.t;
 }
 
-static const struct pixel *at(const struct pixel *pixels, int x, int y) {
+static const struct pixel *pixel_at(const struct pixel *pixels, int x, int y) {
     return x < 0 || y < 0 || x >= WIDTH || y >= HEIGHT ? NULL : &pixels[y * WIDTH + x];
 }
 
 static bool is_edge(const struct pixel *pixels, int x, int y) {
     for (int i = 0; i < 9; i++) {
-        const struct pixel *other = at(pixels, x + i % 3 - 1, y + i / 3 - 1);
-        if (other && differ(at(pixels, x, y), other)) return true;
+        const struct pixel *other = pixel_at(pixels, x + i % 3 - 1, y + i / 3 - 1);
+        if (other && is_discontinuity(pixel_at(pixels, x, y), other)) return true;
     }
     return false;
 }
@@ -370,7 +372,7 @@ static bool is_edge(const struct pixel *pixels, int x, int y) {
 static bool is_near_edge(const struct pixel *pixels, int x, int y) {
     for (int v = -BAND_PX; v <= BAND_PX; v++)
         for (int u = -BAND_PX; u <= BAND_PX; u++)
-            if (u * u + v * v <= BAND_PX * BAND_PX && at(pixels, x + u, y + v) &&
+            if (u * u + v * v <= BAND_PX * BAND_PX && pixel_at(pixels, x + u, y + v) &&
                 is_edge(pixels, x + u, y + v))
                 return true;
     return false;
@@ -399,7 +401,7 @@ static bool write_truth(const struct scene *scene, const char *path) {
         free(pixels);
         return false;
     }
-    look(scene, pixels);
+    trace_pixels(scene, pixels);
     fwrite("gntruth1", 1, 8, file);
     fwrite((unsigned char[]){WIDTH % 256, WIDTH / 256, HEIGHT % 256, HEIGHT / 256}, 1, 4, file);
     write_runs(pixels, file);

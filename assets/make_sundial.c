@@ -11,7 +11,7 @@ static const struct gn_dial dial = {
     .latitude = GN_LATITUDE, .radius = 1.42f, .centre = 0.72f, .length = 0.92f, .thickness = 0.07f};
 static const float DIAL_TOP = 1.245f;
 
-/* Ground casts nothing: one sheet above the other would be fitted into every map, for no shadow. */
+/* Ground layers cast no shadows: as casters they would only enlarge the fit of every shadow map. */
 static void add_ground(struct gn_garden *g) {
     struct gn_shape court = gn_garden_begin(COURT), lawn = gn_garden_begin(LAWN);
     gn_shape_paving(&court, 1.4f, 7.1f, 10, 48);
@@ -130,7 +130,7 @@ static void add_lights(struct gn_garden *g) {
     node.light = gn_glb_light(g->glb, &sun);
     gn_glb_node(g->glb, &node);
 
-    char slide[160]; /* a leaded window, held a hand's breadth before the flame */
+    char slide[160]; /* a leaded window, 10 cm in front of the flame */
     snprintf(slide, sizeof slide,
              "{\"gnomon_slide\":%d,\"gnomon_slide_size_m\":[0.084,0.126],"
              "\"gnomon_slide_distance_m\":0.13,\"gnomon_slide_outside\":\"dark\"}",

@@ -62,7 +62,7 @@ struct build {
     int counts[KINDS];
 };
 
-/* ---- chance ---- */
+/* ---- random numbers ---- */
 
 /* xorshift32: Marsaglia, "Xorshift RNGs", 2003. */
 static float chance(struct build *b, float low, float high) {
@@ -180,7 +180,7 @@ static void add_ground(struct build *b) {
     gn_shape_finish(&shape);
 }
 
-/* Something of one grey that stays where its shape puts it. */
+/* A grey object, already in scene coordinates. */
 static void add_fixed(struct build *b, const char *name, const struct gn_shape *shape) {
     int material =
         gn_glb_material(b->glb, &(struct gn_glb_material){.rgba = {.6f, .6f, .6f}, .rough = 1});
@@ -209,7 +209,7 @@ static void add_room(struct build *b) {
     gn_shape_finish(&shape);
 }
 
-/* Four fences round the middle, which stays free. */
+/* Four fences around the free centre. */
 static void add_pen(struct build *b) {
     struct gn_shape shape;
     gn_shape_init(&shape, 0);
@@ -236,7 +236,7 @@ static void add_wall(struct build *b) {
     gn_shape_finish(&shape);
 }
 
-/* Keeps casters off the lamp and off what stands in the middle. */
+/* Keeps casters away from the lamp and the centre. */
 static void add_site(struct build *b) {
     const struct lamp *lamp = b->lamp;
     b->placed[b->count++] = (struct spot){lamp->at[0], lamp->at[2], .4f};
@@ -297,7 +297,7 @@ static void add_light(struct build *b) {
     gn_glb_node(b->glb, &node);
 }
 
-/* Looks at the ground from the side on which the light is not, neither along it nor against it. */
+/* Views the ground across the direction of the light. */
 static void add_camera(struct build *b) {
     float size = b->scene->size, side = chance(b, 0, 1) < .5f ? -1 : 1, eye[3];
     towards(chance(b, 30, 42), b->scene->azimuth + side * chance(b, 60, 115), 1.08f * size, eye);

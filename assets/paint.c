@@ -72,7 +72,7 @@ static float fractal(float u, float v, int cells, int octaves, unsigned seed) {
     return sum / weight;
 }
 
-/* Few levels: the eye does not miss them in grain, and the PNG is a third of the size. */
+/* Few levels: invisible in grain, and the PNG has a third of the size. */
 static unsigned char level(float v) { return (unsigned char)(lroundf(clamp01(v) * 63) * 255 / 63); }
 
 typedef float grey_fn(float u, float v, const void *what);
@@ -154,7 +154,7 @@ void gn_paint_hedge(struct gn_image *image, int size_px, unsigned seed) {
 
 /* ---- pictures with holes ---- */
 
-static void put(struct gn_image *image, int x, int y, const float rgb[3], float alpha) {
+static void set_pixel(struct gn_image *image, int x, int y, const float rgb[3], float alpha) {
     unsigned char *p = image->pixels + 4 * (y * image->width + x);
     for (int c = 0; c < 3; c++) p[c] = level(rgb[c]);
     p[3] = (unsigned char)(alpha >= 0.5f ? 255 : 0);
@@ -173,8 +173,8 @@ void gn_paint_lattice(struct gn_image *image, int size_px, int meshes, unsigned 
         float along = over ? a : b, tone = 0.8f + 0.15f * noise(along, 0.5f * (u + v), 16, seed);
         float edge = fminf(fabsf(da - 0.36f), fabsf(db - 0.36f));
         tone *= 0.75f + 0.25f * ramp(0, 0.06f, edge);
-        put(image, i % size_px, i / size_px, (float[3]){tone, tone, tone},
-            da > 0.36f || db > 0.36f);
+        set_pixel(image, i % size_px, i / size_px, (float[3]){tone, tone, tone},
+                  da > 0.36f || db > 0.36f);
     }
 }
 
@@ -194,7 +194,8 @@ static void draw_leaf(struct gn_image *image, const struct leaf *leaf) {
         if (fabsf(side) > half) continue;
         float vein = fabsf(side) < 0.025f ? 0.8f : 1,
               shade = leaf->tone * vein * (side > 0 ? 1 : 0.86f);
-        put(image, i % size, i / size, (float[3]){0.62f * shade, 0.92f * shade, 0.34f * shade}, 1);
+        set_pixel(image, i % size, i / size,
+                  (float[3]){0.62f * shade, 0.92f * shade, 0.34f * shade}, 1);
     }
 }
 
@@ -206,14 +207,14 @@ static void draw_twig(struct gn_image *image, float x0, float y0, float x1, floa
               py = 1 - ((float)(i / size) + 0.5f) / (float)size - y0;
         float t = clamp01((px * dx + py * dy) / length2);
         if (hypotf(px - t * dx, py - t * dy) < width * (1 - 0.6f * t))
-            put(image, i % size, i / size, (float[3]){0.5f, 0.38f, 0.25f}, 1);
+            set_pixel(image, i % size, i / size, (float[3]){0.5f, 0.38f, 0.25f}, 1);
     }
 }
 
 /* Transparent pixels take the mean leaf's colour, so that mip-maps get no dark rims. */
 static void flood(struct gn_image *image) {
     for (int i = 0; i < image->width * image->height; i++)
-        put(image, i % image->width, i / image->width, (float[3]){0.5f, 0.76f, 0.3f}, 0);
+        set_pixel(image, i % image->width, i / image->width, (float[3]){0.5f, 0.76f, 0.3f}, 0);
 }
 
 void gn_paint_branch(struct gn_image *image, int size_px, unsigned seed) {

@@ -1,6 +1,6 @@
 /* Triangle meshes with outward normals, counter-clockwise seen from outside.
  *
- * A shape grows: each call appends a piece, placed by the pen (a rotation and a translation, like a
+ * Each call appends a piece, placed by the pen (a rotation and a translation, like a
  * turtle's). UVs are in metres times `uv_per_m`, so that a tiling texture keeps its size on all
  * pieces. */
 #ifndef GN_ASSETS_SHAPES_H
@@ -37,7 +37,7 @@ void gn_shape_at(struct gn_shape *shape, float x, float y, float z); /* home, th
 void gn_shape_move(struct gn_shape *shape, float x, float y, float z);
 void gn_shape_turn(struct gn_shape *shape, char axis, float degrees);
 
-/* For pieces of one's own: returns the vertex's index; `uv` in metres. */
+/* Adds one vertex, for custom pieces; returns its index. `uv` in metres. */
 uint32_t gn_shape_vertex(struct gn_shape *shape, const float position[3], const float normal[3],
                          const float uv[2]);
 void gn_shape_triangle(struct gn_shape *shape, uint32_t a, uint32_t b, uint32_t c);

@@ -64,7 +64,7 @@ for set in "$@"; do
         wanted="$wanted $compiler $(foreign "$added" $libraries $test_libraries)"
         extra="$extra $(foreign "$added" $optional_build $optional_test)"
         ;;
-    *) echo "deps.sh: no set of packages is called $set" >&2 && exit 2 ;;
+    *) echo "deps.sh: unknown set of packages: $set" >&2 && exit 2 ;;
     esac
 done
 
