@@ -16,7 +16,7 @@
 
 enum { SIM_CARDS = 2, SIM_CONNECTORS = 2, SIM_CRTCS = 2, SIM_MODES = 4, SIM_BROKEN = 4 };
 
-enum sim_op { /* what can be made to fail, and is counted */
+enum sim_op { /* operations that can fail and are counted */
 #define X(function, name) SIM_##name,
               GN_DRM_TABLE(X)
 #undef X
@@ -29,56 +29,56 @@ enum sim_op { /* what can be made to fail, and is counted */
               SIM_OPS
 };
 
-enum sim_stall { /* flips whose event does not come */
+enum sim_stall { /* flips without an event */
                  SIM_FLOWS,
                  SIM_STALLS_UNTIL_RELIT,
                  SIM_STALLS_UNTIL_REOPENED,
                  SIM_STALLS,
-                 SIM_LOSES_AN_EVENT, /* one; the flip itself is done */
-                 SIM_TELLS_LATE,     /* of one, after 12.1 s */
+                 SIM_LOSES_AN_EVENT, /* one event is lost; the flip itself completes */
+                 SIM_TELLS_LATE,     /* one event is 12.1 s late */
                  SIM_STALL_COUNT
 };
-enum sim_incident { /* what may happen between any two calls, and passes after two seconds */
+enum sim_incident { /* incidents between two calls; each is undone after two seconds */
                     SIM_CARD_GOES,
                     SIM_MONITOR_GOES,
-                    SIM_MONITOR_CHANGES, /* another one, with other modes */
-                    SIM_MASTER_GOES,     /* somebody else has it and shows his own picture */
-                    SIM_LINK_GOES_BAD,   /* for ever: only a modeset mends it */
+                    SIM_MONITOR_CHANGES, /* another monitor with other modes */
+                    SIM_MASTER_GOES,     /* another process is master and shows its own picture */
+                    SIM_LINK_GOES_BAD,   /* permanent: needs a modeset */
                     SIM_INCIDENTS
 };
 
-struct sim_traits { /* of a card; zero is a good one */
-    bool gpu_alone; /* it shows nothing */
+struct sim_traits { /* of a card; zero is a normal one */
+    bool gpu_alone; /* render only */
     bool legacy;    /* no atomic interface */
-    bool no_vblank; /* no vblank: flips end at once, as with virtio */
+    bool no_vblank; /* no vblank: flips complete at once, as with virtio */
     bool modifiers, fences;
-    bool rotation; /* its planes turn, and the console leaves one turned */
-    bool overlays; /* strangers leave one */
-    bool console;  /* it is lit with the text console's picture */
+    bool rotation; /* planes can rotate, and the console leaves one rotated */
+    bool overlays; /* other programs leave an overlay */
+    bool console;  /* initially shows the text console */
 };
 #define SIM_RENDER_NODE "/dev/dri/renderD128" /* the only one */
 struct sim_gpu {                              /* of all cards */
     bool no_gl;
-    bool no_surface[GN_FALLBACK_COUNT]; /* by fallback */
+    bool no_surface[GN_FALLBACK_COUNT]; /* by fallback level */
 };
 struct sim_mode {
     uint16_t width_px, height_px, hz;
     bool preferred;
 };
-struct sim_refusal { /* a mode of that size cannot be set */
+struct sim_refusal { /* modes of that size are refused */
     uint16_t width_px;
     int error;
-    bool late; /* although the test of it passes */
+    bool late; /* although TEST_ONLY accepts them */
 };
 
 extern struct gn_drm_ops sim_drm;
 extern const struct gn_scanout_ops sim_gl;
 
-/* ---- the world ---- */
+/* ---- machine ---- */
 
-/* A world without cards, at 100 s. What was left of the one before is freed. */
+/* A machine without cards, at 100 s. Frees the previous one. */
 void sim_begin(void);
-/* Everything that the program should have given back: 0, or a complaint each. */
+/* Checks that the program released everything: one complaint for each leak, else 0. */
 int sim_end(void);
 void sim_add_card(int card, const char *path, const struct sim_traits *traits);
 void sim_set_gpu(const struct sim_gpu *gpu);
@@ -102,44 +102,44 @@ enum {
 void sim_plug(int card, int connector, int kind);
 void sim_break_link(int card, int connector);
 void sim_lose_card(int card);
-/* With all objects new. NULL: where it was. */
+/* All object ids are new. NULL: at its old path. */
 void sim_return_card(int card, const char *path);
 void sim_stall(int card, enum sim_stall how);
-void sim_console_takes(int card); /* the master is gone, and the text console shows itself */
+void sim_console_takes(int card); /* master is dropped and the text console is shown */
 void sim_stranger_takes(int card);
-/* `dark`: and switches off what he showed. */
+/* `dark`: and switches its CRTC off. */
 void sim_stranger_leaves(int card, bool dark);
 
 /* ---- time ---- */
 
 int64_t sim_now(void);
-int64_t sim_next(void); /* when something happens by itself; INT64_MAX: never */
+int64_t sim_next(void); /* time of the next event; INT64_MAX: none */
 void sim_run_to(int64_t ns);
 bool sim_readable(int fd);
-bool sim_take_uevent(void); /* there was one since it was last asked */
+bool sim_take_uevent(void); /* whether one was sent since the last call */
 
 /* ---- failures ---- */
 
-/* The nth call (from 1, `burst` calls long) of an op fails; 0: none. */
+/* The nth call of an op (from 1) and the next `burst` - 1 fail; 0: none. */
 void sim_fail(enum sim_op op, long nth, int burst, int error);
-/* Each call fails with a probability of 1 in `often`; 0: none. */
+/* Each call fails with a probability of 1 in `often`; 0: never. */
 void sim_fail_often(uint64_t seed, unsigned often);
-/* Before the nth call of all. */
+/* Before the nth call of any op. */
 void sim_happen(enum sim_incident what, long nth);
 void sim_trace(bool on); /* prints every call */
 const char *sim_op_name(enum sim_op op);
-/* What it can give, ended with 0. */
+/* Errnos the op can return, terminated by 0. */
 const int *sim_op_errors(enum sim_op op);
 const char *sim_incident_name(enum sim_incident what);
 
-/* ---- what is seen ---- */
+/* ---- what is visible ---- */
 
-/* Of what is drawn now; may be called between begin and present, where it is no copy. */
+/* Draws the current frame in that colour; legal between begin and present. */
 void sim_paint(uint32_t colour);
 void sim_paint_copy(uint8_t *pixels, uint32_t colour);
-/* Some monitor that is there shows that colour, and nothing over it. */
+/* Some connected monitor shows that colour, not covered by an overlay. */
 bool sim_shows(uint32_t colour);
-/* No monitor that is there is lit. */
+/* All connected monitors are off. */
 bool sim_is_dark(void);
 bool sim_shows_console(int card);
 bool sim_is_master(int fd);
@@ -148,18 +148,18 @@ bool sim_is_master(int fd);
 
 struct sim_counts {
     long calls[SIM_OPS], all_calls;
-    long failed;      /* calls that were made to fail */
-    long flips, sets; /* that were done */
-    long blinks;      /* sets that switch a CRTC's mode */
-    long waits;       /* commits that had to wait for a flip */
-    /* alive now, and most at any time */
+    long failed;      /* calls made to fail */
+    long flips, sets; /* completed ones */
+    long blinks;      /* modesets that change a CRTC's mode */
+    long waits;       /* commits that waited for a flip */
+    /* alive now, and the maximum */
     int files, fbs, blobs, buffers, dumbs, maps, replies, fences_given;
     int most_fbs, most_buffers, most_blobs;
     int complaints;
 };
 extern struct sim_counts sim_counts;
-/* What no program may do; the first ones are kept in a text. */
+/* Records a violation; the first few are kept as text. */
 void sim_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
-const char *sim_complaint(void); /* the first, "" while there is none */
+const char *sim_complaint(void); /* the first one; "" if none */
 
 #endif

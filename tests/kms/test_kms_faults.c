@@ -15,14 +15,14 @@
 #include "core/clock.h"
 #include "scenes.h"
 
-enum { BAD_MAX = 20 }; /* then it says no more */
+enum { BAD_MAX = 20 }; /* stops printing */
 
 struct fault {
     enum sim_op op;
     long nth;
     int burst, error;
     enum sim_incident incident;
-    long at; /* of the incident; 0: it is a call that fails */
+    long at; /* of the incident; 0: a call fails */
 };
 static struct {
     long runs, failed_calls, calls, frames, incidents, pairs, given_up, bad;
@@ -37,7 +37,7 @@ static void prepare(void *context) {
         sim_fail(f->op, f->nth, f->burst, f->error);
 }
 
-/* What stands before the colon repeats it. */
+/* The text before the colon reproduces it. */
 static void tell(const struct scene *scene, const struct fault *f, const char *complaint) {
     const int number = (int)(scene - scenes);
     total.bad++;

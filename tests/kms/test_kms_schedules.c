@@ -57,7 +57,7 @@ static void plug_something(void) {
     sim_plug(card, connector, one_in(3) ? SIM_NO_MONITOR : below(SIM_MONITORS));
 }
 
-/* Nobody stays away for long. */
+/* Returns soon. */
 static void switch_console(struct client *c) {
     if (c->away)
         client_enter_console(c);

@@ -46,7 +46,7 @@ struct gn_kms_monitor {       /* connector in use and its monitor */
     uint64_t lit_for;         /* monitor for which output.mode was set */
     bool connected;           /* a connector is selected and has buffers */
     drmModeModeInfo candidates[GN_KMS_CANDIDATES_MAX];
-    int candidate_count, mode; /* the mode in use is ladder[mode] */
+    int candidate_count, mode; /* the mode in use is candidates[mode] */
 };
 struct gn_kms_buffers {
     struct gn_surface_opts opts;
