@@ -155,7 +155,7 @@ static void print_buttons(const struct gn_options *o) {
 }
 
 static void print_check(const struct check *c, const struct gn_options *o) {
-    printf("%s is right: %d mode%s, %d button%s, %d scene%s\n", o->config_path, o->mode_count,
+    printf("%s is valid: %d mode%s, %d button%s, %d scene%s\n", o->config_path, o->mode_count,
            o->mode_count == 1 ? "" : "s", o->buttons ? o->buttons->count : 0,
            o->buttons && o->buttons->count == 1 ? "" : "s", c->scene_count,
            c->scene_count == 1 ? "" : "s");

@@ -36,7 +36,7 @@ static bool fail_command(const char *name, struct gn_err *err) {
         return gn_fail_usage(err, "ctl: unknown command \"%.60s\"; did you mean %s?", name,
                              nearest);
     gn_ctl_list(list, sizeof list);
-    if (!name) return gn_fail_usage(err, "ctl: which command? expected one of%s", list);
+    if (!name) return gn_fail_usage(err, "ctl: no command; expected one of%s", list);
     return gn_fail_usage(err, "ctl: unknown command \"%.60s\"; expected one of%s", name, list);
 }
 
@@ -45,7 +45,7 @@ static bool check_words(const struct gn_options *o, int command, struct gn_err *
     const int wanted = gn_ctl_words((enum gn_ctl)command), given = o->word_count - 1;
     if (given < wanted) return gn_fail_usage(err, "ctl %s: expected %s", row->name, row->words);
     if (given > wanted)
-        return gn_fail_usage(err, "ctl %s takes no more; what is \"%.80s\"?%s", row->name,
+        return gn_fail_usage(err, "ctl %s: unexpected argument \"%.80s\"%s", row->name,
                              o->words[1 + wanted], wanted ? " (quote what has spaces)" : "");
     return true;
 }
@@ -239,8 +239,8 @@ static bool report(const struct gn_settings *o, json_t *reply, struct gn_err *er
     const bool wrong = json_integer_value(json_object_get(reply, "status")) == GN_EXIT_USAGE;
     if (wrong) return gn_fail_usage(err, "%s", why ? why : "no");
     if (why && strcmp(why, "busy") == 0)
-        return gn_fail(err, "the kiosk is busy: too much is asked of it at once; ask again");
-    return gn_fail(err, "%s", why ? why : "the kiosk says no, but not why");
+        return gn_fail(err, "the kiosk is busy: too many requests; try again");
+    return gn_fail(err, "%s", why ? why : "request refused without a reason");
 }
 
 bool gn_cli_ctl(const struct gn_options *options, struct gn_warnings *warnings,

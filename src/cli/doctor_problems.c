@@ -97,7 +97,7 @@ void gn_doctor_diagnose_input(struct gn_doctor_report *report) {
     const struct gn_input_list *input = &report->input;
     if (!input->library && has_device(&report->machine, GN_DEVICE_GPIO))
         gn_doctor_add(report, "install libgpiod-dev and build gnomon again",
-                      "this build hears no buttons on GPIO lines: it is without libgpiod");
+                      "this build has no support for GPIO buttons: it is without libgpiod");
     for (int i = 0; i < input->chip_count; i++) {
         const struct gn_input_chip *chip = &input->chips[i];
         if (chip->error && chip->error != EACCES && chip->error != EPERM) /* said of the node */

@@ -136,7 +136,7 @@ static void print_cost(const struct gn_inspection *in, FILE *to) {
 
 static void print_faults(const struct gn_inspection *in, FILE *to) {
     int warnings = in->warnings ? in->warnings->count : 0;
-    fprintf(to, "\nTo mend\n");
+    fprintf(to, "\nProblems\n");
     if (!warnings && !in->advice_count) line(to, "nothing");
     for (int i = 0; i < warnings; i++) line(to, "- %s", in->warnings->text[i]);
     if (warnings && in->warnings->dropped)

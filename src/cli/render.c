@@ -31,7 +31,7 @@ static bool is_pattern(const char *path) {
 }
 
 static bool check_options(const struct gn_settings *o, struct render *r, struct gn_err *err) {
-    if (!o->run.out) return gn_fail_usage(err, "render: where to? Add -o FILE.png");
+    if (!o->run.out) return gn_fail_usage(err, "render: no output file: add -o FILE.png");
     if (!gn_picture_format_of(o->run.out, &r->format, err)) return false;
     if (o->run.frames > 1 && !is_pattern(o->run.out))
         return gn_fail_usage(

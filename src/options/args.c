@@ -91,8 +91,7 @@ static bool is_ctl(const struct args *args) {
 static bool add_word(struct args *args, const char *word, struct gn_err *err) {
     const bool is_show = args->word_count > 0 && command_of(args->words[0]) == GN_COMMAND_SHOW;
     if (is_ctl(args) && args->word_count == 2 + GN_CTL_WORDS_MAX)
-        return gn_fail_usage(err, "ctl %.80s takes no more; what is \"%.80s\"?", args->words[1],
-                             word);
+        return gn_fail_usage(err, "ctl %.80s: unexpected argument \"%.80s\"", args->words[1], word);
     if (!is_ctl(args) && args->word_count == (is_show ? 1 + GN_SCENES_MAX : 2))
         return gn_fail_usage(err,
                              is_show ? "too many scenes, from \"%.80s\" on"

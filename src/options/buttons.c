@@ -31,17 +31,17 @@ static const struct {
 } keys[GN_BUTTON_KEY_COUNT] = {
     [LINE] = {.row = {"line", "NAME", "the GPIO line: its name (GPIO17), or label:LABEL/OFFSET"}, .set = set_line},
     [KEYS] = {.row = {"keys", "KEY..", "keys of a keyboard or of gpio-keys: space, f1, btn_0"}, .set = set_keys},
-    [CHORD] = {.row = {"chord", "BUTTON..", "other buttons that go down together; press says what they do"}, .set = set_chord},
+    [CHORD] = {.row = {"chord", "BUTTON..", "other buttons, pressed together; press is their action"}, .set = set_chord},
     [ACTIVE_HIGH] = {.row = {"active_high", "yes|no", "the line is high while pressed (no)"}, .set = set_active_high},
-    [BIAS] = {.row = {"bias", "pull-up|pull-down|none", "what holds the line when nobody presses (up, or down with active_high)"}, .set = set_bias},
-    [DEBOUNCE_MS] = {.row = {"debounce_ms", "MS", "how long it has to be steady (20)"}, .set = set_ms, .offset = TIME(debounce_ns), .least_ms = 1, .most_ms = 1000},
+    [BIAS] = {.row = {"bias", "pull-up|pull-down|none", "bias of the line (pull-up, or pull-down with active_high)"}, .set = set_bias},
+    [DEBOUNCE_MS] = {.row = {"debounce_ms", "MS", "debounce time (20)"}, .set = set_ms, .offset = TIME(debounce_ns), .least_ms = 1, .most_ms = 1000},
     [HOLD_MS] = {.row = {"hold_ms", "MS", "how long a hold is, and what goes before the first repeat (800)"}, .set = set_ms, .offset = TIME(hold_ns), .least_ms = 50, .most_ms = 60000},
     [DOUBLE_MS] = {.row = {"double_ms", "MS", "how soon the second press of a double follows (350)"}, .set = set_ms, .offset = TIME(double_ns), .least_ms = 50, .most_ms = 5000},
     [REPEAT_MS] = {.row = {"repeat_ms", "MS", "how long from one repeat to the next (200)"}, .set = set_ms, .offset = TIME(repeat_ns), .least_ms = 50, .most_ms = 60000},
     [CHORD_MS] = {.row = {"chord_ms", "MS", "how close together a chord's buttons go down (80)"}, .set = set_ms, .offset = TIME(chord_ns), .least_ms = 10, .most_ms = 1000},
-    [PRESS] = {.row = {"press", "ACTION", "as it goes down"}, .set = set_action, .gesture = GN_GESTURE_PRESS},
-    [CLICK] = {.row = {"click", "ACTION", "as it comes up before a hold"}, .set = set_action, .gesture = GN_GESTURE_CLICK},
-    [DOUBLE] = {.row = {"double", "ACTION", "as it goes down for the second time"}, .set = set_action, .gesture = GN_GESTURE_DOUBLE},
+    [PRESS] = {.row = {"press", "ACTION", "when the button is pressed"}, .set = set_action, .gesture = GN_GESTURE_PRESS},
+    [CLICK] = {.row = {"click", "ACTION", "when it is released before hold"}, .set = set_action, .gesture = GN_GESTURE_CLICK},
+    [DOUBLE] = {.row = {"double", "ACTION", "when it is pressed a second time"}, .set = set_action, .gesture = GN_GESTURE_DOUBLE},
     [HOLD] = {.row = {"hold", "ACTION", "when it has been held"}, .set = set_action, .gesture = GN_GESTURE_HOLD},
     [REPEAT] = {.row = {"repeat", "ACTION", "when it has been held, and again and again while it is"}, .set = set_action, .gesture = GN_GESTURE_REPEAT},
 };
@@ -93,14 +93,14 @@ static bool fail_value(const char *label, const char *text, const char *expected
     return gn_fail_usage(err, "%s: \"%.80s\" is not %s", label, text, expected);
 }
 
-/* Says whose line or key it is already. */
+/* Names the button that uses the line or key already. */
 static bool fail_taken(const struct gn_config_buttons *config, int button, int key,
                        const char *what, const char *label, struct gn_err *err) {
     return gn_fail_usage(err, "%s: \"%s\" is button \"%s\"'s already, in line %d", label, what,
                          config->buttons->items[button].opts.name, config->lines[button].keys[key]);
 }
 
-/* A chip's number is another one after the next update of the kernel. */
+/* The numbers of GPIO chips change with kernel updates. */
 static bool is_line(const char *text) {
     const char *slash = strrchr(text, '/');
     if (strncmp(text, "gpiochip", 8) == 0 || text[strspn(text, "0123456789")] == '\0') return false;
@@ -312,7 +312,7 @@ static bool check_chord(const struct check *c, int button) {
     return true;
 }
 
-/* A chord is nowhere itself, and has one gesture; of a line alone can one say how it is wired. */
+/* A chord has neither line nor keys, and one gesture; active_high and bias need a line. */
 static bool check_place(const struct check *c, int button) {
     const int *lines = c->config->lines[button].keys;
     const struct gn_button_opts *o = &c->config->buttons->items[button].opts;
@@ -332,7 +332,7 @@ static bool check_place(const struct check *c, int button) {
         return gn_fail_usage(c->err, "%s:%d: chord_ms: only a chord has one", c->path,
                              lines[CHORD_MS]);
     return o->line || o->keys || o->chord ||
-           gn_fail_usage(c->err, "%s:%d: button \"%s\" is nowhere; expected line, keys or chord",
+           gn_fail_usage(c->err, "%s:%d: button \"%s\" has no source: set line, keys or chord",
                          c->path, c->config->lines[button].section, o->name);
 }
 
@@ -379,12 +379,12 @@ static bool check_actions(const struct check *c, int button) {
     }
     return does_something ||
            gn_fail_usage(c->err,
-                         "%s:%d: button \"%s\" does nothing; expected press, click, double, hold "
+                         "%s:%d: button \"%s\" has no action: set press, click, double, hold "
                          "or repeat",
                          c->path, c->config->lines[button].section, config->opts.name);
 }
 
-/* What a chord does is said under press, and a line that is high when pressed rests low. */
+/* The action of a chord is under press; an active-high line is pulled down by default. */
 static void complete(struct gn_button_config *config, const int *lines) {
     if (config->opts.chord) {
         config->on[GN_GESTURE_CHORD] = config->on[GN_GESTURE_PRESS];

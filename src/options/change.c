@@ -39,7 +39,7 @@ void gn_changes_destroy(struct gn_changes *changes) {
 /* ---- which ---------------------------------------------------------------------------------- */
 
 static const char *const why_fixed[] = {
-    [GN_CHANGE_NEVER] = "is not for show",
+    [GN_CHANGE_NEVER] = "is not an option of the kiosk",
     [GN_CHANGE_LIVE] = NULL,
     [GN_CHANGE_RELOAD] =
         "takes a reload: change it in the configuration file, then gnomon ctl reload",

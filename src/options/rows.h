@@ -5,13 +5,13 @@
 
 /* the scene, and how it stands */
 GN_OPTION(.name = "scene", .key = "file", .section = "scene", .kind = GN_KIND_SCENES, .value = "FILE",
-          .help = "the scene (.glb, .gltf, .obj, .fbx, .stl, .ply, .dae); given again it adds one that next-scene goes on to; on the command line it needs no flag", .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.path))
+          .help = "scene file (.glb, .gltf, .obj, .fbx, .stl, .ply, .dae); may be repeated: next-scene goes through the list; on the command line it needs no flag", .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.path))
 GN_OPTION(.name = "camera", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N",
-          .help = "look through this camera of the scene", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.camera))
+          .help = "camera of the scene", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.camera))
 GN_OPTION(.name = "animation", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|none",
-          .help = "play only this clip; without it, all that do not collide", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation))
+          .help = "play only this clip (default: all that do not collide)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation))
 GN_OPTION(.name = "no-animation", .section = "scene", .kind = GN_KIND_FLAG,
-          .help = "leave the nodes as the file places them", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.no_animation))
+          .help = "do not animate", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.no_animation))
 GN_OPTION(.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",
           .help = "start at this time of the animation", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.time_ns))
 GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min = -3600, .max = 3600, .value = "DEG",
@@ -21,46 +21,46 @@ GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min 
 GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
           .fallback = "1280x720", .help = "size of the picture", .commands = DRAW, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
 GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
-          .help = "shadow technique, for bench also a list with commas", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.shadow))
+          .help = "shadow technique; for bench a comma-separated list", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.shadow))
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
-          .fallback = "1024", .help = "side of a shadow map, and of the table of one; of vssm and smsm 512 by itself", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_px))
+          .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_px))
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
-          .help = "how a shadow map stores distance; from rg32ui on: what is kept of one that is filtered", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_format))
+          .help = "texture format of shadow maps; from rg32ui on: of filtered ones", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_format))
 GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
-          .help = "planar shadows by a map in the plane, with soft edges, or by the picture's stencil, with exact ones", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar_in_stencil))
+          .help = "draw planar shadows with a mask texture (soft edges) or the stencil buffer (sharp edges)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar_in_stencil))
 GN_OPTION(.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "16",
-          .help = "how many samples disk, poisson and pcss take", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps))
+          .help = "number of samples of disk, poisson and pcss", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps))
 GN_OPTION(.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,
-          .help = "take them alike in every pixel: bands instead of grain", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps_fixed))
+          .help = "do not rotate the sample pattern per pixel (banding instead of noise)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps_fixed))
 GN_OPTION(.name = "filter-budget", .section = "render", .kind = GN_KIND_NUMBER, .max = 10000, .value = "N", .unit = "million texels", .fallback = "4",
-          .help = "filtered maps that one frame makes again, when many lights move; the others wait a frame; 0: all", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(render.filter_budget))
+          .help = "limit on filtered maps updated in one frame when many lights move; 0: no limit", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(render.filter_budget))
 GN_OPTION(.name = "shadow-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1, .value = "X", .fallback = "1",
-          .help = "how much direct light a shadow takes away", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.shadow_strength))
+          .help = "share of direct light that a shadow removes", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.shadow_strength))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
-          .help = "draw a mark where each light stands", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.show_lights))
+          .help = "draw a gizmo at each light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.show_lights))
 GN_OPTION(.name = "show-maps", .section = "render", .kind = GN_KIND_FLAG,
           .help = "show the lights' shadow maps along the lower edge of the picture", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.show_maps))
 GN_OPTION(.name = "light", .section = "render", .kind = GN_KIND_INT, .max = 65535, .value = "N", .fallback = "0",
-          .help = "the light that --aov visibility and map show", .commands = BIT(RENDER), .offset = FIELD(render.light))
+          .help = "number of the light for --aov visibility and map", .commands = BIT(RENDER), .offset = FIELD(render.light))
 GN_OPTION(.name = "aov", .section = "render", .kind = GN_KIND_CHOICE, .choices = aovs, .value = "WHAT", .fallback = "color",
-          .help = "what to draw", .commands = BIT(RENDER), .offset = FIELD(render.aov))
+          .help = "output variable to draw", .commands = BIT(RENDER), .offset = FIELD(render.aov))
 GN_OPTION(.name = "output", .section = "render", .kind = GN_KIND_CHOICE, .choices = outputs, .value = "SPACE", .fallback = "srgb",
-          .help = "linear writes linear colour as it is, for measurement", .commands = BIT(RENDER) | BIT(BENCH), .offset = FIELD(render.output))
+          .help = "encoding of colour; linear is for measurement", .commands = BIT(RENDER) | BIT(BENCH), .offset = FIELD(render.output))
 GN_OPTION(.name = "exposure", .section = "render", .kind = GN_KIND_EV, .min = -24, .max = 24, .value = "auto|EV", .unit = "stops",
-          .fallback = "auto", .help = "brightness: 0 shows radiance 1 as white", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.exposure_ev))
+          .fallback = "auto", .help = "exposure; at 0 radiance 1 is white", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.exposure_ev))
 GN_OPTION(.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices = samples, .value = "N", .unit = "samples", .fallback = "0",
-          .help = "antialiasing; on a screen 4 where the GPU makes it cheap", .commands = DRAW, .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
+          .help = "multisampling; on a screen 4 is the default of tiling GPUs", .commands = DRAW, .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
 GN_OPTION(.name = "font", .section = "render", .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "write captions in this font (.ttf, .otf); without it in DejaVu Sans or the like, where there is one", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_LIVE, .offset = FIELD(render.font))
+          .help = "font of captions (.ttf, .otf); without it DejaVu Sans or a similar one", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_LIVE, .offset = FIELD(render.font))
 GN_OPTION(.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value = "DIR",
           .help = "read the shaders from this folder", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.shaders))
 GN_OPTION(.name = "without", .section = "render", .kind = GN_KIND_CAPS, .value = "CAP,..",
-          .help = "pretend that these capabilities, named as doctor prints them, are missing", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.without))
+          .help = "do not use these GPU capabilities, named as doctor prints them", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.without))
 GN_OPTION(.name = "limit", .section = "render", .kind = GN_KIND_LIMIT, .min = 1, .max = 1099511627776.0, .value = "NAME=VALUE",
-          .help = "a bound on what a scene may ask for; may be given again", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.limits))
+          .help = "limit on the size of a scene; may be repeated", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.limits))
 /* where it goes */
 GN_OPTION(.name = "backend", .section = "display", .kind = GN_KIND_WORD, .choices = backends, .value = "NAME", .fallback = "auto",
-          .help = "where pictures are drawn", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.backend))
+          .help = "display backend", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.backend))
 GN_OPTION(.name = "card", .section = "display", .kind = GN_KIND_TEXT, .value = "NAME",
           .help = "the display's card, as in /dev/dri/by-path; without it, the first with a monitor", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.card))
 GN_OPTION(.name = "render-node", .section = "display", .kind = GN_KIND_PATH, .value = "FILE",
@@ -70,29 +70,29 @@ GN_OPTION(.name = "connector", .section = "display", .kind = GN_KIND_TEXT, .valu
 GN_OPTION(.name = "display-mode", .key = "mode", .section = "display", .kind = GN_KIND_MODE, .min = 16, .max = 16384,
           .value = "WxH@HZ", .help = "the display's mode; without it, its current or preferred one up to --max-mode", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.mode))
 GN_OPTION(.name = "max-mode", .section = "display", .kind = GN_KIND_MODE, .min = 16, .max = 16384, .value = "WxH@HZ",
-          .fallback = "1920x1080@60", .help = "a mode that is chosen unasked is no larger than this, and has no more pixels a second", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.max_mode))
+          .fallback = "1920x1080@60", .help = "largest mode that is chosen automatically, in size and in pixels per second", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.max_mode))
 GN_OPTION(.name = "modeline", .section = "display", .kind = GN_KIND_MODELINE, .value = "LINE",
-          .help = "a mode that the display does not list, as the program cvt prints it, without its name", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.modeline))
+          .help = "custom mode, as printed by cvt, without its name", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.modeline))
 GN_OPTION(.name = "rotate", .section = "display", .kind = GN_KIND_CHOICE, .choices = turns, .value = "DEG", .unit = "degrees",
-          .fallback = "0", .help = "turn the picture clockwise for a display on its side", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.rotate_deg))
+          .fallback = "0", .help = "rotate the picture clockwise", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.rotate_deg))
 GN_OPTION(.name = "max-fps", .section = "display", .kind = GN_KIND_INT, .min = 1, .max = 1000, .value = "N", .unit = "frames per second",
-          .help = "draw no faster than this; without it, as fast as the display", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.max_fps))
+          .help = "limit on the frame rate; without it, the display's refresh rate", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.max_fps))
 GN_OPTION(.name = "legacy", .section = "display", .kind = GN_KIND_FLAG,
-          .help = "use the kernel's older interface for displays", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.legacy))
+          .help = "use legacy KMS instead of atomic", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.legacy))
 /* what a kiosk does by itself */
 GN_OPTION(.name = "idle", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = idles, .value = "WHAT", .fallback = "none",
-          .help = "when nobody has done anything for a while, go back to the first mode, or on to the next", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle))
+          .help = "after the idle timeout go to the first mode, or to the next", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle))
 GN_OPTION(.name = "idle-after", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = 1, .max = 86400, .value = "S", .unit = "seconds",
-          .fallback = "60", .help = "how long that while is", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle_after_ns))
+          .fallback = "60", .help = "idle timeout", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle_after_ns))
 GN_OPTION(.name = "fade", .section = "kiosk", .kind = GN_KIND_SECONDS, .max = 10, .value = "S", .unit = "seconds", .fallback = "0",
-          .help = "fade from one mode to the next for so long", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.fade_ns))
+          .help = "duration of the fade between modes", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.fade_ns))
 /* what a kiosk lets itself be told, and says */
 GN_OPTION(.name = "socket", .section = "kiosk", .kind = GN_KIND_PATH, .value = "PATH",
           .help = "the socket that ctl talks to; without it /run/gnomon/ctl, else $XDG_RUNTIME_DIR/gnomon/ctl", .commands = BIT(SHOW) | BIT(CTL), .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.socket))
 GN_OPTION(.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallback = "yes",
-          .help = "name the mode when it changes", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.captions))
+          .help = "show the name of a mode when it is entered", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.captions))
 GN_OPTION(.name = "caption-seconds", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = .1, .max = 60, .value = "S", .unit = "seconds",
-          .fallback = "2", .help = "how long a caption stays", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.caption_ns))
+          .fallback = "2", .help = "how long a caption is shown", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.caption_ns))
 /* the command's own */
 GN_OPTION(.name = "input-script", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "press keys and buttons as this file says: TIME_S down|up|click NAME a line", .commands = BIT(SHOW), .offset = FIELD(run.input_script))
@@ -107,7 +107,7 @@ GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
 GN_OPTION(.name = "caption", .kind = GN_KIND_TEXT, .value = "TEXT",
           .help = "write this on the picture, as the kiosk writes what went wrong", .commands = BIT(RENDER), .offset = FIELD(run.caption))
 GN_OPTION(.name = "frames", .kind = GN_KIND_INT, .min = 1, .max = 1000000, .value = "N",
-          .help = "how many frames; show ends after them", .commands = BIT(SHOW) | BIT(RENDER) | BIT(BENCH), .offset = FIELD(run.frames))
+          .help = "number of frames; show exits after them", .commands = BIT(SHOW) | BIT(RENDER) | BIT(BENCH), .offset = FIELD(run.frames))
 GN_OPTION(.name = "fps", .kind = GN_KIND_NUMBER, .min = .001, .max = 1000, .value = "F", .unit = "frames per second", .fallback = "60",
           .help = "step of time between frames", .commands = BIT(RENDER), .offset = FIELD(run.fps))
 GN_OPTION(.name = "plan", .kind = GN_KIND_FLAG,

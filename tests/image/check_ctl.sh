@@ -92,7 +92,7 @@ END
 expect 1 "no kiosk answers at $folder/ctl; is gnomon show running?" status
 expect 2 'unknown command "stauts"; did you mean status?' stauts
 expect 2 'expected KEY VALUE' set shadow
-expect 2 'which command? expected one of next, prev, mode NAME'
+expect 2 'no command; expected one of next, prev, mode NAME'
 timeout 90 "$gnomon" ctl status > out 2> err
 [ $? = 1 ] && grep -q 'no kiosk answers at /run/gnomon/ctl' err || complain "the usual place: $(cat err)"
 
@@ -222,7 +222,7 @@ checks() {
     cat out err | grep -qF -- "$2" || complain "--check $3: no \"$2\" in: $(cat out err)"
     [ "$1" = 0 ] || [ "$(wc -l < err)" = 1 ] || complain "--check $3: not one line: $(cat err)"
 }
-checks 0 'good.ini is right: 3 modes, 1 button, 1 scene' good.ini
+checks 0 'good.ini is valid: 3 modes, 1 button, 1 scene' good.ini
 checks 0 'mode "Dial": camera = Dial, shadow = none' good.ini
 checks 0 'button "next": keys space; press = next' good.ini
 checks 2 'kiosk.ini:15: press: unknown action "nxt"' kiosk.ini

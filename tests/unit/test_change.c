@@ -100,7 +100,7 @@ static void what_cannot_change_says_why(void **state) {
     assert_no_change("shaders", "/x", "shaders takes a reload");
     assert_no_change("limit", "nodes=1", "limit takes a reload");
     assert_no_change("socket", "/x", "socket takes a restart");
-    assert_no_change("aov", "normal", "aov is not for show");
+    assert_no_change("aov", "normal", "aov is not an option of the kiosk");
     assert_no_change("file", "/x.glb", "scene takes a reload");
     assert_no_change("shadow", "pcf,hard", "one technique at a time");
     assert_no_change("map", "8", "set map: \"8\" is not a whole number from 16 to 16384");

@@ -155,8 +155,8 @@ static void what_two_buttons_cannot_share(void **state) {
 static void buttons_that_are_nowhere_or_do_nothing(void **state) {
     (void)state;
     assert_refused("\n[button \"a\"]\npress = next\n", 2,
-                   "button \"a\" is nowhere; expected line, keys or chord");
-    assert_refused("[button \"a\"]\nline = X\n", 1, "button \"a\" does nothing; expected press");
+                   "button \"a\" has no source: set line, keys or chord");
+    assert_refused("[button \"a\"]\nline = X\n", 1, "button \"a\" has no action: set press");
     assert_refused("[button \"a\"]\nkeys = a\nbias = none\npress = next\n", 3,
                    "bias: only a button with a line has one");
     assert_refused("[button \"a\"]\nkeys = a\nchord_ms = 50\npress = next\n", 3,
@@ -178,7 +178,7 @@ static void chords_of_nothing(void **state) {
          "chord: \"a\" is there twice", 6},
         {"chord = a b\nhold = next\n", "hold: a chord has none", 7},
         {"chord = a b\nline = X\npress = next\n", "line: a chord has none", 7},
-        {"chord = a b\n", "button \"c\" does nothing", 5},
+        {"chord = a b\n", "button \"c\" has no action", 5},
         {"chord = a b\npress = next\n[button \"d\"]\nchord = a c\npress = next\n",
          "chord: button \"c\" is a chord itself", 9},
     };
