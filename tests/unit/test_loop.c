@@ -211,11 +211,12 @@ static void test_a_real_wait_ends_with_its_timer_and_not_before(void **state) {
     timers[0].due_ns = begun_ns + 500 * MS;
     timers[0].call = NULL;
     timers[1].due_ns = begun_ns + 10000 * GN_NS_PER_S;
-    assert_int_equal(gn_loop_step(loop, begun_ns + 10 * MS), 0);
-    assert_true(gn_clock_monotonic_ns() - begun_ns >= 10 * MS);
-    assert_int_equal(gn_loop_step(loop, GN_LOOP_NEVER), 1);
+    /* on a busy machine the first wait may be so long that it ends with the timer */
+    const int called = gn_loop_step(loop, begun_ns + 10 * MS);
+    assert_true(gn_clock_monotonic_ns() - begun_ns >= (called ? 500 : 10) * MS);
+    if (!called) assert_int_equal(gn_loop_step(loop, GN_LOOP_NEVER), 1);
     assert_true(gn_clock_monotonic_ns() - begun_ns >= 500 * MS);
-    assert_true(gn_clock_monotonic_ns() - begun_ns < 5 * GN_NS_PER_S);
+    assert_true(gn_clock_monotonic_ns() - begun_ns < 60 * GN_NS_PER_S);
     assert_int_equal(gn_loop_step(loop, 0), 0); /* the timer does not come twice */
     write_byte(0);
     assert_int_equal(gn_loop_step(loop, GN_LOOP_NEVER), 1);
