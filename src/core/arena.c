@@ -42,7 +42,7 @@ static bool must_fail(void) {
     return fail_countdown == 0;
 }
 
-static size_t room(const struct gn_arena_block *block) {
+static size_t block_room(const struct gn_arena_block *block) {
     return block ? block->size - block->used : 0;
 }
 
@@ -78,14 +78,14 @@ static struct gn_arena_block *reuse_block(struct gn_arena *arena, size_t least) 
 }
 
 static bool find_room(struct gn_arena *arena, size_t size) {
-    if (arena->current && room(arena->current) >= size) return true;
+    if (arena->current && block_room(arena->current) >= size) return true;
     struct gn_arena_block *block = reuse_block(arena, size);
     if (!block) block = add_block(arena, size);
     if (block) arena->current = block;
     return block != NULL;
 }
 
-static size_t padded(size_t bytes) {
+static size_t padded_size(size_t bytes) {
     return (bytes + RED_ZONE + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
@@ -93,9 +93,9 @@ void *gn_arena_alloc(struct gn_arena *arena, size_t count, size_t size) {
     size_t bytes;
     if (must_fail() || __builtin_mul_overflow(count, size, &bytes)) return NULL;
     if (bytes > SIZE_MAX / 2 || (arena->limit && bytes > arena->limit - arena->used)) return NULL;
-    if (!find_room(arena, padded(bytes))) return NULL;
+    if (!find_room(arena, padded_size(bytes))) return NULL;
     unsigned char *data = arena->current->data + arena->current->used;
-    arena->current->used += padded(bytes);
+    arena->current->used += padded_size(bytes);
     arena->used += bytes;
     ALLOW(data, bytes);
     return data;
@@ -111,7 +111,7 @@ char *gn_arena_strdup(struct gn_arena *arena, const char *text) {
  */
 void gn_arena_undo(struct gn_arena *arena, void *piece, size_t bytes) {
     struct gn_arena_block *block = arena->current, *before = NULL;
-    block->used -= padded(bytes);
+    block->used -= padded_size(bytes);
     arena->used -= bytes;
     assert(piece == block->data + block->used);
     if (block->used > 0) {

@@ -25,7 +25,7 @@ void gn_child_unshare(void *shared, size_t size) {
     if (shared) munmap(shared, size);
 }
 
-static void silence(void) {
+static void silence_standard_files(void) {
     int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     for (int fd = 0; nothing >= 0 && fd < 3; fd++) dup2(nothing, fd);
 }
@@ -38,7 +38,7 @@ static bool fail_end(int status, struct gn_err *err) {
 
 /* A tenth of a second, less at the start: most work is short. The child's end wakes us where the
  * kernel has such descriptors (5.3); without one poll() just sleeps. */
-static void nap(int round, int end) {
+static void poll_child(int round, int end) {
     struct pollfd wake = {.fd = end, .events = POLLIN};
     poll(&wake, 1, round < 20 ? 5 : 100);
 }
@@ -49,8 +49,8 @@ static bool end_child(pid_t pid) {
     return false;
 }
 
-static bool wait_for(pid_t pid, int end, const struct gn_child *child, void *shared,
-                     struct gn_err *err) {
+static bool wait_for_child(pid_t pid, int end, const struct gn_child *child, void *shared,
+                           struct gn_err *err) {
     int stall_s = child->stall_s ? child->stall_s : 60, status = 0;
     int64_t since_ns = gn_clock_monotonic_ns();
     uint32_t seen = 0;
@@ -65,14 +65,14 @@ static bool wait_for(pid_t pid, int end, const struct gn_child *child, void *sha
         seen = now;
         if (gn_clock_monotonic_ns() - since_ns > stall_s * GN_NS_PER_S)
             return end_child(pid) || gn_fail(err, "hangs (nothing for %d s)", stall_s);
-        nap(round, end);
+        poll_child(round, end);
     }
 }
 
 static bool wait_and_close(pid_t pid, const struct gn_child *child, void *shared,
                            struct gn_err *err) {
     int end = (int)syscall(SYS_pidfd_open, pid, 0);
-    bool ok = wait_for(pid, end, child, shared, err);
+    bool ok = wait_for_child(pid, end, child, shared, err);
     if (end >= 0) close(end);
     return ok;
 }
@@ -84,7 +84,7 @@ bool gn_child_run(const struct gn_child *child, void *shared, struct gn_err *err
     if (pid > 0) return wait_and_close(pid, child, shared, err);
     prctl(PR_SET_PDEATHSIG, SIGKILL);  /* it would outlive a parent that is interrupted */
     if (getppid() != parent) _exit(0); /* which was quicker */
-    silence();
+    silence_standard_files();
     child->work(shared, child->argument);
     _exit(0);
 }

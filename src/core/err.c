@@ -6,7 +6,7 @@
 
 #include "core/text.h"
 
-static void fill(struct gn_err *err, enum gn_exit status, const char *format, va_list args) {
+static void set_error(struct gn_err *err, enum gn_exit status, const char *format, va_list args) {
     if (!err) return;
     gn_text_vformat(err->text, sizeof err->text, format, args);
     err->status = status;
@@ -15,7 +15,7 @@ static void fill(struct gn_err *err, enum gn_exit status, const char *format, va
 bool gn_fail(struct gn_err *err, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    fill(err, GN_EXIT_RUNTIME, format, args);
+    set_error(err, GN_EXIT_RUNTIME, format, args);
     va_end(args);
     return false;
 }
@@ -23,12 +23,12 @@ bool gn_fail(struct gn_err *err, const char *format, ...) {
 bool gn_fail_usage(struct gn_err *err, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    fill(err, GN_EXIT_USAGE, format, args);
+    set_error(err, GN_EXIT_USAGE, format, args);
     va_end(args);
     return false;
 }
 
-static void join(struct gn_err *err, const char *format, ...) {
+static void set_text(struct gn_err *err, const char *format, ...) {
     va_list args;
     va_start(args, format);
     gn_text_vformat(err->text, sizeof err->text, format, args);
@@ -44,6 +44,6 @@ bool gn_fail_prefix(struct gn_err *err, const char *format, ...) {
     va_end(args);
     char said[sizeof err->text];
     memcpy(said, err->text, sizeof said);
-    join(err, "%s: %s", prefix.text, said);
+    set_text(err, "%s: %s", prefix.text, said);
     return false;
 }

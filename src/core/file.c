@@ -115,7 +115,7 @@ static int open_direct(const char *path) {
 }
 
 /* What is behind a descriptor may be a file after all, with more in it. */
-static bool cut_tail(int fd) {
+static bool cut_rest_of_file(int fd) {
     struct stat info;
     if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) return true;
     off_t end = lseek(fd, 0, SEEK_CUR);
@@ -125,7 +125,7 @@ static bool cut_tail(int fd) {
 static bool write_direct(const char *path, const void *data, size_t size, struct gn_err *err) {
     int fd = open_direct(path);
     if (fd < 0) return fail_errno(err, path, "write");
-    bool ok = write_all(fd, data, size) && cut_tail(fd);
+    bool ok = write_all(fd, data, size) && cut_rest_of_file(fd);
     if (!ok) fail_errno(err, path, "write");
     if (close(fd) != 0 && ok) ok = fail_errno(err, path, "write");
     return ok;
@@ -173,7 +173,7 @@ static bool is_direct(const char *path, const struct stat *info) {
 }
 
 /* Where a link leads, also if nothing is there yet; else NULL. To be freed. */
-static char *follow(const char *path) {
+static char *follow_link(const char *path) {
     char *real = realpath(path, NULL), link[PATH_MAX], *target = NULL;
     if (real) return real;
     ssize_t length = readlink(path, link, sizeof link - 1);
@@ -191,7 +191,7 @@ bool gn_file_write(const char *path, const void *data, size_t size, struct gn_er
     if (!path[0]) return gn_fail(err, "cannot write to a file without a name");
     if (is_direct(path, exists ? &info : NULL)) return write_direct(path, data, size, err);
     if (exists && access(path, W_OK) != 0) return fail_errno(err, path, "write");
-    char *real = follow(path); /* a link stays a link */
+    char *real = follow_link(path); /* a link stays a link */
     bool ok = write_and_rename(path, real ? real : path, exists ? &info : NULL, data, size, err);
     free(real);
     return ok;

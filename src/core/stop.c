@@ -5,7 +5,7 @@
 
 #include "core/err.h"
 
-static void ends(sigset_t *signals) {
+static void set_stop_signals(sigset_t *signals) {
     sigemptyset(signals);
     sigaddset(signals, SIGTERM);
     sigaddset(signals, SIGINT);
@@ -13,13 +13,13 @@ static void ends(sigset_t *signals) {
 
 void gn_stop_block(sigset_t *signals) {
     sigset_t both;
-    ends(&both);
+    set_stop_signals(&both);
     sigprocmask(SIG_BLOCK, &both, NULL);
     if (signals) *signals = both;
 }
 
 void gn_stop_signals(sigset_t *signals) {
-    ends(signals);
+    set_stop_signals(signals);
     sigaddset(signals, SIGHUP);
 }
 

@@ -63,7 +63,7 @@ void gn_text_vformat(char *out, size_t size, const char *format, va_list args) {
     drop_control(out);
 }
 
-static int least(int a, int b, int c) {
+static int least_of_three(int a, int b, int c) {
     int m = a < b ? a : b;
     return m < c ? m : c;
 }
@@ -79,9 +79,10 @@ int gn_text_distance(const char *a, const char *b) {
         const int *above = rows[(i + 2) % 3], *above_that = rows[(i + 1) % 3];
         row[0] = i;
         for (int j = 1; j <= b_length; j++) {
-            row[j] = least(above[j - 1] + (a[i - 1] != b[j - 1]), above[j] + 1, row[j - 1] + 1);
+            row[j] =
+                least_of_three(above[j - 1] + (a[i - 1] != b[j - 1]), above[j] + 1, row[j - 1] + 1);
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                row[j] = least(row[j], above_that[j - 2] + 1, row[j]);
+                row[j] = least_of_three(row[j], above_that[j - 2] + 1, row[j]);
         }
     }
     return rows[a_length % 3][b_length];

@@ -2,8 +2,8 @@
 
 #include <turbojpeg.h>
 
-static bool header(tjhandle handle, const uint8_t *data, size_t size, int px[2], int *space,
-                   struct gn_err *err) {
+static bool read_header(tjhandle handle, const uint8_t *data, size_t size, int px[2], int *space,
+                        struct gn_err *err) {
     int sampling;
     if (tjDecompressHeader3(handle, data, (unsigned long)size, &px[0], &px[1], &sampling, space) ==
         0)
@@ -14,7 +14,7 @@ static bool header(tjhandle handle, const uint8_t *data, size_t size, int px[2],
 bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err) {
     tjhandle handle = tjInitDecompress();
     int read[2] = {0}, space;
-    bool done = handle ? header(handle, data, size, read, &space, err)
+    bool done = handle ? read_header(handle, data, size, read, &space, err)
                        : gn_fail(err, "JPEG: %s", tjGetErrorStr2(NULL));
     if (done && (read[0] <= 0 || read[1] <= 0)) done = gn_fail(err, "JPEG: no size in it");
     px[0] = (uint32_t)read[0];
@@ -31,10 +31,10 @@ static void rgb_from_cmyk(uint8_t *pixels, size_t count) {
     }
 }
 
-static bool decode(tjhandle handle, const uint8_t *data, size_t size, const uint32_t px[2],
-                   uint8_t *rgba, struct gn_err *err) {
+static bool decode_jpeg(tjhandle handle, const uint8_t *data, size_t size, const uint32_t px[2],
+                        uint8_t *rgba, struct gn_err *err) {
     int read[2], space;
-    if (!header(handle, data, size, read, &space, err)) return false;
+    if (!read_header(handle, data, size, read, &space, err)) return false;
     if ((uint32_t)read[0] != px[0] || (uint32_t)read[1] != px[1])
         return gn_fail(err, "JPEG: changed");
     bool inks = space == TJCS_CMYK || space == TJCS_YCCK;
@@ -52,7 +52,7 @@ bool gn_jpeg_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_
                   struct gn_err *err) {
     tjhandle handle = tjInitDecompress();
     if (!handle) return gn_fail(err, "JPEG: %s", tjGetErrorStr2(NULL));
-    bool done = decode(handle, data, size, px, rgba, err);
+    bool done = decode_jpeg(handle, data, size, px, rgba, err);
     tjDestroy(handle);
     return done;
 }

@@ -87,7 +87,7 @@ static void set_rgba8(png_structp png) {
     png_set_interlace_handling(png);
 }
 
-static bool decode(struct reader *reader, const uint32_t px[2], uint8_t *rgba) {
+static bool decode_png(struct reader *reader, const uint32_t px[2], uint8_t *rgba) {
     if (setjmp(reader->leave)) return false;
     png_set_read_fn(reader->png, reader, read_bytes);
     set_limits(reader->png, px);
@@ -108,7 +108,7 @@ bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t
     struct reader reader = {.data = data, .left = size, .err = err};
     reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, on_error, on_warning);
     reader.info = reader.png ? png_create_info_struct(reader.png) : NULL;
-    bool done = reader.info ? decode(&reader, px, rgba) : gn_fail(err, "PNG: out of memory");
+    bool done = reader.info ? decode_png(&reader, px, rgba) : gn_fail(err, "PNG: out of memory");
     if (reader.rows) png_free(reader.png, reader.rows);
     if (reader.png) png_destroy_read_struct(&reader.png, reader.info ? &reader.info : NULL, NULL);
     return done;

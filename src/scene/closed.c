@@ -22,7 +22,7 @@ struct welder {
     double *volume;   /* per root: six times the signed volume */
 };
 
-static bool make_room(struct welder *w, struct gn_arena *arena) {
+static bool allocate_welder(struct welder *w, struct gn_arena *arena) {
     uint32_t count = w->geometry->vertex_count, size = 16;
     while (size < 2 * (uint64_t)count && size < 1u << 31) size *= 2;
     w->mask = size - 1;
@@ -33,17 +33,17 @@ static bool make_room(struct welder *w, struct gn_arena *arena) {
     return w->slots && w->vertex && w->body && w->volume;
 }
 
-static const float *position(const struct welder *w, uint32_t vertex) {
+static const float *position_of(const struct welder *w, uint32_t vertex) {
     return w->scene->positions + 3 * ((size_t)w->geometry->first_vertex + vertex);
 }
 
-static void weld(struct welder *w) {
+static void weld_vertices(struct welder *w) {
     for (uint32_t v = 0; v < w->geometry->vertex_count; v++) {
         float p[3];
-        for (int k = 0; k < 3; k++) p[k] = position(w, v)[k] + 0.0f; /* -0 is 0 */
+        for (int k = 0; k < 3; k++) p[k] = position_of(w, v)[k] + 0.0f; /* -0 is 0 */
         uint32_t at = (uint32_t)(gn_hash(GN_HASH_INIT, p, sizeof p) >> 20) & w->mask;
         for (; w->slots[at]; at = (at + 1) & w->mask) {
-            const float *q = position(w, w->slots[at] - 1);
+            const float *q = position_of(w, w->slots[at] - 1);
             if (q[0] == p[0] && q[1] == p[1] && q[2] == p[2]) break;
         }
         if (!w->slots[at]) w->slots[at] = v + 1;
@@ -52,12 +52,12 @@ static void weld(struct welder *w) {
     }
 }
 
-static uint32_t root(struct welder *w, uint32_t vertex) {
+static uint32_t body_root(struct welder *w, uint32_t vertex) {
     while (w->body[vertex] != vertex) vertex = w->body[vertex] = w->body[w->body[vertex]];
     return vertex;
 }
 
-static uint64_t edge(uint32_t a, uint32_t b) {
+static uint64_t edge_hash(uint32_t a, uint32_t b) {
     uint32_t ends[2] = {a < b ? a : b, a < b ? b : a};
     uint64_t h = gn_hash(GN_HASH_INIT, ends, sizeof ends);
     return a < b ? h : -h;
@@ -82,9 +82,9 @@ static bool edges_meet(struct welder *w) {
         for (int k = 0; k < 3; k++)
             t[k] = w->vertex[index[i + (uint32_t)k] - w->geometry->first_vertex];
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-        sum += edge(t[0], t[1]) + edge(t[1], t[2]) + edge(t[2], t[0]);
-        w->body[root(w, t[1])] = root(w, t[0]);
-        w->body[root(w, t[2])] = root(w, t[0]);
+        sum += edge_hash(t[0], t[1]) + edge_hash(t[1], t[2]) + edge_hash(t[2], t[0]);
+        w->body[body_root(w, t[1])] = body_root(w, t[0]);
+        w->body[body_root(w, t[2])] = body_root(w, t[0]);
     }
     return sum == 0;
 }
@@ -93,10 +93,10 @@ static bool bodies_are_outward(struct welder *w) {
     const uint32_t *index = w->scene->indices + w->geometry->first_index;
     uint32_t first = w->geometry->first_vertex;
     for (uint32_t i = 0; i < w->geometry->index_count; i += 3) {
-        uint32_t body = root(w, w->vertex[index[i] - first]);
+        uint32_t body = body_root(w, w->vertex[index[i] - first]);
         w->volume[body] +=
-            volume_six(position(w, index[i] - first), position(w, index[i + 1] - first),
-                       position(w, index[i + 2] - first), position(w, body));
+            volume_six(position_of(w, index[i] - first), position_of(w, index[i + 1] - first),
+                       position_of(w, index[i + 2] - first), position_of(w, body));
     }
     for (uint32_t v = 0; v < w->geometry->vertex_count; v++)
         if (w->volume[v] < 0.0) return false;
@@ -108,8 +108,8 @@ bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *ge
     struct gn_arena arena = {.limit = room ? room : 1};
     struct welder w = {.scene = g->scene, .geometry = geometry};
     bool closed = false;
-    if (geometry->index_count >= 12 && !geometry->flat && make_room(&w, &arena)) {
-        weld(&w);
+    if (geometry->index_count >= 12 && !geometry->flat && allocate_welder(&w, &arena)) {
+        weld_vertices(&w);
         closed = edges_meet(&w) && bodies_are_outward(&w);
     }
     gn_arena_finish(&arena);

@@ -8,7 +8,7 @@
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5 };
 
 /* Squares of larger numbers do not fit a float. */
-static bool usable(const float *p) {
+static bool position_is_usable(const float *p) {
     return fabsf(p[0]) < 1e18f && fabsf(p[1]) < 1e18f && fabsf(p[2]) < 1e18f;
 }
 
@@ -22,7 +22,7 @@ struct gather {
 };
 
 /* All elements of the accessor, in work memory; missing components are 1 (an alpha, for one). */
-static float *read_all(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
+static float *read_floats(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
     float *all = gn_gltf_alloc(g, &g->memory.step, (uint64_t)a->count * components, sizeof *all);
     for (size_t i = 0; all && a->components < components && i < a->count * components; i++)
         all[i] = 1;
@@ -37,7 +37,7 @@ static bool put_floats(struct gn_gltf *g, const struct gather *gather, size_t co
         gn_accessor_floats(gather->accessor, components, out);
         return true;
     }
-    const float *all = read_all(g, gather->accessor, components);
+    const float *all = read_floats(g, gather->accessor, components);
     for (size_t i = 0; all && i < gather->count; i++)
         memcpy(out + i * components, all + gather->source[i] * components,
                components * sizeof *out);
@@ -48,7 +48,7 @@ static bool put_bytes(struct gn_gltf *g, const struct gather *gather, size_t com
                       uint8_t *out) {
     struct gn_accessor a = *gather->accessor;
     a.normalized = true;
-    const float *all = read_all(g, &a, components);
+    const float *all = read_floats(g, &a, components);
     for (size_t i = 0; all && i < gather->count; i++) {
         const float *from = all + components * (gather->source ? gather->source[i] : i);
         for (size_t k = 0; k < components; k++)
@@ -79,7 +79,8 @@ static bool put_attribute(struct gn_gltf *g, const struct gather *gather,
 }
 
 /* All but positions and normals. */
-static bool put_rest(struct gn_gltf *g, const int32_t *attribute, struct gather gather) {
+static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
+                                 struct gather gather) {
     for (int i = GN_ATTRIBUTE_NORMAL + 1; i < GN_ATTRIBUTE_COUNT; i++) {
         gather.accessor = gn_gltf_accessor(g, attribute[i]);
         if (!put_attribute(g, &gather, &gn_attributes[i], g->scene->attributes[i])) return false;
@@ -89,7 +90,7 @@ static bool put_rest(struct gn_gltf *g, const int32_t *attribute, struct gather 
 
 /* ---- vertices with normals of their own ---- */
 
-static void make_unit(struct gn_vertices *vertices, float *normals) {
+static void normalize_normals(struct gn_vertices *vertices, float *normals) {
     for (size_t i = 0; i < vertices->count; i++) {
         float *n = normals + 3 * i;
         float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
@@ -110,8 +111,8 @@ static bool fill_vertices(struct gn_gltf *g, struct gn_vertices *vertices) {
     put_floats(g, &gather, 3, scene->positions + 3 * gather.first);
     gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
     put_floats(g, &gather, 3, scene->normals + 3 * gather.first);
-    make_unit(vertices, scene->normals + 3 * (size_t)vertices->first);
-    return put_rest(g, vertices->attribute, gather);
+    normalize_normals(vertices, scene->normals + 3 * (size_t)vertices->first);
+    return put_other_attributes(g, vertices->attribute, gather);
 }
 
 /* ---- corners ---- */
@@ -153,15 +154,17 @@ static void triangle_at(const uint32_t *raw, int32_t mode, size_t t, uint32_t ou
 
 /* Unrolls strips and fans into out, without triangles that have no area by their indices or a
  * position that is no place; returns the number of corners. */
-static size_t unroll(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
-                     const uint32_t *raw, const float *positions, uint32_t *out) {
+static size_t unroll_triangles(struct gn_gltf *g, const struct gn_at *at,
+                               const struct gn_shape *shape, const uint32_t *raw,
+                               const float *positions, uint32_t *out) {
     size_t count = 0, dropped = 0;
     for (size_t t = 0; t < shape->corner_count / 3; t++) {
         uint32_t v[3];
         triangle_at(raw, shape->mode, t, v);
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-        if (usable(positions + 3 * (size_t)v[0]) && usable(positions + 3 * (size_t)v[1]) &&
-            usable(positions + 3 * (size_t)v[2])) {
+        if (position_is_usable(positions + 3 * (size_t)v[0]) &&
+            position_is_usable(positions + 3 * (size_t)v[1]) &&
+            position_is_usable(positions + 3 * (size_t)v[2])) {
             memcpy(out + count, v, sizeof v);
             count += 3;
         } else
@@ -176,17 +179,17 @@ static size_t unroll(struct gn_gltf *g, const struct gn_at *at, const struct gn_
 
 /* ---- geometries ---- */
 
-static bool fill_flat(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
-                      struct gn_geometry *geometry) {
+static bool fill_flat_geometry(struct gn_gltf *g, const struct gn_at *at,
+                               const struct gn_shape *shape, struct gn_geometry *geometry) {
     struct gn_scene *scene = g->scene;
     const struct gn_accessor *a = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_POSITION]);
     size_t count = 0, made = 0;
-    const float *positions = read_all(g, a, 3);
+    const float *positions = read_floats(g, a, 3);
     const uint32_t *raw = positions ? read_corners(g, at, shape, &count) : NULL;
     if (!raw) return false;
     uint32_t *corners = scene->indices + geometry->first_index, *source = NULL;
     float *normals = NULL;
-    count = unroll(g, at, shape, raw, positions, corners);
+    count = unroll_triangles(g, at, shape, raw, positions, corners);
     if (!gn_geometry_flat_normals(g, positions, corners, count, a->count, &source, &normals, &made))
         return false;
     geometry->first_vertex = scene->vertex_count;
@@ -199,13 +202,13 @@ static bool fill_flat(struct gn_gltf *g, const struct gn_at *at, const struct gn
         memcpy(scene->positions + 3 * (geometry->first_vertex + i),
                positions + 3 * (size_t)source[i], 3 * sizeof *positions);
     scene->vertex_count += geometry->vertex_count;
-    return put_rest(
+    return put_other_attributes(
         g, shape->attribute,
         (struct gather){.source = source, .first = geometry->first_vertex, .count = made});
 }
 
-static bool fill_shared(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
-                        struct gn_geometry *geometry) {
+static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
+                                 const struct gn_shape *shape, struct gn_geometry *geometry) {
     struct gn_scene *scene = g->scene;
     struct gn_vertices *vertices = &g->primitives.vertices[shape->vertices];
     size_t count = 0;
@@ -213,7 +216,8 @@ static bool fill_shared(struct gn_gltf *g, const struct gn_at *at, const struct 
     const uint32_t *raw = read_corners(g, at, shape, &count);
     if (!raw) return false;
     uint32_t *corners = scene->indices + geometry->first_index;
-    count = unroll(g, at, shape, raw, scene->positions + 3 * (size_t)vertices->first, corners);
+    count = unroll_triangles(g, at, shape, raw, scene->positions + 3 * (size_t)vertices->first,
+                             corners);
     for (size_t i = 0; i < count; i++) corners[i] += vertices->first;
     geometry->first_vertex = vertices->first;
     geometry->vertex_count = vertices->count;
@@ -223,7 +227,7 @@ static bool fill_shared(struct gn_gltf *g, const struct gn_at *at, const struct 
     return true;
 }
 
-static bool fill(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *geometry) {
+static bool fill_geometry(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *geometry) {
     struct gn_at root = gn_at_root(g), meshes = gn_at_array(g, &root, "meshes");
     struct gn_at mesh = gn_at_element(&meshes, shape->mesh);
     struct gn_at list = gn_at_array(g, &mesh, "primitives");
@@ -233,7 +237,7 @@ static bool fill(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
         geometry->attributes |= (uint32_t)(shape->attribute[i] >= 0) << i;
     bool flat = shape->vertices == UINT32_MAX;
-    if (!(flat ? fill_flat : fill_shared)(g, &at, shape, geometry)) return false;
+    if (!(flat ? fill_flat_geometry : fill_shared_geometry)(g, &at, shape, geometry)) return false;
     g->scene->index_count += geometry->index_count;
     gn_geometry_measure(g->scene, geometry, &shape->area);
     /* Its cost goes with the vertices, which many geometries may share: only where most are its
@@ -246,7 +250,7 @@ static bool fill(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *
 /* ---- all of them ---- */
 
 /* Room for the most that there can be. */
-static bool allocate(struct gn_gltf *g) {
+static bool allocate_vertices(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     uint64_t vertices = 0, corners = 0;
     bool any[GN_ATTRIBUTE_COUNT] = {[GN_ATTRIBUTE_POSITION] = true, [GN_ATTRIBUTE_NORMAL] = true};
@@ -276,18 +280,18 @@ static bool allocate(struct gn_gltf *g) {
 }
 
 /* Vertices that no triangle uses must still be harmless. */
-static void tidy(struct gn_scene *scene) {
+static void tidy_vertices(struct gn_scene *scene) {
     for (size_t i = 0; i < scene->vertex_count; i++) {
         float *p = scene->positions + 3 * i, *n = scene->normals + 3 * i;
-        if (!usable(p)) memset(p, 0, 3 * sizeof *p);
+        if (!position_is_usable(p)) memset(p, 0, 3 * sizeof *p);
         if (n[0] == 0 && n[1] == 0 && n[2] == 0) n[1] = 1;
     }
 }
 
 bool gn_gltf_geometries(struct gn_gltf *g) {
-    if (!allocate(g)) return false;
+    if (!allocate_vertices(g)) return false;
     for (uint32_t i = 0; i < g->scene->geometry_count; i++)
-        if (!fill(g, &g->primitives.shapes[i], &g->scene->geometries[i])) return false;
-    tidy(g->scene);
+        if (!fill_geometry(g, &g->primitives.shapes[i], &g->scene->geometries[i])) return false;
+    tidy_vertices(g->scene);
     return true;
 }

@@ -78,7 +78,7 @@ size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geomet
 
 /* ---- bounds ---- */
 
-static struct gn_box bounds(const struct gn_scene *scene, const struct gn_geometry *geometry) {
+static struct gn_box box_of(const struct gn_scene *scene, const struct gn_geometry *geometry) {
     struct gn_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     const uint32_t *index = scene->indices + geometry->first_index;
     for (size_t i = 0; i < geometry->index_count; i++) {
@@ -114,8 +114,8 @@ static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry 
     return best > 0;
 }
 
-static bool in_plane(const struct gn_scene *scene, const struct gn_geometry *geometry,
-                     const double n[3], double d, double tolerance) {
+static bool lies_in_plane(const struct gn_scene *scene, const struct gn_geometry *geometry,
+                          const double n[3], double d, double tolerance) {
     const uint32_t *index = scene->indices + geometry->first_index;
     for (size_t i = 0; i < geometry->index_count; i++) {
         const float *p = scene->positions + 3 * (size_t)index[i];
@@ -128,7 +128,7 @@ static bool in_plane(const struct gn_scene *scene, const struct gn_geometry *geo
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area) {
     *area = 0;
     if (geometry->index_count == 0) return;
-    geometry->box = bounds(scene, geometry);
+    geometry->box = box_of(scene, geometry);
     double n[3] = {0}, size[3], d = 0;
     if (!guess_normal(scene, geometry, n, area)) return;
     const float *on = scene->positions + 3 * (size_t)scene->indices[geometry->first_index];
@@ -136,7 +136,7 @@ void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geome
         size[k] = (double)geometry->box.max[k] - (double)geometry->box.min[k];
         d -= n[k] * (double)on[k];
     }
-    geometry->flat = in_plane(scene, geometry, n, d, 1e-5 * length_of(size));
+    geometry->flat = lies_in_plane(scene, geometry, n, d, 1e-5 * length_of(size));
     if (!geometry->flat) return;
     for (int k = 0; k < 3; k++) geometry->plane[k] = (float)n[k];
     geometry->plane[3] = (float)d;

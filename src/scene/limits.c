@@ -24,7 +24,7 @@ static const struct row {
 enum { ROW_COUNT = sizeof ROWS / sizeof ROWS[0] };
 _Static_assert(sizeof(struct gn_scene_limits) == ROW_COUNT * sizeof(uint64_t), "a row per limit");
 
-static uint64_t *field(struct gn_scene_limits *limits, const struct row *row) {
+static uint64_t *limit_field(struct gn_scene_limits *limits, const struct row *row) {
     return (uint64_t *)(void *)((char *)limits + row->offset);
 }
 
@@ -35,7 +35,7 @@ bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint6
         if (value < 1 || value > ROWS[i].most)
             return gn_fail_usage(err, "limit %s: %" PRIu64 " is not in 1..%" PRIu64, name, value,
                                  ROWS[i].most);
-        *field(limits, &ROWS[i]) = value;
+        *limit_field(limits, &ROWS[i]) = value;
         return true;
     }
     char names[160] = "";
@@ -47,7 +47,7 @@ bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint6
 struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *limits) {
     struct gn_scene_limits result = limits ? *limits : (struct gn_scene_limits){0};
     for (size_t i = 0; i < ROW_COUNT; i++) {
-        uint64_t *value = field(&result, &ROWS[i]);
+        uint64_t *value = limit_field(&result, &ROWS[i]);
         if (*value == 0) *value = ROWS[i].normal;
         if (*value > ROWS[i].most) *value = ROWS[i].most;
     }

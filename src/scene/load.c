@@ -49,7 +49,7 @@ static bool (*const STEPS[])(struct gn_gltf *) = {
     gn_gltf_cameras,       gn_gltf_animations, gn_scene_complete, gn_scene_batch,
 };
 
-static void finish(struct gn_gltf *g) {
+static void finish_load(struct gn_gltf *g) {
     for (size_t i = 0; i < g->file.buffer_count; i++) gn_blob_finish(g, &g->file.buffers[i]);
     json_decref(g->file.json);
     gn_arena_finish(&g->memory.step);
@@ -57,7 +57,7 @@ static void finish(struct gn_gltf *g) {
     free(g->folder);
 }
 
-static struct gn_scene *load(struct gn_gltf *g, const uint8_t *data, size_t size) {
+static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_t size) {
     struct holder *holder = gn_xalloc(1, sizeof *holder);
     holder->scene.memory = holder;
     g->memory.scene = &holder->arena;
@@ -67,7 +67,7 @@ static struct gn_scene *load(struct gn_gltf *g, const uint8_t *data, size_t size
     for (size_t i = 0; done && i < sizeof STEPS / sizeof STEPS[0]; i++) done = STEPS[i](g);
     done = done && !g->failed;
     holder->scene.bytes = holder->arena.used + sizeof *holder;
-    finish(g);
+    finish_load(g);
     if (done) return &holder->scene;
     gn_scene_destroy(&holder->scene);
     return NULL;
@@ -78,7 +78,7 @@ struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t
                                      struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_gltf g = {.path = label, .warnings = warnings, .err = err};
     g.limits = gn_scene_limits_or_default(limits);
-    return load(&g, data, size);
+    return load_scene(&g, data, size);
 }
 
 /* The real path of the file's folder, or NULL. */
@@ -101,7 +101,7 @@ struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *l
     uint64_t most = g.limits.file_mb << 20;
     if (!gn_file_read(path, most < SIZE_MAX ? (size_t)most : SIZE_MAX, &bytes, err)) return NULL;
     g.folder = folder_of(path);
-    struct gn_scene *scene = load(&g, bytes.data, bytes.size);
+    struct gn_scene *scene = load_scene(&g, bytes.data, bytes.size);
     gn_bytes_finish(&bytes);
     return scene;
 }
@@ -132,18 +132,18 @@ struct list {
     const char *(*second_name)(const struct gn_scene *, uint32_t);
 };
 
-static int by_name(const struct gn_scene *scene, const struct list *list, const char *what,
-                   const char *(*name)(const struct gn_scene *, uint32_t)) {
+static int find_by_name(const struct gn_scene *scene, const struct list *list, const char *what,
+                        const char *(*name)(const struct gn_scene *, uint32_t)) {
     for (uint32_t i = 0; i < list->count; i++)
         if (strcmp(name(scene, i), what) == 0) return (int)i;
     return -1;
 }
 
-static int find(const struct gn_scene *scene, const struct list *list, const char *what,
-                struct gn_err *err) {
+static int find_named(const struct gn_scene *scene, const struct list *list, const char *what,
+                      struct gn_err *err) {
     if (list->count > 0 && (!what || !*what)) return 0;
-    int found = what ? by_name(scene, list, what, list->name) : -1;
-    if (found < 0 && what) found = by_name(scene, list, what, list->second_name);
+    int found = what ? find_by_name(scene, list, what, list->name) : -1;
+    if (found < 0 && what) found = find_by_name(scene, list, what, list->second_name);
     char *end = NULL;
     unsigned long number =
         what && *what >= '0' && *what <= '9' ? strtoul(what, &end, 10) : ULONG_MAX;
@@ -162,11 +162,11 @@ static int find(const struct gn_scene *scene, const struct list *list, const cha
 }
 
 int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct gn_err *err) {
-    return find(scene, &(struct list){"camera", scene->camera_count, camera_name, camera_node},
-                what, err);
+    return find_named(
+        scene, &(struct list){"camera", scene->camera_count, camera_name, camera_node}, what, err);
 }
 
 int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err) {
-    return find(scene, &(struct list){"animation", scene->clip_count, clip_name, clip_name}, what,
-                err);
+    return find_named(scene, &(struct list){"animation", scene->clip_count, clip_name, clip_name},
+                      what, err);
 }

@@ -9,7 +9,7 @@
 /* The least share of the scene, seen along the face's normal, that a found plane covers. */
 static const double LEAST_SHARE = .3;
 
-static void to_world(const struct gn_pose *pose, uint32_t i, vec3 normal_ws, double *area) {
+static void measure_in_world(const struct gn_pose *pose, uint32_t i, vec3 normal_ws, double *area) {
     const struct gn_item *item = &pose->scene->items[i];
     mat3 cofactor;
     gn_cofactor(pose->items[i].world_from_item, cofactor);
@@ -20,7 +20,7 @@ static void to_world(const struct gn_pose *pose, uint32_t i, vec3 normal_ws, dou
 }
 
 /* Area of the box's shadow along n. */
-static double seen_along(const struct gn_box *box, vec3 n) {
+static double box_area_along(const struct gn_box *box, vec3 n) {
     double s[3];
     for (int k = 0; k < 3; k++) s[k] = (double)box->max[k] - (double)box->min[k];
     return fabs((double)n[0]) * s[1] * s[2] + fabs((double)n[1]) * s[2] * s[0] +
@@ -37,7 +37,7 @@ static bool is_coplanar(const struct gn_pose *pose, uint32_t a, uint32_t b) {
 }
 
 /* All that is named has to lie in the plane of the first: there is one. */
-static bool take_named(struct gn_gltf *g, const struct gn_pose *pose) {
+static bool mark_named_planes(struct gn_gltf *g, const struct gn_pose *pose) {
     struct gn_scene *scene = g->scene;
     bool named = false;
     int64_t first = -1;
@@ -62,7 +62,7 @@ static bool take_named(struct gn_gltf *g, const struct gn_pose *pose) {
 
 void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose) {
     struct gn_scene *scene = g->scene;
-    if (take_named(g, pose)) return;
+    if (mark_named_planes(g, pose)) return;
     double best = 0;
     struct gn_item *found = NULL;
     for (uint32_t i = 0; i < scene->item_count; i++) {
@@ -72,8 +72,8 @@ void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose) {
         if (!may || g->placed[item->node].plane == GN_NO) continue;
         vec3 normal_ws;
         double area = g->primitives.shapes[item->geometry].area;
-        to_world(pose, i, normal_ws, &area);
-        if (area <= best || area < LEAST_SHARE * seen_along(&pose->box_ws, normal_ws)) continue;
+        measure_in_world(pose, i, normal_ws, &area);
+        if (area <= best || area < LEAST_SHARE * box_area_along(&pose->box_ws, normal_ws)) continue;
         best = area;
         found = item;
     }

@@ -44,7 +44,7 @@ double gn_cofactor(mat4 m, mat3 out) {
     return det;
 }
 
-static bool usable(mat4 m) {
+static bool matrix_is_usable(mat4 m) {
     for (int i = 0; i < 16; i++)
         if (!(fabsf(m[i / 4][i % 4]) < LIMIT)) return false;
     return true;
@@ -55,7 +55,7 @@ static bool usable(mat4 m) {
 static const struct gn_box EMPTY = {{INFINITY, INFINITY, INFINITY},
                                     {-INFINITY, -INFINITY, -INFINITY}};
 
-static void join(struct gn_box *box, const struct gn_box *other) {
+static void join_boxes(struct gn_box *box, const struct gn_box *other) {
     for (int k = 0; k < 3; k++) {
         box->min[k] = fminf(box->min[k], other->min[k]);
         box->max[k] = fmaxf(box->max[k], other->max[k]);
@@ -96,7 +96,7 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
         glm_mat4_copy(world_from_node, out->world_from_item);
     else
         glm_mat4_mul(world_from_node, scene->instances[item->instance], out->world_from_item);
-    out->visible = usable(out->world_from_item);
+    out->visible = matrix_is_usable(out->world_from_item);
     if (out->visible) {
         mat3 cofactor; /* nothing has an area if it is 0 */
         out->mirrored = gn_cofactor(out->world_from_item, cofactor) < 0;
@@ -182,7 +182,7 @@ static void pose_still(struct gn_pose *pose) {
     for (uint32_t i = 0; i < scene->item_count; i++) {
         if (pose->node_moves[scene->items[i].node]) continue;
         pose_item(pose, i);
-        join(&memory->still_ws, &pose->items[i].box_ws);
+        join_boxes(&memory->still_ws, &pose->items[i].box_ws);
     }
     pose->box_ws = memory->still_ws;
 }
@@ -225,7 +225,7 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     pose->box_ws = memory->still_ws;
     for (uint32_t i = 0; i < memory->item_count; i++) {
         pose_item(pose, memory->items[i]);
-        join(&pose->box_ws, &pose->items[memory->items[i]].box_ws);
+        join_boxes(&pose->box_ws, &pose->items[memory->items[i]].box_ws);
     }
 }
 

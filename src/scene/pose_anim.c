@@ -16,8 +16,8 @@ static uint32_t key_before(const struct gn_channel *channel, double time_s) {
     return low;
 }
 
-static void between(const struct gn_channel *channel, const float *a, const float *b, float u,
-                    float *out) {
+static void interpolate_linear(const struct gn_channel *channel, const float *a, const float *b,
+                               float u, float *out) {
     if (channel->path != GN_ANIM_ROTATION) {
         for (int i = 0; i < 3; i++) out[i] = a[i] + (b[i] - a[i]) * u;
         return;
@@ -31,7 +31,8 @@ static void between(const struct gn_channel *channel, const float *a, const floa
 }
 
 /* a and b are whole keys: in-tangent, value, out-tangent. */
-static void spline(const float *a, const float *b, int n, float dt_s, float u, float *out) {
+static void interpolate_cubic(const float *a, const float *b, int n, float dt_s, float u,
+                              float *out) {
     float u2 = u * u, u3 = u2 * u;
     for (int i = 0; i < n; i++)
         out[i] = (2 * u3 - 3 * u2 + 1) * a[n + i] + dt_s * (u3 - 2 * u2 + u) * a[2 * n + i] +
@@ -51,9 +52,9 @@ void gn_channel_sample(const struct gn_channel *channel, double time_s, float *o
         double dt_s = (double)channel->times_s[k + 1] - start_s; /* not 0: time_s lies between */
         float u = (float)((time_s - start_s) / dt_s);
         if (cubic)
-            spline(key, key + stride, n, (float)dt_s, u, out);
+            interpolate_cubic(key, key + stride, n, (float)dt_s, u, out);
         else
-            between(channel, key, key + stride, u, out);
+            interpolate_linear(channel, key, key + stride, u, out);
     }
     if (n == 4) glm_quat_normalize(out);
 }

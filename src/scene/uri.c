@@ -9,7 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
-static int hex(char c) {
+static int hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     c = (char)(c | 32);
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
@@ -20,8 +20,8 @@ static int hex(char c) {
 static size_t percent_decode(const char *text, uint8_t *out) {
     size_t n = 0;
     while (*text) {
-        int high = *text == '%' ? hex(text[1]) : -1;
-        int low = high >= 0 ? hex(text[2]) : -1;
+        int high = *text == '%' ? hex_digit(text[1]) : -1;
+        int low = high >= 0 ? hex_digit(text[2]) : -1;
         out[n++] = low >= 0 ? (uint8_t)(high * 16 + low) : (uint8_t)*text;
         text += low >= 0 ? 3 : 1;
     }
@@ -83,7 +83,7 @@ static bool has_scheme(const char *uri) {
 }
 
 /* Whether the path climbs above where it starts, links aside. */
-static bool climbs(const char *path) {
+static bool path_climbs(const char *path) {
     int depth = 0;
     for (const char *part = path; *part && depth >= 0;) {
         size_t length = strcspn(part, "/");
@@ -107,12 +107,12 @@ static bool relative_path(const char *uri, char *out, size_t size, struct gn_err
     if (strlen(out) != n) return gn_fail(err, "'%s': a file name cannot contain a zero byte", uri);
     for (char *c = strchr(out, '\\'); c; c = strchr(c, '\\')) *c = '/';
     if (has_scheme(uri)) return gn_fail(err, "'%.80s': only files beside the model are read", uri);
-    if (out[0] == '/' || climbs(out))
+    if (out[0] == '/' || path_climbs(out))
         return gn_fail(err, "'%.80s' lies outside the model's folder; put the file beside it", uri);
     return true;
 }
 
-static bool inside(const char *folder, const char *path) {
+static bool is_inside(const char *folder, const char *path) {
     size_t n = strlen(folder);
     while (n > 0 && folder[n - 1] == '/') n--; /* "/" itself */
     return strncmp(folder, path, n) == 0 && path[n] == '/';
@@ -131,7 +131,7 @@ static bool fetch_file(struct gn_gltf *g, const char *uri, struct gn_blob *out,
     if (!g->folder) return gn_fail(err, "'%.80s': a model in memory cannot name other files", uri);
     if (file_limit(g) == 0) return gn_fail(err, "'%.80s': no memory left for it", uri);
     snprintf(full, sizeof full, "%s/%s", g->folder, below);
-    if (realpath(full, real) && !inside(g->folder, real))
+    if (realpath(full, real) && !is_inside(g->folder, real))
         return gn_fail(err, "'%.80s' leads outside the model's folder; put the file beside it",
                        uri);
     if (!gn_file_read(full, file_limit(g), &out->file, err)) return false;

@@ -94,8 +94,9 @@ static uint8_t *dense_copy(struct gn_gltf *g, struct gn_accessor *a, size_t elem
     return copy;
 }
 
-static bool place_values(struct gn_gltf *g, const struct gn_at *at, const struct gn_accessor *index,
-                         const uint8_t *values, uint8_t *copy, const struct gn_accessor *a) {
+static bool set_sparse_values(struct gn_gltf *g, const struct gn_at *at,
+                              const struct gn_accessor *index, const uint8_t *values, uint8_t *copy,
+                              const struct gn_accessor *a) {
     uint32_t *at_index = gn_gltf_alloc(g, &g->memory.load, index->count, sizeof *at_index);
     if (!at_index) return false;
     gn_accessor_indices(index, at_index);
@@ -138,12 +139,12 @@ static bool apply_sparse(struct gn_gltf *g, const struct gn_at *sparse, struct g
     const uint8_t *data = index.data ? span_data(g, &values, &value_span) : NULL;
     uint8_t *copy = data ? dense_copy(g, a, element) : NULL;
     a->backed = true;
-    return copy && place_values(g, &indices, &index, data, copy, a);
+    return copy && set_sparse_values(g, &indices, &index, data, copy, a);
 }
 
 /* ---- whole accessors ---- */
 
-static bool resolve(struct gn_gltf *g, const struct gn_at *at, struct gn_accessor *a) {
+static bool resolve_accessor(struct gn_gltf *g, const struct gn_at *at, struct gn_accessor *a) {
     const struct shape *shape = read_shape(g, at);
     if (!shape || !read_component(g, at, &a->component)) return false;
     struct span span = {.view = gn_at_ref(g, at, "bufferView", g->file.view_count, "bufferViews"),
@@ -175,7 +176,7 @@ const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index) {
     if (a->resolved) return a;
     struct gn_at root = gn_at_root(g), array = gn_at_array(g, &root, "accessors");
     struct gn_at at = gn_at_item(g, &array, (size_t)index);
-    a->resolved = !g->failed && resolve(g, &at, a);
+    a->resolved = !g->failed && resolve_accessor(g, &at, a);
     return a->resolved ? a : NULL;
 }
 

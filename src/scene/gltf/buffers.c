@@ -4,7 +4,7 @@
 
 /* ---- buffers ---- */
 
-static bool buffer_bytes(struct gn_gltf *g, const struct gn_at *at, size_t index,
+static bool fetch_buffer(struct gn_gltf *g, const struct gn_at *at, size_t index,
                          struct gn_blob *buffer) {
     const char *uri = gn_at_text(g, at, "uri");
     if (g->failed) return false;
@@ -21,7 +21,7 @@ static bool load_buffer(struct gn_gltf *g, const struct gn_at *at, size_t index,
     struct gn_at place = gn_at_any(at, "byteLength");
     if (g->failed) return false;
     if (wanted == UINT64_MAX) return gn_gltf_fail(g, &place, "missing");
-    if (!buffer_bytes(g, at, index, buffer)) return false;
+    if (!fetch_buffer(g, at, index, buffer)) return false;
     if (buffer->data && wanted > buffer->size)
         return gn_gltf_fail(g, &place, "%" PRIu64 ", but the data has %zu bytes", wanted,
                             buffer->size);

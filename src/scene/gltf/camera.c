@@ -7,15 +7,15 @@
 #define NEAR_MOST_M 1e16f /* near times far has to be a float */
 
 /* A number that has to be there. */
-static float needed(struct gn_gltf *g, const struct gn_at *up, const char *key) {
+static float needed_float(struct gn_gltf *g, const struct gn_at *up, const char *key) {
     struct gn_at at = gn_at_any(up, key);
     if (!at.json) gn_gltf_fail(g, &at, "missing");
     return gn_at_float(g, up, key, 0);
 }
 
 static bool read_perspective(struct gn_gltf *g, const struct gn_at *at, struct gn_camera *camera) {
-    camera->yfov_rad = needed(g, at, "yfov");
-    camera->near_m = needed(g, at, "znear");
+    camera->yfov_rad = needed_float(g, at, "yfov");
+    camera->near_m = needed_float(g, at, "znear");
     camera->far_m = gn_at_float(g, at, "zfar", 0);
     return camera->yfov_rad > 1e-3f && camera->yfov_rad < GLM_PIf - 1e-3f && camera->near_m > 0 &&
            camera->near_m < NEAR_MOST_M;
@@ -23,15 +23,15 @@ static bool read_perspective(struct gn_gltf *g, const struct gn_at *at, struct g
 
 static bool read_orthographic(struct gn_gltf *g, const struct gn_at *at, struct gn_camera *camera) {
     camera->orthographic = true;
-    camera->xmag_m = fabsf(needed(g, at, "xmag"));
-    camera->ymag_m = fabsf(needed(g, at, "ymag"));
-    camera->near_m = needed(g, at, "znear");
-    camera->far_m = needed(g, at, "zfar");
+    camera->xmag_m = fabsf(needed_float(g, at, "xmag"));
+    camera->ymag_m = fabsf(needed_float(g, at, "ymag"));
+    camera->near_m = needed_float(g, at, "znear");
+    camera->far_m = needed_float(g, at, "zfar");
     return camera->xmag_m > 0 && camera->ymag_m > 0 && camera->near_m >= 0 &&
            camera->near_m < NEAR_MOST_M && camera->far_m > 0;
 }
 
-static void add(struct gn_gltf *g, const struct gn_at *at, uint32_t node) {
+static void add_camera(struct gn_gltf *g, const struct gn_at *at, uint32_t node) {
     struct gn_scene *scene = g->scene;
     struct gn_camera camera = {.node = node};
     struct gn_at perspective = gn_at_object(g, at, "perspective");
@@ -65,7 +65,7 @@ bool gn_gltf_cameras(struct gn_gltf *g) {
         int32_t camera = gn_at_ref(g, &node, "camera", gn_at_size(&definitions), "cameras");
         if (camera < 0) continue;
         struct gn_at definition = gn_at_item(g, &definitions, (size_t)camera);
-        if (!g->failed) add(g, &definition, i);
+        if (!g->failed) add_camera(g, &definition, i);
     }
     return !g->failed;
 }

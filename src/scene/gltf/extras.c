@@ -9,7 +9,7 @@
 
 static struct gn_at extras_of(const struct gn_at *holder) { return gn_at_any(holder, "extras"); }
 
-static void complain(struct gn_gltf *g, const struct gn_at *at, const char *wanted) {
+static void warn_wanted(struct gn_gltf *g, const struct gn_at *at, const char *wanted) {
     gn_gltf_warn(g, at, "must be %s; ignored", wanted);
 }
 
@@ -27,7 +27,7 @@ static void take_float(struct gn_gltf *g, const struct gn_at *extras, const char
     }
     snprintf(wanted, sizeof wanted,
              most < FLT_MAX ? "a number from 0 to %g" : "a number, 0 or more", (double)most);
-    complain(g, &at, wanted);
+    warn_wanted(g, &at, wanted);
 }
 
 /* true, false, or the 1 and 0 that older exporters write for them. */
@@ -40,7 +40,7 @@ static bool take_flag(struct gn_gltf *g, const struct gn_at *extras, const char 
     else if (gn_json_whole(at.json, &value) && (value == 0 || value == 1))
         *out = value == 1;
     else {
-        complain(g, &at, "true or false");
+        warn_wanted(g, &at, "true or false");
         return false;
     }
     return true;
@@ -56,7 +56,7 @@ static int take_word(struct gn_gltf *g, const struct gn_at *extras, const char *
     char wanted[64] = "one of";
     for (int i = 0; i < count; i++)
         snprintf(wanted + strlen(wanted), sizeof wanted - strlen(wanted), " %s", names[i]);
-    if (at.json) complain(g, &at, wanted);
+    if (at.json) warn_wanted(g, &at, wanted);
     return -1;
 }
 
@@ -71,7 +71,7 @@ static bool take_pair(struct gn_gltf *g, const struct gn_at *extras, const char 
         out[1] = (float)h;
         return true;
     }
-    complain(g, &at, "two numbers over 0: [width, height]");
+    warn_wanted(g, &at, "two numbers over 0: [width, height]");
     return false;
 }
 
@@ -87,7 +87,7 @@ static bool take_color(struct gn_gltf *g, const struct gn_at *extras, const char
         right = gn_json_number(part, &c[i]) && c[i] >= 0 && c[i] <= 1e6;
     }
     if (!right) {
-        complain(g, &at, "a colour: [r, g, b], linear, 0 or more");
+        warn_wanted(g, &at, "a colour: [r, g, b], linear, 0 or more");
         return false;
     }
     for (int i = 0; i < 3; i++) out[i] = (float)c[i];
@@ -106,7 +106,7 @@ static void take_whole(struct gn_gltf *g, const struct gn_at *extras, const char
     }
     snprintf(wanted, sizeof wanted, "a whole number from %lld to %lld", (long long)least,
              (long long)most);
-    complain(g, &at, wanted);
+    warn_wanted(g, &at, wanted);
 }
 
 /* ---- holders ---- */
@@ -127,7 +127,7 @@ void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_place
     if (word >= 0) placed->cast_faces = (enum gn_cast_faces)word;
 }
 
-static void light_slide(struct gn_gltf *g, const struct gn_at *extras, struct gn_light *light) {
+static void take_slide(struct gn_gltf *g, const struct gn_at *extras, struct gn_light *light) {
     static const char *const outside[] = {"dark", "lit"};
     int64_t slide = -1;
     if (g->file.texture_count > 0)
@@ -154,9 +154,9 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
     if (name)
         light->technique = gn_gltf_strdup(g, name);
     else if (technique.json)
-        complain(g, &technique, "the name of a technique, or none");
+        warn_wanted(g, &technique, "the name of a technique, or none");
     if (gn_light_types[light->type].has_cone)
-        light_slide(g, &extras, light);
+        take_slide(g, &extras, light);
     else if (gn_at_any(&extras, "gnomon_slide").json)
         gn_gltf_warn(g, &extras, "gnomon_slide: only a spot can project a slide; ignored");
 }

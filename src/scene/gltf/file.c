@@ -13,7 +13,7 @@ enum { HEADER = 12, CHUNK = 8 };
 #define CHUNK_JSON 0x4e4f534aU
 #define CHUNK_BIN  0x004e4942U
 
-static uint32_t u32(const uint8_t *p) {
+static uint32_t read_u32(const uint8_t *p) {
     return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
 
@@ -21,7 +21,7 @@ static bool has_bom(const uint8_t *text, size_t size) {
     return size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0;
 }
 
-static bool parse(struct gn_gltf *g, const uint8_t *text, size_t size, size_t offset) {
+static bool parse_json(struct gn_gltf *g, const uint8_t *text, size_t size, size_t offset) {
     size_t skip = has_bom(text, size) ? 3 : 0;
     return gn_gltf_parse(g, (const char *)text + skip, size - skip, offset + skip);
 }
@@ -31,7 +31,7 @@ static bool parse(struct gn_gltf *g, const uint8_t *text, size_t size, size_t of
 static bool check_header(struct gn_gltf *g, const uint8_t *data, size_t *size) {
     if (*size < HEADER + CHUNK)
         return gn_gltf_fail(g, NULL, "byte %zu: the file ends within the .glb header", *size);
-    uint32_t version = u32(data + 4), length = u32(data + 8);
+    uint32_t version = read_u32(data + 4), length = read_u32(data + 8);
     if (version != 2)
         return gn_gltf_fail(g, NULL,
                             "byte 4: .glb version %" PRIu32 "; only version 2 is read: "
@@ -50,13 +50,13 @@ static bool check_header(struct gn_gltf *g, const uint8_t *data, size_t *size) {
 }
 
 static bool take_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
-    uint32_t length = u32(data + at), type = u32(data + at + 4);
+    uint32_t length = read_u32(data + at), type = read_u32(data + at + 4);
     const uint8_t *body = data + at + CHUNK;
     if (at == HEADER && type != CHUNK_JSON)
         return gn_gltf_fail(g, NULL, "byte %zu: the first chunk must be JSON", at + 4);
     if (at == HEADER) {
         while (length > 0 && body[length - 1] == 0) length--; /* some pad with zeros */
-        return parse(g, body, length, at + CHUNK);
+        return parse_json(g, body, length, at + CHUNK);
     }
     if (type == CHUNK_JSON) return gn_gltf_fail(g, NULL, "byte %zu: a second JSON chunk", at);
     if (type == CHUNK_BIN && g->file.bin.data)
@@ -70,7 +70,7 @@ static bool open_glb(struct gn_gltf *g, const uint8_t *data, size_t size) {
     if (!check_header(g, data, &size)) return false;
     size_t at = HEADER;
     for (; size - at >= CHUNK;) {
-        uint32_t length = u32(data + at);
+        uint32_t length = read_u32(data + at);
         if (length > size - at - CHUNK)
             return gn_gltf_fail(g, NULL, "byte %zu: a chunk of %" PRIu32 " bytes, but %zu are left",
                                 at, length, size - at - CHUNK);
@@ -99,7 +99,7 @@ static bool open_json(struct gn_gltf *g, const uint8_t *data, size_t size) {
     size_t start = has_bom(data, size) ? 3 : 0;
     while (start < size && data[start] && strchr(" \t\r\n", data[start])) start++;
     if (start == size || data[start] != '{') return fail_format(g, start);
-    return parse(g, data, size, 0);
+    return parse_json(g, data, size, 0);
 }
 
 bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {

@@ -29,8 +29,8 @@ static const struct format *format_of(const struct gn_blob *blob) {
 
 /* ---- pictures ---- */
 
-static bool decode(struct gn_gltf *g, const struct gn_blob *blob, struct gn_image *image,
-                   struct gn_err *err) {
+static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct gn_image *image,
+                         struct gn_err *err) {
     const struct format *format = format_of(blob);
     uint32_t px[2] = {0};
     if (!format) return gn_fail(err, "neither PNG nor JPEG");
@@ -61,8 +61,8 @@ static bool decode(struct gn_gltf *g, const struct gn_blob *blob, struct gn_imag
 }
 
 /* *view_out: the view that holds it, or NULL. */
-static bool fetch(struct gn_gltf *g, const struct gn_at *at, struct gn_blob *blob,
-                  struct gn_view **view_out, struct gn_err *err) {
+static bool fetch_image(struct gn_gltf *g, const struct gn_at *at, struct gn_blob *blob,
+                        struct gn_view **view_out, struct gn_err *err) {
     const char *uri = gn_at_text(g, at, "uri");
     int32_t view = gn_at_ref(g, at, "bufferView", g->file.view_count, "bufferViews");
     if (g->failed) return false;
@@ -85,8 +85,8 @@ static int32_t image_at(struct gn_gltf *g, int32_t index) {
     struct gn_view *view = NULL;
     struct gn_err err = {0};
     struct gn_scene *scene = g->scene;
-    bool done = fetch(g, &at, &blob, &view, &err) &&
-                decode(g, &blob, &scene->images[scene->image_count], &err);
+    bool done = fetch_image(g, &at, &blob, &view, &err) &&
+                decode_image(g, &blob, &scene->images[scene->image_count], &err);
     if (!done && view) view->damaged = true;
     gn_blob_finish(g, &blob);
     if (done)
@@ -148,7 +148,7 @@ static int32_t source_of(struct gn_gltf *g, const struct gn_at *at) {
     return source;
 }
 
-static bool prepare(struct gn_gltf *g) {
+static bool allocate_textures(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     if (g->to_scene.texture) return true;
     g->to_scene.texture = gn_gltf_alloc(g, &g->memory.load, g->file.texture_count, sizeof(int32_t));
@@ -163,7 +163,7 @@ static bool prepare(struct gn_gltf *g) {
 }
 
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index) {
-    if (g->failed || !prepare(g)) return -1;
+    if (g->failed || !allocate_textures(g)) return -1;
     if (g->to_scene.texture[index] != UNSEEN)
         return g->to_scene.texture[index] < 0 ? -1 : g->to_scene.texture[index];
     g->to_scene.texture[index] = DROPPED;

@@ -9,9 +9,9 @@ struct copies {
     size_t count;
 };
 
-static const struct gn_accessor *attribute(struct gn_gltf *g, const struct gn_at *attributes,
-                                           const char *key, uint8_t components,
-                                           struct copies *copies) {
+static const struct gn_accessor *read_attribute(struct gn_gltf *g, const struct gn_at *attributes,
+                                                const char *key, uint8_t components,
+                                                struct copies *copies) {
     int32_t index = gn_at_ref(g, attributes, key, g->file.accessor_count, "accessors");
     const struct gn_accessor *a = gn_gltf_accessor(g, index);
     if (!a) return NULL;
@@ -32,17 +32,17 @@ static struct copies read_copies(struct gn_gltf *g, const struct gn_placed *plac
     struct gn_at extension = gn_at_extension(g, &node, "extensions.EXT_mesh_gpu_instancing");
     struct gn_at attributes = gn_at_object(g, &extension, "attributes");
     if (!extension.json || g->failed) return copies;
-    copies.translation = attribute(g, &attributes, "TRANSLATION", 3, &copies);
-    copies.rotation = attribute(g, &attributes, "ROTATION", 4, &copies);
-    copies.scale = attribute(g, &attributes, "SCALE", 3, &copies);
+    copies.translation = read_attribute(g, &attributes, "TRANSLATION", 3, &copies);
+    copies.rotation = read_attribute(g, &attributes, "ROTATION", 4, &copies);
+    copies.scale = read_attribute(g, &attributes, "SCALE", 3, &copies);
     if (copies.count == 0 && !g->failed)
         gn_gltf_warn(g, &extension, "has none of TRANSLATION, ROTATION, SCALE; shown once");
     return copies;
 }
 
 /* n values per copy, or the fallback where there is no such attribute. */
-static float *values(struct gn_gltf *g, const struct gn_accessor *a, size_t count, size_t n,
-                     const float *fallback) {
+static float *read_values(struct gn_gltf *g, const struct gn_accessor *a, size_t count, size_t n,
+                          const float *fallback) {
     float *out = gn_gltf_alloc(g, &g->memory.step, (uint64_t)count * n, sizeof *out);
     for (size_t i = 0; out && i < count * n; i++) out[i] = fallback[i % n];
     if (!out || !a) return out;
@@ -52,11 +52,11 @@ static float *values(struct gn_gltf *g, const struct gn_accessor *a, size_t coun
     return out;
 }
 
-static void fill(struct gn_gltf *g, const struct copies *copies, mat4 *out) {
+static void fill_instances(struct gn_gltf *g, const struct copies *copies, mat4 *out) {
     gn_arena_reset(&g->memory.step);
-    float *t = values(g, copies->translation, copies->count, 3, (float[]){0, 0, 0});
-    float *r = values(g, copies->rotation, copies->count, 4, (float[]){0, 0, 0, 1});
-    float *s = values(g, copies->scale, copies->count, 3, (float[]){1, 1, 1});
+    float *t = read_values(g, copies->translation, copies->count, 3, (float[]){0, 0, 0});
+    float *r = read_values(g, copies->rotation, copies->count, 4, (float[]){0, 0, 0, 1});
+    float *s = read_values(g, copies->scale, copies->count, 3, (float[]){1, 1, 1});
     for (size_t i = 0; i < copies->count && !g->failed; i++) {
         struct gn_node local;
         local.has_matrix = false;
@@ -89,7 +89,7 @@ bool gn_gltf_instances(struct gn_gltf *g) {
         const struct gn_placed *placed = &g->placed[i];
         if (placed->instance_count == 0) continue;
         struct copies copies = read_copies(g, placed);
-        fill(g, &copies, scene->instances + placed->first_instance);
+        fill_instances(g, &copies, scene->instances + placed->first_instance);
     }
     return !g->failed;
 }

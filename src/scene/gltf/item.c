@@ -7,7 +7,7 @@ static uint32_t copies_of(const struct gn_placed *placed) {
     return placed->instance_count > 0 ? placed->instance_count : 1;
 }
 
-static void add(struct gn_gltf *g, uint32_t node, const struct gn_primitive *primitive) {
+static void add_items(struct gn_gltf *g, uint32_t node, const struct gn_primitive *primitive) {
     struct gn_scene *scene = g->scene;
     const struct gn_placed *placed = &g->placed[node];
     uint32_t fallback = (uint32_t)g->file.material_count;
@@ -59,7 +59,7 @@ bool gn_gltf_items(struct gn_gltf *g) {
             g->placed[i].mesh >= 0 ? &g->file.meshes[g->placed[i].mesh] : NULL;
         for (uint32_t k = 0; mesh && k < mesh->primitive_count; k++) {
             const struct gn_primitive *primitive = &g->primitives.list[mesh->first_primitive + k];
-            if (scene->geometries[primitive->geometry].index_count > 0) add(g, i, primitive);
+            if (scene->geometries[primitive->geometry].index_count > 0) add_items(g, i, primitive);
         }
     }
     return scene->item_count > 0 || refuse_empty(g);

@@ -9,7 +9,7 @@
 
 /* The parser recurses and allocates as the text tells it to: bound both before it starts. A
  * container or a key costs jansson about 256 bytes, any other value about 96. */
-static bool bounded(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
+static bool check_json_size(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
     uint64_t depth = 0, bytes = 2 * (uint64_t)size;
     bool quoted = false;
     for (size_t i = 0; i < size; i++) {
@@ -42,7 +42,7 @@ static bool bounded(struct gn_gltf *g, const char *text, size_t size, size_t off
 }
 
 bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
-    if (!bounded(g, text, size, offset)) return false;
+    if (!check_json_size(g, text, size, offset)) return false;
     json_error_t error;
     g->file.json = json_loadb(text, size, 0, &error);
     if (!g->file.json) {
@@ -70,7 +70,7 @@ static const char *type_name(const json_t *json) {
 }
 
 /* Empties the cursor and fails unless it is absent or right. */
-static bool want(struct gn_gltf *g, struct gn_at *at, bool right, const char *wanted) {
+static bool check_type(struct gn_gltf *g, struct gn_at *at, bool right, const char *wanted) {
     if (!at->json) return false;
     if (right) return true;
     gn_gltf_fail(g, at, "must be %s, is %s", wanted, type_name(at->json));
@@ -88,13 +88,13 @@ struct gn_at gn_at_any(const struct gn_at *up, const char *key) {
 
 struct gn_at gn_at_object(struct gn_gltf *g, const struct gn_at *up, const char *key) {
     struct gn_at at = gn_at_any(up, key);
-    want(g, &at, json_is_object(at.json), "an object");
+    check_type(g, &at, json_is_object(at.json), "an object");
     return at;
 }
 
 struct gn_at gn_at_array(struct gn_gltf *g, const struct gn_at *up, const char *key) {
     struct gn_at at = gn_at_any(up, key);
-    want(g, &at, json_is_array(at.json), "an array");
+    check_type(g, &at, json_is_array(at.json), "an array");
     return at;
 }
 
@@ -104,7 +104,7 @@ struct gn_at gn_at_element(const struct gn_at *array, size_t index) {
 
 struct gn_at gn_at_item(struct gn_gltf *g, const struct gn_at *array, size_t index) {
     struct gn_at at = gn_at_element(array, index);
-    want(g, &at, json_is_object(at.json), "an object");
+    check_type(g, &at, json_is_object(at.json), "an object");
     return at;
 }
 
@@ -112,7 +112,7 @@ struct gn_at gn_at_extension(struct gn_gltf *g, const struct gn_at *up, const ch
     struct gn_at all = gn_at_object(g, up, "extensions");
     struct gn_at at = {.up = up, .key = key};
     at.json = json_object_get(all.json, key + strlen("extensions."));
-    want(g, &at, json_is_object(at.json), "an object");
+    check_type(g, &at, json_is_object(at.json), "an object");
     return at;
 }
 
@@ -139,19 +139,20 @@ bool gn_json_whole(const json_t *json, int64_t *out) {
 
 const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up, const char *key) {
     struct gn_at at = gn_at_any(up, key);
-    return want(g, &at, json_is_string(at.json), "a string") ? json_string_value(at.json) : NULL;
+    return check_type(g, &at, json_is_string(at.json), "a string") ? json_string_value(at.json)
+                                                                   : NULL;
 }
 
 bool gn_at_flag(struct gn_gltf *g, const struct gn_at *up, const char *key, bool fallback) {
     struct gn_at at = gn_at_any(up, key);
-    return want(g, &at, json_is_boolean(at.json), "true or false") ? json_is_true(at.json)
-                                                                   : fallback;
+    return check_type(g, &at, json_is_boolean(at.json), "true or false") ? json_is_true(at.json)
+                                                                         : fallback;
 }
 
 uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *key, uint64_t fallback) {
     struct gn_at at = gn_at_any(up, key);
     int64_t value = 0;
-    if (!want(g, &at, json_is_number(at.json), "an integer")) return fallback;
+    if (!check_type(g, &at, json_is_number(at.json), "an integer")) return fallback;
     if (!gn_json_whole(at.json, &value)) {
         gn_gltf_fail(g, &at, "must be an integer, is %g", json_number_value(at.json));
         return fallback;
@@ -166,7 +167,7 @@ uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *key, 
 /* The number at the cursor, if it is one that a float can hold. */
 static bool read_float(struct gn_gltf *g, struct gn_at *at, float *out) {
     double value = 0;
-    if (!want(g, at, json_is_number(at->json), "a number")) return false;
+    if (!check_type(g, at, json_is_number(at->json), "a number")) return false;
     if (!gn_json_number(at->json, &value) || fabs(value) > (double)FLT_MAX)
         return gn_gltf_fail(g, at, "%g is too large", json_number_value(at->json));
     *out = (float)value;
@@ -195,7 +196,7 @@ bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *key, si
 int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, const char *what) {
     struct gn_at copy = *at;
     int64_t value = 0;
-    if (!want(g, &copy, json_is_number(at->json), "an index")) return -1;
+    if (!check_type(g, &copy, json_is_number(at->json), "an index")) return -1;
     if (!gn_json_whole(at->json, &value))
         gn_gltf_fail(g, at, "must be an index, is %g", json_number_value(at->json));
     else if (value < 0 || (uint64_t)value >= count || value > INT32_MAX)

@@ -71,8 +71,8 @@ static const char *name_light(struct gn_gltf *g, const struct gn_at *definition,
     return gn_gltf_strdup(g, number);
 }
 
-static void add(struct gn_gltf *g, const struct gn_at *definition, const struct gn_at *node,
-                uint32_t index) {
+static void add_light(struct gn_gltf *g, const struct gn_at *definition, const struct gn_at *node,
+                      uint32_t index) {
     struct gn_light light = {.node = index};
     if (!read_light(g, definition, &light)) return;
     gn_extras_light(g, definition, &light);
@@ -95,7 +95,7 @@ bool gn_gltf_lights(struct gn_gltf *g) {
         int32_t light = gn_at_ref(g, &use, "light", gn_at_size(&definitions), "lights");
         if (light < 0) continue;
         struct gn_at definition = gn_at_item(g, &definitions, (size_t)light);
-        if (!g->failed) add(g, &definition, &node, i);
+        if (!g->failed) add_light(g, &definition, &node, i);
     }
     return !g->failed;
 }

@@ -171,7 +171,7 @@ static void read_primitive(struct reader *reader, const struct gn_at *primitive,
     g->file.meshes[mesh].primitive_count++;
 }
 
-static bool allocate(struct reader *reader, size_t primitives) {
+static bool allocate_primitives(struct reader *reader, size_t primitives) {
     struct gn_gltf *g = reader->g;
     g->primitives.list = gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.list);
     g->primitives.shapes =
@@ -201,7 +201,7 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
         struct gn_at mesh = gn_at_item(g, &meshes, i), list = gn_at_array(g, &mesh, "primitives");
         if (g->file.meshes[i].used) primitives += gn_at_size(&list);
     }
-    if (g->failed || !allocate(&reader, primitives)) return false;
+    if (g->failed || !allocate_primitives(&reader, primitives)) return false;
     for (size_t i = 0; i < g->file.mesh_count && !g->failed; i++) {
         if (!g->file.meshes[i].used) continue;
         g->file.meshes[i].first_primitive = (uint32_t)g->primitives.count;

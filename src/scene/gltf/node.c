@@ -29,7 +29,7 @@ static int32_t child_at(struct tree *tree, const struct gn_at *children, size_t 
 
 /* ---- parents and cycles ---- */
 
-static void adopt(struct tree *tree, size_t parent) {
+static void adopt_children(struct tree *tree, size_t parent) {
     struct gn_at node = gn_at_item(tree->g, &tree->array, parent);
     struct gn_at children = gn_at_array(tree->g, &node, "children");
     for (size_t i = 0; i < gn_at_size(&children) && !tree->g->failed; i++) {
@@ -76,13 +76,13 @@ static bool read_tree(struct tree *tree) {
         tree->sources[i].parent = -1;
         g->to_scene.node[i] = -1;
     }
-    for (size_t i = 0; i < tree->count && !g->failed; i++) adopt(tree, i);
+    for (size_t i = 0; i < tree->count && !g->failed; i++) adopt_children(tree, i);
     return !g->failed && check_cycles(tree);
 }
 
 /* ---- what is shown ---- */
 
-static void push(struct tree *tree, int32_t node) {
+static void push_node(struct tree *tree, int32_t node) {
     if (tree->sources[node].queued) return;
     tree->sources[node].queued = true;
     tree->stack[tree->depth++] = node;
@@ -94,13 +94,13 @@ static void push_children(struct tree *tree, int32_t node) {
     struct gn_at children = gn_at_array(tree->g, &at, "children");
     for (size_t i = gn_at_size(&children); i-- > 0;) {
         int32_t child = child_at(tree, &children, i);
-        if (child >= 0 && tree->sources[child].parent == node) push(tree, child);
+        if (child >= 0 && tree->sources[child].parent == node) push_node(tree, child);
     }
 }
 
 /* Marks a listed node, all below it and, as carriers, all above it. */
-static void show(struct tree *tree, int32_t listed) {
-    push(tree, listed);
+static void mark_shown(struct tree *tree, int32_t listed) {
+    push_node(tree, listed);
     while (tree->depth > 0) {
         int32_t node = tree->stack[--tree->depth];
         tree->sources[node].shown = tree->sources[node].carried = true;
@@ -148,7 +148,7 @@ static void read_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_
     glm_quat_identity(node->rotation);
 }
 
-static void emit(struct tree *tree, int32_t source) {
+static void add_scene_node(struct tree *tree, int32_t source) {
     struct gn_gltf *g = tree->g;
     struct gn_at at = gn_at_element(&tree->array, (size_t)source);
     uint32_t index = g->scene->node_count++;
@@ -168,17 +168,17 @@ static void emit(struct tree *tree, int32_t source) {
     gn_extras_node(g, &at, placed);
 }
 
-static void lay_out(struct tree *tree, int32_t root) {
-    push(tree, root);
+static void lay_out_tree(struct tree *tree, int32_t root) {
+    push_node(tree, root);
     while (tree->depth > 0 && !tree->g->failed) {
         int32_t node = tree->stack[--tree->depth];
         if (!tree->sources[node].carried) continue;
-        emit(tree, node);
+        add_scene_node(tree, node);
         push_children(tree, node);
     }
 }
 
-static bool allocate(struct gn_gltf *g, size_t count) {
+static bool allocate_nodes(struct gn_gltf *g, size_t count) {
     struct gn_at root = gn_at_root(g), meshes = gn_at_array(g, &root, "meshes");
     g->file.mesh_count = gn_at_size(&meshes);
     g->file.node_count = count;
@@ -214,7 +214,7 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), scenes = gn_at_array(g, &root, "scenes");
     struct tree tree = {.g = g, .array = gn_at_array(g, &root, "nodes")};
     tree.count = gn_at_size(&tree.array);
-    if (g->failed || !allocate(g, tree.count) || !read_tree(&tree)) return false;
+    if (g->failed || !allocate_nodes(g, tree.count) || !read_tree(&tree)) return false;
     int32_t *listed = gn_gltf_alloc(g, &g->memory.load, tree.count, sizeof *listed);
     int32_t *roots = gn_gltf_alloc(g, &g->memory.load, tree.count, sizeof *roots);
     struct gn_at scene = shown_scene(g, &scenes);
@@ -223,13 +223,13 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     g->scene->name = gn_gltf_strdup(g, gn_at_text(g, &scene, "name"));
     gn_extras_scene(g, &scene);
     size_t count = listed_nodes(&tree, &list, scene.json == NULL, listed);
-    for (size_t i = 0; i < count; i++) show(&tree, listed[i]);
+    for (size_t i = 0; i < count; i++) mark_shown(&tree, listed[i]);
     for (size_t i = 0; i < tree.count; i++) {
         tree.sources[i].queued = false;
         roots[i] = -1;
     }
     for (size_t i = 0; i < count && !g->failed; i++)
-        lay_out(&tree, root_of(&tree, listed[i], roots));
+        lay_out_tree(&tree, root_of(&tree, listed[i], roots));
     if (!g->failed && g->scene->node_count == 0)
         return gn_gltf_fail(g, scene.json ? &scene : &tree.array,
                             "the scene is empty: there is no node");
