@@ -76,7 +76,7 @@ done
 for option in camera animation time size shadow out config limit; do
     expect 2 "--$option needs a value" render "--$option"
 done
-for name in noext a.jpg .; do expect 2 'ends in .png or .pfm' render -o "$name"; done
+for name in noext a.jpg .; do expect 2 'use .png or .pfm' render -o "$name"; done
 for name in %s %n %100000d %d-%d '%*d' %-5d %ld '%1$d' %% %; do
     expect 2 'as in frame-%04d.png' render -o "$folder/$name.png" --frames 2
     expect 2 'as in frame-%04d.png' render -o "$folder/$name.png"
@@ -96,7 +96,7 @@ expect 2 'exclude each other' render $picture --animation hoop --no-animation
 # shellcheck disable=SC2086
 expect 2 '--mode: there is no shadow technique' render $picture --mode nosuch
 expect 2 '--without: unknown capability "wings"' bench --without r16f,wings
-expect 2 "--limit: no limit is called 'verts'" inspect --limit verts=1
+expect 2 "--limit: unknown limit 'verts'" inspect --limit verts=1
 expect 1 'more than the limit nodes=1' inspect --limit nodes=1
 expect 0 '' inspect --limit nodes=100000000
 [ ! -e "$folder/a.png" ] || complain 'a refused command line left a picture'

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Under ASan every piece is followed by a few bytes that nobody may touch, so that an overrun
- * inside a block is found. */
+/* Under ASan a poisoned red zone follows each allocation, so that an overrun inside a block is
+ * reported. */
 #ifdef __has_feature
 #if __has_feature(address_sanitizer)
 #define POISON
@@ -107,8 +107,7 @@ char *gn_arena_strdup(struct gn_arena *arena, const char *text) {
     return copy ? memcpy(copy, text, size) : NULL;
 }
 
-/* A block that is empty then goes back to the system: it was made for the piece, and may be large.
- */
+/* Frees the block if it is empty then: it was allocated for this piece and may be large. */
 void gn_arena_undo(struct gn_arena *arena, void *piece, size_t bytes) {
     struct gn_arena_block *block = arena->current, *before = NULL;
     block->used -= padded_size(bytes);

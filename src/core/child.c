@@ -17,7 +17,7 @@
 void *gn_child_share(size_t size, struct gn_err *err) {
     void *shared = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared != MAP_FAILED) return shared;
-    gn_fail(err, "no memory to share with a child: %s", strerror(errno));
+    gn_fail(err, "cannot allocate memory shared with a child process: %s", strerror(errno));
     return NULL;
 }
 
@@ -32,12 +32,11 @@ static void silence_standard_files(void) {
 
 static bool fail_end(int status, struct gn_err *err) {
     if (WIFSIGNALED(status)) return gn_fail(err, "crashes (%s)", strsignal(WTERMSIG(status)));
-    return WEXITSTATUS(status) == 0 ||
-           gn_fail(err, "ends the process (status %d)", WEXITSTATUS(status));
+    return WEXITSTATUS(status) == 0 || gn_fail(err, "exits (status %d)", WEXITSTATUS(status));
 }
 
-/* A tenth of a second, less at the start: most work is short. The child's end wakes us where the
- * kernel has such descriptors (5.3); without one poll() just sleeps. */
+/* Sleeps 0.1 s, less in the first rounds: most work is short. The child's exit ends the sleep where
+ * the kernel has pidfd_open() (5.3). */
 static void poll_child(int round, int end) {
     struct pollfd wake = {.fd = end, .events = POLLIN};
     poll(&wake, 1, round < 20 ? 5 : 100);
@@ -58,13 +57,14 @@ static bool wait_for_child(pid_t pid, int end, const struct gn_child *child, voi
         pid_t ended = waitpid(pid, &status, WNOHANG);
         if (child->watch) child->watch(shared, child->argument);
         if (ended == pid) return fail_end(status, err);
-        if (ended < 0 && errno != EINTR) return gn_fail(err, "is lost: %s", strerror(errno));
+        if (ended < 0 && errno != EINTR)
+            return gn_fail(err, "cannot be waited for: %s", strerror(errno));
         if (child->stop && child->stop()) return end_child(pid) || gn_fail(err, "was stopped");
         uint32_t now = child->progress ? *(const volatile uint32_t *)child->progress : 0;
         if (now != seen) since_ns = gn_clock_monotonic_ns();
         seen = now;
         if (gn_clock_monotonic_ns() - since_ns > stall_s * GN_NS_PER_S)
-            return end_child(pid) || gn_fail(err, "hangs (nothing for %d s)", stall_s);
+            return end_child(pid) || gn_fail(err, "hangs (no progress for %d s)", stall_s);
         poll_child(round, end);
     }
 }
@@ -80,10 +80,10 @@ static bool wait_and_close(pid_t pid, const struct gn_child *child, void *shared
 bool gn_child_run(const struct gn_child *child, void *shared, struct gn_err *err) {
     fflush(NULL);
     pid_t parent = getpid(), pid = fork();
-    if (pid < 0) return gn_fail(err, "cannot be tried: %s", strerror(errno));
+    if (pid < 0) return gn_fail(err, "cannot be started: %s", strerror(errno));
     if (pid > 0) return wait_and_close(pid, child, shared, err);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  /* it would outlive a parent that is interrupted */
-    if (getppid() != parent) _exit(0); /* which was quicker */
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  /* dies with an interrupted parent */
+    if (getppid() != parent) _exit(0); /* the parent died before prctl() */
     silence_standard_files();
     child->work(shared, child->argument);
     _exit(0);

@@ -1,4 +1,4 @@
-/* Time is integer nanoseconds everywhere. */
+/* Clocks. All times are integer nanoseconds. */
 #ifndef GN_CORE_CLOCK_H
 #define GN_CORE_CLOCK_H
 

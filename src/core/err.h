@@ -1,7 +1,7 @@
-/* Failure of the outside world: one line that says what, where and what to do.
- * A function that can fail returns false or NULL and fills `err`; its caller passes it up, perhaps
- * with a prefix, and main() prints it once. Bugs are assert(); want of memory aborts (see gn_xalloc
- * in arena.h). */
+/* Runtime errors: one line with what failed, where, and what to do.
+ * A function that can fail returns false or NULL and fills `err`; its caller returns it, perhaps
+ * with a prefix, and main() prints it once. Bugs are assert(); out of memory aborts (gn_xalloc in
+ * arena.h). */
 #ifndef GN_CORE_ERR_H
 #define GN_CORE_ERR_H
 
@@ -10,8 +10,8 @@
 enum gn_exit {
     GN_EXIT_OK = 0,
     GN_EXIT_RUNTIME = 1,  /* runtime error: bad file, driver, device or scene */
-    GN_EXIT_USAGE = 2,    /* wrong usage, also a value outside its range */
-    GN_EXIT_DISPLAY = 70, /* gave up on the display: restart me */
+    GN_EXIT_USAGE = 2,    /* usage error: unknown option, value out of range */
+    GN_EXIT_DISPLAY = 70, /* the display is lost: the supervisor restarts the program */
 };
 
 struct gn_err {
@@ -25,7 +25,7 @@ bool gn_fail(struct gn_err *err, const char *format, ...) __attribute__((format(
 bool gn_fail_usage(struct gn_err *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Puts "prefix: " before what a callee said; returns false. */
+/* Puts "prefix: " before a callee's message; returns false. */
 bool gn_fail_prefix(struct gn_err *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

@@ -114,7 +114,7 @@ static int open_direct(const char *path) {
     return fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
 }
 
-/* What is behind a descriptor may be a file after all, with more in it. */
+/* A descriptor may name a regular file: truncates it after the data. */
 static bool cut_rest_of_file(int fd) {
     struct stat info;
     if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) return true;
@@ -165,14 +165,14 @@ static bool write_and_rename(const char *path, const char *target, const struct 
     return fail_errno(err, path, "write");
 }
 
-/* What is no file, and what may name a descriptor. /dev/shm holds files like any other folder. */
+/* Whether a path is not a regular file, or names a descriptor. /dev/shm holds regular files. */
 static bool is_direct(const char *path, const struct stat *info) {
     if (info && !S_ISREG(info->st_mode)) return true;
     if (strncmp(path, "/dev/shm/", 9) == 0) return false;
     return strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
 }
 
-/* Where a link leads, also if nothing is there yet; else NULL. To be freed. */
+/* A link's target, which need not exist; else NULL. The caller frees it. */
 static char *follow_link(const char *path) {
     char *real = realpath(path, NULL), link[PATH_MAX], *target = NULL;
     if (real) return real;
@@ -202,8 +202,8 @@ bool gn_file_replace(const char *path, const void *data, size_t size, struct gn_
     const bool exists = lstat(path, &info) == 0;
     if (!exists && errno != ENOENT) return fail_errno(err, path, "write");
     if (exists && !S_ISREG(info.st_mode))
-        return gn_fail(err, "%s: cannot write: is %s, and stays one", path,
-                       S_ISLNK(info.st_mode) ? "a link" : kind_name(info.st_mode));
+        return gn_fail(err, "%s: refusing to overwrite %s", path,
+                       S_ISLNK(info.st_mode) ? "a symbolic link" : kind_name(info.st_mode));
     return write_and_rename(path, path, exists ? &info : NULL, data, size, err);
 }
 
@@ -219,10 +219,10 @@ static bool reader_has_gone(void) {
     return poll(&output, 1, 0) == 1 && output.revents & (POLLERR | POLLHUP);
 }
 
-/* What went wrong long ago has left no errno. */
+/* errno is unknown if an earlier write failed. */
 bool gn_file_flush_output(struct gn_err *err) {
     bool bad = ferror(stdout), flushed = fflush(stdout) == 0;
     if ((flushed && !bad) || reader_has_gone()) return true;
-    return gn_fail(err, "standard output: cannot write%s%s", flushed ? " all of it" : ": ",
+    return gn_fail(err, "standard output: cannot write%s%s", flushed ? " all output" : ": ",
                    flushed ? "" : strerror(errno));
 }

@@ -1,5 +1,5 @@
-/* Whole files. They are read, not mapped (a file cut short under a mapping is a SIGBUS); output is
- * written beside its target and renamed, so a reader sees the old file or the new one. */
+/* Whole files. They are read, not mapped (truncating a mapped file raises SIGBUS); output is
+ * written to a temporary file and renamed, so that a reader sees the old file or the new one. */
 #ifndef GN_CORE_FILE_H
 #define GN_CORE_FILE_H
 
@@ -15,26 +15,25 @@ struct gn_bytes {
 };
 
 /* Reads a regular file of at most limit bytes (0 = no limit). Refuses directories, devices, FIFOs
- * and sockets (without ever blocking on one), and says the path and the reason. */
+ * and sockets (without blocking on one); the error has the path and the reason. */
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err);
 void gn_bytes_finish(struct gn_bytes *bytes);
 
-/* Writes path atomically: a temporary file in the same folder, fsync'd and renamed; nothing is left
- * behind on failure. What is a device or a FIFO, or lies in /proc or /dev (but not in /dev/shm),
- * such as /dev/stdout, is written to directly: through the descriptor that it names, from where
- * that stands, and a file behind it ends there. */
+/* Writes path atomically: a temporary file in the same folder, fsync'd and renamed, removed on
+ * failure. A device, a FIFO and anything in /proc or /dev but not /dev/shm, such as /dev/stdout, is
+ * written directly: through the descriptor that it names, at its offset; a regular file behind it
+ * is truncated after the data. */
 bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err);
 
-/* The same for a path that somebody else names: written to is a regular file or nothing at all.
- * What is a link, a folder or a device stays what it is, and where a link leads nothing is written.
- */
+/* The same for a path from an untrusted source: replaces a regular file or creates one; refuses
+ * links, folders and devices, and follows no link. */
 bool gn_file_replace(const char *path, const void *data, size_t size, struct gn_err *err);
 
-/* Opens /dev/null on those of the descriptors 0, 1 and 2 that are closed: one would be given to the
- * next file that is opened, and libraries print there. */
+/* Opens /dev/null as each of the descriptors 0, 1 and 2 that is closed: otherwise the next file
+ * opened would get that number, and libraries print to it. */
 void gn_file_fill_standard(void);
-/* Flushes standard output; fails if not all that was printed has arrived. A reader that had enough
- * (`| head`) is no failure. */
+/* Flushes standard output; fails if some output was lost. A reader that closed its end (`| head`)
+ * is no failure. */
 bool gn_file_flush_output(struct gn_err *err);
 
 #endif

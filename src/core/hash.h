@@ -1,4 +1,4 @@
-/* A 64-bit hash for "is this still the same?" (dirty maps, program keys). Not for hostile input. */
+/* A 64-bit hash for change detection (shadow maps, program keys). Not for hostile input. */
 #ifndef GN_CORE_HASH_H
 #define GN_CORE_HASH_H
 

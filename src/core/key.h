@@ -1,5 +1,5 @@
-/* Keys by the numbers that Linux gives them (linux/input-event-codes.h), whoever tells of them: an
- * input device, a window, a terminal. */
+/* Key codes of Linux (linux/input-event-codes.h), for keys of input devices, windows and terminals.
+ */
 #ifndef GN_CORE_KEY_H
 #define GN_CORE_KEY_H
 
@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum gn_key { /* those that are named here and there; the table in key.c has more */
+enum gn_key { /* keys that the code names; the table in key.c has more */
               GN_KEY_NONE = 0,
               GN_KEY_ESC = 1,
               GN_KEY_BACKSPACE = 14,
@@ -37,10 +37,10 @@ struct gn_key_event {
     int64_t time_ns; /* monotonic */
 };
 
-/* "space", "f1", "a", "btn_0"; "key_600" for one without a name of its own. Never NULL. */
+/* "space", "f1", "a", "btn_0"; "key_600" if key.c has no name for it. Never NULL. */
 const char *gn_key_name(unsigned key, char *buffer, size_t size);
-/* By name, in upper or lower case, or by a number as in "key_600"; GN_KEY_NONE: none is called
- * that. */
+/* By name, in upper or lower case, or by a number as in "key_600"; GN_KEY_NONE: unknown
+ * name. */
 unsigned gn_key_find(const char *name);
 
 #endif

@@ -1,4 +1,4 @@
-/* Files of models that gnomon does not read itself: gnomon-import makes .glb files of them. */
+/* Model formats that gnomon-import converts to .glb. */
 #ifndef GN_CORE_MODEL_H
 #define GN_CORE_MODEL_H
 
@@ -12,12 +12,12 @@ enum gn_model_format {
 };
 
 struct gn_model_row {
-    const char *name;   /* for people: "Collada" */
-    const char *suffix; /* of their files: ".dae" */
+    const char *name;   /* as printed: "Collada" */
+    const char *suffix; /* ".dae" */
 };
 extern const struct gn_model_row gn_model_formats[GN_MODEL_FORMAT_COUNT];
 
-/* By the end of the name, in capitals or not; GN_MODEL_FORMAT_COUNT if it is none of them. */
+/* By the suffix of the name, ignoring case; GN_MODEL_FORMAT_COUNT: unknown. */
 enum gn_model_format gn_model_format_of(const char *path);
 
 #endif

@@ -1,11 +1,11 @@
-/* What libraries say on stderr, kept from people: they get one line, and it is ours. */
+/* Silences stderr while a library prints to it: an error is one line, printed by main(). */
 #ifndef GN_CORE_QUIET_H
 #define GN_CORE_QUIET_H
 
-/* From now on stderr leads nowhere. The descriptor that it had, to be given to gn_quiet_end(), or
- * -1 where it was left as it is. */
+/* Redirects stderr to /dev/null. Returns a copy of the old descriptor for gn_quiet_end(), or -1 if
+ * stderr was left unchanged. */
 int gn_quiet_begin(void);
-/* -1 is legal. */
+/* Restores stderr; -1 is legal. */
 void gn_quiet_end(int kept);
 
 #endif

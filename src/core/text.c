@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define DISTANCE_MAX 31
-#define ENDS_MIN     64 /* shorter texts have no middle that could be spared */
+#define ENDS_MIN     64 /* texts of fewer bytes are cut at the end */
 
 static int is_control(const unsigned char *c) {
     return *c < 0x20 || *c == 0x7f || (c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0);
@@ -35,7 +35,7 @@ static void cut_at_character(char *text, size_t length) {
     if (start - 1 + utf8_length((unsigned char)text[start - 1]) > length) text[start - 1] = '\0';
 }
 
-/* out, which is full, becomes the beginning and the end of text. */
+/* Fills out with the beginning and the end of text. */
 static void join_ends(char *out, size_t size, const char *text, size_t length) {
     static const char gap[] = "...";
     out[size / 2] = '\0';

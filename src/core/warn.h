@@ -1,6 +1,6 @@
-/* Warnings: things that a user should know but that stop nothing. They are held back while work
- * goes on and printed by main() at the end, on success or with -v. Fixed size, so a hostile file
- * cannot make it grow; equal texts count once. */
+/* Warnings: problems that stop nothing. They are collected and printed by main() at the end, on
+ * success or with -v. The size is fixed, so that a hostile file cannot make it grow; equal texts
+ * are kept once. */
 #ifndef GN_CORE_WARN_H
 #define GN_CORE_WARN_H
 
@@ -10,7 +10,7 @@
 
 struct gn_warnings {
     int count;   /* texts held, at most GN_WARN_MAX */
-    int dropped; /* different ones beyond that */
+    int dropped; /* different texts beyond that */
     char text[GN_WARN_MAX][256];
 };
 

@@ -16,14 +16,14 @@ bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_er
     int read[2] = {0}, space;
     bool done = handle ? read_header(handle, data, size, read, &space, err)
                        : gn_fail(err, "JPEG: %s", tjGetErrorStr2(NULL));
-    if (done && (read[0] <= 0 || read[1] <= 0)) done = gn_fail(err, "JPEG: no size in it");
+    if (done && (read[0] <= 0 || read[1] <= 0)) done = gn_fail(err, "JPEG: width or height is 0");
     px[0] = (uint32_t)read[0];
     px[1] = (uint32_t)read[1];
     if (handle) tjDestroy(handle);
     return done;
 }
 
-/* Adobe stores the four inks inverted. */
+/* Adobe stores CMYK inverted. */
 static void rgb_from_cmyk(uint8_t *pixels, size_t count) {
     for (uint8_t *p = pixels; p < pixels + 4 * count; p += 4) {
         for (int k = 0; k < 3; k++) p[k] = (uint8_t)((p[k] * p[3] + 127) / 255);
@@ -36,7 +36,7 @@ static bool decode_jpeg(tjhandle handle, const uint8_t *data, size_t size, const
     int read[2], space;
     if (!read_header(handle, data, size, read, &space, err)) return false;
     if ((uint32_t)read[0] != px[0] || (uint32_t)read[1] != px[1])
-        return gn_fail(err, "JPEG: changed");
+        return gn_fail(err, "JPEG: size differs from its header");
     bool inks = space == TJCS_CMYK || space == TJCS_YCCK;
     int failed =
         tjDecompress2(handle, data, (unsigned long)size, rgba, read[0], 0, read[1],

@@ -1,5 +1,5 @@
-/* PNG of every kind to RGBA, 8 bits. libpng leaves by longjmp when it fails: it is called only from
- * here, and what must outlive a jump lies in one struct. */
+/* Any PNG to 8-bit RGBA. libpng reports errors by longjmp: it is called only from here, and state
+ * that must survive the jump is in struct reader. */
 #include "image/read.h"
 
 #include <png.h>
@@ -12,8 +12,8 @@ static uint32_t big_endian(const uint8_t *p) {
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | (uint32_t)p[3];
 }
 
-/* The header says more than deflate could ever make of the file: refused before memory is asked
- * for. */
+/* Whether the size in the header exceeds what deflate can expand the file to; checked before memory
+ * is allocated. */
 static bool too_small(const uint8_t *data, size_t size, const uint32_t px[2]) {
     static const uint8_t channels[] = {1, 0, 3, 1, 2, 0, 4};
     uint64_t bits = (uint64_t)data[24] * (data[25] < sizeof channels ? channels[data[25]] : 1);
@@ -21,8 +21,8 @@ static bool too_small(const uint8_t *data, size_t size, const uint32_t px[2]) {
     return (uint64_t)px[0] * px[1] / 8 * bits / 1100 > size;
 }
 
-/* A chunk before the pixels claims more than the file has: libpng would allocate and clear what the
- * claim says (2 GB) before it reads. */
+/* Whether a chunk before the pixels is longer than the file: libpng would allocate and clear that
+ * length (up to 2 GB) before it reads. */
 static bool has_long_chunk(const uint8_t *data, size_t size) {
     for (size_t at = 8; size - at >= 12;) {
         const size_t length = big_endian(data + at);
@@ -34,12 +34,13 @@ static bool has_long_chunk(const uint8_t *data, size_t size) {
 }
 
 bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err) {
-    if (size < IHDR_END || memcmp(data + 12, "IHDR", 4) != 0) return gn_fail(err, "PNG: cut short");
+    if (size < IHDR_END || memcmp(data + 12, "IHDR", 4) != 0) return gn_fail(err, "PNG: truncated");
     px[0] = big_endian(data + 16);
     px[1] = big_endian(data + 20);
-    if (px[0] > INT32_MAX || px[1] > INT32_MAX) return gn_fail(err, "PNG: no such size");
+    if (px[0] > INT32_MAX || px[1] > INT32_MAX)
+        return gn_fail(err, "PNG: width or height out of range");
     if (too_small(data, size, px) || has_long_chunk(data, size))
-        return gn_fail(err, "PNG: cut short");
+        return gn_fail(err, "PNG: truncated");
     return true;
 }
 
@@ -55,7 +56,7 @@ struct reader {
 
 static void read_bytes(png_structp png, png_bytep out, size_t size) {
     struct reader *reader = png_get_io_ptr(png);
-    if (size > reader->left) png_error(png, "cut short");
+    if (size > reader->left) png_error(png, "truncated");
     memcpy(out, reader->data, size);
     reader->data += size;
     reader->left -= size;
@@ -96,7 +97,7 @@ static bool decode_png(struct reader *reader, const uint32_t px[2], uint8_t *rgb
     png_read_update_info(reader->png, reader->info);
     if (png_get_rowbytes(reader->png, reader->info) != 4 * (size_t)px[0] ||
         png_get_image_height(reader->png, reader->info) != px[1])
-        png_error(reader->png, "not of the size that its header says");
+        png_error(reader->png, "size differs from its header");
     reader->rows = png_malloc(reader->png, px[1] * sizeof *reader->rows);
     for (uint32_t y = 0; y < px[1]; y++) reader->rows[y] = rgba + 4 * (size_t)px[0] * y;
     png_read_image(reader->png, reader->rows);

@@ -8,7 +8,7 @@
 
 #include "core/err.h"
 
-/* The size that the header says; then the pixels, width x height x 4 bytes of RGBA, top row first.
+/* The size in the header; then the pixels, width x height x 4 bytes of RGBA, top row first.
  */
 bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
 bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,

@@ -12,13 +12,13 @@ bool gn_picture_format_of(const char *path, enum gn_picture_format *format, stru
     const char *dot = strrchr(path, '.');
     *format = dot && strcmp(dot, ".pfm") == 0 ? GN_PICTURE_PFM : GN_PICTURE_PNG;
     if (dot && (strcmp(dot, ".png") == 0 || *format == GN_PICTURE_PFM)) return true;
-    return gn_fail_usage(err, "-o %s: a picture ends in .png or .pfm", path);
+    return gn_fail_usage(err, "-o %s: unknown picture format: use .png or .pfm", path);
 }
 
 void *gn_picture_alloc(size_t pixels, size_t bytes, struct gn_err *err) {
     void *memory = calloc(pixels ? pixels : 1, bytes);
     if (!memory)
-        gn_fail(err, "no memory for a picture of %zu pixels: use a smaller --size or --map",
+        gn_fail(err, "out of memory for a picture of %zu pixels: use a smaller --size or --map",
                 pixels);
     return memory;
 }
@@ -26,10 +26,10 @@ void *gn_picture_alloc(size_t pixels, size_t bytes, struct gn_err *err) {
 struct buffer {
     uint8_t *data;
     size_t size, room;
-    bool full; /* no memory for the rest */
+    bool full; /* out of memory */
 };
 
-static void append(png_structp png, png_bytep data, png_size_t size) {
+static void append_bytes(png_structp png, png_bytep data, png_size_t size) {
     struct buffer *b = png_get_io_ptr(png);
     if (b->size + size > b->room && !b->full) {
         uint8_t *more = realloc(b->data, 2 * (b->size + size));
@@ -42,17 +42,17 @@ static void append(png_structp png, png_bytep data, png_size_t size) {
 }
 
 static void no_flush(png_structp png) { (void)png; }
-static void say_nothing(png_structp png, png_const_charp text) { (void)png, (void)text; }
+static void ignore_warning(png_structp png, png_const_charp text) { (void)png, (void)text; }
 
-/* rows: bit depth 8 RGB or 16 grey, big-endian, tightly packed. Only want of memory for its own few
- * tables makes libpng fail here: it aborts. */
+/* rows: bit depth 8 RGB or 16 grey, big-endian, tightly packed. libpng can fail here only for lack
+ * of memory for its small tables: it aborts. */
 static struct buffer encode_png(const uint8_t *rows, int color_type, int depth, size_t stride,
                                 int width_px, int height_px, bool srgb) {
     struct buffer buffer = {0};
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, say_nothing);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, ignore_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) abort();
-    png_set_write_fn(png, &buffer, append, no_flush);
+    png_set_write_fn(png, &buffer, append_bytes, no_flush);
     png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
     png_set_compression_level(png, 4);
     png_set_IHDR(png, info, (png_uint_32)width_px, (png_uint_32)height_px, depth, color_type,
@@ -68,7 +68,7 @@ static struct buffer encode_png(const uint8_t *rows, int color_type, int depth, 
 static bool write_png(const char *path, const uint8_t *rows, int color_type, int depth,
                       size_t stride, int width_px, int height_px, bool srgb, struct gn_err *err) {
     struct buffer buffer = encode_png(rows, color_type, depth, stride, width_px, height_px, srgb);
-    bool ok = buffer.full ? gn_fail(err, "%s: no memory for it: use a smaller --size", path)
+    bool ok = buffer.full ? gn_fail(err, "%s: out of memory: use a smaller --size", path)
                           : gn_file_write(path, buffer.data, buffer.size, err);
     free(buffer.data);
     return ok;
@@ -79,7 +79,8 @@ bool gn_picture_encode_png8(const uint8_t *rgb, int width_px, int height_px, str
     struct buffer buffer =
         encode_png(rgb, PNG_COLOR_TYPE_RGB, 8, (size_t)width_px * 3, width_px, height_px, true);
     *out = (struct gn_bytes){buffer.data, buffer.size};
-    return !buffer.full || gn_fail(err, "no memory for a picture of %d x %d", width_px, height_px);
+    return !buffer.full ||
+           gn_fail(err, "out of memory for a picture of %d x %d", width_px, height_px);
 }
 
 bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px,

@@ -1,4 +1,4 @@
-/* Pictures to files: PNG by libpng, PFM (Debevec's float map, little-endian, bottom row first).
+/* Writes pictures: PNG by libpng, PFM (Debevec's float map, little-endian, bottom row first).
  * Written whole or not at all. */
 #ifndef GN_IMAGE_WRITE_H
 #define GN_IMAGE_WRITE_H
@@ -11,14 +11,14 @@
 #include "core/file.h"
 
 enum gn_picture_format { GN_PICTURE_PNG, GN_PICTURE_PFM };
-/* By the name's ending; a usage error for another one. */
+/* By the name's suffix; a usage error for any other. */
 bool gn_picture_format_of(const char *path, enum gn_picture_format *format, struct gn_err *err);
 
-/* Zeroed memory for that many pixels of so many bytes, for free(). Its size is what somebody asked
- * for, so want of it is a failure like any other: NULL. */
+/* Zeroed memory for pixels of so many bytes each, freed by free(). The user chooses the size, so
+ * out of memory is a runtime error: NULL. */
 void *gn_picture_alloc(size_t pixels, size_t bytes, struct gn_err *err);
 
-/* All take the top row first. srgb: says in the file that the values are sRGB-encoded. */
+/* All take the top row first. srgb: marks the values as sRGB-encoded. */
 bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px,
                            bool srgb, struct gn_err *err);
 /* The same from RGB, sRGB-encoded, into memory; gn_bytes_finish() frees it also after a failure.

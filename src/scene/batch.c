@@ -1,11 +1,11 @@
-/* The order of the items. Those that one instanced call can draw stand together: same geometry,
- * same flags, and materials that look alike but for their factors. */
+/* Sorts the items so that those of one instanced call are adjacent: same geometry, same flags, and
+ * materials that differ only in factors. */
 #include "scene/private.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What makes two materials different programs or different state, as words to compare. */
+/* The properties of a material that select its program and state, as words to compare. */
 enum {
     SLOT_WORDS = 2 + 6,
     FLAG_WORDS = 5,

@@ -1,5 +1,5 @@
-/* Is a geometry the boundary of solid bodies, front faces outward? Then for a light outside, what
- * it reaches first is always a front face, and the other half of the triangles need not go into its
+/* Whether a geometry is the boundary of solid bodies with front faces outward. Then the first
+ * surface that a light outside reaches is a front face, and back faces can be left out of its
  * shadow map.
  *
  * Vertices are welded by position. A surface is closed when every directed edge meets its opposite,

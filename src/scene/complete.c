@@ -1,11 +1,11 @@
-/* What the file left open: bounds, the plane, a key light and a camera where there are none. */
+/* Completes a scene: bounds, the plane, a key light and a camera if it has none. */
 #include "scene/private.h"
 
 #include <math.h>
 
 #include "scene/pose.h"
 
-/* ---- nodes that are made ---- */
+/* ---- added nodes ---- */
 
 /* A node at position whose -Z looks along forward_ws. */
 static uint32_t add_node(struct gn_gltf *g, const char *name, vec3 position, vec3 forward_ws) {
@@ -24,8 +24,8 @@ static uint32_t add_node(struct gn_gltf *g, const char *name, vec3 position, vec
     return scene->node_count++;
 }
 
-/* From above, in front, a little left of the camera that is made: all three sides of a box that it
- * sees are lit, each differently. A white side without light would have the background's colour. */
+/* A light from above, the front and a little left of the added camera: the three visible sides of a
+ * box are lit differently. An unlit white side would have the colour of the background. */
 static void make_light(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     scene->made_light = true;
@@ -67,7 +67,7 @@ static float fitting_distance(const struct gn_box *box, vec3 axes[3], float slop
     return distance;
 }
 
-/* Three quarters: from the front, the right and above. */
+/* A three-quarter view: from the front, the right and above. */
 static void make_camera(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     const float yfov_rad = glm_rad(35), filled = .92f;
@@ -119,7 +119,7 @@ bool gn_scene_complete(struct gn_gltf *g) {
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_NONE);
     scene->box = pose.box_ws;
-    if (scene->box.min[0] > scene->box.max[0]) /* nothing to be seen as the file places it */
+    if (scene->box.min[0] > scene->box.max[0]) /* nothing is visible in the initial pose */
         scene->box = (struct gn_box){{-1, -1, -1}, {1, 1, 1}};
     gn_scene_find_plane(g, &pose);
     gn_pose_finish(&pose);

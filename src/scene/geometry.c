@@ -7,14 +7,14 @@
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5 };
 
-/* Squares of larger numbers do not fit a float. */
+/* The square of a larger number overflows a float. */
 static bool position_is_usable(const float *p) {
     return fabsf(p[0]) < 1e18f && fabsf(p[1]) < 1e18f && fabsf(p[2]) < 1e18f;
 }
 
 /* ---- vertices ---- */
 
-/* Where a vertex of the scene comes from: source[i], or i itself if source is NULL. */
+/* Maps vertices of the scene to elements of an accessor: source[i], or i if source is NULL. */
 struct gather {
     const struct gn_accessor *accessor;
     const uint32_t *source;
@@ -152,8 +152,8 @@ static void triangle_at(const uint32_t *raw, int32_t mode, size_t t, uint32_t ou
     }
 }
 
-/* Unrolls strips and fans into out, without triangles that have no area by their indices or a
- * position that is no place; returns the number of corners. */
+/* Unrolls strips and fans into out, dropping triangles with equal indices or with a
+ * position that is not finite; returns the number of corners. */
 static size_t unroll_triangles(struct gn_gltf *g, const struct gn_at *at,
                                const struct gn_shape *shape, const uint32_t *raw,
                                const float *positions, uint32_t *out) {
@@ -240,8 +240,8 @@ static bool fill_geometry(struct gn_gltf *g, struct gn_shape *shape, struct gn_g
     if (!(flat ? fill_flat_geometry : fill_shared_geometry)(g, &at, shape, geometry)) return false;
     g->scene->index_count += geometry->index_count;
     gn_geometry_measure(g->scene, geometry, &shape->area);
-    /* Its cost goes with the vertices, which many geometries may share: only where most are its
-     * own. */
+    /* The test visits all vertices, which many geometries may share: run it only where most belong
+     * to this one. */
     if (geometry->vertex_count <= 2 * (uint64_t)geometry->index_count)
         geometry->closed = gn_geometry_is_closed(g, geometry);
     return true;
@@ -249,7 +249,7 @@ static bool fill_geometry(struct gn_gltf *g, struct gn_shape *shape, struct gn_g
 
 /* ---- all of them ---- */
 
-/* Room for the most that there can be. */
+/* Allocates for the largest possible number of vertices and indices. */
 static bool allocate_vertices(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     uint64_t vertices = 0, corners = 0;
@@ -279,7 +279,7 @@ static bool allocate_vertices(struct gn_gltf *g) {
     return !g->failed;
 }
 
-/* Vertices that no triangle uses must still be harmless. */
+/* Makes vertices that no triangle uses finite, too. */
 static void tidy_vertices(struct gn_scene *scene) {
     for (size_t i = 0; i < scene->vertex_count; i++) {
         float *p = scene->positions + 3 * i, *n = scene->normals + 3 * i;

@@ -1,12 +1,11 @@
-/* What follows from a geometry's triangles: normals where the file has none, bounds, and whether it
- * is flat. */
+/* Derived from the triangles of a geometry: missing normals, bounds, and whether it is flat. */
 #include "scene/private.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Twice the area along the normal of a counter-clockwise triangle; in double, since edges may be
- * short and far away. */
+/* The normal of a counter-clockwise triangle, of twice its area as length; in double, since edges
+ * may be short and far from the origin. */
 static void cross_of(const float *a, const float *b, const float *c, double out[3]) {
     double u[3], v[3];
     for (int i = 0; i < 3; i++) {
@@ -20,7 +19,7 @@ static void cross_of(const float *a, const float *b, const float *c, double out[
 
 static double length_of(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-/* Up, for a triangle without area. */
+/* +Y for a triangle without area. */
 static void face_normal(const float *a, const float *b, const float *c, float out[3]) {
     double n[3];
     cross_of(a, b, c, n);
@@ -30,8 +29,8 @@ static void face_normal(const float *a, const float *b, const float *c, float ou
 
 /* ---- normals ---- */
 
-/* glTF has flat normals where none are given: a vertex is made again for each face around it that
- * looks another way. */
+/* glTF requires flat normals where a file has none: a vertex is duplicated for each face around it
+ * with another normal. */
 bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_t *corners,
                               size_t corner_count, size_t vertex_count, uint32_t **source,
                               float **normals, size_t *made) {
@@ -91,7 +90,7 @@ static struct gn_box box_of(const struct gn_scene *scene, const struct gn_geomet
     return box;
 }
 
-/* The normal of the largest triangle, turned to the side to which most of the area looks. */
+/* The normal of the largest triangle, oriented to the side that most of the area faces. */
 static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry *geometry,
                          double out[3], double *area) {
     const uint32_t *index = scene->indices + geometry->first_index;

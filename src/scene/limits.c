@@ -8,7 +8,7 @@
 static const struct row {
     const char *name;
     size_t offset;
-    uint64_t normal, most;
+    uint64_t fallback, most;
 } ROWS[] = {
     {"file_mb", offsetof(struct gn_scene_limits, file_mb), 512, 1 << 20},
     {"memory_mb", offsetof(struct gn_scene_limits, memory_mb), 1024, 1 << 20},
@@ -41,14 +41,14 @@ bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint6
     char names[160] = "";
     for (size_t i = 0, at = 0; i < ROW_COUNT && at < sizeof names; i++)
         at += (size_t)snprintf(names + at, sizeof names - at, " %s", ROWS[i].name);
-    return gn_fail_usage(err, "no limit is called '%s'; there are:%s", name, names);
+    return gn_fail_usage(err, "unknown limit '%s'; limits are:%s", name, names);
 }
 
 struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *limits) {
     struct gn_scene_limits result = limits ? *limits : (struct gn_scene_limits){0};
     for (size_t i = 0; i < ROW_COUNT; i++) {
         uint64_t *value = limit_field(&result, &ROWS[i]);
-        if (*value == 0) *value = ROWS[i].normal;
+        if (*value == 0) *value = ROWS[i].fallback;
         if (*value > ROWS[i].most) *value = ROWS[i].most;
     }
     return result;
@@ -58,5 +58,5 @@ void gn_scene_limits_list(char *out, size_t size) {
     out[0] = '\0';
     for (size_t i = 0, at = 0; i < ROW_COUNT && at < size; i++)
         at += (size_t)snprintf(out + at, size - at, "%s%s=%" PRIu64, i ? ", " : "", ROWS[i].name,
-                               ROWS[i].normal);
+                               ROWS[i].fallback);
 }

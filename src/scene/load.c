@@ -1,4 +1,4 @@
-/* The steps of a load, in order, and what belongs to the whole: opening, freeing, finding. */
+/* Loading a scene: the steps in order; freeing a scene; finding its cameras and clips. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -157,7 +157,7 @@ static int find_named(const struct gn_scene *scene, const struct list *list, con
     if (list->count == 0)
         gn_fail_usage(err, "the scene has no %s", list->kind);
     else
-        gn_fail_usage(err, "no %s is called '%.60s'; there are: %s", list->kind, what, names);
+        gn_fail_usage(err, "no %s named '%.60s'; available: %s", list->kind, what, names);
     return -1;
 }
 

@@ -1,12 +1,12 @@
-/* Which flat thing receives planar shadows: what gnomon_plane names, else the largest flat face of
- * the scene if it is large enough to be a floor or a wall. */
+/* Finds the receivers of planar shadows: items marked by gnomon_plane, else the largest flat item
+ * of the scene if it is large enough to be a floor or a wall. */
 #include "scene/private.h"
 
 #include <math.h>
 
 #include "scene/pose.h"
 
-/* The least share of the scene, seen along the face's normal, that a found plane covers. */
+/* The minimum share of the scene's box, projected along the plane's normal, that it covers. */
 static const double LEAST_SHARE = .3;
 
 static void measure_in_world(const struct gn_pose *pose, uint32_t i, vec3 normal_ws, double *area) {
@@ -19,7 +19,7 @@ static void measure_in_world(const struct gn_pose *pose, uint32_t i, vec3 normal
     if (stretch > 0) glm_vec3_scale(normal_ws, (float)(1 / stretch), normal_ws);
 }
 
-/* Area of the box's shadow along n. */
+/* Area of the box projected along n. */
 static double box_area_along(const struct gn_box *box, vec3 n) {
     double s[3];
     for (int k = 0; k < 3; k++) s[k] = (double)box->max[k] - (double)box->min[k];
@@ -36,7 +36,7 @@ static bool is_coplanar(const struct gn_pose *pose, uint32_t a, uint32_t b) {
     return glm_vec3_distance(p, q) < 1e-4f && fabsf(p[3] - q[3]) < 1e-4f * size;
 }
 
-/* All that is named has to lie in the plane of the first: there is one. */
+/* All marked items must lie in the plane of the first. */
 static bool mark_named_planes(struct gn_gltf *g, const struct gn_pose *pose) {
     struct gn_scene *scene = g->scene;
     bool named = false;

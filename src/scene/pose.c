@@ -8,14 +8,14 @@
 #include "core/hash.h"
 #include "scene/private.h"
 
-struct memory {              /* what pose->memory points to */
-    struct gn_node *local;   /* the scene's nodes as the clips have them now */
-    uint32_t *nodes, *items; /* those that move */
+struct memory {              /* pose->memory */
+    struct gn_node *local;   /* the scene's nodes with the clips applied */
+    uint32_t *nodes, *items; /* animated ones */
     uint32_t node_count, item_count;
-    struct gn_box still_ws; /* of the visible items that do not */
+    struct gn_box still_ws; /* of the visible items that are not animated */
 };
 
-static const float LIMIT = 1e18f; /* beyond it squares overflow */
+static const float LIMIT = 1e18f; /* the square of a larger number overflows */
 
 /* ---- matrices ---- */
 
@@ -173,7 +173,7 @@ static void list_moving(struct gn_pose *pose) {
         if (pose->node_moves[scene->items[i].node]) memory->items[memory->item_count++] = i;
 }
 
-/* Everything once, as the file places it; what stands still is done with. */
+/* Poses everything once; items that are not animated keep this pose. */
 static void pose_still(struct gn_pose *pose) {
     struct memory *memory = pose->memory;
     const struct gn_scene *scene = pose->scene;
@@ -243,7 +243,7 @@ void gn_pose_finish(struct gn_pose *pose) {
     *pose = (struct gn_pose){0};
 }
 
-/* ---- eyes and lights ---- */
+/* ---- cameras and lights ---- */
 
 /* The unit vector along v, or the fallback if it has no length. */
 static void unit_or(const float *v, const float *fallback, vec3 out) {
@@ -260,7 +260,7 @@ static void position_of(vec4 *world_from_node, vec3 out) {
     }
 }
 
-/* Without the node's scale; the sense of its X axis is made right. */
+/* Drops the scale of the node and makes its axes right-handed. */
 static void rigid_inverse(vec4 *world, mat4 out) {
     vec3 axes[3], origin, side;
     unit_or(world[2], (vec3){0, 0, 1}, axes[2]);

@@ -1,4 +1,5 @@
-/* A scene at a time: where everything is. Made once for a scene, stepped without allocating. */
+/* The pose of a scene at a time: all transforms. Created once for a scene, stepped without
+ * allocating. */
 #ifndef GN_SCENE_POSE_H
 #define GN_SCENE_POSE_H
 
@@ -31,22 +32,22 @@ struct gn_pose {
 
 /* Makes a pose at time 0. The scene must outlive it. */
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips);
-/* The same pose with other clips, as if it were made anew; allocates nothing. */
+/* Changes the clips, as if initialised again; allocates nothing. */
 void gn_pose_choose(struct gn_pose *pose, int clips);
-/* Moves it to time_ns (any value; clips loop, negative times too). Allocates nothing; costs nothing
- * for what stands still. */
+/* Moves it to time_ns (any value; clips loop, negative times too). Allocates nothing; nodes that
+ * are not animated cost nothing. */
 void gn_pose_step(struct gn_pose *pose, int64_t time_ns);
 void gn_pose_finish(struct gn_pose *pose);
 
 /* view_from_world of a camera at this pose, rigid (scale is dropped); eye_ws gets its position if
  * not NULL. */
 void gn_pose_view(const struct gn_pose *pose, uint32_t camera, mat4 view_from_world, vec3 eye_ws);
-/* The same of a light, which looks along its -Z. */
+/* The same for a light, along its -Z. */
 void gn_pose_light_view(const struct gn_pose *pose, uint32_t light, mat4 light_from_world);
-/* Where a light is and the unit vector along which it shines, world space. */
+/* Position of a light and the unit vector along which it shines, world space. */
 void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws, vec3 direction_ws);
-/* To length 1 however short or long it is; zero stays zero. glm_vec3_normalize() makes zero of what
- * is shorter than 1.2e-7, from cglm 0.9 on. */
+/* Normalises a vector of any length; zero stays zero. glm_vec3_normalize() of cglm 0.9 and later
+ * returns zero for lengths under 1.2e-7. */
 void gn_unit(vec3 v);
 
 /* The plane of a flat item, world space: n.p + d = 0, |n| = 1, on the side its front faces look to.

@@ -1,9 +1,9 @@
-/* A channel at a time, as glTF 2.0, appendix C has it. */
+/* The value of an animation channel at a time: glTF 2.0, appendix C. */
 #include "scene/private.h"
 
 #include <string.h>
 
-/* The last key at or before time_s; before the first there is only the first. */
+/* The last key at or before time_s, or the first. */
 static uint32_t key_before(const struct gn_channel *channel, double time_s) {
     uint32_t low = 0, high = channel->key_count;
     while (high - low > 1) {

@@ -1,6 +1,5 @@
-/* What the files of the loader share. One struct gn_gltf lives for one load; its first failure
- * sticks, getters answer with harmless values from then on, and the steps of load.c look at
- * `failed` between them. */
+/* Shared by the files of the loader. struct gn_gltf is the state of one load; its first failure
+ * sticks: from then on getters return harmless values. load.c checks `failed` between its steps. */
 #ifndef GN_SCENE_PRIVATE_H
 #define GN_SCENE_PRIVATE_H
 
@@ -12,7 +11,7 @@
 struct gn_blob { /* bytes of a file, a data URI or a part of the model itself */
     const uint8_t *data;
     size_t size;
-    struct gn_bytes file; /* what must be freed, if it came from a file */
+    struct gn_bytes file; /* owned, if it came from a file */
 };
 
 struct gn_view { /* a bufferView that lies inside its buffer; data is NULL where the buffer is a
@@ -31,7 +30,7 @@ enum gn_component { /* glTF's numbers */
                     GN_F32 = 5126,
 };
 
-/* A checked accessor: data + stride * (count - 1) + one element lie inside memory that we hold.
+/* A checked accessor: data + stride * (count - 1) + one element lie inside owned memory.
  * Stride may be 0 (an accessor without a bufferView is one element of zeros). Elements may be
  * unaligned: read them with the functions below. */
 struct gn_accessor {
@@ -41,10 +40,10 @@ struct gn_accessor {
     uint8_t components; /* of one element: 1 for SCALAR .. 16 for MAT4 */
     bool normalized;
     bool backed;   /* has a bufferView or sparse values; else it is all zeros */
-    bool resolved; /* gn_gltf_accessor has been here */
+    bool resolved; /* checked by gn_gltf_accessor() */
 };
 
-/* Later work: the scene is shown without these, and one warning names them. */
+/* Features not supported yet: the scene is shown without them, and one warning lists them. */
 enum gn_missing {
     GN_MISSING_SKINS,
     GN_MISSING_MORPHS,
@@ -85,7 +84,7 @@ struct gn_placed { /* what a node of the scene carries, beyond its transform */
     size_t json;   /* its number in the file */
     int32_t mesh;
     uint32_t first_instance, instance_count;
-    bool bare; /* not listed: only here to carry a descendant that is */
+    bool bare; /* not listed by the scene: kept for a descendant that is */
     bool receives, casts;
     enum gn_tristate plane;
     enum gn_cast_faces cast_faces;
@@ -152,7 +151,7 @@ void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format,
 /* Zeroed memory within memory_mb over all arenas; NULL fails the load. */
 void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, size_t size);
 char *gn_gltf_strdup(struct gn_gltf *g, const char *text); /* "" for NULL; into the scene */
-/* Bytes that memory_mb still leaves. */
+/* Bytes left within memory_mb. */
 size_t gn_gltf_room(const struct gn_gltf *g);
 
 /* ---- the steps of load.c, in order ---- */
@@ -172,10 +171,10 @@ bool gn_gltf_animations(struct gn_gltf *g); /* gltf/anim.c */
 bool gn_scene_complete(struct gn_gltf *g);  /* complete.c */
 bool gn_scene_batch(struct gn_gltf *g);     /* batch.c */
 
-/* ---- helpers of one file that others use ---- */
+/* ---- helpers ---- */
 
-/* uri.c: data: URIs and files in the model's folder or below. The text of err has no path before
- * it. */
+/* uri.c: data: URIs and files in the model's folder or below. err has no path before its
+ * text. */
 bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err);
 void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob);
 
@@ -188,26 +187,26 @@ void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *o
 /* All elements as numbers, into out: count of them. The accessor is of unsigned scalars. */
 void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out);
 
-/* geometry_finish.c: the parts of making a geometry that need its triangles only. */
+/* geometry_finish.c: steps of making a geometry that need only its triangles. */
 /* Flat normals for triangles that have none. positions: 3 x vertex_count. corners: corner_count
  * indices into them, which become indices into the *made vertices; of these *source[i] is the
  * position and 3 floats of *normals the normal. Both are in work memory. */
 bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_t *corners,
                               size_t corner_count, size_t vertex_count, uint32_t **source,
                               float **normals, size_t *made);
-/* Gives normals of no length that of a face; how many there were. */
+/* Replaces normals of length 0 by the normal of a face; returns their number. */
 size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geometry *geometry);
-/* closed.c. False also when what memory_mb leaves is too little to find out. */
+/* closed.c. False also where memory_mb leaves too little memory for the test. */
 bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *geometry);
 /* Sets box, flat and plane; *area: of all triangles, square units of mesh space. */
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area);
 
-/* gltf/image.c: the scene's texture for one of the file's, made now if need be; -1: none, or
+/* gltf/image.c: the scene's texture for one of the file, created at its first use; -1: none, or
  * dropped with a warning. */
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture);
 
-/* gltf/extras.c: the gnomon_ keys; a wrong type or value is warned about by name, and the default
- * stays. */
+/* gltf/extras.c: the gnomon_ keys. A wrong type or value gives a warning with the key, and the
+ * default is kept. */
 void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_placed *placed);
 void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_light *light);
 void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene);
@@ -220,7 +219,7 @@ bool gn_gltf_instances(struct gn_gltf *g);
 struct gn_pose;
 void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose);
 
-/* pose_anim.c: the channel's value at a time, 3 or 4 floats. */
+/* pose_anim.c: the value of a channel at a time, 3 or 4 floats. */
 void gn_channel_sample(const struct gn_channel *channel, double time_s, float *out);
 
 /* pose.c */

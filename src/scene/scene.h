@@ -1,6 +1,6 @@
-/* What a .glb says, checked, resolved and ready to draw: immutable after loading, free of GL and of
- * the clock, and all that a new GL context needs. Right-handed, Y up, metres, linear colour. Every
- * index in it has been checked. */
+/* A scene: a glTF file, checked, resolved and ready to draw. Immutable after loading; knows no GL
+ * and no clock; has all that a new GL context needs. Right-handed, Y up, metres, linear colour.
+ * Every index in it has been checked. */
 #ifndef GN_SCENE_SCENE_H
 #define GN_SCENE_SCENE_H
 
@@ -21,7 +21,7 @@ struct gn_box { /* axis-aligned; empty when min > max */
 /* Pixels of a decoded picture. Row 0 is the top row, which glTF puts at v = 0. */
 struct gn_image {
     uint32_t width_px, height_px;
-    const uint8_t *rgba; /* width x height x 4, sRGB-encoded or linear as its use says */
+    const uint8_t *rgba; /* width x height x 4, sRGB-encoded or linear as its use requires */
     bool has_alpha;      /* some texel is not opaque */
 };
 
@@ -119,10 +119,10 @@ struct gn_light { /* one per node that carries one, in the order of a depth-firs
     const char *technique;      /* gnomon_shadow, or NULL */
     uint32_t map_px;            /* 0: the default */
     float shadow_strength;      /* 1 */
-    int32_t slide;              /* texture, or -1 */
-    float slide_size_m[2];      /* 0, 0: as large as the cone is there */
-    float slide_distance_m;     /* 0: where its longer side spans the cone */
-    bool slide_lit_outside;     /* a film; false: a projector, dark outside */
+    int32_t slide;              /* texture of the gobo, or -1 */
+    float slide_size_m[2];      /* 0, 0: fills the cone at its distance */
+    float slide_distance_m;     /* 0: the distance at which its longer side spans the cone */
+    bool slide_lit_outside;     /* light outside the slide: yes (film), no (projector) */
 };
 
 struct gn_camera {
@@ -177,19 +177,18 @@ struct gn_scene {
     struct gn_channel *channels;
     uint32_t geometry_count, material_count, image_count, texture_count, node_count, instance_count,
         item_count, light_count, camera_count, clip_count, channel_count, batch_count;
-    bool made_light, made_camera; /* the file had none: the last of its kind was made here */
+    bool made_light, made_camera; /* the file has none: the last one was added by the loader */
 
     vec3 sky, ground,
-        background; /* radiance of the hemisphere, linear, after exposure; background colour */
+        background; /* hemisphere radiance and background colour, linear, after exposure */
     struct gn_box
         box; /* of everything visible, world space, nodes as the file places them; never empty */
     uint64_t triangle_count; /* of all items */
-    size_t bytes;            /* memory the scene holds */
+    size_t bytes;            /* memory of the scene */
     void *memory;            /* its arena; private */
 };
 
-/* Bounds on what a file may ask for; 0 = the default beside each. Named so in --limit NAME=VALUE.
- */
+/* Limits on what a file may use; 0 = the default beside each. The names are those of --limit. */
 struct gn_scene_limits {
     uint64_t file_mb;             /* 512: any one file read */
     uint64_t memory_mb;           /* 1024: all that the scene holds */
@@ -201,30 +200,29 @@ struct gn_scene_limits {
     uint64_t json_depth;          /* 512 */
     uint64_t triangles_per_frame; /* 100000000: of all nodes and their instances */
 };
-/* Sets one limit by its name; false and a usage error that lists the names if there is no such. */
+/* Sets a limit by name; false and a usage error that lists the names if it is unknown. */
 bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,
                          struct gn_err *err);
-/* With each default filled in; limits may be NULL. */
+/* The limits with defaults filled in; limits may be NULL. */
 struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *limits);
 /* "file_mb=512, memory_mb=1024, ..": all names with their defaults. */
 void gn_scene_limits_list(char *out, size_t size);
 
-/* Loads a .glb or .gltf (by content, not by name) with the files it names, which must lie in its
- * folder or below. NULL and one line with the file and the JSON path or byte offset on failure.
+/* Loads a .glb or .gltf (by content, not by name) with the files it names, which must be in its
+ * folder or below. On failure NULL, and one line with the file and the JSON path or byte offset.
  * limits and warnings may be NULL. */
 struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err);
-/* The same from memory; external files are refused. label stands for the file in messages. */
+/* The same from memory; external files are refused. label names the file in messages. */
 struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t size,
                                      const struct gn_scene_limits *limits,
                                      struct gn_warnings *warnings, struct gn_err *err);
 void gn_scene_destroy(struct gn_scene *scene);
 
-/* Of one vertex, as GPUs get it. */
+/* Size of a vertex in GPU memory. */
 uint32_t gn_scene_vertex_bytes(const struct gn_scene *scene);
 
-/* Finds by name, else by number; -1 and a usage error that lists what there is. `what`: NULL or ""
- * gives 0 (first camera). */
+/* By name, else by number; -1 and a usage error that lists all. NULL or "" finds the first. */
 int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct gn_err *err);
 int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err);
 

@@ -1,6 +1,5 @@
-/* Where a URI of the model leads: into itself (data:), or to a regular file in its own folder or
- * below. Everything else is refused, by the real path, so that neither "..", nor a link leads out.
- */
+/* Fetches a URI of the model: a data URI, or a regular file in its folder or below. Everything else
+ * is refused, by the real path, so that neither ".." nor a link leads out. */
 #include "scene/private.h"
 
 #include <ctype.h>
@@ -15,8 +14,7 @@ static int hex_digit(char c) {
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* Undoes %XX into out (as large as text); the number of bytes. A % that starts no pair stands for
- * itself. */
+/* Decodes %XX into out (as large as text); returns the number of bytes. An invalid % is kept. */
 static size_t percent_decode(const char *text, uint8_t *out) {
     size_t n = 0;
     while (*text) {
@@ -82,7 +80,7 @@ static bool has_scheme(const char *uri) {
     return *uri == ':';
 }
 
-/* Whether the path climbs above where it starts, links aside. */
+/* Whether ".." leads above the start of the path, ignoring links. */
 static bool path_climbs(const char *path) {
     int depth = 0;
     for (const char *part = path; *part && depth >= 0;) {
@@ -97,8 +95,7 @@ static bool path_climbs(const char *path) {
     return depth < 0;
 }
 
-/* The file's path below the folder, decoded, with '\' (which some exporters write) taken for '/'.
- */
+/* The file's path below the folder, decoded; '\', which some exporters write, becomes '/'. */
 static bool relative_path(const char *uri, char *out, size_t size, struct gn_err *err) {
     if (strlen(uri) >= size) return gn_fail(err, "URI of %zu characters is too long", strlen(uri));
     size_t n = percent_decode(uri, (uint8_t *)out);

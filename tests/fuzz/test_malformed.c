@@ -34,7 +34,7 @@ static bool says_where(const char *text) {
     static const char *const starts[] = {"byte ",    "asset",   "extensions", "scene",
                                          "nodes",    "meshes",  "accessors",  "bufferViews",
                                          "buffers",  "cameras", "materials",  "textures",
-                                         "samplers", "images",  "animations", "needs more memory"};
+                                         "samplers", "images",  "animations", "out of memory"};
     for (size_t i = 0; i < sizeof starts / sizeof starts[0]; i++)
         if (strncmp(text, starts[i], strlen(starts[i])) == 0) return true;
     return false;

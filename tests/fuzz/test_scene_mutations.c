@@ -341,7 +341,7 @@ static void try_allocations(const struct gn_made *seed) {
         gn_alloc_fail_at(0);
         if (scene)
             gn_scene_destroy(scene);
-        else if (strncmp(err.text, "m: needs more memory", 20) != 0)
+        else if (strncmp(err.text, "m: out of memory", 16) != 0)
             fail(n, err.text, seed);
         if (scene) return;
     }

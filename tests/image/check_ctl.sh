@@ -133,7 +133,7 @@ expect 0 'from: set shadow' get shadow
 expect 0 'value: -1.5' set exposure -1.5
 expect 0 'value: auto' set exposure auto
 expect 2 '"99" is not auto or a number from -24 to 24' set exposure 99
-expect 2 "no camera is called 'Nosuch'" set camera Nosuch
+expect 2 "no camera named 'Nosuch'" set camera Nosuch
 settle
 expect 0 'value: Top' get camera
 expect 2 'backend takes a reload' set backend kms
@@ -227,7 +227,7 @@ checks 0 'mode "Dial": camera = Dial, shadow = none' good.ini
 checks 0 'button "next": keys space; press = next' good.ini
 checks 2 'kiosk.ini:15: press: unknown action "nxt"' kiosk.ini
 sed 's/camera = Top/camera = Tpo/' good.ini > kiosk.ini
-checks 2 "kiosk.ini:9: camera: no camera is called 'Tpo'" kiosk.ini
+checks 2 "kiosk.ini:9: camera: no camera named 'Tpo'" kiosk.ini
 sed 's/file = sundial.glb/file = moondial.glb/' good.ini > kiosk.ini
 checks 1 'kiosk.ini:2: file: ' kiosk.ini
 sed 's/press = next/press = mode Nosuch/' good.ini > kiosk.ini

@@ -57,7 +57,7 @@ static void test_an_early_end_is_an_answer(void **state) {
     (void)state;
     struct shared out;
     assert_false(run(leave, 0, &out));
-    assert_string_equal(err.text, "ends the process (status 3)");
+    assert_string_equal(err.text, "exits (status 3)");
 }
 
 static void hang(void *shared, const void *argument) {
@@ -68,7 +68,7 @@ static void test_a_hang_ends(void **state) {
     (void)state;
     struct shared out;
     assert_false(run(hang, 1, &out));
-    assert_string_equal(err.text, "hangs (nothing for 1 s)");
+    assert_string_equal(err.text, "hangs (no progress for 1 s)");
 }
 
 static bool at_once(void) { return true; }

@@ -287,7 +287,7 @@ static void a_kiosk_runs_on_without_its_bad_file(void **state) {
     assert_false(PARSE("gnomon", "-c", (char *)in_folder("bad.ini")));
     write_file("bad.ini", "[mode \"A\"]\nlimit = verts=1\n[mode \"B\"]\nwithout = wings\n");
     assert_true(PARSE("gnomon", "show", "-c", (char *)in_folder("bad.ini")));
-    assert_non_null(strstr(options.config_error, "bad.ini:2: limit: no limit is called 'verts'"));
+    assert_non_null(strstr(options.config_error, "bad.ini:2: limit: unknown limit 'verts'"));
     write_file("bad.ini", "[mode \"A\"]\nlimit = nodes=1\n[mode \"B\"]\nwithout = wings\n");
     assert_true(PARSE("gnomon", "show", "-c", (char *)in_folder("bad.ini")));
     assert_non_null(strstr(options.config_error, "bad.ini:4: without: unknown capability"));

@@ -141,8 +141,7 @@ static void a_wrong_value_names_option_value_and_range(void **state) {
     assert_wrong("render --limit nodes", "NAME=VALUE");
     assert_wrong("render --limit =5", "NAME=VALUE");
     assert_wrong("render --limit nodes=0", "NAME=VALUE");
-    assert_wrong("render --limit verts=1",
-                 "--limit: no limit is called 'verts'; there are: file_mb");
+    assert_wrong("render --limit verts=1", "--limit: unknown limit 'verts'; limits are: file_mb");
     assert_wrong("render --limit nodes=1099511627776", "--limit: limit nodes: 1099511627776");
     assert_wrong("show --modeline 65", "--modeline: \"65\" is no mode: MHz, four rising widths");
     assert_wrong("render --without wings", "--without: unknown capability \"wings\"; expected");

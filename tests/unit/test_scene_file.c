@@ -68,7 +68,7 @@ static void test_glb_header(void **state) {
     struct gn_made made = square_glb();
     char message[160];
     snprintf(message, sizeof message,
-             "t: byte 8: says %zu bytes, the file has %zu: it was cut short, copy it again",
+             "t: byte 8: length %zu, but the file has %zu bytes: it is truncated, copy it again",
              made.size, made.size - 1);
     refuse_bytes(made.data, made.size - 1, message);
     free(made.data);
@@ -157,7 +157,7 @@ static void test_wrong_json(void **state) {
         {"meshes", "[{'primitives':[{'attributes':{'POSITION':0},'mode':7}]}]",
          "t: meshes[0].primitives[0].mode: 7 is not in 0..6"},
         {"meshes", "[{'primitives':[{'attributes':{'POSITION':1}}]}]",
-         "t: meshes[0].primitives[0].attributes.POSITION: accessor 1 has elements of 1 numbers, "
+         "t: meshes[0].primitives[0].attributes.POSITION: accessor 1 has 1 components, "
          "must be VEC3"},
         {"meshes", "[{'primitives':[{'attributes':{'POSITION':0},'indices':0}]}]",
          "t: meshes[0].primitives[0].indices: must be SCALAR of unsigned bytes, shorts or ints"},
@@ -169,7 +169,7 @@ static void test_wrong_json(void **state) {
          "t: meshes[0].primitives[0].indices: index 1, but there are 1 accessors"},
         {"accessors",
          "[{'componentType':5126,'type':'VEC3','count':4611686018427387904,'bufferView':0},{}]",
-         "t: accessors[0]: 4611686018427387904 elements from byte 0 on pass the end of bufferView "
+         "t: accessors[0]: 4611686018427387904 elements from byte 0 pass the end of bufferView "
          "0 (48 bytes)"},
         {"accessors", "[{'componentType':5126,'type':'VEC3','count':1099511627776},{}]",
          "t: accessors[0].count: 1099511627776 is more than the limit vertices=20000000"},
@@ -319,9 +319,8 @@ static void test_limits(void **state) {
     assert_int_equal(err.status, GN_EXIT_USAGE);
     assert_false(gn_scene_limits_set(&limits, "verts", 1, &err));
     assert_string_equal(
-        err.text,
-        "no limit is called 'verts'; there are: file_mb memory_mb nodes instances vertices "
-        "texels keys json_depth triangles_per_frame");
+        err.text, "unknown limit 'verts'; limits are: file_mb memory_mb nodes instances vertices "
+                  "texels keys json_depth triangles_per_frame");
     struct gn_made made = square_glb();
     assert_null(gn_scene_load_bytes("t", made.data, made.size, &limits, NULL, &err));
     assert_string_equal(err.text, "t: meshes: 6 vertices are more than the limit vertices=3");

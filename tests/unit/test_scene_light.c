@@ -55,10 +55,11 @@ static void test_light_repairs(void **state) {
     assert_true(scene->lights[0].inner_rad < scene->lights[0].outer_rad);
     assert_warned(
         "t: extensions.KHR_lights_punctual.lights[0].spot: innerConeAngle is not between 0 and "
-        "outerConeAngle; made to fit");
+        "outerConeAngle; clamped");
+    assert_warned("t: extensions.KHR_lights_punctual.lights[0].range: must be greater than 0; "
+                  "taken as unlimited");
     assert_warned(
-        "t: extensions.KHR_lights_punctual.lights[0].range: must be over 0; taken as unlimited");
-    assert_warned("t: extensions.KHR_lights_punctual.lights[0]: negative light; taken as none");
+        "t: extensions.KHR_lights_punctual.lights[0]: negative colour or intensity; taken as 0");
     gn_scene_destroy(scene);
 }
 
@@ -206,13 +207,14 @@ static void test_cameras(void **state) {
     assert_int_equal(scene->camera_count, 2);
     assert_near(scene->cameras[0].far_m, 0);
     assert_true(scene->cameras[1].orthographic && scene->cameras[1].xmag_m == 2);
-    assert_warned("t: cameras[2]: sees nothing: zfar is not beyond znear; ignored");
-    assert_warned("t: cameras[3]: sees nothing: its field or near plane is out of range; ignored");
+    assert_warned("t: cameras[2]: invalid camera: zfar is not beyond znear; ignored");
+    assert_warned(
+        "t: cameras[3]: invalid camera: its field or near plane is out of range; ignored");
     assert_int_equal(gn_scene_find_camera(scene, "Top", &err), 1);
     assert_int_equal(gn_scene_find_camera(scene, "1", &err), 1);
     assert_int_equal(gn_scene_find_camera(scene, NULL, &err), 0);
     assert_int_equal(gn_scene_find_camera(scene, "Side", &err), -1);
-    assert_string_equal(err.text, "no camera is called 'Side'; there are: 0 'Front', 1 'Top'");
+    assert_string_equal(err.text, "no camera named 'Side'; available: 0 'Front', 1 'Top'");
     gn_scene_destroy(scene);
 }
 

@@ -161,15 +161,15 @@ static void test_broken_pictures_cost_a_warning(void **state) {
     for (size_t i = 0; i < sizeof rgba; i++) rgba[i] = (uint8_t)(i * 2654435761U >> 24);
     struct gn_made png = gn_maker_png(64, 64, rgba);
     expect_dropped("GIF89a", 6, "neither PNG nor JPEG");
-    expect_dropped(png.data, 20, "PNG: cut short");
-    expect_dropped(png.data, png.size / 2, "PNG: cut short");
+    expect_dropped(png.data, 20, "PNG: truncated");
+    expect_dropped(png.data, png.size / 2, "PNG: truncated");
     uint8_t claims[80]; /* a chunk of 2 GB before the pixels */
     memcpy(claims, png.data, 33);
     memcpy(claims + 33, "\x7f\xff\xff\xfezTXt", 8);
     memset(claims + 41, 'x', sizeof claims - 41);
-    expect_dropped(claims, sizeof claims, "PNG: cut short");
+    expect_dropped(claims, sizeof claims, "PNG: truncated");
     png.data[16] = 0x10; /* 268 million wide */
-    expect_dropped(png.data, png.size, "cut short");
+    expect_dropped(png.data, png.size, "truncated");
     expect_dropped("\xff\xd8\xff\xe0 no jpeg", 12, "JPEG:");
     free(png.data);
 }
@@ -189,7 +189,7 @@ static void test_broken_pictures_keep_no_memory(void **state) {
     struct gn_scene *scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
     if (!scene) fail_msg("%s", err.text);
     for (int i = 0; i < warnings.count; i++)
-        assert_non_null(strstr(warnings.text[i], "PNG: cut short"));
+        assert_non_null(strstr(warnings.text[i], "PNG: truncated"));
     assert_int_equal(scene->image_count, 1);
     gn_scene_destroy(scene);
     gn_maker_finish(&maker);

@@ -70,7 +70,7 @@ static void test_modes(void **state) {
     load_primitive("{'attributes':{'POSITION':0},'mode':0}", 0,
                    "t: meshes[0].primitives[0]: points and lines are not shown");
     load_primitive("{'attributes':{'POSITION':0}}", 1,
-                   "t: meshes[0].primitives[0]: 4 corners are no whole number of triangles; the "
+                   "t: meshes[0].primitives[0]: 4 indices are not a multiple of 3; the "
                    "last 1 ignored");
     load_primitive("{'attributes':{}}", 0,
                    "t: meshes[0].primitives[0]: has no POSITION; not shown");

@@ -1,5 +1,5 @@
-/* Accessors: every one that is used goes once through gn_gltf_accessor(), which checks it against
- * the data behind it; what comes out can be read without further checks. */
+/* Accessors: gn_gltf_accessor() checks each one at its first use against the data behind it; after
+ * that it can be read without further checks. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -50,14 +50,14 @@ static const struct shape *read_shape(struct gn_gltf *g, const struct gn_at *up)
     return NULL;
 }
 
-/* What an accessor, or one half of its sparse part, asks of a bufferView. */
+/* The part of a bufferView that an accessor, or an array of its sparse part, reads. */
 struct span {
     int32_t view;
     uint64_t offset, count;
     size_t element, stride; /* stride 0: tight */
 };
 
-/* The one check: everything that is read lies inside the view. */
+/* Checks that all elements lie inside the view. */
 static const uint8_t *span_data(struct gn_gltf *g, const struct gn_at *at, struct span *span) {
     const struct gn_view *view = &g->file.views[span->view];
     if (span->stride == 0) span->stride = span->element;
@@ -76,14 +76,14 @@ static const uint8_t *span_data(struct gn_gltf *g, const struct gn_at *at, struc
     else if (!fits || end > view->size)
         gn_gltf_fail(g, at,
                      "%" PRIu64 " elements from byte %" PRIu64
-                     " on pass the end of bufferView %d (%zu bytes)",
+                     " pass the end of bufferView %d (%zu bytes)",
                      span->count, span->offset, span->view, view->size);
     return g->failed ? NULL : view->data + span->offset;
 }
 
 /* ---- sparse ---- */
 
-/* A dense copy of the base, for the sparse values to go into. */
+/* Makes a dense copy of the base, which the sparse values overwrite. */
 static uint8_t *dense_copy(struct gn_gltf *g, struct gn_accessor *a, size_t element) {
     uint8_t *copy = gn_gltf_alloc(g, &g->memory.load, a->count, element);
     if (!copy) return NULL;

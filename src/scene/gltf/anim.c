@@ -1,5 +1,5 @@
-/* Animations to clips. A channel that cannot be played is left out with a warning; the clip keeps
- * its number. */
+/* Reads animations as clips. A channel that cannot be played is dropped with a warning; clips keep
+ * their numbers. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -35,7 +35,7 @@ static bool read_sampler(struct gn_gltf *g, const struct gn_at *at, struct sampl
     return true;
 }
 
-/* Times as floats, ascending; read once for all channels that share them. NULL: unusable, or
+/* Times as floats, ascending; read once for all channels that share them. NULL: invalid, or
  * failed. */
 static const float *read_times(struct gn_gltf *g, const struct sampler *sampler) {
     const struct gn_accessor *a = sampler->input;

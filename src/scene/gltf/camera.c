@@ -1,12 +1,11 @@
-/* Cameras: one per node that carries one, in the order of the nodes. One that cannot see is left
- * out with a warning. */
+/* Cameras, in the order of the nodes that have one. An invalid one is dropped with a warning. */
 #include "scene/private.h"
 
 #include <math.h>
 
-#define NEAR_MOST_M 1e16f /* near times far has to be a float */
+#define NEAR_MOST_M 1e16f /* near times far must fit a float */
 
-/* A number that has to be there. */
+/* A required number. */
 static float needed_float(struct gn_gltf *g, const struct gn_at *up, const char *key) {
     struct gn_at at = gn_at_any(up, key);
     if (!at.json) gn_gltf_fail(g, &at, "missing");
@@ -45,7 +44,7 @@ static void add_camera(struct gn_gltf *g, const struct gn_at *at, uint32_t node)
     bool deep = camera.far_m == 0 || camera.far_m > camera.near_m;
     if (g->failed) return;
     if (!sees || !deep) {
-        gn_gltf_warn(g, at, "sees nothing: %s; ignored",
+        gn_gltf_warn(g, at, "invalid camera: %s; ignored",
                      deep ? "its field or near plane is out of range" : "zfar is not beyond znear");
         return;
     }

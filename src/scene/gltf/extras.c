@@ -1,6 +1,5 @@
-/* What glTF cannot say: the gnomon_ keys in the extras of nodes, lights and the scene. They come
- * from hand-made custom properties, so nothing here fails: what is wrong is warned about by name
- * and the default stays. */
+/* The gnomon_ keys in the extras of nodes, lights and the scene. They come from hand-made custom
+ * properties, so nothing here fails: an invalid value gives a warning and the default is kept. */
 #include "scene/private.h"
 
 #include <float.h>
@@ -30,7 +29,7 @@ static void take_float(struct gn_gltf *g, const struct gn_at *extras, const char
     warn_wanted(g, &at, wanted);
 }
 
-/* true, false, or the 1 and 0 that older exporters write for them. */
+/* true, false, or 1 and 0, which older exporters write. */
 static bool take_flag(struct gn_gltf *g, const struct gn_at *extras, const char *key, bool *out) {
     struct gn_at at = gn_at_any(extras, key);
     int64_t value = 0;
@@ -75,7 +74,7 @@ static bool take_pair(struct gn_gltf *g, const struct gn_at *extras, const char 
     return false;
 }
 
-/* Three numbers (a fourth is ignored: Blender's colours have one), or one for a grey. */
+/* Three numbers (the fourth of Blender's colours is ignored), or one number for grey. */
 static bool take_color(struct gn_gltf *g, const struct gn_at *extras, const char *key, vec3 out) {
     struct gn_at at = gn_at_any(extras, key);
     if (!at.json) return false;

@@ -1,5 +1,5 @@
-/* The container: .glb or .gltf by content, its JSON and BIN chunk, and whether we can show what it
- * asks for. */
+/* The container: .glb or .gltf by content, its JSON and BIN chunk; version and required extensions.
+ */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -39,8 +39,8 @@ static bool check_header(struct gn_gltf *g, const uint8_t *data, size_t *size) {
                             version);
     if (length > *size)
         return gn_gltf_fail(g, NULL,
-                            "byte 8: says %" PRIu32 " bytes, the file has %zu: it was cut "
-                            "short, copy it again",
+                            "byte 8: length %" PRIu32 ", but the file has %zu bytes: it is "
+                            "truncated, copy it again",
                             length, *size);
     if (length < HEADER + CHUNK)
         return gn_gltf_fail(g, NULL, "byte 8: a length of %" PRIu32 " is too short", length);
@@ -55,7 +55,7 @@ static bool take_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
     if (at == HEADER && type != CHUNK_JSON)
         return gn_gltf_fail(g, NULL, "byte %zu: the first chunk must be JSON", at + 4);
     if (at == HEADER) {
-        while (length > 0 && body[length - 1] == 0) length--; /* some pad with zeros */
+        while (length > 0 && body[length - 1] == 0) length--; /* some exporters pad with zeros */
         return parse_json(g, body, length, at + CHUNK);
     }
     if (type == CHUNK_JSON) return gn_gltf_fail(g, NULL, "byte %zu: a second JSON chunk", at);
@@ -77,7 +77,8 @@ static bool open_glb(struct gn_gltf *g, const uint8_t *data, size_t size) {
         if (!take_chunk(g, data, at)) return false;
         at += CHUNK + (size_t)length;
     }
-    if (at < size) gn_gltf_warn(g, NULL, "byte %zu: %zu bytes that are no chunk", at, size - at);
+    if (at < size)
+        gn_gltf_warn(g, NULL, "byte %zu: %zu bytes after the last chunk ignored", at, size - at);
     return true;
 }
 

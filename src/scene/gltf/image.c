@@ -1,5 +1,5 @@
-/* Textures and pictures, looked at only when something that is shown uses them. A picture that
- * cannot be had costs its textures and a warning, never the scene. */
+/* Textures and pictures, read at their first use. A picture that cannot be read is dropped with a
+ * warning, and so are its textures; the scene is shown without them. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -37,12 +37,12 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
     if (!format->size(blob->data, blob->size, px, err)) return false;
     uint64_t texels = (uint64_t)px[0] * px[1];
     const uint64_t with_mipmaps = 4 * (texels + texels / 3);
-    if (texels == 0) return gn_fail(err, "it has no pixels");
+    if (texels == 0) return gn_fail(err, "width or height is 0");
     if (texels > g->limits.texels || px[0] > 1U << 20 || px[1] > 1U << 20)
         return gn_fail(err, "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64, px[0],
                        px[1], g->limits.texels);
     if (4 * texels + with_mipmaps > gn_gltf_room(g))
-        return gn_fail(err, "no room for it in memory_mb");
+        return gn_fail(err, "exceeds the limit memory_mb");
     if (g->damaged_texels > g->limits.texels)
         return gn_fail(err, "not decoded: damaged pictures have used up the limit texels=%" PRIu64,
                        g->limits.texels);
@@ -103,7 +103,8 @@ static enum gn_wrap read_wrap(struct gn_gltf *g, const struct gn_at *sampler, co
     struct gn_at at = gn_at_any(sampler, key);
     if (value == 33071) return GN_WRAP_CLAMP;
     if (value == 33648) return GN_WRAP_MIRROR;
-    if (value != 10497) gn_gltf_warn(g, &at, "%" PRIu64 " is no wrap mode; repeats", value);
+    if (value != 10497)
+        gn_gltf_warn(g, &at, "%" PRIu64 " is not a wrap mode; taken as REPEAT", value);
     return GN_WRAP_REPEAT;
 }
 
@@ -122,7 +123,7 @@ static void read_sampler(struct gn_gltf *g, const struct gn_at *sampler,
     bool known =
         min == NEAREST || min == LINEAR || (min >= NEAREST_MIP_NEAREST && min <= LINEAR_MIP_LINEAR);
     if (!known || (mag != NEAREST && mag != LINEAR))
-        gn_gltf_warn(g, sampler, "unknown filter; trilinear");
+        gn_gltf_warn(g, sampler, "unknown filter; taken as trilinear");
     texture->mag_nearest = mag == NEAREST;
     texture->min_nearest =
         min == NEAREST || min == NEAREST_MIP_NEAREST || min == NEAREST_MIP_LINEAR;
@@ -132,7 +133,7 @@ static void read_sampler(struct gn_gltf *g, const struct gn_at *sampler,
     texture->wrap_t = read_wrap(g, sampler, "wrapT");
 }
 
-/* The picture's index in the file, or -1 if only a format that we cannot read is there. */
+/* The picture's index in the file, or -1 if it is only in unsupported formats. */
 static int32_t source_of(struct gn_gltf *g, const struct gn_at *at) {
     int32_t source = gn_at_ref(g, at, "source", g->file.image_count, "images");
     bool webp = gn_at_extension(g, at, "extensions.EXT_texture_webp").json != NULL;

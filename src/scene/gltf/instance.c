@@ -47,7 +47,7 @@ static float *read_values(struct gn_gltf *g, const struct gn_accessor *a, size_t
     for (size_t i = 0; out && i < count * n; i++) out[i] = fallback[i % n];
     if (!out || !a) return out;
     struct gn_accessor copy = *a;
-    if (n == 4) copy.normalized = true; /* integers can only be that for a rotation */
+    if (n == 4) copy.normalized = true; /* integer rotations are always normalised */
     gn_accessor_floats(&copy, n, out);
     return out;
 }
@@ -77,7 +77,7 @@ bool gn_gltf_instances(struct gn_gltf *g) {
         if (placed->mesh < 0) continue;
         struct copies copies = read_copies(g, placed);
         if (copies.count > g->limits.instances - total)
-            return gn_gltf_fail(g, &nodes, "more copies than the limit instances=%" PRIu64,
+            return gn_gltf_fail(g, &nodes, "more instances than the limit instances=%" PRIu64,
                                 g->limits.instances);
         placed->first_instance = (uint32_t)total;
         placed->instance_count = (uint32_t)copies.count;

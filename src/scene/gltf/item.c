@@ -1,4 +1,4 @@
-/* Things to draw: every primitive of every placed mesh, and of every copy of it. */
+/* Items: each primitive of each mesh of a node, and of each instance of it. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -50,8 +50,8 @@ bool gn_gltf_items(struct gn_gltf *g) {
                      g->file.meshes[g->placed[i].mesh].primitive_count;
     if (total > g->limits.instances)
         return gn_gltf_fail(g, &nodes,
-                            "%" PRIu64 " things to draw are more than the limit instances=%" PRIu64,
-                            total, g->limits.instances);
+                            "%" PRIu64 " items are more than the limit instances=%" PRIu64, total,
+                            g->limits.instances);
     scene->items = gn_gltf_alloc(g, g->memory.scene, total, sizeof *scene->items);
     if (!scene->items) return false;
     for (uint32_t i = 0; i < scene->node_count; i++) {

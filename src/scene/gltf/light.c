@@ -1,4 +1,4 @@
-/* KHR_lights_punctual: a light per node that carries one, in the order of the nodes. */
+/* KHR_lights_punctual: lights, in the order of the nodes that have one. */
 #include "scene/private.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ static void read_color(struct gn_gltf *g, const struct gn_at *at, struct gn_ligh
         right &= light->color[k] >= 0;
         light->color[k] = fminf(fmaxf(light->color[k], 0) * fmaxf(intensity, 0), 1e18f);
     }
-    if (!right) gn_gltf_warn(g, at, "negative light; taken as none");
+    if (!right) gn_gltf_warn(g, at, "negative colour or intensity; taken as 0");
 }
 
 static void read_cone(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
@@ -36,12 +36,12 @@ static void read_cone(struct gn_gltf *g, const struct gn_at *at, struct gn_light
     bool wide = !(light->outer_rad > 0 && light->outer_rad <= GLM_PI_2f + 1e-4f);
     if (wide) {
         light->outer_rad = light->outer_rad > 0 ? GLM_PI_2f : GLM_PI_4f;
-        gn_gltf_warn(g, &spot, "outerConeAngle is not between 0 and 90 degrees; %g are used",
+        gn_gltf_warn(g, &spot, "outerConeAngle is not between 0 and 90 degrees; taken as %g",
                      (double)glm_deg(light->outer_rad));
     }
     light->outer_rad = fminf(light->outer_rad, GLM_PI_2f);
     if (light->inner_rad >= 0 && light->inner_rad < light->outer_rad) return;
-    gn_gltf_warn(g, &spot, "innerConeAngle is not between 0 and outerConeAngle; made to fit");
+    gn_gltf_warn(g, &spot, "innerConeAngle is not between 0 and outerConeAngle; clamped");
     light->inner_rad = light->inner_rad < 0 ? 0 : .99f * light->outer_rad;
 }
 
@@ -51,7 +51,7 @@ static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_ligh
     light->range_m = gn_at_float(g, at, "range", 0);
     struct gn_at range = gn_at_any(at, "range");
     if (range.json && !(light->range_m > 0)) {
-        gn_gltf_warn(g, &range, "must be over 0; taken as unlimited");
+        gn_gltf_warn(g, &range, "must be greater than 0; taken as unlimited");
         light->range_m = 0;
     }
     light->radius = gn_light_types[light->type].radius;
@@ -61,7 +61,7 @@ static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_ligh
     return !g->failed;
 }
 
-/* Its own, else its node's, else by its number: messages have to call it something. */
+/* The light's name, else its node's, else one made of its number. */
 static const char *name_light(struct gn_gltf *g, const struct gn_at *definition, uint32_t node) {
     const char *own = gn_at_text(g, definition, "name"), *of_node = g->scene->nodes[node].name;
     char number[32];

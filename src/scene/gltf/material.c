@@ -7,8 +7,8 @@ static float clamp(float x, float least, float most) { return fminf(fmaxf(x, lea
 
 /* ---- textures ---- */
 
-/* KHR_texture_transform as one affine map; the rotation turns the picture clockwise, v pointing
- * down. */
+/* KHR_texture_transform as an affine map; the rotation is clockwise, since v points down.
+ */
 static void read_uv_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_texture_ref *ref,
                               uint64_t *uv_set) {
     struct gn_at transform = gn_at_extension(g, at, "extensions.KHR_texture_transform");

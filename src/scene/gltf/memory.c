@@ -1,4 +1,4 @@
-/* What a load may allocate: never more than the limit memory_mb. */
+/* Allocation for a load, within the limit memory_mb. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -18,8 +18,7 @@ void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, s
     if (!__builtin_mul_overflow(count, size, &bytes) && bytes <= gn_gltf_room(g))
         memory = gn_arena_alloc(arena, (size_t)count, size);
     if (!memory)
-        gn_gltf_fail(g, NULL,
-                     "needs more memory than there is or than memory_mb=%" PRIu64 " allows",
+        gn_gltf_fail(g, NULL, "out of memory, or over the limit memory_mb=%" PRIu64,
                      g->limits.memory_mb);
     return memory;
 }

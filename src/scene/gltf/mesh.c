@@ -1,6 +1,6 @@
-/* Primitives of the meshes in use: which geometries they come to. What names the same accessors is
- * one geometry, and geometries with the same vertex accessors share their vertices. Nothing is read
- * yet but the accessors' headers. */
+/* Maps the primitives of the used meshes to geometries. Primitives with the same accessors share a
+ * geometry, and geometries with the same vertex accessors share their vertices. Reads only the
+ * headers of accessors. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -10,7 +10,7 @@
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 
-/* ---- a hash table of keys that lie in an array of structs ---- */
+/* ---- a hash table of structs in an array, by a key in each ---- */
 
 struct table {
     uint32_t *slots; /* index + 1, or 0 */
@@ -52,17 +52,18 @@ static bool check_attribute(struct gn_gltf *g, const struct gn_at *attributes, i
     if (!a) return index < 0;
     struct gn_at at = gn_at_any(attributes, row->semantic);
     if (a->components < row->components_min || a->components > row->components)
-        return gn_gltf_fail(g, &at, "accessor %d has elements of %d numbers, must be VEC%d", index,
+        return gn_gltf_fail(g, &at, "accessor %d has %d components, must be VEC%d", index,
                             a->components, row->components_min);
     if (!(row->types >> (a->component - GN_I8) & 1))
-        return gn_gltf_fail(g, &at, "accessor %d has component type %d, which cannot be here",
-                            index, a->component);
+        return gn_gltf_fail(g, &at,
+                            "accessor %d has component type %d, which is not allowed for it", index,
+                            a->component);
     if (a->count != vertex_count)
         return gn_gltf_fail(g, &at, "%zu elements, but POSITION has %zu", a->count, vertex_count);
     return true;
 }
 
-/* The positions' count, or 0: failed, or nothing to show (which is said). */
+/* The number of vertices, or 0: failed, or nothing to show (with a warning). */
 static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, int32_t *out) {
     struct gn_at attributes = gn_at_object(g, primitive, "attributes");
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
@@ -95,7 +96,7 @@ static uint64_t corners_of(struct gn_gltf *g, const struct gn_at *primitive, int
     if (mode != MODE_TRIANGLES) return count < 3 ? 0 : 3 * (count - 2);
     if (count % 3 != 0)
         gn_gltf_warn(g, primitive,
-                     "%" PRIu64 " corners are no whole number of triangles; the last "
+                     "%" PRIu64 " indices are not a multiple of 3; the last "
                      "%d ignored",
                      count, (int)(count % 3));
     return count - count % 3;
@@ -132,7 +133,7 @@ static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive, struct 
 
 /* ---- sharing ---- */
 
-/* Only with normals of its own can a vertex be shared: flat ones depend on the triangles. */
+/* Only vertices with normals in the file can be shared: flat normals depend on the triangles. */
 static uint32_t share_vertices(struct reader *reader, const struct gn_shape *shape) {
     struct gn_gltf *g = reader->g;
     uint32_t *slot = table_find(&reader->vertices, shape->attribute);

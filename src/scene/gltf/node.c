@@ -1,5 +1,5 @@
-/* The tree of nodes: checked, cut down to the shown scene, and laid out parents first, without
- * recursion. */
+/* The node tree: checks it, keeps the nodes of the shown scene, and orders them parents first,
+ * without recursion. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -8,8 +8,8 @@
 /* A node of the file. */
 struct source {
     int32_t parent;
-    bool shown;   /* the scene lists it or one of its ancestors */
-    bool carried; /* it is shown, or an ancestor of one that is */
+    bool shown; /* the scene lists it or one of its ancestors */
+    bool kept;  /* shown, or an ancestor of a shown one */
     bool queued;
     uint8_t mark; /* while looking for cycles */
 };
@@ -47,7 +47,7 @@ static void adopt_children(struct tree *tree, size_t parent) {
     }
 }
 
-/* Follows the parents from each node; mark 1 is on the way, 2 is known to end. */
+/* Follows the parents of each node; mark 1: on the current path, 2: known to reach a root. */
 static bool check_cycles(struct tree *tree) {
     for (size_t i = 0; i < tree->count; i++) {
         int32_t n = (int32_t)i;
@@ -88,7 +88,7 @@ static void push_node(struct tree *tree, int32_t node) {
     tree->stack[tree->depth++] = node;
 }
 
-/* The last first, so that the first comes off the stack first. */
+/* In reverse, so that the first child is popped first. */
 static void push_children(struct tree *tree, int32_t node) {
     struct gn_at at = gn_at_element(&tree->array, (size_t)node);
     struct gn_at children = gn_at_array(tree->g, &at, "children");
@@ -98,17 +98,17 @@ static void push_children(struct tree *tree, int32_t node) {
     }
 }
 
-/* Marks a listed node, all below it and, as carriers, all above it. */
+/* Marks a listed node and its descendants as shown, its ancestors as kept. */
 static void mark_shown(struct tree *tree, int32_t listed) {
     push_node(tree, listed);
     while (tree->depth > 0) {
         int32_t node = tree->stack[--tree->depth];
-        tree->sources[node].shown = tree->sources[node].carried = true;
+        tree->sources[node].shown = tree->sources[node].kept = true;
         push_children(tree, node);
     }
-    for (int32_t n = tree->sources[listed].parent; n >= 0 && !tree->sources[n].carried;
+    for (int32_t n = tree->sources[listed].parent; n >= 0 && !tree->sources[n].kept;
          n = tree->sources[n].parent)
-        tree->sources[n].carried = true;
+        tree->sources[n].kept = true;
 }
 
 static int32_t root_of(const struct tree *tree, int32_t node, int32_t *roots) {
@@ -126,7 +126,7 @@ static struct gn_at shown_scene(struct gn_gltf *g, const struct gn_at *scenes) {
     return count > 0 ? gn_at_item(g, scenes, index < 0 ? 0 : (size_t)index) : (struct gn_at){0};
 }
 
-/* ---- laying out ---- */
+/* ---- the nodes of the scene ---- */
 
 static void read_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_node *node) {
     glm_mat4_identity(node->matrix);
@@ -144,7 +144,7 @@ static void read_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_
         return;
     }
     struct gn_at place = gn_at_any(at, "rotation");
-    gn_gltf_warn(g, &place, "is no rotation; none is applied");
+    gn_gltf_warn(g, &place, "is not a rotation; ignored");
     glm_quat_identity(node->rotation);
 }
 
@@ -172,7 +172,7 @@ static void lay_out_tree(struct tree *tree, int32_t root) {
     push_node(tree, root);
     while (tree->depth > 0 && !tree->g->failed) {
         int32_t node = tree->stack[--tree->depth];
-        if (!tree->sources[node].carried) continue;
+        if (!tree->sources[node].kept) continue;
         add_scene_node(tree, node);
         push_children(tree, node);
     }
