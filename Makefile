@@ -272,7 +272,7 @@ check:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan sanitized
 	+$(SUB) syntax lint-changed
-	@tests/run.sh tests/layers.sh tests/format.sh BUILD=$(O)/release \
+	@tests/run.sh tests/layers.sh tests/format.sh BUILD=$(O)/release tests/cycles.sh \
 	    $(call quick,$(call programs,$(O)/release,$(PROG_C)) $(SCRIPTS)) \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(call kinds,$(SANITIZED))) tests/check_hostile.sh
 check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(SCENES)
