@@ -308,7 +308,7 @@ static bool are_all_to_draw(const struct gn_shadow_view *view, const struct gn_g
  * When all tiles are drawn, the first clears them all. */
 static enum gn_clear_area clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
                                    const struct gn_pass *pass) {
-    if (pass->clear.area != GN_CLEAR_RECT) return pass->clear.area;
+    if (!map || pass->clear.area != GN_CLEAR_RECT) return pass->clear.area;
     if (pass->content.tile == 0) {
         map->cleared = are_all_to_draw(&plan->shadows[pass->target.slot], map);
         if (map->cleared) return GN_CLEAR_ALL;

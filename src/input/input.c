@@ -20,7 +20,7 @@ static const struct gn_input_source *const sources[] = {
     GN_SOURCE_TABLE(X)
 #undef X
 };
-enum { SOURCES = sizeof sources / sizeof *sources };
+enum { SOURCES = sizeof sources / sizeof sources[0] };
 
 /* ---- opening ------------------------------------------------------------------------------- */
 

@@ -97,7 +97,10 @@ static bool fail_key(const struct gn_ini_line *line, const char *section, struct
         gn_option_key(row, key, sizeof key);
         if (!row->section || gn_option_find_key(section, key) != row) continue;
         gn_text_guess(&guess, line->key, key);
-        if (guess.name == key) guess.name = strcpy(near, key);
+        if (guess.name == key) {
+            snprintf(near, sizeof near, "%s", key);
+            guess.name = near;
+        }
         used += (size_t)snprintf(keys + used, sizeof keys - used, "%s %s", used ? "," : "", key);
     }
     if (!guess.name)

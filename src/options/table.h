@@ -74,7 +74,7 @@ struct gn_option_row {
 };
 enum {
     GN_OPTION_COUNT = 0
-#define GN_OPTION(...) +1
+#define GN_OPTION(...) +1 /* NOLINT(bugprone-macro-parentheses) */
 #include "options/rows.h"
 #undef GN_OPTION
 };

@@ -30,7 +30,7 @@ enum gn_attribute {
 #undef GN_X
         GN_ATTRIBUTE_COUNT,
 };
-#define GN_X(...) +1
+#define GN_X(...) +1 /* NOLINT(bugprone-macro-parentheses) */
 enum {
     GN_FEATURE_ATTRIBUTE_COUNT = 0 GN_FEATURE_ATTRIBUTES(GN_X),
     GN_PLAIN_ATTRIBUTE_COUNT = GN_ATTRIBUTE_COUNT - GN_FEATURE_ATTRIBUTE_COUNT,
@@ -49,7 +49,7 @@ enum gn_attribute_format {
 #define GN_GPU_BYTES_SNORM16(components) 8
 #define GN_GPU_BYTES_UNORM8(components)  4
 #define GN_X(NAME, name, type, field, semantic, least, components, types, format, ...)             \
-    +GN_GPU_BYTES_##format(components)
+    +GN_GPU_BYTES_##format(components)                    /* NOLINT(bugprone-macro-parentheses) */
 enum { GN_ATTRIBUTES_GPU_BYTES = 0 GN_ATTRIBUTES(GN_X) }; /* of a vertex that has all */
 #undef GN_X
 

@@ -36,7 +36,7 @@ bool gn_uevent_read(int fd) {
     bool heard = false;
     for (;;) {
         char message[8192];
-        struct sockaddr_nl from;
+        struct sockaddr_nl from = {0};
         socklen_t length = sizeof from;
         const ssize_t size =
             recvfrom(fd, message, sizeof message, 0, (struct sockaddr *)&from, &length);
