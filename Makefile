@@ -271,7 +271,7 @@ sanitized: $(BIN) $(IMPORT) $(SCENES) $(call programs,$(B),$(call kinds,$(SANITI
 check:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan sanitized
-	+$(SUB) syntax lint-changed
+	+$(SUB) lint-changed
 	@tests/run.sh tests/layers.sh tests/format.sh BUILD=$(O)/release tests/cycles.sh \
 	    $(call quick,$(call programs,$(O)/release,$(PROG_C)) $(SCRIPTS)) \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(call kinds,$(SANITIZED))) tests/check_hostile.sh
