@@ -305,25 +305,30 @@ check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	@SUITE=trixie HOST_BUILD=$(B) tests/run.sh BUILD=$(GPIOD2) tests/board/units.sh tests/board/buttons.guest
 # What check leaves out: the long forms; what tests/timeouts leaves to accept, and the sanitizers
 # over the other kinds, in their quick forms; machines, and processors and GPUs that are not here.
-# What takes longest of these is left to full: DEAR under sanitizers, and four of the seven GPUs.
-DEAR    := $(addprefix tests/image/,test_penumbra.c test_splits.c test_many_lights.c)
+# What takes longest of these is left to full: DEAR under sanitizers, the long form of HOURS, and four
+# of the seven GPUs.
+DEAR    := $(filter tests/image/%,$(PROG_C))
+HOURS   := $(filter %/test_many_lights.c %/test_gesture_traces.c,$(PROG_C))
 LONG     = $(shell grep -lE 'gn_shot_full|GN_FULL' $(1))
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
-	+$(SUB) WERROR=1 CONFIG=asan tests
+	+$(SUB) WERROR=1 CONFIG=asan sanitized
 	+$(SUB) lint
-	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) tests/board/smoke.guest \
+	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) $(call later,$(call programs,$(O)/release,$(HOURS))) tests/board/smoke.guest \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(DEAR) $(call kinds,$(SANITIZED)),$(PROG_C))) \
 	    GN_FULL=1 $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan,$(PROG_C))) \
-	    BUILD=$(O)/release $(sort $(call programs,$(O)/release,$(call LONG,$(PROG_C))) $(call later,$(call programs,$(O)/release,$(PROG_C)))) \
+	    BUILD=$(O)/release $(filter-out $(call programs,$(O)/release,$(HOURS)),$(sort $(call programs,$(O)/release,$(call LONG,$(PROG_C))) \
+	    $(call later,$(call programs,$(O)/release,$(PROG_C))))) \
 	    $(filter-out $(call later,$(SCRIPTS)),$(call LONG,$(SCRIPTS))) $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh)) \
 	    $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest)))
 	+$(SUB) check-board-arm64
 	+$(SUB) check-gpiod2
 	+$(SUB) GPUS=pi4,g52,a618 check-gpus
 full:
+	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
-	@tests/run.sh BUILD=$(O)/asan $(call programs,$(O)/asan,$(DEAR))
+	@tests/run.sh BUILD=$(O)/asan $(call programs,$(O)/asan,$(DEAR)) \
+	    BUILD=$(O)/release GN_FULL=1 $(call programs,$(O)/release,$(HOURS))
 	+$(SUB) GN_FULL=1 check-angle
 	+$(SUB) GN_FULL=1 check-board
 	+$(SUB) GN_FULL=1 check-gpiod2
