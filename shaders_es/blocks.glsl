@@ -1,5 +1,18 @@
 /* Where things lie in u_pass[], the one array of constants that a pass gives to its programs (vec4 each, default block: a
- * std140 block read in a fragment shader costs Mali load/store slots). Read by GLSL and by C, so it holds only #define. */
+ * std140 block read in a fragment shader costs Mali load/store slots). Read by GLSL and by C, so it holds only #define.
+ * A component with a name of its own is constant[BIAS_SLOPE] in C and constant.BIAS_SLOPE in GLSL: compilers of boards need up to
+ * seven instructions more for an index. */
+#ifdef GL_ES
+#define AT_X x
+#define AT_Y y
+#define AT_Z z
+#define AT_W w
+#else
+#define AT_X 0
+#define AT_Y 1
+#define AT_Z 2
+#define AT_W 3
+#endif
 #define PASS_CLIP 0       /* 4 columns of clip_from_world */
 #define PASS_EYE 4        /* xyz: eye, world space, or direction to it if w = 0; w: 1 perspective, 0 orthographic */
 #define PASS_CODE 4       /* shadow passes: w, factor on the depth (0..1), or on the distance from xyz (metres) */
@@ -18,25 +31,25 @@
 #define SHADOW_MAP 0      /* directional, spot: 4 columns of map_from_world; cascades: of metres across the light and code */
 #define SHADOW_TILES 0    /* point, in its place - xy: uv of a tangent of 1; zw: the code of a depth map at depth d is z + w / d */
 #define SHADOW_BIAS 4
-#define BIAS_NORMAL 0     /* normal offset, plane units (texel times texels); cascades: texels */
-#define BIAS_SLOPE 1      /* slope offset, the same */
-#define BIAS_SLOPE_MAX 2
-#define BIAS_ULP 3        /* metres */
+#define BIAS_NORMAL AT_X /* normal offset, plane units (texel times texels); cascades: texels */
+#define BIAS_SLOPE AT_Y /* slope offset, the same */
+#define BIAS_SLOPE_MAX AT_Z
+#define BIAS_ULP AT_W /* metres */
 #define SHADOW_PLACE 5    /* xyz: position of the light; */
-#define PLACE_CODE_SCALE 3 /* factor on a distance: its code, less CODE_OFFSET */
+#define PLACE_CODE_SCALE AT_W /* factor on a distance: its code, less CODE_OFFSET */
 #define SHADOW_MAP_SIZE 6 /* xy: width and height of the map in texels; zw: 1 / width, 1 / height */
 #define SHADOW_CODE 7
-#define CODE_OFFSET 0
-#define CODE_FAR_END 1    /* the far end's code: what the map is cleared to */
-#define CODE_REACH 2      /* tiles, SAT: how far beside a place may be read, texels */
-#define CODE_SHARED 3     /* point: tangent over which tiles are mixed */
-#define CODE_HELD 3       /* cascades: how far from a tile's middle it may be read, texels */
-#define SHADOW_PENUMBRA 8 /* how wide a penumbra is: struct shadow_penumbra in lib/shadow_place.glsl */
-#define PENUMBRA_RADIUS 0 /* of the emitter, texels per unit of penumbra depth; cascades: metres */
-#define PENUMBRA_NEAREST 1 /* penumbra depth of the nearest caster; not with cascades */
-#define PENUMBRA_GROWTH 1 /* cascades: penumbra depth per metre along the view */
-#define PENUMBRA_SCALE 2  /* penumbra depth = code * scale + bias */
-#define PENUMBRA_BIAS 3
+#define CODE_OFFSET AT_X
+#define CODE_FAR_END AT_Y /* the far end's code: what the map is cleared to */
+#define CODE_REACH AT_Z /* tiles, SAT: how far beside a place may be read, texels */
+#define CODE_SHARED AT_W /* point: tangent over which tiles are mixed */
+#define CODE_HELD AT_W /* cascades: how far from a tile's middle it may be read, texels */
+#define SHADOW_PENUMBRA 8 /* how wide a penumbra is: lib/shadow_place.glsl */
+#define PENUMBRA_RADIUS AT_X /* of the emitter, texels per unit of penumbra depth; cascades: metres */
+#define PENUMBRA_NEAREST AT_Y /* penumbra depth of the nearest caster; not with cascades */
+#define PENUMBRA_GROWTH AT_Y /* cascades: penumbra depth per metre along the view */
+#define PENUMBRA_SCALE AT_Z /* penumbra depth = code * scale + bias */
+#define PENUMBRA_BIAS AT_W
 #define PASS_SLIDES 70    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides or cascades ends here */
 #define SLIDE_SIZE 4
 #define SLIDE_U 0         /* of a point (p, 1), world space: u times w, 0..1 over the slide from its left edge */
@@ -45,8 +58,8 @@
 #define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide, over 0: what is nearer has not passed it */
 #define PASS_CASCADES 86  /* GN_SHADOWS_MAX x CASCADES_SIZE, as PASS_SHADOWS; a pass without cascades ends here */
 #define CASCADES_SIZE 6   /* four, each - xy: the light's axis, texels from the middle of its tile; */
-#define CASCADE_TEXEL 2   /* metres */
-#define CASCADE_NEAREST 3 /* penumbra depth of its nearest caster; */
+#define CASCADE_TEXEL AT_Z /* metres */
+#define CASCADE_NEAREST AT_W /* penumbra depth of its nearest caster; */
 #define CASCADES_ZONES 4  /* of the first three: 1 / width of the zone in which each fades into the next, 0: there is none */
 #define CASCADES_SPANS 5  /* of each: penumbra depth that its moments cover, from that of its nearest caster on */
 #define CASCADE_FADE 0.1  /* width of that zone, up to the split, as a share of the split's distance */

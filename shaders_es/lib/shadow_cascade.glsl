@@ -31,7 +31,7 @@ shadow_cascade shadow_cascade_of(const int slot, const bool shared) {
     if (number > 1.5) c = CASCADE(slot, 2);
     if (number > 2.5) c = CASCADE(slot, 3);
     float row = step(1.5, number);
-    return shadow_cascade(c.xy, c[CASCADE_TEXEL], c[CASCADE_NEAREST], span, vec2(number - 2.0 * row, row), vec2(share - number, 0.0));
+    return shadow_cascade(c.xy, c.CASCADE_TEXEL, c.CASCADE_NEAREST, span, vec2(number - 2.0 * row, row), vec2(share - number, 0.0));
 }
 
 // uv and code. Where the tile holds nothing there is light: outside of the map, with a code nearer than anything.
@@ -39,7 +39,7 @@ vec3 shadow_cascade_at(const int slot, shadow_cascade c, vec3 p, vec3 n, vec3 l)
     vec3 at = (shadow_matrix(slot) * vec4(p + shadow_push(slot, n, l, dot(n, l), c.texel), 1.0)).xyz;
     vec4 size = SHADOW(slot, SHADOW_MAP_SIZE);
     vec2 texels = at.xy / c.texel + c.axis;
-    bool held = max(abs(texels.x), abs(texels.y)) < SHADOW(slot, SHADOW_CODE)[CODE_HELD];
+    bool held = max(abs(texels.x), abs(texels.y)) < SHADOW(slot, SHADOW_CODE).CODE_HELD;
     return held ? vec3((texels + (c.tile + 0.5) * (0.5 * size.x)) * size.zw, at.z) : vec3(-1.0, -1.0, -1.0e9);
 }
 

@@ -3,17 +3,16 @@
 #include "lib/flat_constants.glsl"
 #include "lib/shadow_point.glsl"
 
-// How wide a penumbra is. A penumbra depth grows with the distance from the light: scale * code + bias, or its negative inverse. A
-// blocker at depth b casts on a receiver at depth r a penumbra of radius * (r - b) texels, and no blocker is before `nearest`. The
-// tangent of the emitter's radius grows with the distance for a directional light, with 1 / distance for a spot or point light.
-struct shadow_penumbra { float radius, nearest, scale, bias; };
-
 struct shadow_place {
     vec3 at;    // uv over the map (0..1) and code, pushed off the surface
     vec4 size;  // xy: width and height of the map in texels; zw: their inverse
     float far;  // the far end's code: what the map is cleared to
     vec2 slope; // how the code of the receiver's plane changes, per uv
-    shadow_penumbra penumbra;
+    // How wide a penumbra is: SHADOW_PENUMBRA's four, here. Penumbra depth grows with the distance from the light: scale * code + bias,
+    // or the negative inverse of that. A blocker at depth b casts on a receiver at depth r a penumbra of radius * (r - b) texels, and no
+    // blocker is before `nearest`. The tangent of the emitter's radius grows with the distance for a directional light, with
+    // 1 / distance for a spot or point light.
+    vec4 penumbra;
     bool inverse; // penumbra depth is the negative inverse
     float reach;  // how far from here a technique may read, texels: SAT, and all techniques of tiles
     vec4 window;  // and where: lower left and upper right edge of the tile, texels
@@ -29,7 +28,7 @@ bool shadow_outside(shadow_place s) { return any(greaterThan(abs(s.at.xy - 0.5),
 float shadow_cut(shadow_place s, float radius, float share) { return dot(abs(s.slope), s.size.zw) * radius * max(1.0 - share, 0.0); }
 
 float shadow_penumbra_depth(shadow_place s, float code) {
-    float x = s.penumbra.scale * code + s.penumbra.bias;
+    float x = s.penumbra.PENUMBRA_SCALE * code + s.penumbra.PENUMBRA_BIAS;
     return s.inverse ? -1.0 / x : x;
 }
 
@@ -53,7 +52,7 @@ vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 
     float w = dot(axis, p) + m[3].w;
     vec3 u = (vec3(m[0].x, m[1].x, m[2].x) - at.x * axis) / w;
     vec3 v = (vec3(m[0].y, m[1].y, m[2].y) - at.y * axis) / w;
-    vec3 code = radial ? -l * SHADOW(slot, SHADOW_PLACE)[PLACE_CODE_SCALE] : (vec3(m[0].z, m[1].z, m[2].z) - at.z * axis) / w;
+    vec3 code = radial ? -l * SHADOW(slot, SHADOW_PLACE).PLACE_CODE_SCALE : (vec3(m[0].z, m[1].z, m[2].z) - at.z * axis) / w;
     return shadow_slope(u, v, code, face, l);
 }
 
@@ -65,12 +64,10 @@ vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 
 shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
     shadow_place s;
     s.size = SHADOW(slot, SHADOW_MAP_SIZE);
-    s.far = SHADOW(slot, SHADOW_CODE)[CODE_FAR_END];
-    vec4 penumbra = SHADOW(slot, SHADOW_PENUMBRA);
-    s.penumbra = shadow_penumbra(penumbra[PENUMBRA_RADIUS], penumbra[PENUMBRA_NEAREST], penumbra[PENUMBRA_SCALE],
-                                 penumbra[PENUMBRA_BIAS]);
+    s.far = SHADOW(slot, SHADOW_CODE).CODE_FAR_END;
+    s.penumbra = SHADOW(slot, SHADOW_PENUMBRA);
     s.inverse = type != LIGHT_DIRECTIONAL && radial;
-    s.reach = SHADOW(slot, SHADOW_CODE)[CODE_REACH];
+    s.reach = SHADOW(slot, SHADOW_CODE).CODE_REACH;
     s.window = vec4(0.0, 0.0, s.size.xy);
     if (SHADOW_LINEAR[slot]) {
         s.at = from_vertex;
@@ -80,15 +77,16 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.beside = c.beside;
         s.at = shadow_cascade_at(slot, c, p, n, l);
         s.slope = shadow_cascade_slope(slot, c, face, l);
-        s.penumbra.radius /= c.texel;
+        s.penumbra.PENUMBRA_RADIUS /= c.texel;
         // No wider than there is room for, nor than in proportion to the distance.
         float depth = shadow_penumbra_depth(s, s.at.z);
-        s.penumbra.nearest = max(c.nearest, depth - min(s.reach / s.penumbra.radius, penumbra[PENUMBRA_GROWTH] / gl_FragCoord.w));
+        s.penumbra.PENUMBRA_NEAREST =
+            max(c.nearest, depth - min(s.reach / s.penumbra.PENUMBRA_RADIUS, s.penumbra.PENUMBRA_GROWTH / gl_FragCoord.w));
         if (SHADOW_SPANS[slot]) {
             s.at.z = (depth - c.nearest) / c.span;
-            s.slope *= s.penumbra.scale / c.span;
-            s.penumbra.scale = c.span;
-            s.penumbra.bias = c.nearest;
+            s.slope *= s.penumbra.PENUMBRA_SCALE / c.span;
+            s.penumbra.PENUMBRA_SCALE = c.span;
+            s.penumbra.PENUMBRA_BIAS = c.nearest;
         }
         s.window.xy = c.tile * (0.5 * s.size.x);
         s.window.zw = s.window.xy + 0.5 * s.size.x;
@@ -97,9 +95,10 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.beside = t.beside;
         s.at = shadow_tile_at(slot, radial, t);
         s.slope = shadow_tile_slope(slot, radial, t, face);
-        if (radial) s.penumbra.radius *= length(t.q) / t.q.z;
+        if (radial) s.penumbra.PENUMBRA_RADIUS *= length(t.q) / t.q.z;
         // No wider than the gutter.
-        s.penumbra.nearest = max(s.penumbra.nearest, shadow_penumbra_depth(s, s.at.z) - s.reach / s.penumbra.radius);
+        s.penumbra.PENUMBRA_NEAREST =
+            max(s.penumbra.PENUMBRA_NEAREST, shadow_penumbra_depth(s, s.at.z) - s.reach / s.penumbra.PENUMBRA_RADIUS);
         vec2 tile = s.size.xy * vec2(1.0 / 3.0, 0.5);
         s.window.xy = floor(s.at.xy * vec2(3.0, 2.0)) * tile;
         s.window.zw = s.window.xy + tile;
@@ -107,7 +106,8 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.at = shadow_point_spot(slot, radial, p, n, l);
         s.slope = shadow_slope_spot(slot, radial, s.at, p, face, l);
         mat4 m = shadow_matrix(slot); // tangents grow off the axis: by distance over depth
-        if (radial) s.penumbra.radius *= distance(p, SHADOW(slot, SHADOW_PLACE).xyz) / (dot(vec3(m[0].w, m[1].w, m[2].w), p) + m[3].w);
+        float w = dot(vec3(m[0].w, m[1].w, m[2].w), p) + m[3].w;
+        if (radial) s.penumbra.PENUMBRA_RADIUS *= distance(p, SHADOW(slot, SHADOW_PLACE).xyz) / w;
     }
     return s;
 }

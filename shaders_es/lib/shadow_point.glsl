@@ -17,8 +17,8 @@ vec3 shadow_push(const int slot, vec3 n, vec3 l, float n_a, float texel) {
     float c = dot(n, l);
     float s = sqrt(max(1.0 - min(c * c, n_a * n_a), 0.0));
     float side = c < 0.0 ? -1.0 : 1.0;
-    float slope = min(s / max(abs(c), 0.001), bias[BIAS_SLOPE_MAX]);
-    return n * (side * bias[BIAS_NORMAL] * s * texel) + l * (bias[BIAS_SLOPE] * slope * texel + bias[BIAS_ULP]);
+    float slope = min(s / max(abs(c), 0.001), bias.BIAS_SLOPE_MAX);
+    return n * (side * bias.BIAS_NORMAL * s * texel) + l * (bias.BIAS_SLOPE * slope * texel + bias.BIAS_ULP);
 }
 
 // Directional: linear in p, so it may be made per vertex. uv and code. On a plane with any light: then nothing is pushed, and l
@@ -36,6 +36,6 @@ vec3 shadow_point_spot(const int slot, const bool radial, vec3 p, vec3 n, vec3 l
     vec4 h = m * vec4(q, 1.0);
     vec4 place = SHADOW(slot, SHADOW_PLACE);
     vec3 at = h.xyz / h.w;
-    if (radial) at.z = length(q - place.xyz) * place[PLACE_CODE_SCALE] + SHADOW(slot, SHADOW_CODE)[CODE_OFFSET];
+    if (radial) at.z = length(q - place.xyz) * place.PLACE_CODE_SCALE + SHADOW(slot, SHADOW_CODE).CODE_OFFSET;
     return at;
 }

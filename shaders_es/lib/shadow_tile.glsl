@@ -34,7 +34,8 @@ vec3 shadow_tile_at(const int slot, const bool radial, shadow_tile t) {
     vec2 middle = t.along_x ? vec2(1.0 / 6.0, 0.5) : t.along_z ? vec2(5.0 / 6.0, 0.5) : vec2(0.5);
     middle.y = t.side < 0.0 ? 0.75 : 0.25;
     float inverse = 1.0 / t.q.z;
-    float code = radial ? length(t.q) * SHADOW(slot, SHADOW_PLACE)[PLACE_CODE_SCALE] + SHADOW(slot, SHADOW_CODE)[CODE_OFFSET] : tiles.w * inverse + tiles.z;
+    float code = radial ? length(t.q) * SHADOW(slot, SHADOW_PLACE).PLACE_CODE_SCALE + SHADOW(slot, SHADOW_CODE).CODE_OFFSET
+                        : tiles.w * inverse + tiles.z;
     return vec3(t.q.xy * inverse * tiles.xy + middle, code);
 }
 
@@ -60,7 +61,7 @@ shadow_tile shadow_tile_shared(const int slot, const bool radial, vec3 p, vec3 n
     vec3 a = abs(v - turn.x * dFdx(p) - turn.y * dFdy(p)) * vec3(1.0, 0.999999, 0.999998); // no two are the same
     float larger = max(a.x, a.y), smaller = min(a.x, a.y);
     float depth = max(larger, a.z), second = max(smaller, min(larger, a.z)), third = min(smaller, a.z);
-    vec2 near = max(1.0 - (depth - vec2(third, second)) / (depth * SHADOW(slot, SHADOW_CODE)[CODE_SHARED]), 0.0);
+    vec2 near = max(1.0 - (depth - vec2(third, second)) / (depth * SHADOW(slot, SHADOW_CODE).CODE_SHARED), 0.0);
     bvec2 other = bvec2(turn.x > 0.0 && near.x > 0.0, turn.y > 0.0 && near.y > 0.0);
     float asked = other.x ? third : other.y ? second : depth;
     shadow_tile t;
@@ -83,6 +84,6 @@ vec2 shadow_tile_slope(const int slot, const bool radial, shadow_tile t, vec3 fa
     vec3 n = shadow_tile_turn(t, face) * vec3(1.0, 1.0, t.side);
     vec3 u = vec3(1.0, 0.0, -t.q.x * inverse) * (tiles.x * inverse);
     vec3 v = vec3(0.0, 1.0, -t.q.y * inverse) * (tiles.y * inverse);
-    vec3 code = radial ? -l * SHADOW(slot, SHADOW_PLACE)[PLACE_CODE_SCALE] : vec3(0.0, 0.0, -tiles.w * inverse * inverse);
+    vec3 code = radial ? -l * SHADOW(slot, SHADOW_PLACE).PLACE_CODE_SCALE : vec3(0.0, 0.0, -tiles.w * inverse * inverse);
     return shadow_slope(u, v, code, n, l);
 }

@@ -22,12 +22,12 @@ uvec4 table_between(highp usampler2D table, ivec2 low, ivec2 high) {
 
 // How far round the place blockers are looked for, texels.
 float table_widest(shadow_place s) {
-    return clamp(s.penumbra.radius * (shadow_penumbra_depth(s, s.at.z) - s.penumbra.nearest), 1.0, s.reach / TABLE_SEARCH);
+    return clamp(s.penumbra.PENUMBRA_RADIUS * (shadow_penumbra_depth(s, s.at.z) - s.penumbra.PENUMBRA_NEAREST), 1.0, s.reach / TABLE_SEARCH);
 }
 
 // The radius of the penumbra that what is at `code` throws here, texels.
 float table_penumbra(shadow_place s, float code, float widest) {
-    return clamp(s.penumbra.radius * (shadow_penumbra_depth(s, s.at.z) - shadow_penumbra_depth(s, code)), 1.0, widest);
+    return clamp(s.penumbra.PENUMBRA_RADIUS * (shadow_penumbra_depth(s, s.at.z) - shadow_penumbra_depth(s, code)), 1.0, widest);
 }
 
 // Three edges on each axis, of whole texels, in the order of their places: half of the square round s.at is 2 * radius wide.

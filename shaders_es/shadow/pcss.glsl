@@ -4,7 +4,7 @@
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
     mat2 turn = noise_turn();
     float depth = shadow_penumbra_depth(s, s.at.z);
-    float widest = max(s.penumbra.radius * (depth - s.penumbra.nearest), 1.0);
+    float widest = max(s.penumbra.PENUMBRA_RADIUS * (depth - s.penumbra.PENUMBRA_NEAREST), 1.0);
     mat2x3 to_map = taps_to_map(s, widest, turn);
     float blocked = 0.0, codes = 0.0;
     for (int i = 0; i < TAPS / 2; i++) {
@@ -16,6 +16,6 @@ float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
         codes += dot(blocks, code);
     }
     if (blocked < 0.5) return 1.0;
-    float radius = s.penumbra.radius * (depth - shadow_penumbra_depth(s, codes / blocked));
+    float radius = s.penumbra.PENUMBRA_RADIUS * (depth - shadow_penumbra_depth(s, codes / blocked));
     return taps_lit(map, s, clamp(radius, 1.0, widest), turn);
 }
