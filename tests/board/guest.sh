@@ -7,7 +7,9 @@ export LANG=C.UTF-8 XDG_CACHE_HOME=/tmp/cache XDG_CONFIG_HOME=/tmp/config XDG_RU
 cd /tmp || exit 1
 bad=0
 
-say() { echo "$(now) $*"; }
+say() {
+    echo "$(now) $*"
+}
 now() { # milliseconds since power-on
     local up
     read -r up _ < /proc/uptime
@@ -17,7 +19,9 @@ fail() {
     say "FAIL: $*"
     bad=1
 }
-require() { "$@" || fail "$*"; }
+require() {
+    "$@" || fail "$*"
+}
 
 # The host hears from here that the machine lives, and ends one that does not (run.sh). A machine that lives and whose time is over
 # says what it waits for.
@@ -74,8 +78,12 @@ shot() {
     qmp '{"execute":"screendump","arguments":{"filename":"'"$HOST_OUT/$1.png"'","format":"png","device":"gpu0","head":'"$((${2:-1} - 1))"'}}'
 }
 
-same_picture() { shot "$1" "${3:-1}" && cmp -s "/out/$1.png" "/out/$2.png"; }
-other_picture() { shot "$1" && ! cmp -s "/out/$1.png" "/out/$2.png"; }
+same_picture() {
+    shot "$1" "${3:-1}" && cmp -s "/out/$1.png" "/out/$2.png"
+}
+other_picture() {
+    shot "$1" && ! cmp -s "/out/$1.png" "/out/$2.png"
+}
 
 # shows NAME WxH: a new shot, and whether the screen is of this size (a PNG says so in bytes 16 to 23)
 shows() {
@@ -87,7 +95,9 @@ shows() {
 
 # same_as_render NAME WxH: after the machine has ended, the host compares NAME.png with what `gnomon
 # render` draws there. TURN says how many degrees clockwise the display is turned.
-same_as_render() { echo "${TURN:-0} $1 --size $2 $like $scene" >> /out/compare; }
+same_as_render() {
+    echo "${TURN:-0} $1 --size $2 $like $scene" >> /out/compare
+}
 
 # desktop WIDTH HEIGHT [HEAD]: the monitor of head 1 or 2 is of this size now, 0 0: none. The
 # machine's VNC servers listen at ports here; this is RFB's message SetDesktopSize (RFC 6143 and the
@@ -112,8 +122,12 @@ open_viewer() {
 
 # The kernel tells whoever listens that something about the monitor has changed. Looking for oneself
 # (the status in sysfs) would say nothing: it is as old as the last program's question.
-hotplugs() { grep -c HOTPLUG=1 /out/uevents; }
-more_hotplugs() { [ "$(hotplugs)" -gt "$1" ]; }
+hotplugs() {
+    grep -c HOTPLUG=1 /out/uevents
+}
+more_hotplugs() {
+    [ "$(hotplugs)" -gt "$1" ]
+}
 announced() { # WIDTH HEIGHT [HEAD]
     local before
     before=$(hotplugs)
@@ -129,7 +143,9 @@ plug() { # WxH [HEAD]
 unplug() { plug 0x0 "${1:-1}"; } # [HEAD]
 
 # ---- the card ----------------------------------------------------------------------------------
-gpu_device() { grep -l 0x1050 /sys/bus/pci/devices/*/device | sed 's,/device$,,;s,.*/,,'; }
+gpu_device() {
+    grep -l 0x1050 /sys/bus/pci/devices/*/device | sed 's,/device$,,;s,.*/,,'
+}
 gpu() { # bind or unbind
     gpu_device > "/sys/bus/pci/drivers/virtio-pci/$1" || fail "gpu $1"
 }
@@ -233,7 +249,9 @@ changes() {
 }
 heard=''
 # seen: every change that came of a button has its frame on its way to the screen
-seen() { [ "$(grep -E '^(mode|seen) ' "$log" | tail -n 1 | cut -c 1-4)" = seen ]; }
+seen() {
+    [ "$(grep -E '^(mode|seen) ' "$log" | tail -n 1 | cut -c 1-4)" = seen ]
+}
 
 # ---- the program -------------------------------------------------------------------------------
 # start COMMAND..: in the background, its words in /out/PROGRAM.log; $! and $program are its process.
@@ -275,7 +293,9 @@ flips() {
     say "gnomon: first flip after $(head -n 1 /out/gnomon.flip) ms"
 }
 shown() { flips && still "$@"; } # NAME [HEAD]
-flipped_or_gone() { [ -s /out/gnomon.flip ] || gone; }
+flipped_or_gone() {
+    [ -s /out/gnomon.flip ] || gone
+}
 still() {
     shot "$1-before" "${2:-1}" && sleep 0.3
     within 30 stands "$@" || fail "$1: the picture does not stand still"
@@ -292,7 +312,9 @@ back() {
     within 90 same_picture "$1" "$2" "${4:-1}" || { fail "no picture again $3: $(tail -n 3 "$log")" && return 1; }
     say "picture again $3: $(($(now) - begun)) ms"
 }
-alive() { kill -0 "$program" 2> /dev/null; }
+alive() {
+    kill -0 "$program" 2> /dev/null
+}
 # ended_with STATUS SECONDS: waits for the program's end
 ended_with() {
     local status
@@ -302,9 +324,13 @@ ended_with() {
     [ "$status" = "$1" ] || fail "exit status $status, not $1: $(tail -n 3 "$log")"
 }
 # a child that has ended stays as a zombie until it is waited for
-gone() { ! alive || grep -q '^State:.*Z' "/proc/$program/status" 2> /dev/null; }
+gone() {
+    ! alive || grep -q '^State:.*Z' "/proc/$program/status" 2> /dev/null
+}
 stop() { kill -TERM "$program" && ended_with 0 "${1:-60}"; } # it ends within a frame, and a frame may take long
-said() { grep -q -e "$1" "$log"; }
+said() {
+    grep -q -e "$1" "$log"
+}
 cpu_ms() { # of the program: user and system time, ticks of 10 ms
     local stat
     stat=$(cat "/proc/$program/stat")
@@ -318,10 +344,16 @@ idle() {
     before=$(cpu_ms) && sleep 1
     [ "$(cpu_ms)" = "$before" ]
 }
-io_of() { awk -v key="$1:" '$1 == key { print $2 }' "/proc/$program/io"; }
-mapped_kib() { awk '$1 == "VmSize:" { print $2 }' "/proc/$program/status"; }
+io_of() {
+    awk -v key="$1:" '$1 == key { print $2 }' "/proc/$program/io"
+}
+mapped_kib() {
+    awk '$1 == "VmSize:" { print $2 }' "/proc/$program/status"
+}
 heap_bytes() { cat "$HEAP_USE"; } # at its last picture; HEAP_USE is exported before the start
-descriptors() { find "/proc/$program/fd" -mindepth 1 | wc -l; }
+descriptors() {
+    find "/proc/$program/fd" -mindepth 1 | wc -l
+}
 
 mkfifo /run/silence
 exec {silence}<> /run/silence
