@@ -53,7 +53,7 @@ clean:
 deps:
 	@sh board/deps.sh $(if $(CROSS),build cross,build run test)
 format:
-	clang-format -i $(wildcard src/*.c src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*.c)
+	clang-format -i $(wildcard src/*.c src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*/*.c)
 uninstall:
 	rm -f "$(INTO)/bin/gnomon" "$(INTO)/bin/gnomon-import" "$(INTO)/share/man/man1/gnomon.1" \
 	    "$(INTO)/share/man/man1/gnomon-import.1" "$(INTO)/share/man/man5/gnomon.ini.5"
@@ -305,19 +305,20 @@ check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	@SUITE=trixie HOST_BUILD=$(B) tests/run.sh BUILD=$(GPIOD2) tests/board/units.sh tests/board/buttons.guest
 # What check leaves out: the long forms; what tests/timeouts leaves to accept, and the sanitizers
 # over the other kinds, in their quick forms; machines, and processors and GPUs that are not here.
-# What takes longest of these is left to full: DEAR under sanitizers, the long form of HOURS, and four
-# of the seven GPUs.
-DEAR    := $(filter tests/image/%,$(PROG_C))
-HOURS   := $(filter %/test_many_lights.c %/test_gesture_traces.c,$(PROG_C))
+# What takes longest of these is left to full: under sanitizers the tests of pictures that tests/timeouts
+# names (SLOW), the long form of LONGEST, and four of the seven GPUs.
+PICTURES := $(filter tests/image/%,$(PROG_C))
+SLOW    := $(filter $(shell awk '$$2 ~ /^[0-9]/ { print "tests/image/" $$1 ".c" }' tests/timeouts),$(PICTURES))
+LONGEST := $(filter %/test_many_lights.c %/test_gesture_traces.c,$(PROG_C))
 LONG     = $(shell grep -lE 'gn_shot_full|GN_FULL' $(1))
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
-	+$(SUB) WERROR=1 CONFIG=asan sanitized
+	+$(SUB) WERROR=1 CONFIG=asan tests
 	+$(SUB) lint
-	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) $(call later,$(call programs,$(O)/release,$(HOURS))) tests/board/smoke.guest \
-	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(DEAR) $(call kinds,$(SANITIZED)),$(PROG_C))) \
-	    GN_FULL=1 $(filter %/test_malformed %/test_scene_mutations %/test_kms_%,$(call programs,$(O)/asan,$(PROG_C))) \
-	    BUILD=$(O)/release $(filter-out $(call programs,$(O)/release,$(HOURS)),$(sort $(call programs,$(O)/release,$(call LONG,$(PROG_C))) \
+	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) $(call later,$(call programs,$(O)/release,$(LONGEST))) tests/board/smoke.guest \
+	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(SLOW),$(PICTURES))) \
+	    GN_FULL=1 $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan,$(PROG_C))) \
+	    BUILD=$(O)/release $(filter-out $(call programs,$(O)/release,$(LONGEST)),$(sort $(call programs,$(O)/release,$(call LONG,$(PROG_C))) \
 	    $(call later,$(call programs,$(O)/release,$(PROG_C))))) \
 	    $(filter-out $(call later,$(SCRIPTS)),$(call LONG,$(SCRIPTS))) $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh)) \
 	    $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest)))
@@ -327,8 +328,8 @@ accept:
 full:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
-	@tests/run.sh BUILD=$(O)/asan $(call programs,$(O)/asan,$(DEAR)) \
-	    BUILD=$(O)/release GN_FULL=1 $(call programs,$(O)/release,$(HOURS))
+	@tests/run.sh BUILD=$(O)/asan $(call programs,$(O)/asan,$(SLOW)) \
+	    BUILD=$(O)/release GN_FULL=1 $(call programs,$(O)/release,$(LONGEST))
 	+$(SUB) GN_FULL=1 check-angle
 	+$(SUB) GN_FULL=1 check-board
 	+$(SUB) GN_FULL=1 check-gpiod2

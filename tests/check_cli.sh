@@ -1,16 +1,6 @@
 #!/bin/sh
 # The program as a user meets it: exit status, one line on stderr, odd descriptors.
-set -u
-gnomon=${GNOMON:-build/release/gnomon}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-bad=0
-export XDG_CONFIG_HOME="$folder/none"
-
-complain() {
-    echo "FAIL: $*"
-    bad=1
-}
+. tests/script.sh
 
 # expect STATUS TEXT ARGUMENT..: that status, and one line on stderr that has the text ('' = none)
 expect() {

@@ -1,17 +1,7 @@
 #!/bin/sh
 # The documents against the program: links, options, goals of make, the example of kiosk.ini, the
 # gnomon_ keys for artists and their examples, the rows of the table of techniques.
-set -u
-gnomon=${GNOMON:-build/release/gnomon}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-bad=0
-export XDG_CONFIG_HOME="$folder/none"
-
-complain() {
-    echo "FAIL: $*"
-    bad=1
-}
+. tests/script.sh
 
 pages='README.md CONTRIBUTING.md assets/README.md assets/SCENES.md board/README.md tests/README.md src/*/README.md tests/*/README.md'
 

@@ -2,18 +2,8 @@
 # What the world can do to the program: hostile command lines, files, environments, limits and
 # signals. Whatever happens, it ends with 0, 1 or 2, says one line if it failed, and leaves no
 # temporary file.
-set -u
-gnomon=${GNOMON:-build/release/gnomon}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-bad=0
-export XDG_CONFIG_HOME="$folder/none"
+. tests/script.sh
 case $gnomon in */asan/*) asan=1 ;; *) asan=0 ;; esac
-
-complain() {
-    echo "FAIL: $*"
-    bad=1
-}
 
 # run ARGUMENT..: status in $got, stderr in $said (by a pipe: a limit on files does not cut it)
 run() {

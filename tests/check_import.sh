@@ -1,22 +1,13 @@
 #!/bin/sh
 # Models of other formats: gnomon-import run by hand and by gnomon, its limits, its crashes; and every
 # such file of GNOMON_SHARED (../shared) is either shown or refused with one line.
-set -u
-gnomon=${GNOMON:-build/release/gnomon}
+. tests/script.sh
 import=$(dirname "$gnomon")/gnomon-import
 shared=${GNOMON_SHARED:-../shared}
 if [ ! -x "$import" ]; then
     echo "no $import: it needs libassimp-dev (make deps)"
     exit 77
 fi
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-bad=0
-
-complain() {
-    echo "FAIL: $*"
-    bad=1
-}
 
 # expect STATUS TEXT COMMAND..: that status, and one line on stderr that has the text ('' = none)
 expect() {

@@ -2,20 +2,11 @@
 # A configuration of 60 lines, each broken in turn in several ways: the message names the file, the
 # line, the key and what was expected, and the kiosk runs all the same. The quick form starts a kiosk
 # for every sixth line, GN_FULL=1 for each of them.
-set -u
-gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-export XDG_CONFIG_HOME="$folder/none"
+. tests/script.sh
 unset XDG_RUNTIME_DIR
-bad=0 cases=0 kiosks=0
+cases=0 kiosks=0
 cp assets/sundial.glb "$folder/"
 cd "$folder" || exit 1
-
-complain() {
-    echo "FAIL: $*"
-    bad=1
-}
 
 cat > good.ini << 'END'
 ; a configuration of sixty lines
