@@ -47,8 +47,8 @@ static void choose_entries(struct bench *b) {
     const bool given = gn_settings_given(b->settings, render.shadow);
     b->report.run_count = given ? (uint32_t)list->count : 1;
     for (uint32_t i = 0; given && i < b->report.run_count; i++) {
-        b->entries[i].opts.technique = (enum gn_technique)list->items[i];
-        b->entries[i].opts.technique_given = true;
+        b->entries[i].opts.shadow.technique = (enum gn_technique)list->items[i];
+        b->entries[i].opts.shadow.technique_given = true;
     }
 }
 
@@ -58,8 +58,8 @@ static void prepare_entries(struct bench *b) {
     for (uint32_t i = 0; i < b->report.run_count; i++) {
         struct entry *e = &b->entries[i];
         struct gn_frame_opts opts = b->stage.frame_opts;
-        opts.technique_given = e->opts.technique_given;
-        opts.technique = e->opts.technique;
+        opts.shadow.technique_given = e->opts.shadow.technique_given;
+        opts.shadow.technique = e->opts.shadow.technique;
         e->opts = opts;
         e->run = &b->report.runs[i];
         e->ms = gn_xalloc(b->frames, sizeof *e->ms);
@@ -156,11 +156,11 @@ static void describe(struct gn_bench_run *run, const struct entry *e, const stru
         const struct gn_shadow_view *view = &plan->shadows[i];
         gn_bench_add_name(run->map_format, view->moments ? gn_moments[view->moments].name
                                                          : gn_encodings[view->encoding].name);
-        if (!e->opts.technique_given)
+        if (!e->opts.shadow.technique_given)
             gn_bench_add_name(run->technique, gn_techniques[view->technique].name);
     }
-    if (e->opts.technique_given)
-        gn_bench_add_name(run->technique, gn_techniques[e->opts.technique].name);
+    if (e->opts.shadow.technique_given)
+        gn_bench_add_name(run->technique, gn_techniques[e->opts.shadow.technique].name);
     if (!run->technique[0]) gn_bench_add_name(run->technique, "none");
     if (!run->map_format[0]) gn_bench_add_name(run->map_format, "none");
 }

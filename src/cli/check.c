@@ -50,11 +50,12 @@ static bool has_plane(const struct gn_scene *scene) {
 static bool check_technique(const struct gn_settings *settings, const struct gn_stage_look *look,
                             const struct gn_scene *scene, struct gn_err *err) {
     const struct gn_frame_opts *f = &look->frame_opts;
-    if (!f->technique_given || !gn_techniques[f->technique].on_plane || has_plane(scene))
+    if (!f->shadow.technique_given || !gn_techniques[f->shadow.technique].on_plane ||
+        has_plane(scene))
         return true;
     return gn_fail(err, "%s: %s needs a plane, and nothing in %s is one; gnomon_plane names it",
-                   gn_settings_label(settings, render.shadow), gn_techniques[f->technique].name,
-                   scene->name);
+                   gn_settings_label(settings, render.shadow),
+                   gn_techniques[f->shadow.technique].name, scene->name);
 }
 
 /* One mode's settings, on one scene. */

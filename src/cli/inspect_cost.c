@@ -61,7 +61,7 @@ static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene)
         .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
     const struct gn_frame_opts opts = {.width_px = GN_INSPECT_WIDTH_PX,
                                        .height_px = GN_INSPECT_HEIGHT_PX,
-                                       .encoding = GN_ENCODING_AUTO};
+                                       .shadow.encoding = GN_ENCODING_AUTO};
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     struct gn_frame *frame = gn_frame_create(scene, &caps);

@@ -154,7 +154,8 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
 static bool make_room(struct render *r, struct gn_err *err) {
     size_t pixels = (size_t)r->stage.settings->render.size.width_px *
                     (size_t)r->stage.settings->render.size.height_px;
-    bool wants_floats = r->stage.frame_opts.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM;
+    bool wants_floats =
+        r->stage.frame_opts.debug.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM;
     r->rgba = gn_picture_alloc(pixels, 4, err);
     if (!r->rgba) return false;
     if (wants_floats) r->floats = gn_picture_alloc(pixels, 4 * sizeof(float), err);

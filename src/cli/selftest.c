@@ -87,12 +87,12 @@ static bool draw(const struct desk *desk, const struct gn_selftest_row *row, str
     const struct gn_frame_opts opts = {
         .width_px = desk->truth.width_px,
         .height_px = desk->truth.height_px,
-        .technique_given = true,
-        .technique = row->technique,
-        .encoding = row->encoding,
-        .moments = row->moments,
-        .map_px = GN_SELFTEST_MAP_PX,
-        .aov = GN_AOV_VISIBILITY,
+        .shadow.technique_given = true,
+        .shadow.technique = row->technique,
+        .shadow.encoding = row->encoding,
+        .shadow.moments = row->moments,
+        .shadow.map_px = GN_SELFTEST_MAP_PX,
+        .debug.aov = GN_AOV_VISIBILITY,
     };
     const struct gn_plan *plan = gn_frame_build(desk->frame, &desk->pose, &opts, NULL);
     return gn_gl_prepare(desk->gl, plan, err) && gn_gl_run(desk->gl, plan, NULL, err) &&

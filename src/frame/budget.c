@@ -41,7 +41,7 @@ static uint32_t find_longest_waiting(const struct gn_frame *frame, const uint64_
 
 void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     uint64_t texels[GN_ALL_SHADOWS_MAX] = {0}, spent = 0;
-    if (opts->filter_texels == 0 || opts->all_seen) return;
+    if (opts->shadow.filter_texels == 0 || opts->all_seen) return;
     for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
         const struct gn_shadow_view *view = &frame->shadows[slot];
         if (!is_filtered(view)) continue;
@@ -53,7 +53,7 @@ void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts
     }
     for (uint32_t slot; (slot = find_longest_waiting(frame, texels)) < frame->shadow_count;
          texels[slot] = 0) {
-        if (spent == 0 || spent + texels[slot] <= opts->filter_texels) {
+        if (spent == 0 || spent + texels[slot] <= opts->shadow.filter_texels) {
             spent += texels[slot];
             update_kept(frame, slot);
         } else {

@@ -64,7 +64,7 @@ static void draw_captions(struct gn_frame *frame, const struct gn_program_key *k
 void gn_frame_caption_pass(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     const struct gn_caption_run *run = opts->captions;
     const struct gn_program_key key = caption_key(frame);
-    if (opts->aov != GN_AOV_COLOR) return;
+    if (opts->debug.aov != GN_AOV_COLOR) return;
     if (opts->captions_later) gn_frame_program(frame, &key);
     if (run && run->width_px == frame->picture.width_px &&
         run->height_px == frame->picture.height_px)

@@ -48,7 +48,7 @@ static void open_views(struct views *v, struct gn_frame *frame, const struct gn_
                        const struct gn_frame_opts *opts) {
     const struct gn_scene *scene = frame->scene;
     *v = (struct views){.frame = frame, .opts = opts, .now = pose, .count = 1};
-    v->moves = pose->node_moves[scene->cameras[opts->camera].node];
+    v->moves = pose->node_moves[scene->cameras[opts->view.camera].node];
     for (uint32_t i = 0; i < scene->clip_count && v->moves; i++)
         if (scene->clips[i].duration_ns > v->lasts_ns) v->lasts_ns = scene->clips[i].duration_ns;
     if (v->moves) v->count += OTHERS;
@@ -114,7 +114,7 @@ static uint32_t count_cascades(struct views *v, uint32_t slot, const struct gn_s
 static void judge_cascades(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *frame_opts, uint32_t slot,
                            const struct gn_shadow_opts *opts, struct gn_cascade_choice *c) {
-    const struct gn_orbit *orbit = &frame_opts->orbit;
+    const struct gn_orbit *orbit = &frame_opts->view.orbit;
     if (c->count >= opts->cascades || gn_orbit_is_zero(orbit)) return;
     const uint64_t by = gn_hash(GN_HASH_INIT, orbit, sizeof *orbit);
     if (by == c->judged) return;

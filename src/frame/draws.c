@@ -94,7 +94,7 @@ static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
         return false;
     }
     if (!is_blended(frame, item)) return true;
-    if (s->opts->aov == GN_AOV_COLOR)
+    if (s->opts->debug.aov == GN_AOV_COLOR)
         GN_LIST_PUSH(&frame->items.blended) = (struct gn_placed){depth_of(frame, box, false), item};
     return false;
 }

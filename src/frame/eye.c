@@ -73,15 +73,15 @@ struct look {
 
 static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
                       const struct gn_frame_opts *opts, struct look *look) {
-    const struct gn_camera *camera = &frame->scene->cameras[opts->camera];
+    const struct gn_camera *camera = &frame->scene->cameras[opts->view.camera];
     float aspect = (float)frame->picture.width_px / (float)frame->picture.height_px;
     mat4 clip_from_view;
     float reach_m[2]; /* to what is looked at, and to the end of the scene */
-    reach_m[0] = gn_orbit_view(&opts->orbit, pose, (uint32_t)opts->camera, look->view_from_world,
-                               look->eye_ws);
-    turn_camera(pose, opts->turntable_rad, look->view_from_world, look->eye_ws);
+    reach_m[0] = gn_orbit_view(&opts->view.orbit, pose, (uint32_t)opts->view.camera,
+                               look->view_from_world, look->eye_ws);
+    turn_camera(pose, opts->view.turntable_rad, look->view_from_world, look->eye_ws);
     reach_m[1] = scene_far_m(pose, look->eye_ws, camera->near_m);
-    make_projection(camera, &opts->orbit, aspect, reach_m, clip_from_view);
+    make_projection(camera, &opts->view.orbit, aspect, reach_m, clip_from_view);
     turn_picture(frame, clip_from_view);
     glm_mat4_mul(clip_from_view, look->view_from_world, look->clip_from_world);
 }
@@ -95,7 +95,7 @@ void gn_frame_eye_at(const struct gn_frame *frame, const struct gn_pose *pose,
 
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]) {
-    const struct gn_camera *camera = &frame->scene->cameras[opts->camera];
+    const struct gn_camera *camera = &frame->scene->cameras[opts->view.camera];
     struct look look;
     find_look(frame, pose, opts, &look);
     gn_eye_build(&frame->eye, look.clip_from_world);

@@ -8,7 +8,10 @@ static uint32_t asked_px(const struct gn_frame *frame, const struct gn_frame_lig
     const uint32_t own_px = gn_techniques[light->technique].map_px;
     const uint32_t of_light_px = frame->scene->lights[light->light].map_px;
     if (light->encoding == GN_ENCODING_STENCIL) return 0;
-    return opts->map_px ? opts->map_px : of_light_px ? of_light_px : own_px ? own_px : 1024;
+    return opts->shadow.map_px ? opts->shadow.map_px
+           : of_light_px       ? of_light_px
+           : own_px            ? own_px
+                               : 1024;
 }
 
 static void say_smaller(struct gn_frame *frame, const struct gn_frame_light *light, uint32_t asked,
@@ -32,9 +35,9 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                                         .encoding = light->encoding,
                                         .moments = light->moments,
                                         .map_px = asked < most ? asked : most,
-                                        .all_receive = opts->aov == GN_AOV_VISIBILITY,
-                                        .cascades =
-                                            opts->cascades ? opts->cascades : GN_CASCADES_MAX};
+                                        .all_receive = opts->debug.aov == GN_AOV_VISIBILITY,
+                                        .cascades = opts->shadow.cascades ? opts->shadow.cascades
+                                                                          : GN_CASCADES_MAX};
         gn_frame_make_memories(frame, i, gn_shadow_tile_count(l->type, light->technique));
         light->cascades = shadow.cascades = gn_frame_choose_cascades(frame, pose, opts, i, &shadow);
         if (shadow.cascades > 1) gn_frame_make_memories(frame, i, GN_CASCADE_MEMORIES);

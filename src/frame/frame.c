@@ -39,11 +39,11 @@ void gn_frame_destroy(struct gn_frame *frame) {
 static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *opts,
                           struct gn_warnings *warnings) {
     struct gn_plan *plan = &frame->plan;
-    plan->aov = opts->aov;
+    plan->aov = opts->debug.aov;
     const bool encodes = frame->caps.has & 1u << GN_CAP_SRGB && !opts->unencoded;
-    plan->msaa = opts->aov == GN_AOV_COLOR ? opts->msaa : 0;
+    plan->msaa = opts->debug.aov == GN_AOV_COLOR ? opts->msaa : 0;
     plan->encode_srgb = false;
-    if (opts->aov != GN_AOV_COLOR)
+    if (opts->debug.aov != GN_AOV_COLOR)
         plan->output = GN_OUTPUT_AOV;
     else if (opts->output_float && frame->caps.has & 1u << GN_CAP_RGBA16F)
         plan->output = GN_OUTPUT_FLOAT;
@@ -55,7 +55,7 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
         plan->output = GN_OUTPUT_LINEAR8;
         plan->encode_srgb = true;
     }
-    if (opts->aov == GN_AOV_COLOR && opts->output_float && plan->output != GN_OUTPUT_FLOAT &&
+    if (opts->debug.aov == GN_AOV_COLOR && opts->output_float && plan->output != GN_OUTPUT_FLOAT &&
         gn_frame_notice(&frame->notes.said, GN_NOTICE_FLOAT, warnings))
         gn_warn(warnings, "this GPU cannot render to half floats: colour is 8 bits, clamped to 1");
     if (plan->msaa && !(frame->caps.has & 1u << GN_CAP_MSAA4)) {
@@ -94,7 +94,7 @@ static void reset_plan(struct gn_frame *frame, const struct gn_frame_opts *opts)
     frame->plan = (struct gn_plan){.scene = frame->scene};
     frame->plan.width_px = opts->width_px ? opts->width_px : 1280;
     frame->plan.height_px = opts->height_px ? opts->height_px : 720;
-    frame->camera = (uint32_t)opts->camera;
+    frame->camera = (uint32_t)opts->view.camera;
     set_turn(frame, opts->turn_deg);
 }
 

@@ -5,12 +5,9 @@
 #include "frame/orbit.h"
 #include "frame/plan.h"
 
-struct gn_frame_opts {            /* zero means the default written beside */
-    uint32_t width_px, height_px; /* of the output; 1280 x 720 */
-    unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
-                                     clockwise by this; by 90 it is height_px wide */
-    bool unencoded;               /* the output's framebuffer does not encode: shaders do */
-    int camera;                   /* 0; of the scene, there */
+/* In all options zero means the default written beside. */
+
+struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     bool technique_given; /* `technique` overrides the lights' own and the default pcf; a light's
                              own none holds */
     enum gn_technique technique;
@@ -23,19 +20,36 @@ struct gn_frame_opts {            /* zero means the default written beside */
     bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
     unsigned taps;          /* of disk, poisson, pcss: 8, 16, 32; 16 */
     bool taps_fixed;        /* the same for every pixel */
-    enum gn_aov aov;
-    int light; /* for visibility: index in the scene; out of range: everything is lit */
-    bool output_linear, output_float;
-    bool exposure_given;
-    float exposure_ev; /* stops, when given; else automatic */
     bool strength_given;
     float strength; /* overrides the lights' gnomon_shadow_strength */
-    uint32_t msaa;
+};
+
+struct gn_frame_view_opts {
+    int camera;            /* 0; of the scene, there */
     struct gn_orbit orbit; /* the camera moved by the user */
     float turntable_rad;   /* the camera is rotated about +Y through the scene's centre by this */
-    bool show_lights;      /* draw a gizmo at each light */
-    bool show_maps;        /* draw the maps as panels along the lower edge */
-    bool all_seen;         /* no culling: for programs that will be needed later */
+};
+
+struct gn_frame_debug_opts { /* what is drawn instead of the picture, or over it */
+    enum gn_aov aov;         /* GN_AOV_COLOR: the picture */
+    int light;        /* for visibility: index in the scene; out of range: everything is lit */
+    bool show_lights; /* draw a gizmo at each light */
+    bool show_maps;   /* draw the maps as panels along the lower edge */
+};
+
+struct gn_frame_opts {
+    struct gn_frame_shadow_opts shadow;
+    struct gn_frame_view_opts view;
+    struct gn_frame_debug_opts debug;
+    uint32_t width_px, height_px; /* of the output; 1280 x 720 */
+    unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
+                                     clockwise by this; by 90 it is height_px wide */
+    bool unencoded;               /* the output's framebuffer does not encode: shaders do */
+    bool output_linear, output_float;
+    uint32_t msaa;
+    bool exposure_given;
+    float exposure_ev;                     /* stops, when given; else automatic */
+    bool all_seen;                         /* no culling: for programs that will be needed later */
     const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
     bool captions_later;                   /* include their program even without captions */
 };

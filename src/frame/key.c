@@ -57,7 +57,7 @@ static enum gn_receiver receiver_of(const struct gn_frame *frame, const struct g
 
 bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item,
                      const struct gn_frame_opts *opts) {
-    return receiver_of(frame, &frame->scene->items[item], opts->aov) == GN_RECEIVES_ALL;
+    return receiver_of(frame, &frame->scene->items[item], opts->debug.aov) == GN_RECEIVES_ALL;
 }
 
 /* How many of the lights with maps are asked about their shadows: those for the plane come last. */
@@ -86,8 +86,8 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         key->lights[i].moments = (uint8_t)light->moments;
         key->lights[i].cascades = light->cascades > 1;
         if (!gn_techniques[light->technique].taps) continue;
-        key->taps = (uint8_t)(opts->taps ? opts->taps : GN_TAPS_DEFAULT);
-        key->taps_turn = !opts->taps_fixed;
+        key->taps = (uint8_t)(opts->shadow.taps ? opts->shadow.taps : GN_TAPS_DEFAULT);
+        key->taps_turn = !opts->shadow.taps_fixed;
     }
 }
 
@@ -97,13 +97,15 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
     const struct gn_material *m = &frame->scene->materials[item->material];
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
-    key.kind = opts->aov == GN_AOV_COLOR ? GN_PROGRAM_LIT : GN_PROGRAM_AOV;
-    key.aov = (uint8_t)opts->aov;
-    key.features = opts->aov == GN_AOV_COLOR ? color_features(frame, item)
-                                             : alpha_features(frame->scene, item);
-    if (opts->aov != GN_AOV_COLOR && m->double_sided) key.features |= GN_FEATURE(DOUBLE_SIDED);
-    if (opts->aov == GN_AOV_COLOR ? m->unlit : opts->aov != GN_AOV_VISIBILITY) return key;
-    enum gn_receiver receiver = receiver_of(frame, item, opts->aov);
+    key.kind = opts->debug.aov == GN_AOV_COLOR ? GN_PROGRAM_LIT : GN_PROGRAM_AOV;
+    key.aov = (uint8_t)opts->debug.aov;
+    key.features = opts->debug.aov == GN_AOV_COLOR ? color_features(frame, item)
+                                                   : alpha_features(frame->scene, item);
+    if (opts->debug.aov != GN_AOV_COLOR && m->double_sided)
+        key.features |= GN_FEATURE(DOUBLE_SIDED);
+    if (opts->debug.aov == GN_AOV_COLOR ? m->unlit : opts->debug.aov != GN_AOV_VISIBILITY)
+        return key;
+    enum gn_receiver receiver = receiver_of(frame, item, opts->debug.aov);
     set_lights(frame, &frame->groups[0], opts, receiver, &key);
     if (frame->group_count > 1) key.receiver = (uint8_t)receiver;
     return key;

@@ -49,8 +49,8 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
     if (note->unknown && gn_frame_notice(&note->said, GN_NOTICE_TECHNIQUE, warnings))
         gn_warn(warnings, "light '%s': gnomon_shadow '%s' is not a known technique; using pcf",
                 light->name, light->technique);
-    bool own = note->technique == GN_TECHNIQUE_NONE || !opts->technique_given;
-    enum gn_technique technique = own ? note->technique : opts->technique;
+    bool own = note->technique == GN_TECHNIQUE_NONE || !opts->shadow.technique_given;
+    enum gn_technique technique = own ? note->technique : opts->shadow.technique;
     if (gn_technique_filters_map(technique) && !can_filter(frame, technique)) {
         if (gn_frame_notice(&note->said, GN_NOTICE_MOMENTS, warnings))
             gn_warn(warnings,
@@ -76,14 +76,17 @@ static void choose_moments(struct gn_frame *frame, const struct gn_frame_opts *o
     const char *technique = gn_techniques[light->technique].name;
     bool fell_back = false;
     if (filters)
-        light->moments = gn_moments_choose(gn_techniques[light->technique].stores, opts->moments,
-                                           gn_caps_moments(&frame->caps), &fell_back);
-    const bool wants_map = opts->encoding != GN_ENCODING_AUTO, wants_moments = opts->moments;
+        light->moments =
+            gn_moments_choose(gn_techniques[light->technique].stores, opts->shadow.moments,
+                              gn_caps_moments(&frame->caps), &fell_back);
+    const bool wants_map = opts->shadow.encoding != GN_ENCODING_AUTO,
+               wants_moments = opts->shadow.moments;
     if (!(filters ? fell_back || wants_map : wants_moments)) return;
     if (!gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_ENCODING, warnings))
         return;
     gn_warn(warnings, "%s does not support map format %s%s; using %s", technique,
-            wants_map ? gn_encodings[opts->encoding].name : gn_moments[opts->moments].name,
+            wants_map ? gn_encodings[opts->shadow.encoding].name
+                      : gn_moments[opts->shadow.moments].name,
             fell_back ? " on this GPU" : "",
             filters ? gn_moments[light->moments].name : gn_encodings[light->encoding].name);
 }
@@ -92,13 +95,13 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
                             struct gn_frame_light *light, struct gn_warnings *warnings) {
     uint32_t *said = &frame->notes.lights.at[light->light].said;
     bool fell_back;
-    light->encoding = gn_encoding_choose(light->technique, opts->encoding,
+    light->encoding = gn_encoding_choose(light->technique, opts->shadow.encoding,
                                          gn_caps_encodings(&frame->caps), &fell_back);
     choose_moments(frame, opts, light, warnings);
     if (fell_back && gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
         gn_warn(warnings, "this GPU cannot render to map format %s; using %s",
-                gn_encodings[opts->encoding].name, gn_encodings[light->encoding].name);
-    if (light->encoding != GN_ENCODING_MASK || !opts->planar_in_stencil) return;
+                gn_encodings[opts->shadow.encoding].name, gn_encodings[light->encoding].name);
+    if (light->encoding != GN_ENCODING_MASK || !opts->shadow.planar_in_stencil) return;
     if (!frame->plane.blended)
         light->encoding = GN_ENCODING_STENCIL;
     else if (gn_frame_notice(&frame->notes.said, GN_NOTICE_BLENDED, warnings))
@@ -112,7 +115,7 @@ static struct gn_frame_light describe_light(struct gn_frame *frame, const struct
     const struct gn_light *light = &frame->scene->lights[index];
     struct gn_frame_light l = {.light = index,
                                .technique = technique_of(frame, index, opts, warnings)};
-    l.strength = opts->strength_given ? opts->strength : light->shadow_strength;
+    l.strength = opts->shadow.strength_given ? opts->shadow.strength : light->shadow_strength;
     l.illuminance = illuminance(pose, index);
     if (l.technique != GN_TECHNIQUE_NONE) choose_encoding(frame, opts, &l, warnings);
     return l;
@@ -184,12 +187,12 @@ static uint32_t count_maps(const struct gn_frame *frame) {
 
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
-    bool visibility = opts->aov == GN_AOV_VISIBILITY;
+    bool visibility = opts->debug.aov == GN_AOV_VISIBILITY;
     const uint32_t most = can_add_light(frame) ? GN_ALL_LIGHTS_MAX : GN_LIGHTS_MAX,
                    most_maps = can_add_light(frame) ? GN_ALL_SHADOWS_MAX : GN_SHADOWS_MAX;
     frame->light_count = 0;
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
-        if (visibility ? (int)i != opts->light : opts->aov != GN_AOV_COLOR) continue;
+        if (visibility ? (int)i != opts->debug.light : opts->debug.aov != GN_AOV_COLOR) continue;
         add_light(frame, describe_light(frame, pose, i, opts, warnings), most, warnings);
     }
     for (uint32_t count = count_maps(frame); count > most_maps; count--) {

@@ -29,10 +29,16 @@ void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts
     }
     for (uint32_t i = frame->notes.lights.count; i < frame->scene->light_count; i++)
         GN_LIST_PUSH(&frame->notes.lights) = note_of(&frame->scene->lights[i]);
-    const uint32_t about[GN_NOTICE_ABOUT] = {
-        opts->technique_given, opts->technique,     opts->encoding, opts->aov,
-        opts->output_float,    opts->output_linear, opts->msaa,     opts->planar_in_stencil,
-        opts->moments,         opts->map_px};
+    const uint32_t about[GN_NOTICE_ABOUT] = {opts->shadow.technique_given,
+                                             opts->shadow.technique,
+                                             opts->shadow.encoding,
+                                             opts->debug.aov,
+                                             opts->output_float,
+                                             opts->output_linear,
+                                             opts->msaa,
+                                             opts->shadow.planar_in_stencil,
+                                             opts->shadow.moments,
+                                             opts->shadow.map_px};
     if (memcmp(frame->notes.about, about, sizeof about) == 0) return;
     memcpy(frame->notes.about, about, sizeof about);
     frame->notes.said = 0;

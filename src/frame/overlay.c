@@ -180,7 +180,8 @@ _Static_assert(GN_ALL_SHADOWS_MAX *PANEL_SIZE <= GN_PASS_SIZE, "room for all pan
 
 void gn_frame_overlay_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts) {
-    if (opts->aov != GN_AOV_COLOR) return;
-    if (opts->show_lights && frame->scene->light_count > 0) marks_pass(frame, pose);
-    for (uint32_t i = 0; opts->show_maps && i < frame->shadow_count; i++) panel_pass(frame, i);
+    if (opts->debug.aov != GN_AOV_COLOR) return;
+    if (opts->debug.show_lights && frame->scene->light_count > 0) marks_pass(frame, pose);
+    for (uint32_t i = 0; opts->debug.show_maps && i < frame->shadow_count; i++)
+        panel_pass(frame, i);
 }

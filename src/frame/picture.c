@@ -111,10 +111,10 @@ static void opaque_pass(struct gn_frame *frame, const struct gn_pose *pose,
     struct gn_selection seen = {.part = frame->plan.stencil ? GN_PART_REST : GN_PART_ALL,
                                 .opts = opts};
     struct gn_pass *pass =
-        gn_frame_lit_pass(frame, opts->aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
+        gn_frame_lit_pass(frame, opts->debug.aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
     uint32_t first = pass->first_draw;
     pass->clear.area = GN_CLEAR_ALL;
-    set_clear(frame, opts->aov, pass->clear.color);
+    set_clear(frame, opts->debug.aov, pass->clear.color);
     frame->items.blended.count = 0;
     gn_frame_draw_items(frame, pose, &seen);
     gn_frame_sort_draws(frame, first);

@@ -17,7 +17,7 @@ void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *
     for (uint32_t i = 0; i < frame->light_count; i++) {
         struct gn_frame_light *light = &frame->lights[i];
         const struct gn_light *l = &frame->scene->lights[light->light];
-        light->slide = opts->aov == GN_AOV_COLOR ? gn_slide_of(l) : GN_SLIDE_NONE;
+        light->slide = opts->debug.aov == GN_AOV_COLOR ? gn_slide_of(l) : GN_SLIDE_NONE;
         if (light->slide == GN_SLIDE_NONE || slide_rank(frame, light) < GN_SLIDES_MAX) continue;
         light->slide = GN_SLIDE_NONE;
         if (gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_SLIDES, warnings))

@@ -200,7 +200,7 @@ static void show_staged(struct gn_show *s) {
     gn_scene_destroy(stage->scene);
     stage->scene = staged->scene;
     stage->pose = staged->pose;
-    stage->frame_opts.orbit = (struct gn_orbit){0};
+    stage->frame_opts.view.orbit = (struct gn_orbit){0};
     s->looks = scenes->looks;
     scenes->shown = staged->number;
     staged->scene = NULL;

@@ -26,7 +26,8 @@ static const char *caption_of(const struct gn_show *s, const struct gn_kiosk_vie
     switch (view->caption) {
     case GN_KIOSK_CAPTION_MODE: return s->modes.names[view->caption_mode];
     case GN_KIOSK_CAPTION_SCENE: return scene_name(s, view->caption_scene);
-    case GN_KIOSK_CAPTION_CAMERA: return s->stage.scene->cameras[s->stage.frame_opts.camera].name;
+    case GN_KIOSK_CAPTION_CAMERA:
+        return s->stage.scene->cameras[s->stage.frame_opts.view.camera].name;
     case GN_KIOSK_CAPTION_PAUSE: return view->stands ? "pause" : NULL;
     default: return NULL;
     }

@@ -113,7 +113,8 @@ void gn_show_enter(struct gn_show *s) {
     const struct gn_frame_opts before = s->stage.frame_opts;
     s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
     s->stage.frame_opts = look->frame_opts;
-    if (look->frame_opts.camera == before.camera) s->stage.frame_opts.orbit = before.orbit;
+    if (look->frame_opts.view.camera == before.view.camera)
+        s->stage.frame_opts.view.orbit = before.view.orbit;
     if (look->clips != s->stage.pose.clips) gn_pose_choose(&s->stage.pose, look->clips);
     s->changed = true;
 }
@@ -122,7 +123,7 @@ void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view) {
     const struct gn_stage_look *look = &s->looks.of[view->mode];
     struct gn_frame_opts *f = &s->stage.frame_opts;
     const uint32_t camera =
-        ((uint32_t)look->frame_opts.camera + view->camera) % s->stage.scene->camera_count;
-    if ((uint32_t)f->camera != camera) f->orbit = (struct gn_orbit){0};
-    f->camera = (int)camera;
+        ((uint32_t)look->frame_opts.view.camera + view->camera) % s->stage.scene->camera_count;
+    if ((uint32_t)f->view.camera != camera) f->view.orbit = (struct gn_orbit){0};
+    f->view.camera = (int)camera;
 }

@@ -28,7 +28,7 @@ bool gn_show_pointer_turn(struct gn_stage *stage, const struct gn_pointer *point
     struct gn_orbit_hand moves = {.zoom = NOTCH * pointer->wheel, .aspect = aspect_of(screen)};
     turn_back(screen, pointer->turn, moves.turn);
     turn_back(screen, pointer->pan, moves.pan);
-    if (pointer->home) f->orbit = (struct gn_orbit){0};
-    f->orbit = gn_orbit_step(&f->orbit, &moves, &stage->pose, (uint32_t)f->camera);
+    if (pointer->home) f->view.orbit = (struct gn_orbit){0};
+    f->view.orbit = gn_orbit_step(&f->view.orbit, &moves, &stage->pose, (uint32_t)f->view.camera);
     return true;
 }

@@ -99,29 +99,29 @@ static bool choose_frame(struct gn_frame_opts *f, const struct gn_settings *o,
     *f = (struct gn_frame_opts){
         .width_px = (uint32_t)o->render.size.width_px,
         .height_px = (uint32_t)o->render.size.height_px,
-        .aov = o->render.aov == GN_AOV_COUNT ? GN_AOV_VISIBILITY /* this light alone */
-                                             : (enum gn_aov)o->render.aov,
-        .light = o->render.light,
+        .debug.aov = o->render.aov == GN_AOV_COUNT ? GN_AOV_VISIBILITY /* this light alone */
+                                                   : (enum gn_aov)o->render.aov,
+        .debug.light = o->render.light,
         .output_linear = o->render.output == GN_PICTURE_LINEAR,
         .exposure_given = !isnan(o->render.exposure_ev),
         .exposure_ev = isnan(o->render.exposure_ev) ? 0.0f : (float)o->render.exposure_ev,
-        .encoding = GN_MAP_FORMAT_ENCODING(o->render.map_format),
-        .moments = GN_MAP_FORMAT_MOMENTS(o->render.map_format),
-        .map_px = gn_settings_given(o, render.map_px) ? (uint32_t)o->render.map_px : 0,
-        .planar_in_stencil = o->render.planar_in_stencil,
-        .taps = (unsigned)o->render.taps,
-        .taps_fixed = o->render.taps_fixed,
-        .filter_texels = continuous ? (uint64_t)(o->render.filter_budget * 1e6) : 0,
-        .strength_given = gn_settings_given(o, render.shadow_strength),
-        .strength = (float)o->render.shadow_strength,
+        .shadow.encoding = GN_MAP_FORMAT_ENCODING(o->render.map_format),
+        .shadow.moments = GN_MAP_FORMAT_MOMENTS(o->render.map_format),
+        .shadow.map_px = gn_settings_given(o, render.map_px) ? (uint32_t)o->render.map_px : 0,
+        .shadow.planar_in_stencil = o->render.planar_in_stencil,
+        .shadow.taps = (unsigned)o->render.taps,
+        .shadow.taps_fixed = o->render.taps_fixed,
+        .shadow.filter_texels = continuous ? (uint64_t)(o->render.filter_budget * 1e6) : 0,
+        .shadow.strength_given = gn_settings_given(o, render.shadow_strength),
+        .shadow.strength = (float)o->render.shadow_strength,
         .msaa = (uint32_t)o->render.msaa,
-        .show_lights = o->render.show_lights,
-        .show_maps = o->render.show_maps,
+        .debug.show_lights = o->render.show_lights,
+        .debug.show_maps = o->render.show_maps,
     };
-    f->technique_given = gn_settings_given(o, render.shadow);
-    if (f->technique_given && o->render.shadow.count == 1)
-        f->technique = (enum gn_technique)o->render.shadow.items[0];
-    return choose_camera(o, scene, &f->camera, warnings, err);
+    f->shadow.technique_given = gn_settings_given(o, render.shadow);
+    if (f->shadow.technique_given && o->render.shadow.count == 1)
+        f->shadow.technique = (enum gn_technique)o->render.shadow.items[0];
+    return choose_camera(o, scene, &f->view.camera, warnings, err);
 }
 
 bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *settings,
@@ -201,7 +201,7 @@ void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
     gn_pose_step(&stage->pose, time_ns);
     double turned_deg =
         fmod(stage->settings->scene.turntable_deg_s * ((double)time_ns * 1e-9), 360.0);
-    stage->frame_opts.turntable_rad = glm_rad((float)turned_deg);
+    stage->frame_opts.view.turntable_rad = glm_rad((float)turned_deg);
 }
 
 const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,

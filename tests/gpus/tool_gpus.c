@@ -219,10 +219,10 @@ static void stage_close(struct stage *s) {
 static struct gn_frame_opts opts_of(enum gn_technique technique, enum gn_encoding encoding) {
     return (struct gn_frame_opts){.width_px = 64,
                                   .height_px = 48,
-                                  .technique_given = true,
-                                  .technique = technique,
-                                  .encoding = encoding,
-                                  .map_px = 64,
+                                  .shadow.technique_given = true,
+                                  .shadow.technique = technique,
+                                  .shadow.encoding = encoding,
+                                  .shadow.map_px = 64,
                                   .all_seen = true};
 }
 
@@ -248,13 +248,13 @@ static void try_encoding(struct bench *b, const struct stage *s, enum gn_techniq
     snprintf(what, sizeof what, "%s, %s", gn_techniques[technique].name,
              gn_encodings[encoding].name);
     if (gn_techniques[technique].on_plane) {
-        opts.planar_in_stencil = encoding == GN_ENCODING_STENCIL;
-        opts.encoding = GN_ENCODING_AUTO;
+        opts.shadow.planar_in_stencil = encoding == GN_ENCODING_STENCIL;
+        opts.shadow.encoding = GN_ENCODING_AUTO;
     }
     const enum gn_light_type type = s->scene->lights[0].type;
     if (draw(b, s, &opts, EVERYTHING, what) && !has_program(b, type, technique, encoding))
         fail(b, what, "the plan has no such program");
-    opts.cascades = 1; /* its map is so small that a sun has some by itself */
+    opts.shadow.cascades = 1; /* its map is so small that a sun has some by itself */
     if (type == GN_LIGHT_DIRECTIONAL) draw(b, s, &opts, EVERYTHING, what);
 }
 
@@ -326,7 +326,7 @@ static void try_outputs(struct bench *b, const struct stage *s, enum what wanted
                 snprintf(what, sizeof what, "picture of form %d, %u samples%s", form, msaa,
                          planar ? ", stencil" : "");
                 opts.msaa = msaa;
-                opts.planar_in_stencil = planar;
+                opts.shadow.planar_in_stencil = planar;
                 opts.unencoded = form == 1;
                 opts.output_linear = form == 2;
                 opts.output_float = form == 3;
@@ -338,7 +338,7 @@ static void try_outputs(struct bench *b, const struct stage *s, enum what wanted
 static void try_aovs(struct bench *b, const struct stage *s) {
     for (int aov = GN_AOV_COLOR + 1; aov < GN_AOV_COUNT; aov++) {
         struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF, GN_ENCODING_AUTO);
-        opts.aov = (enum gn_aov)aov;
+        opts.debug.aov = (enum gn_aov)aov;
         draw(b, s, &opts, EVERYTHING, "aov");
     }
 }
@@ -351,7 +351,7 @@ static void try_overlays(struct bench *b, const struct stage *s) {
             struct gn_frame_opts opts = opts_of((enum gn_technique)t, (enum gn_encoding)encoding);
             if (!wants_encoding(b, (enum gn_technique)t, encoding, true)) continue;
             opts.width_px = 320, opts.height_px = 240;
-            opts.show_lights = opts.show_maps = true;
+            opts.debug.show_lights = opts.debug.show_maps = true;
             opts.captions = gn_captions_run(captions, opts.width_px, opts.height_px, 0);
             draw(b, s, &opts, ALL_BUT_LIT, "overlays");
         }
@@ -368,7 +368,7 @@ static void try_maps(struct bench *b, enum gn_gpu_scene which) {
             if (!wants_encoding(b, (enum gn_technique)t, e, true)) continue;
             opts.all_seen = false;
             for (int step = 0; step < 3; step++) {
-                opts.turntable_rad = 0.7f * (float)step;
+                opts.view.turntable_rad = 0.7f * (float)step;
                 draw(b, &s, &opts, ALL_BUT_LIT, "maps");
             }
         }

@@ -43,13 +43,13 @@ const struct gn_plan *help_lamp_draw(int camera, int technique, int encoding, in
                                      int height_px) {
     struct gn_frame_opts opts = {.width_px = (uint32_t)width_px,
                                  .height_px = (uint32_t)height_px,
-                                 .camera = camera,
-                                 .technique_given = true,
-                                 .technique = (enum gn_technique)technique,
-                                 .encoding = (enum gn_encoding)encoding,
-                                 .map_px = HELP_LAMP_MAP_PX,
-                                 .taps_fixed = true,
-                                 .aov = GN_AOV_VISIBILITY};
+                                 .view.camera = camera,
+                                 .shadow.technique_given = true,
+                                 .shadow.technique = (enum gn_technique)technique,
+                                 .shadow.encoding = (enum gn_encoding)encoding,
+                                 .shadow.map_px = HELP_LAMP_MAP_PX,
+                                 .shadow.taps_fixed = true,
+                                 .debug.aov = GN_AOV_VISIBILITY};
     struct gn_err err = {0};
     const struct gn_plan *plan = gn_frame_build(lamp.frame, &lamp.pose, &opts, NULL);
     if (!gn_gl_prepare(lamp.gl, plan, &err) || !gn_gl_run(lamp.gl, plan, NULL, &err))

@@ -45,8 +45,10 @@ static int setup(void **state) {
     (void)state;
     stage.scene->lights = own_lights;
     stage.scene->light_count = 3;
-    opts = (struct gn_frame_opts){
-        .width_px = WIDTH, .height_px = HEIGHT, .encoding = GN_ENCODING_AUTO, .map_px = 120};
+    opts = (struct gn_frame_opts){.width_px = WIDTH,
+                                  .height_px = HEIGHT,
+                                  .shadow.encoding = GN_ENCODING_AUTO,
+                                  .shadow.map_px = 120};
     captions = gn_captions_create(&(struct gn_captions_opts){0});
     gn_captions_set(captions, GN_CAPTION_INFO, "gnomon 0.1.0\nFrames: 59.9 a second", 0);
     gn_captions_set(captions, GN_CAPTION_MODE, "Soft \xc3\xa4\xe4\xb8\x80", 0);
@@ -239,7 +241,7 @@ static void test_aovs_have_none(void **state) {
     (void)state;
     static float before[PIXELS][4], after[PIXELS][4];
     for (int aov = GN_AOV_VISIBILITY; aov < GN_AOV_COUNT; aov++) {
-        opts.aov = aov;
+        opts.debug.aov = aov;
         draw(NULL, NULL);
         if (!gn_gl_read_f32(stage.gl, &before[0][0], &err)) fail_msg("%s", err.text);
         assert_null(draw(run_at(0), NULL)->atlas);
@@ -282,7 +284,7 @@ static size_t place(unsigned turn_deg, size_t x, size_t y) {
 /* Over a picture that is the same everywhere, byte by byte. */
 static void test_turned(void **state) {
     (void)state;
-    opts.camera = 1; /* looks away */
+    opts.view.camera = 1; /* looks away */
     draw(run_at(0), shown);
     for (unsigned deg = 90; deg < 360; deg += 90) {
         opts.turn_deg = deg;

@@ -93,12 +93,12 @@ static const struct gn_shadow_view *draw_visibility(enum gn_technique technique,
                                                     struct gn_picture *shot) {
     const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
                                        .height_px = HEIGHT_PX,
-                                       .technique_given = true,
-                                       .technique = technique,
-                                       .encoding = encoding,
-                                       .map_px = MAP_PX,
-                                       .cascades = cascades,
-                                       .aov = GN_AOV_VISIBILITY};
+                                       .shadow.technique_given = true,
+                                       .shadow.technique = technique,
+                                       .shadow.encoding = encoding,
+                                       .shadow.map_px = MAP_PX,
+                                       .shadow.cascades = cascades,
+                                       .debug.aov = GN_AOV_VISIBILITY};
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     if (!gn_gl_read_f32(stage.gl, aov, &err)) fail_msg("%s", err.text);
@@ -231,11 +231,11 @@ static struct gn_orbit orbit_at(int eye) {
 static void draw_maps(enum gn_encoding encoding, int eye) {
     const struct gn_frame_opts opts = {.width_px = 160,
                                        .height_px = 90,
-                                       .technique_given = true,
-                                       .technique = GN_TECHNIQUE_PCF,
-                                       .encoding = encoding,
-                                       .map_px = SMALL_PX,
-                                       .orbit = orbit_at(eye)};
+                                       .shadow.technique_given = true,
+                                       .shadow.technique = GN_TECHNIQUE_PCF,
+                                       .shadow.encoding = encoding,
+                                       .shadow.map_px = SMALL_PX,
+                                       .view.orbit = orbit_at(eye)};
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     shots[eye].view = plan->shadows[0];
@@ -337,11 +337,11 @@ static void test_beside_a_tile_all_is_clear(void **state) {
     for (uint32_t cascades = 4; cascades >= 2; cascades--) {
         const struct gn_frame_opts opts = {.width_px = 160,
                                            .height_px = 90,
-                                           .technique_given = true,
-                                           .technique = GN_TECHNIQUE_PCSS,
-                                           .encoding = GN_ENCODING_R32UI,
-                                           .map_px = SMALL_PX,
-                                           .cascades = cascades};
+                                           .shadow.technique_given = true,
+                                           .shadow.technique = GN_TECHNIQUE_PCSS,
+                                           .shadow.encoding = GN_ENCODING_R32UI,
+                                           .shadow.map_px = SMALL_PX,
+                                           .shadow.cascades = cascades};
         struct gn_err err = {0};
         struct shot shot = {.view = help_stage_draw(&stage, &opts, NULL)->shadows[0]};
         assert_int_equal(shot.view.map.cascade_count, cascades);
@@ -366,10 +366,10 @@ static void test_a_moving_eye_makes_nothing(void **state) {
         for (int eye = 0; eye < EYES; eye++) {
             const struct gn_frame_opts opts = {.width_px = 160,
                                                .height_px = 90,
-                                               .technique_given = true,
-                                               .technique = techniques[t],
-                                               .map_px = SMALL_PX,
-                                               .orbit = orbit_at(eye)};
+                                               .shadow.technique_given = true,
+                                               .shadow.technique = techniques[t],
+                                               .shadow.map_px = SMALL_PX,
+                                               .view.orbit = orbit_at(eye)};
             const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
             assert_int_equal(plan->shadows[0].map.cascade_count, 4);
             least_px = fminf(least_px, plan->shadows[0].lookup.reach_px);

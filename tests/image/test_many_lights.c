@@ -29,8 +29,8 @@ static void open_with(const char *backend, const char *without) {
     stage.scene->lights = lights; /* none of them is made yet */
     opts = (struct gn_frame_opts){.width_px = WIDTH,
                                   .height_px = HEIGHT,
-                                  .encoding = GN_ENCODING_AUTO,
-                                  .map_px = 256,
+                                  .shadow.encoding = GN_ENCODING_AUTO,
+                                  .shadow.map_px = 256,
                                   .exposure_given = true};
 }
 
@@ -128,8 +128,8 @@ static void expect_each(const uint32_t counts[3][4], uint32_t each_pass) {
 static void test_many_open_lights_are_one(void **state) {
     (void)state;
     static const uint32_t counts[3][4] = {{9}, {2, 8, 9, 12}, {12}};
-    opts.technique_given = true;
-    opts.technique = GN_TECHNIQUE_NONE;
+    opts.shadow.technique_given = true;
+    opts.shadow.technique = GN_TECHNIQUE_NONE;
     expect_each(counts, GN_LIGHTS_MAX);
 }
 
@@ -145,8 +145,8 @@ static void test_strength_holds_in_every_pass(void **state) {
     one_kind();
     share(SPOT, 1);
     draw(many);
-    opts.strength_given = true;
-    opts.strength = 0.7f;
+    opts.shadow.strength_given = true;
+    opts.shadow.strength = 0.7f;
     draw(one);
     assert_true(apart(one, many, 1) > 2.0); /* shadows are paler */
     expect_one(SPOT, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 1);
@@ -176,9 +176,9 @@ static void test_blended_things_in_a_row(void **state) {
         stage.scene->materials[i].alpha = GN_ALPHA_BLEND;
         stage.scene->materials[i].base_color[3] = 0.4f;
     }
-    opts.technique_given = true;
-    opts.technique = GN_TECHNIQUE_NONE;
-    opts.turntable_rad = 1.4f; /* one behind the other */
+    opts.shadow.technique_given = true;
+    opts.shadow.technique = GN_TECHNIQUE_NONE;
+    opts.view.turntable_rad = 1.4f; /* one behind the other */
     expect_one(SPOT, (const uint32_t[4]){9, 12}, GN_LIGHTS_MAX, 2);
 }
 
@@ -222,8 +222,8 @@ static void test_the_weakest_are_left_out_by_name(void **state) {
     share(BULB, GN_ALL_LIGHTS_MAX + 2);
     lights[5].name = "Faint";
     glm_vec3_scale(lights[5].color, 0.5f, lights[5].color);
-    opts.technique_given = true;
-    opts.technique = GN_TECHNIQUE_NONE;
+    opts.shadow.technique_given = true;
+    opts.shadow.technique = GN_TECHNIQUE_NONE;
     const struct gn_plan *plan = draw(NULL);
     assert_int_equal(plan->light_count, GN_ALL_LIGHTS_MAX);
     assert_true(warnings.count > 0);
@@ -306,7 +306,7 @@ static void test_everything_at_once(void **state) {
     if (full) opts.width_px = 1280, opts.height_px = 720;
     const int step = full || main_context ? 1 : 3;
     for (int encoding = 0; encoding <= GN_ENCODING_AUTO; encoding += step) {
-        opts.encoding = (enum gn_encoding)encoding;
+        opts.shadow.encoding = (enum gn_encoding)encoding;
         const struct gn_plan *plan = draw(NULL);
         assert_int_equal(plan->shadow_count, GN_ALL_SHADOWS_MAX);
         assert_int_equal(plan->light_count, GN_ALL_LIGHTS_MAX);

@@ -61,12 +61,12 @@ static struct gn_orbit orbit_at(int path, int step) {
 static void draw_map(enum gn_encoding encoding, const struct gn_orbit *orbit, struct shot *shot) {
     struct gn_frame_opts opts = {.width_px = 80,
                                  .height_px = 120,
-                                 .technique_given = true,
-                                 .technique = GN_TECHNIQUE_HARD,
-                                 .encoding = encoding,
-                                 .cascades = 1,
-                                 .map_px = MAP_PX,
-                                 .orbit = *orbit};
+                                 .shadow.technique_given = true,
+                                 .shadow.technique = GN_TECHNIQUE_HARD,
+                                 .shadow.encoding = encoding,
+                                 .shadow.cascades = 1,
+                                 .shadow.map_px = MAP_PX,
+                                 .view.orbit = *orbit};
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     if (!gn_gl_read_map(stage.gl, 0, shot->codes, &err)) fail_msg("%s", err.text);

@@ -121,7 +121,8 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
         const struct gn_frame_opts *opts = &show->stage.frame_opts;
         assert_string_equal(
             show->modes.names[next],
-            gn_techniques[opts->technique_given ? opts->technique : GN_TECHNIQUE_PCF].name);
+            gn_techniques[opts->shadow.technique_given ? opts->shadow.technique : GN_TECHNIQUE_PCF]
+                .name);
         const size_t now = mallinfo2().uordblks;
         if (i >= switches / 2 && now < least) least = now;
     }

@@ -67,12 +67,12 @@ static float picture[4 * WIDTH * HEIGHT];
 static const struct gn_plan *draw(enum gn_technique technique, enum gn_moments moments) {
     const struct gn_frame_opts opts = {.width_px = WIDTH,
                                        .height_px = HEIGHT,
-                                       .technique_given = true,
-                                       .technique = technique,
-                                       .encoding = GN_ENCODING_AUTO,
-                                       .moments = moments,
-                                       .map_px = 1024,
-                                       .aov = GN_AOV_VISIBILITY};
+                                       .shadow.technique_given = true,
+                                       .shadow.technique = technique,
+                                       .shadow.encoding = GN_ENCODING_AUTO,
+                                       .shadow.moments = moments,
+                                       .shadow.map_px = 1024,
+                                       .debug.aov = GN_AOV_VISIBILITY};
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     if (!gn_gl_read_f32(stage.gl, picture, &err)) fail_msg("%s", err.text);
@@ -245,16 +245,16 @@ static void test_no_texel_is_anything_but_a_number(void **state) {
         const int light = n % 3;
         struct gn_frame_opts opts = {.width_px = W,
                                      .height_px = H,
-                                     .technique_given = true,
-                                     .technique = GN_TECHNIQUE_VSM + n / 3 % 3,
-                                     .encoding = GN_ENCODING_AUTO,
-                                     .light = light,
-                                     .map_px = MAP,
-                                     .aov = GN_AOV_VISIBILITY};
+                                     .shadow.technique_given = true,
+                                     .shadow.technique = GN_TECHNIQUE_VSM + n / 3 % 3,
+                                     .shadow.encoding = GN_ENCODING_AUTO,
+                                     .debug.light = light,
+                                     .shadow.map_px = MAP,
+                                     .debug.aov = GN_AOV_VISIBILITY};
         struct gn_err err = {0};
-        opts.orbit.yaw_rad = chance(-3, 3);
-        opts.orbit.pitch_rad = chance(-0.2f, 1);
-        opts.orbit.zoom = chance(-1, 1.5f);
+        opts.view.orbit.yaw_rad = chance(-3, 3);
+        opts.view.orbit.pitch_rad = chance(-0.2f, 1);
+        opts.view.orbit.zoom = chance(-1, 1.5f);
         gn_pose_step(&stage.pose, (int64_t)(1e9f * chance(0, 4)));
         vec4 *node = stage.pose.world_from_node[stage.scene->lights[light].node];
         glm_rotate(node, chance(-0.3f, 0.3f), (vec3){chance(-1, 1), chance(-1, 1), 0.5f});
@@ -265,7 +265,8 @@ static void test_no_texel_is_anything_but_a_number(void **state) {
                 fail_msg("frame %d: a pixel is %g", n, (double)seen[4 * i]);
         for (uint32_t slot = 0; slot < plan->shadow_count; slot++)
             if (gn_moments[plan->shadows[slot].moments].file &&
-                opts.technique == GN_TECHNIQUE_EVSM) /* the others' integers are all numbers */
+                opts.shadow.technique ==
+                    GN_TECHNIQUE_EVSM) /* the others' integers are all numbers */
                 expect_numbers(slot, &plan->shadows[slot], bits);
     }
     close_stage();
@@ -291,12 +292,12 @@ static void test_mipmaps_are_means_of_the_map(void **state) {
     static float whole[4 * SIDE * SIDE], half[4 * SIDE * SIDE / 4];
     const struct gn_frame_opts opts = {.width_px = 64,
                                        .height_px = 48,
-                                       .technique_given = true,
-                                       .technique = GN_TECHNIQUE_VSM,
-                                       .encoding = GN_ENCODING_AUTO,
-                                       .moments = GN_MOMENTS_RGBA16F,
-                                       .map_px = SIDE,
-                                       .cascades = 1};
+                                       .shadow.technique_given = true,
+                                       .shadow.technique = GN_TECHNIQUE_VSM,
+                                       .shadow.encoding = GN_ENCODING_AUTO,
+                                       .shadow.moments = GN_MOMENTS_RGBA16F,
+                                       .shadow.map_px = SIDE,
+                                       .shadow.cascades = 1};
     help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
     for (int frame = 0; frame < 3; frame++) {
         gn_pose_step(&stage.pose, (int64_t)frame * 500000000);
@@ -332,10 +333,10 @@ static void test_a_still_scene_is_filtered_once(void **state) {
     for (int t = GN_TECHNIQUE_VSM; t <= GN_TECHNIQUE_MSM; t++) {
         const struct gn_frame_opts opts = {.width_px = 64,
                                            .height_px = 48,
-                                           .technique_given = true,
-                                           .technique = (enum gn_technique)t,
-                                           .encoding = GN_ENCODING_AUTO,
-                                           .map_px = 64};
+                                           .shadow.technique_given = true,
+                                           .shadow.technique = (enum gn_technique)t,
+                                           .shadow.encoding = GN_ENCODING_AUTO,
+                                           .shadow.map_px = 64};
         const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
         assert_int_equal(plan->shadow_count, 3);
         const struct gn_gl_stats stats = gn_gl_stats(stage.gl);

@@ -28,12 +28,12 @@ static struct gn_scene *make_scene(void) {
 
 static void open_scene(struct gn_scene *(*make)(void), const char *backend, const char *without) {
     help_stage_open(&stage, make, backend, without, NULL);
-    opts =
-        (struct gn_frame_opts){.width_px = WIDTH,
-                               .height_px = HEIGHT,
-                               .encoding = GN_ENCODING_AUTO,
-                               .map_px = MAP,
-                               .cascades = 1}; /* texel by texel an atlas is larger than a panel */
+    opts = (struct gn_frame_opts){.width_px = WIDTH,
+                                  .height_px = HEIGHT,
+                                  .shadow.encoding = GN_ENCODING_AUTO,
+                                  .shadow.map_px = MAP,
+                                  .shadow.cascades =
+                                      1}; /* texel by texel an atlas is larger than a panel */
 }
 
 static void open_with(const char *backend, const char *without) {
@@ -98,9 +98,9 @@ static void expect_map(const struct gn_plan *plan, uint32_t slot, const struct g
 static void test_panels_show_the_maps(void **state) {
     (void)state;
     static const char *const labels[] = {"panel 0 Sun", "panel 1 Spot"};
-    opts.show_maps = true;
+    opts.debug.show_maps = true;
     for (int encoding = 0; encoding < GN_ENCODING_MASK; encoding++) {
-        opts.encoding = (enum gn_encoding)encoding;
+        opts.shadow.encoding = (enum gn_encoding)encoding;
         const struct gn_plan *plan = draw(shown);
         assert_int_equal(plan->shadow_count, 2);
         for (uint32_t slot = 0; slot < 2; slot++) {
@@ -113,7 +113,7 @@ static void test_panels_show_the_maps(void **state) {
 static void test_only_the_panels_change_the_picture(void **state) {
     (void)state;
     draw(bare);
-    opts.show_maps = true;
+    opts.debug.show_maps = true;
     const struct gn_plan *plan = draw(shown);
     const struct gn_rect *a = &pass_called(plan, "panel 0")->rect,
                          *b = &pass_called(plan, "panel 1")->rect;
@@ -131,9 +131,9 @@ static void test_only_the_panels_change_the_picture(void **state) {
 
 /* The least number of passes that their tiles take. */
 static void expect_kept_maps(uint32_t least) {
-    opts.cascades = 4;
+    opts.shadow.cascades = 4;
     draw(bare);
-    opts.show_maps = true;
+    opts.debug.show_maps = true;
     const struct gn_plan *plan = draw(shown);
     uint32_t passes = 0;
     for (uint32_t i = 0; i < plan->shadow_count; i++) passes += plan->shadows[i].map.tile_count;
@@ -179,7 +179,7 @@ static void test_marks_stand_where_lights_do(void **state) {
     int p[2];
     stage.scene->lights[2].color[0] = 0; /* the bulb: blue-green */
     draw(bare);
-    opts.show_lights = true;
+    opts.debug.show_lights = true;
     const struct gn_plan *plan = draw(shown);
     assert_string_equal(plan->passes[plan->pass_count - 1].label, "marks of lights");
     light_place(2, place);
@@ -201,7 +201,7 @@ static void test_a_hidden_mark_is_pale(void **state) {
         if (strcmp(stage.scene->nodes[stage.scene->items[i].node].name, "A") == 0)
             stage.scene->lights[2].node = stage.scene->items[i].node;
     draw(bare);
-    opts.show_lights = true;
+    opts.debug.show_lights = true;
     const struct gn_plan *plan = draw(shown);
     light_place(2, place);
     assert_true(project(plan, place, p));
@@ -217,7 +217,7 @@ static void test_a_range_is_a_ring(void **state) {
     int p[2];
     stage.scene->lights[2].range_m = 1.0f;
     draw(bare);
-    opts.show_lights = true;
+    opts.debug.show_lights = true;
     const struct gn_plan *plan = draw(shown);
     light_place(2, place);
     glm_vec3_add(place, (vec3){0, -1.0f, 0}, at); /* its foot, on two of the circles */
@@ -229,8 +229,8 @@ static void test_a_range_is_a_ring(void **state) {
 
 static void test_other_pictures_have_neither(void **state) {
     (void)state;
-    opts.show_lights = opts.show_maps = true;
-    opts.aov = GN_AOV_NORMAL;
+    opts.debug.show_lights = opts.debug.show_maps = true;
+    opts.debug.aov = GN_AOV_NORMAL;
     const struct gn_plan *plan = gn_frame_build(stage.frame, &stage.pose, &opts, NULL);
     assert_int_equal(plan->pass_count, 1);
 }

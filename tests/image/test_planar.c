@@ -118,7 +118,7 @@ static struct gn_scene *make(const char *turn, const struct light *light, const 
 
 #define PLANAR(...)                                                                                \
     (struct gn_frame_opts) {                                                                       \
-        .technique_given = true, .technique = GN_TECHNIQUE_PLANAR, __VA_ARGS__                     \
+        .shadow.technique_given = true, .shadow.technique = GN_TECHNIQUE_PLANAR, __VA_ARGS__       \
     }
 
 /* What draws them; the tests go through both. */
@@ -128,12 +128,12 @@ static const char *const way_names[WAYS] = {"mask", "stencil"};
 /* Into `picture`, of floats. */
 static void shoot(const struct gn_scene *scene, int way, const struct gn_frame_opts *more) {
     struct gn_frame_opts opts = *more;
-    opts.planar_in_stencil = way == STENCIL;
+    opts.shadow.planar_in_stencil = way == STENCIL;
     struct gn_err err = {0};
     struct gn_pose pose;
     opts.width_px = WIDTH;
     opts.height_px = HEIGHT;
-    opts.encoding = GN_ENCODING_AUTO;
+    opts.shadow.encoding = GN_ENCODING_AUTO;
     gn_pose_init(&pose, scene, GN_POSE_NONE);
     if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
     struct gn_frame *frame = gn_frame_create(scene, gn_gl_caps(gl));
@@ -212,7 +212,7 @@ static double compare(const char *name, const struct gn_scene *scene) {
     for (int way = 0; way < WAYS; way++) {
         char full[60];
         snprintf(full, sizeof full, "%s-%s", name, way_names[way]);
-        shoot(scene, way, &PLANAR(.aov = GN_AOV_VISIBILITY));
+        shoot(scene, way, &PLANAR(.debug.aov = GN_AOV_VISIBILITY));
         faults[way] = faults_of(full, &truth, on_plane, edges);
         for (int i = 0; i < PIXELS && !dark; i++) assert_true(picture[4 * i] == 1);
         for (int i = 0; i < PIXELS && way == STENCIL; i++)
@@ -294,7 +294,8 @@ static void expect_two_shades(const char *nodes, int suns, int way) {
     float shades[2] = {0, 0};
     int counts[2] = {0, 0};
     assert_int_equal(scene->light_count, suns);
-    shoot(scene, way, &PLANAR(.output_float = true, .strength_given = true, .strength = 0.7f));
+    shoot(scene, way,
+          &PLANAR(.output_float = true, .shadow.strength_given = true, .shadow.strength = 0.7f));
     find_truth(&truth, scene);
     gn_mask_edges(&truth.mask, edges);
     for (int i = 0; i < PIXELS; i++) {
@@ -378,8 +379,8 @@ static void test_lights_at_once_are_the_sum_of_single_ones(void **state) {
     static const char *const mixed[3] = {"planar", "pcf", "planar"};
     struct gn_scene *scene = make_three(turns[1].turn);
     expect_sum(scene, &PLANAR(.output_float = true, .exposure_given = true));
-    expect_sum(scene, &PLANAR(.output_float = true, .exposure_given = true, .strength_given = true,
-                              .strength = 0.4f));
+    expect_sum(scene, &PLANAR(.output_float = true, .exposure_given = true,
+                              .shadow.strength_given = true, .shadow.strength = 0.4f));
     for (int i = 0; i < 3; i++) scene->lights[i].technique = mixed[i];
     expect_sum(scene, &(struct gn_frame_opts){.output_float = true, .exposure_given = true});
     gn_scene_destroy(scene);
@@ -451,9 +452,9 @@ static void test_backends_agree_on_the_stencil(void **state) {
 static uint32_t draws_at(struct gn_frame *frame, struct gn_pose *pose, int64_t time_ns) {
     const struct gn_frame_opts opts = {.width_px = WIDTH,
                                        .height_px = HEIGHT,
-                                       .encoding = GN_ENCODING_AUTO,
-                                       .technique_given = true,
-                                       .technique = GN_TECHNIQUE_PLANAR};
+                                       .shadow.encoding = GN_ENCODING_AUTO,
+                                       .shadow.technique_given = true,
+                                       .shadow.technique = GN_TECHNIQUE_PLANAR};
     struct gn_err err = {0};
     gn_pose_step(pose, time_ns);
     const struct gn_plan *plan = gn_frame_build(frame, pose, &opts, NULL);

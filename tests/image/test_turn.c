@@ -44,10 +44,10 @@ static void draw(unsigned turn_deg, bool overlays, uint8_t *out) {
     const struct gn_frame_opts opts = {.width_px = on_side ? HEIGHT : WIDTH,
                                        .height_px = on_side ? WIDTH : HEIGHT,
                                        .turn_deg = turn_deg,
-                                       .encoding = GN_ENCODING_AUTO,
-                                       .map_px = 256,
-                                       .show_lights = overlays,
-                                       .show_maps = overlays};
+                                       .shadow.encoding = GN_ENCODING_AUTO,
+                                       .shadow.map_px = 256,
+                                       .debug.show_lights = overlays,
+                                       .debug.show_maps = overlays};
     const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
     assert_null(gn_plan_check(plan));
     if (!gn_gl_prepare(gl, plan, &err) || !gn_gl_run(gl, plan, NULL, &err) ||

@@ -20,8 +20,8 @@ static void test_hard_plan(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.technique_given = true;
-    f.opts.technique = GN_TECHNIQUE_HARD;
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_HARD;
     gn_plan_expect(gn_plan_make(&f), "hard");
     gn_plan_end(&f);
 }
@@ -30,8 +30,8 @@ static void test_planar_plan(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.technique_given = true;
-    f.opts.technique = GN_TECHNIQUE_PLANAR;
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
     gn_plan_expect(gn_plan_make(&f), "planar");
     gn_plan_end(&f);
 }
@@ -40,8 +40,8 @@ static void test_planar_plan_in_stencil(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.technique_given = f.opts.planar_in_stencil = true;
-    f.opts.technique = GN_TECHNIQUE_PLANAR;
+    f.opts.shadow.technique_given = f.opts.shadow.planar_in_stencil = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
     gn_plan_expect(gn_plan_make(&f), "stencil");
     gn_plan_end(&f);
 }
@@ -51,14 +51,14 @@ static void test_a_stencil_is_there_where_a_light_needs_it(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.planar_in_stencil = true;
+    f.opts.shadow.planar_in_stencil = true;
     assert_false(gn_plan_make(&f)->stencil);
     gn_plan_end(&f);
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.planar_in_stencil = true;
+    f.opts.shadow.planar_in_stencil = true;
     f.scene->lights[1].technique = "planar"; /* the spot */
     assert_true(gn_plan_make(&f)->stencil);
-    f.opts.camera = 1;
+    f.opts.view.camera = 1;
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_true(plan->stencil);
     for (uint32_t i = 0; i < plan->pass_count; i++)
@@ -75,8 +75,8 @@ static void test_a_transparent_plane_has_a_mask(void **state) {
     for (uint32_t i = 0; i < f.scene->item_count; i++)
         if (f.scene->items[i].plane)
             f.scene->materials[f.scene->items[i].material].alpha = GN_ALPHA_BLEND;
-    f.opts.technique_given = f.opts.planar_in_stencil = true;
-    f.opts.technique = GN_TECHNIQUE_PLANAR;
+    f.opts.shadow.technique_given = f.opts.shadow.planar_in_stencil = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     assert_false(plan->stencil);
     for (uint32_t i = 0; i < plan->shadow_count; i++)
@@ -113,8 +113,8 @@ static void test_planar_needs_a_plane(void **state) {
     struct gn_warnings warnings = {0};
     gn_plan_begin(&f, GN_EVERY_CAP);
     for (uint32_t i = 0; i < f.scene->item_count; i++) f.scene->items[i].plane = false;
-    f.opts.technique_given = true;
-    f.opts.technique = GN_TECHNIQUE_PLANAR;
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     assert_int_equal(plan->shadow_count, 0);
     assert_int_equal(warnings.count, 3); /* each light */
@@ -126,8 +126,8 @@ static void test_visibility_plan(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.aov = GN_AOV_VISIBILITY;
-    f.opts.light = 1;
+    f.opts.debug.aov = GN_AOV_VISIBILITY;
+    f.opts.debug.light = 1;
     gn_plan_expect(gn_plan_make(&f), "visibility");
     gn_plan_end(&f);
 }
@@ -137,7 +137,7 @@ static void test_plan_without_float_and_srgb_targets(void **state) {
     struct gn_plan_fixture f;
     gn_plan_begin(&f, 1u << GN_CAP_R32UI);
     struct gn_warnings warnings = {0};
-    f.opts.encoding = GN_ENCODING_R16F;
+    f.opts.shadow.encoding = GN_ENCODING_R16F;
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     assert_int_equal(plan->output, GN_OUTPUT_LINEAR8);
     assert_true(plan->encode_srgb);
@@ -199,12 +199,12 @@ static void expect_whole_texels(enum gn_technique technique) {
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
     f.opts.width_px = 100; /* a narrow view limits the window */
-    f.opts.technique_given = true;
-    f.opts.technique = technique;
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = technique;
     struct gn_shadow_view still = gn_plan_make(&f)->shadows[0];
     int moved = 0;
     for (int step = 1; step <= 40; step++) {
-        f.opts.turntable_rad = 0.0005f * (float)step;
+        f.opts.view.turntable_rad = 0.0005f * (float)step;
         const struct gn_shadow_view *view = &gn_plan_make(&f)->shadows[0];
         double corner[2];
         corner_in_texels(view, corner);
@@ -232,10 +232,10 @@ static void test_a_sun_over_all_that_is_seen_is_one_page(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.orbit = (struct gn_orbit){.pitch_rad = 0.4f, .zoom = -1.5f};
+    f.opts.view.orbit = (struct gn_orbit){.pitch_rad = 0.4f, .zoom = -1.5f};
     uint64_t kept = 0;
     for (int step = 0; step < 8; step++) {
-        f.opts.orbit.yaw_rad = 0.8f * (float)step;
+        f.opts.view.orbit.yaw_rad = 0.8f * (float)step;
         const struct gn_plan *plan = gn_plan_make(&f);
         const struct gn_shadow_view *sun = &plan->shadows[0];
         assert_int_equal(plan->culled, 0);
@@ -276,7 +276,7 @@ static void test_an_eye_that_sees_no_shadow_needs_no_caster(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.camera = 1;
+    f.opts.view.camera = 1;
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_int_equal(plan->shadow_count,
                      3); /* the slots stay: programs do not change with the view */
@@ -325,7 +325,7 @@ static void test_overlay_plan(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.show_lights = f.opts.show_maps = true;
+    f.opts.debug.show_lights = f.opts.debug.show_maps = true;
     gn_plan_expect(gn_plan_make(&f), "overlay");
     gn_plan_end(&f);
 }
@@ -369,8 +369,8 @@ static void test_check_finds_what_is_broken(void **state) {
     plan = *gn_plan_make(&f);
     plan.passes[4].copy.count = 0;
     assert_non_null(gn_plan_check(&plan));
-    f.opts.technique_given = f.opts.planar_in_stencil = true;
-    f.opts.technique = GN_TECHNIQUE_PLANAR;
+    f.opts.shadow.technique_given = f.opts.shadow.planar_in_stencil = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
     plan = *gn_plan_make(&f);
     assert_null(gn_plan_check(&plan));
     plan.stencil = false;
@@ -434,7 +434,7 @@ static void test_captions_that_are_not_seen(void **state) {
     assert_int_equal(plan->pass_count, passes + 1);
     assert_int_equal(plan->passes[passes].rect.width, 45);
     assert_int_equal(plan->passes[passes].rect.height, 200);
-    f.opts.aov = GN_AOV_NORMAL;
+    f.opts.debug.aov = GN_AOV_NORMAL;
     assert_null(gn_plan_make(&f)->atlas);
     gn_plan_end(&f);
 }

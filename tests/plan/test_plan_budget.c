@@ -24,11 +24,11 @@ static struct hashes hashes_of(const struct gn_plan *plan) {
 
 static void begin(struct gn_plan_fixture *f, enum gn_technique technique, uint64_t texels) {
     gn_plan_begin(f, GN_EVERY_CAP);
-    f->opts.technique_given = true;
-    f->opts.technique = technique;
-    f->opts.map_px = 128;
-    f->opts.cascades = 1; /* else as many as suit the pose that a builder sees first */
-    f->opts.filter_texels = texels;
+    f->opts.shadow.technique_given = true;
+    f->opts.shadow.technique = technique;
+    f->opts.shadow.map_px = 128;
+    f->opts.shadow.cascades = 1; /* else as many as suit the pose that a builder sees first */
+    f->opts.shadow.filter_texels = texels;
 }
 
 static struct hashes at(struct gn_plan_fixture *f, int frame, bool *waits) {
@@ -110,11 +110,11 @@ static void test_a_switch_waits_for_nothing(void **state) {
     bool waits;
     begin(&f, GN_TECHNIQUE_VSM, 1);
     at(&f, 0, &waits);
-    f.opts.technique = GN_TECHNIQUE_MSM;
+    f.opts.shadow.technique = GN_TECHNIQUE_MSM;
     const struct hashes now = at(&f, 1, &waits), fresh = fresh_at(GN_TECHNIQUE_MSM, 1);
     assert_false(waits);
     assert_memory_equal(&now, &fresh, sizeof now);
-    f.opts.technique = GN_TECHNIQUE_PCF; /* reads the map itself: always of today */
+    f.opts.shadow.technique = GN_TECHNIQUE_PCF; /* reads the map itself: always of today */
     gn_pose_step(&f.pose, 20 * FRAME_NS);
     assert_false(gn_plan_make(&f)->waits);
     gn_plan_end(&f);

@@ -16,7 +16,7 @@ static void begin(struct gn_plan_fixture *f, struct gn_scene *scene, int32_t max
     gn_pose_init(&f->pose, f->scene, GN_POSE_DEFAULT);
     gn_pose_step(&f->pose, 0);
     f->frame = gn_frame_create(f->scene, &caps);
-    f->opts = (struct gn_frame_opts){.encoding = GN_ENCODING_AUTO};
+    f->opts = (struct gn_frame_opts){.shadow.encoding = GN_ENCODING_AUTO};
 }
 
 static const struct gn_shadow_view *view_of(struct gn_plan_fixture *f) {
@@ -80,9 +80,9 @@ static void test_a_moving_eye_changes_neither_number_nor_program(void **state) {
     begin(&f, gn_field_scene_make(), 4096);
     const uint32_t width_px = view_of(&f)->map.width_px;
     for (int i = 0; i < 40; i++) {
-        f.opts.orbit.zoom = 1.0f + 0.1f * (float)i;
-        f.opts.orbit.shift_m[2] = -3.0f * (float)i;
-        f.opts.turntable_rad = 0.16f * (float)i;
+        f.opts.view.orbit.zoom = 1.0f + 0.1f * (float)i;
+        f.opts.view.orbit.shift_m[2] = -3.0f * (float)i;
+        f.opts.view.turntable_rad = 0.16f * (float)i;
         const struct gn_shadow_view *view = view_of(&f);
         assert_int_equal(view->map.cascade_count, 4);
         assert_int_equal(view->map.width_px, width_px);
@@ -99,12 +99,12 @@ static void test_an_eye_that_a_hand_brings_near_gets_more(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 4096);
-    f.opts.orbit.zoom = -5.0f;
+    f.opts.view.orbit.zoom = -5.0f;
     const uint32_t first = view_of(&f)->map.tile_count;
     uint32_t last = first;
     int changes = 0;
     for (int i = 0; i <= 200; i++) {
-        f.opts.orbit.zoom = -0.05f * (float)abs(100 - i);
+        f.opts.view.orbit.zoom = -0.05f * (float)abs(100 - i);
         const uint32_t count = view_of(&f)->map.tile_count;
         assert_true(count >= last);
         changes += count != last;
@@ -122,7 +122,7 @@ static void test_every_camera_has_a_plan(void **state) {
         for (unsigned turn = 0; turn < 360; turn += 90) {
             struct gn_plan_fixture f;
             begin(&f, gn_field_scene_make(), 4096);
-            f.opts.camera = camera;
+            f.opts.view.camera = camera;
             f.opts.turn_deg = turn;
             const struct gn_shadow_view *view = view_of(&f);
             const bool some = camera == GN_FIELD_STANDING || camera == GN_FIELD_INSIDE;
@@ -137,12 +137,12 @@ static void test_an_atlas_is_no_larger_than_a_texture(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 2048);
-    f.opts.map_px = 2048;
+    f.opts.shadow.map_px = 2048;
     const struct gn_shadow_view *view = view_of(&f);
     assert_int_equal(view->map.width_px, 2048);
     assert_int_equal(view->map.height_px, 2048);
     assert_int_equal(view->map.tile_px, 1024);
-    f.opts.cascades = 1;
+    f.opts.shadow.cascades = 1;
     assert_int_equal(view_of(&f)->map.tile_px, 2048);
     gn_plan_end(&f);
 }
@@ -152,7 +152,7 @@ static void test_as_many_as_asked_for_at_most(void **state) {
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 4096);
     for (uint32_t most = 1; most <= 4; most++) {
-        f.opts.cascades = most;
+        f.opts.shadow.cascades = most;
         const struct gn_shadow_view *view = view_of(&f);
         assert_int_equal(view->map.cascade_count, most == 1 ? 0 : most);
         assert_false(view->empty);
@@ -229,8 +229,8 @@ static void test_all_techniques_agree_on_it(void **state) {
         for (int i = 0; i < 5; i++) {
             struct gn_plan_fixture f;
             begin(&f, gn_field_scene_make(), 4096);
-            f.opts.technique_given = true;
-            f.opts.technique = techniques[i];
+            f.opts.shadow.technique_given = true;
+            f.opts.shadow.technique = techniques[i];
             f.opts.width_px = 2 * height_px;
             f.opts.height_px = height_px;
             counts[i] = view_of(&f)->map.cascade_count;
@@ -247,7 +247,7 @@ static void test_a_larger_map_is_never_coarser(void **state) {
     begin(&f, gn_field_scene_make(), 4096);
     float last = INFINITY;
     for (uint32_t px = 256; px <= 4096; px *= 2) {
-        f.opts.map_px = px;
+        f.opts.shadow.map_px = px;
         const struct gn_shadow_view *view = view_of(&f);
         assert_true(view->map.cascade_count > 0 && view->cascades[0].texel <= last);
         last = view->cascades[0].texel;
@@ -262,8 +262,8 @@ static void test_blurs_are_as_wide_on_both_sides_of_a_split(void **state) {
         struct gn_plan_fixture f;
         begin(&f, gn_field_scene_make(), 4096);
         f.scene->lights[0].radius = radius;
-        f.opts.technique_given = true;
-        f.opts.technique = GN_TECHNIQUE_EVSM;
+        f.opts.shadow.technique_given = true;
+        f.opts.shadow.technique = GN_TECHNIQUE_EVSM;
         const struct gn_shadow_view *view = view_of(&f);
         assert_int_equal(view->map.cascade_count, 4);
         const float most_m = GN_BLUR_MOST_PX * view->cascades[0].texel;
@@ -319,8 +319,8 @@ static void test_penumbrae_are_bound_alike_on_both_sides_of_a_split(void **state
     (void)state;
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 4096);
-    f.opts.technique_given = true;
-    f.opts.technique = GN_TECHNIQUE_PCSS;
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_PCSS;
     assert_true(view_of(&f)->penumbra.growth >= 1e9f); /* the sun's have room */
     f.scene->lights[0].radius = 0.5f;
     const struct gn_shadow_view *view = view_of(&f);

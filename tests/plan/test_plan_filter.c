@@ -6,8 +6,8 @@
 #include "unit/check.h"
 
 static void choose(struct gn_plan_fixture *f, enum gn_technique technique) {
-    f->opts.technique_given = true;
-    f->opts.technique = technique;
+    f->opts.shadow.technique_given = true;
+    f->opts.shadow.technique = technique;
 }
 
 static void test_msm_plan(void **state) {
@@ -35,7 +35,7 @@ static void test_filters_change_with_their_map_and_technique_alone(void **state)
     const uint64_t before = hash_of(gn_plan_make(&f));
     assert_int_equal(hash_of(gn_plan_make(&f)), before);
     choose(&f, GN_TECHNIQUE_MSM); /* it may be kept in the same kind of texture */
-    f.opts.moments = GN_MOMENTS_RGBA32F_BITS;
+    f.opts.shadow.moments = GN_MOMENTS_RGBA32F_BITS;
     assert_true(hash_of(gn_plan_make(&f)) != before);
     choose(&f, GN_TECHNIQUE_EVSM);
     assert_int_equal(hash_of(gn_plan_make(&f)), before);
@@ -49,7 +49,7 @@ static enum gn_moments moments_with(uint32_t caps, enum gn_technique technique,
     struct gn_plan_fixture f;
     gn_plan_begin(&f, caps);
     choose(&f, technique);
-    f.opts.moments = wanted;
+    f.opts.shadow.moments = wanted;
     struct gn_warnings warnings = {0};
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     const enum gn_moments moments = plan->shadows[0].moments;

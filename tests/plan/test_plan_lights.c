@@ -41,8 +41,8 @@ static void test_a_map_that_is_too_large_is_made_smaller_and_said_so(void **stat
     const struct gn_caps caps = {.has = GN_EVERY_CAP, .max_texture_px = 3000};
     gn_frame_destroy(f.frame);
     f.frame = gn_frame_create(f.scene, &caps);
-    f.opts.map_px = 2048;
-    f.opts.cascades = 1;
+    f.opts.shadow.map_px = 2048;
+    f.opts.shadow.cascades = 1;
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     for (uint32_t i = 0; i < plan->shadow_count; i++)
         assert_int_equal(plan->shadows[i].map.tile_px,
@@ -81,9 +81,9 @@ static void test_constants_are_those_of_the_view(void **state) {
     for (uint32_t cascades = 1; cascades <= GN_CASCADES_MAX; cascades += 2) {
         struct gn_plan_fixture f;
         gn_plan_begin(&f, GN_EVERY_CAP);
-        f.opts.technique_given = true;
-        f.opts.technique = GN_TECHNIQUE_PCSS;
-        f.opts.cascades = cascades;
+        f.opts.shadow.technique_given = true;
+        f.opts.shadow.technique = GN_TECHNIQUE_PCSS;
+        f.opts.shadow.cascades = cascades;
         const struct gn_plan *plan = gn_plan_make(&f);
         const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
         assert_true(last->picture.shadow_count > 0);
@@ -99,10 +99,10 @@ static void test_tables_plan(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.technique_given = true;
-    f.opts.technique = GN_TECHNIQUE_SMSM;
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_SMSM;
     gn_plan_expect(gn_plan_make(&f), "tables");
-    f.opts.map_px = 100; /* no whole number of blocks */
+    f.opts.shadow.map_px = 100; /* no whole number of blocks */
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_null(gn_plan_check(plan));
     for (uint32_t i = 0; i < plan->pass_count; i++) {
@@ -177,8 +177,8 @@ static void test_a_warning_is_given_once(void **state) {
     assert_non_null(strstr(first.text[0], "'Bulb 0' is left out: at most 32 lights"));
     gn_frame_build(f.frame, &f.pose, &f.opts, &second);
     assert_int_equal(second.count, 0);
-    f.opts.technique_given = true;
-    f.opts.technique = GN_TECHNIQUE_HARD;
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_HARD;
     gn_frame_build(f.frame, &f.pose, &f.opts, &third);
     assert_int_equal(third.count, first.count);
     gn_plan_end(&f);
@@ -240,7 +240,7 @@ static void test_visibility_has_no_slide(void **state) {
     struct gn_light lights[1];
     gn_plan_begin(&f, GN_EVERY_CAP);
     make_spots(&f, lights, 1);
-    f.opts.aov = GN_AOV_VISIBILITY;
+    f.opts.debug.aov = GN_AOV_VISIBILITY;
     const struct gn_plan *plan = gn_plan_make(&f);
     for (uint32_t i = 0; i < plan->program_count; i++)
         assert_int_equal(plan->programs[i].lights[0].slide, GN_SLIDE_NONE);

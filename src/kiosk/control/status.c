@@ -24,7 +24,7 @@ static double memory_mb(struct gn_show_status *status, int64_t now_ns) {
 
 json_t *gn_show_status_short(const struct gn_show *s) {
     const char *scene = s->scenes.paths[gn_kiosk_scene(&s->rules, &s->kiosk.wanted)];
-    const int first_camera = s->looks.of[s->kiosk.shown.mode].frame_opts.camera;
+    const int first_camera = s->looks.of[s->kiosk.shown.mode].frame_opts.view.camera;
     const uint32_t camera =
         ((uint32_t)first_camera + s->kiosk.camera) % s->stage.scene->camera_count;
     return json_pack("{s:o, s:o, s:i, s:b, s:b, s:b}", "mode",
