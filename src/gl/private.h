@@ -30,6 +30,24 @@ bool gn_gl_atlas_ensure(struct gn_gl *gl, const struct gn_caption_atlas *atlas, 
 bool gn_gl_atlas_holds(const struct gn_gl *gl, const struct gn_caption_atlas *atlas);
 void gn_gl_atlas_finish(struct gn_gl *gl);
 
+/* ---- one pass (pass.c, draw.c) ---- */
+
+/* Binds the target and sets the state of a pass. area: what to clear, of pass->clear or less. */
+void gn_gl_pass_begin(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer,
+                      enum gn_clear_area area);
+/* Copies pages into the map; their contents are invalidated afterwards. */
+void gn_gl_pages_copy(struct gn_gl *gl, const struct gn_pass *pass);
+/* Invalidates the depth (and stencil) of the target that is bound. */
+void gn_gl_depth_discard(struct gn_gl *gl, const struct gn_pass *pass);
+/* Averages samples in linear light, in an off-screen target: a multisampled window would average
+ * encoded values. */
+void gn_gl_output_resolve(struct gn_gl *gl);
+/* Binds what a pass reads besides material textures. */
+void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass);
+/* constants_hash: of pass->constants. most_indices: limit on the indices of a geometry. */
+void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
+                uint64_t constants_hash, uint32_t most_indices);
+
 /* ---- running and reading (run.c, read.c) ---- */
 
 /* Draws one triangle on one pixel with a program, in each pass of the plan that uses it. Maps drawn

@@ -1,0 +1,149 @@
+/* The target of a pass: what is cleared before it, the state that it draws with, what is copied and
+ * invalidated. */
+#include <string.h>
+
+#include "gl/private.h"
+
+static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
+    static const float far_depth = 1.0f;
+    const bool stencil = gl->targets.output.stencil;
+    if (gl->targets.output.format == GN_OUTPUT_AOV) {
+        GLuint bits[4];
+        memcpy(bits, pass->clear.color, sizeof bits);
+        GL(gl, ClearBufferuiv)(GL_COLOR, 0, bits);
+        if (stencil)
+            GL(gl, ClearBufferfi)(GL_DEPTH_STENCIL, 0, far_depth, 0);
+        else
+            GL(gl, ClearBufferfv)(GL_DEPTH, 0, &far_depth);
+        return;
+    }
+    gn_gl_set_clear_color(gl, pass->clear.color);
+    GL(gl, Clear)
+    (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | (stencil ? GL_STENCIL_BUFFER_BIT : 0u));
+}
+
+/* Clears to the light's far end, as an encoded distance. A map that is copied from pages needs no
+ * depth. */
+static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
+    static const float ones[4] = {1, 1, 1, 1};
+    const float far_code[4] = {pass->clear.color[0], 0, 0, 1};
+    GLuint bits[4] = {0, 0, 0, 1};
+    memcpy(bits, far_code, sizeof bits[0]);
+    switch (pass->target.encoding) {
+    case GN_ENCODING_R32UI: GL(gl, ClearBufferuiv)(GL_COLOR, 0, bits); break;
+    case GN_ENCODING_RGBA8: GL(gl, ClearBufferfv)(GL_COLOR, 0, ones); break;
+    case GN_ENCODING_R16F:
+    case GN_ENCODING_R16F_RAW: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); break;
+    case GN_ENCODING_MASK: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); return; /* no depth */
+    default: break;
+    }
+    if (pass->kind == GN_PASS_COPY && pass->target.encoding != GN_ENCODING_DEPTH) return;
+    GL(gl, ClearBufferfv)(GL_DEPTH, 0, ones);
+}
+
+static struct gn_gl_rect gl_rect(const struct gn_rect *r) {
+    return (struct gn_gl_rect){(GLint)r->x, (GLint)r->y, (GLsizei)r->width, (GLsizei)r->height};
+}
+
+static struct gn_gl_rect viewport_of(const struct gn_pass *pass) {
+    if (pass->viewport.width > 0) return gl_rect(&pass->viewport);
+    return (struct gn_gl_rect){0, 0, (GLsizei)pass->target.width_px,
+                               (GLsizei)pass->target.height_px};
+}
+
+/* The scissor rectangle of a pass; false: it draws to all of the target. */
+static bool scissor_of(const struct gn_pass *pass, struct gn_gl_rect *out) {
+    const GLint border = pass->kind == GN_PASS_MAP ? (GLint)pass->map.border_px : 0;
+    *out = gl_rect(&pass->rect);
+    if (pass->rect.width > 0) return true;
+    *out = (struct gn_gl_rect){border, border, (GLsizei)pass->target.width_px - 2 * border,
+                               (GLsizei)pass->target.height_px - 2 * border};
+    return border > 0;
+}
+
+/* All of the target, or a tile of a map. */
+static void clear_target(struct gn_gl *gl, const struct gn_pass *pass) {
+    gn_gl_set_depth(gl, true, true);
+    gn_gl_set_color_write(gl, true);
+    if (pass->kind != GN_PASS_PICTURE) {
+        clear_map(gl, pass);
+        return;
+    }
+    if (gl->targets.output.stencil) gn_gl_set_stencil_writes(gl, 255);
+    clear_output(gl, pass);
+}
+
+static void clear_stencil(struct gn_gl *gl, uint8_t bits) {
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_set_stencil_writes(gl, bits);
+    GL(gl, Clear)(GL_STENCIL_BUFFER_BIT);
+}
+
+void gn_gl_pass_begin(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer,
+                      enum gn_clear_area area) {
+    static const struct gn_stencil no_stencil = {0};
+    const struct gn_pass_picture *picture = pass->kind == GN_PASS_PICTURE ? &pass->picture : NULL;
+    const bool only_stencil = picture && picture->only_stencil;
+    const struct gn_gl_rect viewport = viewport_of(pass);
+    struct gn_gl_rect inner;
+    const bool bound = scissor_of(pass, &inner);
+    gn_gl_bind_framebuffer(gl, framebuffer);
+    gn_gl_set_viewport(gl, viewport);
+    if (area != GN_CLEAR_NOTHING) {
+        gn_gl_set_scissor(gl, area == GN_CLEAR_RECT ? &viewport : NULL);
+        clear_target(gl, pass);
+    }
+    if (pass->clear.stencil_bits) clear_stencil(gl, pass->clear.stencil_bits);
+    gn_gl_set_scissor(gl, bound ? &inner : NULL);
+    gn_gl_set_depth(
+        gl, pass->target.kind != GN_TARGET_ENCODED && pass->kind != GN_PASS_FILTER && !only_stencil,
+        pass->depth_write);
+    gn_gl_set_color_write(gl, !only_stencil);
+    gn_gl_set_stencil(gl, picture ? &picture->stencil : &no_stencil);
+    gn_gl_set_blend(gl, picture ? picture->blend : GN_BLEND_OFF);
+}
+
+void gn_gl_depth_discard(struct gn_gl *gl, const struct gn_pass *pass) {
+    static const GLenum attachment[] = {GL_DEPTH_ATTACHMENT, GL_STENCIL_ATTACHMENT};
+    static const GLenum window[] = {GL_DEPTH, GL_STENCIL};
+    const GLenum *depth = gl->state.framebuffer ? attachment : window;
+    const bool stencil = pass->kind == GN_PASS_PICTURE && gl->targets.output.stencil;
+    GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, stencil ? 2 : 1, depth);
+}
+
+void gn_gl_pages_copy(struct gn_gl *gl, const struct gn_pass *pass) {
+    static const GLenum attachments[] = {GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0};
+    const struct gn_gl_map *pages = gn_gl_target_find(gl, &pass->copy.from);
+    const bool is_depth = pass->target.encoding == GN_ENCODING_DEPTH;
+    if (!pages) return;
+    GL(gl, BindFramebuffer)(GL_READ_FRAMEBUFFER, pages->framebuffer);
+    for (uint32_t i = 0; i < pass->copy.count; i++) {
+        const struct gn_copy *copy = &pass->copy.copies[i];
+        const struct gn_gl_rect from = gl_rect(&copy->from);
+        const GLint x = (GLint)copy->to_x, y = (GLint)copy->to_y;
+        GL(gl, BlitFramebuffer)
+        (from.x, from.y, from.x + from.width, from.y + from.height, x, y, x + from.width,
+         y + from.height, is_depth ? GL_DEPTH_BUFFER_BIT : GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
+    GL(gl, InvalidateFramebuffer)(GL_READ_FRAMEBUFFER, is_depth ? 1 : 2, attachments);
+    GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, gl->state.framebuffer); /* as the cache says */
+}
+
+/* Copies the picture between framebuffers; the source is invalidated. */
+static void blit_output(struct gn_gl *gl, GLuint from, GLuint to) {
+    static const GLenum color = GL_COLOR_ATTACHMENT0;
+    const GLint w = (GLint)gl->targets.output.width_px, h = (GLint)gl->targets.output.height_px;
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_bind_framebuffer(gl, from);
+    GL(gl, BindFramebuffer)(GL_DRAW_FRAMEBUFFER, to);
+    GL(gl, BlitFramebuffer)(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    GL(gl, InvalidateFramebuffer)(GL_READ_FRAMEBUFFER, 1, &color);
+    GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, from); /* as the cache says */
+}
+
+void gn_gl_output_resolve(struct gn_gl *gl) {
+    const struct gn_gl_output *o = &gl->targets.output;
+    if (o->resolved == o->framebuffer) return;
+    blit_output(gl, o->framebuffer, o->resolved);
+    if (o->window && !o->encodes) blit_output(gl, o->resolved, 0);
+}
