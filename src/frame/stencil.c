@@ -90,7 +90,7 @@ bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group) {
 /* ---- casters ---- */
 
 static float (*fall_constants(const struct gn_frame *frame, uint32_t slot))[4] {
-    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SHADOW_TILES_MAX);
+    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS);
     const struct gn_shadow_view *view = &frame->shadows[slot];
     mat4 clip_from_world;
     glm_mat4_mul((vec4 *)frame->eye.clip_from_world, (vec4 *)view->raster.tiles[0].clip_from_world,

@@ -94,6 +94,35 @@ static void test_constants_are_those_of_the_view(void **state) {
     }
 }
 
+/* Passes of maps and those of a planar light in the stencil keep constants of their own: what one
+ * light is drawn with is not overwritten for another. The point light's map has six tiles, slot 0;
+ * the planar light has slot 2. */
+static void test_no_pass_overwrites_constants_of_another(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    struct gn_light lights[3] = {f.scene->lights[2], f.scene->lights[1], f.scene->lights[0]};
+    lights[0].technique = lights[1].technique = "pcf";
+    lights[2].technique = "planar";
+    f.scene->lights = lights;
+    f.opts.shadow.planar_in_stencil = true;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    bool in_stencil = false;
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const struct gn_pass *a = &plan->passes[i];
+        in_stencil |= a->kind == GN_PASS_PICTURE && a->picture.only_stencil;
+        for (uint32_t k = i + 1; k < plan->pass_count; k++) {
+            const struct gn_pass *b = &plan->passes[k];
+            const bool shared = a->constants == b->constants && a->kind == b->kind &&
+                                a->constant_count == b->constant_count;
+            assert_true(shared || a->constants + a->constant_count <= b->constants ||
+                        b->constants + b->constant_count <= a->constants);
+        }
+    }
+    assert_true(in_stencil);
+    gn_plan_end(&f);
+}
+
 /* A table per light: five passes a tile; a map of 512 unless it is given. */
 static void test_tables_plan(void **state) {
     (void)state;
@@ -341,6 +370,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_many_lights_plan),
         cmocka_unit_test(test_constants_are_those_of_the_view),
+        cmocka_unit_test(test_no_pass_overwrites_constants_of_another),
         cmocka_unit_test(test_tables_plan),
         cmocka_unit_test(test_a_map_that_is_too_large_is_made_smaller_and_said_so),
         cmocka_unit_test(test_many_lights_without_srgb_plan),
