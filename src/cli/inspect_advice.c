@@ -59,18 +59,18 @@ static void check_amounts(struct gn_inspection *in) {
 }
 
 static void check_clips(struct gn_inspection *in) {
-    for (uint32_t i = 0; i < in->scene->clip_count; i++)
-        if (!in->scene->clips[i].on_by_default)
+    for (uint32_t i = 0; i < in->scene->animation.clip_count; i++)
+        if (!in->scene->animation.clips[i].on_by_default)
             advise(in, "show it with --animation, or in a mode of its own",
                    "clip '%s' does not play: it moves what an earlier clip moves",
-                   in->scene->clips[i].name);
+                   in->scene->animation.clips[i].name);
 }
 
 /* ---- surfaces ------------------------------------------------------------------------------ */
 
 static void check_images(struct gn_inspection *in) {
-    for (uint32_t i = 0; i < in->scene->image_count; i++) {
-        const struct gn_image *image = &in->scene->images[i];
+    for (uint32_t i = 0; i < in->scene->pictures.image_count; i++) {
+        const struct gn_image *image = &in->scene->pictures.images[i];
         if (image->width_px > TEXTURE_MAX_PX || image->height_px > TEXTURE_MAX_PX)
             advise(in, "make it 4096 at most: a Raspberry Pi draws no larger ones",
                    "image %u is %ux%u pixels", i, image->width_px, image->height_px);
@@ -89,8 +89,9 @@ static void check_normals(struct gn_inspection *in) {
 
 static bool is_transparent(const struct gn_scene *scene, const struct gn_material *m) {
     int32_t texture = m->textures[GN_TEXTURE_BASE].texture;
-    return m->base_color[3] < 1.0f || scene->colors ||
-           (texture >= 0 && scene->images[scene->textures[texture].image].has_alpha);
+    return m->base_color[3] < 1.0f || scene->buffers.colors ||
+           (texture >= 0 &&
+            scene->pictures.images[scene->pictures.textures[texture].image].has_alpha);
 }
 
 static void check_alpha(struct gn_inspection *in) {
@@ -158,7 +159,7 @@ static void check_lights(struct gn_inspection *in) {
     if (s->light_count > GN_ALL_LIGHTS_MAX)
         advise(in, "take out the weakest, or bake them", "%u lights: the %d strongest are used",
                s->light_count, GN_ALL_LIGHTS_MAX);
-    if (s->made_light)
+    if (s->added.light)
         advise(in, "export lights (KHR_lights_punctual; Blender: Include > Punctual Lights)",
                "the file has no light: a sun was made");
 }
@@ -172,7 +173,7 @@ static void check_cameras(struct gn_inspection *in) {
                    "camera '%s' sees from %g to %g m: far surfaces may flicker", c->name,
                    (double)c->near_m, (double)c->far_m);
     }
-    if (s->made_camera)
+    if (s->added.camera)
         advise(in, "export a camera (Blender: Include > Cameras)",
                "the file has no camera: one was made that frames the scene");
 }

@@ -79,8 +79,9 @@ static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene)
 
 /* As gl/ lays them out: indices have 16 bits where that is enough. */
 static void count_buffers(struct gn_scene_cost *cost, const struct gn_scene *scene) {
-    cost->vertex_bytes = (uint64_t)gn_scene_vertex_bytes(scene) * scene->vertex_count;
-    cost->index_bytes = (uint64_t)scene->index_count * (scene->vertex_count > 65536 ? 4 : 2);
+    cost->vertex_bytes = (uint64_t)gn_scene_vertex_bytes(scene) * scene->buffers.vertex_count;
+    cost->index_bytes =
+        (uint64_t)scene->buffers.index_count * (scene->buffers.vertex_count > 65536 ? 4 : 2);
 }
 
 struct image_use {
@@ -90,9 +91,9 @@ struct image_use {
 
 static void use_image(struct image_use *use, const struct gn_scene *scene, uint32_t image,
                       int32_t texture, bool color) {
-    if (texture < 0 || scene->textures[texture].image != image) return;
+    if (texture < 0 || scene->pictures.textures[texture].image != image) return;
     use->as[color] = true;
-    use->mipmaps |= scene->textures[texture].mipmaps;
+    use->mipmaps |= scene->pictures.textures[texture].mipmaps;
 }
 
 uint64_t gn_inspect_image_bytes(const struct gn_scene *scene, uint32_t image) {
@@ -103,7 +104,8 @@ uint64_t gn_inspect_image_bytes(const struct gn_scene *scene, uint32_t image) {
                       gn_texture_slots[slot].texels == GN_TEXELS_SRGB);
     for (uint32_t i = 0; i < scene->light_count; i++)
         use_image(&use, scene, image, scene->lights[i].slide, true);
-    uint64_t pixels = (uint64_t)scene->images[image].width_px * scene->images[image].height_px;
+    uint64_t pixels =
+        (uint64_t)scene->pictures.images[image].width_px * scene->pictures.images[image].height_px;
     return (uint64_t)(use.as[0] + use.as[1]) * (pixels * 4 * (use.mipmaps ? 4 : 3) / 3);
 }
 
@@ -112,7 +114,7 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
     *in = (struct gn_inspection){.file = file, .scene = scene, .warnings = warnings};
     count_plan(&in->cost, scene);
     count_buffers(&in->cost, scene);
-    for (uint32_t i = 0; i < scene->image_count; i++)
+    for (uint32_t i = 0; i < scene->pictures.image_count; i++)
         in->cost.texture_bytes += gn_inspect_image_bytes(scene, i);
     gn_inspect_advise(in);
 }

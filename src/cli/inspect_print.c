@@ -58,11 +58,11 @@ static void print_content(const struct gn_inspection *in, FILE *to) {
     line(to, "%-11s %u in %u batches, %u of them instances", "items", s->item_count, s->batch_count,
          s->instance_count);
     line(to, "%-11s %u geometries, %u vertices, %llu triangles in all items", "meshes",
-         s->geometry_count, s->vertex_count, (unsigned long long)s->triangle_count);
+         s->geometry_count, s->buffers.vertex_count, (unsigned long long)s->triangle_count);
     line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided", "materials",
          s->material_count, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK],
          k.alpha[GN_ALPHA_BLEND], k.unlit, k.double_sided);
-    const float *c[] = {s->sky, s->ground, s->background};
+    const float *c[] = {s->environment.sky, s->environment.ground, s->environment.background};
     static const char *const names[] = {"sky", "ground", "background"};
     for (int i = 0; i < 3; i++)
         line(to, "%-11s %.3g %.3g %.3g", names[i], (double)c[i][0], (double)c[i][1],
@@ -70,11 +70,13 @@ static void print_content(const struct gn_inspection *in, FILE *to) {
 }
 
 static void print_images(const struct gn_scene *s, FILE *to) {
-    if (s->image_count)
-        fprintf(to, "\nTextures: %u of %u images\n", s->texture_count, s->image_count);
-    for (uint32_t i = 0; i < s->image_count; i++)
-        line(to, "%-3u %ux%u%s, %.2f MB", i, s->images[i].width_px, s->images[i].height_px,
-             s->images[i].has_alpha ? " with alpha" : "", GN_MB(gn_inspect_image_bytes(s, i)));
+    if (s->pictures.image_count)
+        fprintf(to, "\nTextures: %u of %u images\n", s->pictures.texture_count,
+                s->pictures.image_count);
+    for (uint32_t i = 0; i < s->pictures.image_count; i++)
+        line(to, "%-3u %ux%u%s, %.2f MB", i, s->pictures.images[i].width_px,
+             s->pictures.images[i].height_px, s->pictures.images[i].has_alpha ? " with alpha" : "",
+             GN_MB(gn_inspect_image_bytes(s, i)));
 }
 
 static void print_light(const struct gn_scene *s, uint32_t i, FILE *to) {
@@ -91,7 +93,7 @@ static void print_light(const struct gn_scene *s, uint32_t i, FILE *to) {
          gn_light_types[light->type].unit, cone, range,
          light->technique ? light->technique : "by mode", map, (double)light->radius,
          (double)light->shadow_strength, slide,
-         is_made(s->made_light, i, s->light_count) ? " (made: the file has none)" : "");
+         is_made(s->added.light, i, s->light_count) ? " (made: the file has none)" : "");
 }
 
 static void print_camera(const struct gn_scene *s, uint32_t i, FILE *to) {
@@ -103,7 +105,7 @@ static void print_camera(const struct gn_scene *s, uint32_t i, FILE *to) {
         snprintf(lens, sizeof lens, "perspective, %.3g degrees high", GN_DEG(c->yfov_rad));
     if (c->far_m > 0) snprintf(far, sizeof far, "%.4g m", (double)c->far_m);
     line(to, "%-3u %s: %s, from %.4g m to %s%s", i, c->name, lens, (double)c->near_m, far,
-         is_made(s->made_camera, i, s->camera_count) ? " (made: the file has none)" : "");
+         is_made(s->added.camera, i, s->camera_count) ? " (made: the file has none)" : "");
 }
 
 static void print_lists(const struct gn_scene *s, FILE *to) {
@@ -112,11 +114,12 @@ static void print_lists(const struct gn_scene *s, FILE *to) {
     for (uint32_t i = 0; i < s->light_count; i++) print_light(s, i, to);
     fprintf(to, "\nCameras\n");
     for (uint32_t i = 0; i < s->camera_count; i++) print_camera(s, i, to);
-    if (s->clip_count) fprintf(to, "\nClips\n");
-    for (uint32_t i = 0; i < s->clip_count; i++)
-        line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->clips[i].name,
-             (double)s->clips[i].duration_ns * 1e-9, s->clips[i].channel_count,
-             s->clips[i].channel_count == 1 ? "" : "s", s->clips[i].on_by_default ? "on" : "off");
+    if (s->animation.clip_count) fprintf(to, "\nClips\n");
+    for (uint32_t i = 0; i < s->animation.clip_count; i++)
+        line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->animation.clips[i].name,
+             (double)s->animation.clips[i].duration_ns * 1e-9, s->animation.clips[i].channel_count,
+             s->animation.clips[i].channel_count == 1 ? "" : "s",
+             s->animation.clips[i].on_by_default ? "on" : "off");
 }
 
 static void print_cost(const struct gn_inspection *in, FILE *to) {
@@ -131,7 +134,7 @@ static void print_cost(const struct gn_inspection *in, FILE *to) {
     line(to, "%-11s %.2f MB vertices, %.2f indices, %.2f textures, %.2f maps, %.2f picture",
          "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
          GN_MB(c->map_bytes), GN_MB(c->target_bytes));
-    line(to, "%-11s %.2f MB", "memory", GN_MB(in->scene->bytes));
+    line(to, "%-11s %.2f MB", "memory", GN_MB(in->scene->memory.bytes));
 }
 
 static void print_faults(const struct gn_inspection *in, FILE *to) {
@@ -166,13 +169,14 @@ static json_t *vector(const float *v) {
 }
 
 static json_t *counts_json(const struct gn_scene *s) {
-    return json_pack(
-        "{so so so so so so so so}", "nodes", gn_json_make_count(s->node_count), "items",
-        gn_json_make_count(s->item_count), "instances", gn_json_make_count(s->instance_count),
-        "batches", gn_json_make_count(s->batch_count), "geometries",
-        gn_json_make_count(s->geometry_count), "vertices", gn_json_make_count(s->vertex_count),
-        "triangles", gn_json_make_count(s->triangle_count), "textures",
-        gn_json_make_count(s->texture_count));
+    return json_pack("{so so so so so so so so}", "nodes", gn_json_make_count(s->node_count),
+                     "items", gn_json_make_count(s->item_count), "instances",
+                     gn_json_make_count(s->instance_count), "batches",
+                     gn_json_make_count(s->batch_count), "geometries",
+                     gn_json_make_count(s->geometry_count), "vertices",
+                     gn_json_make_count(s->buffers.vertex_count), "triangles",
+                     gn_json_make_count(s->triangle_count), "textures",
+                     gn_json_make_count(s->pictures.texture_count));
 }
 
 static json_t *materials_json(const struct gn_scene *s) {
@@ -186,7 +190,7 @@ static json_t *materials_json(const struct gn_scene *s) {
 }
 
 static json_t *image_json(const struct gn_scene *s, uint32_t i) {
-    const struct gn_image *image = &s->images[i];
+    const struct gn_image *image = &s->pictures.images[i];
     return json_pack("{so so sb so}", "width_px", gn_json_make_count(image->width_px), "height_px",
                      gn_json_make_count(image->height_px), "alpha", image->has_alpha, "bytes",
                      gn_json_make_count(gn_inspect_image_bytes(s, i)));
@@ -209,7 +213,7 @@ static json_t *light_json(const struct gn_scene *s, uint32_t i) {
                      gn_json_make_number(l->radius), "gnomon_shadow_strength",
                      gn_json_make_number(l->shadow_strength), "gnomon_slide",
                      l->slide >= 0 ? gn_json_make_count((uint64_t)l->slide) : json_null(), "made",
-                     is_made(s->made_light, i, s->light_count));
+                     is_made(s->added.light, i, s->light_count));
 }
 
 static json_t *camera_json(const struct gn_scene *s, uint32_t i) {
@@ -220,11 +224,11 @@ static json_t *camera_json(const struct gn_scene *s, uint32_t i) {
                      number_or_null(c->orthographic, c->ymag_m), "near_m",
                      gn_json_make_number(c->near_m), "far_m",
                      number_or_null(c->far_m > 0, c->far_m), "made",
-                     is_made(s->made_camera, i, s->camera_count));
+                     is_made(s->added.camera, i, s->camera_count));
 }
 
 static json_t *clip_json(const struct gn_scene *s, uint32_t i) {
-    const struct gn_clip *c = &s->clips[i];
+    const struct gn_clip *c = &s->animation.clips[i];
     return json_pack("{so so so sb}", "name", gn_json_make_text(c->name), "duration_s",
                      gn_json_make_number((double)c->duration_ns * 1e-9), "channels",
                      gn_json_make_count(c->channel_count), "on", c->on_by_default);
@@ -249,7 +253,7 @@ static json_t *cost_json(const struct gn_inspection *in) {
         gn_json_make_count(c->vertex_bytes), "index_bytes", gn_json_make_count(c->index_bytes),
         "texture_bytes", gn_json_make_count(c->texture_bytes), "map_bytes",
         gn_json_make_count(c->map_bytes), "target_bytes", gn_json_make_count(c->target_bytes),
-        "memory_bytes", gn_json_make_count(in->scene->bytes));
+        "memory_bytes", gn_json_make_count(in->scene->memory.bytes));
 }
 
 static void add_faults(json_t *all, const struct gn_inspection *in) {
@@ -274,10 +278,11 @@ bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_e
     json_t *all = json_pack(
         "{so so so so so so so so so s{so so so} so}", "file", gn_json_make_text(in->file), "name",
         gn_json_make_text(s->name), "size_m", vector(size), "counts", counts_json(s), "materials",
-        materials_json(s), "images", list(s, s->image_count, image_json), "lights",
+        materials_json(s), "images", list(s, s->pictures.image_count, image_json), "lights",
         list(s, s->light_count, light_json), "cameras", list(s, s->camera_count, camera_json),
-        "clips", list(s, s->clip_count, clip_json), "hemisphere", "sky", vector(s->sky), "ground",
-        vector(s->ground), "background", vector(s->background), "cost", cost_json(in));
+        "clips", list(s, s->animation.clip_count, clip_json), "hemisphere", "sky",
+        vector(s->environment.sky), "ground", vector(s->environment.ground), "background",
+        vector(s->environment.background), "cost", cost_json(in));
     if (all) add_faults(all, in);
     return gn_json_print(all, 7, to, err);
 }

@@ -49,8 +49,9 @@ static void open_views(struct views *v, struct gn_frame *frame, const struct gn_
     const struct gn_scene *scene = frame->scene;
     *v = (struct views){.frame = frame, .opts = opts, .now = pose, .count = 1};
     v->moves = pose->node_moves[scene->cameras[opts->view.camera].node];
-    for (uint32_t i = 0; i < scene->clip_count && v->moves; i++)
-        if (scene->clips[i].duration_ns > v->lasts_ns) v->lasts_ns = scene->clips[i].duration_ns;
+    for (uint32_t i = 0; i < scene->animation.clip_count && v->moves; i++)
+        if (scene->animation.clips[i].duration_ns > v->lasts_ns)
+            v->lasts_ns = scene->animation.clips[i].duration_ns;
     if (v->moves) v->count += OTHERS;
 }
 

@@ -103,7 +103,7 @@ static const char *check_lights(const struct gn_plan *plan, const struct gn_pass
     REQUIRE(p->shadow_count <= plan->shadow_count - p->first_shadow);
     REQUIRE(p->slide_count <= GN_SLIDES_MAX);
     for (uint32_t i = 0; i < p->slide_count; i++)
-        REQUIRE(p->slides[i] < plan->scene->texture_count);
+        REQUIRE(p->slides[i] < plan->scene->pictures.texture_count);
     if (p->blend != GN_BLEND_ADD) return NULL;
     REQUIRE(!pass->depth_write && pass->clear.area == GN_CLEAR_NOTHING);
     REQUIRE(plan->output != GN_OUTPUT_LINEAR8 || !plan->encode_srgb);

@@ -68,8 +68,8 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
 static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose,
                               const struct gn_frame_opts *opts) {
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PICTURE);
-    memcpy(c[PASS_SKY], frame->scene->sky, sizeof(vec3));
-    memcpy(c[PASS_GROUND], frame->scene->ground, sizeof(vec3));
+    memcpy(c[PASS_SKY], frame->scene->environment.sky, sizeof(vec3));
+    memcpy(c[PASS_GROUND], frame->scene->environment.ground, sizeof(vec3));
     /* What glows is given as it shall look, as the hemisphere is: an automatic exposure for lux
      * would put it out. */
     c[PASS_EXPOSURE][0] = opts->exposure_given ? frame->plan.exposure : 1.0f;

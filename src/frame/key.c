@@ -39,7 +39,8 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     if (m->double_sided) features |= GN_FEATURE(DOUBLE_SIDED);
     if (gn_material_is_specular(m)) features |= GN_FEATURE(SPECULAR);
     if (gn_material_is_emissive(m)) features |= GN_FEATURE(EMISSIVE);
-    if (memcmp(scene->sky, scene->ground, sizeof(vec3)) != 0) features |= GN_FEATURE(HEMISPHERE);
+    if (memcmp(scene->environment.sky, scene->environment.ground, sizeof(vec3)) != 0)
+        features |= GN_FEATURE(HEMISPHERE);
     return features;
 }
 

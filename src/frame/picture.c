@@ -18,7 +18,7 @@ static void set_clear(const struct gn_frame *frame, enum gn_aov aov, float color
         [GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY};
     const bool encode = frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_LINEAR8;
     for (int k = 0; k < 3; k++) {
-        color[k] = aov == GN_AOV_COLOR ? frame->scene->background[k] : aov_clear[aov];
+        color[k] = aov == GN_AOV_COLOR ? frame->scene->environment.background[k] : aov_clear[aov];
         if (encode) color[k] = srgb_from_linear(color[k]);
     }
     color[3] = 1.0f;

@@ -39,7 +39,7 @@ static void slide_slot(const struct gn_frame *frame, const struct gn_pose *pose,
                        float (*c)[4]) {
     const struct gn_scene *scene = frame->scene;
     const struct gn_image *image =
-        &scene->images[scene->textures[scene->lights[light].slide].image];
+        &scene->pictures.images[scene->pictures.textures[scene->lights[light].slide].image];
     struct gn_slide_view view;
     gn_slide_build(pose, light, &view);
     memcpy(c[SLIDE_U], view.u, sizeof view.u);

@@ -35,8 +35,9 @@ static GLsizei levels_of(const struct gn_image *image) {
 }
 
 static bool wants_mipmaps(const struct gn_scene *scene, uint32_t image) {
-    for (uint32_t i = 0; i < scene->texture_count; i++)
-        if (scene->textures[i].image == image && scene->textures[i].mipmaps) return true;
+    for (uint32_t i = 0; i < scene->pictures.texture_count; i++)
+        if (scene->pictures.textures[i].image == image && scene->pictures.textures[i].mipmaps)
+            return true;
     return false;
 }
 
@@ -45,7 +46,8 @@ static bool wants_mipmaps(const struct gn_scene *scene, uint32_t image) {
 static void open_picture(struct gn_gl *gl, uint32_t index, bool srgb) {
     struct gn_gl_scene *s = &gl->scene;
     struct gn_gl_picture *p = &s->upload.picture;
-    *p = (struct gn_gl_picture){.image = s->scene->images[index], .srgb = srgb, .open = true};
+    *p = (struct gn_gl_picture){
+        .image = s->scene->pictures.images[index], .srgb = srgb, .open = true};
     p->owned = shrink(gl, s->upload.curve, index, &p->image, srgb);
     p->mipmaps = wants_mipmaps(s->scene, index);
     p->levels = p->mipmaps ? levels_of(&p->image) : 1;
@@ -157,7 +159,7 @@ static bool use_of(const struct gn_scene *scene, uint32_t use, int32_t *texture,
 }
 
 static void begin_pictures(struct gn_gl_scene *s) {
-    s->image_count = s->scene->image_count;
+    s->image_count = s->scene->pictures.image_count;
     for (int i = 0; i < 2; i++) s->images[i] = gn_xalloc(s->image_count + 1, sizeof *s->images[i]);
     if (s->image_count == 0) return;
     s->upload.curve = gn_xalloc(1, sizeof *s->upload.curve);
@@ -171,7 +173,7 @@ static bool open_next(struct gn_gl *gl) {
     bool srgb;
     for (; use_of(s->scene, s->upload.first, &texture, &srgb); s->upload.first++) {
         if (texture < 0) continue;
-        const uint32_t image = s->scene->textures[texture].image;
+        const uint32_t image = s->scene->pictures.textures[texture].image;
         if (s->images[srgb][image]) continue;
         open_picture(gl, image, srgb);
         return true;
@@ -183,7 +185,7 @@ static GLuint open_name(const struct gn_gl_scene *s) {
     int32_t texture = 0;
     bool srgb = false;
     use_of(s->scene, s->upload.first, &texture, &srgb);
-    return s->images[srgb][s->scene->textures[texture].image];
+    return s->images[srgb][s->scene->pictures.textures[texture].image];
 }
 
 bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes) {
@@ -196,7 +198,8 @@ bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes) {
         sent += send_some(gl, bytes - sent);
     }
     if (p->open || sent >= bytes) return false;
-    for (uint32_t i = 0; i < s->scene->texture_count; i++) make_sampler(gl, &s->scene->textures[i]);
+    for (uint32_t i = 0; i < s->scene->pictures.texture_count; i++)
+        make_sampler(gl, &s->scene->pictures.textures[i]);
     free(s->upload.curve);
     s->upload.curve = NULL;
     return true;
@@ -219,7 +222,7 @@ void gn_gl_textures_finish(struct gn_gl *gl) {
 
 static void bind(struct gn_gl *gl, GLuint unit, uint32_t texture, bool srgb) {
     const struct gn_gl_scene *s = &gl->scene;
-    const struct gn_texture *t = &s->scene->textures[texture];
+    const struct gn_texture *t = &s->scene->pictures.textures[texture];
     gn_gl_bind_texture(gl, unit, s->images[srgb][t->image], s->samplers[sampler_kind(t)]);
 }
 

@@ -38,7 +38,7 @@ static GLuint make_vertex_buffer(struct gn_gl *gl, const void *data, size_t size
 static void lay_out(struct gn_gl_scene *s) {
     s->attribute_stride = 0;
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++) {
-        const bool here = s->scene->attributes[i] && i != GN_ATTRIBUTE_POSITION;
+        const bool here = s->scene->buffers.attributes[i] && i != GN_ATTRIBUTE_POSITION;
         s->attribute_at[i] = here ? s->attribute_stride : -1;
         if (here) s->attribute_stride += gn_attributes[i].gpu_bytes;
     }
@@ -51,7 +51,7 @@ static void pack_vertex(const struct gn_gl_scene *s, uint32_t vertex, uint8_t *o
         const struct gn_attribute_row *row = &gn_attributes[i];
         if (s->attribute_at[i] < 0) continue;
         const uint8_t *from =
-            (const uint8_t *)s->scene->attributes[i] + (size_t)vertex * row->bytes;
+            (const uint8_t *)s->scene->buffers.attributes[i] + (size_t)vertex * row->bytes;
         if (row->format == GN_ATTRIBUTE_SNORM16) {
             int16_t packed[4] = {0};
             for (int k = 0; k < row->components; k++)
@@ -71,13 +71,13 @@ static uint32_t portion(size_t bytes, size_t each, uint32_t left) {
 static bool send_positions(struct gn_gl *gl, size_t bytes) {
     struct gn_gl_scene *s = &gl->scene;
     const size_t each = 3 * sizeof(float);
-    const uint32_t first = s->upload.first, all = s->scene->vertex_count;
+    const uint32_t first = s->upload.first, all = s->scene->buffers.vertex_count;
     if (first == 0) s->positions = make_vertex_buffer(gl, NULL, all * each);
     const uint32_t n = portion(bytes, each, all - first);
     gn_gl_bind_array_buffer(gl, s->positions);
     if (n > 0) GL(gl, BufferSubData)
     (GL_ARRAY_BUFFER, (GLintptr)(first * each), (GLsizeiptr)(n * each),
-     s->scene->positions + 3 * (size_t)first);
+     s->scene->buffers.positions + 3 * (size_t)first);
     s->upload.first += n;
     return s->upload.first == all;
 }
@@ -86,7 +86,7 @@ static bool send_positions(struct gn_gl *gl, size_t bytes) {
 static bool send_attributes(struct gn_gl *gl, size_t bytes) {
     uint8_t packed[PIECE * GN_ATTRIBUTES_GPU_BYTES];
     struct gn_gl_scene *s = &gl->scene;
-    const uint32_t all = s->scene->vertex_count;
+    const uint32_t all = s->scene->buffers.vertex_count;
     const size_t stride = (size_t)s->attribute_stride;
     if (s->upload.first == 0) s->attributes = make_vertex_buffer(gl, NULL, all * stride);
     gn_gl_bind_array_buffer(gl, s->attributes);
@@ -114,8 +114,8 @@ static void send_narrow(struct gn_gl *gl, const uint32_t *indices, uint32_t begi
 
 static bool send_indices(struct gn_gl *gl, size_t bytes) {
     struct gn_gl_scene *s = &gl->scene;
-    const uint32_t all = s->scene->index_count, first = s->upload.first;
-    const bool wide = s->scene->vertex_count > 65536;
+    const uint32_t all = s->scene->buffers.index_count, first = s->upload.first;
+    const bool wide = s->scene->buffers.vertex_count > 65536;
     s->index_type = wide ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT;
     s->index_size = wide ? sizeof(uint32_t) : sizeof(uint16_t);
     gn_gl_bind_vertex_array(gl, 0);
@@ -124,11 +124,11 @@ static bool send_indices(struct gn_gl *gl, size_t bytes) {
     GL(gl, BindBuffer)(GL_ELEMENT_ARRAY_BUFFER, s->indices);
     const uint32_t n = portion(bytes, s->index_size, all - first);
     if (!wide)
-        send_narrow(gl, s->scene->indices, first, first + n);
+        send_narrow(gl, s->scene->buffers.indices, first, first + n);
     else if (n > 0)
         GL(gl, BufferSubData)
     (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * s->index_size), (GLsizeiptr)(n * s->index_size),
-     s->scene->indices + first);
+     s->scene->buffers.indices + first);
     s->upload.first += n;
     return s->upload.first == all;
 }

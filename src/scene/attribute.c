@@ -23,13 +23,13 @@ const struct gn_attribute_row gn_attributes[GN_ATTRIBUTE_COUNT] = {
     GN_ATTRIBUTES(GN_X)
 #undef GN_X
 };
-_Static_assert(offsetof(struct gn_scene, colors) ==
-                   offsetof(struct gn_scene, attributes[GN_ATTRIBUTE_COLOR]),
+_Static_assert(offsetof(struct gn_scene_buffers, colors) ==
+                   offsetof(struct gn_scene_buffers, attributes[GN_ATTRIBUTE_COLOR]),
                "the arrays by name are those by number");
 
 uint32_t gn_scene_vertex_bytes(const struct gn_scene *scene) {
     uint32_t bytes = 0;
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
-        if (scene->attributes[i]) bytes += gn_attributes[i].gpu_bytes;
+        if (scene->buffers.attributes[i]) bytes += gn_attributes[i].gpu_bytes;
     return bytes;
 }

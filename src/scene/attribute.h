@@ -1,7 +1,7 @@
 /* Attributes of a vertex: one row each, from the semantic in glTF to the input in GLSL. A row gives
- * the enum below, gn_attributes[], an array of struct gn_scene (scene.h) and, in gl/, its place in
- * the vertex buffer and the input `a_name` at the location of its number. To add one: a row here,
- * and the shader that reads it. */
+ * the enum below, gn_attributes[], an array of struct gn_scene_buffers (scene.h) and, in gl/, its
+ * place in the vertex buffer and the input `a_name` at the location of its number. To add one: a
+ * row here, and the shader that reads it. */
 #ifndef GN_SCENE_ATTRIBUTE_H
 #define GN_SCENE_ATTRIBUTE_H
 
@@ -9,8 +9,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* X(NAME, name, type and name of the array in gn_scene, semantic, fewest components in a file,
- *   components in the scene, component types in a file, format, value where a file has none) */
+/* X(NAME, name, type and name of the array in gn_scene_buffers, semantic, fewest components in a
+ * file, components in the scene, component types in a file, format, value where a file has none) */
 #define GN_PLAIN_ATTRIBUTES(X)                                                                     \
     X(POSITION, position, float, positions, "POSITION", 3, 3, ANY, FLOAT, 0)                       \
     X(NORMAL, normal, float, normals, "NORMAL", 3, 3, SIGNED, SNORM16, 0) /* made where missing */ \

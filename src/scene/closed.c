@@ -34,7 +34,7 @@ static bool allocate_welder(struct welder *w, struct gn_arena *arena) {
 }
 
 static const float *position_of(const struct welder *w, uint32_t vertex) {
-    return w->scene->positions + 3 * ((size_t)w->geometry->first_vertex + vertex);
+    return w->scene->buffers.positions + 3 * ((size_t)w->geometry->first_vertex + vertex);
 }
 
 static void weld_vertices(struct welder *w) {
@@ -76,7 +76,7 @@ static double volume_six(const float *a, const float *b, const float *c, const f
 
 static bool edges_meet(struct welder *w) {
     uint64_t sum = 0;
-    const uint32_t *index = w->scene->indices + w->geometry->first_index;
+    const uint32_t *index = w->scene->buffers.indices + w->geometry->first_index;
     for (uint32_t i = 0; i < w->geometry->index_count; i += 3) {
         uint32_t t[3];
         for (int k = 0; k < 3; k++)
@@ -90,7 +90,7 @@ static bool edges_meet(struct welder *w) {
 }
 
 static bool bodies_are_outward(struct welder *w) {
-    const uint32_t *index = w->scene->indices + w->geometry->first_index;
+    const uint32_t *index = w->scene->buffers.indices + w->geometry->first_index;
     uint32_t first = w->geometry->first_vertex;
     for (uint32_t i = 0; i < w->geometry->index_count; i += 3) {
         uint32_t body = body_root(w, w->vertex[index[i] - first]);

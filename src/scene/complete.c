@@ -28,7 +28,7 @@ static uint32_t add_node(struct gn_gltf *g, const char *name, vec3 position, vec
  * box are lit differently. An unlit white side would have the colour of the background. */
 static void make_light(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
-    scene->made_light = true;
+    scene->added.light = true;
     vec3 middle;
     glm_vec3_center(scene->box.min, scene->box.max, middle);
     scene->lights[scene->light_count++] = (struct gn_light){
@@ -79,7 +79,7 @@ static void make_camera(struct gn_gltf *g) {
     float distance = fitting_distance(&scene->box, axes, tanf(yfov_rad / 2) * filled, reach);
     float size = fmaxf(glm_vec3_distance(scene->box.min, scene->box.max), 1e-3f);
     distance = fmaxf(distance, size * .5f);
-    scene->made_camera = true;
+    scene->added.camera = true;
     glm_vec3_center(scene->box.min, scene->box.max, middle);
     glm_vec3_scale(axes[2], distance, eye);
     glm_vec3_add(eye, middle, eye);

@@ -83,7 +83,8 @@ static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
                                  struct gather gather) {
     for (int i = GN_ATTRIBUTE_NORMAL + 1; i < GN_ATTRIBUTE_COUNT; i++) {
         gather.accessor = gn_gltf_accessor(g, attribute[i]);
-        if (!put_attribute(g, &gather, &gn_attributes[i], g->scene->attributes[i])) return false;
+        if (!put_attribute(g, &gather, &gn_attributes[i], g->scene->buffers.attributes[i]))
+            return false;
     }
     return true;
 }
@@ -104,14 +105,14 @@ static bool fill_vertices(struct gn_gltf *g, struct gn_vertices *vertices) {
     if (vertices->filled) return true;
     struct gn_scene *scene = g->scene;
     vertices->filled = true;
-    vertices->first = scene->vertex_count;
-    scene->vertex_count += vertices->count;
+    vertices->first = scene->buffers.vertex_count;
+    scene->buffers.vertex_count += vertices->count;
     struct gather gather = {.first = vertices->first, .count = vertices->count};
     gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_POSITION]);
-    put_floats(g, &gather, 3, scene->positions + 3 * gather.first);
+    put_floats(g, &gather, 3, scene->buffers.positions + 3 * gather.first);
     gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
-    put_floats(g, &gather, 3, scene->normals + 3 * gather.first);
-    normalize_normals(vertices, scene->normals + 3 * (size_t)vertices->first);
+    put_floats(g, &gather, 3, scene->buffers.normals + 3 * gather.first);
+    normalize_normals(vertices, scene->buffers.normals + 3 * (size_t)vertices->first);
     return put_other_attributes(g, vertices->attribute, gather);
 }
 
@@ -187,21 +188,21 @@ static bool fill_flat_geometry(struct gn_gltf *g, const struct gn_at *at,
     const float *positions = read_floats(g, a, 3);
     const uint32_t *raw = positions ? read_corners(g, at, shape, &count) : NULL;
     if (!raw) return false;
-    uint32_t *corners = scene->indices + geometry->first_index, *source = NULL;
+    uint32_t *corners = scene->buffers.indices + geometry->first_index, *source = NULL;
     float *normals = NULL;
     count = unroll_triangles(g, at, shape, raw, positions, corners);
     if (!gn_geometry_flat_normals(g, positions, corners, count, a->count, &source, &normals, &made))
         return false;
-    geometry->first_vertex = scene->vertex_count;
+    geometry->first_vertex = scene->buffers.vertex_count;
     geometry->vertex_count = (uint32_t)made;
     geometry->index_count = (uint32_t)count;
     for (size_t i = 0; i < count; i++) corners[i] += geometry->first_vertex;
-    memcpy(scene->normals + 3 * (size_t)geometry->first_vertex, normals,
+    memcpy(scene->buffers.normals + 3 * (size_t)geometry->first_vertex, normals,
            3 * made * sizeof *normals);
     for (size_t i = 0; i < made; i++)
-        memcpy(scene->positions + 3 * (geometry->first_vertex + i),
+        memcpy(scene->buffers.positions + 3 * (geometry->first_vertex + i),
                positions + 3 * (size_t)source[i], 3 * sizeof *positions);
-    scene->vertex_count += geometry->vertex_count;
+    scene->buffers.vertex_count += geometry->vertex_count;
     return put_other_attributes(
         g, shape->attribute,
         (struct gather){.source = source, .first = geometry->first_vertex, .count = made});
@@ -215,9 +216,9 @@ static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
     if (!fill_vertices(g, vertices)) return false;
     const uint32_t *raw = read_corners(g, at, shape, &count);
     if (!raw) return false;
-    uint32_t *corners = scene->indices + geometry->first_index;
-    count = unroll_triangles(g, at, shape, raw, scene->positions + 3 * (size_t)vertices->first,
-                             corners);
+    uint32_t *corners = scene->buffers.indices + geometry->first_index;
+    count = unroll_triangles(g, at, shape, raw,
+                             scene->buffers.positions + 3 * (size_t)vertices->first, corners);
     for (size_t i = 0; i < count; i++) corners[i] += vertices->first;
     geometry->first_vertex = vertices->first;
     geometry->vertex_count = vertices->count;
@@ -233,12 +234,12 @@ static bool fill_geometry(struct gn_gltf *g, struct gn_shape *shape, struct gn_g
     struct gn_at list = gn_at_array(g, &mesh, "primitives");
     struct gn_at at = gn_at_element(&list, shape->primitive);
     gn_arena_reset(&g->memory.step);
-    geometry->first_index = g->scene->index_count;
+    geometry->first_index = g->scene->buffers.index_count;
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
         geometry->attributes |= (uint32_t)(shape->attribute[i] >= 0) << i;
     bool flat = shape->vertices == UINT32_MAX;
     if (!(flat ? fill_flat_geometry : fill_shared_geometry)(g, &at, shape, geometry)) return false;
-    g->scene->index_count += geometry->index_count;
+    g->scene->buffers.index_count += geometry->index_count;
     gn_geometry_measure(g->scene, geometry, &shape->area);
     /* The test visits all vertices, which many geometries may share: run it only where most belong
      * to this one. */
@@ -271,18 +272,19 @@ static bool allocate_vertices(struct gn_gltf *g) {
         return gn_gltf_fail(g, &meshes, "%" PRIu64 " indices are more than can be drawn", corners);
     scene->geometries =
         gn_gltf_alloc(g, g->memory.scene, scene->geometry_count, sizeof *scene->geometries);
-    scene->indices = gn_gltf_alloc(g, g->memory.scene, corners, sizeof *scene->indices);
+    scene->buffers.indices =
+        gn_gltf_alloc(g, g->memory.scene, corners, sizeof *scene->buffers.indices);
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
         if (any[i])
-            scene->attributes[i] =
+            scene->buffers.attributes[i] =
                 gn_gltf_alloc(g, g->memory.scene, vertices, gn_attributes[i].bytes);
     return !g->failed;
 }
 
 /* Makes vertices that no triangle uses finite, too. */
 static void tidy_vertices(struct gn_scene *scene) {
-    for (size_t i = 0; i < scene->vertex_count; i++) {
-        float *p = scene->positions + 3 * i, *n = scene->normals + 3 * i;
+    for (size_t i = 0; i < scene->buffers.vertex_count; i++) {
+        float *p = scene->buffers.positions + 3 * i, *n = scene->buffers.normals + 3 * i;
         if (!position_is_usable(p)) memset(p, 0, 3 * sizeof *p);
         if (n[0] == 0 && n[1] == 0 && n[2] == 0) n[1] = 1;
     }

@@ -62,14 +62,15 @@ bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_
 }
 
 size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geometry *geometry) {
-    const uint32_t *t = scene->indices + geometry->first_index;
+    const uint32_t *t = scene->buffers.indices + geometry->first_index;
     size_t repaired = 0;
     for (size_t i = 0; i < geometry->index_count; i++) {
-        float *n = scene->normals + 3 * (size_t)t[i];
+        float *n = scene->buffers.normals + 3 * (size_t)t[i];
         if (n[0] != 0 || n[1] != 0 || n[2] != 0) continue;
         const uint32_t *face = t + i - i % 3;
-        face_normal(scene->positions + 3 * (size_t)face[0], scene->positions + 3 * (size_t)face[1],
-                    scene->positions + 3 * (size_t)face[2], n);
+        face_normal(scene->buffers.positions + 3 * (size_t)face[0],
+                    scene->buffers.positions + 3 * (size_t)face[1],
+                    scene->buffers.positions + 3 * (size_t)face[2], n);
         repaired++;
     }
     return repaired;
@@ -79,9 +80,9 @@ size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geomet
 
 static struct gn_box box_of(const struct gn_scene *scene, const struct gn_geometry *geometry) {
     struct gn_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    const uint32_t *index = scene->indices + geometry->first_index;
+    const uint32_t *index = scene->buffers.indices + geometry->first_index;
     for (size_t i = 0; i < geometry->index_count; i++) {
-        const float *p = scene->positions + 3 * (size_t)index[i];
+        const float *p = scene->buffers.positions + 3 * (size_t)index[i];
         for (int k = 0; k < 3; k++) {
             if (p[k] < box.min[k]) box.min[k] = p[k];
             if (p[k] > box.max[k]) box.max[k] = p[k];
@@ -93,14 +94,14 @@ static struct gn_box box_of(const struct gn_scene *scene, const struct gn_geomet
 /* The normal of the largest triangle, oriented to the side that most of the area faces. */
 static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry *geometry,
                          double out[3], double *area) {
-    const uint32_t *index = scene->indices + geometry->first_index;
+    const uint32_t *index = scene->buffers.indices + geometry->first_index;
     double sum[3] = {0}, best = 0;
     *area = 0;
     for (size_t i = 0; i + 2 < geometry->index_count; i += 3) {
         double n[3];
-        cross_of(scene->positions + 3 * (size_t)index[i],
-                 scene->positions + 3 * (size_t)index[i + 1],
-                 scene->positions + 3 * (size_t)index[i + 2], n);
+        cross_of(scene->buffers.positions + 3 * (size_t)index[i],
+                 scene->buffers.positions + 3 * (size_t)index[i + 1],
+                 scene->buffers.positions + 3 * (size_t)index[i + 2], n);
         double length = length_of(n);
         *area += length / 2;
         for (int k = 0; k < 3; k++) sum[k] += n[k];
@@ -115,9 +116,9 @@ static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry 
 
 static bool lies_in_plane(const struct gn_scene *scene, const struct gn_geometry *geometry,
                           const double n[3], double d, double tolerance) {
-    const uint32_t *index = scene->indices + geometry->first_index;
+    const uint32_t *index = scene->buffers.indices + geometry->first_index;
     for (size_t i = 0; i < geometry->index_count; i++) {
-        const float *p = scene->positions + 3 * (size_t)index[i];
+        const float *p = scene->buffers.positions + 3 * (size_t)index[i];
         double distance = n[0] * (double)p[0] + n[1] * (double)p[1] + n[2] * (double)p[2] + d;
         if (!(fabs(distance) <= tolerance)) return false;
     }
@@ -130,7 +131,8 @@ void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geome
     geometry->box = box_of(scene, geometry);
     double n[3] = {0}, size[3], d = 0;
     if (!guess_normal(scene, geometry, n, area)) return;
-    const float *on = scene->positions + 3 * (size_t)scene->indices[geometry->first_index];
+    const float *on =
+        scene->buffers.positions + 3 * (size_t)scene->buffers.indices[geometry->first_index];
     for (int k = 0; k < 3; k++) {
         size[k] = (double)geometry->box.max[k] - (double)geometry->box.min[k];
         d -= n[k] * (double)on[k];

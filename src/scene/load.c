@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct holder { /* what scene->memory points to */
+struct holder { /* what scene->memory.arena points to */
     struct gn_arena arena;
     struct gn_scene scene;
 };
@@ -59,14 +59,14 @@ static void finish_load(struct gn_gltf *g) {
 
 static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_t size) {
     struct holder *holder = gn_xalloc(1, sizeof *holder);
-    holder->scene.memory = holder;
+    holder->scene.memory.arena = holder;
     g->memory.scene = &holder->arena;
     g->scene = &holder->scene;
     g->memory.other_bytes = size;
     bool done = gn_gltf_open(g, data, size);
     for (size_t i = 0; done && i < sizeof STEPS / sizeof STEPS[0]; i++) done = STEPS[i](g);
     done = done && !g->failed;
-    holder->scene.bytes = holder->arena.used + sizeof *holder;
+    holder->scene.memory.bytes = holder->arena.used + sizeof *holder;
     finish_load(g);
     if (done) return &holder->scene;
     gn_scene_destroy(&holder->scene);
@@ -108,7 +108,7 @@ struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *l
 
 void gn_scene_destroy(struct gn_scene *scene) {
     if (!scene) return;
-    struct holder *holder = scene->memory;
+    struct holder *holder = scene->memory.arena;
     gn_arena_finish(&holder->arena);
     free(holder);
 }
@@ -122,7 +122,7 @@ static const char *camera_node(const struct gn_scene *scene, uint32_t i) {
     return scene->nodes[scene->cameras[i].node].name;
 }
 static const char *clip_name(const struct gn_scene *scene, uint32_t i) {
-    return scene->clips[i].name;
+    return scene->animation.clips[i].name;
 }
 
 struct list {
@@ -167,6 +167,7 @@ int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct 
 }
 
 int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err) {
-    return find_named(scene, &(struct list){"animation", scene->clip_count, clip_name, clip_name},
-                      what, err);
+    return find_named(
+        scene, &(struct list){"animation", scene->animation.clip_count, clip_name, clip_name}, what,
+        err);
 }

@@ -122,7 +122,7 @@ static void pose_node(struct gn_pose *pose, uint32_t i) {
 /* ---- clips ---- */
 
 static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
-    if (pose->clips == GN_POSE_DEFAULT) return pose->scene->clips[clip].on_by_default;
+    if (pose->clips == GN_POSE_DEFAULT) return pose->scene->animation.clips[clip].on_by_default;
     return pose->clips == (int)clip;
 }
 
@@ -138,7 +138,8 @@ static void apply_clip(struct gn_pose *pose, const struct gn_clip *clip) {
     struct memory *memory = pose->memory;
     double time_s = clip_time_s(clip, pose->time_ns);
     for (uint32_t i = 0; i < clip->channel_count; i++) {
-        const struct gn_channel *channel = &pose->scene->channels[clip->first_channel + i];
+        const struct gn_channel *channel =
+            &pose->scene->animation.channels[clip->first_channel + i];
         struct gn_node *node = &memory->local[channel->node];
         float *const target[] = {[GN_ANIM_TRANSLATION] = node->translation,
                                  [GN_ANIM_ROTATION] = node->rotation,
@@ -149,12 +150,12 @@ static void apply_clip(struct gn_pose *pose, const struct gn_clip *clip) {
 
 static void mark_moving(struct gn_pose *pose) {
     const struct gn_scene *scene = pose->scene;
-    for (uint32_t c = 0; c < scene->clip_count; c++) {
-        const struct gn_clip *clip = &scene->clips[c];
+    for (uint32_t c = 0; c < scene->animation.clip_count; c++) {
+        const struct gn_clip *clip = &scene->animation.clips[c];
         if (!clip_on(pose, c)) continue;
         if (clip->channel_count > 0) pose->animated = true;
         for (uint32_t i = 0; i < clip->channel_count; i++)
-            pose->node_moves[scene->channels[clip->first_channel + i].node] = true;
+            pose->node_moves[scene->animation.channels[clip->first_channel + i].node] = true;
     }
     for (uint32_t i = 0; i < scene->node_count; i++) {
         int32_t parent = scene->nodes[i].parent;
@@ -219,8 +220,8 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     struct memory *memory = pose->memory;
     pose->time_ns = time_ns;
     if (!pose->animated) return;
-    for (uint32_t c = 0; c < pose->scene->clip_count; c++)
-        if (clip_on(pose, c)) apply_clip(pose, &pose->scene->clips[c]);
+    for (uint32_t c = 0; c < pose->scene->animation.clip_count; c++)
+        if (clip_on(pose, c)) apply_clip(pose, &pose->scene->animation.clips[c]);
     for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
     pose->box_ws = memory->still_ws;
     for (uint32_t i = 0; i < memory->item_count; i++) {

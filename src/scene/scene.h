@@ -61,7 +61,7 @@ struct gn_material {
 struct gn_geometry {
     uint32_t first_vertex, vertex_count;
     uint32_t first_index,
-        index_count;     /* a multiple of 3; indices are absolute, into scene->positions */
+        index_count;     /* a multiple of 3; indices are absolute, into buffers.positions */
     struct gn_box box;   /* mesh space */
     uint32_t attributes; /* bit per gn_attribute that the file has */
     bool flat;           /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
@@ -151,8 +151,7 @@ struct gn_clip {
     bool on_by_default;  /* its channels do not collide with an earlier clip's */
 };
 
-struct gn_scene {
-    const char *name;
+struct gn_scene_buffers { /* vertices and indices of all geometries */
     union { /* the rows of scene/attribute.h, an array each; NULL if no geometry has any */
         struct {
 #define GN_X(NAME, name, type, field, ...) type *field;
@@ -163,29 +162,50 @@ struct gn_scene {
     };
     uint32_t *indices;
     uint32_t vertex_count, index_count;
+};
+struct gn_scene_pictures {
+    struct gn_image *images;
+    struct gn_texture *textures; /* images and how they are sampled */
+    uint32_t image_count, texture_count;
+};
+struct gn_scene_animation {
+    struct gn_clip *clips;
+    struct gn_channel *channels; /* of all clips, clip by clip */
+    uint32_t clip_count, channel_count;
+};
+struct gn_scene_environment { /* linear, after exposure */
+    vec3 sky, ground;         /* radiance of the hemispheres */
+    vec3 background;
+};
+struct gn_scene_added { /* by the loader, as the last one, because the file has none */
+    bool light, camera;
+};
+struct gn_scene_memory {
+    size_t bytes; /* of the scene */
+    void *arena;  /* private */
+};
 
+struct gn_scene {
+    const char *name;
+    struct gn_scene_buffers buffers;
     struct gn_geometry *geometries;
     struct gn_material *materials; /* the last one is glTF's default material */
-    struct gn_image *images;
-    struct gn_texture *textures;
-    struct gn_node *nodes; /* of the shown scene only */
-    mat4 *instances;       /* node_from_instance */
+    struct gn_node *nodes;         /* of the shown scene only */
+    mat4 *instances;               /* node_from_instance */
     struct gn_item *items;
     struct gn_light *lights;
     struct gn_camera *cameras;
-    struct gn_clip *clips;
-    struct gn_channel *channels;
-    uint32_t geometry_count, material_count, image_count, texture_count, node_count, instance_count,
-        item_count, light_count, camera_count, clip_count, channel_count, batch_count;
-    bool made_light, made_camera; /* the file has none: the last one was added by the loader */
+    uint32_t geometry_count, material_count, node_count, instance_count, item_count, light_count,
+        camera_count, batch_count;
+    struct gn_scene_pictures pictures;
+    struct gn_scene_animation animation;
+    struct gn_scene_environment environment;
+    struct gn_scene_added added;
 
-    vec3 sky, ground,
-        background; /* hemisphere radiance and background colour, linear, after exposure */
     struct gn_box
         box; /* of everything visible, world space, nodes as the file places them; never empty */
     uint64_t triangle_count; /* of all items */
-    size_t bytes;            /* memory of the scene */
-    void *memory;            /* its arena; private */
+    struct gn_scene_memory memory;
 };
 
 /* Limits on what a file may use; 0 = the default beside each. The names are those of --limit. */

@@ -61,8 +61,8 @@ static void add_triangles(const struct gn_fitter *f, uint32_t item, const vec4 w
         struct gn_polygon triangle = {.count = 3};
         float low = INFINITY, high = -INFINITY;
         for (int k = 0; k < 3; k++) {
-            const uint32_t vertex = scene->indices[g->first_index + i + (uint32_t)k];
-            glm_vec3_copy(scene->positions + 3 * (size_t)vertex, triangle.at[k]);
+            const uint32_t vertex = scene->buffers.indices[g->first_index + i + (uint32_t)k];
+            glm_vec3_copy(scene->buffers.positions + 3 * (size_t)vertex, triangle.at[k]);
             const float at = glm_vec3_dot(depth, triangle.at[k]) + depth[3];
             low = least(low, at);
             high = most(high, at);

@@ -67,11 +67,11 @@ void gn_item_triangle(const struct gn_pose *pose, uint32_t item, uint32_t index,
                       struct gn_polygon *out) {
     const struct gn_scene *scene = pose->scene;
     const uint32_t *indices =
-        scene->indices + scene->geometries[scene->items[item].geometry].first_index + index;
+        scene->buffers.indices + scene->geometries[scene->items[item].geometry].first_index + index;
     out->count = 3;
     for (int k = 0; k < 3; k++)
-        glm_mat4_mulv3(pose->items[item].world_from_item, scene->positions + 3 * (size_t)indices[k],
-                       1.0f, out->at[k]);
+        glm_mat4_mulv3(pose->items[item].world_from_item,
+                       scene->buffers.positions + 3 * (size_t)indices[k], 1.0f, out->at[k]);
 }
 
 void gn_polygon_clip(struct gn_polygon *polygon, const vec4 plane) {

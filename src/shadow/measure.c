@@ -94,8 +94,8 @@ static float triangle_from(const struct gn_fitter *f, mat4 light_from_item,
     vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
     for (int k = 0; k < 3; k++) {
         vec3 p;
-        glm_mat4_mulv3(light_from_item, f->pose->scene->positions + 3 * (size_t)indices[k], 1.0f,
-                       p);
+        glm_mat4_mulv3(light_from_item, f->pose->scene->buffers.positions + 3 * (size_t)indices[k],
+                       1.0f, p);
         glm_vec3_minv(low, p, low);
         glm_vec3_maxv(high, p, high);
     }
@@ -119,7 +119,7 @@ static void add_nearest(const struct gn_fitter *f, struct gn_shadow_region *r, u
     glm_mat4_mul((vec4 *)f->tile->light_from_world, (vec4 *)f->pose->items[item].world_from_item,
                  light_from_item);
     for (uint32_t i = 0; i < g->index_count; i += 3) {
-        float from = triangle_from(f, light_from_item, scene->indices + g->first_index + i);
+        float from = triangle_from(f, light_from_item, scene->buffers.indices + g->first_index + i);
         r->near = least(r->near, most(from / most(f->tan_cone, 1.0f), f->near_m));
     }
 }

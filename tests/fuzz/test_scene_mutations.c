@@ -279,7 +279,7 @@ static void try_mutant(size_t number, const struct gn_made *made) {
     if (took_ns > SECONDS * GN_NS_PER_S) fail(number, "took too long", made);
     const char *wrong = scene ? gn_scene_check(scene) : NULL;
     if (wrong) fail(number, wrong, made);
-    if (scene && scene->bytes > (size_t)MEMORY_MB << 20)
+    if (scene && scene->memory.bytes > (size_t)MEMORY_MB << 20)
         fail(number, "holds more than it may", made);
     if (!scene && (strncmp(err.text, "m: ", 3) != 0 || strchr(err.text, '\n') || !err.text[3]))
         fail(number, err.text, made);

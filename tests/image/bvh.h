@@ -15,7 +15,7 @@
 struct gn_bvh_triangle {
     double p[3][3]; /* corners, world space */
     uint32_t item;  /* the caller's */
-    uint32_t index; /* the caller's: first index of this triangle in scene->indices */
+    uint32_t index; /* the caller's: first index of this triangle in buffers.indices */
     uint32_t flags; /* the caller's */
 };
 

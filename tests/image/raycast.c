@@ -56,7 +56,8 @@ void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
                 .item = i, .index = geometry->first_index + k, .flags = flags};
             for (int c = 0; c < 3; c++)
                 place(posed->world_from_item,
-                      &scene->positions[3 * (size_t)scene->indices[t->index + c]], t->p[c]);
+                      &scene->buffers.positions[3 * (size_t)scene->buffers.indices[t->index + c]],
+                      t->p[c]);
         }
     }
     *rays = (struct gn_raycast){.scene = scene};
@@ -83,7 +84,7 @@ static uint32_t wrap(int64_t i, uint32_t size, enum gn_wrap how) {
 
 static double texel_alpha(const struct gn_scene *scene, const struct gn_texture *texture, int64_t x,
                           int64_t y) {
-    const struct gn_image *image = &scene->images[texture->image];
+    const struct gn_image *image = &scene->pictures.images[texture->image];
     size_t column = wrap(x, image->width_px, texture->wrap_s);
     size_t row = wrap(y, image->height_px, texture->wrap_t);
     return image->rgba[4 * (row * image->width_px + column) + 3] / 255.0;
@@ -91,7 +92,7 @@ static double texel_alpha(const struct gn_scene *scene, const struct gn_texture 
 
 static double sample_alpha(const struct gn_scene *scene, const struct gn_texture *texture, double u,
                            double v) {
-    const struct gn_image *image = &scene->images[texture->image];
+    const struct gn_image *image = &scene->pictures.images[texture->image];
     double x = u * image->width_px, y = v * image->height_px;
     if (!(fabs(x) < 1e15 && fabs(y) < 1e15)) return 1;
     if (texture->mag_nearest)
@@ -111,23 +112,24 @@ static double alpha_at(const struct gn_scene *scene, const struct gn_bvh_triangl
     const struct gn_material *material = &scene->materials[item->material];
     const struct gn_texture_ref *ref = &material->textures[GN_TEXTURE_BASE];
     const double weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
-    const uint32_t *corner = &scene->indices[t->index];
+    const uint32_t *corner = &scene->buffers.indices[t->index];
     double alpha = material->base_color[3];
-    if (gn_geometry_has(geometry, GN_ATTRIBUTE_COLOR) && scene->colors) {
+    if (gn_geometry_has(geometry, GN_ATTRIBUTE_COLOR) && scene->buffers.colors) {
         double sum = 0;
-        for (int c = 0; c < 3; c++) sum += weight[c] * scene->colors[4 * (size_t)corner[c] + 3];
+        for (int c = 0; c < 3; c++)
+            sum += weight[c] * scene->buffers.colors[4 * (size_t)corner[c] + 3];
         alpha *= sum / 255;
     }
     if (ref->texture < 0) return alpha;
-    const float *set = ref->uv_set ? scene->uv1 : scene->uv0;
+    const float *set = ref->uv_set ? scene->buffers.uv1 : scene->buffers.uv0;
     double u = 0, v = 0;
     for (int c = 0; set && c < 3; c++) {
         u += weight[c] * set[2 * (size_t)corner[c]];
         v += weight[c] * set[2 * (size_t)corner[c] + 1];
     }
     const float *m = ref->uv_from_uv;
-    return alpha * sample_alpha(scene, &scene->textures[ref->texture], m[0] * u + m[2] * v + m[4],
-                                m[1] * u + m[3] * v + m[5]);
+    return alpha * sample_alpha(scene, &scene->pictures.textures[ref->texture],
+                                m[0] * u + m[2] * v + m[4], m[1] * u + m[3] * v + m[5]);
 }
 
 static bool is_hole(const struct gn_scene *scene, const struct gn_bvh_triangle *t,

@@ -25,7 +25,7 @@ static uint8_t bare[PIXELS][4], shown[PIXELS][4], other[PIXELS][4];
 static void open_with(const char *backend, const char *without) {
     help_stage_open(&stage, gn_stage_scene_make, backend, without, NULL);
     own_lights = stage.scene->lights;
-    glm_vec3_copy((vec3){1, 1, 1}, stage.scene->background); /* the worst for white */
+    glm_vec3_copy((vec3){1, 1, 1}, stage.scene->environment.background); /* the worst for white */
 }
 
 HELP_OPENS(open_egl, "egl", NULL)

@@ -305,7 +305,7 @@ static void expect_two_shades(const char *nodes, int suns, int way) {
         assert_true(fabsf(picture[4 * i] - shades[lit]) < 1e-3f * shades[lit]);
     }
     assert_true(counts[0] > 1500 && counts[1] > 50000);
-    float ambient = scene->sky[0], sun = 3.0f / GLM_PIf * (float)suns * 0.863868f;
+    float ambient = scene->environment.sky[0], sun = 3.0f / GLM_PIf * (float)suns * 0.863868f;
     assert_true(fabsf(shades[1] - (ambient + sun)) < 2e-3f * shades[1]);
     assert_true(fabsf(shades[0] - (ambient + 0.3f * sun)) < 2e-3f * shades[1]);
     gn_truth_finish(&truth);

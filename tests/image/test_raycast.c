@@ -31,15 +31,15 @@ struct small {
 
 static void small_init(struct small *s) {
     memset(s, 0, sizeof *s);
-    s->scene = (struct gn_scene){.positions = s->positions,
-                                 .uv0 = s->uv,
-                                 .colors = s->colors,
-                                 .indices = s->indices,
+    s->scene = (struct gn_scene){.buffers.positions = s->positions,
+                                 .buffers.uv0 = s->uv,
+                                 .buffers.colors = s->colors,
+                                 .buffers.indices = s->indices,
                                  .items = s->items,
                                  .geometries = s->geometries,
                                  .materials = s->materials,
-                                 .images = &s->image,
-                                 .textures = &s->texture};
+                                 .pictures.images = &s->image,
+                                 .pictures.textures = &s->texture};
     s->pose = (struct gn_pose){.scene = &s->scene, .items = s->posed};
 }
 
@@ -48,8 +48,8 @@ static struct gn_material *small_item(struct small *s) {
     uint32_t i = s->scene.item_count++;
     s->items[i] = (struct gn_item){
         .geometry = i, .material = i, .instance = -1, .casts = true, .receives = true};
-    s->geometries[i] = (struct gn_geometry){.first_vertex = s->scene.vertex_count,
-                                            .first_index = s->scene.index_count};
+    s->geometries[i] = (struct gn_geometry){.first_vertex = s->scene.buffers.vertex_count,
+                                            .first_index = s->scene.buffers.index_count};
     s->materials[i] = (struct gn_material){.base_color = {1, 1, 1, 1}, .alpha_cutoff = .5f};
     s->materials[i].textures[GN_TEXTURE_BASE] =
         (struct gn_texture_ref){.texture = -1, .uv_from_uv = {1, 0, 0, 1, 0, 0}};
@@ -65,15 +65,15 @@ static void small_quad(struct small *s, const float a[3], const float u[3], cons
     struct gn_geometry *g = &s->geometries[s->scene.item_count - 1];
     for (int c = 0; c < 4; c++) {
         float along = c == 1 || c == 2, up = c >= 2;
-        uint32_t vertex = s->scene.vertex_count + c;
+        uint32_t vertex = s->scene.buffers.vertex_count + c;
         for (int k = 0; k < 3; k++) s->positions[3 * vertex + k] = a[k] + along * u[k] + up * v[k];
         s->uv[2 * vertex] = along;
         s->uv[2 * vertex + 1] = up;
         memset(&s->colors[4 * vertex], 255, 4);
     }
     for (int i = 0; i < 6; i++)
-        s->indices[s->scene.index_count++] = s->scene.vertex_count + order[i];
-    s->scene.vertex_count += 4;
+        s->indices[s->scene.buffers.index_count++] = s->scene.buffers.vertex_count + order[i];
+    s->scene.buffers.vertex_count += 4;
     g->vertex_count += 4;
     g->index_count += 6;
 }

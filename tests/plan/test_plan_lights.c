@@ -247,9 +247,9 @@ static void make_spots(struct gn_plan_fixture *f, struct gn_light *lights, uint3
     }
     f->scene->lights = lights;
     f->scene->light_count = count;
-    f->scene->images = &slide_image;
-    f->scene->textures = &slide_texture;
-    f->scene->image_count = f->scene->texture_count = 1;
+    f->scene->pictures.images = &slide_image;
+    f->scene->pictures.textures = &slide_texture;
+    f->scene->pictures.image_count = f->scene->pictures.texture_count = 1;
 }
 
 static void test_slide_plan(void **state) {

@@ -113,20 +113,17 @@ static struct gn_texture textures[] = {{.image = 0, .mag_nearest = true, .min_ne
 
 const struct gn_scene help_scene = {
     .name = "squares",
-    .positions = positions,
-    .normals = normals,
-    .uv0 = uv0,
-    .indices = indices,
-    .vertex_count = 8,
-    .index_count = 12,
+    .buffers = {.positions = positions,
+                .normals = normals,
+                .uv0 = uv0,
+                .indices = indices,
+                .vertex_count = 8,
+                .index_count = 12},
     .geometries = geometries,
     .geometry_count = 2,
     .materials = materials,
     .material_count = 2,
-    .images = images,
-    .image_count = 1,
-    .textures = textures,
-    .texture_count = 1,
+    .pictures = {.images = images, .textures = textures, .image_count = 1, .texture_count = 1},
 };
 
 static const char vertex[] =

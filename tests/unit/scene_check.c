@@ -24,7 +24,8 @@ static bool unit_all(const float *v, size_t count) {
 static bool box_right(const struct gn_scene *scene, const struct gn_geometry *geometry) {
     vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
     for (uint32_t i = 0; i < geometry->index_count; i++) {
-        const float *p = scene->positions + 3 * (size_t)scene->indices[geometry->first_index + i];
+        const float *p = scene->buffers.positions +
+                         3 * (size_t)scene->buffers.indices[geometry->first_index + i];
         for (int k = 0; k < 3; k++) {
             low[k] = fminf(low[k], p[k]);
             high[k] = fmaxf(high[k], p[k]);
@@ -37,27 +38,27 @@ static bool box_right(const struct gn_scene *scene, const struct gn_geometry *ge
 
 static const char *check_geometry(const struct gn_scene *scene,
                                   const struct gn_geometry *geometry) {
-    NEED((uint64_t)geometry->first_vertex + geometry->vertex_count <= scene->vertex_count);
-    NEED((uint64_t)geometry->first_index + geometry->index_count <= scene->index_count);
+    NEED((uint64_t)geometry->first_vertex + geometry->vertex_count <= scene->buffers.vertex_count);
+    NEED((uint64_t)geometry->first_index + geometry->index_count <= scene->buffers.index_count);
     NEED(geometry->index_count % 3 == 0);
     for (uint32_t i = 0; i < geometry->index_count; i++) {
-        uint32_t index = scene->indices[geometry->first_index + i];
+        uint32_t index = scene->buffers.indices[geometry->first_index + i];
         NEED(index >= geometry->first_vertex);
         NEED(index < geometry->first_vertex + geometry->vertex_count);
     }
     NEED(geometry->index_count == 0 || box_right(scene, geometry));
     NEED(!geometry->flat || fabsf(glm_vec3_norm((float *)geometry->plane) - 1) < 1e-4f);
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
-        NEED(!gn_geometry_has(geometry, i) || scene->attributes[i]);
+        NEED(!gn_geometry_has(geometry, i) || scene->buffers.attributes[i]);
     return NULL;
 }
 
 static const char *check_vertices(const struct gn_scene *scene) {
-    size_t n = scene->vertex_count;
-    NEED(finite_all(scene->positions, 3 * n));
-    NEED(unit_all(scene->normals, n));
-    NEED(!scene->uv0 || finite_all(scene->uv0, 2 * n));
-    NEED(!scene->uv1 || finite_all(scene->uv1, 2 * n));
+    size_t n = scene->buffers.vertex_count;
+    NEED(finite_all(scene->buffers.positions, 3 * n));
+    NEED(unit_all(scene->buffers.normals, n));
+    NEED(!scene->buffers.uv0 || finite_all(scene->buffers.uv0, 2 * n));
+    NEED(!scene->buffers.uv1 || finite_all(scene->buffers.uv1, 2 * n));
     for (uint32_t i = 0; i < scene->geometry_count; i++) {
         const char *wrong = check_geometry(scene, &scene->geometries[i]);
         if (wrong) return wrong;
@@ -75,7 +76,7 @@ static const char *check_material(const struct gn_scene *scene,
     NEED(isfinite(material->alpha_cutoff) && material->alpha <= GN_ALPHA_BLEND);
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++) {
         const struct gn_texture_ref *ref = &material->textures[i];
-        NEED(ref->texture >= -1 && ref->texture < (int64_t)scene->texture_count);
+        NEED(ref->texture >= -1 && ref->texture < (int64_t)scene->pictures.texture_count);
         NEED(ref->uv_set <= 1 && finite_all(ref->uv_from_uv, 6));
     }
     return NULL;
@@ -83,10 +84,10 @@ static const char *check_material(const struct gn_scene *scene,
 
 static const char *check_looks(const struct gn_scene *scene) {
     NEED(scene->material_count >= 1);
-    for (uint32_t i = 0; i < scene->texture_count; i++)
-        NEED(scene->textures[i].image < scene->image_count);
-    for (uint32_t i = 0; i < scene->image_count; i++) {
-        const struct gn_image *image = &scene->images[i];
+    for (uint32_t i = 0; i < scene->pictures.texture_count; i++)
+        NEED(scene->pictures.textures[i].image < scene->pictures.image_count);
+    for (uint32_t i = 0; i < scene->pictures.image_count; i++) {
+        const struct gn_image *image = &scene->pictures.images[i];
         NEED(image->width_px > 0 && image->height_px > 0 && image->rgba);
         NEED(image->rgba[4 * (size_t)image->width_px * image->height_px - 1] == 255 ||
              image->has_alpha);
@@ -128,7 +129,7 @@ static const char *check_light(const struct gn_scene *scene, const struct gn_lig
          (light->inner_rad >= 0 && light->inner_rad < light->outer_rad));
     NEED(light->outer_rad <= GLM_PI_2f);
     NEED(light->shadow_strength >= 0 && light->shadow_strength <= 1);
-    NEED(light->slide >= -1 && light->slide < (int64_t)scene->texture_count);
+    NEED(light->slide >= -1 && light->slide < (int64_t)scene->pictures.texture_count);
     return NULL;
 }
 
@@ -161,13 +162,13 @@ static const char *check_nodes(const struct gn_scene *scene) {
 }
 
 static const char *check_clips(const struct gn_scene *scene) {
-    for (uint32_t c = 0; c < scene->clip_count; c++) {
-        const struct gn_clip *clip = &scene->clips[c];
+    for (uint32_t c = 0; c < scene->animation.clip_count; c++) {
+        const struct gn_clip *clip = &scene->animation.clips[c];
         NEED(clip->name && clip->duration_ns >= 0);
-        NEED((uint64_t)clip->first_channel + clip->channel_count <= scene->channel_count);
+        NEED((uint64_t)clip->first_channel + clip->channel_count <= scene->animation.channel_count);
     }
-    for (uint32_t c = 0; c < scene->channel_count; c++) {
-        const struct gn_channel *channel = &scene->channels[c];
+    for (uint32_t c = 0; c < scene->animation.channel_count; c++) {
+        const struct gn_channel *channel = &scene->animation.channels[c];
         size_t per_key = (channel->path == GN_ANIM_ROTATION ? 4 : 3) *
                          (size_t)(channel->interpolation == GN_ANIM_CUBIC ? 3 : 1);
         NEED(channel->node < scene->node_count && channel->key_count > 0);

@@ -4,24 +4,25 @@ static void test_wide_indices(void **state) {
     (void)state;
     enum { FIRST = 70000 };
     struct gn_scene scene = help_scene;
-    scene.vertex_count = FIRST + 4;
-    scene.positions = calloc(scene.vertex_count, 3 * sizeof(float));
-    scene.normals = calloc(scene.vertex_count, 3 * sizeof(float));
-    scene.uv0 = NULL;
-    scene.colors = calloc(scene.vertex_count, 4);
-    memcpy(scene.positions + 3 * FIRST, help_scene.positions + 12, 12 * sizeof(float));
+    scene.buffers.vertex_count = FIRST + 4;
+    scene.buffers.positions = calloc(scene.buffers.vertex_count, 3 * sizeof(float));
+    scene.buffers.normals = calloc(scene.buffers.vertex_count, 3 * sizeof(float));
+    scene.buffers.uv0 = NULL;
+    scene.buffers.colors = calloc(scene.buffers.vertex_count, 4);
+    memcpy(scene.buffers.positions + 3 * FIRST, help_scene.buffers.positions + 12,
+           12 * sizeof(float));
     uint32_t indices[12];
-    for (int i = 0; i < 12; i++) indices[i] = help_scene.indices[i] % 4 + FIRST;
-    scene.indices = indices;
+    for (int i = 0; i < 12; i++) indices[i] = help_scene.buffers.indices[i] % 4 + FIRST;
+    scene.buffers.indices = indices;
     assert_true(gn_gl_load(gl, &scene, &err));
     begin_plan(GN_OUTPUT_LINEAR8);
     s.plan.scene = &scene;
     add_draw(HELP_FAR, instance(0, 1, 0, 1));
     show();
     expect(0, 0, 0, 255, 0);
-    free(scene.positions);
-    free(scene.normals);
-    free(scene.colors);
+    free(scene.buffers.positions);
+    free(scene.buffers.normals);
+    free(scene.buffers.colors);
 }
 
 static void test_large_image(void **state) {
@@ -41,7 +42,7 @@ static void test_mipmaps(void **state) {
     (void)state;
     struct gn_scene scene = help_scene;
     struct gn_texture texture = {.image = 0, .mipmaps = true};
-    scene.textures = &texture;
+    scene.pictures.textures = &texture;
     for (int software = 0; software < 2; software++) {
         gl->caps.software = software;
         assert_true(gn_gl_load(gl, &scene, &err));

@@ -32,11 +32,12 @@ static void test_a_square_of_an_obj_stands_upright_with_its_picture(void **state
     help_import_near(m->roughness, 1);
     assert_true(m->alpha == GN_ALPHA_OPAQUE && m->double_sided);
     assert_int_equal(m->textures[GN_TEXTURE_BASE].texture, 0);
-    assert_memory_equal(scene->images[0].rgba, "\xff\x00\x00\xff\x00\xff", 6);
-    for (uint32_t i = 0; i < scene->vertex_count; i++) { /* v runs down from the picture's top */
-        help_import_near(scene->uv0[2 * i], scene->positions[3 * i] / 2);
-        help_import_near(scene->uv0[2 * i + 1], 1 - scene->positions[3 * i + 1]);
-        help_import_near(scene->normals[3 * i + 2], 1);
+    assert_memory_equal(scene->pictures.images[0].rgba, "\xff\x00\x00\xff\x00\xff", 6);
+    for (uint32_t i = 0; i < scene->buffers.vertex_count;
+         i++) { /* v runs down from the picture's top */
+        help_import_near(scene->buffers.uv0[2 * i], scene->buffers.positions[3 * i] / 2);
+        help_import_near(scene->buffers.uv0[2 * i + 1], 1 - scene->buffers.positions[3 * i + 1]);
+        help_import_near(scene->buffers.normals[3 * i + 2], 1);
     }
     assert_int_equal(help_import_warnings()->count, 0);
     gn_scene_destroy(scene);
@@ -97,9 +98,9 @@ static void test_an_opacity_picture_becomes_the_alpha(void **state) {
     help_import_put_picture("holes.png", 0, 255, 255, 0);
     struct gn_scene *scene = help_import_load("a.obj");
     assert_int_equal(help_import_material(scene)->alpha, GN_ALPHA_MASK);
-    assert_int_equal(scene->image_count, 1);
-    assert_memory_equal(scene->images[0].rgba + 4, "\x00\xff\x00\xff\x00\x00\xff\xff", 8);
-    assert_int_equal(scene->images[0].rgba[3], 0);
+    assert_int_equal(scene->pictures.image_count, 1);
+    assert_memory_equal(scene->pictures.images[0].rgba + 4, "\x00\xff\x00\xff\x00\x00\xff\xff", 8);
+    assert_int_equal(scene->pictures.images[0].rgba[3], 0);
     gn_scene_destroy(scene);
 }
 
@@ -112,10 +113,10 @@ static void test_a_picture_is_there_once_however_it_is_repeated(void **state) {
     help_import_put_picture("a.png", 255, 255, 255, 255);
     struct gn_scene *scene = help_import_load("a.obj");
     assert_int_equal(scene->item_count, 3);
-    assert_int_equal(scene->image_count, 1);
-    assert_int_equal(scene->texture_count, 2);
+    assert_int_equal(scene->pictures.image_count, 1);
+    assert_int_equal(scene->pictures.texture_count, 2);
     int clamped = 0;
-    for (uint32_t i = 0; i < 2; i++) clamped += scene->textures[i].wrap_s == GN_WRAP_CLAMP;
+    for (uint32_t i = 0; i < 2; i++) clamped += scene->pictures.textures[i].wrap_s == GN_WRAP_CLAMP;
     assert_int_equal(clamped, 1);
     gn_scene_destroy(scene);
 }
@@ -142,7 +143,7 @@ static void test_pictures_outside_the_folder_are_not_read(void **state) {
         help_import_put("a.obj", SQUARE_OBJ);
         help_import_put("a.mtl", text);
         struct gn_scene *scene = help_import_load("a.obj");
-        assert_int_equal(scene->image_count, 0);
+        assert_int_equal(scene->pictures.image_count, 0);
         help_import_near(help_import_material(scene)->base_color[2], 0.3f);
         help_import_warned("not found in the model's folder; shown without it");
         gn_scene_destroy(scene);
@@ -150,7 +151,7 @@ static void test_pictures_outside_the_folder_are_not_read(void **state) {
     assert_int_equal(symlink(outside, help_import_path("link.png")), 0);
     help_import_put("a.mtl", "newmtl m\nmap_Kd link.png\n");
     struct gn_scene *scene = help_import_load("a.obj");
-    assert_int_equal(scene->image_count, 0);
+    assert_int_equal(scene->pictures.image_count, 0);
     gn_scene_destroy(scene);
     unlink(outside);
 }
@@ -161,7 +162,7 @@ static void test_a_path_of_another_machine_is_found_by_its_last_part(void **stat
     help_import_put("a.mtl", "newmtl m\nKd 1 1 1\nmap_Kd C:\\Users\\me\\a.png\n");
     help_import_put_picture("a.png", 255, 255, 255, 255);
     struct gn_scene *scene = help_import_load("a.obj");
-    assert_int_equal(scene->image_count, 1);
+    assert_int_equal(scene->pictures.image_count, 1);
     gn_scene_destroy(scene);
 }
 

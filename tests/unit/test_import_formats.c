@@ -22,9 +22,9 @@ static void test_a_box_without_normals_gets_flat_ones_that_look_out(void **state
     help_import_put("box.ply", box_ply);
     struct gn_scene *scene = help_import_load("box.ply");
     help_import_box(scene, 0, 0, -1, 1, 3, 0); /* z up became y up */
-    assert_int_equal(scene->vertex_count, 24);
-    for (uint32_t i = 0; i < scene->vertex_count; i++) {
-        const float *p = scene->positions + 3 * i, *n = scene->normals + 3 * i;
+    assert_int_equal(scene->buffers.vertex_count, 24);
+    for (uint32_t i = 0; i < scene->buffers.vertex_count; i++) {
+        const float *p = scene->buffers.positions + 3 * i, *n = scene->buffers.normals + 3 * i;
         float out[3] = {p[0] - 0.5f, p[1] - 0.5f, p[2] - 1.5f}; /* mesh space: still z up */
         int axis = fabsf(n[0]) > 0.9f ? 0 : fabsf(n[1]) > 0.9f ? 1 : 2;
         help_import_near(fabsf(n[axis]), 1);
@@ -52,9 +52,9 @@ static void test_a_cylinder_without_normals_is_smooth_round_and_sharp_at_its_rim
     sprintf(text + n, "\n");
     help_import_put("c.obj", text);
     struct gn_scene *scene = help_import_load("c.obj");
-    assert_int_equal(scene->vertex_count, 3 * SIDES);
-    for (uint32_t i = 0; i < scene->vertex_count; i++) {
-        const float *p = scene->positions + 3 * i, *normal = scene->normals + 3 * i;
+    assert_int_equal(scene->buffers.vertex_count, 3 * SIDES);
+    for (uint32_t i = 0; i < scene->buffers.vertex_count; i++) {
+        const float *p = scene->buffers.positions + 3 * i, *normal = scene->buffers.normals + 3 * i;
         bool lid = fabsf(normal[1]) > 0.5f;
         help_import_near(normal[0], lid ? 0 : p[0]);
         help_import_near(normal[1], lid ? 1 : 0);
@@ -71,10 +71,10 @@ static void test_a_place_is_one_whatever_the_sign_of_its_zeros(void **state) {
                                 "f 1/1 2/1 3/1 4/1\nf 5/2 8/2 7/2 6/2\n");
     struct gn_scene *scene = help_import_load("roof.obj");
     int ridge = 0;
-    for (uint32_t i = 0; i < scene->vertex_count; i++) {
-        if (scene->positions[3 * i] != 0) continue;
-        help_import_near(scene->normals[3 * i], 0);
-        help_import_near(scene->normals[3 * i + 1], 1);
+    for (uint32_t i = 0; i < scene->buffers.vertex_count; i++) {
+        if (scene->buffers.positions[3 * i] != 0) continue;
+        help_import_near(scene->buffers.normals[3 * i], 0);
+        help_import_near(scene->buffers.normals[3 * i + 1], 1);
         ridge++;
     }
     assert_int_equal(ridge, 4);
@@ -98,7 +98,7 @@ static void test_an_stl_has_z_up_in_either_form(void **state) {
     help_import_put_bytes("b.stl", stl, sizeof stl);
     scene = help_import_load("b.stl");
     help_import_box(scene, 0, 0, 0, 1, 3, 0);
-    help_import_near(scene->normals[1], -1); /* as the file has it; its node turns it */
+    help_import_near(scene->buffers.normals[1], -1); /* as the file has it; its node turns it */
     gn_scene_destroy(scene);
 }
 
@@ -110,9 +110,9 @@ static void test_vertex_colours_become_linear_on_white(void **state) {
                  "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                  "0 0 0 255 188 0\n1 0 0 255 188 0\n0 0 1 255 188 0\n3 0 1 2\n");
     struct gn_scene *scene = help_import_load("c.ply");
-    assert_int_equal(scene->colors[0], 255);
-    assert_in_range(scene->colors[1], 127, 129); /* sRGB 188 is linear one half */
-    assert_int_equal(scene->colors[2], 0);
+    assert_int_equal(scene->buffers.colors[0], 255);
+    assert_in_range(scene->buffers.colors[1], 127, 129); /* sRGB 188 is linear one half */
+    assert_int_equal(scene->buffers.colors[2], 0);
     help_import_near(help_import_material(scene)->base_color[0], 1);
     gn_scene_destroy(scene);
 }

@@ -73,7 +73,7 @@ static void test_a_square_costs_what_it_weighs(void **state) {
     (void)state;
     inspect();
     assert_int_equal(scene->triangle_count, 2);
-    assert_int_equal(in.cost.vertex_bytes, (12 + 8) * scene->vertex_count);
+    assert_int_equal(in.cost.vertex_bytes, (12 + 8) * scene->buffers.vertex_count);
     assert_int_equal(in.cost.index_bytes, 6 * 2);
     assert_int_equal(in.cost.draws, 1);
     assert_int_equal(in.cost.triangles, 2);

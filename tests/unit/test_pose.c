@@ -126,9 +126,10 @@ static void test_clips(void **state) {
     animate("translation", SPLINE, "CUBICSPLINE");
     animate("scale", SPLINE, "CUBICSPLINE");
     load(GN_POSE_NONE);
-    assert_true(scene->clips[0].on_by_default && !scene->clips[1].on_by_default &&
-                scene->clips[2].on_by_default);
-    assert_int_equal(scene->clips[0].duration_ns, 2 * GN_NS_PER_S);
+    assert_true(scene->animation.clips[0].on_by_default &&
+                !scene->animation.clips[1].on_by_default &&
+                scene->animation.clips[2].on_by_default);
+    assert_int_equal(scene->animation.clips[0].duration_ns, 2 * GN_NS_PER_S);
     assert_false(pose.animated);
     assert_at(.5, 0, 0, 0, 0);
     gn_pose_finish(&pose);
@@ -182,8 +183,8 @@ static void test_unusable_channels_are_left_out(void **state) {
     animate("translation", MOVE, "CUBICSPLINE"); /* a third of the values */
     animate("weights", MOVE, "LINEAR");
     load(GN_POSE_DEFAULT);
-    assert_int_equal(scene->clip_count, 3);
-    assert_int_equal(scene->channel_count, 0);
+    assert_int_equal(scene->animation.clip_count, 3);
+    assert_int_equal(scene->animation.channel_count, 0);
     assert_false(pose.animated);
     assert_string_equal(warnings.text[0],
                         "t: animations[0].samplers[0]: input and output do not fit each other; "

@@ -35,7 +35,7 @@ static void test_light(void **state) {
         "{}");
     struct gn_scene *scene = load();
     const struct gn_light *light = &scene->lights[0];
-    assert_false(scene->made_light);
+    assert_false(scene->added.light);
     assert_string_equal(light->name, "n");
     assert_near(light->color[1], 5);
     assert_near(light->range_m, 7);
@@ -106,16 +106,16 @@ static void test_scene_extras(void **state) {
     gn_maker_set(&maker, "scenes",
                  "[{'nodes':[0],'extras':{'gnomon_sky':[1,2,3,1],'gnomon_ground':0.5}}]");
     struct gn_scene *scene = load();
-    assert_near(scene->sky[2], 3);
-    assert_near(scene->ground[0], .5f);
-    assert_near(scene->background[1], 1.25f); /* the horizon */
+    assert_near(scene->environment.sky[2], 3);
+    assert_near(scene->environment.ground[0], .5f);
+    assert_near(scene->environment.background[1], 1.25f); /* the horizon */
     gn_scene_destroy(scene);
     setup(NULL);
     gn_maker_set(&maker, "scenes",
                  "[{'nodes':[0],'extras':{'gnomon_sky':'blue','gnomon_background':[0,0,1]}}]");
     scene = load();
-    assert_near(scene->sky[0], .08f);
-    assert_near(scene->background[2], 1);
+    assert_near(scene->environment.sky[0], .08f);
+    assert_near(scene->environment.background[2], 1);
     assert_warned(
         "t: scenes[0].extras.gnomon_sky: must be a colour: [r, g, b], linear, 0 or more; ignored");
     gn_scene_destroy(scene);
@@ -248,7 +248,7 @@ static void test_made_camera_and_light(void **state) {
         setup(NULL);
         gn_maker_set(&maker, "nodes", nodes[i]);
         struct gn_scene *scene = load();
-        assert_true(scene->made_light && scene->made_camera);
+        assert_true(scene->added.light && scene->added.camera);
         assert_framed(scene);
         struct gn_pose pose;
         vec3 position, direction;

@@ -88,8 +88,8 @@ static void test_samplers(void **state) {
                  "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}},'emissiveTexture':{'"
                  "index':1}}]");
     struct gn_scene *scene = load();
-    assert_int_equal(scene->image_count, 1);
-    const struct gn_texture *t = scene->textures;
+    assert_int_equal(scene->pictures.image_count, 1);
+    const struct gn_texture *t = scene->pictures.textures;
     assert_true(t[0].mag_nearest && !t[0].mipmaps && !t[0].min_nearest);
     assert_true(t[0].wrap_s == GN_WRAP_CLAMP && t[0].wrap_t == GN_WRAP_MIRROR);
     assert_true(!t[1].mag_nearest && t[1].mipmaps && !t[1].mip_nearest &&
@@ -107,8 +107,8 @@ static void test_png_rgba(void **state) {
     free(png.data);
     gn_maker_set(&maker, "materials", BASE_TEXTURE);
     struct gn_scene *scene = load();
-    assert_memory_equal(scene->images[0].rgba, rgba, sizeof rgba);
-    assert_true(scene->images[0].has_alpha);
+    assert_memory_equal(scene->pictures.images[0].rgba, rgba, sizeof rgba);
+    assert_true(scene->pictures.images[0].has_alpha);
     gn_scene_destroy(scene);
 }
 
@@ -122,8 +122,8 @@ static void test_png_of_16_bits(void **state) {
     struct gn_scene *scene = load();
     static const uint8_t wanted[] = {0,   0,   0,   255, 255, 255, 255, 255,
                                      128, 128, 128, 255, 1,   1,   1,   255};
-    assert_memory_equal(scene->images[0].rgba, wanted, sizeof wanted);
-    assert_false(scene->images[0].has_alpha);
+    assert_memory_equal(scene->pictures.images[0].rgba, wanted, sizeof wanted);
+    assert_false(scene->pictures.images[0].has_alpha);
     gn_scene_destroy(scene);
 }
 
@@ -136,8 +136,9 @@ static void test_jpeg(void **state) {
     free(jpeg.data);
     gn_maker_set(&maker, "materials", BASE_TEXTURE);
     struct gn_scene *scene = load();
-    assert_true(abs(scene->images[0].rgba[0] - 200) < 4 && abs(scene->images[0].rgba[1] - 40) < 4);
-    assert_int_equal(scene->images[0].rgba[3], 255);
+    assert_true(abs(scene->pictures.images[0].rgba[0] - 200) < 4 &&
+                abs(scene->pictures.images[0].rgba[1] - 40) < 4);
+    assert_int_equal(scene->pictures.images[0].rgba[3], 255);
     gn_scene_destroy(scene);
 }
 
@@ -146,7 +147,7 @@ static void expect_dropped(const void *data, size_t size, const char *why) {
     add_picture(data, size);
     gn_maker_set(&maker, "materials", BASE_TEXTURE);
     struct gn_scene *scene = load();
-    assert_int_equal(scene->image_count, 0);
+    assert_int_equal(scene->pictures.image_count, 0);
     assert_int_equal(scene->materials[0].textures[GN_TEXTURE_BASE].texture, -1);
     if (warnings.count != 1 || !strstr(warnings.text[0], why))
         fail_msg("'%s', not '%s'", warnings.text[0], why);
@@ -190,7 +191,7 @@ static void test_broken_pictures_keep_no_memory(void **state) {
     if (!scene) fail_msg("%s", err.text);
     for (int i = 0; i < warnings.count; i++)
         assert_non_null(strstr(warnings.text[i], "PNG: truncated"));
-    assert_int_equal(scene->image_count, 1);
+    assert_int_equal(scene->pictures.image_count, 1);
     gn_scene_destroy(scene);
     gn_maker_finish(&maker);
     free(glb.data);

@@ -40,7 +40,7 @@ static void test_same_vertices_are_shared(void **state) {
                  "{'attributes':{'POSITION':0,'NORMAL':2},'indices':3}]}]");
     struct gn_scene *scene = load();
     assert_int_equal(scene->geometry_count, 2);
-    assert_int_equal(scene->vertex_count, 4);
+    assert_int_equal(scene->buffers.vertex_count, 4);
     assert_true(gn_geometry_has(&scene->geometries[0], GN_ATTRIBUTE_NORMAL));
     gn_scene_destroy(scene);
 }
@@ -82,7 +82,8 @@ static void test_strips_keep_their_winding(void **state) {
     gn_maker_accessor(&maker, "VEC3", 5126, 4, strip, sizeof strip, NULL);
     gn_maker_set(&maker, "meshes", "[{'primitives':[{'attributes':{'POSITION':2},'mode':5}]}]");
     struct gn_scene *scene = load();
-    for (uint32_t i = 0; i < scene->vertex_count; i++) assert_near(scene->normals[3 * i + 1], 1);
+    for (uint32_t i = 0; i < scene->buffers.vertex_count; i++)
+        assert_near(scene->buffers.normals[3 * i + 1], 1);
     assert_true(scene->geometries[0].flat);
     assert_near(scene->geometries[0].plane[1], 1);
     gn_scene_destroy(scene);
@@ -123,7 +124,7 @@ static void test_flat_normals_unweld_where_needed(void **state) {
     gn_maker_accessor(&maker, "SCALAR", 5121, 12, corners, sizeof corners, NULL);
     gn_maker_set(&maker, "meshes", "[{'primitives':[{'attributes':{'POSITION':2},'indices':3}]}]");
     struct gn_scene *scene = load();
-    assert_int_equal(scene->vertex_count, 8);
+    assert_int_equal(scene->buffers.vertex_count, 8);
     assert_false(scene->geometries[0].flat);
     assert_false(gn_geometry_has(&scene->geometries[0], GN_ATTRIBUTE_NORMAL));
     gn_scene_destroy(scene);
@@ -136,7 +137,7 @@ static void test_normals_without_length(void **state) {
     gn_maker_set(&maker, "meshes",
                  "[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':2},'indices':1}]}]");
     struct gn_scene *scene = load();
-    assert_near(scene->normals[1], 1);
+    assert_near(scene->buffers.normals[1], 1);
     assert_string_equal(
         warnings.text[0],
         "t: meshes[0].primitives[0]: normals without length; those of the faces are used");
@@ -173,10 +174,10 @@ static void test_formats(void **state) {
         gn_maker_set(&maker, "meshes",
                      "[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':2},'indices':1}]}]");
         struct gn_scene *scene = load();
-        assert_non_null(scene->uv0);
-        assert_null(scene->uv1);
-        assert_near(scene->uv0[2], rows[i].wanted[0]);
-        assert_near(scene->uv0[3], rows[i].wanted[1]);
+        assert_non_null(scene->buffers.uv0);
+        assert_null(scene->buffers.uv1);
+        assert_near(scene->buffers.uv0[2], rows[i].wanted[0]);
+        assert_near(scene->buffers.uv0[3], rows[i].wanted[1]);
         gn_scene_destroy(scene);
     }
 }
@@ -189,11 +190,11 @@ static void test_colors(void **state) {
                  "[{'primitives':[{'attributes':{'POSITION':0,'COLOR_0':2},'indices':1},"
                  "{'attributes':{'POSITION':0},'indices':1}]}]");
     struct gn_scene *scene = load();
-    assert_memory_equal(scene->colors, ((uint8_t[]){0, 128, 255, 255}), 4);
+    assert_memory_equal(scene->buffers.colors, ((uint8_t[]){0, 128, 255, 255}), 4);
     assert_true(gn_geometry_has(&scene->geometries[0], GN_ATTRIBUTE_COLOR));
     assert_false(gn_geometry_has(&scene->geometries[1], GN_ATTRIBUTE_COLOR));
-    assert_memory_equal(scene->colors + 4 * scene->geometries[1].first_vertex, "\xff\xff\xff\xff",
-                        4);
+    assert_memory_equal(scene->buffers.colors + 4 * scene->geometries[1].first_vertex,
+                        "\xff\xff\xff\xff", 4);
     gn_scene_destroy(scene);
 }
 
@@ -210,9 +211,9 @@ static void test_interleaved(void **state) {
                  "{'bufferView':2,'byteOffset':12,'componentType':5126,'type':'VEC3','count':3}");
     gn_maker_set(&maker, "meshes", "[{'primitives':[{'attributes':{'POSITION':2,'NORMAL':3}}]}]");
     struct gn_scene *scene = load();
-    assert_near(scene->positions[3], 2);
-    assert_near(scene->positions[7], 3);
-    assert_near(scene->normals[8], 1);
+    assert_near(scene->buffers.positions[3], 2);
+    assert_near(scene->buffers.positions[7], 3);
+    assert_near(scene->buffers.normals[8], 1);
     gn_scene_destroy(scene);
 }
 

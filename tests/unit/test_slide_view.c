@@ -22,8 +22,8 @@ static void begin(void) {
                               .light_count = 1,
                               .nodes = &node,
                               .node_count = 1,
-                              .textures = &texture,
-                              .texture_count = 1};
+                              .pictures.textures = &texture,
+                              .pictures.texture_count = 1};
     glm_mat4_identity(world);
     pose = (struct gn_pose){.scene = &scene, .world_from_node = &world};
 }

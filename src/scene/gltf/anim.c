@@ -151,21 +151,22 @@ static void read_clip(struct gn_gltf *g, const struct gn_at *at, struct gn_clip 
                  channels = gn_at_array(g, at, "channels");
     float last_s = 0;
     clip->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
-    clip->first_channel = scene->channel_count;
+    clip->first_channel = scene->animation.channel_count;
     clip->on_by_default = true;
     for (size_t i = 0; i < gn_at_size(&channels) && !g->failed; i++) {
         struct gn_at channel_at = gn_at_item(g, &channels, i);
-        struct gn_channel *channel = &scene->channels[scene->channel_count];
+        struct gn_channel *channel = &scene->animation.channels[scene->animation.channel_count];
         if (g->failed || !read_channel(g, &channel_at, &samplers, channel)) continue;
         const float *times_s = channel->times_s;
         if (times_s) last_s = fmaxf(last_s, times_s[channel->key_count - 1]);
         if (claimed[channel->node] & 1U << channel->path) clip->on_by_default = false;
-        scene->channel_count++;
+        scene->animation.channel_count++;
     }
-    clip->channel_count = scene->channel_count - clip->first_channel;
+    clip->channel_count = scene->animation.channel_count - clip->first_channel;
     clip->duration_ns = llround((double)last_s * 1e9);
-    for (uint32_t i = clip->first_channel; i < scene->channel_count; i++)
-        claimed[scene->channels[i].node] |= (uint8_t)(1U << scene->channels[i].path);
+    for (uint32_t i = clip->first_channel; i < scene->animation.channel_count; i++)
+        claimed[scene->animation.channels[i].node] |=
+            (uint8_t)(1U << scene->animation.channels[i].path);
 }
 
 bool gn_gltf_animations(struct gn_gltf *g) {
@@ -176,12 +177,14 @@ bool gn_gltf_animations(struct gn_gltf *g) {
         struct gn_at at = gn_at_item(g, &array, i), list = gn_at_array(g, &at, "channels");
         channels += gn_at_size(&list);
     }
-    scene->clips = gn_gltf_alloc(g, g->memory.scene, count, sizeof *scene->clips);
-    scene->channels = gn_gltf_alloc(g, g->memory.scene, channels, sizeof *scene->channels);
+    scene->animation.clips =
+        gn_gltf_alloc(g, g->memory.scene, count, sizeof *scene->animation.clips);
+    scene->animation.channels =
+        gn_gltf_alloc(g, g->memory.scene, channels, sizeof *scene->animation.channels);
     uint8_t *claimed = gn_gltf_alloc(g, &g->memory.load, scene->node_count, 1);
     for (size_t i = 0; i < count && !g->failed; i++) {
         struct gn_at at = gn_at_element(&array, i);
-        read_clip(g, &at, &scene->clips[scene->clip_count++], claimed);
+        read_clip(g, &at, &scene->animation.clips[scene->animation.clip_count++], claimed);
     }
     return !g->failed;
 }

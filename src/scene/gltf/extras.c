@@ -162,13 +162,14 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
 
 void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene) {
     struct gn_scene *s = g->scene;
-    glm_vec3_copy((vec3){.08f, .08f, .08f}, s->sky);
-    glm_vec3_copy((vec3){.04f, .04f, .04f}, s->ground);
+    glm_vec3_copy((vec3){.08f, .08f, .08f}, s->environment.sky);
+    glm_vec3_copy((vec3){.04f, .04f, .04f}, s->environment.ground);
     struct gn_at extras = scene->json ? extras_of(scene) : (struct gn_at){0};
     if (json_is_object(extras.json)) {
-        take_color(g, &extras, "gnomon_sky", s->sky);
-        take_color(g, &extras, "gnomon_ground", s->ground);
+        take_color(g, &extras, "gnomon_sky", s->environment.sky);
+        take_color(g, &extras, "gnomon_ground", s->environment.ground);
     }
-    glm_vec3_lerp(s->sky, s->ground, .5f, s->background);
-    if (json_is_object(extras.json)) take_color(g, &extras, "gnomon_background", s->background);
+    glm_vec3_lerp(s->environment.sky, s->environment.ground, .5f, s->environment.background);
+    if (json_is_object(extras.json))
+        take_color(g, &extras, "gnomon_background", s->environment.background);
 }

@@ -86,11 +86,11 @@ static int32_t image_at(struct gn_gltf *g, int32_t index) {
     struct gn_err err = {0};
     struct gn_scene *scene = g->scene;
     bool done = fetch_image(g, &at, &blob, &view, &err) &&
-                decode_image(g, &blob, &scene->images[scene->image_count], &err);
+                decode_image(g, &blob, &scene->pictures.images[scene->pictures.image_count], &err);
     if (!done && view) view->damaged = true;
     gn_blob_finish(g, &blob);
     if (done)
-        g->to_scene.image[index] = (int32_t)scene->image_count++;
+        g->to_scene.image[index] = (int32_t)scene->pictures.image_count++;
     else if (!g->failed)
         gn_gltf_warn(g, &at, "%s; shown without this picture", err.text);
     return g->to_scene.image[index];
@@ -154,9 +154,10 @@ static bool allocate_textures(struct gn_gltf *g) {
     if (g->to_scene.texture) return true;
     g->to_scene.texture = gn_gltf_alloc(g, &g->memory.load, g->file.texture_count, sizeof(int32_t));
     g->to_scene.image = gn_gltf_alloc(g, &g->memory.load, g->file.image_count, sizeof(int32_t));
-    scene->textures =
-        gn_gltf_alloc(g, g->memory.scene, g->file.texture_count, sizeof *scene->textures);
-    scene->images = gn_gltf_alloc(g, g->memory.scene, g->file.image_count, sizeof *scene->images);
+    scene->pictures.textures =
+        gn_gltf_alloc(g, g->memory.scene, g->file.texture_count, sizeof *scene->pictures.textures);
+    scene->pictures.images =
+        gn_gltf_alloc(g, g->memory.scene, g->file.image_count, sizeof *scene->pictures.images);
     if (g->failed) return false;
     for (size_t i = 0; i < g->file.texture_count; i++) g->to_scene.texture[i] = UNSEEN;
     for (size_t i = 0; i < g->file.image_count; i++) g->to_scene.image[i] = UNSEEN;
@@ -177,9 +178,9 @@ int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index) {
     if (image < 0) return -1;
     struct gn_at sampler_at =
         sampler < 0 ? (struct gn_at){0} : gn_at_item(g, &samplers, (size_t)sampler);
-    struct gn_texture *texture = &g->scene->textures[g->scene->texture_count];
+    struct gn_texture *texture = &g->scene->pictures.textures[g->scene->pictures.texture_count];
     texture->image = (uint32_t)image;
     read_sampler(g, &sampler_at, texture);
-    g->to_scene.texture[index] = (int32_t)g->scene->texture_count++;
+    g->to_scene.texture[index] = (int32_t)g->scene->pictures.texture_count++;
     return g->to_scene.texture[index];
 }
