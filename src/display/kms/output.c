@@ -13,17 +13,6 @@ static int error_of(int result) {
 
 /* ---- opening ---- */
 
-static void save_old(struct gn_kms_output *o) {
-    drmModeCrtc *crtc = o->drm->ModeGetCrtc(o->fd, o->crtc);
-    if (!crtc) return;
-    o->was_lit = crtc->mode_valid && crtc->buffer_id;
-    o->old_fb = crtc->buffer_id;
-    o->old_x = crtc->x;
-    o->old_y = crtc->y;
-    o->old_mode = crtc->mode;
-    o->drm->ModeFreeCrtc(crtc);
-}
-
 struct plane_values {
     uint32_t ids[GN_PROP_PLANE_COUNT];
     uint64_t values[GN_PROP_PLANE_COUNT];
@@ -45,8 +34,15 @@ static int rate_plane(const struct gn_kms_output *o, uint32_t id, struct plane_v
     return now == 0 ? 2 : 1;
 }
 
-/* Fails if there is none or not all could be read. */
-static bool choose_plane(struct gn_kms_output *o) {
+static bool has_all(const uint32_t *ids, int first, int last) {
+    for (int i = first; i <= last; i++)
+        if (ids[i] == 0) return false;
+    return true;
+}
+
+/* Finds the primary plane and the properties that every atomic driver has. Fails if one is missing
+ * or could not be read. */
+static bool find_objects(struct gn_kms_output *o) {
     drmModePlaneRes *all = o->drm->ModeGetPlaneResources(o->fd);
     int best = 0;
     for (uint32_t i = 0; all && i < all->count_planes && best >= 0; i++) {
@@ -59,23 +55,7 @@ static bool choose_plane(struct gn_kms_output *o) {
         memcpy(o->plane_props, v.ids, sizeof v.ids);
     }
     if (all) o->drm->ModeFreePlaneResources(all);
-    return best > 0;
-}
-
-static bool has_all(const uint32_t *ids, int first, int last) {
-    for (int i = first; i <= last; i++)
-        if (ids[i] == 0) return false;
-    return true;
-}
-
-static bool set_caps(const struct gn_kms_output *o, uint64_t on) {
-    const bool planes = o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_UNIVERSAL_PLANES, on) == 0;
-    return o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_ATOMIC, on) == 0 && planes;
-}
-
-/* Mandatory properties of every atomic driver. */
-static bool find_objects(struct gn_kms_output *o) {
-    return choose_plane(o) &&
+    return best > 0 &&
            gn_kms_props_read(o->drm, o->fd, o->connector, DRM_MODE_OBJECT_CONNECTOR,
                              gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, o->connector_props,
                              NULL) &&
@@ -84,6 +64,11 @@ static bool find_objects(struct gn_kms_output *o) {
            o->connector_props[GN_PROP_CONNECTOR_CRTC] &&
            has_all(o->crtc_props, 0, GN_PROP_CRTC_COUNT - 1) &&
            has_all(o->plane_props, GN_PROP_PLANE_FB, GN_PROP_PLANE_H);
+}
+
+static bool set_caps(const struct gn_kms_output *o, uint64_t on) {
+    const bool planes = o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_UNIVERSAL_PLANES, on) == 0;
+    return o->drm->SetClientCap(o->fd, DRM_CLIENT_CAP_ATOMIC, on) == 0 && planes;
 }
 
 bool gn_kms_output_open(struct gn_kms_output *o, const struct gn_drm_ops *drm, int fd, bool legacy,
@@ -96,7 +81,15 @@ bool gn_kms_output_open(struct gn_kms_output *o, const struct gn_drm_ops *drm, i
                                 .connector = card->connectors[connector].id,
                                 .crtc = card->crtcs[crtc].id,
                                 .crtc_index = crtc};
-    save_old(o);
+    drmModeCrtc *old = drm->ModeGetCrtc(fd, o->crtc);
+    if (old) {
+        o->was_lit = old->mode_valid && old->buffer_id;
+        o->old_fb = old->buffer_id;
+        o->old_x = old->x;
+        o->old_y = old->y;
+        o->old_mode = old->mode;
+        drm->ModeFreeCrtc(old);
+    }
     o->atomic = !legacy && set_caps(o, 1);
     if (!o->atomic) set_caps(o, 0); /* the legacy interface has everything except fences */
     if (!o->atomic) o->dpms = GN_MAY_SLEEP;
@@ -110,21 +103,6 @@ bool gn_kms_output_open(struct gn_kms_output *o, const struct gn_drm_ops *drm, i
 static const uint32_t formats[] = {DRM_FORMAT_XRGB8888, DRM_FORMAT_ARGB8888, DRM_FORMAT_XBGR8888,
                                    DRM_FORMAT_RGB565};
 enum { FORMATS = sizeof formats / sizeof *formats };
-
-static void plane_formats(const struct gn_kms_output *o, struct gn_surface_opts *out) {
-    drmModePlane *plane = o->plane ? o->drm->ModeGetPlane(o->fd, o->plane) : NULL;
-    for (int i = 0; plane && i < FORMATS; i++)
-        for (uint32_t k = 0; k < plane->count_formats; k++)
-            if (plane->formats[k] == formats[i]) {
-                out->formats[out->format_count++] = formats[i];
-                break;
-            }
-    if (plane) o->drm->ModeFreePlane(plane);
-    if (out->format_count > 0) return;
-    memcpy(out->formats, formats,
-           sizeof formats); /* the legacy interface does not list modifiers */
-    out->format_count = FORMATS;
-}
 
 /* Modifiers of one format: each entry of the blob's second table has a 64-bit mask, offset into the
  * format table. */
@@ -150,7 +128,20 @@ static void read_modifiers(const drmModePropertyBlobRes *blob, struct gn_surface
     }
 }
 
-static void plane_modifiers(const struct gn_kms_output *o, struct gn_surface_opts *out) {
+void gn_kms_output_formats(const struct gn_kms_output *o, struct gn_surface_opts *out) {
+    out->format_count = out->modifier_count = 0;
+    drmModePlane *plane = o->plane ? o->drm->ModeGetPlane(o->fd, o->plane) : NULL;
+    for (int i = 0; plane && i < FORMATS; i++)
+        for (uint32_t k = 0; k < plane->count_formats; k++)
+            if (plane->formats[k] == formats[i]) {
+                out->formats[out->format_count++] = formats[i];
+                break;
+            }
+    if (plane) o->drm->ModeFreePlane(plane);
+    if (out->format_count == 0) { /* the legacy interface lists neither formats nor modifiers */
+        memcpy(out->formats, formats, sizeof formats);
+        out->format_count = FORMATS;
+    }
     uint64_t can = 0, values[GN_PROP_PLANE_COUNT];
     uint32_t ids[GN_PROP_PLANE_COUNT];
     if (!o->plane || o->drm->GetCap(o->fd, DRM_CAP_ADDFB2_MODIFIERS, &can) != 0 || !can) return;
@@ -161,12 +152,6 @@ static void plane_modifiers(const struct gn_kms_output *o, struct gn_surface_opt
     if (!blob) return;
     read_modifiers(blob, out);
     o->drm->ModeFreePropertyBlob(blob);
-}
-
-void gn_kms_output_formats(const struct gn_kms_output *o, struct gn_surface_opts *out) {
-    out->format_count = out->modifier_count = 0;
-    plane_formats(o, out);
-    plane_modifiers(o, out);
 }
 
 bool gn_kms_output_takes_fence(const struct gn_kms_output *o) {
@@ -246,22 +231,6 @@ static int commit(struct request *r, uint32_t flags, void *user) {
     return error_of(o->drm->ModeAtomicCommit(o->fd, r->list, flags, user));
 }
 
-static void add_plane(struct request *r, uint32_t fb, const drmModeModeInfo *mode) {
-    const struct gn_kms_output *o = r->o;
-    const uint32_t *p = o->plane_props;
-    add_property(r, o->plane, p[GN_PROP_PLANE_FB], fb);
-    add_property(r, o->plane, p[GN_PROP_PLANE_CRTC], o->crtc);
-    add_property(r, o->plane, p[GN_PROP_PLANE_SRC_X], 0);
-    add_property(r, o->plane, p[GN_PROP_PLANE_SRC_Y], 0);
-    add_property(r, o->plane, p[GN_PROP_PLANE_SRC_W], (uint64_t)mode->hdisplay << 16);
-    add_property(r, o->plane, p[GN_PROP_PLANE_SRC_H], (uint64_t)mode->vdisplay << 16);
-    add_property(r, o->plane, p[GN_PROP_PLANE_X], 0);
-    add_property(r, o->plane, p[GN_PROP_PLANE_Y], 0);
-    add_property(r, o->plane, p[GN_PROP_PLANE_W], mode->hdisplay);
-    add_property(r, o->plane, p[GN_PROP_PLANE_H], mode->vdisplay);
-    add_property(r, o->plane, p[GN_PROP_PLANE_ROTATION], DRM_MODE_ROTATE_0);
-}
-
 /* Another program may have left a cursor, an overlay or a second connector on the CRTC. Unreadable
  * planes may be active on it: fail for now. */
 static void disable_others(struct request *r) {
@@ -301,8 +270,8 @@ static void disable_connectors(struct request *r, bool ours) {
     if (all) o->drm->ModeFreeResources(all);
 }
 
-static int light_request(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb,
-                         uint32_t blob) {
+static int commit_light(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb,
+                        uint32_t blob) {
     struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
     if (!r.list) return ENOMEM;
     disable_others(&r);
@@ -312,38 +281,25 @@ static int light_request(struct gn_kms_output *o, const drmModeModeInfo *mode, u
                  DRM_MODE_LINK_STATUS_GOOD);
     add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_MODE], blob);
     add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 1);
-    add_plane(&r, fb, mode);
+    const uint32_t *p = o->plane_props;
+    add_property(&r, o->plane, p[GN_PROP_PLANE_FB], fb);
+    add_property(&r, o->plane, p[GN_PROP_PLANE_CRTC], o->crtc);
+    add_property(&r, o->plane, p[GN_PROP_PLANE_SRC_X], 0);
+    add_property(&r, o->plane, p[GN_PROP_PLANE_SRC_Y], 0);
+    add_property(&r, o->plane, p[GN_PROP_PLANE_SRC_W], (uint64_t)mode->hdisplay << 16);
+    add_property(&r, o->plane, p[GN_PROP_PLANE_SRC_H], (uint64_t)mode->vdisplay << 16);
+    add_property(&r, o->plane, p[GN_PROP_PLANE_X], 0);
+    add_property(&r, o->plane, p[GN_PROP_PLANE_Y], 0);
+    add_property(&r, o->plane, p[GN_PROP_PLANE_W], mode->hdisplay);
+    add_property(&r, o->plane, p[GN_PROP_PLANE_H], mode->vdisplay);
+    add_property(&r, o->plane, p[GN_PROP_PLANE_ROTATION], DRM_MODE_ROTATE_0);
     int error = commit(&r, DRM_MODE_ATOMIC_TEST_ONLY | DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
     if (error == 0) error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
     o->drm->ModeAtomicFree(r.list);
     return error;
 }
 
-static int light_atomic(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb) {
-    uint32_t blob = 0;
-    const int error = error_of(o->drm->ModeCreatePropertyBlob(o->fd, mode, sizeof *mode, &blob));
-    if (error != 0) return error;
-    const int lit = light_request(o, mode, fb, blob);
-    o->drm->ModeDestroyPropertyBlob(o->fd, blob); /* the CRTC holds its own reference */
-    return lit;
-}
-
-static int light_legacy(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb) {
-    drmModeModeInfo copy = *mode;
-    o->drm->ModeSetCursor(o->fd, o->crtc, 0, 0, 0);
-    return error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, fb, 0, 0, &o->connector, 1, &copy));
-}
-
 /* ---- DPMS ---- */
-
-static int sleep_atomic(struct gn_kms_output *o) {
-    struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
-    if (!r.list) return ENOMEM;
-    add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 0);
-    const int error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
-    o->drm->ModeAtomicFree(r.list);
-    return error;
-}
 
 /* Legacy DPMS property of the connector. Returns 0 if it has none. */
 static int set_dpms(struct gn_kms_output *o, uint64_t value) {
@@ -356,15 +312,19 @@ static int set_dpms(struct gn_kms_output *o, uint64_t value) {
         o->drm->ModeConnectorSetProperty(o->fd, o->connector, ids[GN_PROP_CONNECTOR_DPMS], value));
 }
 
-static int sleep_legacy(struct gn_kms_output *o) {
-    const int error = set_dpms(o, DRM_MODE_DPMS_OFF);
-    if (error == EOPNOTSUPP || error == EINVAL) return gn_kms_output_dark(o);
-    if (error == 0) o->dpms = GN_ASLEEP;
-    return error;
-}
-
 int gn_kms_output_sleep(struct gn_kms_output *o) {
-    return o->atomic ? sleep_atomic(o) : sleep_legacy(o);
+    if (!o->atomic) {
+        const int error = set_dpms(o, DRM_MODE_DPMS_OFF);
+        if (error == EOPNOTSUPP || error == EINVAL) return gn_kms_output_dark(o);
+        if (error == 0) o->dpms = GN_ASLEEP;
+        return error;
+    }
+    struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
+    if (!r.list) return ENOMEM;
+    add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 0);
+    const int error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
+    o->drm->ModeAtomicFree(r.list);
+    return error;
 }
 
 /* Setting the same mode again does not wake the monitor, and another program may have put it to
@@ -381,14 +341,27 @@ static int wake_connector(struct gn_kms_output *o) {
 
 int gn_kms_output_light(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb) {
     int error = wake_connector(o);
-    if (error == 0) error = o->atomic ? light_atomic(o, mode, fb) : light_legacy(o, mode, fb);
+    if (error != 0) return error;
+    if (o->atomic) {
+        uint32_t blob = 0;
+        error = error_of(o->drm->ModeCreatePropertyBlob(o->fd, mode, sizeof *mode, &blob));
+        if (error != 0) return error;
+        error = commit_light(o, mode, fb, blob);
+        o->drm->ModeDestroyPropertyBlob(o->fd, blob); /* the CRTC holds its own reference */
+    } else {
+        drmModeModeInfo copy = *mode;
+        o->drm->ModeSetCursor(o->fd, o->crtc, 0, 0, 0);
+        error = error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, fb, 0, 0, &o->connector, 1, &copy));
+    }
     if (error != 0) return error;
     o->mode = *mode;
     remove_old_fbs(o, fb);
     return 0;
 }
 
-static int flip_atomic(struct gn_kms_output *o, uint32_t fb, int fence, void *user) {
+int gn_kms_output_flip(struct gn_kms_output *o, uint32_t fb, int fence, void *user) {
+    if (!o->atomic)
+        return error_of(o->drm->ModePageFlip(o->fd, o->crtc, fb, DRM_MODE_PAGE_FLIP_EVENT, user));
     struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
     if (!r.list) return ENOMEM;
     add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_FB], fb);
@@ -399,12 +372,8 @@ static int flip_atomic(struct gn_kms_output *o, uint32_t fb, int fence, void *us
     return error;
 }
 
-int gn_kms_output_flip(struct gn_kms_output *o, uint32_t fb, int fence, void *user) {
-    if (o->atomic) return flip_atomic(o, fb, fence, user);
-    return error_of(o->drm->ModePageFlip(o->fd, o->crtc, fb, DRM_MODE_PAGE_FLIP_EVENT, user));
-}
-
-static int dark_atomic(struct gn_kms_output *o) {
+int gn_kms_output_dark(struct gn_kms_output *o) {
+    if (!o->atomic) return error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, 0, 0, 0, NULL, 0, NULL));
     struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
     if (!r.list) return ENOMEM;
     disable_others(&r);
@@ -418,11 +387,6 @@ static int dark_atomic(struct gn_kms_output *o) {
     return error;
 }
 
-int gn_kms_output_dark(struct gn_kms_output *o) {
-    if (o->atomic) return dark_atomic(o);
-    return error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, 0, 0, 0, NULL, 0, NULL));
-}
-
 /* Asked while it is active: an inactive CRTC reports no vblanks either. */
 bool gn_kms_output_lacks_vblank(const struct gn_kms_output *o) {
     uint64_t sequence, ns;
@@ -431,18 +395,15 @@ bool gn_kms_output_lacks_vblank(const struct gn_kms_output *o) {
 
 /* ---- closing ---- */
 
-/* Restores the console's framebuffer; another program's may be gone. */
-static void restore_crtc(struct gn_kms_output *o) {
-    wake_connector(o);
-    if (o->was_lit && o->drm->ModeSetCrtc(o->fd, o->crtc, o->old_fb, o->old_x, o->old_y,
-                                          &o->connector, 1, &o->old_mode) == 0)
-        return;
-    gn_kms_output_dark(o);
-}
-
 void gn_kms_output_close(struct gn_kms_output *o, bool restore) {
     if (!o->drm) return;
-    if (restore && (o->mode.hdisplay > 0 || o->dpms == GN_ASLEEP)) restore_crtc(o);
+    if (restore && (o->mode.hdisplay > 0 || o->dpms == GN_ASLEEP)) {
+        wake_connector(o);
+        /* restores the console's framebuffer; another program's may be gone */
+        if (!o->was_lit || o->drm->ModeSetCrtc(o->fd, o->crtc, o->old_fb, o->old_x, o->old_y,
+                                               &o->connector, 1, &o->old_mode) != 0)
+            gn_kms_output_dark(o);
+    }
     gn_kms_output_orphan_fbs(o);
     remove_old_fbs(o, 0);
     *o = (struct gn_kms_output){0};

@@ -100,21 +100,6 @@ bool gn_kms_try_master(struct gn_kms *k, int64_t now_ns) {
     return k->master;
 }
 
-static void open_card(struct gn_kms *k, int64_t now_ns) {
-    k->device.fd = find_card(k, 0, true, &k->device.node);
-    if (k->device.fd < 0) {
-        k->losses = 0; /* the card was lost, not an unusable context */
-        return;
-    }
-    k->screen.counts.opened++;
-    k->flip = (struct gn_flip){.lost_flips = k->flip.lost_flips,
-                               .shown = k->flip.shown,
-                               .missed = k->flip.missed,
-                               .stalls = k->flip.stalls};
-    if (!k->away) gn_kms_try_master(k, now_ns);
-    start_gl(k);
-}
-
 void gn_kms_close_card(struct gn_kms *k) {
     gn_kms_drop_surface(k);
     gn_kms_output_close(&k->output, false);
@@ -140,29 +125,26 @@ void gn_kms_leave_card(struct gn_kms *k, bool restore, int64_t now_ns) {
 
 /* ---- mode and buffers ---- */
 
-static bool take_surface(struct gn_kms *k) {
-    struct gn_err why = {0};
-    struct gn_surface_opts *o = &k->buffers.opts;
-    o->width_px = k->monitor.candidates[k->monitor.mode].hdisplay;
-    o->height_px = k->monitor.candidates[k->monitor.mode].vdisplay;
-    if (k->text.message[0]) o->fallback = GN_FALLBACK_COPY;
-    for (; o->fallback < GN_FALLBACK_COPY; o->fallback++)
-        if (k->env.scanout->set_surface(k->device.scanout, o, &k->buffers.surface, &why))
-            return true;
-    return gn_kms_make_copies(k);
-}
-
 static enum gn_fallback first_fallback(const struct gn_kms *k) {
     return k->buffers.opts.modifier_count > 0 ? GN_FALLBACK_MODIFIERS : GN_FALLBACK_PLAIN;
 }
 
 /* Takes the first mode, from monitor.mode on, for which buffers can be allocated. */
 static bool take_mode(struct gn_kms *k) {
+    struct gn_surface_opts *o = &k->buffers.opts;
     for (; k->monitor.mode < k->monitor.candidate_count;
-         k->monitor.mode++, k->buffers.opts.fallback = first_fallback(k)) {
+         k->monitor.mode++, o->fallback = first_fallback(k)) {
+        const drmModeModeInfo *mode = &k->monitor.candidates[k->monitor.mode];
+        struct gn_err why = {0};
         gn_kms_drop_surface(k);
-        if (!take_surface(k)) continue;
-        const uint32_t mhz = gn_kms_mode_mhz(&k->monitor.candidates[k->monitor.mode]);
+        o->width_px = mode->hdisplay;
+        o->height_px = mode->vdisplay;
+        if (k->text.message[0]) o->fallback = GN_FALLBACK_COPY;
+        while (o->fallback < GN_FALLBACK_COPY &&
+               !k->env.scanout->set_surface(k->device.scanout, o, &k->buffers.surface, &why))
+            o->fallback++;
+        if (o->fallback == GN_FALLBACK_COPY && !gn_kms_make_copies(k)) continue;
+        const uint32_t mhz = gn_kms_mode_mhz(mode);
         k->flip.period_ns = mhz > 0 ? 1000 * GN_KMS_S / mhz : GN_KMS_S / 60;
         k->flip.shortest_ns = k->opts->max_fps > 0 ? GN_KMS_S / k->opts->max_fps : 0;
         return true;
@@ -190,12 +172,6 @@ void gn_kms_next_try(struct gn_kms *k, int error, int64_t now_ns) {
     if (!take_mode(k)) give_up_connector(k, strerror(error), now_ns);
 }
 
-static int find_mode(const struct gn_kms *k, const drmModeModeInfo *mode) {
-    for (int i = 0; i < k->monitor.candidate_count; i++)
-        if (gn_kms_mode_equal(&k->monitor.candidates[i], mode)) return i;
-    return -1;
-}
-
 static bool is_listed(const struct gn_kms_connector *c, const drmModeModeInfo *mode) {
     for (int i = 0; i < c->mode_count; i++)
         if (gn_kms_mode_equal(&c->modes[i], mode)) return true;
@@ -205,20 +181,14 @@ static bool is_listed(const struct gn_kms_connector *c, const drmModeModeInfo *m
 /* A monitor that comes back keeps its mode if it still lists it. */
 static void keep_mode(struct gn_kms *k, const struct gn_kms_connector *c,
                       const drmModeModeInfo *mode) {
-    if (find_mode(k, mode) < 0 && !is_listed(c, mode)) return;
-    int at = find_mode(k, mode);
-    if (at < 0 && k->monitor.candidate_count < GN_KMS_CANDIDATES_MAX) k->monitor.candidate_count++;
-    if (at < 0) at = k->monitor.candidate_count - 1;
-    memmove(&k->monitor.candidates[1], &k->monitor.candidates[0], (size_t)at * sizeof *mode);
-    k->monitor.candidates[0] = *mode;
-}
-
-static bool same_surface(const struct gn_kms *k) {
-    const struct gn_surface_opts *o = &k->buffers.opts;
-    const bool is_there = o->fallback == GN_FALLBACK_COPY ? k->buffers.copies[0].handle != 0
-                                                          : k->buffers.surface.format;
-    return is_there && o->width_px == k->monitor.candidates[0].hdisplay &&
-           o->height_px == k->monitor.candidates[0].vdisplay;
+    struct gn_kms_monitor *m = &k->monitor;
+    int at = 0;
+    while (at < m->candidate_count && !gn_kms_mode_equal(&m->candidates[at], mode)) at++;
+    if (at == m->candidate_count && !is_listed(c, mode)) return;
+    if (at == GN_KMS_CANDIDATES_MAX) at--; /* replaces the last one */
+    if (at == m->candidate_count) m->candidate_count++;
+    memmove(&m->candidates[1], &m->candidates[0], (size_t)at * sizeof *mode);
+    m->candidates[0] = *mode;
 }
 
 static bool is_unreadable(const struct gn_kms *k) {
@@ -264,7 +234,12 @@ static void use_connector(struct gn_kms *k, int connector, int64_t now_ns) {
     k->monitor.mode = 0;
     k->monitor.connected = true;
     k->text.reason[0] = 0;
-    if (same_surface(k)) return;
+    const struct gn_surface_opts *o = &k->buffers.opts;
+    const bool has_buffers = o->fallback == GN_FALLBACK_COPY ? k->buffers.copies[0].handle != 0
+                                                             : k->buffers.surface.format;
+    if (has_buffers && o->width_px == k->monitor.candidates[0].hdisplay &&
+        o->height_px == k->monitor.candidates[0].vdisplay)
+        return;
     k->buffers.opts.fallback = first_fallback(k);
     if (!take_mode(k)) give_up_connector(k, "no buffers", now_ns);
 }
@@ -273,24 +248,6 @@ static void use_connector(struct gn_kms *k, int connector, int64_t now_ns) {
 
 static bool is_ours(const struct gn_kms *k, const struct gn_kms_connector *c) {
     return k->output.drm && c->id == k->output.connector;
-}
-
-/* The connector in use is kept while it is connected. */
-static int choose_connector(const struct gn_kms *k) {
-    for (int i = 0; i < k->device.card.connector_count; i++)
-        if (is_ours(k, &k->device.card.connectors[i]) && k->device.card.connectors[i].connected &&
-            k->device.card.connectors[i].mode_count > 0)
-            return i;
-    return gn_kms_choose_connector(&k->device.card, k->opts->connector);
-}
-
-/* Leaves this card, which has no monitor, if another one has. */
-static void scan_other_cards(struct gn_kms *k, bool probe, int64_t now_ns) {
-    struct gn_kms_node other;
-    const int fd = find_card(k, 1, probe, &other);
-    if (fd < 0) return;
-    k->env.drm->close(fd);
-    gn_kms_leave_card(k, true, now_ns);
 }
 
 static void scan_card(struct gn_kms *k, bool probe, int64_t now_ns) {
@@ -305,11 +262,20 @@ static void scan_card(struct gn_kms *k, bool probe, int64_t now_ns) {
     if (k->device.card.partial)
         k->due.scan_ns = now_ns + (is_unreadable(k) ? 1 : 15) * GN_KMS_SCAN_NS;
     if (k->device.card.partial && is_unreadable(k) && k->monitor.connected)
-        return; /* keep what is shown */
-    const int chosen = choose_connector(k);
-    if (chosen < 0) {
+        return;      /* keep what is shown */
+    int chosen = -1; /* the connector in use is kept while it is connected */
+    for (int i = 0; i < k->device.card.connector_count && chosen < 0; i++)
+        if (is_ours(k, &k->device.card.connectors[i]) && k->device.card.connectors[i].connected &&
+            k->device.card.connectors[i].mode_count > 0)
+            chosen = i;
+    if (chosen < 0) chosen = gn_kms_choose_connector(&k->device.card, k->opts->connector);
+    if (chosen < 0) { /* leaves this card, which has no monitor, if another one has */
+        struct gn_kms_node other;
         k->monitor.connected = k->lit = false;
-        scan_other_cards(k, probe, now_ns);
+        const int fd = find_card(k, 1, probe, &other);
+        if (fd < 0) return;
+        k->env.drm->close(fd);
+        gn_kms_leave_card(k, true, now_ns);
         return;
     }
     const struct gn_kms_connector *c = &k->device.card.connectors[chosen];
@@ -326,28 +292,35 @@ static void scan_card(struct gn_kms *k, bool probe, int64_t now_ns) {
     use_connector(k, chosen, now_ns);
 }
 
-/* GL may work now; the buffers of the message are dropped. */
-static void start_gl_again(struct gn_kms *k, int64_t now_ns) {
-    if (k->flip.pending) {
-        k->due.scan_ns = now_ns + k->flip.period_ns;
-        return;
-    }
-    start_gl(k);
-    if (!k->device.scanout) return;
-    gn_kms_drop_surface(k);
-    k->monitor.connected = k->lit = false;
-}
-
 void gn_kms_scan(struct gn_kms *k, int64_t now_ns) {
     bool probe = now_ns >= k->due.probe_ns;
     k->due.scan_ns = GN_KMS_NEVER;
     if (probe) k->due.probe_ns = now_ns + GN_KMS_PROBE_NS;
-    if (k->device.fd >= 0 && !k->device.scanout && k->monitor.connected)
-        start_gl_again(k, now_ns);
-    else if (k->device.fd >= 0 && !k->device.scanout)
+    const bool no_gl = k->device.fd >= 0 && !k->device.scanout;
+    if (no_gl && !k->monitor.connected) {
         gn_kms_close_card(k); /* another card may be usable */
+    } else if (no_gl && k->flip.pending) {
+        k->due.scan_ns = now_ns + k->flip.period_ns;
+    } else if (no_gl) { /* GL may work now; the buffers of the message are dropped */
+        start_gl(k);
+        if (k->device.scanout) {
+            gn_kms_drop_surface(k);
+            k->monitor.connected = k->lit = false;
+        }
+    }
     if (k->device.fd < 0) {
-        open_card(k, now_ns);
+        k->device.fd = find_card(k, 0, true, &k->device.node);
+        if (k->device.fd < 0) {
+            k->losses = 0; /* the card was lost, not an unusable context */
+        } else {
+            k->screen.counts.opened++;
+            k->flip = (struct gn_flip){.lost_flips = k->flip.lost_flips,
+                                       .shown = k->flip.shown,
+                                       .missed = k->flip.missed,
+                                       .stalls = k->flip.stalls};
+            if (!k->away) gn_kms_try_master(k, now_ns);
+            start_gl(k);
+        }
         probe = k->device.card.partial; /* already probed otherwise */
     }
     if (k->device.fd >= 0) scan_card(k, probe, now_ns);
