@@ -26,16 +26,13 @@ void gn_kms_sleep(struct gn_kms *k, int64_t now_ns) {
     if (k->due.scan_ns > k->due.sleep_ns) k->due.scan_ns = k->due.sleep_ns;
 }
 
-static bool may_wake(const struct gn_kms *k) {
-    return k->frames.front.fb && !k->lit && k->monitor.connected && k->master && !k->away &&
-           !k->screen.lost && !k->flip.pending && !k->text.message[0];
-}
-
 void gn_kms_set_blank(struct gn_kms *k, bool on, int64_t now_ns) {
     if (k->blank == on) return;
     k->blank = on;
     k->due.sleep_ns = now_ns;
     struct gn_kms_frame waiting = k->frames.waiting;
     if (on && waiting.fb) gn_kms_discard(k, &waiting);
-    if (!on && may_wake(k)) gn_kms_send(k, k->frames.front, now_ns);
+    if (!on && k->frames.front.fb && !k->lit && k->monitor.connected && k->master && !k->away &&
+        !k->screen.lost && !k->flip.pending && !k->text.message[0])
+        gn_kms_send(k, k->frames.front, now_ns);
 }

@@ -5,24 +5,21 @@
 
 bool gn_kms_is_copy(const struct gn_kms *k) { return k->buffers.opts.fallback == GN_FALLBACK_COPY; }
 
-/* Decided by the buffer's key: the fallback level may have changed since. */
-static bool is_gpus(const struct gn_kms *k, const void *key) {
-    return k->device.scanout && key && key != &k->buffers.copies[0] && key != &k->buffers.copies[1];
-}
-
 static void close_fence(struct gn_kms_frame *frame) {
     if (frame->fb && frame->fence >= 0) close(frame->fence);
     frame->fence = -1;
 }
 
-/* Returns the buffer to its owner. */
+/* Returns the buffer to its owner: GL's by its key, since the fallback level may have changed. */
 static void release_buffer(struct gn_kms *k, struct gn_kms_frame *frame) {
+    const bool is_copy = frame->key == &k->buffers.copies[0] || frame->key == &k->buffers.copies[1];
     close_fence(frame);
-    if (frame->fb && is_gpus(k, frame->key)) k->env.scanout->release(k->device.scanout, frame->key);
+    if (frame->fb && frame->key && !is_copy && k->device.scanout)
+        k->env.scanout->release(k->device.scanout, frame->key);
     *frame = (struct gn_kms_frame){.fence = -1};
 }
 
-static void forget_frames(struct gn_kms *k) {
+void gn_kms_drop_surface(struct gn_kms *k) {
     if (k->frames.pending.fb == k->frames.front.fb)
         k->frames.pending = (struct gn_kms_frame){.fence = -1};
     if (k->frames.waiting.fb == k->frames.front.fb)
@@ -30,10 +27,6 @@ static void forget_frames(struct gn_kms *k) {
     release_buffer(k, &k->frames.waiting);
     release_buffer(k, &k->frames.pending);
     release_buffer(k, &k->frames.front);
-}
-
-void gn_kms_drop_surface(struct gn_kms *k) {
-    forget_frames(k);
     if (k->output.drm) gn_kms_output_orphan_fbs(&k->output);
     if (k->device.scanout) k->env.scanout->drop_surface(k->device.scanout);
     for (int i = 0; i < 2 && k->device.fd >= 0; i++)

@@ -4,15 +4,6 @@
 #include <errno.h>
 #include <string.h>
 
-static int map(struct gn_dumb *d, const struct gn_drm_ops *drm, int fd) {
-    struct drm_mode_map_dumb where = {.handle = d->handle};
-    if (drm->Ioctl(fd, DRM_IOCTL_MODE_MAP_DUMB, &where) != 0) return errno;
-    d->pixels = drm->map(fd, where.offset, d->size);
-    if (!d->pixels) return errno;
-    memset(d->pixels, 0, d->size);
-    return 0;
-}
-
 int gn_dumb_create(struct gn_dumb *d, const struct gn_drm_ops *drm, int fd, uint32_t width_px,
                    uint32_t height_px) {
     struct drm_mode_create_dumb made = {.width = width_px, .height = height_px, .bpp = 32};
@@ -21,9 +12,16 @@ int gn_dumb_create(struct gn_dumb *d, const struct gn_drm_ops *drm, int fd, uint
     d->handle = made.handle;
     d->stride = made.pitch;
     d->size = made.size;
-    const int error = map(d, drm, fd);
-    if (error != 0) gn_dumb_destroy(d, drm, fd);
-    return error;
+    struct drm_mode_map_dumb where = {.handle = made.handle};
+    const bool mapped = drm->Ioctl(fd, DRM_IOCTL_MODE_MAP_DUMB, &where) == 0 &&
+                        (d->pixels = drm->map(fd, where.offset, d->size)) != NULL;
+    if (!mapped) {
+        const int error = errno;
+        gn_dumb_destroy(d, drm, fd);
+        return error;
+    }
+    memset(d->pixels, 0, d->size);
+    return 0;
 }
 
 void gn_dumb_destroy(struct gn_dumb *d, const struct gn_drm_ops *drm, int fd) {

@@ -43,20 +43,6 @@ void gn_flip_committed(struct gn_flip *f, int64_t now_ns) {
     f->committed_ns = now_ns;
 }
 
-/* Timer pacing, on a grid of its own; a late frame shifts the grid. */
-static void pace_by_timer(struct gn_flip *f, int64_t now_ns) {
-    const int64_t interval = f->shortest_ns > f->period_ns ? f->shortest_ns : f->period_ns;
-    const bool on_grid = f->next_ns > 0 && f->begun_ns - f->next_ns < interval;
-    f->next_ns = (on_grid ? f->next_ns : f->begun_ns) + interval;
-    if (f->next_ns < now_ns) f->next_ns = now_ns;
-}
-
-/* Vblank pacing: every kth refresh, drawing from the refresh before it. */
-static void pace_by_refresh(struct gn_flip *f) {
-    const int64_t k = (f->shortest_ns - f->period_ns / 10 + f->period_ns - 1) / f->period_ns;
-    f->next_ns = k > 1 ? f->shown_ns + (k - 1) * f->period_ns : 0;
-}
-
 void gn_flip_done(struct gn_flip *f, int64_t shown_ns, int64_t now_ns) {
     if (!f->pending) return;
     const bool possible = shown_ns > f->begun_ns - f->period_ns && shown_ns < now_ns + f->period_ns;
@@ -67,10 +53,15 @@ void gn_flip_done(struct gn_flip *f, int64_t shown_ns, int64_t now_ns) {
     f->refreshes = (unsigned)(late < REFRESHES_MAX ? late + 1 : 1);
     f->shown++;
     f->lost_flips = 0;
-    if (f->no_vblank)
-        pace_by_timer(f, now_ns);
-    else
-        pace_by_refresh(f);
+    if (f->no_vblank) { /* a timer paces, on a grid of its own; a late frame shifts the grid */
+        const int64_t interval = f->shortest_ns > f->period_ns ? f->shortest_ns : f->period_ns;
+        const bool on_grid = f->next_ns > 0 && f->begun_ns - f->next_ns < interval;
+        f->next_ns = (on_grid ? f->next_ns : f->begun_ns) + interval;
+        if (f->next_ns < now_ns) f->next_ns = now_ns;
+    } else { /* vblank paces: every kth refresh, drawing from the refresh before it */
+        const int64_t k = (f->shortest_ns - f->period_ns / 10 + f->period_ns - 1) / f->period_ns;
+        f->next_ns = k > 1 ? f->shown_ns + (k - 1) * f->period_ns : 0;
+    }
     gn_flip_forget(f);
 }
 

@@ -1,7 +1,6 @@
 /* Frames: one flip in flight, at most two buffers held. */
 #include <errno.h>
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "display/kms/state.h"
@@ -10,13 +9,6 @@
 #define STARVED_NS (5 * GN_KMS_S) /* no framebuffer for so long: try other buffers */
 
 /* ---- flips ---- */
-
-static void end_flip(struct gn_kms *k, int64_t shown_ns, int64_t now_ns) {
-    const struct gn_kms_frame frame = k->frames.pending;
-    k->frames.pending = (struct gn_kms_frame){.fence = -1};
-    gn_flip_done(&k->flip, shown_ns, now_ns);
-    gn_kms_take_front(k, frame, now_ns);
-}
 
 static void on_flip(int fd, unsigned sequence, unsigned s, unsigned us, unsigned crtc, void *user) {
     (void)fd, (void)sequence, (void)crtc;
@@ -32,7 +24,12 @@ void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
         errno = 0;
         const int result = k->env.drm->HandleEvent(k->device.fd, &context);
         const int error = errno;
-        if (k->frames.event_ns >= 0 && k->flip.pending) end_flip(k, k->frames.event_ns, now_ns);
+        if (k->frames.event_ns >= 0 && k->flip.pending) {
+            const struct gn_kms_frame frame = k->frames.pending;
+            k->frames.pending = (struct gn_kms_frame){.fence = -1};
+            gn_flip_done(&k->flip, k->frames.event_ns, now_ns);
+            gn_kms_take_front(k, frame, now_ns);
+        }
         if (result == 0) continue;
         if (error == ENODEV || error == EIO || error == EBADF) gn_kms_leave_card(k, false, now_ns);
         return;
@@ -40,31 +37,6 @@ void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
 }
 
 /* ---- commits ---- */
-
-static int light_frame(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
-    const int error =
-        gn_kms_output_light(&k->output, &k->monitor.candidates[k->monitor.mode], frame->fb);
-    if (error != 0) return error;
-    k->lit = true;
-    k->monitor.lit_for = k->monitor.id;
-    k->screen.counts.relit++;
-    k->flip.no_vblank = gn_kms_output_lacks_vblank(&k->output);
-    gn_flip_committed(&k->flip, now_ns);
-    k->flip.due_ns = now_ns; /* a modeset misses no refresh */
-    gn_flip_done(&k->flip, 0, now_ns);
-    gn_kms_take_front(k, *frame, now_ns);
-    return 0;
-}
-
-static int flip_frame(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
-    struct gn_kms_ticket *ticket = &k->frames.tickets[k->frames.ticket % GN_KMS_TICKETS];
-    *ticket = (struct gn_kms_ticket){k, k->frames.ticket};
-    const int error = gn_kms_output_flip(&k->output, frame->fb, frame->fence, ticket);
-    if (error != 0) return error;
-    k->frames.pending = *frame;
-    gn_flip_committed(&k->flip, now_ns);
-    return 0;
-}
 
 static void wait_a_frame(struct gn_kms *k, const struct gn_kms_frame *frame, int64_t now_ns) {
     if (!k->frames.waiting.fb) k->frames.waiting_ns = now_ns;
@@ -108,15 +80,37 @@ static void handle_commit_error(struct gn_kms *k, struct gn_kms_frame *frame, in
 }
 
 void gn_kms_send(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
+    int error;
     if (k->blank) { /* blanking was requested while it was drawn */
         gn_kms_discard(k, &frame);
         return;
     }
-    const int error = k->lit ? flip_frame(k, &frame, now_ns) : light_frame(k, &frame, now_ns);
-    if (error == 0)
-        k->frames.waiting = (struct gn_kms_frame){.fence = -1};
-    else
+    if (k->lit) {
+        struct gn_kms_ticket *ticket = &k->frames.tickets[k->frames.ticket % GN_KMS_TICKETS];
+        *ticket = (struct gn_kms_ticket){k, k->frames.ticket};
+        error = gn_kms_output_flip(&k->output, frame.fb, frame.fence, ticket);
+    } else {
+        const drmModeModeInfo *mode = &k->monitor.candidates[k->monitor.mode];
+        error = gn_kms_output_light(&k->output, mode, frame.fb);
+    }
+    if (error != 0) {
         handle_commit_error(k, &frame, error, now_ns);
+        return;
+    }
+    if (k->lit) {
+        k->frames.pending = frame;
+        gn_flip_committed(&k->flip, now_ns);
+    } else {
+        k->lit = true;
+        k->monitor.lit_for = k->monitor.id;
+        k->screen.counts.relit++;
+        k->flip.no_vblank = gn_kms_output_lacks_vblank(&k->output);
+        gn_flip_committed(&k->flip, now_ns);
+        k->flip.due_ns = now_ns; /* a modeset misses no refresh */
+        gn_flip_done(&k->flip, 0, now_ns);
+        gn_kms_take_front(k, frame, now_ns);
+    }
+    k->frames.waiting = (struct gn_kms_frame){.fence = -1};
 }
 
 /* ---- message without GL ---- */
@@ -165,28 +159,18 @@ bool gn_kms_begin(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
     return true;
 }
 
-/* Takes GL's frame. Returns false if the context is lost. */
-static bool take_frame(struct gn_kms *k, struct gn_buffer *buffer, int *fence) {
-    struct gn_err why = {0};
-    *fence = -1;
-    if (gn_kms_is_copy(k)) {
-        *buffer = gn_dumb_buffer(gn_kms_free_copy(k));
-        return true;
-    }
-    if (k->env.scanout->swap(k->device.scanout, gn_kms_output_takes_fence(&k->output), buffer,
-                             fence, &why))
-        return true;
-    snprintf(k->text.reason, sizeof k->text.reason, "%s", why.text);
-    return false;
-}
-
 void gn_kms_send_drawn(struct gn_kms *k, int64_t now_ns) {
     struct gn_buffer buffer;
     struct gn_kms_frame frame = {.fence = -1};
+    struct gn_err why = {0};
     k->screen.may_draw = false;
     k->screen.copy_to = NULL;
-    if (!take_frame(k, &buffer, &frame.fence)) {
-        gn_kms_leave_card(k, true, now_ns);
+    if (gn_kms_is_copy(k)) {
+        buffer = gn_dumb_buffer(gn_kms_free_copy(k));
+    } else if (!k->env.scanout->swap(k->device.scanout, gn_kms_output_takes_fence(&k->output),
+                                     &buffer, &frame.fence, &why)) {
+        snprintf(k->text.reason, sizeof k->text.reason, "%s", why.text);
+        gn_kms_leave_card(k, true, now_ns); /* the context is lost */
         return;
     }
     frame.key = buffer.key;

@@ -71,7 +71,7 @@ gn_display_proc gn_kms_get_proc(struct gn_kms *k, const char *name) {
 
 static int64_t sooner(int64_t a, int64_t b) { return a < b ? a : b; }
 
-static bool may_send_again(const struct gn_kms *k) {
+static bool may_send_waiting(const struct gn_kms *k) {
     return k->frames.waiting.fb && !k->blank && k->monitor.connected && k->master &&
            !k->flip.pending;
 }
@@ -84,35 +84,30 @@ int64_t gn_kms_deadline(const struct gn_kms *k, int64_t now_ns) {
     if (gn_kms_may_sleep(k)) return sooner(at, k->due.sleep_ns > now_ns ? k->due.sleep_ns : now_ns);
     if (k->blank && !k->flip.pending) return at;
     at = sooner(at, gn_flip_deadline(&k->flip, now_ns));
-    if (may_send_again(k)) at = sooner(at, k->flip.next_ns > now_ns ? k->flip.next_ns : now_ns);
+    if (may_send_waiting(k)) at = sooner(at, k->flip.next_ns > now_ns ? k->flip.next_ns : now_ns);
     if (k->lit && !k->flip.pending && !k->frames.waiting.fb) at = sooner(at, k->due.again_ns);
     return at;
 }
 
 /* ---- steps ---- */
 
-static void leave_console(struct gn_kms *k) {
-    k->away = true;
-    k->lit = false;
-    if (k->device.fd < 0 || k->screen.lost) return;
-    if (k->master) k->env.drm->DropMaster(k->device.fd);
-    k->master = false;
-    k->due.master_ns = GN_KMS_NEVER;
-}
-
-static void enter_console(struct gn_kms *k, int64_t now_ns) {
-    k->away = false;
-    /* a program in between has ended the flip; after a short switch its event may still come */
-    if (k->flip.pending && k->flip.stalled) gn_kms_flip_is_lost(k);
-    if (k->device.fd >= 0 && !k->screen.lost) gn_kms_try_master(k, now_ns);
-    k->due.scan_ns = k->due.probe_ns = now_ns;
-}
-
 static void apply_events(struct gn_kms *k, unsigned events, int64_t now_ns) {
-    if (events & GN_KMS_EVENT_VT_LEFT) leave_console(k);
-    if (events & GN_KMS_EVENT_VT_ENTERED) enter_console(k, now_ns);
-    if (events & GN_KMS_EVENT_READABLE && k->device.fd >= 0 && !k->screen.lost)
-        gn_kms_drain(k, now_ns);
+    const bool has_card = k->device.fd >= 0 && !k->screen.lost;
+    if (events & GN_KMS_EVENT_VT_LEFT) {
+        k->away = true;
+        k->lit = false;
+        if (has_card && k->master) k->env.drm->DropMaster(k->device.fd);
+        if (has_card) k->master = false;
+        if (has_card) k->due.master_ns = GN_KMS_NEVER;
+    }
+    if (events & GN_KMS_EVENT_VT_ENTERED) {
+        k->away = false;
+        /* a program in between has ended the flip; after a short switch its event may still come */
+        if (k->flip.pending && k->flip.stalled) gn_kms_flip_is_lost(k);
+        if (has_card) gn_kms_try_master(k, now_ns);
+        k->due.scan_ns = k->due.probe_ns = now_ns;
+    }
+    if (events & GN_KMS_EVENT_READABLE && has_card) gn_kms_drain(k, now_ns);
     if (!(events & GN_KMS_EVENT_HOTPLUG)) return;
     k->due.scan_ns = sooner(k->due.scan_ns, now_ns + SETTLE_NS);
     k->due.probe_ns = sooner(k->due.probe_ns, k->due.scan_ns);
@@ -138,16 +133,9 @@ static bool apply_flip_act(struct gn_kms *k, enum gn_flip_act what, int64_t now_
     return false;
 }
 
-static bool give_up(struct gn_kms *k, struct gn_err *err) {
-    gn_fail(err, "%s: page flips on %s no longer complete; see the kernel log",
-            k->monitor.connector[0] ? k->monitor.connector : "display", k->device.node.path);
-    if (err) err->status = GN_EXIT_DISPLAY;
-    return false;
-}
-
 /* A frame refused by the kernel for as long as a flip may take counts as a lost flip. */
-static bool send_again(struct gn_kms *k, int64_t now_ns) {
-    if (!may_send_again(k) || now_ns < k->flip.next_ns) return true;
+static bool send_waiting(struct gn_kms *k, int64_t now_ns) {
+    if (!may_send_waiting(k) || now_ns < k->flip.next_ns) return true;
     if (now_ns - k->frames.waiting_ns < 12 * GN_KMS_S) {
         gn_kms_send(k, k->frames.waiting, now_ns);
         return true;
@@ -156,33 +144,9 @@ static bool send_again(struct gn_kms *k, int64_t now_ns) {
     return apply_flip_act(k, gn_flip_lost(&k->flip), now_ns);
 }
 
-static void show_again(struct gn_kms *k, int64_t now_ns) {
-    const bool idle = !k->flip.pending && !k->frames.waiting.fb && !k->blank;
-    if (k->lit && k->master && idle && k->frames.front.fb && now_ns >= k->due.again_ns)
-        gn_kms_send(k, k->frames.front, now_ns);
-}
-
-/* Sent once; the screen keeps it. */
-static void show_message(struct gn_kms *k, int64_t now_ns) {
-    const bool free =
-        !k->flip.pending && !k->frames.waiting.fb && !k->lit && !k->blank && !k->text.changed;
-    if (k->text.message[0] && free && k->monitor.connected && k->master && !k->away &&
-        k->device.fd >= 0)
-        gn_kms_send_message(k, now_ns);
-}
-
 void gn_kms_lose(struct gn_kms *k, int64_t now_ns) {
     gn_kms_leave_card(k, true, now_ns);
     publish_state(k, now_ns);
-}
-
-/* Buffers are not changed during a flip: waits for its end. */
-static void change_message(struct gn_kms *k, int64_t now_ns) {
-    if (!k->text.changed || k->flip.pending) return;
-    k->text.changed = false;
-    gn_kms_drop_surface(k);
-    k->monitor.connected = k->lit = false;
-    if (k->due.scan_ns > now_ns) k->due.scan_ns = now_ns;
 }
 
 /* Without GL the reason is shown already and is more important. */
@@ -202,19 +166,35 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     apply_events(k, events, now_ns);
     if (!k->screen.lost && k->device.fd >= 0) {
         const enum gn_flip_act what = gn_flip_step(&k->flip, now_ns);
-        ok = apply_flip_act(k, what, now_ns) && send_again(k, now_ns);
-        show_again(k, now_ns);
+        ok = apply_flip_act(k, what, now_ns) && send_waiting(k, now_ns);
+        const bool idle = !k->flip.pending && !k->frames.waiting.fb && !k->blank;
+        if (k->lit && k->master && idle && k->frames.front.fb && now_ns >= k->due.again_ns)
+            gn_kms_send(k, k->frames.front, now_ns);
     }
     if (!k->screen.lost && !k->master && !k->away && k->device.fd >= 0 &&
         now_ns >= k->due.master_ns)
         gn_kms_try_master(k, now_ns);
-    if (!k->screen.lost) change_message(k, now_ns);
+    if (!k->screen.lost && k->text.changed && !k->flip.pending) { /* no change during a flip */
+        k->text.changed = false;
+        gn_kms_drop_surface(k);
+        k->monitor.connected = k->lit = false;
+        if (k->due.scan_ns > now_ns) k->due.scan_ns = now_ns;
+    }
     if (!k->screen.lost && now_ns >= k->due.scan_ns) gn_kms_scan(k, now_ns);
-    if (!k->screen.lost) show_message(k, now_ns);
+    /* the message is sent once: the screen keeps it */
+    const bool idle =
+        !k->flip.pending && !k->frames.waiting.fb && !k->lit && !k->blank && !k->text.changed;
+    if (!k->screen.lost && k->text.message[0] && idle && k->monitor.connected && k->master &&
+        !k->away && k->device.fd >= 0)
+        gn_kms_send_message(k, now_ns);
     gn_kms_sleep(k, now_ns);
     if (k->losses > 3) ok = false;
     publish_state(k, now_ns);
-    return ok || give_up(k, err);
+    if (ok) return true;
+    gn_fail(err, "%s: page flips on %s no longer complete; see the kernel log",
+            k->monitor.connector[0] ? k->monitor.connector : "display", k->device.node.path);
+    if (err) err->status = GN_EXIT_DISPLAY;
+    return false;
 }
 
 bool gn_kms_present(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
