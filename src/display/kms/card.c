@@ -19,39 +19,9 @@ struct reader {
     const struct gn_drm_ops *drm;
     int fd;
     struct gn_kms_card *card;
-    const drmModeRes *resources;
 };
 
-static void read_crtcs(struct reader *r) {
-    for (int i = 0; i < r->resources->count_crtcs && i < GN_KMS_CRTCS_MAX; i++) {
-        struct gn_kms_crtc *out = &r->card->crtcs[r->card->crtc_count++];
-        out->id = r->resources->crtcs[i];
-        drmModeCrtc *crtc = r->drm->ModeGetCrtc(r->fd, out->id);
-        r->card->partial |= !crtc;
-        if (!crtc) continue;
-        out->lit = crtc->mode_valid;
-        out->mode = crtc->mode;
-        r->drm->ModeFreeCrtc(crtc);
-    }
-}
-
 /* ---- connectors ---- */
-
-static void read_encoders(struct reader *r, const drmModeConnector *from,
-                          struct gn_kms_connector *out) {
-    for (int i = 0; i < from->count_encoders; i++) {
-        drmModeEncoder *e = r->drm->ModeGetEncoder(r->fd, from->encoders[i]);
-        r->card->partial |= !e;
-        if (!e) continue;
-        out->crtcs |= e->possible_crtcs;
-        for (int k = 0; k < r->card->crtc_count; k++)
-            if (e->encoder_id == from->encoder_id && r->card->crtcs[k].lit &&
-                r->card->crtcs[k].id == e->crtc_id)
-                out->crtc = k;
-        r->drm->ModeFreeEncoder(e);
-    }
-    out->crtcs &= (1u << r->card->crtc_count) - 1;
-}
 
 /* Rotation that compensates the "panel orientation" property. */
 static unsigned degrees_of(const char *orientation) {
@@ -60,32 +30,25 @@ static unsigned degrees_of(const char *orientation) {
     return strcmp(orientation, "Right Side Up") == 0 ? 90 : 0;
 }
 
-static void read_property(const drmModePropertyRes *p, uint64_t value,
-                          struct gn_kms_connector *out) {
-    if (strcmp(p->name, "link-status") == 0) out->bad_link = value != 0;
-    if (strcmp(p->name, "non-desktop") == 0 && value != 0) out->connected = out->unknown = false;
-    if (strcmp(p->name, "panel orientation") != 0) return;
-    for (int i = 0; i < p->count_enums; i++)
-        if (p->enums[i].value == value) out->orientation_deg = degrees_of(p->enums[i].name);
-}
-
-/* Identifies the monitor by its EDID, which has the serial number. */
-static void read_edid(struct reader *r, uint32_t id, struct gn_kms_connector *out) {
-    drmModePropertyBlobRes *blob = id ? r->drm->ModeGetPropertyBlob(r->fd, id) : NULL;
-    r->card->partial |= id && !blob;
-    if (!blob) return;
-    out->monitor = gn_hash(GN_HASH_INIT, blob->data, blob->length);
-    r->drm->ModeFreePropertyBlob(blob);
-}
-
 static void read_properties(struct reader *r, const drmModeConnector *from,
                             struct gn_kms_connector *out) {
     for (int i = 0; i < from->count_props; i++) {
+        const uint64_t value = from->prop_values[i];
         drmModePropertyRes *p = r->drm->ModeGetProperty(r->fd, from->props[i]);
         r->card->partial |= !p;
         if (!p) continue;
-        read_property(p, from->prop_values[i], out);
-        if (strcmp(p->name, "EDID") == 0) read_edid(r, (uint32_t)from->prop_values[i], out);
+        if (strcmp(p->name, "link-status") == 0) out->bad_link = value != 0;
+        if (strcmp(p->name, "non-desktop") == 0 && value != 0)
+            out->connected = out->unknown = false;
+        if (strcmp(p->name, "panel orientation") == 0)
+            for (int k = 0; k < p->count_enums; k++)
+                if (p->enums[k].value == value) out->orientation_deg = degrees_of(p->enums[k].name);
+        if (strcmp(p->name, "EDID") == 0 && (uint32_t)value != 0) { /* has the serial number */
+            drmModePropertyBlobRes *blob = r->drm->ModeGetPropertyBlob(r->fd, (uint32_t)value);
+            r->card->partial |= !blob;
+            if (blob) out->monitor = gn_hash(GN_HASH_INIT, blob->data, blob->length);
+            if (blob) r->drm->ModeFreePropertyBlob(blob);
+        }
         r->drm->ModeFreeProperty(p);
     }
 }
@@ -107,50 +70,38 @@ static uint64_t hash_modes(const struct gn_kms_connector *c) {
     return hash;
 }
 
-static bool is_internal(uint32_t type) {
-    return type == DRM_MODE_CONNECTOR_LVDS || type == DRM_MODE_CONNECTOR_eDP ||
-           type == DRM_MODE_CONNECTOR_DSI || type == DRM_MODE_CONNECTOR_DPI;
-}
-
 static void read_connector(struct reader *r, const drmModeConnector *from) {
     struct gn_kms_connector *out = &r->card->connectors[r->card->connector_count++];
-    const uint32_t type = from->connector_type < TYPES ? from->connector_type : 0;
+    const uint32_t type = from->connector_type, row = type < TYPES ? type : 0;
     out->id = from->connector_id;
     out->crtc = -1;
     out->connected = from->connection == DRM_MODE_CONNECTED;
     out->unknown = from->connection == DRM_MODE_UNKNOWNCONNECTION;
-    out->internal = is_internal(from->connector_type);
-    snprintf(out->name, sizeof out->name, "%s-%u", type_names[type], from->connector_type_id);
+    out->internal = type == DRM_MODE_CONNECTOR_LVDS || type == DRM_MODE_CONNECTOR_eDP ||
+                    type == DRM_MODE_CONNECTOR_DSI || type == DRM_MODE_CONNECTOR_DPI;
+    snprintf(out->name, sizeof out->name, "%s-%u", type_names[row], from->connector_type_id);
     for (int i = 0; i < from->count_modes && i < GN_KMS_MODES_MAX; i++)
         out->modes[out->mode_count++] = from->modes[i];
-    read_encoders(r, from, out);
+    for (int i = 0; i < from->count_encoders; i++) {
+        drmModeEncoder *e = r->drm->ModeGetEncoder(r->fd, from->encoders[i]);
+        r->card->partial |= !e;
+        if (!e) continue;
+        out->crtcs |= e->possible_crtcs;
+        for (int k = 0; k < r->card->crtc_count; k++)
+            if (e->encoder_id == from->encoder_id && r->card->crtcs[k].lit &&
+                r->card->crtcs[k].id == e->crtc_id)
+                out->crtc = k;
+        r->drm->ModeFreeEncoder(e);
+    }
+    out->crtcs &= (1u << r->card->crtc_count) - 1;
     read_properties(r, from, out);
     if (out->monitor == 0 && out->mode_count > 0) out->monitor = hash_modes(out);
-}
-
-static void read_connectors(struct reader *r, bool probe) {
-    const int count = r->resources->count_connectors;
-    for (int i = 0; i < count && r->card->connector_count < GN_KMS_CONNECTORS_MAX; i++) {
-        const uint32_t id = r->resources->connectors[i];
-        drmModeConnector *c = probe ? r->drm->ModeGetConnector(r->fd, id)
-                                    : r->drm->ModeGetConnectorCurrent(r->fd, id);
-        r->card->partial |= !c; /* it disappeared during the scan, as DisplayPort MST branches do */
-        if (!c) continue;
-        if (c->connector_type != DRM_MODE_CONNECTOR_WRITEBACK) read_connector(r, c);
-        r->drm->ModeFreeConnector(c);
-    }
-}
-
-static void read_driver(struct reader *r) {
-    drmVersion *version = r->drm->GetVersion(r->fd);
-    snprintf(r->card->driver, sizeof r->card->driver, "%s", version ? version->name : "unknown");
-    if (version) r->drm->FreeVersion(version);
 }
 
 bool gn_kms_card_read(const struct gn_drm_ops *drm, int fd, bool probe, struct gn_kms_card *out,
                       struct gn_err *err) {
     memset(out, 0, sizeof *out);
-    struct reader r = {drm, fd, out, NULL};
+    struct reader r = {drm, fd, out};
     drmModeRes *resources = drm->ModeGetResources(fd);
     if (!resources) {
         const int error = errno;
@@ -158,10 +109,29 @@ bool gn_kms_card_read(const struct gn_drm_ops *drm, int fd, bool probe, struct g
         errno = error;
         return false;
     }
-    r.resources = resources;
-    read_driver(&r);
-    read_crtcs(&r);
-    read_connectors(&r, probe);
+    drmVersion *version = drm->GetVersion(fd);
+    snprintf(out->driver, sizeof out->driver, "%s", version ? version->name : "unknown");
+    if (version) drm->FreeVersion(version);
+    for (int i = 0; i < resources->count_crtcs && i < GN_KMS_CRTCS_MAX; i++) {
+        struct gn_kms_crtc *to = &out->crtcs[out->crtc_count++];
+        to->id = resources->crtcs[i];
+        drmModeCrtc *crtc = drm->ModeGetCrtc(fd, to->id);
+        out->partial |= !crtc;
+        if (!crtc) continue;
+        to->lit = crtc->mode_valid;
+        to->mode = crtc->mode;
+        drm->ModeFreeCrtc(crtc);
+    }
+    const int count = resources->count_connectors;
+    for (int i = 0; i < count && out->connector_count < GN_KMS_CONNECTORS_MAX; i++) {
+        const uint32_t id = resources->connectors[i];
+        drmModeConnector *c =
+            probe ? drm->ModeGetConnector(fd, id) : drm->ModeGetConnectorCurrent(fd, id);
+        out->partial |= !c; /* it disappeared during the scan, as DisplayPort MST branches do */
+        if (!c) continue;
+        if (c->connector_type != DRM_MODE_CONNECTOR_WRITEBACK) read_connector(&r, c);
+        drm->ModeFreeConnector(c);
+    }
     const bool can = out->crtc_count > 0 && (out->connector_count > 0 || out->partial);
     drm->ModeFreeResources(resources);
     if (!can) gn_fail(err, "it has no connectors or CRTCs");

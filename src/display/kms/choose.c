@@ -5,23 +5,17 @@
 
 /* ---- connectors and CRTCs ---- */
 
-static bool is_usable(const struct gn_kms_connector *c) {
-    return (c->connected || c->unknown) && c->mode_count > 0 && c->crtcs;
-}
-
-/* A connected one is preferred to one of unknown state. */
-static bool is_better(const struct gn_kms_connector *a, const struct gn_kms_connector *b) {
-    if (a->connected != b->connected) return a->connected;
-    return a->id < b->id;
-}
-
 int gn_kms_choose_connector(const struct gn_kms_card *card, const char *name) {
+    const struct gn_kms_connector *all = card->connectors;
     int best = -1;
     for (int i = 0; i < card->connector_count; i++) {
-        const struct gn_kms_connector *c = &card->connectors[i];
+        const struct gn_kms_connector *c = &all[i];
         if (name && strcmp(c->name, name) != 0) continue;
-        if (!is_usable(c)) continue;
-        if (best < 0 || is_better(c, &card->connectors[best])) best = i;
+        const bool usable = (c->connected || c->unknown) && c->mode_count > 0 && c->crtcs;
+        if (!usable) continue;
+        /* a connected one is preferred to one of unknown state */
+        if (best < 0 || (c->connected == all[best].connected ? c->id < all[best].id : c->connected))
+            best = i;
     }
     return best;
 }
@@ -63,10 +57,6 @@ static bool is_progressive(const drmModeModeInfo *m) {
 static uint32_t min_u32(uint32_t a, uint32_t b) { return a < b ? a : b; }
 static uint32_t max_u32(uint32_t a, uint32_t b) { return a < b ? b : a; }
 
-static uint64_t pixel_rate(const drmModeModeInfo *m) {
-    return (uint64_t)m->hdisplay * m->vdisplay * gn_kms_mode_mhz(m);
-}
-
 static uint32_t cap_mhz(const struct gn_screen_opts *o) {
     return (uint32_t)((o->cap_hz > 0 ? o->cap_hz : 60) * 1000) + SLACK_MHZ;
 }
@@ -77,7 +67,7 @@ static bool is_within_cap(const drmModeModeInfo *m, const struct gn_screen_opts 
     const uint32_t w = o->cap_width ? o->cap_width : 1920, h = o->cap_height ? o->cap_height : 1080;
     return max_u32(m->hdisplay, m->vdisplay) <= max_u32(w, h) &&
            min_u32(m->hdisplay, m->vdisplay) <= min_u32(w, h) &&
-           pixel_rate(m) <= (uint64_t)w * h * cap_mhz(o);
+           (uint64_t)m->hdisplay * m->vdisplay * gn_kms_mode_mhz(m) <= (uint64_t)w * h * cap_mhz(o);
 }
 
 static double distance_hz(const drmModeModeInfo *m, double hz) {
@@ -94,33 +84,7 @@ static bool fits_better(const drmModeModeInfo *a, const drmModeModeInfo *b, doub
     return distance_hz(a, 60) < distance_hz(b, 60);
 }
 
-static const drmModeModeInfo *find_configured(const struct gn_kms_connector *c,
-                                              const struct gn_screen_opts *o) {
-    const drmModeModeInfo *best = NULL;
-    for (int i = 0; i < c->mode_count; i++) {
-        const drmModeModeInfo *m = &c->modes[i];
-        if (m->hdisplay != o->mode_width || m->vdisplay != o->mode_height) continue;
-        if (o->mode_hz > 0 && distance_hz(m, o->mode_hz) > 0.6) continue;
-        if (!best || fits_better(m, best, o->mode_hz)) best = m;
-    }
-    return best;
-}
-
-static const drmModeModeInfo *find_preferred(const struct gn_kms_connector *c,
-                                             const struct gn_screen_opts *o) {
-    for (int i = 0; i < c->mode_count; i++)
-        if (c->modes[i].type & DRM_MODE_TYPE_PREFERRED && is_progressive(&c->modes[i]) &&
-            is_within_cap(&c->modes[i], o))
-            return &c->modes[i];
-    return NULL;
-}
-
 static uint32_t pixels_of(const drmModeModeInfo *m) { return (uint32_t)m->hdisplay * m->vdisplay; }
-
-static bool is_larger(const drmModeModeInfo *a, const drmModeModeInfo *b) {
-    if (pixels_of(a) != pixels_of(b)) return pixels_of(a) > pixels_of(b);
-    return distance_hz(a, 60) < distance_hz(b, 60);
-}
 
 static const drmModeModeInfo *find_largest(const struct gn_kms_connector *c,
                                            const struct gn_screen_opts *o, uint32_t below_px) {
@@ -132,23 +96,11 @@ static const drmModeModeInfo *find_largest(const struct gn_kms_connector *c,
         if (!is_progressive(m) || !is_within_cap(m, o)) continue;
         if (gn_kms_mode_mhz(m) < least_mhz || gn_kms_mode_mhz(m) > MOST_MHZ) continue;
         if (pixels_of(m) >= below_px) continue;
-        if (!best || is_larger(m, best)) best = m;
+        if (!best || pixels_of(m) > pixels_of(best) ||
+            (pixels_of(m) == pixels_of(best) && distance_hz(m, 60) < distance_hz(best, 60)))
+            best = m;
     }
     return best;
-}
-
-static const drmModeModeInfo *find_first(const struct gn_kms_connector *c) {
-    for (int i = 0; i < c->mode_count; i++)
-        if (is_progressive(&c->modes[i])) return &c->modes[i];
-    return NULL;
-}
-
-static const drmModeModeInfo *find_vga(const struct gn_kms_connector *c) {
-    for (int i = 0; i < c->mode_count; i++)
-        if (is_progressive(&c->modes[i]) && c->modes[i].hdisplay == 640 &&
-            c->modes[i].vdisplay == 480)
-            return &c->modes[i];
-    return NULL;
 }
 
 struct candidates {
@@ -165,44 +117,48 @@ static void push_mode(struct candidates *l, const drmModeModeInfo *mode) {
 static void push_configured(struct candidates *l, const struct gn_kms_connector *c,
                             const struct gn_screen_opts *o) {
     drmModeModeInfo made;
+    const drmModeModeInfo *listed = NULL;
     if (o->modeline && gn_kms_modeline_parse(o->modeline, &made)) push_mode(l, &made);
     if (o->mode_width == 0) return;
-    const drmModeModeInfo *listed = find_configured(c, o);
-    if (listed) {
-        push_mode(l, listed);
-        return;
+    for (int i = 0; i < c->mode_count; i++) {
+        const drmModeModeInfo *m = &c->modes[i];
+        if (m->hdisplay != o->mode_width || m->vdisplay != o->mode_height) continue;
+        if (o->mode_hz > 0 && distance_hz(m, o->mode_hz) > 0.6) continue;
+        if (!listed || fits_better(m, listed, o->mode_hz)) listed = m;
     }
-    made = gn_kms_mode_cvt(o->mode_width, o->mode_height, o->mode_hz > 0 ? o->mode_hz : 60);
-    push_mode(l, &made);
-}
-
-/* Whether the current mode is this monitor's; firmware may have rounded its clock differently. If
- * not, it was set for another monitor. */
-static bool is_offered(const struct gn_kms_connector *c, const drmModeModeInfo *mode) {
-    for (int i = 0; i < c->mode_count; i++)
-        if (c->modes[i].hdisplay == mode->hdisplay && c->modes[i].vdisplay == mode->vdisplay &&
-            is_progressive(&c->modes[i]) &&
-            distance_hz(mode, gn_kms_mode_mhz(&c->modes[i]) / 1e3) < 0.6)
-            return true;
-    return false;
+    if (!listed)
+        made = gn_kms_mode_cvt(o->mode_width, o->mode_height, o->mode_hz > 0 ? o->mode_hz : 60);
+    push_mode(l, listed ? listed : &made);
 }
 
 int gn_kms_mode_candidates(const struct gn_kms_card *card, int connector, int crtc,
                            const struct gn_screen_opts *opts, drmModeModeInfo *out) {
     const struct gn_kms_connector *c = &card->connectors[connector];
     const struct gn_kms_crtc *now = crtc >= 0 && c->crtc == crtc ? &card->crtcs[crtc] : NULL;
+    const drmModeModeInfo *preferred = NULL, *first = NULL, *vga = NULL;
+    bool offered = false; /* the current mode is this monitor's; else it was set for another one */
+    for (int i = 0; i < c->mode_count; i++) {
+        const drmModeModeInfo *m = &c->modes[i];
+        if (!is_progressive(m)) continue;
+        /* firmware may have rounded the clock of the current mode differently */
+        offered |= now && m->hdisplay == now->mode.hdisplay && m->vdisplay == now->mode.vdisplay &&
+                   distance_hz(&now->mode, gn_kms_mode_mhz(m) / 1e3) < 0.6;
+        if (!first) first = m;
+        if (!vga && m->hdisplay == 640 && m->vdisplay == 480) vga = m;
+        if (!preferred && m->type & DRM_MODE_TYPE_PREFERRED && is_within_cap(m, opts))
+            preferred = m;
+    }
     struct candidates l = {out, 0};
     push_configured(&l, c, opts);
-    if (now && now->lit && is_progressive(&now->mode) && is_within_cap(&now->mode, opts) &&
-        is_offered(c, &now->mode))
+    if (offered && now->lit && is_progressive(&now->mode) && is_within_cap(&now->mode, opts))
         push_mode(&l, &now->mode);
-    push_mode(&l, find_preferred(c, opts));
+    push_mode(&l, preferred);
     const drmModeModeInfo *large = find_largest(c, opts, UINT32_MAX);
     push_mode(&l, large);
     while (large && l.count < GN_KMS_CANDIDATES_MAX - 2)
         push_mode(&l, large = find_largest(c, opts, pixels_of(large)));
-    push_mode(&l, find_first(c));
-    push_mode(&l, find_vga(c));
+    push_mode(&l, first);
+    push_mode(&l, vga);
     if (l.count == 0 && c->mode_count > 0) push_mode(&l, &c->modes[0]);
     return l.count;
 }

@@ -20,26 +20,22 @@ static void complete_mode(drmModeModeInfo *m) {
     snprintf(m->name, sizeof m->name, "%ux%u", m->hdisplay, m->vdisplay);
 }
 
-static bool read_flag(const char *word, uint32_t *flags) {
+static bool read_flags(const char *text, uint32_t *flags) {
     static const struct {
         const char *word;
         uint32_t flag;
     } known[] = {{"+hsync", DRM_MODE_FLAG_PHSYNC},       {"-hsync", DRM_MODE_FLAG_NHSYNC},
                  {"+vsync", DRM_MODE_FLAG_PVSYNC},       {"-vsync", DRM_MODE_FLAG_NVSYNC},
                  {"interlace", DRM_MODE_FLAG_INTERLACE}, {"doublescan", DRM_MODE_FLAG_DBLSCAN}};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (strcasecmp(word, known[i].word) == 0) {
-            *flags |= known[i].flag;
-            return true;
-        }
-    return false;
-}
-
-static bool read_flags(const char *text, uint32_t *flags) {
+    enum { KNOWN = sizeof known / sizeof *known };
     char copy[64], *rest = NULL;
     if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy) return false;
-    for (char *word = strtok_r(copy, " \t", &rest); word; word = strtok_r(NULL, " \t", &rest))
-        if (!read_flag(word, flags)) return false;
+    for (char *word = strtok_r(copy, " \t", &rest); word; word = strtok_r(NULL, " \t", &rest)) {
+        size_t i = 0;
+        while (i < KNOWN && strcasecmp(word, known[i].word) != 0) i++;
+        if (i == KNOWN) return false;
+        *flags |= known[i].flag;
+    }
     return true;
 }
 
