@@ -16,15 +16,6 @@ static bool is_console(int fd) {
     return ioctl(fd, KDGETMODE, &mode) == 0 && ioctl(fd, VT_GETMODE, &vt) == 0;
 }
 
-/* The VT of standard input, else the controlling terminal. */
-static int find_tty(void) {
-    int fd = is_console(STDIN_FILENO) ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)
-                                      : open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY);
-    if (fd < 0 || is_console(fd)) return fd;
-    close(fd);
-    return -1;
-}
-
 /* Of several signals in one step, the last one counts. */
 static void take_signal(void *user, int number) {
     struct gn_console *c = user;
@@ -33,24 +24,27 @@ static void take_signal(void *user, int number) {
     if (c->entered) ioctl(c->tty, VT_RELDISP, VT_ACKACQ);
 }
 
-static bool open_signals(struct gn_console *c, struct gn_loop *loop) {
+void gn_console_open(struct gn_console *c, struct gn_loop *loop) {
+    struct vt_mode mode = {.mode = VT_PROCESS, .relsig = LEAVE, .acqsig = ENTER};
     sigset_t both;
+    /* the VT of standard input, else the controlling terminal */
+    int tty = is_console(STDIN_FILENO) ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)
+                                       : open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY);
+    if (tty >= 0 && !is_console(tty)) {
+        close(tty);
+        tty = -1;
+    }
+    *c = (struct gn_console){.tty = tty};
+    if (tty < 0) return;
     sigemptyset(&both);
     sigaddset(&both, LEAVE);
     sigaddset(&both, ENTER);
     c->signals = (struct gn_signals){.call = take_signal, .user = c};
-    return gn_loop_add_signals(loop, &c->signals, &both);
-}
-
-void gn_console_open(struct gn_console *c, struct gn_loop *loop) {
-    struct vt_mode mode = {.mode = VT_PROCESS, .relsig = LEAVE, .acqsig = ENTER};
-    *c = (struct gn_console){.tty = find_tty()};
-    if (c->tty < 0) return;
-    if (!open_signals(c, loop) || ioctl(c->tty, VT_SETMODE, &mode) != 0) {
+    if (!gn_loop_add_signals(loop, &c->signals, &both) || ioctl(tty, VT_SETMODE, &mode) != 0) {
         gn_console_close(c);
         return;
     }
-    ioctl(c->tty, KDSETMODE, KD_GRAPHICS);
+    ioctl(tty, KDSETMODE, KD_GRAPHICS);
 }
 
 void gn_console_let_go(struct gn_console *c) {

@@ -15,27 +15,20 @@
 
 /* ---- stable place of a node, as udev's path_id ---- */
 
-static bool last_part(const char *link, char *out, size_t size) {
-    char target[PATH_MAX];
-    const ssize_t length = readlink(link, target, sizeof target - 1);
-    if (length <= 0) return false;
-    target[length] = 0;
-    const char *slash = strrchr(target, '/');
-    snprintf(out, size, "%s", slash ? slash + 1 : target);
-    return true;
-}
-
 /* Walks up the device tree to the first bus with persistent names. */
 static void find_place(const char *node, char *out, size_t size) {
     struct stat st;
-    char at[PATH_MAX], link[PATH_MAX + 16], bus[32];
+    char at[PATH_MAX], link[PATH_MAX + 16], target[PATH_MAX];
     *out = 0;
     if (stat(node, &st) < 0) return;
     snprintf(link, sizeof link, "/sys/dev/char/%u:%u/device", major(st.st_rdev), minor(st.st_rdev));
     if (!realpath(link, at)) return;
     for (char *slash; (slash = strrchr(at, '/')) && slash != at; *slash = 0) {
         snprintf(link, sizeof link, "%s/subsystem", at);
-        if (!last_part(link, bus, sizeof bus)) continue;
+        const ssize_t length = readlink(link, target, sizeof target - 1);
+        if (length <= 0) continue;
+        target[length] = 0;
+        const char *last = strrchr(target, '/'), *bus = last ? last + 1 : target;
         if (strcmp(bus, "pci") != 0 && strcmp(bus, "platform") != 0 && strcmp(bus, "usb") != 0)
             continue;
         snprintf(out, size, "%s-%.80s", bus, slash + 1);
@@ -45,13 +38,13 @@ static void find_place(const char *node, char *out, size_t size) {
 
 /* ---- functions of our own ---- */
 
-/* Lists primary nodes by name: drmGetDevices2 reads much of sysfs, and what it accepts as a card
- * differs between releases. */
 static int by_number(const void *a, const void *b) {
     const struct gn_kms_node *x = a, *y = b;
     return atoi(x->path + strlen("/dev/dri/card")) - atoi(y->path + strlen("/dev/dri/card"));
 }
 
+/* Lists primary nodes by name: drmGetDevices2 reads much of sysfs, and what it accepts as a card
+ * differs between releases. */
 static int list_nodes(struct gn_kms_node *out, int most) {
     DIR *folder = opendir("/dev/dri");
     int count = 0;

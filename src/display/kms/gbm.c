@@ -59,33 +59,13 @@ struct scanout {
     bool has_colorspace, can_show; /* can_show: the card accepts this GPU's buffers */
 };
 
-/* ---- render node of another GPU ---- */
-
-static bool open_node(struct scanout *s, int card, const char *path, struct gn_err *err) {
-    s->imports.card = card;
-    s->node = path ? open(path, O_RDWR | O_CLOEXEC) : -1;
-    return !path || s->node >= 0 ||
-           gn_fail(err, "render node %s: %s%s", path, strerror(errno),
-                   errno == EACCES ? "; add the user to the group render" : "");
-}
+/* ---- opening ---- */
 
 static int export_plane(void *state, void *bo, int plane) {
     return ((struct scanout *)state)->gbm_bo_get_fd_for_plane(bo, plane);
 }
 
-/* Tries one buffer; if the card refuses it, frames are copied. */
-static bool accepts_buffers(struct scanout *s) {
-    struct gbm_bo *bo = s->gbm_bo_create(s->gbm, 64, 64, DRM_FORMAT_XRGB8888,
-                                         GBM_BO_USE_RENDERING | GBM_BO_USE_LINEAR);
-    const bool takes = bo && gn_import_get(&s->imports, bo, 1, export_plane, s);
-    gn_import_drop(&s->imports);
-    if (bo) s->gbm_bo_destroy(bo);
-    return takes;
-}
-
-/* ---- opening ---- */
-
-static bool load_libraries(struct scanout *s, struct gn_err *err) {
+static bool open_display(struct scanout *s, struct gn_err *err) {
     void *library = dlopen("libgbm.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!library) return gn_fail(err, "libgbm.so.1 is missing; install libgbm1");
 #define X(name)                                                                                    \
@@ -93,10 +73,7 @@ static bool load_libraries(struct scanout *s, struct gn_err *err) {
     if (!s->name) return gn_fail(err, "libgbm.so.1 has no " #name "; install libgbm1");
     GBM_TABLE(X)
 #undef X
-    return gn_egl_load(&s->egl, err);
-}
-
-static bool open_display(struct scanout *s, struct gn_err *err) {
+    if (!gn_egl_load(&s->egl, err)) return false;
     const char *client = s->egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_display =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)s->egl.GetProcAddress("eglGetPlatformDisplayEXT");
@@ -116,18 +93,6 @@ static bool open_display(struct scanout *s, struct gn_err *err) {
     return true;
 }
 
-static void read_extensions(struct scanout *s) {
-    const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
-    s->has_colorspace = gn_egl_has(has, "EGL_KHR_gl_colorspace");
-    s->can_show = s->node < 0 || accepts_buffers(s);
-    if (!gn_egl_has(has, "EGL_ANDROID_native_fence_sync")) return;
-    s->create_sync = (PFNEGLCREATESYNCKHRPROC)s->egl.GetProcAddress("eglCreateSyncKHR");
-    s->destroy_sync = (PFNEGLDESTROYSYNCKHRPROC)s->egl.GetProcAddress("eglDestroySyncKHR");
-    s->dup_fence =
-        (PFNEGLDUPNATIVEFENCEFDANDROIDPROC)s->egl.GetProcAddress("eglDupNativeFenceFDANDROID");
-    if (!s->destroy_sync || !s->dup_fence) s->create_sync = NULL;
-}
-
 /* ---- configs ---- */
 
 static EGLint attribute(struct scanout *s, EGLConfig config, EGLint name) {
@@ -137,23 +102,22 @@ static EGLint attribute(struct scanout *s, EGLConfig config, EGLint name) {
 }
 
 /* eglChooseConfig ignores EGL_NATIVE_VISUAL_ID, so it is compared here. Single-sampled: a
- * multisampled surface would resolve encoded values. */
-static bool config_fits(struct scanout *s, EGLConfig c, uint32_t format) {
-    return (uint32_t)attribute(s, c, EGL_NATIVE_VISUAL_ID) == format &&
-           attribute(s, c, EGL_SURFACE_TYPE) & EGL_WINDOW_BIT &&
-           attribute(s, c, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES3_BIT_KHR &&
-           attribute(s, c, EGL_DEPTH_SIZE) == 24 && attribute(s, c, EGL_SAMPLES) == 0;
-}
-
-/* With a stencil buffer, needed by planar shadows: it is free beside 24 bits of depth. */
+ * multisampled surface would resolve encoded values. With a stencil buffer, needed by planar
+ * shadows: it is free beside 24 bits of depth. */
 static EGLConfig find_config(struct scanout *s, uint32_t format) {
     EGLConfig *all = gn_xalloc(CONFIGS_MAX, sizeof *all), found = NULL, best = NULL;
     EGLint count = 0;
     s->egl.GetConfigs(s->display, all, CONFIGS_MAX, &count);
     for (EGLint i = 0; i < count && !best; i++) {
-        if (!config_fits(s, all[i], format)) continue;
-        found = all[i];
-        if (attribute(s, all[i], EGL_STENCIL_SIZE) == 8) best = all[i];
+        EGLConfig c = all[i];
+        const bool fits = (uint32_t)attribute(s, c, EGL_NATIVE_VISUAL_ID) == format &&
+                          attribute(s, c, EGL_SURFACE_TYPE) & EGL_WINDOW_BIT &&
+                          attribute(s, c, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES3_BIT_KHR &&
+                          attribute(s, c, EGL_DEPTH_SIZE) == 24 &&
+                          attribute(s, c, EGL_SAMPLES) == 0;
+        if (!fits) continue;
+        found = c;
+        if (attribute(s, c, EGL_STENCIL_SIZE) == 8) best = c;
     }
     free(all);
     return best ? best : found;
@@ -210,13 +174,35 @@ static void close_all(void *state) {
 
 static void *open_on(int card, const char *render_node, struct gn_err *err) {
     struct scanout *s = gn_xalloc(1, sizeof *s);
-    if (open_node(s, card, render_node, err) && load_libraries(s, err) && open_display(s, err) &&
-        make_context(s, err)) {
-        read_extensions(s);
-        return s;
+    s->imports.card = card;
+    s->node = render_node ? open(render_node, O_RDWR | O_CLOEXEC) : -1;
+    if (render_node && s->node < 0) {
+        gn_fail(err, "render node %s: %s%s", render_node, strerror(errno),
+                errno == EACCES ? "; add the user to the group render" : "");
+        close_all(s);
+        return NULL;
     }
-    close_all(s);
-    return NULL;
+    if (!open_display(s, err) || !make_context(s, err)) {
+        close_all(s);
+        return NULL;
+    }
+    const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
+    s->has_colorspace = gn_egl_has(has, "EGL_KHR_gl_colorspace");
+    s->can_show = s->node < 0;
+    if (s->node >= 0) { /* tries one buffer; if the card refuses it, frames are copied */
+        struct gbm_bo *bo = s->gbm_bo_create(s->gbm, 64, 64, DRM_FORMAT_XRGB8888,
+                                             GBM_BO_USE_RENDERING | GBM_BO_USE_LINEAR);
+        s->can_show = bo && gn_import_get(&s->imports, bo, 1, export_plane, s);
+        gn_import_drop(&s->imports);
+        if (bo) s->gbm_bo_destroy(bo);
+    }
+    if (!gn_egl_has(has, "EGL_ANDROID_native_fence_sync")) return s;
+    s->create_sync = (PFNEGLCREATESYNCKHRPROC)s->egl.GetProcAddress("eglCreateSyncKHR");
+    s->destroy_sync = (PFNEGLDESTROYSYNCKHRPROC)s->egl.GetProcAddress("eglDestroySyncKHR");
+    s->dup_fence =
+        (PFNEGLDUPNATIVEFENCEFDANDROIDPROC)s->egl.GetProcAddress("eglDupNativeFenceFDANDROID");
+    if (!s->destroy_sync || !s->dup_fence) s->create_sync = NULL;
+    return s;
 }
 
 static gn_display_proc get_proc(void *state, const char *name) {
@@ -251,28 +237,22 @@ static bool create_window(struct scanout *s, EGLConfig config, bool *srgb) {
     return s->window != EGL_NO_SURFACE;
 }
 
-static bool try_surface(struct scanout *s, const struct gn_surface_opts *o, uint32_t format,
-                        bool *srgb) {
-    EGLConfig config = find_config(s, format);
-    if (!config || (s->context_config && config != s->context_config)) return false;
-    s->surface = create_buffers(s, o, format);
-    *srgb = s->has_colorspace && !o->unencoded;
-    if (s->surface && create_window(s, config, srgb) &&
-        s->egl.MakeCurrent(s->display, s->window, s->window, s->context))
-        return true;
-    drop_surface(s);
-    return false;
-}
-
 static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_surface *out,
                         struct gn_err *err) {
     struct scanout *s = state;
     drop_surface(s);
     if (!s->can_show) return gn_fail(err, "the card accepts no buffers of the render node");
     for (int i = 0; i < o->format_count; i++) {
-        if (!try_surface(s, o, o->formats[i], &out->srgb)) continue;
-        out->format = o->formats[i];
-        return true;
+        EGLConfig config = find_config(s, o->formats[i]);
+        if (!config || (s->context_config && config != s->context_config)) continue;
+        s->surface = create_buffers(s, o, o->formats[i]);
+        out->srgb = s->has_colorspace && !o->unencoded;
+        if (s->surface && create_window(s, config, &out->srgb) &&
+            s->egl.MakeCurrent(s->display, s->window, s->window, s->context)) {
+            out->format = o->formats[i];
+            return true;
+        }
+        drop_surface(s);
     }
     return gn_fail(err, "cannot create a %ux%u scanout surface (0x%x)", o->width_px, o->height_px,
                    s->egl.GetError());
@@ -280,8 +260,8 @@ static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_
 
 /* ---- frames ---- */
 
-static bool describe(struct scanout *s, struct gbm_bo *bo, struct gn_buffer *out,
-                     struct gn_err *err) {
+static bool describe_buffer(struct scanout *s, struct gbm_bo *bo, struct gn_buffer *out,
+                            struct gn_err *err) {
     *out = (struct gn_buffer){
         .key = bo,
         .width_px = s->gbm_bo_get_width(bo),
@@ -315,7 +295,7 @@ static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence
     if (!swapped) return gn_fail(err, "eglSwapBuffers failed (0x%x)", s->egl.GetError());
     struct gbm_bo *bo = s->gbm_surface_lock_front_buffer(s->surface);
     if (!bo) return gn_fail(err, "gbm_surface_lock_front_buffer failed");
-    if (describe(s, bo, out, err)) return true;
+    if (describe_buffer(s, bo, out, err)) return true;
     s->gbm_surface_release_buffer(s->surface, bo);
     return false;
 }

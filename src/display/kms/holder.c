@@ -22,26 +22,10 @@ static bool is_open_in(int folder, const char *node) {
     return found;
 }
 
-static void read_name(long pid, char *out, size_t size) {
-    char path[48];
-    snprintf(path, sizeof path, "/proc/%ld/comm", pid);
-    FILE *file = fopen(path, "re");
-    if (!file || !fgets(out, (int)size, file)) snprintf(out, size, "a program");
-    if (file) fclose(file);
-    out[strcspn(out, "\n")] = 0;
-}
-
-/* Session managers hold cards on behalf of others. */
-static bool is_broker(const char *name) {
-    static const char *const names[] = {"systemd-logind", "elogind", "seatd"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strncmp(name, names[i], strlen(names[i])) == 0) return true;
-    return false;
-}
-
-/* The kernel does not report a card's master: returns the process that has it open, a session
- * manager only if there is no other. */
+/* The kernel does not report a card's master: returns the process that has it open. Session
+ * managers hold cards on behalf of others: returns one only if there is no other process. */
 bool gn_kms_find_holder(const char *node, char *out, size_t size) {
+    static const char *const managers[] = {"systemd-logind", "elogind", "seatd"};
     DIR *all = opendir("/proc");
     bool found = false, sure = false;
     for (struct dirent *entry; all && !sure && (entry = readdir(all));) {
@@ -51,8 +35,14 @@ bool gn_kms_find_holder(const char *node, char *out, size_t size) {
         snprintf(path, sizeof path, "/proc/%ld/fd", pid);
         const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         if (folder < 0 || !is_open_in(folder, node)) continue;
-        read_name(pid, name, sizeof name);
-        sure = !is_broker(name);
+        snprintf(path, sizeof path, "/proc/%ld/comm", pid);
+        FILE *file = fopen(path, "re");
+        if (!file || !fgets(name, sizeof name, file)) snprintf(name, sizeof name, "a program");
+        if (file) fclose(file);
+        name[strcspn(name, "\n")] = 0;
+        sure = true;
+        for (size_t i = 0; i < sizeof managers / sizeof *managers; i++)
+            sure &= strncmp(name, managers[i], strlen(managers[i])) != 0;
         if (sure || !found) snprintf(out, size, "%s (pid %ld)", name, pid);
         found = true;
     }

@@ -12,13 +12,6 @@ static int call(int card, unsigned long request, void *argument) {
     return result;
 }
 
-static bool import_plane(int card, int dma_buf, uint32_t *handle) {
-    struct drm_prime_handle made = {.fd = dma_buf};
-    if (dma_buf < 0 || call(card, DRM_IOCTL_PRIME_FD_TO_HANDLE, &made) != 0) return false;
-    *handle = made.handle;
-    return true;
-}
-
 /* Planes may share one handle, which is closed once. */
 static void close_handles(int card, struct gn_import *import) {
     for (int i = 0; i < import->count; i++) {
@@ -42,10 +35,12 @@ const struct gn_import *gn_import_get(struct gn_imports *imports, void *key, int
     if (!place || plane_count > 4) return NULL;
     place->key = key;
     for (; place->count < plane_count; place->count++) {
-        const int dma_buf = export(context, key, place->count);
-        const bool ok = import_plane(imports->card, dma_buf, &place->handles[place->count]);
+        struct drm_prime_handle plane = {.fd = export(context, key, place->count)};
+        const bool ok =
+            plane.fd >= 0 && call(imports->card, DRM_IOCTL_PRIME_FD_TO_HANDLE, &plane) == 0;
         const int error = errno;
-        if (dma_buf >= 0) close(dma_buf);
+        if (ok) place->handles[place->count] = plane.handle;
+        if (plane.fd >= 0) close(plane.fd);
         if (ok) continue;
         close_handles(imports->card, place);
         errno = error;

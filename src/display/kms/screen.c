@@ -53,15 +53,6 @@ static bool update_screen(struct gn_display *display, bool ok, int64_t now_ns) {
     return ok;
 }
 
-static bool add_sources(struct kms_screen *s, struct gn_err *err) {
-    gn_console_open(&s->console, s->opts.loop);
-    s->uevents.fd = gn_uevent_open();
-    s->timer.due_ns = GN_LOOP_NEVER;
-    gn_loop_add_timer(s->opts.loop, &s->timer);
-    return s->uevents.fd < 0 || gn_loop_add(s->opts.loop, &s->uevents) ||
-           gn_fail(err, "cannot wait for the display: %s", strerror(errno));
-}
-
 static void kms_close(struct gn_display *display) {
     struct kms_screen *s = display->state;
     if (!s) return;
@@ -124,7 +115,12 @@ static bool kms_open_screen(struct gn_display *display, const struct gn_screen_o
     struct kms_screen *s = create_screen(display, err);
     if (!s) return false;
     s->opts = *opts;
-    if (!add_sources(s, err)) {
+    gn_console_open(&s->console, s->opts.loop);
+    s->uevents.fd = gn_uevent_open();
+    s->timer.due_ns = GN_LOOP_NEVER;
+    gn_loop_add_timer(s->opts.loop, &s->timer);
+    if (s->uevents.fd >= 0 && !gn_loop_add(s->opts.loop, &s->uevents)) {
+        gn_fail(err, "cannot wait for the display: %s", strerror(errno));
         kms_close(display);
         return false;
     }

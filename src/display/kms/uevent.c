@@ -27,11 +27,6 @@ bool gn_uevent_is_drm(const char *message, size_t size) {
     return false;
 }
 
-/* Any process may send to a netlink socket; the kernel's port is 0. */
-static bool is_kernel(const struct sockaddr_nl *from, socklen_t length) {
-    return length == sizeof *from && from->nl_pid == 0;
-}
-
 bool gn_uevent_read(int fd) {
     bool heard = false;
     for (;;) {
@@ -46,6 +41,8 @@ bool gn_uevent_read(int fd) {
             continue;
         }
         if (size < 0) return heard;
-        if (is_kernel(&from, length)) heard |= gn_uevent_is_drm(message, (size_t)size);
+        /* any process may send to a netlink socket; the kernel's port is 0 */
+        if (length == sizeof from && from.nl_pid == 0)
+            heard |= gn_uevent_is_drm(message, (size_t)size);
     }
 }
