@@ -324,11 +324,13 @@ accept:
 	    $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest)))
 	+$(SUB) check-board-arm64
 	+$(SUB) check-gpiod2
-	+$(SUB) GPUS=pi4,g52,a618 check-gpus
+	+$(SUB) GPUS=pi4,g610,a618 check-gpus
 full:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
+	+$(SUB) CC=clang WERROR=1 CONFIG=debug tests
 	@tests/run.sh BUILD=$(O)/asan $(call programs,$(O)/asan,$(SLOW)) \
+	    GN_FULL=1 $(call programs,$(O)/asan,$(filter tests/kms/%,$(PROG_C))) GN_FULL= \
 	    BUILD=$(O)/release GN_FULL=1 $(call programs,$(O)/release,$(LONGEST))
 	+$(SUB) GN_FULL=1 check-angle
 	+$(SUB) GN_FULL=1 check-board

@@ -50,13 +50,19 @@ out=$(dirname "${BUILD:-build/release}")
 sh tests/options_page.sh "$out/host/man" | cmp - src/options/README.md || complain 'src/options/README.md is old: make options-page'
 for page in "$out/gnomon.1" "$out/gnomon.ini.5" board/gnomon-import.1; do
     [ -s "$page" ] || complain "no $page"
-    ! command -v groff > /dev/null || groff -man -Tascii -ww "$page" 2>&1 > /dev/null | grep . && complain "warnings about $page"
+    groff -man -Tascii -ww "$page" 2>&1 > /dev/null | grep . && complain "warnings about $page"
 done
 # the tags of a page, as "--option"
 tags() { tr -d '\\' < "$1" | grep -E '^\.B ' | grep -oE -- '--[a-z][a-z-]+' | sort -u; }
 tags "$out/gnomon.1" | diff "$folder/own" - || complain 'options of gnomon.1, and those of --help'
 [ ! -x "$import" ] || { "$import" --help > "$folder/help" && options_of "$folder/help" > "$folder/own"; }
 [ ! -x "$import" ] || tags board/gnomon-import.1 | diff "$folder/own" - || complain 'options of gnomon-import.1, and those of --help'
+
+# every key of the configuration that gnomon.1 names is in gnomon.ini.5
+tr -d '\\' < "$out/gnomon.1" | grep -oE 'INI: \[[a-z]+\] [a-z_]+' | sed 's/INI: //' | sort -u > "$folder/own"
+tr -d '\\' < "$out/gnomon.ini.5" | awk '$1 == ".SS" { section = $2 } $1 == ".B" && section { print section, $2 }' | sort -u > "$folder/pages"
+[ -s "$folder/own" ] || complain 'gnomon.1 names no keys of the configuration'
+comm -23 "$folder/own" "$folder/pages" | grep . && complain 'these keys are not in gnomon.ini.5'
 
 # ---- keys for artists ----------------------------------------------------------------------------
 grep -ohE '"gnomon_[a-z_]+"' src/scene/gltf/extras.c | tr -d '"' | sort -u > "$folder/read"

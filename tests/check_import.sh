@@ -106,7 +106,7 @@ fi
 shown=0 refused=0
 find "$shared/malformed" "$shared/assets" -type f | grep -iE '\.(obj|fbx|stl|ply|dae)$' | sort > "$folder/list"
 while IFS= read -r file; do
-    timeout 60 "$gnomon" inspect --json "$file" > "$folder/out" 2> "$folder/err" < /dev/null
+    (ulimit -t 10 && exec timeout 60 "$gnomon" inspect --json "$file") > "$folder/out" 2> "$folder/err" < /dev/null
     case $? in
     0)
         shown=$((shown + 1))

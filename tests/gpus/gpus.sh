@@ -189,7 +189,7 @@ for gpu in "${wanted[@]}"; do [[ " ${gpus[*]} " == *" $gpu "* ]] || { echo "ther
 for turn in "${!gpus[@]}"; do
     [[ " ${wanted[*]} " != *" ${gpus[turn]} "* ]] || start try "${gpus[turn]}" "$turn"
 done
-[ -n "$chosen" ] || for gpu in "${old_gpus[@]}"; do start refuse "$gpu"; done
+[ $# != 0 ] || for gpu in "${old_gpus[@]}"; do start refuse "$gpu"; done
 failed=0
 for job in "${jobs[@]}"; do wait "$job" || failed=1; done
 [ "$failed" = 0 ] || [ -n "${GN_UPDATE:-}" ] || { echo 'failed' && exit 1; }

@@ -123,6 +123,10 @@ static void every_option_of_the_file_is_one_or_the_other(void **state) {
         }
         cannot++;
         if (row->change == GN_CHANGE_LIVE) fail_msg("%s: %s", row->name, err.text);
+        const char *why = row->change == GN_CHANGE_RELOAD    ? "takes a reload"
+                          : row->change == GN_CHANGE_RESTART ? "takes a restart"
+                                                             : "is not an option";
+        if (!strstr(err.text, why)) fail_msg("%s: \"%s\"", row->name, err.text);
     }
     assert_true(can >= 15);
     assert_true(cannot >= 10);
