@@ -44,7 +44,7 @@ static void draw_captions(struct gn_frame *frame, const struct gn_program_key *k
     const struct gn_rect rect = add_quads(frame, run);
     if (rect.width == 0) return;
     struct gn_pass *pass = gn_frame_picture_pass(frame, "captions");
-    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_CAPTIONS);
+    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_CAPTION);
     if (gn_frame_is_encoded(frame)) pass->target.kind = GN_TARGET_ENCODED;
     pass->rect = gn_frame_turned_rect(frame, rect);
     pass->picture.blend = GN_BLEND_ALPHA;
@@ -61,7 +61,9 @@ static void draw_captions(struct gn_frame *frame, const struct gn_program_key *k
     gn_frame_end_pass(frame);
 }
 
-void gn_frame_caption_pass(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
+                           const struct gn_frame_opts *opts) {
+    (void)pose;
     const struct gn_caption_run *run = opts->captions;
     const struct gn_program_key key = caption_key(frame);
     if (opts->debug.aov != GN_AOV_COLOR) return;

@@ -7,22 +7,9 @@
         if (!(what)) return #what;                                                                 \
     } while (0)
 
-/* Which passes draw with a program, and whether it takes bare vertices. */
-static const struct {
-    enum gn_pass_kind pass;
-    bool bare;
-} uses[] = {
-    [GN_PROGRAM_DEPTH] = {GN_PASS_MAP, false},      [GN_PROGRAM_DISTANCE] = {GN_PASS_MAP, false},
-    [GN_PROGRAM_FLAT] = {GN_PASS_PICTURE, false},   [GN_PROGRAM_LIT] = {GN_PASS_PICTURE, false},
-    [GN_PROGRAM_AOV] = {GN_PASS_PICTURE, false},    [GN_PROGRAM_MARK] = {GN_PASS_PICTURE, true},
-    [GN_PROGRAM_PANEL] = {GN_PASS_PICTURE, true},   [GN_PROGRAM_ENCODE] = {GN_PASS_PICTURE, true},
-    [GN_PROGRAM_CAPTION] = {GN_PASS_PICTURE, true}, [GN_PROGRAM_FILTER] = {GN_PASS_FILTER, true},
-};
-_Static_assert(sizeof uses / sizeof uses[0] == GN_PROGRAM_KIND_COUNT, "a row for each program");
-
 static const char *check_draw(const struct gn_plan *plan, const struct gn_draw *draw) {
     REQUIRE(draw->program < plan->program_count);
-    const bool bare = uses[plan->programs[draw->program].kind].bare;
+    const bool bare = gn_programs[plan->programs[draw->program].kind].reads & GN_PROGRAM_BARE;
     REQUIRE(bare == (draw->geometry == GN_NO_GEOMETRY));
     REQUIRE(bare ? draw->vertex_count > 0 : draw->geometry < plan->scene->geometry_count);
     REQUIRE(bare || draw->material < plan->scene->material_count);
@@ -69,7 +56,7 @@ static uint32_t slide_count(const struct gn_program_key *key) {
 
 /* What a program needs of the pass that draws with it. */
 static const char *check_use(const struct gn_pass *pass, const struct gn_program_key *key) {
-    REQUIRE(uses[key->kind].pass == pass->kind);
+    REQUIRE(gn_programs[key->kind].pass == pass->kind);
     if (key->kind == GN_PROGRAM_FILTER) REQUIRE(key->moments == pass->target.moments);
     if (pass->kind != GN_PASS_PICTURE) return NULL;
     const struct gn_pass_picture *picture = &pass->picture;

@@ -119,6 +119,14 @@ static bool resolves_to_float(const struct gn_frame *frame) {
     return frame->plan.msaa > 1 && frame->caps.has & 1u << GN_CAP_RGBA16F;
 }
 
+/* After the last pass to the output its samples are resolved, and nothing reads its depth. */
+static void finish_output(struct gn_frame *frame) {
+    struct gn_pass *last = &frame->passes.at[frame->passes.count - 1];
+    while (last->target.kind != GN_TARGET_OUTPUT) last--;
+    last->discard_depth = true;
+    last->picture.resolves = true;
+}
+
 const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
                                      const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings) {
@@ -133,13 +141,11 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
         plan->output = GN_OUTPUT_FLOAT;
     gn_frame_fit_shadows(frame, pose, opts, warnings);
     gn_frame_hold_maps(frame, opts);
-    gn_frame_map_passes(frame, pose, opts);
     picture_constants(frame, pose, opts);
-    gn_frame_picture_passes(frame, pose, opts);
-    gn_frame_overlay_passes(frame, pose, opts);
-    if (!gn_frame_is_encoded(frame)) gn_frame_caption_pass(frame, opts);
-    gn_frame_finish_picture(frame);
-    if (gn_frame_is_encoded(frame)) gn_frame_caption_pass(frame, opts);
+#define X(name) gn_frame_add_##name(frame, pose, opts);
+    GN_FRAME_STEPS(X)
+#undef X
+    finish_output(frame);
     publish_plan(frame);
     assert(gn_plan_check(plan) == NULL);
     return plan;

@@ -160,8 +160,8 @@ static void map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint3
     }
 }
 
-void gn_frame_map_passes(struct gn_frame *frame, const struct gn_pose *pose,
-                         const struct gn_frame_opts *opts) {
+void gn_frame_add_maps(struct gn_frame *frame, const struct gn_pose *pose,
+                       const struct gn_frame_opts *opts) {
     for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
         map_passes(frame, pose, slot, opts);
         gn_frame_filter_passes(frame, slot);

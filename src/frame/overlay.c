@@ -92,7 +92,7 @@ static void marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
     const uint32_t first = frame->instances.count, count = frame->scene->light_count;
     struct gn_program_key key = overlay_key(frame, GN_PROGRAM_MARK);
     struct gn_pass *pass = gn_frame_picture_pass(frame, "marks of lights");
-    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_MARKS);
+    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_MARK);
     pass->picture.blend = GN_BLEND_ALPHA;
     pass->depth_write = false;
     pass->constants = c;
@@ -162,7 +162,8 @@ static void panel_pass(struct gn_frame *frame, uint32_t slot) {
     snprintf(label, sizeof label, "panel %u %s", slot, frame->scene->lights[view->light].name);
     struct gn_program_key key = overlay_key(frame, GN_PROGRAM_PANEL);
     key.encoding = (uint8_t)view->encoding;
-    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PANELS) + (size_t)slot * PANEL_SIZE;
+    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_PANEL) +
+                   (size_t)slot * PANEL_SIZE;
     panel_constants(frame, view, &rect, c);
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     pass->depth_write = false;
@@ -178,8 +179,8 @@ static void panel_pass(struct gn_frame *frame, uint32_t slot) {
 
 _Static_assert(GN_ALL_SHADOWS_MAX *PANEL_SIZE <= GN_PASS_SIZE, "room for all panels");
 
-void gn_frame_overlay_passes(struct gn_frame *frame, const struct gn_pose *pose,
-                             const struct gn_frame_opts *opts) {
+void gn_frame_add_overlay(struct gn_frame *frame, const struct gn_pose *pose,
+                          const struct gn_frame_opts *opts) {
     if (opts->debug.aov != GN_AOV_COLOR) return;
     if (opts->debug.show_lights && frame->scene->light_count > 0) marks_pass(frame, pose);
     for (uint32_t i = 0; opts->debug.show_maps && i < frame->shadow_count; i++)

@@ -121,21 +121,8 @@ static void opaque_pass(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_end_pass(frame);
 }
 
-/* Light was added in linear halves, and there is no target that encodes. */
-static void encode_pass(struct gn_frame *frame) {
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = GN_PROGRAM_ENCODE;
-    struct gn_pass *pass = gn_frame_picture_pass(frame, "encode");
-    pass->target.kind = GN_TARGET_ENCODED;
-    pass->depth_write = false;
-    pass->constants = gn_frame_constants(frame, GN_CONSTANTS_PICTURE);
-    gn_frame_draw_bare(frame, &key, 3, 0, 1);
-    gn_frame_end_pass(frame);
-}
-
-void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
-                             const struct gn_frame_opts *opts) {
+void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
+                          const struct gn_frame_opts *opts) {
     gn_frame_bound_groups(frame);
     opaque_pass(frame, pose, opts);
     if (frame->plan.stencil) gn_frame_plane_passes(frame, pose, opts, 0);
@@ -145,9 +132,18 @@ void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
     keep_additive_programs(frame, opts);
 }
 
-void gn_frame_finish_picture(struct gn_frame *frame) {
-    struct gn_pass *last = &frame->passes.at[frame->passes.count - 1];
-    last->discard_depth = true;
-    last->picture.resolves = true;
-    if (gn_frame_is_encoded(frame)) encode_pass(frame);
+/* Light was added in linear halves, and there is no target that encodes. */
+void gn_frame_add_encode(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct gn_frame_opts *opts) {
+    (void)pose, (void)opts;
+    if (!gn_frame_is_encoded(frame)) return;
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = GN_PROGRAM_ENCODE;
+    struct gn_pass *pass = gn_frame_picture_pass(frame, "encode");
+    pass->target.kind = GN_TARGET_ENCODED;
+    pass->depth_write = false;
+    pass->constants = gn_frame_constants(frame, GN_CONSTANTS_PICTURE);
+    gn_frame_draw_bare(frame, &key, 3, 0, 1);
+    gn_frame_end_pass(frame);
 }

@@ -9,6 +9,7 @@
 #include "caption/run.h"
 #include "frame/caps.h"
 #include "frame/feature.h"
+#include "frame/program.h"
 #include "scene/pose.h"
 #include "shadow/fit.h"
 #include "shadow/slide.h"
@@ -23,20 +24,6 @@
 enum gn_aov { GN_AOV_COLOR, GN_AOV_VISIBILITY, GN_AOV_DISTANCE, GN_AOV_NORMAL, GN_AOV_COUNT };
 
 /* ---- programs: a variant is a key ---- */
-
-enum gn_program_kind {
-    GN_PROGRAM_DEPTH,    /* casters into a depth map: no colour */
-    GN_PROGRAM_DISTANCE, /* casters into a distance map */
-    GN_PROGRAM_FLAT,     /* casters fallen on the plane, into the picture's stencil: no colour */
-    GN_PROGRAM_LIT,      /* colour */
-    GN_PROGRAM_AOV,      /* what of it is in `aov` */
-    GN_PROGRAM_MARK,     /* the mark of a light */
-    GN_PROGRAM_PANEL,    /* a map, as a panel on the picture */
-    GN_PROGRAM_ENCODE,   /* the linear picture, encoded */
-    GN_PROGRAM_CAPTION,  /* text over the finished picture */
-    GN_PROGRAM_FILTER,   /* a map, or moments of one, into moments */
-    GN_PROGRAM_KIND_COUNT,
-};
 
 struct gn_light_key {  /* one light of a LIT or visibility program */
     uint8_t type;      /* gn_light_type */

@@ -2,8 +2,6 @@
 
 #include "frame/plan.h"
 
-static const char *const kinds[GN_PROGRAM_KIND_COUNT] = {
-    "depth", "distance", "flat", "lit", "aov", "mark", "panel", "encode", "caption", "filter"};
 static const char *const outputs[] = {[GN_OUTPUT_SRGB8] = "srgb8",
                                       [GN_OUTPUT_LINEAR8] = "linear8",
                                       [GN_OUTPUT_FLOAT] = "float",
@@ -32,9 +30,9 @@ static const char *format_of(int encoding, int moments) {
 }
 
 static void print_key(const struct gn_program_key *key, FILE *to) {
-    fprintf(to, "%s", kinds[key->kind]);
+    fprintf(to, "%s", gn_programs[key->kind].name);
     if (key->kind == GN_PROGRAM_AOV) fprintf(to, " %s", aovs[key->aov]);
-    if (key->kind == GN_PROGRAM_DISTANCE || key->kind == GN_PROGRAM_PANEL)
+    if (gn_programs[key->kind].reads & GN_PROGRAM_ENCODING)
         fprintf(to, " %s", gn_encodings[key->encoding].name);
     if (key->kind == GN_PROGRAM_FILTER) print_filter(key, to);
     for (int i = 0; i < GN_FEATURE_COUNT; i++)

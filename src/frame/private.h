@@ -106,10 +106,9 @@ enum { GN_SLOT_SETS = GN_SHADOW_TILES_MAX * GN_SHADOW_PAGES_MAX };
 enum gn_frame_constants {
     GN_CONSTANTS_SHADOW,                                      /* GN_SLOT_SETS a slot */
     GN_CONSTANTS_PICTURE = GN_ALL_SHADOWS_MAX * GN_SLOT_SETS, /* a group each */
-    GN_CONSTANTS_MARKS = GN_CONSTANTS_PICTURE + GN_GROUPS_MAX,
-    GN_CONSTANTS_PANELS, /* of all panels, one after another */
-    GN_CONSTANTS_CAPTIONS,
-    GN_CONSTANTS_COUNT,
+    GN_CONSTANTS_PROGRAM =
+        GN_CONSTANTS_PICTURE + GN_GROUPS_MAX, /* a program each: MARK, PANEL .. */
+    GN_CONSTANTS_COUNT = GN_CONSTANTS_PROGRAM + GN_PROGRAM_KIND_COUNT,
 };
 float (*gn_frame_constants(const struct gn_frame *frame, uint32_t which))[4];
 
@@ -153,10 +152,16 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
 /* Opaque before masked, then nearest first. */
 void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first);
 
-/* ---- maps.c, filter.c: passes to the maps ---- */
+/* ---- steps: maps.c, picture.c, overlay.c, caption.c ---- */
 
-void gn_frame_map_passes(struct gn_frame *frame, const struct gn_pose *pose,
-                         const struct gn_frame_opts *opts);
+#define X(name)                                                                                    \
+    void gn_frame_add_##name(struct gn_frame *frame, const struct gn_pose *pose,                   \
+                             const struct gn_frame_opts *opts);
+GN_FRAME_STEPS(X)
+#undef X
+
+/* ---- filter.c, budget.c: what belongs to the maps ---- */
+
 /* The passes that turn a map into what shaders read; none where that is the map. */
 void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot);
 /* Of all that decides what a tile is filtered into; never 0. */
@@ -165,25 +170,15 @@ uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile);
  * wait. */
 void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts);
 
-/* ---- picture.c, stencil.c, overlay.c, caption.c: passes to the picture ---- */
+/* ---- stencil.c, overlay.c: what belongs to the picture ---- */
 
-void gn_frame_picture_passes(struct gn_frame *frame, const struct gn_pose *pose,
-                             const struct gn_frame_opts *opts);
-/* Once all is drawn: the depth is not read any more; where no target encodes, a pass does. */
-void gn_frame_finish_picture(struct gn_frame *frame);
 /* Planar shadows without a map. Draws what takes such shadows in a group's light, and those. */
 void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts, uint32_t group);
 /* Whether the group has any that can be seen. */
 bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group);
-/* Light gizmos and map panels over the picture. */
-void gn_frame_overlay_passes(struct gn_frame *frame, const struct gn_pose *pose,
-                             const struct gn_frame_opts *opts);
 /* Where a rectangle of the picture is in the output. */
 struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect rect);
-/* Captions, on top. Before the picture is finished, or after it where a pass encodes it.
- */
-void gn_frame_caption_pass(struct gn_frame *frame, const struct gn_frame_opts *opts);
 
 /* ---- lights.c, group.c, slides.c: which lights ---- */
 

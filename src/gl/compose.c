@@ -13,26 +13,6 @@ static const char *const aov_names[GN_AOV_COUNT] = {
     [GN_AOV_DISTANCE] = "AOV_DISTANCE",
     [GN_AOV_NORMAL] = "AOV_NORMAL",
 };
-static const char *const kind_names[GN_PROGRAM_KIND_COUNT] = {
-    [GN_PROGRAM_DEPTH] = "depth",     [GN_PROGRAM_DISTANCE] = "distance",
-    [GN_PROGRAM_FLAT] = "flat",       [GN_PROGRAM_LIT] = "lit",
-    [GN_PROGRAM_AOV] = "aov",         [GN_PROGRAM_MARK] = "mark",
-    [GN_PROGRAM_PANEL] = "panel",     [GN_PROGRAM_ENCODE] = "encode",
-    [GN_PROGRAM_CAPTION] = "caption", [GN_PROGRAM_FILTER] = "filter",
-};
-static const char *const kind_files[GN_PROGRAM_KIND_COUNT][2] = {
-    [GN_PROGRAM_DEPTH] = {"depth.vert", "depth.frag"},
-    [GN_PROGRAM_DISTANCE] = {"distance.vert", "distance.frag"},
-    [GN_PROGRAM_FLAT] = {"flat.vert", "flat.frag"},
-    [GN_PROGRAM_LIT] = {"lit.vert", "lit.frag"},
-    [GN_PROGRAM_AOV] = {"lit.vert", "aov.frag"},
-    [GN_PROGRAM_MARK] = {"mark.vert", "mark.frag"},
-    [GN_PROGRAM_PANEL] = {"panel.vert", "panel.frag"},
-    [GN_PROGRAM_ENCODE] = {"encode.vert", "encode.frag"},
-    [GN_PROGRAM_CAPTION] = {"caption.vert", "caption.frag"},
-    [GN_PROGRAM_FILTER] = {"encode.vert", NULL}, /* gn_filter_steps */
-};
-
 static const char *const taps_names[] = {
     [GN_TAPS_DISK] = "TAPS_DISK", [GN_TAPS_POISSON] = "TAPS_POISSON"};
 
@@ -277,7 +257,7 @@ static bool add_filter(struct gn_gl_source *source, const struct gn_program_key 
 static const char *main_file(const struct gn_program_key *key, enum gn_gl_stage stage) {
     if (key->kind == GN_PROGRAM_FILTER && stage == GN_GL_FRAGMENT)
         return gn_filter_steps[key->step].file;
-    return kind_files[key->kind][stage];
+    return stage == GN_GL_VERTEX ? gn_programs[key->kind].vertex : gn_programs[key->kind].fragment;
 }
 
 bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_stage stage,
@@ -297,8 +277,7 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
         if (!add_slides(&source, key, out, err)) return false;
         add_light_loops(key, out);
     }
-    if ((key->kind == GN_PROGRAM_DISTANCE || key->kind == GN_PROGRAM_PANEL) &&
-        stage == GN_GL_FRAGMENT)
+    if (gn_programs[key->kind].reads & GN_PROGRAM_ENCODING && stage == GN_GL_FRAGMENT)
         if (!gn_gl_source_add(&source, gn_encodings[key->encoding].file, out, err)) return false;
     if (key->kind == GN_PROGRAM_FILTER && stage == GN_GL_FRAGMENT &&
         !add_filter(&source, key, out, err))
@@ -312,9 +291,9 @@ static void append(char *out, size_t size, const char *separator, const char *wo
 }
 
 void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
-    snprintf(out, size, "%s", kind_names[key->kind]);
+    snprintf(out, size, "%s", gn_programs[key->kind].name);
     if (key->kind == GN_PROGRAM_AOV) append(out, size, " ", aov_names[key->aov]);
-    if (key->kind == GN_PROGRAM_DISTANCE || key->kind == GN_PROGRAM_PANEL)
+    if (gn_programs[key->kind].reads & GN_PROGRAM_ENCODING)
         append(out, size, " ", gn_encodings[key->encoding].name);
     if (key->kind == GN_PROGRAM_FILTER) {
         append(out, size, " ", gn_filter_steps[key->step].name);
