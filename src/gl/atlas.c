@@ -1,4 +1,4 @@
-/* Glyphs on the GPU: one texture of bytes, sent again as a whole when something was added. */
+/* Glyphs on the GPU: one texture of bytes, uploaded as a whole when a glyph was added. */
 #include "gl/private.h"
 
 bool gn_gl_atlas_holds(const struct gn_gl *gl, const struct gn_caption_atlas *atlas) {
@@ -7,23 +7,20 @@ bool gn_gl_atlas_holds(const struct gn_gl *gl, const struct gn_caption_atlas *at
                       a->height_px == atlas->height_px);
 }
 
-static void make(struct gn_gl *gl, const struct gn_caption_atlas *atlas) {
-    gn_gl_atlas_finish(gl);
-    gl->atlas.texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gl->atlas.width_px = atlas->width_px;
-    gl->atlas.height_px = atlas->height_px;
-    gn_gl_work_on_texture(gl, gl->atlas.texture);
-    GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, 1, GL_R8, (GLsizei)atlas->width_px, (GLsizei)atlas->height_px);
-}
-
-/* Rows are a multiple of 4 bytes, as GL takes them unasked. */
+/* Rows are a multiple of 4 bytes, GL's default alignment. */
 bool gn_gl_atlas_ensure(struct gn_gl *gl, const struct gn_caption_atlas *atlas,
                         struct gn_err *err) {
     struct gn_gl_atlas *a = &gl->atlas;
     if (gn_gl_atlas_holds(gl, atlas)) return true;
-    if (!a->texture || a->width_px != atlas->width_px || a->height_px != atlas->height_px)
-        make(gl, atlas);
+    if (!a->texture || a->width_px != atlas->width_px || a->height_px != atlas->height_px) {
+        gn_gl_atlas_finish(gl);
+        a->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
+        a->width_px = atlas->width_px;
+        a->height_px = atlas->height_px;
+        gn_gl_work_on_texture(gl, a->texture);
+        GL(gl, TexStorage2D)
+        (GL_TEXTURE_2D, 1, GL_R8, (GLsizei)atlas->width_px, (GLsizei)atlas->height_px);
+    }
     gn_gl_work_on_texture(gl, a->texture);
     GL(gl, TexSubImage2D)
     (GL_TEXTURE_2D, 0, 0, 0, (GLsizei)atlas->width_px, (GLsizei)atlas->height_px, GL_RED,

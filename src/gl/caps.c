@@ -1,5 +1,5 @@
-/* What this GPU is and can do. Extension names are compared whole; what can be proved is (probe.c).
- */
+/* What this GPU is and can do. Extension names are compared whole; what a draw can prove is proved
+ * (probe.c). */
 #include <stdio.h>
 #include <string.h>
 
@@ -43,7 +43,7 @@ static bool is_software(const char *renderer) {
            strstr(renderer, "SwiftShader");
 }
 
-/* By the names that drivers give, Mesa's and the makers' own; in zink's the GPU's stands too. */
+/* By the names that drivers report, Mesa's and the vendors' own; zink's name contains the GPU's. */
 bool gn_gl_is_tiler(const char *renderer) {
     static const char *const names[] = {"V3D ", "VideoCore", "Mali", "Adreno", "PowerVR", "Apple "};
     if (is_software(renderer)) return false;
@@ -52,28 +52,14 @@ bool gn_gl_is_tiler(const char *renderer) {
     return strncmp(renderer, "FD", 2) == 0 && renderer[2] >= '0' && renderer[2] <= '9';
 }
 
-static bool has_timer(struct gn_gl *gl) {
-    static const GLenum time_elapsed = GL_TIME_ELAPSED_EXT;
-    GLint bits = 0;
-    if (!gl->fn.GetQueryiv) return false;
-    if (!gl->desktop && !has_extension(gl, "GL_EXT_disjoint_timer_query")) return false;
-    GL(gl, GetQueryiv)(time_elapsed, GL_QUERY_COUNTER_BITS_EXT, &bits);
-    return bits > 0;
-}
-
-static bool has_debug(struct gn_gl *gl) {
-    return gl->fn.PushDebugGroup && gl->fn.PopDebugGroup && gl->fn.DebugMessageCallback &&
-           has_extension(gl, "GL_KHR_debug");
-}
-
 /* ---- proof ---- */
 
-/* These fit into one draw, which costs hardly more than one of them alone: with the first go all.
- */
+/* These fit into one draw, which costs hardly more than one of them alone: when one is tested, all
+ * are. */
 static const uint32_t together =
     1u << GN_CAP_R16F | 1u << GN_CAP_R32UI | 1u << GN_CAP_SRGB | 1u << GN_CAP_DEPTH_COMPARE;
 
-/* False when one fails, of these or of those tried with them: it is claimed no more. */
+/* False when one fails, of these or of those tested with them; what fails leaves gl->caps. */
 static bool prove_caps(struct gn_gl *gl, uint32_t caps) {
     const uint32_t open = gl->caps.has & ~gl->probed;
     if (!(caps & open)) return true;
@@ -88,30 +74,22 @@ static bool prove_caps(struct gn_gl *gl, uint32_t caps) {
     return !failed;
 }
 
-static uint32_t cap_of_encoding(enum gn_encoding encoding) {
-    switch (encoding) {
-    case GN_ENCODING_DEPTH: return 1u << GN_CAP_DEPTH_COMPARE;
-    case GN_ENCODING_R32UI: return 1u << GN_CAP_R32UI;
-    case GN_ENCODING_R16F:
-    case GN_ENCODING_R16F_RAW: return 1u << GN_CAP_R16F;
-    default: return 0;
-    }
-}
-
-static uint32_t plan_caps(const struct gn_plan *plan) {
+bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan) {
+    static const uint32_t by_encoding[GN_ENCODING_COUNT] = {
+        [GN_ENCODING_DEPTH] = 1u << GN_CAP_DEPTH_COMPARE,
+        [GN_ENCODING_R32UI] = 1u << GN_CAP_R32UI,
+        [GN_ENCODING_R16F] = 1u << GN_CAP_R16F,
+        [GN_ENCODING_R16F_RAW] = 1u << GN_CAP_R16F,
+    };
     uint32_t caps = plan->msaa > 1 ? 1u << GN_CAP_MSAA4 : 0;
     if (plan->output == GN_OUTPUT_SRGB8) caps |= 1u << GN_CAP_SRGB;
     if (plan->output == GN_OUTPUT_FLOAT) caps |= 1u << GN_CAP_RGBA16F;
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_target *target = &plan->passes[i].target;
-        if (target->kind == GN_TARGET_SHADOW) caps |= cap_of_encoding(target->encoding);
+        if (target->kind == GN_TARGET_SHADOW) caps |= by_encoding[target->encoding];
         if (target->kind == GN_TARGET_MOMENTS) caps |= 1u << gn_cap_of_moments(target->moments);
     }
-    return caps;
-}
-
-bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan) {
-    return prove_caps(gl, plan_caps(plan));
+    return prove_caps(gl, caps);
 }
 
 /* ---- all of it ---- */
@@ -128,8 +106,13 @@ bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn
     caps->tiler = gn_gl_is_tiler(caps->renderer);
     GL(gl, GetIntegerv)(GL_MAX_TEXTURE_SIZE, &caps->max_texture_px);
     GL(gl, GetIntegerv)(GL_MAX_TEXTURE_IMAGE_UNITS, &caps->max_texture_units);
-    if (has_timer(gl)) caps->has |= 1u << GN_CAP_TIMER;
-    if (has_debug(gl)) caps->has |= 1u << GN_CAP_DEBUG;
+    GLint timer_bits = 0;
+    if (gl->fn.GetQueryiv && (gl->desktop || has_extension(gl, "GL_EXT_disjoint_timer_query")))
+        GL(gl, GetQueryiv)(GL_TIME_ELAPSED_EXT, GL_QUERY_COUNTER_BITS_EXT, &timer_bits);
+    if (timer_bits > 0) caps->has |= 1u << GN_CAP_TIMER;
+    if (gl->fn.PushDebugGroup && gl->fn.PopDebugGroup && gl->fn.DebugMessageCallback &&
+        has_extension(gl, "GL_KHR_debug"))
+        caps->has |= 1u << GN_CAP_DEBUG;
     gl->robust = gl->fn.GetGraphicsResetStatus && has_extension(gl, "GL_KHR_robustness");
     caps->has |= gn_gl_probe_claims(gl);
     caps->has &= ~without;

@@ -21,34 +21,6 @@ static bool compares_in_sampler(const struct gn_light_key *light) {
            !gn_techniques[light->technique].searches;
 }
 
-static const char *sampler_type(const struct gn_light_key *light) {
-    if (compares_in_sampler(light)) return "sampler2DShadow";
-    if (light->moments) return gn_moments[light->moments].linear ? "sampler2D" : "usampler2D";
-    return light->encoding == GN_ENCODING_R32UI ? "usampler2D" : "sampler2D";
-}
-
-/* EACH_TEXTURE(F) calls F(v_uv_name, SLOT_NAME, NAME_UV1) for each row of scene/material.h. */
-static void add_slots(struct gn_gl_text *out) {
-    const struct gn_texture_slot_row *rows = gn_texture_slots;
-    for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
-        gn_gl_text_add(out, "const int SLOT_%s = %d;\n", rows[i].glsl, i);
-    gn_gl_text_add(out, "const int SLOT_COUNT = %d;\n", GN_TEXTURE_SLOT_COUNT);
-    gn_gl_text_add(out, "#define EACH_TEXTURE(F)");
-    for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
-        gn_gl_text_add(out, " F(v_uv_%s, SLOT_%s, %s_UV1)", rows[i].name, rows[i].glsl,
-                       rows[i].glsl);
-    gn_gl_text_add(out, "\n");
-}
-
-/* VERTEX_ATTRIBUTES declares the rows of scene/attribute.h. */
-static void add_attributes(struct gn_gl_text *out) {
-    gn_gl_text_add(out, "#define VERTEX_ATTRIBUTES");
-    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
-        gn_gl_text_add(out, " layout(location = %d) in vec%d a_%s;", i, gn_attributes[i].components,
-                       gn_attributes[i].name);
-    gn_gl_text_add(out, "\n");
-}
-
 static void add_constants(const struct gn_program_key *key, struct gn_gl_text *out) {
     gn_gl_text_add(out, "#version 300 es\nprecision highp float;\nprecision highp int;\n"
                         "precision highp sampler2D;\nprecision highp sampler2DShadow;\n"
@@ -59,7 +31,17 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
         gn_gl_text_add(out, "const bool %s = %s;\n", name, on ? "true" : "false");
         if (on) gn_gl_text_add(out, "#define WITH_%s 1\n", name);
     }
-    add_slots(out);
+    /* EACH_TEXTURE(F) calls F(v_uv_name, SLOT_NAME, NAME_UV1) for each row of scene/material.h. */
+    const struct gn_texture_slot_row *rows = gn_texture_slots;
+    for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
+        gn_gl_text_add(out, "const int SLOT_%s = %d;\n", rows[i].glsl, i);
+    gn_gl_text_add(out, "const int SLOT_COUNT = %d;\n", GN_TEXTURE_SLOT_COUNT);
+    gn_gl_text_add(out, "#define EACH_TEXTURE(F)");
+    for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
+        gn_gl_text_add(out, " F(v_uv_%s, SLOT_%s, %s_UV1)", rows[i].name, rows[i].glsl,
+                       rows[i].glsl);
+    gn_gl_text_add(out, "\n");
+
     if (key->shadow_count) gn_gl_text_add(out, "#define WITH_SHADOWS 1\n");
     gn_gl_text_add(out, "const int LIGHT_COUNT = %d;\nconst int SHADOW_COUNT = %d;\n",
                    key->light_count, key->shadow_count);
@@ -70,28 +52,18 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
     gn_gl_text_add(out, "const int AOV = %d;\n", key->aov);
 }
 
-static bool same_pair(const struct gn_light_key *a, const struct gn_light_key *b) {
-    return a->technique == b->technique && a->encoding == b->encoding && a->moments == b->moments;
-}
-
 /* The first light that has the technique and encoding of light i: its number is the suffix. */
 static int pair_of(const struct gn_program_key *key, int i) {
-    int first = 0;
-    while (!same_pair(&key->lights[first], &key->lights[i])) first++;
-    return first;
+    const struct gn_light_key *light = &key->lights[i];
+    for (int first = 0;; first++) {
+        const struct gn_light_key *other = &key->lights[first];
+        if (other->technique == light->technique && other->encoding == light->encoding &&
+            other->moments == light->moments)
+            return first;
+    }
 }
 
-static void add_suffixes(char names[GN_GL_NAMES_MAX][64], int count, int suffix,
-                         struct gn_gl_text *out) {
-    for (int i = 0; i < count; i++)
-        gn_gl_text_add(out, "#define %s %s_%d\n", names[i], names[i], suffix);
-}
-
-static void drop_suffixes(char names[GN_GL_NAMES_MAX][64], int count, struct gn_gl_text *out) {
-    for (int i = 0; i < count; i++) gn_gl_text_add(out, "#undef %s\n", names[i]);
-}
-
-/* What a light's shadow is made of, in the order in which they build on each other. */
+/* The files of a light's shadow, each after those that it uses. */
 enum { PAIR_FILES = 4 };
 static void pair_files(const struct gn_light_key *light, const char *files[PAIR_FILES]) {
     const struct gn_technique_row *technique = &gn_techniques[light->technique];
@@ -124,11 +96,13 @@ static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *lig
         if (!files[i]) continue;
         counts[i] = gn_gl_source_names(source, files[i], names[i], err);
         if (counts[i] < 0) return false;
-        add_suffixes(names[i], counts[i], suffix, out);
+        for (int n = 0; n < counts[i]; n++)
+            gn_gl_text_add(out, "#define %s %s_%d\n", names[i][n], names[i][n], suffix);
     }
     for (int i = 0; i < PAIR_FILES; i++)
         if (files[i] && !gn_gl_source_add(source, files[i], out, err)) return false;
-    for (int i = 0; i < PAIR_FILES; i++) drop_suffixes(names[i], counts[i], out);
+    for (int i = 0; i < PAIR_FILES; i++)
+        for (int n = 0; n < counts[i]; n++) gn_gl_text_add(out, "#undef %s\n", names[i][n]);
     gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n#undef SHADOW_TAPS\n"
                         "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n"
                         "#undef MOMENTS\n");
@@ -150,15 +124,6 @@ static void add_taps(const struct gn_program_key *key, struct gn_gl_text *out) {
     }
 }
 
-static bool add_maps(struct gn_gl_source *source, const struct gn_program_key *key,
-                     struct gn_gl_text *out, struct gn_err *err) {
-    for (int i = 0; i < key->shadow_count; i++)
-        gn_gl_text_add(out, "uniform %s u_map_%d;\n", sampler_type(&key->lights[i]), i);
-    for (int i = 0; i < key->shadow_count; i++)
-        if (pair_of(key, i) == i && !add_pair(source, &key->lights[i], i, out, err)) return false;
-    return true;
-}
-
 static bool is_linear(const struct gn_program_key *key, int i) {
     const struct gn_light_key *light = &key->lights[i];
     return (!gn_light_types[light->type].has_position && !light->cascades) ||
@@ -175,7 +140,7 @@ static bool is_shared(const struct gn_program_key *key, int i) {
            gn_technique_shades(light->technique);
 }
 
-/* One per shadow, and one at least: they are declared even where nobody asks. */
+/* One per shadow, at least one: shaders that use none declare them, too. */
 static void add_flags(const struct gn_program_key *key, const char *name,
                       bool is(const struct gn_program_key *, int), struct gn_gl_text *out) {
     const int count = key->shadow_count ? key->shadow_count : 1;
@@ -190,10 +155,11 @@ static bool has_spans(const struct gn_program_key *key, int i) {
            gn_technique_filters_map((enum gn_technique)key->lights[i].technique);
 }
 
-/* Whether the vertex shader can say where a light's map is looked up: on a plane, with any light;
- * whether tiles of the map are shared (shaders_es/lib/shadow_tile.glsl), and whether they are
- * cascades, with codes of their own. To share takes derivatives, and after a discard there are
- * none: holes are cut last where one is shared, and first elsewhere, where they save work. */
+/* SHADOW_LINEAR: the vertex shader computes where the map is looked up; on a plane, with any light.
+ * SHADOW_SHARED: tiles of the map are shared (shaders_es/lib/shadow_tile.glsl). SHADOW_CASCADES:
+ * the tiles are cascades; SHADOW_SPANS: each encodes distances of its own. Sharing takes
+ * derivatives, which are undefined after a discard: CUT_LAST cuts holes last where a map is shared,
+ * and first elsewhere, where that saves work. */
 static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
     bool cut_last = false;
     for (int i = 0; i < key->shadow_count; i++) cut_last |= is_shared(key, i);
@@ -220,12 +186,6 @@ static void add_light_loops(const struct gn_program_key *key, struct gn_gl_text 
     gn_gl_text_add(out, "\n");
 }
 
-static void add_vertex_loop(const struct gn_program_key *key, struct gn_gl_text *out) {
-    gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT_VERTEX(F)");
-    for (int i = 0; i < key->shadow_count; i++) gn_gl_text_add(out, " F(%d)", i);
-    gn_gl_text_add(out, "\n");
-}
-
 /* Slide k is that of the k-th light that has one. */
 static bool add_slides(struct gn_gl_source *source, const struct gn_program_key *key,
                        struct gn_gl_text *out, struct gn_err *err) {
@@ -243,46 +203,69 @@ static bool add_slides(struct gn_gl_source *source, const struct gn_program_key 
     return !count || gn_gl_source_add(source, "lib/slide.glsl", out, err);
 }
 
-/* What a step of a filter is told: how the map is read, what a code becomes, how that is kept. */
+/* The files of a filter step: how moments are stored, how the map is read, what moments a distance
+ * has. */
 static bool add_filter(struct gn_gl_source *source, const struct gn_program_key *key,
                        struct gn_gl_text *out, struct gn_err *err) {
-    add_middle(key->technique, out); /* of NONE 0: moments are averaged as they are kept */
+    add_middle(key->technique, out); /* 0 of NONE: moments are averaged as stored */
     if (!gn_gl_source_add(source, gn_moments[key->moments].file, out, err)) return false;
     return !gn_filter_steps[key->step].reads_map ||
            (gn_gl_source_add(source, gn_encodings[key->encoding].file, out, err) &&
             gn_gl_source_add(source, gn_techniques[key->technique].moments, out, err));
 }
 
-/* The file with main(). */
-static const char *main_file(const struct gn_program_key *key, enum gn_gl_stage stage) {
-    if (key->kind == GN_PROGRAM_FILTER && stage == GN_GL_FRAGMENT)
-        return gn_filter_steps[key->step].file;
-    return stage == GN_GL_VERTEX ? gn_programs[key->kind].vertex : gn_programs[key->kind].fragment;
+/* What the fragment shaders of lit surfaces are made of: maps, taps, slides, and loops over them.
+ */
+static bool add_lights(struct gn_gl_source *source, const struct gn_program_key *key,
+                       struct gn_gl_text *out, struct gn_err *err) {
+    if (key->shadow_count && !gn_gl_source_add(source, "lib/shadow_place.glsl", out, err))
+        return false;
+    add_taps(key, out);
+    for (int i = 0; i < key->shadow_count; i++) {
+        const struct gn_light_key *light = &key->lights[i];
+        const bool integers = light->moments ? !gn_moments[light->moments].linear
+                                             : light->encoding == GN_ENCODING_R32UI;
+        const char *type = integers ? "usampler2D" : "sampler2D";
+        if (compares_in_sampler(light)) type = "sampler2DShadow";
+        gn_gl_text_add(out, "uniform %s u_map_%d;\n", type, i);
+    }
+    for (int i = 0; i < key->shadow_count; i++)
+        if (pair_of(key, i) == i && !add_pair(source, &key->lights[i], i, out, err)) return false;
+    if (!add_slides(source, key, out, err)) return false;
+    add_light_loops(key, out);
+    return true;
 }
 
 bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_stage stage,
                    struct gn_gl_text *out, struct gn_err *err) {
     struct gn_gl_source source = {.folder = folder};
-    bool lit = key->kind == GN_PROGRAM_LIT || key->kind == GN_PROGRAM_AOV;
+    const struct gn_program_row *program = &gn_programs[key->kind];
+    const bool fragment = stage == GN_GL_FRAGMENT;
+    const bool lit = key->kind == GN_PROGRAM_LIT || key->kind == GN_PROGRAM_AOV;
+    const bool filter = key->kind == GN_PROGRAM_FILTER && fragment;
     add_constants(key, out);
     if (!gn_gl_source_add(&source, "blocks.glsl", out, err)) return false;
     if (lit) add_shadow_flags(key, out);
-    if (stage == GN_GL_VERTEX) add_attributes(out);
-    if (lit && stage == GN_GL_VERTEX) add_vertex_loop(key, out);
-    if (lit && stage == GN_GL_FRAGMENT) {
-        if (key->shadow_count && !gn_gl_source_add(&source, "lib/shadow_place.glsl", out, err))
-            return false;
-        add_taps(key, out);
-        if (!add_maps(&source, key, out, err)) return false;
-        if (!add_slides(&source, key, out, err)) return false;
-        add_light_loops(key, out);
+    if (stage == GN_GL_VERTEX) { /* VERTEX_ATTRIBUTES declares the rows of scene/attribute.h */
+        gn_gl_text_add(out, "#define VERTEX_ATTRIBUTES");
+        for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
+            gn_gl_text_add(out, " layout(location = %d) in vec%d a_%s;", i,
+                           gn_attributes[i].components, gn_attributes[i].name);
+        gn_gl_text_add(out, "\n");
     }
-    if (gn_programs[key->kind].reads & GN_PROGRAM_ENCODING && stage == GN_GL_FRAGMENT)
-        if (!gn_gl_source_add(&source, gn_encodings[key->encoding].file, out, err)) return false;
-    if (key->kind == GN_PROGRAM_FILTER && stage == GN_GL_FRAGMENT &&
-        !add_filter(&source, key, out, err))
+    if (lit && stage == GN_GL_VERTEX) {
+        gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT_VERTEX(F)");
+        for (int i = 0; i < key->shadow_count; i++) gn_gl_text_add(out, " F(%d)", i);
+        gn_gl_text_add(out, "\n");
+    }
+    if (lit && fragment && !add_lights(&source, key, out, err)) return false;
+    if (program->reads & GN_PROGRAM_ENCODING && fragment &&
+        !gn_gl_source_add(&source, gn_encodings[key->encoding].file, out, err))
         return false;
-    return gn_gl_source_add(&source, main_file(key, stage), out, err);
+    if (filter && !add_filter(&source, key, out, err)) return false;
+    const char *main_file = fragment ? program->fragment : program->vertex;
+    if (filter) main_file = gn_filter_steps[key->step].file;
+    return gn_gl_source_add(&source, main_file, out, err);
 }
 
 static void append(char *out, size_t size, const char *separator, const char *word) {

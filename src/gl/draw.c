@@ -13,18 +13,6 @@ static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *v
                                                            : GN_GL_MAP_COMPARE];
 }
 
-static void bind_maps(struct gn_gl *gl, const struct gn_plan *plan,
-                      const struct gn_pass_picture *picture) {
-    for (uint32_t i = 0; i < picture->shadow_count; i++) {
-        const uint32_t slot = picture->first_shadow + i;
-        const struct gn_shadow_view *view = &plan->shadows[slot];
-        const struct gn_gl_map *map = gn_gl_view_find(gl, view, slot, !picture->reads_codes);
-        const GLuint sampler = picture->reads_codes ? gl->targets.map_samplers[GN_GL_MAP_NEAREST]
-                                                    : map_sampler(gl, view);
-        if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, sampler);
-    }
-}
-
 /* Binds what a filter reads, unfiltered. */
 static void bind_reads(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
     const uint32_t slot = pass->target.slot;
@@ -55,16 +43,14 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
     else if (pass->target.kind == GN_TARGET_ENCODED)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output.texture, nearest);
     else
-        bind_maps(gl, plan, picture);
+        for (uint32_t i = 0; i < picture->shadow_count; i++) {
+            const uint32_t slot = picture->first_shadow + i;
+            const struct gn_shadow_view *view = &plan->shadows[slot];
+            const struct gn_gl_map *map = gn_gl_view_find(gl, view, slot, !picture->reads_codes);
+            const GLuint sampler = picture->reads_codes ? nearest : map_sampler(gl, view);
+            if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, sampler);
+        }
     for (uint32_t i = 0; i < picture->slide_count; i++) gn_gl_slide_bind(gl, i, picture->slides[i]);
-}
-
-static void set_constants(struct gn_gl *gl, struct gn_gl_program *program,
-                          const struct gn_pass *pass, uint64_t hash) {
-    gn_gl_use_program(gl, program->name);
-    if (program->constants_hash == hash || program->u_pass < 0) return;
-    program->constants_hash = hash;
-    GL(gl, Uniform4fv)(program->u_pass, (GLsizei)pass->constant_count, pass->constants[0]);
 }
 
 static void set_material(struct gn_gl *gl, struct gn_gl_program *program, uint32_t material) {
@@ -78,42 +64,32 @@ static void set_material(struct gn_gl *gl, struct gn_gl_program *program, uint32
     GL(gl, Uniform4fv)(program->u_uv, 2 * GN_TEXTURE_SLOT_COUNT, gl->scene.uv[uv][0]);
 }
 
-static bool is_for_shadows(const struct gn_pass *pass) {
-    return pass->kind != GN_PASS_PICTURE || pass->picture.only_stencil;
-}
-
-static void draw_bare(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
-                      uint64_t constants_hash) {
-    struct gn_gl_program *program = gl->plan_programs.at[d->program];
-    set_constants(gl, program, pass, constants_hash);
-    gn_gl_set_cull(gl, GN_CULL_NONE, false);
-    gn_gl_vertices_bind(gl, program->attributes, d->first_instance);
-    GL(gl, DrawArraysInstanced)
-    (GL_TRIANGLES, 0, (GLsizei)d->vertex_count, (GLsizei)d->instance_count);
-    gl->stats.draws++;
-    gl->stats.shadow_draws += is_for_shadows(pass);
-    gl->stats.triangles += (uint64_t)d->vertex_count / 3 * d->instance_count;
-}
-
 void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
                 uint64_t constants_hash, uint32_t most_indices) {
-    if (d->geometry == GN_NO_GEOMETRY) {
-        draw_bare(gl, pass, d, constants_hash);
-        return;
-    }
     struct gn_gl_program *program = gl->plan_programs.at[d->program];
-    const struct gn_geometry *geometry = &gl->scene.scene->geometries[d->geometry];
-    const size_t first = geometry->first_index * gl->scene.index_size;
-    const uint32_t count =
-        geometry->index_count < most_indices ? geometry->index_count : most_indices;
-    set_constants(gl, program, pass, constants_hash);
-    set_material(gl, program, d->material);
-    gn_gl_set_cull(gl, d->cull, d->mirrored);
+    const struct gn_geometry *geometry =
+        d->geometry == GN_NO_GEOMETRY ? NULL : &gl->scene.scene->geometries[d->geometry];
+    uint32_t count = d->vertex_count;
+    if (geometry)
+        count = geometry->index_count < most_indices ? geometry->index_count : most_indices;
+    gn_gl_use_program(gl, program->name);
+    if (program->constants_hash != constants_hash && program->u_pass >= 0) {
+        program->constants_hash = constants_hash;
+        GL(gl, Uniform4fv)(program->u_pass, (GLsizei)pass->constant_count, pass->constants[0]);
+    }
+    if (geometry) set_material(gl, program, d->material);
+    gn_gl_set_cull(gl, geometry ? d->cull : GN_CULL_NONE, geometry && d->mirrored);
     gn_gl_vertices_bind(gl, program->attributes, d->first_instance);
-    GL(gl, DrawElementsInstanced)
-    (GL_TRIANGLES, (GLsizei)count, gl->scene.index_type, (const void *)first,
-     (GLsizei)d->instance_count);
+    if (geometry) {
+        const size_t first = geometry->first_index * gl->scene.index_size;
+        GL(gl, DrawElementsInstanced)
+        (GL_TRIANGLES, (GLsizei)count, gl->scene.index_type, (const void *)first,
+         (GLsizei)d->instance_count);
+    } else {
+        GL(gl, DrawArraysInstanced)
+        (GL_TRIANGLES, 0, (GLsizei)count, (GLsizei)d->instance_count);
+    }
     gl->stats.draws++;
-    gl->stats.shadow_draws += is_for_shadows(pass);
+    gl->stats.shadow_draws += pass->kind != GN_PASS_PICTURE || pass->picture.only_stencil;
     gl->stats.triangles += (uint64_t)count / 3 * d->instance_count;
 }

@@ -34,7 +34,7 @@ void gn_gl_kept_finish(struct gn_gl *gl) {
     *k = (struct gn_gl_kept){0};
 }
 
-static bool make_program(struct gn_gl *gl, struct gn_gl_kept *k, struct gn_err *err) {
+static bool make_fade_program(struct gn_gl *gl, struct gn_gl_kept *k, struct gn_err *err) {
     if (k->program) return true;
     k->program = gn_gl_program_link(gl, fade_vertex, fade_fragment, err);
     if (!k->program) return false;
@@ -67,7 +67,7 @@ bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
     gn_gl_bind_framebuffer(gl, k->framebuffer);
     GL(gl, FramebufferTexture2D)
     (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, k->texture, 0);
-    return gn_gl_framebuffer_check(gl, "kept picture", err) && make_program(gl, k, err) &&
+    return gn_gl_framebuffer_check(gl, "kept picture", err) && make_fade_program(gl, k, err) &&
            gn_gl_error_check(gl, "keeping a picture", err);
 }
 
@@ -84,19 +84,14 @@ bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err) {
     return gn_gl_error_check(gl, "keeping a picture", err);
 }
 
-/* The state of a pass that draws over all of the finished picture. */
-static void begin(struct gn_gl *gl) {
+void gn_gl_lay_over(struct gn_gl *gl, float share) {
+    const struct gn_gl_kept *k = &gl->kept;
     const struct gn_gl_output *o = &gl->targets.output;
+    if (!fits(k, o) || !k->program) return;
     gn_gl_bind_framebuffer(gl, gn_gl_output_finished(o));
     gn_gl_set_viewport(gl, (struct gn_gl_rect){0, 0, (GLsizei)o->width_px, (GLsizei)o->height_px});
     gn_gl_set_scissor(gl, NULL);
     gn_gl_set_color_write(gl, true);
-}
-
-void gn_gl_lay_over(struct gn_gl *gl, float share) {
-    const struct gn_gl_kept *k = &gl->kept;
-    if (!fits(k, &gl->targets.output) || !k->program) return;
-    begin(gl);
     gn_gl_set_depth(gl, false, false);
     gn_gl_set_blend(gl, GN_BLEND_ALPHA);
     gn_gl_set_cull(gl, GN_CULL_NONE, false);

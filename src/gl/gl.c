@@ -6,17 +6,6 @@
 #include "core/arena.h"
 #include "gl/private.h"
 
-static bool start_context(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err *err) {
-    if (!gn_gl_version_check(opts, err) || !gn_gl_table_load(&gl->fn, opts, err)) return false;
-    gn_gl_state_init(gl);
-    gn_gl_targets_init(gl);
-    for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
-        gl->instances.buffers[i] = gn_gl_object_create(gl, GN_GL_BUFFER);
-    if (!gn_gl_caps_learn(gl, opts, err)) return false;
-    if (gl->debug.on) gn_gl_debug_start(gl);
-    return true;
-}
-
 struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *warnings,
                            struct gn_err *err) {
     struct gn_gl *gl = gn_xalloc(1, sizeof *gl);
@@ -25,7 +14,15 @@ struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *wa
     gl->stop = opts->stop;
     gl->warnings = warnings;
     gl->shaders = opts->shaders ? strdup(opts->shaders) : NULL;
-    if (start_context(gl, opts, err)) return gl;
+    if (!gn_gl_version_check(opts, err) || !gn_gl_table_load(&gl->fn, opts, err)) goto fail;
+    gn_gl_state_init(gl);
+    gn_gl_targets_init(gl);
+    for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
+        gl->instances.buffers[i] = gn_gl_object_create(gl, GN_GL_BUFFER);
+    if (!gn_gl_caps_learn(gl, opts, err)) goto fail;
+    if (gl->debug.on) gn_gl_debug_start(gl);
+    return gl;
+fail:
     gn_gl_destroy(gl);
     return NULL;
 }

@@ -7,6 +7,7 @@
 static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
     static const float far_depth = 1.0f;
     const bool stencil = gl->targets.output.stencil;
+    if (stencil) gn_gl_set_stencil_writes(gl, 255);
     if (gl->targets.output.format == GN_OUTPUT_AOV) {
         GLuint bits[4];
         memcpy(bits, pass->clear.color, sizeof bits);
@@ -45,56 +46,37 @@ static struct gn_gl_rect gl_rect(const struct gn_rect *r) {
     return (struct gn_gl_rect){(GLint)r->x, (GLint)r->y, (GLsizei)r->width, (GLsizei)r->height};
 }
 
-static struct gn_gl_rect viewport_of(const struct gn_pass *pass) {
-    if (pass->viewport.width > 0) return gl_rect(&pass->viewport);
-    return (struct gn_gl_rect){0, 0, (GLsizei)pass->target.width_px,
-                               (GLsizei)pass->target.height_px};
-}
-
-/* The scissor rectangle of a pass; false: it draws to all of the target. */
-static bool scissor_of(const struct gn_pass *pass, struct gn_gl_rect *out) {
-    const GLint border = pass->kind == GN_PASS_MAP ? (GLint)pass->map.border_px : 0;
-    *out = gl_rect(&pass->rect);
-    if (pass->rect.width > 0) return true;
-    *out = (struct gn_gl_rect){border, border, (GLsizei)pass->target.width_px - 2 * border,
-                               (GLsizei)pass->target.height_px - 2 * border};
-    return border > 0;
-}
-
-/* All of the target, or a tile of a map. */
-static void clear_target(struct gn_gl *gl, const struct gn_pass *pass) {
-    gn_gl_set_depth(gl, true, true);
-    gn_gl_set_color_write(gl, true);
-    if (pass->kind != GN_PASS_PICTURE) {
-        clear_map(gl, pass);
-        return;
-    }
-    if (gl->targets.output.stencil) gn_gl_set_stencil_writes(gl, 255);
-    clear_output(gl, pass);
-}
-
-static void clear_stencil(struct gn_gl *gl, uint8_t bits) {
-    gn_gl_set_scissor(gl, NULL);
-    gn_gl_set_stencil_writes(gl, bits);
-    GL(gl, Clear)(GL_STENCIL_BUFFER_BIT);
-}
-
 void gn_gl_pass_begin(struct gn_gl *gl, const struct gn_pass *pass, GLuint framebuffer,
                       enum gn_clear_area area) {
     static const struct gn_stencil no_stencil = {0};
     const struct gn_pass_picture *picture = pass->kind == GN_PASS_PICTURE ? &pass->picture : NULL;
     const bool only_stencil = picture && picture->only_stencil;
-    const struct gn_gl_rect viewport = viewport_of(pass);
-    struct gn_gl_rect inner;
-    const bool bound = scissor_of(pass, &inner);
+    const GLsizei width = (GLsizei)pass->target.width_px, height = (GLsizei)pass->target.height_px;
+    const struct gn_gl_rect viewport = pass->viewport.width > 0
+                                           ? gl_rect(&pass->viewport)
+                                           : (struct gn_gl_rect){0, 0, width, height};
     gn_gl_bind_framebuffer(gl, framebuffer);
     gn_gl_set_viewport(gl, viewport);
     if (area != GN_CLEAR_NOTHING) {
         gn_gl_set_scissor(gl, area == GN_CLEAR_RECT ? &viewport : NULL);
-        clear_target(gl, pass);
+        gn_gl_set_depth(gl, true, true);
+        gn_gl_set_color_write(gl, true);
+        if (picture)
+            clear_output(gl, pass);
+        else
+            clear_map(gl, pass);
     }
-    if (pass->clear.stencil_bits) clear_stencil(gl, pass->clear.stencil_bits);
-    gn_gl_set_scissor(gl, bound ? &inner : NULL);
+    if (pass->clear.stencil_bits) {
+        gn_gl_set_scissor(gl, NULL);
+        gn_gl_set_stencil_writes(gl, pass->clear.stencil_bits);
+        GL(gl, Clear)(GL_STENCIL_BUFFER_BIT);
+    }
+    const GLint border = pass->kind == GN_PASS_MAP ? (GLint)pass->map.border_px : 0;
+    const struct gn_gl_rect inner =
+        pass->rect.width > 0
+            ? gl_rect(&pass->rect)
+            : (struct gn_gl_rect){border, border, width - 2 * border, height - 2 * border};
+    gn_gl_set_scissor(gl, pass->rect.width > 0 || border > 0 ? &inner : NULL);
     gn_gl_set_depth(
         gl, pass->target.kind != GN_TARGET_ENCODED && pass->kind != GN_PASS_FILTER && !only_stencil,
         pass->depth_write);

@@ -1,9 +1,9 @@
-/* Proof by drawing: known values into 4 x 4 targets, and back. Extension strings are not asked:
+/* Proof by drawing: known values into 4 x 4 targets, and back. Extension strings are not read:
  * either of two brings R16F, and some drivers list neither and can, or list one and cannot.
  *
- * All that is asked for is drawn at once, each an output of one program, since to a software driver
- * a program is the dearest part; only if something is wrong with that, each again alone, so that
- * one that fails takes no other with it. */
+ * All capabilities wanted are drawn at once, each an output of one program, since with a software
+ * driver a program is the most expensive part; only if one of them fails, each is drawn again
+ * alone, so that it makes no other fail. */
 #include <math.h>
 #include <string.h>
 
@@ -27,15 +27,15 @@ static const struct row {
     enum gn_cap cap;
     GLenum format;
     const char *type, *value; /* of its output */
-    float expected[4];        /* as read back: halves as they are, bytes 0..255; r32ui: unused */
+    double expected[4];       /* as read back: halves as they are, bytes 0..255 */
 } rows[] = {
-    {GN_CAP_R16F, GL_R16F, "vec4", "vec4(0.3330078125, 0.0, 0.0, 1.0)", {0.3330078125f}},
-    {GN_CAP_R32UI, GL_R32UI, "uvec4", "uvec4(0x41c80001u, 0u, 0u, 1u)", {0}},
+    {GN_CAP_R16F, GL_R16F, "vec4", "vec4(0.3330078125, 0.0, 0.0, 1.0)", {0.3330078125}},
+    {GN_CAP_R32UI, GL_R32UI, "uvec4", "uvec4(0x41c80001u, 0u, 0u, 1u)", {0x41c80001u}},
     {GN_CAP_RGBA16F,
      GL_RGBA16F,
      "vec4",
      "vec4(1000.0, 0.3330078125, -2.5, 0.5)",
-     {1000, 0.3330078125f, -2.5f, 0.5f}},
+     {1000, 0.3330078125, -2.5, 0.5}},
     {GN_CAP_RGBA16UI,
      GL_RGBA16UI,
      "uvec4",
@@ -96,14 +96,7 @@ static GLuint attach_new(struct gn_gl *gl, GLenum where, GLenum format, GLsizei 
 
 /* ---- what comes back ---- */
 
-static bool read_r32ui(struct gn_gl *gl) {
-    GLuint pixel[4] = {0};
-    GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, pixel);
-    return pixel[0] == 0x41c80001u;
-}
-
-/* Expected values are such as a float holds. */
-static bool read_integers(struct gn_gl *gl, int channels, const float expected[4]) {
+static bool read_integers(struct gn_gl *gl, int channels, const double expected[4]) {
     GLuint pixel[4] = {0};
     GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, pixel);
     for (int i = 0; i < channels; i++)
@@ -111,19 +104,19 @@ static bool read_integers(struct gn_gl *gl, int channels, const float expected[4
     return true;
 }
 
-static bool read_bytes(struct gn_gl *gl, const float expected[4]) {
+static bool read_bytes(struct gn_gl *gl, const double expected[4]) {
     GLubyte pixel[4] = {1, 1, 1, 1};
     GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
     for (int i = 0; i < 4; i++)
-        if (fabsf((float)pixel[i] - expected[i]) > 1.5f) return false;
+        if (fabs(pixel[i] - expected[i]) > 1.5) return false;
     return true;
 }
 
-static bool read_halves(struct gn_gl *gl, int channels, const float expected[4]) {
+static bool read_halves(struct gn_gl *gl, int channels, const double expected[4]) {
     float pixel[4] = {0};
     gn_gl_read_floats(gl, 1, 1, pixel);
     for (int i = 0; i < channels; i++)
-        if (fabsf(pixel[i] - expected[i]) > 1e-3f * fabsf(expected[i])) return false;
+        if (fabs((double)pixel[i] - expected[i]) > 1e-3 * fabs(expected[i])) return false;
     return true;
 }
 
@@ -132,7 +125,7 @@ static bool read_back(struct gn_gl *gl, const struct row *row, GLenum attachment
     GL(gl, ReadBuffer)(attachment);
     bool right = false;
     switch (row->cap) {
-    case GN_CAP_R32UI: right = read_r32ui(gl); break;
+    case GN_CAP_R32UI: right = read_integers(gl, 1, row->expected); break;
     case GN_CAP_R16F: right = read_halves(gl, 1, row->expected); break;
     case GN_CAP_RG32UI: right = read_integers(gl, 2, row->expected); break;
     case GN_CAP_RGBA16UI:
@@ -151,7 +144,7 @@ struct proof { /* of the rows of a mask; the n-th of them is color attachment n 
     GLuint depth_framebuffer, depth; /* what is compared with */
 };
 
-static void make_program(struct gn_gl *gl, struct proof *proof) {
+static void make_proof_program(struct gn_gl *gl, struct proof *proof) {
     struct gn_gl_text text = {0};
     int output = 0;
     gn_gl_text_add(&text, "%s", fragment_head);
@@ -198,34 +191,10 @@ static void make_colors(struct gn_gl *gl, struct proof *proof) {
     GL(gl, DrawBuffers)(count, buffers);
 }
 
-static uint32_t draw_and_read(struct gn_gl *gl, const struct proof *proof) {
-    uint32_t proved = 0;
-    GLenum attachment = GL_COLOR_ATTACHMENT0;
-    if (!complete(gl)) return 0;
-    gn_gl_use_program(gl, proof->program);
-    const GLint u_map = GL(gl, GetUniformLocation)(proof->program, "u_map");
-    if (u_map >= 0) GL(gl, Uniform1i)(u_map, GN_GL_UNIT_WORK);
-    GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
-    for (int i = 0; i < ROW_COUNT; i++)
-        if (proof->mask >> i & 1 && read_back(gl, &rows[i], attachment++)) proved |= 1u << i;
-    return proved;
-}
-
-static void proof_finish(struct gn_gl *gl, struct proof *proof) {
-    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &proof->framebuffer);
-    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &proof->depth_framebuffer);
-    gn_gl_object_destroy(gl, GN_GL_TEXTURE, &proof->depth);
-    for (int i = 0; i < OUTPUTS_MAX; i++)
-        gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &proof->colors[i]);
-    gn_gl_use_program(gl, 0);
-    GL(gl, DeleteProgram)(proof->program);
-    drop_errors(gl);
-}
-
-/* Those of at most OUTPUTS_MAX rows that come back as they were drawn. */
+/* Of at most OUTPUTS_MAX rows, those that are read back as they were drawn. */
 static uint32_t prove_at_once(struct gn_gl *gl, uint32_t mask) {
     struct proof proof = {.mask = mask};
-    make_program(gl, &proof);
+    make_proof_program(gl, &proof);
     if (!proof.program) return 0;
     gn_gl_set_viewport(gl, (struct gn_gl_rect){0, 0, SIDE, SIDE});
     gn_gl_set_scissor(gl, NULL);
@@ -236,22 +205,25 @@ static uint32_t prove_at_once(struct gn_gl *gl, uint32_t mask) {
     gn_gl_set_stencil(gl, &(struct gn_stencil){0});
     if (mask & rows_of(1u << GN_CAP_DEPTH_COMPARE)) make_depth(gl, &proof);
     make_colors(gl, &proof);
-    uint32_t proved = draw_and_read(gl, &proof);
-    proof_finish(gl, &proof);
+    uint32_t proved = 0;
+    if (complete(gl)) {
+        GLenum attachment = GL_COLOR_ATTACHMENT0;
+        gn_gl_use_program(gl, proof.program);
+        const GLint u_map = GL(gl, GetUniformLocation)(proof.program, "u_map");
+        if (u_map >= 0) GL(gl, Uniform1i)(u_map, GN_GL_UNIT_WORK);
+        GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
+        for (int i = 0; i < ROW_COUNT; i++)
+            if (mask >> i & 1 && read_back(gl, &rows[i], attachment++)) proved |= 1u << i;
+    }
+    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &proof.framebuffer);
+    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &proof.depth_framebuffer);
+    gn_gl_object_destroy(gl, GN_GL_TEXTURE, &proof.depth);
+    for (int i = 0; i < OUTPUTS_MAX; i++)
+        gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &proof.colors[i]);
+    gn_gl_use_program(gl, 0);
+    GL(gl, DeleteProgram)(proof.program);
+    drop_errors(gl);
     return proved;
-}
-
-static uint32_t prove_rows(struct gn_gl *gl, uint32_t mask) {
-    uint32_t proved = prove_at_once(gl, mask);
-    for (int i = 0; i < ROW_COUNT; i++)
-        if (mask & ~proved & 1u << i && mask != 1u << i) proved |= prove_at_once(gl, 1u << i);
-    return proved;
-}
-
-static uint32_t first_rows(uint32_t mask) {
-    uint32_t first = 0;
-    for (int i = 0; i < OUTPUTS_MAX; i++) first |= (mask & ~first) & -(mask & ~first);
-    return first;
 }
 
 /* ---- antialiasing ---- */
@@ -269,12 +241,6 @@ static bool resolves(struct gn_gl *gl, const GLuint framebuffers[2]) {
     gn_gl_bind_framebuffer(gl, framebuffers[1]);
     GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, p);
     return p[0] == 255 && p[1] == 0 && p[2] == 255 && p[3] == 0;
-}
-
-static bool has_samples(struct gn_gl *gl) {
-    GLint most = 0;
-    GL(gl, GetInternalformativ)(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, GL_SAMPLES, 1, &most);
-    return most >= 4;
 }
 
 static bool prove_samples(struct gn_gl *gl) {
@@ -305,17 +271,26 @@ uint32_t gn_gl_probe_claims(struct gn_gl *gl) {
         gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &framebuffer);
         gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &color);
     }
+    GLint most_samples = 0;
+    GL(gl, GetInternalformativ)(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, GL_SAMPLES, 1, &most_samples);
     drop_errors(gl);
-    return caps_of(mask) | (has_samples(gl) ? 1u << GN_CAP_MSAA4 : 0);
+    return caps_of(mask) | (most_samples >= 4 ? 1u << GN_CAP_MSAA4 : 0);
 }
 
 uint32_t gn_gl_probe(struct gn_gl *gl, uint32_t wanted) {
-    uint32_t proved = 0;
     GLuint array = gn_gl_object_create(gl, GN_GL_VERTEX_ARRAY);
     gn_gl_bind_vertex_array(gl, array);
-    for (uint32_t mask = rows_of(wanted), batch; mask; mask &= ~batch)
-        proved |= caps_of(prove_rows(gl, batch = first_rows(mask)));
+    uint32_t left = rows_of(wanted), right = 0;
+    while (left) {
+        uint32_t batch = 0; /* the first rows left, as many as one program outputs */
+        for (int i = 0; i < OUTPUTS_MAX; i++) batch |= (left & ~batch) & -(left & ~batch);
+        right |= prove_at_once(gl, batch);
+        for (int i = 0; i < ROW_COUNT; i++)
+            if (batch & ~right & 1u << i && batch != 1u << i) right |= prove_at_once(gl, 1u << i);
+        left &= ~batch;
+    }
     gn_gl_object_destroy(gl, GN_GL_VERTEX_ARRAY, &array);
+    uint32_t proved = caps_of(right);
     if (wanted >> GN_CAP_MSAA4 & 1 && prove_samples(gl)) proved |= 1u << GN_CAP_MSAA4;
     return proved;
 }

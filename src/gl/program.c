@@ -1,4 +1,4 @@
-/* Programs: one a key, in a hash table, made in prepare. After linking no string is ever used. */
+/* Programs: one per key, in a hash table, made in prepare. After linking no string is used. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,25 +11,16 @@
 struct sources { /* of one program, and the stage that failed */
     struct gn_gl_text stage[2];
     int failed;    /* enum gn_gl_stage; 2: linking */
-    bool composed; /* both: it was the driver that refused */
+    bool composed; /* both stages: a failure is the driver's */
 };
 
 static const char *const stage_names[] = {"vertex", "fragment", "link"};
 
-static bool says_error(const char *line, size_t length) {
-    for (size_t i = 0; i + 5 <= length; i++)
-        if (strncasecmp(line + i, "error", 5) == 0) return true;
-    return false;
-}
-
-/* The driver's first line that says error, else its first line. */
+/* Fails with the log's first line that contains "error", else with its first line. */
 static bool fail_log(const char *log, const char *stage, struct gn_err *err) {
-    const char *line = log;
-    while (*line && !says_error(line, strcspn(line, "\n"))) {
-        line += strcspn(line, "\n");
-        line += *line == '\n';
-    }
-    if (!*line) line = log;
+    const char *line = strcasestr(log, "error");
+    while (line && line > log && line[-1] != '\n') line--;
+    if (!line) line = log;
     while (isspace((unsigned char)*line)) line++;
     return gn_fail(err, "%s: %.*s", stage, (int)strcspn(line, "\n"),
                    *line ? line : "the driver gave no reason");
@@ -52,15 +43,6 @@ static bool compile(struct gn_gl *gl, GLuint program, int stage, const char *sou
     return ok || fail_log(log, stage_names[stage], err);
 }
 
-static bool link(struct gn_gl *gl, GLuint program, struct gn_err *err) {
-    char log[2048] = "";
-    GLint ok = 0;
-    GL(gl, LinkProgram)(program);
-    GL(gl, GetProgramiv)(program, GL_LINK_STATUS, &ok);
-    if (!ok) GL(gl, GetProgramInfoLog)(program, sizeof log, NULL, log);
-    return ok || fail_log(log, stage_names[2], err);
-}
-
 /* 0 on failure; *failed says at which stage. */
 static GLuint build(struct gn_gl *gl, const char *const sources[2], int *failed,
                     struct gn_err *err) {
@@ -69,7 +51,13 @@ static GLuint build(struct gn_gl *gl, const char *const sources[2], int *failed,
     gl->programs.made++;
     for (*failed = 0; *failed < 2; ++*failed)
         if (!compile(gl, program, *failed, sources[*failed], err)) goto fail;
-    if (link(gl, program, err)) return program;
+    char log[2048] = "";
+    GLint ok = 0;
+    GL(gl, LinkProgram)(program);
+    GL(gl, GetProgramiv)(program, GL_LINK_STATUS, &ok);
+    if (ok) return program;
+    GL(gl, GetProgramInfoLog)(program, sizeof log, NULL, log);
+    fail_log(log, stage_names[2], err);
 fail:
     GL(gl, DeleteProgram)(program);
     return 0;
@@ -101,7 +89,7 @@ static void sources_finish(struct sources *sources) {
     for (int i = 0; i < 2; i++) gn_gl_text_finish(&sources->stage[i]);
 }
 
-/* Of a failed link the fragment stage is shown: nearly always it is the one that asks too much. */
+/* Of a failed link the fragment stage is shown: it is nearly always the one over a limit. */
 static char *sources_log(const struct sources *sources) {
     return gn_gl_text_numbered(&sources->stage[sources->failed == 0 ? 0 : 1]);
 }
@@ -161,42 +149,37 @@ struct gn_gl_program *gn_gl_program_find(struct gn_gl *gl, const struct gn_progr
     return p->name ? p : NULL;
 }
 
-static void grow_table(struct gn_gl_programs *programs) {
-    struct gn_gl_programs more = *programs;
-    more.room = programs->room ? 2 * programs->room : 32;
-    more.table = gn_xalloc(more.room, sizeof *more.table);
-    for (uint32_t i = 0; i < programs->room; i++)
-        if (programs->table[i].name)
-            *program_place(&more, &programs->table[i].key) = programs->table[i];
-    free(programs->table);
-    *programs = more;
-}
-
-static void add_program(struct gn_gl *gl, const struct gn_program_key *key, GLuint name) {
-    struct gn_gl_program p = {.key = *key, .name = name, .uv = UINT32_MAX};
-    p.u_pass = GL(gl, GetUniformLocation)(name, "u_pass");
-    p.u_uv = GL(gl, GetUniformLocation)(name, "u_uv");
-    p.attributes = active_attributes(gl, name);
-    set_units(gl, &p);
-    *program_place(&gl->programs, key) = p;
-    gl->programs.count++;
-}
-
-static void keep_failed(struct gn_gl *gl, const struct sources *sources, struct gn_err *err) {
-    free(gl->debug.failed_source);
-    gl->debug.failed_source = gl->debug.on ? sources_log(sources) : NULL;
-    if (gl->debug.on || !err) return;
-    const struct gn_err said = *err;
-    gn_fail(err, "%.440s (-v prints the source)", said.text);
-}
-
 bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err) {
     if (gn_gl_program_find(gl, key)) return true;
-    if (2 * (gl->programs.count + 1) > gl->programs.room) grow_table(&gl->programs);
+    struct gn_gl_programs *programs = &gl->programs;
+    if (2 * (programs->count + 1) > programs->room) {
+        struct gn_gl_programs more = *programs;
+        more.room = programs->room ? 2 * programs->room : 32;
+        more.table = gn_xalloc(more.room, sizeof *more.table);
+        for (uint32_t i = 0; i < programs->room; i++)
+            if (programs->table[i].name)
+                *program_place(&more, &programs->table[i].key) = programs->table[i];
+        free(programs->table);
+        *programs = more;
+    }
     struct sources sources = {0};
     GLuint name = compose_and_build(gl, key, &sources, err);
-    if (name) add_program(gl, key, name);
-    if (!name && sources.composed) keep_failed(gl, &sources, err);
+    if (name) {
+        struct gn_gl_program p = {.key = *key, .name = name, .uv = UINT32_MAX};
+        p.u_pass = GL(gl, GetUniformLocation)(name, "u_pass");
+        p.u_uv = GL(gl, GetUniformLocation)(name, "u_uv");
+        p.attributes = active_attributes(gl, name);
+        set_units(gl, &p);
+        *program_place(programs, key) = p;
+        programs->count++;
+    } else if (sources.composed) {
+        free(gl->debug.failed_source);
+        gl->debug.failed_source = gl->debug.on ? sources_log(&sources) : NULL;
+        if (!gl->debug.on && err) {
+            const struct gn_err said = *err;
+            gn_fail(err, "%.440s (-v prints the source)", said.text);
+        }
+    }
     sources_finish(&sources);
     return name;
 }

@@ -18,27 +18,16 @@ static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
                                                   : gl->targets.output.framebuffer;
 }
 
-/* Whether any tile of a map, from the `first` on, is still to be drawn in this frame. */
-static bool is_any_to_draw(const struct gn_shadow_view *view, const struct gn_gl_map *map,
-                           uint32_t first) {
-    for (uint32_t tile = first; tile < view->map.tile_count; tile++)
-        if (!holds_content(map, tile, view->raster.tiles[tile].content_hash)) return true;
-    return false;
-}
-
-static bool are_all_to_draw(const struct gn_shadow_view *view, const struct gn_gl_map *map) {
-    for (uint32_t tile = 0; tile < view->map.tile_count; tile++)
-        if (holds_content(map, tile, view->raster.tiles[tile].content_hash)) return false;
-    return true;
-}
-
 /* Clearing a whole map is free on a tiled GPU; clearing one tile of it costs a load and a draw.
  * When all tiles are drawn, the first clears them all. */
 static enum gn_clear_area clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
                                    const struct gn_pass *pass) {
     if (!map || pass->clear.area != GN_CLEAR_RECT) return pass->clear.area;
     if (pass->content.tile == 0) {
-        map->cleared = are_all_to_draw(&plan->shadows[pass->target.slot], map);
+        const struct gn_shadow_view *view = &plan->shadows[pass->target.slot];
+        map->cleared = true;
+        for (uint32_t tile = 0; tile < view->map.tile_count; tile++)
+            map->cleared &= !holds_content(map, tile, view->raster.tiles[tile].content_hash);
         if (map->cleared) return GN_CLEAR_ALL;
     }
     return map->cleared ? GN_CLEAR_NOTHING : GN_CLEAR_RECT;
@@ -48,7 +37,10 @@ static enum gn_clear_area clear_of(const struct gn_plan *plan, struct gn_gl_map 
 static bool is_depth_done(const struct gn_plan *plan, const struct gn_gl_map *map,
                           const struct gn_pass *pass) {
     if (!pass->discard_depth || pass->kind != GN_PASS_MAP) return pass->discard_depth;
-    return !is_any_to_draw(&plan->shadows[pass->target.slot], map, pass->content.tile + 1);
+    const struct gn_shadow_view *view = &plan->shadows[pass->target.slot];
+    for (uint32_t tile = pass->content.tile + 1; tile < view->map.tile_count; tile++)
+        if (!holds_content(map, tile, view->raster.tiles[tile].content_hash)) return false;
+    return true;
 }
 
 static bool is_stopped(const struct gn_gl *gl, struct gn_err *err) {
@@ -76,19 +68,16 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     return !gl->debug.on || gn_gl_error_check(gl, pass->label, err);
 }
 
-/* The map whose content hash decides whether a pass has to run: the shadow map, or the light's own
- * moments, which may differ in size from the pass's target. */
-static struct gn_gl_map *owner_of(struct gn_gl *gl, const struct gn_plan *plan,
-                                  const struct gn_pass *pass) {
-    const uint32_t slot = pass->target.slot;
-    return gn_gl_view_find(gl, &plan->shadows[slot], slot, pass->kind == GN_PASS_FILTER);
-}
-
 static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                      struct gn_err *err) {
     if (pass->kind == GN_PASS_PICTURE) return draw_pass(gl, plan, pass, NULL, err);
     const struct gn_content *content = &pass->content;
-    struct gn_gl_map *to = gn_gl_target_find(gl, &pass->target), *owner = owner_of(gl, plan, pass);
+    const uint32_t slot = pass->target.slot;
+    struct gn_gl_map *to = gn_gl_target_find(gl, &pass->target);
+    /* The map whose content hash decides whether the pass has to run: the shadow map, or the
+     * light's own moments, which may differ in size from the pass's target. */
+    struct gn_gl_map *owner =
+        gn_gl_view_find(gl, &plan->shadows[slot], slot, pass->kind == GN_PASS_FILTER);
     if (!to || !owner) return gn_fail(err, "%s: the plan was not prepared", pass->label);
     if (holds_content(owner, content->tile, content->hash)) {
         owner->cleared = false;
@@ -103,20 +92,9 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
     return ok;
 }
 
-static bool run_passes(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms,
-                       struct gn_err *err) {
-    if (pass_ms) gn_gl_wait(gl);
-    for (uint32_t i = 0; i < plan->pass_count; i++) {
-        const int64_t start_ns = pass_ms ? gn_clock_monotonic_ns() : 0;
-        if (!run_pass(gl, plan, &plan->passes[i], err)) return false;
-        if (!pass_ms) continue;
-        gn_gl_wait(gl);
-        pass_ms[i] = (double)(gn_clock_monotonic_ns() - start_ns) * 1e-6;
-    }
-    return true;
-}
-
-static bool find_programs(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
+bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err) {
+    const uint32_t calls_before = gl->calls;
+    gl->stats = (struct gn_gl_stats){0};
     if (plan->program_count > gl->plan_programs.room || plan->scene != gl->scene.scene ||
         !gn_gl_atlas_holds(gl, plan->atlas))
         return gn_fail(err, "the plan was not prepared");
@@ -126,15 +104,16 @@ static bool find_programs(struct gn_gl *gl, const struct gn_plan *plan, struct g
         if (!p || !gn_gl_vertices_known(gl, p->attributes))
             return gn_fail(err, "program %u was not prepared", i);
     }
-    return true;
-}
-
-bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err) {
-    const uint32_t calls_before = gl->calls;
-    gl->stats = (struct gn_gl_stats){0};
-    if (!find_programs(gl, plan, err)) return false;
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
-    bool ok = run_passes(gl, plan, pass_ms, err);
+    bool ok = true;
+    if (pass_ms) gn_gl_wait(gl);
+    for (uint32_t i = 0; ok && i < plan->pass_count; i++) {
+        const int64_t start_ns = pass_ms ? gn_clock_monotonic_ns() : 0;
+        ok = run_pass(gl, plan, &plan->passes[i], err);
+        if (!ok || !pass_ms) continue;
+        gn_gl_wait(gl);
+        pass_ms[i] = (double)(gn_clock_monotonic_ns() - start_ns) * 1e-6;
+    }
     if (ok) gl->programs.run = gl->programs.made;
     gl->stats.gl_calls = gl->calls - calls_before;
     return ok;
@@ -163,15 +142,6 @@ bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, s
     return gn_gl_vertices_ensure(gl, gn_gl_program_find(gl, key)->attributes, err);
 }
 
-static bool make_programs(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    grow_plan_programs(gl, plan->program_count);
-    for (uint32_t i = 0; i < plan->program_count; i++) {
-        if (!gn_gl_program_find(gl, &plan->programs[i]) && is_stopped(gl, err)) return false;
-        if (!gn_gl_program_prepare(gl, &plan->programs[i], err)) return false;
-    }
-    return true;
-}
-
 /* Releases the driver's compiler between plans. In Mesa it holds 3 MB, 1.4 ms to free and 5
  * to make again; released later, after the first picture, its memory is not given back any more. */
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
@@ -180,21 +150,19 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
     if (!gn_gl_prove(gl, plan))
         return gn_fail(err,
                        "this GPU fails at a capability it claims; try again, or use --without");
-    const bool ok = make_programs(gl, plan, err) && gn_gl_targets_ensure(gl, plan, err) &&
-                    gn_gl_atlas_ensure(gl, plan->atlas, err);
+    bool ok = true;
+    grow_plan_programs(gl, plan->program_count);
+    for (uint32_t i = 0; ok && i < plan->program_count; i++) {
+        const struct gn_program_key *key = &plan->programs[i];
+        ok = (gn_gl_program_find(gl, key) || !is_stopped(gl, err)) &&
+             gn_gl_program_prepare(gl, key, err);
+    }
+    ok = ok && gn_gl_targets_ensure(gl, plan, err) && gn_gl_atlas_ensure(gl, plan->atlas, err);
     if (made != gl->programs.made) GL(gl, ReleaseShaderCompiler)();
     return ok;
 }
 
 /* ---- warm-up draws ---- */
-
-static const struct gn_draw *first_draw_of(const struct gn_plan *plan, const struct gn_pass *pass,
-                                           uint32_t program) {
-    for (uint32_t i = 0; i < pass->draw_count; i++)
-        if (plan->draws[pass->first_draw + i].program == program)
-            return &plan->draws[pass->first_draw + i];
-    return NULL;
-}
 
 static bool touch_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                        const struct gn_draw *d, struct gn_err *err) {
@@ -220,8 +188,10 @@ bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
     p->constants_hash = ~UINT64_C(0); /* forces an upload now and at the next frame */
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     for (uint32_t i = 0; i < plan->pass_count; i++) {
-        const struct gn_draw *d = first_draw_of(plan, &plan->passes[i], program);
-        if (d && !touch_pass(gl, plan, &plan->passes[i], d, err)) return false;
+        const struct gn_pass *pass = &plan->passes[i];
+        const struct gn_draw *d = &plan->draws[pass->first_draw], *end = d + pass->draw_count;
+        while (d < end && d->program != program) d++;
+        if (d < end && !touch_pass(gl, plan, pass, d, err)) return false;
     }
     return true;
 }
