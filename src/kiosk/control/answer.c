@@ -28,22 +28,6 @@ struct gn_show_control {
 static void finish_screenshot(void *user, uint32_t events, int64_t now_ns);
 static void give_up_screenshot(void *user, int64_t now_ns);
 
-static bool open_all(struct gn_show *s, struct gn_show_control *c, const char *path,
-                     struct gn_err *err) {
-    c->screenshot_late =
-        (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = give_up_screenshot, .user = s};
-    gn_loop_add_timer(s->loop, &c->screenshot_late);
-    s->screenshot = gn_screenshot_create(err);
-    c->control = s->screenshot ? gn_control_open(path, s->loop, err) : NULL;
-    if (!c->control) return false;
-    c->screenshot_done = (struct gn_watch){.fd = gn_screenshot_fd(s->screenshot),
-                                           .events = EPOLLIN,
-                                           .call = finish_screenshot,
-                                           .user = s};
-    return gn_loop_add(s->loop, &c->screenshot_done) ||
-           gn_fail(err, "control socket %s: cannot wait: %s", path, strerror(errno));
-}
-
 static void close_all(struct gn_show *s, struct gn_show_control *c) {
     gn_loop_remove(&c->screenshot_done);
     gn_loop_remove_timer(&c->screenshot_late);
@@ -60,9 +44,21 @@ void gn_show_open_control(struct gn_show *s) {
     if (!named && (s->stage.display.ops->is_window || !gn_listen_default(path, sizeof path)))
         return;
     struct gn_show_control *c = gn_xalloc(1, sizeof *c);
-    if (open_all(s, c, named ? named : path, &err)) {
-        s->control = c;
-        return;
+    c->screenshot_late =
+        (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = give_up_screenshot, .user = s};
+    gn_loop_add_timer(s->loop, &c->screenshot_late);
+    s->screenshot = gn_screenshot_create(&err);
+    c->control = s->screenshot ? gn_control_open(named ? named : path, s->loop, &err) : NULL;
+    if (c->control) {
+        c->screenshot_done = (struct gn_watch){.fd = gn_screenshot_fd(s->screenshot),
+                                               .events = EPOLLIN,
+                                               .call = finish_screenshot,
+                                               .user = s};
+        if (gn_loop_add(s->loop, &c->screenshot_done)) {
+            s->control = c;
+            return;
+        }
+        gn_fail(&err, "control socket %s: cannot wait: %s", named ? named : path, strerror(errno));
     }
     gn_warn(s->warnings, "%s", err.text);
     close_all(s, c);
@@ -75,21 +71,17 @@ void gn_show_close_control(struct gn_show *s) {
 
 /* ---- actions ---- */
 
-static bool fail_unknown_mode(const struct gn_show *s, const char *name, struct gn_err *err) {
-    char names[400] = "";
-    size_t used = 0;
-    for (int i = 0; i < s->modes.count && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s \"%s\"", i ? "," : "",
-                                 s->modes.names[i]);
-    return gn_fail_usage(err, "no mode \"%.60s\"; expected%s", name, names);
-}
-
 /* While the screen is off a button only switches it on; a command is carried out, too. */
 static json_t *answer_action(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     const struct gn_action action = {gn_ctl_action(r->command), r->words[0]};
     const int64_t now_ns = gn_clock_monotonic_ns();
     if (action.kind == GN_ACTION_MODE && gn_show_find_mode(&s->modes, action.name) < 0) {
-        fail_unknown_mode(s, action.name, err);
+        char names[400] = "";
+        size_t used = 0;
+        for (int i = 0; i < s->modes.count && used < sizeof names; i++)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s \"%s\"", i ? "," : "",
+                                     s->modes.names[i]);
+        gn_fail_usage(err, "no mode \"%.60s\"; expected%s", action.name, names);
         return NULL;
     }
     const bool was_dark = s->kiosk.blanked;
@@ -100,26 +92,20 @@ static json_t *answer_action(struct gn_show *s, const struct gn_request *r, stru
 
 /* ---- options ---- */
 
-/* A value that a mode cannot be drawn with is taken back. */
-static bool change_option(struct gn_show *s, const struct gn_option_row *row, const char *text,
-                          struct gn_err *err) {
+static json_t *answer_set(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
+    const struct gn_option_row *row = gn_changes_find(r->words[0], err);
     struct gn_show_looks looks;
+    char text[1024];
+    if (!row) return NULL;
     if (!s->config.changes) s->config.changes = gn_changes_create(s->config.options);
-    if (!gn_changes_set(s->config.changes, row, text, err)) return false;
-    if (!gn_show_look(s, s->stage.scene, &looks, err)) {
+    if (!gn_changes_set(s->config.changes, row, r->words[1], err)) return NULL;
+    if (!gn_show_look(s, s->stage.scene, &looks, err)) { /* a mode cannot be drawn with it */
         gn_changes_undo(s->config.changes);
-        return false;
+        return NULL;
     }
     s->looks = looks;
     s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
     s->ahead.idle = false; /* the changed settings have no programs yet */
-    return true;
-}
-
-static json_t *answer_set(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
-    const struct gn_option_row *row = gn_changes_find(r->words[0], err);
-    char text[1024];
-    if (!row || !change_option(s, row, r->words[1], err)) return NULL;
     gn_show_take_rules(s);
     gn_show_drop_staged(s); /* it was prepared with the old options */
     s->control->status.waits = true;
@@ -243,18 +229,15 @@ static answer_fn *const answers[GN_CTL_COUNT] = {
 #undef X
 };
 
-static void answer_request(struct gn_show *s, const struct gn_request *r) {
-    struct gn_err err = {0};
-    json_t *reply = answers[r->command](s, r, &err);
-    if (err.text[0])
-        gn_control_refuse(s->control->control, r, &err);
-    else if (reply)
-        gn_control_answer(s->control->control, r, reply);
-}
-
 void gn_show_answer_requests(struct gn_show *s) {
     struct gn_show_control *c = s->control;
     if (!c) return;
-    for (const struct gn_request *r; (r = gn_control_next(c->control)) != NULL;)
-        answer_request(s, r);
+    for (const struct gn_request *r; (r = gn_control_next(c->control)) != NULL;) {
+        struct gn_err err = {0};
+        json_t *reply = answers[r->command](s, r, &err);
+        if (err.text[0])
+            gn_control_refuse(c->control, r, &err);
+        else if (reply)
+            gn_control_answer(c->control, r, reply);
+    }
 }

@@ -151,7 +151,7 @@ static void send_reply(struct gn_control *c, struct client *client, json_t *json
 /* ---- lines ---------------------------------------------------------------------------------- */
 
 /* A leaky bucket as a virtual time: a burst of one second's changes, then an even rate. */
-static bool is_too_much(struct gn_control *c, enum gn_ctl command) {
+static bool changes_too_often(struct gn_control *c, enum gn_ctl command) {
     if (!(gn_ctl_rows[command].flags & GN_CTL_CHANGES)) return false;
     if (c->changes_ns - c->now_ns > GN_NS_PER_S - CHANGE_NS) return true;
     c->changes_ns = (c->changes_ns > c->now_ns ? c->changes_ns : c->now_ns) + CHANGE_NS;
@@ -166,7 +166,7 @@ static void take_line(struct gn_control *c, struct client *client, const char *l
     if (!gn_request_parse(line, length, &client->buffers->request, &err)) {
         c->counts.wrong++;
         send_reply(c, client, gn_reply_failure(&err));
-    } else if (is_too_much(c, client->buffers->request.command)) {
+    } else if (changes_too_often(c, client->buffers->request.command)) {
         c->counts.busy++;
         gn_fail(&err, "busy");
         send_reply(c, client, gn_reply_failure(&err));
@@ -185,40 +185,6 @@ static bool has_line(const struct client *client, size_t *length) {
     return newline || (client->ended && client->used > 0);
 }
 
-static void handle_line(struct gn_control *c, struct client *client, size_t length) {
-    const bool skipped = client->skips;
-    client->skips = false;
-    if (!skipped) take_line(c, client, client->buffers->in, length);
-    const size_t bytes = length + 1 < client->used ? length + 1 : client->used;
-    memmove(client->buffers->in, client->buffers->in + bytes, client->used - bytes);
-    client->used -= bytes;
-}
-
-/* A line that does not fit is answered at once; the rest of it is discarded. */
-static void handle_overlong(struct gn_control *c, struct client *client) {
-    struct gn_err err = {0};
-    client->used = 0;
-    if (client->skips) return;
-    client->skips = true;
-    client->line_ns = c->now_ns;
-    c->counts.requests++;
-    c->counts.wrong++;
-    gn_request_parse(client->buffers->in, GN_REQUEST_LINE_MAX + 1, &client->buffers->request, &err);
-    send_reply(c, client, gn_reply_failure(&err));
-}
-
-static void read_client(struct client *client) {
-    const size_t room = sizeof client->buffers->in - client->used;
-    const ssize_t got = recv(client->fd, client->buffers->in + client->used, room, MSG_DONTWAIT);
-    if (got > 0) client->used += (size_t)got;
-    if (got < 0 && errno == EINTR) return;
-    if (got < 0 && errno == EAGAIN) client->readable = false;
-    if (got == 0 || (got < 0 && errno != EAGAIN)) {
-        client->ended = true;
-        client->readable = false;
-    }
-}
-
 /* Is there anything to do for it now? */
 static bool is_due(const struct client *client) {
     size_t length;
@@ -229,16 +195,33 @@ static bool is_due(const struct client *client) {
 
 /* Handles one line, or reads one piece of input. */
 static void serve_client(struct gn_control *c, struct client *client) {
+    char *in = client->buffers->in;
     size_t length;
     c->budget--;
-    if (has_line(client, &length))
-        handle_line(c, client, length);
-    else if (client->used == sizeof client->buffers->in)
-        handle_overlong(c, client);
-    else if (client->readable)
-        read_client(client);
-    else
+    if (has_line(client, &length)) {
+        const bool skipped = client->skips;
+        client->skips = false;
+        if (!skipped) take_line(c, client, in, length);
+        const size_t bytes = length + 1 < client->used ? length + 1 : client->used;
+        memmove(in, in + bytes, client->used - bytes);
+        client->used -= bytes;
+    } else if (client->used == sizeof client->buffers->in) {
+        /* a line that is too long is refused at once, and the rest of it is discarded */
+        client->used = 0;
+        if (!client->skips) take_line(c, client, in, sizeof client->buffers->in);
+        client->skips = true;
+    } else if (client->readable) {
+        const size_t room = sizeof client->buffers->in - client->used;
+        const ssize_t got = recv(client->fd, in + client->used, room, MSG_DONTWAIT);
+        if (got > 0) {
+            client->used += (size_t)got;
+        } else if (got == 0 || errno != EINTR) {
+            client->ended |= got == 0 || errno != EAGAIN;
+            client->readable = false;
+        }
+    } else {
         drop_client(client); /* its stream has ended, and all is answered */
+    }
 }
 
 /* ---- clients -------------------------------------------------------------------------------- */
@@ -302,27 +285,24 @@ static void admit_client(struct gn_control *c, int fd) {
     c->counts.accepted++;
 }
 
-/* Without a descriptor left the pending connection would keep the listener readable for ever: the
- * spare one is closed to accept and refuse it. */
-static void refuse_without_descriptor(struct gn_control *c) {
-    struct gn_err err = {0};
-    if (c->spare >= 0) close(c->spare);
-    const int fd = accept4(c->listen.fd, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
-    gn_fail(&err, "busy");
-    if (fd >= 0) refuse_connection(c, fd, &err);
-    c->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
-}
-
 static void accept_connections(struct gn_control *c) {
     c->pending = false;
     for (int i = 0; i < ACCEPTS_PER_DISPATCH; i++) {
-        const int fd = accept4(c->listen.fd, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
-        if (fd >= 0)
+        int fd = accept4(c->listen.fd, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
+        if (fd >= 0) {
             admit_client(c, fd);
-        else if (errno == EMFILE || errno == ENFILE)
-            refuse_without_descriptor(c);
-        else if (errno != EINTR && errno != ECONNABORTED)
+        } else if (errno == EMFILE || errno == ENFILE) {
+            /* the pending connection would keep the listener readable for ever: the spare
+             * descriptor is closed to accept and refuse it */
+            struct gn_err err = {0};
+            if (c->spare >= 0) close(c->spare);
+            fd = accept4(c->listen.fd, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
+            gn_fail(&err, "busy");
+            if (fd >= 0) refuse_connection(c, fd, &err);
+            c->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
+        } else if (errno != EINTR && errno != ECONNABORTED) {
             return;
+        }
     }
 }
 

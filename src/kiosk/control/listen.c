@@ -82,23 +82,19 @@ static struct sockaddr_un address_of(const struct gn_listen *l) {
     return address;
 }
 
-static bool is_listened_on(const struct gn_listen *l) {
-    const struct sockaddr_un address = address_of(l);
-    const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    const bool refused = fd >= 0 &&
-                         connect(fd, (const struct sockaddr *)&address, sizeof address) != 0 &&
-                         errno == ECONNREFUSED;
-    if (fd >= 0) close(fd);
-    return !refused;
-}
-
 static bool remove_stale_socket(const struct gn_listen *l, struct gn_err *err) {
+    const struct sockaddr_un address = address_of(l);
     struct stat info;
     if (lstat(l->path, &info) != 0) return errno == ENOENT || fail_errno(l, "cannot stat it", err);
     if (!S_ISSOCK(info.st_mode))
         return gn_fail(err, "control socket %s: path exists and is not a socket; not replacing it",
                        l->path);
-    if (is_listened_on(l))
+    const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    const bool refused = fd >= 0 &&
+                         connect(fd, (const struct sockaddr *)&address, sizeof address) != 0 &&
+                         errno == ECONNREFUSED;
+    if (fd >= 0) close(fd);
+    if (!refused)
         return gn_fail(err,
                        "control socket %s: another program listens there; running without it "
                        "(choose another with --socket)",
@@ -125,39 +121,32 @@ static bool bind_socket(struct gn_listen *l, struct gn_err *err) {
     return true;
 }
 
-static void make_folder(const char *path) {
-    char folder[GN_LISTEN_PATH_MAX];
-    snprintf(folder, sizeof folder, "%s", path);
-    char *slash = strrchr(folder, '/');
-    if (!slash || slash == folder) return;
-    *slash = '\0';
-    if (mkdir(folder, 0700) != 0) return; /* a failure shows when it is used */
-}
-
 bool gn_listen_open(struct gn_listen *l, const char *path, struct gn_err *err) {
+    char folder[GN_LISTEN_PATH_MAX];
     *l = (struct gn_listen){.fd = -1, .lock = -1};
     if (strlen(path) + 1 > sizeof l->path)
         return gn_fail(err, "control socket %.200s: longer than %zu bytes", path,
                        sizeof l->path - 1);
     snprintf(l->path, sizeof l->path, "%s", path);
-    make_folder(path);
+    snprintf(folder, sizeof folder, "%s", path);
+    char *slash = strrchr(folder, '/');
+    if (slash && slash != folder) {
+        *slash = '\0';
+        (void)!mkdir(folder, 0700); /* a failure shows when it is used */
+    }
     if (take_lock(l, err) && remove_stale_socket(l, err) && bind_socket(l, err)) return true;
     gn_listen_close(l);
     return false;
 }
 
-static void remove_files(const struct gn_listen *l) {
-    char path[GN_LISTEN_PATH_MAX + 8];
+void gn_listen_close(struct gn_listen *l) {
+    char lock[GN_LISTEN_PATH_MAX + 8];
     struct stat info;
     if (l->inode && lstat(l->path, &info) == 0 && info.st_dev == l->device &&
         info.st_ino == l->inode)
         unlink(l->path);
-    lock_path(l, path, sizeof path);
-    if (l->lock >= 0 && is_same_file(l->lock, path)) unlink(path);
-}
-
-void gn_listen_close(struct gn_listen *l) {
-    remove_files(l);
+    lock_path(l, lock, sizeof lock);
+    if (l->lock >= 0 && is_same_file(l->lock, lock)) unlink(lock);
     if (l->fd >= 0) close(l->fd);
     if (l->lock >= 0) close(l->lock);
     *l = (struct gn_listen){.fd = -1, .lock = -1};
@@ -165,20 +154,18 @@ void gn_listen_close(struct gn_listen *l) {
 
 /* ---- who ------------------------------------------------------------------------------------ */
 
-static bool is_in_group(int fd, gid_t gid) {
-    gid_t groups[GROUPS_MAX];
-    socklen_t size = sizeof groups;
-    if (getsockopt(fd, SOL_SOCKET, SO_PEERGROUPS, groups, &size) != 0) return false;
-    for (size_t i = 0; i < size / sizeof *groups; i++)
-        if (groups[i] == gid) return true;
-    return false;
-}
-
 bool gn_listen_permits(const struct gn_listen *l, int fd, uid_t *uid) {
     struct ucred peer = {.uid = (uid_t)-1};
     socklen_t size = sizeof peer;
     const bool known = getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0;
     *uid = peer.uid;
-    return known &&
-           (peer.uid == 0 || peer.uid == l->uid || peer.gid == l->gid || is_in_group(fd, l->gid));
+    if (!known) return false;
+    if (peer.uid == 0 || peer.uid == l->uid || peer.gid == l->gid) return true;
+
+    gid_t groups[GROUPS_MAX]; /* the others that it is in */
+    size = sizeof groups;
+    if (getsockopt(fd, SOL_SOCKET, SO_PEERGROUPS, groups, &size) != 0) return false;
+    for (size_t i = 0; i < size / sizeof *groups; i++)
+        if (groups[i] == l->gid) return true;
+    return false;
 }

@@ -21,41 +21,6 @@ static bool is_deep(const char *line, size_t length) {
     return false;
 }
 
-static bool fail_command(const char *name, struct gn_err *err) {
-    char list[300];
-    const char *nearest = gn_ctl_nearest(name);
-    if (nearest)
-        return gn_fail_usage(err, "unknown command \"%.60s\"; did you mean %s?", name, nearest);
-    gn_ctl_list(list, sizeof list);
-    return gn_fail_usage(err, "unknown command \"%.60s\"; expected one of%s", name, list);
-}
-
-static bool find_command(const json_t *root, struct gn_request *out, struct gn_err *err) {
-    const char *name = json_string_value(json_object_get(root, "cmd"));
-    if (!name) return gn_fail_usage(err, "expected {\"cmd\":\"..\"} with a string");
-    const int command = gn_ctl_find(name);
-    if (command < 0) return fail_command(name, err);
-    out->command = (enum gn_ctl)command;
-    return true;
-}
-
-static bool is_member(const struct gn_ctl_row *row, const char *key) {
-    if (strcmp(key, "cmd") == 0) return true;
-    for (int i = 0; i < GN_CTL_WORDS_MAX && row->members[i]; i++)
-        if (strcmp(key, row->members[i]) == 0) return true;
-    return false;
-}
-
-static bool check_members(json_t *root, const struct gn_ctl_row *row, struct gn_err *err) {
-    const char *key;
-    json_t *value;
-    json_object_foreach(root, key, value) {
-        if (!is_member(row, key))
-            return gn_fail_usage(err, "%s: unknown member \"%.60s\"", row->name, key);
-    }
-    return true;
-}
-
 /* A member as a word; NULL: missing, or of another type. */
 static const char *word_of(const json_t *value, bool any, char *number, size_t size) {
     if (json_is_string(value)) return json_string_value(value);
@@ -68,8 +33,31 @@ static const char *word_of(const json_t *value, bool any, char *number, size_t s
     return json_is_number(value) ? number : NULL;
 }
 
-static bool take_words(const json_t *root, struct gn_request *out, struct gn_err *err) {
-    const struct gn_ctl_row *row = &gn_ctl_rows[out->command];
+static bool read_members(json_t *root, struct gn_request *out, struct gn_err *err) {
+    const char *name = json_string_value(json_object_get(root, "cmd")), *key;
+    if (!name) return gn_fail_usage(err, "expected {\"cmd\":\"..\"} with a string");
+    const int command = gn_ctl_find(name);
+    if (command < 0) {
+        char list[300];
+        const char *nearest = gn_ctl_nearest(name);
+        if (nearest)
+            return gn_fail_usage(err, "unknown command \"%.60s\"; did you mean %s?", name, nearest);
+        gn_ctl_list(list, sizeof list);
+        return gn_fail_usage(err, "unknown command \"%.60s\"; expected one of%s", name, list);
+    }
+    out->command = (enum gn_ctl)command;
+
+    /* all members are known */
+    const struct gn_ctl_row *row = &gn_ctl_rows[command];
+    json_t *value;
+    json_object_foreach(root, key, value) {
+        bool known = strcmp(key, "cmd") == 0;
+        for (int i = 0; i < GN_CTL_WORDS_MAX && row->members[i]; i++)
+            known |= strcmp(key, row->members[i]) == 0;
+        if (!known) return gn_fail_usage(err, "%s: unknown member \"%.60s\"", row->name, key);
+    }
+
+    /* none is missing; each is copied as a word */
     size_t used = 0;
     for (int i = 0; i < GN_CTL_WORDS_MAX && row->members[i]; i++) {
         char number[40];
@@ -99,8 +87,7 @@ bool gn_request_parse(const char *line, size_t length, struct gn_request *out, s
     json_t *root = json_loadb(line, length, JSON_REJECT_DUPLICATES, &why);
     if (!root) return gn_fail_usage(err, "not JSON: column %d: %s", why.column, why.text);
     bool ok = json_is_object(root) || gn_fail_usage(err, "expected an object: {\"cmd\":\"..\"}");
-    ok = ok && find_command(root, out, err) &&
-         check_members(root, &gn_ctl_rows[out->command], err) && take_words(root, out, err);
+    ok = ok && read_members(root, out, err);
     json_decref(root);
     return ok;
 }

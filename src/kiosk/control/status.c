@@ -33,29 +33,13 @@ json_t *gn_show_status_short(const struct gn_show *s) {
                      "paused", s->kiosk.paused, "blanked", s->kiosk.blanked, "info", s->kiosk.info);
 }
 
-static json_t *screen_status(const struct gn_show *s) {
-    const struct gn_display *d = &s->stage.display;
-    const struct gn_screen *screen = &d->screen;
-    return json_pack("{s:s, s:o, s:o, s:b, s:i, s:i, s:i}", "backend", d->ops ? d->ops->name : "",
-                     "what", gn_json_make_text(screen->what), "status",
-                     gn_json_make_text(screen->status), "lit", screen->lit, "width",
-                     (int)screen->width_px, "height", (int)screen->height_px, "rotate",
-                     (int)screen->rotate_deg);
-}
-
-static json_t *frame_status(const struct gn_show *s) {
-    const struct gn_screen_counts *c = &s->stage.display.screen.counts;
-    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "drawn",
-                     (json_int_t)s->counts.frames, "shown", (json_int_t)c->shown, "again",
-                     (json_int_t)c->again, "missed", (json_int_t)c->missed, "retried",
-                     (json_int_t)c->retried, "stalled", (json_int_t)c->stalled, "relit",
-                     (json_int_t)c->relit, "opened", (json_int_t)c->opened);
-}
-
 json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *status,
                             struct gn_control_counts c) {
     const struct gn_options *o = s->config.options;
     const struct gn_latency_report latency = gn_latency_read(&s->buttons.latency);
+    const struct gn_display *display = &s->stage.display;
+    const struct gn_screen *screen = &display->screen;
+    const struct gn_screen_counts *frames = &screen->counts;
     const int64_t now_ns = gn_clock_monotonic_ns();
     json_t *modes = json_array();
     for (int i = 0; i < s->modes.count; i++)
@@ -66,8 +50,20 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     json_object_update_new(reply, gn_show_status_short(s));
     json_object_set_new(reply, "waits", json_boolean(status->waits || gn_kiosk_waits(&s->kiosk)));
     json_object_set_new(reply, "modes", modes);
-    json_object_set_new(reply, "screen", screen_status(s));
-    json_object_set_new(reply, "frames", frame_status(s));
+    json_object_set_new(reply, "screen",
+                        json_pack("{s:s, s:o, s:o, s:b, s:i, s:i, s:i}", "backend",
+                                  display->ops ? display->ops->name : "", "what",
+                                  gn_json_make_text(screen->what), "status",
+                                  gn_json_make_text(screen->status), "lit", screen->lit, "width",
+                                  (int)screen->width_px, "height", (int)screen->height_px, "rotate",
+                                  (int)screen->rotate_deg));
+    json_object_set_new(
+        reply, "frames",
+        json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "drawn", (json_int_t)s->counts.frames,
+                  "shown", (json_int_t)frames->shown, "again", (json_int_t)frames->again, "missed",
+                  (json_int_t)frames->missed, "retried", (json_int_t)frames->retried, "stalled",
+                  (json_int_t)frames->stalled, "relit", (json_int_t)frames->relit, "opened",
+                  (json_int_t)frames->opened));
     json_object_set_new(
         reply, "input",
         json_pack("{s:I, s:o, s:o, s:i, s:i}", "seen", (json_int_t)latency.count, "median_ms",
