@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/clock.h"
 #include "kiosk/private.h"
 
 enum { SLICE_BYTES = 1 << 20 };
@@ -27,24 +26,24 @@ void gn_show_drop_staged(struct gn_show *s) {
     s->scenes.looks.ready = 0;
 }
 
-/* ---- programs ---- */
-
-static void fail_mode(struct gn_show *s, struct gn_show_looks *looks, int mode,
-                      const struct gn_err *err) {
+/* The mode or scene of that number cannot be shown. */
+static void fail_place(struct gn_show *s, enum gn_kiosk_event_kind kind, int number,
+                       const char *why) {
     const struct gn_kiosk_event failed = {
-        .kind = GN_KIOSK_MODE_FAILED, .time_ns = gn_clock_monotonic_ns(), .mode = mode};
-    char text[sizeof err->text + 64];
-    snprintf(text, sizeof text, "mode \"%.40s\": %s", s->modes.names[mode], err->text);
-    gn_show_report_problem(s, text);
-    looks->ready |= 1u << mode; /* not tried again */
+        .kind = kind, .time_ns = gn_loop_now_ns(s->loop), .mode = number, .scene = number};
+    gn_show_report_problem(s, why);
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
     gn_latency_drop(&s->buttons.latency);
 }
 
-/* Frame options of a mode on this screen. */
-static struct gn_frame_opts opts_of(const struct gn_show *s, const struct gn_stage_look *look) {
+/* ---- programs ---- */
+
+/* True: it did a piece; false: the mode is ready. */
+static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_frame **frame,
+                      const struct gn_pose *pose, int mode) {
+    /* the mode's options on this screen */
     const struct gn_frame_opts *now = &s->stage.frame_opts;
-    struct gn_frame_opts opts = look->frame_opts;
+    struct gn_frame_opts opts = looks->of[mode].frame_opts;
     opts.width_px = now->width_px;
     opts.height_px = now->height_px;
     opts.turn_deg = now->turn_deg;
@@ -52,18 +51,17 @@ static struct gn_frame_opts opts_of(const struct gn_show *s, const struct gn_sta
     opts.msaa = now->msaa;
     opts.all_seen = true;
     opts.captions_later = true;
-    return opts;
-}
 
-/* True: it did a piece; false: the mode is ready. */
-static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_frame **frame,
-                      const struct gn_pose *pose, int mode) {
-    const struct gn_frame_opts opts = opts_of(s, &looks->of[mode]);
     struct gn_err err = {0};
+    char text[sizeof err.text + 64];
     const struct gn_plan *plan = gn_frame_build(*frame, pose, &opts, NULL);
     switch (gn_gl_warm(s->stage.gl, plan, &err)) {
     case GN_GL_WARM_DONE: looks->ready |= 1u << mode; return false;
-    case GN_GL_WARM_FAILED: fail_mode(s, looks, mode, &err); return true;
+    case GN_GL_WARM_FAILED:
+        snprintf(text, sizeof text, "mode \"%.40s\": %s", s->modes.names[mode], err.text);
+        looks->ready |= 1u << mode; /* not tried again */
+        fail_place(s, GN_KIOSK_MODE_FAILED, mode, text);
+        return true;
     case GN_GL_WARM_REBUILD:
         gn_frame_destroy(*frame);
         *frame = gn_frame_create(pose->scene, gn_gl_caps(s->stage.gl));
@@ -74,58 +72,29 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
 
 /* ---- the staged scene ---- */
 
-static void fail_scene(struct gn_show *s, int scene, const struct gn_err *err) {
-    const struct gn_kiosk_event failed = {
-        .kind = GN_KIOSK_SCENE_FAILED, .time_ns = gn_clock_monotonic_ns(), .scene = scene};
-    gn_show_report_problem(s, err->text);
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
-    gn_latency_drop(&s->buttons.latency);
-}
-
-/* After a lost context it begins again. */
-static bool upload_staged(struct gn_show *s) {
+static bool work_on_staged(struct gn_show *s) {
     struct gn_show_scenes *scenes = &s->scenes;
     struct gn_loaded *staged = scenes->staged;
+    const int mode = s->kiosk.wanted.mode;
     struct gn_err err = {0};
+    if (!staged) return false;
+    if (scenes->whole)
+        return !(scenes->looks.ready >> mode & 1) &&
+               warm_mode(s, &scenes->looks, &scenes->frame, &staged->pose, mode);
+
+    /* its upload; after a lost context it begins again */
     if (!scenes->frame) {
         gn_gl_stage(s->stage.gl, staged->scene);
         scenes->frame = gn_frame_create(staged->scene, gn_gl_caps(s->stage.gl));
-        return true;
+    } else if (!gn_gl_stage_step(s->stage.gl, SLICE_BYTES, &scenes->whole, &err)) {
+        const int number = staged->number;
+        gn_show_drop_staged(s);
+        fail_place(s, GN_KIOSK_SCENE_FAILED, number, err.text);
     }
-    if (gn_gl_stage_step(s->stage.gl, SLICE_BYTES, &scenes->whole, &err)) return true;
-    const int number = staged->number;
-    gn_show_drop_staged(s);
-    fail_scene(s, number, &err);
     return true;
 }
 
-static bool work_on_staged(struct gn_show *s) {
-    struct gn_show_scenes *scenes = &s->scenes;
-    const int mode = s->kiosk.wanted.mode;
-    if (!scenes->staged) return false;
-    if (!scenes->whole) return upload_staged(s);
-    return !(scenes->looks.ready >> mode & 1) &&
-           warm_mode(s, &scenes->looks, &scenes->frame, &scenes->staged->pose, mode);
-}
-
 /* ---- pieces, most urgent first ---- */
-
-static bool do_piece(struct gn_show *s) {
-    if (s->rules.fade_ns > 0 && !s->fade.prepared && s->counts.frames > 0) {
-        struct gn_err unused = {0}; /* the first fade reports a failure */
-        gn_gl_keep_prepare(s->stage.gl, &unused);
-        s->fade.prepared = true;
-        return true;
-    }
-    if (work_on_staged(s)) return true;
-    for (int i = 0; i < s->modes.count; i++) {
-        const int mode = (s->kiosk.wanted.mode + i) % s->modes.count;
-        if (!(s->looks.ready >> mode & 1) &&
-            warm_mode(s, &s->looks, &s->stage.frame, &s->stage.pose, mode))
-            return true;
-    }
-    return false;
-}
 
 bool gn_show_has_work(const struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
@@ -134,9 +103,22 @@ bool gn_show_has_work(const struct gn_show *s) {
 
 void gn_show_work(struct gn_show *s) {
     if (!gn_show_has_work(s)) return;
-    s->ahead.idle = !do_piece(s);
+    bool did = true;
+    if (s->rules.fade_ns > 0 && !s->fade.prepared && s->counts.frames > 0) {
+        struct gn_err unused = {0}; /* the first fade reports a failure */
+        gn_gl_keep_prepare(s->stage.gl, &unused);
+        s->fade.prepared = true;
+    } else {
+        did = work_on_staged(s);
+    }
+    for (int i = 0; !did && i < s->modes.count; i++) {
+        const int mode = (s->kiosk.wanted.mode + i) % s->modes.count;
+        did = !(s->looks.ready >> mode & 1) &&
+              warm_mode(s, &s->looks, &s->stage.frame, &s->stage.pose, mode);
+    }
+    s->ahead.idle = !did;
     if (s->ahead.idle) gn_gl_warm_end(s->stage.gl);
-    s->ahead.due_ns = gn_clock_monotonic_ns() + 2 * s->stage.display.screen.period_ns;
+    s->ahead.due_ns = gn_loop_now_ns(s->loop) + 2 * s->stage.display.screen.period_ns;
 }
 
 /* ---- the wanted scene and mode ---- */
@@ -154,7 +136,7 @@ static void take_loaded(void *user, uint32_t events, int64_t now_ns) {
         s->ahead.idle = false;
         return;
     }
-    fail_scene(s, loaded->number, &loaded->err);
+    fail_place(s, GN_KIOSK_SCENE_FAILED, loaded->number, loaded->err.text);
     gn_loaded_destroy(loaded);
 }
 
@@ -175,40 +157,6 @@ bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
            gn_fail(err, "show: cannot wait for scenes: %s", strerror(errno));
 }
 
-/* One at a time: also a load whose scene is no longer wanted is finished first. */
-static void load_scene(struct gn_show *s, int scene) {
-    struct gn_scene_limits limits;
-    struct gn_err err = {0};
-    if (gn_loader_is_busy(s->scenes.loader)) return;
-    if (!gn_stage_limits(s->stage.settings, &limits, &err) ||
-        !gn_loader_start(s->scenes.loader, scene, s->scenes.paths[scene], &limits, &err))
-        fail_scene(s, scene, &err);
-}
-
-/* The staged scene replaces the stage's. */
-static void show_staged(struct gn_show *s) {
-    struct gn_show_scenes *scenes = &s->scenes;
-    struct gn_loaded *staged = scenes->staged;
-    struct gn_stage *stage = &s->stage;
-    if (stage->gl) {
-        gn_gl_stage_show(stage->gl);
-        gn_frame_destroy(stage->frame);
-        stage->frame = scenes->frame;
-        scenes->frame = NULL;
-    }
-    gn_pose_finish(&stage->pose);
-    gn_scene_destroy(stage->scene);
-    stage->scene = staged->scene;
-    stage->pose = staged->pose;
-    stage->frame_opts.view.orbit = (struct gn_orbit){0};
-    s->looks = scenes->looks;
-    scenes->shown = staged->number;
-    staged->scene = NULL;
-    staged->pose = (struct gn_pose){0};
-    gn_show_drop_staged(s);
-    s->ahead.idle = false;
-}
-
 static bool is_ready(const struct gn_show *s, int scene) {
     const struct gn_show_scenes *scenes = &s->scenes;
     const uint32_t bit = 1u << s->kiosk.wanted.mode;
@@ -222,40 +170,68 @@ bool gn_show_can_advance(const struct gn_show *s) {
            is_ready(s, gn_kiosk_scene(&s->rules, &s->kiosk.wanted));
 }
 
-/* A fade begins with the last picture: it is drawn once more, and kept. */
-static bool waits_for_kept(struct gn_show *s) {
-    const struct gn_screen *screen = &s->stage.display.screen;
-    if (s->rules.fade_ns == 0 || !s->stage.gl || !screen->lit || s->counts.frames == 0 ||
-        s->fade.kept || s->kiosk.blanked)
-        return false;
-    s->fade.keeps = true;
-    return true;
-}
-
 static void show_wanted(struct gn_show *s, int scene) {
+    struct gn_show_scenes *scenes = &s->scenes;
+    struct gn_stage *stage = &s->stage;
     const struct gn_kiosk_event ready = {.kind = GN_KIOSK_READY,
-                                         .time_ns = gn_clock_monotonic_ns(),
+                                         .time_ns = gn_loop_now_ns(s->loop),
                                          .mode = s->kiosk.wanted.mode,
                                          .scene = scene};
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &ready);
-    if (scene != s->scenes.shown) show_staged(s);
+
+    /* the staged scene replaces the stage's */
+    if (scene != scenes->shown) {
+        struct gn_loaded *staged = scenes->staged;
+        if (stage->gl) {
+            gn_gl_stage_show(stage->gl);
+            gn_frame_destroy(stage->frame);
+            stage->frame = scenes->frame;
+            scenes->frame = NULL;
+        }
+        gn_pose_finish(&stage->pose);
+        gn_scene_destroy(stage->scene);
+        stage->scene = staged->scene;
+        stage->pose = staged->pose;
+        stage->frame_opts.view.orbit = (struct gn_orbit){0};
+        s->looks = scenes->looks;
+        scenes->shown = staged->number;
+        staged->scene = NULL;
+        staged->pose = (struct gn_pose){0};
+        gn_show_drop_staged(s);
+        s->ahead.idle = false;
+    }
     gn_show_enter(s);
     s->fade.keeps = s->fade.kept = false;
-    if (!s->stage.settings->run.verbose) return;
+    if (!stage->settings->run.verbose) return;
     printf("mode %s, scene %s\n", s->modes.names[s->kiosk.shown.mode],
-           s->scenes.paths[scene] ? s->scenes.paths[scene] : "(default scene)");
+           scenes->paths[scene] ? scenes->paths[scene] : "(default scene)");
     fflush(stdout);
 }
 
 void gn_show_advance(struct gn_show *s) {
+    struct gn_show_scenes *scenes = &s->scenes;
     const int scene = gn_kiosk_scene(&s->rules, &s->kiosk.wanted);
-    if (s->scenes.staged && s->scenes.staged->number != scene) gn_show_drop_staged(s);
+    if (scenes->staged && scenes->staged->number != scene) gn_show_drop_staged(s);
     if (!gn_kiosk_waits(&s->kiosk)) {
         s->fade.keeps = s->fade.kept = false;
         return;
     }
-    if (scene != s->scenes.shown && !s->scenes.staged) load_scene(s, scene);
-    if (s->scenes.staged && !(s->scenes.looks.ready >> s->kiosk.wanted.mode & 1))
-        s->ahead.idle = false;
-    if (is_ready(s, scene) && !waits_for_kept(s)) show_wanted(s, scene);
+
+    /* one load at a time: also one whose scene is no longer wanted is finished first */
+    if (scene != scenes->shown && !scenes->staged && !gn_loader_is_busy(scenes->loader)) {
+        struct gn_scene_limits limits;
+        struct gn_err err = {0};
+        if (!gn_stage_limits(s->stage.settings, &limits, &err) ||
+            !gn_loader_start(scenes->loader, scene, scenes->paths[scene], &limits, &err))
+            fail_place(s, GN_KIOSK_SCENE_FAILED, scene, err.text);
+    }
+    if (scenes->staged && !(scenes->looks.ready >> s->kiosk.wanted.mode & 1)) s->ahead.idle = false;
+    if (!is_ready(s, scene)) return;
+
+    /* a fade begins with the last picture: it is drawn once more, and kept */
+    if (s->rules.fade_ns > 0 && s->stage.gl && s->stage.display.screen.lit &&
+        s->counts.frames > 0 && !s->fade.kept && !s->kiosk.blanked)
+        s->fade.keeps = true;
+    else
+        show_wanted(s, scene);
 }

@@ -22,31 +22,32 @@ static const char *scene_name(const struct gn_show *s, int scene) {
     return !path ? "default scene" : slash ? slash + 1 : path;
 }
 
-static const char *caption_of(const struct gn_show *s, const struct gn_kiosk_view *view) {
-    switch (view->caption) {
-    case GN_KIOSK_CAPTION_MODE: return s->modes.names[view->caption_mode];
-    case GN_KIOSK_CAPTION_SCENE: return scene_name(s, view->caption_scene);
-    case GN_KIOSK_CAPTION_CAMERA:
-        return s->stage.scene->cameras[s->stage.frame_opts.view.camera].name;
-    case GN_KIOSK_CAPTION_PAUSE: return view->stands ? "pause" : NULL;
-    default: return NULL;
-    }
-}
+void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
+    struct gn_show_text *t = &s->text;
+    struct gn_frame_opts *f = &s->stage.frame_opts;
+    const bool on_side = f->turn_deg / 90 % 2;
 
-/* A text is set only when it changes. */
-static void write_changes(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
+    /* captions of changes: a text is set only when it changes */
     const char *error = s->config.options->config_error;
-    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = s->text.problem;
-    gn_captions_set(s->text.captions, GN_CAPTION_ERROR, error, now_ns);
-    if (view->caption == s->text.view.caption && s->kiosk.caption_ns == s->text.since_ns) return;
-    s->text.view = *view;
-    s->text.since_ns = s->kiosk.caption_ns;
-    gn_captions_set(s->text.captions, GN_CAPTION_MODE, caption_of(s, view),
-                    now_ns + s->rules.caption_ns -
-                        GN_CAPTION_MODE_NS); /* so that it ends at that time */
-}
+    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = t->problem;
+    gn_captions_set(t->captions, GN_CAPTION_ERROR, error, now_ns);
+    if (view->caption != t->view.caption || s->kiosk.caption_ns != t->since_ns) {
+        t->view = *view;
+        t->since_ns = s->kiosk.caption_ns;
+        const char *text = NULL;
+        switch (view->caption) {
+        case GN_KIOSK_CAPTION_MODE: text = s->modes.names[view->caption_mode]; break;
+        case GN_KIOSK_CAPTION_SCENE: text = scene_name(s, view->caption_scene); break;
+        case GN_KIOSK_CAPTION_CAMERA: text = s->stage.scene->cameras[f->view.camera].name; break;
+        case GN_KIOSK_CAPTION_PAUSE: text = view->stands ? "pause" : NULL; break;
+        default: break;
+        }
+        gn_captions_set(t->captions, GN_CAPTION_MODE, text,
+                        now_ns + s->rules.caption_ns -
+                            GN_CAPTION_MODE_NS); /* so that it ends at that time */
+    }
 
-static void write_page(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
+    /* the information page */
     const struct gn_info info = {
         .scene = scene_name(s, view->scene),
         .mode = s->modes.names[view->mode],
@@ -55,19 +56,13 @@ static void write_page(struct gn_show *s, const struct gn_kiosk_view *view, int6
         .uptime_ns = now_ns - s->counts.begun_ns,
     };
     if (!view->info) {
-        s->text.page.made = false;
-        gn_captions_set(s->text.captions, GN_CAPTION_INFO, NULL, now_ns);
-    } else if (gn_info_page_step(&s->text.page, &info, now_ns))
-        gn_captions_set(s->text.captions, GN_CAPTION_INFO, s->text.page.text, now_ns);
-}
-
-void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
-    struct gn_frame_opts *f = &s->stage.frame_opts;
-    const bool on_side = f->turn_deg / 90 % 2;
-    write_changes(s, view, now_ns);
-    write_page(s, view, now_ns);
+        t->page.made = false;
+        gn_captions_set(t->captions, GN_CAPTION_INFO, NULL, now_ns);
+    } else if (gn_info_page_step(&t->page, &info, now_ns)) {
+        gn_captions_set(t->captions, GN_CAPTION_INFO, t->page.text, now_ns);
+    }
     f->captions_later = true;
-    f->captions = gn_captions_run(s->text.captions, on_side ? f->height_px : f->width_px,
+    f->captions = gn_captions_run(t->captions, on_side ? f->height_px : f->width_px,
                                   on_side ? f->width_px : f->height_px, now_ns);
 }
 

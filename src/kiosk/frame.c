@@ -7,13 +7,6 @@
 
 #define ASK_NS (10 * GN_NS_PER_S) /* the GPU is tested at most this often */
 
-static bool views_differ(const struct gn_kiosk_view *a, const struct gn_kiosk_view *b) {
-    return a->mode != b->mode || a->scene != b->scene || a->camera != b->camera ||
-           a->info != b->info || a->old > 0.0f || b->old > 0.0f || a->caption != b->caption ||
-           a->caption_mode != b->caption_mode || a->caption_scene != b->caption_scene ||
-           (a->stands && a->time_ns != b->time_ns);
-}
-
 bool gn_show_wants_frame(const struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     if (!screen->may_draw || !s->stage.gl) return false;
@@ -23,18 +16,14 @@ bool gn_show_wants_frame(const struct gn_show *s) {
     const bool moves = s->counts.most_frames < UINT64_MAX ||
                        (!view.stands && (s->stage.pose.animated ||
                                          s->stage.settings->scene.turntable_deg_s != 0.0));
-    return moves || views_differ(&view, &s->drawn) || gn_show_captions_due_ns(s) <= screen->seen_ns;
-}
-
-/* Keeps the picture for a fade. On failure fades are switched off. */
-static void keep_picture(struct gn_show *s) {
-    struct gn_err err = {0};
-    if (!gn_gl_keep(s->stage.gl, &err)) {
-        gn_show_report_problem(s, err.text);
-        s->rules.fade_ns = 0;
-    }
-    s->fade.keeps = false;
-    s->fade.kept = true;
+    const struct gn_kiosk_view *drawn = &s->drawn;
+    const bool differs = view.mode != drawn->mode || view.scene != drawn->scene ||
+                         view.camera != drawn->camera || view.info != drawn->info ||
+                         view.old > 0.0f || drawn->old > 0.0f || view.caption != drawn->caption ||
+                         view.caption_mode != drawn->caption_mode ||
+                         view.caption_scene != drawn->caption_scene ||
+                         (view.stands && view.time_ns != drawn->time_ns);
+    return moves || differs || gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
 /* If a screenshot is asked for, it is this frame. */
@@ -69,7 +58,15 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
                        err))
         return false;
     if (view.old > 0.0f) gn_gl_lay_over(s->stage.gl, view.old);
-    if (s->fade.keeps) keep_picture(s);
+    if (s->fade.keeps) { /* the picture that a fade begins with */
+        struct gn_err why = {0};
+        if (!gn_gl_keep(s->stage.gl, &why)) {
+            gn_show_report_problem(s, why.text);
+            s->rules.fade_ns = 0; /* no fades any more */
+        }
+        s->fade.keeps = false;
+        s->fade.kept = true;
+    }
 
     /* count allocations, except in the first frame and while a scene loads */
     if (s->counts.frames++ > 0 && !gn_loader_is_busy(s->scenes.loader)) {
@@ -79,27 +76,17 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     s->drawn = view;
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
     if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
-    gn_frame_times_add(&s->counts.times, gn_clock_monotonic_ns());
+    gn_frame_times_add(&s->counts.times, gn_loop_now_ns(s->loop));
     fill_screenshot(s);
     return !screen->copy_to ||
            gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
-}
-
-/* Latency of buttons, when a frame was committed. */
-static void measure_latency(struct gn_show *s) {
-    const uint64_t before = s->buttons.latency.count;
-    gn_latency_frame(&s->buttons.latency, gn_clock_monotonic_ns(), !gn_kiosk_waits(&s->kiosk));
-    if (s->buttons.latency.count == before || !s->stage.settings->run.verbose) return;
-    const struct gn_latency_sample last = gn_latency_last(&s->buttons.latency);
-    printf("seen %.1f ms after the edge, as frame %d\n", (double)last.ns * 1e-6, last.frames);
-    fflush(stdout);
 }
 
 /* A GPU that was reset may have lost its memory without an error from the driver: after a stalled
  * flip known values are drawn and read back. */
 static bool gpu_is_well(struct gn_show *s) {
     const uint64_t stalled = s->stage.display.screen.counts.stalled;
-    const int64_t now_ns = gn_clock_monotonic_ns();
+    const int64_t now_ns = gn_loop_now_ns(s->loop);
     if (gn_gl_is_lost(s->stage.gl)) return false;
     if (stalled == s->context.checked_stalls || now_ns < s->context.checked_ns + ASK_NS)
         return true;
@@ -110,19 +97,28 @@ static bool gpu_is_well(struct gn_show *s) {
 
 bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     struct gn_display *display = &s->stage.display;
-    const int64_t begun_ns = gn_clock_monotonic_ns();
+    const int64_t begun_ns = gn_loop_now_ns(s->loop);
     if (!gpu_is_well(s) && gn_display_lose(display, begun_ns)) return true;
     if (!gn_display_begin(display, begun_ns, err)) return !err->text[0];
     const bool drawn = draw_frame(s, err);
-    if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_clock_monotonic_ns())) {
+    if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_loop_now_ns(s->loop))) {
         *err = (struct gn_err){0};
         return true;
     }
     if (!drawn) return false;
-    const int64_t drawn_ns = gn_clock_monotonic_ns();
+    const int64_t drawn_ns = gn_loop_now_ns(s->loop);
     s->changed = s->stage.waits;
     if (!gn_display_present(display, drawn_ns, err)) return false;
-    measure_latency(s);
+
+    /* latency of buttons */
+    struct gn_latency *latency = &s->buttons.latency;
+    const uint64_t before = latency->count;
+    gn_latency_frame(latency, gn_loop_now_ns(s->loop), !gn_kiosk_waits(&s->kiosk));
+    if (latency->count != before && s->stage.settings->run.verbose) {
+        const struct gn_latency_sample last = gn_latency_last(latency);
+        printf("seen %.1f ms after the edge, as frame %d\n", (double)last.ns * 1e-6, last.frames);
+        fflush(stdout);
+    }
     gn_show_stats_frame(&s->stats, drawn_ns - begun_ns);
     return true;
 }

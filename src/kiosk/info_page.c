@@ -43,25 +43,25 @@ static void add_screen(struct gn_info_page *page, const struct gn_screen *screen
         add_line(page, "Screen: %ux%u", screen->width_px, screen->height_px);
 }
 
-static const char *address_of(const struct ifaddrs *i, char *out, socklen_t size) {
-    if (!i->ifa_addr || !(i->ifa_flags & IFF_UP) || i->ifa_flags & IFF_LOOPBACK) return NULL;
-    if (i->ifa_addr->sa_family == AF_INET)
-        return inet_ntop(AF_INET, &((const struct sockaddr_in *)i->ifa_addr)->sin_addr, out, size);
-    if (i->ifa_addr->sa_family != AF_INET6) return NULL;
-    const struct in6_addr *six = &((const struct sockaddr_in6 *)i->ifa_addr)->sin6_addr;
-    return IN6_IS_ADDR_LINKLOCAL(six) ? NULL : inet_ntop(AF_INET6, six, out, size);
-}
-
 static void add_addresses(struct gn_info_page *page) {
     struct ifaddrs *all = NULL;
     char text[INET6_ADDRSTRLEN];
     int count = 0;
     if (getifaddrs(&all) != 0) return;
-    for (const struct ifaddrs *i = all; i && count < ADDRESSES_MAX; i = i->ifa_next)
-        if (address_of(i, text, sizeof text)) {
-            add_line(page, "Address: %s (%s)", text, i->ifa_name);
-            count++;
-        }
+    for (const struct ifaddrs *i = all; i && count < ADDRESSES_MAX; i = i->ifa_next) {
+        const struct sockaddr *address = i->ifa_addr;
+        const void *number = NULL;
+        if (!address || !(i->ifa_flags & IFF_UP) || i->ifa_flags & IFF_LOOPBACK) continue;
+        if (address->sa_family == AF_INET)
+            number = &((const struct sockaddr_in *)address)->sin_addr;
+        if (address->sa_family == AF_INET6)
+            number = &((const struct sockaddr_in6 *)address)->sin6_addr;
+        if (!number || (address->sa_family == AF_INET6 && IN6_IS_ADDR_LINKLOCAL(number)) ||
+            !inet_ntop(address->sa_family, number, text, sizeof text))
+            continue;
+        add_line(page, "Address: %s (%s)", text, i->ifa_name);
+        count++;
+    }
     freeifaddrs(all);
     if (count == 0) add_line(page, "Address: none");
 }
@@ -82,17 +82,9 @@ static void add_temperature(struct gn_info_page *page, const char *root) {
     if (hottest > 0) add_line(page, "Temperature: %.0f C", (double)hottest * 1e-3);
 }
 
-static void add_uptime(struct gn_info_page *page, int64_t uptime_ns) {
-    const long long s = uptime_ns / GN_NS_PER_S, days = s / 86400;
-    if (days > 0)
-        add_line(page, "Running: %lld day%s %02lld:%02lld:%02lld", days, days == 1 ? "" : "s",
-                 s / 3600 % 24, s / 60 % 60, s % 60);
-    else
-        add_line(page, "Running: %02lld:%02lld:%02lld", s / 3600, s / 60 % 60, s % 60);
-}
-
-static void make_text(struct gn_info_page *page, const struct gn_info *info, int64_t now_ns) {
+bool gn_info_page_step(struct gn_info_page *page, const struct gn_info *info, int64_t now_ns) {
     struct utsname system;
+    if (page->made && now_ns - page->made_ns < GN_NS_PER_S) return false;
     page->text[0] = '\0';
     add_line(page, "gnomon %s", GN_VERSION);
     if (info->mode) add_line(page, "Mode: %.60s", info->mode);
@@ -106,12 +98,12 @@ static void make_text(struct gn_info_page *page, const struct gn_info *info, int
     if (uname(&system) == 0)
         add_line(page, "System: %s %s %s", system.sysname, system.release, system.machine);
     add_temperature(page, info->root);
-    if (info->uptime_ns > 0) add_uptime(page, info->uptime_ns);
-}
-
-bool gn_info_page_step(struct gn_info_page *page, const struct gn_info *info, int64_t now_ns) {
-    if (page->made && now_ns - page->made_ns < GN_NS_PER_S) return false;
-    make_text(page, info, now_ns);
+    const long long s = info->uptime_ns / GN_NS_PER_S, days = s / 86400;
+    if (days > 0)
+        add_line(page, "Running: %lld day%s %02lld:%02lld:%02lld", days, days == 1 ? "" : "s",
+                 s / 3600 % 24, s / 60 % 60, s % 60);
+    else if (info->uptime_ns > 0)
+        add_line(page, "Running: %02lld:%02lld:%02lld", s / 3600, s / 60 % 60, s % 60);
     page->made_ns = now_ns;
     page->made = true;
     return true;

@@ -1,7 +1,6 @@
 /* Buttons and keys: gestures become actions. */
 #include <stdio.h>
 
-#include "core/clock.h"
 #include "kiosk/private.h"
 
 /* A window has keys of its own: then the terminal's are not read. */
@@ -20,23 +19,8 @@ bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
         .devices = s->stage.display.ops->is_console,
         .script = s->stage.settings->run.input_script,
     };
-    s->buttons.input = gn_input_open(&opts, gn_clock_monotonic_ns(), s->warnings, err);
+    s->buttons.input = gn_input_open(&opts, gn_loop_now_ns(s->loop), s->warnings, err);
     return s->buttons.input;
-}
-
-static bool place_changes(const struct gn_kiosk *a, const struct gn_kiosk *b) {
-    return a->wanted.mode != b->wanted.mode || a->wanted.scene != b->wanted.scene;
-}
-
-/* Only edges that change the picture; one that is undone before it was shown is dropped. */
-static void measure_edge(struct gn_show *s, const struct gn_kiosk *before, int64_t edge_ns) {
-    const struct gn_kiosk *now = &s->kiosk;
-    const bool changes =
-        place_changes(before, now) || before->camera != now->camera || before->info != now->info;
-    if (now->blanked || (gn_kiosk_waits(before) && !gn_kiosk_waits(now)))
-        gn_latency_drop(&s->buttons.latency);
-    else if (changes)
-        gn_latency_edge(&s->buttons.latency, edge_ns);
 }
 
 void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
@@ -48,9 +32,17 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
     while (gn_input_next(s->buttons.input, &event)) {
         const struct gn_action action = gn_buttons_action(&s->buttons.map, &event);
         if (action.kind == GN_ACTION_NONE) continue;
-        const struct gn_kiosk before = s->kiosk;
+        const struct gn_kiosk before = s->kiosk, *now = &s->kiosk;
         gn_show_act(s, &action, event.time_ns);
-        measure_edge(s, &before, event.time_ns);
+
+        /* the latency of edges that change the picture; one that is undone before it was shown is
+         * dropped */
+        if (now->blanked || (gn_kiosk_waits(&before) && !gn_kiosk_waits(now)))
+            gn_latency_drop(&s->buttons.latency);
+        else if (before.wanted.mode != now->wanted.mode ||
+                 before.wanted.scene != now->wanted.scene || before.camera != now->camera ||
+                 before.info != now->info)
+            gn_latency_edge(&s->buttons.latency, event.time_ns);
     }
     const bool prints =
         s->config.options->buttons ||

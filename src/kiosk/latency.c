@@ -8,25 +8,17 @@ void gn_latency_edge(struct gn_latency *l, int64_t edge_ns) {
 
 void gn_latency_drop(struct gn_latency *l) { l->waiting = 0; }
 
-static int frames_since(const struct gn_latency *l, int64_t edge_ns) {
-    const unsigned most = l->frames < GN_LATENCY_FRAMES ? l->frames : GN_LATENCY_FRAMES;
-    int frames = 0;
-    for (unsigned i = 0; i < most; i++) frames += l->frames_ns[i] >= edge_ns;
-    return frames;
-}
-
-static void keep_sample(struct gn_latency *l, struct gn_latency_sample sample) {
-    l->kept[l->count++ % GN_LATENCY_KEPT] = sample;
-    if (sample.ns > l->worst.ns) l->worst.ns = sample.ns;
-    if (sample.frames > l->worst.frames) l->worst.frames = sample.frames;
-}
-
 void gn_latency_frame(struct gn_latency *l, int64_t now_ns, bool shows) {
     l->frames_ns[l->frames++ % GN_LATENCY_FRAMES] = now_ns;
     if (!shows) return;
-    for (int i = 0; i < l->waiting; i++)
-        keep_sample(l, (struct gn_latency_sample){now_ns - l->edges_ns[i],
-                                                  frames_since(l, l->edges_ns[i])});
+    const unsigned known = l->frames < GN_LATENCY_FRAMES ? l->frames : GN_LATENCY_FRAMES;
+    for (int i = 0; i < l->waiting; i++) {
+        struct gn_latency_sample sample = {.ns = now_ns - l->edges_ns[i]};
+        for (unsigned j = 0; j < known; j++) sample.frames += l->frames_ns[j] >= l->edges_ns[i];
+        l->kept[l->count++ % GN_LATENCY_KEPT] = sample;
+        if (sample.ns > l->worst.ns) l->worst.ns = sample.ns;
+        if (sample.frames > l->worst.frames) l->worst.frames = sample.frames;
+    }
     l->waiting = 0;
 }
 

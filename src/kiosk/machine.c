@@ -6,10 +6,6 @@ static int modes_of(const struct gn_kiosk_rules *rules) {
     return rules->mode_count > 0 ? rules->mode_count : 1;
 }
 
-static int scenes_of(const struct gn_kiosk_rules *rules) {
-    return rules->scene_count > 0 ? rules->scene_count : 1;
-}
-
 int gn_kiosk_scene(const struct gn_kiosk_rules *rules, const struct gn_kiosk_place *place) {
     const int own = rules->own_scene[place->mode];
     return own > 0 ? own - 1 : place->scene;
@@ -39,29 +35,6 @@ static void want_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, in
     s->wanted.mode = mode;
 }
 
-/* When all others have failed they are tried again: their files may be fixed by now. */
-static void want_next_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s) {
-    const int count = scenes_of(rules);
-    int scene = s->wanted.scene;
-    for (int i = 1; i < count; i++) {
-        scene = (scene + 1) % count;
-        if (!(s->bad_scenes >> scene & 1)) {
-            s->wanted.scene = scene;
-            return;
-        }
-    }
-    for (int i = 0; i < count; i++) s->bad_scenes &= ~(UINT64_C(1) << i);
-    s->wanted.scene = (s->wanted.scene + 1) % count;
-}
-
-static void want_named(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int mode) {
-    if (mode < 0 || mode >= modes_of(rules)) return;
-    const int own = rules->own_scene[mode];
-    s->bad_modes &= ~(1u << mode); /* asked for by name: try again */
-    if (own > 0) s->bad_scenes &= ~(UINT64_C(1) << (own - 1));
-    s->wanted.mode = mode;
-}
-
 /* ---- actions ---- */
 
 /* The scene's time continues where it was paused. */
@@ -87,13 +60,26 @@ static void act_prev(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
 
 static void act_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                      const struct gn_kiosk_event *e) {
-    want_named(rules, s, e->mode);
+    if (e->mode >= 0 && e->mode < modes_of(rules)) {
+        const int own = rules->own_scene[e->mode];
+        s->bad_modes &= ~(1u << e->mode); /* asked for by name: try again */
+        if (own > 0) s->bad_scenes &= ~(UINT64_C(1) << (own - 1));
+        s->wanted.mode = e->mode;
+    }
     set_caption(s, GN_KIOSK_CAPTION_MODE, e->time_ns);
 }
 
+/* When all others have failed they are tried again: their files may be fixed by now. */
 static void act_next_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                            const struct gn_kiosk_event *e) {
-    want_next_scene(rules, s);
+    const int count = rules->scene_count > 0 ? rules->scene_count : 1;
+    int by = 1;
+    while (by < count && s->bad_scenes >> (s->wanted.scene + by) % count & 1) by++;
+    if (by >= count) {
+        for (int i = 0; i < count; i++) s->bad_scenes &= ~(UINT64_C(1) << i);
+        by = 1;
+    }
+    s->wanted.scene = (s->wanted.scene + by) % count;
     set_caption(s, GN_KIOSK_CAPTION_SCENE, e->time_ns);
 }
 

@@ -41,23 +41,15 @@ static void list_techniques(struct gn_show *s) {
     }
 }
 
-static bool same_text(const char *a, const char *b) {
-    return a == b || (a && b && strcmp(a, b) == 0);
-}
-
 /* The number of a path; a new one is added if there is room. */
 static int find_scene(struct gn_show_scenes *scenes, const char *path) {
-    for (int i = 0; i < scenes->count; i++)
-        if (same_text(scenes->paths[i], path)) return i;
+    for (int i = 0; i < scenes->count; i++) {
+        const char *other = scenes->paths[i];
+        if (path == other || (path && other && strcmp(path, other) == 0)) return i;
+    }
     if (scenes->count == GN_KIOSK_SCENES_MAX) return 0;
     scenes->paths[scenes->count] = path;
     return scenes->count++;
-}
-
-static void list_scenes(struct gn_show *s) {
-    const struct gn_scene_list *list = &s->config.options->all[0].scene.list;
-    s->scenes.count = s->scenes.listed = list->count > 0 ? list->count : 1;
-    for (int i = 0; i < s->scenes.count; i++) s->scenes.paths[i] = list->paths[i];
 }
 
 static bool comes_from_mode(const struct gn_settings *o, size_t offset) {
@@ -74,8 +66,10 @@ void gn_show_take_rules(struct gn_show *s) {
 
 void gn_show_list_modes(struct gn_show *s) {
     const struct gn_options *o = s->config.options;
+    const struct gn_scene_list *list = &o->all[0].scene.list;
     s->modes = (struct gn_show_modes){.base = -1};
-    list_scenes(s);
+    s->scenes.count = s->scenes.listed = list->count > 0 ? list->count : 1;
+    for (int i = 0; i < s->scenes.count; i++) s->scenes.paths[i] = list->paths[i];
     for (int i = 0; i < o->mode_count; i++) add_mode(&s->modes, o->modes[i].name, 1 + i);
     if (o->mode_count == 0) list_techniques(s);
     const int named = gn_show_find_mode(&s->modes, o->settings->mode);

@@ -8,15 +8,15 @@
 #include "options/value.h"
 #include "stage/wake.h"
 
-static bool is_srgb(const struct gn_settings *o) {
-    uint32_t without = 0;
-    return !gn_caps_parse(o->render.without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
-}
-
-/* again_ns: 0 by default. */
-static struct gn_screen_opts screen_opts_of(const struct gn_show *s, int64_t again_ns) {
+bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
     const struct gn_settings *o = s->stage.settings;
-    return (struct gn_screen_opts){
+    struct gn_wake wake = {0};
+    uint32_t without = 0;
+    const bool srgb =
+        !gn_caps_parse(o->render.without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
+    /* a still picture must be flipped within half of the watchdog's timeout */
+    const int64_t again_ns = s->service.every_ns * 3 / 4;
+    s->context.screen_opts = (struct gn_screen_opts){
         .loop = s->loop,
         .width_px = (uint32_t)o->render.size.width_px,
         .height_px = (uint32_t)o->render.size.height_px,
@@ -32,22 +32,14 @@ static struct gn_screen_opts screen_opts_of(const struct gn_show *s, int64_t aga
         .cap_hz = o->display.max_mode.hz,
         .rotate_deg = (unsigned)o->display.rotate_deg,
         .max_fps = (unsigned)o->display.max_fps,
-        .unencoded = !is_srgb(o),
+        .unencoded = !srgb,
         .legacy = o->display.legacy,
-        .again_ns = again_ns,
+        .again_ns = again_ns < 10 * GN_NS_PER_S ? again_ns : 0,
     };
-}
-
-bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
-    const struct gn_settings *o = s->stage.settings;
-    struct gn_wake wake = {0};
-    /* a still picture must be flipped within half of the watchdog's timeout */
-    const int64_t again_ns = s->service.every_ns * 3 / 4;
-    s->context.screen_opts = screen_opts_of(s, again_ns < 10 * GN_NS_PER_S ? again_ns : 0);
     gn_wake_begin(&wake, o);
     const bool ok = gn_display_open_screen(
         &s->stage.display, s->config.place ? s->config.place->backend : o->display.backend,
-        &s->context.screen_opts, gn_clock_monotonic_ns(), s->warnings, err);
+        &s->context.screen_opts, gn_loop_now_ns(s->loop), s->warnings, err);
     gn_wake_end(&wake);
     if (ok && s->config.place) s->config.place->opened = true;
     return ok;
@@ -84,31 +76,11 @@ void gn_show_stop_gl(struct gn_show *s) {
 static bool show_failure(struct gn_show *s, struct gn_err *err) {
     if (gn_stop_asked()) return false;
     gn_show_stop_gl(s);
-    if (!gn_display_show_message(&s->stage.display, err->text, gn_clock_monotonic_ns()))
+    if (!gn_display_show_message(&s->stage.display, err->text, gn_loop_now_ns(s->loop)))
         return false;
     s->context.message = true;
     fprintf(stderr, "gnomon: warning: %s\n", err->text);
     *err = (struct gn_err){0};
-    return true;
-}
-
-/* Without a monitor the programs are made by drawing a small frame. */
-static bool start_gl(struct gn_show *s, struct gn_err *err) {
-    const struct gn_screen *screen = &s->stage.display.screen;
-    s->context.generation = screen->generation;
-    s->changed = true;
-    if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return show_failure(s, err);
-    if (s->context.message)
-        gn_display_show_message(&s->stage.display, NULL, gn_clock_monotonic_ns());
-    s->context.message = false;
-    if (screen->may_draw) return true;
-    s->stage.frame_opts.width_px = 64;
-    s->stage.frame_opts.height_px = 36;
-    s->stage.frame_opts.captions = NULL; /* laid out for another size */
-    gn_gl_set_window(s->stage.gl, NULL);
-    if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns, s->warnings, err))
-        return show_failure(s, err);
-    gn_gl_finish_frame(s->stage.gl); /* many drivers compile at the first draw */
     return true;
 }
 
@@ -124,14 +96,30 @@ bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
         gn_show_stop_gl(s);
         s->context.generation = 0;
         gn_wake_begin(&wake, s->stage.settings);
-        const bool ok = gn_display_renew(&s->stage.display, gn_clock_monotonic_ns(), err);
+        const bool ok = gn_display_renew(&s->stage.display, gn_loop_now_ns(s->loop), err);
         gn_wake_end(&wake);
         if (!ok) return false;
     }
     if (screen->lost || !screen->has_context || screen->generation == s->context.generation)
         return true;
     gn_show_stop_gl(s);
-    return start_gl(s, err);
+    s->context.generation = screen->generation;
+    s->changed = true;
+    if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return show_failure(s, err);
+    if (s->context.message)
+        gn_display_show_message(&s->stage.display, NULL, gn_loop_now_ns(s->loop));
+    s->context.message = false;
+    if (screen->may_draw) return true;
+
+    /* without a monitor the programs are made by drawing a small frame */
+    s->stage.frame_opts.width_px = 64;
+    s->stage.frame_opts.height_px = 36;
+    s->stage.frame_opts.captions = NULL; /* laid out for another size */
+    gn_gl_set_window(s->stage.gl, NULL);
+    if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns, s->warnings, err))
+        return show_failure(s, err);
+    gn_gl_finish_frame(s->stage.gl); /* many drivers compile at the first draw */
+    return true;
 }
 
 bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b) {

@@ -27,18 +27,14 @@ struct gn_screenshot {
     struct gn_err err;
 };
 
-static bool ends_in_png(const char *path) {
-    const size_t length = strlen(path);
-    return length > 4 && strcmp(path + length - 4, ".png") == 0 && path[length - 5] != '/';
-}
-
 bool gn_screenshot_check(const char *path, struct gn_err *err) {
+    const size_t length = strlen(path);
     struct stat info;
     if (path[0] != '/')
         return gn_fail_usage(err, "screenshot: \"%.200s\" is not an absolute path", path);
-    if (!ends_in_png(path))
+    if (length <= 4 || strcmp(path + length - 4, ".png") != 0 || path[length - 5] == '/')
         return gn_fail_usage(err, "screenshot: \"%.200s\" does not end in .png", path);
-    if (strlen(path) >= PATH_MAX) return gn_fail_usage(err, "screenshot: the path is too long");
+    if (length >= PATH_MAX) return gn_fail_usage(err, "screenshot: the path is too long");
     if (lstat(path, &info) == 0 && !S_ISREG(info.st_mode))
         return gn_fail(err, "screenshot: %.200s is no regular file; not replacing it", path);
     return true;
@@ -93,23 +89,6 @@ static size_t pixel_index(const struct gn_screenshot *s, uint32_t u, uint32_t v)
     }
 }
 
-static bool write_png(struct gn_screenshot *s) {
-    const bool on_side = s->turn_deg % 180 != 0;
-    const uint32_t width = on_side ? s->height_px : s->width_px;
-    const uint32_t height = on_side ? s->width_px : s->height_px;
-    struct gn_bytes png = {0};
-    uint8_t *rgb = gn_picture_alloc((size_t)width * height, 3, &s->err);
-    if (!rgb) return false;
-    for (uint32_t v = 0; v < height; v++)
-        for (uint32_t u = 0; u < width; u++)
-            memcpy(rgb + 3 * ((size_t)v * width + u), s->rgba + 4 * pixel_index(s, u, v), 3);
-    const bool ok = gn_picture_encode_png8(rgb, (int)width, (int)height, &png, &s->err) &&
-                    gn_file_replace(s->path, png.data, png.size, &s->err);
-    gn_bytes_finish(&png);
-    free(rgb);
-    return ok;
-}
-
 static void signal_done(const struct gn_screenshot *shot) {
     const uint64_t one = 1;
     if (write(shot->done, &one, sizeof one) < 0) abort(); /* an eventfd takes more than that */
@@ -117,10 +96,21 @@ static void signal_done(const struct gn_screenshot *shot) {
 
 /* Frames have priority: on Linux a thread has its own nice value. */
 static void *write_in_thread(void *user) {
-    struct gn_screenshot *shot = user;
+    struct gn_screenshot *s = user;
+    const bool on_side = s->turn_deg % 180 != 0;
+    const uint32_t width = on_side ? s->height_px : s->width_px;
+    const uint32_t height = on_side ? s->width_px : s->height_px;
+    struct gn_bytes png = {0};
     setpriority(PRIO_PROCESS, 0, 10);
-    shot->ok = write_png(shot);
-    signal_done(shot);
+    uint8_t *rgb = gn_picture_alloc((size_t)width * height, 3, &s->err);
+    for (uint32_t v = 0; rgb && v < height; v++)
+        for (uint32_t u = 0; u < width; u++)
+            memcpy(rgb + 3 * ((size_t)v * width + u), s->rgba + 4 * pixel_index(s, u, v), 3);
+    s->ok = rgb && gn_picture_encode_png8(rgb, (int)width, (int)height, &png, &s->err) &&
+            gn_file_replace(s->path, png.data, png.size, &s->err);
+    gn_bytes_finish(&png);
+    free(rgb);
+    signal_done(s);
     return NULL;
 }
 

@@ -7,7 +7,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/clock.h"
 #include "options/value.h"
 
 /* Best effort: a lost datagram is not an error. */
@@ -16,17 +15,6 @@ static void notify(const struct gn_service *s, const char *text) {
     const ssize_t sent = sendto(s->socket, text, strlen(text), MSG_NOSIGNAL | MSG_DONTWAIT,
                                 (const struct sockaddr *)&s->to, s->to_length);
     (void)sent;
-}
-
-/* A path, or an abstract name that begins with "@". */
-static bool set_address(struct gn_service *s, const char *path) {
-    const size_t length = strlen(path);
-    if ((path[0] != '/' && path[0] != '@') || length >= sizeof s->to.sun_path) return false;
-    s->to.sun_family = AF_UNIX;
-    memcpy(s->to.sun_path, path, length);
-    if (path[0] == '@') s->to.sun_path[0] = 0;
-    s->to_length = (socklen_t)(offsetof(struct sockaddr_un, sun_path) + length);
-    return true;
 }
 
 /* 0: no watchdog, or one for another process. */
@@ -49,8 +37,16 @@ bool gn_service_open(struct gn_service *s, struct gn_loop *loop, int64_t now_ns,
     const char *path = getenv("NOTIFY_SOCKET");
     *s = (struct gn_service){.socket = -1};
     if (!path || !*path) return true;
-    if (!set_address(s, path))
+
+    /* a path, or an abstract name that begins with "@" */
+    const size_t length = strlen(path);
+    if ((path[0] != '/' && path[0] != '@') || length >= sizeof s->to.sun_path)
         return gn_fail(err, "NOTIFY_SOCKET=%.80s: expected a path or @NAME", path);
+    s->to.sun_family = AF_UNIX;
+    memcpy(s->to.sun_path, path, length);
+    if (path[0] == '@') s->to.sun_path[0] = 0;
+    s->to_length = (socklen_t)(offsetof(struct sockaddr_un, sun_path) + length);
+
     s->socket = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (s->socket < 0) return gn_fail(err, "cannot notify the supervisor: %s", strerror(errno));
     s->every_ns = watchdog_ns() / 2;
@@ -62,21 +58,18 @@ bool gn_service_open(struct gn_service *s, struct gn_loop *loop, int64_t now_ns,
     return true;
 }
 
-static void notify_status(struct gn_service *s, const struct gn_screen *screen) {
-    char line[sizeof s->status + sizeof "STATUS="];
-    const char *now = screen->status[0] ? screen->status : screen->what;
-    if (!*now || strcmp(now, s->status) == 0) return;
-    snprintf(s->status, sizeof s->status, "%s", now);
-    snprintf(line, sizeof line, "STATUS=%s", now);
-    notify(s, line);
-}
-
 bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64_t now_ns) {
     const uint64_t shown = screen->counts.shown;
     const bool sleeps = screen->blank || screen->status[0];
     if (s->socket < 0) return false;
     if (shown < s->shown) s->shown = 0; /* opened again */
-    notify_status(s, screen);
+    const char *status = screen->status[0] ? screen->status : screen->what;
+    if (*status && strcmp(status, s->status) != 0) {
+        char line[sizeof s->status + sizeof "STATUS="];
+        snprintf(s->status, sizeof s->status, "%s", status);
+        snprintf(line, sizeof line, "STATUS=%s", status);
+        notify(s, line);
+    }
     if (!s->ready && (shown > 0 || sleeps)) notify(s, "READY=1");
     s->ready |= shown > 0 || sleeps;
     if (s->every_ns == 0 || now_ns < s->next_ns) return false;

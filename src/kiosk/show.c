@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "core/clock.h"
 #include "core/stop.h"
 #include "kiosk/pointer.h"
 #include "kiosk/private.h"
@@ -20,24 +19,12 @@ static void take_signal(void *user, int number) {
     s->ends |= number != SIGHUP;
 }
 
-/* First, and until the process ends: a signal while the scene loads, or a second one while the
- * kiosk closes, must be handled like any other. */
-static bool open_loop(struct gn_show *s, struct gn_err *err) {
-    sigset_t set;
-    gn_stop_signals(&set);
-    s->signals = (struct gn_signals){.call = take_signal, .user = s};
-    s->loop = gn_loop_open(err);
-    if (!s->loop) return false;
-    return gn_loop_add_signals(s->loop, &s->signals, &set) ||
-           gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
-}
-
 /* ---- a step ---- */
 
 /* When the next step is due by itself; 0: at once. */
 static int64_t due_ns(const struct gn_show *s) {
     if (gn_show_wants_frame(s) || gn_show_is_stale(s) || gn_show_can_advance(s)) return 0;
-    const int64_t now_ns = gn_clock_monotonic_ns();
+    const int64_t now_ns = gn_loop_now_ns(s->loop);
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
     if (gn_show_has_work(s) && s->ahead.due_ns < at_ns) at_ns = s->ahead.due_ns;
     const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue one waits for the screen */
@@ -53,7 +40,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     gn_show_answer_requests(s);
     if (s->ends) return true;
     if (s->reloads && !gn_show_reload(s, err)) return false;
-    if (!gn_display_dispatch(&s->stage.display, gn_clock_monotonic_ns(), err)) return false;
+    if (!gn_display_dispatch(&s->stage.display, gn_loop_now_ns(s->loop), err)) return false;
     const struct gn_pointer pointer = screen->pointer;
     screen->pointer = (struct gn_pointer){0};
     s->ends |= pointer.quit;
@@ -62,11 +49,11 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     if (s->ends) return true;
 
     /* the machine: its timeouts, and what it wants to be shown */
-    const struct gn_kiosk_event tick = {.kind = GN_KIOSK_TICK, .time_ns = gn_clock_monotonic_ns()};
+    const struct gn_kiosk_event tick = {.kind = GN_KIOSK_TICK, .time_ns = gn_loop_now_ns(s->loop)};
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &tick);
     if (s->kiosk.blanked != screen->blank)
         gn_display_blank(&s->stage.display, s->kiosk.blanked, tick.time_ns);
-    s->changed |= gn_service_step(&s->service, screen, gn_clock_monotonic_ns());
+    s->changed |= gn_service_step(&s->service, screen, gn_loop_now_ns(s->loop));
     if (!gn_show_keep_context(s, err)) return false;
     gn_show_advance(s);
     gn_show_enter_changed(s);
@@ -74,7 +61,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     /* a frame if one is due, else a piece of background work */
     if (gn_show_wants_frame(s)) {
         if (!gn_show_frame(s, err)) return false;
-    } else if (gn_show_has_work(s) && gn_clock_monotonic_ns() >= s->ahead.due_ns) {
+    } else if (gn_show_has_work(s) && gn_loop_now_ns(s->loop) >= s->ahead.due_ns) {
         gn_gl_set_window(s->stage.gl, NULL); /* no drawing to it outside of begin and present */
         gn_show_work(s);
     }
@@ -112,8 +99,18 @@ void gn_show_close(struct gn_show *s) {
 
 /* If it fails half-way the caller closes. */
 static bool open_all(struct gn_show *s, const struct gn_options *options, struct gn_err *err) {
-    if (!open_loop(s, err) || !gn_show_open_loader(s, err) ||
-        !gn_service_open(&s->service, s->loop, gn_clock_monotonic_ns(), err))
+    /* signals first, and until the process ends: one while the scene loads, or a second one while
+     * the kiosk closes, must be handled like any other */
+    sigset_t set;
+    gn_stop_signals(&set);
+    s->signals = (struct gn_signals){.call = take_signal, .user = s};
+    s->loop = gn_loop_open(err);
+    if (!s->loop) return false;
+    s->counts.begun_ns = gn_loop_now_ns(s->loop);
+    if (!gn_loop_add_signals(s->loop, &s->signals, &set))
+        return gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
+    if (!gn_show_open_loader(s, err) ||
+        !gn_service_open(&s->service, s->loop, gn_loop_now_ns(s->loop), err))
         return false;
     s->config.options = gn_show_read_options(options, NULL, err);
     if (!s->config.options || !gn_show_load(&s->stage, s->config.options, s->warnings, err))
@@ -130,10 +127,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
 
 static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *warnings) {
     struct gn_show *s = gn_xalloc(1, sizeof *s);
-    *s = (struct gn_show){.config.place = place,
-                          .service.socket = -1,
-                          .counts.begun_ns = gn_clock_monotonic_ns(),
-                          .warnings = warnings};
+    *s = (struct gn_show){.config.place = place, .service.socket = -1, .warnings = warnings};
     return s;
 }
 

@@ -74,7 +74,7 @@ void gn_show_close_control(struct gn_show *s) {
 /* While the screen is off a button only switches it on; a command is carried out, too. */
 static json_t *answer_action(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     const struct gn_action action = {gn_ctl_action(r->command), r->words[0]};
-    const int64_t now_ns = gn_clock_monotonic_ns();
+    const int64_t now_ns = gn_loop_now_ns(s->loop);
     if (action.kind == GN_ACTION_MODE && gn_show_find_mode(&s->modes, action.name) < 0) {
         char names[400] = "";
         size_t used = 0;

@@ -40,7 +40,7 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     const struct gn_display *display = &s->stage.display;
     const struct gn_screen *screen = &display->screen;
     const struct gn_screen_counts *frames = &screen->counts;
-    const int64_t now_ns = gn_clock_monotonic_ns();
+    const int64_t now_ns = gn_loop_now_ns(s->loop);
     json_t *modes = json_array();
     for (int i = 0; i < s->modes.count; i++)
         json_array_append_new(modes, gn_json_make_text(s->modes.names[i]));
