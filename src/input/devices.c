@@ -29,18 +29,6 @@ void gn_devices_finish(struct gn_devices *devices) {
 
 /* ---- finding devices ----------------------------------------------------------------------- */
 
-static bool is_open(const struct gn_devices *devices, const char *path) {
-    for (int i = 0; i < GN_DEVICES_MAX; i++)
-        if (devices->list[i].fd >= 0 && strcmp(devices->list[i].path, path) == 0) return true;
-    return false;
-}
-
-static int find_free(const struct gn_devices *devices) {
-    for (int i = 0; i < GN_DEVICES_MAX; i++)
-        if (devices->list[i].fd < 0) return i;
-    return -1;
-}
-
 static void on_readable(void *user, uint32_t events, int64_t now_ns) {
     struct gn_device *d = user;
     (void)events;
@@ -48,9 +36,24 @@ static void on_readable(void *user, uint32_t events, int64_t now_ns) {
     d->all->timer->due_ns = now_ns;
 }
 
-static void add_device(struct gn_devices *devices, int i, struct gn_device found, int64_t now_ns) {
-    struct gn_device *d = &devices->list[i];
+static void add_device(struct gn_devices *devices, const char *path, int64_t now_ns) {
+    struct gn_device found = {.fd = -1}, *d = NULL;
     uint8_t bits[GN_KEY_BYTES] = {0};
+    snprintf(found.path, sizeof found.path, "%s", path);
+    const int error =
+        devices->ops->open(devices->context, path, devices->keys->bound, found.has, &found.fd);
+    devices->denied += error == EACCES || error == EPERM;
+    if (error) return;
+    for (int i = 0; i < GN_DEVICES_MAX && !d; i++)
+        if (devices->list[i].fd < 0) d = &devices->list[i];
+    if (!d) {
+        close(found.fd);
+        if (!devices->full)
+            gn_report(devices->reports, "%s and others are not read: at most %d input devices",
+                      path, GN_DEVICES_MAX);
+        devices->full = true;
+        return;
+    }
     *d = found;
     d->all = devices;
     d->watch = (struct gn_watch){.fd = d->fd, .events = EPOLLIN, .call = on_readable, .user = d};
@@ -63,25 +66,6 @@ static void add_device(struct gn_devices *devices, int i, struct gn_device found
         gn_keys_set_all(devices->keys, &d->keys, bits, true, now_ns);
 }
 
-static void try_device(struct gn_devices *devices, const char *path, int64_t now_ns) {
-    struct gn_device found = {.fd = -1};
-    snprintf(found.path, sizeof found.path, "%s", path);
-    const int error =
-        devices->ops->open(devices->context, path, devices->keys->bound, found.has, &found.fd);
-    devices->denied += error == EACCES || error == EPERM;
-    if (error) return;
-    const int place = find_free(devices);
-    if (place >= 0) {
-        add_device(devices, place, found, now_ns);
-        return;
-    }
-    close(found.fd);
-    if (!devices->full)
-        gn_report(devices->reports, "%s and others are not read: at most %d input devices", path,
-                  GN_DEVICES_MAX);
-    devices->full = true;
-}
-
 void gn_devices_search(struct gn_devices *devices, int64_t now_ns) {
     DIR *open = opendir(devices->folder);
     devices->denied = 0;
@@ -91,7 +75,10 @@ void gn_devices_search(struct gn_devices *devices, int64_t now_ns) {
             snprintf(path, sizeof path, "%s/%s", devices->folder, entry->d_name) >=
                 (int)sizeof path)
             continue;
-        if (!is_open(devices, path)) try_device(devices, path, now_ns);
+        bool is_open = false;
+        for (int i = 0; i < GN_DEVICES_MAX; i++)
+            is_open |= devices->list[i].fd >= 0 && strcmp(devices->list[i].path, path) == 0;
+        if (!is_open) add_device(devices, path, now_ns);
     }
     if (open) closedir(open);
 }
@@ -104,22 +91,19 @@ bool gn_devices_have(const struct gn_devices *devices, unsigned key) {
 
 /* ---- reading devices ----------------------------------------------------------------------- */
 
-/* After lost events, reads the state of all keys. */
-static void resync_device(struct gn_devices *devices, struct gn_device *d, int64_t time_ns) {
-    uint8_t bits[GN_KEY_BYTES] = {0};
-    d->dropped = false;
-    if (devices->ops->state(devices->context, d->fd, bits) == 0)
-        gn_keys_set_all(devices->keys, &d->keys, bits, false, time_ns);
-}
-
-static void take_event(struct gn_devices *devices, struct gn_device *d,
-                       const struct input_event *event, int64_t now_ns) {
+static void handle_event(struct gn_devices *devices, struct gn_device *d,
+                         const struct input_event *event, int64_t now_ns) {
     const int64_t time_ns = gn_gesture_time_ns((int64_t)event->input_event_sec * GN_NS_PER_S +
                                                    (int64_t)event->input_event_usec * 1000,
                                                now_ns);
     if (event->type == EV_SYN && event->code == SYN_DROPPED) d->dropped = true;
-    if (event->type == EV_SYN && event->code == SYN_REPORT && d->dropped)
-        resync_device(devices, d, time_ns);
+    if (event->type == EV_SYN && event->code == SYN_REPORT && d->dropped) {
+        /* events were lost: reads the state of all keys */
+        uint8_t bits[GN_KEY_BYTES] = {0};
+        d->dropped = false;
+        if (devices->ops->state(devices->context, d->fd, bits) == 0)
+            gn_keys_set_all(devices->keys, &d->keys, bits, false, time_ns);
+    }
     if (event->type != EV_KEY || d->dropped || event->value < 0 || event->value > 1)
         return; /* autorepeat */
     gn_keys_set(devices->keys, &d->keys, event->code, event->value, time_ns);
@@ -137,7 +121,7 @@ static bool read_device(struct gn_devices *devices, struct gn_device *d, int64_t
             return true;
         }
         const size_t count = (size_t)size / sizeof *events;
-        for (size_t i = 0; i < count; i++) take_event(devices, d, &events[i], now_ns);
+        for (size_t i = 0; i < count; i++) handle_event(devices, d, &events[i], now_ns);
     }
     return false;
 }

@@ -9,28 +9,14 @@
 
 #include "input/devices.h"
 
-static int read_keys(int fd, uint8_t *bits) {
-    return ioctl(fd, EVIOCGBIT(EV_KEY, GN_KEY_BYTES), bits) < 0 ? errno : 0;
-}
-
-/* EVIOCSMASK: only bound keys wake us, not pointer motion or typing. Kernels before 4.4 lack it. */
-static void set_event_mask(int fd, const uint8_t *bound) {
-    const uint8_t types[EV_CNT / 8] = {1u << EV_SYN | 1u << EV_KEY};
-    const struct input_mask keys = {
-        .type = EV_KEY, .codes_size = GN_KEY_BYTES, .codes_ptr = (uintptr_t)bound};
-    const struct input_mask all = {
-        .type = EV_SYN, .codes_size = sizeof types, .codes_ptr = (uintptr_t)types};
-    (void)ioctl(fd, EVIOCSMASK, &keys);
-    (void)ioctl(fd, EVIOCSMASK, &all);
-}
-
 static int open_device(void *context, const char *path, const uint8_t *bound, uint8_t *has,
                        int *out) {
     (void)context;
     const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0) return errno;
-    int clock = CLOCK_MONOTONIC, error = read_keys(fd, has);
+    int clock = CLOCK_MONOTONIC, error = 0;
     bool any = false;
+    if (ioctl(fd, EVIOCGBIT(EV_KEY, GN_KEY_BYTES), has) < 0) error = errno;
     for (int i = 0; i < GN_KEY_BYTES; i++) any |= has[i] & bound[i];
     if (!error && !any) error = ENOTSUP;
     if (!error && ioctl(fd, EVIOCSCLOCKID, &clock)) error = errno;
@@ -38,7 +24,14 @@ static int open_device(void *context, const char *path, const uint8_t *bound, ui
         close(fd);
         return error;
     }
-    set_event_mask(fd, bound);
+    /* only bound keys wake us, not pointer motion or typing; kernels before 4.4 lack EVIOCSMASK */
+    const uint8_t types[EV_CNT / 8] = {1u << EV_SYN | 1u << EV_KEY};
+    const struct input_mask keys = {
+        .type = EV_KEY, .codes_size = GN_KEY_BYTES, .codes_ptr = (uintptr_t)bound};
+    const struct input_mask all = {
+        .type = EV_SYN, .codes_size = sizeof types, .codes_ptr = (uintptr_t)types};
+    (void)ioctl(fd, EVIOCSMASK, &keys);
+    (void)ioctl(fd, EVIOCSMASK, &all);
     *out = fd;
     return 0;
 }

@@ -22,24 +22,20 @@ static void set_note(struct gn_gestures *g, int i, enum gn_gesture_note_kind kin
             (struct gn_gesture_note){.button = i, .kind = kind};
 }
 
-/* Rate limit: false if GN_GESTURE_RATE gestures happened in the last second. */
-static bool may_act(struct gn_gestures *g, int i) {
+static void emit_gesture(struct gn_gestures *g, int i, enum gn_gesture gesture, int64_t time_ns) {
     struct gn_gesture_button *b = &g->buttons[i];
+    if (!(b->opts.gestures & 1u << gesture)) return;
+    /* rate limit: at most GN_GESTURE_RATE gestures in a second */
     int64_t *oldest = &b->recent_ns[b->recent % GN_GESTURE_RATE];
     if (b->recent >= GN_GESTURE_RATE && g->now_ns - *oldest < 1000 * MS) {
         if (!b->fast) set_note(g, i, GN_NOTE_FAST);
         b->fast = true;
-        return false;
+        return;
     }
     const unsigned last = (b->recent - 1) % GN_GESTURE_RATE;
     if (b->recent && g->now_ns - b->recent_ns[last] >= 1000 * MS) b->fast = false;
     *oldest = g->now_ns;
     b->recent++;
-    return true;
-}
-
-static void emit_gesture(struct gn_gestures *g, int i, enum gn_gesture gesture, int64_t time_ns) {
-    if (!(g->buttons[i].opts.gestures & 1u << gesture) || !may_act(g, i)) return;
     if (g->queue_end - g->queue_begin == GN_GESTURE_QUEUE) {
         g->dropped++;
         return;
@@ -87,17 +83,6 @@ static void begin_press(struct gn_gestures *g, int i) {
     if (binds(b, 1u << GN_GESTURE_REPEAT)) b->due_ns[GN_DUE_REPEAT] = b->down_ns + b->opts.hold_ns;
 }
 
-static void click(struct gn_gestures *g, int i, int64_t first_ns) {
-    struct gn_gesture_button *b = &g->buttons[i];
-    if (b->acted) return;
-    if (!binds(b, 1u << GN_GESTURE_DOUBLE)) {
-        emit_gesture(g, i, GN_GESTURE_CLICK, first_ns);
-        return;
-    }
-    b->click_ns = first_ns;
-    b->due_ns[GN_DUE_CLICK] = g->now_ns + b->opts.double_ns;
-}
-
 /* The press became another gesture: reports the click before it. */
 static void click_before(struct gn_gestures *g, int i) {
     struct gn_gesture_button *b = &g->buttons[i];
@@ -119,25 +104,20 @@ static uint32_t waiting_buttons(const struct gn_gestures *g) {
     return set;
 }
 
-static bool is_complete(const struct gn_gestures *g, int chord, uint32_t set) {
-    const struct gn_gesture_opts *opts = &g->buttons[chord].opts;
-    int64_t oldest_ns = NEVER, newest_ns = INT64_MIN;
-    if (!opts->chord || opts->chord & ~set) return false;
-    for (int i = 0; i < g->count; i++) {
-        if (!(opts->chord >> i & 1)) continue;
-        const int64_t down_ns = g->buttons[i].down_ns;
-        if (down_ns < oldest_ns) oldest_ns = down_ns;
-        if (down_ns > newest_ns) newest_ns = down_ns;
-    }
-    return newest_ns - oldest_ns < opts->chord_ns;
-}
-
 /* The complete chord with most buttons that contains this one; -1: none. */
 static int find_complete(const struct gn_gestures *g, int with, uint32_t set) {
     int best = -1;
     for (int i = 0; i < g->count; i++) {
         const uint32_t chord = g->buttons[i].opts.chord;
-        if (!(chord >> with & 1) || !is_complete(g, i, set)) continue;
+        int64_t oldest_ns = NEVER, newest_ns = INT64_MIN;
+        if (!(chord >> with & 1) || chord & ~set) continue;
+        for (int k = 0; k < g->count; k++) {
+            if (!(chord >> k & 1)) continue;
+            const int64_t down_ns = g->buttons[k].down_ns;
+            if (down_ns < oldest_ns) oldest_ns = down_ns;
+            if (down_ns > newest_ns) newest_ns = down_ns;
+        }
+        if (newest_ns - oldest_ns >= g->buttons[i].opts.chord_ns) continue;
         if (best < 0 || __builtin_popcount(chord) > __builtin_popcount(g->buttons[best].opts.chord))
             best = i;
     }
@@ -224,34 +204,28 @@ static void press_button(struct gn_gestures *g, int i, int64_t first_ns) {
     if (chord >= 0 && !may_grow(g, chord, set)) fire_chord(g, chord);
 }
 
-static void release_button(struct gn_gestures *g, int i, int64_t first_ns) {
-    struct gn_gesture_button *b = &g->buttons[i];
-    if (b->state == GN_BUTTON_WAITING) resolve_chord(g, i);
-    const enum gn_gesture_state was = b->state;
-    b->state = GN_BUTTON_UP;
-    clear_due(b);
-    if (was == GN_BUTTON_USED) end_chords(g, i, first_ns, false);
-    if (was == GN_BUTTON_DOWN) click(g, i, first_ns);
-}
-
 /* The combined state may have changed. */
 static void update_button(struct gn_gestures *g, int i, int64_t first_ns) {
     struct gn_gesture_button *b = &g->buttons[i];
     const bool down = b->line.settled || b->keys > 0 || b->together;
     if (down == b->down) return;
     b->down = down;
-    if (down)
+    if (down) {
         press_button(g, i, first_ns);
-    else
-        release_button(g, i, first_ns);
-}
-
-static void be_stuck(struct gn_gestures *g, int i) {
-    struct gn_gesture_button *b = &g->buttons[i];
-    set_note(g, i, GN_NOTE_STUCK);
-    const bool used = b->state == GN_BUTTON_USED;
-    mute_button(b);
-    if (used) end_chords(g, i, g->now_ns, true);
+        return;
+    }
+    if (b->state == GN_BUTTON_WAITING) resolve_chord(g, i);
+    const enum gn_gesture_state was = b->state;
+    b->state = GN_BUTTON_UP;
+    clear_due(b);
+    if (was == GN_BUTTON_USED) end_chords(g, i, first_ns, false);
+    if (was != GN_BUTTON_DOWN || b->acted) return;
+    if (binds(b, 1u << GN_GESTURE_DOUBLE)) { /* waits for a second click */
+        b->click_ns = first_ns;
+        b->due_ns[GN_DUE_CLICK] = g->now_ns + b->opts.double_ns;
+    } else {
+        emit_gesture(g, i, GN_GESTURE_CLICK, first_ns);
+    }
 }
 
 static void run_due(struct gn_gestures *g, int i, enum gn_gesture_due due) {
@@ -270,22 +244,19 @@ static void run_due(struct gn_gestures *g, int i, enum gn_gesture_due due) {
         b->due_ns[due] = due_ns + b->opts.repeat_ns;
         emit_gesture(g, i, GN_GESTURE_REPEAT, due_ns);
         break;
-    case GN_DUE_STUCK: be_stuck(g, i); break;
+    case GN_DUE_STUCK: {
+        const bool used = b->state == GN_BUTTON_USED;
+        set_note(g, i, GN_NOTE_STUCK);
+        mute_button(b);
+        if (used) end_chords(g, i, g->now_ns, true);
+        break;
+    }
     case GN_DUE_NOISY:
         if (!b->noisy) set_note(g, i, GN_NOTE_NOISY);
         b->noisy = true;
         break;
     case GN_DUE_COUNT: break;
     }
-}
-
-static void settle_edge(struct gn_gestures *g, int i) {
-    struct gn_gesture_button *b = &g->buttons[i];
-    struct gn_debounced edge;
-    b->due_ns[GN_DUE_NOISY] = NEVER;
-    if (!gn_debounce_step(&b->line, g->now_ns, &edge)) return;
-    b->noisy = false;
-    update_button(g, i, edge.first_ns);
 }
 
 /* ---- time ---------------------------------------------------------------------------------- */
@@ -324,10 +295,16 @@ void gn_gestures_step(struct gn_gestures *g, int64_t now_ns) {
     for (int64_t first_ns; (first_ns = find_due(g, &button, &due)) <= now_ns;) {
         if (first_ns == NEVER) break;
         if (first_ns > g->now_ns) g->now_ns = first_ns;
-        if (due == GN_DUE_COUNT)
-            settle_edge(g, button);
-        else
+        if (due != GN_DUE_COUNT) {
             run_due(g, button, due);
+            continue;
+        }
+        struct gn_gesture_button *b = &g->buttons[button];
+        struct gn_debounced edge;
+        b->due_ns[GN_DUE_NOISY] = NEVER;
+        if (!gn_debounce_step(&b->line, g->now_ns, &edge)) continue;
+        b->noisy = false;
+        update_button(g, button, edge.first_ns);
     }
     if (now_ns > g->now_ns) g->now_ns = now_ns;
 }
@@ -390,7 +367,7 @@ void gn_gestures_start(struct gn_gestures *g, int button, bool level, int64_t ti
 }
 
 /* Its source is gone. */
-static void let_go(struct gn_gestures *g, int i) {
+static void lose_button(struct gn_gestures *g, int i) {
     struct gn_gesture_button *b = &g->buttons[i];
     if (!b->down || b->line.settled || b->keys > 0 || b->together) return;
     const bool used = b->state == GN_BUTTON_USED;
@@ -404,17 +381,17 @@ void gn_gestures_lose(struct gn_gestures *g, int button, int64_t time_ns) {
     struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     gn_debounce_init(&b->line, b->opts.debounce_ns, false);
     b->due_ns[GN_DUE_NOISY] = NEVER;
-    let_go(g, button);
+    lose_button(g, button);
 }
 
 void gn_gestures_key_gone(struct gn_gestures *g, int button, int64_t time_ns) {
     struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     assert(b->keys > 0);
     b->keys--;
-    let_go(g, button);
+    lose_button(g, button);
 }
 
-static void start_watching(struct gn_gesture_button *b) {
+static void watch_noise(struct gn_gesture_button *b) {
     if (b->line.moving && b->due_ns[GN_DUE_NOISY] == NEVER && !b->noisy)
         b->due_ns[GN_DUE_NOISY] = b->line.first_ns + b->opts.stuck_ns;
 }
@@ -422,13 +399,13 @@ static void start_watching(struct gn_gesture_button *b) {
 void gn_gestures_edge(struct gn_gestures *g, int button, bool level, int64_t time_ns) {
     struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     gn_debounce_edge(&b->line, level, g->now_ns);
-    start_watching(b);
+    watch_noise(b);
 }
 
 void gn_gestures_level(struct gn_gestures *g, int button, bool level, int64_t time_ns) {
     struct gn_gesture_button *b = clamp_time(g, button, time_ns);
     gn_debounce_level(&b->line, level, g->now_ns);
-    start_watching(b);
+    watch_noise(b);
 }
 
 void gn_gestures_key(struct gn_gestures *g, int button, bool down, int64_t time_ns) {
