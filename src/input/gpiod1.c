@@ -37,18 +37,13 @@ static int get_line_info(void *chip, unsigned offset, struct gn_gpio_line *out) 
     return 0;
 }
 
-/* Opens the chip a second time, for the line to own. */
-static struct gpiod_chip *open_again(struct gpiod_chip *chip) {
-    char path[64];
-    snprintf(path, sizeof path, "/dev/%s", gpiod_chip_name(chip));
-    return gpiod_chip_open(path);
-}
-
 static int request_line(void *chip, const struct gn_gpio_wish *wish, void **line) {
     static const int flags[] = {[GN_BIAS_PULL_UP] = GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP,
                                 [GN_BIAS_PULL_DOWN] = GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN};
     const int bias = wish->bias == GN_BIAS_NONE ? 0 : flags[wish->bias];
-    struct line made = {.chip = open_again(chip)};
+    char path[64];
+    snprintf(path, sizeof path, "/dev/%s", gpiod_chip_name(chip));
+    struct line made = {.chip = gpiod_chip_open(path)}; /* a second time, for the line to own */
     if (!made.chip) return errno;
     made.line = gpiod_chip_get_line(made.chip, wish->offset);
     if (!made.line || gpiod_line_request_both_edges_events_flags(made.line, "gnomon", bias)) {

@@ -24,26 +24,6 @@ enum { SOURCES = sizeof sources / sizeof sources[0] };
 
 /* ---- opening ------------------------------------------------------------------------------- */
 
-static void fill_world(struct gn_input *input, const struct gn_input_world *world) {
-    const char *folder = world->folder ? world->folder : "/dev";
-    input->lines.ops = world->gpio ? world->gpio : &gn_gpio_library;
-    input->lines.context = world->gpio_context;
-    input->lines.folder = folder;
-    input->devices.ops = world->evdev ? world->evdev : &gn_evdev;
-    input->devices.context = world->evdev_context;
-    snprintf(input->devices_folder, sizeof input->devices_folder, "%s/input", folder);
-    input->devices.folder = input->devices_folder;
-    input->terminal = (struct gn_terminal){.fd = -1, .wake_fd = -1};
-    input->notify.fd = input->folder_watch = input->devices_watch = -1;
-    input->poll_ns = NEVER;
-}
-
-static bool wants_lines(const struct gn_input *input) {
-    for (int i = 0; i < input->lines.count; i++)
-        if (input->lines.lines[i].wanted && input->lines.ops->library) return true;
-    return false;
-}
-
 /* Watches the device folders with inotify, as far as possible. */
 static void watch_folders(struct gn_input *input) {
     const uint32_t news = IN_CREATE | IN_ATTRIB | IN_MOVED_TO | IN_DELETE | IN_ONLYDIR;
@@ -61,7 +41,10 @@ static void on_news(void *user, uint32_t events, int64_t now_ns) {
 }
 
 static void open_notify(struct gn_input *input) {
-    if (!wants_lines(input) && !input->opts.devices) return;
+    bool wanted = input->opts.devices;
+    for (int i = 0; i < input->lines.count; i++)
+        wanted |= input->lines.lines[i].wanted && input->lines.ops->library;
+    if (!wanted) return;
     input->notify = (struct gn_watch){.fd = inotify_init1(IN_CLOEXEC | IN_NONBLOCK),
                                       .events = EPOLLIN,
                                       .call = on_news,
@@ -72,29 +55,39 @@ static void open_notify(struct gn_input *input) {
 
 /* ---- the timer ----------------------------------------------------------------------------- */
 
-static int64_t min_i64(int64_t a, int64_t b) { return a < b ? a : b; }
-
 static void set_timer(struct gn_input *input) {
     int64_t due_ns = gn_gestures_deadline(&input->gestures);
-    for (size_t i = 0; i < SOURCES; i++)
-        if (sources[i]->deadline) due_ns = min_i64(due_ns, sources[i]->deadline(input));
+    for (size_t i = 0; i < SOURCES; i++) {
+        const int64_t its_ns = sources[i]->deadline ? sources[i]->deadline(input) : NEVER;
+        if (its_ns < due_ns) due_ns = its_ns;
+    }
     input->timer.due_ns = due_ns;
 }
 
-static void dispatch(void *user, int64_t now_ns);
+static void dispatch_input(void *user, int64_t now_ns);
 
 struct gn_input *gn_input_open_in(const struct gn_input_world *world,
                                   const struct gn_input_opts *opts, int64_t now_ns,
                                   struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_input *input = gn_xalloc(1, sizeof *input);
+    const char *folder = world->folder ? world->folder : "/dev";
     input->opts = *opts;
-    fill_world(input, world);
+    input->lines.ops = world->gpio ? world->gpio : &gn_gpio_library;
+    input->lines.context = world->gpio_context;
+    input->lines.folder = folder;
+    input->devices.ops = world->evdev ? world->evdev : &gn_evdev;
+    input->devices.context = world->evdev_context;
+    snprintf(input->devices_folder, sizeof input->devices_folder, "%s/input", folder);
+    input->devices.folder = input->devices_folder;
+    input->terminal = (struct gn_terminal){.fd = -1, .wake_fd = -1};
+    input->notify.fd = input->folder_watch = input->devices_watch = -1;
+    input->poll_ns = NEVER;
     gn_devices_init(&input->devices);
     if (!gn_input_set_up(input, now_ns, err)) {
         gn_input_close(input);
         return NULL;
     }
-    input->timer = (struct gn_timer){.call = dispatch, .user = input};
+    input->timer = (struct gn_timer){.call = dispatch_input, .user = input};
     gn_loop_add_timer(opts->loop, &input->timer);
     open_notify(input);
     for (size_t i = 0; i < SOURCES; i++)
@@ -121,36 +114,26 @@ void gn_input_close(struct gn_input *input) {
 
 /* ---- dispatching --------------------------------------------------------------------------- */
 
-/* what inotify reported */
-struct news {
-    bool chips, devices;
-};
-
-static void take_news(struct gn_input *input, const struct inotify_event *event,
-                      struct news *news) {
-    const char *name = event->len ? event->name : "";
-    if (event->mask & IN_Q_OVERFLOW) news->chips = news->devices = true;
-    if (event->wd == input->devices_watch) {
-        if (event->mask & IN_IGNORED) input->devices_watch = -1;
-        news->devices |= strncmp(name, "event", 5) == 0 && !(event->mask & IN_DELETE);
-    } else if (event->wd == input->folder_watch) {
-        news->chips |= strncmp(name, "gpiochip", 8) == 0;
-        news->devices |= strcmp(name, "input") == 0;
-    }
-}
-
 static void read_news(struct gn_input *input, int64_t now_ns) {
     _Alignas(struct inotify_event) char buffer[4096];
-    struct news news = {0};
+    bool chips = false, devices = false; /* changed */
     input->has_news = false;
     for (ssize_t size; (size = read(input->notify.fd, buffer, sizeof buffer)) > 0;)
         for (ssize_t at = 0; at < size;) {
             const struct inotify_event *event = (const struct inotify_event *)(buffer + at);
-            take_news(input, event, &news);
+            const char *name = event->len ? event->name : "";
             at += (ssize_t)(sizeof *event + event->len);
+            if (event->mask & IN_Q_OVERFLOW) chips = devices = true;
+            if (event->wd == input->devices_watch) {
+                if (event->mask & IN_IGNORED) input->devices_watch = -1;
+                devices |= strncmp(name, "event", 5) == 0 && !(event->mask & IN_DELETE);
+            } else if (event->wd == input->folder_watch) {
+                chips |= strncmp(name, "gpiochip", 8) == 0;
+                devices |= strcmp(name, "input") == 0;
+            }
         }
-    if (news.chips) gn_lines_changed(&input->lines, now_ns);
-    if (!news.devices || !input->opts.devices) return;
+    if (chips) gn_lines_changed(&input->lines, now_ns);
+    if (!devices || !input->opts.devices) return;
     watch_folders(input);
     gn_devices_search(&input->devices, now_ns);
 }
@@ -172,7 +155,7 @@ static void report_notes(struct gn_input *input) {
     }
 }
 
-static void dispatch(void *user, int64_t now_ns) {
+static void dispatch_input(void *user, int64_t now_ns) {
     struct gn_input *input = user;
     for (size_t i = 0; i < SOURCES; i++)
         if (sources[i]->read) sources[i]->read(input, now_ns);

@@ -22,15 +22,6 @@ static const struct {
 };
 static const char *const alias_chips[] = {"pinctrl-bcm2711", "pinctrl-bcm2835", "pinctrl-rp1"};
 
-static bool is_alias(const char *a, const char *b) {
-    for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++) {
-        const char *number = aliases[i].number, *function = aliases[i].function;
-        if (strcmp(a, number) == 0 && strcmp(b, function) == 0) return true;
-        if (strcmp(a, function) == 0 && strcmp(b, number) == 0) return true;
-    }
-    return false;
-}
-
 static bool parse_offset(const char *text, unsigned *out) {
     char *end;
     if (*text < '0' || *text > '9') return false;
@@ -67,8 +58,14 @@ int gn_line_fits(const struct gn_line_spec *spec, const struct gn_gpio_chip *chi
     if (spec->label[0])
         return strcmp(spec->label, chip->label) == 0 && spec->offset == offset ? 2 : 0;
     if (strcmp(spec->name, line->name) == 0) return 2;
+    bool has_aliases = false;
     for (size_t i = 0; i < sizeof alias_chips / sizeof *alias_chips; i++)
-        if (strcmp(chip->label, alias_chips[i]) == 0 && is_alias(spec->name, line->name)) return 1;
+        has_aliases |= strcmp(chip->label, alias_chips[i]) == 0;
+    for (size_t i = 0; has_aliases && i < sizeof aliases / sizeof *aliases; i++) {
+        const char *number = aliases[i].number, *function = aliases[i].function;
+        if (strcmp(spec->name, number) == 0 && strcmp(line->name, function) == 0) return 1;
+        if (strcmp(spec->name, function) == 0 && strcmp(line->name, number) == 0) return 1;
+    }
     return 0;
 }
 
@@ -92,31 +89,26 @@ int gn_line_list_chips(const char *folder, char (*paths)[64], int max) {
     return count;
 }
 
-static void take_line(struct gn_line_match *match, int fits, const char *path,
-                      const struct gn_gpio_chip *chip, unsigned offset,
-                      const struct gn_gpio_line *line) {
-    if (fits == 0 || fits < match->fits) return;
-    if (fits > match->fits) {
-        *match =
-            (struct gn_line_match){.fits = fits, .chip = *chip, .line = *line, .offset = offset};
-        snprintf(match->path, sizeof match->path, "%s", path);
-    }
-    const size_t used = strlen(match->list);
-    snprintf(match->list + used, sizeof match->list - used, "%s%s (%s) line %u",
-             match->count ? ", " : "", chip->name, chip->label, offset);
-    match->count++;
-}
-
 static void search_chip(const struct gn_gpio_ops *ops, void *chip, const char *path,
                         const struct gn_gpio_chip *info, const struct gn_line_spec *const *wanted,
                         struct gn_line_match *matches, int count) {
     for (unsigned offset = 0; offset < info->lines; offset++) {
         struct gn_gpio_line line = {0};
         if (ops->look(chip, offset, &line)) continue;
-        for (int i = 0; i < count; i++)
-            if (wanted[i])
-                take_line(&matches[i], gn_line_fits(wanted[i], info, offset, &line), path, info,
-                          offset, &line);
+        for (int i = 0; i < count; i++) {
+            struct gn_line_match *match = &matches[i];
+            const int fits = wanted[i] ? gn_line_fits(wanted[i], info, offset, &line) : 0;
+            if (fits == 0 || fits < match->fits) continue;
+            if (fits > match->fits) {
+                *match = (struct gn_line_match){
+                    .fits = fits, .chip = *info, .line = line, .offset = offset};
+                snprintf(match->path, sizeof match->path, "%s", path);
+            }
+            const size_t used = strlen(match->list);
+            snprintf(match->list + used, sizeof match->list - used, "%s%s (%s) line %u",
+                     match->count ? ", " : "", info->name, info->label, offset);
+            match->count++;
+        }
     }
 }
 

@@ -43,11 +43,6 @@ static void report_once(struct gn_lines *lines, struct gn_line *l, const char *t
               l->opts.optional && l->problem ? " (default button: its keys still work)" : "");
 }
 
-/* Retry interval: short during system start. */
-static int64_t retry_interval_ns(const struct gn_line *l, int64_t now_ns) {
-    return now_ns + (now_ns - l->since_ns < 30 * SECOND ? 2 : 60) * SECOND;
-}
-
 static void have_problem(struct gn_lines *lines, struct gn_line *l, enum problem problem,
                          const char *text, int64_t now_ns) {
     if (l->problem != (int)problem) l->since_ns = now_ns;
@@ -58,7 +53,9 @@ static void have_problem(struct gn_lines *lines, struct gn_line *l, enum problem
     case AMBIGUOUS: l->retry_ns = lines->watched ? NEVER : now_ns + 60 * SECOND; break;
     case DENIED:
     case BUSY:
-    case BROKEN: l->retry_ns = retry_interval_ns(l, now_ns); break;
+    case BROKEN: /* short during system start */
+        l->retry_ns = now_ns + (now_ns - l->since_ns < 30 * SECOND ? 2 : 60) * SECOND;
+        break;
     case FINE:
     case NO_LIBRARY: l->retry_ns = NEVER; break;
     }
@@ -134,17 +131,6 @@ static void begin_line(struct gn_lines *lines, struct gn_line *l, int64_t now_ns
 
 static const char *name_of(const struct gn_line *l) { return l->opts.text; }
 
-static void describe_error(const struct gn_line *l, const struct gn_line_match *match, int error,
-                           char *text, size_t size) {
-    if (error == EBUSY)
-        snprintf(text, size, "%s is in use by %s%s%s; free it or use another line", l->where,
-                 match->line.consumer[0] ? "\"" : "",
-                 match->line.consumer[0] ? match->line.consumer : "another program",
-                 match->line.consumer[0] ? "\"" : "");
-    else
-        snprintf(text, size, "cannot request %s: %s", l->where, strerror(error));
-}
-
 static void describe_denied(const char *path, const char *name, char *text, size_t size) {
     snprintf(text, size,
              "no permission to open %s to find %s; add the user to group gpio "
@@ -171,16 +157,32 @@ static void acquire_line(struct gn_lines *lines, struct gn_line *l,
     const bool denied = error == EACCES || error == EPERM;
     if (denied)
         describe_denied(match->path, name_of(l), text, sizeof text);
+    else if (error == EBUSY)
+        snprintf(text, sizeof text, "%s is in use by %s%s%s; free it or use another line", l->where,
+                 match->line.consumer[0] ? "\"" : "",
+                 match->line.consumer[0] ? match->line.consumer : "another program",
+                 match->line.consumer[0] ? "\"" : "");
     else
-        describe_error(l, match, error, text, sizeof text);
+        snprintf(text, sizeof text, "cannot request %s: %s", l->where, strerror(error));
     have_problem(lines, l, denied ? DENIED : error == EBUSY ? BUSY : BROKEN, text, now_ns);
 }
 
 /* ---- searching lines ----------------------------------------------------------------------- */
 
-static void report_missing(struct gn_lines *lines, struct gn_line *l,
-                           const struct gn_line_search *search, int64_t now_ns) {
+static void take_search_result(struct gn_lines *lines, struct gn_line *l,
+                               const struct gn_line_match *match,
+                               const struct gn_line_search *search, int64_t now_ns) {
     char text[GN_REPORT_SIZE];
+    if (match->count == 1) {
+        acquire_line(lines, l, match, now_ns);
+        return;
+    }
+    if (match->count > 1) {
+        snprintf(text, sizeof text, "%d lines are named %s: %.150s; use label:CHIP/NUMBER",
+                 match->count, name_of(l), match->list);
+        have_problem(lines, l, AMBIGUOUS, text, now_ns);
+        return;
+    }
     const bool denied = search->refused && (search->error == EACCES || search->error == EPERM);
     if (l->problem == MISSING && !denied) /* reported already, perhaps as disconnected */
         snprintf(text, sizeof text, "%s", l->said);
@@ -193,21 +195,6 @@ static void report_missing(struct gn_lines *lines, struct gn_line *l,
                  "no GPIO line named %s; waiting for it (`gnomon doctor` lists the lines)",
                  name_of(l));
     have_problem(lines, l, denied ? DENIED : MISSING, text, now_ns);
-}
-
-static void take_search_result(struct gn_lines *lines, struct gn_line *l,
-                               const struct gn_line_match *match,
-                               const struct gn_line_search *search, int64_t now_ns) {
-    char text[GN_REPORT_SIZE];
-    if (match->count == 0) {
-        report_missing(lines, l, search, now_ns);
-    } else if (match->count == 1) {
-        acquire_line(lines, l, match, now_ns);
-    } else {
-        snprintf(text, sizeof text, "%d lines are named %s: %.150s; use label:CHIP/NUMBER",
-                 match->count, name_of(l), match->list);
-        have_problem(lines, l, AMBIGUOUS, text, now_ns);
-    }
 }
 
 void gn_lines_search(struct gn_lines *lines, int64_t now_ns) {
@@ -257,13 +244,6 @@ static void pass_edges(struct gn_lines *lines, struct edges *edges) {
     edges->count = 0;
 }
 
-/* Returns true if no edge was lost before this one. */
-static bool is_next_seqno(struct gn_line *l, uint32_t seqno) {
-    const bool next = !seqno || seqno == l->seqno + 1;
-    l->seqno = seqno;
-    return next;
-}
-
 /* Returns true if edges were lost or are left; *error: the line is gone. */
 static bool drain_line(struct gn_lines *lines, struct gn_line *l, struct edges *edges,
                        int64_t now_ns, int *total, int *error) {
@@ -275,7 +255,8 @@ static bool drain_line(struct gn_lines *lines, struct gn_line *l, struct edges *
         if (count < 0) *error = -count;
         for (int i = 0; i < count; i++) {
             if (edges->count == EDGES_MAX) pass_edges(lines, edges);
-            gap |= !is_next_seqno(l, events[i].seqno);
+            gap |= events[i].seqno && events[i].seqno != l->seqno + 1;
+            l->seqno = events[i].seqno;
             edges->list[edges->count] =
                 (struct edge){.time_ns = gn_gesture_time_ns(events[i].time_ns, now_ns),
                               .button = (int)(l - lines->lines),
@@ -327,26 +308,24 @@ void gn_lines_changed(struct gn_lines *lines, int64_t now_ns) {
     gn_lines_search(lines, now_ns);
 }
 
-static void check_line(struct gn_lines *lines, struct gn_line *l, int64_t now_ns) {
-    const int button = (int)(l - lines->lines);
-    if (gn_gestures_at_rest(lines->gestures, button)) {
-        l->check_ns = NEVER;
-        return;
-    }
-    if (l->check_ns != NEVER && now_ns < l->check_ns) return;
-    const bool due = l->check_ns != NEVER;
-    const bool stuck = lines->gestures->buttons[button].state == GN_BUTTON_MUTED &&
-                       lines->gestures->buttons[button].due_ns[GN_DUE_STUCK] == NEVER;
-    l->check_ns = now_ns + (stuck ? 60 : 1) * SECOND;
-    if (due) read_level(lines, l, now_ns);
-}
-
 void gn_lines_step(struct gn_lines *lines, int64_t now_ns) {
     bool search = false;
     for (int i = 0; i < lines->count; i++) {
         struct gn_line *l = &lines->lines[i];
-        if (l->request) check_line(lines, l, now_ns);
-        search |= l->wanted && !l->request && l->retry_ns <= now_ns;
+        if (!l->request) {
+            search |= l->wanted && l->retry_ns <= now_ns;
+            continue;
+        }
+        /* the level of a line that is not at rest is read now and then: an edge may be lost */
+        const struct gn_gesture_button *b = &lines->gestures->buttons[i];
+        const bool due = l->check_ns != NEVER && now_ns >= l->check_ns;
+        if (gn_gestures_at_rest(lines->gestures, i)) {
+            l->check_ns = NEVER;
+        } else if (due || l->check_ns == NEVER) {
+            const bool stuck = b->state == GN_BUTTON_MUTED && b->due_ns[GN_DUE_STUCK] == NEVER;
+            l->check_ns = now_ns + (stuck ? 60 : 1) * SECOND;
+            if (due) read_level(lines, l, now_ns);
+        }
     }
     if (search) gn_lines_search(lines, now_ns);
 }

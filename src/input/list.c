@@ -27,24 +27,20 @@ static void list_chip(const struct gn_gpio_ops *ops, void *context, struct gn_in
     ops->close(opened);
 }
 
-static void list_devices(const char *folder, struct gn_input_list *out) {
-    char pattern[80];
-    glob_t found;
-    snprintf(pattern, sizeof pattern, "%s/input/event*", folder);
-    if (glob(pattern, 0, NULL, &found)) return;
-    for (size_t i = 0; i < found.gl_pathc; i++) {
-        out->devices++;
-        out->devices_denied += access(found.gl_pathv[i], R_OK) != 0;
-    }
-    globfree(&found);
-}
-
 void gn_input_list_in(const struct gn_input_world *world, struct gn_input_list *out) {
     const struct gn_gpio_ops *ops = world->gpio ? world->gpio : &gn_gpio_library;
     const char *folder = world->folder ? world->folder : "/dev";
-    char paths[GN_INPUT_CHIPS_MAX][64];
+    char paths[GN_INPUT_CHIPS_MAX][64], pattern[80];
+    glob_t found;
     *out = (struct gn_input_list){.library = ops->library};
-    list_devices(folder, out);
+    snprintf(pattern, sizeof pattern, "%s/input/event*", folder);
+    if (glob(pattern, 0, NULL, &found) == 0) {
+        for (size_t i = 0; i < found.gl_pathc; i++) {
+            out->devices++;
+            out->devices_denied += access(found.gl_pathv[i], R_OK) != 0;
+        }
+        globfree(&found);
+    }
     if (!ops->library) return;
     out->chip_count = gn_line_list_chips(folder, paths, GN_INPUT_CHIPS_MAX);
     for (int i = 0; i < out->chip_count; i++) {

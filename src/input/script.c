@@ -16,11 +16,6 @@ static struct text next_word(struct text *line) {
     return word;
 }
 
-static bool is_word(struct text word, const char *text) {
-    const size_t length = strlen(text);
-    return (size_t)(word.end - word.at) == length && memcmp(word.at, text, length) == 0;
-}
-
 /* Decimal seconds to nanoseconds; -1: not a time. */
 static int64_t parse_time_ns(struct text word) {
     int64_t seconds = 0, ns = 0;
@@ -43,8 +38,11 @@ static bool parse_line(struct text line, struct gn_arena *arena, struct gn_scrip
     if (out->time_ns < 0)
         return gn_fail_usage(err, "missing time; expected for example: 0.5 click next");
     const struct text what = next_word(&line);
+    const size_t what_length = (size_t)(what.end - what.at);
     int i = 0;
-    while (i < 3 && !is_word(what, words[i])) i++;
+    while (i < 3 &&
+           (strlen(words[i]) != what_length || memcmp(what.at, words[i], what_length) != 0))
+        i++;
     if (i == 3) return gn_fail_usage(err, "unknown action; expected down, up or click");
     out->what = (enum gn_script_what)i;
     const char *begin = next_word(&line).at; /* names may have spaces */
@@ -60,17 +58,12 @@ static bool parse_line(struct text line, struct gn_arena *arena, struct gn_scrip
     return true;
 }
 
-static int count_lines(const char *text, size_t size) {
-    int count = 1;
-    for (const char *at = text; size && (at = memchr(at, '\n', size - (size_t)(at - text))); at++)
-        count++;
-    return count;
-}
-
 bool gn_script_parse(const char *text, size_t size, const char *path, struct gn_arena *arena,
                      struct gn_script *out, struct gn_err *err) {
-    struct gn_script_line *lines =
-        gn_arena_alloc(arena, (size_t)count_lines(text, size), sizeof *lines);
+    size_t most = 1;
+    for (const char *at = text; size && (at = memchr(at, '\n', size - (size_t)(at - text))); at++)
+        most++;
+    struct gn_script_line *lines = gn_arena_alloc(arena, most, sizeof *lines);
     *out = (struct gn_script){.lines = lines};
     if (!lines) return gn_fail(err, "%s: out of memory for its lines", path);
     int number = 0;

@@ -4,21 +4,16 @@
 
 #include "input/private.h"
 
-static int find_button(const struct gn_input_opts *opts, const char *name, size_t length) {
-    for (int i = 0; i < opts->button_count; i++)
-        if (strncmp(opts->buttons[i].name, name, length) == 0 &&
-            opts->buttons[i].name[length] == '\0')
-            return i;
-    return -1;
-}
-
 static bool parse_chord(const struct gn_input_opts *opts, int chord, uint32_t *out,
                         struct gn_err *err) {
     *out = 0;
     for (const char *at = opts->buttons[chord].chord; at && *(at += strspn(at, " \t"));) {
         const size_t length = strcspn(at, " \t");
-        const int i = find_button(opts, at, length);
-        if (i < 0)
+        int i = 0;
+        while (i < opts->button_count && (strncmp(opts->buttons[i].name, at, length) != 0 ||
+                                          opts->buttons[i].name[length] != '\0'))
+            i++;
+        if (i == opts->button_count)
             return gn_fail_usage(err, "chord: unknown button \"%.*s\"",
                                  (int)(length < 60 ? length : 60), at);
         if (i == chord || opts->buttons[i].chord)

@@ -70,19 +70,6 @@ static void on_end(int number, siginfo_t *info, void *context) {
     if (info->si_code <= 0 || number == SIGQUIT) raise(number);
 }
 
-static void install_handler(void) {
-    struct sigaction end = {.sa_sigaction = on_end, .sa_flags = SA_SIGINFO | SA_ONSTACK};
-    struct sigaction stop = {.sa_handler = on_stop, .sa_flags = SA_RESTART};
-    struct sigaction resume = {.sa_handler = on_continue, .sa_flags = SA_RESTART};
-    sigaction(SIGTSTP, NULL, &own.old_stop);
-    if (own.old_stop.sa_handler != SIG_IGN) sigaction(SIGTSTP, &stop, NULL);
-    sigaction(SIGCONT, &resume, &own.old_continue);
-    for (int i = 0; i < ENDS; i++) {
-        sigaction(ends[i], NULL, &own.old_ends[i]);
-        if (own.old_ends[i].sa_handler != SIG_IGN) sigaction(ends[i], &end, NULL);
-    }
-}
-
 static void on_readable(void *user, uint32_t events, int64_t now_ns) {
     struct gn_terminal *t = user;
     (void)events;
@@ -118,7 +105,16 @@ bool gn_terminal_open(struct gn_terminal *t, int fd, struct gn_loop *loop, struc
     own.ours.c_lflag &= ~(tcflag_t)(ICANON | ECHO);
     own.ours.c_cc[VMIN] = 1;
     own.ours.c_cc[VTIME] = 0;
-    install_handler();
+    struct sigaction end = {.sa_sigaction = on_end, .sa_flags = SA_SIGINFO | SA_ONSTACK};
+    struct sigaction stop = {.sa_handler = on_stop, .sa_flags = SA_RESTART};
+    struct sigaction resume = {.sa_handler = on_continue, .sa_flags = SA_RESTART};
+    sigaction(SIGTSTP, NULL, &own.old_stop);
+    if (own.old_stop.sa_handler != SIG_IGN) sigaction(SIGTSTP, &stop, NULL);
+    sigaction(SIGCONT, &resume, &own.old_continue);
+    for (int i = 0; i < ENDS; i++) {
+        sigaction(ends[i], NULL, &own.old_ends[i]);
+        if (own.old_ends[i].sa_handler != SIG_IGN) sigaction(ends[i], &end, NULL);
+    }
     own.open = true;
     gn_terminal_resume(t);
     return true;
@@ -171,15 +167,13 @@ static void open_terminal(struct gn_input *input, const struct gn_input_world *w
                          input->opts.loop, &input->timer);
 }
 
-/* On a text console the terminal and the input device report the same key. */
-static bool is_device_key(const struct gn_input *input, unsigned key) {
-    char type;
-    return gn_devices_have(&input->devices, key) &&
-           ioctl(input->terminal.fd, KDGKBTYPE, &type) == 0;
-}
-
 static void click_key(struct gn_input *input, unsigned key, int64_t now_ns) {
-    if (key != GN_KEY_NONE && !is_device_key(input, key)) gn_keys_click(&input->keys, key, now_ns);
+    char type;
+    if (key == GN_KEY_NONE) return;
+    /* on a text console the terminal and the input device report the same key */
+    if (gn_devices_have(&input->devices, key) && ioctl(input->terminal.fd, KDGKBTYPE, &type) == 0)
+        return;
+    gn_keys_click(&input->keys, key, now_ns);
 }
 
 static void read_terminal(struct gn_input *input, int64_t now_ns) {

@@ -19,8 +19,8 @@ enum state {
 static const uint8_t f_keys[] = {0,  59, 60,  61,  62,  63,  64,  65,  66,  67, 68,
                                  87, 88, 183, 184, 185, 186, 187, 188, 189, 190};
 
-/* Key of a printable character on a US keyboard, with or without shift. */
-static unsigned find_printable(uint8_t byte) {
+/* Printable characters are those of a US keyboard, with or without shift. */
+static unsigned find_plain(uint8_t byte) {
     static const struct {
         const char *plain, *shifted;
         uint8_t first;
@@ -28,16 +28,6 @@ static unsigned find_printable(uint8_t byte) {
                 {"qwertyuiop[]", "QWERTYUIOP{}", 16},
                 {"asdfghjkl;'`", "ASDFGHJKL:\"~", 30},
                 {"\\zxcvbnm,./", "|ZXCVBNM<>?", 43}};
-    if (byte <= ' ' || byte >= 127) return GN_KEY_NONE;
-    for (int i = 0; i < 4; i++) {
-        const char *plain = strchr(rows[i].plain, byte), *shifted = strchr(rows[i].shifted, byte);
-        if (plain) return rows[i].first + (unsigned)(plain - rows[i].plain);
-        if (shifted) return rows[i].first + (unsigned)(shifted - rows[i].shifted);
-    }
-    return GN_KEY_NONE;
-}
-
-static unsigned find_plain(uint8_t byte) {
     switch (byte) {
     case '\r':
     case '\n': return GN_KEY_ENTER;
@@ -45,8 +35,15 @@ static unsigned find_plain(uint8_t byte) {
     case ' ': return GN_KEY_SPACE;
     case 8:
     case 127: return GN_KEY_BACKSPACE;
-    default: return find_printable(byte);
+    default: break;
     }
+    if (byte < ' ' || byte > 127) return GN_KEY_NONE;
+    for (int i = 0; i < 4; i++) {
+        const char *plain = strchr(rows[i].plain, byte), *shifted = strchr(rows[i].shifted, byte);
+        if (plain) return rows[i].first + (unsigned)(plain - rows[i].plain);
+        if (shifted) return rows[i].first + (unsigned)(shifted - rows[i].shifted);
+    }
+    return GN_KEY_NONE;
 }
 
 /* Final byte of ESC [ and ESC O. */
