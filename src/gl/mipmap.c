@@ -1,6 +1,6 @@
-/* Smaller pictures by the mean of 2 x 2 texels, of light and not of codes where they are sRGB. For
- * pictures larger than the GPU takes, and for all levels where the "GPU" is software: llvmpipe
- * takes thirty times as long, most of it to compile. No GL. */
+/* Smaller pictures by the mean of 2 x 2 texels, in linear light where they are sRGB. For pictures
+ * larger than the GPU accepts, and for all levels with a software GPU: llvmpipe takes thirty times
+ * as long, most of it to compile. No GL. */
 #include <math.h>
 
 #include "core/arena.h"

@@ -1,5 +1,4 @@
-/* Reading back: pictures, maps, and one pixel where all that is wanted is that drawing has ended.
- */
+/* Reading back: pictures, maps, and one pixel to wait until drawing has ended. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,16 +40,6 @@ bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err) {
     return gn_gl_error_check(gl, "reading the picture", err);
 }
 
-/* Red and blue change places, and the rows. */
-static void reorder(const uint8_t *from, uint8_t *to, uint32_t width) {
-    for (uint32_t i = 0; i < width; i++) {
-        to[4 * i] = from[4 * i + 2];
-        to[4 * i + 1] = from[4 * i + 1];
-        to[4 * i + 2] = from[4 * i];
-        to[4 * i + 3] = 255;
-    }
-}
-
 bool gn_gl_read_xrgb8888(struct gn_gl *gl, uint8_t *out, size_t stride, struct gn_err *err) {
     const struct gn_gl_output *o = &gl->targets.output;
     const size_t row = 4ul * o->width_px, size = row * o->height_px;
@@ -59,8 +48,15 @@ bool gn_gl_read_xrgb8888(struct gn_gl *gl, uint8_t *out, size_t stride, struct g
         gl->read_buffer.size = size;
     }
     if (!gn_gl_read_rgba8(gl, gl->read_buffer.data, err)) return false;
-    for (uint32_t y = 0; y < o->height_px; y++)
-        reorder(gl->read_buffer.data + y * row, out + y * stride, o->width_px);
+    for (uint32_t y = 0; y < o->height_px; y++) {
+        const uint8_t *from = gl->read_buffer.data + y * row;
+        for (uint8_t *to = out + y * stride, *end = to + row; to < end; to += 4, from += 4) {
+            to[0] = from[2];
+            to[1] = from[1];
+            to[2] = from[0];
+            to[3] = 255;
+        }
+    }
     return true;
 }
 
@@ -72,23 +68,19 @@ static float float_from_half(uint16_t h) {
     return h & 0x8000 ? -x : x;
 }
 
-/* The halves stand in the first half of out: widen them from the end. */
-static void widen(float *out, size_t count) {
-    const uint8_t *halves = (const uint8_t *)out;
-    while (count--) {
-        uint16_t h;
-        memcpy(&h, halves + 2 * count, sizeof h);
-        out[count] = float_from_half(h);
-    }
-}
-
-/* A driver with only EXT_color_buffer_half_float may hand out halves alone. */
+/* A driver with only EXT_color_buffer_half_float may read only half floats. */
 void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float *out) {
-    gn_gl_error_keep(gl); /* it says nothing about floats */
+    gn_gl_error_keep(gl); /* an earlier error is not about floats */
     read_pixels(gl, width, height, GL_RGBA, GL_FLOAT, out);
     if (GL(gl, GetError)() == GL_NO_ERROR) return;
     read_pixels(gl, width, height, GL_RGBA, GL_HALF_FLOAT, out);
-    widen(out, 4 * (size_t)width * height);
+    /* The halves fill the first half of out: convert them from the end. */
+    const uint8_t *halves = (const uint8_t *)out;
+    for (size_t i = 4 * (size_t)width * height; i-- > 0;) {
+        uint16_t h;
+        memcpy(&h, halves + 2 * i, sizeof h);
+        out[i] = float_from_half(h);
+    }
 }
 
 bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err) {
@@ -128,8 +120,7 @@ void gn_gl_wait(struct gn_gl *gl) {
 
 /* ---- maps ---- */
 
-/* GLES reads no depth: a triangle copies it, and with it every other encoding that is one number.
- */
+/* GLES cannot read depth: a triangle copies it, as it does every other encoding of one number. */
 static const char copy_vertex[] = "#version 300 es\n"
                                   "void main() {\n"
                                   "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, "
@@ -165,8 +156,10 @@ static void draw_copy(struct gn_gl *gl, GLuint program, const struct gn_gl_map *
     gn_gl_object_destroy(gl, GN_GL_VERTEX_ARRAY, &array);
 }
 
-static bool copy_bits(struct gn_gl *gl, GLuint program, const struct gn_gl_map *map, uint32_t *bits,
-                      struct gn_err *err) {
+static bool read_by_copy(struct gn_gl *gl, const struct gn_gl_map *map, uint32_t *rgba,
+                         struct gn_err *err) {
+    GLuint program = gn_gl_program_link(gl, copy_vertex, copy_fragment, err);
+    if (!program) return false;
     GLuint framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
     GLuint color = gn_gl_object_create(gl, GN_GL_RENDERBUFFER);
     GL(gl, BindRenderbuffer)(GL_RENDERBUFFER, color);
@@ -176,57 +169,41 @@ static bool copy_bits(struct gn_gl *gl, GLuint program, const struct gn_gl_map *
     GL(gl, FramebufferRenderbuffer)
     (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
     bool ok = gn_gl_framebuffer_check(gl, "copy of a shadow map", err);
-    if (ok) draw_copy(gl, program, map);
-    if (ok) read_pixels(gl, map->width_px, map->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits);
+    if (ok) {
+        draw_copy(gl, program, map);
+        read_pixels(gl, map->width_px, map->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, rgba);
+    }
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &framebuffer);
     gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &color);
-    return ok;
-}
-
-static bool read_by_copy(struct gn_gl *gl, const struct gn_gl_map *map, uint32_t *rgba,
-                         struct gn_err *err) {
-    GLuint program = gn_gl_program_link(gl, copy_vertex, copy_fragment, err);
-    if (!program) return false;
-    bool ok = copy_bits(gl, program, map, rgba, err);
     gn_gl_use_program(gl, 0);
     GL(gl, DeleteProgram)(program);
     return ok;
 }
 
-static bool read_raw(struct gn_gl *gl, const struct gn_gl_map *map, uint32_t *rgba,
-                     struct gn_err *err) {
-    gn_gl_bind_framebuffer(gl, map->framebuffer);
-    switch (map->encoding) {
-    case GN_ENCODING_R32UI:
-        read_pixels(gl, map->width_px, map->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, rgba);
-        return true;
-    case GN_ENCODING_RGBA8:
-        read_pixels(gl, map->width_px, map->height_px, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
-        return true;
-    default: return read_by_copy(gl, map, rgba, err);
-    }
-}
-
-/* Most significant byte first, as shaders_es/lib/map_rgba8.glsl packs it. */
-static float code_from_bytes(const uint8_t b[4]) {
-    return (float)(b[0] / 256.0 + b[1] / 65536.0 + b[2] / 16777216.0 + b[3] / 4294967296.0);
-}
-
-static void decode(const struct gn_gl_map *map, const uint32_t *rgba, float *out) {
-    const size_t count = (size_t)map->width_px * map->height_px;
-    for (size_t i = 0; i < count; i++)
-        if (map->encoding == GN_ENCODING_RGBA8)
-            out[i] = code_from_bytes((const uint8_t *)rgba + 4 * i);
-        else
-            memcpy(&out[i], &rgba[4 * i], sizeof out[i]);
-}
-
 bool gn_gl_read_map(struct gn_gl *gl, uint32_t slot, float *out, struct gn_err *err) {
     const struct gn_gl_map *map = gn_gl_map_of_slot(gl, slot);
     if (!map) return gn_fail(err, "no shadow map %u", slot);
-    uint32_t *rgba = gn_xalloc((size_t)map->width_px * map->height_px, 4 * sizeof *rgba);
-    bool ok = read_raw(gl, map, rgba, err) && gn_gl_error_check(gl, "reading a shadow map", err);
-    if (ok) decode(map, rgba, out);
+    const size_t count = (size_t)map->width_px * map->height_px;
+    const bool bytes = map->encoding == GN_ENCODING_RGBA8;
+    uint32_t *rgba = gn_xalloc(count, 4 * sizeof *rgba);
+    bool ok = true;
+    gn_gl_bind_framebuffer(gl, map->framebuffer);
+    if (map->encoding == GN_ENCODING_R32UI)
+        read_pixels(gl, map->width_px, map->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, rgba);
+    else if (bytes)
+        read_pixels(gl, map->width_px, map->height_px, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    else
+        ok = read_by_copy(gl, map, rgba, err);
+    ok = ok && gn_gl_error_check(gl, "reading a shadow map", err);
+    for (size_t i = 0; ok && i < count; i++) {
+        /* Most significant byte first, as shaders_es/lib/map_rgba8.glsl packs it. */
+        const uint8_t *b = (const uint8_t *)rgba + 4 * i;
+        if (bytes)
+            out[i] =
+                (float)(b[0] / 256.0 + b[1] / 65536.0 + b[2] / 16777216.0 + b[3] / 4294967296.0);
+        else
+            memcpy(&out[i], &rgba[4 * i], sizeof out[i]);
+    }
     free(rgba);
     return ok;
 }

@@ -89,21 +89,6 @@ static bool remember(struct gn_gl_source *source, const char *name, struct gn_er
 }
 
 static bool add_file(struct gn_gl_source *source, const char *name, int depth,
-                     struct gn_gl_text *out, struct gn_err *err);
-
-static bool add_line(struct gn_gl_source *source, const char *line, size_t length, int depth,
-                     struct gn_gl_text *out, struct gn_err *err) {
-    char name[64];
-    if (!parse_include(line, length, name)) {
-        gn_gl_text_add_bytes(out, line, length);
-        gn_gl_text_add_bytes(out, "\n", 1);
-        return true;
-    }
-    if (seen_before(source, name)) return true;
-    return remember(source, name, err) && add_file(source, name, depth + 1, out, err);
-}
-
-static bool add_file(struct gn_gl_source *source, const char *name, int depth,
                      struct gn_gl_text *out, struct gn_err *err) {
     if (depth > INCLUDE_DEPTH)
         return gn_fail(err, "shader file %s: included more than %d deep", name, INCLUDE_DEPTH);
@@ -112,7 +97,12 @@ static bool add_file(struct gn_gl_source *source, const char *name, int depth,
     bool ok = at;
     while (ok && *at) {
         size_t length = strcspn(at, "\n");
-        ok = add_line(source, at, length, depth, out, err);
+        char included[64];
+        if (!parse_include(at, length, included)) {
+            gn_gl_text_add_bytes(out, at, length);
+            gn_gl_text_add_bytes(out, "\n", 1);
+        } else if (!seen_before(source, included))
+            ok = remember(source, included, err) && add_file(source, included, depth + 1, out, err);
         at += length + (at[length] == '\n');
     }
     gn_bytes_finish(&owned);
@@ -125,10 +115,13 @@ bool gn_gl_source_add(struct gn_gl_source *source, const char *name, struct gn_g
     return add_file(source, name, 0, out, err);
 }
 
-static int parse_names(const char *text, char names[GN_GL_NAMES_MAX][64]) {
+int gn_gl_source_names(const struct gn_gl_source *source, const char *name,
+                       char names[GN_GL_NAMES_MAX][64], struct gn_err *err) {
+    struct gn_bytes owned;
+    const char *text = file_text(source, name, &owned, err);
     static const char mark[] = "//@ names";
     int count = 0;
-    for (const char *at = text; (at = strstr(at, mark));) {
+    for (const char *at = text; at && (at = strstr(at, mark));) {
         at += sizeof mark - 1;
         int used = 0;
         while (count < GN_GL_NAMES_MAX &&
@@ -137,14 +130,6 @@ static int parse_names(const char *text, char names[GN_GL_NAMES_MAX][64]) {
             count++;
         }
     }
-    return count;
-}
-
-int gn_gl_source_names(const struct gn_gl_source *source, const char *name,
-                       char names[GN_GL_NAMES_MAX][64], struct gn_err *err) {
-    struct gn_bytes owned;
-    const char *text = file_text(source, name, &owned, err);
-    int count = text ? parse_names(text, names) : -1;
     gn_bytes_finish(&owned);
-    return count;
+    return text ? count : -1;
 }

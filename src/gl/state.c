@@ -161,20 +161,17 @@ GLuint gn_gl_object_create(struct gn_gl *gl, enum gn_gl_object kind) {
     return name;
 }
 
-/* GL unbinds what is deleted; a new object may get the old one's name. */
-static void forget(struct gn_gl_state *s, enum gn_gl_object kind, GLuint name) {
-    if (kind == GN_GL_BUFFER && s->array_buffer == name) s->array_buffer = 0;
-    if (kind == GN_GL_FRAMEBUFFER && s->framebuffer == name) s->framebuffer = 0;
-    if (kind == GN_GL_VERTEX_ARRAY && s->vertex_array == name) s->vertex_array = 0;
-    for (int i = 0; i < GN_GL_UNIT_COUNT; i++) {
-        if (kind == GN_GL_TEXTURE && s->textures[i] == name) s->textures[i] = 0;
-        if (kind == GN_GL_SAMPLER && s->samplers[i] == name) s->samplers[i] = 0;
-    }
-}
-
 void gn_gl_object_destroy(struct gn_gl *gl, enum gn_gl_object kind, GLuint *name) {
     if (!*name) return;
-    forget(&gl->state, kind, *name);
+    /* GL unbinds what is deleted; a new object may get the old one's name. */
+    struct gn_gl_state *s = &gl->state;
+    if (kind == GN_GL_BUFFER && s->array_buffer == *name) s->array_buffer = 0;
+    if (kind == GN_GL_FRAMEBUFFER && s->framebuffer == *name) s->framebuffer = 0;
+    if (kind == GN_GL_VERTEX_ARRAY && s->vertex_array == *name) s->vertex_array = 0;
+    for (int i = 0; i < GN_GL_UNIT_COUNT; i++) {
+        if (kind == GN_GL_TEXTURE && s->textures[i] == *name) s->textures[i] = 0;
+        if (kind == GN_GL_SAMPLER && s->samplers[i] == *name) s->samplers[i] = 0;
+    }
     switch (kind) {
     case GN_GL_BUFFER: GL(gl, DeleteBuffers)(1, name); break;
     case GN_GL_FRAMEBUFFER: GL(gl, DeleteFramebuffers)(1, name); break;

@@ -1,5 +1,5 @@
-/* What passes draw to: one output, and a map per shadow slot. Made again when a plan asks for
- * another size or format; maps of plans that take turns are kept. */
+/* The targets of passes: one output, and a map per shadow slot. They are made again when a plan
+ * wants another size or format; maps of plans that alternate are kept. */
 #include <string.h>
 
 #include "gl/private.h"
@@ -71,27 +71,10 @@ static void output_finish(struct gn_gl *gl, struct gn_gl_output *o) {
     *o = (struct gn_gl_output){0};
 }
 
-/* A last pass encodes the linear picture to 8 bits. */
-static bool is_encoded(const struct gn_plan *plan) {
-    return plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT;
-}
-
 static bool goes_to_window(const struct gn_gl *gl, const struct gn_plan *plan) {
     if (plan->width_px != gl->window.width_px || plan->height_px != gl->window.height_px)
         return false;
     return gl->window.srgb ? plan->output == GN_OUTPUT_SRGB8 : plan->encode_srgb;
-}
-
-static bool wants_stencil(const struct gn_gl *gl, const struct gn_plan *plan) {
-    return plan->stencil || gl->targets.wants_stencil;
-}
-
-static bool output_is(const struct gn_gl *gl, const struct gn_gl_output *o,
-                      const struct gn_plan *plan) {
-    return o->made && o->window == goes_to_window(gl, plan) && o->width_px == plan->width_px &&
-           o->height_px == plan->height_px && o->format == plan->output &&
-           o->msaa_wanted == plan->msaa && o->stencil == wants_stencil(gl, plan) &&
-           o->encodes == is_encoded(plan);
 }
 
 /* Attaches the colour of the bound framebuffer: a texture if shaders read it, else a renderbuffer.
@@ -112,22 +95,6 @@ static void attach_color(struct gn_gl *gl, struct gn_gl_output *o, GLuint *color
     (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, o->texture, 0);
 }
 
-static bool make_resolved(struct gn_gl *gl, struct gn_gl_output *o, bool readable,
-                          struct gn_err *err) {
-    o->resolved = o->framebuffer;
-    if (!o->msaa) return true;
-    o->resolved = make_framebuffer(gl);
-    attach_color(gl, o, &o->resolved_color, 0, readable);
-    return gn_gl_framebuffer_check(gl, "resolved output", err);
-}
-
-static bool make_encoded(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err *err) {
-    o->encoded_color = make_renderbuffer(gl, GL_RGBA8, 0, o->width_px, o->height_px);
-    o->encoded = make_framebuffer(gl);
-    attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->encoded_color);
-    return gn_gl_framebuffer_check(gl, "encoded output", err);
-}
-
 GLuint gn_gl_output_finished(const struct gn_gl_output *output) {
     if (output->window) return 0;
     return output->encodes ? output->encoded : output->resolved;
@@ -135,13 +102,6 @@ GLuint gn_gl_output_finished(const struct gn_gl_output *output) {
 
 enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output) {
     return output->encodes ? GN_OUTPUT_LINEAR8 : output->format;
-}
-
-static uint64_t bytes_of(const struct gn_gl_output *o, bool encoded) {
-    const uint64_t pixels = (uint64_t)o->width_px * o->height_px;
-    const unsigned color = output_formats[o->format].bytes;
-    return pixels * (color + 4) * (o->msaa ? o->msaa : 1) + (o->msaa ? pixels * color : 0) +
-           (encoded ? 4 * pixels : 0);
 }
 
 static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err *err) {
@@ -153,47 +113,55 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
     attach_color(gl, o, &o->color, (GLsizei)o->msaa, encoded && !o->msaa);
     attach_renderbuffer(gl, o->stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
                         o->depth);
-    o->bytes = bytes_of(o, encoded);
-    return gn_gl_framebuffer_check(gl, "output", err) && make_resolved(gl, o, encoded, err) &&
-           (!encoded || o->window || make_encoded(gl, o, err)) &&
-           gn_gl_error_check(gl, "making the output", err);
+    const uint64_t pixels = (uint64_t)o->width_px * o->height_px;
+    const unsigned color_bytes = output_formats[o->format].bytes;
+    o->bytes = pixels * (color_bytes + 4) * (o->msaa ? o->msaa : 1) +
+               (o->msaa ? pixels * color_bytes : 0) + (encoded ? 4 * pixels : 0);
+    if (!gn_gl_framebuffer_check(gl, "output", err)) return false;
+
+    o->resolved = o->framebuffer;
+    if (o->msaa) {
+        o->resolved = make_framebuffer(gl);
+        attach_color(gl, o, &o->resolved_color, 0, encoded);
+        if (!gn_gl_framebuffer_check(gl, "resolved output", err)) return false;
+    }
+    if (encoded && !o->window) {
+        o->encoded_color = make_renderbuffer(gl, GL_RGBA8, 0, o->width_px, o->height_px);
+        o->encoded = make_framebuffer(gl);
+        attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->encoded_color);
+        if (!gn_gl_framebuffer_check(gl, "encoded output", err)) return false;
+    }
+    return gn_gl_error_check(gl, "making the output", err);
 }
 
-static bool output_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    struct gn_gl_output *o = &gl->targets.output;
-    if (output_is(gl, o, plan)) return true;
+/* pixel: like the output of the plan, but 1 x 1 and never a window. */
+static bool output_ensure(struct gn_gl *gl, struct gn_gl_output *o, bool pixel,
+                          const struct gn_plan *plan, struct gn_err *err) {
+    struct gn_gl_output wanted = {
+        .width_px = pixel ? 1 : plan->width_px,
+        .height_px = pixel ? 1 : plan->height_px,
+        .format = plan->output,
+        .stencil = plan->stencil || gl->targets.wants_stencil,
+        .msaa_wanted = plan->msaa,
+        .window = !pixel && goes_to_window(gl, plan),
+        .encodes = plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT,
+        .made = true,
+    };
+    if (o->made && o->window == wanted.window && o->width_px == wanted.width_px &&
+        o->height_px == wanted.height_px && o->format == wanted.format &&
+        o->msaa_wanted == wanted.msaa_wanted && o->stencil == wanted.stencil &&
+        o->encodes == wanted.encodes)
+        return true;
     output_finish(gl, o);
-    *o = (struct gn_gl_output){.width_px = plan->width_px,
-                               .height_px = plan->height_px,
-                               .format = plan->output,
-                               .stencil = wants_stencil(gl, plan),
-                               .msaa = possible_samples(gl, plan),
-                               .msaa_wanted = plan->msaa,
-                               .window = goes_to_window(gl, plan),
-                               .encodes = is_encoded(plan),
-                               .made = true};
+    wanted.msaa = possible_samples(gl, plan);
+    *o = wanted;
     if (output_make(gl, o, err)) return true;
     output_finish(gl, o);
     return false;
 }
 
 bool gn_gl_pixel_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    struct gn_gl_output *o = &gl->targets.pixel;
-    if (o->made && o->format == plan->output && o->msaa_wanted == plan->msaa &&
-        o->stencil == wants_stencil(gl, plan) && o->encodes == is_encoded(plan))
-        return true;
-    output_finish(gl, o);
-    *o = (struct gn_gl_output){.width_px = 1,
-                               .height_px = 1,
-                               .format = plan->output,
-                               .stencil = wants_stencil(gl, plan),
-                               .msaa = possible_samples(gl, plan),
-                               .msaa_wanted = plan->msaa,
-                               .encodes = is_encoded(plan),
-                               .made = true};
-    if (output_make(gl, o, err)) return true;
-    output_finish(gl, o);
-    return false;
+    return output_ensure(gl, &gl->targets.pixel, true, plan, err);
 }
 
 /* ---- shadow maps ---- */
@@ -225,31 +193,12 @@ static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {
     *map = (struct gn_gl_map){0};
 }
 
-static void attach_map(struct gn_gl *gl, struct gn_gl_map *map) {
-    const bool is_depth = !map->moments && map->encoding == GN_ENCODING_DEPTH;
+static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err) {
     static const GLenum none = GL_NONE;
-    GL(gl, FramebufferTexture2D)
-    (GL_FRAMEBUFFER, is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-     map->texture, 0);
-    if (is_depth) {
-        GL(gl, DrawBuffers)(1, &none);
-        GL(gl, ReadBuffer)(GL_NONE);
-        return;
-    }
-    if (map->moments) return;
-    if (map->encoding == GN_ENCODING_MASK) return; /* a mask needs no depth test */
-    map->depth = make_renderbuffer(gl, GL_DEPTH_COMPONENT24, 0, map->width_px, map->height_px);
-    attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, map->depth);
-}
-
-static GLsizei levels_of(const struct gn_gl_map *map) {
+    const bool is_depth = !map->moments && map->encoding == GN_ENCODING_DEPTH;
     const uint32_t side = map->width_px > map->height_px ? map->width_px : map->height_px;
     GLsizei levels = 1;
     while (map->mipmaps && side >> levels > 0) levels++;
-    return levels;
-}
-
-static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err) {
     const unsigned texel_bytes = map->moments ? gn_moments[map->moments].texel_bytes
                                               : gn_encodings[map->encoding].texel_bytes;
     const GLenum format = map->moments ? moments_formats[map->moments] : map_formats[map->encoding];
@@ -258,9 +207,18 @@ static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err
     map->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
     gn_gl_work_on_texture(gl, map->texture);
     GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, levels_of(map), format, (GLsizei)map->width_px, (GLsizei)map->height_px);
+    (GL_TEXTURE_2D, levels, format, (GLsizei)map->width_px, (GLsizei)map->height_px);
     map->framebuffer = make_framebuffer(gl);
-    attach_map(gl, map);
+    GL(gl, FramebufferTexture2D)
+    (GL_FRAMEBUFFER, is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+     map->texture, 0);
+    if (is_depth) {
+        GL(gl, DrawBuffers)(1, &none);
+        GL(gl, ReadBuffer)(GL_NONE);
+    } else if (!map->moments && map->encoding != GN_ENCODING_MASK) { /* which need no depth test */
+        map->depth = make_renderbuffer(gl, GL_DEPTH_COMPONENT24, 0, map->width_px, map->height_px);
+        attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, map->depth);
+    }
     if (gn_gl_framebuffer_check(gl, "shadow map", err) &&
         gn_gl_error_check(gl, "making a shadow map", err))
         return true;
@@ -325,18 +283,9 @@ struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot) {
     return latest;
 }
 
-/* A free slot, else the least recently used map. Never one of this plan, which has far fewer. */
-static struct gn_gl_map *free_place(struct gn_gl *gl) {
-    struct gn_gl_map *oldest = &gl->targets.maps[0];
-    for (int i = 1; i < GN_GL_MAPS_MAX; i++)
-        if (gl->targets.maps[i].last_used < oldest->last_used) oldest = &gl->targets.maps[i];
-    map_finish(gl, oldest);
-    return oldest;
-}
-
 /* Frees least recently used maps that the current plan does not use while the total is over the
  * limit. */
-static void make_room(struct gn_gl *gl) {
+static void free_old_maps(struct gn_gl *gl) {
     for (;;) {
         struct gn_gl_map *oldest = NULL;
         uint64_t bytes = 0;
@@ -355,7 +304,12 @@ static void make_room(struct gn_gl *gl) {
 static bool map_ensure(struct gn_gl *gl, const struct gn_target *target, struct gn_err *err) {
     struct gn_gl_map *map = map_find(gl, target);
     if (!map) {
-        map = free_place(gl);
+        /* A free slot, else the least recently used map. Never one of this plan, which has far
+         * fewer. */
+        map = &gl->targets.maps[0];
+        for (int i = 1; i < GN_GL_MAPS_MAX; i++)
+            if (gl->targets.maps[i].last_used < map->last_used) map = &gl->targets.maps[i];
+        map_finish(gl, map);
         *map = (struct gn_gl_map){.slot = target->slot,
                                   .encoding = target->encoding,
                                   .moments = target->moments,
@@ -365,7 +319,7 @@ static bool map_ensure(struct gn_gl *gl, const struct gn_target *target, struct 
                                   .height_px = target->height_px};
         if (!make_map(gl, map, err)) return false;
         map->last_used = gl->targets.prepares;
-        make_room(gl);
+        free_old_maps(gl);
     }
     map->last_used = gl->targets.prepares;
     return true;
@@ -375,7 +329,8 @@ static bool map_ensure(struct gn_gl *gl, const struct gn_target *target, struct 
 
 bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     gl->targets.prepares++;
-    return output_ensure(gl, plan, err) && gn_gl_maps_ensure(gl, plan, err);
+    return output_ensure(gl, &gl->targets.output, false, plan, err) &&
+           gn_gl_maps_ensure(gl, plan, err);
 }
 
 bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
@@ -400,24 +355,20 @@ uint64_t gn_gl_targets_bytes(const struct gn_gl *gl) {
     return bytes;
 }
 
-static GLuint make_map_sampler(struct gn_gl *gl, enum gn_gl_map_sampler kind) {
-    const bool nearest = kind == GN_GL_MAP_COMPARE || kind == GN_GL_MAP_NEAREST;
-    const GLint filter = nearest ? GL_NEAREST : GL_LINEAR;
-    GLuint s = gn_gl_object_create(gl, GN_GL_SAMPLER);
-    GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    GL(gl, SamplerParameteri)
-    (s, GL_TEXTURE_MIN_FILTER, kind == GN_GL_MAP_TRILINEAR ? GL_LINEAR_MIPMAP_LINEAR : filter);
-    GL(gl, SamplerParameteri)(s, GL_TEXTURE_MAG_FILTER, filter);
-    if (kind < GN_GL_MAP_COMPARE) return s;
-    GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-    return s;
-}
-
 void gn_gl_targets_init(struct gn_gl *gl) {
-    for (int i = 0; i < GN_GL_MAP_SAMPLER_COUNT; i++)
-        gl->targets.map_samplers[i] = make_map_sampler(gl, i);
+    for (enum gn_gl_map_sampler kind = 0; kind < GN_GL_MAP_SAMPLER_COUNT; kind++) {
+        const bool nearest = kind == GN_GL_MAP_COMPARE || kind == GN_GL_MAP_NEAREST;
+        const GLint filter = nearest ? GL_NEAREST : GL_LINEAR;
+        GLuint s = gl->targets.map_samplers[kind] = gn_gl_object_create(gl, GN_GL_SAMPLER);
+        GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        GL(gl, SamplerParameteri)
+        (s, GL_TEXTURE_MIN_FILTER, kind == GN_GL_MAP_TRILINEAR ? GL_LINEAR_MIPMAP_LINEAR : filter);
+        GL(gl, SamplerParameteri)(s, GL_TEXTURE_MAG_FILTER, filter);
+        if (kind < GN_GL_MAP_COMPARE) continue;
+        GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    }
 }
 
 void gn_gl_targets_finish(struct gn_gl *gl) {

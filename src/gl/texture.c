@@ -1,5 +1,5 @@
 /* The scene's pictures and samplers on the GPU. A picture that is read both as colour and as data
- * is there twice, once a format; equal samplers are there once. */
+ * has two textures, one per format; equal samplers are made once. */
 #include <stdlib.h>
 
 #include "core/arena.h"
@@ -27,48 +27,27 @@ static uint8_t *shrink(struct gn_gl *gl, const struct gn_gl_curve *curve, uint32
     return owned;
 }
 
-static GLsizei levels_of(const struct gn_image *image) {
-    uint32_t side = image->width_px > image->height_px ? image->width_px : image->height_px;
-    GLsizei levels = 1;
-    for (; side > 1; side /= 2) levels++;
-    return levels;
-}
-
-static bool wants_mipmaps(const struct gn_scene *scene, uint32_t image) {
-    for (uint32_t i = 0; i < scene->pictures.texture_count; i++)
-        if (scene->pictures.textures[i].image == image && scene->pictures.textures[i].mipmaps)
-            return true;
-    return false;
-}
-
-/* Begins to send one; where the driver's own levels would cost a frame, or are slow, they are made
- * here, a few rows at a time. */
 static void open_picture(struct gn_gl *gl, uint32_t index, bool srgb) {
     struct gn_gl_scene *s = &gl->scene;
     struct gn_gl_picture *p = &s->upload.picture;
     *p = (struct gn_gl_picture){
         .image = s->scene->pictures.images[index], .srgb = srgb, .open = true};
     p->owned = shrink(gl, s->upload.curve, index, &p->image, srgb);
-    p->mipmaps = wants_mipmaps(s->scene, index);
-    p->levels = p->mipmaps ? levels_of(&p->image) : 1;
+    for (uint32_t i = 0; i < s->scene->pictures.texture_count; i++)
+        p->mipmaps |=
+            s->scene->pictures.textures[i].image == index && s->scene->pictures.textures[i].mipmaps;
+    const uint32_t width = p->image.width_px, height = p->image.height_px;
+    p->levels = 1;
+    while (p->mipmaps && (width > height ? width : height) >> p->levels > 0) p->levels++;
     s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
     gn_gl_work_on_texture(gl, s->images[srgb][index]);
     GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, p->levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)p->image.width_px,
-     (GLsizei)p->image.height_px);
-    s->texture_bytes +=
-        (uint64_t)p->image.width_px * p->image.height_px * 4 * (p->mipmaps ? 4 : 3) / 3;
+    (GL_TEXTURE_2D, p->levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)width, (GLsizei)height);
+    s->texture_bytes += (uint64_t)width * height * 4 * (p->mipmaps ? 4 : 3) / 3;
 }
 
-static void send_rows(struct gn_gl *gl, GLint level, const struct gn_image *image, uint32_t first,
-                      uint32_t count) {
-    GL(gl, TexSubImage2D)
-    (GL_TEXTURE_2D, level, 0, (GLint)first, (GLsizei)image->width_px, (GLsizei)count, GL_RGBA,
-     GL_UNSIGNED_BYTE, image->rgba + 4ul * first * image->width_px);
-}
-
-/* To the level below; false: there is none. */
-static bool next_level(struct gn_gl_picture *p) {
+/* Begins the next smaller level; false: there is none. */
+static bool begin_next_level(struct gn_gl_picture *p) {
     if (p->level > 0) {
         free(p->owned);
         p->owned = p->half_owned;
@@ -83,18 +62,15 @@ static bool next_level(struct gn_gl_picture *p) {
     return true;
 }
 
-static bool makes_levels(const struct gn_gl *gl, const struct gn_gl_picture *p, size_t bytes) {
-    return gl->caps.software || 4ul * p->image.width_px * p->image.height_px > bytes;
-}
-
 static void close_picture(struct gn_gl_picture *p) {
     free(p->owned);
     free(p->half_owned);
     *p = (struct gn_gl_picture){0};
 }
 
-/* Some rows of the picture that is open. What was sent. */
-static size_t send_some(struct gn_gl *gl, size_t bytes) {
+/* Uploads some rows of the open picture; returns their bytes. Where mipmaps by the driver are slow,
+ * or would take longer than a frame, they are made here, a few rows at a time. */
+static size_t send_rows(struct gn_gl *gl, size_t bytes) {
     struct gn_gl_picture *p = &gl->scene.upload.picture;
     const struct gn_image *level = p->level > 0 ? &p->half : &p->image;
     const size_t row = (p->level > 0 ? 16ul : 4ul) * level->width_px; /* a half reads four times */
@@ -103,14 +79,18 @@ static size_t send_some(struct gn_gl *gl, size_t bytes) {
     if (p->level > 0)
         gn_gl_image_halve_rows(gl->scene.upload.curve, &p->image, p->row, count, p->srgb,
                                p->half_owned);
-    send_rows(gl, p->level, level, p->row, count);
+    GL(gl, TexSubImage2D)
+    (GL_TEXTURE_2D, p->level, 0, (GLint)p->row, (GLsizei)level->width_px, (GLsizei)count, GL_RGBA,
+     GL_UNSIGNED_BYTE, level->rgba + 4ul * p->row * level->width_px);
     p->row += count;
     if (p->row < level->height_px) return count * row;
-    if (p->level == 0 && p->mipmaps && !makes_levels(gl, p, bytes)) {
+    const bool driver_is_slow =
+        gl->caps.software || 4ul * p->image.width_px * p->image.height_px > bytes;
+    if (p->level == 0 && p->mipmaps && !driver_is_slow) {
         GL(gl, GenerateMipmap)(GL_TEXTURE_2D);
         p->levels = 1;
     }
-    if (!next_level(p)) close_picture(p);
+    if (!begin_next_level(p)) close_picture(p);
     return count * row;
 }
 
@@ -122,25 +102,26 @@ static uint32_t sampler_kind(const struct gn_texture *t) {
 }
 _Static_assert(GN_GL_SAMPLER_KINDS == 3 * 3 * 16, "two wraps of three, four switches");
 
-static GLint min_filter(const struct gn_texture *t) {
-    if (!t->mipmaps) return t->min_nearest ? GL_NEAREST : GL_LINEAR;
-    if (t->mip_nearest)
-        return t->min_nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_NEAREST;
-    return t->min_nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR;
-}
-
 static void make_sampler(struct gn_gl *gl, const struct gn_texture *t) {
     static const GLint wraps[] = {
         [GN_WRAP_REPEAT] = GL_REPEAT,
         [GN_WRAP_CLAMP] = GL_CLAMP_TO_EDGE,
         [GN_WRAP_MIRROR] = GL_MIRRORED_REPEAT,
     };
+    static const GLint plain[2] = {GL_LINEAR, GL_NEAREST};
+    static const GLint mipmapped[2][2] = {
+        /* by mip_nearest, then min_nearest */
+        {GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST_MIPMAP_LINEAR},
+        {GL_LINEAR_MIPMAP_NEAREST, GL_NEAREST_MIPMAP_NEAREST},
+    };
     GLuint *sampler = &gl->scene.samplers[sampler_kind(t)];
     if (*sampler) return;
     *sampler = gn_gl_object_create(gl, GN_GL_SAMPLER);
     GL(gl, SamplerParameteri)(*sampler, GL_TEXTURE_WRAP_S, wraps[t->wrap_s]);
     GL(gl, SamplerParameteri)(*sampler, GL_TEXTURE_WRAP_T, wraps[t->wrap_t]);
-    GL(gl, SamplerParameteri)(*sampler, GL_TEXTURE_MIN_FILTER, min_filter(t));
+    GL(gl, SamplerParameteri)
+    (*sampler, GL_TEXTURE_MIN_FILTER,
+     t->mipmaps ? mipmapped[t->mip_nearest][t->min_nearest] : plain[t->min_nearest]);
     GL(gl, SamplerParameteri)
     (*sampler, GL_TEXTURE_MAG_FILTER, t->mag_nearest ? GL_NEAREST : GL_LINEAR);
 }
@@ -158,16 +139,8 @@ static bool use_of(const struct gn_scene *scene, uint32_t use, int32_t *texture,
     return true;
 }
 
-static void begin_pictures(struct gn_gl_scene *s) {
-    s->image_count = s->scene->pictures.image_count;
-    for (int i = 0; i < 2; i++) s->images[i] = gn_xalloc(s->image_count + 1, sizeof *s->images[i]);
-    if (s->image_count == 0) return;
-    s->upload.curve = gn_xalloc(1, sizeof *s->upload.curve);
-    gn_gl_curve_init(s->upload.curve);
-}
-
-/* The next use of a picture that is not there yet; false: there is none. */
-static bool open_next(struct gn_gl *gl) {
+/* Opens the picture of the next use that has no texture yet; false: there is none. */
+static bool open_next_picture(struct gn_gl *gl) {
     struct gn_gl_scene *s = &gl->scene;
     int32_t texture;
     bool srgb;
@@ -181,21 +154,25 @@ static bool open_next(struct gn_gl *gl) {
     return false;
 }
 
-static GLuint open_name(const struct gn_gl_scene *s) {
-    int32_t texture = 0;
-    bool srgb = false;
-    use_of(s->scene, s->upload.first, &texture, &srgb);
-    return s->images[srgb][s->scene->pictures.textures[texture].image];
-}
-
 bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes) {
     struct gn_gl_scene *s = &gl->scene;
     struct gn_gl_picture *p = &s->upload.picture;
     size_t sent = 0;
-    if (!s->images[0]) begin_pictures(s);
-    while (sent < bytes && (p->open || open_next(gl))) {
-        gn_gl_work_on_texture(gl, open_name(s));
-        sent += send_some(gl, bytes - sent);
+    if (!s->images[0]) {
+        s->image_count = s->scene->pictures.image_count;
+        for (int i = 0; i < 2; i++)
+            s->images[i] = gn_xalloc(s->image_count + 1, sizeof *s->images[i]);
+        if (s->image_count > 0) {
+            s->upload.curve = gn_xalloc(1, sizeof *s->upload.curve);
+            gn_gl_curve_init(s->upload.curve);
+        }
+    }
+    while (sent < bytes && (p->open || open_next_picture(gl))) {
+        int32_t texture = 0;
+        bool srgb = false;
+        use_of(s->scene, s->upload.first, &texture, &srgb);
+        gn_gl_work_on_texture(gl, s->images[srgb][s->scene->pictures.textures[texture].image]);
+        sent += send_rows(gl, bytes - sent);
     }
     if (p->open || sent >= bytes) return false;
     for (uint32_t i = 0; i < s->scene->pictures.texture_count; i++)
@@ -220,16 +197,16 @@ void gn_gl_textures_finish(struct gn_gl *gl) {
         gn_gl_object_destroy(gl, GN_GL_SAMPLER, &s->samplers[i]);
 }
 
-static void bind(struct gn_gl *gl, GLuint unit, uint32_t texture, bool srgb) {
+static void bind_texture(struct gn_gl *gl, GLuint unit, uint32_t texture, bool srgb) {
     const struct gn_gl_scene *s = &gl->scene;
     const struct gn_texture *t = &s->scene->pictures.textures[texture];
     gn_gl_bind_texture(gl, unit, s->images[srgb][t->image], s->samplers[sampler_kind(t)]);
 }
 
 void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref) {
-    bind(gl, GN_GL_UNIT_TEXTURE + slot, (uint32_t)ref->texture, slot_is_srgb(slot));
+    bind_texture(gl, GN_GL_UNIT_TEXTURE + slot, (uint32_t)ref->texture, slot_is_srgb(slot));
 }
 
 void gn_gl_slide_bind(struct gn_gl *gl, uint32_t slide, uint32_t texture) {
-    bind(gl, GN_GL_UNIT_SLIDE + slide, texture, true);
+    bind_texture(gl, GN_GL_UNIT_SLIDE + slide, texture, true);
 }

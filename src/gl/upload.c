@@ -34,18 +34,6 @@ static GLuint make_vertex_buffer(struct gn_gl *gl, const void *data, size_t size
     return name;
 }
 
-/* Positions have a buffer of their own; the other attributes are interleaved. */
-static void lay_out(struct gn_gl_scene *s) {
-    s->attribute_stride = 0;
-    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++) {
-        const bool here = s->scene->buffers.attributes[i] && i != GN_ATTRIBUTE_POSITION;
-        s->attribute_at[i] = here ? s->attribute_stride : -1;
-        if (here) s->attribute_stride += gn_attributes[i].gpu_bytes;
-    }
-}
-
-static int16_t snorm16(float x) { return (int16_t)lrintf(fmaxf(-1, fminf(1, x)) * 32767); }
-
 static void pack_vertex(const struct gn_gl_scene *s, uint32_t vertex, uint8_t *out) {
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++) {
         const struct gn_attribute_row *row = &gn_attributes[i];
@@ -54,15 +42,17 @@ static void pack_vertex(const struct gn_gl_scene *s, uint32_t vertex, uint8_t *o
             (const uint8_t *)s->scene->buffers.attributes[i] + (size_t)vertex * row->bytes;
         if (row->format == GN_ATTRIBUTE_SNORM16) {
             int16_t packed[4] = {0};
-            for (int k = 0; k < row->components; k++)
-                packed[k] = snorm16(((const float *)(const void *)from)[k]);
+            for (int k = 0; k < row->components; k++) {
+                const float x = ((const float *)(const void *)from)[k];
+                packed[k] = (int16_t)lrintf(fmaxf(-1, fminf(1, x)) * 32767);
+            }
             memcpy(out + s->attribute_at[i], packed, sizeof packed);
         } else
             memcpy(out + s->attribute_at[i], from, row->bytes);
     }
 }
 
-/* How many of what weighs so much, one at least. */
+/* How many items of `each` bytes fit into `bytes`: at least one, at most `left`. */
 static uint32_t portion(size_t bytes, size_t each, uint32_t left) {
     const size_t count = bytes / each > 0 ? bytes / each : 1;
     return count < left ? (uint32_t)count : left;
@@ -101,7 +91,8 @@ static bool send_attributes(struct gn_gl *gl, size_t bytes) {
     return end == all;
 }
 
-static void send_narrow(struct gn_gl *gl, const uint32_t *indices, uint32_t begin, uint32_t end) {
+static void send_narrow_indices(struct gn_gl *gl, const uint32_t *indices, uint32_t begin,
+                                uint32_t end) {
     uint16_t narrow[PIECE];
     for (uint32_t first = begin; first < end; first += PIECE) {
         uint32_t n = end - first < PIECE ? end - first : PIECE;
@@ -124,7 +115,7 @@ static bool send_indices(struct gn_gl *gl, size_t bytes) {
     GL(gl, BindBuffer)(GL_ELEMENT_ARRAY_BUFFER, s->indices);
     const uint32_t n = portion(bytes, s->index_size, all - first);
     if (!wide)
-        send_narrow(gl, s->scene->buffers.indices, first, first + n);
+        send_narrow_indices(gl, s->scene->buffers.indices, first, first + n);
     else if (n > 0)
         GL(gl, BufferSubData)
     (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * s->index_size), (GLsizeiptr)(n * s->index_size),
@@ -133,26 +124,23 @@ static bool send_indices(struct gn_gl *gl, size_t bytes) {
     return s->upload.first == all;
 }
 
-static void material_rows(const struct gn_material *material, float rows[][4]) {
-    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-        const float *m = material->textures[slot].uv_from_uv;
-        const float both[8] = {m[0], m[2], m[4], 0, m[1], m[3], m[5], 0};
-        memcpy(rows[2 * slot], both, sizeof both);
-    }
-}
-
 static bool same_rows(const float (*a)[4], const float (*b)[4]) {
     for (int i = 0; i < 2 * GN_TEXTURE_SLOT_COUNT * 4; i++)
         if (a[i / 4][i % 4] != b[i / 4][i % 4]) return false;
     return true;
 }
 
-/* Materials with the same transforms, nearly all, share one set: so a program keeps it. */
+/* Materials with equal transforms, as nearly all have, share one set, so that a program keeps its
+ * uniforms. */
 static void collect_uv(struct gn_gl_scene *s) {
     s->uv = gn_xalloc(s->scene->material_count + 1, sizeof *s->uv);
     s->material_uv = gn_xalloc(s->scene->material_count + 1, sizeof *s->material_uv);
     for (uint32_t i = 0; i < s->scene->material_count; i++) {
-        material_rows(&s->scene->materials[i], s->uv[s->uv_count]);
+        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+            const float *m = s->scene->materials[i].textures[slot].uv_from_uv;
+            const float both[8] = {m[0], m[2], m[4], 0, m[1], m[3], m[5], 0};
+            memcpy(s->uv[s->uv_count][2 * slot], both, sizeof both);
+        }
         uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
         while (same < s->uv_count && !same_rows(s->uv[same], s->uv[s->uv_count])) same++;
         s->material_uv[i] = same;
@@ -167,12 +155,17 @@ static void forget_programs(struct gn_gl *gl) {
 void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene) {
     gn_gl_scene_finish(gl);
     gl->scene.scene = scene;
-    lay_out(&gl->scene);
+    /* Positions have a buffer of their own; the other attributes are interleaved. */
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++) {
+        const bool here = scene->buffers.attributes[i] && i != GN_ATTRIBUTE_POSITION;
+        gl->scene.attribute_at[i] = here ? gl->scene.attribute_stride : -1;
+        if (here) gl->scene.attribute_stride += gn_attributes[i].gpu_bytes;
+    }
     collect_uv(&gl->scene);
     forget_programs(gl);
 }
 
-/* A phase at a time, and of each as many bytes as are asked for. */
+/* Runs one phase, for as many bytes as wanted; for SIZE_MAX all phases. */
 bool gn_gl_scene_step(struct gn_gl *gl, size_t bytes, bool *done, struct gn_err *err) {
     static bool (*const sends[])(struct gn_gl *, size_t) = {
         [GN_GL_UPLOAD_POSITIONS] = send_positions,
@@ -249,29 +242,10 @@ void gn_gl_stage_show(struct gn_gl *gl) {
 
 static bool reads(uint32_t attributes, int location) { return attributes >> location & 1; }
 
-static void point(struct gn_gl *gl, GLuint location, GLint size, GLenum type, GLsizei stride,
-                  size_t offset) {
+static void point_attribute(struct gn_gl *gl, GLuint location, GLint size, GLenum type,
+                            GLsizei stride, size_t offset) {
     const GLboolean normalized = type != GL_FLOAT;
     GL(gl, VertexAttribPointer)(location, size, type, normalized, stride, (const void *)offset);
-}
-
-static void point_to_scene(struct gn_gl *gl, uint32_t attributes) {
-    const struct gn_gl_scene *s = &gl->scene;
-    gn_gl_bind_array_buffer(gl, s->positions);
-    GL(gl, EnableVertexAttribArray)(GN_ATTRIBUTE_POSITION);
-    point(gl, GN_ATTRIBUTE_POSITION, 3, GL_FLOAT, 0, 0);
-    gn_gl_bind_array_buffer(gl, s->attributes);
-    for (GLuint i = GN_ATTRIBUTE_POSITION + 1; i < GN_ATTRIBUTE_COUNT; i++) {
-        const struct gn_attribute_row *row = &gn_attributes[i];
-        const struct gl_format *format = &gl_formats[row->format];
-        if (!reads(attributes, (int)i)) continue;
-        if (s->attribute_at[i] >= 0) {
-            GL(gl, EnableVertexAttribArray)(i);
-            point(gl, i, format->size ? format->size : row->components, format->type,
-                  s->attribute_stride, (size_t)s->attribute_at[i]);
-        } else if (row->missing_is_1)
-            GL(gl, VertexAttrib4f)(i, 1.0f, 1.0f, 1.0f, 1.0f);
-    }
 }
 
 static struct gn_gl_vertices *find_vertices(struct gn_gl_scene *s, uint32_t attributes) {
@@ -294,7 +268,21 @@ bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err 
     v->name = gn_gl_object_create(gl, GN_GL_VERTEX_ARRAY);
     gn_gl_bind_vertex_array(gl, v->name);
     GL(gl, BindBuffer)(GL_ELEMENT_ARRAY_BUFFER, s->indices);
-    point_to_scene(gl, attributes);
+    gn_gl_bind_array_buffer(gl, s->positions);
+    GL(gl, EnableVertexAttribArray)(GN_ATTRIBUTE_POSITION);
+    point_attribute(gl, GN_ATTRIBUTE_POSITION, 3, GL_FLOAT, 0, 0);
+    gn_gl_bind_array_buffer(gl, s->attributes);
+    for (GLuint i = GN_ATTRIBUTE_POSITION + 1; i < GN_ATTRIBUTE_COUNT; i++) {
+        const struct gn_attribute_row *row = &gn_attributes[i];
+        const struct gl_format *format = &gl_formats[row->format];
+        if (!reads(attributes, (int)i)) continue;
+        if (s->attribute_at[i] >= 0) {
+            GL(gl, EnableVertexAttribArray)(i);
+            point_attribute(gl, i, format->size ? format->size : row->components, format->type,
+                            s->attribute_stride, (size_t)s->attribute_at[i]);
+        } else if (row->missing_is_1)
+            GL(gl, VertexAttrib4f)(i, 1.0f, 1.0f, 1.0f, 1.0f);
+    }
     for (int i = GN_GL_WORLD; i < GN_GL_LOCATION_COUNT; i++) {
         if (!reads(attributes, i)) continue;
         GL(gl, EnableVertexAttribArray)((GLuint)i);
@@ -315,8 +303,8 @@ void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_i
     gn_gl_bind_array_buffer(gl, buffer);
     for (int i = GN_GL_WORLD; i < GN_GL_LOCATION_COUNT; i++)
         if (reads(attributes, i))
-            point(gl, (GLuint)i, 4, GL_FLOAT, sizeof(struct gn_instance),
-                  offset + (size_t)(i - GN_GL_WORLD) * 4 * sizeof(float));
+            point_attribute(gl, (GLuint)i, 4, GL_FLOAT, sizeof(struct gn_instance),
+                            offset + (size_t)(i - GN_GL_WORLD) * 4 * sizeof(float));
 }
 
 _Static_assert(sizeof(struct gn_instance) ==
