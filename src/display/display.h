@@ -19,7 +19,7 @@ struct gn_display;
 /* ---- screens ------------------------------------------------------------------------------- */
 
 struct gn_screen_opts {               /* zero means the default written beside */
-    struct gn_loop *loop;             /* if not NULL, the screen adds its descriptors and timers */
+    struct gn_loop *loop;             /* required: the screen adds its descriptors and timers */
     uint32_t width_px, height_px;     /* headless screen: 1280 x 720 */
     const char *connector;            /* "HDMI-A-1"; any connected one */
     const char *card;                 /* "platform-gpu-card", as in /dev/dri/by-path; any */
@@ -124,7 +124,7 @@ gn_display_proc gn_display_get_proc(void *display, const char *name); /* for gn_
 void gn_display_close(struct gn_display *display); /* a zeroed one may be closed */
 
 /* Opens by name as a screen ("auto": KMS). Succeeds without card or monitor: see `lost`, `lit` and
- * `status`. The options' texts must outlive the display. */
+ * `status`. The options and their texts are copied. */
 bool gn_display_open_screen(struct gn_display *display, const char *name,
                             const struct gn_screen_opts *opts, int64_t now_ns,
                             struct gn_warnings *warnings, struct gn_err *err);

@@ -1,5 +1,6 @@
 /* Which mode a monitor gets after another one, or after itself. */
 #include <errno.h>
+#include <string.h>
 
 #include "client.h"
 #include "unit/check.h"
@@ -52,6 +53,21 @@ static void test_another_one_gets_what_it_prefers(void **state) {
     sim_plug(0, 0, SIM_NO_MONITOR);
     client_run(&c, 3 * SIM_S);
     sim_plug(0, 0, SIM_TWIN);
+    expect_width(96);
+    end();
+}
+
+/* As after a reload that keeps the display: the names it was opened with are gone. */
+static void test_names_need_not_outlive_the_opening(void **state) {
+    (void)state;
+    char name[] = "HDMI-A-1", card[] = "/dev/dri/card0";
+    begin(SIM_FULL_HD, &(struct gn_screen_opts){.connector = name, .card = card});
+    memset(name, 'x', sizeof name - 1);
+    memset(card, 'x', sizeof card - 1);
+    sim_plug(0, 0, SIM_NO_MONITOR);
+    client_run(&c, 3 * SIM_S);
+    assert_non_null(strstr(client_screen(&c)->status, "waiting for a monitor on HDMI-A-1"));
+    sim_plug(0, 0, SIM_FULL_HD);
     expect_width(96);
     end();
 }
@@ -179,6 +195,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_same_one_keeps_its_mode_and_does_not_blink),
         cmocka_unit_test(test_another_one_gets_what_it_prefers),
+        cmocka_unit_test(test_names_need_not_outlive_the_opening),
         cmocka_unit_test(test_another_one_in_a_moment),
         cmocka_unit_test(test_a_mode_belongs_to_the_one_it_was_lit_for),
         cmocka_unit_test(test_without_edid_by_what_it_prefers),

@@ -216,11 +216,28 @@ bool gn_kms_renew(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
 
 /* ---- create and destroy ---- */
 
+static const struct gn_screen_opts *copy_opts(const struct gn_screen_opts *opts) {
+    const char *const texts[] = {opts->connector, opts->card, opts->render_node, opts->modeline};
+    size_t size = sizeof *opts;
+    for (int i = 0; i < 4; i++) size += texts[i] ? strlen(texts[i]) + 1 : 0;
+    struct gn_screen_opts *copy = gn_xalloc(1, size);
+    *copy = *opts;
+    const char **const copies[] = {&copy->connector, &copy->card, &copy->render_node,
+                                   &copy->modeline};
+    char *at = (char *)(copy + 1);
+    for (int i = 0; i < 4; i++)
+        if (texts[i]) {
+            *copies[i] = strcpy(at, texts[i]);
+            at += strlen(at) + 1;
+        }
+    return copy;
+}
+
 struct gn_kms *gn_kms_create(const struct gn_kms_env *env, const struct gn_screen_opts *opts,
                              int64_t now_ns) {
     struct gn_kms *k = gn_xalloc(1, sizeof *k);
     k->env = *env;
-    k->opts = opts;
+    k->opts = copy_opts(opts);
     k->device.fd = -1;
     k->frames.front.fence = k->frames.pending.fence = k->frames.waiting.fence = -1;
     k->due.scan_ns = now_ns;
@@ -236,5 +253,6 @@ void gn_kms_destroy(struct gn_kms *k) {
         gn_kms_output_close(&k->output, k->master);
     }
     gn_kms_close_card(k);
+    free((void *)k->opts);
     free(k);
 }

@@ -25,7 +25,7 @@ enum gn_kms_event {                                   /* bit mask: events since 
 };
 
 struct gn_kms;
-/* Scans once. Succeeds without a card. The options must outlive it. */
+/* Scans once. Succeeds without a card. The options and their texts are copied. */
 struct gn_kms *gn_kms_create(const struct gn_kms_env *env, const struct gn_screen_opts *opts,
                              int64_t now_ns);
 /* Restores the screen and closes the card; NULL is legal. */
