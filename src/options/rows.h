@@ -51,7 +51,7 @@ GN_OPTION(.name = "exposure", .section = "render", .kind = GN_KIND_EV, .min = -2
 GN_OPTION(.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices = samples, .value = "N", .unit = "samples", .fallback = "0",
           .help = "multisampling; on a screen 4 is the default of tiling GPUs", .commands = DRAW, .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
 GN_OPTION(.name = "font", .section = "render", .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "font of captions (.ttf, .otf); without it DejaVu Sans or a similar one", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_LIVE, .offset = FIELD(render.font))
+          .help = "font of captions (.ttf, .otf); without it DejaVu Sans or a similar one", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.font))
 GN_OPTION(.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value = "DIR",
           .help = "read the shaders from this folder", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.shaders))
 GN_OPTION(.name = "without", .section = "render", .kind = GN_KIND_CAPS, .value = "CAP,..",

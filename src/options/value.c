@@ -408,6 +408,10 @@ static const struct {
     [GN_KIND_CAPS] = {sizeof(const char *), parse_text, expect_text, text_of_text},
 };
 _Static_assert(sizeof kinds / sizeof kinds[0] == GN_KIND_COUNT, "a row per kind");
+_Static_assert(sizeof(struct gn_limits) >= sizeof(struct gn_technique_list) &&
+                   sizeof(struct gn_limits) >= sizeof(struct gn_scene_list) &&
+                   sizeof(struct gn_limits) >= sizeof(struct gn_display_mode),
+               "room for a value of any kind is that for limits");
 
 static check_fn *const checks[GN_KIND_COUNT] = {
     /* or NULL */
