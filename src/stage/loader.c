@@ -17,7 +17,7 @@ struct job {
     struct gn_loaded *loaded;
     struct gn_scene_limits limits;
     char *path; /* NULL: the default scene */
-    int event;  /* a duplicate of the loader's */
+    int event;  /* a duplicate of the loader's; the thread closes it */
     atomic_int state;
 };
 enum { RUNS, IS_DONE, IS_LEFT };
@@ -36,7 +36,6 @@ void gn_loaded_destroy(struct gn_loaded *loaded) {
 
 static void job_destroy(struct job *job) {
     gn_loaded_destroy(job->loaded);
-    close(job->event);
     free(job->path);
     free(job);
 }
@@ -47,11 +46,11 @@ static void *load_in_thread(void *argument) {
     struct gn_loaded *l = job->loaded;
     l->scene = gn_stage_read(job->path, &job->limits, &l->warnings, &l->err);
     if (l->scene) gn_pose_init(&l->pose, l->scene, GN_POSE_DEFAULT);
-    const int event = dup(job->event); /* the job may be freed once it is done */
+    const int event = job->event; /* the job may be freed once it is done */
     if (atomic_exchange(&job->state, IS_DONE) == IS_LEFT) job_destroy(job);
-    if (event >= 0 && write(event, &one, sizeof one) < 0) {
+    if (write(event, &one, sizeof one) < 0) {
     }
-    if (event >= 0) close(event);
+    close(event);
     return NULL;
 }
 
@@ -92,6 +91,7 @@ bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
         loader->job = job;
         return true;
     }
+    if (job->event >= 0) close(job->event);
     job_destroy(job);
     return false;
 }
