@@ -354,6 +354,7 @@ const struct gn_request *gn_control_next(struct gn_control *c) {
 void gn_control_answer(struct gn_control *c, const struct gn_request *request, json_t *json) {
     struct client *client = &c->clients[request->from];
     client->waits = false;
+    c->now_ns = gn_loop_now_ns(c->loop);
     if (json && !json_object_get(json, "ok")) json_object_set_new(json, "ok", json_true());
     send_reply(c, client, json);
     set_timer(c);
