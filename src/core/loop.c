@@ -143,17 +143,12 @@ static void arm_timer(struct gn_loop *loop, int64_t at_ns) {
     timerfd_settime(loop->timer, TFD_TIMER_ABSTIME, &when, NULL);
 }
 
-/* Collects what is ready into the watches; does not wait when it is time already. */
-static int wait_for_events(struct gn_loop *loop, int64_t at_ns) {
+/* Collects what is ready into the watches; returns how many are. */
+static int collect_events(struct gn_loop *loop, int timeout_ms) {
     struct epoll_event events[READY_MAX];
-    int count, timeout_ms = 0;
-    if (!loop->clock_ns && at_ns > gn_clock_monotonic_ns()) {
-        arm_timer(loop, at_ns);
-        timeout_ms = -1;
-    }
+    int count, ready = 0;
     while ((count = epoll_wait(loop->epoll, events, READY_MAX, timeout_ms)) < 0)
-        assert(errno == EINTR);
-    int ready = 0;
+        if (errno != EINTR) abort(); /* the supervisor restarts */
     for (int i = 0; i < count; i++) {
         struct gn_watch *watch = events[i].data.ptr;
         if (!watch) continue;
@@ -193,10 +188,16 @@ static int call_timers(struct gn_loop *loop, int64_t now_ns) {
 int gn_loop_step(struct gn_loop *loop, int64_t until_ns) {
     assert(!loop->runs);
     const int64_t at_ns = first_due_ns(loop, until_ns);
-    const int ready = wait_for_events(loop, at_ns);
-    if (!ready && loop->clock_ns && at_ns > *loop->clock_ns && at_ns < GN_LOOP_NEVER)
-        *loop->clock_ns = at_ns;
-    const int64_t now_ns = gn_loop_now_ns(loop);
+    int ready = 0;
+    if (!loop->clock_ns && at_ns > gn_clock_monotonic_ns()) {
+        arm_timer(loop, at_ns);
+        ready = collect_events(loop, -1);
+    }
+    int64_t now_ns = gn_loop_now_ns(loop);
+    ready +=
+        collect_events(loop, 0); /* what came between the wait and now_ns is from before now_ns */
+    if (!ready && loop->clock_ns && at_ns > now_ns && at_ns < GN_LOOP_NEVER)
+        now_ns = *loop->clock_ns = at_ns;
     loop->runs = true;
     int calls = ready ? call_watches(loop, now_ns) : 0;
     calls += call_timers(loop, now_ns);
