@@ -24,20 +24,14 @@ static size_t file_limit(const struct gn_import *import) {
     return (size_t)import->opts->file_mb << 20;
 }
 
-/* Returns the real path, or NULL if it is outside the folder. */
-static char *resolve_path(const struct gn_import *import, const char *relative) {
+/* Reads the file if its real path is inside the folder. */
+static bool read_in(const struct gn_import *import, const char *relative, struct gn_bytes *bytes) {
     char path[2 * PATH_MAX];
     size_t length = strlen(import->folder);
     int all = snprintf(path, sizeof path, "%s/%s", import->folder, relative);
     char *real = all < (int)sizeof path ? realpath(path, NULL) : NULL;
-    if (real && strncmp(real, import->folder, length) == 0 && real[length] == '/') return real;
-    free(real);
-    return NULL;
-}
-
-static bool read_in(const struct gn_import *import, const char *relative, struct gn_bytes *bytes) {
-    char *real = resolve_path(import, relative);
-    bool ok = real && gn_file_read(real, file_limit(import), bytes, NULL);
+    bool ok = real && strncmp(real, import->folder, length) == 0 && real[length] == '/' &&
+              gn_file_read(real, file_limit(import), bytes, NULL);
     free(real);
     return ok;
 }
@@ -104,29 +98,24 @@ static enum aiReturn seek_file(struct aiFile *file, size_t offset, enum aiOrigin
 
 static void flush_file(struct aiFile *file) { (void)file; }
 
-static bool is_material_file(const char *name) {
-    size_t length = strlen(name);
-    return length > 4 && strcasecmp(name + length - 4, ".mtl") == 0;
-}
-
-static bool read_any(struct gn_import *import, const char *name, struct gn_bytes *bytes) {
-    if (strcmp(name, import->name) == 0)
-        return gn_file_read(import->opts->model, file_limit(import), bytes, NULL);
-    if (gn_import_folder_read(import, name, bytes)) return true;
-    if (is_material_file(name) &&
-        !import
-             ->warned_materials) /* assimp guesses names of other files, so no warning for those */
-        gn_warn(import->warnings,
-                "%s: material file %.100s not found in the model's folder; shown without it",
-                import->opts->model, relative_name(import, name));
-    import->warned_materials |= is_material_file(name);
-    return false;
-}
-
+/* assimp guesses names of other files: of those not found, only material files get a warning. */
 static struct aiFile *open_file(struct aiFileIO *io, const char *name, const char *mode) {
+    struct gn_import *import = (struct gn_import *)(void *)io->UserData;
     struct gn_bytes bytes;
-    if (*mode != 'r' || !read_any((struct gn_import *)(void *)io->UserData, name, &bytes))
+    if (*mode != 'r') return NULL;
+    bool found = strcmp(name, import->name) == 0
+                     ? gn_file_read(import->opts->model, file_limit(import), &bytes, NULL)
+                     : gn_import_folder_read(import, name, &bytes);
+    if (!found) {
+        size_t length = strlen(name);
+        bool is_material = length > 4 && strcasecmp(name + length - 4, ".mtl") == 0;
+        if (is_material && !import->warned_materials)
+            gn_warn(import->warnings,
+                    "%s: material file %.100s not found in the model's folder; shown without it",
+                    import->opts->model, relative_name(import, name));
+        import->warned_materials |= is_material;
         return NULL;
+    }
     struct opened *o = gn_import_alloc(sizeof *o);
     *o = (struct opened){.bytes = bytes};
     o->file = (struct aiFile){.ReadProc = read_some,

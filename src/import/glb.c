@@ -54,35 +54,30 @@ json_t *gn_glb_floats(const float *values, int count) {
     return array;
 }
 
-static void set_bounds(json_t *object, const struct gn_glb_accessor *a) {
-    float low[4], high[4];
-    const float *values = a->data;
-    memcpy(low, values, (size_t)a->width * sizeof *low);
-    memcpy(high, values, (size_t)a->width * sizeof *high);
-    for (size_t i = 0; i < a->count; i++)
-        for (int k = 0; k < a->width; k++) {
-            low[k] = fminf(low[k], values[i * (size_t)a->width + (size_t)k]);
-            high[k] = fmaxf(high[k], values[i * (size_t)a->width + (size_t)k]);
-        }
-    json_object_set_new(object, "min", gn_glb_floats(low, a->width));
-    json_object_set_new(object, "max", gn_glb_floats(high, a->width));
-}
-
-static size_t size_of(enum gn_glb_component component) {
-    return component == GN_GLB_U8 ? 1 : component == GN_GLB_U16 ? 2 : 4;
-}
-
 int gn_glb_accessor(struct gn_glb *glb, const struct gn_glb_accessor *a) {
     static const char *const types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
     enum { VERTICES = 34962, INDICES = 34963 };
-    int view = gn_glb_view(glb, a->data, a->count * (size_t)a->width * size_of(a->component));
+    const size_t width = (size_t)a->width;
+    size_t bytes = a->component == GN_GLB_U8 ? 1 : a->component == GN_GLB_U16 ? 2 : 4;
+    int view = gn_glb_view(glb, a->data, a->count * width * bytes);
     json_object_set_new(json_array_get(json_object_get(glb->root, "bufferViews"), (size_t)view),
                         "target", json_integer(a->indices ? INDICES : VERTICES));
     json_t *object =
         json_pack("{s:i,s:i,s:I,s:s}", "bufferView", view, "componentType", (int)a->component,
                   "count", (json_int_t)a->count, "type", types[a->width]);
     if (a->normalized) json_object_set_new(object, "normalized", json_true());
-    if (a->bounds) set_bounds(object, a);
+    if (a->bounds) {
+        float low[4], high[4];
+        const float *values = a->data;
+        memcpy(low, values, width * sizeof *low);
+        memcpy(high, values, width * sizeof *high);
+        for (size_t i = 0; i < a->count * width; i++) {
+            low[i % width] = fminf(low[i % width], values[i]);
+            high[i % width] = fmaxf(high[i % width], values[i]);
+        }
+        json_object_set_new(object, "min", gn_glb_floats(low, a->width));
+        json_object_set_new(object, "max", gn_glb_floats(high, a->width));
+    }
     return gn_glb_add(glb, "accessors", object);
 }
 
@@ -132,26 +127,24 @@ static bool write_chunk(int fd, const char type[4], const void *data, size_t siz
            write_bytes(fd, pads, padded_size(size) - size);
 }
 
-static bool write_all(const struct gn_glb *glb, const char *text, int fd, struct gn_err *err) {
-    enum { HEADER = 12, CHUNK = 8 };
-    size_t length = strlen(text), bin = glb->size ? CHUNK + padded_size(glb->size) : 0;
-    size_t total = HEADER + CHUNK + padded_size(length) + bin;
-    if (total > UINT32_MAX) return gn_fail(err, "too large for a .glb (4 GB)");
-    uint32_t head[3] = {0x46546c67, 2, (uint32_t)total}; /* "glTF" */
-    if (write_bytes(fd, head, sizeof head) && write_chunk(fd, "JSON", text, length, ' ') &&
-        (!bin || write_chunk(fd, "BIN", glb->bin, glb->size, 0)))
-        return true;
-    if (errno == EFBIG)
-        return gn_fail(
-            err, "its .glb exceeds the file size limit; raise it with gnomon-import --file MB");
-    return gn_fail(err, "cannot write its .glb: %s", strerror(errno));
-}
-
 bool gn_glb_write(struct gn_glb *glb, int fd, struct gn_err *err) {
+    enum { HEADER = 12, CHUNK = 8 };
     if (glb->size)
         gn_glb_add(glb, "buffers", json_pack("{s:I}", "byteLength", (json_int_t)glb->size));
     char *text = json_dumps(glb->root, JSON_COMPACT | JSON_REAL_PRECISION(9));
-    bool ok = write_all(glb, text ? text : "", fd, err);
+    size_t length = text ? strlen(text) : 0, bin = glb->size ? CHUNK + padded_size(glb->size) : 0;
+    size_t total = HEADER + CHUNK + padded_size(length) + bin;
+    uint32_t head[3] = {0x46546c67, 2, (uint32_t)total}; /* "glTF" */
+    bool ok = false;
+    if (total > UINT32_MAX)
+        gn_fail(err, "too large for a .glb (4 GB)");
+    else if (write_bytes(fd, head, sizeof head) && write_chunk(fd, "JSON", text, length, ' ') &&
+             (!bin || write_chunk(fd, "BIN", glb->bin, glb->size, 0)))
+        ok = true;
+    else if (errno == EFBIG)
+        gn_fail(err, "its .glb exceeds the file size limit; raise it with gnomon-import --file MB");
+    else
+        gn_fail(err, "cannot write its .glb: %s", strerror(errno));
     free(text);
     return ok;
 }

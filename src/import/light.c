@@ -60,14 +60,6 @@ static json_t *add_node(struct gn_import *import, const char *name,
 
 /* ---- lights ---- */
 
-static float distance_to_centre(const struct gn_import *import, const struct aiMatrix4x4 *placed) {
-    struct aiVector3D d = {placed->a4 - 0.5f * (import->low[0] + import->high[0]),
-                           placed->b4 - 0.5f * (import->low[1] + import->high[1]),
-                           placed->c4 - 0.5f * (import->low[2] + import->high[2])};
-    float distance = length_of(d);
-    return isfinite(distance) && distance > 1e-3f ? distance : 1e-3f;
-}
-
 /* Metres per unit of the light's node. */
 static float unit_of(const struct gn_import_node *at) {
     float unit =
@@ -81,38 +73,25 @@ static float unit_of(const struct gn_import_node *at) {
 static float strength_of(const struct gn_import *import, const struct aiLight *light,
                          const struct gn_import_node *at, const struct aiMatrix4x4 *placed) {
     if (light->mType == aiLightSource_DIRECTIONAL) return PI;
-    float distance_m = distance_to_centre(import, placed), distance = distance_m / unit_of(at);
+    struct aiVector3D to_centre = {placed->a4 - 0.5f * (import->low[0] + import->high[0]),
+                                   placed->b4 - 0.5f * (import->low[1] + import->high[1]),
+                                   placed->c4 - 0.5f * (import->low[2] + import->high[2])};
+    float distance_m = length_of(to_centre);
+    if (!isfinite(distance_m) || distance_m <= 1e-3f) distance_m = 1e-3f;
+    float distance = distance_m / unit_of(at);
     float divisor = light->mAttenuationConstant + light->mAttenuationLinear * distance +
                     light->mAttenuationQuadratic * distance * distance;
     if (!isfinite(divisor) || divisor <= 0.0f) divisor = 1.0f;
     return PI * distance_m * distance_m / divisor;
 }
 
-/* assimp gives full cone angles; for Collada, which has one only, it invents the outer one. */
-static void set_cone(const struct gn_import *import, json_t *object, const struct aiLight *light) {
-    float outer = 0.5f * light->mAngleOuterCone, inner = 0.5f * light->mAngleInnerCone;
-    if (import->format == GN_MODEL_DAE || !(outer > 0.01f)) outer = inner;
-    if (!(outer > 0.01f)) outer = 0.25f * PI;
-    outer = fminf(outer, 0.5f * PI);
-    if (!(inner >= 0.0f) || inner >= outer) inner = 0.85f * outer;
-    json_object_set_new(
-        object, "spot",
-        json_pack("{s:f,s:f}", "innerConeAngle", (double)inner, "outerConeAngle", (double)outer));
-}
-
-static const char *type_of(const struct aiLight *light) {
-    switch (light->mType) {
-    case aiLightSource_DIRECTIONAL: return "directional";
-    case aiLightSource_POINT:
-    case aiLightSource_AREA: return "point";
-    case aiLightSource_SPOT: return "spot";
-    default: return NULL; /* ambient lights are ignored */
-    }
-}
-
 static void add_light(struct gn_import *import, const struct aiLight *light) {
+    const char *type = light->mType == aiLightSource_DIRECTIONAL ? "directional"
+                       : light->mType == aiLightSource_SPOT      ? "spot"
+                       : light->mType == aiLightSource_POINT || light->mType == aiLightSource_AREA
+                           ? "point"
+                           : NULL; /* ambient lights are ignored */
     const struct gn_import_node *at = find_node(import, light->mName.data);
-    const char *type = type_of(light);
     float rgb[3] = {light->mColorDiffuse.r, light->mColorDiffuse.g, light->mColorDiffuse.b};
     float most = fmaxf(fmaxf(rgb[0], rgb[1]), rgb[2]);
     if (!at || !type || !isfinite(rgb[0] + rgb[1] + rgb[2]) || most <= 0.0f) return;
@@ -122,7 +101,17 @@ static void add_light(struct gn_import *import, const struct aiLight *light) {
     for (int k = 0; k < 3; k++) rgb[k] = fmaxf(rgb[k], 0.0f) / most;
     json_t *object = json_pack("{s:o,s:s,s:o,s:f}", "name", gn_glb_text(light->mName.data), "type",
                                type, "color", gn_glb_floats(rgb, 3), "intensity", (double)strength);
-    if (light->mType == aiLightSource_SPOT) set_cone(import, object, light);
+    if (light->mType == aiLightSource_SPOT) {
+        /* assimp gives full cone angles; for Collada, which has one only, it invents the outer */
+        float outer = 0.5f * light->mAngleOuterCone, inner = 0.5f * light->mAngleInnerCone;
+        if (import->format == GN_MODEL_DAE || !(outer > 0.01f)) outer = inner;
+        if (!(outer > 0.01f)) outer = 0.25f * PI;
+        outer = fminf(outer, 0.5f * PI);
+        if (!(inner >= 0.0f) || inner >= outer) inner = 0.85f * outer;
+        json_object_set_new(object, "spot",
+                            json_pack("{s:f,s:f}", "innerConeAngle", (double)inner,
+                                      "outerConeAngle", (double)outer));
+    }
     json_t *extension = gn_glb_extension(&import->glb, "KHR_lights_punctual");
     json_t *lights = json_object_get(extension, "lights");
     if (!lights) json_object_set_new(extension, "lights", lights = json_array());
@@ -139,42 +128,37 @@ void gn_import_lights(struct gn_import *import) {
 
 /* ---- cameras ---- */
 
-/* Exporters' near planes have no common unit; ours is placed where it cuts nothing. */
-static float near_of(const struct gn_import *import) {
-    struct aiVector3D size = {import->high[0] - import->low[0], import->high[1] - import->low[1],
-                              import->high[2] - import->low[2]};
-    float near_m = 1e-3f * length_of(size);
-    return isfinite(near_m) && near_m > 1e-5f ? near_m : 1e-2f;
-}
-
 static json_t *lens_of(const struct gn_import *import, const struct aiCamera *camera, float unit) {
     float aspect = camera->mAspect;
     if (!isfinite(aspect) || aspect <= 0.0f) aspect = 16.0f / 9.0f;
-    double near_m = (double)near_of(import);
+    /* exporters' near planes have no common unit; ours is placed where it cuts nothing */
+    struct aiVector3D size = {import->high[0] - import->low[0], import->high[1] - import->low[1],
+                              import->high[2] - import->low[2]};
+    float near_m = 1e-3f * length_of(size);
+    if (!isfinite(near_m) || near_m <= 1e-5f) near_m = 1e-2f;
     if (camera->mOrthographicWidth > 0.0f) {
         double half = (double)(camera->mOrthographicWidth * unit);
         return json_pack("{s:s,s:{s:f,s:f,s:f,s:f}}", "type", "orthographic", "orthographic",
-                         "xmag", half, "ymag", half / (double)aspect, "znear", near_m, "zfar",
-                         4000.0 * near_m);
+                         "xmag", half, "ymag", half / (double)aspect, "znear", (double)near_m,
+                         "zfar", 4000.0 * (double)near_m);
     }
     float yfov = 2.0f * atanf(tanf(0.5f * camera->mHorizontalFOV) / aspect);
     if (!(yfov > 0.01f && yfov < 3.1f)) yfov = 0.7f;
     return json_pack("{s:s,s:{s:f,s:f}}", "type", "perspective", "perspective", "yfov",
-                     (double)yfov, "znear", near_m);
-}
-
-static void add_camera(struct gn_import *import, const struct aiCamera *camera) {
-    const struct gn_import_node *at = find_node(import, camera->mName.data);
-    if (!at) return;
-    json_t *object = lens_of(import, camera, unit_of(at));
-    json_object_set_new(object, "name", gn_glb_text(camera->mName.data));
-    int index = gn_glb_add(&import->glb, "cameras", object);
-    struct aiMatrix4x4 placed = place_matrix(at, camera->mPosition, camera->mLookAt, camera->mUp);
-    json_object_set_new(add_node(import, camera->mName.data, &placed), "camera",
-                        json_integer(index));
+                     (double)yfov, "znear", (double)near_m);
 }
 
 void gn_import_cameras(struct gn_import *import) {
-    for (unsigned i = 0; i < import->scene->mNumCameras; i++)
-        add_camera(import, import->scene->mCameras[i]);
+    for (unsigned i = 0; i < import->scene->mNumCameras; i++) {
+        const struct aiCamera *camera = import->scene->mCameras[i];
+        const struct gn_import_node *at = find_node(import, camera->mName.data);
+        if (!at) continue;
+        json_t *object = lens_of(import, camera, unit_of(at));
+        json_object_set_new(object, "name", gn_glb_text(camera->mName.data));
+        int index = gn_glb_add(&import->glb, "cameras", object);
+        struct aiMatrix4x4 placed =
+            place_matrix(at, camera->mPosition, camera->mLookAt, camera->mUp);
+        json_object_set_new(add_node(import, camera->mName.data, &placed), "camera",
+                            json_integer(index));
+    }
 }

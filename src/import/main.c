@@ -56,30 +56,6 @@ static bool parse_up(const char *text, enum gn_import_up *up, struct gn_err *err
     return gn_fail_usage(err, "--up: \"%s\" is not auto, y or z", text);
 }
 
-static bool apply_option(int option, struct gn_import_opts *opts, struct gn_err *err) {
-    switch (option) {
-    case 'o': opts->out = optarg; return true;
-    case OPTION_UP: return parse_up(optarg, &opts->up, err);
-    case OPTION_MEMORY: return parse_number("memory", optarg, 1 << 20, &opts->memory_mb, err);
-    case OPTION_TIME: return parse_number("time", optarg, 86400, &opts->time_s, err);
-    default: return parse_number("file", optarg, 4095, &opts->file_mb, err);
-    }
-}
-
-/* last: the argument before optind. In a group of short options it still holds the bad letter. */
-static bool fail_option(const char *last, struct gn_err *err) {
-    const char letter[] = {'-', (char)optopt, 0};
-    return gn_fail_usage(err, "%s: unknown option or missing value; see --help",
-                         strncmp(last, "--", 2) == 0 ? last : letter);
-}
-
-static int memory_default_mb(void) {
-    long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-    long machine_mb = pages > 0 && page > 0 ? (long)((long long)pages * page >> 20) : 4096;
-    long most_mb = machine_mb / 4 * 3;
-    return most_mb < 256 ? 256 : most_mb < 2048 ? (int)most_mb : 2048;
-}
-
 /* opts->model stays NULL when help or the version was printed. */
 static bool parse_args(int argc, char **argv, struct gn_import_opts *opts, struct gn_err *err) {
     static const struct option options[] = {{"output", required_argument, NULL, 'o'},
@@ -92,12 +68,24 @@ static bool parse_args(int argc, char **argv, struct gn_import_opts *opts, struc
                                             {0}};
     opterr = 0;
     for (int c; (c = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
-        if (c == 'h' || c == OPTION_VERSION) {
-            fputs(c == 'h' ? help : "gnomon-import " GN_VERSION "\n", stdout);
-            return true;
+        bool ok = true;
+        switch (c) {
+        case 'h': fputs(help, stdout); return true;
+        case OPTION_VERSION: fputs("gnomon-import " GN_VERSION "\n", stdout); return true;
+        case 'o': opts->out = optarg; break;
+        case OPTION_UP: ok = parse_up(optarg, &opts->up, err); break;
+        case OPTION_MEMORY:
+            ok = parse_number("memory", optarg, 1 << 20, &opts->memory_mb, err);
+            break;
+        case OPTION_TIME: ok = parse_number("time", optarg, 86400, &opts->time_s, err); break;
+        case OPTION_FILE: ok = parse_number("file", optarg, 4095, &opts->file_mb, err); break;
+        default: { /* in a group of short options only optopt has the bad letter */
+            const char *last = argv[optind - 1], letter[] = {'-', (char)optopt, 0};
+            return gn_fail_usage(err, "%s: unknown option or missing value; see --help",
+                                 strncmp(last, "--", 2) == 0 ? last : letter);
         }
-        if (c == '?') return fail_option(argv[optind - 1], err);
-        if (!apply_option(c, opts, err)) return false;
+        }
+        if (!ok) return false;
     }
     if (argc - optind != 1)
         return gn_fail_usage(err, argc == optind ? "missing MODEL; see --help"
@@ -163,33 +151,34 @@ static bool write_output(const struct job *job, struct gn_err *err) {
     return ok;
 }
 
-static bool convert_model(const struct gn_import_opts *opts, struct gn_import_report *report,
-                          struct gn_err *err) {
-    struct job job = {.opts = opts, .fd = memfd_create("gnomon-import", MFD_CLOEXEC)};
-    if (job.fd < 0)
-        return gn_fail(err, "%s: cannot create a memory file for its .glb: %s", opts->model,
-                       strerror(errno));
-    bool ok = wait_child(&job, report, err) && report->done && write_output(&job, err);
-    close(job.fd);
-    return ok;
-}
-
-static void print_warnings(const struct gn_warnings *warnings) {
-    for (int i = 0; i < warnings->count && i < GN_WARN_MAX; i++)
-        fprintf(stderr, "gnomon-import: warning: %.255s\n", warnings->text[i]);
-    if (warnings->dropped)
-        fprintf(stderr, "gnomon-import: warning: and %d more\n", warnings->dropped);
-}
-
 static bool import_model(int argc, char **argv, struct gn_err *err) {
-    struct gn_import_opts opts = {.memory_mb = memory_default_mb(), .time_s = 60, .file_mb = 512};
+    long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    long machine_mb = pages > 0 && page > 0 ? (long)((long long)pages * page >> 20) : 4096;
+    long most_mb = machine_mb / 4 * 3;
+    struct gn_import_opts opts = {.memory_mb = most_mb < 256    ? 256
+                                               : most_mb < 2048 ? (int)most_mb
+                                                                : 2048,
+                                  .time_s = 60,
+                                  .file_mb = 512};
     if (!parse_args(argc, argv, &opts, err)) return false;
     if (!opts.model) return true;
     if (!choose_out(&opts, err)) return false;
     struct gn_import_report *report = gn_child_share(sizeof *report, err);
     if (!report) return false;
-    bool ok = convert_model(&opts, report, err);
-    if (ok) print_warnings(&report->warnings);
+    struct job job = {.opts = &opts, .fd = memfd_create("gnomon-import", MFD_CLOEXEC)};
+    bool ok = false;
+    if (job.fd < 0)
+        gn_fail(err, "%s: cannot create a memory file for its .glb: %s", opts.model,
+                strerror(errno));
+    else {
+        ok = wait_child(&job, report, err) && report->done && write_output(&job, err);
+        close(job.fd);
+    }
+    const struct gn_warnings *warnings = &report->warnings;
+    for (int i = 0; ok && i < warnings->count && i < GN_WARN_MAX; i++)
+        fprintf(stderr, "gnomon-import: warning: %.255s\n", warnings->text[i]);
+    if (ok && warnings->dropped)
+        fprintf(stderr, "gnomon-import: warning: and %d more\n", warnings->dropped);
     gn_child_unshare(report, sizeof *report);
     return ok;
 }

@@ -4,10 +4,6 @@
 
 #include "import/private.h"
 
-struct look {
-    float rgba[4], emissive[3], rough, metal;
-};
-
 /* assimp's material keys expand to three arguments each. */
 static bool get_color(const struct aiMaterial *material, const char *key, unsigned type, unsigned n,
                       float rgb[3]) {
@@ -43,54 +39,39 @@ static float rough_from_phong(const struct aiMaterial *material) {
     return powf(2.0f / (exponent + 2.0f), 0.25f);
 }
 
-/* Some exporters write 0 for "opaque"; an invisible model is never intended. */
-static float opacity_of(struct gn_import *import, const struct aiMaterial *material) {
-    float opacity = clamp_unit(get_number(material, AI_MATKEY_OPACITY, 1.0f));
-    if (opacity > 0.0f) return opacity;
-    gn_warn(import->warnings, "%s: materials with an opacity of 0 are shown opaque",
-            import->opts->model);
-    return 1.0f;
-}
-
-static bool has_vertex_colors(const struct gn_import *import, unsigned material) {
-    for (unsigned i = 0; i < import->scene->mNumMeshes; i++)
-        if (import->scene->mMeshes[i]->mMaterialIndex == material &&
-            import->scene->mMeshes[i]->mColors[0])
-            return true;
-    return false;
-}
-
 static bool is_black(const float rgb[3]) { return rgb[0] + rgb[1] + rgb[2] <= 0.0f; }
 
 static void set_white(float rgb[3]) { rgb[0] = rgb[1] = rgb[2] = 1.0f; }
 
 /* With a base texture the factor is white, except in OBJ, which multiplies both. */
 static void read_base(struct gn_import *import, unsigned index, const char *name, bool textured,
-                      struct look *look) {
+                      float rgba[4]) {
     const struct aiMaterial *material = import->scene->mMaterials[index];
-    set_white(look->rgba);
-    if (!get_color(material, AI_MATKEY_BASE_COLOR, look->rgba))
-        get_color(material, AI_MATKEY_COLOR_DIFFUSE, look->rgba);
+    set_white(rgba);
+    if (!get_color(material, AI_MATKEY_BASE_COLOR, rgba))
+        get_color(material, AI_MATKEY_COLOR_DIFFUSE, rgba);
+    bool vertex_colors = false;
+    for (unsigned i = 0; i < import->scene->mNumMeshes; i++)
+        vertex_colors |= import->scene->mMeshes[i]->mMaterialIndex == index &&
+                         import->scene->mMeshes[i]->mColors[0];
     bool made_up = strcmp(name, AI_DEFAULT_MATERIAL_NAME) == 0;
-    if ((textured && (import->format != GN_MODEL_OBJ || is_black(look->rgba))) ||
-        (made_up && has_vertex_colors(import, index)))
-        set_white(look->rgba);
-    for (int k = 0; k < 3; k++) look->rgba[k] = clamp_unit(look->rgba[k]);
-    look->rgba[3] = opacity_of(import, material);
+    if ((textured && (import->format != GN_MODEL_OBJ || is_black(rgba))) ||
+        (made_up && vertex_colors))
+        set_white(rgba);
+    for (int k = 0; k < 3; k++) rgba[k] = clamp_unit(rgba[k]);
+
+    /* some exporters write 0 for "opaque"; an invisible model is never intended */
+    rgba[3] = clamp_unit(get_number(material, AI_MATKEY_OPACITY, 1.0f));
+    if (rgba[3] > 0.0f) return;
+    rgba[3] = 1.0f;
+    gn_warn(import->warnings, "%s: materials with an opacity of 0 are shown opaque",
+            import->opts->model);
 }
 
 static json_t *texture_info(const struct gn_import_texture *texture, int uv_set) {
     json_t *info = json_pack("{s:i}", "index", texture->index);
     if (uv_set) json_object_set_new(info, "texCoord", json_integer(uv_set));
     return info;
-}
-
-static struct gn_import_texture base_texture(struct gn_import *import,
-                                             const struct aiMaterial *material, int *uv_set) {
-    enum aiTextureType type = aiGetMaterialTextureCount(material, aiTextureType_BASE_COLOR)
-                                  ? aiTextureType_BASE_COLOR
-                                  : aiTextureType_DIFFUSE;
-    return gn_import_texture(import, material, type, true, uv_set);
 }
 
 /* Factors over 1 need KHR_materials_emissive_strength. */
@@ -116,40 +97,39 @@ static void set_emissive(struct gn_import *import, const struct aiMaterial *mate
                                   "emissiveStrength", (double)strength));
 }
 
-/* OBJ, STL and PLY have no such flag, and their winding is often inconsistent. */
-static bool is_double_sided(const struct aiMaterial *material) {
-    int value = 1;
-    unsigned count = 1;
-    return aiGetMaterialIntegerArray(material, AI_MATKEY_TWOSIDED, &value, &count) !=
-               aiReturn_SUCCESS ||
-           value != 0;
-}
-
 static json_t *make_material(struct gn_import *import, unsigned index) {
     const struct aiMaterial *material = import->scene->mMaterials[index];
     struct aiString name = {0};
-    struct look look = {0};
+    float rgba[4];
     int uv_set;
     aiGetMaterialString(material, AI_MATKEY_NAME, &name);
-    struct gn_import_texture base = base_texture(import, material, &uv_set);
-    read_base(import, index, name.data, base.index >= 0, &look);
-    look.metal = clamp_unit(get_number(material, AI_MATKEY_METALLIC_FACTOR, 0.0f));
-    look.rough =
+    enum aiTextureType type = aiGetMaterialTextureCount(material, aiTextureType_BASE_COLOR)
+                                  ? aiTextureType_BASE_COLOR
+                                  : aiTextureType_DIFFUSE;
+    struct gn_import_texture base = gn_import_texture(import, material, type, true, &uv_set);
+    read_base(import, index, name.data, base.index >= 0, rgba);
+    float metal = clamp_unit(get_number(material, AI_MATKEY_METALLIC_FACTOR, 0.0f));
+    float rough =
         clamp_unit(get_number(material, AI_MATKEY_ROUGHNESS_FACTOR, rough_from_phong(material)));
-    json_t *surface =
-        json_pack("{s:o,s:f,s:f}", "baseColorFactor", gn_glb_floats(look.rgba, 4), "metallicFactor",
-                  (double)look.metal, "roughnessFactor", (double)look.rough);
+    json_t *surface = json_pack("{s:o,s:f,s:f}", "baseColorFactor", gn_glb_floats(rgba, 4),
+                                "metallicFactor", (double)metal, "roughnessFactor", (double)rough);
     if (base.index >= 0)
         json_object_set_new(surface, "baseColorTexture", texture_info(&base, uv_set));
     json_t *object =
         json_pack("{s:o,s:o}", "name", gn_glb_text(name.data), "pbrMetallicRoughness", surface);
     bool has_alpha = base.alpha.has_alpha && !base.opaque;
-    if (look.rgba[3] < 1.0f || (has_alpha && base.alpha.soft))
+    if (rgba[3] < 1.0f || (has_alpha && base.alpha.soft))
         json_object_set_new(object, "alphaMode", json_string("BLEND"));
     else if (has_alpha)
         json_object_set_new(object, "alphaMode", json_string("MASK"));
     set_emissive(import, material, object);
-    if (is_double_sided(material)) json_object_set_new(object, "doubleSided", json_true());
+    /* OBJ, STL and PLY have no such flag, and their winding is often inconsistent */
+    int double_sided = 1;
+    unsigned count = 1;
+    if (aiGetMaterialIntegerArray(material, AI_MATKEY_TWOSIDED, &double_sided, &count) !=
+            aiReturn_SUCCESS ||
+        double_sided != 0)
+        json_object_set_new(object, "doubleSided", json_true());
     return object;
 }
 

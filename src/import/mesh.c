@@ -7,35 +7,22 @@
 
 static float finite_or_0(float value) { return isfinite(value) ? value : 0.0f; }
 
-static int add_positions(struct gn_import *import, const struct gn_import_shape *shape) {
+static int add_vectors(struct gn_import *import, const struct gn_import_shape *shape,
+                       bool positions) {
     float *values = gn_import_alloc(3 * (size_t)shape->vertex_count * sizeof *values);
     for (size_t i = 0; i < shape->vertex_count; i++) {
-        struct aiVector3D p = shape->mesh->mVertices[shape->origin[i]];
-        values[3 * i] = finite_or_0(p.x);
-        values[3 * i + 1] = finite_or_0(p.y);
-        values[3 * i + 2] = finite_or_0(p.z);
+        struct aiVector3D v =
+            positions ? shape->mesh->mVertices[shape->origin[i]] : shape->normals[i];
+        values[3 * i] = finite_or_0(v.x);
+        values[3 * i + 1] = finite_or_0(v.y);
+        values[3 * i + 2] = finite_or_0(v.z);
     }
     int index =
         gn_glb_accessor(&import->glb, &(struct gn_glb_accessor){.data = values,
                                                                 .count = shape->vertex_count,
                                                                 .width = 3,
                                                                 .component = GN_GLB_F32,
-                                                                .bounds = true});
-    free(values);
-    return index;
-}
-
-static int add_normals(struct gn_import *import, const struct gn_import_shape *shape) {
-    float *values = gn_import_alloc(3 * (size_t)shape->vertex_count * sizeof *values);
-    for (size_t i = 0; i < shape->vertex_count; i++) {
-        values[3 * i] = finite_or_0(shape->normals[i].x);
-        values[3 * i + 1] = finite_or_0(shape->normals[i].y);
-        values[3 * i + 2] = finite_or_0(shape->normals[i].z);
-    }
-    int index = gn_glb_accessor(
-        &import->glb,
-        &(struct gn_glb_accessor){
-            .data = values, .count = shape->vertex_count, .width = 3, .component = GN_GLB_F32});
+                                                                .bounds = positions});
     free(values);
     return index;
 }
@@ -100,35 +87,10 @@ static int add_indices(struct gn_import *import, const struct gn_import_shape *s
     return index;
 }
 
-/* ---- shapes ---- */
-
-static bool is_triangle(const struct aiMesh *mesh, const struct aiFace *face) {
-    if (face->mNumIndices != 3) return false;
-    for (int k = 0; k < 3; k++)
-        if (face->mIndices[k] >= mesh->mNumVertices) return false;
-    return true;
-}
-
-static void read_triangles(struct gn_import_shape *shape) {
-    const struct aiMesh *mesh = shape->mesh;
-    shape->indices = gn_import_alloc(3 * (size_t)mesh->mNumFaces * sizeof *shape->indices);
-    for (unsigned i = 0; i < mesh->mNumFaces && mesh->mVertices; i++)
-        for (int k = 0; k < 3 && is_triangle(mesh, &mesh->mFaces[i]); k++)
-            shape->indices[shape->index_count++] = mesh->mFaces[i].mIndices[k];
-}
-
-static void read_normals(struct gn_import_shape *shape) {
-    size_t count = shape->vertex_count = shape->mesh->mNumVertices;
-    shape->origin = gn_import_alloc(count * sizeof *shape->origin);
-    shape->normals = gn_import_alloc(count * sizeof *shape->normals);
-    for (uint32_t i = 0; i < count; i++) shape->origin[i] = i;
-    memcpy(shape->normals, shape->mesh->mNormals, count * sizeof *shape->normals);
-}
-
 static json_t *write_primitive(struct gn_import *import, const struct gn_import_shape *shape) {
     const struct aiMesh *mesh = shape->mesh;
-    json_t *attributes = json_pack("{s:i,s:i}", "POSITION", add_positions(import, shape), "NORMAL",
-                                   add_normals(import, shape));
+    json_t *attributes = json_pack("{s:i,s:i}", "POSITION", add_vectors(import, shape, true),
+                                   "NORMAL", add_vectors(import, shape, false));
     static const char *const sets[] = {"TEXCOORD_0", "TEXCOORD_1"};
     for (int i = 0; i < 2 && mesh->mTextureCoords[i]; i++)
         json_object_set_new(attributes, sets[i], json_integer(add_uvs(import, shape, i)));
@@ -141,27 +103,32 @@ static json_t *write_primitive(struct gn_import *import, const struct gn_import_
     return object;
 }
 
+/* JSON null if the mesh has no triangles. */
 static json_t *make_primitive(struct gn_import *import, const struct aiMesh *mesh) {
     struct gn_import_shape shape = {.mesh = mesh};
     json_t *object = NULL;
-    read_triangles(&shape);
-    if (shape.index_count) {
-        if (mesh->mNormals)
-            read_normals(&shape);
-        else
-            gn_import_normals(&shape);
-        object = write_primitive(import, &shape);
+    shape.indices = gn_import_alloc(3 * (size_t)mesh->mNumFaces * sizeof *shape.indices);
+    for (unsigned i = 0; i < mesh->mNumFaces && mesh->mVertices; i++) {
+        const struct aiFace *face = &mesh->mFaces[i];
+        bool is_triangle = face->mNumIndices == 3;
+        for (int k = 0; k < 3 && is_triangle; k++)
+            is_triangle = face->mIndices[k] < mesh->mNumVertices;
+        for (int k = 0; k < 3 && is_triangle; k++)
+            shape.indices[shape.index_count++] = face->mIndices[k];
     }
+    if (shape.index_count && mesh->mNormals) {
+        size_t count = shape.vertex_count = mesh->mNumVertices;
+        shape.origin = gn_import_alloc(count * sizeof *shape.origin);
+        shape.normals = gn_import_alloc(count * sizeof *shape.normals);
+        for (uint32_t i = 0; i < count; i++) shape.origin[i] = i;
+        memcpy(shape.normals, mesh->mNormals, count * sizeof *shape.normals);
+    } else if (shape.index_count)
+        gn_import_normals(&shape);
+    if (shape.index_count) object = write_primitive(import, &shape);
     free(shape.indices);
     free(shape.origin);
     free(shape.normals);
     return object ? object : json_null();
-}
-
-static json_t *primitive_of(struct gn_import *import, unsigned index) {
-    if (!import->primitives[index])
-        import->primitives[index] = make_primitive(import, import->scene->mMeshes[index]);
-    return import->primitives[index];
 }
 
 static int add_mesh(struct gn_import *import, const struct aiNode *node) {
@@ -169,9 +136,11 @@ static int add_mesh(struct gn_import *import, const struct aiNode *node) {
     const char *name = "";
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         unsigned index = node->mMeshes[i];
-        json_t *one = index < import->scene->mNumMeshes ? primitive_of(import, index) : NULL;
-        if (!one || json_is_null(one)) continue;
-        json_array_append(primitives, one);
+        if (index >= import->scene->mNumMeshes) continue;
+        json_t **one = &import->primitives[index];
+        if (!*one) *one = make_primitive(import, import->scene->mMeshes[index]);
+        if (json_is_null(*one)) continue;
+        json_array_append(primitives, *one);
         name = import->scene->mMeshes[index]->mName.data;
     }
     if (json_array_size(primitives))

@@ -30,7 +30,8 @@ static int compare_positions(const void *a, const void *b, void *positions) {
     return memcmp(from, to, sizeof from);
 }
 
-static void find_places(struct place *place, const struct aiMesh *mesh) {
+static void find_places(struct place *place, const struct gn_import_shape *shape) {
+    const struct aiMesh *mesh = shape->mesh;
     uint32_t *order = gn_import_alloc(mesh->mNumVertices * sizeof *order);
     place->of_vertex = gn_import_alloc(mesh->mNumVertices * sizeof *order);
     for (uint32_t i = 0; i < mesh->mNumVertices; i++) order[i] = i;
@@ -41,9 +42,8 @@ static void find_places(struct place *place, const struct aiMesh *mesh) {
         place->of_vertex[order[i]] = (uint32_t)place->count - 1;
     }
     free(order);
-}
 
-static void list_corners(struct place *place, const struct gn_import_shape *shape) {
+    /* a counting sort of the corners by place */
     uint32_t *next = gn_import_alloc((place->count + 2) * sizeof *next);
     place->first = next;
     place->corners = gn_import_alloc(shape->index_count * sizeof *place->corners);
@@ -70,23 +70,6 @@ static struct aiVector3D direction_to(const struct gn_import_shape *shape, size_
     return unit_vector((struct aiVector3D){b->x - a->x, b->y - a->y, b->z - a->z});
 }
 
-static struct faces measure_faces(const struct gn_import_shape *shape) {
-    struct faces f = {
-        .normals = gn_import_alloc(shape->index_count / 3 * sizeof *f.normals),
-        .angles = gn_import_alloc(shape->index_count * sizeof *f.angles),
-    };
-    for (size_t i = 0; i < shape->index_count; i += 3) {
-        struct aiVector3D u = direction_to(shape, i, i + 1), v = direction_to(shape, i, i + 2),
-                          w = direction_to(shape, i + 1, i + 2);
-        f.normals[i / 3] = unit_vector((struct aiVector3D){
-            u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x});
-        f.angles[i] = acosf(fminf(fmaxf(dot_product(u, v), -1.0f), 1.0f));
-        f.angles[i + 1] = acosf(fminf(fmaxf(-dot_product(u, w), -1.0f), 1.0f));
-        f.angles[i + 2] = acosf(fminf(fmaxf(dot_product(v, w), -1.0f), 1.0f));
-    }
-    return f;
-}
-
 static struct aiVector3D corner_normal(const struct place *place, const struct faces *faces,
                                        uint32_t at, struct aiVector3D own) {
     struct aiVector3D sum = {0.0f, 0.0f, 0.0f};
@@ -99,18 +82,7 @@ static struct aiVector3D corner_normal(const struct place *place, const struct f
     return dot_product(sum, sum) > 0.0f ? sum : (struct aiVector3D){0.0f, 1.0f, 0.0f};
 }
 
-/* The vertex with this normal; splits the mesh's vertex if needed. next chains the copies. */
-static uint32_t vertex_with(struct gn_import_shape *shape, uint32_t *heads, uint32_t *next,
-                            uint32_t vertex, struct aiVector3D normal) {
-    for (uint32_t i = heads[vertex]; i != UINT32_MAX; i = next[i])
-        if (memcmp(&shape->normals[i], &normal, sizeof normal) == 0) return i;
-    uint32_t made = shape->vertex_count++;
-    shape->origin[made] = vertex;
-    shape->normals[made] = normal;
-    next[made] = heads[vertex];
-    return heads[vertex] = made;
-}
-
+/* One vertex for each vertex and normal. next chains the copies of a vertex of the mesh. */
 static void split_vertices(struct gn_import_shape *shape, const struct place *place,
                            const struct faces *faces) {
     uint32_t *heads = gn_import_alloc(shape->mesh->mNumVertices * sizeof *heads);
@@ -120,10 +92,19 @@ static void split_vertices(struct gn_import_shape *shape, const struct place *pl
     shape->normals = gn_import_alloc(shape->index_count * sizeof *shape->normals);
     shape->vertex_count = 0;
     for (size_t i = 0; i < shape->index_count; i++) {
-        uint32_t vertex = shape->indices[i];
+        uint32_t vertex = shape->indices[i], copy = heads[vertex];
         struct aiVector3D normal =
             corner_normal(place, faces, place->of_vertex[vertex], faces->normals[i / 3]);
-        shape->indices[i] = vertex_with(shape, heads, next, vertex, normal);
+        while (copy != UINT32_MAX && memcmp(&shape->normals[copy], &normal, sizeof normal) != 0)
+            copy = next[copy];
+        if (copy == UINT32_MAX) {
+            copy = shape->vertex_count++;
+            shape->origin[copy] = vertex;
+            shape->normals[copy] = normal;
+            next[copy] = heads[vertex];
+            heads[vertex] = copy;
+        }
+        shape->indices[i] = copy;
     }
     free(heads);
     free(next);
@@ -131,9 +112,20 @@ static void split_vertices(struct gn_import_shape *shape, const struct place *pl
 
 void gn_import_normals(struct gn_import_shape *shape) {
     struct place place = {0};
-    find_places(&place, shape->mesh);
-    list_corners(&place, shape);
-    struct faces faces = measure_faces(shape);
+    find_places(&place, shape);
+    struct faces faces = {
+        .normals = gn_import_alloc(shape->index_count / 3 * sizeof *faces.normals),
+        .angles = gn_import_alloc(shape->index_count * sizeof *faces.angles),
+    };
+    for (size_t i = 0; i < shape->index_count; i += 3) {
+        struct aiVector3D u = direction_to(shape, i, i + 1), v = direction_to(shape, i, i + 2),
+                          w = direction_to(shape, i + 1, i + 2);
+        faces.normals[i / 3] = unit_vector((struct aiVector3D){
+            u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x});
+        faces.angles[i] = acosf(fminf(fmaxf(dot_product(u, v), -1.0f), 1.0f));
+        faces.angles[i + 1] = acosf(fminf(fmaxf(-dot_product(u, w), -1.0f), 1.0f));
+        faces.angles[i + 2] = acosf(fminf(fmaxf(dot_product(v, w), -1.0f), 1.0f));
+    }
     split_vertices(shape, &place, &faces);
     free(faces.normals);
     free(faces.angles);

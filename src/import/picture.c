@@ -70,25 +70,19 @@ static bool read_pixels(const struct gn_bytes *picture, struct pixels *out) {
     return false;
 }
 
-/* Foliage and fences have few soft texels around holes; glass is soft everywhere. */
-static struct gn_import_alpha classify_alpha(const struct pixels *pixels) {
-    size_t count = (size_t)pixels->width_px * pixels->height_px, clear = 0, soft = 0;
-    for (size_t i = 0; i < count; i++) {
-        uint8_t alpha = pixels->rgba[4 * i + 3];
-        clear += alpha < 25;
-        soft += alpha >= 25 && alpha < 230;
-    }
-    return (struct gn_import_alpha){.has_alpha = clear + soft > 0, .soft = 2 * soft > clear};
-}
-
 struct gn_import_alpha gn_import_picture_alpha(const struct gn_bytes *picture) {
     struct pixels pixels = {0};
-    struct gn_import_alpha alpha = {0};
+    size_t clear = 0, soft = 0;
     const char *type = gn_import_picture_type(picture);
     if (type && strcmp(type, "image/png") == 0 && read_pixels(picture, &pixels) && pixels.has_alpha)
-        alpha = classify_alpha(&pixels);
+        for (size_t i = 0; i < (size_t)pixels.width_px * pixels.height_px; i++) {
+            uint8_t alpha = pixels.rgba[4 * i + 3];
+            clear += alpha < 25;
+            soft += alpha >= 25 && alpha < 230;
+        }
     free(pixels.rgba);
-    return alpha;
+    /* foliage and fences have few soft texels around holes; glass is soft everywhere */
+    return (struct gn_import_alpha){.has_alpha = clear + soft > 0, .soft = 2 * soft > clear};
 }
 
 /* Both are resampled to the larger size, nearest texel. */
@@ -109,19 +103,6 @@ static struct pixels merge_opacity(const struct pixels *base, const struct pixel
     return out;
 }
 
-static bool write_png(const struct pixels *pixels, struct gn_bytes *out) {
-    png_image png = {.version = PNG_IMAGE_VERSION,
-                     .width = pixels->width_px,
-                     .height = pixels->height_px,
-                     .format = PNG_FORMAT_RGBA,
-                     .flags = PNG_IMAGE_FLAG_FAST};
-    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
-    out->data = gn_import_alloc(size);
-    bool ok = png_image_write_to_memory(&png, out->data, &size, 0, pixels->rgba, 0, NULL);
-    out->size = ok ? size : 0;
-    return ok;
-}
-
 bool gn_import_picture_merge(const struct gn_bytes *base, const struct gn_bytes *opacity,
                              struct gn_bytes *png) {
     uint8_t white[4] = {255, 255, 255, 255};
@@ -131,7 +112,15 @@ bool gn_import_picture_merge(const struct gn_bytes *base, const struct gn_bytes 
     bool ok = !base || read_pixels(base, &colour);
     if (ok) {
         struct pixels both = merge_opacity(&colour, &alpha);
-        ok = write_png(&both, png);
+        png_image header = {.version = PNG_IMAGE_VERSION,
+                            .width = both.width_px,
+                            .height = both.height_px,
+                            .format = PNG_FORMAT_RGBA,
+                            .flags = PNG_IMAGE_FLAG_FAST};
+        png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+        png->data = gn_import_alloc(size);
+        ok = png_image_write_to_memory(&header, png->data, &size, 0, both.rgba, 0, NULL);
+        png->size = ok ? size : 0;
         free(both.rgba);
     }
     free(alpha.rgba);

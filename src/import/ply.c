@@ -4,25 +4,8 @@
 
 #include "import/private.h"
 
-/* Returns the first word after `key `, or NULL if no header line begins with it. */
-static const char *find_line(const char *header, const char *key) {
-    const size_t length = strlen(key);
-    for (const char *line = header; line && *line; line = strpbrk(line, "\r\n")) {
-        line += strspn(line, "\r\n");
-        if (strncmp(line, "end_header", 10) == 0) return NULL;
-        if (strncmp(line, key, length) == 0 && line[length] == ' ') return line + length + 1;
-    }
-    return NULL;
-}
-
-static bool is_known(const char *format) {
-    static const char *const known[] = {"ascii ", "binary_little_endian ", "binary_big_endian "};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (strncmp(format, known[i], strlen(known[i])) == 0) return true;
-    return false;
-}
-
 bool gn_import_ply_check(const struct gn_import *import) {
+    static const char *const known[] = {"ascii ", "binary_little_endian ", "binary_big_endian "};
     char header[4096];
     const char *path = import->opts->model;
     FILE *file = fopen(path, "rb");
@@ -31,8 +14,14 @@ bool gn_import_ply_check(const struct gn_import *import) {
     fclose(file);
     header[size] = 0;
     if (strncmp(header, "ply", 3) != 0) return true; /* assimp rejects it */
-    const char *format = find_line(header, "format");
-    if (format && is_known(format)) return true;
+    for (const char *line = header; line; line = strpbrk(line, "\r\n")) {
+        line += strspn(line, "\r\n");
+        if (!*line || strncmp(line, "end_header", 10) == 0) break;
+        if (strncmp(line, "format ", 7) != 0) continue;
+        for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+            if (strncmp(line + 7, known[i], strlen(known[i])) == 0) return true;
+        break;
+    }
     return gn_fail(import->err,
                    "%s: bad or missing format line in the header: expected ascii, "
                    "binary_little_endian or binary_big_endian",

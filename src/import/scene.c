@@ -18,46 +18,40 @@ static const enum gn_import_up up_of[GN_MODEL_FORMAT_COUNT] = {
 
 /* ---- reading ---- */
 
-static struct aiPropertyStore *choose_up(const struct gn_import *import) {
+static bool fail_empty(const struct gn_import *import) {
+    return gn_fail(import->err, "%s: no triangles; points and lines are not supported",
+                   import->opts->model);
+}
+
+static bool read_scene(struct gn_import *import) {
+    if (import->format == GN_MODEL_PLY && !gn_import_ply_check(import)) return false;
+    struct aiFileIO io = gn_import_folder_io(import);
     struct aiPropertyStore *p = aiCreatePropertyStore();
     if (!p) gn_import_no_memory();
-    bool forced = import->opts->up != GN_IMPORT_UP_AUTO;
+    bool forced_up = import->opts->up != GN_IMPORT_UP_AUTO;
     aiSetImportPropertyInteger(p, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
     aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, 0);
     aiSetImportPropertyInteger(p, "AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION",
                                1); /* newer versions of assimp */
-    aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, forced);
-    return p;
-}
-
-static bool fail_empty(const struct gn_import *import) {
-    return gn_fail(import->err, "%s: no triangles; points and lines are not supported",
-                   import->opts->model);
-}
-
-static bool fail_read(const struct gn_import *import) {
-    const char *why = aiGetErrorString();
-    if (why && strstr(why, "bad_alloc")) gn_import_no_memory();
-    if (why && strcmp(why, "No meshes remaining") == 0) return fail_empty(import);
-    return gn_fail(import->err, "%s: cannot be read as %s (%.160s); export it again, or as .glb",
-                   import->opts->model, gn_model_formats[import->format].name,
-                   why && *why ? why : "no reason given");
-}
-
-static bool read_scene(struct gn_import *import) {
-    if (import->format == GN_MODEL_PLY && !gn_import_ply_check(import)) return false;
-    struct aiFileIO io = gn_import_folder_io(import);
-    struct aiPropertyStore *properties = choose_up(import);
+    aiSetImportPropertyInteger(p, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, forced_up);
     import->scene = aiImportFileExWithProperties(
         import->name,
         aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_FindInvalidData |
             aiProcess_TransformUVCoords | aiProcess_JoinIdenticalVertices |
             aiProcess_GenBoundingBoxes,
-        &io, properties);
-    aiReleasePropertyStore(properties);
-    if (!import->scene) return fail_read(import);
+        &io, p);
+    aiReleasePropertyStore(p);
+    if (!import->scene) {
+        const char *why = aiGetErrorString();
+        if (why && strstr(why, "bad_alloc")) gn_import_no_memory();
+        if (why && strcmp(why, "No meshes remaining") == 0) return fail_empty(import);
+        return gn_fail(import->err,
+                       "%s: cannot be read as %s (%.160s); export it again, or as .glb",
+                       import->opts->model, gn_model_formats[import->format].name,
+                       why && *why ? why : "no reason given");
+    }
     /* assimp's own root; 5.4.3 rotates it unconditionally */
     if (import->format == GN_MODEL_FBX)
         aiIdentityMatrix4(&import->scene->mRootNode->mTransformation);
@@ -66,20 +60,16 @@ static bool read_scene(struct gn_import *import) {
 
 /* ---- axes and units ---- */
 
-static const struct aiMetadataEntry *find_meta(const struct gn_import *import, const char *key) {
-    const struct aiMetadata *meta = import->scene->mMetaData;
-    for (unsigned i = 0; meta && i < meta->mNumProperties; i++)
-        if (strcmp(meta->mKeys[i].data, key) == 0 && meta->mValues[i].mData)
-            return &meta->mValues[i];
-    return NULL;
-}
-
 static float meta_number(const struct gn_import *import, const char *key, float fallback) {
-    const struct aiMetadataEntry *entry = find_meta(import, key);
-    if (!entry) return fallback;
-    if (entry->mType == AI_INT32) return (float)*(const int32_t *)entry->mData;
-    if (entry->mType == AI_FLOAT) return *(const float *)entry->mData;
-    if (entry->mType == AI_DOUBLE) return (float)*(const double *)entry->mData;
+    const struct aiMetadata *meta = import->scene->mMetaData;
+    for (unsigned i = 0; meta && i < meta->mNumProperties; i++) {
+        const struct aiMetadataEntry *entry = &meta->mValues[i];
+        if (strcmp(meta->mKeys[i].data, key) != 0 || !entry->mData) continue;
+        if (entry->mType == AI_INT32) return (float)*(const int32_t *)entry->mData;
+        if (entry->mType == AI_FLOAT) return *(const float *)entry->mData;
+        if (entry->mType == AI_DOUBLE) return (float)*(const double *)entry->mData;
+        break;
+    }
     return fallback;
 }
 
@@ -153,20 +143,6 @@ static void grow_box(struct gn_import *import, const struct aiMatrix4x4 *m,
     }
 }
 
-static json_t *make_node(struct gn_import *import, const struct gn_import_node *at) {
-    const struct aiNode *node = at->node;
-    json_t *object =
-        json_pack("{s:o,s:o}", "name", gn_glb_text(node->mName.data), "matrix",
-                  gn_import_matrix(node->mParent ? &node->mTransformation : &at->world_from_node));
-    int mesh = gn_import_mesh(import, node);
-    if (mesh >= 0) json_object_set_new(object, "mesh", json_integer(mesh));
-    for (unsigned i = 0; mesh >= 0 && i < node->mNumMeshes; i++)
-        if (node->mMeshes[i] < import->scene->mNumMeshes)
-            grow_box(import, &at->world_from_node,
-                     &import->scene->mMeshes[node->mMeshes[i]]->mAABB);
-    return object;
-}
-
 static void queue_node(struct gn_import *import, const struct aiNode *node,
                        struct aiMatrix4x4 world_from_parent) {
     if (import->node_count == import->node_room) {
@@ -182,32 +158,25 @@ static void add_nodes(struct gn_import *import) {
     queue_node(import, import->scene->mRootNode, world_from_model(import));
     for (size_t i = 0; i < import->node_count; i++) {
         const struct gn_import_node at = import->nodes[i];
-        json_t *object = make_node(import, &at), *children = json_array();
-        for (unsigned k = 0; k < at.node->mNumChildren; k++) {
+        const struct aiNode *node = at.node;
+        const struct aiMatrix4x4 *matrix =
+            node->mParent ? &node->mTransformation : &at.world_from_node;
+        json_t *object = json_pack("{s:o,s:o}", "name", gn_glb_text(node->mName.data), "matrix",
+                                   gn_import_matrix(matrix));
+        int mesh = gn_import_mesh(import, node);
+        if (mesh >= 0) json_object_set_new(object, "mesh", json_integer(mesh));
+        for (unsigned k = 0; mesh >= 0 && k < node->mNumMeshes; k++)
+            if (node->mMeshes[k] < import->scene->mNumMeshes)
+                grow_box(import, &at.world_from_node,
+                         &import->scene->mMeshes[node->mMeshes[k]]->mAABB);
+        json_t *children = json_array();
+        for (unsigned k = 0; k < node->mNumChildren; k++) {
             json_array_append_new(children, json_integer((json_int_t)import->node_count));
-            queue_node(import, at.node->mChildren[k], at.world_from_node);
+            queue_node(import, node->mChildren[k], at.world_from_node);
         }
-        if (at.node->mNumChildren) json_object_set(object, "children", children);
+        if (node->mNumChildren) json_object_set(object, "children", children);
         json_decref(children);
         gn_glb_add(&import->glb, "nodes", object);
-    }
-}
-
-/* ---- scene ---- */
-
-static void init_tables(struct gn_import *import) {
-    import->primitives = gn_import_alloc((import->scene->mNumMeshes + 1) * sizeof(json_t *));
-    import->meshes = gn_import_alloc((import->scene->mNumMeshes + 1) * sizeof(int));
-    import->materials = gn_import_alloc((import->scene->mNumMaterials + 1) * sizeof(int));
-    for (unsigned i = 0; i < import->scene->mNumMeshes; i++) {
-        import->primitives[i] = NULL;
-        import->meshes[i] = GN_IMPORT_UNSEEN;
-    }
-    for (unsigned i = 0; i < import->scene->mNumMaterials; i++)
-        import->materials[i] = GN_IMPORT_UNSEEN;
-    for (int k = 0; k < 3; k++) {
-        import->low[k] = INFINITY;
-        import->high[k] = -INFINITY;
     }
 }
 
@@ -219,9 +188,23 @@ bool gn_import_scene_build(struct gn_import *import) {
         return false;
     gn_bytes_finish(&probe);
     if (!read_scene(import)) return false;
-    if (!import->scene->mRootNode)
+    const struct aiScene *scene = import->scene;
+    if (!scene->mRootNode)
         return gn_fail(import->err, "%s: no scene in the file", import->opts->model);
-    init_tables(import);
+
+    import->primitives = gn_import_alloc((scene->mNumMeshes + 1) * sizeof(json_t *));
+    import->meshes = gn_import_alloc((scene->mNumMeshes + 1) * sizeof(int));
+    import->materials = gn_import_alloc((scene->mNumMaterials + 1) * sizeof(int));
+    for (unsigned i = 0; i < scene->mNumMeshes; i++) {
+        import->primitives[i] = NULL;
+        import->meshes[i] = GN_IMPORT_UNSEEN;
+    }
+    for (unsigned i = 0; i < scene->mNumMaterials; i++) import->materials[i] = GN_IMPORT_UNSEEN;
+    for (int k = 0; k < 3; k++) {
+        import->low[k] = INFINITY;
+        import->high[k] = -INFINITY;
+    }
+
     json_object_set_new(import->glb.root, "scene", json_integer(0));
     gn_glb_add(&import->glb, "scenes", json_pack("{s:[i]}", "nodes", 0));
     add_nodes(import);

@@ -15,13 +15,6 @@ struct request {
     unsigned uv_set;
 };
 
-static int wrap_of(enum aiTextureMapMode mode) {
-    enum { REPEAT = 10497, CLAMP = 33071, MIRROR = 33648 };
-    return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? CLAMP
-           : mode == aiTextureMapMode_Mirror                                ? MIRROR
-                                                                            : REPEAT;
-}
-
 static bool get_texture(const struct aiMaterial *material, enum aiTextureType type, char *name,
                         struct request *request) {
     struct aiString path = {0};
@@ -34,7 +27,12 @@ static bool get_texture(const struct aiMaterial *material, enum aiTextureType ty
     memcpy(name, path.data, NAME_BYTES);
     name[NAME_BYTES - 1] = 0;
     if (name == request->base || !request->base[0]) {
-        for (int k = 0; k < 2; k++) request->wrap[k] = wrap_of(wrap[k]);
+        enum { REPEAT = 10497, CLAMP = 33071, MIRROR = 33648 };
+        for (int k = 0; k < 2; k++)
+            request->wrap[k] =
+                wrap[k] == aiTextureMapMode_Clamp || wrap[k] == aiTextureMapMode_Decal ? CLAMP
+                : wrap[k] == aiTextureMapMode_Mirror                                   ? MIRROR
+                                                                                       : REPEAT;
         request->uv_set = uv_set;
         request->opaque = flags & aiTextureFlags_IgnoreAlpha;
     }
@@ -61,20 +59,20 @@ static const struct aiTexture *find_inside(const struct gn_import *import, const
     return NULL;
 }
 
-static bool copy_inside(const struct aiTexture *texture, struct gn_bytes *bytes) {
-    if (texture->mHeight != 0 || !texture->mWidth || !texture->pcData) return false;
-    bytes->size = texture->mWidth;
-    bytes->data = gn_import_alloc(bytes->size);
-    memcpy(bytes->data, texture->pcData, bytes->size);
-    return true;
-}
-
 /* Reads an image; warns and fails unless it is a PNG or JPEG. */
 static bool fetch_image(struct gn_import *import, const char *name, struct gn_bytes *bytes) {
     const struct aiTexture *inside = find_inside(import, name);
     const char *model = import->opts->model;
     *bytes = (struct gn_bytes){0};
-    bool found = inside ? copy_inside(inside, bytes) : gn_import_folder_read(import, name, bytes);
+    bool found = false;
+    if (!inside)
+        found = gn_import_folder_read(import, name, bytes);
+    else if (inside->mHeight == 0 && inside->mWidth && inside->pcData) { /* a compressed file */
+        found = true;
+        bytes->size = inside->mWidth;
+        bytes->data = gn_import_alloc(bytes->size);
+        memcpy(bytes->data, inside->pcData, bytes->size);
+    }
     if (!found)
         gn_warn(import->warnings,
                 "%s: image %.100s not found in the model's folder; shown without it", model, name);
@@ -84,22 +82,6 @@ static bool fetch_image(struct gn_import *import, const char *name, struct gn_by
     if (found && gn_import_picture_type(bytes)) return true;
     gn_bytes_finish(bytes);
     return false;
-}
-
-static int add_image(struct gn_import *import, const struct request *request,
-                     const struct gn_bytes *picture) {
-    int view = gn_glb_view(&import->glb, picture->data, picture->size);
-    return gn_glb_add(&import->glb, "images",
-                      json_pack("{s:o,s:s,s:i}", "name", gn_glb_text(last_part(request->base)),
-                                "mimeType", gn_import_picture_type(picture), "bufferView", view));
-}
-
-static int add_texture(struct gn_import *import, const struct request *request, int image) {
-    int sampler = gn_glb_add(&import->glb, "samplers",
-                             json_pack("{s:i,s:i,s:i,s:i}", "magFilter", 9729, "minFilter", 9987,
-                                       "wrapS", request->wrap[0], "wrapT", request->wrap[1]));
-    return gn_glb_add(&import->glb, "textures",
-                      json_pack("{s:i,s:i}", "sampler", sampler, "source", image));
 }
 
 /* The base image, the opacity map, or both merged; empty if there is none. */
@@ -125,7 +107,11 @@ static struct gn_import_texture make_image(struct gn_import *import,
     struct gn_import_texture made = {.image = -1};
     struct gn_bytes picture = gather_image(import, request);
     if (picture.size) {
-        made.image = add_image(import, request, &picture);
+        int view = gn_glb_view(&import->glb, picture.data, picture.size);
+        made.image =
+            gn_glb_add(&import->glb, "images",
+                       json_pack("{s:o,s:s,s:i}", "name", gn_glb_text(last_part(request->base)),
+                                 "mimeType", gn_import_picture_type(&picture), "bufferView", view));
         made.alpha = gn_import_picture_alpha(&picture);
     }
     gn_bytes_finish(&picture);
@@ -133,23 +119,6 @@ static struct gn_import_texture make_image(struct gn_import *import,
     made.opacity = strdup(request->opacity);
     if (!made.base || !made.opacity) gn_import_no_memory();
     return made;
-}
-
-static bool same_picture(const struct gn_import_texture *known, const struct request *request) {
-    return strcmp(known->base, request->base) == 0 && strcmp(known->opacity, request->opacity) == 0;
-}
-
-static bool same_use(const struct gn_import_texture *known, const struct request *request) {
-    return known->wrap[0] == request->wrap[0] && known->wrap[1] == request->wrap[1] &&
-           known->opaque == request->opaque;
-}
-
-static struct gn_import_texture cache_texture(struct gn_import *import,
-                                              struct gn_import_texture made) {
-    size_t count = import->texture_count + 1;
-    import->textures = gn_import_grow(import->textures, count * sizeof *import->textures);
-    import->texture_count = count;
-    return import->textures[count - 1] = made;
 }
 
 struct gn_import_texture gn_import_texture(struct gn_import *import,
@@ -162,15 +131,28 @@ struct gn_import_texture gn_import_texture(struct gn_import *import,
         any |= get_texture(material, aiTextureType_OPACITY, request.opacity, &request);
     *uv_set = request.uv_set == 1 ? 1 : 0;
     if (!any) return (struct gn_import_texture){.index = -1};
-    const struct gn_import_texture *known = NULL;
+    const struct gn_import_texture *known = NULL; /* the same image */
     for (size_t i = 0; i < import->texture_count; i++) {
-        if (!same_picture(&import->textures[i], &request)) continue;
-        known = &import->textures[i];
-        if (same_use(known, &request)) return *known;
+        const struct gn_import_texture *t = &import->textures[i];
+        if (strcmp(t->base, request.base) != 0 || strcmp(t->opacity, request.opacity) != 0)
+            continue;
+        known = t;
+        if (t->wrap[0] == request.wrap[0] && t->wrap[1] == request.wrap[1] &&
+            t->opaque == request.opaque)
+            return *t;
     }
     struct gn_import_texture made = known ? *known : make_image(import, &request);
     memcpy(made.wrap, request.wrap, sizeof made.wrap);
     made.opaque = request.opaque;
-    made.index = made.image < 0 ? -1 : add_texture(import, &request, made.image);
-    return cache_texture(import, made);
+    made.index = -1;
+    if (made.image >= 0) {
+        int sampler = gn_glb_add(&import->glb, "samplers",
+                                 json_pack("{s:i,s:i,s:i,s:i}", "magFilter", 9729, "minFilter",
+                                           9987, "wrapS", made.wrap[0], "wrapT", made.wrap[1]));
+        made.index = gn_glb_add(&import->glb, "textures",
+                                json_pack("{s:i,s:i}", "sampler", sampler, "source", made.image));
+    }
+    size_t count = ++import->texture_count;
+    import->textures = gn_import_grow(import->textures, count * sizeof *import->textures);
+    return import->textures[count - 1] = made;
 }

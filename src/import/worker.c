@@ -24,8 +24,11 @@ static void limit_resource(int what, rlim_t most) {
     setrlimit(what, &limit);
 }
 
-/* The parent enforces wall time; RLIMIT_CPU is a second line of defence. */
-static void set_limits(const struct gn_import_opts *opts) {
+void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_report *report) {
+    static struct gn_import import;
+    gn_import_memory_begin(opts, report);
+
+    /* the parent enforces wall time; RLIMIT_CPU is a second line of defence */
     if (BOUND_MEMORY) limit_resource(RLIMIT_AS, (rlim_t)opts->memory_mb << 20);
     limit_resource(RLIMIT_CPU, (rlim_t)opts->time_s + 2);
     limit_resource(RLIMIT_FSIZE, (rlim_t)opts->file_mb << 20);
@@ -33,12 +36,7 @@ static void set_limits(const struct gn_import_opts *opts) {
     prctl(PR_SET_DUMPABLE, 0); /* also disables core dumps through a pipe handler */
     signal(SIGXFSZ, SIG_IGN);
     setenv("LIBC_FATAL_STDERR_", "1", 1); /* otherwise glibc writes to the terminal */
-}
 
-void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_report *report) {
-    static struct gn_import import;
-    gn_import_memory_begin(opts, report);
-    set_limits(opts);
     import = (struct gn_import){.opts = opts,
                                 .format = gn_model_format_of(opts->model),
                                 .warnings = &report->warnings,
