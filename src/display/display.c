@@ -68,24 +68,18 @@ static const struct gn_screen_ops *screen_of(const struct gn_display *display) {
     return display->ops->screen ? display->ops->screen : &gn_screen_headless;
 }
 
-static bool open_screen(struct gn_display *display, const struct gn_display_ops *row,
-                        const struct gn_screen_opts *opts, int64_t now_ns,
-                        struct gn_warnings *warnings, struct gn_err *err) {
-    *display = (struct gn_display){.ops = row};
-    if (!row->screen && !open_row(display, row, warnings, err)) return false;
-    if (screen_of(display)->open(display, opts, now_ns, warnings, err)) return true;
-    gn_display_close(display);
-    return false;
-}
-
 bool gn_display_open_screen(struct gn_display *display, const char *name,
                             const struct gn_screen_opts *opts, int64_t now_ns,
                             struct gn_warnings *warnings, struct gn_err *err) {
     *display = (struct gn_display){0};
     const struct gn_display_ops *row = strcmp(name, "auto") == 0 ? &gn_display_kms : find_row(name);
     if (!row) return fail_unknown(name, err);
-    return open_screen(display, row, opts, now_ns, warnings, err) ||
-           gn_fail_prefix(err, "backend %s", row->name);
+    *display = (struct gn_display){.ops = row};
+    if ((row->screen || open_row(display, row, warnings, err)) &&
+        screen_of(display)->open(display, opts, now_ns, warnings, err))
+        return true;
+    gn_display_close(display);
+    return gn_fail_prefix(err, "backend %s", row->name);
 }
 
 bool gn_display_dispatch(struct gn_display *d, int64_t now_ns, struct gn_err *err) {

@@ -89,7 +89,7 @@ struct gn_display_ops {
     bool is_window;   /* on a desktop: only its own keys are read */
     bool is_console;  /* full screen: keys are read from input devices */
     bool (*open)(struct gn_display *display, struct gn_warnings *warnings,
-                 struct gn_err *err); /* makes a context current; NULL: opens as a screen only */
+                 struct gn_err *err); /* makes a context current */
     gn_display_proc (*get_proc)(struct gn_display *display, const char *name);
     void (*close)(struct gn_display *display);
     const struct gn_screen_ops *screen; /* NULL: headless */

@@ -46,12 +46,7 @@ static bool headless_open(struct gn_display *display, const struct gn_screen_opt
     return update_screen(display, now_ns);
 }
 
-static bool headless_dispatch(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
-    (void)err;
-    return update_screen(display, now_ns);
-}
-
-static bool headless_renew(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
+static bool headless_step(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     (void)err;
     return update_screen(display, now_ns);
 }
@@ -87,8 +82,8 @@ void gn_screen_headless_close(struct gn_display *display) {
 
 const struct gn_screen_ops gn_screen_headless = {
     .open = headless_open,
-    .dispatch = headless_dispatch,
-    .renew = headless_renew,
+    .dispatch = headless_step,
+    .renew = headless_step,
     .begin = headless_begin,
     .present = headless_present,
     .blank = headless_blank,

@@ -20,19 +20,6 @@ struct osmesa {
     unsigned char buffer[BUFFER_PX * BUFFER_PX * 4];
 };
 
-static bool load_library(struct osmesa *o, struct gn_err *err) {
-    o->library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
-    if (!o->library) o->library = dlopen("libOSMesa.so.6", RTLD_NOW | RTLD_LOCAL);
-    if (!o->library) return gn_fail(err, "libOSMesa.so.8 is missing; install libosmesa6");
-    *(void **)&o->create = dlsym(o->library, "OSMesaCreateContextAttribs");
-    *(void **)&o->destroy = dlsym(o->library, "OSMesaDestroyContext");
-    *(void **)&o->make_current = dlsym(o->library, "OSMesaMakeCurrent");
-    *(void **)&o->get_proc = dlsym(o->library, "OSMesaGetProcAddress");
-    if (!o->create || !o->destroy || !o->make_current || !o->get_proc)
-        return gn_fail(err, "libOSMesa is too old: gnomon needs Mesa 12 or later");
-    return true;
-}
-
 static bool make_context(struct osmesa *o, struct gn_err *err) {
     static const int wanted[] = {OSMESA_FORMAT,
                                  OSMESA_RGBA,
@@ -43,6 +30,15 @@ static bool make_context(struct osmesa *o, struct gn_err *err) {
                                  OSMESA_CONTEXT_MINOR_VERSION,
                                  3,
                                  0};
+    o->library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
+    if (!o->library) o->library = dlopen("libOSMesa.so.6", RTLD_NOW | RTLD_LOCAL);
+    if (!o->library) return gn_fail(err, "libOSMesa.so.8 is missing; install libosmesa6");
+    *(void **)&o->create = dlsym(o->library, "OSMesaCreateContextAttribs");
+    *(void **)&o->destroy = dlsym(o->library, "OSMesaDestroyContext");
+    *(void **)&o->make_current = dlsym(o->library, "OSMesaMakeCurrent");
+    *(void **)&o->get_proc = dlsym(o->library, "OSMesaGetProcAddress");
+    if (!o->create || !o->destroy || !o->make_current || !o->get_proc)
+        return gn_fail(err, "libOSMesa is too old: gnomon needs Mesa 12 or later");
     o->context = o->create(wanted, NULL);
     if (!o->context) return gn_fail(err, "libOSMesa cannot create an OpenGL 3.3 core context");
     if (!o->make_current(o->context, o->buffer, GL_UNSIGNED_BYTE, BUFFER_PX, BUFFER_PX))
@@ -63,7 +59,7 @@ static bool osmesa_open(struct gn_display *display, struct gn_warnings *warnings
                         struct gn_err *err) {
     (void)warnings;
     struct osmesa *o = display->state = gn_xalloc(1, sizeof *o);
-    if (load_library(o, err) && make_context(o, err)) return true;
+    if (make_context(o, err)) return true;
     osmesa_close(display);
     return false;
 }

@@ -16,7 +16,27 @@ struct surfaceless {
     EGLSurface surface; /* EGL_NO_SURFACE if not needed */
 };
 
-static bool open_display(struct surfaceless *s, struct gn_err *err) {
+/* Without a config if supported: nothing is drawn to an EGL surface. */
+static bool make_context(struct surfaceless *s, EGLint major, bool needs_surface) {
+    const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
+    const EGLint renderable = major >= 3 ? EGL_OPENGL_ES3_BIT_KHR : EGL_OPENGL_ES2_BIT;
+    const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, major, EGL_NONE};
+    const EGLint size[] = {EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
+    EGLConfig config = EGL_NO_CONFIG_KHR;
+    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, renderable, EGL_SURFACE_TYPE,
+                             needs_surface ? EGL_PBUFFER_BIT : 0, EGL_NONE};
+    EGLint count = 0;
+    if ((needs_surface || !gn_egl_has(has, "EGL_KHR_no_config_context")) &&
+        (!s->egl.ChooseConfig(s->display, wanted, &config, 1, &count) || count == 0))
+        return false;
+    s->context = s->egl.CreateContext(s->display, config, EGL_NO_CONTEXT, version);
+    if (s->context == EGL_NO_CONTEXT) return false;
+    if (needs_surface) s->surface = s->egl.CreatePbufferSurface(s->display, config, size);
+    return true;
+}
+
+static bool open_context(struct surfaceless *s, struct gn_err *err) {
+    if (!gn_egl_load(&s->egl, err)) return false;
     const char *client = s->egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!gn_egl_has(client, "EGL_MESA_platform_surfaceless"))
         return gn_fail(err, "EGL lacks surfaceless contexts; install libegl-mesa0");
@@ -28,35 +48,8 @@ static bool open_display(struct surfaceless *s, struct gn_err *err) {
         return gn_fail(err, "eglInitialize failed (0x%x); install libgl1-mesa-dri",
                        s->egl.GetError());
     s->egl.BindAPI(EGL_OPENGL_ES_API);
-    return true;
-}
-
-static bool choose_config(struct surfaceless *s, EGLint renderable, EGLint surface,
-                          EGLConfig *out) {
-    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, renderable, EGL_SURFACE_TYPE, surface, EGL_NONE};
-    EGLint count = 0;
-    return s->egl.ChooseConfig(s->display, wanted, out, 1, &count) && count > 0;
-}
-
-/* Without a config if supported: nothing is drawn to an EGL surface. */
-static bool make_context(struct surfaceless *s, EGLint major, bool needs_surface) {
     const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
-    const EGLint renderable = major >= 3 ? EGL_OPENGL_ES3_BIT_KHR : EGL_OPENGL_ES2_BIT;
-    const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, major, EGL_NONE};
-    const EGLint size[] = {EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
-    EGLConfig config = EGL_NO_CONFIG_KHR;
-    if (needs_surface || !gn_egl_has(has, "EGL_KHR_no_config_context"))
-        if (!choose_config(s, renderable, needs_surface ? EGL_PBUFFER_BIT : 0, &config))
-            return false;
-    s->context = s->egl.CreateContext(s->display, config, EGL_NO_CONTEXT, version);
-    if (s->context == EGL_NO_CONTEXT) return false;
-    if (needs_surface) s->surface = s->egl.CreatePbufferSurface(s->display, config, size);
-    return true;
-}
-
-static bool make_current(struct surfaceless *s, struct gn_err *err) {
-    bool needs_surface =
-        !gn_egl_has(s->egl.QueryString(s->display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context");
+    const bool needs_surface = !gn_egl_has(has, "EGL_KHR_surfaceless_context");
     if (!make_context(s, 3, needs_surface) && !make_context(s, 2, needs_surface))
         return gn_fail(err, "cannot create an OpenGL ES context (0x%x)", s->egl.GetError());
     if (!s->egl.MakeCurrent(s->display, s->surface, s->surface, s->context))
@@ -82,7 +75,7 @@ static bool surfaceless_open(struct gn_display *display, struct gn_warnings *war
                              struct gn_err *err) {
     (void)warnings;
     struct surfaceless *s = display->state = gn_xalloc(1, sizeof *s);
-    if (gn_egl_load(&s->egl, err) && open_display(s, err) && make_current(s, err)) return true;
+    if (open_context(s, err)) return true;
     surfaceless_close(display);
     return false;
 }

@@ -33,8 +33,23 @@ static void end_later(void *display, void *link) {
     ((struct gn_window_link *)link)->gone = true;
 }
 
-/* Otherwise Xlib prints a message and exits. */
-static void survive_the_server(struct gn_window_link *link) {
+void gn_window_link_open(struct gn_window_link *link, void *glfw_library) {
+    int (*number)(void *display);
+    *link = (struct gn_window_link){.name = "", .fd = -1, .kept_stderr = -1};
+    link->display = ask_for_display(glfw_library, "glfwGetX11Display");
+    if (!link->display) {
+        link->display = ask_for_display(glfw_library, "glfwGetWaylandDisplay");
+        if (!link->display) return;
+        *(void **)&number = function_of(WAYLAND, "wl_display_get_fd");
+        link->name = "Wayland";
+        link->fd = number ? number(link->display) : -1;
+        return;
+    }
+    *(void **)&number = function_of(X11, "XConnectionNumber");
+    *(void **)&link->x_pending = function_of(X11, "XPending");
+    link->name = "X11";
+    link->fd = number && link->x_pending ? number(link->display) : -1;
+    /* without a handler Xlib prints a message and exits when the server has ended */
     void (*set_exit)(void *display, void (*handler)(void *, void *), void *data);
     void *(*set)(int (*handler)(void *));
     *(void **)&set_exit = function_of(X11, "XSetIOErrorExitHandler");
@@ -43,33 +58,6 @@ static void survive_the_server(struct gn_window_link *link) {
     only = link;
     set_exit(link->display, end_later, link);
     set(end_quietly);
-}
-
-static void link_x11(struct gn_window_link *link) {
-    int (*number)(void *display);
-    *(void **)&number = function_of(X11, "XConnectionNumber");
-    *(void **)&link->x_pending = function_of(X11, "XPending");
-    link->name = "X11";
-    link->fd = number && link->x_pending ? number(link->display) : -1;
-    survive_the_server(link);
-}
-
-static void link_wayland(struct gn_window_link *link) {
-    int (*number)(void *display);
-    *(void **)&number = function_of(WAYLAND, "wl_display_get_fd");
-    link->name = "Wayland";
-    link->fd = number ? number(link->display) : -1;
-}
-
-void gn_window_link_open(struct gn_window_link *link, void *glfw_library) {
-    *link = (struct gn_window_link){.name = "", .fd = -1, .kept_stderr = -1};
-    link->display = ask_for_display(glfw_library, "glfwGetX11Display");
-    if (link->display) {
-        link_x11(link);
-        return;
-    }
-    link->display = ask_for_display(glfw_library, "glfwGetWaylandDisplay");
-    if (link->display) link_wayland(link);
 }
 
 bool gn_window_link_has_ended(struct gn_window_link *link) {

@@ -140,19 +140,6 @@ static void on_wheel(GLFWwindow *handle, double x, double y) {
     window_of(handle)->pointer.wheel += (float)y;
 }
 
-static void set_callbacks(struct window *w) {
-    glfw.SetWindowUserPointer(w->handle, w);
-    glfw.SetWindowCloseCallback(w->handle, on_close);
-    glfw.SetWindowRefreshCallback(w->handle, on_refresh);
-    glfw.SetFramebufferSizeCallback(w->handle, on_size);
-    glfw.SetWindowIconifyCallback(w->handle, on_iconify);
-    glfw.SetKeyCallback(w->handle, on_key);
-    glfw.SetCharCallback(w->handle, on_letter);
-    glfw.SetMouseButtonCallback(w->handle, on_button);
-    glfw.SetCursorPosCallback(w->handle, on_move);
-    glfw.SetScrollCallback(w->handle, on_wheel);
-}
-
 /* ---- full screen ---- */
 
 /* The monitor below the window's centre; without window positions (Wayland), the first. */
@@ -202,13 +189,6 @@ static void toggle_full_screen(struct window *w) {
 
 /* ---- published state ---- */
 
-/* Events that arrived while drawing are dispatched at once. */
-static void set_timer(struct window *w, bool heard, int64_t now_ns) {
-    int64_t at_ns = heard ? now_ns : gn_flip_deadline(&w->flip, now_ns);
-    if (glfw.link.fd < 0 && at_ns > now_ns + POLL_NS) at_ns = now_ns + POLL_NS;
-    w->timer.due_ns = at_ns;
-}
-
 /* Updates the state after every call that may have read events; reads none itself. */
 static bool update_screen(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     struct window *w = display->state;
@@ -232,7 +212,10 @@ static bool update_screen(struct gn_display *display, int64_t now_ns, struct gn_
     gn_pointer_add(&s->pointer, &w->pointer);
     w->pointer = (struct gn_pointer){0};
     snprintf(s->what, sizeof s->what, "window %dx%d %s", w->width_px, w->height_px, glfw.link.name);
-    set_timer(w, w->toggles || !gn_pointer_is_zero(&s->pointer), now_ns);
+    /* events that arrived while drawing are dispatched at once */
+    const bool has_events = w->toggles || !gn_pointer_is_zero(&s->pointer);
+    w->timer.due_ns = has_events ? now_ns : gn_flip_deadline(&w->flip, now_ns);
+    if (glfw.link.fd < 0 && w->timer.due_ns > now_ns + POLL_NS) w->timer.due_ns = now_ns + POLL_NS;
     return true;
 }
 
@@ -307,32 +290,22 @@ static bool window_open(struct gn_display *display, struct gn_warnings *warnings
 
 /* ---- the window as a screen ---- */
 
-/* Whether the framebuffer is really sRGB. */
-static bool is_srgb(const struct window *w) {
-    __typeof__(eglQuerySurface) *query = (__typeof__(query))glfw.GetProcAddress("eglQuerySurface");
-    EGLint space = 0;
-    return query &&
-           query(glfw.GetEGLDisplay(), glfw.GetEGLSurface(w->handle), EGL_GL_COLORSPACE_KHR,
-                 &space) &&
-           space == EGL_GL_COLORSPACE_SRGB_KHR;
-}
-
-static bool add_sources(struct window *w, struct gn_err *err) {
-    w->timer.due_ns = GN_LOOP_NEVER;
-    gn_loop_add_timer(w->opts.loop, &w->timer);
-    if (glfw.link.fd < 0) return true;
-    w->events = (struct gn_watch){.fd = glfw.link.fd, .events = EPOLLIN};
-    return gn_loop_add(w->opts.loop, &w->events) ||
-           gn_fail(err, "cannot wait for the window: %s", strerror(errno));
-}
-
 /* Everything bound to the window handle, including the context. */
 static bool make_screen(struct gn_display *display, uint32_t width_px, uint32_t height_px,
                         struct gn_err *err) {
     struct window *w = display->state;
     struct gn_screen *s = &display->screen;
     if (!make_best_window(w, width_px, height_px, err)) return false;
-    set_callbacks(w);
+    glfw.SetWindowUserPointer(w->handle, w);
+    glfw.SetWindowCloseCallback(w->handle, on_close);
+    glfw.SetWindowRefreshCallback(w->handle, on_refresh);
+    glfw.SetFramebufferSizeCallback(w->handle, on_size);
+    glfw.SetWindowIconifyCallback(w->handle, on_iconify);
+    glfw.SetKeyCallback(w->handle, on_key);
+    glfw.SetCharCallback(w->handle, on_letter);
+    glfw.SetMouseButtonCallback(w->handle, on_button);
+    glfw.SetCursorPosCallback(w->handle, on_move);
+    glfw.SetScrollCallback(w->handle, on_wheel);
     /* X11: the swap waits at most when late, and does not tear */
     glfw.SwapInterval(glfw.link.x_pending ? 1 : 0);
     w->flip = (struct gn_flip){.no_vblank = true,
@@ -342,7 +315,13 @@ static bool make_screen(struct gn_display *display, uint32_t width_px, uint32_t 
     w->flip.shortest_ns = w->opts.max_fps > 0 ? GN_NS_PER_S / w->opts.max_fps : 0;
     s->has_context = true;
     s->generation++;
-    s->srgb = is_srgb(w);
+    /* whether the framebuffer is really sRGB */
+    __typeof__(eglQuerySurface) *query = (__typeof__(query))glfw.GetProcAddress("eglQuerySurface");
+    EGLint space = 0;
+    s->srgb =
+        query &&
+        query(glfw.GetEGLDisplay(), glfw.GetEGLSurface(w->handle), EGL_GL_COLORSPACE_KHR, &space) &&
+        space == EGL_GL_COLORSPACE_SRGB_KHR;
     glfw.GetFramebufferSize(w->handle, &w->width_px, &w->height_px);
     poll_events();
     return true;
@@ -354,12 +333,15 @@ static bool window_open_screen(struct gn_display *display, const struct gn_scree
     struct window *w = create_window(display, err);
     if (!w) return false;
     w->opts = *opts;
-    if (add_sources(w, err)) {
-        display->screen = (struct gn_screen){.rotate_deg = opts->rotate_deg};
-        if (make_screen(display, opts->width_px ? opts->width_px : 1280,
-                        opts->height_px ? opts->height_px : 720, err))
-            return update_screen(display, now_ns, err);
-    }
+    w->timer.due_ns = GN_LOOP_NEVER;
+    gn_loop_add_timer(opts->loop, &w->timer);
+    w->events = (struct gn_watch){.fd = glfw.link.fd, .events = EPOLLIN};
+    display->screen = (struct gn_screen){.rotate_deg = opts->rotate_deg};
+    if (glfw.link.fd >= 0 && !gn_loop_add(opts->loop, &w->events))
+        gn_fail(err, "cannot wait for the window: %s", strerror(errno));
+    else if (make_screen(display, opts->width_px ? opts->width_px : 1280,
+                         opts->height_px ? opts->height_px : 720, err))
+        return update_screen(display, now_ns, err);
     window_close(display);
     return false;
 }

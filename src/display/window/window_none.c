@@ -7,18 +7,9 @@ static bool fail_open(struct gn_display *display, struct gn_warnings *warnings,
     return gn_fail(err, "not built in; install libglfw3-dev and build again");
 }
 
-static gn_display_proc no_proc(struct gn_display *display, const char *name) {
-    (void)display, (void)name;
-    return NULL;
-}
-
-static void no_close(struct gn_display *display) { (void)display; }
-
 const struct gn_display_ops gn_display_window = {
     .name = "window",
     .is_window = true,
     .what = "a window on a desktop (not built in)",
-    .open = fail_open,
-    .get_proc = no_proc,
-    .close = no_close,
+    .open = fail_open, /* a display that does not open needs none of the rest */
 };
