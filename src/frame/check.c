@@ -125,23 +125,33 @@ static const char *check_picture(const struct gn_plan *plan, const struct gn_pas
     return broken ? broken : check_stencil(plan, pass);
 }
 
+/* What is drawn into a shadow map completes one tile of it, and is cleared with it. */
+static const char *check_tile(const struct gn_plan *plan, const struct gn_pass *pass) {
+    REQUIRE(pass->target.slot < plan->shadow_count);
+    const struct gn_shadow_view *view = &plan->shadows[pass->target.slot];
+    REQUIRE(pass->content.tile < view->map.tile_count && pass->content.completes);
+    REQUIRE(pass->content.hash == view->raster.tiles[pass->content.tile].content_hash);
+    REQUIRE(pass->clear.area == (view->map.tile_count > 1 ? GN_CLEAR_RECT : GN_CLEAR_ALL));
+    REQUIRE(pass->target.encoding != GN_ENCODING_STENCIL);
+    REQUIRE(pass->target.moments == GN_MOMENTS_NONE);
+    REQUIRE(!pass->discard_depth || pass->target.encoding != GN_ENCODING_DEPTH);
+    return NULL;
+}
+
 static const char *check_map(const struct gn_plan *plan, const struct gn_pass *pass) {
     const bool pages = pass->target.kind == GN_TARGET_PAGES;
     REQUIRE(pages || pass->target.kind == GN_TARGET_SHADOW);
+    if (!pages) return check_tile(plan, pass);
     REQUIRE(pass->target.slot < plan->shadow_count);
-    REQUIRE(pass->target.encoding != GN_ENCODING_STENCIL);
-    REQUIRE(pass->content.completes != pages);
-    REQUIRE(pages || pass->clear.area != GN_CLEAR_NOTHING);
-    REQUIRE(!pass->discard_depth || pass->target.encoding != GN_ENCODING_DEPTH);
+    REQUIRE(!pass->content.completes);
     return NULL;
 }
 
 static const char *check_copy(const struct gn_plan *plan, const struct gn_pass *pass) {
     const struct gn_target *from = &pass->copy.from;
     REQUIRE(pass->target.kind == GN_TARGET_SHADOW && from->kind == GN_TARGET_PAGES);
-    REQUIRE(pass->target.slot < plan->shadow_count && from->slot == pass->target.slot);
+    REQUIRE(from->slot == pass->target.slot);
     REQUIRE(from->encoding == pass->target.encoding);
-    REQUIRE(pass->clear.area != GN_CLEAR_NOTHING && pass->content.completes);
     REQUIRE(pass->draw_count == 0);
     REQUIRE(pass->copy.count > 0 && pass->copy.count <= GN_SHADOW_PAGES_MAX);
     for (uint32_t i = 0; i < pass->copy.count; i++) {
@@ -150,7 +160,7 @@ static const char *check_copy(const struct gn_plan *plan, const struct gn_pass *
         REQUIRE(rect_is_inside(&copy->from, from));
         REQUIRE(rect_is_inside(&to, &pass->target));
     }
-    return NULL;
+    return check_tile(plan, pass);
 }
 
 /* A filter of a map draws all of its target once, and reads nothing that it draws to. */
@@ -171,7 +181,8 @@ static const char *check_filter(const struct gn_plan *plan, const struct gn_pass
 }
 
 static const char *check_kind(const struct gn_plan *plan, const struct gn_pass *pass) {
-    REQUIRE(pass->kind == GN_PASS_PICTURE || pass->content.hash != 0);
+    REQUIRE(pass->kind == GN_PASS_PICTURE ||
+            (pass->content.hash != 0 && !pass->clear.stencil_bits));
     switch (pass->kind) {
     case GN_PASS_PICTURE: return check_picture(plan, pass);
     case GN_PASS_MAP: return check_map(plan, pass);

@@ -2,11 +2,14 @@
 
 #include "frame/private.h"
 
+static uint64_t texture_bit(int slot) { return UINT64_C(1) << (GN_FEATURE_FIRST_TEXTURE + slot); }
+static uint64_t uv1_bit(int slot) { return UINT64_C(1) << (GN_FEATURE_FIRST_UV1 + slot); }
+
 /* The bits of a slot's texture, if the material has one. */
 static uint64_t texture_features(const struct gn_material *material, enum gn_texture_slot slot) {
     const struct gn_texture_ref *ref = &material->textures[slot];
     if (ref->texture < 0) return 0;
-    return GN_FEATURE(BASE_TEXTURE) << slot | (ref->uv_set ? GN_FEATURE(BASE_UV1) << slot : 0);
+    return texture_bit(slot) | (ref->uv_set ? uv1_bit(slot) : 0);
 }
 
 static uint64_t vertex_features(const struct gn_geometry *geometry) {
@@ -119,7 +122,7 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
     uint64_t once = GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
         if (gn_texture_slots[slot].shading >= GN_SHADING_EMISSION)
-            once |= (GN_FEATURE(BASE_TEXTURE) | GN_FEATURE(BASE_UV1)) << slot;
+            once |= texture_bit(slot) | uv1_bit(slot);
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = lit->kind;

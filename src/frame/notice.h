@@ -21,6 +21,7 @@ enum gn_notice {
 enum { GN_NOTICE_ABOUT = 10 }; /* options that a warning may be about */
 
 struct gn_frame;
+struct gn_frame_opts;
 /* First of all in a build. */
 void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts);
 /* Whether to give this warning now: not given yet, and `warnings` is not NULL. Marks it as given.

@@ -143,7 +143,7 @@ void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key
 
 /* ---- draws.c ---- */
 
-/* Blended items that a picture sees are not drawn but gathered in frame->blended. */
+/* Blended items that a picture sees are not drawn but gathered in frame->items.blended. */
 void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_selection *s);
 /* As a draw of its own, or one more instance of the last draw, if that is *open and fits. */

@@ -28,7 +28,10 @@ static enum gn_clear_area clear_of(const struct gn_plan *plan, struct gn_gl_map 
         map->cleared = true;
         for (uint32_t tile = 0; tile < view->map.tile_count; tile++)
             map->cleared &= !holds_content(map, tile, view->raster.tiles[tile].content_hash);
-        if (map->cleared) return GN_CLEAR_ALL;
+        if (map->cleared) {
+            memset(map->content_hash, 0, sizeof map->content_hash);
+            return GN_CLEAR_ALL;
+        }
     }
     return map->cleared ? GN_CLEAR_NOTHING : GN_CLEAR_RECT;
 }

@@ -56,7 +56,7 @@ extern const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT];
  * the light's own, which the last pass fills; the others are shared by all lights. */
 enum gn_filter {
     GN_FILTER_NONE,
-    GN_FILTER_BLUR,  /* a box, as wide as gn_shadow_view.blur_px */
+    GN_FILTER_BLUR,  /* a box, as wide as gn_shadow_view.penumbra.blur_px */
     GN_FILTER_TABLE, /* sums over all texels to the lower left, tile by tile */
     GN_FILTER_COUNT,
 };

@@ -19,9 +19,7 @@
 
 /* Lays pages round a window (texels of the lattice, first and last, both in it): all of `drawn` but
  * each page's clip_from_world. anchor: the lower left texel of any page. No window is wider than
- * map_px
- * - 2; map_px is 3 at
- * least. */
+ * map_px - 2; map_px is at least 3. */
 void gn_pages_lay(const double anchor[2], const double first[2], const double last[2],
                   uint32_t map_px, struct gn_shadow_drawn *drawn);
 
