@@ -69,27 +69,21 @@ void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view) {
 
 /* ---- splits ---- */
 
-/* Where splits begin and end. */
-static struct gn_distances split_distances(const struct gn_distances *seen, uint32_t cascades) {
-    struct gn_distances d;
-    d.far_m = step(fmaxf(seen->far_m, 1e-6f), FAR_STEPS, true);
-    d.near_m = step(fmaxf(gn_distances_nearest(seen), 1e-6f), NEAR_STEPS, false);
-    d.far_m = fmaxf(d.far_m, d.near_m * powf(LEAST_RATIO, (float)cascades));
-    return d;
-}
-
-static void split(struct gn_shadow_view *view, struct gn_distances d) {
+static void set_splits(struct gn_shadow_view *view, const struct gn_distances *seen) {
     const uint32_t n = view->map.cascade_count;
+    float far_m = step(fmaxf(seen->far_m, 1e-6f), FAR_STEPS, true);
+    const float near_m = step(fmaxf(gn_distances_nearest(seen), 1e-6f), NEAR_STEPS, false);
+    far_m = fmaxf(far_m, near_m * powf(LEAST_RATIO, (float)n));
     for (uint32_t i = 0; i < n; i++) {
         struct gn_shadow_cascade *c = &view->cascades[i];
-        c->end_m =
-            i + 1 < n ? d.near_m * powf(d.far_m / d.near_m, (float)(i + 1) / (float)n) : INFINITY;
+        c->end_m = i + 1 < n ? near_m * powf(far_m / near_m, (float)(i + 1) / (float)n) : INFINITY;
         c->begin_m = i > 0 ? (1.0f - GN_CASCADE_FADE) * view->cascades[i - 1].end_m : 0.0f;
     }
 }
 
 /* The part of the eye's frustum between two distances; false: none. */
-static bool cut(const struct gn_eye *eye, const struct gn_shadow_cascade *c, struct gn_eye *part) {
+static bool cut_frustum(const struct gn_eye *eye, const struct gn_shadow_cascade *c,
+                        struct gn_eye *part) {
     vec4 depth;
     float ends[2];
     *part = *eye;
@@ -112,25 +106,15 @@ static bool cut(const struct gn_eye *eye, const struct gn_shadow_cascade *c, str
 
 /* ---- fitting ---- */
 
-/* What is the same for all tiles, from the first that holds anything. */
-static void take_codes(struct gn_shadow_view *view, const struct gn_shadow_view *tile) {
-    view->code = tile->code;
-    view->lookup.texel = tile->lookup.texel;
-    view->penumbra.scale = tile->penumbra.scale;
-    view->penumbra.bias = tile->penumbra.bias;
-    view->penumbra.radius = tile->penumbra.radius * tile->lookup.texel;
-    for (int c = 0; c < 4; c++) {
-        vec4 column = {tile->raster.tiles[0].light_from_world[c][0],
-                       tile->raster.tiles[0].light_from_world[c][1],
-                       tile->lookup.map_from_world[c][2], c == 3};
-        glm_vec4_copy(column, view->lookup.map_from_world[c]);
-    }
-}
+static void copy_tile(struct gn_shadow_view *view, uint32_t index,
+                      const struct gn_shadow_view *tile) {
+    struct gn_shadow_cascade *c = &view->cascades[index];
+    c->texel = tile->lookup.texel;
+    c->blur_px = tile->penumbra.blur_px;
 
-/* What moments are of need not be all that casts anywhere, of which a near tile shows little: they
- * begin at the nearest caster and end at the farthest place in shadow that is seen. By steps, so
- * that they stay while the eye moves little. */
-static void set_span(const struct gn_shadow_view *tile, struct gn_shadow_cascade *c) {
+    /* Moments need not span all that casts anywhere, of which a near tile shows little: they begin
+     * at the nearest caster and end at the farthest place in shadow that is seen. By steps, so that
+     * they stay while the eye moves little. */
     const float wanted = most(1.01f * (tile->penumbra.farthest - tile->penumbra.nearest),
                               LEAST_SPAN * tile->code.far_m) *
                          NEAREST_STEPS / (NEAREST_STEPS - 1.0f);
@@ -138,14 +122,7 @@ static void set_span(const struct gn_shadow_view *tile, struct gn_shadow_cascade
     const float part = c->span / NEAREST_STEPS;
     c->nearest = least(floorf(tile->penumbra.nearest / part) * part, tile->code.far_m - c->span);
     if (!gn_technique_filters_map(tile->technique)) c->nearest = tile->penumbra.nearest;
-}
 
-static void take_tile(struct gn_shadow_view *view, uint32_t index,
-                      const struct gn_shadow_view *tile) {
-    struct gn_shadow_cascade *c = &view->cascades[index];
-    c->texel = tile->lookup.texel;
-    c->blur_px = tile->penumbra.blur_px;
-    set_span(tile, c);
     c->drawn = tile->raster.drawn;
     glm_mat4_copy((vec4 *)tile->raster.tiles[0].light_from_world,
                   view->raster.tiles[index].light_from_world);
@@ -157,7 +134,7 @@ static void take_tile(struct gn_shadow_view *view, uint32_t index,
 static bool fit_tile(const struct gn_fitter *f, uint32_t index, float blur_most_m,
                      struct gn_shadow_view *tile) {
     struct gn_eye eye;
-    if (!cut(f->eye, &f->view->cascades[index], &eye)) return false;
+    if (!cut_frustum(f->eye, &f->view->cascades[index], &eye)) return false;
     *tile = *f->view;
     tile->map.tile_px = tile->map.width_px = tile->map.height_px = f->view->map.inner_px;
     tile->map.tile_count = 1;
@@ -185,12 +162,25 @@ static bool fit_tiles(const struct gn_fitter *f, float widest_m[GN_CASCADES_MAX]
         view->raster.tiles[i].empty = !fit_tile(f, i, blur_most_m, &tile);
         widest_m[i] = 0.0f;
         if (view->raster.tiles[i].empty) continue;
-        take_tile(view, i, &tile);
+        copy_tile(view, i, &tile);
         widest_m[i] = f->light_radius * (tile.penumbra.farthest - tile.penumbra.nearest);
         view->raster.tiles[i].content_hash = tile.raster.tiles[0].content_hash;
-        if (!found) take_codes(view, &tile);
-        if (!found) blur_most_m = GN_BLUR_MOST_PX * tile.lookup.texel;
+        if (found) continue;
         found = true;
+
+        /* the same for all tiles: from the first that holds anything */
+        view->code = tile.code;
+        view->lookup.texel = tile.lookup.texel;
+        view->penumbra.scale = tile.penumbra.scale;
+        view->penumbra.bias = tile.penumbra.bias;
+        view->penumbra.radius = tile.penumbra.radius * tile.lookup.texel;
+        blur_most_m = GN_BLUR_MOST_PX * tile.lookup.texel;
+        for (int c = 0; c < 4; c++) {
+            vec4 column = {tile.raster.tiles[0].light_from_world[c][0],
+                           tile.raster.tiles[0].light_from_world[c][1],
+                           tile.lookup.map_from_world[c][2], c == 3};
+            glm_vec4_copy(column, view->lookup.map_from_world[c]);
+        }
     }
     return found;
 }
@@ -201,20 +191,6 @@ static bool has_room(const struct gn_shadow_view *view, const float widest_m[GN_
     return true;
 }
 
-/* Where a tile has no room for the widest of its penumbrae, no place's is wider than in proportion
- * to its distance from the eye: a limit by tiles would be seen at each split. */
-static float bound_of(const struct gn_shadow_view *view, float radius,
-                      const float widest_m[GN_CASCADES_MAX]) {
-    float bound = UNBOUND;
-    for (uint32_t i = 0; i < view->map.cascade_count; i++) {
-        const bool last = i + 1 == view->map.cascade_count;
-        const float room_m = view->lookup.reach_px * view->cascades[i].texel,
-                    to_m = view->cascades[last ? i - 1 : i].end_m;
-        if (widest_m[i] > room_m) bound = fminf(bound, room_m / (to_m * radius));
-    }
-    return bound;
-}
-
 /* In gutters as narrow as have room for all penumbrae that can be seen. How wide these are does not
  * go by the gutters, but texels do: by as much as these leave of a tile. */
 bool gn_cascades_fit(const struct gn_fitter *f) {
@@ -223,7 +199,7 @@ bool gn_cascades_fit(const struct gn_fitter *f) {
     float widest_m[GN_CASCADES_MAX], room = LEAST_ROOM;
     const float most_room = reads_table(view) ? TABLE_ROOM : MOST_ROOM;
     if (!gn_distances_find(f, &seen)) return false;
-    split(view, split_distances(&seen, view->map.cascade_count));
+    set_splits(view, &seen);
     if (!fit_tiles(f, widest_m)) return false;
     while (gn_techniques[view->technique].soft && room < most_room && !has_room(view, widest_m)) {
         const uint32_t fitted_px = view->map.inner_px;
@@ -235,7 +211,17 @@ bool gn_cascades_fit(const struct gn_fitter *f) {
         } while (room < most_room && !has_room(view, widest_m));
         if (view->map.inner_px != fitted_px) fit_tiles(f, widest_m);
     }
-    view->penumbra.growth = bound_of(view, f->light_radius, widest_m);
+
+    /* Where a tile has no room for the widest of its penumbrae, no place's is wider than in
+     * proportion to its distance from the eye: a limit by tiles would be seen at each split. */
+    view->penumbra.growth = UNBOUND;
+    for (uint32_t i = 0; i < view->map.cascade_count; i++) {
+        const bool last = i + 1 == view->map.cascade_count;
+        const float room_m = view->lookup.reach_px * view->cascades[i].texel,
+                    to_m = view->cascades[last ? i - 1 : i].end_m;
+        if (widest_m[i] > room_m)
+            view->penumbra.growth = fminf(view->penumbra.growth, room_m / (to_m * f->light_radius));
+    }
     for (uint32_t i = 0; i < view->map.tile_count; i++)
         if (view->raster.tiles[i].empty)
             view->raster.tiles[i].content_hash =

@@ -7,47 +7,37 @@
 #define SHARED_TEXELS 1.0f  /* to each side of an edge of two tiles */
 #define EDGE_TEXELS   0.25f /* from where the gutter would begin to such an edge */
 
-static void aim_tile(struct gn_fitter *f, uint32_t index) {
-    struct gn_shadow_view *view = f->view;
-    struct gn_shadow_tile *tile = f->tile = &view->raster.tiles[index];
-    uint32_t axis = index / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
-    float side = index % 2 ? -1.0f : 1.0f;
-    vec4 *m = tile->light_from_world;
-    glm_mat4_zero(m);
-    m[u][0] = m[v][1] = m[3][3] = 1.0f;
-    m[axis][2] = -side;
-    m[3][0] = -view->light_ws[u];
-    m[3][1] = -view->light_ws[v];
-    m[3][2] = side * view->light_ws[axis];
-    tile->mirrored = (axis == 1) == (side < 0.0f);
-    tile->x_px = axis * view->map.tile_px;
-    tile->y_px = index % 2 * view->map.tile_px;
-    gn_fitter_set_cone(f, 0.5f * view->lookup.texel * (float)view->map.tile_px);
-}
-
-/* Measures all tiles: the depths of the casters in any of them. False when all are empty. */
+/* Aims and measures all tiles: the depths of the casters in any of them. False: all are empty. */
 static bool find_tiles(struct gn_fitter *f, struct gn_shadow_region *depths) {
+    struct gn_shadow_view *view = f->view;
     struct gn_shadow_memory *memories = f->memory;
     bool found = false;
     *depths = nothing;
-    for (uint32_t i = 0; i < f->view->map.tile_count; i++) {
-        struct gn_window own;
+    for (uint32_t i = 0; i < view->map.tile_count; i++) {
+        struct gn_shadow_tile *tile = f->tile = &view->raster.tiles[i];
+        const uint32_t axis = i / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+        const float side = i % 2 ? -1.0f : 1.0f;
+        vec4 *m = tile->light_from_world;
+        glm_mat4_zero(m);
+        m[u][0] = m[v][1] = m[3][3] = 1.0f;
+        m[axis][2] = -side;
+        m[3][0] = -view->light_ws[u];
+        m[3][1] = -view->light_ws[v];
+        m[3][2] = side * view->light_ws[axis];
+        tile->mirrored = (axis == 1) == (side < 0.0f);
+        tile->x_px = axis * view->map.tile_px;
+        tile->y_px = i % 2 * view->map.tile_px;
         f->memory = &memories[i];
-        aim_tile(f, i);
+        gn_fitter_set_cone(f, 0.5f * view->lookup.texel * (float)view->map.tile_px);
+
+        struct gn_window own;
         gn_fitter_remember(f);
-        f->tile->empty = !gn_window_find(f, false, &own);
-        found |= !f->tile->empty;
+        tile->empty = !gn_window_find(f, false, &own);
+        found |= !tile->empty;
         unite(depths, &own.depths);
     }
     f->memory = memories;
     return found;
-}
-
-/* What moves shall change the tiles that it is in: near and far, which are for all, go by steps. */
-static void widen_depths(struct gn_shadow_region *depths) {
-    depths->near = exp2f(floorf(4.0f * log2f(depths->near)) / 4.0f);
-    depths->far = exp2f(ceilf(4.0f * log2f(depths->far)) / 4.0f);
-    depths->far_radial = exp2f(ceilf(4.0f * log2f(depths->far_radial)) / 4.0f);
 }
 
 /* A place beyond the edge is looked up where tiles are shared; pushed off its surface it may lie
@@ -78,7 +68,11 @@ bool gn_cube_fit(struct gn_fitter *f) {
     if (!find_tiles(f, &depths)) return false;
     float near_depth, far_depth;
     double edge = -0.5 * (double)view->lookup.texel * view->map.tile_px;
-    widen_depths(&depths);
+    /* what moves shall change the tiles that it is in: near and far, which are for all, go by
+     * steps */
+    depths.near = exp2f(floorf(4.0f * log2f(depths.near)) / 4.0f);
+    depths.far = exp2f(ceilf(4.0f * log2f(depths.far)) / 4.0f);
+    depths.far_radial = exp2f(ceilf(4.0f * log2f(depths.far_radial)) / 4.0f);
     gn_fitter_set_depths(f, &depths, &near_depth, &far_depth);
     gn_fitter_set_code(f, near_depth, far_depth);
     gn_shadow_set_frustums(view, (double[2]){edge, edge}, near_depth, far_depth);

@@ -20,29 +20,7 @@ static void clip_by(struct gn_polygon *polygon, const vec4 *planes, int count) {
     for (int i = 0; i < count && polygon->count; i++) gn_polygon_clip(polygon, planes[i]);
 }
 
-/* The four planes round a window, world space. */
-static void window_planes(const struct gn_fitter *f, const struct gn_shadow_region *window,
-                          vec4 planes[4]) {
-    const vec4 *m = f->tile->light_from_world; /* rigid: rows are the light's axes */
-    for (int i = 0; i < 4; i++) {
-        const int axis = i / 2;
-        const float sign = i % 2 ? -1.0f : 1.0f;
-        for (int c = 0; c < 3; c++) planes[i][c] = sign * m[c][axis];
-        planes[i][3] = i % 2 ? window->max[axis] - m[3][axis] : m[3][axis] - window->min[axis];
-    }
-}
-
 enum { PLANES = 10, WALKED_TRIANGLES = 10000 };
-
-static bool is_behind_one(const vec4 *planes, const struct gn_polygon *triangle) {
-    for (int i = 0; i < PLANES; i++) {
-        int behind = 0;
-        for (int k = 0; k < 3; k++)
-            behind += glm_vec3_dot((float *)planes[i], (float *)triangle->at[k]) + planes[i][3] < 0;
-        if (behind == 3) return true;
-    }
-    return false;
-}
 
 /* Those triangles alone are clipped that may lie nearer or farther than what is known. world:
  * planes round what counts. */
@@ -68,7 +46,14 @@ static void add_triangles(const struct gn_fitter *f, uint32_t item, const vec4 w
             high = most(high, at);
         }
         if (low >= d->near_m && high <= d->far_m) continue;
-        if (is_behind_one(planes, &triangle)) continue;
+        bool is_outside = false; /* wholly behind one of them */
+        for (int p = 0; p < PLANES && !is_outside; p++) {
+            int behind = 0;
+            for (int k = 0; k < 3; k++)
+                behind += glm_vec3_dot(planes[p], triangle.at[k]) + planes[p][3] < 0;
+            is_outside = behind == 3;
+        }
+        if (is_outside) continue;
         clip_by(&triangle, planes, PLANES);
         add_places(d, depth, &triangle);
     }
@@ -91,32 +76,6 @@ static void add_box(const struct gn_fitter *f, uint32_t item, const vec4 world[P
     }
 }
 
-/* From the nearest to the farthest place that can be in a shadow that is seen; empty when near_m >
- * far_m. */
-static struct gn_distances seen_distances(const struct gn_fitter *f,
-                                          const struct gn_shadow_region *window) {
-    struct gn_distances d = {INFINITY, -INFINITY};
-    vec4 planes[PLANES], depth;
-    gn_eye_depth_plane(f->eye, depth);
-    window_planes(f, window, planes);
-    for (int i = 0; i < 6; i++) glm_vec4_copy((float *)f->eye->planes[i], planes[4 + i]);
-    for (uint32_t i = 0; i < f->memory->item_count; i++) {
-        if (!gn_shadow_item_receives(f->pose, i, f->view) || f->memory->seen[i] == GN_SEEN_NOT)
-            continue;
-        const struct gn_shadow_region *seen = gn_fitter_seen(f, i);
-        if (region_is_empty(seen) || !regions_meet(seen, window)) continue;
-        const struct gn_box *box = &f->pose->items[i].box_ws;
-        if (gn_box_least(depth, box) >= d.near_m && gn_box_most(depth, box) <= d.far_m) continue;
-        const struct gn_scene *scene = f->pose->scene;
-        if (scene->geometries[scene->items[i].geometry].index_count <= 3 * WALKED_TRIANGLES)
-            add_triangles(f, i, planes, depth, &d);
-        else
-            add_box(f, i, planes, depth, &d);
-    }
-    return d;
-}
-
-/* What any cascade can hold: the window of all that is seen. */
 bool gn_distances_find(const struct gn_fitter *f, struct gn_distances *seen) {
     struct gn_window found;
     struct gn_fitter all = *f;
@@ -124,7 +83,37 @@ bool gn_distances_find(const struct gn_fitter *f, struct gn_distances *seen) {
     gn_shadow_look(f->view, f->tile->light_from_world);
     gn_fitter_remember(&all);
     if (!gn_window_find(&all, false, &found)) return false;
-    *seen = seen_distances(&all, &found.window);
+
+    /* the four planes round the window of all that is seen, which any cascade can hold, and the
+     * eye's six: world space */
+    const struct gn_shadow_region *window = &found.window;
+    const vec4 *m = f->tile->light_from_world; /* rigid: rows are the light's axes */
+    vec4 planes[PLANES], depth;
+    gn_eye_depth_plane(f->eye, depth);
+    for (int i = 0; i < 4; i++) {
+        const int axis = i / 2;
+        const float sign = i % 2 ? -1.0f : 1.0f;
+        for (int c = 0; c < 3; c++) planes[i][c] = sign * m[c][axis];
+        planes[i][3] = i % 2 ? window->max[axis] - m[3][axis] : m[3][axis] - window->min[axis];
+    }
+    for (int i = 0; i < 6; i++) glm_vec4_copy((float *)f->eye->planes[i], planes[4 + i]);
+
+    /* what receives within them */
+    const struct gn_scene *scene = f->pose->scene;
+    *seen = (struct gn_distances){INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < all.memory->item_count; i++) {
+        if (!gn_shadow_item_receives(f->pose, i, f->view) || all.memory->seen[i] == GN_SEEN_NOT)
+            continue;
+        const struct gn_shadow_region *part = gn_fitter_seen(&all, i);
+        if (region_is_empty(part) || !regions_meet(part, window)) continue;
+        const struct gn_box *box = &f->pose->items[i].box_ws;
+        if (gn_box_least(depth, box) >= seen->near_m && gn_box_most(depth, box) <= seen->far_m)
+            continue;
+        if (scene->geometries[scene->items[i].geometry].index_count <= 3 * WALKED_TRIANGLES)
+            add_triangles(f, i, planes, depth, seen);
+        else
+            add_box(f, i, planes, depth, seen);
+    }
     return seen->near_m <= seen->far_m;
 }
 

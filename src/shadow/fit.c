@@ -74,46 +74,35 @@ static void make_empty(struct gn_shadow_view *view) {
     for (uint32_t i = 0; i < view->map.cascade_count; i++) view->cascades[i].drawn.page_count = 0;
 }
 
-/* Normal offset and slope by the width that the technique averages over; figures measured by `make
- * truth`. */
-static void set_bias(struct gn_shadow_view *view) {
-    float width = gn_techniques[view->technique].bias_texels;
-    view->lookup.normal_offset = width;
-    view->lookup.slope_offset = 0.7f * width;
-    view->lookup.slope_max = 4.0f;
-}
-
-static bool fit_one(struct gn_fitter *f) {
-    if (f->view->map.cascade_count > 0) return gn_cascades_fit(f);
-    return f->view->map.tile_count > 1 ? gn_cube_fit(f) : gn_single_fit(f);
-}
-
-static bool fit_map(const struct gn_pose *pose, const struct gn_eye *eye,
-                    struct gn_shadow_memory *memory, struct gn_shadow_view *view) {
-    const struct gn_light *light = &pose->scene->lights[view->light];
+bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
+                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
+                   struct gn_shadow_view *view) {
+    assert(opts->technique != GN_TECHNIQUE_NONE);
+    const struct gn_technique_row *row = &gn_techniques[opts->technique];
+    const struct gn_light *l = &pose->scene->lights[light];
+    begin_view(pose, light, opts, view);
     struct gn_fitter f = {.pose = pose,
                           .eye = eye,
                           .memory = memory,
                           .view = view,
                           .tile = view->raster.tiles,
                           .scene_size_m = gn_scene_size_m(pose),
-                          .light_radius = light->radius,
-                          .range_m = light->range_m > 0.0f ? light->range_m : INFINITY};
-    if (!fit_one(&f)) return false;
-    set_bias(view);
+                          .light_radius = l->radius,
+                          .range_m = l->range_m > 0.0f ? l->range_m : INFINITY};
+    const bool found = row->on_plane                 ? gn_planar_fit(pose, eye, memory, view)
+                       : view->map.cascade_count > 0 ? gn_cascades_fit(&f)
+                       : view->map.tile_count > 1    ? gn_cube_fit(&f)
+                                                     : gn_single_fit(&f);
+    if (!found) make_empty(view);
+    if (!found || row->on_plane) return found;
+
+    /* normal offset and slope by the width that the technique averages over; figures measured by
+     * `make truth` */
+    view->lookup.normal_offset = row->bias_texels;
+    view->lookup.slope_offset = 0.7f * row->bias_texels;
+    view->lookup.slope_max = 4.0f;
     for (uint32_t i = 0; i < view->map.tile_count && view->map.cascade_count == 0; i++)
         view->raster.tiles[i].content_hash =
             gn_shadow_hash(pose, view, &view->raster.tiles[i], memory[i].casts);
     return true;
-}
-
-bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
-                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
-                   struct gn_shadow_view *view) {
-    assert(opts->technique != GN_TECHNIQUE_NONE);
-    begin_view(pose, light, opts, view);
-    bool found = gn_techniques[opts->technique].on_plane ? gn_planar_fit(pose, eye, memory, view)
-                                                         : fit_map(pose, eye, memory, view);
-    if (!found) make_empty(view);
-    return found;
 }

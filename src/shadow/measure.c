@@ -61,15 +61,6 @@ static void add_polygon(const struct gn_fitter *f, struct gn_shadow_region *r,
     for (int i = 0; i < polygon->count; i++) add_point(f, r, polygon->at[i]);
 }
 
-static void add_triangles(const struct gn_fitter *f, struct gn_shadow_region *r, uint32_t item,
-                          uint32_t index_count, bool seen_only) {
-    struct gn_polygon triangle;
-    for (uint32_t i = 0; i < index_count; i += 3) {
-        gn_item_triangle(f->pose, item, i, &triangle);
-        add_polygon(f, r, &triangle, seen_only);
-    }
-}
-
 /* The hull of box and frustum: clipped faces of each by the other. */
 static void add_body(const struct gn_fitter *f, struct gn_shadow_region *r, vec3 corners[8],
                      bool seen_only) {
@@ -88,22 +79,6 @@ static void add_body(const struct gn_fitter *f, struct gn_shadow_region *r, vec3
     }
 }
 
-/* How far from the light a triangle's box begins, by the largest coordinate. */
-static float triangle_from(const struct gn_fitter *f, mat4 light_from_item,
-                           const uint32_t *indices) {
-    vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    for (int k = 0; k < 3; k++) {
-        vec3 p;
-        glm_mat4_mulv3(light_from_item, f->pose->scene->buffers.positions + 3 * (size_t)indices[k],
-                       1.0f, p);
-        glm_vec3_minv(low, p, low);
-        glm_vec3_maxv(high, p, high);
-    }
-    float from = 0.0f;
-    for (int k = 0; k < 3; k++) from = most(from, most(low[k], -high[k]));
-    return from;
-}
-
 /* A body whose box the light is in may come nearer than the box does. */
 static void add_nearest(const struct gn_fitter *f, struct gn_shadow_region *r, uint32_t item) {
     const struct gn_scene *scene = f->pose->scene;
@@ -119,7 +94,18 @@ static void add_nearest(const struct gn_fitter *f, struct gn_shadow_region *r, u
     glm_mat4_mul((vec4 *)f->tile->light_from_world, (vec4 *)f->pose->items[item].world_from_item,
                  light_from_item);
     for (uint32_t i = 0; i < g->index_count; i += 3) {
-        float from = triangle_from(f, light_from_item, scene->buffers.indices + g->first_index + i);
+        const uint32_t *indices = scene->buffers.indices + g->first_index + i;
+        vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+        for (int k = 0; k < 3; k++) {
+            vec3 p;
+            glm_mat4_mulv3(light_from_item, scene->buffers.positions + 3 * (size_t)indices[k], 1.0f,
+                           p);
+            glm_vec3_minv(low, p, low);
+            glm_vec3_maxv(high, p, high);
+        }
+        /* how far from the light the triangle's box begins, by the largest coordinate */
+        float from = 0.0f;
+        for (int k = 0; k < 3; k++) from = most(from, most(low[k], -high[k]));
         r->near = least(r->near, most(from / most(f->tan_cone, 1.0f), f->near_m));
     }
 }
@@ -138,7 +124,11 @@ static struct gn_shadow_region measure(const struct gn_fitter *f, uint32_t item,
     if (!seen_only && gn_planes_hold(f->cone, f->cone_count, &posed->box_ws))
         for (int i = 0; i < 8; i++) add_point(f, &r, corners[i]);
     else if (g->index_count <= 3 * GN_EXACT_TRIANGLES)
-        add_triangles(f, &r, item, g->index_count, seen_only);
+        for (uint32_t i = 0; i < g->index_count; i += 3) {
+            struct gn_polygon triangle;
+            gn_item_triangle(f->pose, item, i, &triangle);
+            add_polygon(f, &r, &triangle, seen_only);
+        }
     else
         add_body(f, &r, corners, seen_only);
     if (f->view->perspective && g->index_count > 3 * GN_EXACT_TRIANGLES && !seen_only)

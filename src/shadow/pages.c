@@ -17,40 +17,21 @@ static struct stretch stretch_at(double anchor, double first, double end, uint32
                             (uint32_t)(fmin(end, corner + map_px) - first)};
 }
 
-/* Not at its edge, which stays cleared: what is read outside the map is lit. */
-static bool is_inside(const struct stretch *s, double first, double end, uint32_t map_px) {
-    return s->from_px >= 1 && s->size_px == (uint32_t)(end - first) &&
-           s->from_px + s->size_px < map_px;
-}
-
-/* Of both axes; 1 or 2 stretches of each. */
-static void add_pages(struct gn_shadow_drawn *drawn, struct stretch along[2][2],
-                      const uint32_t counts[2]) {
-    for (uint32_t j = 0; j < counts[1]; j++)
-        for (uint32_t i = 0; i < counts[0]; i++) {
-            struct gn_shadow_page *page = &drawn->pages[drawn->page_count++];
-            const struct stretch *s[2] = {&along[0][i], &along[1][j]};
-            for (int k = 0; k < 2; k++) {
-                page->corner[k] = s[k]->corner;
-                page->from_px[k] = s[k]->from_px;
-                page->size_px[k] = s[k]->size_px;
-                page->to_px[k] = (uint32_t)(s[k]->corner + s[k]->from_px - drawn->corner_texels[k]);
-            }
-        }
-}
-
 void gn_pages_lay(const double anchor[2], const double first[2], const double last[2],
                   uint32_t map_px, struct gn_shadow_drawn *drawn) {
-    struct stretch along[2][2];
+    struct stretch along[2][2]; /* of each axis 1 or 2 */
     uint32_t counts[2];
     *drawn = (struct gn_shadow_drawn){.paged = false};
     for (int k = 0; k < 2; k++) {
         const double end = fmin(last[k] + 1, first[k] + map_px - 2);
-        along[k][0] = stretch_at(anchor[k], first[k], end, map_px);
+        const struct stretch s = along[k][0] = stretch_at(anchor[k], first[k], end, map_px);
         counts[k] = 1;
-        if (!is_inside(&along[k][0], first[k], end, map_px)) drawn->paged = true;
-        if (first[k] + along[k][0].size_px < end) {
-            along[k][1] = stretch_at(anchor[k], first[k] + along[k][0].size_px, end, map_px);
+        /* in one page, but not at its edge, which stays cleared: what is read outside is lit */
+        if (s.from_px < 1 || s.size_px != (uint32_t)(end - first[k]) ||
+            s.from_px + s.size_px >= map_px)
+            drawn->paged = true;
+        if (first[k] + s.size_px < end) {
+            along[k][1] = stretch_at(anchor[k], first[k] + s.size_px, end, map_px);
             counts[k] = 2;
         }
         drawn->size_px[k] = (uint32_t)(end - first[k]);
@@ -59,7 +40,16 @@ void gn_pages_lay(const double anchor[2], const double first[2], const double la
         drawn->corner_texels[k] = drawn->paged ? first[k] - 1 : along[k][0].corner;
         drawn->px[k] = (uint32_t)(first[k] - drawn->corner_texels[k]);
     }
-    add_pages(drawn, along, counts);
+    for (uint32_t p = 0; p < counts[0] * counts[1]; p++) {
+        struct gn_shadow_page *page = &drawn->pages[drawn->page_count++];
+        const struct stretch *s[2] = {&along[0][p % counts[0]], &along[1][p / counts[0]]};
+        for (int k = 0; k < 2; k++) {
+            page->corner[k] = s[k]->corner;
+            page->from_px[k] = s[k]->from_px;
+            page->size_px[k] = s[k]->size_px;
+            page->to_px[k] = (uint32_t)(s[k]->corner + s[k]->from_px - drawn->corner_texels[k]);
+        }
+    }
 }
 
 /* ---- the view ---- */
@@ -87,34 +77,6 @@ static void set_clip(const struct gn_shadow_view *view, const double corner[2], 
     clip_from_light[2][2] = -2.0f / (far_depth - near_depth);
     clip_from_light[3][2] = -(far_depth + near_depth) / (far_depth - near_depth);
     glm_mat4_mul(clip_from_light, (vec4 *)view->raster.tiles[0].light_from_world, clip_from_world);
-}
-
-/* What may touch the part of the page that is drawn: a texel more to each side, since rasterisers
- * round. */
-static struct gn_shadow_region part_of(const struct gn_shadow_page *page, float texel) {
-    struct gn_shadow_region part = nothing;
-    for (int k = 0; k < 2; k++) {
-        const double first = page->corner[k] + page->from_px[k];
-        part.min[k] = (float)((first - 1) * texel);
-        part.max[k] = (float)((first + page->size_px[k] + 1) * texel);
-    }
-    return part;
-}
-
-/* Whether or not an eye needs a caster for what it sees, it is in the part of the page that is
- * drawn: what a texel holds does not depend on the eye. */
-static void mark_casts(const struct gn_fitter *f) {
-    const struct gn_shadow_drawn *drawn = &f->view->raster.drawn;
-    struct gn_shadow_region parts[GN_SHADOW_PAGES_MAX];
-    for (uint32_t p = 0; p < drawn->page_count; p++)
-        parts[p] = part_of(&drawn->pages[p], f->view->lookup.texel);
-    for (uint32_t i = 0; i < f->memory->item_count; i++) {
-        if (!f->memory->casts[i]) continue;
-        uint32_t pages = 0;
-        for (uint32_t p = 0; p < drawn->page_count; p++)
-            pages |= (uint32_t)regions_meet(gn_fitter_whole(f, i), &parts[p]) << p;
-        f->memory->casts[i] = (uint8_t)pages;
-    }
 }
 
 /* Chooses the texel and the window that the pages begin with, which depends on the texel alone, not
@@ -151,5 +113,25 @@ void gn_pages_fit(const struct gn_fitter *f, const struct gn_window *found, floa
     for (uint32_t p = 0; p < drawn->page_count; p++)
         set_clip(view, drawn->pages[p].corner, near_depth, far_depth,
                  drawn->pages[p].clip_from_world);
-    mark_casts(f);
+
+    /* What may touch the part of a page that is drawn: a texel more to each side, since rasterisers
+     * round. Whether or not an eye needs a caster for what it sees, it is in that part: what a
+     * texel holds does not depend on the eye. */
+    struct gn_shadow_region parts[GN_SHADOW_PAGES_MAX];
+    for (uint32_t p = 0; p < drawn->page_count; p++) {
+        const struct gn_shadow_page *page = &drawn->pages[p];
+        parts[p] = nothing;
+        for (int k = 0; k < 2; k++) {
+            const double from = page->corner[k] + page->from_px[k];
+            parts[p].min[k] = (float)((from - 1) * view->lookup.texel);
+            parts[p].max[k] = (float)((from + page->size_px[k] + 1) * view->lookup.texel);
+        }
+    }
+    for (uint32_t i = 0; i < f->memory->item_count; i++) {
+        if (!f->memory->casts[i]) continue;
+        uint32_t pages = 0;
+        for (uint32_t p = 0; p < drawn->page_count; p++)
+            pages |= (uint32_t)regions_meet(gn_fitter_whole(f, i), &parts[p]) << p;
+        f->memory->casts[i] = (uint8_t)pages;
+    }
 }

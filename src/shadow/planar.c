@@ -68,18 +68,14 @@ static bool is_receiver(const struct planar *f, uint32_t item) {
     return f->pose->scene->items[item].plane && gn_shadow_item_receives(f->pose, item, f->view);
 }
 
-static bool find_plane(struct planar *f) {
-    for (uint32_t i = 0; i < f->pose->scene->item_count; i++)
-        if (is_receiver(f, i)) {
-            gn_pose_plane(f->pose, i, f->plane);
-            return true;
-        }
-    return false;
-}
-
-/* False when the light lies in the plane or shines along it. */
-static bool place_light(struct planar *f) {
+/* The plane, the light and the matrices. False: there is no plane, or the light lies in it or
+ * shines along it. */
+static bool set_plane(struct planar *f) {
     struct gn_shadow_view *view = f->view;
+    uint32_t item = 0;
+    while (item < f->pose->scene->item_count && !is_receiver(f, item)) item++;
+    if (item == f->pose->scene->item_count) return false;
+    gn_pose_plane(f->pose, item, f->plane);
     glm_vec4(view->perspective ? view->light_ws : view->to_light_ws,
              view->perspective ? 1.0f : 0.0f, f->light);
     float height = glm_vec4_dot(f->plane, f->light);
@@ -87,17 +83,14 @@ static bool place_light(struct planar *f) {
     height = fabsf(height);
     if (height < 1e-3f * (view->perspective ? f->scene_size_m : 1.0f)) return false;
     if (!view->perspective) glm_vec4_scale(f->light, 1.0f / height, f->light);
-    return true;
-}
 
-/* Axes in the plane, right-handed with its normal: seen from the light, front faces keep their
- * winding. */
-static void set_matrices(struct planar *f) {
+    /* axes in the plane, right-handed with its normal: seen from the light, front faces keep their
+     * winding */
     vec3 x, y, up = {0.0f, 1.0f, 0.0f}, across = {0.0f, 0.0f, -1.0f};
     glm_vec3_crossn(fabsf(f->plane[1]) > 0.99f ? across : up, f->plane, x);
     glm_vec3_cross(f->plane, x, y);
     mat4 plane_from_world;
-    float height = glm_vec4_dot(f->plane, f->light);
+    height = glm_vec4_dot(f->plane, f->light);
     for (int c = 0; c < 4; c++) {
         vec4 column = {c < 3 ? x[c] : 0.0f, c < 3 ? y[c] : 0.0f, f->plane[c], c == 3};
         glm_vec4_copy(column, plane_from_world[c]);
@@ -106,7 +99,8 @@ static void set_matrices(struct planar *f) {
     }
     glm_mat4_mul(plane_from_world, f->fallen_from_world, f->shadow_from_world);
     for (int c = 0; c < 4; c++) f->shadow_from_world[c][2] = f->plane[c];
-    glm_mat4_copy(plane_from_world, f->view->raster.tiles[0].light_from_world);
+    glm_mat4_copy(plane_from_world, view->raster.tiles[0].light_from_world);
+    return true;
 }
 
 /* ---- casters and receivers ---- */
@@ -114,18 +108,6 @@ static void set_matrices(struct planar *f) {
 static bool is_caster(const struct planar *f, uint32_t item) {
     return f->pose->items[item].visible && !f->pose->scene->items[item].plane &&
            gn_shadow_item_casts(f->pose->scene, item);
-}
-
-static void set_heights(struct planar *f) {
-    float highest = 0.0f;
-    for (uint32_t i = 0; i < f->pose->scene->item_count; i++)
-        if (is_caster(f, i))
-            highest = fmaxf(highest, gn_box_most(f->plane, &f->pose->items[i].box_ws));
-    f->low_m = HAIR * f->scene_size_m + 1e-6f * gn_scene_reach_m(f->pose);
-    f->high_m = 1.01f * highest + 2.0f * f->low_m;
-    if (!f->view->perspective) return;
-    float light_m = glm_vec4_dot(f->plane, f->light);
-    f->high_m = light_m - fmaxf(0.5f * (light_m - highest), LIGHT_SHARE * light_m);
 }
 
 /* Where the shadow of an item falls; empty if it has none. */
@@ -150,46 +132,43 @@ static struct gn_shadow_region shadow_of(const struct planar *f, uint32_t item) 
     return r;
 }
 
-/* The planes that hold what can be seen to be dark: the eye's, and those of a pyramid round a
- * spot's cone. Returns how many. */
-static int seen_planes(const struct planar *f, const struct gn_light *light, vec4 planes[12]) {
-    memcpy(planes, f->eye->planes, sizeof f->eye->planes);
-    if (!gn_light_types[light->type].has_cone) return 6;
-    mat4 look, lens;
-    gn_shadow_look(f->view, look);
-    glm_perspective(2.0f * fminf(light->outer_rad, CONE_MAX_RAD), 1.0f, 1e-3f * f->scene_size_m,
-                    f->scene_size_m, lens);
-    glm_mat4_mul(lens, look, look);
-    glm_frustum_planes(look, planes + 6); /* left, right, bottom, top; near and far are not asked */
-    return 10;
-}
-
-static void add_receiver(const struct planar *f, uint32_t item, vec4 *planes, int count,
-                         struct gn_shadow_region *r) {
-    const struct gn_geometry *g = geometry_of(f, item);
-    if (g->index_count > 3 * GN_EXACT_TRIANGLES) {
-        vec3 corners[8];
-        gn_box_corners(&g->box, f->pose->items[item].world_from_item, corners);
-        add_body(r, f->view->raster.tiles[0].light_from_world, corners, planes, count);
-        return;
-    }
-    for (uint32_t i = 0; i < g->index_count; i += 3) {
-        struct gn_polygon triangle;
-        gn_item_triangle(f->pose, item, i, &triangle);
-        add_polygon(r, f->view->raster.tiles[0].light_from_world, &triangle, planes, count);
-    }
-}
-
 /* What of the plane can be seen to be dark. */
 static struct gn_shadow_region receivers_of(const struct planar *f, const struct gn_light *light) {
     struct gn_shadow_region r = nothing, in_range = nothing;
+    vec4 *plane_from_world = f->view->raster.tiles[0].light_from_world;
+
+    /* the planes that hold it: the eye's, and those of a pyramid round a spot's cone (left, right,
+     * bottom, top; its near and far are not used) */
     vec4 planes[12];
-    int count = seen_planes(f, light, planes);
-    for (uint32_t i = 0; i < f->pose->scene->item_count; i++)
-        if (is_receiver(f, i)) add_receiver(f, i, planes, count, &r);
+    int count = 6;
+    memcpy(planes, f->eye->planes, sizeof f->eye->planes);
+    if (gn_light_types[light->type].has_cone) {
+        mat4 look, lens;
+        gn_shadow_look(f->view, look);
+        glm_perspective(2.0f * fminf(light->outer_rad, CONE_MAX_RAD), 1.0f, 1e-3f * f->scene_size_m,
+                        f->scene_size_m, lens);
+        glm_mat4_mul(lens, look, look);
+        glm_frustum_planes(look, planes + 6);
+        count = 10;
+    }
+    for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
+        if (!is_receiver(f, i)) continue;
+        const struct gn_geometry *g = geometry_of(f, i);
+        if (g->index_count > 3 * GN_EXACT_TRIANGLES) {
+            vec3 corners[8];
+            gn_box_corners(&g->box, f->pose->items[i].world_from_item, corners);
+            add_body(&r, plane_from_world, corners, planes, count);
+            continue;
+        }
+        for (uint32_t k = 0; k < g->index_count; k += 3) {
+            struct gn_polygon triangle;
+            gn_item_triangle(f->pose, i, k, &triangle);
+            add_polygon(&r, plane_from_world, &triangle, planes, count);
+        }
+    }
     if (light->range_m <= 0.0f || !f->view->perspective) return r;
     vec3 foot; /* of the light, round which its range ends */
-    glm_mat4_mulv3(f->view->raster.tiles[0].light_from_world, f->view->light_ws, 1.0f, foot);
+    glm_mat4_mulv3(plane_from_world, f->view->light_ws, 1.0f, foot);
     float radius = sqrtf(fmaxf(light->range_m * light->range_m - foot[2] * foot[2], 0.0f));
     for (int k = 0; k < 2; k++) {
         in_range.min[k] = foot[k] - radius;
@@ -242,19 +221,11 @@ static void set_clip(struct planar *f, const double low[2]) {
     }
 }
 
-/* The mask's window, on whole texels, and what leads there. */
-static void set_mask(struct planar *f, const struct gn_shadow_region *window,
-                     const uint8_t *casts) {
-    double low[2];
-    gn_shadow_snap(f->view, window->min, window->max, 1e-6f * f->scene_size_m, low);
-    set_clip(f, low);
-    f->view->raster.tiles[0].content_hash =
-        gn_shadow_hash(f->pose, f->view, f->view->raster.tiles, casts);
-}
-
-/* Where the eye sees the window. False if it does not. */
-static bool find_on_screen(const struct planar *f, const struct gn_shadow_region *window,
-                           struct gn_shadow_region *screen) {
+/* The eye shall see the casters as they fall; what pierces either height the rasteriser cannot cut
+ * as well, since there w grows with the distance from the eye too: heights are for a shader. */
+static bool set_stencil(struct planar *f, const struct gn_shadow_region *window) {
+    /* where the eye sees the window */
+    struct gn_shadow_region screen = nothing;
     struct gn_polygon quad = {.count = 4};
     mat4 world_from_plane;
     glm_mat4_inv(f->view->raster.tiles[0].light_from_world, world_from_plane);
@@ -263,16 +234,9 @@ static bool find_on_screen(const struct planar *f, const struct gn_shadow_region
                        i >= 2 ? window->max[1] : window->min[1], 0.0f};
         glm_mat4_mulv3(world_from_plane, corner, 1.0f, quad.at[i]);
     }
-    *screen = nothing;
-    add_polygon(screen, (vec4 *)f->eye->clip_from_world, &quad, (vec4 *)f->eye->planes, 6);
-    return !region_is_empty(screen);
-}
+    add_polygon(&screen, (vec4 *)f->eye->clip_from_world, &quad, (vec4 *)f->eye->planes, 6);
+    if (region_is_empty(&screen)) return false;
 
-/* The eye shall see the casters as they fall; what pierces either height the rasteriser cannot cut
- * as well, since there w grows with the distance from the eye too: heights are for a shader. */
-static bool set_stencil(struct planar *f, const struct gn_shadow_region *window) {
-    struct gn_shadow_region screen;
-    if (!find_on_screen(f, window, &screen)) return false;
     glm_mat4_copy(f->fallen_from_world, f->view->raster.tiles[0].clip_from_world);
     f->view->code.near_m = f->low_m;
     f->view->code.far_m = f->high_m;
@@ -285,17 +249,34 @@ static bool set_stencil(struct planar *f, const struct gn_shadow_region *window)
 
 bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
                    struct gn_shadow_memory *memory, struct gn_shadow_view *view) {
-    const struct gn_light *l = &pose->scene->lights[view->light];
     struct planar f = {
         .pose = pose, .eye = eye, .view = view, .scene_size_m = gn_scene_size_m(pose)};
     view->code.scale = view->code.far_end = view->code.far_m = 1.0f;
-    if (!find_plane(&f) || !place_light(&f)) return false;
-    set_matrices(&f);
-    set_heights(&f);
+    if (!set_plane(&f)) return false;
+
+    /* the heights */
+    float highest = 0.0f;
+    for (uint32_t i = 0; i < pose->scene->item_count; i++)
+        if (is_caster(&f, i))
+            highest = fmaxf(highest, gn_box_most(f.plane, &pose->items[i].box_ws));
+    f.low_m = HAIR * f.scene_size_m + 1e-6f * gn_scene_reach_m(pose);
+    f.high_m = 1.01f * highest + 2.0f * f.low_m;
+    if (view->perspective) {
+        const float light_m = glm_vec4_dot(f.plane, f.light);
+        f.high_m = light_m - fmaxf(0.5f * (light_m - highest), LIGHT_SHARE * light_m);
+    }
     if (f.high_m <= f.low_m) return false;
-    struct gn_shadow_region window = find_window(&f, l, memory->casts);
+
+    const struct gn_shadow_region window =
+        find_window(&f, &pose->scene->lights[view->light], memory->casts);
     if (region_is_empty(&window)) return false;
     if (view->encoding == GN_ENCODING_STENCIL) return set_stencil(&f, &window);
-    set_mask(&f, &window, memory->casts);
+
+    /* the mask's window, on whole texels, and what leads there */
+    double low[2];
+    gn_shadow_snap(view, window.min, window.max, 1e-6f * f.scene_size_m, low);
+    set_clip(&f, low);
+    view->raster.tiles[0].content_hash =
+        gn_shadow_hash(pose, view, view->raster.tiles, memory->casts);
     return true;
 }

@@ -24,21 +24,19 @@ void gn_reach_build(struct gn_reach *reach, const struct gn_pose *pose, uint32_t
     if (l->range_m > 0.0f) reach->range_m = fminf(reach->range_m, l->range_m);
 }
 
-/* Of the ball round the box: its centre's distance from the cone's surface. */
-static bool ball_meets_cone(const struct gn_reach *reach, const struct gn_box *box) {
+bool gn_reach_touches(const struct gn_reach *reach, const struct gn_box *box_ws) {
+    if (reach->everywhere) return true;
+    if (!gn_box_is_near(box_ws, reach->place_ws, reach->range_m)) return false;
+    if (!reach->cone) return true;
+
+    /* of the ball round the box: its centre's distance from the cone's surface */
     vec3 centre, v;
-    glm_vec3_center((float *)box->min, (float *)box->max, centre);
-    float radius = 0.5001f * glm_vec3_distance((float *)box->min, (float *)box->max);
+    glm_vec3_center((float *)box_ws->min, (float *)box_ws->max, centre);
+    float radius = 0.5001f * glm_vec3_distance((float *)box_ws->min, (float *)box_ws->max);
     glm_vec3_sub(centre, (float *)reach->place_ws, v);
     float along = glm_vec3_dot(v, (float *)reach->axis_ws);
     float across = sqrtf(fmaxf(glm_vec3_norm2(v) - along * along, 0.0f));
     return across * reach->cos_cone - along * reach->sin_cone <= radius;
-}
-
-bool gn_reach_touches(const struct gn_reach *reach, const struct gn_box *box_ws) {
-    if (reach->everywhere) return true;
-    return gn_box_is_near(box_ws, reach->place_ws, reach->range_m) &&
-           (!reach->cone || ball_meets_cone(reach, box_ws));
 }
 
 /* ---- screen bounds ---- */
@@ -47,18 +45,6 @@ struct bounds { /* -1..1 */
     float min[2], max[2];
 };
 
-static void add_polygon(struct bounds *b, struct gn_polygon *polygon, const struct gn_eye *eye) {
-    for (int i = 0; i < polygon->count; i++) {
-        vec4 p = {polygon->at[i][0], polygon->at[i][1], polygon->at[i][2], 1.0f};
-        glm_mat4_mulv((vec4 *)eye->clip_from_world, p, p);
-        for (int k = 0; k < 2; k++) {
-            float at = p[3] > 0.0f ? p[k] / p[3] : (p[k] < 0.0f ? -1.0f : 1.0f);
-            b->min[k] = fminf(b->min[k], at);
-            b->max[k] = fmaxf(b->max[k], at);
-        }
-    }
-}
-
 /* Face by face, cut by six planes each. */
 static void add_faces(struct bounds *b, const vec3 corners[8], const vec4 planes[6],
                       const struct gn_eye *eye) {
@@ -66,7 +52,15 @@ static void add_faces(struct bounds *b, const vec3 corners[8], const vec4 planes
         struct gn_polygon polygon;
         gn_box_face((vec3 *)corners, face, &polygon);
         for (int i = 0; i < 6; i++) gn_polygon_clip(&polygon, planes[i]);
-        add_polygon(b, &polygon, eye);
+        for (int i = 0; i < polygon.count; i++) {
+            vec4 p = {polygon.at[i][0], polygon.at[i][1], polygon.at[i][2], 1.0f};
+            glm_mat4_mulv((vec4 *)eye->clip_from_world, p, p);
+            for (int k = 0; k < 2; k++) {
+                float at = p[3] > 0.0f ? p[k] / p[3] : (p[k] < 0.0f ? -1.0f : 1.0f);
+                b->min[k] = fminf(b->min[k], at);
+                b->max[k] = fmaxf(b->max[k], at);
+            }
+        }
     }
 }
 
@@ -79,57 +73,51 @@ static struct bounds body_bounds(const vec3 corners[8], const struct gn_eye *eye
     return b;
 }
 
-static void cube_corners(const struct gn_reach *reach, vec3 corners[8]) {
-    for (int i = 0; i < 8; i++)
-        for (int k = 0; k < 3; k++)
-            corners[i][k] = reach->place_ws[k] + (i >> k & 1 ? reach->range_m : -reach->range_m);
-}
-
-/* Four of its eight corners are the light, nearly: a face that is a point has no plane. */
-static void pyramid_corners(const struct gn_reach *reach, vec3 corners[8]) {
-    vec3 side[2], axis;
-    glm_vec3_copy((float *)reach->axis_ws, axis);
-    glm_vec3_ortho(axis, side[0]);
-    glm_vec3_normalize(side[0]);
-    glm_vec3_cross(axis, side[0], side[1]);
-    for (int i = 0; i < 8; i++) {
-        float depth = i & 4 ? reach->range_m : 0.0f;
-        float half = (i & 4 ? 1.0f : 1e-3f) * reach->range_m * reach->sin_cone / reach->cos_cone;
-        glm_vec3_copy((float *)reach->place_ws, corners[i]);
-        glm_vec3_muladds(axis, depth, corners[i]);
-        glm_vec3_muladds(side[0], i & 1 ? half : -half, corners[i]);
-        glm_vec3_muladds(side[1], i & 2 ? half : -half, corners[i]);
-    }
-}
-
 static int pixel(float at, uint32_t size, float pad) {
     float px = (0.5f * at + 0.5f) * (float)size + pad;
     return (int)fminf(fmaxf(pad < 0.0f ? floorf(px) : ceilf(px), 0.0f), (float)size);
 }
 
-/* A pixel more on each side: for rounding, and for samples outside a pixel's middle. */
-static struct gn_reach_rect pixels(const struct bounds *b, uint32_t width_px, uint32_t height_px) {
-    if (!(b->min[0] <= b->max[0])) return (struct gn_reach_rect){0};
-    return (struct gn_reach_rect){
-        pixel(b->min[0], width_px, -1.0f), pixel(b->min[1], height_px, -1.0f),
-        pixel(b->max[0], width_px, 1.0f), pixel(b->max[1], height_px, 1.0f)};
-}
-
 struct gn_reach_rect gn_reach_rect(const struct gn_reach *reach, const struct gn_eye *eye,
                                    uint32_t width_px, uint32_t height_px) {
     if (reach->everywhere) return (struct gn_reach_rect){0, 0, (int)width_px, (int)height_px};
+
+    /* the cube round the ball */
     vec3 corners[8];
-    cube_corners(reach, corners);
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 3; k++)
+            corners[i][k] = reach->place_ws[k] + (i >> k & 1 ? reach->range_m : -reach->range_m);
     struct bounds b = body_bounds(corners, eye);
+
+    /* the pyramid round the cone: four of its eight corners are the light, nearly, since a face
+     * that is a point has no plane */
     if (reach->cone && reach->sin_cone < PYRAMID_MAX_TAN * reach->cos_cone) {
-        pyramid_corners(reach, corners);
-        struct bounds p = body_bounds(corners, eye);
+        vec3 side[2], axis;
+        glm_vec3_copy((float *)reach->axis_ws, axis);
+        glm_vec3_ortho(axis, side[0]);
+        glm_vec3_normalize(side[0]);
+        glm_vec3_cross(axis, side[0], side[1]);
+        for (int i = 0; i < 8; i++) {
+            float depth = i & 4 ? reach->range_m : 0.0f;
+            float half =
+                (i & 4 ? 1.0f : 1e-3f) * reach->range_m * reach->sin_cone / reach->cos_cone;
+            glm_vec3_copy((float *)reach->place_ws, corners[i]);
+            glm_vec3_muladds(axis, depth, corners[i]);
+            glm_vec3_muladds(side[0], i & 1 ? half : -half, corners[i]);
+            glm_vec3_muladds(side[1], i & 2 ? half : -half, corners[i]);
+        }
+        const struct bounds p = body_bounds(corners, eye);
         for (int k = 0; k < 2; k++) {
             b.min[k] = fmaxf(b.min[k], p.min[k]);
             b.max[k] = fminf(b.max[k], p.max[k]);
         }
     }
-    return pixels(&b, width_px, height_px);
+
+    /* a pixel more on each side: for rounding, and for samples outside a pixel's middle */
+    if (!(b.min[0] <= b.max[0])) return (struct gn_reach_rect){0};
+    return (struct gn_reach_rect){
+        pixel(b.min[0], width_px, -1.0f), pixel(b.min[1], height_px, -1.0f),
+        pixel(b.max[0], width_px, 1.0f), pixel(b.max[1], height_px, 1.0f)};
 }
 
 struct gn_reach_rect gn_reach_rect_unite(struct gn_reach_rect a, struct gn_reach_rect b) {

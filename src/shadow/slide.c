@@ -11,22 +11,20 @@ enum gn_slide gn_slide_of(const struct gn_light *light) {
     return light->slide_lit_outside ? GN_SLIDE_LIT : GN_SLIDE_DARK;
 }
 
-/* Width and height of the slide one metre from the lamp; returns how far away it is. */
-static float spread(const struct gn_light *light, float size[2]) {
-    const float *given = light->slide_size_m;
-    float cone = 2.0f * tanf(fminf(light->outer_rad, GN_SPOT_MAX_RAD));
-    float distance = light->slide_distance_m;
-    size[0] = size[1] = cone;
-    if (given[0] <= 0.0f || given[1] <= 0.0f) return distance;
-    if (distance <= 0.0f) distance = fmaxf(given[0], given[1]) / cone;
-    for (int k = 0; k < 2; k++) size[k] = given[k] / distance;
-    return distance;
-}
-
 void gn_slide_build(const struct gn_pose *pose, uint32_t light, struct gn_slide_view *view) {
+    const struct gn_light *l = &pose->scene->lights[light];
+
+    /* how far away it is, and its width and height one metre from the lamp */
+    const float *given = l->slide_size_m;
+    const float cone = 2.0f * tanf(fminf(l->outer_rad, GN_SPOT_MAX_RAD));
+    float distance = l->slide_distance_m, size[2] = {cone, cone};
+    if (given[0] > 0.0f && given[1] > 0.0f) {
+        if (distance <= 0.0f) distance = fmaxf(given[0], given[1]) / cone;
+        for (int k = 0; k < 2; k++) size[k] = given[k] / distance;
+    }
+    view->near_m = fmaxf(distance, LEAST_M);
+
     mat4 light_from_world;
-    float size[2];
-    view->near_m = fmaxf(spread(&pose->scene->lights[light], size), LEAST_M);
     gn_pose_light_view(pose, light, light_from_world);
     for (int c = 0; c < 4; c++) {
         float x = light_from_world[c][0], y = light_from_world[c][1],

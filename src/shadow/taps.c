@@ -8,18 +8,15 @@
 
 static const float (*const poisson[])[2] = {poisson_8, poisson_16, poisson_32};
 
-static void build_disk(int count, float (*out)[2]) {
+void gn_taps_build(enum gn_taps kind, int count, float (*out)[2]) {
+    assert(count == 8 || count == 16 || count == 32);
+    if (kind == GN_TAPS_POISSON) {
+        memcpy(out, poisson[count / 16], (size_t)count / 2 * sizeof *out);
+        return;
+    }
     for (int i = 0; i < count / 2; i++) {
         double radius = sqrt((2 * i + 1.0) / count), angle = i * 2.399963229728653;
         out[i][0] = (float)(radius * cos(angle));
         out[i][1] = (float)(radius * sin(angle));
     }
-}
-
-void gn_taps_build(enum gn_taps kind, int count, float (*out)[2]) {
-    assert(count == 8 || count == 16 || count == 32);
-    if (kind == GN_TAPS_POISSON)
-        memcpy(out, poisson[count / 16], (size_t)count / 2 * sizeof *out);
-    else
-        build_disk(count, out);
 }

@@ -52,20 +52,18 @@ void gn_shadow_set_frustums(struct gn_shadow_view *view, const double low[2], fl
                      view->raster.tiles[i].clip_from_world);
 }
 
-static uint64_t hash_page(uint64_t h, const struct gn_shadow_page *page) {
-    h = gn_hash(h, page->corner, sizeof page->corner);
-    h = gn_hash(h, page->from_px, sizeof page->from_px);
-    return gn_hash(h, page->size_px, sizeof page->size_px);
-}
-
 uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view *view,
                         const struct gn_shadow_tile *tile, const uint8_t *casts) {
     float code[] = {view->code.scale, view->code.offset, view->code.far_end,
                     (float)view->map.tile_px, (float)view->encoding};
     uint64_t h = gn_hash(GN_HASH_INIT, code, sizeof code);
     if (!tile->empty) h = gn_hash(h, tile->clip_from_world, sizeof tile->clip_from_world);
-    for (uint32_t p = 0; p < view->raster.drawn.page_count; p++)
-        h = hash_page(h, &view->raster.drawn.pages[p]);
+    for (uint32_t p = 0; p < view->raster.drawn.page_count; p++) {
+        const struct gn_shadow_page *page = &view->raster.drawn.pages[p];
+        h = gn_hash(h, page->corner, sizeof page->corner);
+        h = gn_hash(h, page->from_px, sizeof page->from_px);
+        h = gn_hash(h, page->size_px, sizeof page->size_px);
+    }
     for (uint32_t i = 0; i < pose->scene->item_count && !tile->empty; i++)
         if (casts[i]) {
             uint64_t item[2] = {i, pose->items[i].hash};

@@ -17,52 +17,36 @@ static bool item_receives(const struct gn_fitter *f, uint32_t item) {
     return gn_shadow_item_receives(f->pose, item, f->view);
 }
 
-static bool item_casts(const struct gn_fitter *f, uint32_t item) {
-    return f->pose->items[item].visible && gn_shadow_item_casts(f->pose->scene, item);
-}
-
-/* Only large flat casters are worth the walk. */
-static bool is_large_flat(const struct gn_fitter *f, uint32_t item) {
+/* What a caster covers; of a large flat one the part that has any receiver behind its plane, seen
+ * or not. That is a walk over all items: of as many as `looks`, in order, that is done; of a scene
+ * of thousands of them the others count whole. */
+static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t item,
+                                             uint32_t *looks) {
+    const struct gn_shadow_region *whole = gn_fitter_whole(f, item);
     const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
     const struct gn_box *box = &f->pose->items[item].box_ws;
-    return g->flat &&
-           glm_vec3_distance((float *)box->min, (float *)box->max) > 0.25f * f->scene_size_m;
-}
+    if (region_is_empty(whole) || *looks < f->memory->item_count || !g->flat ||
+        !(glm_vec3_distance((float *)box->min, (float *)box->max) > 0.25f * f->scene_size_m))
+        return *whole;
+    *looks -= f->memory->item_count;
 
-/* The flat item's plane in world space, its light's side positive. False when it is seen edge-on by
- * the light. */
-static bool lit_plane(const struct gn_fitter *f, uint32_t item, vec4 plane) {
-    gn_pose_plane(f->pose, item, plane);
-    float towards = f->view->perspective
-                        ? glm_vec3_dot(plane, f->view->light_ws) + plane[3]
-                        : glm_vec3_dot(plane, f->view->to_light_ws) * f->scene_size_m;
-    if (towards < 0.0f) glm_vec4_negate(plane);
-    return fabsf(towards) > 1e-4f * f->scene_size_m;
-}
-
-/* The part of a large flat caster's region that has any receiver behind its plane, seen or not. */
-static struct gn_shadow_region useful_region(const struct gn_fitter *f, uint32_t item,
-                                             const struct gn_shadow_region *whole) {
+    /* its plane in world space, the light's side positive, unless the light sees it edge-on */
     vec4 plane;
-    if (!lit_plane(f, item, plane)) return *whole;
+    gn_pose_plane(f->pose, item, plane);
+    const float towards = f->view->perspective
+                              ? glm_vec3_dot(plane, f->view->light_ws) + plane[3]
+                              : glm_vec3_dot(plane, f->view->to_light_ws) * f->scene_size_m;
+    if (towards < 0.0f) glm_vec4_negate(plane);
+    if (!(fabsf(towards) > 1e-4f * f->scene_size_m)) return *whole;
+
     struct gn_shadow_region behind = nothing;
     for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
         if (i == item || !item_receives(f, i)) continue;
         if (gn_box_least(plane, &f->pose->items[i].box_ws) >= -1e-4f * f->scene_size_m) continue;
         unite(&behind, gn_fitter_whole(f, i));
     }
-    struct gn_shadow_region r = intersect(whole, &behind);
+    const struct gn_shadow_region r = intersect(whole, &behind);
     return region_is_empty(&r) ? nothing : r;
-}
-
-/* Each large flat caster is a walk over all items: of as many as `looks`, in order, that is done;
- * of a scene of thousands of them the others count whole. */
-static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t item,
-                                             uint32_t *looks) {
-    const struct gn_shadow_region *r = gn_fitter_whole(f, item);
-    if (region_is_empty(r) || *looks < f->memory->item_count || !is_large_flat(f, item)) return *r;
-    *looks -= f->memory->item_count;
-    return useful_region(f, item, r);
 }
 
 /* How far off, in plane units, a caster can reach by its penumbra: as in gn_fitter_set_penumbra().
@@ -90,27 +74,6 @@ bool gn_window_is_all(const struct gn_fitter *f) {
     return true;
 }
 
-/* Where any eye's window is: what all casters cover, and all receivers. */
-static struct gn_shadow_region most_of_all(const struct gn_fitter *f,
-                                           const struct gn_shadow_region *receivers,
-                                           const struct gn_shadow_region *casters) {
-    const struct gn_shadow_region reached =
-        grown(receivers, reach(f, casters->near, receivers->far));
-    return intersect(casters, &reached);
-}
-
-/* What receives: what of it counts, and all of it. */
-static void unite_receivers(const struct gn_fitter *f, bool everything,
-                            struct gn_shadow_region *receivers, struct gn_shadow_region *all) {
-    *receivers = *all = nothing;
-    for (uint32_t i = 0; i < f->memory->item_count; i++) {
-        const struct gn_shadow_region *seen = receiver_region(f, i, everything);
-        if (seen) unite(receivers, seen);
-        if (seen != gn_fitter_whole(f, i) && item_receives(f, i)) unite(all, gn_fitter_whole(f, i));
-    }
-    unite(all, receivers);
-}
-
 /* Round all places of which a sun's penumbra reaches those receivers: the farther from these
  * towards the light, the farther aside. World space. */
 enum { REACH_PLANES = 5 };
@@ -128,12 +91,6 @@ static void reach_planes(const struct gn_fitter *f, const struct gn_shadow_regio
             planes[i][c] = glm_vec4_dot(of_light[i], (float *)f->tile->light_from_world[c]);
 }
 
-static bool holds(const struct gn_shadow_region *a, const struct gn_shadow_region *b) {
-    for (int k = 0; k < 2; k++)
-        if (b->min[k] < a->min[k] || b->max[k] > a->max[k]) return false;
-    return true;
-}
-
 /* The casters that matter for those receivers, united; marks those. */
 static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
                                              const struct gn_shadow_region *receivers,
@@ -148,7 +105,7 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
     *depths = nothing;
     memset(casts, 0, f->memory->item_count);
     for (uint32_t i = 0; i < f->memory->item_count; i++) {
-        if (!item_casts(f, i)) continue;
+        if (!f->pose->items[i].visible || !gn_shadow_item_casts(f->pose->scene, i)) continue;
         struct gn_shadow_region r = caster_region(f, i, &looks);
         if (region_is_empty(&r)) continue;
         unite(depths, &r);
@@ -157,9 +114,10 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
         /* What a whole tile holds, or a page, does not go with the eye. */
         casts[i] = matters || f->view->map.tile_count > 1 || !f->view->perspective;
         if (!matters) continue;
-        const bool cut = near_counts && !holds(receivers, &r);
+        const bool is_long = r.min[0] < receivers->min[0] || r.max[0] > receivers->max[0] ||
+                             r.min[1] < receivers->min[1] || r.max[1] > receivers->max[1];
         r = intersect(&r, &reached);
-        if (cut) { /* what is long is not as near all over */
+        if (near_counts && is_long) { /* it is not as near all over */
             const struct gn_shadow_region part = gn_fitter_within(f, i, planes, REACH_PLANES);
             r = intersect(&part, &r);
         }
@@ -169,13 +127,24 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
 }
 
 bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window *found) {
-    struct gn_shadow_region receivers, all, again = nothing;
-    unite_receivers(f, everything, &receivers, &all);
+    /* what receives: what of it counts, and all of it */
+    struct gn_shadow_region receivers = nothing, all = nothing, again = nothing;
+    for (uint32_t i = 0; i < f->memory->item_count; i++) {
+        const struct gn_shadow_region *seen = receiver_region(f, i, everything);
+        if (seen) unite(&receivers, seen);
+        if (seen != gn_fitter_whole(f, i) && item_receives(f, i))
+            unite(&all, gn_fitter_whole(f, i));
+    }
+    unite(&all, &receivers);
+
+    /* where any eye's window is: what all casters cover, and all receivers */
     const struct gn_shadow_region casters = unite_casters(f, &receivers, &found->depths);
     if (region_is_empty(&casters)) return false;
-    found->most = most_of_all(f, &all, &found->depths);
-    for (uint32_t i = 0; i < f->memory->item_count; i++) { /* receivers once more, now that the
-                                                              casters are known */
+    const struct gn_shadow_region all_reached = grown(&all, reach(f, found->depths.near, all.far));
+    found->most = intersect(&found->depths, &all_reached);
+
+    /* receivers once more, now that the casters are known */
+    for (uint32_t i = 0; i < f->memory->item_count; i++) {
         const struct gn_shadow_region *seen = receiver_region(f, i, everything);
         if (!seen) continue;
         const struct gn_shadow_region *whole = gn_fitter_whole(f, i);
