@@ -36,16 +36,6 @@ struct gn_arena_block {
 static _Atomic unsigned long requests;
 static unsigned long fail_countdown;
 
-static bool must_fail(void) {
-    if (fail_countdown == 0) return false;
-    fail_countdown--;
-    return fail_countdown == 0;
-}
-
-static size_t block_room(const struct gn_arena_block *block) {
-    return block ? block->size - block->used : 0;
-}
-
 /* Puts a new block after the current one. */
 static struct gn_arena_block *add_block(struct gn_arena *arena, size_t least) {
     size_t size = arena->block ? arena->block : DEFAULT_BLOCK;
@@ -62,27 +52,21 @@ static struct gn_arena_block *add_block(struct gn_arena *arena, size_t least) {
     return block;
 }
 
-/* After a reset the blocks behind the current one are empty: the first that is large enough is
- * moved up. */
-static struct gn_arena_block *reuse_block(struct gn_arena *arena, size_t least) {
-    if (!arena->current) return NULL;
-    for (struct gn_arena_block **link = &arena->current->next; *link; link = &(*link)->next) {
-        struct gn_arena_block *found = *link;
-        if (found->size < least) continue;
-        *link = found->next;
-        found->next = arena->current->next;
-        arena->current->next = found;
-        return found;
-    }
-    return NULL;
-}
-
+/* In the current block, in an empty one behind it, where a reset leaves them, or in a new one. */
 static bool find_room(struct gn_arena *arena, size_t size) {
-    if (arena->current && block_room(arena->current) >= size) return true;
-    struct gn_arena_block *block = reuse_block(arena, size);
-    if (!block) block = add_block(arena, size);
-    if (block) arena->current = block;
-    return block != NULL;
+    struct gn_arena_block *current = arena->current, *found = NULL;
+    if (current && current->size - current->used >= size) return true;
+    struct gn_arena_block **link = current ? &current->next : NULL;
+    while (link && *link && (*link)->size < size) link = &(*link)->next;
+    if (link && *link) { /* moved up */
+        found = *link;
+        *link = found->next;
+        found->next = current->next;
+        current->next = found;
+    }
+    if (!found) found = add_block(arena, size);
+    if (found) arena->current = found;
+    return found != NULL;
 }
 
 static size_t padded_size(size_t bytes) {
@@ -91,7 +75,8 @@ static size_t padded_size(size_t bytes) {
 
 void *gn_arena_alloc(struct gn_arena *arena, size_t count, size_t size) {
     size_t bytes;
-    if (must_fail() || __builtin_mul_overflow(count, size, &bytes)) return NULL;
+    if (fail_countdown > 0 && --fail_countdown == 0) return NULL;
+    if (__builtin_mul_overflow(count, size, &bytes)) return NULL;
     if (bytes > SIZE_MAX / 2 || (arena->limit && bytes > arena->limit - arena->used)) return NULL;
     if (!find_room(arena, padded_size(bytes))) return NULL;
     unsigned char *data = arena->current->data + arena->current->used;

@@ -25,23 +25,6 @@ void gn_child_unshare(void *shared, size_t size) {
     if (shared) munmap(shared, size);
 }
 
-static void silence_standard_files(void) {
-    int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-    for (int fd = 0; nothing >= 0 && fd < 3; fd++) dup2(nothing, fd);
-}
-
-static bool fail_end(int status, struct gn_err *err) {
-    if (WIFSIGNALED(status)) return gn_fail(err, "crashes (%s)", strsignal(WTERMSIG(status)));
-    return WEXITSTATUS(status) == 0 || gn_fail(err, "exits (status %d)", WEXITSTATUS(status));
-}
-
-/* Sleeps 0.1 s, less in the first rounds: most work is short. The child's exit ends the sleep where
- * the kernel has pidfd_open() (5.3). */
-static void poll_child(int round, int end) {
-    struct pollfd wake = {.fd = end, .events = POLLIN};
-    poll(&wake, 1, round < 20 ? 5 : 100);
-}
-
 static bool end_child(pid_t pid) {
     kill(pid, SIGKILL);
     waitpid(pid, NULL, 0);
@@ -56,7 +39,11 @@ static bool wait_for_child(pid_t pid, int end, const struct gn_child *child, voi
     for (int round = 0;; round++) {
         pid_t ended = waitpid(pid, &status, WNOHANG);
         if (child->watch) child->watch(shared, child->argument);
-        if (ended == pid) return fail_end(status, err);
+        if (ended == pid && WIFSIGNALED(status))
+            return gn_fail(err, "crashes (%s)", strsignal(WTERMSIG(status)));
+        if (ended == pid)
+            return WEXITSTATUS(status) == 0 ||
+                   gn_fail(err, "exits (status %d)", WEXITSTATUS(status));
         if (ended < 0 && errno != EINTR)
             return gn_fail(err, "cannot be waited for: %s", strerror(errno));
         if (child->stop && child->stop()) return end_child(pid) || gn_fail(err, "was stopped");
@@ -65,26 +52,28 @@ static bool wait_for_child(pid_t pid, int end, const struct gn_child *child, voi
         seen = now;
         if (gn_clock_monotonic_ns() - since_ns > stall_s * GN_NS_PER_S)
             return end_child(pid) || gn_fail(err, "hangs (no progress for %d s)", stall_s);
-        poll_child(round, end);
-    }
-}
 
-static bool wait_and_close(pid_t pid, const struct gn_child *child, void *shared,
-                           struct gn_err *err) {
-    int end = (int)syscall(SYS_pidfd_open, pid, 0);
-    bool ok = wait_for_child(pid, end, child, shared, err);
-    if (end >= 0) close(end);
-    return ok;
+        /* Sleeps 0.1 s, less in the first rounds: most work is short. The child's exit ends the
+         * sleep where the kernel has pidfd_open() (5.3). */
+        struct pollfd wake = {.fd = end, .events = POLLIN};
+        poll(&wake, 1, round < 20 ? 5 : 100);
+    }
 }
 
 bool gn_child_run(const struct gn_child *child, void *shared, struct gn_err *err) {
     fflush(NULL);
     pid_t parent = getpid(), pid = fork();
     if (pid < 0) return gn_fail(err, "cannot be started: %s", strerror(errno));
-    if (pid > 0) return wait_and_close(pid, child, shared, err);
+    if (pid > 0) {
+        int end = (int)syscall(SYS_pidfd_open, pid, 0);
+        bool ok = wait_for_child(pid, end, child, shared, err);
+        if (end >= 0) close(end);
+        return ok;
+    }
     prctl(PR_SET_PDEATHSIG, SIGKILL);  /* dies with an interrupted parent */
     if (getppid() != parent) _exit(0); /* the parent died before prctl() */
-    silence_standard_files();
+    int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+    for (int fd = 0; nothing >= 0 && fd < 3; fd++) dup2(nothing, fd);
     child->work(shared, child->argument);
     _exit(0);
 }

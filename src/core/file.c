@@ -29,18 +29,6 @@ static bool fail_size(struct gn_err *err, const char *path, size_t limit) {
     return gn_fail(err, "%s: larger than the limit of %zu bytes", path, limit);
 }
 
-/* Does not block: neither on a FIFO without a writer nor on a device. */
-static bool open_regular(const char *path, int *fd, struct stat *info, struct gn_err *err) {
-    *fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (*fd < 0 && errno == ENXIO)
-        return gn_fail(err, "%s: is a socket or device, not a file", path);
-    if (*fd < 0) return fail_errno(err, path, "open");
-    if (fstat(*fd, info) != 0) return fail_errno(err, path, "read");
-    if (!S_ISREG(info->st_mode))
-        return gn_fail(err, "%s: is %s, not a file", path, kind_name(info->st_mode));
-    return true;
-}
-
 /* The size that the file had when it was opened is a hint only: it may grow, and files of /proc say
  * 0. */
 static bool read_all(int fd, const char *path, size_t hint, size_t limit, struct gn_bytes *out,
@@ -67,11 +55,22 @@ static bool read_all(int fd, const char *path, size_t hint, size_t limit, struct
 
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err) {
     struct stat info = {0};
-    int fd = -1;
+    bool ok = false;
     *out = (struct gn_bytes){0};
-    bool ok = open_regular(path, &fd, &info, err);
-    if (ok && limit && (uintmax_t)info.st_size > limit) ok = fail_size(err, path, limit);
-    ok = ok && read_all(fd, path, (size_t)info.st_size, limit, out, err);
+    /* does not block: neither on a FIFO without a writer nor on a device */
+    int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (fd < 0 && errno == ENXIO)
+        gn_fail(err, "%s: is a socket or device, not a file", path);
+    else if (fd < 0)
+        fail_errno(err, path, "open");
+    else if (fstat(fd, &info) != 0)
+        fail_errno(err, path, "read");
+    else if (!S_ISREG(info.st_mode))
+        gn_fail(err, "%s: is %s, not a file", path, kind_name(info.st_mode));
+    else if (limit && (uintmax_t)info.st_size > limit)
+        fail_size(err, path, limit);
+    else
+        ok = read_all(fd, path, (size_t)info.st_size, limit, out, err);
     close_quietly(fd);
     if (!ok) gn_bytes_finish(out);
     return ok;
@@ -108,48 +107,38 @@ static int descriptor_of(const char *path) {
     return -1;
 }
 
-/* The descriptor that a path names, with the position it already has, or a new one. */
-static int open_direct(const char *path) {
-    int fd = descriptor_of(path);
-    return fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
-}
-
-/* A descriptor may name a regular file: truncates it after the data. */
-static bool cut_rest_of_file(int fd) {
+/* Into the descriptor that the path names, at the position it already has, or a new one. */
+static bool write_in_place(const char *path, const void *data, size_t size, struct gn_err *err) {
     struct stat info;
-    if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) return true;
-    off_t end = lseek(fd, 0, SEEK_CUR);
-    return end >= 0 && ftruncate(fd, end) == 0;
-}
-
-static bool write_direct(const char *path, const void *data, size_t size, struct gn_err *err) {
-    int fd = open_direct(path);
+    int fd = descriptor_of(path);
+    fd = fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
     if (fd < 0) return fail_errno(err, path, "write");
-    bool ok = write_all(fd, data, size) && cut_rest_of_file(fd);
+    bool ok = write_all(fd, data, size);
+    if (ok && fstat(fd, &info) == 0 && S_ISREG(info.st_mode)) { /* it ends after the data */
+        off_t end = lseek(fd, 0, SEEK_CUR);
+        ok = end >= 0 && ftruncate(fd, end) == 0;
+    }
     if (!ok) fail_errno(err, path, "write");
     if (close(fd) != 0 && ok) ok = fail_errno(err, path, "write");
     return ok;
 }
 
-static int create_beside(const char *target, char *name, size_t size) {
-    const char *slash = strrchr(target, '/');
-    int folder = slash ? (int)(slash - target + 1) : 0;
-    int fd = -1;
-    for (int attempt = 0; attempt < 100 && fd < 0; attempt++) {
-        int length =
-            snprintf(name, size, "%.*s.gnomon-%ld-%d", folder, target, (long)getpid(), attempt);
-        if (length >= (int)size) errno = ENAMETOOLONG;
-        if (length >= (int)size) return -1;
-        fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd < 0 && errno != EEXIST) return -1;
-    }
-    return fd;
-}
-
 static bool write_and_rename(const char *path, const char *target, const struct stat *old,
                              const void *data, size_t size, struct gn_err *err) {
+    /* beside the target, under a name that is not taken */
     char name[PATH_MAX];
-    int fd = create_beside(target, name, sizeof name);
+    const char *slash = strrchr(target, '/');
+    int folder = slash ? (int)(slash - target + 1) : 0, fd = -1;
+    for (int attempt = 0; attempt < 100 && fd < 0; attempt++) {
+        int length = snprintf(name, sizeof name, "%.*s.gnomon-%ld-%d", folder, target,
+                              (long)getpid(), attempt);
+        if (length >= (int)sizeof name) {
+            errno = ENAMETOOLONG;
+            break;
+        }
+        fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd < 0 && errno != EEXIST) break;
+    }
     if (fd < 0) return fail_errno(err, path, "write");
     bool ok = write_all(fd, data, size) && (!old || fchmod(fd, old->st_mode & 07777) == 0) &&
               fsync(fd) == 0;
@@ -163,13 +152,6 @@ static bool write_and_rename(const char *path, const char *target, const struct 
     unlink(name);
     errno = reason;
     return fail_errno(err, path, "write");
-}
-
-/* Whether a path is not a regular file, or names a descriptor. /dev/shm holds regular files. */
-static bool is_direct(const char *path, const struct stat *info) {
-    if (info && !S_ISREG(info->st_mode)) return true;
-    if (strncmp(path, "/dev/shm/", 9) == 0) return false;
-    return strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
 }
 
 /* A link's target, which need not exist; else NULL. The caller frees it. */
@@ -189,7 +171,13 @@ bool gn_file_write(const char *path, const void *data, size_t size, struct gn_er
     bool exists = stat(path, &info) == 0;
     if (exists && S_ISDIR(info.st_mode)) return gn_fail(err, "%s: cannot write: is a folder", path);
     if (!path[0]) return gn_fail(err, "cannot write to a file without a name");
-    if (is_direct(path, exists ? &info : NULL)) return write_direct(path, data, size, err);
+
+    /* written in place: what is not a regular file, or names a descriptor; /dev/shm holds regular
+     * files */
+    const bool in_dev = strncmp(path, "/dev/", 5) == 0 && strncmp(path, "/dev/shm/", 9) != 0;
+    if ((exists && !S_ISREG(info.st_mode)) || in_dev || strncmp(path, "/proc/", 6) == 0)
+        return write_in_place(path, data, size, err);
+
     if (exists && access(path, W_OK) != 0) return fail_errno(err, path, "write");
     char *real = follow_link(path); /* a link stays a link */
     bool ok = write_and_rename(path, real ? real : path, exists ? &info : NULL, data, size, err);
@@ -214,15 +202,14 @@ void gn_file_fill_standard(void) {
     close_quietly(fd);
 }
 
-static bool reader_has_gone(void) {
-    struct pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT};
-    return poll(&output, 1, 0) == 1 && output.revents & (POLLERR | POLLHUP);
-}
-
 /* errno is unknown if an earlier write failed. */
 bool gn_file_flush_output(struct gn_err *err) {
     bool bad = ferror(stdout), flushed = fflush(stdout) == 0;
-    if ((flushed && !bad) || reader_has_gone()) return true;
+    if (flushed && !bad) return true;
+    int reason = errno;
+    struct pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    if (poll(&output, 1, 0) == 1 && output.revents & (POLLERR | POLLHUP))
+        return true; /* the reader has closed the pipe */
     return gn_fail(err, "standard output: cannot write%s%s", flushed ? " all output" : ": ",
-                   flushed ? "" : strerror(errno));
+                   flushed ? "" : strerror(reason));
 }

@@ -126,23 +126,6 @@ int64_t gn_loop_now_ns(const struct gn_loop *loop) {
     return loop->clock_ns ? *loop->clock_ns : gn_clock_monotonic_ns();
 }
 
-static int64_t first_due_ns(const struct gn_loop *loop, int64_t until_ns) {
-    for (const struct gn_loop_link *at = loop->timers.first; at; at = at->next) {
-        const int64_t due_ns = ((const struct gn_timer *)at)->due_ns;
-        if (due_ns < until_ns) until_ns = due_ns;
-    }
-    return until_ns;
-}
-
-/* It stays readable once it is over; to be armed again resets that, so it is never read. */
-static void arm_timer(struct gn_loop *loop, int64_t at_ns) {
-    if (at_ns == loop->armed_ns) return;
-    loop->armed_ns = at_ns;
-    const int64_t ns = at_ns == GN_LOOP_NEVER ? 0 : at_ns; /* 0 disarms it */
-    const struct itimerspec when = {.it_value = {ns / GN_NS_PER_S, ns % GN_NS_PER_S}};
-    timerfd_settime(loop->timer, TFD_TIMER_ABSTIME, &when, NULL);
-}
-
 /* Collects what is ready into the watches; returns how many are. */
 static int collect_events(struct gn_loop *loop, int timeout_ms) {
     struct epoll_event events[READY_MAX];
@@ -187,17 +170,27 @@ static int call_timers(struct gn_loop *loop, int64_t now_ns) {
 
 int gn_loop_step(struct gn_loop *loop, int64_t until_ns) {
     assert(!loop->runs);
-    const int64_t at_ns = first_due_ns(loop, until_ns);
+    for (const struct gn_loop_link *at = loop->timers.first; at; at = at->next) {
+        const int64_t due_ns = ((const struct gn_timer *)at)->due_ns;
+        if (due_ns < until_ns) until_ns = due_ns;
+    }
     int ready = 0;
-    if (!loop->clock_ns && at_ns > gn_clock_monotonic_ns()) {
-        arm_timer(loop, at_ns);
+    if (!loop->clock_ns && until_ns > gn_clock_monotonic_ns()) {
+        /* the timerfd stays readable once it is over; arming it again resets that, so it is never
+         * read */
+        if (until_ns != loop->armed_ns) {
+            const int64_t ns = until_ns == GN_LOOP_NEVER ? 0 : until_ns; /* 0 disarms it */
+            const struct itimerspec when = {.it_value = {ns / GN_NS_PER_S, ns % GN_NS_PER_S}};
+            loop->armed_ns = until_ns;
+            timerfd_settime(loop->timer, TFD_TIMER_ABSTIME, &when, NULL);
+        }
         ready = collect_events(loop, -1);
     }
     int64_t now_ns = gn_loop_now_ns(loop);
     ready +=
         collect_events(loop, 0); /* what came between the wait and now_ns is from before now_ns */
-    if (!ready && loop->clock_ns && at_ns > now_ns && at_ns < GN_LOOP_NEVER)
-        now_ns = *loop->clock_ns = at_ns;
+    if (!ready && loop->clock_ns && until_ns > now_ns && until_ns < GN_LOOP_NEVER)
+        now_ns = *loop->clock_ns = until_ns;
     loop->runs = true;
     int calls = ready ? call_watches(loop, now_ns) : 0;
     calls += call_timers(loop, now_ns);

@@ -23,14 +23,14 @@ void gn_stop_signals(sigset_t *signals) {
     sigaddset(signals, SIGHUP);
 }
 
-static void end(int signal) {
+static void exit_at_once(int signal) {
     (void)signal;
     _exit(GN_EXIT_OK);
 }
 
 void gn_stop_at_once(void) {
     static const int signals[] = {SIGTERM, SIGINT};
-    struct sigaction old, now = {.sa_handler = end};
+    struct sigaction old, now = {.sa_handler = exit_at_once};
     for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
         if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
             sigaction(signals[i], &now, NULL);

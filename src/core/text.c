@@ -1,5 +1,6 @@
 #include "core/text.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,32 +8,14 @@
 #define DISTANCE_MAX 31
 #define ENDS_MIN     64 /* texts of fewer bytes are cut at the end */
 
-static int is_control(const unsigned char *c) {
-    return *c < 0x20 || *c == 0x7f || (c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0);
-}
-
-static void drop_control(char *text) {
-    char *to = text;
-    for (const char *from = text; *from; from++) {
-        const unsigned char *c = (const unsigned char *)from;
-        if (!is_control(c))
-            *to++ = *from;
-        else if (*c == 0xc2)
-            from++;
-    }
-    *to = '\0';
-}
-
-static size_t utf8_length(unsigned char lead) {
-    return lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;
-}
-
 static void cut_at_character(char *text, size_t length) {
     size_t start = length;
     while (start > 0 && length - start < 4 && ((unsigned char)text[start - 1] & 0xc0) == 0x80)
         start--;
     if (start == 0) return;
-    if (start - 1 + utf8_length((unsigned char)text[start - 1]) > length) text[start - 1] = '\0';
+    const unsigned char lead = (unsigned char)text[start - 1];
+    const size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;
+    if (start - 1 + bytes > length) text[start - 1] = '\0';
 }
 
 /* Fills out with the beginning and the end of text. */
@@ -60,7 +43,17 @@ void gn_text_vformat(char *out, size_t size, const char *format, va_list args) {
         free(all);
     }
     va_end(again);
-    drop_control(out);
+
+    /* without control characters: those of ASCII, and U+0080 to U+009F */
+    char *to = out;
+    for (const unsigned char *c = (const unsigned char *)out; *c; c++) {
+        const bool is_long = c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0;
+        if (is_long)
+            c++;
+        else if (*c >= 0x20 && *c != 0x7f)
+            *to++ = (char)*c;
+    }
+    *to = '\0';
 }
 
 static int least_of_three(int a, int b, int c) {

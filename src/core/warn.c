@@ -6,12 +6,6 @@
 
 #include "core/text.h"
 
-static bool is_held(const struct gn_warnings *warnings, const char *text) {
-    for (int i = 0; i < warnings->count; i++)
-        if (strcmp(warnings->text[i], text) == 0) return true;
-    return false;
-}
-
 void gn_warn(struct gn_warnings *warnings, const char *format, ...) {
     if (!warnings) return;
     char text[sizeof warnings->text[0]];
@@ -19,7 +13,8 @@ void gn_warn(struct gn_warnings *warnings, const char *format, ...) {
     va_start(args, format);
     gn_text_vformat(text, sizeof text, format, args);
     va_end(args);
-    if (is_held(warnings, text)) return;
+    for (int i = 0; i < warnings->count; i++)
+        if (strcmp(warnings->text[i], text) == 0) return;
     if (warnings->count == GN_WARN_MAX)
         warnings->dropped++;
     else
