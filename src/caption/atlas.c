@@ -22,7 +22,7 @@ void gn_atlas_seal(struct gn_atlas *atlas) {
 }
 
 /* Twice as high, or where there is none yet, as wide as some twenty characters. */
-static bool grow(struct gn_atlas *atlas, uint32_t line_px) {
+static bool grow_atlas(struct gn_atlas *atlas, uint32_t line_px) {
     struct gn_caption_atlas *p = &atlas->picture;
     const uint32_t before = p->height_px, height = before ? 2 * before : FIRST_HEIGHT_PX;
     if (height > GN_ATLAS_SIDE_MAX) return false;
@@ -34,30 +34,23 @@ static bool grow(struct gn_atlas *atlas, uint32_t line_px) {
     return true;
 }
 
-static bool find_room(struct gn_atlas *atlas, uint32_t width, uint32_t height, uint32_t line_px) {
-    if (atlas->shelf_x + width > atlas->picture.width_px && atlas->shelf_px > 0) {
-        atlas->shelf_y += atlas->shelf_px;
-        atlas->shelf_x = atlas->shelf_px = 0;
-    }
-    while (atlas->shelf_y + height > atlas->picture.height_px)
-        if (!grow(atlas, line_px)) return false;
-    return atlas->shelf_x + width <= atlas->picture.width_px;
-}
-
-static void copy(struct gn_atlas *atlas, const struct gn_atlas_glyph *g,
-                 const struct gn_glyph *from) {
-    const size_t stride = atlas->picture.width_px;
-    uint8_t *to = (uint8_t *)atlas->picture.coverage + g->y * stride + g->x;
-    for (uint32_t row = 0; row < g->height_px; row++)
-        memcpy(to + row * stride, from->coverage + row * from->stride, g->width_px);
-}
-
-static void take(struct gn_atlas *atlas, struct gn_atlas_glyph *g, const struct gn_glyph *from) {
+static void fill_glyph(struct gn_atlas *atlas, struct gn_atlas_glyph *g,
+                       const struct gn_glyph *from) {
+    struct gn_caption_atlas *p = &atlas->picture;
     g->advance_px = (uint16_t)from->advance_px;
     g->left = (int16_t)from->left;
     g->top = (int16_t)from->top;
     if (!from->coverage || from->width_px == 0 || from->height_px == 0) return;
-    if (!find_room(atlas, from->width_px, from->height_px, g->line_px)) {
+
+    /* room for it: on this shelf, or on a new one */
+    if (atlas->shelf_x + from->width_px > p->width_px && atlas->shelf_px > 0) {
+        atlas->shelf_y += atlas->shelf_px;
+        atlas->shelf_x = atlas->shelf_px = 0;
+    }
+    bool grown = true;
+    while (grown && atlas->shelf_y + from->height_px > p->height_px)
+        grown = grow_atlas(atlas, g->line_px);
+    if (!grown || atlas->shelf_x + from->width_px > p->width_px) {
         atlas->full = true;
         return;
     }
@@ -67,12 +60,16 @@ static void take(struct gn_atlas *atlas, struct gn_atlas_glyph *g, const struct 
     g->y = (uint16_t)atlas->shelf_y;
     atlas->shelf_x += g->width_px;
     if (g->height_px > atlas->shelf_px) atlas->shelf_px = g->height_px;
-    copy(atlas, g, from);
     atlas->changed = true;
+
+    const size_t stride = p->width_px;
+    uint8_t *to = (uint8_t *)p->coverage + g->y * stride + g->x;
+    for (uint32_t row = 0; row < g->height_px; row++)
+        memcpy(to + row * stride, from->coverage + row * from->stride, g->width_px);
 }
 
 /* A hollow rectangle, three fifths of a line high. */
-static void take_box(struct gn_atlas *atlas, struct gn_atlas_glyph *g) {
+static void fill_box(struct gn_atlas *atlas, struct gn_atlas_glyph *g) {
     const uint32_t height = g->line_px * 3 / 5 + 1, width = height * 2 / 3 + 1;
     const uint32_t rim = g->line_px / 14 + 1;
     uint8_t *coverage = gn_xalloc((size_t)width * height, 1);
@@ -80,14 +77,14 @@ static void take_box(struct gn_atlas *atlas, struct gn_atlas_glyph *g) {
         for (uint32_t x = 0; x < width; x++)
             if (x < rim || y < rim || x + rim >= width || y + rim >= height)
                 coverage[y * width + x] = 255;
-    take(atlas, g,
-         &(struct gn_glyph){.left = (int32_t)rim,
-                            .top = (int32_t)height,
-                            .width_px = width,
-                            .height_px = height,
-                            .advance_px = (int32_t)(width + 2 * rim),
-                            .stride = width,
-                            .coverage = coverage});
+    fill_glyph(atlas, g,
+               &(struct gn_glyph){.left = (int32_t)rim,
+                                  .top = (int32_t)height,
+                                  .width_px = width,
+                                  .height_px = height,
+                                  .advance_px = (int32_t)(width + 2 * rim),
+                                  .stride = width,
+                                  .coverage = coverage});
     free(coverage);
 }
 
@@ -105,8 +102,8 @@ const struct gn_atlas_glyph *gn_atlas_glyph(struct gn_atlas *atlas, struct gn_fo
     struct gn_atlas_glyph *g = &atlas->glyphs[atlas->count++];
     *g = (struct gn_atlas_glyph){.code = code, .line_px = font->line_px};
     if (gn_font_glyph(font, code, &from))
-        take(atlas, g, &from);
+        fill_glyph(atlas, g, &from);
     else
-        take_box(atlas, g);
+        fill_box(atlas, g);
     return g;
 }

@@ -98,17 +98,6 @@ int64_t gn_captions_next_ns(const struct gn_captions *c) {
 
 /* ---- laying out ---- */
 
-/* Warns once about a font that cannot be read, and continues without it. */
-static void open_font(struct gn_captions *c) {
-    struct gn_err err = {0};
-    const char *path = c->opts.font;
-    if (!path || *path) c->font = gn_font_open_file(path, &err);
-    if (!c->font && path && *path)
-        gn_warn(c->opts.warnings, "font: %s; texts are shown in the font inside the program",
-                err.text);
-    if (!c->font) c->font = gn_font_open_dots();
-}
-
 static uint32_t line_px_of(const struct row *row, uint32_t width, uint32_t height) {
     const uint32_t line = (width < height ? width : height) / row->lines_a_side;
     return line < LINE_MIN_PX ? LINE_MIN_PX : line > LINE_MAX_PX ? LINE_MAX_PX : line;
@@ -120,7 +109,7 @@ static int32_t advance_of(void *data, uint32_t code) {
 }
 
 /* The part of it that is in the picture. */
-static void push(struct gn_captions *c, struct gn_caption_quad quad) {
+static void push_quad(struct gn_captions *c, struct gn_caption_quad quad) {
     const int32_t right = quad.x + quad.width, bottom = quad.y + quad.height;
     const int32_t width = (int32_t)c->run.width_px, height = (int32_t)c->run.height_px;
     if (right <= 0 || bottom <= 0 || quad.x >= width || quad.y >= height) return;
@@ -136,69 +125,35 @@ static int32_t push_text(struct gn_captions *c, enum gn_caption_kind kind, const
                          const char *end, int32_t x, int32_t base) {
     for (uint32_t code; (code = gn_layout_next(&begin, end)) != 0;) {
         const struct gn_atlas_glyph *g = gn_atlas_glyph(&c->atlas, c->font, code);
-        push(c, (struct gn_caption_quad){.x = x + g->left,
-                                         .y = base - g->top,
-                                         .width = g->width_px,
-                                         .height = g->height_px,
-                                         .atlas_x = g->x,
-                                         .atlas_y = g->y,
-                                         .caption = (uint8_t)kind});
+        push_quad(c, (struct gn_caption_quad){.x = x + g->left,
+                                              .y = base - g->top,
+                                              .width = g->width_px,
+                                              .height = g->height_px,
+                                              .atlas_x = g->x,
+                                              .atlas_y = g->y,
+                                              .caption = (uint8_t)kind});
         x += g->advance_px;
     }
     return x;
 }
 
-static void push_lines(struct gn_captions *c, enum gn_caption_kind kind,
-                       const struct gn_layout_line *lines, uint32_t count, int32_t x, int32_t y) {
-    static const char gap[] = GN_LAYOUT_GAP;
-    for (uint32_t i = 0; i < count; i++) {
-        const int32_t base = y + (int32_t)(i * c->font->line_px + c->font->ascent_px);
-        const int32_t end = push_text(c, kind, lines[i].begin, lines[i].end, x, base);
-        if (lines[i].cut) push_text(c, kind, gap, gap + sizeof gap - 1, end, base);
-    }
-}
-
 /* The ground under lines: half a line wider on either side than they are, and a quarter higher. */
-struct room {
-    int32_t margin, line, beside, above; /* margin: from the picture's edges */
-};
-
-static void place(struct gn_captions *c, enum gn_caption_kind kind, const struct room *r,
-                  const struct gn_layout_line *lines, uint32_t count) {
-    const bool at_top = rows[kind].at_top;
-    const int32_t tall = (int32_t)count * r->line + 2 * r->above;
-    const int32_t lowest = (int32_t)c->run.height_px - r->margin - (int32_t)c->bottom_px;
-    const int32_t y = at_top ? r->margin : lowest - tall;
-    int32_t widest = 0;
-    for (uint32_t i = 0; i < count; i++)
-        if (lines[i].width_px > widest) widest = lines[i].width_px;
-    if (widest == 0) return;
-    push(c, (struct gn_caption_quad){.x = r->margin,
-                                     .y = y,
-                                     .width = widest + 2 * r->beside,
-                                     .height = tall,
-                                     .caption = (uint8_t)kind,
-                                     .ground = true});
-    push_lines(c, kind, lines, count, r->margin + r->beside, y + r->above);
-    if (!at_top) c->bottom_px += (uint32_t)(tall + r->above);
-}
-
-/* A large line away from the edges: televisions do not show all of a picture. */
 static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
+    static const char gap[] = GN_LAYOUT_GAP;
     const struct row *row = &rows[kind];
     const char *text = c->captions[kind].text;
     const uint32_t width = c->run.width_px, height = c->run.height_px;
     struct gn_layout_line lines[LINES_MAX];
     if (!gn_font_resize(c->font, line_px_of(row, width, height))) return;
-    const int32_t line = (int32_t)c->font->line_px;
-    const struct room r = {.margin = (int32_t)line_px_of(&rows[GN_CAPTION_MODE], width, height),
-                           .line = line,
-                           .beside = line / 2,
-                           .above = line / 4};
-    const int32_t fit = ((int32_t)height - 2 * (r.margin + r.above) - (int32_t)c->bottom_px) / line;
+
+    /* a large line away from the edges: televisions do not show all of a picture */
+    const int32_t margin = (int32_t)line_px_of(&rows[GN_CAPTION_MODE], width, height);
+    const int32_t line = (int32_t)c->font->line_px, beside = line / 2, above = line / 4;
+    const int32_t lowest = (int32_t)height - margin - (int32_t)c->bottom_px;
+    const int32_t fit = (lowest - margin - 2 * above) / line;
     const int32_t most = row->most_lines ? (int32_t)row->most_lines : LINES_MAX;
     const struct gn_layout_opts opts = {
-        .width_px = (int32_t)width - 2 * (r.margin + r.beside),
+        .width_px = (int32_t)width - 2 * (margin + beside),
         .most_lines = (uint32_t)(fit < 1      ? 1
                                  : fit < most ? fit
                                               : most),
@@ -206,7 +161,26 @@ static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
         .advance_px = advance_of,
         .data = c,
     };
-    place(c, kind, &r, lines, gn_layout_build(&opts, text, text + strlen(text), lines));
+    const uint32_t count = gn_layout_build(&opts, text, text + strlen(text), lines);
+    int32_t widest = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (lines[i].width_px > widest) widest = lines[i].width_px;
+    if (widest == 0) return;
+
+    const int32_t tall = (int32_t)count * line + 2 * above;
+    const int32_t y = row->at_top ? margin : lowest - tall;
+    push_quad(c, (struct gn_caption_quad){.x = margin,
+                                          .y = y,
+                                          .width = widest + 2 * beside,
+                                          .height = tall,
+                                          .caption = (uint8_t)kind,
+                                          .ground = true});
+    for (uint32_t i = 0; i < count; i++) {
+        const int32_t base = y + above + (int32_t)(i * c->font->line_px + c->font->ascent_px);
+        const int32_t end = push_text(c, kind, lines[i].begin, lines[i].end, margin + beside, base);
+        if (lines[i].cut) push_text(c, kind, gap, gap + sizeof gap - 1, end, base);
+    }
+    if (!row->at_top) c->bottom_px += (uint32_t)(tall + above);
 }
 
 /* From below: an error, over it the mode, which is drawn last. */
@@ -229,7 +203,15 @@ const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t wid
     c->shown_ns = now_ns;
     c->changed = false;
     if (!seen) return NULL;
-    if (!c->font) open_font(c);
+    if (!c->font) { /* warns once about a font that cannot be read, and continues without it */
+        struct gn_err err = {0};
+        const char *path = c->opts.font;
+        if (!path || *path) c->font = gn_font_open_file(path, &err);
+        if (!c->font && path && *path)
+            gn_warn(c->opts.warnings, "font: %s; texts are shown in the font inside the program",
+                    err.text);
+        if (!c->font) c->font = gn_font_open_dots();
+    }
     if (c->stale || c->run.width_px != width_px || c->run.height_px != height_px) {
         const bool other_size = c->run.width_px != width_px || c->run.height_px != height_px;
         c->run.width_px = width_px;

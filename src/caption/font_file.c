@@ -87,9 +87,9 @@ struct gn_font *gn_font_open_bytes(const uint8_t *data, size_t size, struct gn_e
     return NULL;
 }
 
-/* Where Debian, Alpine, Arch and Fedora put them. */
-static const char *find(void) {
+struct gn_font *gn_font_open_file(const char *path, struct gn_err *err) {
     static const char *const places[] = {
+        /* Debian's, Alpine's, Arch's, Fedora's */
         "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
         "/usr/share/fonts/dejavu/DejaVuSans.ttf",
         "/usr/share/fonts/TTF/DejaVuSans.ttf",
@@ -99,23 +99,18 @@ static const char *find(void) {
         "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
         "/usr/share/fonts/truetype/freefont/FreeSans.ttf",
     };
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
-        if (access(places[i], R_OK) == 0) return places[i];
-    return NULL;
-}
-
-struct gn_font *gn_font_open_file(const char *path, struct gn_err *err) {
-    const char *from = path ? path : find();
     struct gn_bytes bytes = {0};
-    if (!from) {
+    for (size_t i = 0; i < sizeof places / sizeof *places && !path; i++)
+        if (access(places[i], R_OK) == 0) path = places[i];
+    if (!path) {
         gn_fail(err, "there is no font; install fonts-dejavu-core");
         return NULL;
     }
-    if (!gn_file_read(from, GN_FONT_BYTES_MAX, &bytes, err)) return NULL;
+    if (!gn_file_read(path, GN_FONT_BYTES_MAX, &bytes, err)) return NULL;
     struct gn_font *font = gn_font_open_bytes(bytes.data, bytes.size, err);
     if (font)
         ((struct file_font *)font)->bytes = bytes;
     else
-        gn_bytes_finish(&bytes), gn_fail_prefix(err, "%s", from);
+        gn_bytes_finish(&bytes), gn_fail_prefix(err, "%s", path);
     return font;
 }

@@ -56,10 +56,6 @@ uint32_t gn_layout_next(const char **text, const char *end) {
 
 /* ---- lines ---- */
 
-static int32_t gap_px(const struct gn_layout_opts *opts) {
-    return (int32_t)strlen(GN_LAYOUT_GAP) * opts->advance_px(opts->data, GN_LAYOUT_GAP[0]);
-}
-
 static int32_t width_of(const struct gn_layout_opts *opts, const char *begin, const char *end) {
     int32_t width = 0;
     for (uint32_t code; (code = gn_layout_next(&begin, end)) != 0;)
@@ -69,12 +65,7 @@ static int32_t width_of(const struct gn_layout_opts *opts, const char *begin, co
 
 static bool is_space(char c) { return c == ' ' || c == '\t'; }
 
-static const char *skip_spaces(const char *at, const char *end) {
-    while (at < end && is_space(*at)) at++;
-    return at;
-}
-
-static const char *trim(const char *begin, const char *end) {
+static const char *trim_spaces(const char *begin, const char *end) {
     while (end > begin && is_space(end[-1])) end--;
     return end;
 }
@@ -97,18 +88,16 @@ static const char *break_at(const struct gn_layout_opts *opts, const char *begin
     return end;
 }
 
-static void cut(const struct gn_layout_opts *opts, struct gn_layout_line *line, const char *end) {
-    const int32_t gap = gap_px(opts), room = opts->width_px - gap;
+static void cut_line(const struct gn_layout_opts *opts, struct gn_layout_line *line,
+                     const char *end) {
+    const int32_t gap =
+        (int32_t)strlen(GN_LAYOUT_GAP) * opts->advance_px(opts->data, GN_LAYOUT_GAP[0]);
+    const int32_t room = opts->width_px - gap;
     line->cut = true;
     if (width_of(opts, line->begin, end) > room)
         end = room > 0 ? break_at(opts, line->begin, end, room, false) : line->begin;
-    line->end = trim(line->begin, end);
+    line->end = trim_spaces(line->begin, end);
     line->width_px = width_of(opts, line->begin, line->end) + gap;
-}
-
-static const char *paragraph_end(const char *at, const char *end) {
-    const char *newline = memchr(at, '\n', (size_t)(end - at));
-    return newline ? newline : end;
 }
 
 uint32_t gn_layout_build(const struct gn_layout_opts *opts, const char *text, const char *end,
@@ -117,21 +106,22 @@ uint32_t gn_layout_build(const struct gn_layout_opts *opts, const char *text, co
     end = text + strnlen(text, (size_t)(end - text));
     while (text < end && count < opts->most_lines) {
         struct gn_layout_line *line = &lines[count++];
-        const char *stop = paragraph_end(text, end);
-        *line = (struct gn_layout_line){.begin = text, .end = trim(text, stop)};
+        const char *newline = memchr(text, '\n', (size_t)(end - text));
+        const char *stop = newline ? newline : end;
+        *line = (struct gn_layout_line){.begin = text, .end = trim_spaces(text, stop)};
         line->width_px = width_of(opts, line->begin, line->end);
         const char *next = stop + (stop < end);
         if (line->width_px > opts->width_px && opts->wraps) {
             const char *at = break_at(opts, text, line->end, opts->width_px, true);
-            next = skip_spaces(at, stop);
+            for (next = at; next < stop && is_space(*next);) next++;
             if (next == stop) next += stop < end;
-            line->end = trim(text, at);
+            line->end = trim_spaces(text, at);
             line->width_px = width_of(opts, text, line->end);
         } else if (line->width_px > opts->width_px) {
-            cut(opts, line, line->end);
+            cut_line(opts, line, line->end);
         }
         if (count == opts->most_lines && next < end && !line->cut)
-            cut(opts, line, opts->wraps && next < stop ? stop : line->end);
+            cut_line(opts, line, opts->wraps && next < stop ? stop : line->end);
         text = next;
     }
     return count;
