@@ -120,31 +120,6 @@ static void read_log(int fd, struct gn_warnings *warnings, struct gn_err *err) {
     if (text) munmap(text, size);
 }
 
-static bool run_program(const struct job *job, struct gn_warnings *warnings, struct gn_err *err) {
-    const struct gn_child child = {
-        .work = exec_program, .argument = job, .stop = gn_stop_asked, .stall_s = LONGEST_S};
-    struct gn_err end = {0}, reported = {0};
-    bool ok = gn_child_run(&child, NULL, &end);
-    read_log(job->log, warnings, &reported);
-    if (ok) return true;
-    if (reported.text[0]) return gn_fail(err, "%s", reported.text);
-    return gn_fail(err, "%s: " PROGRAM " %s; export it as .glb where it was made", job->path,
-                   end.text);
-}
-
-static struct gn_scene *load_output(const struct job *job, const struct gn_scene_limits *limits,
-                                    struct gn_warnings *warnings, struct gn_err *err) {
-    size_t size = 0;
-    char *glb = map_memfd(job->glb, &size);
-    struct gn_scene *scene = NULL;
-    if (glb)
-        scene = gn_scene_load_bytes(job->path, glb, size, limits, warnings, err);
-    else
-        gn_fail(err, "%s: " PROGRAM " wrote no output", job->path);
-    if (glb) munmap(glb, size);
-    return scene;
-}
-
 struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *limits,
                                 struct gn_warnings *warnings, struct gn_err *err) {
     char program[4096];
@@ -164,8 +139,24 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
     struct gn_scene *scene = NULL;
     if (job.glb < 0 || job.log < 0)
         gn_fail(err, "%s: no memory to import it: %s", path, strerror(errno));
-    else if (run_program(&job, warnings, err))
-        scene = load_output(&job, limits, warnings, err);
+    else {
+        const struct gn_child child = {
+            .work = exec_program, .argument = &job, .stop = gn_stop_asked, .stall_s = LONGEST_S};
+        struct gn_err end = {0}, reported = {0};
+        size_t size = 0;
+        const bool ok = gn_child_run(&child, NULL, &end);
+        read_log(job.log, warnings, &reported);
+        char *glb = ok ? map_memfd(job.glb, &size) : NULL;
+        if (glb)
+            scene = gn_scene_load_bytes(path, glb, size, limits, warnings, err);
+        else if (ok)
+            gn_fail(err, "%s: " PROGRAM " wrote no output", path);
+        else if (reported.text[0])
+            gn_fail(err, "%s", reported.text);
+        else
+            gn_fail(err, "%s: " PROGRAM " %s; export it as .glb where it was made", path, end.text);
+        if (glb) munmap(glb, size);
+    }
     if (job.glb >= 0) close(job.glb);
     if (job.log >= 0) close(job.log);
     return scene;

@@ -67,16 +67,6 @@ int gn_loader_fd(const struct gn_loader *loader) { return loader->event; }
 
 bool gn_loader_is_busy(const struct gn_loader *loader) { return loader->job; }
 
-static bool start_thread(struct job *job, struct gn_err *err) {
-    pthread_t thread;
-    pthread_attr_t attributes;
-    pthread_attr_init(&attributes);
-    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
-    const int error = pthread_create(&thread, &attributes, load_in_thread, job);
-    pthread_attr_destroy(&attributes);
-    return error == 0 || gn_fail(err, "no thread to load a scene: %s", strerror(error));
-}
-
 bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
                      const struct gn_scene_limits *limits, struct gn_err *err) {
     struct job *job = gn_xalloc(1, sizeof *job);
@@ -85,11 +75,20 @@ bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
     job->limits = *limits;
     job->path = path ? strdup(path) : NULL;
     job->event = fcntl(loader->event, F_DUPFD_CLOEXEC, 0);
-    if (job->event < 0)
+    if (job->event < 0) {
         gn_fail(err, "no descriptor to load a scene: %s", strerror(errno));
-    else if (start_thread(job, err)) {
-        loader->job = job;
-        return true;
+    } else {
+        pthread_t thread;
+        pthread_attr_t attributes;
+        pthread_attr_init(&attributes);
+        pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+        const int error = pthread_create(&thread, &attributes, load_in_thread, job);
+        pthread_attr_destroy(&attributes);
+        if (error == 0) {
+            loader->job = job;
+            return true;
+        }
+        gn_fail(err, "no thread to load a scene: %s", strerror(error));
     }
     if (job->event >= 0) close(job->event);
     job_destroy(job);

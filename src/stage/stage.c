@@ -73,28 +73,7 @@ static bool choose_clips(const struct gn_settings *o, const struct gn_scene *sce
     return do_without(o, clip, warnings, err);
 }
 
-static bool choose_camera(const struct gn_settings *o, const struct gn_scene *scene, int *camera,
-                          struct gn_warnings *warnings, struct gn_err *err) {
-    *camera = gn_scene_find_camera(scene, o->scene.camera, err);
-    if (*camera >= 0) return true;
-    *camera = 0;
-    return do_without(o, offsetof(struct gn_settings, scene.camera), warnings, err);
-}
-
-static bool check_light(const struct gn_settings *o, const struct gn_scene *scene,
-                        struct gn_err *err) {
-    if (o->render.aov == GN_AOV_COLOR || o->render.aov == GN_AOV_DISTANCE ||
-        o->render.aov == GN_AOV_NORMAL)
-        return true;
-    if (o->render.light >= 0 && (uint32_t)o->render.light < scene->light_count) return true;
-    return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
-                         gn_settings_label(o, render.light), o->render.light, scene->light_count,
-                         scene->light_count == 1 ? "" : "s");
-}
-
-static bool choose_frame(struct gn_frame_opts *f, const struct gn_settings *o,
-                         const struct gn_scene *scene, struct gn_warnings *warnings,
-                         struct gn_err *err) {
+static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o) {
     const bool continuous = o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
     *f = (struct gn_frame_opts){
         .width_px = (uint32_t)o->render.size.width_px,
@@ -121,14 +100,23 @@ static bool choose_frame(struct gn_frame_opts *f, const struct gn_settings *o,
     f->shadow.technique_given = gn_settings_given(o, render.shadow);
     if (f->shadow.technique_given && o->render.shadow.count == 1)
         f->shadow.technique = (enum gn_technique)o->render.shadow.items[0];
-    return choose_camera(o, scene, &f->view.camera, warnings, err);
 }
 
-bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *settings,
+bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *o,
                    const struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err) {
-    return choose_clips(settings, scene, &look->clips, warnings, err) &&
-           check_light(settings, scene, err) &&
-           choose_frame(&look->frame_opts, settings, scene, warnings, err);
+    const bool of_light = o->render.aov != GN_AOV_COLOR && o->render.aov != GN_AOV_DISTANCE &&
+                          o->render.aov != GN_AOV_NORMAL;
+    if (!choose_clips(o, scene, &look->clips, warnings, err)) return false;
+    if (of_light && (o->render.light < 0 || (uint32_t)o->render.light >= scene->light_count))
+        return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
+                             gn_settings_label(o, render.light), o->render.light,
+                             scene->light_count, scene->light_count == 1 ? "" : "s");
+    set_frame_opts(&look->frame_opts, o);
+    int *camera = &look->frame_opts.view.camera;
+    *camera = gn_scene_find_camera(scene, o->scene.camera, err);
+    if (*camera >= 0) return true;
+    *camera = 0;
+    return do_without(o, offsetof(struct gn_settings, scene.camera), warnings, err);
 }
 
 bool gn_stage_load(struct gn_stage *stage, const struct gn_settings *settings,
