@@ -18,7 +18,7 @@ const char *const gn_cap_names[GN_CAP_COUNT] = {
 };
 
 uint32_t gn_caps_encodings(const struct gn_caps *caps) {
-    uint32_t proved = 1u << GN_ENCODING_RGBA8; /* RGBA8 is what every picture is drawn to */
+    uint32_t proved = 1u << GN_ENCODING_RGBA8; /* every GPU renders to RGBA8 */
     if (caps->has & 1u << GN_CAP_DEPTH_COMPARE) proved |= 1u << GN_ENCODING_DEPTH;
     if (caps->has & 1u << GN_CAP_R32UI) proved |= 1u << GN_ENCODING_R32UI;
     if (caps->has & 1u << GN_CAP_R16F)
@@ -46,15 +46,7 @@ uint32_t gn_caps_moments(const struct gn_caps *caps) {
     return proved;
 }
 
-/* The capability whose name is the first `length` characters of list; -1: none. */
-static int find_cap(const char *list, size_t length) {
-    for (int i = 0; i < GN_CAP_COUNT; i++)
-        if (strlen(gn_cap_names[i]) == length && memcmp(gn_cap_names[i], list, length) == 0)
-            return i;
-    return -1;
-}
-
-static bool fail_unknown(const char *name, size_t length, struct gn_err *err) {
+static bool fail_unknown_cap(const char *name, size_t length, struct gn_err *err) {
     char names[200] = "";
     for (int i = 0; i < GN_CAP_COUNT; i++) {
         size_t used = strlen(names);
@@ -68,8 +60,11 @@ bool gn_caps_parse(const char *list, uint32_t *out, struct gn_err *err) {
     *out = 0;
     while (list && *list) {
         size_t length = strcspn(list, ",");
-        int cap = find_cap(list, length);
-        if (cap < 0) return fail_unknown(list, length, err);
+        int cap = 0;
+        while (cap < GN_CAP_COUNT && (strlen(gn_cap_names[cap]) != length ||
+                                      memcmp(gn_cap_names[cap], list, length) != 0))
+            cap++;
+        if (cap == GN_CAP_COUNT) return fail_unknown_cap(list, length, err);
         *out |= 1u << cap;
         list += length + (list[length] == ',');
     }

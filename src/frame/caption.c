@@ -5,29 +5,19 @@
 #include "blocks.glsl"
 #include "frame/private.h"
 
-static struct gn_program_key caption_key(const struct gn_frame *frame) {
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = GN_PROGRAM_CAPTION;
-    if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
-    return key;
-}
-
-/* base_color: the rectangle, pixels, top row first; surface: its place in the atlas, how strong it
- * is, 1 where it is a ground. */
-static void add_quad(struct gn_frame *frame, const struct gn_caption_quad *q, float alpha) {
-    GN_LIST_PUSH(&frame->instances) = (struct gn_instance){
-        .base_color = {(float)q->x, (float)q->y, (float)q->width, (float)q->height},
-        .surface = {(float)q->atlas_x, (float)q->atlas_y, alpha, q->ground ? 1.0f : 0.0f}};
-}
-
-/* All that can be seen of the run; the rectangle around it, first row at the bottom. */
+/* Adds the visible rectangles of the run; returns the rectangle around them, first row at the
+ * bottom. */
 static struct gn_rect add_quads(struct gn_frame *frame, const struct gn_caption_run *run) {
     int32_t left = INT32_MAX, top = INT32_MAX, right = 0, bottom = 0;
     for (uint32_t i = 0; i < run->quad_count; i++) {
         const struct gn_caption_quad *q = &run->quads[i];
         if (run->alpha[q->caption] <= 0.0f) continue;
-        add_quad(frame, q, run->alpha[q->caption]);
+        /* base_color: the rectangle in pixels, top row first; surface: its place in the atlas, its
+         * opacity, 1 for a background. */
+        GN_LIST_PUSH(&frame->instances) = (struct gn_instance){
+            .base_color = {(float)q->x, (float)q->y, (float)q->width, (float)q->height},
+            .surface = {(float)q->atlas_x, (float)q->atlas_y, run->alpha[q->caption],
+                        q->ground ? 1.0f : 0.0f}};
         if (q->x < left) left = q->x;
         if (q->y < top) top = q->y;
         if (q->x + q->width > right) right = q->x + q->width;
@@ -65,7 +55,10 @@ void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts) {
     (void)pose;
     const struct gn_caption_run *run = opts->captions;
-    const struct gn_program_key key = caption_key(frame);
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = GN_PROGRAM_CAPTION;
+    if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
     if (opts->debug.aov != GN_AOV_COLOR) return;
     if (opts->captions_later) gn_frame_program(frame, &key);
     if (run && run->width_px == frame->picture.width_px &&

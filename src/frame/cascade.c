@@ -6,61 +6,23 @@
 #include "shadow/cascade.h"
 
 #define MOST_PIXELS 2.0f /* that a texel covers, before it is rounded up to a step */
-#define TOO_COARSE  2.0f /* times that: the eye has moved to where more are worth it */
+#define TOO_COARSE  2.0f /* times that: the camera has moved to where more cascades are worth it */
 
-/* Of a surface that faces the eye, at a distance of 1. */
-static float pixel_width(const struct gn_frame *frame, const struct gn_eye *eye) {
-    const uint32_t size[2] = {frame->plan.width_px, frame->plan.height_px};
-    const vec4 *m = eye->clip_from_world;
-    float width = INFINITY;
-    for (int k = 0; k < 2; k++) {
-        vec3 row = {m[0][k], m[1][k], m[2][k]};
-        width = fminf(width, 2.0f / ((float)size[k] * glm_vec3_norm(row)));
-    }
-    return width;
-}
-
-/* All that the number goes by, but the eye; nor does it by the technique: modes agree on it,
- * whichever comes first. */
-static uint64_t hash_choice(const struct gn_frame *frame, const struct gn_pose *pose,
-                            const struct gn_shadow_opts *opts) {
-    const uint32_t by[] = {opts->map_px,         opts->all_receive,       opts->cascades,
-                           frame->camera,        frame->picture.width_px, frame->picture.height_px,
-                           (uint32_t)pose->clips};
-    return gn_hash(GN_HASH_INIT, by, sizeof by);
-}
-
-/* ---- what it is chosen by ---- */
-
-/* The eye as it is, and those that will come, on the way of a camera that is animated. */
+/* The cameras that the number is chosen for: the current one, and those on the path of an animated
+ * camera. */
 struct views {
     struct gn_frame *frame;
     const struct gn_frame_opts *opts;
     const struct gn_pose *now;
     struct gn_pose other; /* made when it is needed */
     bool moves;
-    int64_t lasts_ns; /* that way */
+    int64_t lasts_ns; /* the path */
     int count;
 };
 enum { OTHERS = 8 };
 
-static void open_views(struct views *v, struct gn_frame *frame, const struct gn_pose *pose,
-                       const struct gn_frame_opts *opts) {
-    const struct gn_scene *scene = frame->scene;
-    *v = (struct views){.frame = frame, .opts = opts, .now = pose, .count = 1};
-    v->moves = pose->node_moves[scene->cameras[opts->view.camera].node];
-    for (uint32_t i = 0; i < scene->animation.clip_count && v->moves; i++)
-        if (scene->animation.clips[i].duration_ns > v->lasts_ns)
-            v->lasts_ns = scene->animation.clips[i].duration_ns;
-    if (v->moves) v->count += OTHERS;
-}
-
-static void close_views(struct views *v) {
-    if (v->other.scene) gn_pose_finish(&v->other);
-}
-
-/* number 0: the eye as it is. */
-static const struct gn_pose *take_view(struct views *v, int number, struct gn_eye *eye) {
+/* number 0: the current camera. */
+static const struct gn_pose *find_view(struct views *v, int number, struct gn_eye *eye) {
     *eye = v->frame->eye;
     if (number == 0) return v->now;
     if (!v->other.scene) gn_pose_init(&v->other, v->frame->scene, v->now->clips);
@@ -70,8 +32,8 @@ static const struct gn_pose *take_view(struct views *v, int number, struct gn_ey
     return &v->other;
 }
 
-/* How many pixels a texel of so many cascades covers where it is seen largest; 0: the eye sees
- * nothing in shadow, which says nothing. */
+/* How many pixels a texel of so many cascades covers where it is seen largest; 0: unknown, the
+ * camera sees no shadow. */
 static float texel_pixels(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts,
                           uint32_t cascades) {
     const struct gn_frame_light *light = gn_frame_light_of_slot(v->frame, slot);
@@ -85,17 +47,25 @@ static float texel_pixels(struct views *v, uint32_t slot, const struct gn_shadow
     gn_frame_make_memories(v->frame, slot, cascades > 1 ? GN_CASCADE_MEMORIES : 1);
     for (int i = 0; i < v->count; i++) {
         struct gn_eye eye;
-        const struct gn_pose *pose = take_view(v, i, &eye);
+        const struct gn_pose *pose = find_view(v, i, &eye);
         const float tangent =
             gn_cascade_tangent(pose, light->light, &eye, &some, v->frame->memory[slot]);
         if (i == 0 && tangent == 0.0f) return 0.0f;
-        most = fmaxf(most, tangent / pixel_width(v->frame, &eye));
+        /* The width of a pixel on a surface that faces the camera at a distance of 1 m. */
+        const uint32_t size[2] = {v->frame->plan.width_px, v->frame->plan.height_px};
+        float pixel = INFINITY;
+        for (int k = 0; k < 2; k++) {
+            vec3 row = {eye.clip_from_world[0][k], eye.clip_from_world[1][k],
+                        eye.clip_from_world[2][k]};
+            pixel = fminf(pixel, 2.0f / ((float)size[k] * glm_vec3_norm(row)));
+        }
+        most = fmaxf(most, tangent / pixel);
     }
     return most;
 }
 
-/* As few as keep a texel under MOST_PIXELS; where none do, as few as come near to what the best
- * number does. 0: it is not known yet. */
+/* As few as keep a texel under MOST_PIXELS; if none do, as few as come near to the best number. 0:
+ * not known yet. */
 static uint32_t count_cascades(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts) {
     float pixels[GN_CASCADES_MAX + 1] = {0}, least = INFINITY;
     for (uint32_t cascades = 1; cascades <= opts->cascades; cascades++) {
@@ -109,9 +79,9 @@ static uint32_t count_cascades(struct views *v, uint32_t slot, const struct gn_s
     return chosen;
 }
 
-/* A hand may bring the eye to where the number that the first one chose is far too coarse. There
- * are never fewer again: each change takes programs and targets. Where more do not help, that is
- * not asked again until it is twice as bad; nor while the hand rests. */
+/* The user may move the camera to where the first choice is far too coarse. The number only grows:
+ * each change needs programs and targets. If more cascades do not help, this is not tried again
+ * until texels are twice as large, nor while the camera rests. */
 static void judge_cascades(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *frame_opts, uint32_t slot,
                            const struct gn_shadow_opts *opts, struct gn_cascade_choice *c) {
@@ -128,29 +98,34 @@ static void judge_cascades(struct gn_frame *frame, const struct gn_pose *pose,
     if (chosen > c->count) c->count = chosen;
 }
 
-static struct gn_cascade_choice *find_choice(struct gn_light_note *note, uint64_t choice) {
-    for (int i = 0; i < GN_CASCADE_CHOICES; i++)
-        if (note->cascades[i].count > 0 && note->cascades[i].choice == choice)
-            return &note->cascades[i];
-    return NULL;
-}
-
 uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose,
                                   const struct gn_frame_opts *frame_opts, uint32_t slot,
                                   const struct gn_shadow_opts *opts) {
+    const struct gn_scene *scene = frame->scene;
     const uint32_t light = gn_frame_light_of_slot(frame, slot)->light;
     struct gn_light_note *note = &frame->notes.lights.at[light];
-    const uint64_t choice = hash_choice(frame, pose, opts);
-    if (!gn_cascade_can(&frame->scene->lights[light], &frame->eye, opts)) return 1;
-    struct gn_cascade_choice *c = find_choice(note, choice);
-    if (c) {
-        judge_cascades(frame, pose, frame_opts, slot, opts, c);
-        return c->count;
-    }
-    struct views views;
-    open_views(&views, frame, pose, frame_opts);
-    const uint32_t chosen = count_cascades(&views, slot, opts);
-    close_views(&views);
+    if (!gn_cascade_can(&scene->lights[light], &frame->eye, opts)) return 1;
+
+    /* What the choice depends on, except the camera's position. The technique is not part of it:
+     * modes agree on the number, whichever comes first. */
+    const uint32_t by[] = {opts->map_px,         opts->all_receive,       opts->cascades,
+                           frame->camera,        frame->picture.width_px, frame->picture.height_px,
+                           (uint32_t)pose->clips};
+    const uint64_t choice = gn_hash(GN_HASH_INIT, by, sizeof by);
+    for (struct gn_cascade_choice *c = note->cascades; c < note->cascades + GN_CASCADE_CHOICES; c++)
+        if (c->count > 0 && c->choice == choice) {
+            judge_cascades(frame, pose, frame_opts, slot, opts, c);
+            return c->count;
+        }
+
+    struct views v = {.frame = frame, .opts = frame_opts, .now = pose, .count = 1};
+    v.moves = pose->node_moves[scene->cameras[frame_opts->view.camera].node];
+    for (uint32_t i = 0; i < scene->animation.clip_count && v.moves; i++)
+        if (scene->animation.clips[i].duration_ns > v.lasts_ns)
+            v.lasts_ns = scene->animation.clips[i].duration_ns;
+    if (v.moves) v.count += OTHERS;
+    const uint32_t chosen = count_cascades(&v, slot, opts);
+    if (v.other.scene) gn_pose_finish(&v.other);
     if (chosen == 0) return 1;
     note->cascades[note->next_choice] =
         (struct gn_cascade_choice){.choice = choice, .count = chosen};

@@ -7,9 +7,12 @@
         if (!(what)) return #what;                                                                 \
     } while (0)
 
-static const char *check_draw(const struct gn_plan *plan, const struct gn_draw *draw) {
+/* A draw, and what its program needs of the pass. */
+static const char *check_draw(const struct gn_plan *plan, const struct gn_pass *pass,
+                              const struct gn_draw *draw) {
     REQUIRE(draw->program < plan->program_count);
-    const bool bare = gn_programs[plan->programs[draw->program].kind].reads & GN_PROGRAM_BARE;
+    const struct gn_program_key *key = &plan->programs[draw->program];
+    const bool bare = gn_programs[key->kind].reads & GN_PROGRAM_BARE;
     REQUIRE(bare == (draw->geometry == GN_NO_GEOMETRY));
     REQUIRE(bare ? draw->vertex_count > 0 : draw->geometry < plan->scene->geometry_count);
     REQUIRE(bare || draw->material < plan->scene->material_count);
@@ -17,6 +20,23 @@ static const char *check_draw(const struct gn_plan *plan, const struct gn_draw *
     REQUIRE(draw->first_instance <= plan->instance_count);
     REQUIRE(draw->instance_count <= plan->instance_count - draw->first_instance);
     REQUIRE(draw->cull <= GN_CULL_FRONT);
+    REQUIRE(gn_programs[key->kind].pass == pass->kind);
+    if (key->kind == GN_PROGRAM_FILTER) REQUIRE(key->moments == pass->target.moments);
+    if (pass->kind != GN_PASS_PICTURE) return NULL;
+    const struct gn_pass_picture *picture = &pass->picture;
+    const bool adds = key->features & GN_FEATURE(ADDITIVE);
+    const bool panel = key->kind == GN_PROGRAM_PANEL, caption = key->kind == GN_PROGRAM_CAPTION;
+    REQUIRE((key->kind == GN_PROGRAM_FLAT) == picture->only_stencil);
+    REQUIRE(caption ||
+            (key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
+    REQUIRE(caption == picture->reads_atlas);
+    REQUIRE(adds == (picture->blend == GN_BLEND_ADD));
+    REQUIRE(key->light_count <= picture->light_count);
+    REQUIRE(key->shadow_count <= picture->shadow_count);
+    uint32_t slides = 0;
+    for (int i = 0; i < key->light_count; i++) slides += key->lights[i].slide != GN_SLIDE_NONE;
+    REQUIRE(slides <= picture->slide_count);
+    REQUIRE(panel == picture->reads_codes && (!panel || picture->shadow_count == 1));
     return NULL;
 }
 
@@ -48,32 +68,6 @@ static const char *check_key(const struct gn_program_key *key) {
     return NULL;
 }
 
-static uint32_t slide_count(const struct gn_program_key *key) {
-    uint32_t count = 0;
-    for (int i = 0; i < key->light_count; i++) count += key->lights[i].slide != GN_SLIDE_NONE;
-    return count;
-}
-
-/* What a program needs of the pass that draws with it. */
-static const char *check_use(const struct gn_pass *pass, const struct gn_program_key *key) {
-    REQUIRE(gn_programs[key->kind].pass == pass->kind);
-    if (key->kind == GN_PROGRAM_FILTER) REQUIRE(key->moments == pass->target.moments);
-    if (pass->kind != GN_PASS_PICTURE) return NULL;
-    const struct gn_pass_picture *picture = &pass->picture;
-    const bool adds = key->features & GN_FEATURE(ADDITIVE);
-    const bool panel = key->kind == GN_PROGRAM_PANEL, caption = key->kind == GN_PROGRAM_CAPTION;
-    REQUIRE((key->kind == GN_PROGRAM_FLAT) == picture->only_stencil);
-    REQUIRE(caption ||
-            (key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
-    REQUIRE(caption == picture->reads_atlas);
-    REQUIRE(adds == (picture->blend == GN_BLEND_ADD));
-    REQUIRE(key->light_count <= picture->light_count);
-    REQUIRE(key->shadow_count <= picture->shadow_count);
-    REQUIRE(slide_count(key) <= picture->slide_count);
-    REQUIRE(panel == picture->reads_codes && (!panel || picture->shadow_count == 1));
-    return NULL;
-}
-
 static bool rect_is_inside(const struct gn_rect *rect, const struct gn_target *target) {
     return rect->x <= target->width_px && rect->width <= target->width_px - rect->x &&
            rect->y <= target->height_px && rect->height <= target->height_px - rect->y;
@@ -81,38 +75,9 @@ static bool rect_is_inside(const struct gn_rect *rect, const struct gn_target *t
 
 /* ---- passes, by kind ---- */
 
-/* The lights and maps that a pass reads; what is added finds the depth of what it is added to. */
-static const char *check_lights(const struct gn_plan *plan, const struct gn_pass *pass) {
-    const struct gn_pass_picture *p = &pass->picture;
-    REQUIRE(p->light_count <= GN_LIGHTS_MAX && p->first_light <= plan->light_count);
-    REQUIRE(p->light_count <= plan->light_count - p->first_light);
-    REQUIRE(p->shadow_count <= GN_SHADOWS_MAX && p->first_shadow <= plan->shadow_count);
-    REQUIRE(p->shadow_count <= plan->shadow_count - p->first_shadow);
-    REQUIRE(p->slide_count <= GN_SLIDES_MAX);
-    for (uint32_t i = 0; i < p->slide_count; i++)
-        REQUIRE(p->slides[i] < plan->scene->pictures.texture_count);
-    if (p->blend != GN_BLEND_ADD) return NULL;
-    REQUIRE(!pass->depth_write && pass->clear.area == GN_CLEAR_NOTHING);
-    REQUIRE(plan->output != GN_OUTPUT_LINEAR8 || !plan->encode_srgb);
-    return NULL;
-}
-
-/* What stencil a pass may use; where it is all that is drawn to. */
-static const char *check_stencil(const struct gn_plan *plan, const struct gn_pass *pass) {
-    const struct gn_stencil *s = &pass->picture.stencil;
-    const bool used = s->reads || s->writes || pass->clear.stencil_bits;
-    const bool clears = pass->clear.area != GN_CLEAR_NOTHING;
-    REQUIRE(!used || (plan->stencil && pass->target.kind == GN_TARGET_OUTPUT));
-    REQUIRE((s->value & ~(s->reads | s->writes)) == 0);
-    REQUIRE(!pass->clear.stencil_bits || !clears);
-    if (!pass->picture.only_stencil) return NULL;
-    REQUIRE(s->writes && !pass->depth_write && !clears);
-    REQUIRE(pass->picture.blend == GN_BLEND_OFF);
-    return NULL;
-}
-
 static const char *check_picture(const struct gn_plan *plan, const struct gn_pass *pass) {
     const struct gn_pass_picture *p = &pass->picture;
+    const bool clears = pass->clear.area != GN_CLEAR_NOTHING;
     REQUIRE(pass->target.kind == GN_TARGET_OUTPUT || pass->target.kind == GN_TARGET_ENCODED);
     REQUIRE(pass->clear.area != GN_CLEAR_RECT && pass->viewport.width == 0);
     REQUIRE(pass->content.hash == 0);
@@ -121,8 +86,30 @@ static const char *check_picture(const struct gn_plan *plan, const struct gn_pas
         REQUIRE(p->blend == GN_BLEND_ALPHA && !pass->depth_write);
         REQUIRE(plan->output != GN_OUTPUT_AOV);
     }
-    const char *broken = check_lights(plan, pass);
-    return broken ? broken : check_stencil(plan, pass);
+
+    /* The lights, maps and slides that it reads. */
+    REQUIRE(p->light_count <= GN_LIGHTS_MAX && p->first_light <= plan->light_count);
+    REQUIRE(p->light_count <= plan->light_count - p->first_light);
+    REQUIRE(p->shadow_count <= GN_SHADOWS_MAX && p->first_shadow <= plan->shadow_count);
+    REQUIRE(p->shadow_count <= plan->shadow_count - p->first_shadow);
+    REQUIRE(p->slide_count <= GN_SLIDES_MAX);
+    for (uint32_t i = 0; i < p->slide_count; i++)
+        REQUIRE(p->slides[i] < plan->scene->pictures.texture_count);
+    if (p->blend == GN_BLEND_ADD) { /* to surfaces that are in the depth buffer */
+        REQUIRE(!pass->depth_write && !clears);
+        REQUIRE(plan->output != GN_OUTPUT_LINEAR8 || !plan->encode_srgb);
+    }
+
+    const struct gn_stencil *s = &p->stencil;
+    const bool stencil = s->reads || s->writes || pass->clear.stencil_bits;
+    REQUIRE(!stencil || (plan->stencil && pass->target.kind == GN_TARGET_OUTPUT));
+    REQUIRE((s->value & ~(s->reads | s->writes)) == 0);
+    REQUIRE(!pass->clear.stencil_bits || !clears);
+    if (p->only_stencil) {
+        REQUIRE(s->writes && !pass->depth_write && !clears);
+        REQUIRE(p->blend == GN_BLEND_OFF);
+    }
+    return NULL;
 }
 
 /* What is drawn into a shadow map completes one tile of it, and is cleared with it. */
@@ -163,7 +150,7 @@ static const char *check_copy(const struct gn_plan *plan, const struct gn_pass *
     return check_tile(plan, pass);
 }
 
-/* A filter of a map draws all of its target once, and reads nothing that it draws to. */
+/* A filter step draws all of its target once, and does not read its target. */
 static const char *check_filter(const struct gn_plan *plan, const struct gn_pass *pass) {
     const struct gn_target *to = &pass->target;
     REQUIRE(to->kind == GN_TARGET_MOMENTS && to->index < GN_FILTER_TEXTURES_MAX);
@@ -180,18 +167,6 @@ static const char *check_filter(const struct gn_plan *plan, const struct gn_pass
     return NULL;
 }
 
-static const char *check_kind(const struct gn_plan *plan, const struct gn_pass *pass) {
-    REQUIRE(pass->kind == GN_PASS_PICTURE ||
-            (pass->content.hash != 0 && !pass->clear.stencil_bits));
-    switch (pass->kind) {
-    case GN_PASS_PICTURE: return check_picture(plan, pass);
-    case GN_PASS_MAP: return check_map(plan, pass);
-    case GN_PASS_COPY: return check_copy(plan, pass);
-    case GN_PASS_FILTER: return check_filter(plan, pass);
-    }
-    return "a pass of no known kind";
-}
-
 static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *pass) {
     REQUIRE(pass->target.width_px > 0 && pass->target.height_px > 0);
     REQUIRE(rect_is_inside(&pass->rect, &pass->target));
@@ -201,38 +176,36 @@ static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *
     REQUIRE(pass->first_draw <= plan->draw_count);
     REQUIRE(pass->draw_count <= plan->draw_count - pass->first_draw);
     REQUIRE(pass->constants != NULL && pass->constant_count > 0);
-    const char *broken = check_kind(plan, pass);
-    for (uint32_t i = 0; i < pass->draw_count && !broken; i++) {
-        const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
-        broken = check_draw(plan, draw);
-        if (!broken) broken = check_use(pass, &plan->programs[draw->program]);
+    REQUIRE(pass->kind == GN_PASS_PICTURE ||
+            (pass->content.hash != 0 && !pass->clear.stencil_bits));
+    const char *broken = "a pass of no known kind";
+    switch (pass->kind) {
+    case GN_PASS_PICTURE: broken = check_picture(plan, pass); break;
+    case GN_PASS_MAP: broken = check_map(plan, pass); break;
+    case GN_PASS_COPY: broken = check_copy(plan, pass); break;
+    case GN_PASS_FILTER: broken = check_filter(plan, pass); break;
     }
+    for (uint32_t i = 0; i < pass->draw_count && !broken; i++)
+        broken = check_draw(plan, pass, &plan->draws[pass->first_draw + i]);
     return broken;
 }
 
-/* ---- passes, as they follow each other ---- */
-
-/* Pages are cleared by the first of them, and copied by the pass after the last. */
-static const char *check_pages(const struct gn_pass *before, const struct gn_pass *pass) {
-    const bool goes_on = before && before->target.kind == GN_TARGET_PAGES;
-    REQUIRE(goes_on || pass->kind != GN_PASS_COPY);
-    if (pass->target.kind == GN_TARGET_PAGES)
-        REQUIRE((pass->clear.area == GN_CLEAR_NOTHING) == goes_on);
-    if (!goes_on) return NULL;
-    REQUIRE(pass->target.kind == GN_TARGET_PAGES || pass->kind == GN_PASS_COPY);
-    REQUIRE(pass->target.slot == before->target.slot);
-    REQUIRE(pass->content.hash == before->content.hash);
-    return NULL;
-}
-
-/* The last pass to the output resolves it, and no other. */
+/* Pages are cleared by the first pass to them, and copied by the pass after the last. Only the last
+ * pass to the output resolves it. */
 static const char *check_order(const struct gn_plan *plan) {
     const struct gn_pass *passes = plan->passes;
     uint32_t last = plan->pass_count;
     for (uint32_t i = 0; i < plan->pass_count; i++) {
-        const char *broken = check_pages(i > 0 ? &passes[i - 1] : NULL, &passes[i]);
-        if (broken) return broken;
-        if (passes[i].target.kind == GN_TARGET_OUTPUT) last = i;
+        const struct gn_pass *pass = &passes[i], *before = i > 0 ? pass - 1 : NULL;
+        const bool to_pages = pass->target.kind == GN_TARGET_PAGES;
+        const bool goes_on = before && before->target.kind == GN_TARGET_PAGES;
+        if (pass->target.kind == GN_TARGET_OUTPUT) last = i;
+        REQUIRE(goes_on || pass->kind != GN_PASS_COPY);
+        if (to_pages) REQUIRE((pass->clear.area == GN_CLEAR_NOTHING) == goes_on);
+        if (!goes_on) continue;
+        REQUIRE(to_pages || pass->kind == GN_PASS_COPY);
+        REQUIRE(pass->target.slot == before->target.slot);
+        REQUIRE(pass->content.hash == before->content.hash);
     }
     for (uint32_t i = 0; i < plan->pass_count; i++)
         if (passes[i].kind == GN_PASS_PICTURE) REQUIRE(passes[i].picture.resolves == (i == last));

@@ -21,15 +21,8 @@ static void add_instance(struct gn_frame *frame, const struct gn_pose *pose, uin
     instance->emissive[3] = gn_shadow_item_casts(frame->scene, index) ? 1.0f : 0.0f;
 }
 
-static bool light_is_outside(const struct gn_box *box, const struct gn_shadow_view *view) {
-    if (!view->perspective) return true;
-    for (int k = 0; k < 3; k++)
-        if (view->light_ws[k] < box->min[k] || view->light_ws[k] > box->max[k]) return true;
-    return false;
-}
-
-/* Casting from both sides, a solid body needs only the faces that look to a light outside it;
- * `auto` gives it the others (second depth: Wang, Molnar 1994), and what is open both. */
+/* A closed body needs only the faces towards a light outside it, or, with `auto`, only the others
+ * (second depth: Wang, Molnar 1994). Open bodies need both. */
 static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_pose *pose,
                                 uint32_t index, const struct gn_shadow_view *view) {
     const struct gn_item *item = &scene->items[index];
@@ -37,29 +30,12 @@ static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_po
     if (item->cast_faces == GN_CAST_BACK) return GN_CULL_FRONT;
     bool solid = scene->geometries[item->geometry].closed &&
                  scene->materials[item->material].alpha != GN_ALPHA_MASK;
-    if (!solid || !light_is_outside(&pose->items[index].box_ws, view)) return GN_CULL_NONE;
+    const struct gn_box *box = &pose->items[index].box_ws;
+    bool outside = !view->perspective;
+    for (int k = 0; k < 3; k++)
+        outside |= view->light_ws[k] < box->min[k] || view->light_ws[k] > box->max[k];
+    if (!solid || !outside) return GN_CULL_NONE;
     return item->cast_faces == GN_CAST_AUTO ? GN_CULL_FRONT : GN_CULL_BACK;
-}
-
-static enum gn_cull eye_cull(const struct gn_frame *frame, const struct gn_item *item) {
-    return frame->scene->materials[item->material].double_sided ? GN_CULL_NONE : GN_CULL_BACK;
-}
-
-static void begin_draw(struct gn_frame *frame, uint32_t item, const struct gn_program_key *key,
-                       enum gn_cull cull, bool mirrored) {
-    uint32_t program = gn_frame_program(frame, key);
-    GN_LIST_PUSH(&frame->draws) = (struct gn_draw){
-        .program = program,
-        .geometry = frame->scene->items[item].geometry,
-        .material = frame->scene->items[item].material,
-        .first_instance = frame->instances.count,
-        .cull = (uint8_t)cull,
-        .mirrored = mirrored,
-    };
-}
-
-static bool is_blended(const struct gn_frame *frame, uint32_t item) {
-    return frame->scene->materials[frame->scene->items[item].material].alpha == GN_ALPHA_BLEND;
 }
 
 /* How far behind the near plane a box lies: its middle, or its far side. */
@@ -73,51 +49,48 @@ static float depth_of(const struct gn_frame *frame, const struct gn_box *box, bo
     return depth;
 }
 
-/* Whether an item is visible, opaque and within range of a group of added lights. */
-static bool takes_light(const struct gn_frame *frame, const struct gn_pose *pose,
-                        const struct gn_light_group *group, uint32_t item) {
-    const struct gn_material *m = &frame->scene->materials[frame->scene->items[item].material];
-    const struct gn_pose_item *posed = &pose->items[item];
-    return posed->visible && !m->unlit && m->alpha != GN_ALPHA_BLEND &&
-           gn_eye_sees(&frame->eye, &posed->box_ws) && gn_group_touches(group, &posed->box_ws);
-}
-
 static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
                        const struct gn_selection *s, uint32_t item) {
     if (s->casts) return s->casts[item] >> s->page & 1;
     if (s->part && gn_key_on_plane(frame, item, s->opts) != (s->part == GN_PART_PLANE))
         return false;
-    if (s->group) return takes_light(frame, pose, s->group, item);
+    const struct gn_material *m = &frame->scene->materials[frame->scene->items[item].material];
     const struct gn_box *box = &pose->items[item].box_ws;
+    if (s->group) /* of added lights: opaque items in their range */
+        return pose->items[item].visible && !m->unlit && m->alpha != GN_ALPHA_BLEND &&
+               gn_eye_sees(&frame->eye, box) && gn_group_touches(s->group, box);
     if (!pose->items[item].visible || !(s->opts->all_seen || gn_eye_sees(&frame->eye, box))) {
         frame->plan.culled++;
         return false;
     }
-    if (!is_blended(frame, item)) return true;
+    if (m->alpha != GN_ALPHA_BLEND) return true;
     if (s->opts->debug.aov == GN_AOV_COLOR)
         GN_LIST_PUSH(&frame->items.blended) = (struct gn_placed){depth_of(frame, box, false), item};
     return false;
 }
 
-static struct gn_program_key item_key(const struct gn_frame *frame, const struct gn_selection *s,
-                                      uint32_t item) {
-    if (s->casts) return gn_key_caster(frame, item, s->view);
-    struct gn_program_key lit = gn_key_lit(frame, item, s->opts);
-    return s->group ? gn_key_additive(frame, &lit, s->group, s->opts) : lit;
-}
-
 void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_selection *s, uint32_t item, bool *open) {
+    const struct gn_item *what = &frame->scene->items[item];
     bool mirrored = pose->items[item].mirrored != s->mirrored;
-    enum gn_cull cull = s->casts ? caster_cull(frame->scene, pose, item, s->view)
-                                 : eye_cull(frame, &frame->scene->items[item]);
-    if (*open) { /* one more of the last? */
+    enum gn_cull cull =
+        frame->scene->materials[what->material].double_sided ? GN_CULL_NONE : GN_CULL_BACK;
+    if (s->casts) cull = caster_cull(frame->scene, pose, item, s->view);
+    if (*open) { /* an instance of the last draw? */
         const struct gn_draw *last = &frame->draws.at[frame->draws.count - 1];
         *open = last->mirrored == mirrored && last->cull == cull;
     }
     if (!*open) {
-        struct gn_program_key key = item_key(frame, s, item);
-        begin_draw(frame, item, &key, cull, mirrored);
+        struct gn_program_key key =
+            s->casts ? gn_key_caster(frame, item, s->view) : gn_key_lit(frame, item, s->opts);
+        if (s->group) key = gn_key_additive(frame, &key, s->group, s->opts);
+        uint32_t program = gn_frame_program(frame, &key);
+        GN_LIST_PUSH(&frame->draws) = (struct gn_draw){.program = program,
+                                                       .geometry = what->geometry,
+                                                       .material = what->material,
+                                                       .first_instance = frame->instances.count,
+                                                       .cull = (uint8_t)cull,
+                                                       .mirrored = mirrored};
         *open = true;
     }
     add_instance(frame, pose, item);
@@ -175,14 +148,14 @@ void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
     draw_run(frame, pose, s);
 }
 
-/* Opaque before masked (a discard costs early depth), then nearest first, by the far side: a ground
- * goes last. */
+/* Opaque before masked (a discard disables early depth tests), then nearest first, by the far side:
+ * the ground comes last. */
 static float draw_order(const struct gn_frame *frame, const struct gn_draw *draw) {
     bool masked = frame->programs.at[draw->program].features & GN_FEATURE(ALPHA_MASK);
     return draw->depth_m + (masked ? 1e9f : 0.0f);
 }
 
-/* Few draws, nearly sorted from frame to frame: insertion. */
+/* Insertion sort: few draws, nearly sorted from frame to frame. */
 void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first) {
     struct gn_draw *draws = frame->draws.at;
     for (uint32_t i = first + 1; i < frame->draws.count; i++) {
