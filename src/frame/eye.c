@@ -6,21 +6,6 @@
 
 #define FAR_TIMES 1e4f /* times the extent of the scene */
 
-/* Distance from the camera to the far end of the scene. */
-static float scene_far_m(const struct gn_pose *pose, vec3 eye_ws, float near_m) {
-    vec3 reach;
-    for (int k = 0; k < 3; k++)
-        reach[k] =
-            fmaxf(fabsf(pose->box_ws.min[k] - eye_ws[k]), fabsf(pose->box_ws.max[k] - eye_ws[k]));
-    float far_m = glm_vec3_norm(reach) * 1.01f;
-    return isfinite(far_m) && far_m > 2.0f * near_m ? far_m : 2.0f * near_m;
-}
-
-/* A far plane far beyond the scene shows nothing more and costs depth precision. */
-static float camera_far_m(const struct gn_camera *camera, float scene_m) {
-    return camera->far_m > 0.0f && camera->far_m < FAR_TIMES * scene_m ? camera->far_m : scene_m;
-}
-
 /* Rotates the camera about the vertical axis through the scene's centre. */
 static void turn_camera(const struct gn_pose *pose, float angle_rad, mat4 view_from_world,
                         vec3 eye_ws) {
@@ -38,22 +23,14 @@ static void turn_camera(const struct gn_pose *pose, float angle_rad, mat4 view_f
     glm_vec3_add(eye_ws, centre, eye_ws);
 }
 
-/* Rotates the picture in clip space: free for a rotated screen. */
-static void turn_picture(const struct gn_frame *frame, mat4 clip_from_view) {
-    const float c = frame->picture.turn[0], s = frame->picture.turn[1];
-    for (int k = 0; k < 4; k++) {
-        const float x = clip_from_view[k][0], y = clip_from_view[k][1];
-        clip_from_view[k][0] = c * x + s * y;
-        clip_from_view[k][1] = c * y - s * x;
-    }
-}
-
 /* A camera moved by the user shows all of the scene: the camera's own near and far planes then only
  * extend the range. */
 static void make_projection(const struct gn_camera *camera, const struct gn_orbit *orbit,
                             float aspect, const float reach_m[2], mat4 clip_from_view) {
     const bool moved = !gn_orbit_is_zero(orbit);
-    float near_m = camera->near_m, far_m = camera_far_m(camera, reach_m[1]);
+    float near_m = camera->near_m, far_m = reach_m[1];
+    /* A far plane far beyond the scene shows nothing more and costs depth precision. */
+    if (camera->far_m > 0.0f && camera->far_m < FAR_TIMES * reach_m[1]) far_m = camera->far_m;
     if (moved) far_m = fmaxf(far_m, reach_m[1]);
     if (camera->orthographic) {
         float half[2];
@@ -80,9 +57,21 @@ static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
     reach_m[0] = gn_orbit_view(&opts->view.orbit, pose, (uint32_t)opts->view.camera,
                                look->view_from_world, look->eye_ws);
     turn_camera(pose, opts->view.turntable_rad, look->view_from_world, look->eye_ws);
-    reach_m[1] = scene_far_m(pose, look->eye_ws, camera->near_m);
+    const struct gn_box *box = &pose->box_ws;
+    vec3 reach;
+    for (int k = 0; k < 3; k++)
+        reach[k] =
+            fmaxf(fabsf(box->min[k] - look->eye_ws[k]), fabsf(box->max[k] - look->eye_ws[k]));
+    const float far_m = glm_vec3_norm(reach) * 1.01f, least_m = 2.0f * camera->near_m;
+    reach_m[1] = isfinite(far_m) && far_m > least_m ? far_m : least_m;
     make_projection(camera, &opts->view.orbit, aspect, reach_m, clip_from_view);
-    turn_picture(frame, clip_from_view);
+    /* Rotates the picture in clip space: free for a rotated screen. */
+    const float c = frame->picture.turn[0], s = frame->picture.turn[1];
+    for (int k = 0; k < 4; k++) {
+        const float x = clip_from_view[k][0], y = clip_from_view[k][1];
+        clip_from_view[k][0] = c * x + s * y;
+        clip_from_view[k][1] = c * y - s * x;
+    }
     glm_mat4_mul(clip_from_view, look->view_from_world, look->clip_from_world);
 }
 
@@ -100,8 +89,8 @@ void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
     find_look(frame, pose, opts, &look);
     gn_eye_build(&frame->eye, look.clip_from_world);
     memcpy(constants[PASS_CLIP], look.clip_from_world, sizeof look.clip_from_world);
-    for (int k = 0; k < 3;
-         k++) { /* orthographic: the unit vector towards the camera is the view's +Z */
+    for (int k = 0; k < 3; k++) {
+        /* orthographic: the unit vector towards the camera is the view's +Z */
         constants[PASS_EYE][k] = camera->orthographic ? look.view_from_world[k][2] : look.eye_ws[k];
         constants[PASS_EXPOSURE][1 + k] = look.eye_ws[k];
     }

@@ -1,6 +1,6 @@
-/* The passes that turn a map into what shaders read (shadow/moments.h): all of the target, or of
- * each tile, a triangle each, in the order of the technique's filter. They are skipped as the map's
- * own are, while the light's texture holds what they would make. */
+/* The passes that make moments of a map (shadow/moments.h): a triangle over the target, or over
+ * each tile, per step of the technique's filter. As the map's own passes, they are skipped while
+ * the light's texture is up to date. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,8 +14,8 @@ static float blur_of(const struct gn_shadow_view *view, uint32_t tile) {
     return view->map.cascade_count > 0 ? view->cascades[tile].blur_px : view->penumbra.blur_px;
 }
 
-/* Factor and sum that make 0..1 of what moments span. A cascade without casters holds the far end
- * alone, whatever is made of it. */
+/* Scale and offset that map the range of moments to 0..1. A cascade without casters contains only
+ * the far end: any will do. */
 static void code_transform(const struct gn_shadow_view *view, uint32_t tile, float code[2]) {
     code[0] = 1.0f;
     code[1] = 0.0f;
@@ -60,14 +60,7 @@ static void texture_size(const struct gn_shadow_view *view, uint32_t texture, ui
     size_px[1] = narrow ? view->map.tile_px : view->map.height_px;
 }
 
-/* The part of a texture that is of a tile. */
-static struct gn_rect part_rect(const struct gn_shadow_view *view, uint32_t texture,
-                                uint32_t tile) {
-    if (!is_narrow(view, texture)) return tile_rect(view, tile);
-    return (struct gn_rect){tile * blocks_of(view), 0, blocks_of(view), view->map.tile_px};
-}
-
-static void put_constants(const struct gn_shadow_view *view, uint32_t tile, float (*c)[4]) {
+static void filter_constants(const struct gn_shadow_view *view, uint32_t tile, float (*c)[4]) {
     const struct gn_rect r = tile_rect(view, tile);
     const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};
     c[FILTER_RECT][0] = (float)r.x;
@@ -87,14 +80,6 @@ static void put_constants(const struct gn_shadow_view *view, uint32_t tile, floa
     }
 }
 
-static struct gn_read filter_read(const struct gn_shadow_view *view, int from) {
-    if (from == GN_FROM_NOTHING) return (struct gn_read){.kind = GN_READ_NOTHING};
-    if (from == GN_FROM_MAP) return (struct gn_read){.kind = GN_READ_MAP};
-    uint32_t size_px[2];
-    texture_size(view, (uint32_t)from, size_px);
-    return (struct gn_read){GN_READ_MOMENTS, (uint32_t)from, size_px[0], size_px[1]};
-}
-
 static struct gn_program_key filter_key(const struct gn_shadow_view *view,
                                         enum gn_filter_step step) {
     struct gn_program_key key;
@@ -108,7 +93,7 @@ static struct gn_program_key filter_key(const struct gn_shadow_view *view,
     return key;
 }
 
-/* Behind those of the casters of the same tile: their set is larger than they take. */
+/* After those of the casters of the same tile, which use only the start of their set. */
 enum { CONSTANTS_AT = 8 };
 _Static_assert(PASS_CODE_ADD < CONSTANTS_AT && CONSTANTS_AT + FILTER_CONSTANTS <= GN_PASS_SIZE,
                "room for the constants of a filter");
@@ -132,13 +117,25 @@ static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                                       .moments = view->moments,
                                       .index = stage->to,
                                       .mipmaps = stage->to == 0 && gn_view_has_mipmaps(view)};
-    if (view->map.tile_count > 1) pass->rect = pass->viewport = part_rect(view, stage->to, tile);
+    if (view->map.tile_count > 1 && is_narrow(view, stage->to))
+        pass->rect = pass->viewport =
+            (struct gn_rect){tile * blocks_of(view), 0, blocks_of(view), view->map.tile_px};
+    else if (view->map.tile_count > 1)
+        pass->rect = pass->viewport = tile_rect(view, tile);
     pass->content = (struct gn_content){
         .tile = tile, .hash = gn_frame_filter_hash(view, tile), .completes = last};
     pass->depth_write = false;
-    for (int i = 0; i < GN_FILTER_FROM_MAX; i++)
-        pass->filter.reads[i] = filter_read(view, stage->from[i]);
-    put_constants(view, tile, constants);
+    for (int i = 0; i < GN_FILTER_FROM_MAX; i++) {
+        const int from = stage->from[i];
+        struct gn_read *read = &pass->filter.reads[i];
+        *read = (struct gn_read){.kind = GN_READ_NOTHING};
+        if (from == GN_FROM_NOTHING) continue;
+        *read = (struct gn_read){.kind = GN_READ_MAP};
+        if (from == GN_FROM_MAP) continue;
+        texture_size(view, (uint32_t)from, size_px);
+        *read = (struct gn_read){GN_READ_MOMENTS, (uint32_t)from, size_px[0], size_px[1]};
+    }
+    filter_constants(view, tile, constants);
     pass->constants = constants;
     pass->constant_count = FILTER_CONSTANTS;
     gn_frame_draw_bare(frame, &key, 3, 0, 1);

@@ -70,8 +70,8 @@ static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PICTURE);
     memcpy(c[PASS_SKY], frame->scene->environment.sky, sizeof(vec3));
     memcpy(c[PASS_GROUND], frame->scene->environment.ground, sizeof(vec3));
-    /* What glows is given as it shall look, as the hemisphere is: an automatic exposure for lux
-     * would put it out. */
+    /* Emission and the hemisphere are specified as displayed: an automatic exposure for lux would
+     * make them black. */
     c[PASS_EXPOSURE][0] = opts->exposure_given ? frame->plan.exposure : 1.0f;
     for (uint32_t i = 0; i < frame->group_count; i++) {
         float(*of_group)[4] = gn_frame_constants(frame, GN_CONSTANTS_PICTURE + i);
@@ -81,21 +81,17 @@ static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose
     }
 }
 
-static void set_turn(struct gn_frame *frame, unsigned deg) {
-    static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    const bool on_side = deg / 90 % 2;
-    frame->picture.width_px = on_side ? frame->plan.height_px : frame->plan.width_px;
-    frame->picture.height_px = on_side ? frame->plan.width_px : frame->plan.height_px;
-    memcpy(frame->picture.turn, turns[deg / 90 % 4], sizeof frame->picture.turn);
-}
-
 static void reset_plan(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+    static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
     frame->plan = (struct gn_plan){.scene = frame->scene};
     frame->plan.width_px = opts->width_px ? opts->width_px : 1280;
     frame->plan.height_px = opts->height_px ? opts->height_px : 720;
     frame->camera = (uint32_t)opts->view.camera;
-    set_turn(frame, opts->turn_deg);
+    const bool on_side = opts->turn_deg / 90 % 2;
+    frame->picture.width_px = on_side ? frame->plan.height_px : frame->plan.width_px;
+    frame->picture.height_px = on_side ? frame->plan.width_px : frame->plan.height_px;
+    memcpy(frame->picture.turn, turns[opts->turn_deg / 90 % 4], sizeof frame->picture.turn);
 }
 
 static void publish_plan(struct gn_frame *frame) {
@@ -114,19 +110,6 @@ static void publish_plan(struct gn_frame *frame) {
     plan->light_count = frame->light_count;
 }
 
-/* Samples, which are to be averaged as light, before they are encoded. */
-static bool resolves_to_float(const struct gn_frame *frame) {
-    return frame->plan.msaa > 1 && frame->caps.has & 1u << GN_CAP_RGBA16F;
-}
-
-/* After the last pass to the output its samples are resolved, and nothing reads its depth. */
-static void finish_output(struct gn_frame *frame) {
-    struct gn_pass *last = &frame->passes.at[frame->passes.count - 1];
-    while (last->target.kind != GN_TARGET_OUTPUT) last--;
-    last->discard_depth = true;
-    last->picture.resolves = true;
-}
-
 const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
                                      const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings) {
@@ -137,7 +120,9 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     gn_frame_eye(frame, pose, opts, gn_frame_constants(frame, GN_CONSTANTS_PICTURE));
     plan->exposure = gn_frame_exposure(frame, pose, opts);
     gn_frame_choose_lights(frame, pose, opts, warnings);
-    if (plan->encode_srgb && (frame->group_count > 1 || resolves_to_float(frame)))
+    /* Samples are averaged in linear light, before they are encoded. */
+    const bool resolves_to_float = plan->msaa > 1 && frame->caps.has & 1u << GN_CAP_RGBA16F;
+    if (plan->encode_srgb && (frame->group_count > 1 || resolves_to_float))
         plan->output = GN_OUTPUT_FLOAT;
     gn_frame_fit_shadows(frame, pose, opts, warnings);
     gn_frame_hold_maps(frame, opts);
@@ -145,7 +130,11 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
 #define X(name) gn_frame_add_##name(frame, pose, opts);
     GN_FRAME_STEPS(X)
 #undef X
-    finish_output(frame);
+    /* After the last pass to the output its samples are resolved, and nothing reads its depth. */
+    struct gn_pass *last = &frame->passes.at[frame->passes.count - 1];
+    while (last->target.kind != GN_TARGET_OUTPUT) last--;
+    last->discard_depth = true;
+    last->picture.resolves = true;
     publish_plan(frame);
     assert(gn_plan_check(plan) == NULL);
     return plan;

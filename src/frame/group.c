@@ -1,13 +1,9 @@
-/* Lights into groups: as many as one pass takes, the rest in passes that add. A program knows eight
- * lights, four of them with a map, so that their samplers and constants fit everywhere; what is
- * added is bounded on the screen, so the lights that reach farthest go first. */
+/* Lights into groups: as many as one pass draws with, the rest in passes that add. A program has at
+ * most eight lights, four of them with a map, so that their samplers and constants fit every GPU;
+ * passes that add are bounded on the screen, so the lights that reach farthest go first. */
 #include <string.h>
 
 #include "frame/private.h"
-
-static bool fits_one(const struct gn_frame *frame) {
-    return frame->light_count <= GN_LIGHTS_MAX && frame->shadow_count <= GN_SHADOWS_MAX;
-}
 
 /* 0: all of the scene, 1: a cone, 2: a ball, too. By kind alone: it does not change with the pose.
  */
@@ -23,7 +19,7 @@ static int is_for_plane(const struct gn_frame *frame, const struct gn_frame_ligh
     return gn_techniques[light->technique].on_plane;
 }
 
-/* Insertion: stable, and they are few. */
+/* Insertion sort: stable, and they are few. */
 static void sort_lights(struct gn_frame *frame, uint32_t first, uint32_t end,
                         int (*rank)(const struct gn_frame *, const struct gn_frame_light *)) {
     for (uint32_t i = first + 1; i < end; i++) {
@@ -37,8 +33,14 @@ static void sort_lights(struct gn_frame *frame, uint32_t first, uint32_t end,
 
 static uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
-/* From "all with maps, then all without" to one group after the other. */
-static void deal_groups(struct gn_frame *frame) {
+void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose) {
+    memset(frame->groups, 0, sizeof frame->groups);
+    frame->group_count = 0;
+    if (frame->light_count > GN_LIGHTS_MAX || frame->shadow_count > GN_SHADOWS_MAX) {
+        sort_lights(frame, 0, frame->shadow_count, rank_of);
+        sort_lights(frame, frame->shadow_count, frame->light_count, rank_of);
+    }
+    /* From "all with maps, then all without" to one group after the other. */
     struct gn_frame_light dealt[GN_ALL_LIGHTS_MAX];
     uint32_t count = 0, map = 0, open = frame->shadow_count;
     for (; count < frame->light_count; frame->group_count++) {
@@ -52,19 +54,7 @@ static void deal_groups(struct gn_frame *frame) {
         for (; count < g->first + g->count; count++) dealt[count] = frame->lights[open++];
     }
     memcpy(frame->lights, dealt, count * sizeof *dealt);
-}
-
-void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose) {
-    memset(frame->groups, 0, sizeof frame->groups);
-    frame->group_count = 0;
-    if (!fits_one(frame)) {
-        sort_lights(frame, 0, frame->shadow_count, rank_of);
-        sort_lights(frame, frame->shadow_count, frame->light_count, rank_of);
-    }
-    if (frame->light_count > 0)
-        deal_groups(frame);
-    else
-        frame->group_count = 1;
+    if (frame->group_count == 0) frame->group_count = 1;
     for (uint32_t g = 0; g < frame->group_count; g++) {
         const uint32_t first = frame->groups[g].first;
         sort_lights(frame, first, first + frame->groups[g].shadow_count, is_for_plane);

@@ -12,12 +12,7 @@ static uint64_t texture_features(const struct gn_material *material, enum gn_tex
     return texture_bit(slot) | (ref->uv_set ? uv1_bit(slot) : 0);
 }
 
-static uint64_t vertex_features(const struct gn_geometry *geometry) {
-    const uint64_t has = geometry->attributes >> GN_PLAIN_ATTRIBUTE_COUNT;
-    return has << GN_FEATURE_FIRST_ATTRIBUTE;
-}
-
-/* What decides an item's alpha, if anything asks for it. */
+/* The features that an item's alpha depends on; 0 unless it is masked. */
 static uint64_t alpha_features(const struct gn_scene *scene, const struct gn_item *item) {
     const struct gn_material *m = &scene->materials[item->material];
     if (m->alpha != GN_ALPHA_MASK) return 0;
@@ -33,7 +28,9 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     uint64_t features = alpha_features(scene, item);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
         if (gn_material_reads(m, slot)) features |= texture_features(m, slot);
-    features |= vertex_features(&scene->geometries[item->geometry]);
+    const uint64_t attributes =
+        scene->geometries[item->geometry].attributes >> GN_PLAIN_ATTRIBUTE_COUNT;
+    features |= attributes << GN_FEATURE_FIRST_ATTRIBUTE;
     if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE(ALPHA_BLEND);
     if (frame->plan.output == GN_OUTPUT_LINEAR8 && frame->plan.encode_srgb)
         features |= GN_FEATURE(ENCODE_SRGB);
@@ -47,16 +44,12 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     return features;
 }
 
-static bool has_planar_lights(const struct gn_frame *frame) {
-    for (uint32_t i = 0; i < frame->light_count; i++)
-        if (gn_techniques[frame->lights[i].technique].on_plane) return true;
-    return false;
-}
-
 static enum gn_receiver receiver_of(const struct gn_frame *frame, const struct gn_item *item,
                                     enum gn_aov aov) {
     if (!item->receives && aov != GN_AOV_VISIBILITY) return GN_RECEIVES_NOTHING;
-    return item->plane && has_planar_lights(frame) ? GN_RECEIVES_ALL : GN_RECEIVES_MAPS;
+    for (uint32_t i = 0; item->plane && i < frame->light_count; i++)
+        if (gn_techniques[frame->lights[i].technique].on_plane) return GN_RECEIVES_ALL;
+    return GN_RECEIVES_MAPS;
 }
 
 bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item,
@@ -64,22 +57,17 @@ bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item,
     return receiver_of(frame, &frame->scene->items[item], opts->debug.aov) == GN_RECEIVES_ALL;
 }
 
-/* How many of the lights with maps are asked about their shadows: those for the plane come last. */
-static uint32_t shadows_on(const struct gn_frame *frame, const struct gn_light_group *group,
-                           enum gn_receiver receiver) {
-    uint32_t count = receiver == GN_RECEIVES_NOTHING ? 0 : group->shadow_count;
-    while (receiver == GN_RECEIVES_MAPS && count > 0 &&
-           gn_techniques[frame->lights[group->first + count - 1].technique].on_plane)
-        count--;
-    return count;
-}
-
-/* The lights of a group, and what their techniques take. */
+/* The lights of a group, and what their techniques need. */
 static void set_lights(const struct gn_frame *frame, const struct gn_light_group *group,
                        const struct gn_frame_opts *opts, enum gn_receiver receiver,
                        struct gn_program_key *key) {
     key->light_count = (uint8_t)group->count;
-    key->shadow_count = (uint8_t)shadows_on(frame, group, receiver);
+    /* How many of the lights with maps the item's shadows come from: planar ones are last. */
+    uint32_t shadows = receiver == GN_RECEIVES_NOTHING ? 0 : group->shadow_count;
+    while (receiver == GN_RECEIVES_MAPS && shadows > 0 &&
+           gn_techniques[frame->lights[group->first + shadows - 1].technique].on_plane)
+        shadows--;
+    key->shadow_count = (uint8_t)shadows;
     for (uint32_t i = 0; i < group->count; i++) {
         const struct gn_frame_light *light = &frame->lights[group->first + i];
         key->lights[i].type = (uint8_t)frame->scene->lights[light->light].type;

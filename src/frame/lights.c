@@ -35,12 +35,6 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
     return frame->auto_exposure.value;
 }
 
-static bool can_filter(const struct gn_frame *frame, enum gn_technique technique) {
-    bool fell_back;
-    return gn_moments_choose(gn_techniques[technique].stores, GN_MOMENTS_NONE,
-                             gn_caps_moments(&frame->caps), &fell_back) != GN_MOMENTS_NONE;
-}
-
 static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
                                       const struct gn_frame_opts *opts,
                                       struct gn_warnings *warnings) {
@@ -51,7 +45,10 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
                 light->name, light->technique);
     bool own = note->technique == GN_TECHNIQUE_NONE || !opts->shadow.technique_given;
     enum gn_technique technique = own ? note->technique : opts->shadow.technique;
-    if (gn_technique_filters_map(technique) && !can_filter(frame, technique)) {
+    bool fell_back;
+    if (gn_technique_filters_map(technique) &&
+        gn_moments_choose(gn_techniques[technique].stores, GN_MOMENTS_NONE,
+                          gn_caps_moments(&frame->caps), &fell_back) == GN_MOMENTS_NONE) {
         if (gn_frame_notice(&note->said, GN_NOTICE_MOMENTS, warnings))
             gn_warn(warnings,
                     "light '%s' falls back to pcf: this GPU has no renderable format for %s",
@@ -109,23 +106,11 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
                 "the plane is transparent: its shadows use a mask instead of the stencil");
 }
 
-static struct gn_frame_light describe_light(struct gn_frame *frame, const struct gn_pose *pose,
-                                            uint32_t index, const struct gn_frame_opts *opts,
-                                            struct gn_warnings *warnings) {
-    const struct gn_light *light = &frame->scene->lights[index];
-    struct gn_frame_light l = {.light = index,
-                               .technique = technique_of(frame, index, opts, warnings)};
-    l.strength = opts->shadow.strength_given ? opts->shadow.strength : light->shadow_strength;
-    l.illuminance = illuminance(pose, index);
-    if (l.technique != GN_TECHNIQUE_NONE) choose_encoding(frame, opts, &l, warnings);
-    return l;
-}
-
 static bool has_map(const struct gn_frame_light *light) {
     return light->technique != GN_TECHNIQUE_NONE;
 }
 
-/* The last of equals; there is at least one light. */
+/* Of equal lights the last; there is at least one light. */
 static uint32_t find_weakest(const struct gn_frame *frame, bool with_map) {
     uint32_t found = UINT32_MAX;
     for (uint32_t i = 0; i < frame->light_count; i++) {
@@ -136,8 +121,8 @@ static uint32_t find_weakest(const struct gn_frame *frame, bool with_map) {
     return found;
 }
 
-/* Light is added to light: a picture that the shaders encode, of which there is no linear one,
- * holds the lights of one pass. */
+/* Lights are added in linear space: a picture that the shaders encode, without a linear copy, has
+ * the lights of one pass. */
 static bool can_add_light(const struct gn_frame *frame) {
     return !frame->plan.encode_srgb || frame->caps.has & 1u << GN_CAP_RGBA16F;
 }
@@ -166,8 +151,29 @@ static void add_light(struct gn_frame *frame, struct gn_frame_light light, uint3
     frame->lights[frame->light_count++] = light;
 }
 
-/* Those with maps first, else by the scene's order. */
-static void order_lights(struct gn_frame *frame) {
+void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
+                            const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
+    bool visibility = opts->debug.aov == GN_AOV_VISIBILITY;
+    const uint32_t most = can_add_light(frame) ? GN_ALL_LIGHTS_MAX : GN_LIGHTS_MAX,
+                   most_maps = can_add_light(frame) ? GN_ALL_SHADOWS_MAX : GN_SHADOWS_MAX;
+    frame->light_count = 0;
+    for (uint32_t i = 0; i < frame->scene->light_count; i++) {
+        if (visibility ? (int)i != opts->debug.light : opts->debug.aov != GN_AOV_COLOR) continue;
+        struct gn_frame_light l = {.light = i, .technique = technique_of(frame, i, opts, warnings)};
+        l.strength = opts->shadow.strength_given ? opts->shadow.strength
+                                                 : frame->scene->lights[i].shadow_strength;
+        l.illuminance = illuminance(pose, i);
+        if (has_map(&l)) choose_encoding(frame, opts, &l, warnings);
+        add_light(frame, l, most, warnings);
+    }
+    uint32_t maps = 0;
+    for (uint32_t i = 0; i < frame->light_count; i++) maps += has_map(&frame->lights[i]);
+    for (; maps > most_maps; maps--) {
+        struct gn_frame_light *light = &frame->lights[find_weakest(frame, true)];
+        warn_of_limit(frame, light->light, GN_NOTICE_MAPS, most_maps, warnings);
+        light->technique = GN_TECHNIQUE_NONE;
+    }
+    /* Those with maps first, else in the scene's order. */
     struct gn_frame_light open[GN_ALL_LIGHTS_MAX];
     uint32_t open_count = 0;
     frame->shadow_count = 0;
@@ -177,31 +183,7 @@ static void order_lights(struct gn_frame *frame) {
         else
             open[open_count++] = frame->lights[i];
     memcpy(&frame->lights[frame->shadow_count], open, open_count * sizeof *open);
-}
-
-static uint32_t count_maps(const struct gn_frame *frame) {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < frame->light_count; i++) count += has_map(&frame->lights[i]);
-    return count;
-}
-
-void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
-                            const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
-    bool visibility = opts->debug.aov == GN_AOV_VISIBILITY;
-    const uint32_t most = can_add_light(frame) ? GN_ALL_LIGHTS_MAX : GN_LIGHTS_MAX,
-                   most_maps = can_add_light(frame) ? GN_ALL_SHADOWS_MAX : GN_SHADOWS_MAX;
-    frame->light_count = 0;
-    for (uint32_t i = 0; i < frame->scene->light_count; i++) {
-        if (visibility ? (int)i != opts->debug.light : opts->debug.aov != GN_AOV_COLOR) continue;
-        add_light(frame, describe_light(frame, pose, i, opts, warnings), most, warnings);
-    }
-    for (uint32_t count = count_maps(frame); count > most_maps; count--) {
-        struct gn_frame_light *light = &frame->lights[find_weakest(frame, true)];
-        warn_of_limit(frame, light->light, GN_NOTICE_MAPS, most_maps, warnings);
-        light->technique = GN_TECHNIQUE_NONE;
-    }
-    order_lights(frame);
-    for (uint32_t i = 0; i < frame->shadow_count; i++) /* whatever is in view */
+    for (uint32_t i = 0; i < frame->shadow_count; i++) /* visible or not */
         frame->plan.stencil |= frame->lights[i].encoding == GN_ENCODING_STENCIL;
     gn_frame_choose_slides(frame, opts, warnings);
     gn_frame_group_lights(frame, pose);

@@ -1,29 +1,23 @@
-/* The passes that draw the shadow maps: one a map, or a tile of it; of a directional light's map
- * that goes with the eye one a page, and one that puts the pages together (shadow/pages.h); of a
- * cascade always so. */
+/* The passes that draw the shadow maps: one per map, or per tile. Of a directional light's map that
+ * follows the camera one per page, and one that copies the pages (shadow/pages.h); so, too, of each
+ * cascade. */
 #include <stdio.h>
 #include <string.h>
 
 #include "frame/private.h"
 
-static void label_shadow(const struct gn_frame *frame, uint32_t slot, uint32_t tile,
-                         struct gn_pass *pass) {
+/* What all passes of a map have in common. page: 0 unless it draws one. */
+static struct gn_pass *begin_pass(struct gn_frame *frame, enum gn_pass_kind kind, uint32_t slot,
+                                  uint32_t tile, uint32_t page, mat4 clip_from_world) {
     static const char *const sides[GN_SHADOW_TILES_MAX] = {"+x", "-x", "+y", "-y", "+z", "-z"};
     static const char *const cascades[GN_CASCADES_MAX] = {"1", "2", "3", "4"};
     const struct gn_shadow_view *view = &frame->shadows[slot];
     const char *side = view->map.cascade_count > 0 ? cascades[tile] : sides[tile];
-    bool tiles = view->map.tile_count > 1;
+    const bool tiles = view->map.tile_count > 1;
+    struct gn_pass *pass = gn_frame_begin_pass(frame, kind);
     snprintf(pass->label, sizeof pass->label, "shadow %u %s%s%.*s", slot, tiles ? side : "",
              tiles ? " " : "", view->raster.drawn.paged || view->map.cascade_count > 0 ? 29 : 36,
              frame->scene->lights[view->light].name);
-}
-
-/* What all passes of a map have in common. page: 0 of what is no page. */
-static struct gn_pass *begin_pass(struct gn_frame *frame, enum gn_pass_kind kind, uint32_t slot,
-                                  uint32_t tile, uint32_t page, mat4 clip_from_world) {
-    const struct gn_shadow_view *view = &frame->shadows[slot];
-    struct gn_pass *pass = gn_frame_begin_pass(frame, kind);
-    label_shadow(frame, slot, tile, pass);
     pass->target = (struct gn_target){.kind = GN_TARGET_SHADOW,
                                       .slot = slot,
                                       .width_px = view->map.width_px,
@@ -87,29 +81,7 @@ static struct gn_target pages_target(const struct gn_frame *frame, const struct 
                               .encoding = view->encoding};
 }
 
-static void page_pass(struct gn_frame *frame, const struct gn_pose *pose, const struct paged *map,
-                      uint32_t index, const struct gn_frame_opts *opts) {
-    struct gn_shadow_page *page = &map->pages[index];
-    struct gn_pass *pass =
-        begin_pass(frame, GN_PASS_MAP, map->slot, map->tile, index, page->clip_from_world);
-    const size_t used = strlen(pass->label);
-    snprintf(pass->label + used, sizeof pass->label - used, " page %u", index);
-    pass->target = pages_target(frame, map);
-    pass->viewport = (struct gn_rect){0, 0, map->page_px, map->page_px};
-    pass->clear.area = index == 0 ? GN_CLEAR_ALL : GN_CLEAR_NOTHING;
-    pass->content.completes = false;
-    pass->discard_depth = false; /* the next page goes on with it */
-    pass->rect =
-        (struct gn_rect){page->from_px[0], page->from_px[1], page->size_px[0], page->size_px[1]};
-    struct gn_selection casters = {.casts = frame->memory[map->slot][map->tile].casts,
-                                   .page = index,
-                                   .view = &frame->shadows[map->slot],
-                                   .opts = opts};
-    gn_frame_draw_items(frame, pose, &casters);
-    gn_frame_end_pass(frame);
-}
-
-static void copy_pass(struct gn_frame *frame, const struct paged *map) {
+static void copy_pages(struct gn_frame *frame, const struct paged *map) {
     const struct gn_shadow_view *view = &frame->shadows[map->slot];
     struct gn_pass *pass =
         begin_pass(frame, GN_PASS_COPY, map->slot, map->tile, 0, map->pages[0].clip_from_world);
@@ -128,8 +100,27 @@ static void copy_pass(struct gn_frame *frame, const struct paged *map) {
 
 static void paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct paged *map, const struct gn_frame_opts *opts) {
-    for (uint32_t page = 0; page < map->page_count; page++) page_pass(frame, pose, map, page, opts);
-    copy_pass(frame, map);
+    for (uint32_t i = 0; i < map->page_count; i++) {
+        struct gn_shadow_page *page = &map->pages[i];
+        struct gn_pass *pass =
+            begin_pass(frame, GN_PASS_MAP, map->slot, map->tile, i, page->clip_from_world);
+        const size_t used = strlen(pass->label);
+        snprintf(pass->label + used, sizeof pass->label - used, " page %u", i);
+        pass->target = pages_target(frame, map);
+        pass->viewport = (struct gn_rect){0, 0, map->page_px, map->page_px};
+        pass->clear.area = i == 0 ? GN_CLEAR_ALL : GN_CLEAR_NOTHING;
+        pass->content.completes = false;
+        pass->discard_depth = false; /* the next page needs it */
+        pass->rect = (struct gn_rect){page->from_px[0], page->from_px[1], page->size_px[0],
+                                      page->size_px[1]};
+        struct gn_selection casters = {.casts = frame->memory[map->slot][map->tile].casts,
+                                       .page = i,
+                                       .view = &frame->shadows[map->slot],
+                                       .opts = opts};
+        gn_frame_draw_items(frame, pose, &casters);
+        gn_frame_end_pass(frame);
+    }
+    copy_pages(frame, map);
 }
 
 static void map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,

@@ -6,29 +6,24 @@
 #include "frame/private.h"
 #include "shadow/planar.h"
 
-static struct gn_light_note note_of(const struct gn_light *light) {
-    enum gn_technique technique = GN_TECHNIQUE_PCF;
-    bool unknown = light->technique && !gn_technique_find(light->technique, &technique, NULL);
-    return (struct gn_light_note){.technique = unknown ? GN_TECHNIQUE_PCF : technique,
-                                  .unknown = unknown};
-}
-
-/* A plane that is blended is not there when marks are made. */
-static bool plane_is_blended(const struct gn_scene *scene) {
-    for (uint32_t i = 0; i < scene->item_count; i++)
-        if (scene->items[i].plane && scene->items[i].receives &&
-            scene->materials[scene->items[i].material].alpha == GN_ALPHA_BLEND)
-            return true;
-    return false;
-}
-
 void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts) {
-    if (frame->notes.lights.count < frame->scene->light_count) {
-        frame->plane.exists = gn_planar_has_plane(frame->scene);
-        frame->plane.blended = plane_is_blended(frame->scene);
+    const struct gn_scene *scene = frame->scene;
+    if (frame->notes.lights.count < scene->light_count) {
+        frame->plane.exists = gn_planar_has_plane(scene);
+        frame->plane.blended = false;
+        /* A blended plane is not drawn yet when the stencil is marked. */
+        for (uint32_t i = 0; i < scene->item_count; i++)
+            frame->plane.blended |=
+                scene->items[i].plane && scene->items[i].receives &&
+                scene->materials[scene->items[i].material].alpha == GN_ALPHA_BLEND;
     }
-    for (uint32_t i = frame->notes.lights.count; i < frame->scene->light_count; i++)
-        GN_LIST_PUSH(&frame->notes.lights) = note_of(&frame->scene->lights[i]);
+    for (uint32_t i = frame->notes.lights.count; i < scene->light_count; i++) {
+        const char *name = scene->lights[i].technique;
+        enum gn_technique technique = GN_TECHNIQUE_PCF;
+        bool unknown = name && !gn_technique_find(name, &technique, NULL);
+        GN_LIST_PUSH(&frame->notes.lights) = (struct gn_light_note){
+            .technique = unknown ? GN_TECHNIQUE_PCF : technique, .unknown = unknown};
+    }
     const uint32_t about[GN_NOTICE_ABOUT] = {opts->shadow.technique_given,
                                              opts->shadow.technique,
                                              opts->shadow.encoding,

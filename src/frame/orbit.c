@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-static const float HIGHEST_RAD = 1.56f;   /* of the eye over what it looks at: not quite the pole */
+static const float HIGHEST_RAD = 1.56f; /* elevation over the point looked at: not quite the pole */
 static const float FARTHEST_ZOOM = -3.9f; /* 50 times as far away */
 static const float LARGEST_ZOOM = 6.9f;   /* orthographic: a thousand times as large */
 
@@ -11,12 +11,12 @@ bool gn_orbit_is_zero(const struct gn_orbit *o) {
            o->shift_m[1] == 0.0f && o->shift_m[2] == 0.0f;
 }
 
-/* The least distance to what is looked at. */
+/* The least distance to the point looked at. */
 static float nearest_m(const struct gn_camera *camera) {
     return camera->orthographic ? 1e-6f : fmaxf(2.0f * camera->near_m, 1e-6f);
 }
 
-/* A camera as it stands: its axes in world space, and how far away is what it looks at. */
+/* A camera: its axes in world space, and the distance to the point that it looks at. */
 struct stand {
     vec3 right, up, back, eye_ws;
     float distance_m, radius_m;
@@ -42,8 +42,8 @@ static struct stand stand_of(const struct gn_pose *pose, uint32_t camera) {
     return s;
 }
 
-/* Turned: up about its own right, then round the vertical. */
-static struct stand turned(const struct stand *at, float yaw_rad, float pitch_rad) {
+/* Rotates about its own right axis, then about the vertical. */
+static struct stand turn_stand(const struct stand *at, float yaw_rad, float pitch_rad) {
     struct stand s = *at;
     glm_vec3_rotate(s.up, -pitch_rad, s.right);
     glm_vec3_rotate(s.back, -pitch_rad, s.right);
@@ -53,38 +53,26 @@ static struct stand turned(const struct stand *at, float yaw_rad, float pitch_ra
     return s;
 }
 
-static float clamped_pitch(const struct stand *s, float pitch_rad) {
-    const float height_rad = asinf(glm_clamp(s->back[1], -1.0f, 1.0f));
-    return glm_clamp(pitch_rad, fminf(-HIGHEST_RAD - height_rad, 0.0f),
-                     fmaxf(HIGHEST_RAD - height_rad, 0.0f));
-}
-
-static float clamped_zoom(const struct stand *s, const struct gn_camera *camera, float zoom) {
-    const float most =
-        camera->orthographic ? LARGEST_ZOOM : logf(s->distance_m / nearest_m(camera));
-    return glm_clamp(zoom, FARTHEST_ZOOM, fmaxf(most, 0.0f));
-}
-
-/* How high what is seen at the distance of what is looked at is. */
-static float seen_height_m(const struct gn_orbit *o, const struct stand *s,
-                           const struct gn_camera *camera, float aspect) {
-    if (!camera->orthographic)
-        return 2.0f * s->distance_m * expf(-o->zoom) * tanf(0.5f * camera->yfov_rad);
-    float half[2];
-    gn_orbit_ortho_half(o, camera, aspect, half);
-    return 2.0f * half[1];
-}
-
 struct gn_orbit gn_orbit_step(const struct gn_orbit *orbit, const struct gn_orbit_hand *hand,
                               const struct gn_pose *pose, uint32_t camera) {
     const struct gn_camera *c = &pose->scene->cameras[camera];
     const struct stand s = stand_of(pose, camera);
     struct gn_orbit o = *orbit;
     o.yaw_rad = fmodf(o.yaw_rad - GLM_PIf * hand->turn[0], 2.0f * GLM_PIf);
-    o.pitch_rad = clamped_pitch(&s, o.pitch_rad - GLM_PIf * hand->turn[1]);
-    o.zoom = clamped_zoom(&s, c, o.zoom + hand->zoom);
-    const struct stand now = turned(&s, o.yaw_rad, o.pitch_rad);
-    const float height_m = seen_height_m(&o, &s, c, hand->aspect > 0.0f ? hand->aspect : 1.0f);
+    const float height_rad = asinf(glm_clamp(s.back[1], -1.0f, 1.0f));
+    o.pitch_rad =
+        glm_clamp(o.pitch_rad - GLM_PIf * hand->turn[1], fminf(-HIGHEST_RAD - height_rad, 0.0f),
+                  fmaxf(HIGHEST_RAD - height_rad, 0.0f));
+    const float most = c->orthographic ? LARGEST_ZOOM : logf(s.distance_m / nearest_m(c));
+    o.zoom = glm_clamp(o.zoom + hand->zoom, FARTHEST_ZOOM, fmaxf(most, 0.0f));
+
+    /* A pan moves the point looked at with the pointer: by a share of the height seen there. */
+    const struct stand now = turn_stand(&s, o.yaw_rad, o.pitch_rad);
+    float half[2];
+    gn_orbit_ortho_half(&o, c, hand->aspect > 0.0f ? hand->aspect : 1.0f, half);
+    const float height_m = c->orthographic
+                               ? 2.0f * half[1]
+                               : 2.0f * s.distance_m * expf(-o.zoom) * tanf(0.5f * c->yfov_rad);
     const float most_m = 100.0f * (s.radius_m + s.distance_m);
     for (int k = 0; k < 3; k++) {
         const float by_m = height_m * (now.right[k] * hand->pan[0] + now.up[k] * hand->pan[1]);
@@ -100,7 +88,7 @@ float gn_orbit_view(const struct gn_orbit *orbit, const struct gn_pose *pose, ui
     const float distance_m = ortho ? s.distance_m : s.distance_m * expf(-orbit->zoom);
     gn_pose_view(pose, camera, view_from_world, eye_ws);
     if (gn_orbit_is_zero(orbit)) return distance_m;
-    const struct stand now = turned(&s, orbit->yaw_rad, orbit->pitch_rad);
+    const struct stand now = turn_stand(&s, orbit->yaw_rad, orbit->pitch_rad);
     glm_vec3_add(eye_ws, (float *)orbit->shift_m, eye_ws);
     glm_vec3_muladds((float *)s.back, -s.distance_m, eye_ws);
     glm_vec3_muladds((float *)now.back, distance_m, eye_ws);

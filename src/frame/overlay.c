@@ -31,10 +31,10 @@ static float pixel_scale(const struct gn_frame *frame) {
 
 /* ---- marks ---- */
 
-/* The sun stands where the ray from the scene's centre to it leaves the box, or the view;
- * how far from the centre. */
-static float place_sun(const struct gn_frame *frame, const struct gn_pose *pose,
-                       const vec3 direction, vec3 place) {
+/* A directional light is placed where the ray from the scene's centre towards it leaves the box, or
+ * the view. Returns the distance from the centre. */
+static float place_directional(const struct gn_frame *frame, const struct gn_pose *pose,
+                               const vec3 direction, vec3 place) {
     vec3 centre, out;
     float reach = INFINITY, share = 1.0f;
     glm_vec3_center((float *)pose->box_ws.min, (float *)pose->box_ws.max, centre);
@@ -53,20 +53,6 @@ static float place_sun(const struct gn_frame *frame, const struct gn_pose *pose,
     return share * reach;
 }
 
-/* Rows of world_from_mark, whose Z is the direction of the light. */
-static void set_frame(struct gn_instance *mark, vec3 direction, const vec3 place) {
-    vec3 x, y;
-    glm_vec3_ortho(direction, x);
-    glm_vec3_normalize(x);
-    glm_vec3_cross(direction, x, y);
-    for (int r = 0; r < 3; r++) {
-        mark->world[r][0] = x[r];
-        mark->world[r][1] = y[r];
-        mark->world[r][2] = direction[r];
-        mark->world[r][3] = place[r];
-    }
-}
-
 /* surface: kind of the light, how long or wide it is drawn in metres, tangent of its cone, 1 where
  * that is its range. */
 static struct gn_instance make_mark(const struct gn_frame *frame, const struct gn_pose *pose,
@@ -82,12 +68,22 @@ static struct gn_instance make_mark(const struct gn_frame *frame, const struct g
     mark.surface[2] = tanf(fminf(light->outer_rad, 1.5f));
     mark.surface[3] = light->range_m > 0.0f ? 1.0f : 0.0f;
     if (!gn_light_types[light->type].has_position)
-        mark.surface[1] = 0.5f * place_sun(frame, pose, direction, place);
-    set_frame(&mark, direction, place);
+        mark.surface[1] = 0.5f * place_directional(frame, pose, direction, place);
+    /* Rows of world_from_mark, whose Z is the direction of the light. */
+    vec3 x, y;
+    glm_vec3_ortho(direction, x);
+    glm_vec3_normalize(x);
+    glm_vec3_cross(direction, x, y);
+    for (int r = 0; r < 3; r++) {
+        mark.world[r][0] = x[r];
+        mark.world[r][1] = y[r];
+        mark.world[r][2] = direction[r];
+        mark.world[r][3] = place[r];
+    }
     return mark;
 }
 
-/* All marks twice: first pale, through everything, then what is not hidden. */
+/* All gizmos twice: first pale, through everything, then where they are not hidden. */
 static void marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
     const uint32_t first = frame->instances.count, count = frame->scene->light_count;
     struct gn_program_key key = overlay_key(frame, GN_PROGRAM_MARK);
@@ -110,18 +106,6 @@ static void marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
 }
 
 /* ---- panels ---- */
-
-/* Along the lower edge, from the left, as large as a quarter of the height and as all have room. */
-static struct gn_rect panel_rect(const struct gn_frame *frame, uint32_t slot) {
-    const uint32_t width = frame->picture.width_px, height = frame->picture.height_px;
-    const uint32_t gap = (uint32_t)(GAP_PX * pixel_scale(frame)),
-                   each = width / frame->shadow_count;
-    uint32_t side = height / 4 < each ? height / 4 : each;
-    const uint32_t space = side > 4 * gap ? gap : 0;
-    side -= space;
-    if (side == 0) return (struct gn_rect){0};
-    return (struct gn_rect){space / 2 + slot * (side + space), space / 2, side, side};
-}
 
 struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect r) {
     const uint32_t w = frame->picture.width_px, h = frame->picture.height_px;
@@ -155,8 +139,15 @@ static void panel_constants(const struct gn_frame *frame, const struct gn_shadow
 static void panel_pass(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     if (view->encoding == GN_ENCODING_STENCIL) return; /* it has no map */
-    struct gn_rect rect = panel_rect(frame, slot);
-    rect.height = rect.height * view->map.height_px / view->map.width_px;
+    /* Along the lower edge, from the left: a quarter of the height, or less so that all fit. */
+    const uint32_t width = frame->picture.width_px, height = frame->picture.height_px;
+    const uint32_t gap = (uint32_t)(GAP_PX * pixel_scale(frame)),
+                   each = width / frame->shadow_count;
+    uint32_t side = height / 4 < each ? height / 4 : each;
+    const uint32_t space = side > 4 * gap ? gap : 0;
+    side -= space;
+    const struct gn_rect rect = {space / 2 + slot * (side + space), space / 2, side,
+                                 side * view->map.height_px / view->map.width_px};
     if (rect.height == 0) return;
     char label[48];
     snprintf(label, sizeof label, "panel %u %s", slot, frame->scene->lights[view->light].name);

@@ -63,24 +63,6 @@ struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label)
     return pass;
 }
 
-/* Their constants end with those of slides. */
-static void set_slides(const struct gn_frame *frame, const struct gn_light_group *group,
-                       struct gn_pass *pass) {
-    for (uint32_t i = group->first; i < group->first + group->count; i++)
-        if (frame->lights[i].slide != GN_SLIDE_NONE)
-            pass->picture.slides[pass->picture.slide_count++] =
-                (uint32_t)frame->scene->lights[frame->lights[i].light].slide;
-    if (pass->picture.slide_count > 0) pass->constant_count = PASS_CASCADES;
-}
-
-/* Their constants go on to those of cascades. */
-static void set_cascades(const struct gn_frame *frame, const struct gn_light_group *group,
-                         struct gn_pass *pass) {
-    for (uint32_t i = 0; i < group->shadow_count; i++)
-        if (frame->shadows[group->first_shadow + i].map.cascade_count > 0)
-            pass->constant_count = PASS_SIZE;
-}
-
 struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group) {
     const struct gn_light_group *g = &frame->groups[group];
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
@@ -89,8 +71,15 @@ struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uin
     pass->picture.light_count = g->count;
     pass->picture.first_shadow = g->first_shadow;
     pass->picture.shadow_count = g->shadow_count;
-    set_slides(frame, g, pass);
-    set_cascades(frame, g, pass);
+    for (uint32_t i = g->first; i < g->first + g->count; i++)
+        if (frame->lights[i].slide != GN_SLIDE_NONE)
+            pass->picture.slides[pass->picture.slide_count++] =
+                (uint32_t)frame->scene->lights[frame->lights[i].light].slide;
+    /* The constants of slides follow those of shadows; those of cascades come last. */
+    if (pass->picture.slide_count > 0) pass->constant_count = PASS_CASCADES;
+    for (uint32_t i = 0; i < g->shadow_count; i++)
+        if (frame->shadows[g->first_shadow + i].map.cascade_count > 0)
+            pass->constant_count = PASS_SIZE;
     if (group == 0) return pass;
     snprintf(pass->label, sizeof pass->label, "%s%slights %u-%u", label, *label ? " " : "",
              g->first + 1, g->first + g->count);

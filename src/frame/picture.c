@@ -13,29 +13,6 @@ static float srgb_from_linear(float c) {
     return c <= 0.0031308f ? 12.92f * c : 1.055f * powf(c, 1.0f / 2.4f) - 0.055f;
 }
 
-static void set_clear(const struct gn_frame *frame, enum gn_aov aov, float color[4]) {
-    static const float aov_clear[GN_AOV_COUNT] = {
-        [GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY};
-    const bool encode = frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_LINEAR8;
-    for (int k = 0; k < 3; k++) {
-        color[k] = aov == GN_AOV_COLOR ? frame->scene->environment.background[k] : aov_clear[aov];
-        if (encode) color[k] = srgb_from_linear(color[k]);
-    }
-    color[3] = 1.0f;
-}
-
-static void add_to_opaque(struct gn_frame *frame, const struct gn_pose *pose,
-                          const struct gn_frame_opts *opts, uint32_t group) {
-    const bool marks = gn_frame_marks_plane(frame, group);
-    struct gn_selection reached = {
-        .group = &frame->groups[group], .part = marks ? GN_PART_REST : GN_PART_ALL, .opts = opts};
-    gn_frame_lit_pass(frame, "", group);
-    gn_frame_draw_items(frame, pose, &reached);
-    gn_frame_end_pass(frame);
-    if (frame->passes.at[frame->passes.count - 1].draw_count == 0) frame->passes.count--;
-    if (marks) gn_frame_plane_passes(frame, pose, opts, group);
-}
-
 /* ---- blended items ---- */
 
 static int by_depth(const void *a, const void *b) {
@@ -44,20 +21,16 @@ static int by_depth(const void *a, const void *b) {
     return x->item < y->item ? -1 : 1;
 }
 
-static bool group_adds_to(const struct gn_frame *frame, const struct gn_pose *pose, uint32_t group,
-                          uint32_t item) {
-    const struct gn_light_group *g = &frame->groups[group];
-    return !frame->scene->materials[frame->scene->items[item].material].unlit && g->seen &&
-           gn_group_touches(g, &pose->items[item].box_ws);
-}
-
 /* Adds the other groups' light to one blended item; true if there was any. */
 static bool add_to_blended(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts, uint32_t item) {
     bool added = false;
     for (uint32_t i = 1; i < frame->group_count; i++) {
-        if (!group_adds_to(frame, pose, i, item)) continue;
-        struct gn_selection reached = {.group = &frame->groups[i], .opts = opts};
+        const struct gn_light_group *g = &frame->groups[i];
+        if (frame->scene->materials[frame->scene->items[item].material].unlit || !g->seen ||
+            !gn_group_touches(g, &pose->items[item].box_ws))
+            continue;
+        struct gn_selection reached = {.group = g, .opts = opts};
         bool open = false;
         if (!added) gn_frame_end_pass(frame);
         added = true;
@@ -68,21 +41,19 @@ static bool add_to_blended(struct gn_frame *frame, const struct gn_pose *pose,
     return added;
 }
 
-static void begin_blend(struct gn_frame *frame) {
-    struct gn_pass *pass = gn_frame_lit_pass(frame, "blend", 0);
-    pass->picture.blend = GN_BLEND_ALPHA;
-    pass->depth_write = false;
-}
-
 static void blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_frame_opts *opts) {
     const struct gn_selection seen = {.opts = opts};
     const struct gn_placed *placed = frame->items.blended.at;
     bool begun = false, open = false;
-    if (frame->items.blended.count == 0) return; /* nor is there a list yet */
+    if (frame->items.blended.count == 0) return; /* the list may be NULL */
     qsort(frame->items.blended.at, frame->items.blended.count, sizeof *placed, by_depth);
     for (uint32_t i = 0; i < frame->items.blended.count; i++) {
-        if (!begun) begin_blend(frame);
+        if (!begun) {
+            struct gn_pass *pass = gn_frame_lit_pass(frame, "blend", 0);
+            pass->picture.blend = GN_BLEND_ALPHA;
+            pass->depth_write = false;
+        }
         open = begun && frame->scene->items[placed[i].item].batch ==
                             frame->scene->items[placed[i - 1].item].batch;
         gn_frame_draw_item(frame, pose, &seen, placed[i].item, &open);
@@ -93,7 +64,7 @@ static void blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
 
 /* ---- all of them ---- */
 
-/* Programs are made before they are needed: a light that comes near asks for none. */
+/* Programs are made before they are needed: a light that comes near needs no new one. */
 static void keep_additive_programs(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     const uint32_t count = frame->programs.count;
     for (uint32_t i = 0; i < count; i++)
@@ -108,13 +79,21 @@ static void keep_additive_programs(struct gn_frame *frame, const struct gn_frame
 
 static void opaque_pass(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_frame_opts *opts) {
+    static const float aov_clear[GN_AOV_COUNT] = {
+        [GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY};
+    const enum gn_aov aov = opts->debug.aov;
+    const bool encode = frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_LINEAR8;
     struct gn_selection seen = {.part = frame->plan.stencil ? GN_PART_REST : GN_PART_ALL,
                                 .opts = opts};
-    struct gn_pass *pass =
-        gn_frame_lit_pass(frame, opts->debug.aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
+    struct gn_pass *pass = gn_frame_lit_pass(frame, aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
     uint32_t first = pass->first_draw;
     pass->clear.area = GN_CLEAR_ALL;
-    set_clear(frame, opts->debug.aov, pass->clear.color);
+    for (int k = 0; k < 3; k++) {
+        const float color =
+            aov == GN_AOV_COLOR ? frame->scene->environment.background[k] : aov_clear[aov];
+        pass->clear.color[k] = encode ? srgb_from_linear(color) : color;
+    }
+    pass->clear.color[3] = 1.0f;
     frame->items.blended.count = 0;
     gn_frame_draw_items(frame, pose, &seen);
     gn_frame_sort_draws(frame, first);
@@ -126,13 +105,22 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_bound_groups(frame);
     opaque_pass(frame, pose, opts);
     if (frame->plan.stencil) gn_frame_plane_passes(frame, pose, opts, 0);
-    for (uint32_t i = 1; i < frame->group_count; i++)
-        if (frame->groups[i].seen) add_to_opaque(frame, pose, opts, i);
+    for (uint32_t i = 1; i < frame->group_count; i++) {
+        if (!frame->groups[i].seen) continue;
+        const bool marks = gn_frame_marks_plane(frame, i);
+        struct gn_selection reached = {
+            .group = &frame->groups[i], .part = marks ? GN_PART_REST : GN_PART_ALL, .opts = opts};
+        gn_frame_lit_pass(frame, "", i);
+        gn_frame_draw_items(frame, pose, &reached);
+        gn_frame_end_pass(frame);
+        if (frame->passes.at[frame->passes.count - 1].draw_count == 0) frame->passes.count--;
+        if (marks) gn_frame_plane_passes(frame, pose, opts, i);
+    }
     blend_passes(frame, pose, opts);
     keep_additive_programs(frame, opts);
 }
 
-/* Light was added in linear halves, and there is no target that encodes. */
+/* Encodes the linear picture where no target of the GPU does. */
 void gn_frame_add_encode(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_frame_opts *opts) {
     (void)pose, (void)opts;

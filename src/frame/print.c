@@ -15,15 +15,6 @@ static const char *const slides[GN_SLIDE_COUNT] = {
 static const char *const culls[] = {
     [GN_CULL_NONE] = "none", [GN_CULL_BACK] = "back", [GN_CULL_FRONT] = "front"};
 
-static void print_filter(const struct gn_program_key *key, FILE *to) {
-    const struct gn_filter_step_row *step = &gn_filter_steps[key->step];
-    fprintf(to, " %s", step->name);
-    if (step->reads_map)
-        fprintf(to, ", %s of %s", gn_techniques[key->technique].name,
-                gn_encodings[key->encoding].name);
-    fprintf(to, ", %s", gn_moments[key->moments].name);
-}
-
 /* Of a light with a map: what is kept for it. */
 static const char *format_of(int encoding, int moments) {
     return moments ? gn_moments[moments].name : gn_encodings[encoding].name;
@@ -34,7 +25,14 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
     if (key->kind == GN_PROGRAM_AOV) fprintf(to, " %s", aovs[key->aov]);
     if (gn_programs[key->kind].reads & GN_PROGRAM_ENCODING)
         fprintf(to, " %s", gn_encodings[key->encoding].name);
-    if (key->kind == GN_PROGRAM_FILTER) print_filter(key, to);
+    if (key->kind == GN_PROGRAM_FILTER) {
+        const struct gn_filter_step_row *step = &gn_filter_steps[key->step];
+        fprintf(to, " %s", step->name);
+        if (step->reads_map)
+            fprintf(to, ", %s of %s", gn_techniques[key->technique].name,
+                    gn_encodings[key->encoding].name);
+        fprintf(to, ", %s", gn_moments[key->moments].name);
+    }
     for (int i = 0; i < GN_FEATURE_COUNT; i++)
         if (key->features >> gn_features[i].bit & 1) fprintf(to, " +%s", gn_features[i].name);
     for (int i = 0; i < key->light_count; i++) {
@@ -48,31 +46,27 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
     fprintf(to, "%s\n", receivers[key->receiver]);
 }
 
-static void print_shadow_size(const struct gn_shadow_view *view, FILE *to) {
-    if (view->encoding == GN_ENCODING_STENCIL) return;
-    fprintf(to, " %u px", view->map.tile_px);
-    if (view->map.tile_count > 1)
-        fprintf(to,
-                view->map.cascade_count > 0 ? " x %u cascades, gutters %u px"
-                                            : " x %u, gutters %u px",
-                view->map.cascade_count > 0 ? view->map.cascade_count : view->map.tile_count,
-                view->map.gutter_px);
-    if (view->penumbra.blur_px > 0.0f)
-        fprintf(to, ", blur %.3g px", 2.0 * (double)view->penumbra.blur_px);
-}
-
 static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
     const struct gn_shadow_view *view = &plan->shadows[slot];
     fprintf(to, "shadow %u: light %u '%s' %s %s/%s", slot, view->light,
             plan->scene->lights[view->light].name,
             gn_light_types[plan->scene->lights[view->light].type].name,
             gn_techniques[view->technique].name, format_of(view->encoding, view->moments));
-    print_shadow_size(view, to);
+    const bool has_map = view->encoding != GN_ENCODING_STENCIL;
+    if (has_map) fprintf(to, " %u px", view->map.tile_px);
+    if (has_map && view->map.tile_count > 1)
+        fprintf(to,
+                view->map.cascade_count > 0 ? " x %u cascades, gutters %u px"
+                                            : " x %u, gutters %u px",
+                view->map.cascade_count > 0 ? view->map.cascade_count : view->map.tile_count,
+                view->map.gutter_px);
+    if (has_map && view->penumbra.blur_px > 0.0f)
+        fprintf(to, ", blur %.3g px", 2.0 * (double)view->penumbra.blur_px);
     if (view->empty)
         fprintf(to, ", empty: it darkens nothing in view\n");
     else if (view->encoding == GN_ENCODING_MASK)
         fprintf(to, ", texel %.4g m\n", (double)view->lookup.texel);
-    else if (view->encoding == GN_ENCODING_STENCIL)
+    else if (!has_map)
         fprintf(to, ", from %.4g m to %.4g m over the plane\n", (double)view->code.near_m,
                 (double)view->code.far_m);
     else
@@ -131,44 +125,9 @@ static void print_target(const struct gn_pass *pass, FILE *to) {
     }
 }
 
-static void print_reads(const struct gn_pass *pass, FILE *to) {
-    for (int i = 0; i < GN_FILTER_FROM_MAX; i++) {
-        const struct gn_read *read = &pass->filter.reads[i];
-        if (read->kind == GN_READ_MAP) fprintf(to, ", reads the map");
-        if (read->kind == GN_READ_MOMENTS) fprintf(to, ", reads moments %u", read->index);
-    }
-}
-
-/* The lights that a pass adds, by name. */
-static void print_added(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
-    const struct gn_pass_picture *p = &pass->picture;
-    for (uint32_t i = 0; i < p->light_count; i++) {
-        const uint32_t light = plan->lights[p->first_light + i];
-        fprintf(to, "%s'%s'", i ? " " : ", adds ", plan->scene->lights[light].name);
-        if (i < p->shadow_count) fprintf(to, " (map %u)", p->first_shadow + i);
-    }
-}
-
-static void print_copies(const struct gn_pass *pass, FILE *to) {
-    for (uint32_t i = 0; i < pass->copy.count; i++) {
-        const struct gn_copy *copy = &pass->copy.copies[i];
-        fprintf(to, "%s%u x %u from %u, %u to %u, %u", i ? "; " : ", copies ", copy->from.width,
-                copy->from.height, copy->from.x, copy->from.y, copy->to_x, copy->to_y);
-    }
-}
-
 static void print_within(const struct gn_rect *rect, FILE *to) {
     if (rect->width > 0)
         fprintf(to, ", within %u x %u at %u, %u", rect->width, rect->height, rect->x, rect->y);
-}
-
-/* Bits in hexadecimal. */
-static void print_stencil(const struct gn_pass *pass, FILE *to) {
-    const struct gn_stencil *s = &pass->picture.stencil;
-    if (pass->picture.only_stencil) fprintf(to, ", no colour, no depth");
-    if (pass->clear.stencil_bits) fprintf(to, ", clears stencil %02x", pass->clear.stencil_bits);
-    if (s->reads) fprintf(to, ", where stencil %02x of %02x", s->value & s->reads, s->reads);
-    if (s->writes) fprintf(to, ", sets stencil %02x of %02x", s->value & s->writes, s->writes);
 }
 
 static void print_picture(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
@@ -182,9 +141,17 @@ static void print_picture(const struct gn_plan *plan, const struct gn_pass *pass
     if (p->reads_codes) fprintf(to, ", shows map %u", p->first_shadow);
     if (p->reads_atlas)
         fprintf(to, ", atlas %u x %u", plan->atlas->width_px, plan->atlas->height_px);
-    if (p->blend == GN_BLEND_ADD) print_added(plan, pass, to);
+    for (uint32_t i = 0; p->blend == GN_BLEND_ADD && i < p->light_count; i++) {
+        const uint32_t light = plan->lights[p->first_light + i];
+        fprintf(to, "%s'%s'", i ? " " : ", adds ", plan->scene->lights[light].name);
+        if (i < p->shadow_count) fprintf(to, " (map %u)", p->first_shadow + i);
+    }
     print_within(&pass->rect, to);
-    print_stencil(pass, to);
+    const struct gn_stencil *s = &p->stencil;
+    if (p->only_stencil) fprintf(to, ", no colour, no depth");
+    if (pass->clear.stencil_bits) fprintf(to, ", clears stencil %02x", pass->clear.stencil_bits);
+    if (s->reads) fprintf(to, ", where stencil %02x of %02x", s->value & s->reads, s->reads);
+    if (s->writes) fprintf(to, ", sets stencil %02x of %02x", s->value & s->writes, s->writes);
 }
 
 static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, FILE *to) {
@@ -196,8 +163,16 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
         print_picture(plan, pass, to);
     else
         print_within(&pass->rect, to);
-    if (pass->kind == GN_PASS_COPY) print_copies(pass, to);
-    if (pass->kind == GN_PASS_FILTER) print_reads(pass, to);
+    for (uint32_t i = 0; pass->kind == GN_PASS_COPY && i < pass->copy.count; i++) {
+        const struct gn_copy *copy = &pass->copy.copies[i];
+        fprintf(to, "%s%u x %u from %u, %u to %u, %u", i ? "; " : ", copies ", copy->from.width,
+                copy->from.height, copy->from.x, copy->from.y, copy->to_x, copy->to_y);
+    }
+    for (int i = 0; pass->kind == GN_PASS_FILTER && i < GN_FILTER_FROM_MAX; i++) {
+        const struct gn_read *read = &pass->filter.reads[i];
+        if (read->kind == GN_READ_MAP) fprintf(to, ", reads the map");
+        if (read->kind == GN_READ_MOMENTS) fprintf(to, ", reads moments %u", read->index);
+    }
     const bool only_stencil = pass->kind == GN_PASS_PICTURE && pass->picture.only_stencil;
     if (!pass->depth_write && !only_stencil && pass->kind != GN_PASS_FILTER)
         fprintf(to, ", depth read-only");

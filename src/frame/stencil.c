@@ -1,10 +1,10 @@
-/* Planar shadows in the picture's stencil. The plane is drawn last of what is opaque, in all light,
- * and its samples are marked as seen. Then each light's casters, fallen on the plane, set a bit of
- * these samples, however many overlap; and the plane is drawn again where there are such bits, once
- * for each set of them, with a constant that says which lights do not arrive. So every sample shows
- * one shaded value: nothing is blended. A light's shadow, and so a set, is looked for only where it
- * can be. A group of lights that is added has marks of its own, and its sets begin with the one of
- * no shadow. */
+/* Planar shadows in the picture's stencil. The plane is drawn after other opaque items, in all
+ * light, and its samples are marked as visible. Then each light's casters, projected onto the
+ * plane, set a bit of these samples, however many overlap; and the plane is drawn again where bits
+ * are set, once for each set of them, with a constant that says which lights are blocked. So every
+ * sample shows one shaded value: nothing is blended. Passes are limited to the rectangle where a
+ * shadow, or a set of them, can be. A group of lights that is added has marks of its own, and its
+ * sets begin with the one of no shadow. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 
 enum { SEEN = 0x80, SETS = 1 << GN_SHADOWS_MAX }; /* bits below SEEN: a light's shadow each */
 
-/* The lights of a group that can darken what is seen of the plane, as slots, and where. */
+/* The lights of a group that can darken the visible plane, as slots, and where. */
 struct marks {
     uint32_t group, count, slots[GN_SHADOWS_MAX];
     struct gn_rect all, rects[GN_SHADOWS_MAX];
@@ -32,21 +32,10 @@ static uint32_t pixel_of_ndc(float ndc, float extra_px, uint32_t size_px) {
     return (uint32_t)fminf(fmaxf(at, 0.0f), (float)size_px);
 }
 
-/* A pixel wider on each side than it is. */
-static struct gn_rect rect_of(const struct gn_frame *frame, const struct gn_shadow_view *view) {
-    const uint32_t size[2] = {frame->plan.width_px, frame->plan.height_px};
-    uint32_t low[2], high[2];
-    for (int k = 0; k < 2; k++) {
-        low[k] = pixel_of_ndc(view->raster.screen_ndc[0][k], -1.0f, size[k]);
-        high[k] = pixel_of_ndc(view->raster.screen_ndc[1][k], 2.0f, size[k]);
-    }
-    return (struct gn_rect){low[0], low[1], high[0] - low[0], high[1] - low[1]};
-}
-
 static uint32_t min_u32(uint32_t a, uint32_t b) { return a < b ? a : b; }
 static uint32_t max_u32(uint32_t a, uint32_t b) { return a > b ? a : b; }
 
-/* Width 0: they do not meet. */
+/* Width 0: they do not overlap. */
 static struct gn_rect intersect_rects(struct gn_rect a, struct gn_rect b) {
     const uint32_t x0 = max_u32(a.x, b.x), x1 = min_u32(a.x + a.width, b.x + b.width),
                    y0 = max_u32(a.y, b.y), y1 = min_u32(a.y + a.height, b.y + b.height);
@@ -54,7 +43,7 @@ static struct gn_rect intersect_rects(struct gn_rect a, struct gn_rect b) {
     return (struct gn_rect){x0, y0, x1 - x0, y1 - y0};
 }
 
-/* As a pass has it. */
+/* As gn_pass.rect: width 0 for all of the output. */
 static struct gn_rect pass_rect(const struct gn_frame *frame, struct gn_rect rect) {
     const struct gn_rect all = output_rect(frame);
     return rect.width == all.width && rect.height == all.height ? (struct gn_rect){0} : rect;
@@ -63,24 +52,23 @@ static struct gn_rect pass_rect(const struct gn_frame *frame, struct gn_rect rec
 static struct marks marks_of(const struct gn_frame *frame, uint32_t group) {
     const struct gn_light_group *g = &frame->groups[group];
     struct marks marks = {.group = group, .all = output_rect(frame)};
+    const uint32_t size[2] = {frame->plan.width_px, frame->plan.height_px};
     if (g->rect.width > 0) marks.all = g->rect;
     for (uint32_t i = g->first_shadow; i < g->first_shadow + g->shadow_count; i++) {
         const struct gn_shadow_view *view = &frame->shadows[i];
         if (view->encoding != GN_ENCODING_STENCIL || view->empty) continue;
-        const struct gn_rect rect = intersect_rects(marks.all, rect_of(frame, view));
+        uint32_t low[2], high[2]; /* a pixel wider on each side */
+        for (int k = 0; k < 2; k++) {
+            low[k] = pixel_of_ndc(view->raster.screen_ndc[0][k], -1.0f, size[k]);
+            high[k] = pixel_of_ndc(view->raster.screen_ndc[1][k], 2.0f, size[k]);
+        }
+        const struct gn_rect shadow = {low[0], low[1], high[0] - low[0], high[1] - low[1]};
+        const struct gn_rect rect = intersect_rects(marks.all, shadow);
         if (rect.width == 0) continue;
         marks.rects[marks.count] = rect;
         marks.slots[marks.count++] = i;
     }
     return marks;
-}
-
-/* Where a set can occur. */
-static struct gn_rect rect_of_set(const struct marks *marks, uint32_t set) {
-    struct gn_rect rect = marks->all;
-    for (uint32_t i = 0; i < marks->count; i++)
-        if (set >> i & 1) rect = intersect_rects(rect, marks->rects[i]);
-    return rect;
 }
 
 bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group) {
@@ -102,12 +90,6 @@ static float (*fall_constants(const struct gn_frame *frame, uint32_t slot))[4] {
     return c;
 }
 
-/* From the plane's other side what has fallen is seen as in a mirror. */
-static bool sees_other_side(const struct gn_frame *frame, const float plane[4]) {
-    return glm_vec4_dot(gn_frame_constants(frame, GN_CONSTANTS_PICTURE)[PASS_EYE], (float *)plane) <
-           0.0f;
-}
-
 static void caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_frame_opts *opts, const struct marks *marks,
                         uint32_t index) {
@@ -124,9 +106,11 @@ static void caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
     if (marks->group > 0 && index == 0) pass->clear.stencil_bits = SETS - 1;
     const float(*constants)[4] = pass->constants = fall_constants(frame, slot);
     pass->constant_count = FLAT_HEIGHTS + 1;
+    const bool behind = glm_vec4_dot(gn_frame_constants(frame, GN_CONSTANTS_PICTURE)[PASS_EYE],
+                                     (float *)constants[FLAT_PLANE]) < 0.0f;
     struct gn_selection casters = {.casts = frame->memory[slot][0].casts,
                                    .view = view,
-                                   .mirrored = sees_other_side(frame, constants[FLAT_PLANE]),
+                                   .mirrored = behind, /* seen as in a mirror */
                                    .opts = opts};
     gn_frame_draw_items(frame, pose, &casters);
     gn_frame_end_pass(frame);
@@ -134,7 +118,7 @@ static void caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
 
 /* ---- the plane ---- */
 
-/* The group's constants, but no light from where a set says so. */
+/* The group's constants, without light from the lights of a set. */
 static float (*set_constants(struct gn_frame *frame, const struct marks *marks, uint32_t set))[4] {
     const size_t of_pass = GN_PASS_SIZE * sizeof *frame->sets;
     if (!frame->sets) frame->sets = gn_xalloc(GN_GROUPS_MAX * SETS, of_pass);
@@ -147,23 +131,21 @@ static float (*set_constants(struct gn_frame *frame, const struct marks *marks, 
     return c;
 }
 
-static void label_set(const struct marks *marks, uint32_t set, struct gn_pass *pass) {
+/* The draws of `lit` again, where the marks are this set. */
+static void set_pass(struct gn_frame *frame, const struct marks *marks, uint32_t set,
+                     const struct gn_pass *lit) {
+    struct gn_rect rect = marks->all; /* where the set can occur */
+    for (uint32_t i = 0; i < marks->count; i++)
+        if (set >> i & 1) rect = intersect_rects(rect, marks->rects[i]);
+    if (rect.width == 0) return;
+    struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_PICTURE);
+    *pass = *lit;
+    pass->rect = pass_rect(frame, rect);
     size_t used = strlen(pass->label);
     for (uint32_t i = 0; i < marks->count; i++)
         if (set >> i & 1 && used < sizeof pass->label)
             used += (size_t)snprintf(pass->label + used, sizeof pass->label - used, "%s %u",
                                      set & ((1u << i) - 1) ? "" : ", shadow", marks->slots[i]);
-}
-
-/* The draws of `lit` again, where the marks are this set. */
-static void set_pass(struct gn_frame *frame, const struct marks *marks, uint32_t set,
-                     const struct gn_pass *lit) {
-    const struct gn_rect rect = rect_of_set(marks, set);
-    if (rect.width == 0) return;
-    struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_PICTURE);
-    *pass = *lit;
-    pass->rect = pass_rect(frame, rect);
-    label_set(marks, set, pass);
     pass->depth_write = false;
     pass->picture.stencil = (struct gn_stencil){
         .value = (uint8_t)(SEEN | set), .reads = (uint8_t)(SEEN | ((1u << marks->count) - 1))};
