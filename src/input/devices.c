@@ -21,12 +21,6 @@ static void lose_device(struct gn_devices *devices, struct gn_device *d, int64_t
     *d = (struct gn_device){.fd = -1};
 }
 
-void gn_devices_finish(struct gn_devices *devices) {
-    for (int i = 0; i < GN_DEVICES_MAX; i++)
-        if (devices->list[i].fd >= 0)
-            lose_device(devices, &devices->list[i], devices->keys->gestures->now_ns);
-}
-
 /* ---- finding devices ----------------------------------------------------------------------- */
 
 static void on_readable(void *user, uint32_t events, int64_t now_ns) {
@@ -36,9 +30,16 @@ static void on_readable(void *user, uint32_t events, int64_t now_ns) {
     d->all->timer->due_ns = now_ns;
 }
 
+/* first: keys that are down were pressed before the device was opened. */
+static void read_state(struct gn_devices *devices, struct gn_device *d, bool first,
+                       int64_t time_ns) {
+    uint8_t bits[GN_KEY_BYTES] = {0};
+    if (devices->ops->state(devices->context, d->fd, bits) == 0)
+        gn_keys_set_all(devices->keys, &d->keys, bits, first, time_ns);
+}
+
 static void add_device(struct gn_devices *devices, const char *path, int64_t now_ns) {
     struct gn_device found = {.fd = -1}, *d = NULL;
-    uint8_t bits[GN_KEY_BYTES] = {0};
     snprintf(found.path, sizeof found.path, "%s", path);
     const int error =
         devices->ops->open(devices->context, path, devices->keys->bound, found.has, &found.fd);
@@ -62,8 +63,7 @@ static void add_device(struct gn_devices *devices, const char *path, int64_t now
         d->fd = -1;
         return;
     }
-    if (devices->ops->state(devices->context, d->fd, bits) == 0)
-        gn_keys_set_all(devices->keys, &d->keys, bits, true, now_ns);
+    read_state(devices, d, true, now_ns);
 }
 
 void gn_devices_search(struct gn_devices *devices, int64_t now_ns) {
@@ -91,29 +91,11 @@ bool gn_devices_have(const struct gn_devices *devices, unsigned key) {
 
 /* ---- reading devices ----------------------------------------------------------------------- */
 
-static void handle_event(struct gn_devices *devices, struct gn_device *d,
-                         const struct input_event *event, int64_t now_ns) {
-    const int64_t time_ns = gn_gesture_time_ns((int64_t)event->input_event_sec * GN_NS_PER_S +
-                                                   (int64_t)event->input_event_usec * 1000,
-                                               now_ns);
-    if (event->type == EV_SYN && event->code == SYN_DROPPED) d->dropped = true;
-    if (event->type == EV_SYN && event->code == SYN_REPORT && d->dropped) {
-        /* events were lost: reads the state of all keys */
-        uint8_t bits[GN_KEY_BYTES] = {0};
-        d->dropped = false;
-        if (devices->ops->state(devices->context, d->fd, bits) == 0)
-            gn_keys_set_all(devices->keys, &d->keys, bits, false, time_ns);
-    }
-    if (event->type != EV_KEY || d->dropped || event->value < 0 || event->value > 1)
-        return; /* autorepeat */
-    gn_keys_set(devices->keys, &d->keys, event->code, event->value, time_ns);
-}
-
-/* Returns true if the device is gone. */
+/* Reads all pending events. Returns true if the device is gone. */
 static bool read_device(struct gn_devices *devices, struct gn_device *d, int64_t now_ns) {
     struct input_event events[64];
     d->readable = false;
-    for (int round = 0; d->fd >= 0 && round < 8; round++) {
+    for (int round = 0; round < 8; round++) {
         const ssize_t size = read(d->fd, events, sizeof events);
         if (size < 0 && (errno == EAGAIN || errno == EINTR)) return false;
         if (size <= 0) {
@@ -121,16 +103,22 @@ static bool read_device(struct gn_devices *devices, struct gn_device *d, int64_t
             return true;
         }
         const size_t count = (size_t)size / sizeof *events;
-        for (size_t i = 0; i < count; i++) handle_event(devices, d, &events[i], now_ns);
+        for (size_t i = 0; i < count; i++) {
+            const struct input_event *e = &events[i];
+            const int64_t time_ns = gn_gesture_time_ns((int64_t)e->input_event_sec * GN_NS_PER_S +
+                                                           (int64_t)e->input_event_usec * 1000,
+                                                       now_ns);
+            if (e->type == EV_SYN && e->code == SYN_DROPPED) d->dropped = true;
+            if (e->type == EV_SYN && e->code == SYN_REPORT && d->dropped) {
+                d->dropped = false; /* events were lost: reads the state of all keys */
+                read_state(devices, d, false, time_ns);
+            }
+            const bool repeats = e->value < 0 || e->value > 1; /* autorepeat */
+            if (e->type == EV_KEY && !d->dropped && !repeats)
+                gn_keys_set(devices->keys, &d->keys, e->code, e->value, time_ns);
+        }
     }
     return false;
-}
-
-bool gn_devices_read(struct gn_devices *devices, int64_t now_ns) {
-    bool gone = false;
-    for (int i = 0; i < GN_DEVICES_MAX; i++)
-        if (devices->list[i].readable) gone |= read_device(devices, &devices->list[i], now_ns);
-    return gone;
 }
 
 /* ---- the source ---- */
@@ -153,7 +141,11 @@ static void open_devices(struct gn_input *input, const struct gn_input_world *wo
 }
 
 static void read_devices(struct gn_input *input, int64_t now_ns) {
-    if (gn_devices_read(&input->devices, now_ns)) gn_devices_search(&input->devices, now_ns);
+    struct gn_devices *devices = &input->devices;
+    bool gone = false;
+    for (int i = 0; i < GN_DEVICES_MAX; i++)
+        if (devices->list[i].readable) gone |= read_device(devices, &devices->list[i], now_ns);
+    if (gone) gn_devices_search(devices, now_ns);
 }
 
 static void step_devices(struct gn_input *input, int64_t now_ns) {
@@ -165,7 +157,10 @@ static void step_devices(struct gn_input *input, int64_t now_ns) {
 static int64_t devices_deadline(const struct gn_input *input) { return input->poll_ns; }
 
 static void close_devices(struct gn_input *input) {
-    if (input->devices.keys) gn_devices_finish(&input->devices);
+    struct gn_devices *devices = &input->devices;
+    for (int i = 0; devices->keys && i < GN_DEVICES_MAX; i++)
+        if (devices->list[i].fd >= 0)
+            lose_device(devices, &devices->list[i], devices->keys->gestures->now_ns);
 }
 
 const struct gn_input_source gn_source_devices = {

@@ -44,12 +44,9 @@ struct gn_devices {
 
 void gn_devices_init(struct gn_devices *devices); /* Initialises `list`; the fields above it are set
                                                      by the caller. */
-void gn_devices_finish(struct gn_devices *devices);
 /* Opens new devices. */
 void gn_devices_search(struct gn_devices *devices, int64_t now_ns);
 /* Whether an open device has this key. */
 bool gn_devices_have(const struct gn_devices *devices, unsigned key);
-/* Reads all pending events of readable devices. Returns true if one is gone: search again. */
-bool gn_devices_read(struct gn_devices *devices, int64_t now_ns);
 
 #endif

@@ -53,8 +53,10 @@ bool gn_line_parse(const char *text, struct gn_line_spec *out, struct gn_err *er
     return true;
 }
 
-int gn_line_fits(const struct gn_line_spec *spec, const struct gn_gpio_chip *chip, unsigned offset,
-                 const struct gn_gpio_line *line) {
+/* How well this line matches: 2 by its name, 1 by the name other kernels give it on this board, 0
+ * not at all. */
+static int rate_match(const struct gn_line_spec *spec, const struct gn_gpio_chip *chip,
+                      unsigned offset, const struct gn_gpio_line *line) {
     if (spec->label[0])
         return strcmp(spec->label, chip->label) == 0 && spec->offset == offset ? 2 : 0;
     if (strcmp(spec->name, line->name) == 0) return 2;
@@ -97,7 +99,7 @@ static void search_chip(const struct gn_gpio_ops *ops, void *chip, const char *p
         if (ops->look(chip, offset, &line)) continue;
         for (int i = 0; i < count; i++) {
             struct gn_line_match *match = &matches[i];
-            const int fits = wanted[i] ? gn_line_fits(wanted[i], info, offset, &line) : 0;
+            const int fits = wanted[i] ? rate_match(wanted[i], info, offset, &line) : 0;
             if (fits == 0 || fits < match->fits) continue;
             if (fits > match->fits) {
                 *match = (struct gn_line_match){

@@ -15,10 +15,6 @@ struct gn_line_spec {
 };
 /* Parses "GPIO17" or "label:pinctrl-rp1/17"; anything else is a usage error. */
 bool gn_line_parse(const char *text, struct gn_line_spec *out, struct gn_err *err);
-/* How well this line matches: 2 by its name, 1 by the name other kernels give it on this board, 0
- * not at all. */
-int gn_line_fits(const struct gn_line_spec *spec, const struct gn_gpio_chip *chip, unsigned offset,
-                 const struct gn_gpio_line *line);
 
 struct gn_line_match {
     int fits;  /* match of the best; 0: none */

@@ -280,7 +280,9 @@ static void read_level(struct gn_lines *lines, struct gn_line *l, int64_t now_ns
         gn_gestures_level(lines->gestures, (int)(l - lines->lines), is_pressed(l, high), now_ns);
 }
 
-void gn_lines_read(struct gn_lines *lines, int64_t now_ns) {
+/* Passes edges on in time order. */
+static void read_lines(struct gn_input *input, int64_t now_ns) {
+    struct gn_lines *lines = &input->lines;
     struct edges edges = {.count = 0};
     int errors[GN_BUTTONS_MAX] = {0};
     uint32_t gaps = 0;
@@ -308,7 +310,8 @@ void gn_lines_changed(struct gn_lines *lines, int64_t now_ns) {
     gn_lines_search(lines, now_ns);
 }
 
-void gn_lines_step(struct gn_lines *lines, int64_t now_ns) {
+static void check_lines(struct gn_input *input, int64_t now_ns) {
+    struct gn_lines *lines = &input->lines;
     bool search = false;
     for (int i = 0; i < lines->count; i++) {
         struct gn_line *l = &lines->lines[i];
@@ -330,7 +333,9 @@ void gn_lines_step(struct gn_lines *lines, int64_t now_ns) {
     if (search) gn_lines_search(lines, now_ns);
 }
 
-int64_t gn_lines_deadline(const struct gn_lines *lines) {
+/* Valid after the gestures have been stepped. */
+static int64_t lines_deadline(const struct gn_input *input) {
+    const struct gn_lines *lines = &input->lines;
     int64_t first_ns = NEVER;
     for (int i = 0; i < lines->count; i++) {
         const struct gn_line *l = &lines->lines[i];
@@ -340,8 +345,9 @@ int64_t gn_lines_deadline(const struct gn_lines *lines) {
     return first_ns;
 }
 
-void gn_lines_finish(struct gn_lines *lines) {
-    for (int i = 0; i < lines->count; i++)
+static void close_lines(struct gn_input *input) {
+    struct gn_lines *lines = &input->lines;
+    for (int i = 0; lines->gestures && i < lines->count; i++)
         if (lines->lines[i].request)
             release_request(lines, &lines->lines[i], lines->gestures->now_ns);
 }
@@ -357,22 +363,6 @@ static void open_lines(struct gn_input *input, const struct gn_input_world *worl
     input->lines.reports = &input->reports;
     input->lines.watched = input->folder_watch >= 0;
     gn_lines_search(&input->lines, now_ns);
-}
-
-static void read_lines(struct gn_input *input, int64_t now_ns) {
-    gn_lines_read(&input->lines, now_ns);
-}
-
-static void check_lines(struct gn_input *input, int64_t now_ns) {
-    gn_lines_step(&input->lines, now_ns);
-}
-
-static int64_t lines_deadline(const struct gn_input *input) {
-    return gn_lines_deadline(&input->lines);
-}
-
-static void close_lines(struct gn_input *input) {
-    if (input->lines.gestures) gn_lines_finish(&input->lines);
 }
 
 const struct gn_input_source gn_source_lines = {

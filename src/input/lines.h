@@ -55,16 +55,10 @@ struct gn_lines {
 /* Fails only on usage errors. The fields above are set by the caller, lines are not. */
 bool gn_lines_init(struct gn_lines *lines, const struct gn_line_opts *opts, int count,
                    struct gn_err *err);
-void gn_lines_finish(struct gn_lines *lines);
 
 /* Searches for all missing lines. */
 void gn_lines_search(struct gn_lines *lines, int64_t now_ns);
 /* The folder has changed. */
 void gn_lines_changed(struct gn_lines *lines, int64_t now_ns);
-/* Reads the readable lines; passes edges on in time order. */
-void gn_lines_read(struct gn_lines *lines, int64_t now_ns);
-/* Runs what is due. The deadline is valid after the gestures have been stepped. */
-void gn_lines_step(struct gn_lines *lines, int64_t now_ns);
-int64_t gn_lines_deadline(const struct gn_lines *lines);
 
 #endif

@@ -50,33 +50,25 @@ bool gn_play_load(struct gn_play *play, const char *path, const char *const *nam
     return true;
 }
 
-void gn_play_step(struct gn_play *play, struct gn_keys *keys, int64_t now_ns) {
-    for (; gn_play_deadline(play) <= now_ns && play->next < play->count; play->next++) {
-        const struct gn_play_step *step = &play->steps[play->next];
-        if (step->button >= 0)
-            gn_gestures_edge(keys->gestures, step->button, step->down, step->time_ns);
-        else
-            gn_keys_set(keys, &play->source, step->key, step->down, step->time_ns);
-    }
-}
-
-int64_t gn_play_deadline(const struct gn_play *play) {
-    return play->next < play->count ? play->steps[play->next].time_ns : INT64_MAX;
-}
-
-void gn_play_finish(struct gn_play *play) { gn_arena_finish(&play->arena); }
-
 /* ---- the source ---- */
 
 static void step_script(struct gn_input *input, int64_t now_ns) {
-    gn_play_step(&input->play, &input->keys, now_ns);
+    struct gn_play *play = &input->play;
+    for (; play->next < play->count && play->steps[play->next].time_ns <= now_ns; play->next++) {
+        const struct gn_play_step *step = &play->steps[play->next];
+        if (step->button >= 0)
+            gn_gestures_edge(&input->gestures, step->button, step->down, step->time_ns);
+        else
+            gn_keys_set(&input->keys, &play->source, step->key, step->down, step->time_ns);
+    }
 }
 
 static int64_t script_deadline(const struct gn_input *input) {
-    return gn_play_deadline(&input->play);
+    const struct gn_play *play = &input->play;
+    return play->next < play->count ? play->steps[play->next].time_ns : INT64_MAX;
 }
 
-static void close_script(struct gn_input *input) { gn_play_finish(&input->play); }
+static void close_script(struct gn_input *input) { gn_arena_finish(&input->play.arena); }
 
 const struct gn_input_source gn_source_script = {
     .step = step_script,

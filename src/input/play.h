@@ -22,9 +22,5 @@ struct gn_play { /* ready when zeroed */
 /* names: of the buttons, by index. Fails as reading or parsing does. */
 bool gn_play_load(struct gn_play *play, const char *path, const char *const *names, int count,
                   int64_t now_ns, struct gn_err *err);
-/* Plays the steps that are due; deadline of the next (INT64_MAX: none). */
-void gn_play_step(struct gn_play *play, struct gn_keys *keys, int64_t now_ns);
-int64_t gn_play_deadline(const struct gn_play *play);
-void gn_play_finish(struct gn_play *play);
 
 #endif

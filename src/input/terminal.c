@@ -10,7 +10,7 @@
 
 #include "input/private.h"
 
-/* Signals that end the process before gn_terminal_close(). */
+/* Signals that end the process before the terminal is closed. */
 enum { ENDS = 6 };
 static const int ends[ENDS] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
 
@@ -90,10 +90,29 @@ static void watch_fd(struct gn_terminal *t, bool on) {
     t->reading = on && gn_loop_add(t->loop, &t->watch);
 }
 
-bool gn_terminal_open(struct gn_terminal *t, int fd, struct gn_loop *loop, struct gn_timer *timer) {
-    *t = (struct gn_terminal){.fd = -1, .wake_fd = -1};
-    if (own.open || !isatty(fd) || tcgetattr(fd, &own.saved)) return false;
-    *t = (struct gn_terminal){.fd = fd, .loop = loop, .timer = timer};
+void gn_terminal_leave(void) {
+    if (own.open) set_raw(false);
+}
+
+/* ---- the source ---- */
+
+static void resume_terminal(struct gn_terminal *t) {
+    uint64_t count;
+    t->resumed = false;
+    (void)!read(t->wake_fd, &count, sizeof count);
+    set_raw(true);
+    watch_fd(t, is_foreground(t->fd));
+}
+
+/* Does nothing if standard input is no terminal, or another input has one open. */
+static void open_terminal(struct gn_input *input, const struct gn_input_world *world,
+                          int64_t now_ns, struct gn_warnings *warnings) {
+    struct gn_terminal *t = &input->terminal;
+    struct gn_loop *loop = input->opts.loop;
+    const int fd = world->terminal ? *world->terminal : STDIN_FILENO;
+    (void)now_ns, (void)warnings;
+    if (!input->opts.terminal || own.open || !isatty(fd) || tcgetattr(fd, &own.saved)) return;
+    *t = (struct gn_terminal){.fd = fd, .loop = loop, .timer = &input->timer};
     t->watch = (struct gn_watch){.fd = fd, .events = EPOLLIN, .call = on_readable, .user = t};
     t->wake_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     t->wake = (struct gn_watch){.fd = t->wake_fd, .events = EPOLLIN, .call = on_resumed, .user = t};
@@ -116,55 +135,7 @@ bool gn_terminal_open(struct gn_terminal *t, int fd, struct gn_loop *loop, struc
         if (own.old_ends[i].sa_handler != SIG_IGN) sigaction(ends[i], &end, NULL);
     }
     own.open = true;
-    gn_terminal_resume(t);
-    return true;
-}
-
-void gn_terminal_close(struct gn_terminal *t) {
-    if (t->fd < 0) return;
-    watch_fd(t, false);
-    gn_loop_remove(&t->wake);
-    set_raw(false);
-    own.open = false;
-    sigaction(SIGTSTP, &own.old_stop, NULL);
-    sigaction(SIGCONT, &own.old_continue, NULL);
-    for (int i = 0; i < ENDS; i++) sigaction(ends[i], &own.old_ends[i], NULL);
-    if (t->wake_fd >= 0) close(t->wake_fd);
-    *t = (struct gn_terminal){.fd = -1, .wake_fd = -1};
-}
-
-void gn_terminal_leave(void) {
-    if (own.open) set_raw(false);
-}
-
-void gn_terminal_resume(struct gn_terminal *t) {
-    uint64_t count;
-    t->resumed = false;
-    (void)!read(t->wake_fd, &count, sizeof count);
-    set_raw(true);
-    watch_fd(t, is_foreground(t->fd));
-}
-
-int gn_terminal_read(struct gn_terminal *t, uint8_t *out, int size) {
-    if (!is_foreground(
-            t->fd)) { /* reading would stop us; SIGCONT reports the return to the foreground */
-        watch_fd(t, false);
-        return 0;
-    }
-    const ssize_t count = read(t->fd, out, (size_t)size);
-    if (count > 0) return (int)count;
-    if (count == 0 || (errno != EAGAIN && errno != EINTR)) watch_fd(t, false);
-    return 0;
-}
-
-/* ---- the source ---- */
-
-static void open_terminal(struct gn_input *input, const struct gn_input_world *world,
-                          int64_t now_ns, struct gn_warnings *warnings) {
-    (void)now_ns, (void)warnings;
-    if (input->opts.terminal)
-        gn_terminal_open(&input->terminal, world->terminal ? *world->terminal : STDIN_FILENO,
-                         input->opts.loop, &input->timer);
+    resume_terminal(t);
 }
 
 static void click_key(struct gn_input *input, unsigned key, int64_t now_ns) {
@@ -177,13 +148,19 @@ static void click_key(struct gn_input *input, unsigned key, int64_t now_ns) {
 }
 
 static void read_terminal(struct gn_input *input, int64_t now_ns) {
+    struct gn_terminal *t = &input->terminal;
     uint8_t bytes[256];
-    if (input->terminal.resumed) gn_terminal_resume(&input->terminal);
-    if (!input->terminal.readable) return;
-    input->terminal.readable = false;
-    const int count = gn_terminal_read(&input->terminal, bytes, sizeof bytes);
-    for (int i = 0; i < count; i++)
-        click_key(input, gn_terminal_keys_step(&input->terminal.keys, bytes[i], now_ns), now_ns);
+    if (t->resumed) resume_terminal(t);
+    if (!t->readable) return;
+    t->readable = false;
+    if (!is_foreground(t->fd)) { /* reading would stop us; SIGCONT reports the return */
+        watch_fd(t, false);
+        return;
+    }
+    const ssize_t count = read(t->fd, bytes, sizeof bytes);
+    if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR)) watch_fd(t, false);
+    for (ssize_t i = 0; i < count; i++)
+        click_key(input, gn_terminal_keys_step(&t->keys, bytes[i], now_ns), now_ns);
 }
 
 static void step_terminal(struct gn_input *input, int64_t now_ns) {
@@ -194,7 +171,19 @@ static int64_t terminal_deadline(const struct gn_input *input) {
     return gn_terminal_keys_deadline(&input->terminal.keys);
 }
 
-static void close_terminal(struct gn_input *input) { gn_terminal_close(&input->terminal); }
+static void close_terminal(struct gn_input *input) {
+    struct gn_terminal *t = &input->terminal;
+    if (t->fd < 0) return;
+    watch_fd(t, false);
+    gn_loop_remove(&t->wake);
+    set_raw(false);
+    own.open = false;
+    sigaction(SIGTSTP, &own.old_stop, NULL);
+    sigaction(SIGCONT, &own.old_continue, NULL);
+    for (int i = 0; i < ENDS; i++) sigaction(ends[i], &own.old_ends[i], NULL);
+    if (t->wake_fd >= 0) close(t->wake_fd);
+    *t = (struct gn_terminal){.fd = -1, .wake_fd = -1};
+}
 
 const struct gn_input_source gn_source_terminal = {
     .open = open_terminal,

@@ -22,16 +22,7 @@ struct gn_terminal { /* fd -1: none */
     struct gn_terminal_keys keys;
 };
 
-/* Uses fd if it is a terminal; false if it is not, or another one is open. A readable descriptor is
- * noted and arms the timer. */
-bool gn_terminal_open(struct gn_terminal *terminal, int fd, struct gn_loop *loop,
-                      struct gn_timer *timer);
-void gn_terminal_close(struct gn_terminal *terminal);
 /* Restores the terminal, for handlers that call _exit(). Async-signal-safe. */
 void gn_terminal_leave(void);
-/* Reads at most size bytes; 0: nothing now, or end of file. Never blocks. */
-int gn_terminal_read(struct gn_terminal *terminal, uint8_t *out, int size);
-/* SIGCONT arrived: we may be in the foreground. */
-void gn_terminal_resume(struct gn_terminal *terminal);
 
 #endif
