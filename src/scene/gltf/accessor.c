@@ -24,13 +24,6 @@ static const struct shape {
 } SHAPES[] = {{"SCALAR", 1, 1}, {"VEC2", 2, 1}, {"VEC3", 3, 1}, {"VEC4", 4, 1},
               {"MAT2", 4, 2},   {"MAT3", 9, 3}, {"MAT4", 16, 4}};
 
-/* Bytes of an element; the columns of a matrix start at multiples of four. */
-static size_t element_size(const struct shape *shape, enum gn_component component) {
-    size_t column = shape->components / shape->columns * component_size(component);
-    if (shape->columns > 1) column = (column + 3) / 4 * 4;
-    return column * shape->columns;
-}
-
 static bool read_component(struct gn_gltf *g, const struct gn_at *up, enum gn_component *out) {
     uint64_t value = gn_at_uint(g, up, "componentType", 0);
     struct gn_at at = gn_at_any(up, "componentType");
@@ -39,15 +32,6 @@ static bool read_component(struct gn_gltf *g, const struct gn_at *up, enum gn_co
         return gn_gltf_fail(g, &at, "%" PRIu64 " is none of 5120-5123, 5125, 5126", value);
     *out = (enum gn_component)value;
     return true;
-}
-
-static const struct shape *read_shape(struct gn_gltf *g, const struct gn_at *up) {
-    const char *name = gn_at_text(g, up, "type");
-    struct gn_at at = gn_at_any(up, "type");
-    for (size_t i = 0; name && i < sizeof SHAPES / sizeof SHAPES[0]; i++)
-        if (strcmp(SHAPES[i].name, name) == 0) return &SHAPES[i];
-    gn_gltf_fail(g, &at, "'%.20s' is none of SCALAR, VEC2-4, MAT2-4", name ? name : "");
-    return NULL;
 }
 
 /* The part of a bufferView that an accessor, or an array of its sparse part, reads. */
@@ -83,20 +67,16 @@ static const uint8_t *span_data(struct gn_gltf *g, const struct gn_at *at, struc
 
 /* ---- sparse ---- */
 
-/* Makes a dense copy of the base, which the sparse values overwrite. */
-static uint8_t *dense_copy(struct gn_gltf *g, struct gn_accessor *a, size_t element) {
+/* Makes a dense copy of the elements and overwrites those that index names. */
+static bool set_sparse_values(struct gn_gltf *g, const struct gn_at *at,
+                              const struct gn_accessor *index, const uint8_t *values,
+                              struct gn_accessor *a, size_t element) {
     uint8_t *copy = gn_gltf_alloc(g, &g->memory.load, a->count, element);
-    if (!copy) return NULL;
+    if (!copy) return false;
     for (size_t i = 0; a->stride > 0 && i < a->count; i++)
         memcpy(copy + i * element, a->data + i * a->stride, element);
     a->data = copy;
     a->stride = element;
-    return copy;
-}
-
-static bool set_sparse_values(struct gn_gltf *g, const struct gn_at *at,
-                              const struct gn_accessor *index, const uint8_t *values, uint8_t *copy,
-                              const struct gn_accessor *a) {
     uint32_t *at_index = gn_gltf_alloc(g, &g->memory.load, index->count, sizeof *at_index);
     if (!at_index) return false;
     gn_accessor_indices(index, at_index);
@@ -104,7 +84,7 @@ static bool set_sparse_values(struct gn_gltf *g, const struct gn_at *at,
         if (at_index[i] >= a->count)
             return gn_gltf_fail(g, at, "element %zu: index %" PRIu32 ", but there are %zu elements",
                                 i, at_index[i], a->count);
-        memcpy(copy + at_index[i] * a->stride, values + i * a->stride, a->stride);
+        memcpy(copy + at_index[i] * element, values + i * element, element);
     }
     return true;
 }
@@ -137,24 +117,32 @@ static bool apply_sparse(struct gn_gltf *g, const struct gn_at *sparse, struct g
         return gn_gltf_fail(g, &indices, "componentType must be an unsigned integer");
     index.data = span_data(g, &indices, &index_span);
     const uint8_t *data = index.data ? span_data(g, &values, &value_span) : NULL;
-    uint8_t *copy = data ? dense_copy(g, a, element) : NULL;
     a->backed = true;
-    return copy && set_sparse_values(g, &indices, &index, data, copy, a);
+    return data && set_sparse_values(g, &indices, &index, data, a, element);
 }
 
 /* ---- whole accessors ---- */
 
 static bool resolve_accessor(struct gn_gltf *g, const struct gn_at *at, struct gn_accessor *a) {
-    const struct shape *shape = read_shape(g, at);
-    if (!shape || !read_component(g, at, &a->component)) return false;
+    const struct shape *shape = NULL;
+    const char *name = gn_at_text(g, at, "type");
+    for (size_t i = 0; name && i < sizeof SHAPES / sizeof SHAPES[0]; i++)
+        if (strcmp(SHAPES[i].name, name) == 0) shape = &SHAPES[i];
+    struct gn_at type = gn_at_any(at, "type"), count = gn_at_any(at, "count");
+    if (!shape)
+        return gn_gltf_fail(g, &type, "'%.20s' is none of SCALAR, VEC2-4, MAT2-4",
+                            name ? name : "");
+    if (!read_component(g, at, &a->component)) return false;
+    /* the columns of a matrix start at multiples of four bytes */
+    size_t column = shape->components / shape->columns * component_size(a->component);
+    if (shape->columns > 1) column = (column + 3) / 4 * 4;
     struct span span = {.view = gn_at_ref(g, at, "bufferView", g->file.view_count, "bufferViews"),
                         .offset = gn_at_uint(g, at, "byteOffset", 0),
                         .count = gn_at_uint(g, at, "count", 0),
-                        .element = element_size(shape, a->component)};
+                        .element = column * shape->columns};
     a->normalized = gn_at_flag(g, at, "normalized", false);
     a->components = shape->components;
     a->backed = span.view >= 0;
-    struct gn_at count = gn_at_any(at, "count");
     if (g->failed) return false;
     if (span.count == 0) return gn_gltf_fail(g, &count, "must be at least 1");
     if (!a->backed && span.count > g->limits.vertices)

@@ -14,25 +14,37 @@ struct sampler {
 
 /* ---- samplers ---- */
 
-static enum gn_anim_interpolation read_interpolation(struct gn_gltf *g, const struct gn_at *at) {
+static bool read_sampler(struct gn_gltf *g, const struct gn_at *at, struct sampler *sampler) {
     static const char *const names[] = {
         [GN_ANIM_LINEAR] = "LINEAR", [GN_ANIM_STEP] = "STEP", [GN_ANIM_CUBIC] = "CUBICSPLINE"};
-    const char *name = gn_at_text(g, at, "interpolation");
-    for (int i = 0; name && i < 3; i++)
-        if (strcmp(name, names[i]) == 0) return (enum gn_anim_interpolation)i;
-    if (name) gn_gltf_warn(g, at, "interpolation '%.20s' is unknown; taken as LINEAR", name);
-    return GN_ANIM_LINEAR;
-}
-
-static bool read_sampler(struct gn_gltf *g, const struct gn_at *at, struct sampler *sampler) {
     int32_t output = gn_at_ref(g, at, "output", g->file.accessor_count, "accessors");
     sampler->input_index = gn_at_ref(g, at, "input", g->file.accessor_count, "accessors");
-    sampler->interpolation = read_interpolation(g, at);
+    const char *name = gn_at_text(g, at, "interpolation");
+    bool known = !name;
+    for (int i = 0; name && i < 3; i++) {
+        if (strcmp(name, names[i]) != 0) continue;
+        sampler->interpolation = (enum gn_anim_interpolation)i;
+        known = true;
+    }
+    if (!known) gn_gltf_warn(g, at, "interpolation '%.20s' is unknown; taken as LINEAR", name);
     sampler->input = gn_gltf_accessor(g, sampler->input_index);
     sampler->output = gn_gltf_accessor(g, output);
     if (g->failed) return false;
     if (!sampler->input || !sampler->output) return gn_gltf_fail(g, at, "needs input and output");
     return true;
+}
+
+/* Into the scene's memory. NULL: some are not finite, or the load failed. */
+static const float *read_values(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
+    float *values =
+        gn_gltf_alloc(g, g->memory.scene, (uint64_t)a->count * components, sizeof *values);
+    if (!values) return NULL;
+    struct gn_accessor copy = *a;
+    if (components == 4) copy.normalized = true; /* integer rotations are always normalised */
+    gn_accessor_floats(&copy, components, values);
+    for (size_t i = 0; i < a->count * components; i++)
+        if (!(fabsf(values[i]) < 1e18f)) return NULL;
+    return values;
 }
 
 /* Times as floats, ascending; read once for all channels that share them. NULL: invalid, or
@@ -41,30 +53,17 @@ static const float *read_times(struct gn_gltf *g, const struct sampler *sampler)
     const struct gn_accessor *a = sampler->input;
     if (a->components != 1) return NULL;
     if (g->file.key_times[sampler->input_index]) return g->file.key_times[sampler->input_index];
-    float *times = gn_gltf_alloc(g, g->memory.scene, a->count, sizeof *times);
+    const float *times = read_values(g, a, 1);
     if (!times) return NULL;
-    gn_accessor_floats(a, 1, times);
     for (size_t i = 0; i < a->count; i++)
         if (!(times[i] >= (i > 0 ? times[i - 1] : 0) && times[i] <= 1e9f)) return NULL;
     g->file.key_times[sampler->input_index] = times;
     return times;
 }
 
-static const float *read_values(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
-    float *values =
-        gn_gltf_alloc(g, g->memory.scene, (uint64_t)a->count * components, sizeof *values);
-    if (!values) return NULL;
-    struct gn_accessor copy = *a;
-    if (components == 4) copy.normalized = true; /* integers can only be that for a rotation */
-    gn_accessor_floats(&copy, components, values);
-    for (size_t i = 0; i < a->count * components; i++)
-        if (!(fabsf(values[i]) < 1e18f)) return NULL;
-    return values;
-}
-
 /* ---- channels ---- */
 
-/* The node in the scene that the channel moves and how; -1: none, or not ours. */
+/* The node of the scene that the channel animates, and its path; -1: none, or not supported. */
 static int32_t read_target(struct gn_gltf *g, const struct gn_at *at, enum gn_anim_path *path) {
     static const char *const names[] = {[GN_ANIM_TRANSLATION] = "translation",
                                         [GN_ANIM_ROTATION] = "rotation",
@@ -86,8 +85,7 @@ static int32_t read_target(struct gn_gltf *g, const struct gn_at *at, enum gn_an
     return -1;
 }
 
-/* A matrix cannot be animated: the node gets the translation, rotation and scale that it stands
- * for. */
+/* Decomposes a matrix, which cannot be animated, into translation, rotation and scale. */
 static void use_trs(struct gn_node *node) {
     if (!node->has_matrix) return;
     node->has_matrix = false;
@@ -146,45 +144,44 @@ static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct
 
 static void read_clip(struct gn_gltf *g, const struct gn_at *at, struct gn_clip *clip,
                       uint8_t *claimed) {
-    struct gn_scene *scene = g->scene;
+    struct gn_scene_animation *animation = &g->scene->animation;
     struct gn_at samplers = gn_at_array(g, at, "samplers"),
                  channels = gn_at_array(g, at, "channels");
     float last_s = 0;
     clip->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
-    clip->first_channel = scene->animation.channel_count;
+    clip->first_channel = animation->channel_count;
     clip->on_by_default = true;
     for (size_t i = 0; i < gn_at_size(&channels) && !g->failed; i++) {
         struct gn_at channel_at = gn_at_item(g, &channels, i);
-        struct gn_channel *channel = &scene->animation.channels[scene->animation.channel_count];
+        struct gn_channel *channel = &animation->channels[animation->channel_count];
         if (g->failed || !read_channel(g, &channel_at, &samplers, channel)) continue;
         const float *times_s = channel->times_s;
         if (times_s) last_s = fmaxf(last_s, times_s[channel->key_count - 1]);
         if (claimed[channel->node] & 1U << channel->path) clip->on_by_default = false;
-        scene->animation.channel_count++;
+        animation->channel_count++;
     }
-    clip->channel_count = scene->animation.channel_count - clip->first_channel;
+    clip->channel_count = animation->channel_count - clip->first_channel;
     clip->duration_ns = llround((double)last_s * 1e9);
-    for (uint32_t i = clip->first_channel; i < scene->animation.channel_count; i++)
-        claimed[scene->animation.channels[i].node] |=
-            (uint8_t)(1U << scene->animation.channels[i].path);
+    for (uint32_t i = clip->first_channel; i < animation->channel_count; i++)
+        claimed[animation->channels[i].node] |= (uint8_t)(1U << animation->channels[i].path);
 }
 
 bool gn_gltf_animations(struct gn_gltf *g) {
-    struct gn_scene *scene = g->scene;
+    struct gn_scene_animation *animation = &g->scene->animation;
     struct gn_at root = gn_at_root(g), array = gn_at_array(g, &root, "animations");
-    size_t count = gn_at_size(&array), channels = 0;
+    size_t count = gn_at_size(&array), channel_count = 0;
     for (size_t i = 0; i < count && !g->failed; i++) {
         struct gn_at at = gn_at_item(g, &array, i), list = gn_at_array(g, &at, "channels");
-        channels += gn_at_size(&list);
+        channel_count += gn_at_size(&list);
     }
-    scene->animation.clips =
-        gn_gltf_alloc(g, g->memory.scene, count, sizeof *scene->animation.clips);
-    scene->animation.channels =
-        gn_gltf_alloc(g, g->memory.scene, channels, sizeof *scene->animation.channels);
-    uint8_t *claimed = gn_gltf_alloc(g, &g->memory.load, scene->node_count, 1);
+    animation->clips = gn_gltf_alloc(g, g->memory.scene, count, sizeof *animation->clips);
+    animation->channels =
+        gn_gltf_alloc(g, g->memory.scene, channel_count, sizeof *animation->channels);
+    /* per node: a bit for each path that a clip animates */
+    uint8_t *claimed = gn_gltf_alloc(g, &g->memory.load, g->scene->node_count, 1);
     for (size_t i = 0; i < count && !g->failed; i++) {
         struct gn_at at = gn_at_element(&array, i);
-        read_clip(g, &at, &scene->animation.clips[scene->animation.clip_count++], claimed);
+        read_clip(g, &at, &animation->clips[animation->clip_count++], claimed);
     }
     return !g->failed;
 }

@@ -1,47 +1,24 @@
+/* Buffers and their views. */
 #include "scene/private.h"
 
 #include <inttypes.h>
 
-/* ---- buffers ---- */
-
-static bool fetch_buffer(struct gn_gltf *g, const struct gn_at *at, size_t index,
-                         struct gn_blob *buffer) {
-    const char *uri = gn_at_text(g, at, "uri");
-    if (g->failed) return false;
-    struct gn_err err = {0};
-    struct gn_at place = gn_at_any(at, "uri");
-    if (uri) return gn_uri_fetch(g, uri, buffer, &err) || gn_gltf_fail(g, &place, "%s", err.text);
-    if (index == 0) *buffer = g->file.bin; /* later ones without a URI hold nothing: placeholders */
-    return true;
-}
-
 static bool load_buffer(struct gn_gltf *g, const struct gn_at *at, size_t index,
                         struct gn_blob *buffer) {
     uint64_t wanted = gn_at_uint(g, at, "byteLength", UINT64_MAX);
-    struct gn_at place = gn_at_any(at, "byteLength");
+    struct gn_at length_at = gn_at_any(at, "byteLength"), uri_at = gn_at_any(at, "uri");
     if (g->failed) return false;
-    if (wanted == UINT64_MAX) return gn_gltf_fail(g, &place, "missing");
-    if (!fetch_buffer(g, at, index, buffer)) return false;
+    if (wanted == UINT64_MAX) return gn_gltf_fail(g, &length_at, "missing");
+    const char *uri = gn_at_text(g, at, "uri");
+    struct gn_err err = {0};
+    if (g->failed) return false;
+    if (uri && !gn_uri_fetch(g, uri, buffer, &err)) return gn_gltf_fail(g, &uri_at, "%s", err.text);
+    if (!uri && index == 0) *buffer = g->file.bin; /* later ones without a URI are placeholders */
     if (buffer->data && wanted > buffer->size)
-        return gn_gltf_fail(g, &place, "%" PRIu64 ", but the data has %zu bytes", wanted,
+        return gn_gltf_fail(g, &length_at, "%" PRIu64 ", but the data has %zu bytes", wanted,
                             buffer->size);
     return true;
 }
-
-static bool load_buffers(struct gn_gltf *g, const struct gn_at *root) {
-    struct gn_at array = gn_at_array(g, root, "buffers");
-    size_t count = gn_at_size(&array);
-    g->file.buffers = gn_gltf_alloc(g, &g->memory.load, count, sizeof *g->file.buffers);
-    if (!g->file.buffers) return false;
-    g->file.buffer_count = count;
-    for (size_t i = 0; i < count; i++) {
-        struct gn_at at = gn_at_item(g, &array, i);
-        if (g->failed || !load_buffer(g, &at, i, &g->file.buffers[i])) return false;
-    }
-    return true;
-}
-
-/* ---- views ---- */
 
 static bool load_view(struct gn_gltf *g, const struct gn_at *at, struct gn_view *view) {
     int32_t index = gn_at_ref(g, at, "buffer", g->file.buffer_count, "buffers");
@@ -64,13 +41,20 @@ static bool load_view(struct gn_gltf *g, const struct gn_at *at, struct gn_view 
 }
 
 bool gn_gltf_buffers(struct gn_gltf *g) {
-    struct gn_at root = gn_at_root(g);
-    if (!load_buffers(g, &root)) return false;
-    struct gn_at array = gn_at_array(g, &root, "bufferViews");
-    g->file.view_count = gn_at_size(&array);
+    struct gn_at root = gn_at_root(g), buffers = gn_at_array(g, &root, "buffers");
+    size_t count = gn_at_size(&buffers);
+    g->file.buffers = gn_gltf_alloc(g, &g->memory.load, count, sizeof *g->file.buffers);
+    if (!g->file.buffers) return false;
+    g->file.buffer_count = count;
+    for (size_t i = 0; i < count; i++) {
+        struct gn_at at = gn_at_item(g, &buffers, i);
+        if (g->failed || !load_buffer(g, &at, i, &g->file.buffers[i])) return false;
+    }
+    struct gn_at views = gn_at_array(g, &root, "bufferViews");
+    g->file.view_count = gn_at_size(&views);
     g->file.views = gn_gltf_alloc(g, &g->memory.load, g->file.view_count, sizeof *g->file.views);
     for (size_t i = 0; i < g->file.view_count && !g->failed; i++) {
-        struct gn_at at = gn_at_item(g, &array, i);
+        struct gn_at at = gn_at_item(g, &views, i);
         if (!g->failed) load_view(g, &at, &g->file.views[i]);
     }
     return !g->failed;

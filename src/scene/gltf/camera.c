@@ -12,38 +12,34 @@ static float needed_float(struct gn_gltf *g, const struct gn_at *up, const char 
     return gn_at_float(g, up, key, 0);
 }
 
-static bool read_perspective(struct gn_gltf *g, const struct gn_at *at, struct gn_camera *camera) {
-    camera->yfov_rad = needed_float(g, at, "yfov");
-    camera->near_m = needed_float(g, at, "znear");
-    camera->far_m = gn_at_float(g, at, "zfar", 0);
-    return camera->yfov_rad > 1e-3f && camera->yfov_rad < GLM_PIf - 1e-3f && camera->near_m > 0 &&
-           camera->near_m < NEAR_MOST_M;
-}
-
-static bool read_orthographic(struct gn_gltf *g, const struct gn_at *at, struct gn_camera *camera) {
-    camera->orthographic = true;
-    camera->xmag_m = fabsf(needed_float(g, at, "xmag"));
-    camera->ymag_m = fabsf(needed_float(g, at, "ymag"));
-    camera->near_m = needed_float(g, at, "znear");
-    camera->far_m = needed_float(g, at, "zfar");
-    return camera->xmag_m > 0 && camera->ymag_m > 0 && camera->near_m >= 0 &&
-           camera->near_m < NEAR_MOST_M && camera->far_m > 0;
-}
-
 static void add_camera(struct gn_gltf *g, const struct gn_at *at, uint32_t node) {
     struct gn_scene *scene = g->scene;
     struct gn_camera camera = {.node = node};
     struct gn_at perspective = gn_at_object(g, at, "perspective");
     struct gn_at orthographic = gn_at_object(g, at, "orthographic");
-    const char *name = gn_at_text(g, at, "name"), *type = gn_at_text(g, at, "type");
-    (void)type;
+    const char *name = gn_at_text(g, at, "name");
+    gn_at_text(g, at, "type"); /* must be a string; the object that is there says the type */
     if (!perspective.json && !orthographic.json)
         gn_gltf_fail(g, at, "is neither perspective nor orthographic");
-    bool sees = perspective.json ? read_perspective(g, &perspective, &camera)
-                                 : read_orthographic(g, &orthographic, &camera);
+    bool in_range = false;
+    if (perspective.json) {
+        camera.yfov_rad = needed_float(g, &perspective, "yfov");
+        camera.near_m = needed_float(g, &perspective, "znear");
+        camera.far_m = gn_at_float(g, &perspective, "zfar", 0);
+        in_range = camera.yfov_rad > 1e-3f && camera.yfov_rad < GLM_PIf - 1e-3f &&
+                   camera.near_m > 0 && camera.near_m < NEAR_MOST_M;
+    } else {
+        camera.orthographic = true;
+        camera.xmag_m = fabsf(needed_float(g, &orthographic, "xmag"));
+        camera.ymag_m = fabsf(needed_float(g, &orthographic, "ymag"));
+        camera.near_m = needed_float(g, &orthographic, "znear");
+        camera.far_m = needed_float(g, &orthographic, "zfar");
+        in_range = camera.xmag_m > 0 && camera.ymag_m > 0 && camera.near_m >= 0 &&
+                   camera.near_m < NEAR_MOST_M && camera.far_m > 0;
+    }
     bool deep = camera.far_m == 0 || camera.far_m > camera.near_m;
     if (g->failed) return;
-    if (!sees || !deep) {
+    if (!in_range || !deep) {
         gn_gltf_warn(g, at, "invalid camera: %s; ignored",
                      deep ? "its field or near plane is out of range" : "zfar is not beyond znear");
         return;

@@ -126,21 +126,8 @@ void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_place
     if (word >= 0) placed->cast_faces = (enum gn_cast_faces)word;
 }
 
-static void take_slide(struct gn_gltf *g, const struct gn_at *extras, struct gn_light *light) {
-    static const char *const outside[] = {"dark", "lit"};
-    int64_t slide = -1;
-    if (g->file.texture_count > 0)
-        take_whole(g, extras, "gnomon_slide", 0, (int64_t)g->file.texture_count - 1, &slide);
-    else if (gn_at_any(extras, "gnomon_slide").json)
-        gn_gltf_warn(g, extras, "gnomon_slide: the file has no textures; ignored");
-    if (slide >= 0) light->slide = gn_gltf_texture(g, (int32_t)slide);
-    take_pair(g, extras, "gnomon_slide_size_m", light->slide_size_m);
-    take_float(g, extras, "gnomon_slide_distance_m", 1e6f, &light->slide_distance_m);
-    int word = take_word(g, extras, "gnomon_slide_outside", outside, 2);
-    if (word >= 0) light->slide_lit_outside = word == 1;
-}
-
 void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_light *light) {
+    static const char *const outside[] = {"dark", "lit"};
     struct gn_at extras = extras_of(holder);
     if (!json_is_object(extras.json)) return;
     take_float(g, &extras, "gnomon_radius", FLT_MAX, &light->radius);
@@ -154,10 +141,23 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
         light->technique = gn_gltf_strdup(g, name);
     else if (technique.json)
         warn_wanted(g, &technique, "the name of a technique, or none");
-    if (gn_light_types[light->type].has_cone)
-        take_slide(g, &extras, light);
-    else if (gn_at_any(&extras, "gnomon_slide").json)
-        gn_gltf_warn(g, &extras, "gnomon_slide: only a spot can project a slide; ignored");
+
+    bool has_slide = gn_at_any(&extras, "gnomon_slide").json != NULL;
+    if (!gn_light_types[light->type].has_cone) {
+        if (has_slide)
+            gn_gltf_warn(g, &extras, "gnomon_slide: only a spot can project a slide; ignored");
+        return;
+    }
+    int64_t slide = -1;
+    if (g->file.texture_count > 0)
+        take_whole(g, &extras, "gnomon_slide", 0, (int64_t)g->file.texture_count - 1, &slide);
+    else if (has_slide)
+        gn_gltf_warn(g, &extras, "gnomon_slide: the file has no textures; ignored");
+    if (slide >= 0) light->slide = gn_gltf_texture(g, (int32_t)slide);
+    take_pair(g, &extras, "gnomon_slide_size_m", light->slide_size_m);
+    take_float(g, &extras, "gnomon_slide_distance_m", 1e6f, &light->slide_distance_m);
+    int word = take_word(g, &extras, "gnomon_slide_outside", outside, 2);
+    if (word >= 0) light->slide_lit_outside = word == 1;
 }
 
 void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene) {

@@ -28,28 +28,7 @@ static bool parse_json(struct gn_gltf *g, const uint8_t *text, size_t size, size
 
 /* ---- .glb ---- */
 
-static bool check_header(struct gn_gltf *g, const uint8_t *data, size_t *size) {
-    if (*size < HEADER + CHUNK)
-        return gn_gltf_fail(g, NULL, "byte %zu: the file ends within the .glb header", *size);
-    uint32_t version = read_u32(data + 4), length = read_u32(data + 8);
-    if (version != 2)
-        return gn_gltf_fail(g, NULL,
-                            "byte 4: .glb version %" PRIu32 "; only version 2 is read: "
-                            "export it again as glTF 2.0",
-                            version);
-    if (length > *size)
-        return gn_gltf_fail(g, NULL,
-                            "byte 8: length %" PRIu32 ", but the file has %zu bytes: it is "
-                            "truncated, copy it again",
-                            length, *size);
-    if (length < HEADER + CHUNK)
-        return gn_gltf_fail(g, NULL, "byte 8: a length of %" PRIu32 " is too short", length);
-    if (length < *size) gn_gltf_warn(g, NULL, "%zu bytes after the end ignored", *size - length);
-    *size = length;
-    return true;
-}
-
-static bool take_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
+static bool read_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
     uint32_t length = read_u32(data + at), type = read_u32(data + at + 4);
     const uint8_t *body = data + at + CHUNK;
     if (at == HEADER && type != CHUNK_JSON)
@@ -67,25 +46,44 @@ static bool take_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
 }
 
 static bool open_glb(struct gn_gltf *g, const uint8_t *data, size_t size) {
-    if (!check_header(g, data, &size)) return false;
+    if (size < HEADER + CHUNK)
+        return gn_gltf_fail(g, NULL, "byte %zu: the file ends within the .glb header", size);
+    uint32_t version = read_u32(data + 4), length = read_u32(data + 8);
+    if (version != 2)
+        return gn_gltf_fail(g, NULL,
+                            "byte 4: .glb version %" PRIu32 "; only version 2 is read: "
+                            "export it again as glTF 2.0",
+                            version);
+    if (length > size)
+        return gn_gltf_fail(g, NULL,
+                            "byte 8: length %" PRIu32 ", but the file has %zu bytes: it is "
+                            "truncated, copy it again",
+                            length, size);
+    if (length < HEADER + CHUNK)
+        return gn_gltf_fail(g, NULL, "byte 8: a length of %" PRIu32 " is too short", length);
+    if (length < size) gn_gltf_warn(g, NULL, "%zu bytes after the end ignored", size - length);
+    size = length;
+
     size_t at = HEADER;
-    for (; size - at >= CHUNK;) {
-        uint32_t length = read_u32(data + at);
-        if (length > size - at - CHUNK)
+    while (size - at >= CHUNK) {
+        uint32_t chunk = read_u32(data + at);
+        if (chunk > size - at - CHUNK)
             return gn_gltf_fail(g, NULL, "byte %zu: a chunk of %" PRIu32 " bytes, but %zu are left",
-                                at, length, size - at - CHUNK);
-        if (!take_chunk(g, data, at)) return false;
-        at += CHUNK + (size_t)length;
+                                at, chunk, size - at - CHUNK);
+        if (!read_chunk(g, data, at)) return false;
+        at += CHUNK + (size_t)chunk;
     }
     if (at < size)
         gn_gltf_warn(g, NULL, "byte %zu: %zu bytes after the last chunk ignored", at, size - at);
     return true;
 }
 
-/* ---- .gltf ---- */
-
-/* Whatever else it is: a .blend, a .hdr, a .step. */
-static bool fail_format(struct gn_gltf *g, size_t at) {
+bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {
+    if (size == 0) return gn_gltf_fail(g, NULL, "byte 0: the file is empty");
+    if (size >= 4 && memcmp(data, "glTF", 4) == 0) return open_glb(g, data, size);
+    size_t start = has_bom(data, size) ? 3 : 0;
+    while (start < size && data[start] && strchr(" \t\r\n", data[start])) start++;
+    if (start < size && data[start] == '{') return parse_json(g, data, size, 0);
     char others[80] = "";
     for (size_t i = 0, used = 0; i < GN_MODEL_FORMAT_COUNT && used < sizeof others; i++)
         used += (size_t)snprintf(others + used, sizeof others - used, "%s%s", i ? " " : "",
@@ -93,20 +91,7 @@ static bool fail_format(struct gn_gltf *g, size_t at) {
     return gn_gltf_fail(g, NULL,
                         "byte %zu: neither .glb ('glTF') nor .gltf ('{'); what can be read is .glb "
                         "and .gltf, and %s through gnomon-import: export it as .glb",
-                        at, others);
-}
-
-static bool open_json(struct gn_gltf *g, const uint8_t *data, size_t size) {
-    size_t start = has_bom(data, size) ? 3 : 0;
-    while (start < size && data[start] && strchr(" \t\r\n", data[start])) start++;
-    if (start == size || data[start] != '{') return fail_format(g, start);
-    return parse_json(g, data, size, 0);
-}
-
-bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {
-    if (size == 0) return gn_gltf_fail(g, NULL, "byte 0: the file is empty");
-    if (size >= 4 && memcmp(data, "glTF", 4) == 0) return open_glb(g, data, size);
-    return open_json(g, data, size);
+                        start, others);
 }
 
 /* ---- versions and extensions ---- */
@@ -143,20 +128,6 @@ static const struct cure {
     {"KHR_materials_pbrSpecularGlossiness", "convert it first (gltf-transform metalrough can)"},
 };
 
-static const char *cure_of(const char *extension) {
-    for (size_t i = 0; i < sizeof CURES / sizeof CURES[0]; i++)
-        if (strcmp(CURES[i].extension, extension) == 0) return CURES[i].what_to_do;
-    return "export the scene without it";
-}
-
-static bool check_extension(struct gn_gltf *g, const struct gn_at *at) {
-    const char *name = json_string_value(at->json);
-    if (!name) return gn_gltf_fail(g, at, "must be a string");
-    for (size_t i = 0; i < sizeof SUPPORTED / sizeof SUPPORTED[0]; i++)
-        if (strcmp(SUPPORTED[i], name) == 0) return true;
-    return gn_gltf_fail(g, at, "%.80s is not supported; %s", name, cure_of(name));
-}
-
 bool gn_gltf_check_support(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), asset = gn_at_object(g, &root, "asset");
     if (g->failed || !check_version(g, &asset)) return false;
@@ -169,7 +140,14 @@ bool gn_gltf_check_support(struct gn_gltf *g) {
     struct gn_at required = gn_at_array(g, &root, "extensionsRequired");
     for (size_t i = 0; i < gn_at_size(&required); i++) {
         struct gn_at at = gn_at_element(&required, i);
-        if (!check_extension(g, &at)) return false;
+        const char *name = json_string_value(at.json), *cure = "export the scene without it";
+        if (!name) return gn_gltf_fail(g, &at, "must be a string");
+        bool supported = false;
+        for (size_t k = 0; k < sizeof SUPPORTED / sizeof SUPPORTED[0]; k++)
+            supported |= strcmp(SUPPORTED[k], name) == 0;
+        for (size_t k = 0; k < sizeof CURES / sizeof CURES[0]; k++)
+            if (strcmp(CURES[k].extension, name) == 0) cure = CURES[k].what_to_do;
+        if (!supported) return gn_gltf_fail(g, &at, "%.80s is not supported; %s", name, cure);
     }
     return !g->failed;
 }

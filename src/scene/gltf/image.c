@@ -19,19 +19,15 @@ static const struct format {
     {"\xff\xd8\xff", 3, gn_jpeg_size, gn_jpeg_read},
 };
 
-static const struct format *format_of(const struct gn_blob *blob) {
-    for (size_t i = 0; i < sizeof FORMATS / sizeof FORMATS[0]; i++)
-        if (blob->data && blob->size >= FORMATS[i].magic_size &&
-            memcmp(blob->data, FORMATS[i].magic, FORMATS[i].magic_size) == 0)
-            return &FORMATS[i];
-    return NULL;
-}
-
 /* ---- pictures ---- */
 
 static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct gn_image *image,
                          struct gn_err *err) {
-    const struct format *format = format_of(blob);
+    const struct format *format = NULL;
+    for (size_t i = 0; i < sizeof FORMATS / sizeof FORMATS[0]; i++)
+        if (blob->data && blob->size >= FORMATS[i].magic_size &&
+            memcmp(blob->data, FORMATS[i].magic, FORMATS[i].magic_size) == 0)
+            format = &FORMATS[i];
     uint32_t px[2] = {0};
     if (!format) return gn_fail(err, "neither PNG nor JPEG");
     if (!format->size(blob->data, blob->size, px, err)) return false;
@@ -76,6 +72,7 @@ static bool fetch_image(struct gn_gltf *g, const struct gn_at *at, struct gn_blo
     return true;
 }
 
+/* The index of the scene's image for one of the file, or DROPPED. */
 static int32_t image_at(struct gn_gltf *g, int32_t index) {
     if (g->to_scene.image[index] != UNSEEN) return g->to_scene.image[index];
     g->to_scene.image[index] = DROPPED;
@@ -133,22 +130,6 @@ static void read_sampler(struct gn_gltf *g, const struct gn_at *sampler,
     texture->wrap_t = read_wrap(g, sampler, "wrapT");
 }
 
-/* The picture's index in the file, or -1 if it is only in unsupported formats. */
-static int32_t source_of(struct gn_gltf *g, const struct gn_at *at) {
-    int32_t source = gn_at_ref(g, at, "source", g->file.image_count, "images");
-    bool webp = gn_at_extension(g, at, "extensions.EXT_texture_webp").json != NULL;
-    bool basisu = gn_at_extension(g, at, "extensions.KHR_texture_basisu").json != NULL;
-    if (source < 0 && !g->failed) {
-        if (webp)
-            g->is_missing[GN_MISSING_WEBP] = true;
-        else if (basisu)
-            g->is_missing[GN_MISSING_BASISU] = true;
-        else
-            gn_gltf_warn(g, at, "has no source; shown without this texture");
-    }
-    return source;
-}
-
 static bool allocate_textures(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     if (g->to_scene.texture) return true;
@@ -173,7 +154,17 @@ int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index) {
     struct gn_at samplers = gn_at_array(g, &root, "samplers");
     struct gn_at at = gn_at_item(g, &textures, (size_t)index);
     int32_t sampler = gn_at_ref(g, &at, "sampler", gn_at_size(&samplers), "samplers");
-    int32_t source = source_of(g, &at);
+    int32_t source = gn_at_ref(g, &at, "source", g->file.image_count, "images");
+    bool webp = gn_at_extension(g, &at, "extensions.EXT_texture_webp").json != NULL;
+    bool basisu = gn_at_extension(g, &at, "extensions.KHR_texture_basisu").json != NULL;
+    if (source < 0 && !g->failed) {
+        if (webp)
+            g->is_missing[GN_MISSING_WEBP] = true;
+        else if (basisu)
+            g->is_missing[GN_MISSING_BASISU] = true;
+        else
+            gn_gltf_warn(g, &at, "has no source; shown without this texture");
+    }
     int32_t image = source < 0 || g->failed ? -1 : image_at(g, source);
     if (image < 0) return -1;
     struct gn_at sampler_at =

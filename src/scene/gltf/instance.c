@@ -52,22 +52,6 @@ static float *read_values(struct gn_gltf *g, const struct gn_accessor *a, size_t
     return out;
 }
 
-static void fill_instances(struct gn_gltf *g, const struct copies *copies, mat4 *out) {
-    gn_arena_reset(&g->memory.step);
-    float *t = read_values(g, copies->translation, copies->count, 3, (float[]){0, 0, 0});
-    float *r = read_values(g, copies->rotation, copies->count, 4, (float[]){0, 0, 0, 1});
-    float *s = read_values(g, copies->scale, copies->count, 3, (float[]){1, 1, 1});
-    for (size_t i = 0; i < copies->count && !g->failed; i++) {
-        struct gn_node local;
-        local.has_matrix = false;
-        memcpy(local.translation, t + 3 * i, sizeof local.translation);
-        memcpy(local.scale, s + 3 * i, sizeof local.scale);
-        memcpy(local.rotation, r + 4 * i, sizeof local.rotation);
-        glm_quat_normalize(local.rotation);
-        gn_node_local(&local, out[i]);
-    }
-}
-
 bool gn_gltf_instances(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes");
@@ -89,7 +73,19 @@ bool gn_gltf_instances(struct gn_gltf *g) {
         const struct gn_placed *placed = &g->placed[i];
         if (placed->instance_count == 0) continue;
         struct copies copies = read_copies(g, placed);
-        fill_instances(g, &copies, scene->instances + placed->first_instance);
+        gn_arena_reset(&g->memory.step);
+        float *t = read_values(g, copies.translation, copies.count, 3, (float[]){0, 0, 0});
+        float *r = read_values(g, copies.rotation, copies.count, 4, (float[]){0, 0, 0, 1});
+        float *s = read_values(g, copies.scale, copies.count, 3, (float[]){1, 1, 1});
+        for (size_t k = 0; k < copies.count && !g->failed; k++) {
+            struct gn_node local;
+            local.has_matrix = false;
+            memcpy(local.translation, t + 3 * k, sizeof local.translation);
+            memcpy(local.scale, s + 3 * k, sizeof local.scale);
+            memcpy(local.rotation, r + 4 * k, sizeof local.rotation);
+            glm_quat_normalize(local.rotation);
+            gn_node_local(&local, scene->instances[placed->first_instance + k]);
+        }
     }
     return !g->failed;
 }

@@ -25,21 +25,6 @@ static void add_items(struct gn_gltf *g, uint32_t node, const struct gn_primitiv
     }
 }
 
-static bool refuse_empty(struct gn_gltf *g) {
-    struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes"),
-                 meshes = gn_at_any(&root, "meshes");
-    if (g->is_missing[GN_MISSING_DRACO])
-        return gn_gltf_fail(g, &meshes,
-                            "KHR_draco_mesh_compression is not supported; decompress them "
-                            "first (gltf-transform can)");
-    if (g->misplaced)
-        return gn_gltf_fail(g, &meshes,
-                            "the scene is empty: %zu triangles have positions that are not finite, "
-                            "and there are no others",
-                            g->misplaced);
-    return gn_gltf_fail(g, &nodes, "the scene is empty: no node of it has a mesh with triangles");
-}
-
 bool gn_gltf_items(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     uint64_t total = 0;
@@ -62,5 +47,16 @@ bool gn_gltf_items(struct gn_gltf *g) {
             if (scene->geometries[primitive->geometry].index_count > 0) add_items(g, i, primitive);
         }
     }
-    return scene->item_count > 0 || refuse_empty(g);
+    if (scene->item_count > 0) return true;
+    struct gn_at meshes = gn_at_any(&root, "meshes");
+    if (g->is_missing[GN_MISSING_DRACO])
+        return gn_gltf_fail(g, &meshes,
+                            "KHR_draco_mesh_compression is not supported; decompress them "
+                            "first (gltf-transform can)");
+    if (g->misplaced)
+        return gn_gltf_fail(g, &meshes,
+                            "the scene is empty: %zu triangles have positions that are not finite, "
+                            "and there are no others",
+                            g->misplaced);
+    return gn_gltf_fail(g, &nodes, "the scene is empty: no node of it has a mesh with triangles");
 }

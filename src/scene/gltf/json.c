@@ -56,24 +56,15 @@ bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offs
 
 /* ---- cursors ---- */
 
-static const char *type_name(const json_t *json) {
-    switch (json_typeof(json)) {
-    case JSON_OBJECT: return "an object";
-    case JSON_ARRAY: return "an array";
-    case JSON_STRING: return "a string";
-    case JSON_INTEGER:
-    case JSON_REAL: return "a number";
-    case JSON_TRUE:
-    case JSON_FALSE: return "true or false";
-    default: return "null";
-    }
-}
-
 /* Empties the cursor and fails unless it is absent or right. */
 static bool check_type(struct gn_gltf *g, struct gn_at *at, bool right, const char *wanted) {
+    static const char *const types[] = {
+        [JSON_OBJECT] = "an object",    [JSON_ARRAY] = "an array", [JSON_STRING] = "a string",
+        [JSON_INTEGER] = "a number",    [JSON_REAL] = "a number",  [JSON_TRUE] = "true or false",
+        [JSON_FALSE] = "true or false", [JSON_NULL] = "null"};
     if (!at->json) return false;
     if (right) return true;
-    gn_gltf_fail(g, at, "must be %s, is %s", wanted, type_name(at->json));
+    gn_gltf_fail(g, at, "must be %s, is %s", wanted, types[json_typeof(at->json)]);
     at->json = NULL;
     return false;
 }

@@ -4,31 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-static bool read_type(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
-    const char *name = gn_at_text(g, at, "type");
-    struct gn_at place = gn_at_any(at, "type");
-    for (int i = 0; name && i < GN_LIGHT_TYPE_COUNT; i++) {
-        light->type = (enum gn_light_type)i;
-        if (strcmp(name, gn_light_types[i].name) == 0) return true;
-    }
-    if (!g->failed)
-        gn_gltf_warn(g, &place, "'%.20s' is none of directional, point, spot; light ignored",
-                     name ? name : "");
-    return false;
-}
-
-static void read_color(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
-    glm_vec3_one(light->color);
-    gn_at_floats(g, at, "color", 3, light->color);
-    float intensity = gn_at_float(g, at, "intensity", 1);
-    bool right = intensity >= 0;
-    for (int k = 0; k < 3; k++) {
-        right &= light->color[k] >= 0;
-        light->color[k] = fminf(fmaxf(light->color[k], 0) * fmaxf(intensity, 0), 1e18f);
-    }
-    if (!right) gn_gltf_warn(g, at, "negative colour or intensity; taken as 0");
-}
-
 static void read_cone(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
     struct gn_at spot = gn_at_object(g, at, "spot");
     light->inner_rad = gn_at_float(g, &spot, "innerConeAngle", 0);
@@ -46,12 +21,31 @@ static void read_cone(struct gn_gltf *g, const struct gn_at *at, struct gn_light
 }
 
 static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
-    if (!read_type(g, at, light)) return false;
-    read_color(g, at, light);
+    const char *type = gn_at_text(g, at, "type");
+    struct gn_at type_at = gn_at_any(at, "type"), range_at = gn_at_any(at, "range");
+    bool known = false;
+    for (int i = 0; type && i < GN_LIGHT_TYPE_COUNT; i++) {
+        if (strcmp(type, gn_light_types[i].name) != 0) continue;
+        light->type = (enum gn_light_type)i;
+        known = true;
+    }
+    if (!known && !g->failed)
+        gn_gltf_warn(g, &type_at, "'%.20s' is none of directional, point, spot; light ignored",
+                     type ? type : "");
+    if (!known) return false;
+
+    glm_vec3_one(light->color);
+    gn_at_floats(g, at, "color", 3, light->color);
+    float intensity = gn_at_float(g, at, "intensity", 1);
+    bool negative = !(intensity >= 0);
+    for (int k = 0; k < 3; k++) {
+        negative |= !(light->color[k] >= 0);
+        light->color[k] = fminf(fmaxf(light->color[k], 0) * fmaxf(intensity, 0), 1e18f);
+    }
+    if (negative) gn_gltf_warn(g, at, "negative colour or intensity; taken as 0");
     light->range_m = gn_at_float(g, at, "range", 0);
-    struct gn_at range = gn_at_any(at, "range");
-    if (range.json && !(light->range_m > 0)) {
-        gn_gltf_warn(g, &range, "must be greater than 0; taken as unlimited");
+    if (range_at.json && !(light->range_m > 0)) {
+        gn_gltf_warn(g, &range_at, "must be greater than 0; taken as unlimited");
         light->range_m = 0;
     }
     light->radius = gn_light_types[light->type].radius;
@@ -59,26 +53,6 @@ static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_ligh
     light->slide = -1;
     if (gn_light_types[light->type].has_cone) read_cone(g, at, light);
     return !g->failed;
-}
-
-/* The light's name, else its node's, else one made of its number. */
-static const char *name_light(struct gn_gltf *g, const struct gn_at *definition, uint32_t node) {
-    const char *own = gn_at_text(g, definition, "name"), *of_node = g->scene->nodes[node].name;
-    char number[32];
-    if (own && *own) return gn_gltf_strdup(g, own);
-    if (*of_node) return of_node;
-    snprintf(number, sizeof number, "light %u", g->scene->light_count);
-    return gn_gltf_strdup(g, number);
-}
-
-static void add_light(struct gn_gltf *g, const struct gn_at *definition, const struct gn_at *node,
-                      uint32_t index) {
-    struct gn_light light = {.node = index};
-    if (!read_light(g, definition, &light)) return;
-    gn_extras_light(g, definition, &light);
-    gn_extras_light(g, node, &light);
-    light.name = name_light(g, definition, index);
-    if (!g->failed) g->scene->lights[g->scene->light_count++] = light;
 }
 
 bool gn_gltf_lights(struct gn_gltf *g) {
@@ -92,10 +66,21 @@ bool gn_gltf_lights(struct gn_gltf *g) {
         if (g->placed[i].bare) continue;
         struct gn_at node = gn_at_element(&nodes, g->placed[i].json);
         struct gn_at use = gn_at_extension(g, &node, "extensions.KHR_lights_punctual");
-        int32_t light = gn_at_ref(g, &use, "light", gn_at_size(&definitions), "lights");
-        if (light < 0) continue;
-        struct gn_at definition = gn_at_item(g, &definitions, (size_t)light);
-        if (!g->failed) add_light(g, &definition, &node, i);
+        int32_t index = gn_at_ref(g, &use, "light", gn_at_size(&definitions), "lights");
+        if (index < 0) continue;
+        struct gn_at definition = gn_at_item(g, &definitions, (size_t)index);
+        struct gn_light light = {.node = i, .name = scene->nodes[i].name};
+        if (g->failed || !read_light(g, &definition, &light)) continue;
+        gn_extras_light(g, &definition, &light);
+        gn_extras_light(g, &node, &light);
+        const char *own = gn_at_text(g, &definition, "name");
+        char number[32];
+        snprintf(number, sizeof number, "light %u", scene->light_count);
+        if (own && *own)
+            light.name = gn_gltf_strdup(g, own);
+        else if (!*light.name)
+            light.name = gn_gltf_strdup(g, number);
+        if (!g->failed) scene->lights[scene->light_count++] = light;
     }
     return !g->failed;
 }

@@ -5,34 +5,26 @@
 
 static float clamp(float x, float least, float most) { return fminf(fmaxf(x, least), most); }
 
-/* ---- textures ---- */
-
-/* KHR_texture_transform as an affine map; the rotation is clockwise, since v points down.
- */
-static void read_uv_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_texture_ref *ref,
-                              uint64_t *uv_set) {
-    struct gn_at transform = gn_at_extension(g, at, "extensions.KHR_texture_transform");
-    if (!transform.json) return;
-    float offset[2] = {0, 0}, scale[2] = {1, 1};
-    gn_at_floats(g, &transform, "offset", 2, offset);
-    gn_at_floats(g, &transform, "scale", 2, scale);
-    *uv_set = gn_at_uint(g, &transform, "texCoord", *uv_set);
-    float angle = gn_at_float(g, &transform, "rotation", 0);
-    float c = cosf(angle), s = sinf(angle), *m = ref->uv_from_uv;
-    m[0] = c * scale[0];
-    m[1] = -s * scale[0];
-    m[2] = s * scale[1];
-    m[3] = c * scale[1];
-    memcpy(m + 4, offset, sizeof offset);
-    for (int i = 0; i < 6; i++) m[i] += 0; /* no -0: transforms are compared as bytes */
-}
-
 static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
                          struct gn_texture_ref *ref) {
     uint64_t uv_set = gn_at_uint(g, at, "texCoord", 0);
     int32_t texture = gn_at_ref(g, at, "index", g->file.texture_count, "textures");
     ref->texture = -1;
-    read_uv_transform(g, at, ref, &uv_set);
+    struct gn_at transform = gn_at_extension(g, at, "extensions.KHR_texture_transform");
+    if (transform.json) { /* as an affine map; the rotation is clockwise, since v points down */
+        float offset[2] = {0, 0}, scale[2] = {1, 1};
+        gn_at_floats(g, &transform, "offset", 2, offset);
+        gn_at_floats(g, &transform, "scale", 2, scale);
+        uv_set = gn_at_uint(g, &transform, "texCoord", uv_set);
+        float angle = gn_at_float(g, &transform, "rotation", 0);
+        float c = cosf(angle), s = sinf(angle), *m = ref->uv_from_uv;
+        m[0] = c * scale[0];
+        m[1] = -s * scale[0];
+        m[2] = s * scale[1];
+        m[3] = c * scale[1];
+        memcpy(m + 4, offset, sizeof offset);
+        for (int i = 0; i < 6; i++) m[i] += 0; /* no -0: transforms are compared as bytes */
+    }
     if (!at->json || g->failed || !used) return;
     if (texture < 0) {
         struct gn_at place = gn_at_any(at, "index");
@@ -44,40 +36,6 @@ static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
         ref->texture = gn_gltf_texture(g, texture);
         ref->uv_set = (uint8_t)uv_set;
     }
-}
-
-/* ---- materials ---- */
-
-static void read_pbr(struct gn_gltf *g, const struct gn_at *at, struct gn_material *m) {
-    struct gn_at pbr = gn_at_object(g, at, "pbrMetallicRoughness");
-    gn_at_floats(g, &pbr, "baseColorFactor", 4, m->base_color);
-    for (int k = 0; k < 4; k++) m->base_color[k] = clamp(m->base_color[k], 0, k < 3 ? 1e4f : 1);
-    m->roughness = clamp(gn_at_float(g, &pbr, "roughnessFactor", 1), 0, 1);
-    m->metalness = clamp(gn_at_float(g, &pbr, "metallicFactor", 1), 0, 1);
-}
-
-static void read_emission(struct gn_gltf *g, const struct gn_at *at, struct gn_material *m) {
-    struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
-    float strength = gn_at_float(g, &strong, "emissiveStrength", 1);
-    gn_at_floats(g, at, "emissiveFactor", 3, m->emissive);
-    for (int k = 0; k < 3; k++)
-        m->emissive[k] = clamp(clamp(m->emissive[k], 0, 1e9f) * clamp(strength, 0, 1e9f), 0, 1e9f);
-}
-
-static void read_alpha(struct gn_gltf *g, const struct gn_at *at, struct gn_material *m) {
-    static const char *const names[] = {
-        [GN_ALPHA_OPAQUE] = "OPAQUE", [GN_ALPHA_MASK] = "MASK", [GN_ALPHA_BLEND] = "BLEND"};
-    const char *name = gn_at_text(g, at, "alphaMode");
-    struct gn_at place = gn_at_any(at, "alphaMode");
-    bool known = !name;
-    for (int i = 0; name && i < 3; i++) {
-        if (strcmp(name, names[i]) != 0) continue;
-        m->alpha = (enum gn_alpha)i;
-        known = true;
-    }
-    if (!known)
-        gn_gltf_warn(g, &place, "'%.20s' is none of OPAQUE, MASK, BLEND; taken as OPAQUE", name);
-    m->alpha_cutoff = clamp(gn_at_float(g, at, "alphaCutoff", .5f), 0, 2);
 }
 
 /* glTF's default material, and the defaults of every other. */
@@ -94,13 +52,36 @@ static void init_material(struct gn_material *m) {
 
 static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
                           struct gn_material *m) {
+    static const char *const alphas[] = {
+        [GN_ALPHA_OPAQUE] = "OPAQUE", [GN_ALPHA_MASK] = "MASK", [GN_ALPHA_BLEND] = "BLEND"};
     init_material(m);
     m->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
     m->double_sided = gn_at_flag(g, at, "doubleSided", false);
     m->unlit = gn_at_extension(g, at, "extensions.KHR_materials_unlit").json != NULL;
-    read_alpha(g, at, m);
-    read_pbr(g, at, m);
-    read_emission(g, at, m);
+    const char *alpha = gn_at_text(g, at, "alphaMode");
+    struct gn_at alpha_at = gn_at_any(at, "alphaMode");
+    bool known = !alpha;
+    for (int i = 0; alpha && i < 3; i++) {
+        if (strcmp(alpha, alphas[i]) != 0) continue;
+        m->alpha = (enum gn_alpha)i;
+        known = true;
+    }
+    if (!known)
+        gn_gltf_warn(g, &alpha_at, "'%.20s' is none of OPAQUE, MASK, BLEND; taken as OPAQUE",
+                     alpha);
+    m->alpha_cutoff = clamp(gn_at_float(g, at, "alphaCutoff", .5f), 0, 2);
+
+    struct gn_at pbr = gn_at_object(g, at, "pbrMetallicRoughness");
+    gn_at_floats(g, &pbr, "baseColorFactor", 4, m->base_color);
+    for (int k = 0; k < 4; k++) m->base_color[k] = clamp(m->base_color[k], 0, k < 3 ? 1e4f : 1);
+    m->roughness = clamp(gn_at_float(g, &pbr, "roughnessFactor", 1), 0, 1);
+    m->metalness = clamp(gn_at_float(g, &pbr, "metallicFactor", 1), 0, 1);
+    struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
+    float strength = gn_at_float(g, &strong, "emissiveStrength", 1);
+    gn_at_floats(g, at, "emissiveFactor", 3, m->emissive);
+    for (int k = 0; k < 3; k++)
+        m->emissive[k] = clamp(clamp(m->emissive[k], 0, 1e9f) * clamp(strength, 0, 1e9f), 0, 1e9f);
+
     struct gn_at occlusion = gn_at_object(g, at, "occlusionTexture");
     m->occlusion_strength = clamp(gn_at_float(g, &occlusion, "strength", 1), 0, 1);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {

@@ -89,32 +89,11 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
     return positions->count;
 }
 
-/* ---- triangles ---- */
-
-static uint64_t corners_of(struct gn_gltf *g, const struct gn_at *primitive, int32_t mode,
-                           uint64_t count) {
-    if (mode != MODE_TRIANGLES) return count < 3 ? 0 : 3 * (count - 2);
-    if (count % 3 != 0)
-        gn_gltf_warn(g, primitive,
-                     "%" PRIu64 " indices are not a multiple of 3; the last "
-                     "%d ignored",
-                     count, (int)(count % 3));
-    return count - count % 3;
-}
-
-static bool check_indices(struct gn_gltf *g, const struct gn_at *primitive,
-                          const struct gn_accessor *indices) {
-    struct gn_at at = gn_at_any(primitive, "indices");
-    bool whole =
-        indices->component == GN_U8 || indices->component == GN_U16 || indices->component == GN_U32;
-    if (indices->components == 1 && whole) return true;
-    return gn_gltf_fail(g, &at, "must be SCALAR of unsigned bytes, shorts or ints");
-}
-
 /* Fills the shape's key and size; false: failed or nothing to show. */
 static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive, struct gn_shape *shape) {
     uint64_t mode = gn_at_uint(g, primitive, "mode", MODE_TRIANGLES);
-    struct gn_at mode_at = gn_at_any(primitive, "mode");
+    struct gn_at mode_at = gn_at_any(primitive, "mode"),
+                 indices_at = gn_at_any(primitive, "indices");
     if (mode > MODE_FAN) return gn_gltf_fail(g, &mode_at, "%" PRIu64 " is not in 0..6", mode);
     if (mode < MODE_TRIANGLES) {
         gn_gltf_warn(g, primitive, "points and lines are not shown");
@@ -122,74 +101,58 @@ static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive, struct 
     }
     shape->mode = (int32_t)mode;
     shape->indices = gn_at_ref(g, primitive, "indices", g->file.accessor_count, "accessors");
-    size_t count = read_attributes(g, primitive, shape->attribute);
+    uint64_t count = read_attributes(g, primitive, shape->attribute);
     if (count == 0) return false;
     const struct gn_accessor *indices = gn_gltf_accessor(g, shape->indices);
-    if (g->failed || (indices && !check_indices(g, primitive, indices))) return false;
-    shape->corner_count = corners_of(g, primitive, shape->mode, indices ? indices->count : count);
+    if (g->failed) return false;
+    if (indices &&
+        (indices->components != 1 || (indices->component != GN_U8 && indices->component != GN_U16 &&
+                                      indices->component != GN_U32)))
+        return gn_gltf_fail(g, &indices_at, "must be SCALAR of unsigned bytes, shorts or ints");
+    if (indices) count = indices->count;
+    if (mode == MODE_TRIANGLES && count % 3 != 0)
+        gn_gltf_warn(g, primitive,
+                     "%" PRIu64 " indices are not a multiple of 3; the last "
+                     "%d ignored",
+                     count, (int)(count % 3));
+    shape->corner_count = mode == MODE_TRIANGLES ? count - count % 3
+                          : count < 3            ? 0
+                                                 : 3 * (count - 2);
     if (shape->corner_count == 0) gn_gltf_warn(g, primitive, "has no triangle");
     return shape->corner_count > 0;
 }
 
-/* ---- sharing ---- */
-
-/* Only vertices with normals in the file can be shared: flat normals depend on the triangles. */
-static uint32_t share_vertices(struct reader *reader, const struct gn_shape *shape) {
-    struct gn_gltf *g = reader->g;
-    uint32_t *slot = table_find(&reader->vertices, shape->attribute);
-    if (*slot == 0) {
-        struct gn_vertices *vertices = &g->primitives.vertices[g->primitives.vertices_count++];
-        memcpy(vertices->attribute, shape->attribute, sizeof vertices->attribute);
-        vertices->count =
-            (uint32_t)g->file.accessors[shape->attribute[GN_ATTRIBUTE_POSITION]].count;
-        *slot = (uint32_t)g->primitives.vertices_count;
-    }
-    return *slot - 1;
-}
-
-static uint32_t share_shape(struct reader *reader, const struct gn_shape *shape) {
-    uint32_t *slot = table_find(&reader->shapes, shape->attribute);
-    if (*slot == 0) {
-        struct gn_shape *added = &reader->g->primitives.shapes[reader->shape_count++];
-        *added = *shape;
-        added->vertices =
-            shape->attribute[GN_ATTRIBUTE_NORMAL] < 0 ? UINT32_MAX : share_vertices(reader, shape);
-        *slot = reader->shape_count;
-    }
-    return *slot - 1;
-}
+/* ---- primitives ---- */
 
 static void read_primitive(struct reader *reader, const struct gn_at *primitive, uint32_t mesh,
                            uint32_t index) {
     struct gn_gltf *g = reader->g;
-    struct gn_shape shape = {.mesh = mesh, .primitive = index};
+    struct gn_shape shape = {.mesh = mesh, .primitive = index, .vertices = UINT32_MAX};
     int32_t material = gn_at_ref(g, primitive, "material", g->file.material_count, "materials");
     if (gn_at_size(&(struct gn_at){.json = json_object_get(primitive->json, "targets")}) > 0)
         g->is_missing[GN_MISSING_MORPHS] = true;
     if (g->failed || !read_shape(g, primitive, &shape) || g->failed) return;
-    g->primitives.list[g->primitives.count++] =
-        (struct gn_primitive){share_shape(reader, &shape), material};
+    uint32_t *known = table_find(&reader->shapes, shape.attribute);
+    if (*known == 0) {
+        /* only vertices with normals in the file are shared: flat normals depend on the triangles
+         */
+        if (shape.attribute[GN_ATTRIBUTE_NORMAL] >= 0) {
+            uint32_t *set = table_find(&reader->vertices, shape.attribute);
+            if (*set == 0) {
+                struct gn_vertices *vertices =
+                    &g->primitives.vertices[g->primitives.vertices_count++];
+                memcpy(vertices->attribute, shape.attribute, sizeof vertices->attribute);
+                vertices->count =
+                    (uint32_t)g->file.accessors[shape.attribute[GN_ATTRIBUTE_POSITION]].count;
+                *set = (uint32_t)g->primitives.vertices_count;
+            }
+            shape.vertices = *set - 1;
+        }
+        g->primitives.shapes[reader->shape_count++] = shape;
+        *known = reader->shape_count;
+    }
+    g->primitives.list[g->primitives.count++] = (struct gn_primitive){*known - 1, material};
     g->file.meshes[mesh].primitive_count++;
-}
-
-static bool allocate_primitives(struct reader *reader, size_t primitives) {
-    struct gn_gltf *g = reader->g;
-    g->primitives.list = gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.list);
-    g->primitives.shapes =
-        gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.shapes);
-    g->primitives.vertices =
-        gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.vertices);
-    if (g->failed) return false;
-    reader->shapes = (struct table){.stride = sizeof *g->primitives.shapes,
-                                    .key_size = (GN_ATTRIBUTE_COUNT + 2) * sizeof(int32_t),
-                                    .keys = (const char *)g->primitives.shapes};
-    reader->vertices = (struct table){.stride = sizeof *g->primitives.vertices,
-                                      .key_size = GN_ATTRIBUTE_COUNT * sizeof(int32_t),
-                                      .keys = (const char *)g->primitives.vertices};
-    _Static_assert(offsetof(struct gn_shape, mode) == (GN_ATTRIBUTE_COUNT + 1) * sizeof(int32_t),
-                   "key");
-    return table_init(g, &reader->shapes, primitives) &&
-           table_init(g, &reader->vertices, primitives);
 }
 
 bool gn_gltf_meshes(struct gn_gltf *g) {
@@ -202,7 +165,22 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
         struct gn_at mesh = gn_at_item(g, &meshes, i), list = gn_at_array(g, &mesh, "primitives");
         if (g->file.meshes[i].used) primitives += gn_at_size(&list);
     }
-    if (g->failed || !allocate_primitives(&reader, primitives)) return false;
+    g->primitives.list = gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.list);
+    g->primitives.shapes =
+        gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.shapes);
+    g->primitives.vertices =
+        gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.vertices);
+    if (g->failed) return false;
+    reader.shapes = (struct table){.stride = sizeof *g->primitives.shapes,
+                                   .key_size = (GN_ATTRIBUTE_COUNT + 2) * sizeof(int32_t),
+                                   .keys = (const char *)g->primitives.shapes};
+    reader.vertices = (struct table){.stride = sizeof *g->primitives.vertices,
+                                     .key_size = GN_ATTRIBUTE_COUNT * sizeof(int32_t),
+                                     .keys = (const char *)g->primitives.vertices};
+    _Static_assert(offsetof(struct gn_shape, mode) == (GN_ATTRIBUTE_COUNT + 1) * sizeof(int32_t),
+                   "key");
+    if (!table_init(g, &reader.shapes, primitives) || !table_init(g, &reader.vertices, primitives))
+        return false;
     for (size_t i = 0; i < g->file.mesh_count && !g->failed; i++) {
         if (!g->file.meshes[i].used) continue;
         g->file.meshes[i].first_primitive = (uint32_t)g->primitives.count;

@@ -1,46 +1,50 @@
 /* Messages of a load: the file, the path in its JSON, and what is wrong there. */
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "scene/private.h"
 
-enum { PATH_STEPS = 24 };
+enum { PATH_STEPS = 24, PATH_SIZE = 200, TEXT_SIZE = PATH_SIZE + 300 };
 
-/* "nodes[3].mesh: " into text. */
-static void write_path(const struct gn_at *at, char *text, size_t size) {
+/* "nodes[3].mesh: text" into text. */
+static void write_message(char text[TEXT_SIZE], const struct gn_at *at, const char *format,
+                          va_list args) __attribute__((format(printf, 3, 0)));
+static void write_message(char text[TEXT_SIZE], const struct gn_at *at, const char *format,
+                          va_list args) {
     const struct gn_at *steps[PATH_STEPS];
     int count = 0;
     for (; at && at->up && count < PATH_STEPS; at = at->up) steps[count++] = at;
     size_t used = 0;
     text[0] = 0;
-    for (int i = count - 1; i >= 0 && used < size; i--) {
+    for (int i = count - 1; i >= 0 && used < PATH_SIZE; i--) {
         const char *dot = i == count - 1 ? "" : ".";
         if (steps[i]->key)
-            used += (size_t)snprintf(text + used, size - used, "%s%s", dot, steps[i]->key);
+            used += (size_t)snprintf(text + used, PATH_SIZE - used, "%s%s", dot, steps[i]->key);
         else
-            used += (size_t)snprintf(text + used, size - used, "[%zu]", steps[i]->index);
+            used += (size_t)snprintf(text + used, PATH_SIZE - used, "[%zu]", steps[i]->index);
     }
-    if (count > 0 && used < size) snprintf(text + used, size - used, ": ");
+    if (count > 0 && used < PATH_SIZE) snprintf(text + used, PATH_SIZE - used, ": ");
+    used = strlen(text);
+    vsnprintf(text + used, TEXT_SIZE - PATH_SIZE, format, args);
 }
 
 bool gn_gltf_fail(struct gn_gltf *g, const struct gn_at *at, const char *format, ...) {
     if (g->failed) return false;
     g->failed = true;
-    char where[200], what[300];
-    write_path(at, where, sizeof where);
+    char text[TEXT_SIZE];
     va_list args;
     va_start(args, format);
-    vsnprintf(what, sizeof what, format, args);
+    write_message(text, at, format, args);
     va_end(args);
-    return gn_fail(g->err, "%s: %s%s", g->path, where, what);
+    return gn_fail(g->err, "%s: %s", g->path, text);
 }
 
 void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format, ...) {
-    char where[200], what[300];
-    write_path(at, where, sizeof where);
+    char text[TEXT_SIZE];
     va_list args;
     va_start(args, format);
-    vsnprintf(what, sizeof what, format, args);
+    write_message(text, at, format, args);
     va_end(args);
-    gn_warn(g->warnings, "%s: %s%s", g->path, where, what);
+    gn_warn(g->warnings, "%s: %s", g->path, text);
 }

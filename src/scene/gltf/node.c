@@ -29,40 +29,6 @@ static int32_t child_at(struct tree *tree, const struct gn_at *children, size_t 
 
 /* ---- parents and cycles ---- */
 
-static void adopt_children(struct tree *tree, size_t parent) {
-    struct gn_at node = gn_at_item(tree->g, &tree->array, parent);
-    struct gn_at children = gn_at_array(tree->g, &node, "children");
-    for (size_t i = 0; i < gn_at_size(&children) && !tree->g->failed; i++) {
-        int32_t child = child_at(tree, &children, i);
-        if (child < 0) {
-            struct gn_at at = gn_at_element(&children, i);
-            gn_gltf_fail(tree->g, &at, "must be an index");
-            return;
-        }
-        if (tree->sources[child].parent < 0)
-            tree->sources[child].parent = (int32_t)parent;
-        else
-            gn_gltf_warn(tree->g, &children, "node %d has two parents; shown under the first, %d",
-                         child, tree->sources[child].parent);
-    }
-}
-
-/* Follows the parents of each node; mark 1: on the current path, 2: known to reach a root. */
-static bool check_cycles(struct tree *tree) {
-    for (size_t i = 0; i < tree->count; i++) {
-        int32_t n = (int32_t)i;
-        for (; n >= 0 && tree->sources[n].mark == 0; n = tree->sources[n].parent)
-            tree->sources[n].mark = 1;
-        if (n >= 0 && tree->sources[n].mark == 1) {
-            struct gn_at at = gn_at_element(&tree->array, (size_t)n);
-            return gn_gltf_fail(tree->g, &at, "is its own ancestor");
-        }
-        for (n = (int32_t)i; n >= 0 && tree->sources[n].mark == 1; n = tree->sources[n].parent)
-            tree->sources[n].mark = 2;
-    }
-    return true;
-}
-
 static bool read_tree(struct tree *tree) {
     struct gn_gltf *g = tree->g;
     if (tree->count > g->limits.nodes)
@@ -76,8 +42,35 @@ static bool read_tree(struct tree *tree) {
         tree->sources[i].parent = -1;
         g->to_scene.node[i] = -1;
     }
-    for (size_t i = 0; i < tree->count && !g->failed; i++) adopt_children(tree, i);
-    return !g->failed && check_cycles(tree);
+    for (size_t i = 0; i < tree->count && !g->failed; i++) {
+        struct gn_at node = gn_at_item(g, &tree->array, i);
+        struct gn_at children = gn_at_array(g, &node, "children");
+        for (size_t k = 0; k < gn_at_size(&children) && !g->failed; k++) {
+            struct gn_at at = gn_at_element(&children, k);
+            int32_t child = child_at(tree, &children, k);
+            if (child < 0) return gn_gltf_fail(g, &at, "must be an index");
+            if (tree->sources[child].parent < 0)
+                tree->sources[child].parent = (int32_t)i;
+            else
+                gn_gltf_warn(g, &children, "node %d has two parents; shown under the first, %d",
+                             child, tree->sources[child].parent);
+        }
+    }
+    if (g->failed) return false;
+
+    /* follow the parents of each node; mark 1: on the current path, 2: known to reach a root */
+    for (size_t i = 0; i < tree->count; i++) {
+        int32_t n = (int32_t)i;
+        for (; n >= 0 && tree->sources[n].mark == 0; n = tree->sources[n].parent)
+            tree->sources[n].mark = 1;
+        if (n >= 0 && tree->sources[n].mark == 1) {
+            struct gn_at at = gn_at_element(&tree->array, (size_t)n);
+            return gn_gltf_fail(g, &at, "is its own ancestor");
+        }
+        for (n = (int32_t)i; n >= 0 && tree->sources[n].mark == 1; n = tree->sources[n].parent)
+            tree->sources[n].mark = 2;
+    }
+    return true;
 }
 
 /* ---- what is shown ---- */
@@ -111,21 +104,6 @@ static void mark_shown(struct tree *tree, int32_t listed) {
         tree->sources[n].kept = true;
 }
 
-static int32_t root_of(const struct tree *tree, int32_t node, int32_t *roots) {
-    int32_t root = node;
-    while (tree->sources[root].parent >= 0 && roots[root] < 0) root = tree->sources[root].parent;
-    if (roots[root] >= 0) root = roots[root];
-    for (int32_t n = node; n >= 0 && roots[n] < 0; n = tree->sources[n].parent) roots[n] = root;
-    return root;
-}
-
-static struct gn_at shown_scene(struct gn_gltf *g, const struct gn_at *scenes) {
-    struct gn_at root = gn_at_root(g);
-    size_t count = gn_at_size(scenes);
-    int32_t index = gn_at_ref(g, &root, "scene", count, "scenes");
-    return count > 0 ? gn_at_item(g, scenes, index < 0 ? 0 : (size_t)index) : (struct gn_at){0};
-}
-
 /* ---- the nodes of the scene ---- */
 
 static void read_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_node *node) {
@@ -148,44 +126,35 @@ static void read_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_
     glm_quat_identity(node->rotation);
 }
 
-static void add_scene_node(struct tree *tree, int32_t source) {
+/* Adds the kept nodes of the tree of a node to the scene, parents first. roots: of the nodes above
+ * which the root is known, else -1. */
+static void add_tree(struct tree *tree, int32_t listed, int32_t *roots) {
     struct gn_gltf *g = tree->g;
-    struct gn_at at = gn_at_element(&tree->array, (size_t)source);
-    uint32_t index = g->scene->node_count++;
-    struct gn_node *node = &g->scene->nodes[index];
-    struct gn_placed *placed = &g->placed[index];
-    g->to_scene.node[source] = (int32_t)index;
-    int32_t parent = tree->sources[source].parent;
-    node->parent = parent < 0 ? -1 : g->to_scene.node[parent];
-    node->name = gn_gltf_strdup(g, gn_at_text(g, &at, "name"));
-    read_transform(g, &at, node);
-    placed->json = (size_t)source;
-    placed->bare = !tree->sources[source].shown;
-    placed->mesh = gn_at_ref(g, &at, "mesh", g->file.mesh_count, "meshes");
-    if (placed->bare) placed->mesh = -1;
-    if (placed->mesh >= 0) g->file.meshes[placed->mesh].used = true;
-    if (gn_at_any(&at, "skin").json && !placed->bare) g->is_missing[GN_MISSING_SKINS] = true;
-    gn_extras_node(g, &at, placed);
-}
-
-static void lay_out_tree(struct tree *tree, int32_t root) {
+    int32_t root = listed;
+    while (tree->sources[root].parent >= 0 && roots[root] < 0) root = tree->sources[root].parent;
+    if (roots[root] >= 0) root = roots[root];
+    for (int32_t n = listed; n >= 0 && roots[n] < 0; n = tree->sources[n].parent) roots[n] = root;
     push_node(tree, root);
-    while (tree->depth > 0 && !tree->g->failed) {
-        int32_t node = tree->stack[--tree->depth];
-        if (!tree->sources[node].kept) continue;
-        add_scene_node(tree, node);
-        push_children(tree, node);
+    while (tree->depth > 0 && !g->failed) {
+        int32_t source = tree->stack[--tree->depth], parent = tree->sources[source].parent;
+        if (!tree->sources[source].kept) continue;
+        struct gn_at at = gn_at_element(&tree->array, (size_t)source);
+        uint32_t index = g->scene->node_count++;
+        struct gn_node *node = &g->scene->nodes[index];
+        struct gn_placed *placed = &g->placed[index];
+        g->to_scene.node[source] = (int32_t)index;
+        node->parent = parent < 0 ? -1 : g->to_scene.node[parent];
+        node->name = gn_gltf_strdup(g, gn_at_text(g, &at, "name"));
+        read_transform(g, &at, node);
+        placed->json = (size_t)source;
+        placed->bare = !tree->sources[source].shown;
+        placed->mesh = gn_at_ref(g, &at, "mesh", g->file.mesh_count, "meshes");
+        if (placed->bare) placed->mesh = -1;
+        if (placed->mesh >= 0) g->file.meshes[placed->mesh].used = true;
+        if (gn_at_any(&at, "skin").json && !placed->bare) g->is_missing[GN_MISSING_SKINS] = true;
+        gn_extras_node(g, &at, placed);
+        push_children(tree, source);
     }
-}
-
-static bool allocate_nodes(struct gn_gltf *g, size_t count) {
-    struct gn_at root = gn_at_root(g), meshes = gn_at_array(g, &root, "meshes");
-    g->file.mesh_count = gn_at_size(&meshes);
-    g->file.node_count = count;
-    g->file.meshes = gn_gltf_alloc(g, &g->memory.load, g->file.mesh_count, sizeof *g->file.meshes);
-    g->scene->nodes = gn_gltf_alloc(g, g->memory.scene, count + 2, sizeof *g->scene->nodes);
-    g->placed = gn_gltf_alloc(g, &g->memory.load, count + 2, sizeof *g->placed);
-    return !g->failed;
 }
 
 /* The nodes to begin with, each once; in the order of the scene's list. */
@@ -214,10 +183,20 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), scenes = gn_at_array(g, &root, "scenes");
     struct tree tree = {.g = g, .array = gn_at_array(g, &root, "nodes")};
     tree.count = gn_at_size(&tree.array);
-    if (g->failed || !allocate_nodes(g, tree.count) || !read_tree(&tree)) return false;
+    if (g->failed) return false;
+    struct gn_at meshes = gn_at_array(g, &root, "meshes");
+    g->file.mesh_count = gn_at_size(&meshes);
+    g->file.node_count = tree.count;
+    g->file.meshes = gn_gltf_alloc(g, &g->memory.load, g->file.mesh_count, sizeof *g->file.meshes);
+    g->scene->nodes = gn_gltf_alloc(g, g->memory.scene, tree.count + 2, sizeof *g->scene->nodes);
+    g->placed = gn_gltf_alloc(g, &g->memory.load, tree.count + 2, sizeof *g->placed);
+    if (g->failed || !read_tree(&tree)) return false;
+
     int32_t *listed = gn_gltf_alloc(g, &g->memory.load, tree.count, sizeof *listed);
     int32_t *roots = gn_gltf_alloc(g, &g->memory.load, tree.count, sizeof *roots);
-    struct gn_at scene = shown_scene(g, &scenes);
+    int32_t shown = gn_at_ref(g, &root, "scene", gn_at_size(&scenes), "scenes");
+    struct gn_at scene = {0};
+    if (gn_at_size(&scenes) > 0) scene = gn_at_item(g, &scenes, shown < 0 ? 0 : (size_t)shown);
     struct gn_at list = gn_at_array(g, &scene, "nodes");
     if (g->failed || !tree.sources || !listed || !roots) return false;
     g->scene->name = gn_gltf_strdup(g, gn_at_text(g, &scene, "name"));
@@ -228,8 +207,7 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
         tree.sources[i].queued = false;
         roots[i] = -1;
     }
-    for (size_t i = 0; i < count && !g->failed; i++)
-        lay_out_tree(&tree, root_of(&tree, listed[i], roots));
+    for (size_t i = 0; i < count && !g->failed; i++) add_tree(&tree, listed[i], roots);
     if (!g->failed && g->scene->node_count == 0)
         return gn_gltf_fail(g, scene.json ? &scene : &tree.array,
                             "the scene is empty: there is no node");
