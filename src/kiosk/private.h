@@ -123,7 +123,8 @@ struct gn_show {
 struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warnings *warnings,
                              struct gn_err *err);
 void gn_show_close(struct gn_show *show);
-/* Waits until something is to be done, and does it: at most a frame. */
+/* Waits until something is to be done, and does it: at most a frame. All times are the loop's: a
+ * test may step it on a fake clock. */
 bool gn_show_step(struct gn_show *show, struct gn_err *err);
 
 /* ---- reload.c: SIGHUP and ctl reload --------------------------------------------------------- */

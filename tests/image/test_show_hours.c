@@ -1,0 +1,115 @@
+/* Hours of the kiosk on a fake clock: idle timeouts, captions and the information page come at
+ * their time, and nothing is drawn in between. */
+#include "unit/check.h"
+
+#include <stdio.h>
+
+#include "core/clock.h"
+#include "kiosk/private.h"
+#include "options/args.h"
+#include "unit/gl_help.h"
+
+#define SECONDS(n) ((n)*GN_NS_PER_S)
+#define FRAME_NS   (GN_NS_PER_S / 30) /* two of the headless screen's: when a time is seen */
+
+static int64_t clock_ns;
+
+static struct gn_show *open_show(const char *config) {
+    static struct gn_warnings warnings;
+    struct gn_options options;
+    struct gn_err err = {0};
+    struct gn_display display;
+    const char *folder = help_folder();
+    char path[200];
+    const char *argv[] = {"gnomon", "show", "--backend", "egl",           "--size",
+                          "64x64",  "-c",   path,        "--no-animation"};
+    help_open(&display, "egl"); /* or the test is skipped */
+    gn_display_close(&display);
+    help_write(folder, "kiosk.ini", config);
+    snprintf(path, sizeof path, "%s/kiosk.ini", folder);
+    if (!gn_args_parse(&options, sizeof argv / sizeof *argv, (char *const *)(uintptr_t)argv,
+                       &warnings, &err))
+        fail_msg("%s", err.text);
+    struct gn_show *show = gn_show_open(&options, &warnings, &err);
+    gn_options_finish(&options);
+    help_remove(folder);
+    if (!show) fail_msg("%s", err.text);
+    if (show->config.options->config_error) fail_msg("%s", show->config.options->config_error);
+    clock_ns = gn_clock_monotonic_ns();
+    gn_loop_fake_clock(show->loop, &clock_ns);
+    return show;
+}
+
+/* Returns the number of steps. */
+static int run_until(struct gn_show *show, int64_t until_ns) {
+    struct gn_timer end = {.due_ns = until_ns};
+    struct gn_err err = {0};
+    int steps = 0;
+    gn_loop_add_timer(show->loop, &end);
+    for (; clock_ns < until_ns; steps++) {
+        if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+        assert_true(steps < 10000); /* or time stands still */
+    }
+    gn_loop_remove_timer(&end);
+    return steps;
+}
+
+static void act(struct gn_show *show, enum gn_action_kind kind) {
+    gn_show_act(show, &(struct gn_action){.kind = kind}, clock_ns);
+}
+
+static void idle_ends_the_page_at_its_time_and_then_nothing_is_drawn(void **state) {
+    (void)state;
+    struct gn_show *show = open_show("[kiosk]\nidle = first\nidle_after = 60\n"
+                                     "[mode \"a\"]\nshadow = hard\n");
+    run_until(show, clock_ns + SECONDS(20)); /* all programs are made */
+    const int64_t begun_ns = clock_ns;
+    uint64_t before = show->counts.frames;
+    act(show, GN_ACTION_INFO);
+    run_until(show, begun_ns + SECONDS(60) - FRAME_NS);
+    assert_true(show->drawn.info);
+    assert_in_range(show->counts.frames - before, 59, 62); /* the page is updated once a second */
+    run_until(show, begun_ns + SECONDS(60) + FRAME_NS);
+    assert_false(show->drawn.info);
+    before = show->counts.frames;
+    const int steps = run_until(show, begun_ns + SECONDS(8 * 3600));
+    assert_int_equal(show->counts.frames, before);
+    assert_in_range(steps, 8 * 60 - 1, 2 * 8 * 60); /* one at each idle timeout, at most two */
+
+    /* the next action is seen at once */
+    const int64_t acted_ns = clock_ns;
+    act(show, GN_ACTION_INFO);
+    run_until(show, acted_ns + FRAME_NS);
+    assert_true(show->drawn.info);
+    gn_show_close(show);
+}
+
+static void a_kiosk_of_two_modes_keeps_its_times_for_hours(void **state) {
+    (void)state;
+    enum { CHANGES = 8 * 60 };
+    struct gn_show *show = open_show("[kiosk]\nidle = next\nidle_after = 60\ncaptions = no\n"
+                                     "[mode \"a\"]\nshadow = hard\n[mode \"b\"]\nshadow = none\n");
+    run_until(show, clock_ns + SECONDS(20));
+    const int64_t begun_ns = show->kiosk.used_ns;
+    const uint64_t before = show->counts.frames;
+    const unsigned long allocations = show->counts.allocations;
+    assert_int_equal(show->drawn.mode, 0);
+    for (int i = 1; i <= CHANGES; i++) {
+        run_until(show, begun_ns + i * SECONDS(60) - 1);
+        assert_int_equal(show->drawn.mode, (i - 1) % 2);
+        run_until(show, begun_ns + i * SECONDS(60) + FRAME_NS);
+        assert_int_equal(show->drawn.mode, i % 2);
+    }
+    assert_int_equal(show->counts.frames - before, CHANGES);
+    assert_int_equal(show->counts.allocations, allocations);
+    gn_show_close(show);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) cmocka_set_test_filter(argv[1]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(idle_ends_the_page_at_its_time_and_then_nothing_is_drawn),
+        cmocka_unit_test(a_kiosk_of_two_modes_keeps_its_times_for_hours),
+    };
+    return RUN(tests);
+}
