@@ -1,5 +1,5 @@
-/* Bare `gnomon [SCENE]`: a window where there is a desktop; without, full screen where nobody else
- * has the screen; else the picture is written here, and its place printed. */
+/* Bare `gnomon [SCENE]`: a window on a desktop; without one, full screen if no other program has
+ * the screen; else the picture is written into the working directory, and its path printed. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,33 +13,21 @@ static bool has_desktop(void) { return getenv("WAYLAND_DISPLAY") || getenv("DISP
 
 static bool is(const char *backend, const char *name) { return strcmp(backend, name) == 0; }
 
-/* False: there is none to be had, and err says why only if it was asked for by name. */
-static bool shows_window(const struct gn_options *options, bool *ok, struct gn_warnings *warnings,
-                         struct gn_err *err) {
-    const char *backend = options->settings->display.backend;
-    const bool forced = is(backend, "window");
-    struct gn_show_place place = {.backend = "window"};
-    struct gn_err why = {0};
-    if (!forced && (!is(backend, "auto") || !has_desktop())) return false;
-    *ok = gn_show_run(options, &place, warnings, &why);
-    const bool shown = *ok || forced || place.opened;
-    if (shown)
-        *err = why;
-    else if (options->settings->run.verbose)
-        gn_warn(warnings, "no window: %s", why.text);
-    return shown;
-}
-
-static bool goes_to_screen(const char *backend) {
-    if (is(backend, "kms")) return true;
-    return is(backend, "auto") && !has_desktop() && gn_display_is_free("kms");
-}
-
 bool gn_cli_auto(const struct gn_options *options, struct gn_warnings *warnings,
                  struct gn_err *err) {
-    bool ok;
-    if (shows_window(options, &ok, warnings, err)) return ok;
-    if (goes_to_screen(options->settings->display.backend))
+    const char *backend = options->settings->display.backend;
+    const bool forced = is(backend, "window"), automatic = is(backend, "auto");
+    if (forced || (automatic && has_desktop())) {
+        struct gn_show_place place = {.backend = "window"};
+        struct gn_err why = {0};
+        const bool ok = gn_show_run(options, &place, warnings, &why);
+        if (ok || forced || place.opened) {
+            *err = why;
+            return ok;
+        }
+        if (options->settings->run.verbose) gn_warn(warnings, "no window: %s", why.text);
+    }
+    if (is(backend, "kms") || (automatic && !has_desktop() && gn_display_is_free("kms")))
         return gn_cli_show(options, warnings, err);
     struct gn_settings settings = *options->settings;
     struct gn_options here = *options;

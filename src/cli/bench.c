@@ -1,8 +1,7 @@
 /* gnomon bench: what a scene costs. Techniques take turns in blocks of a few frames, so that
- * whatever else the machine does hits them all alike. The order of things matters: the start is
- * timed before anything else has run, the driver's cache and the empty context are looked at when
- * that is over, memory when all programs and targets are there, and the passes, which need a
- * read-back each, come last. */
+ * other load on the machine hits them all alike. The order matters: the start is timed before
+ * anything else has run, then come the driver's cache and the empty context, memory when all
+ * programs and targets exist, and last the passes, which need a read-back each. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,44 +38,13 @@ struct bench {
     int64_t start_ns;
 };
 
-/* ---- what takes part ---- */
-
-/* Without --shadow one entry, as the scene has it. */
-static void choose_entries(struct bench *b) {
-    const struct gn_technique_list *list = &b->settings->render.shadow;
-    const bool given = gn_settings_given(b->settings, render.shadow);
-    b->report.run_count = given ? (uint32_t)list->count : 1;
-    for (uint32_t i = 0; given && i < b->report.run_count; i++) {
-        b->entries[i].opts.shadow.technique = (enum gn_technique)list->items[i];
-        b->entries[i].opts.shadow.technique_given = true;
-    }
-}
-
-static void prepare_entries(struct bench *b) {
-    b->frames = b->settings->run.frames > 0 ? (uint32_t)b->settings->run.frames : FRAMES_DEFAULT;
-    b->report.runs = gn_xalloc(b->report.run_count, sizeof *b->report.runs);
-    for (uint32_t i = 0; i < b->report.run_count; i++) {
-        struct entry *e = &b->entries[i];
-        struct gn_frame_opts opts = b->stage.frame_opts;
-        opts.shadow.technique_given = e->opts.shadow.technique_given;
-        opts.shadow.technique = e->opts.shadow.technique;
-        e->opts = opts;
-        e->run = &b->report.runs[i];
-        e->ms = gn_xalloc(b->frames, sizeof *e->ms);
-    }
-}
-
 /* ---- frames ---- */
-
-static int64_t time_of(const struct bench *b, uint32_t frame) {
-    return b->settings->scene.time_ns + (int64_t)frame * GN_NS_PER_S / FPS;
-}
 
 static const struct gn_plan *prepare_frame(struct bench *b, const struct entry *e, uint32_t frame,
                                            struct gn_err *err) {
     struct gn_stage *stage = &b->stage;
     stage->frame_opts = e->opts;
-    gn_stage_pose(stage, time_of(b, frame));
+    gn_stage_pose(stage, b->settings->scene.time_ns + (int64_t)frame * GN_NS_PER_S / FPS);
     return gn_stage_plan(stage, b->warnings, err);
 }
 
@@ -91,67 +59,54 @@ static uint64_t allocations(const struct bench *b) {
     return gn_alloc_count() + gn_gl_stats(b->stage.gl).objects_created;
 }
 
-static bool time_frame(struct bench *b, struct entry *e, struct gn_err *err) {
-    uint64_t before = allocations(b);
-    int64_t wall_ns = gn_clock_monotonic_ns(), cpu_ns = gn_clock_process_cpu_ns();
-    if (!draw_frame(b, e, e->frame, err)) return false;
-    e->cpu_ns += gn_clock_process_cpu_ns() - cpu_ns;
-    e->ms[e->run->frames++] = (double)(gn_clock_monotonic_ns() - wall_ns) / MS_NS;
-    e->frame++;
-    e->allocations += allocations(b) - before;
-    return true;
-}
-
-static bool warm_up(struct bench *b, struct entry *e, struct gn_err *err) {
-    for (; e->frame < WARM_UP; e->frame++)
-        if (!draw_frame(b, e, e->frame, err)) return false;
-    return true;
-}
-
-/* The first frame of a block is drawn a second time, untimed: it follows another technique's, whose
- * programs and maps lie in the processor's caches. */
-static bool time_block(struct bench *b, struct entry *e, struct gn_err *err) {
-    if (!draw_frame(b, e, e->frame - 1, err)) return false;
-    for (int i = 0; i < BLOCK && e->run->frames < b->frames; i++)
-        if (!time_frame(b, e, err)) return false;
-    e->run->stats = gn_gl_stats(b->stage.gl);
-    return true;
-}
-
 static bool time_frames(struct bench *b, struct gn_err *err) {
-    uint32_t count = b->report.run_count;
-    for (uint32_t i = 0; i < count; i++)
-        if (!warm_up(b, &b->entries[i], err)) return false;
-    for (uint32_t done = 0; done < b->frames; done += BLOCK)
-        for (uint32_t i = 0; i < count; i++)
-            if (!time_block(b, &b->entries[i], err)) return false;
+    const uint32_t count = b->report.run_count;
+    for (uint32_t i = 0; i < count; i++) {
+        struct entry *e = &b->entries[i];
+        for (; e->frame < WARM_UP; e->frame++)
+            if (!draw_frame(b, e, e->frame, err)) return false;
+    }
+    const uint32_t blocks = (b->frames + BLOCK - 1) / BLOCK * count;
+    for (uint32_t block = 0; block < blocks; block++) {
+        struct entry *e = &b->entries[block % count];
+        /* The first frame of a block is drawn a second time, untimed: it follows another
+         * technique's, whose programs and maps lie in the processor's caches. */
+        if (!draw_frame(b, e, e->frame - 1, err)) return false;
+        for (int i = 0; i < BLOCK && e->run->frames < b->frames; i++) {
+            uint64_t before = allocations(b);
+            int64_t wall_ns = gn_clock_monotonic_ns(), cpu_ns = gn_clock_process_cpu_ns();
+            if (!draw_frame(b, e, e->frame, err)) return false;
+            e->cpu_ns += gn_clock_process_cpu_ns() - cpu_ns;
+            e->ms[e->run->frames++] = (double)(gn_clock_monotonic_ns() - wall_ns) / MS_NS;
+            e->frame++;
+            e->allocations += allocations(b) - before;
+        }
+        e->run->stats = gn_gl_stats(b->stage.gl);
+    }
     return true;
 }
 
-/* ---- passes ---- */
+static bool time_passes(struct bench *b, struct entry *e, struct gn_err *err) {
+    for (uint32_t n = 0; n < b->frames; n++) {
+        const struct gn_plan *plan = prepare_frame(b, e, e->frame++, err);
+        if (!plan) return false;
+        if (plan->pass_count > b->pass_room)
+            b->pass_ms =
+                gn_xrealloc(b->pass_ms, b->pass_room = plan->pass_count, sizeof *b->pass_ms);
+        if (!gn_gl_run(b->stage.gl, plan, b->pass_ms, err)) return false;
+        for (uint32_t i = 0; i < plan->pass_count; i++)
+            gn_bench_add_pass(e->run, plan->passes[i].label, b->pass_ms[i] / b->frames);
+    }
+    return true;
+}
 
-static bool time_passes_once(struct bench *b, struct entry *e, struct gn_err *err) {
-    const struct gn_plan *plan = prepare_frame(b, e, e->frame++, err);
+/* ---- results ---- */
+
+static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
+    const struct gn_plan *plan = prepare_frame(b, e, e->frame, err);
     if (!plan) return false;
-    if (plan->pass_count > b->pass_room)
-        b->pass_ms = gn_xrealloc(b->pass_ms, b->pass_room = plan->pass_count, sizeof *b->pass_ms);
-    if (!gn_gl_run(b->stage.gl, plan, b->pass_ms, err)) return false;
-    for (uint32_t i = 0; i < plan->pass_count; i++)
-        gn_bench_add_pass(e->run, plan->passes[i].label, b->pass_ms[i] / b->frames);
-    return true;
-}
-
-static bool time_passes(struct bench *b, struct gn_err *err) {
-    for (uint32_t i = 0; i < b->report.run_count; i++)
-        for (uint32_t n = 0; n < b->frames; n++)
-            if (!time_passes_once(b, &b->entries[i], err)) return false;
-    return true;
-}
-
-/* ---- what was found out ---- */
-
-/* What the lights of the picture really use. */
-static void describe(struct gn_bench_run *run, const struct entry *e, const struct gn_plan *plan) {
+    struct gn_bench_run *run = e->run;
+    /* what the lights of the picture really use */
     for (uint32_t i = 0; i < plan->shadow_count; i++) {
         const struct gn_shadow_view *view = &plan->shadows[i];
         gn_bench_add_name(run->map_format, view->moments ? gn_moments[view->moments].name
@@ -163,13 +118,6 @@ static void describe(struct gn_bench_run *run, const struct entry *e, const stru
         gn_bench_add_name(run->technique, gn_techniques[e->opts.shadow.technique].name);
     if (!run->technique[0]) gn_bench_add_name(run->technique, "none");
     if (!run->map_format[0]) gn_bench_add_name(run->map_format, "none");
-}
-
-static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
-    const struct gn_plan *plan = prepare_frame(b, e, e->frame, err);
-    if (!plan) return false;
-    struct gn_bench_run *run = e->run;
-    describe(run, e, plan);
     run->output = b->settings->render.output == GN_PICTURE_LINEAR ? "linear" : "srgb";
     run->ms_median = gn_bench_quantile(e->ms, run->frames, .5);
     run->ms_p95 = gn_bench_quantile(e->ms, run->frames, .95);
@@ -183,24 +131,35 @@ static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
 
 /* ---- the start ---- */
 
-static bool draw_first_picture(struct bench *b, struct gn_err *err) {
-    size_t pixels =
-        (size_t)b->settings->render.size.width_px * (size_t)b->settings->render.size.height_px;
-    uint8_t *rgba = gn_picture_alloc(pixels, 4, err);
+/* Loads the scene, makes an entry for each technique and draws the first picture. */
+static bool start_bench(struct bench *b, struct gn_err *err) {
+    const struct gn_settings *o = b->settings;
+    if (!gn_stage_load(&b->stage, o, b->warnings, err)) return false;
+    struct gn_driver_cache before = gn_driver_cache_read();
+
+    /* without --shadow one entry, as the scene has it */
+    const struct gn_technique_list *list = &o->render.shadow;
+    const bool given = gn_settings_given(o, render.shadow);
+    b->frames = o->run.frames > 0 ? (uint32_t)o->run.frames : FRAMES_DEFAULT;
+    b->report.run_count = given ? (uint32_t)list->count : 1;
+    b->report.runs = gn_xalloc(b->report.run_count, sizeof *b->report.runs);
+    for (uint32_t i = 0; i < b->report.run_count; i++) {
+        struct entry *e = &b->entries[i];
+        e->opts = b->stage.frame_opts;
+        e->opts.shadow.technique_given = given;
+        e->opts.shadow.technique = given ? (enum gn_technique)list->items[i] : GN_TECHNIQUE_NONE;
+        e->run = &b->report.runs[i];
+        e->ms = gn_xalloc(b->frames, sizeof *e->ms);
+    }
+
+    if (!gn_stage_open(&b->stage, b->warnings, err)) return false;
+    uint8_t *rgba = gn_picture_alloc(
+        (size_t)o->render.size.width_px * (size_t)o->render.size.height_px, 4, err);
     bool ok =
         rgba && draw_frame(b, &b->entries[0], 0, err) && gn_gl_read_rgba8(b->stage.gl, rgba, err);
     b->report.start_ms = (double)(gn_clock_monotonic_ns() - b->start_ns) / MS_NS;
     free(rgba);
-    return ok;
-}
-
-static bool start(struct bench *b, struct gn_err *err) {
-    const struct gn_settings *o = b->settings;
-    choose_entries(b);
-    if (!gn_stage_load(&b->stage, o, b->warnings, err)) return false;
-    struct gn_driver_cache before = gn_driver_cache_read();
-    prepare_entries(b);
-    if (!gn_stage_open(&b->stage, b->warnings, err) || !draw_first_picture(b, err)) return false;
+    if (!ok) return false;
     b->report.private_dirty_empty_context_mb = gn_memory_probe_read(&b->probe);
     struct gn_driver_cache after = gn_driver_cache_read();
     b->report.cache_warm = gn_driver_cache_warm(&before, &after);
@@ -209,32 +168,6 @@ static bool start(struct bench *b, struct gn_err *err) {
     b->report.width_px = (uint32_t)o->render.size.width_px;
     b->report.height_px = (uint32_t)o->render.size.height_px;
     return true;
-}
-
-static bool measure(struct bench *b, struct gn_err *err) {
-    if (!start(b, err) || !time_frames(b, err)) return false;
-    b->report.private_dirty_mb = gn_memory_private_dirty_mb();
-    if (!time_passes(b, err)) return false;
-    for (uint32_t i = 0; i < b->report.run_count; i++)
-        if (!finish_run(b, &b->entries[i], err)) return false;
-    return true;
-}
-
-static bool print(const struct bench *b, struct gn_err *err) {
-    if (b->settings->run.json && !gn_bench_print_json(&b->report, stdout, err)) return false;
-    if (!b->settings->run.json) gn_bench_print(&b->report, stdout);
-    return true;
-}
-
-static void finish(struct bench *b) {
-    for (uint32_t i = 0; i < b->report.run_count; i++) {
-        free(b->entries[i].ms);
-        if (b->report.runs) free(b->report.runs[i].passes);
-    }
-    free(b->report.runs);
-    free(b->pass_ms);
-    gn_memory_probe_close(&b->probe);
-    gn_stage_close(&b->stage);
 }
 
 /* The process began when its clock of CPU time did: until here it has not waited for anything. The
@@ -247,7 +180,23 @@ bool gn_cli_bench(const struct gn_options *options, struct gn_warnings *warnings
         .start_ns = gn_clock_monotonic_ns() - gn_clock_process_cpu_ns(),
     };
     gn_memory_probe_open(&b.probe, options->settings->display.backend);
-    bool ok = measure(&b, err) && print(&b, err);
-    finish(&b);
+    bool ok = start_bench(&b, err) && time_frames(&b, err);
+    if (ok) b.report.private_dirty_mb = gn_memory_private_dirty_mb();
+    for (uint32_t i = 0; ok && i < b.report.run_count; i++)
+        ok = time_passes(&b, &b.entries[i], err);
+    for (uint32_t i = 0; ok && i < b.report.run_count; i++) ok = finish_run(&b, &b.entries[i], err);
+    if (ok && b.settings->run.json)
+        ok = gn_bench_print_json(&b.report, stdout, err);
+    else if (ok)
+        gn_bench_print(&b.report, stdout);
+
+    for (uint32_t i = 0; i < b.report.run_count; i++) {
+        free(b.entries[i].ms);
+        free(b.report.runs[i].passes);
+    }
+    free(b.report.runs);
+    free(b.pass_ms);
+    gn_memory_probe_close(&b.probe);
+    gn_stage_close(&b.stage);
     return ok;
 }

@@ -1,4 +1,4 @@
-/* What `gnomon bench` has found out, and the two ways to say it. */
+/* What `gnomon bench` has measured, as text and as JSON. */
 #ifndef GN_CLI_BENCH_REPORT_H
 #define GN_CLI_BENCH_REPORT_H
 

@@ -1,4 +1,4 @@
-/* gnomon ctl: asks a running kiosk for one thing over its socket, and prints what it says. */
+/* gnomon ctl: sends one request to a running kiosk over its socket, and prints the reply. */
 #include <errno.h>
 #include <limits.h>
 #include <poll.h>
@@ -20,57 +20,58 @@ static const int64_t PATIENCE_NS = 10 * GN_NS_PER_S;
 static const int64_t LONG_PATIENCE_NS = 60 * GN_NS_PER_S; /* a scene may have to be loaded */
 enum { REPLY_MAX = 256 * 1024 };
 
-struct talk {
+struct talk { /* with the kiosk */
     int fd;
     char path[PATH_MAX];
     int64_t until_ns;
     char reply[REPLY_MAX];
 };
 
-/* ---- what is asked -------------------------------------------------------------------------- */
+/* ---- the request -------------------------------------------------------------------------- */
 
-static bool fail_command(const char *name, struct gn_err *err) {
-    char list[300];
-    const char *nearest = name ? gn_ctl_nearest(name) : NULL;
-    if (nearest)
-        return gn_fail_usage(err, "ctl: unknown command \"%.60s\"; did you mean %s?", name,
-                             nearest);
-    gn_ctl_list(list, sizeof list);
-    if (!name) return gn_fail_usage(err, "ctl: no command; expected one of%s", list);
-    return gn_fail_usage(err, "ctl: unknown command \"%.60s\"; expected one of%s", name, list);
-}
-
-static bool check_words(const struct gn_options *o, int command, struct gn_err *err) {
+/* The command of the words, if their number is right; or -1. */
+static int find_command(const struct gn_options *o, struct gn_err *err) {
+    const char *name = o->word_count > 0 ? o->words[0] : NULL;
+    const int command = name ? gn_ctl_find(name) : -1;
+    if (command < 0) {
+        char list[300];
+        const char *nearest = name ? gn_ctl_nearest(name) : NULL;
+        gn_ctl_list(list, sizeof list);
+        if (nearest)
+            gn_fail_usage(err, "ctl: unknown command \"%.60s\"; did you mean %s?", name, nearest);
+        else if (name)
+            gn_fail_usage(err, "ctl: unknown command \"%.60s\"; expected one of%s", name, list);
+        else
+            gn_fail_usage(err, "ctl: no command; expected one of%s", list);
+        return -1;
+    }
     const struct gn_ctl_row *row = &gn_ctl_rows[command];
     const int wanted = gn_ctl_words((enum gn_ctl)command), given = o->word_count - 1;
-    if (given < wanted) return gn_fail_usage(err, "ctl %s: expected %s", row->name, row->words);
-    if (given > wanted)
-        return gn_fail_usage(err, "ctl %s: unexpected argument \"%.80s\"%s", row->name,
-                             o->words[1 + wanted], wanted ? " (quote what has spaces)" : "");
-    return true;
+    if (given == wanted) return command;
+    if (given < wanted)
+        gn_fail_usage(err, "ctl %s: expected %s", row->name, row->words);
+    else
+        gn_fail_usage(err, "ctl %s: unexpected argument \"%.80s\"%s", row->name,
+                      o->words[1 + wanted], wanted ? " (quote what has spaces)" : "");
+    return -1;
 }
 
-/* The kiosk stands somewhere else. */
-static bool make_absolute(const char *file, char *out, size_t size, struct gn_err *err) {
-    char folder[PATH_MAX];
-    if (file[0] == '/') {
-        snprintf(out, size, "%s", file);
-        return true;
-    }
-    if (getcwd(folder, sizeof folder) && snprintf(out, size, "%s/%s", folder, file) < (int)size)
-        return true;
-    return gn_fail(err, "ctl: %.200s: give the whole path", file);
-}
-
-static json_t *request_of(const struct gn_options *o, int command, struct gn_err *err) {
+static json_t *make_request(const struct gn_options *o, int command, struct gn_err *err) {
     const struct gn_ctl_row *row = &gn_ctl_rows[command];
-    char path[PATH_MAX];
     json_t *request = json_pack("{s:s}", "cmd", row->name);
     for (int i = 0; i < GN_CTL_WORDS_MAX && row->members[i]; i++) {
-        const char *word = o->words[1 + i];
-        const bool is_file = strcmp(row->members[i], "file") == 0;
-        if (is_file && !make_absolute(word, path, sizeof path, err)) break;
-        json_t *text = json_string(is_file ? path : word);
+        const char *word = o->words[1 + i], *value = word;
+        char folder[PATH_MAX], path[PATH_MAX];
+        if (strcmp(row->members[i], "file") == 0 && word[0] != '/') {
+            /* the kiosk has another working directory */
+            if (!getcwd(folder, sizeof folder) ||
+                snprintf(path, sizeof path, "%s/%s", folder, word) >= (int)sizeof path) {
+                gn_fail(err, "ctl: %.200s: give the whole path", word);
+                break;
+            }
+            value = path;
+        }
+        json_t *text = json_string(value);
         if (!text) gn_fail_usage(err, "ctl %s: \"%.80s\" is not UTF-8", row->name, word);
         if (!text || json_object_set_new(request, row->members[i], text) != 0) break;
     }
@@ -87,7 +88,7 @@ static bool wait_for(struct talk *t, short events) {
     return left_ns > 0 && (poll(&p, 1, (int)(left_ns / 1000000) + 1) > 0 || errno == EINTR);
 }
 
-/* 0, or why not. A kiosk that many want to talk to at once has a queue, which may be full. */
+/* 0 or an errno. The kiosk's queue of connections may be full for a while. */
 static int try_path(struct talk *t, const char *path) {
     struct sockaddr_un address = {.sun_family = AF_UNIX};
     if (snprintf(address.sun_path, sizeof address.sun_path, "%s", path) >=
@@ -118,7 +119,7 @@ static bool fail_path(const char *path, int reason, struct gn_err *err) {
     return false;
 }
 
-static bool enter(struct talk *t, const struct gn_settings *o, struct gn_err *err) {
+static bool connect_kiosk(struct talk *t, const struct gn_settings *o, struct gn_err *err) {
     char path[GN_LISTEN_PATH_MAX], tried[3 * GN_LISTEN_PATH_MAX] = "";
     if (o->kiosk.socket) {
         const int reason = try_path(t, o->kiosk.socket);
@@ -140,51 +141,54 @@ static bool fail_talk(const struct talk *t, const char *what, struct gn_err *err
     return gn_fail(err, "the kiosk at %s %s", t->path, what);
 }
 
-static bool send_all(struct talk *t, const char *text, size_t size, struct gn_err *err) {
-    while (size > 0) {
-        const ssize_t sent = send(t->fd, text, size, MSG_NOSIGNAL);
-        if (sent < 0 && errno == EPIPE) return true; /* it has said why */
-        if (sent < 0 && errno != EAGAIN && errno != EINTR) return fail_talk(t, "has hung up", err);
-        if (sent > 0) text += sent, size -= (size_t)sent;
-        if (sent < 0 && !wait_for(t, POLLOUT)) return fail_talk(t, "does not listen", err);
-    }
-    return true;
-}
-
-static bool receive(struct talk *t, struct gn_err *err) {
-    size_t used = 0;
-    while (used < sizeof t->reply - 1) {
-        const ssize_t got = recv(t->fd, t->reply + used, sizeof t->reply - 1 - used, 0);
-        if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR))
-            return fail_talk(t, "has hung up", err);
-        if (got < 0 && !wait_for(t, POLLIN)) return fail_talk(t, "does not answer", err);
-        if (got < 0) continue;
-        used += (size_t)got;
-        t->reply[used] = '\0';
-        if (memchr(t->reply, '\n', used)) return true;
-    }
-    return fail_talk(t, "says too much", err);
-}
-
-/* The reply, a new reference, or NULL. */
-static json_t *ask(struct talk *t, const json_t *request, struct gn_err *err) {
+static bool send_request(struct talk *t, const json_t *request, struct gn_err *err) {
     char *line = json_dumps(request, JSON_COMPACT);
-    const size_t size = line ? strlen(line) : 0;
-    json_t *reply = NULL;
-    if (!line || size > GN_REQUEST_LINE_MAX) {
-        gn_fail_usage(err, "ctl: more than %d bytes", GN_REQUEST_LINE_MAX);
-    } else {
-        line[size] = '\n';
-        if (send_all(t, line, size + 1, err) && receive(t, err)) {
-            reply = json_loads(t->reply, 0, NULL);
-            if (!json_is_object(reply)) fail_talk(t, "says what is no answer", err);
-        }
+    size_t left = line ? strlen(line) : 0;
+    bool ok = (line && left <= GN_REQUEST_LINE_MAX) ||
+              gn_fail_usage(err, "ctl: more than %d bytes", GN_REQUEST_LINE_MAX);
+    if (ok) line[left++] = '\n';
+    for (const char *at = line; ok && left > 0;) {
+        const ssize_t sent = send(t->fd, at, left, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EPIPE) break; /* the reply has the reason */
+        if (sent < 0 && errno != EAGAIN && errno != EINTR)
+            ok = fail_talk(t, "has hung up", err);
+        else if (sent < 0 && !wait_for(t, POLLOUT))
+            ok = fail_talk(t, "does not listen", err);
+        else if (sent > 0)
+            at += sent, left -= (size_t)sent;
     }
     free(line);
-    return reply;
+    return ok;
 }
 
-/* ---- what it says --------------------------------------------------------------------------- */
+/* An object, a new reference; or NULL. */
+static json_t *receive_reply(struct talk *t, struct gn_err *err) {
+    size_t used = 0;
+    do {
+        const ssize_t got = recv(t->fd, t->reply + used, sizeof t->reply - 1 - used, 0);
+        if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) {
+            fail_talk(t, "has hung up", err);
+            return NULL;
+        }
+        if (got < 0 && !wait_for(t, POLLIN)) {
+            fail_talk(t, "does not answer", err);
+            return NULL;
+        }
+        used += got > 0 ? (size_t)got : 0;
+        t->reply[used] = '\0';
+    } while (!memchr(t->reply, '\n', used) && used < sizeof t->reply - 1);
+    if (!memchr(t->reply, '\n', used)) {
+        fail_talk(t, "says too much", err);
+        return NULL;
+    }
+    json_t *reply = json_loads(t->reply, 0, NULL);
+    if (json_is_object(reply)) return reply;
+    fail_talk(t, "says what is no answer", err);
+    json_decref(reply);
+    return NULL;
+}
+
+/* ---- the reply --------------------------------------------------------------------------- */
 
 static void print_value(const json_t *value) {
     if (json_is_string(value))
@@ -195,13 +199,6 @@ static void print_value(const json_t *value) {
         printf("%.6g", json_real_value(value));
     else
         fputs(json_is_true(value) ? "yes" : json_is_false(value) ? "no" : "-", stdout);
-}
-
-static void print_list(const json_t *list) {
-    for (size_t i = 0; i < json_array_size(list); i++) {
-        if (i) fputs(", ", stdout);
-        print_value(json_array_get(list, i));
-    }
 }
 
 /* "screen.what: HDMI-A-1 1920x1080@60.00 atomic" */
@@ -219,16 +216,17 @@ static int print_object(const char *prefix, json_t *object) {
             continue;
         }
         printf("%s: ", name);
-        if (json_is_array(value))
-            print_list(value);
-        else
-            print_value(value);
+        if (!json_is_array(value)) print_value(value);
+        for (size_t i = 0; i < json_array_size(value); i++) {
+            if (i) fputs(", ", stdout);
+            print_value(json_array_get(value, i));
+        }
         putchar('\n');
     }
     return lines;
 }
 
-static bool report(const struct gn_settings *o, json_t *reply, struct gn_err *err) {
+static bool print_reply(const struct gn_settings *o, json_t *reply, struct gn_err *err) {
     const bool ok = json_is_true(json_object_get(reply, "ok"));
     const char *why = json_string_value(json_object_get(reply, "error"));
     if (o->run.json && !gn_json_print(json_incref(reply), 9, stdout, err)) return false;
@@ -246,21 +244,20 @@ static bool report(const struct gn_settings *o, json_t *reply, struct gn_err *er
 bool gn_cli_ctl(const struct gn_options *options, struct gn_warnings *warnings,
                 struct gn_err *err) {
     (void)warnings;
-    const char *name = options->word_count > 0 ? options->words[0] : NULL;
-    const int command = name ? gn_ctl_find(name) : -1;
-    if (command < 0) return fail_command(name, err);
-    if (!check_words(options, command, err)) return false;
-    json_t *request = request_of(options, command, err);
+    const int command = find_command(options, err);
+    json_t *request = command < 0 ? NULL : make_request(options, command, err);
     if (!request) return false;
     const bool is_slow = gn_ctl_rows[command].flags & GN_CTL_SLOW;
     struct talk *talk = gn_xalloc(1, sizeof *talk);
     talk->fd = -1;
     talk->until_ns = gn_clock_monotonic_ns() + (is_slow ? LONG_PATIENCE_NS : PATIENCE_NS);
-    json_t *reply = enter(talk, options->settings, err) ? ask(talk, request, err) : NULL;
+    json_t *reply = NULL;
+    if (connect_kiosk(talk, options->settings, err) && send_request(talk, request, err))
+        reply = receive_reply(talk, err);
     json_decref(request);
     if (talk->fd >= 0) close(talk->fd);
     free(talk);
-    const bool ok = reply && report(options->settings, reply, err);
+    const bool ok = reply && print_reply(options->settings, reply, err);
     json_decref(reply);
     return ok;
 }

@@ -9,39 +9,31 @@
 
 enum { DEPTH_MAX = 3 }; /* the cache has folders of two digits, a database one of parts */
 
-static void add_folder(struct gn_driver_cache *cache, const char *path, int depth);
-
-static void add_entry(struct gn_driver_cache *cache, const char *path, int depth) {
-    struct stat info;
-    if (lstat(path, &info) < 0) return;
-    if (S_ISDIR(info.st_mode) && depth < DEPTH_MAX) add_folder(cache, path, depth + 1);
-    if (!S_ISREG(info.st_mode)) return;
-    cache->files++;
-    cache->bytes += (uint64_t)info.st_size;
-}
-
 static void add_folder(struct gn_driver_cache *cache, const char *path, int depth) {
     DIR *folder = opendir(path);
     if (!folder) return;
     char child[4096];
     for (struct dirent *entry; (entry = readdir(folder));) {
         int length = snprintf(child, sizeof child, "%s/%s", path, entry->d_name);
-        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 && length > 0 &&
-            (size_t)length < sizeof child)
-            add_entry(cache, child, depth);
+        struct stat info;
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0 || length <= 0 ||
+            (size_t)length >= sizeof child || lstat(child, &info) < 0)
+            continue;
+        if (S_ISDIR(info.st_mode) && depth < DEPTH_MAX) add_folder(cache, child, depth + 1);
+        if (!S_ISREG(info.st_mode)) continue;
+        cache->files++;
+        cache->bytes += (uint64_t)info.st_size;
     }
     closedir(folder);
-}
-
-static bool is_true(const char *text) {
-    return text && (!strcmp(text, "1") || !strcasecmp(text, "true") || !strcasecmp(text, "yes"));
 }
 
 struct gn_driver_cache gn_driver_cache_read(void) {
     static const char *const names[] = {"mesa_shader_cache", "mesa_shader_cache_db"};
     struct gn_driver_cache cache = {0};
     const char *base = getenv("MESA_SHADER_CACHE_DIR"), *below = "";
-    if (is_true(getenv("MESA_SHADER_CACHE_DISABLE"))) return cache;
+    const char *off = getenv("MESA_SHADER_CACHE_DISABLE");
+    if (off && (!strcmp(off, "1") || !strcasecmp(off, "true") || !strcasecmp(off, "yes")))
+        return cache;
     if (!base) base = getenv("XDG_CACHE_HOME");
     if (!base) {
         base = getenv("HOME");

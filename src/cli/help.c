@@ -42,35 +42,28 @@ const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES] = {
 
 /* ---- texts --------------------------------------------------------------------------------- */
 
-static size_t add_choices(const struct gn_option_row *row, char *out, size_t size) {
-    size_t used = 0;
+void gn_help_phrase(const struct gn_option_row *row, char *out, size_t size) {
+    char limits[200];
+    size_t used = (size_t)snprintf(out, size, "%s", row->help);
     for (const struct gn_choice *c = row->choices; c && c->name && used < size; c++)
         used += (size_t)snprintf(out + used, size - used, "%s%s", c == row->choices ? ": " : ", ",
                                  c->name);
     for (int i = 0; row->kind == GN_KIND_TECHNIQUES && i < GN_TECHNIQUE_COUNT && used < size; i++)
         used += (size_t)snprintf(out + used, size - used, "%s%s", i ? ", " : ": ",
                                  gn_techniques[i].name);
-    if (row->kind != GN_KIND_LIMIT) return used;
-    char limits[200];
-    gn_scene_limits_list(limits, sizeof limits);
-    return (size_t)snprintf(out, size, ": %s", limits);
-}
-
-/* "(default 1280x720 pixels)", "(in stops; default auto)", "(in degrees)", or nothing. */
-static void add_default(const struct gn_option_row *row, char *out, size_t size) {
-    const bool counts = row->fallback && strchr("-0123456789", row->fallback[0]);
-    if (row->fallback && (counts || !row->unit))
-        snprintf(out, size, " (default %s%s%s)", row->fallback, row->unit ? " " : "",
-                 row->unit ? row->unit : "");
-    else if (row->unit)
-        snprintf(out, size, " (in %s%s%s)", row->unit, row->fallback ? "; default " : "",
-                 row->fallback ? row->fallback : "");
-}
-
-void gn_help_phrase(const struct gn_option_row *row, char *out, size_t size) {
-    size_t used = (size_t)snprintf(out, size, "%s", row->help);
-    if (used < size) used += add_choices(row, out + used, size - used);
-    if (used < size) add_default(row, out + used, size - used);
+    if (row->kind == GN_KIND_LIMIT && used < size) {
+        gn_scene_limits_list(limits, sizeof limits);
+        used += (size_t)snprintf(out + used, size - used, ": %s", limits);
+    }
+    /* "(default 1280x720 pixels)", "(in degrees)", "(in stops; default auto)" */
+    const char *fallback = row->fallback, *unit = row->unit;
+    if (used >= size || !(fallback || unit)) return;
+    if (fallback && (!unit || strchr("-0123456789", fallback[0])))
+        snprintf(out + used, size - used, " (default %s%s%s)", fallback, unit ? " " : "",
+                 unit ? unit : "");
+    else
+        snprintf(out + used, size - used, " (in %s%s%s)", unit, fallback ? "; default " : "",
+                 fallback ? fallback : "");
 }
 
 bool gn_help_default_button(int index, char *keys, size_t size, const char **action) {
@@ -91,41 +84,22 @@ bool gn_help_default_button(int index, char *keys, size_t size, const char **act
 
 /* ---- lines --------------------------------------------------------------------------------- */
 
-/* Prints words from column `at` on, wrapped before WIDTH, ends the line. */
-static void print_wrapped(FILE *to, int at, const char *text) {
-    while (*text) {
-        int length = (int)strcspn(text, " ");
+/* A name and, from COLUMN on, its meaning, wrapped before WIDTH. */
+static void print_entry(FILE *to, const char *name, const char *meaning) {
+    int at = fprintf(to, "  %s", name);
+    if (at >= COLUMN) at = fprintf(to, "\n") - 1;
+    at += fprintf(to, "%*s", COLUMN - 1 - at, "");
+    while (*meaning) {
+        int length = (int)strcspn(meaning, " ");
         if (at + 1 + length > WIDTH) at = fprintf(to, "\n%*s", COLUMN - 1, "") - 1;
-        at += fprintf(to, " %.*s", length, text);
-        text += length;
-        text += strspn(text, " ");
+        at += fprintf(to, " %.*s", length, meaning);
+        meaning += length;
+        meaning += strspn(meaning, " ");
     }
     fputc('\n', to);
 }
 
-static void print_entry(FILE *to, const char *name, const char *meaning) {
-    int at = fprintf(to, "  %s", name);
-    if (at >= COLUMN) at = fprintf(to, "\n") - 1;
-    print_wrapped(to, at + fprintf(to, "%*s", COLUMN - 1 - at, ""), meaning);
-}
-
-static void print_option(FILE *to, const struct gn_option_row *row) {
-    char text[500], name[80], letter[8] = "    ";
-    if (row->letter) snprintf(letter, sizeof letter, "-%c, ", row->letter);
-    snprintf(name, sizeof name, "%s--%s%s%s", letter, row->name, row->value ? " " : "",
-             row->value ? row->value : "");
-    gn_help_phrase(row, text, sizeof text);
-    print_entry(to, name, text);
-}
-
 /* ---- groups of options: the sections of the INI file, [render] in two ------------------------ */
-
-static bool is_of_shadows(const struct gn_option_row *row) {
-    static const char *const beginnings[] = {"shadow", "map", "planar", "taps", "filter"};
-    for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++)
-        if (strncmp(row->name, beginnings[i], strlen(beginnings[i])) == 0) return true;
-    return false;
-}
 
 static const struct group {
     const char *heading, *section;
@@ -140,8 +114,12 @@ static const struct group {
 };
 
 static bool is_in_group(const struct gn_option_row *row, const struct group *group) {
+    static const char *const shadows[] = {"shadow", "map", "planar", "taps", "filter"};
     if (!row->section || !group->section) return row->section == group->section;
-    return strcmp(row->section, group->section) == 0 && is_of_shadows(row) == group->shadows;
+    bool of_shadows = false;
+    for (size_t i = 0; i < sizeof shadows / sizeof *shadows; i++)
+        of_shadows |= strncmp(row->name, shadows[i], strlen(shadows[i])) == 0;
+    return strcmp(row->section, group->section) == 0 && of_shadows == group->shadows;
 }
 
 static void print_group(FILE *to, const struct group *group, enum gn_command command) {
@@ -151,60 +129,50 @@ static void print_group(FILE *to, const struct group *group, enum gn_command com
         if (!(row->commands & 1u << command) || !is_in_group(row, group)) continue;
         if (!begun) fprintf(to, "\n%s:\n", group->heading);
         begun = true;
-        print_option(to, row);
+        char text[500], name[80], letter[8] = "    ";
+        if (row->letter) snprintf(letter, sizeof letter, "-%c, ", row->letter);
+        snprintf(name, sizeof name, "%s--%s%s%s", letter, row->name, row->value ? " " : "",
+                 row->value ? row->value : "");
+        gn_help_phrase(row, text, sizeof text);
+        print_entry(to, name, text);
     }
-}
-
-static void print_options(FILE *to, enum gn_command command) {
-    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
-        print_group(to, &groups[i], command);
 }
 
 /* ---- --help -------------------------------------------------------------------------------- */
 
-static void print_keys(FILE *to) {
-    char keys[60];
+void gn_help_print(FILE *to, enum gn_command command) {
+    char tag[60];
+    if (command != GN_COMMAND_AUTO) {
+        fprintf(to, "usage: gnomon %s\n\n  %s\n", gn_commands[command].usage,
+                gn_commands[command].what);
+    } else {
+        fputs("gnomon shows a 3-D scene with correct shadows on a screen, or writes it into a file."
+              "\n\nusage:\n",
+              to);
+        for (int i = 0; i < GN_COMMAND_COUNT; i++)
+            fprintf(to, "  gnomon %s\n      %s\n", gn_commands[i].usage, gn_commands[i].what);
+        fputs("  gnomon help [COMMAND]\n      prints the options of a command\n\n"
+              "SCENE is a .glb or .gltf file; without one, gnomon shows its default scene, a "
+              "sundial.\n"
+              ".obj, .fbx, .stl, .ply and .dae files are converted by gnomon-import.\n",
+              to);
+    }
+    fputs("\nexamples:\n", to);
+    for (int i = 0; i < GN_HELP_EXAMPLES; i++) fprintf(to, "  %s\n", gn_help_examples[command][i]);
+    if (command == GN_COMMAND_CTL) fputs("\ncommands:\n", to);
+    for (int i = 0; command == GN_COMMAND_CTL && i < GN_CTL_COUNT; i++) {
+        const struct gn_ctl_row *row = &gn_ctl_rows[i];
+        snprintf(tag, sizeof tag, "%s%s%s", row->name, row->words[0] ? " " : "", row->words);
+        print_entry(to, tag, row->what);
+    }
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
+        print_group(to, &groups[i], command);
+    if (command != GN_COMMAND_AUTO && command != GN_COMMAND_SHOW) return;
     const char *action;
     fputs("\nin a window:\n", to);
     for (const struct gn_help_entry *key = gn_help_window_keys; key->name; key++)
         print_entry(to, key->name, key->meaning);
     fputs("\nkeys and GPIO lines, unless kiosk.ini has buttons of its own:\n", to);
-    for (int i = 0; gn_help_default_button(i, keys, sizeof keys, &action); i++)
-        print_entry(to, keys, action);
-}
-
-static void print_ctl(FILE *to) {
-    char tag[40];
-    fputs("\ncommands:\n", to);
-    for (int i = 0; i < GN_CTL_COUNT; i++) {
-        const struct gn_ctl_row *row = &gn_ctl_rows[i];
-        snprintf(tag, sizeof tag, "%s%s%s", row->name, row->words[0] ? " " : "", row->words);
-        print_entry(to, tag, row->what);
-    }
-}
-
-static void print_usage(FILE *to, enum gn_command command) {
-    if (command != GN_COMMAND_AUTO) {
-        fprintf(to, "usage: gnomon %s\n\n  %s\n", gn_commands[command].usage,
-                gn_commands[command].what);
-        return;
-    }
-    fputs("gnomon shows a 3-D scene with correct shadows on a screen, or writes it into a file.\n"
-          "\nusage:\n",
-          to);
-    for (int i = 0; i < GN_COMMAND_COUNT; i++)
-        fprintf(to, "  gnomon %s\n      %s\n", gn_commands[i].usage, gn_commands[i].what);
-    fputs("  gnomon help [COMMAND]\n      prints the options of a command\n\n"
-          "SCENE is a .glb or .gltf file; without one, gnomon shows its default scene, a sundial.\n"
-          ".obj, .fbx, .stl, .ply and .dae files are converted by gnomon-import.\n",
-          to);
-}
-
-void gn_help_print(FILE *to, enum gn_command command) {
-    print_usage(to, command);
-    fputs("\nexamples:\n", to);
-    for (int i = 0; i < GN_HELP_EXAMPLES; i++) fprintf(to, "  %s\n", gn_help_examples[command][i]);
-    if (command == GN_COMMAND_CTL) print_ctl(to);
-    print_options(to, command);
-    if (command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW) print_keys(to);
+    for (int i = 0; gn_help_default_button(i, tag, sizeof tag, &action); i++)
+        print_entry(to, tag, action);
 }

@@ -22,7 +22,7 @@ __attribute__((format(printf, 3, 4))) static void say(char *out, size_t size, co
     va_end(args);
 }
 
-/* The first bytes of a file of the kernel's, as text; "" if it cannot be read. */
+/* The first bytes of a file of the kernel, as text; "" if it cannot be read. */
 static const char *slurp(const char *root, const char *path, char *out, size_t size) {
     char full[PATH_MAX];
     snprintf(full, sizeof full, "%s%s", root, path);
@@ -42,47 +42,9 @@ static const char *base_name(const char *path) {
     return slash ? slash + 1 : path;
 }
 
-/* The target of a link below root, without its last `drop` parts. */
-static bool read_link(const char *root, const char *path, int drop, char *out, size_t size) {
-    char full[PATH_MAX], target[PATH_MAX];
-    snprintf(full, sizeof full, "%s%s", root, path);
-    ssize_t length = readlink(full, target, sizeof target - 1);
-    if (length <= 0) return false;
-    target[length] = 0;
-    for (; drop > 0 && strrchr(target, '/'); drop--) *strrchr(target, '/') = 0;
-    say(out, size, "%s", base_name(target));
-    return true;
-}
-
-/* ---- the system ---------------------------------------------------------------------------- */
-
-static void read_system(struct gn_machine *m, const char *root) {
-    char text[4096];
-    struct utsname name;
-    copy_line(m->model, sizeof m->model, slurp(root, "/proc/device-tree/model", text, sizeof text));
-    const char *pretty =
-        strstr(slurp(root, "/etc/os-release", text, sizeof text), "PRETTY_NAME=\"");
-    if (pretty)
-        say(m->system, sizeof m->system, "%.*s", (int)strcspn(pretty + 13, "\"\n"), pretty + 13);
-    if (uname(&name) == 0) {
-        say(m->kernel, sizeof m->kernel, "%s %s", name.sysname, name.release);
-        say(m->arch, sizeof m->arch, "%s", name.machine);
-    }
-    long cpus = sysconf(_SC_NPROCESSORS_ONLN);
-    m->cpus = cpus > 0 ? (int)cpus : 1;
-}
-
 static uint64_t meminfo_mb(const char *text, const char *key) {
     const char *at = strstr(text, key);
     return at ? strtoull(at + strlen(key), NULL, 10) / 1024 : 0;
-}
-
-static void read_memory(struct gn_machine *m, const char *root) {
-    char text[8192];
-    slurp(root, "/proc/meminfo", text, sizeof text);
-    m->memory_mb = meminfo_mb(text, "MemTotal:");
-    m->free_mb = meminfo_mb(text, "MemAvailable:");
-    m->cma_mb = meminfo_mb(text, "CmaTotal:");
 }
 
 static void name_group(gid_t gid, char *out, size_t size) {
@@ -93,35 +55,7 @@ static void name_group(gid_t gid, char *out, size_t size) {
         say(out, size, "%u", (unsigned)gid);
 }
 
-static void read_user(struct gn_machine *m) {
-    const struct passwd *user = getpwuid(geteuid());
-    if (user)
-        say(m->user, sizeof m->user, "%s", user->pw_name);
-    else
-        say(m->user, sizeof m->user, "%u", (unsigned)geteuid());
-    gid_t ids[GN_MACHINE_GROUPS];
-    int count = getgroups(GN_MACHINE_GROUPS - 1, ids);
-    if (count < 0) count = 0;
-    bool listed = false;
-    for (int i = 0; i < count; i++) listed |= ids[i] == getegid();
-    if (!listed) ids[count++] = getegid();
-    for (m->group_count = 0; m->group_count < count; m->group_count++)
-        name_group(ids[m->group_count], m->groups[m->group_count], sizeof m->groups[0]);
-}
-
 /* ---- devices ------------------------------------------------------------------------------- */
-
-static void find_driver(struct gn_device *device, const char *root) {
-    char path[PATH_MAX];
-    const char *name = base_name(device->path);
-    if (device->kind == GN_DEVICE_GPIO) {
-        snprintf(path, sizeof path, "/sys/bus/gpio/devices/%s", name);
-        read_link(root, path, 1, device->driver, sizeof device->driver);
-        return;
-    }
-    snprintf(path, sizeof path, "/sys/class/drm/%s/device/driver", name);
-    read_link(root, path, 0, device->driver, sizeof device->driver);
-}
 
 static void add_device(struct gn_machine *m, enum gn_device_kind kind, const char *full,
                        const char *root) {
@@ -134,21 +68,18 @@ static void add_device(struct gn_machine *m, enum gn_device_kind kind, const cha
     device->group_may = (info.st_mode & 0060) == 0060;
     device->readable = access(full, R_OK) == 0;
     device->writable = access(full, W_OK) == 0;
-    find_driver(device, root);
-}
-
-/* One a line; those that differ in their rate alone stand there more than once. */
-static void copy_modes(struct gn_connector *c, const char *text) {
-    size_t used = 0;
-    while (*text) {
-        const size_t length = strcspn(text, "\n"), room = sizeof c->modes - used;
-        char word[24];
-        snprintf(word, sizeof word, "%.*s", (int)length, text);
-        if (length + 2 > room) return;
-        if (!strstr(c->modes, word))
-            used += (size_t)snprintf(c->modes + used, room, "%s%s", used ? " " : "", word);
-        text += length + (text[length] == '\n');
-    }
+    const bool gpio = kind == GN_DEVICE_GPIO;
+    char path[PATH_MAX];
+    snprintf(path, sizeof path,
+             gpio ? "/sys/bus/gpio/devices/%s" : "/sys/class/drm/%s/device/driver",
+             base_name(device->path));
+    char link[2 * PATH_MAX], target[PATH_MAX];
+    snprintf(link, sizeof link, "%s%s", root, path);
+    const ssize_t length = readlink(link, target, sizeof target - 1);
+    if (length <= 0) return;
+    target[length] = 0;
+    if (gpio && strrchr(target, '/')) *strrchr(target, '/') = 0; /* the chip's parent */
+    say(device->driver, sizeof device->driver, "%s", base_name(target));
 }
 
 /* full: ".../card0-HDMI-A-1/status" */
@@ -161,9 +92,19 @@ static void add_connector(struct gn_machine *m, const char *full, const char *ro
     copy_line(connector->status, sizeof connector->status,
               slurp(root, full + strlen(root), text, sizeof text));
     snprintf(path, sizeof path, "%s/modes", folder);
-    const char *modes = slurp(root, path + strlen(root), text, sizeof text);
-    copy_line(connector->mode, sizeof connector->mode, modes);
-    if (modes) copy_modes(connector, modes);
+    slurp(root, path + strlen(root), text, sizeof text);
+    copy_line(connector->mode, sizeof connector->mode, text);
+    /* modes, one a line; those that differ in their rate only are equal lines */
+    size_t used = 0, length;
+    for (const char *at = text; *at; at += length + (at[length] == '\n')) {
+        const size_t room = sizeof connector->modes - used;
+        char word[24];
+        length = strcspn(at, "\n");
+        snprintf(word, sizeof word, "%.*s", (int)length, at);
+        if (length + 2 > room) return;
+        if (!strstr(connector->modes, word))
+            used += (size_t)snprintf(connector->modes + used, room, "%s%s", used ? " " : "", word);
+    }
 }
 
 static void read_devices(struct gn_machine *m, const char *root) {
@@ -189,9 +130,40 @@ static void read_devices(struct gn_machine *m, const char *root) {
 }
 
 void gn_machine_read(struct gn_machine *machine, const char *root) {
+    char text[8192];
+    struct utsname name;
     *machine = (struct gn_machine){0};
-    read_system(machine, root);
-    read_memory(machine, root);
-    read_user(machine);
+    copy_line(machine->model, sizeof machine->model,
+              slurp(root, "/proc/device-tree/model", text, sizeof text));
+    const char *pretty =
+        strstr(slurp(root, "/etc/os-release", text, sizeof text), "PRETTY_NAME=\"");
+    if (pretty)
+        say(machine->system, sizeof machine->system, "%.*s", (int)strcspn(pretty + 13, "\"\n"),
+            pretty + 13);
+    if (uname(&name) == 0) {
+        say(machine->kernel, sizeof machine->kernel, "%s %s", name.sysname, name.release);
+        say(machine->arch, sizeof machine->arch, "%s", name.machine);
+    }
+    const long cpus = sysconf(_SC_NPROCESSORS_ONLN);
+    machine->cpus = cpus > 0 ? (int)cpus : 1;
+    slurp(root, "/proc/meminfo", text, sizeof text);
+    machine->memory_mb = meminfo_mb(text, "MemTotal:");
+    machine->free_mb = meminfo_mb(text, "MemAvailable:");
+    machine->cma_mb = meminfo_mb(text, "CmaTotal:");
+
+    const struct passwd *user = getpwuid(geteuid());
+    if (user)
+        say(machine->user, sizeof machine->user, "%s", user->pw_name);
+    else
+        say(machine->user, sizeof machine->user, "%u", (unsigned)geteuid());
+    gid_t ids[GN_MACHINE_GROUPS];
+    int count = getgroups(GN_MACHINE_GROUPS - 1, ids);
+    if (count < 0) count = 0;
+    bool listed = false;
+    for (int i = 0; i < count; i++) listed |= ids[i] == getegid();
+    if (!listed) ids[count++] = getegid();
+    for (int i = 0; i < count; i++)
+        name_group(ids[i], machine->groups[i], sizeof machine->groups[0]);
+    machine->group_count = count;
     read_devices(machine, root);
 }

@@ -20,28 +20,22 @@ double gn_memory_private_dirty_mb(void) {
     return kib < 0 ? NAN : (double)kib / 1024.0;
 }
 
-/* The child's life. _exit: what the parent holds in stdio and at exit is the parent's. */
-static _Noreturn void answer(int fd, const char *backend) {
-    char asked;
-    struct gn_display display = {0};
-    int nothing =
-        open("/dev/null", O_WRONLY | O_CLOEXEC); /* what libraries say, the parent's say */
-    if (nothing >= 0) dup2(nothing, STDERR_FILENO);
-    if (recv(fd, &asked, 1, 0) == 1 && gn_display_open(&display, backend, NULL, NULL)) {
-        double mb = gn_memory_private_dirty_mb();
-        send(fd, &mb, sizeof mb, MSG_NOSIGNAL);
-    }
-    _exit(0);
-}
-
 void gn_memory_probe_open(struct gn_memory_probe *probe, const char *backend) {
     int ends[2];
     *probe = (struct gn_memory_probe){.fd = -1};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) < 0) return;
     pid_t pid = fork();
-    if (pid == 0) {
+    if (pid == 0) { /* opens the display when asked. _exit: stdio and atexit are the parent's */
+        char asked;
+        struct gn_display display = {0};
         close(ends[0]);
-        answer(ends[1], backend);
+        int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC); /* the parent prints errors, too */
+        if (nothing >= 0) dup2(nothing, STDERR_FILENO);
+        if (recv(ends[1], &asked, 1, 0) == 1 && gn_display_open(&display, backend, NULL, NULL)) {
+            double mb = gn_memory_private_dirty_mb();
+            send(ends[1], &mb, sizeof mb, MSG_NOSIGNAL);
+        }
+        _exit(0);
     }
     close(ends[1]);
     *probe = (struct gn_memory_probe){pid > 0 ? pid : 0, ends[0]};

@@ -1,4 +1,4 @@
-/* gnomon render: a scene to a picture, or to a numbered run of them. */
+/* gnomon render: a scene to a picture, or to a numbered sequence of them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -70,18 +70,6 @@ static bool write_color(struct render *r, const struct gn_plan *plan, const char
     return gn_picture_write_pfm(path, r->floats, 3, w, h, err);
 }
 
-static bool write_normals(struct render *r, const struct gn_plan *plan, const char *path,
-                          struct gn_err *err) {
-    int w = (int)plan->width_px, h = (int)plan->height_px;
-    if (r->format == GN_PICTURE_PFM) {
-        keep_channels(r->floats, (size_t)w * (size_t)h, 3);
-        return gn_picture_write_pfm(path, r->floats, 3, w, h, err);
-    }
-    for (size_t i = 0; i < 4 * (size_t)w * (size_t)h; i++)
-        r->rgba[i] = (uint8_t)lrintf(255.0f * fminf(fmaxf(0.5f * r->floats[i] + 0.5f, 0.0f), 1.0f));
-    return gn_picture_write_png8(path, r->rgba, w, h, false, err);
-}
-
 static bool write_grey(const struct render *r, const char *path, const float *grey, int w, int h,
                        struct gn_err *err) {
     return r->format == GN_PICTURE_PFM ? gn_picture_write_pfm(path, grey, 1, w, h, err)
@@ -117,24 +105,35 @@ static bool write_map(struct render *r, const struct gn_plan *plan, const char *
 
 static bool write_picture(struct render *r, const struct gn_plan *plan, const char *path,
                           struct gn_err *err) {
+    const int w = (int)plan->width_px, h = (int)plan->height_px;
+    const size_t pixels = (size_t)w * (size_t)h;
     if (r->map) return write_map(r, plan, path, err);
     if (plan->aov == GN_AOV_COLOR) return write_color(r, plan, path, err);
     if (!gn_gl_read_f32(r->stage.gl, r->floats, err)) return false;
-    if (plan->aov == GN_AOV_NORMAL) return write_normals(r, plan, path, err);
-    keep_channels(r->floats, (size_t)plan->width_px * plan->height_px, 1);
-    return write_grey(r, path, r->floats, (int)plan->width_px, (int)plan->height_px, err);
-}
-
-/* On a terminal, once the work has taken a second. */
-static void show_progress(int64_t begun_ns, int done, int all) {
-    if (all > 1 && gn_clock_monotonic_ns() - begun_ns > GN_NS_PER_S && isatty(STDERR_FILENO))
-        fprintf(stderr, "\rframe %d of %d%s", done, all, done == all ? "\n" : "");
+    if (plan->aov != GN_AOV_NORMAL) {
+        keep_channels(r->floats, pixels, 1);
+        return write_grey(r, path, r->floats, w, h, err);
+    }
+    if (r->format == GN_PICTURE_PFM) {
+        keep_channels(r->floats, pixels, 3);
+        return gn_picture_write_pfm(path, r->floats, 3, w, h, err);
+    }
+    for (size_t i = 0; i < 4 * pixels; i++)
+        r->rgba[i] = (uint8_t)lrintf(255.0f * fminf(fmaxf(0.5f * r->floats[i] + 0.5f, 0.0f), 1.0f));
+    return gn_picture_write_png8(path, r->rgba, w, h, false, err);
 }
 
 static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_settings *o = r->stage.settings;
-    int64_t begun_ns = gn_clock_monotonic_ns();
-    int frames = o->run.frames > 0 ? o->run.frames : 1;
+    const size_t pixels = (size_t)o->render.size.width_px * (size_t)o->render.size.height_px;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    const int frames = o->run.frames > 0 ? o->run.frames : 1;
+    r->rgba = gn_picture_alloc(pixels, 4, err);
+    if (!r->rgba) return false;
+    if (r->stage.frame_opts.debug.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM) {
+        r->floats = gn_picture_alloc(pixels, 4 * sizeof(float), err);
+        if (!r->floats) return false;
+    }
     for (int i = 0; i < frames && !gn_stop_asked(); i++) {
         char path[4096];
         int length = is_pattern(o->run.out) ? snprintf(path, sizeof path, o->run.out, i)
@@ -146,47 +145,32 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
         const struct gn_plan *plan = gn_stage_draw(&r->stage, time_ns, warnings, err);
         if (!plan || !write_picture(r, plan, path, err)) return false;
         if (o->run.plan && i == 0) gn_plan_print(plan, stdout);
-        show_progress(begun_ns, i + 1, frames);
+        /* on a terminal, once the work has taken a second */
+        if (frames > 1 && gn_clock_monotonic_ns() - begun_ns > GN_NS_PER_S && isatty(STDERR_FILENO))
+            fprintf(stderr, "\rframe %d of %d%s", i + 1, frames, i + 1 == frames ? "\n" : "");
     }
     return true;
 }
 
-static bool make_room(struct render *r, struct gn_err *err) {
-    size_t pixels = (size_t)r->stage.settings->render.size.width_px *
-                    (size_t)r->stage.settings->render.size.height_px;
-    bool wants_floats =
-        r->stage.frame_opts.debug.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM;
-    r->rgba = gn_picture_alloc(pixels, 4, err);
-    if (!r->rgba) return false;
-    if (wants_floats) r->floats = gn_picture_alloc(pixels, 4 * sizeof(float), err);
-    return !wants_floats || r->floats;
-}
-
-/* It stays, so that any time will do. */
-static void write_caption(struct render *r, struct gn_warnings *warnings) {
-    const struct gn_settings *o = r->stage.settings;
-    const struct gn_captions_opts opts = {.font = o->render.font, .warnings = warnings};
-    if (!o->run.caption) return;
-    r->captions = gn_captions_create(&opts);
-    gn_captions_set(r->captions, GN_CAPTION_ERROR, o->run.caption, 0);
-    r->stage.frame_opts.captions = gn_captions_run(r->captions, (uint32_t)o->render.size.width_px,
-                                                   (uint32_t)o->render.size.height_px, 0);
-}
-
 bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warnings,
                    struct gn_err *err) {
+    const struct gn_settings *o = options->settings;
     struct render r = {0};
     gn_stop_block(NULL);
-    bool ok = check_options(options->settings, &r, err) &&
-              gn_stage_load(&r.stage, options->settings, warnings, err);
-    r.stage.frame_opts.output_float =
-        options->settings->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
+    bool ok = check_options(o, &r, err) && gn_stage_load(&r.stage, o, warnings, err);
+    r.stage.frame_opts.output_float = o->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
     ok = ok && gn_stage_open(&r.stage, warnings, err);
-    if (ok) write_caption(&r, warnings);
-    ok = ok && make_room(&r, err) && draw_frames(&r, warnings, err);
+    if (ok && o->run.caption) { /* it stays: one layout for all frames */
+        const struct gn_captions_opts opts = {.font = o->render.font, .warnings = warnings};
+        r.captions = gn_captions_create(&opts);
+        gn_captions_set(r.captions, GN_CAPTION_ERROR, o->run.caption, 0);
+        r.stage.frame_opts.captions = gn_captions_run(r.captions, (uint32_t)o->render.size.width_px,
+                                                      (uint32_t)o->render.size.height_px, 0);
+    }
+    ok = ok && draw_frames(&r, warnings, err);
     free(r.rgba);
     free(r.floats);
     gn_stage_close(&r.stage);
     gn_captions_destroy(r.captions);
-    return ok || gn_stop_asked(); /* what that broke off is no failure */
+    return ok || gn_stop_asked(); /* work that a signal ended is no failure */
 }

@@ -17,45 +17,26 @@ struct truth {
     uint8_t *pixels; /* LIT, EDGE; malloc'ed */
 };
 
-/* ---- what is inside the program ------------------------------------------------------------ */
+/* ---- embedded files ------------------------------------------------------------ */
 
-/* "selftest/box.glb" -> "box" */
-static bool scene_name(const char *path, char *out, size_t size) {
-    static const char folder[] = "selftest/";
-    size_t length = strlen(path), skip = sizeof folder - 1;
-    if (strncmp(path, folder, skip) != 0 || strcmp(path + length - 4, ".glb") != 0) return false;
-    snprintf(out, size, "%.*s", (int)(length - skip - 4), path + skip);
-    return true;
-}
-
-static bool unpack(const struct gn_embedded *file, struct truth *truth) {
-    const uint8_t *data = file->data;
-    if (file->size < 12 || memcmp(data, "gntruth1", 8) != 0) return false;
-    *truth = (struct truth){data[8] | data[9] << 8, data[10] | data[11] << 8, NULL};
-    size_t all = (size_t)truth->width_px * truth->height_px, done = 0;
-    truth->pixels = gn_xalloc(all, 1);
-    for (size_t i = 12; i < file->size; i++)
-        for (int run = data[i] >> 2; run >= 0 && done < all; run--)
-            truth->pixels[done++] = data[i] & (LIT | EDGE);
-    if (done == all) return true;
-    free(truth->pixels);
-    truth->pixels = NULL;
-    return false;
-}
-
-static bool find_truth(const char *scene, struct truth *truth, struct gn_err *err) {
+static bool load_truth(const char *scene, struct truth *truth, struct gn_err *err) {
     char path[64];
     snprintf(path, sizeof path, "selftest/%s.truth", scene);
     const struct gn_embedded *file = gn_embedded_find(path);
-    return (file && unpack(file, truth)) ||
-           gn_fail(err, "self-test: this build has no whole %s inside", path);
-}
-
-static struct gn_scene *find_scene(const char *scene, struct gn_err *err) {
-    char path[64];
-    snprintf(path, sizeof path, "selftest/%s.glb", scene);
-    const struct gn_embedded *file = gn_embedded_find(path);
-    return gn_scene_load_bytes(path, file->data, file->size, NULL, NULL, err);
+    size_t all = 1, done = 0;
+    if (file && file->size >= 12 && memcmp(file->data, "gntruth1", 8) == 0) {
+        const uint8_t *data = file->data;
+        *truth = (struct truth){data[8] | data[9] << 8, data[10] | data[11] << 8, NULL};
+        all = (size_t)truth->width_px * truth->height_px;
+        truth->pixels = gn_xalloc(all, 1);
+        for (size_t i = 12; i < file->size; i++)
+            for (int run = data[i] >> 2; run >= 0 && done < all; run--)
+                truth->pixels[done++] = data[i] & (LIT | EDGE);
+    }
+    if (done == all) return true;
+    free(truth->pixels);
+    truth->pixels = NULL;
+    return gn_fail(err, "self-test: this build has no whole %s inside", path);
 }
 
 /* ---- drawing and counting ------------------------------------------------------------------ */
@@ -83,7 +64,8 @@ static struct gn_selftest_count count_wrong(const struct desk *desk) {
                                       100.0 * (double)wrong / (double)all};
 }
 
-static bool draw(const struct desk *desk, const struct gn_selftest_row *row, struct gn_err *err) {
+static bool draw_row(const struct desk *desk, const struct gn_selftest_row *row,
+                     struct gn_err *err) {
     const struct gn_frame_opts opts = {
         .width_px = desk->truth.width_px,
         .height_px = desk->truth.height_px,
@@ -99,48 +81,36 @@ static bool draw(const struct desk *desk, const struct gn_selftest_row *row, str
            gn_gl_read_f32(desk->gl, desk->picture, err);
 }
 
-static void test_row(struct gn_selftest *test, uint32_t scene, struct gn_selftest_row *row,
-                     const struct desk *desk) {
-    struct gn_err err = {0};
-    if (draw(desk, row, &err))
-        row->scenes[scene] = count_wrong(desk);
-    else if (!row->failure[0])
-        snprintf(row->failure, sizeof row->failure, "%.199s", err.text);
-    test->done++;
-}
-
-static void test_scene(struct gn_selftest *test, uint32_t scene, struct desk *desk) {
-    gn_pose_init(&desk->pose, desk->scene, GN_POSE_DEFAULT);
-    desk->frame = gn_frame_create(desk->scene, gn_gl_caps(desk->gl));
-    desk->picture =
-        gn_xalloc((size_t)desk->truth.width_px * desk->truth.height_px, 4 * sizeof(float));
-    for (uint32_t i = 0; i < test->row_count; i++) test_row(test, scene, &test->rows[i], desk);
-    free(desk->picture);
-    gn_frame_destroy(desk->frame);
-    gn_pose_finish(&desk->pose);
-}
-
 static bool run_scene(struct gn_selftest *test, uint32_t scene, struct gn_gl *gl,
                       struct gn_err *err) {
     struct desk desk = {.gl = gl};
-    if (!find_truth(test->scenes[scene], &desk.truth, err)) return false;
+    if (!load_truth(test->scenes[scene], &desk.truth, err)) return false;
     test->width_px = desk.truth.width_px;
     test->height_px = desk.truth.height_px;
-    desk.scene = find_scene(test->scenes[scene], err);
-    bool ok = desk.scene && gn_gl_load(gl, desk.scene, err);
-    if (ok) test_scene(test, scene, &desk);
+    char path[64];
+    snprintf(path, sizeof path, "selftest/%s.glb", test->scenes[scene]);
+    const struct gn_embedded *file = gn_embedded_find(path);
+    desk.scene = gn_scene_load_bytes(path, file->data, file->size, NULL, NULL, err);
+    const bool ok = desk.scene && gn_gl_load(gl, desk.scene, err);
+    if (ok) {
+        gn_pose_init(&desk.pose, desk.scene, GN_POSE_DEFAULT);
+        desk.frame = gn_frame_create(desk.scene, gn_gl_caps(gl));
+        desk.picture = gn_xalloc((size_t)test->width_px * test->height_px, 4 * sizeof(float));
+        for (uint32_t i = 0; i < test->row_count; i++, test->done++) {
+            struct gn_selftest_row *row = &test->rows[i];
+            struct gn_err why = {0};
+            if (draw_row(&desk, row, &why))
+                row->scenes[scene] = count_wrong(&desk);
+            else if (!row->failure[0])
+                snprintf(row->failure, sizeof row->failure, "%.199s", why.text);
+        }
+        free(desk.picture);
+        gn_frame_destroy(desk.frame);
+        gn_pose_finish(&desk.pose);
+    }
     gn_scene_destroy(desk.scene);
     free(desk.truth.pixels);
     return ok;
-}
-
-static void list_scenes(struct gn_selftest *test) {
-    for (const struct gn_embedded *e = gn_embedded_table; e->name; e++) {
-        char *name = test->scenes[test->scene_count];
-        if (test->scene_count < GN_SELFTEST_SCENES &&
-            scene_name(e->name, name, sizeof test->scenes[0]))
-            test->scene_count++;
-    }
 }
 
 static void add_row(struct gn_selftest *test, enum gn_technique technique,
@@ -152,25 +122,20 @@ static void add_row(struct gn_selftest *test, enum gn_technique technique,
         row->scenes[i] = (struct gn_selftest_count){NAN, NAN};
 }
 
-/* The truth inside is of all that is seen: it says nothing of planar shadows. */
-static bool is_tested(const struct gn_technique_row *technique) {
-    return technique->file && !technique->on_plane;
-}
-
-static void list_moments(struct gn_selftest *test, enum gn_technique t, uint32_t moments) {
-    for (int i = 0; i < GN_STORES_MAX && gn_techniques[t].stores[i]; i++) {
-        const enum gn_moments store = (enum gn_moments)gn_techniques[t].stores[i];
-        if (moments & 1u << store) add_row(test, t, GN_ENCODING_AUTO, store);
-    }
-}
-
+/* The techniques in every format of map that the GPU has. The truth has the shadows on all
+ * surfaces: planar ones are not in it. */
 static void list_rows(struct gn_selftest *test, uint32_t encodings, uint32_t moments) {
     for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
         const enum gn_technique t = (enum gn_technique)i;
-        if (gn_technique_filters_map(t)) list_moments(test, t, moments);
-        const bool by_encoding = is_tested(&gn_techniques[t]) && !gn_technique_filters_map(t);
-        for (int e = 0; e < GN_ENCODING_COUNT && by_encoding; e++)
-            if (encodings & 1u << e) add_row(test, t, (enum gn_encoding)e, GN_MOMENTS_NONE);
+        const struct gn_technique_row *technique = &gn_techniques[i];
+        if (gn_technique_filters_map(t)) {
+            for (int k = 0; k < GN_STORES_MAX && technique->stores[k]; k++)
+                if (moments & 1u << technique->stores[k])
+                    add_row(test, t, GN_ENCODING_AUTO, (enum gn_moments)technique->stores[k]);
+        } else if (technique->file && !technique->on_plane) {
+            for (int e = 0; e < GN_ENCODING_COUNT; e++)
+                if (encodings & 1u << e) add_row(test, t, (enum gn_encoding)e, GN_MOMENTS_NONE);
+        }
     }
 }
 
@@ -180,7 +145,15 @@ static const char *format_of(const struct gn_selftest_row *row) {
 
 bool gn_selftest_run(struct gn_selftest *test, struct gn_gl *gl, struct gn_err *err) {
     *test = (struct gn_selftest){0};
-    list_scenes(test);
+    for (const struct gn_embedded *e = gn_embedded_table; e->name; e++) {
+        static const char folder[] = "selftest/"; /* "selftest/box.glb" is of the scene "box" */
+        const size_t length = strlen(e->name), skip = sizeof folder - 1;
+        if (test->scene_count == GN_SELFTEST_SCENES || strncmp(e->name, folder, skip) != 0 ||
+            strcmp(e->name + length - 4, ".glb") != 0)
+            continue;
+        snprintf(test->scenes[test->scene_count++], sizeof test->scenes[0], "%.*s",
+                 (int)(length - skip - 4), e->name + skip);
+    }
     list_rows(test, gn_caps_encodings(gn_gl_caps(gl)), gn_caps_moments(gn_gl_caps(gl)));
     test->all = test->row_count * test->scene_count;
     if (!test->all) return gn_fail(err, "self-test: this build has no scenes inside");
@@ -191,14 +164,11 @@ bool gn_selftest_run(struct gn_selftest *test, struct gn_gl *gl, struct gn_err *
 
 /* ---- results ------------------------------------------------------------------------------- */
 
-static double away_of(const struct gn_selftest_count *count) { return count->away; }
-static double wrong_of(const struct gn_selftest_count *count) { return count->wrong; }
-
-static struct gn_selftest_sum sum(const struct gn_selftest *test, const struct gn_selftest_row *row,
-                                  double (*of)(const struct gn_selftest_count *)) {
+static struct gn_selftest_sum sum_scenes(const struct gn_selftest *test,
+                                         const struct gn_selftest_row *row, bool away) {
     struct gn_selftest_sum s = {0};
     for (uint32_t i = 0; i < test->scene_count; i++) {
-        double share = of(&row->scenes[i]);
+        double share = away ? row->scenes[i].away : row->scenes[i].wrong;
         s.mean += share / test->scene_count;
         if (share <= s.worst) continue; /* NAN is worst */
         s.worst = share;
@@ -211,12 +181,12 @@ static struct gn_selftest_sum sum(const struct gn_selftest *test, const struct g
 
 struct gn_selftest_sum gn_selftest_away(const struct gn_selftest *test,
                                         const struct gn_selftest_row *row) {
-    return sum(test, row, away_of);
+    return sum_scenes(test, row, true);
 }
 
 struct gn_selftest_sum gn_selftest_wrong(const struct gn_selftest *test,
                                          const struct gn_selftest_row *row) {
-    return sum(test, row, wrong_of);
+    return sum_scenes(test, row, false);
 }
 
 bool gn_selftest_row_passes(const struct gn_selftest *test, const struct gn_selftest_row *row) {
@@ -231,24 +201,24 @@ uint32_t gn_selftest_failures(const struct gn_selftest *test) {
     return failures;
 }
 
-static void print_row(const struct gn_selftest *test, const struct gn_selftest_row *row, FILE *to) {
-    struct gn_selftest_sum away = gn_selftest_away(test, row), wrong = gn_selftest_wrong(test, row);
-    fprintf(to, "  %-10s %-12s", gn_techniques[row->technique].name, format_of(row));
-    if (row->failure[0])
-        fprintf(to, " FAIL   %s\n", row->failure);
-    else
-        fprintf(to, " %-6s %7.3f %7.3f  %-9s %7.2f %7.2f  %s\n",
-                gn_selftest_row_passes(test, row) ? "PASS" : "FAIL", away.mean, away.worst,
-                away.worst > 0 ? test->scenes[away.worst_scene] : "-", wrong.mean, wrong.worst,
-                test->scenes[wrong.worst_scene]);
-}
-
 void gn_selftest_print(const struct gn_selftest *test, FILE *to) {
     fprintf(to, "\nSelf-test: %u scenes at %ux%u with maps of %d px, wrong pixels in %%\n",
             test->scene_count, test->width_px, test->height_px, GN_SELFTEST_MAP_PX);
     fprintf(to, "  %-10s %-12s %-6s %7s %7s  %-9s %7s %7s\n", "technique", "map", "", "away",
             "worst", "scene", "all", "worst");
-    for (uint32_t i = 0; i < test->row_count; i++) print_row(test, &test->rows[i], to);
+    for (uint32_t i = 0; i < test->row_count; i++) {
+        const struct gn_selftest_row *row = &test->rows[i];
+        const struct gn_selftest_sum away = gn_selftest_away(test, row);
+        const struct gn_selftest_sum wrong = gn_selftest_wrong(test, row);
+        fprintf(to, "  %-10s %-12s", gn_techniques[row->technique].name, format_of(row));
+        if (row->failure[0])
+            fprintf(to, " FAIL   %s\n", row->failure);
+        else
+            fprintf(to, " %-6s %7.3f %7.3f  %-9s %7.2f %7.2f  %s\n",
+                    gn_selftest_row_passes(test, row) ? "PASS" : "FAIL", away.mean, away.worst,
+                    away.worst > 0 ? test->scenes[away.worst_scene] : "-", wrong.mean, wrong.worst,
+                    test->scenes[wrong.worst_scene]);
+    }
     uint32_t failures = gn_selftest_failures(test);
     fprintf(to, "  %u of %u pass; limits for the worst scene: %g away from edges, %g of all\n",
             test->row_count - failures, test->row_count, GN_SELFTEST_AWAY_MAX,
@@ -260,21 +230,20 @@ static json_t *sum_json(const struct gn_selftest *test, struct gn_selftest_sum s
                      gn_json_make_number(s.worst), "scene", test->scenes[s.worst_scene]);
 }
 
-static json_t *row_json(const struct gn_selftest *test, const struct gn_selftest_row *row) {
-    return json_pack("{ss ss sb ss? so so}", "technique", gn_techniques[row->technique].name,
-                     "map_format", format_of(row), "pass", gn_selftest_row_passes(test, row),
-                     "failure", row->failure[0] ? row->failure : NULL, "away",
-                     sum_json(test, gn_selftest_away(test, row)), "wrong",
-                     sum_json(test, gn_selftest_wrong(test, row)));
-}
-
 json_t *gn_selftest_json(const struct gn_selftest *test) {
     json_t *scenes = json_array(), *rows = json_array();
     uint32_t failures = gn_selftest_failures(test);
     for (uint32_t i = 0; i < test->scene_count; i++)
         json_array_append_new(scenes, json_string(test->scenes[i]));
-    for (uint32_t i = 0; i < test->row_count; i++)
-        json_array_append_new(rows, row_json(test, &test->rows[i]));
+    for (uint32_t i = 0; i < test->row_count; i++) {
+        const struct gn_selftest_row *row = &test->rows[i];
+        json_array_append_new(
+            rows, json_pack("{ss ss sb ss? so so}", "technique", gn_techniques[row->technique].name,
+                            "map_format", format_of(row), "pass", gn_selftest_row_passes(test, row),
+                            "failure", row->failure[0] ? row->failure : NULL, "away",
+                            sum_json(test, gn_selftest_away(test, row)), "wrong",
+                            sum_json(test, gn_selftest_wrong(test, row))));
+    }
     return json_pack("{s[ii] si s{sf sf} so so si si}", "size_px", (int)test->width_px,
                      (int)test->height_px, "map_px", GN_SELFTEST_MAP_PX, "limits", "away",
                      GN_SELFTEST_AWAY_MAX, "wrong", GN_SELFTEST_WRONG_MAX, "scenes", scenes, "rows",
