@@ -1,5 +1,5 @@
-/* gnomon doctor: what this machine can do. Drivers are woken up in children (child.h), one a
- * backend: what they print, a crash and a hang all end in the report. */
+/* gnomon doctor: what this machine can do. Each backend is opened in a child (child.h): what its
+ * driver prints, a crash and a hang all end in the report. */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -10,13 +10,13 @@
 #include "core/clock.h"
 #include "display/display.h"
 
-struct attempt { /* what the child is told */
+struct attempt { /* what the child does */
     const struct gn_settings *settings;
     const char *backend;
     bool self_test;
     int64_t begun_ns;
 };
-struct answer { /* what it leaves, in shared memory */
+struct answer { /* what it finds, in shared memory */
     bool opens;
     struct gn_err err; /* of opening, or of the self-test */
     struct gn_caps caps;
@@ -47,7 +47,8 @@ static void try_backend(void *shared, const void *argument) {
     gn_display_close(&display);
 }
 
-/* ---- here ---------------------------------------------------------------------------------- */
+/* ---- in the parent
+ * ---------------------------------------------------------------------------------- */
 
 /* On a terminal, once the work has taken a second. */
 static bool has_progress(const struct attempt *attempt) {
@@ -59,10 +60,6 @@ static void show_progress(void *shared, const void *argument) {
     const volatile struct gn_selftest *test = &((const struct answer *)shared)->self_test;
     if (has_progress(attempt))
         fprintf(stderr, "\rself-test: picture %u of %u ", test->done, test->all);
-}
-
-static void end_progress(const struct attempt *attempt) {
-    if (has_progress(attempt)) fprintf(stderr, "\r\33[K");
 }
 
 static const struct gn_display_ops *find_built(const char *name) {
@@ -83,46 +80,35 @@ static struct gn_doctor_backend *add_backend(struct gn_doctor_report *report, co
     return b;
 }
 
-/* False only for wrong usage: --without with a name that is none. */
-static bool check_backend(struct gn_doctor_backend *b, const struct gn_settings *settings,
-                          struct answer *answer, struct gn_err *err) {
-    const struct attempt attempt = {.settings = settings, .backend = b->name};
-    const struct gn_child child = {.work = try_backend, .argument = &attempt};
-    struct gn_err end = {0};
-    memset(answer, 0, sizeof *answer);
-    bool ended = gn_child_run(&child, answer, &end);
-    b->opens = ended && answer->opens;
-    b->caps = answer->caps;
-    const char *why = ended ? answer->err.text : end.text;
-    char prefix[64]; /* the report names it already */
-    snprintf(prefix, sizeof prefix, "backend %s: ", b->name);
-    if (strncmp(why, prefix, strlen(prefix)) == 0) why += strlen(prefix);
-    if (!b->opens) snprintf(b->why, sizeof b->why, "%.319s", why);
-    if (!ended || answer->err.status != GN_EXIT_USAGE) return true;
-    *err = answer->err;
-    return false;
-}
-
-/* All that --backend knows, in the order in which "auto" tries them, then those not built in. */
+/* All that --backend knows, in the order in which "auto" tries them, then those not built in. False
+ * only for wrong usage: an unknown name in --without. */
 static bool check_backends(struct gn_doctor_report *report, const struct gn_settings *settings,
                            struct answer *answer, struct gn_err *err) {
     const struct gn_option_row *row = gn_option_find("backend", strlen("backend"));
     for (const struct gn_display_ops *const *ops = gn_displays; *ops; ops++) {
         struct gn_doctor_backend *b = add_backend(report, (*ops)->name);
-        if (b && !check_backend(b, settings, answer, err)) return false;
+        if (!b) continue;
+        const struct attempt attempt = {.settings = settings, .backend = b->name};
+        const struct gn_child child = {.work = try_backend, .argument = &attempt};
+        struct gn_err end = {0};
+        memset(answer, 0, sizeof *answer);
+        const bool ended = gn_child_run(&child, answer, &end);
+        b->opens = ended && answer->opens;
+        b->caps = answer->caps;
+        const char *why = ended ? answer->err.text : end.text;
+        char prefix[64]; /* the report names the backend already */
+        snprintf(prefix, sizeof prefix, "backend %s: ", b->name);
+        if (strncmp(why, prefix, strlen(prefix)) == 0) why += strlen(prefix);
+        if (!b->opens) snprintf(b->why, sizeof b->why, "%.319s", why);
+        if (ended && answer->err.status == GN_EXIT_USAGE) {
+            *err = answer->err;
+            return false;
+        }
     }
     for (const struct gn_choice *choice = row->choices; choice->name; choice++)
         if (strcmp(choice->name, "auto") != 0 && !find_built(choice->name))
             add_backend(report, choice->name);
     return true;
-}
-
-static int choose(const struct gn_doctor_report *report, const char *wanted) {
-    for (int i = 0; i < report->backend_count; i++) {
-        const struct gn_doctor_backend *b = &report->backends[i];
-        if (b->opens && (strcmp(wanted, "auto") == 0 || strcmp(wanted, b->name) == 0)) return i;
-    }
-    return -1;
 }
 
 static void self_test(struct gn_doctor_report *report, const struct gn_settings *settings,
@@ -141,16 +127,17 @@ static void self_test(struct gn_doctor_report *report, const struct gn_settings 
     memset(answer, 0, sizeof *answer);
     bool ended = gn_child_run(&child, answer, &end);
     if (!ended) answer->err = end;
-    end_progress(&attempt);
+    if (has_progress(&attempt)) fprintf(stderr, "\r\33[K");
     if (answer->self_test.row_count) report->self_test = &answer->self_test;
     if (!ended || !answer->self_tested)
-        gn_doctor_add(report, "send this report to those who make gnomon or the GPU's driver",
-                      "the self-test on %s stopped after %u of %u pictures: %s", name,
-                      answer->self_test.done, answer->self_test.all, answer->err.text);
+        gn_problem_add(&report->problems,
+                       "send this report to those who make gnomon or the GPU's driver",
+                       "the self-test on %s stopped after %u of %u pictures: %s", name,
+                       answer->self_test.done, answer->self_test.all, answer->err.text);
 }
 
-static bool verdict(const struct gn_doctor_report *report, const struct gn_settings *settings,
-                    const struct answer *answer, struct gn_err *err) {
+static bool judge_report(const struct gn_doctor_report *report, const struct gn_settings *settings,
+                         const struct answer *answer, struct gn_err *err) {
     bool any = strcmp(settings->display.backend, "auto") == 0;
     if (report->chosen < 0 && !any && !find_built(settings->display.backend))
         return gn_fail(err, "backend %s is not in this build: try --backend auto",
@@ -167,32 +154,36 @@ static bool verdict(const struct gn_doctor_report *report, const struct gn_setti
     return answer->self_tested || gn_fail(err, "self-test: %s", answer->err.text);
 }
 
-static bool examine(struct gn_doctor_report *report, const struct gn_settings *settings,
-                    struct answer *answer, struct gn_err *err) {
-    gn_machine_read(&report->machine, "");
-    gn_input_list_lines(&report->input);
-    for (int i = 0; i < report->machine.device_count; i++) {
-        struct gn_device *device = &report->machine.devices[i];
-        if (device->kind == GN_DEVICE_CARD)
-            gn_display_holder(device->path, device->holder, sizeof device->holder);
-    }
-    if (!check_backends(report, settings, answer, err)) return false;
-    report->chosen = choose(report, settings->display.backend);
-    gn_doctor_diagnose(report);
-    if (settings->run.self_test && report->chosen >= 0) self_test(report, settings, answer);
-    if (!settings->run.json)
-        gn_doctor_print(report, stdout);
-    else if (!gn_doctor_print_json(report, stdout, err))
-        return false;
-    return verdict(report, settings, answer, err);
-}
-
 bool gn_cli_doctor(const struct gn_options *options, struct gn_warnings *warnings,
                    struct gn_err *err) {
     (void)warnings;
+    const struct gn_settings *settings = options->settings;
     struct gn_doctor_report report = {.chosen = -1};
     struct answer *answer = gn_child_share(sizeof *answer, err);
-    bool ok = answer && examine(&report, options->settings, answer, err);
+    if (!answer) return false;
+    gn_machine_read(&report.machine, "");
+    gn_input_list_lines(&report.input);
+    for (int i = 0; i < report.machine.device_count; i++) {
+        struct gn_device *device = &report.machine.devices[i];
+        if (device->kind == GN_DEVICE_CARD)
+            gn_display_holder(device->path, device->holder, sizeof device->holder);
+    }
+    bool ok = check_backends(&report, settings, answer, err);
+    if (ok) {
+        const char *wanted = settings->display.backend;
+        for (int i = 0; i < report.backend_count && report.chosen < 0; i++) {
+            const struct gn_doctor_backend *b = &report.backends[i];
+            if (b->opens && (strcmp(wanted, "auto") == 0 || strcmp(wanted, b->name) == 0))
+                report.chosen = i;
+        }
+        gn_doctor_diagnose(&report);
+        if (settings->run.self_test && report.chosen >= 0) self_test(&report, settings, answer);
+        if (settings->run.json)
+            ok = gn_doctor_print_json(&report, stdout, err);
+        else
+            gn_doctor_print(&report, stdout);
+    }
+    ok = ok && judge_report(&report, settings, answer, err);
     gn_child_unshare(answer, sizeof *answer);
     gn_input_list_finish(&report.input);
     return ok;

@@ -8,46 +8,41 @@ enum { COLUMNS = 96 };
 
 /* ---- for people ---------------------------------------------------------------------------- */
 
-/* One more word, on a line of its own where it does not fit any more. */
-static int print_word(const char *word, int column, FILE *to) {
-    const int length = (int)strlen(word);
-    if (column + 1 + length > COLUMNS) column = fprintf(to, "\n     ") - 1;
-    fprintf(to, " %s", word);
-    return column + 1 + length;
-}
-
 static void print_lines(const struct gn_input_chip *chip, FILE *to) {
     int column = fprintf(to, "    ");
     for (int i = 0; i < chip->line_count; i++) {
         const struct gn_input_line *line = &chip->lines[i];
+        if (!line->name[0] && !line->used) continue;
         char word[160];
         int used = line->name[0] ? snprintf(word, sizeof word, "%s", line->name)
                                  : snprintf(word, sizeof word, "line %d", i);
         if (line->used)
             snprintf(word + used, sizeof word - (size_t)used, " (in use%s%s)",
                      line->consumer[0] ? " by " : "", line->consumer);
-        if (line->name[0] || line->used) column = print_word(word, column, to);
+        const int length = (int)strlen(word);
+        if (column + 1 + length > COLUMNS) column = fprintf(to, "\n     ") - 1;
+        fprintf(to, " %s", word);
+        column += 1 + length;
     }
     fprintf(to, "\n");
-}
-
-static void print_chip(const struct gn_input_chip *chip, FILE *to) {
-    int named = 0, used = 0;
-    for (int i = 0; i < chip->line_count; i++) {
-        named += chip->lines[i].name[0] != '\0';
-        used += chip->lines[i].used;
-    }
-    if (chip->error) return; /* the node says so */
-    fprintf(to, "  %s: %d line%s, label %s", chip->name, chip->line_count,
-            chip->line_count == 1 ? "" : "s", chip->label);
-    if (!named) fprintf(to, "; without names: write label:%s/NUMBER", chip->label);
-    fprintf(to, "\n");
-    if (named || used) print_lines(chip, to);
 }
 
 void gn_doctor_print_input(const struct gn_doctor_report *report, FILE *to) {
     const struct gn_input_list *input = &report->input;
-    for (int i = 0; i < input->chip_count; i++) print_chip(&input->chips[i], to);
+    for (int i = 0; i < input->chip_count; i++) {
+        const struct gn_input_chip *chip = &input->chips[i];
+        int named = 0, used = 0;
+        for (int k = 0; k < chip->line_count; k++) {
+            named += chip->lines[k].name[0] != '\0';
+            used += chip->lines[k].used;
+        }
+        if (chip->error) continue; /* printed with the device */
+        fprintf(to, "  %s: %d line%s, label %s", chip->name, chip->line_count,
+                chip->line_count == 1 ? "" : "s", chip->label);
+        if (!named) fprintf(to, "; without names: write label:%s/NUMBER", chip->label);
+        fprintf(to, "\n");
+        if (named || used) print_lines(chip, to);
+    }
     fprintf(to, "  read by %s\n", input->library ? input->library : "nothing in this build");
     fprintf(to, "\nKeys\n  %d input device%s", input->devices, input->devices == 1 ? "" : "s");
     if (input->devices_denied) fprintf(to, ", %d of them not to be read", input->devices_denied);
@@ -56,19 +51,6 @@ void gn_doctor_print_input(const struct gn_doctor_report *report, FILE *to) {
 
 /* ---- for programs -------------------------------------------------------------------------- */
 
-static json_t *lines_json(const struct gn_input_chip *chip) {
-    json_t *lines = json_array();
-    for (int i = 0; i < chip->line_count; i++) {
-        const struct gn_input_line *line = &chip->lines[i];
-        json_array_append_new(
-            lines,
-            json_pack("{so sb so}", "name", gn_json_make_text(line->name[0] ? line->name : NULL),
-                      "used", line->used, "consumer",
-                      gn_json_make_text(line->consumer[0] ? line->consumer : NULL)));
-    }
-    return lines;
-}
-
 void gn_doctor_describe_chip(const struct gn_doctor_report *report, const char *path,
                              json_t *object) {
     json_t *label = NULL, *lines = NULL;
@@ -76,7 +58,14 @@ void gn_doctor_describe_chip(const struct gn_doctor_report *report, const char *
         const struct gn_input_chip *chip = &report->input.chips[i];
         if (strcmp(chip->path, path) != 0 || chip->error) continue;
         label = gn_json_make_text(chip->label);
-        lines = lines_json(chip);
+        lines = json_array();
+        for (int k = 0; k < chip->line_count; k++) {
+            const struct gn_input_line *line = &chip->lines[k];
+            json_t *name = gn_json_make_text(line->name[0] ? line->name : NULL);
+            json_t *consumer = gn_json_make_text(line->consumer[0] ? line->consumer : NULL);
+            json_array_append_new(lines, json_pack("{so sb so}", "name", name, "used", line->used,
+                                                   "consumer", consumer));
+        }
     }
     json_object_set_new(object, "label", label ? label : json_null());
     json_object_set_new(object, "lines", lines ? lines : json_null());

@@ -24,33 +24,6 @@ static const char *const instead[GN_CAP_COUNT] = {
 
 /* ---- for people ---------------------------------------------------------------------------- */
 
-static void print_machine(const struct gn_machine *m, FILE *to) {
-    fprintf(to, "Machine\n");
-    if (m->model[0]) fprintf(to, "  %-11s %s\n", "board", m->model);
-    fprintf(to, "  %-11s %s; %s; %s; %d CPU%s\n", "system", m->system[0] ? m->system : "unknown",
-            m->kernel, m->arch, m->cpus, m->cpus == 1 ? "" : "s");
-    fprintf(to, "  %-11s %llu MB, %llu MB free", "memory", (unsigned long long)m->memory_mb,
-            (unsigned long long)m->free_mb);
-    if (m->cma_mb) fprintf(to, ", %llu MB contiguous (CMA)", (unsigned long long)m->cma_mb);
-    fprintf(to, "\n  %-11s %s; groups", "user", m->user);
-    for (int i = 0; i < m->group_count; i++) fprintf(to, " %s", m->groups[i]);
-    fprintf(to, "\n");
-}
-
-static void print_backends(const struct gn_doctor_report *report, FILE *to) {
-    fprintf(to, "\nBackends\n");
-    for (int i = 0; i < report->backend_count; i++) {
-        const struct gn_doctor_backend *b = &report->backends[i];
-        fprintf(to, "  %-11s ", b->name);
-        if (!b->built)
-            fprintf(to, "not in this build\n");
-        else if (b->opens)
-            fprintf(to, "opens: %s\n", b->what);
-        else
-            fprintf(to, "does not open: %s\n", b->why);
-    }
-}
-
 /* What a technique's maps are kept in, if nothing is asked for. */
 static const char *chosen_name(const struct gn_caps *caps, enum gn_technique technique) {
     bool fell_back;
@@ -61,20 +34,6 @@ static const char *chosen_name(const struct gn_caps *caps, enum gn_technique tec
     return gn_encodings[gn_encoding_choose(technique, GN_ENCODING_AUTO, gn_caps_encodings(caps),
                                            &fell_back)]
         .name;
-}
-
-static void print_maps(const struct gn_caps *caps, FILE *to) {
-    uint32_t encodings = gn_caps_encodings(caps);
-    fprintf(to, "  %-11s", "map formats");
-    for (int i = 0; i < GN_ENCODING_COUNT; i++)
-        if (encodings & 1u << i) fprintf(to, " %s", gn_encodings[i].name);
-    for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++)
-        if (gn_caps_moments(caps) & 1u << i) fprintf(to, " %s", gn_moments[i].name);
-    fprintf(to, "\n  %-11s", "chosen");
-    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
-        if (gn_techniques[i].file)
-            fprintf(to, " %s:%s", gn_techniques[i].name, chosen_name(caps, (enum gn_technique)i));
-    fprintf(to, "\n");
 }
 
 static void print_gpu(const struct gn_doctor_backend *b, FILE *to) {
@@ -91,23 +50,29 @@ static void print_gpu(const struct gn_doctor_backend *b, FILE *to) {
     for (int i = 0; i < GN_CAP_COUNT; i++)
         if (!(caps->has & 1u << i))
             fprintf(to, "  %-11s %s; instead: %s\n", "not proved", gn_cap_names[i], instead[i]);
-    print_maps(caps, to);
-}
-
-static void print_device(const struct gn_device *device, FILE *to) {
-    static const char *const may[] = {"no access", "read only", "write only", "read and write"};
-    fprintf(to, "  %-20s %-16s %s (group %s)%s%s\n", device->path,
-            device->driver[0] ? device->driver : "unknown driver",
-            may[device->readable + 2 * device->writable], device->group,
-            device->holder[0] ? "; in use by " : "", device->holder);
+    fprintf(to, "  %-11s", "map formats");
+    for (int i = 0; i < GN_ENCODING_COUNT; i++)
+        if (gn_caps_encodings(caps) & 1u << i) fprintf(to, " %s", gn_encodings[i].name);
+    for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++)
+        if (gn_caps_moments(caps) & 1u << i) fprintf(to, " %s", gn_moments[i].name);
+    fprintf(to, "\n  %-11s", "chosen");
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
+        if (gn_techniques[i].file)
+            fprintf(to, " %s:%s", gn_techniques[i].name, chosen_name(caps, (enum gn_technique)i));
+    fprintf(to, "\n");
 }
 
 static void print_devices(const struct gn_machine *m, bool gpio, FILE *to) {
+    static const char *const may[] = {"no access", "read only", "write only", "read and write"};
     bool any = false;
     fprintf(to, "\n%s\n", gpio ? "GPIO" : "Cards");
     for (int i = 0; i < m->device_count; i++) {
-        if ((m->devices[i].kind == GN_DEVICE_GPIO) != gpio) continue;
-        print_device(&m->devices[i], to);
+        const struct gn_device *device = &m->devices[i];
+        if ((device->kind == GN_DEVICE_GPIO) != gpio) continue;
+        fprintf(to, "  %-20s %-16s %s (group %s)%s%s\n", device->path,
+                device->driver[0] ? device->driver : "unknown driver",
+                may[device->readable + 2 * device->writable], device->group,
+                device->holder[0] ? "; in use by " : "", device->holder);
         any = true;
     }
     if (!any) fprintf(to, "  none\n");
@@ -116,23 +81,40 @@ static void print_devices(const struct gn_machine *m, bool gpio, FILE *to) {
                 m->connectors[i].modes[0] ? ", " : "", m->connectors[i].modes);
 }
 
-static void print_problems(const struct gn_doctor_report *report, FILE *to) {
-    fprintf(to, "\nProblems\n");
-    if (!report->problem_count) fprintf(to, "  none\n");
-    for (int i = 0; i < report->problem_count; i++)
-        fprintf(to, "  %d. %s\n     cure: %s\n", i + 1, report->problems[i].what,
-                report->problems[i].cure);
-}
-
 void gn_doctor_print(const struct gn_doctor_report *report, FILE *to) {
-    fprintf(to, "gnomon %s\n\n", GN_VERSION);
-    print_machine(&report->machine, to);
-    print_backends(report, to);
+    const struct gn_machine *m = &report->machine;
+    fprintf(to, "gnomon %s\n\nMachine\n", GN_VERSION);
+    if (m->model[0]) fprintf(to, "  %-11s %s\n", "board", m->model);
+    fprintf(to, "  %-11s %s; %s; %s; %d CPU%s\n", "system", m->system[0] ? m->system : "unknown",
+            m->kernel, m->arch, m->cpus, m->cpus == 1 ? "" : "s");
+    fprintf(to, "  %-11s %llu MB, %llu MB free", "memory", (unsigned long long)m->memory_mb,
+            (unsigned long long)m->free_mb);
+    if (m->cma_mb) fprintf(to, ", %llu MB contiguous (CMA)", (unsigned long long)m->cma_mb);
+    fprintf(to, "\n  %-11s %s; groups", "user", m->user);
+    for (int i = 0; i < m->group_count; i++) fprintf(to, " %s", m->groups[i]);
+
+    fprintf(to, "\n\nBackends\n");
+    for (int i = 0; i < report->backend_count; i++) {
+        const struct gn_doctor_backend *b = &report->backends[i];
+        fprintf(to, "  %-11s ", b->name);
+        if (!b->built)
+            fprintf(to, "not in this build\n");
+        else if (b->opens)
+            fprintf(to, "opens: %s\n", b->what);
+        else
+            fprintf(to, "does not open: %s\n", b->why);
+    }
+
     if (report->chosen >= 0) print_gpu(&report->backends[report->chosen], to);
-    print_devices(&report->machine, false, to);
-    print_devices(&report->machine, true, to);
+    print_devices(m, false, to);
+    print_devices(m, true, to);
     gn_doctor_print_input(report, to);
-    print_problems(report, to);
+
+    fprintf(to, "\nProblems\n");
+    if (!report->problems.count) fprintf(to, "  none\n");
+    for (uint32_t i = 0; i < report->problems.count; i++)
+        fprintf(to, "  %u. %s\n     cure: %s\n", i + 1, report->problems.items[i].what,
+                report->problems.items[i].cure);
     if (report->self_test) gn_selftest_print(report->self_test, to);
 }
 
@@ -141,50 +123,6 @@ void gn_doctor_print(const struct gn_doctor_report *report, FILE *to) {
 /* What is not known is empty. */
 static json_t *text(const char *value) {
     return gn_json_make_text(value && value[0] ? value : NULL);
-}
-
-static json_t *machine_json(const struct gn_machine *m) {
-    json_t *groups = json_array();
-    for (int i = 0; i < m->group_count; i++) json_array_append_new(groups, text(m->groups[i]));
-    return json_pack("{so so so so si sI sI sI so so}", "model", text(m->model), "system",
-                     text(m->system), "kernel", text(m->kernel), "arch", text(m->arch), "cpus",
-                     m->cpus, "memory_mb", (json_int_t)m->memory_mb, "memory_free_mb",
-                     (json_int_t)m->free_mb, "cma_mb", (json_int_t)m->cma_mb, "user", text(m->user),
-                     "groups", groups);
-}
-
-static json_t *backends_json(const struct gn_doctor_report *report) {
-    json_t *all = json_array();
-    for (int i = 0; i < report->backend_count; i++) {
-        const struct gn_doctor_backend *b = &report->backends[i];
-        json_array_append_new(
-            all, json_pack("{ss so sb sb so so so so so}", "name", b->name, "what", text(b->what),
-                           "built", b->built, "opens", b->opens, "why", text(b->why), "vendor",
-                           text(b->caps.vendor), "renderer", text(b->caps.renderer), "gles",
-                           text(b->caps.version), "software",
-                           b->opens ? json_boolean(b->caps.software) : json_null()));
-    }
-    return all;
-}
-
-static json_t *maps_json(const struct gn_caps *caps) {
-    json_t *formats = json_array();
-    for (int i = 0; i < GN_ENCODING_COUNT; i++)
-        if (gn_caps_encodings(caps) & 1u << i)
-            json_array_append_new(formats, json_string(gn_encodings[i].name));
-    for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++)
-        if (gn_caps_moments(caps) & 1u << i)
-            json_array_append_new(formats, json_string(gn_moments[i].name));
-    return formats;
-}
-
-static json_t *auto_json(const struct gn_caps *caps) {
-    json_t *chosen = json_object();
-    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
-        if (gn_techniques[i].file)
-            json_object_set_new(chosen, gn_techniques[i].name,
-                                json_string(chosen_name(caps, (enum gn_technique)i)));
-    return chosen;
 }
 
 static json_t *gpu_json(const struct gn_doctor_backend *b) {
@@ -196,11 +134,22 @@ static json_t *gpu_json(const struct gn_doctor_backend *b) {
         else
             json_array_append_new(
                 not_proved, json_pack("{ss ss}", "name", gn_cap_names[i], "instead", instead[i]));
-    return json_pack(
-        "{ss so so so sb si si so so so so}", "backend", b->name, "vendor", text(caps->vendor),
-        "renderer", text(caps->renderer), "gles", text(caps->version), "software", caps->software,
-        "max_texture_px", caps->max_texture_px, "texture_units", caps->max_texture_units, "proved",
-        proved, "not_proved", not_proved, "map_formats", maps_json(caps), "auto", auto_json(caps));
+    json_t *formats = json_array(), *chosen = json_object();
+    for (int i = 0; i < GN_ENCODING_COUNT; i++)
+        if (gn_caps_encodings(caps) & 1u << i)
+            json_array_append_new(formats, json_string(gn_encodings[i].name));
+    for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++)
+        if (gn_caps_moments(caps) & 1u << i)
+            json_array_append_new(formats, json_string(gn_moments[i].name));
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
+        if (gn_techniques[i].file)
+            json_object_set_new(chosen, gn_techniques[i].name,
+                                json_string(chosen_name(caps, (enum gn_technique)i)));
+    return json_pack("{ss so so so sb si si so so so so}", "backend", b->name, "vendor",
+                     text(caps->vendor), "renderer", text(caps->renderer), "gles",
+                     text(caps->version), "software", caps->software, "max_texture_px",
+                     caps->max_texture_px, "texture_units", caps->max_texture_units, "proved",
+                     proved, "not_proved", not_proved, "map_formats", formats, "auto", chosen);
 }
 
 static json_t *devices_json(const struct gn_doctor_report *report, bool gpio) {
@@ -224,34 +173,37 @@ static json_t *devices_json(const struct gn_doctor_report *report, bool gpio) {
     return all;
 }
 
-static json_t *connectors_json(const struct gn_machine *m) {
-    json_t *all = json_array();
-    for (int i = 0; i < m->connector_count; i++)
-        json_array_append_new(all, json_pack("{so so so so}", "name", text(m->connectors[i].name),
-                                             "status", text(m->connectors[i].status), "mode",
-                                             text(m->connectors[i].mode), "modes",
-                                             text(m->connectors[i].modes)));
-    return all;
-}
-
-static json_t *problems_json(const struct gn_doctor_report *report) {
-    json_t *all = json_array();
-    for (int i = 0; i < report->problem_count; i++)
-        json_array_append_new(all, json_pack("{so so}", "what", text(report->problems[i].what),
-                                             "cure", text(report->problems[i].cure)));
-    return all;
-}
-
 bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struct gn_err *err) {
     const struct gn_machine *m = &report->machine;
-    bool draws = report->chosen >= 0;
-    json_t *all =
-        json_pack("{ss sb so so so so so so so so}", "version", GN_VERSION, "can_draw", draws,
-                  "machine", machine_json(m), "backends", backends_json(report), "gpu",
-                  draws ? gpu_json(&report->backends[report->chosen]) : json_null(), "cards",
-                  devices_json(report, false), "connectors", connectors_json(m), "gpio",
-                  devices_json(report, true), "input", gn_doctor_input_json(report), "problems",
-                  problems_json(report));
+    const bool draws = report->chosen >= 0;
+    json_t *groups = json_array(), *backends = json_array(), *connectors = json_array();
+    for (int i = 0; i < m->group_count; i++) json_array_append_new(groups, text(m->groups[i]));
+    json_t *machine = json_pack(
+        "{so so so so si sI sI sI so so}", "model", text(m->model), "system", text(m->system),
+        "kernel", text(m->kernel), "arch", text(m->arch), "cpus", m->cpus, "memory_mb",
+        (json_int_t)m->memory_mb, "memory_free_mb", (json_int_t)m->free_mb, "cma_mb",
+        (json_int_t)m->cma_mb, "user", text(m->user), "groups", groups);
+    for (int i = 0; i < report->backend_count; i++) {
+        const struct gn_doctor_backend *b = &report->backends[i];
+        json_array_append_new(
+            backends, json_pack("{ss so sb sb so so so so so}", "name", b->name, "what",
+                                text(b->what), "built", b->built, "opens", b->opens, "why",
+                                text(b->why), "vendor", text(b->caps.vendor), "renderer",
+                                text(b->caps.renderer), "gles", text(b->caps.version), "software",
+                                b->opens ? json_boolean(b->caps.software) : json_null()));
+    }
+    for (int i = 0; i < m->connector_count; i++) {
+        const struct gn_connector *c = &m->connectors[i];
+        json_array_append_new(connectors, json_pack("{so so so so}", "name", text(c->name),
+                                                    "status", text(c->status), "mode",
+                                                    text(c->mode), "modes", text(c->modes)));
+    }
+    json_t *all = json_pack("{ss sb so so so so so so so so}", "version", GN_VERSION, "can_draw",
+                            draws, "machine", machine, "backends", backends, "gpu",
+                            draws ? gpu_json(&report->backends[report->chosen]) : json_null(),
+                            "cards", devices_json(report, false), "connectors", connectors, "gpio",
+                            devices_json(report, true), "input", gn_doctor_input_json(report),
+                            "problems", gn_problem_json(&report->problems));
     if (all && report->self_test)
         json_object_set_new(all, "self_test", gn_selftest_json(report->self_test));
     return gn_json_print(all, 7, to, err);

@@ -1,16 +1,17 @@
-/* What `gnomon doctor` has found out, and the two ways to say it. */
+/* What `gnomon doctor` has found out, as text and as JSON. */
 #ifndef GN_CLI_DOCTOR_REPORT_H
 #define GN_CLI_DOCTOR_REPORT_H
 
 #include <stdio.h>
 
 #include "cli/machine.h"
+#include "cli/problem.h"
 #include "cli/selftest.h"
 #include "core/err.h"
 #include "frame/caps.h"
 #include "input/input.h"
 
-enum { GN_DOCTOR_BACKENDS = 8, GN_DOCTOR_PROBLEMS = 24 };
+enum { GN_DOCTOR_BACKENDS = 8 };
 
 struct gn_doctor_backend {
     const char *name, *what; /* what: a line for people, NULL if it is not built in */
@@ -19,24 +20,18 @@ struct gn_doctor_backend {
     char why[320];              /* it does not open */
     struct gn_caps caps;        /* it opens */
 };
-struct gn_doctor_problem { /* one line together: "what: cure" */
-    char what[320], cure[200];
-};
 struct gn_doctor_report {
     struct gn_machine machine;
     struct gn_input_list input;
     struct gn_doctor_backend backends[GN_DOCTOR_BACKENDS];
     int backend_count;
     int chosen; /* the one that is described; -1: nothing can draw */
-    struct gn_doctor_problem problems[GN_DOCTOR_PROBLEMS];
-    int problem_count;
+    struct gn_problem_list problems;
     const struct gn_selftest *self_test; /* NULL: not asked for, or it did not start */
 };
 
-/* doctor_problems.c. Adds a problem; one too many is left out. */
-void gn_doctor_add(struct gn_doctor_report *report, const char *cure, const char *what, ...)
-    __attribute__((format(printf, 3, 4)));
-/* The problems that can be read off the machine and the backends, as filled so far. */
+/* doctor_problems.c: the problems that can be read off the machine and the backends, as filled so
+ * far. */
 void gn_doctor_diagnose(struct gn_doctor_report *report);
 void gn_doctor_diagnose_input(struct gn_doctor_report *report); /* of buttons and keys alone */
 

@@ -4,15 +4,12 @@
 
 #include <stdio.h>
 
+#include "cli/problem.h"
 #include "core/err.h"
 #include "core/warn.h"
 #include "scene/scene.h"
 
-enum { GN_INSPECT_ADVICE = 64, GN_INSPECT_WIDTH_PX = 1280, GN_INSPECT_HEIGHT_PX = 720 };
-
-struct gn_advice { /* one line together: "what: cure" */
-    char what[240], cure[160];
-};
+enum { GN_INSPECT_WIDTH_PX = 1280, GN_INSPECT_HEIGHT_PX = 720 };
 
 struct gn_scene_cost { /* of the default view: first camera, 1280x720, time 0, a GPU that can all */
     uint32_t passes, shadow_passes; /* a map of several tiles has a pass for each */
@@ -27,8 +24,7 @@ struct gn_inspection {
     const struct gn_scene *scene;
     const struct gn_warnings *warnings; /* of loading */
     struct gn_scene_cost cost;
-    struct gn_advice advice[GN_INSPECT_ADVICE];
-    uint32_t advice_count, advice_dropped;
+    struct gn_problem_list advice;
 };
 
 /* All but `warnings` of it; file and scene must outlive it. */

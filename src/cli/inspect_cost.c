@@ -4,84 +4,30 @@
 #include "cli/inspect.h"
 #include "frame/frame.h"
 
-static void count_pass(struct gn_scene_cost *cost, const struct gn_plan *plan,
-                       const struct gn_pass *pass) {
-    bool shadow = pass->kind != GN_PASS_PICTURE;
-    uint64_t triangles = 0;
-    for (uint32_t i = 0; i < pass->draw_count; i++) {
-        const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
-        uint32_t corners = draw->geometry == GN_NO_GEOMETRY
-                               ? draw->vertex_count
-                               : plan->scene->geometries[draw->geometry].index_count;
-        triangles += (uint64_t)corners / 3 * draw->instance_count;
-    }
-    *(shadow ? &cost->shadow_passes : &cost->passes) += 1;
-    *(shadow ? &cost->shadow_draws : &cost->draws) += pass->draw_count;
-    *(shadow ? &cost->shadow_triangles : &cost->triangles) += triangles;
-}
-
-static uint64_t map_bytes(const struct gn_shadow_view *view) {
-    return (uint64_t)view->map.width_px * view->map.height_px *
-           gn_encodings[view->encoding].texel_bytes;
-}
-
-/* Side of the pages of a map; 0: it has none. */
+/* Side of the pages of a map; 0 without. */
 static uint64_t page_px(const struct gn_shadow_view *view) {
     return (view->map.cascade_count > 0 && !view->empty) || view->raster.drawn.paged
                ? view->map.tile_px
                : 0;
 }
 
-/* Where the pages of maps are drawn; those of one kind share it. */
-static uint64_t pages_bytes(const struct gn_plan *plan, uint32_t slot) {
+/* The bytes of a shadow map, of the pages that it is drawn into and of what it is filtered into.
+ * Lights share pages of one kind, and the target between the steps of a filter. */
+static uint64_t shadow_bytes(const struct gn_plan *plan, uint32_t slot) {
     const struct gn_shadow_view *view = &plan->shadows[slot];
-    for (uint32_t i = 0; i < slot; i++)
-        if (plan->shadows[i].encoding == view->encoding &&
-            page_px(&plan->shadows[i]) == page_px(view))
-            return 0;
-    return page_px(view) * page_px(view) * gn_encodings[view->encoding].texel_bytes;
-}
-
-/* What a map is filtered into, and what that takes on the way: lights share it, too. */
-static uint64_t moments_bytes(const struct gn_plan *plan, uint32_t slot) {
-    const struct gn_shadow_view *view = &plan->shadows[slot];
-    const uint64_t plain =
-        (uint64_t)view->map.width_px * view->map.height_px * gn_moments[view->moments].texel_bytes;
-    const uint64_t own = plain + (gn_view_has_mipmaps(view) ? plain / 3 : 0);
-    for (uint32_t i = 0; i < slot; i++)
-        if (plan->shadows[i].moments == view->moments &&
-            plan->shadows[i].map.width_px == view->map.width_px &&
-            plan->shadows[i].map.height_px == view->map.height_px)
-            return own;
-    return own + plain;
-}
-
-static void count_plan(struct gn_scene_cost *cost, const struct gn_scene *scene) {
-    const struct gn_caps caps = {
-        .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
-    const struct gn_frame_opts opts = {.width_px = GN_INSPECT_WIDTH_PX,
-                                       .height_px = GN_INSPECT_HEIGHT_PX,
-                                       .shadow.encoding = GN_ENCODING_AUTO};
-    struct gn_pose pose;
-    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
-    struct gn_frame *frame = gn_frame_create(scene, &caps);
-    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
-    for (uint32_t i = 0; i < plan->pass_count; i++) count_pass(cost, plan, &plan->passes[i]);
-    for (uint32_t i = 0; i < plan->shadow_count; i++)
-        cost->map_bytes +=
-            map_bytes(&plan->shadows[i]) + pages_bytes(plan, i) + moments_bytes(plan, i);
-    cost->programs = plan->program_count;
-    cost->culled = plan->culled;
-    cost->target_bytes = (uint64_t)GN_INSPECT_WIDTH_PX * GN_INSPECT_HEIGHT_PX * 8;
-    gn_frame_destroy(frame);
-    gn_pose_finish(&pose);
-}
-
-/* As gl/ lays them out: indices have 16 bits where that is enough. */
-static void count_buffers(struct gn_scene_cost *cost, const struct gn_scene *scene) {
-    cost->vertex_bytes = (uint64_t)gn_scene_vertex_bytes(scene) * scene->buffers.vertex_count;
-    cost->index_bytes =
-        (uint64_t)scene->buffers.index_count * (scene->buffers.vertex_count > 65536 ? 4 : 2);
+    const uint64_t texels = (uint64_t)view->map.width_px * view->map.height_px;
+    const uint64_t texel_bytes = gn_encodings[view->encoding].texel_bytes;
+    const uint64_t filtered = texels * gn_moments[view->moments].texel_bytes;
+    uint64_t pages = page_px(view) * page_px(view) * texel_bytes, between = filtered;
+    for (uint32_t i = 0; i < slot; i++) {
+        const struct gn_shadow_view *other = &plan->shadows[i];
+        if (other->encoding == view->encoding && page_px(other) == page_px(view)) pages = 0;
+        if (other->moments == view->moments && other->map.width_px == view->map.width_px &&
+            other->map.height_px == view->map.height_px)
+            between = 0;
+    }
+    const uint64_t mipmaps = gn_view_has_mipmaps(view) ? filtered / 3 : 0;
+    return texels * texel_bytes + pages + filtered + mipmaps + between;
 }
 
 struct image_use {
@@ -112,8 +58,41 @@ uint64_t gn_inspect_image_bytes(const struct gn_scene *scene, uint32_t image) {
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
                       const struct gn_warnings *warnings) {
     *in = (struct gn_inspection){.file = file, .scene = scene, .warnings = warnings};
-    count_plan(&in->cost, scene);
-    count_buffers(&in->cost, scene);
+    const struct gn_caps caps = {
+        .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
+    const struct gn_frame_opts opts = {.width_px = GN_INSPECT_WIDTH_PX,
+                                       .height_px = GN_INSPECT_HEIGHT_PX,
+                                       .shadow.encoding = GN_ENCODING_AUTO};
+    struct gn_pose pose;
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    struct gn_frame *frame = gn_frame_create(scene, &caps);
+    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const struct gn_pass *pass = &plan->passes[i];
+        const bool shadow = pass->kind != GN_PASS_PICTURE;
+        uint64_t triangles = 0;
+        for (uint32_t k = 0; k < pass->draw_count; k++) {
+            const struct gn_draw *draw = &plan->draws[pass->first_draw + k];
+            uint32_t corners = draw->geometry == GN_NO_GEOMETRY
+                                   ? draw->vertex_count
+                                   : scene->geometries[draw->geometry].index_count;
+            triangles += (uint64_t)corners / 3 * draw->instance_count;
+        }
+        *(shadow ? &in->cost.shadow_passes : &in->cost.passes) += 1;
+        *(shadow ? &in->cost.shadow_draws : &in->cost.draws) += pass->draw_count;
+        *(shadow ? &in->cost.shadow_triangles : &in->cost.triangles) += triangles;
+    }
+    for (uint32_t i = 0; i < plan->shadow_count; i++) in->cost.map_bytes += shadow_bytes(plan, i);
+    in->cost.programs = plan->program_count;
+    in->cost.culled = plan->culled;
+    in->cost.target_bytes = (uint64_t)GN_INSPECT_WIDTH_PX * GN_INSPECT_HEIGHT_PX * 8;
+    gn_frame_destroy(frame);
+    gn_pose_finish(&pose);
+
+    in->cost.vertex_bytes = (uint64_t)gn_scene_vertex_bytes(scene) * scene->buffers.vertex_count;
+    /* as gl/ lays them out: indices have 16 bits where that is enough */
+    in->cost.index_bytes =
+        (uint64_t)scene->buffers.index_count * (scene->buffers.vertex_count > 65536 ? 4 : 2);
     for (uint32_t i = 0; i < scene->pictures.image_count; i++)
         in->cost.texture_bytes += gn_inspect_image_bytes(scene, i);
     gn_inspect_advise(in);

@@ -34,7 +34,7 @@ static void size_of(const struct gn_scene *scene, vec3 out) {
 
 /* ---- for people ---------------------------------------------------------------------------- */
 
-/* Names come from a file: what would move the cursor is dropped. */
+/* Names come from a file: control characters are dropped. */
 __attribute__((format(printf, 2, 3))) static void line(FILE *to, const char *format, ...) {
     char text[512];
     va_list args;
@@ -69,16 +69,6 @@ static void print_content(const struct gn_inspection *in, FILE *to) {
              (double)c[i][2]);
 }
 
-static void print_images(const struct gn_scene *s, FILE *to) {
-    if (s->pictures.image_count)
-        fprintf(to, "\nTextures: %u of %u images\n", s->pictures.texture_count,
-                s->pictures.image_count);
-    for (uint32_t i = 0; i < s->pictures.image_count; i++)
-        line(to, "%-3u %ux%u%s, %.2f MB", i, s->pictures.images[i].width_px,
-             s->pictures.images[i].height_px, s->pictures.images[i].has_alpha ? " with alpha" : "",
-             GN_MB(gn_inspect_image_bytes(s, i)));
-}
-
 static void print_light(const struct gn_scene *s, uint32_t i, FILE *to) {
     const struct gn_light *light = &s->lights[i];
     char cone[64] = "", range[32] = "", map[32] = "", slide[32] = "";
@@ -96,24 +86,28 @@ static void print_light(const struct gn_scene *s, uint32_t i, FILE *to) {
          is_made(s->added.light, i, s->light_count) ? " (made: the file has none)" : "");
 }
 
-static void print_camera(const struct gn_scene *s, uint32_t i, FILE *to) {
-    const struct gn_camera *c = &s->cameras[i];
-    char lens[64], far[32] = "infinity";
-    if (c->orthographic)
-        snprintf(lens, sizeof lens, "orthographic, %.4g m high", 2 * (double)c->ymag_m);
-    else
-        snprintf(lens, sizeof lens, "perspective, %.3g degrees high", GN_DEG(c->yfov_rad));
-    if (c->far_m > 0) snprintf(far, sizeof far, "%.4g m", (double)c->far_m);
-    line(to, "%-3u %s: %s, from %.4g m to %s%s", i, c->name, lens, (double)c->near_m, far,
-         is_made(s->added.camera, i, s->camera_count) ? " (made: the file has none)" : "");
-}
-
 static void print_lists(const struct gn_scene *s, FILE *to) {
-    print_images(s, to);
+    if (s->pictures.image_count)
+        fprintf(to, "\nTextures: %u of %u images\n", s->pictures.texture_count,
+                s->pictures.image_count);
+    for (uint32_t i = 0; i < s->pictures.image_count; i++)
+        line(to, "%-3u %ux%u%s, %.2f MB", i, s->pictures.images[i].width_px,
+             s->pictures.images[i].height_px, s->pictures.images[i].has_alpha ? " with alpha" : "",
+             GN_MB(gn_inspect_image_bytes(s, i)));
     fprintf(to, "\nLights\n");
     for (uint32_t i = 0; i < s->light_count; i++) print_light(s, i, to);
     fprintf(to, "\nCameras\n");
-    for (uint32_t i = 0; i < s->camera_count; i++) print_camera(s, i, to);
+    for (uint32_t i = 0; i < s->camera_count; i++) {
+        const struct gn_camera *c = &s->cameras[i];
+        char lens[64], far[32] = "infinity";
+        if (c->orthographic)
+            snprintf(lens, sizeof lens, "orthographic, %.4g m high", 2 * (double)c->ymag_m);
+        else
+            snprintf(lens, sizeof lens, "perspective, %.3g degrees high", GN_DEG(c->yfov_rad));
+        if (c->far_m > 0) snprintf(far, sizeof far, "%.4g m", (double)c->far_m);
+        line(to, "%-3u %s: %s, from %.4g m to %s%s", i, c->name, lens, (double)c->near_m, far,
+             is_made(s->added.camera, i, s->camera_count) ? " (made: the file has none)" : "");
+    }
     if (s->animation.clip_count) fprintf(to, "\nClips\n");
     for (uint32_t i = 0; i < s->animation.clip_count; i++)
         line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->animation.clips[i].name,
@@ -122,7 +116,10 @@ static void print_lists(const struct gn_scene *s, FILE *to) {
              s->animation.clips[i].on_by_default ? "on" : "off");
 }
 
-static void print_cost(const struct gn_inspection *in, FILE *to) {
+void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
+    print_content(in, to);
+    print_lists(in->scene, to);
+
     const struct gn_scene_cost *c = &in->cost;
     fprintf(to, "\nCost at %dx%d through the first camera\n", GN_INSPECT_WIDTH_PX,
             GN_INSPECT_HEIGHT_PX);
@@ -135,27 +132,18 @@ static void print_cost(const struct gn_inspection *in, FILE *to) {
          "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
          GN_MB(c->map_bytes), GN_MB(c->target_bytes));
     line(to, "%-11s %.2f MB", "memory", GN_MB(in->scene->memory.bytes));
-}
 
-static void print_faults(const struct gn_inspection *in, FILE *to) {
-    int warnings = in->warnings ? in->warnings->count : 0;
+    const int warnings = in->warnings ? in->warnings->count : 0;
     fprintf(to, "\nProblems\n");
-    if (!warnings && !in->advice_count) line(to, "nothing");
+    if (!warnings && !in->advice.count) line(to, "nothing");
     for (int i = 0; i < warnings; i++) line(to, "- %s", in->warnings->text[i]);
     if (warnings && in->warnings->dropped)
         line(to, "- and %d more like these", in->warnings->dropped);
-    for (uint32_t i = 0; i < in->advice_count; i++) {
-        line(to, "- %s", in->advice[i].what);
-        line(to, "  cure: %s", in->advice[i].cure);
+    for (uint32_t i = 0; i < in->advice.count; i++) {
+        line(to, "- %s", in->advice.items[i].what);
+        line(to, "  cure: %s", in->advice.items[i].cure);
     }
-    if (in->advice_dropped) line(to, "- and %u more like these", in->advice_dropped);
-}
-
-void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
-    print_content(in, to);
-    print_lists(in->scene, to);
-    print_cost(in, to);
-    print_faults(in, to);
+    if (in->advice.dropped) line(to, "- and %u more like these", in->advice.dropped);
 }
 
 /* ---- for programs -------------------------------------------------------------------------- */
@@ -166,34 +154,6 @@ static json_t *number_or_null(bool present, double value) {
 static json_t *vector(const float *v) {
     return json_pack("[ooo]", gn_json_make_number((double)v[0]), gn_json_make_number((double)v[1]),
                      gn_json_make_number((double)v[2]));
-}
-
-static json_t *counts_json(const struct gn_scene *s) {
-    return json_pack("{so so so so so so so so}", "nodes", gn_json_make_count(s->node_count),
-                     "items", gn_json_make_count(s->item_count), "instances",
-                     gn_json_make_count(s->instance_count), "batches",
-                     gn_json_make_count(s->batch_count), "geometries",
-                     gn_json_make_count(s->geometry_count), "vertices",
-                     gn_json_make_count(s->buffers.vertex_count), "triangles",
-                     gn_json_make_count(s->triangle_count), "textures",
-                     gn_json_make_count(s->pictures.texture_count));
-}
-
-static json_t *materials_json(const struct gn_scene *s) {
-    struct kinds k = count_kinds(s);
-    return json_pack("{so so so so so so}", "count", gn_json_make_count(s->material_count),
-                     "opaque", gn_json_make_count(k.alpha[GN_ALPHA_OPAQUE]), "mask",
-                     gn_json_make_count(k.alpha[GN_ALPHA_MASK]), "blend",
-                     gn_json_make_count(k.alpha[GN_ALPHA_BLEND]), "unlit",
-                     gn_json_make_count(k.unlit), "double_sided",
-                     gn_json_make_count(k.double_sided));
-}
-
-static json_t *image_json(const struct gn_scene *s, uint32_t i) {
-    const struct gn_image *image = &s->pictures.images[i];
-    return json_pack("{so so sb so}", "width_px", gn_json_make_count(image->width_px), "height_px",
-                     gn_json_make_count(image->height_px), "alpha", image->has_alpha, "bytes",
-                     gn_json_make_count(gn_inspect_image_bytes(s, i)));
 }
 
 static json_t *light_json(const struct gn_scene *s, uint32_t i) {
@@ -216,34 +176,77 @@ static json_t *light_json(const struct gn_scene *s, uint32_t i) {
                      is_made(s->added.light, i, s->light_count));
 }
 
-static json_t *camera_json(const struct gn_scene *s, uint32_t i) {
-    const struct gn_camera *c = &s->cameras[i];
-    return json_pack("{so ss so so so so sb}", "name", gn_json_make_text(c->name), "type",
-                     c->orthographic ? "orthographic" : "perspective", "yfov_deg",
-                     number_or_null(!c->orthographic, GN_DEG(c->yfov_rad)), "half_height_m",
-                     number_or_null(c->orthographic, c->ymag_m), "near_m",
-                     gn_json_make_number(c->near_m), "far_m",
-                     number_or_null(c->far_m > 0, c->far_m), "made",
-                     is_made(s->added.camera, i, s->camera_count));
+/* The description in inspect.h up to the materials. */
+static json_t *content_json(const struct gn_inspection *in) {
+    const struct gn_scene *s = in->scene;
+    const struct kinds k = count_kinds(s);
+    vec3 size;
+    size_of(s, size);
+    json_t *counts = json_pack(
+        "{so so so so so so so so}", "nodes", gn_json_make_count(s->node_count), "items",
+        gn_json_make_count(s->item_count), "instances", gn_json_make_count(s->instance_count),
+        "batches", gn_json_make_count(s->batch_count), "geometries",
+        gn_json_make_count(s->geometry_count), "vertices",
+        gn_json_make_count(s->buffers.vertex_count), "triangles",
+        gn_json_make_count(s->triangle_count), "textures",
+        gn_json_make_count(s->pictures.texture_count));
+    json_t *materials =
+        json_pack("{so so so so so so}", "count", gn_json_make_count(s->material_count), "opaque",
+                  gn_json_make_count(k.alpha[GN_ALPHA_OPAQUE]), "mask",
+                  gn_json_make_count(k.alpha[GN_ALPHA_MASK]), "blend",
+                  gn_json_make_count(k.alpha[GN_ALPHA_BLEND]), "unlit", gn_json_make_count(k.unlit),
+                  "double_sided", gn_json_make_count(k.double_sided));
+    return json_pack("{so so so so so}", "file", gn_json_make_text(in->file), "name",
+                     gn_json_make_text(s->name), "size_m", vector(size), "counts", counts,
+                     "materials", materials);
 }
 
-static json_t *clip_json(const struct gn_scene *s, uint32_t i) {
-    const struct gn_clip *c = &s->animation.clips[i];
-    return json_pack("{so so so sb}", "name", gn_json_make_text(c->name), "duration_s",
-                     gn_json_make_number((double)c->duration_ns * 1e-9), "channels",
-                     gn_json_make_count(c->channel_count), "on", c->on_by_default);
+static void add_lists(json_t *all, const struct gn_scene *s) {
+    json_t *images = json_array(), *lights = json_array(), *cameras = json_array();
+    json_t *clips = json_array();
+    for (uint32_t i = 0; i < s->pictures.image_count; i++) {
+        const struct gn_image *image = &s->pictures.images[i];
+        json_array_append_new(images, json_pack("{so so sb so}", "width_px",
+                                                gn_json_make_count(image->width_px), "height_px",
+                                                gn_json_make_count(image->height_px), "alpha",
+                                                image->has_alpha, "bytes",
+                                                gn_json_make_count(gn_inspect_image_bytes(s, i))));
+    }
+    for (uint32_t i = 0; i < s->light_count; i++) json_array_append_new(lights, light_json(s, i));
+    for (uint32_t i = 0; i < s->camera_count; i++) {
+        const struct gn_camera *c = &s->cameras[i];
+        json_array_append_new(
+            cameras, json_pack("{so ss so so so so sb}", "name", gn_json_make_text(c->name), "type",
+                               c->orthographic ? "orthographic" : "perspective", "yfov_deg",
+                               number_or_null(!c->orthographic, GN_DEG(c->yfov_rad)),
+                               "half_height_m", number_or_null(c->orthographic, c->ymag_m),
+                               "near_m", gn_json_make_number(c->near_m), "far_m",
+                               number_or_null(c->far_m > 0, c->far_m), "made",
+                               is_made(s->added.camera, i, s->camera_count)));
+    }
+    for (uint32_t i = 0; i < s->animation.clip_count; i++) {
+        const struct gn_clip *c = &s->animation.clips[i];
+        json_array_append_new(
+            clips, json_pack("{so so so sb}", "name", gn_json_make_text(c->name), "duration_s",
+                             gn_json_make_number((double)c->duration_ns * 1e-9), "channels",
+                             gn_json_make_count(c->channel_count), "on", c->on_by_default));
+    }
+    json_object_set_new(all, "images", images);
+    json_object_set_new(all, "lights", lights);
+    json_object_set_new(all, "cameras", cameras);
+    json_object_set_new(all, "clips", clips);
 }
 
-static json_t *list(const struct gn_scene *s, uint32_t n,
-                    json_t *(*make)(const struct gn_scene *, uint32_t)) {
-    json_t *all = json_array();
-    for (uint32_t i = 0; i < n; i++) json_array_append_new(all, make(s, i));
-    return all;
-}
-
-static json_t *cost_json(const struct gn_inspection *in) {
+bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_err *err) {
+    const struct gn_scene *s = in->scene;
     const struct gn_scene_cost *c = &in->cost;
-    return json_pack(
+    json_t *all = content_json(in);
+    add_lists(all, s);
+    json_object_set_new(all, "hemisphere",
+                        json_pack("{so so so}", "sky", vector(s->environment.sky), "ground",
+                                  vector(s->environment.ground), "background",
+                                  vector(s->environment.background)));
+    json_t *cost = json_pack(
         "{si si so so so so so so so so so so so so so so}", "width_px", GN_INSPECT_WIDTH_PX,
         "height_px", GN_INSPECT_HEIGHT_PX, "passes", gn_json_make_count(c->passes), "shadow_passes",
         gn_json_make_count(c->shadow_passes), "draws", gn_json_make_count(c->draws), "shadow_draws",
@@ -253,36 +256,16 @@ static json_t *cost_json(const struct gn_inspection *in) {
         gn_json_make_count(c->vertex_bytes), "index_bytes", gn_json_make_count(c->index_bytes),
         "texture_bytes", gn_json_make_count(c->texture_bytes), "map_bytes",
         gn_json_make_count(c->map_bytes), "target_bytes", gn_json_make_count(c->target_bytes),
-        "memory_bytes", gn_json_make_count(in->scene->memory.bytes));
-}
+        "memory_bytes", gn_json_make_count(s->memory.bytes));
+    json_object_set_new(all, "cost", cost);
 
-static void add_faults(json_t *all, const struct gn_inspection *in) {
-    json_t *warnings = json_array(), *advice = json_array();
+    json_t *warnings = json_array();
     for (int i = 0; in->warnings && i < in->warnings->count; i++)
         json_array_append_new(warnings, gn_json_make_text(in->warnings->text[i]));
-    for (uint32_t i = 0; i < in->advice_count; i++)
-        json_array_append_new(advice,
-                              json_pack("{so so}", "what", gn_json_make_text(in->advice[i].what),
-                                        "cure", gn_json_make_text(in->advice[i].cure)));
     json_object_set_new(all, "warnings", warnings);
     json_object_set_new(all, "warnings_dropped",
                         json_integer(in->warnings ? in->warnings->dropped : 0));
-    json_object_set_new(all, "advice", advice);
-    json_object_set_new(all, "advice_dropped", gn_json_make_count(in->advice_dropped));
-}
-
-bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_err *err) {
-    const struct gn_scene *s = in->scene;
-    vec3 size;
-    size_of(s, size);
-    json_t *all = json_pack(
-        "{so so so so so so so so so s{so so so} so}", "file", gn_json_make_text(in->file), "name",
-        gn_json_make_text(s->name), "size_m", vector(size), "counts", counts_json(s), "materials",
-        materials_json(s), "images", list(s, s->pictures.image_count, image_json), "lights",
-        list(s, s->light_count, light_json), "cameras", list(s, s->camera_count, camera_json),
-        "clips", list(s, s->animation.clip_count, clip_json), "hemisphere", "sky",
-        vector(s->environment.sky), "ground", vector(s->environment.ground), "background",
-        vector(s->environment.background), "cost", cost_json(in));
-    if (all) add_faults(all, in);
+    json_object_set_new(all, "advice", gn_problem_json(&in->advice));
+    json_object_set_new(all, "advice_dropped", gn_json_make_count(in->advice.dropped));
     return gn_json_print(all, 7, to, err);
 }

@@ -77,18 +77,19 @@ static void test_each_problem_has_its_cure(void **state) {
     static struct gn_doctor_report report;
     fill(&report);
     gn_doctor_diagnose_input(&report);
-    assert_int_equal(report.problem_count, 2);
-    assert_string_equal(report.problems[0].what,
+    assert_int_equal(report.problems.count, 2);
+    assert_string_equal(report.problems.items[0].what,
                         "/dev/gpiochip2 cannot be opened: Input/output error");
-    assert_string_equal(report.problems[1].what,
+    assert_string_equal(report.problems.items[1].what,
                         "2 of 5 input devices may not be read: keys there are not heard");
-    assert_string_equal(report.problems[1].cure, "sudo usermod -aG input kiosk, then log in again");
+    assert_string_equal(report.problems.items[1].cure,
+                        "sudo usermod -aG input kiosk, then log in again");
     fill(&report);
     report.input.library = NULL;
     report.input.chip_count = report.input.devices_denied = 0;
     gn_doctor_diagnose_input(&report);
-    assert_int_equal(report.problem_count, 1);
-    assert_non_null(strstr(report.problems[0].cure, "libgpiod-dev"));
+    assert_int_equal(report.problems.count, 1);
+    assert_non_null(strstr(report.problems.items[0].cure, "libgpiod-dev"));
 }
 
 static void test_a_window_needs_no_devices(void **state) {
@@ -100,7 +101,7 @@ static void test_a_window_needs_no_devices(void **state) {
         .name = "window", .built = true, .opens = true, .is_window = true};
     report.backend_count = 1;
     gn_doctor_diagnose_input(&report);
-    assert_int_equal(report.problem_count, 0);
+    assert_int_equal(report.problems.count, 0);
 }
 
 int main(void) {

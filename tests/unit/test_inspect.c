@@ -25,17 +25,17 @@ static void inspect(void) {
 }
 
 static void assert_advice(const char *part) {
-    for (uint32_t i = 0; i < in.advice_count; i++)
-        if (strstr(in.advice[i].what, part)) {
-            assert_true(in.advice[i].cure[0]);
+    for (uint32_t i = 0; i < in.advice.count; i++)
+        if (strstr(in.advice.items[i].what, part)) {
+            assert_true(in.advice.items[i].cure[0]);
             return;
         }
     fail_msg("no advice with '%s'", part);
 }
 
 static void assert_no_advice(const char *part) {
-    for (uint32_t i = 0; i < in.advice_count; i++)
-        if (strstr(in.advice[i].what, part)) fail_msg("advice '%s'", in.advice[i].what);
+    for (uint32_t i = 0; i < in.advice.count; i++)
+        if (strstr(in.advice.items[i].what, part)) fail_msg("advice '%s'", in.advice.items[i].what);
 }
 
 /* Lights, each on a node of its own beside the square; its side in metres. */

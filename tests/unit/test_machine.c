@@ -96,8 +96,9 @@ static void test_cards_connectors_and_chips_are_found(void **state) {
 static struct gn_doctor_report report;
 
 static bool has_problem(const char *what, const char *cure) {
-    for (int i = 0; i < report.problem_count; i++)
-        if (strstr(report.problems[i].what, what) && strstr(report.problems[i].cure, cure))
+    for (uint32_t i = 0; i < report.problems.count; i++)
+        if (strstr(report.problems.items[i].what, what) &&
+            strstr(report.problems.items[i].cure, cure))
             return true;
     return false;
 }
