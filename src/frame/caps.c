@@ -46,16 +46,6 @@ uint32_t gn_caps_moments(const struct gn_caps *caps) {
     return proved;
 }
 
-static bool fail_unknown_cap(const char *name, size_t length, struct gn_err *err) {
-    char names[200] = "";
-    for (int i = 0; i < GN_CAP_COUNT; i++) {
-        size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", gn_cap_names[i]);
-    }
-    return gn_fail_usage(err, "unknown capability \"%.*s\"; expected %s",
-                         (int)(length < 80 ? length : 80), name, names);
-}
-
 bool gn_caps_parse(const char *list, uint32_t *out, struct gn_err *err) {
     *out = 0;
     while (list && *list) {
@@ -64,7 +54,15 @@ bool gn_caps_parse(const char *list, uint32_t *out, struct gn_err *err) {
         while (cap < GN_CAP_COUNT && (strlen(gn_cap_names[cap]) != length ||
                                       memcmp(gn_cap_names[cap], list, length) != 0))
             cap++;
-        if (cap == GN_CAP_COUNT) return fail_unknown_cap(list, length, err);
+        if (cap == GN_CAP_COUNT) {
+            char names[200] = "";
+            for (int i = 0; i < GN_CAP_COUNT; i++) {
+                size_t used = strlen(names);
+                snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", gn_cap_names[i]);
+            }
+            return gn_fail_usage(err, "unknown capability \"%.*s\"; expected %s",
+                                 (int)(length < 80 ? length : 80), list, names);
+        }
         *out |= 1u << cap;
         list += length + (list[length] == ',');
     }

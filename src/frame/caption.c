@@ -5,10 +5,10 @@
 #include "blocks.glsl"
 #include "frame/private.h"
 
-/* Adds the visible rectangles of the run; returns the rectangle around them, first row at the
- * bottom. */
-static struct gn_rect add_quads(struct gn_frame *frame, const struct gn_caption_run *run) {
-    int32_t left = INT32_MAX, top = INT32_MAX, right = 0, bottom = 0;
+static void draw_captions(struct gn_frame *frame, const struct gn_program_key *key,
+                          const struct gn_caption_run *run) {
+    const uint32_t first = frame->instances.count;
+    int32_t left = INT32_MAX, top = INT32_MAX, right = 0, bottom = 0; /* of what is visible */
     for (uint32_t i = 0; i < run->quad_count; i++) {
         const struct gn_caption_quad *q = &run->quads[i];
         if (run->alpha[q->caption] <= 0.0f) continue;
@@ -23,16 +23,9 @@ static struct gn_rect add_quads(struct gn_frame *frame, const struct gn_caption_
         if (q->x + q->width > right) right = q->x + q->width;
         if (q->y + q->height > bottom) bottom = q->y + q->height;
     }
-    if (right <= left) return (struct gn_rect){0};
-    return (struct gn_rect){(uint32_t)left, frame->picture.height_px - (uint32_t)bottom,
-                            (uint32_t)(right - left), (uint32_t)(bottom - top)};
-}
-
-static void draw_captions(struct gn_frame *frame, const struct gn_program_key *key,
-                          const struct gn_caption_run *run) {
-    const uint32_t first = frame->instances.count;
-    const struct gn_rect rect = add_quads(frame, run);
-    if (rect.width == 0) return;
+    if (right <= left) return;
+    const struct gn_rect rect = {(uint32_t)left, frame->picture.height_px - (uint32_t)bottom,
+                                 (uint32_t)(right - left), (uint32_t)(bottom - top)};
     struct gn_pass *pass = gn_frame_picture_pass(frame, "captions");
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_CAPTION);
     if (gn_frame_is_encoded(frame)) pass->target.kind = GN_TARGET_ENCODED;

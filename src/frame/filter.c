@@ -80,19 +80,6 @@ static void filter_constants(const struct gn_shadow_view *view, uint32_t tile, f
     }
 }
 
-static struct gn_program_key filter_key(const struct gn_shadow_view *view,
-                                        enum gn_filter_step step) {
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = GN_PROGRAM_FILTER;
-    key.step = (uint8_t)step;
-    key.moments = (uint8_t)view->moments;
-    if (!gn_filter_steps[step].reads_map) return key;
-    key.encoding = (uint8_t)view->encoding;
-    key.technique = (uint8_t)view->technique;
-    return key;
-}
-
 /* After those of the casters of the same tile, which use only the start of their set. */
 enum { CONSTANTS_AT = 8 };
 _Static_assert(PASS_CODE_ADD < CONSTANTS_AT && CONSTANTS_AT + FILTER_CONSTANTS <= GN_PASS_SIZE,
@@ -101,7 +88,15 @@ _Static_assert(PASS_CODE_ADD < CONSTANTS_AT && CONSTANTS_AT + FILTER_CONSTANTS <
 static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                        const struct gn_filter_stage *stage, bool last) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
-    const struct gn_program_key key = filter_key(view, stage->step);
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = GN_PROGRAM_FILTER;
+    key.step = (uint8_t)stage->step;
+    key.moments = (uint8_t)view->moments;
+    if (gn_filter_steps[stage->step].reads_map) {
+        key.encoding = (uint8_t)view->encoding;
+        key.technique = (uint8_t)view->technique;
+    }
     float(*constants)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS +
                                                          tile * GN_SHADOW_PAGES_MAX) +
                            CONSTANTS_AT;

@@ -94,22 +94,6 @@ static void reset_plan(struct gn_frame *frame, const struct gn_frame_opts *opts)
     memcpy(frame->picture.turn, turns[opts->turn_deg / 90 % 4], sizeof frame->picture.turn);
 }
 
-static void publish_plan(struct gn_frame *frame) {
-    struct gn_plan *plan = &frame->plan;
-    plan->passes = frame->passes.at;
-    plan->draws = frame->draws.at;
-    plan->instances = frame->instances.at;
-    plan->programs = frame->programs.at;
-    plan->shadows = frame->shadows;
-    plan->lights = frame->scene_lights;
-    plan->pass_count = frame->passes.count;
-    plan->draw_count = frame->draws.count;
-    plan->instance_count = frame->instances.count;
-    plan->program_count = frame->programs.count;
-    plan->shadow_count = frame->shadow_count;
-    plan->light_count = frame->light_count;
-}
-
 const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
                                      const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings) {
@@ -135,7 +119,19 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     while (last->target.kind != GN_TARGET_OUTPUT) last--;
     last->discard_depth = true;
     last->picture.resolves = true;
-    publish_plan(frame);
+
+    plan->passes = frame->passes.at;
+    plan->draws = frame->draws.at;
+    plan->instances = frame->instances.at;
+    plan->programs = frame->programs.at;
+    plan->shadows = frame->shadows;
+    plan->lights = frame->scene_lights;
+    plan->pass_count = frame->passes.count;
+    plan->draw_count = frame->draws.count;
+    plan->instance_count = frame->instances.count;
+    plan->program_count = frame->programs.count;
+    plan->shadow_count = frame->shadow_count;
+    plan->light_count = frame->light_count;
     assert(gn_plan_check(plan) == NULL);
     return plan;
 }

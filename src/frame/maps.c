@@ -81,11 +81,33 @@ static struct gn_target pages_target(const struct gn_frame *frame, const struct 
                               .encoding = view->encoding};
 }
 
-static void copy_pages(struct gn_frame *frame, const struct paged *map) {
-    const struct gn_shadow_view *view = &frame->shadows[map->slot];
+static void paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct paged *map, const struct gn_frame_opts *opts) {
+    for (uint32_t i = 0; i < map->page_count; i++) {
+        struct gn_shadow_page *page = &map->pages[i];
+        struct gn_pass *part =
+            begin_pass(frame, GN_PASS_MAP, map->slot, map->tile, i, page->clip_from_world);
+        const size_t used = strlen(part->label);
+        snprintf(part->label + used, sizeof part->label - used, " page %u", i);
+        part->target = pages_target(frame, map);
+        part->viewport = (struct gn_rect){0, 0, map->page_px, map->page_px};
+        part->clear.area = i == 0 ? GN_CLEAR_ALL : GN_CLEAR_NOTHING;
+        part->content.completes = false;
+        part->discard_depth = false; /* the next page needs it */
+        part->rect = (struct gn_rect){page->from_px[0], page->from_px[1], page->size_px[0],
+                                      page->size_px[1]};
+        struct gn_selection casters = {.casts = frame->memory[map->slot][map->tile].casts,
+                                       .page = i,
+                                       .view = &frame->shadows[map->slot],
+                                       .opts = opts};
+        gn_frame_draw_items(frame, pose, &casters);
+        gn_frame_end_pass(frame);
+    }
+
     struct gn_pass *pass =
         begin_pass(frame, GN_PASS_COPY, map->slot, map->tile, 0, map->pages[0].clip_from_world);
-    if (view->map.tile_count > 1) bound_tile(view, map->tile, pass);
+    if (frame->shadows[map->slot].map.tile_count > 1)
+        bound_tile(&frame->shadows[map->slot], map->tile, pass);
     pass->copy.from = pages_target(frame, map);
     pass->copy.count = map->page_count;
     for (uint32_t i = 0; i < map->page_count; i++) {
@@ -96,31 +118,6 @@ static void copy_pages(struct gn_frame *frame, const struct paged *map) {
             .to_y = map->to_px[1] + page->to_px[1]};
     }
     gn_frame_end_pass(frame);
-}
-
-static void paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
-                         const struct paged *map, const struct gn_frame_opts *opts) {
-    for (uint32_t i = 0; i < map->page_count; i++) {
-        struct gn_shadow_page *page = &map->pages[i];
-        struct gn_pass *pass =
-            begin_pass(frame, GN_PASS_MAP, map->slot, map->tile, i, page->clip_from_world);
-        const size_t used = strlen(pass->label);
-        snprintf(pass->label + used, sizeof pass->label - used, " page %u", i);
-        pass->target = pages_target(frame, map);
-        pass->viewport = (struct gn_rect){0, 0, map->page_px, map->page_px};
-        pass->clear.area = i == 0 ? GN_CLEAR_ALL : GN_CLEAR_NOTHING;
-        pass->content.completes = false;
-        pass->discard_depth = false; /* the next page needs it */
-        pass->rect = (struct gn_rect){page->from_px[0], page->from_px[1], page->size_px[0],
-                                      page->size_px[1]};
-        struct gn_selection casters = {.casts = frame->memory[map->slot][map->tile].casts,
-                                       .page = i,
-                                       .view = &frame->shadows[map->slot],
-                                       .opts = opts};
-        gn_frame_draw_items(frame, pose, &casters);
-        gn_frame_end_pass(frame);
-    }
-    copy_pages(frame, map);
 }
 
 static void map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,

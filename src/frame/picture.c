@@ -77,16 +77,17 @@ static void keep_additive_programs(struct gn_frame *frame, const struct gn_frame
         }
 }
 
-static void opaque_pass(struct gn_frame *frame, const struct gn_pose *pose,
-                        const struct gn_frame_opts *opts) {
+void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
+                          const struct gn_frame_opts *opts) {
     static const float aov_clear[GN_AOV_COUNT] = {
         [GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY};
     const enum gn_aov aov = opts->debug.aov;
     const bool encode = frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_LINEAR8;
-    struct gn_selection seen = {.part = frame->plan.stencil ? GN_PART_REST : GN_PART_ALL,
-                                .opts = opts};
+    const struct gn_selection seen = {.part = frame->plan.stencil ? GN_PART_REST : GN_PART_ALL,
+                                      .opts = opts};
+    gn_frame_bound_groups(frame);
     struct gn_pass *pass = gn_frame_lit_pass(frame, aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
-    uint32_t first = pass->first_draw;
+    const uint32_t first = pass->first_draw;
     pass->clear.area = GN_CLEAR_ALL;
     for (int k = 0; k < 3; k++) {
         const float color =
@@ -98,12 +99,6 @@ static void opaque_pass(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_draw_items(frame, pose, &seen);
     gn_frame_sort_draws(frame, first);
     gn_frame_end_pass(frame);
-}
-
-void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
-                          const struct gn_frame_opts *opts) {
-    gn_frame_bound_groups(frame);
-    opaque_pass(frame, pose, opts);
     if (frame->plan.stencil) gn_frame_plane_passes(frame, pose, opts, 0);
     for (uint32_t i = 1; i < frame->group_count; i++) {
         if (!frame->groups[i].seen) continue;

@@ -73,10 +73,7 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
         fprintf(to, ", texel %.4g %s, near %.4g m, far %.4g m\n", (double)view->lookup.texel,
                 view->perspective ? "m per metre" : "m", (double)view->code.near_m,
                 (double)view->code.far_m);
-}
-
-static void print_cascades(const struct gn_shadow_view *view, FILE *to) {
-    for (uint32_t i = 0; i < view->map.cascade_count; i++) {
+    for (uint32_t i = 0; !view->empty && i < view->map.cascade_count; i++) {
         const struct gn_shadow_cascade *c = &view->cascades[i];
         fprintf(to, "    cascade %u: from %.4g m to %.4g m", i + 1, (double)c->begin_m,
                 (double)c->end_m);
@@ -192,7 +189,6 @@ void gn_plan_print(const struct gn_plan *plan, FILE *to) {
     }
     for (uint32_t i = 0; i < plan->shadow_count; i++) {
         print_shadow(plan, i, to);
-        if (!plan->shadows[i].empty) print_cascades(&plan->shadows[i], to);
     }
     for (uint32_t i = 0; i < plan->pass_count; i++) print_pass(plan, &plan->passes[i], to);
 }

@@ -124,35 +124,14 @@ static void add_taps(const struct gn_program_key *key, struct gn_gl_text *out) {
     }
 }
 
-static bool is_linear(const struct gn_program_key *key, int i) {
-    const struct gn_light_key *light = &key->lights[i];
-    return (!gn_light_types[light->type].has_position && !light->cascades) ||
-           gn_techniques[light->technique].on_plane;
-}
-
-static bool has_cascades(const struct gn_program_key *key, int i) {
-    return key->lights[i].cascades;
-}
-
-static bool is_shared(const struct gn_program_key *key, int i) {
-    const struct gn_light_key *light = &key->lights[i];
-    return (gn_light_types[light->type].shines_around || light->cascades) &&
-           gn_technique_shades(light->technique);
-}
-
 /* One per shadow, at least one: shaders that use none declare them, too. */
-static void add_flags(const struct gn_program_key *key, const char *name,
-                      bool is(const struct gn_program_key *, int), struct gn_gl_text *out) {
+static void add_flags(const struct gn_program_key *key, const char *name, uint32_t bits,
+                      struct gn_gl_text *out) {
     const int count = key->shadow_count ? key->shadow_count : 1;
     gn_gl_text_add(out, "const bool[%d] %s = bool[%d](", count, name, count);
     for (int i = 0; i < count; i++)
-        gn_gl_text_add(out, "%s%s", i ? ", " : "", is(key, i) ? "true" : "false");
+        gn_gl_text_add(out, "%s%s", i ? ", " : "", bits >> i & 1 ? "true" : "false");
     gn_gl_text_add(out, ");\n");
-}
-
-static bool has_spans(const struct gn_program_key *key, int i) {
-    return key->lights[i].cascades &&
-           gn_technique_filters_map((enum gn_technique)key->lights[i].technique);
 }
 
 /* SHADOW_LINEAR: the vertex shader computes where the map is looked up; on a plane, with any light.
@@ -161,29 +140,24 @@ static bool has_spans(const struct gn_program_key *key, int i) {
  * derivatives, which are undefined after a discard: CUT_LAST cuts holes last where a map is shared,
  * and first elsewhere, where that saves work. */
 static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
-    bool cut_last = false;
-    for (int i = 0; i < key->shadow_count; i++) cut_last |= is_shared(key, i);
-    add_flags(key, "SHADOW_LINEAR", is_linear, out);
-    add_flags(key, "SHADOW_SHARED", is_shared, out);
-    gn_gl_text_add(out, "const bool CUT_LAST = %s;\n", cut_last ? "true" : "false");
-    add_flags(key, "SHADOW_CASCADES", has_cascades, out);
-    add_flags(key, "SHADOW_SPANS", has_spans, out);
-}
-
-static void add_light_loops(const struct gn_program_key *key, struct gn_gl_text *out) {
-    gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT(F)");
-    for (int i = 0; i < key->shadow_count; i++) {
+    uint32_t linear = 0, shared = 0, cascades = 0, spans = 0; /* a bit per light */
+    for (int i = 0; i < GN_SHADOWS_MAX; i++) {
         const struct gn_light_key *light = &key->lights[i];
-        bool radial =
-            gn_light_types[light->type].has_position && light->encoding != GN_ENCODING_DEPTH;
-        gn_gl_text_add(out, " F(%d, %s, %s, shadow_visibility_%d, u_map_%d)", i,
-                       gn_light_types[light->type].glsl, radial ? "true" : "false", pair_of(key, i),
-                       i);
+        const struct gn_light_type_row *type = &gn_light_types[light->type];
+        if ((!type->has_position && !light->cascades) || gn_techniques[light->technique].on_plane)
+            linear |= 1u << i;
+        if ((type->shines_around || light->cascades) && gn_technique_shades(light->technique))
+            shared |= 1u << i;
+        if (light->cascades) cascades |= 1u << i;
+        if (light->cascades && gn_technique_filters_map((enum gn_technique)light->technique))
+            spans |= 1u << i;
     }
-    gn_gl_text_add(out, "\n#define EACH_OPEN_LIGHT(F)");
-    for (int i = key->shadow_count; i < key->light_count; i++)
-        gn_gl_text_add(out, " F(%d, %s)", i, gn_light_types[key->lights[i].type].glsl);
-    gn_gl_text_add(out, "\n");
+    const bool cut_last = shared & ((1u << key->shadow_count) - 1);
+    add_flags(key, "SHADOW_LINEAR", linear, out);
+    add_flags(key, "SHADOW_SHARED", shared, out);
+    gn_gl_text_add(out, "const bool CUT_LAST = %s;\n", cut_last ? "true" : "false");
+    add_flags(key, "SHADOW_CASCADES", cascades, out);
+    add_flags(key, "SHADOW_SPANS", spans, out);
 }
 
 /* Slide k is that of the k-th light that has one. */
@@ -232,7 +206,18 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
     for (int i = 0; i < key->shadow_count; i++)
         if (pair_of(key, i) == i && !add_pair(source, &key->lights[i], i, out, err)) return false;
     if (!add_slides(source, key, out, err)) return false;
-    add_light_loops(key, out);
+    gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT(F)");
+    for (int i = 0; i < key->shadow_count; i++) {
+        const struct gn_light_key *light = &key->lights[i];
+        const struct gn_light_type_row *type = &gn_light_types[light->type];
+        bool radial = type->has_position && light->encoding != GN_ENCODING_DEPTH;
+        gn_gl_text_add(out, " F(%d, %s, %s, shadow_visibility_%d, u_map_%d)", i, type->glsl,
+                       radial ? "true" : "false", pair_of(key, i), i);
+    }
+    gn_gl_text_add(out, "\n#define EACH_OPEN_LIGHT(F)");
+    for (int i = key->shadow_count; i < key->light_count; i++)
+        gn_gl_text_add(out, " F(%d, %s)", i, gn_light_types[key->lights[i].type].glsl);
+    gn_gl_text_add(out, "\n");
     return true;
 }
 

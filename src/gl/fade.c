@@ -34,18 +34,6 @@ void gn_gl_kept_finish(struct gn_gl *gl) {
     *k = (struct gn_gl_kept){0};
 }
 
-static bool make_fade_program(struct gn_gl *gl, struct gn_gl_kept *k, struct gn_err *err) {
-    if (k->program) return true;
-    k->program = gn_gl_program_link(gl, fade_vertex, fade_fragment, err);
-    if (!k->program) return false;
-    gn_gl_use_program(gl, k->program);
-    const GLint u_kept = GL(gl, GetUniformLocation)(k->program, "u_kept");
-    GL(gl, Uniform1i)(u_kept, GN_GL_UNIT_WORK);
-    k->u_share = GL(gl, GetUniformLocation)(k->program, "u_share");
-    k->vertices = gn_gl_object_create(gl, GN_GL_VERTEX_ARRAY);
-    return true;
-}
-
 bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
     struct gn_gl_kept *k = &gl->kept;
     const struct gn_gl_output *o = &gl->targets.output;
@@ -67,8 +55,17 @@ bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
     gn_gl_bind_framebuffer(gl, k->framebuffer);
     GL(gl, FramebufferTexture2D)
     (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, k->texture, 0);
-    return gn_gl_framebuffer_check(gl, "kept picture", err) && make_fade_program(gl, k, err) &&
-           gn_gl_error_check(gl, "keeping a picture", err);
+    if (!gn_gl_framebuffer_check(gl, "kept picture", err)) return false;
+    if (!k->program) {
+        k->program = gn_gl_program_link(gl, fade_vertex, fade_fragment, err);
+        if (!k->program) return false;
+        gn_gl_use_program(gl, k->program);
+        const GLint u_kept = GL(gl, GetUniformLocation)(k->program, "u_kept");
+        GL(gl, Uniform1i)(u_kept, GN_GL_UNIT_WORK);
+        k->u_share = GL(gl, GetUniformLocation)(k->program, "u_share");
+        k->vertices = gn_gl_object_create(gl, GN_GL_VERTEX_ARRAY);
+    }
+    return gn_gl_error_check(gl, "keeping a picture", err);
 }
 
 bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err) {

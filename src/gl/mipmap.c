@@ -22,12 +22,6 @@ void gn_gl_curve_init(struct gn_gl_curve *curve) {
         curve->encode[i] = (uint8_t)(encode((float)i / STEPS) * 255 + 0.5f);
 }
 
-static uint8_t mean_light(const struct gn_gl_curve *curve, const uint8_t *const in[4], int c) {
-    const float sum = curve->decode[in[0][c]] + curve->decode[in[1][c]] + curve->decode[in[2][c]] +
-                      curve->decode[in[3][c]];
-    return curve->encode[(int)(sum + 0.5f)];
-}
-
 static uint8_t mean_code(const uint8_t *const in[4], int c) {
     return (uint8_t)((in[0][c] + in[1][c] + in[2][c] + in[3][c] + 2) / 4);
 }
@@ -47,8 +41,15 @@ void gn_gl_image_halve_rows(const struct gn_gl_curve *curve, const struct gn_ima
         for (uint32_t x = 0; x < width; x++, to += 4) {
             const uint8_t *p = image->rgba + 4 * (2ul * y * image->width_px + 2ul * x);
             const uint8_t *const in[4] = {p, p + right, p + below, p + below + right};
-            for (int c = 0; c < 3; c++) to[c] = srgb ? mean_light(curve, in, c) : mean_code(in, c);
-            to[3] = mean_code(in, 3);
+            for (int c = 0; c < 4; c++) {
+                if (!srgb || c == 3) {
+                    to[c] = mean_code(in, c);
+                    continue;
+                }
+                const float sum = curve->decode[in[0][c]] + curve->decode[in[1][c]] +
+                                  curve->decode[in[2][c]] + curve->decode[in[3][c]];
+                to[c] = curve->encode[(int)(sum + 0.5f)];
+            }
         }
 }
 

@@ -228,29 +228,29 @@ static uint32_t prove_at_once(struct gn_gl *gl, uint32_t mask) {
 
 /* ---- antialiasing ---- */
 
-static bool resolves(struct gn_gl *gl, const GLuint framebuffers[2]) {
-    static const float color[4] = {1, 0, 1, 0};
-    GLubyte p[4] = {0};
-    gn_gl_bind_framebuffer(gl, framebuffers[0]);
-    if (!complete(gl)) return false;
-    gn_gl_set_scissor(gl, NULL);
-    gn_gl_set_color_write(gl, true);
-    GL(gl, ClearBufferfv)(GL_COLOR, 0, color);
-    GL(gl, BindFramebuffer)(GL_DRAW_FRAMEBUFFER, framebuffers[1]);
-    GL(gl, BlitFramebuffer)(0, 0, SIDE, SIDE, 0, 0, SIDE, SIDE, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    gn_gl_bind_framebuffer(gl, framebuffers[1]);
-    GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, p);
-    return p[0] == 255 && p[1] == 0 && p[2] == 255 && p[3] == 0;
-}
-
 static bool prove_samples(struct gn_gl *gl) {
+    static const float color[4] = {1, 0, 1, 0};
     GLuint framebuffers[2], colors[2];
     for (int i = 0; i < 2; i++) {
         framebuffers[i] = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
         gn_gl_bind_framebuffer(gl, framebuffers[i]);
         colors[i] = attach_new(gl, GL_COLOR_ATTACHMENT0, GL_RGBA8, i == 0 ? 4 : 0);
     }
-    bool right = resolves(gl, framebuffers) && GL(gl, GetError)() == GL_NO_ERROR;
+    bool right = false;
+    gn_gl_bind_framebuffer(gl, framebuffers[0]);
+    if (complete(gl)) {
+        gn_gl_set_scissor(gl, NULL);
+        gn_gl_set_color_write(gl, true);
+        GL(gl, ClearBufferfv)(GL_COLOR, 0, color);
+        GL(gl, BindFramebuffer)(GL_DRAW_FRAMEBUFFER, framebuffers[1]);
+        GL(gl, BlitFramebuffer)
+        (0, 0, SIDE, SIDE, 0, 0, SIDE, SIDE, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gn_gl_bind_framebuffer(gl, framebuffers[1]);
+        GLubyte p[4] = {0};
+        GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, p);
+        right = p[0] == 255 && p[1] == 0 && p[2] == 255 && p[3] == 0 &&
+                GL(gl, GetError)() == GL_NO_ERROR;
+    }
     for (int i = 0; i < 2; i++) {
         gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &framebuffers[i]);
         gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &colors[i]);

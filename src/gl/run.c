@@ -36,16 +36,6 @@ static enum gn_clear_area clear_of(const struct gn_plan *plan, struct gn_gl_map 
     return map->cleared ? GN_CLEAR_NOTHING : GN_CLEAR_RECT;
 }
 
-/* The first tile may have cleared the depth of later ones, which is needed until they are drawn. */
-static bool is_depth_done(const struct gn_plan *plan, const struct gn_gl_map *map,
-                          const struct gn_pass *pass) {
-    if (!pass->discard_depth || pass->kind != GN_PASS_MAP) return pass->discard_depth;
-    const struct gn_shadow_view *view = &plan->shadows[pass->target.slot];
-    for (uint32_t tile = pass->content.tile + 1; tile < view->map.tile_count; tile++)
-        if (!holds_content(map, tile, view->raster.tiles[tile].content_hash)) return false;
-    return true;
-}
-
 static bool is_stopped(const struct gn_gl *gl, struct gn_err *err) {
     return gl->stop && gl->stop() && !gn_fail(err, "interrupted while compiling programs");
 }
@@ -65,7 +55,15 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
         if (first_time && is_stopped(gl, err)) return false;
         gn_gl_draw(gl, pass, &plan->draws[pass->first_draw + i], hash, UINT32_MAX);
     }
-    if (is_depth_done(plan, map, pass)) gn_gl_depth_discard(gl, pass);
+    /* The first tile may have cleared the depth of later ones, which is needed until those are
+     * drawn. */
+    bool depth_done = pass->discard_depth;
+    if (depth_done && pass->kind == GN_PASS_MAP) {
+        const struct gn_shadow_view *view = &plan->shadows[pass->target.slot];
+        for (uint32_t tile = pass->content.tile + 1; tile < view->map.tile_count; tile++)
+            depth_done &= holds_content(map, tile, view->raster.tiles[tile].content_hash);
+    }
+    if (depth_done) gn_gl_depth_discard(gl, pass);
     if (pass->kind == GN_PASS_PICTURE && pass->picture.resolves) gn_gl_output_resolve(gl);
     if (grouped) GL(gl, PopDebugGroup)();
     return !gl->debug.on || gn_gl_error_check(gl, pass->label, err);
@@ -167,24 +165,9 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
 
 /* ---- warm-up draws ---- */
 
-static bool touch_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
-                       const struct gn_draw *d, struct gn_err *err) {
-    static const struct gn_gl_rect pixel = {0, 0, 1, 1};
-    const bool is_map = pass->kind != GN_PASS_PICTURE;
-    struct gn_gl_map *map = is_map ? gn_gl_target_find(gl, &pass->target) : NULL;
-    struct gn_draw one = *d;
-    one.instance_count = 1;
-    if (is_map && !map) return gn_fail(err, "%s: the plan was not prepared", pass->label);
-    gn_gl_pass_begin(gl, pass, framebuffer_of(gl, pass, map), GN_CLEAR_NOTHING);
-    gn_gl_set_scissor(gl, &pixel);
-    gn_gl_sources_bind(gl, plan, pass);
-    gn_gl_draw(gl, pass, &one, 0, 3);
-    if (map) memset(map->content_hash, 0, sizeof map->content_hash);
-    return true;
-}
-
 bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
                  struct gn_err *err) {
+    static const struct gn_gl_rect pixel = {0, 0, 1, 1};
     struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[program]);
     grow_plan_programs(gl, plan->program_count);
     gl->plan_programs.at[program] = p;
@@ -194,7 +177,17 @@ bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
         const struct gn_pass *pass = &plan->passes[i];
         const struct gn_draw *d = &plan->draws[pass->first_draw], *end = d + pass->draw_count;
         while (d < end && d->program != program) d++;
-        if (d < end && !touch_pass(gl, plan, pass, d, err)) return false;
+        if (d == end) continue;
+        const bool is_map = pass->kind != GN_PASS_PICTURE;
+        struct gn_gl_map *map = is_map ? gn_gl_target_find(gl, &pass->target) : NULL;
+        struct gn_draw one = *d;
+        one.instance_count = 1;
+        if (is_map && !map) return gn_fail(err, "%s: the plan was not prepared", pass->label);
+        gn_gl_pass_begin(gl, pass, framebuffer_of(gl, pass, map), GN_CLEAR_NOTHING);
+        gn_gl_set_scissor(gl, &pixel);
+        gn_gl_sources_bind(gl, plan, pass);
+        gn_gl_draw(gl, pass, &one, 0, 3);
+        if (map) memset(map->content_hash, 0, sizeof map->content_hash);
     }
     return true;
 }

@@ -1,6 +1,7 @@
 #include "gl/table.h"
 
-static gn_gl_proc find(const struct gn_gl_opts *opts, const char *name, const char *with_suffix) {
+static gn_gl_proc find_proc(const struct gn_gl_opts *opts, const char *name,
+                            const char *with_suffix) {
     const char *first = opts->desktop ? name : with_suffix; /* ES 3.0 has them by extension only */
     gn_gl_proc proc = opts->get_proc(opts->display, first);
     return proc ? proc : opts->get_proc(opts->display, opts->desktop ? with_suffix : name);
@@ -14,7 +15,7 @@ bool gn_gl_table_load(struct gn_gl_table *table, const struct gn_gl_opts *opts,
         return gn_fail(err, "the driver lacks gl" #name ": gnomon needs OpenGL ES 3.0");
     GN_GL_TABLE(X)
 #undef X
-#define X(type, name, suffix) table->name = (type)find(opts, "gl" #name, "gl" #name suffix);
+#define X(type, name, suffix) table->name = (type)find_proc(opts, "gl" #name, "gl" #name suffix);
     GN_GL_TABLE_OPTIONAL(X)
 #undef X
     return true;

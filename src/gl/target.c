@@ -71,12 +71,6 @@ static void output_finish(struct gn_gl *gl, struct gn_gl_output *o) {
     *o = (struct gn_gl_output){0};
 }
 
-static bool goes_to_window(const struct gn_gl *gl, const struct gn_plan *plan) {
-    if (plan->width_px != gl->window.width_px || plan->height_px != gl->window.height_px)
-        return false;
-    return gl->window.srgb ? plan->output == GN_OUTPUT_SRGB8 : plan->encode_srgb;
-}
-
 /* Attaches the colour of the bound framebuffer: a texture if shaders read it, else a renderbuffer.
  */
 static void attach_color(struct gn_gl *gl, struct gn_gl_output *o, GLuint *color, GLsizei samples,
@@ -137,13 +131,16 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
 /* pixel: like the output of the plan, but 1 x 1 and never a window. */
 static bool output_ensure(struct gn_gl *gl, struct gn_gl_output *o, bool pixel,
                           const struct gn_plan *plan, struct gn_err *err) {
+    const bool fits_window =
+        plan->width_px == gl->window.width_px && plan->height_px == gl->window.height_px &&
+        (gl->window.srgb ? plan->output == GN_OUTPUT_SRGB8 : plan->encode_srgb);
     struct gn_gl_output wanted = {
         .width_px = pixel ? 1 : plan->width_px,
         .height_px = pixel ? 1 : plan->height_px,
         .format = plan->output,
         .stencil = plan->stencil || gl->targets.wants_stencil,
         .msaa_wanted = plan->msaa,
-        .window = !pixel && goes_to_window(gl, plan),
+        .window = !pixel && fits_window,
         .encodes = plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT,
         .made = true,
     };
@@ -301,30 +298,6 @@ static void free_old_maps(struct gn_gl *gl) {
     }
 }
 
-static bool map_ensure(struct gn_gl *gl, const struct gn_target *target, struct gn_err *err) {
-    struct gn_gl_map *map = map_find(gl, target);
-    if (!map) {
-        /* A free slot, else the least recently used map. Never one of this plan, which has far
-         * fewer. */
-        map = &gl->targets.maps[0];
-        for (int i = 1; i < GN_GL_MAPS_MAX; i++)
-            if (gl->targets.maps[i].last_used < map->last_used) map = &gl->targets.maps[i];
-        map_finish(gl, map);
-        *map = (struct gn_gl_map){.slot = target->slot,
-                                  .encoding = target->encoding,
-                                  .moments = target->moments,
-                                  .index = target->index,
-                                  .mipmaps = target->mipmaps,
-                                  .width_px = target->width_px,
-                                  .height_px = target->height_px};
-        if (!make_map(gl, map, err)) return false;
-        map->last_used = gl->targets.prepares;
-        free_old_maps(gl);
-    }
-    map->last_used = gl->targets.prepares;
-    return true;
-}
-
 /* ---- all of them ---- */
 
 bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
@@ -337,7 +310,26 @@ bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_e
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_target *target = &plan->passes[i].target, kept = kept_target(target);
         if (plan->passes[i].kind == GN_PASS_PICTURE) continue;
-        if (!map_ensure(gl, &kept, err)) return false;
+        struct gn_gl_map *map = map_find(gl, &kept);
+        if (!map) {
+            /* A free slot, else the least recently used map. Never one of this plan, which has far
+             * fewer. */
+            map = &gl->targets.maps[0];
+            for (int k = 1; k < GN_GL_MAPS_MAX; k++)
+                if (gl->targets.maps[k].last_used < map->last_used) map = &gl->targets.maps[k];
+            map_finish(gl, map);
+            *map = (struct gn_gl_map){.slot = kept.slot,
+                                      .encoding = kept.encoding,
+                                      .moments = kept.moments,
+                                      .index = kept.index,
+                                      .mipmaps = kept.mipmaps,
+                                      .width_px = kept.width_px,
+                                      .height_px = kept.height_px};
+            if (!make_map(gl, map, err)) return false;
+            map->last_used = gl->targets.prepares;
+            free_old_maps(gl);
+        }
+        map->last_used = gl->targets.prepares;
     }
     return true;
 }

@@ -27,25 +27,6 @@ static uint8_t *shrink(struct gn_gl *gl, const struct gn_gl_curve *curve, uint32
     return owned;
 }
 
-static void open_picture(struct gn_gl *gl, uint32_t index, bool srgb) {
-    struct gn_gl_scene *s = &gl->scene;
-    struct gn_gl_picture *p = &s->upload.picture;
-    *p = (struct gn_gl_picture){
-        .image = s->scene->pictures.images[index], .srgb = srgb, .open = true};
-    p->owned = shrink(gl, s->upload.curve, index, &p->image, srgb);
-    for (uint32_t i = 0; i < s->scene->pictures.texture_count; i++)
-        p->mipmaps |=
-            s->scene->pictures.textures[i].image == index && s->scene->pictures.textures[i].mipmaps;
-    const uint32_t width = p->image.width_px, height = p->image.height_px;
-    p->levels = 1;
-    while (p->mipmaps && (width > height ? width : height) >> p->levels > 0) p->levels++;
-    s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_work_on_texture(gl, s->images[srgb][index]);
-    GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, p->levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)width, (GLsizei)height);
-    s->texture_bytes += (uint64_t)width * height * 4 * (p->mipmaps ? 4 : 3) / 3;
-}
-
 /* Begins the next smaller level; false: there is none. */
 static bool begin_next_level(struct gn_gl_picture *p) {
     if (p->level > 0) {
@@ -142,16 +123,30 @@ static bool use_of(const struct gn_scene *scene, uint32_t use, int32_t *texture,
 /* Opens the picture of the next use that has no texture yet; false: there is none. */
 static bool open_next_picture(struct gn_gl *gl) {
     struct gn_gl_scene *s = &gl->scene;
+    const struct gn_scene_pictures *pictures = &s->scene->pictures;
+    uint32_t index;
     int32_t texture;
     bool srgb;
-    for (; use_of(s->scene, s->upload.first, &texture, &srgb); s->upload.first++) {
+    for (;; s->upload.first++) {
+        if (!use_of(s->scene, s->upload.first, &texture, &srgb)) return false;
         if (texture < 0) continue;
-        const uint32_t image = s->scene->pictures.textures[texture].image;
-        if (s->images[srgb][image]) continue;
-        open_picture(gl, image, srgb);
-        return true;
+        index = pictures->textures[texture].image;
+        if (!s->images[srgb][index]) break;
     }
-    return false;
+    struct gn_gl_picture *p = &s->upload.picture;
+    *p = (struct gn_gl_picture){.image = pictures->images[index], .srgb = srgb, .open = true};
+    p->owned = shrink(gl, s->upload.curve, index, &p->image, srgb);
+    for (uint32_t i = 0; i < pictures->texture_count; i++)
+        p->mipmaps |= pictures->textures[i].image == index && pictures->textures[i].mipmaps;
+    const uint32_t width = p->image.width_px, height = p->image.height_px;
+    p->levels = 1;
+    while (p->mipmaps && (width > height ? width : height) >> p->levels > 0) p->levels++;
+    s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
+    gn_gl_work_on_texture(gl, s->images[srgb][index]);
+    GL(gl, TexStorage2D)
+    (GL_TEXTURE_2D, p->levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)width, (GLsizei)height);
+    s->texture_bytes += (uint64_t)width * height * 4 * (p->mipmaps ? 4 : 3) / 3;
+    return true;
 }
 
 bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes) {

@@ -9,8 +9,20 @@ static void swap_outputs(struct gn_gl *gl) {
     gl->targets.pixel = output;
 }
 
-static enum gn_gl_warmth warm_program(struct gn_gl *gl, const struct gn_plan *plan, uint32_t index,
-                                      struct gn_err *err) {
+static enum gn_gl_warmth warm_plan(struct gn_gl *gl, const struct gn_plan *plan,
+                                   struct gn_err *err) {
+    const uint64_t made = gl->programs.made;
+    if (!gn_gl_prove(gl, plan)) return GN_GL_WARM_REBUILD;
+    if (made != gl->programs.made) return GN_GL_WARM_MORE; /* proofs compile, too */
+    gl->targets.wants_stencil |= plan->stencil;
+    if (!gn_gl_maps_ensure(gl, plan, err)) return GN_GL_WARM_FAILED;
+    uint32_t index =
+        0; /* of the first program not made yet, or made with another scene's vertices */
+    for (; index < plan->program_count; index++) {
+        const struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[index]);
+        if (!p || !gn_gl_vertices_known(gl, p->attributes)) break;
+    }
+    if (index == plan->program_count) return GN_GL_WARM_DONE;
     if (!gn_gl_program_prepare(gl, &plan->programs[index], err)) return GN_GL_WARM_FAILED;
     /* A window has formats of its own: the draw goes to a corner of it, if the next picture covers
      * that. */
@@ -24,21 +36,6 @@ static enum gn_gl_warmth warm_program(struct gn_gl *gl, const struct gn_plan *pl
     if (!corner) swap_outputs(gl);
     return ok && gn_gl_error_check(gl, "making programs", err) ? GN_GL_WARM_MORE
                                                                : GN_GL_WARM_FAILED;
-}
-
-static enum gn_gl_warmth warm_plan(struct gn_gl *gl, const struct gn_plan *plan,
-                                   struct gn_err *err) {
-    const uint64_t made = gl->programs.made;
-    if (!gn_gl_prove(gl, plan)) return GN_GL_WARM_REBUILD;
-    if (made != gl->programs.made) return GN_GL_WARM_MORE; /* proofs compile, too */
-    gl->targets.wants_stencil |= plan->stencil;
-    if (!gn_gl_maps_ensure(gl, plan, err)) return GN_GL_WARM_FAILED;
-    for (uint32_t i = 0; i < plan->program_count; i++) {
-        const struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[i]);
-        if (!p || !gn_gl_vertices_known(gl, p->attributes)) /* or made with another scene's */
-            return warm_program(gl, plan, i, err);
-    }
-    return GN_GL_WARM_DONE;
 }
 
 enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
