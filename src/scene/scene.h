@@ -12,6 +12,7 @@
 #include "core/err.h"
 #include "core/warn.h"
 #include "scene/attribute.h"
+#include "scene/light.h"
 #include "scene/material.h"
 
 struct gn_box { /* axis-aligned; empty when min > max */
@@ -95,18 +96,6 @@ struct gn_node {
     versor rotation;
 };
 
-enum gn_light_type { GN_LIGHT_DIRECTIONAL, GN_LIGHT_POINT, GN_LIGHT_SPOT, GN_LIGHT_TYPE_COUNT };
-struct gn_light_type_row {
-    const char *name;   /* as in KHR_lights_punctual */
-    const char *glsl;   /* its constant in shaders, LIGHT_.. */
-    const char *unit;   /* of its intensity */
-    float radius;       /* of a light that does not name one, as in gn_light */
-    bool has_position;  /* shines from there, dimmer with the distance, to its range; else from
-                           infinitely far away, and its map may have cascades */
-    bool has_cone;      /* shines within one alone: may project a slide */
-    bool shines_around; /* its map has a tile for each of the six directions */
-};
-extern const struct gn_light_type_row gn_light_types[GN_LIGHT_TYPE_COUNT];
 struct gn_light { /* one per node that carries one, in the order of a depth-first walk of the scene
                    */
     const char *name;

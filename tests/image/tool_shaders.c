@@ -128,14 +128,13 @@ static bool write(const char *folder, const char *name, const struct gn_program_
 /* What the table of techniques lists, as TECHNIQUE-LIGHT-FORMAT: every technique with every light
  * and the encoding that it gets by itself, hard with all. */
 static bool write_all(const char *folder, struct gn_err *err) {
-    static const char *const lights[] = {"sun", "point", "spot"};
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
-        for (int type = GN_LIGHT_DIRECTIONAL; type < GN_LIGHT_TYPE_COUNT; type++) {
+        for (int type = 0; type < GN_LIGHT_TYPE_COUNT; type++) {
+            const char *light = type == GN_LIGHT_DIRECTIONAL ? "sun" : gn_light_types[type].name;
             if (gn_technique_filters_map((enum gn_technique)t)) {
                 const char *moments = gn_moments[gn_techniques[t].stores[0]].name;
                 char name[80];
-                snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, lights[type],
-                         moments);
+                snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, light, moments);
                 struct gn_program_key key = lit(FULL, type, gn_techniques[t].name, moments);
                 if (!write(folder, name, &key, err)) return false;
                 continue;
@@ -149,7 +148,7 @@ static bool write_all(const char *folder, struct gn_err *err) {
                                    : t == GN_TECHNIQUE_HARD && e < GN_ENCODING_MASK;
                 if (e != (int)own && !by_hand) continue;
                 char name[80];
-                snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, lights[type],
+                snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, light,
                          gn_encodings[e].name);
                 struct gn_program_key key =
                     lit(FULL, type, gn_techniques[t].name, gn_encodings[e].name);

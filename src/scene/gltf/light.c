@@ -2,6 +2,7 @@
 #include "scene/private.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static void read_cone(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
@@ -23,15 +24,17 @@ static void read_cone(struct gn_gltf *g, const struct gn_at *at, struct gn_light
 static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
     const char *type = gn_at_text(g, at, "type");
     struct gn_at type_at = gn_at_any(at, "type"), range_at = gn_at_any(at, "range");
+    char names[80] = "";
     bool known = false;
-    for (int i = 0; type && i < GN_LIGHT_TYPE_COUNT; i++) {
-        if (strcmp(type, gn_light_types[i].name) != 0) continue;
+    for (int i = 0; i < GN_LIGHT_TYPE_COUNT; i++) {
+        const size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", gn_light_types[i].name);
+        if (!type || strcmp(type, gn_light_types[i].name) != 0) continue;
         light->type = (enum gn_light_type)i;
         known = true;
     }
     if (!known && !g->failed)
-        gn_gltf_warn(g, &type_at, "'%.20s' is none of directional, point, spot; light ignored",
-                     type ? type : "");
+        gn_gltf_warn(g, &type_at, "'%.20s' is none of %s; light ignored", type ? type : "", names);
     if (!known) return false;
 
     glm_vec3_one(light->color);
