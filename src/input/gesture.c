@@ -58,7 +58,7 @@ bool gn_gestures_note(struct gn_gestures *g, struct gn_gesture_note *out) {
 
 /* ---- one button ---------------------------------------------------------------------------- */
 
-static bool binds(const struct gn_gesture_button *b, unsigned gestures) {
+static bool binds_gesture(const struct gn_gesture_button *b, unsigned gestures) {
     return b->opts.gestures & gestures;
 }
 
@@ -79,8 +79,10 @@ static void begin_press(struct gn_gestures *g, int i) {
         emit_gesture(g, i, GN_GESTURE_DOUBLE, b->down_first_ns);
         return;
     }
-    if (binds(b, 1u << GN_GESTURE_HOLD)) b->due_ns[GN_DUE_HOLD] = b->down_ns + b->opts.hold_ns;
-    if (binds(b, 1u << GN_GESTURE_REPEAT)) b->due_ns[GN_DUE_REPEAT] = b->down_ns + b->opts.hold_ns;
+    if (binds_gesture(b, 1u << GN_GESTURE_HOLD))
+        b->due_ns[GN_DUE_HOLD] = b->down_ns + b->opts.hold_ns;
+    if (binds_gesture(b, 1u << GN_GESTURE_REPEAT))
+        b->due_ns[GN_DUE_REPEAT] = b->down_ns + b->opts.hold_ns;
 }
 
 /* The press became another gesture: reports the click before it. */
@@ -220,7 +222,7 @@ static void update_button(struct gn_gestures *g, int i, int64_t first_ns) {
     clear_due(b);
     if (was == GN_BUTTON_USED) end_chords(g, i, first_ns, false);
     if (was != GN_BUTTON_DOWN || b->acted) return;
-    if (binds(b, 1u << GN_GESTURE_DOUBLE)) { /* waits for a second click */
+    if (binds_gesture(b, 1u << GN_GESTURE_DOUBLE)) { /* waits for a second click */
         b->click_ns = first_ns;
         b->due_ns[GN_DUE_CLICK] = g->now_ns + b->opts.double_ns;
     } else {

@@ -40,19 +40,6 @@ static void on_news(void *user, uint32_t events, int64_t now_ns) {
     input->timer.due_ns = now_ns;
 }
 
-static void open_notify(struct gn_input *input) {
-    bool wanted = input->opts.devices;
-    for (int i = 0; i < input->lines.count; i++)
-        wanted |= input->lines.lines[i].wanted && input->lines.ops->library;
-    if (!wanted) return;
-    input->notify = (struct gn_watch){.fd = inotify_init1(IN_CLOEXEC | IN_NONBLOCK),
-                                      .events = EPOLLIN,
-                                      .call = on_news,
-                                      .user = input};
-    if (input->notify.fd >= 0 && gn_loop_add(input->opts.loop, &input->notify))
-        watch_folders(input);
-}
-
 /* ---- the timer ----------------------------------------------------------------------------- */
 
 static void set_timer(struct gn_input *input) {
@@ -89,7 +76,16 @@ struct gn_input *gn_input_open_in(const struct gn_input_world *world,
     }
     input->timer = (struct gn_timer){.call = dispatch_input, .user = input};
     gn_loop_add_timer(opts->loop, &input->timer);
-    open_notify(input);
+    bool watches = opts->devices; /* the folders of devices */
+    for (int i = 0; i < input->lines.count; i++)
+        watches |= input->lines.lines[i].wanted && input->lines.ops->library;
+    if (watches) {
+        input->notify = (struct gn_watch){.fd = inotify_init1(IN_CLOEXEC | IN_NONBLOCK),
+                                          .events = EPOLLIN,
+                                          .call = on_news,
+                                          .user = input};
+        if (input->notify.fd >= 0 && gn_loop_add(opts->loop, &input->notify)) watch_folders(input);
+    }
     for (size_t i = 0; i < SOURCES; i++)
         if (sources[i]->open) sources[i]->open(input, world, now_ns, warnings);
     set_timer(input);
