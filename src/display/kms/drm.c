@@ -76,17 +76,6 @@ static void unmap_buffer(void *memory, size_t size) { munmap(memory, size); }
 
 /* ---- libdrm ---- */
 
-static bool load_libdrm(struct gn_drm_ops *ops, struct gn_err *err) {
-    void *library = dlopen("libdrm.so.2", RTLD_NOW | RTLD_LOCAL);
-    if (!library) return gn_fail(err, "libdrm.so.2 is missing; install libdrm2");
-#define X(function, name)                                                                          \
-    *(void **)&ops->name = dlsym(library, #function);                                              \
-    if (!ops->name) return gn_fail(err, "libdrm.so.2 has no " #function "; install libdrm2");
-    GN_DRM_TABLE(X)
-#undef X
-    return true;
-}
-
 const struct gn_drm_ops *gn_drm_real(struct gn_err *err) {
     static struct gn_drm_ops ops = {.list = list_nodes,
                                     .open = open_node,
@@ -94,6 +83,20 @@ const struct gn_drm_ops *gn_drm_real(struct gn_err *err) {
                                     .map = map_buffer,
                                     .unmap = unmap_buffer};
     static bool loaded;
-    if (!loaded) loaded = load_libdrm(&ops, err);
-    return loaded ? &ops : NULL;
+    if (loaded) return &ops;
+    void *library = dlopen("libdrm.so.2", RTLD_NOW | RTLD_LOCAL);
+    if (!library) {
+        gn_fail(err, "libdrm.so.2 is missing; install libdrm2");
+        return NULL;
+    }
+#define X(function, name)                                                                          \
+    *(void **)&ops.name = dlsym(library, #function);                                               \
+    if (!ops.name) {                                                                               \
+        gn_fail(err, "libdrm.so.2 has no " #function "; install libdrm2");                         \
+        return NULL;                                                                               \
+    }
+    GN_DRM_TABLE(X)
+#undef X
+    loaded = true;
+    return &ops;
 }

@@ -95,7 +95,7 @@ static bool open_display(struct scanout *s, struct gn_err *err) {
 
 /* ---- configs ---- */
 
-static EGLint attribute(struct scanout *s, EGLConfig config, EGLint name) {
+static EGLint config_attribute(struct scanout *s, EGLConfig config, EGLint name) {
     EGLint value = 0;
     s->egl.GetConfigAttrib(s->display, config, name, &value);
     return value;
@@ -110,14 +110,14 @@ static EGLConfig find_config(struct scanout *s, uint32_t format) {
     s->egl.GetConfigs(s->display, all, CONFIGS_MAX, &count);
     for (EGLint i = 0; i < count && !best; i++) {
         EGLConfig c = all[i];
-        const bool fits = (uint32_t)attribute(s, c, EGL_NATIVE_VISUAL_ID) == format &&
-                          attribute(s, c, EGL_SURFACE_TYPE) & EGL_WINDOW_BIT &&
-                          attribute(s, c, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES3_BIT_KHR &&
-                          attribute(s, c, EGL_DEPTH_SIZE) == 24 &&
-                          attribute(s, c, EGL_SAMPLES) == 0;
+        const bool fits = (uint32_t)config_attribute(s, c, EGL_NATIVE_VISUAL_ID) == format &&
+                          config_attribute(s, c, EGL_SURFACE_TYPE) & EGL_WINDOW_BIT &&
+                          config_attribute(s, c, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES3_BIT_KHR &&
+                          config_attribute(s, c, EGL_DEPTH_SIZE) == 24 &&
+                          config_attribute(s, c, EGL_SAMPLES) == 0;
         if (!fits) continue;
         found = c;
-        if (attribute(s, c, EGL_STENCIL_SIZE) == 8) best = c;
+        if (config_attribute(s, c, EGL_STENCIL_SIZE) == 8) best = c;
     }
     free(all);
     return best ? best : found;
@@ -172,7 +172,7 @@ static void close_all(void *state) {
     free(s); /* the libraries stay loaded: threads they started do not survive dlclose */
 }
 
-static void *open_on(int card, const char *render_node, struct gn_err *err) {
+static void *open_device(int card, const char *render_node, struct gn_err *err) {
     struct scanout *s = gn_xalloc(1, sizeof *s);
     s->imports.card = card;
     s->node = render_node ? open(render_node, O_RDWR | O_CLOEXEC) : -1;
@@ -282,8 +282,8 @@ static bool describe_buffer(struct scanout *s, struct gbm_bo *bo, struct gn_buff
     return true;
 }
 
-static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence,
-                 struct gn_err *err) {
+static bool swap_buffers(void *state, bool want_fence, struct gn_buffer *out, int *fence,
+                         struct gn_err *err) {
     struct scanout *s = state;
     EGLSyncKHR sync = EGL_NO_SYNC_KHR;
     *fence = -1;
@@ -300,7 +300,7 @@ static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence
     return false;
 }
 
-static void release(void *state, void *key) {
+static void release_buffer(void *state, void *key) {
     struct scanout *s = state;
     if (s->surface) s->gbm_surface_release_buffer(s->surface, key);
 }
@@ -311,12 +311,12 @@ static bool has_free(void *state) {
 }
 
 const struct gn_scanout_ops gn_scanout_gbm = {
-    .open = open_on,
+    .open = open_device,
     .get_proc = get_proc,
     .set_surface = set_surface,
     .drop_surface = drop_surface,
-    .swap = swap,
-    .release = release,
+    .swap = swap_buffers,
+    .release = release_buffer,
     .has_free = has_free,
     .close = close_all,
 };

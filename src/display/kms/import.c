@@ -5,7 +5,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-static int call(int card, unsigned long request, void *argument) {
+static int call_ioctl(int card, unsigned long request, void *argument) {
     int result;
     do result = ioctl(card, request, argument);
     while (result < 0 && (errno == EINTR || errno == EAGAIN));
@@ -18,7 +18,7 @@ static void close_handles(int card, struct gn_import *import) {
         struct drm_gem_close which = {.handle = import->handles[i]};
         bool closed = false;
         for (int k = 0; k < i; k++) closed |= import->handles[k] == import->handles[i];
-        if (!closed) call(card, DRM_IOCTL_GEM_CLOSE, &which);
+        if (!closed) call_ioctl(card, DRM_IOCTL_GEM_CLOSE, &which);
     }
     *import = (struct gn_import){0};
 }
@@ -37,7 +37,7 @@ const struct gn_import *gn_import_get(struct gn_imports *imports, void *key, int
     for (; place->count < plane_count; place->count++) {
         struct drm_prime_handle plane = {.fd = export(context, key, place->count)};
         const bool ok =
-            plane.fd >= 0 && call(imports->card, DRM_IOCTL_PRIME_FD_TO_HANDLE, &plane) == 0;
+            plane.fd >= 0 && call_ioctl(imports->card, DRM_IOCTL_PRIME_FD_TO_HANDLE, &plane) == 0;
         const int error = errno;
         if (ok) place->handles[place->count] = plane.handle;
         if (plane.fd >= 0) close(plane.fd);

@@ -133,17 +133,6 @@ static bool apply_flip_act(struct gn_kms *k, enum gn_flip_act what, int64_t now_
     return false;
 }
 
-/* A frame refused by the kernel for as long as a flip may take counts as a lost flip. */
-static bool send_waiting(struct gn_kms *k, int64_t now_ns) {
-    if (!may_send_waiting(k) || now_ns < k->flip.next_ns) return true;
-    if (now_ns - k->frames.waiting_ns < 12 * GN_KMS_S) {
-        gn_kms_send(k, k->frames.waiting, now_ns);
-        return true;
-    }
-    k->frames.waiting_ns = now_ns;
-    return apply_flip_act(k, gn_flip_lost(&k->flip), now_ns);
-}
-
 void gn_kms_lose(struct gn_kms *k, int64_t now_ns) {
     gn_kms_leave_card(k, true, now_ns);
     publish_state(k, now_ns);
@@ -166,7 +155,15 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     apply_events(k, events, now_ns);
     if (!k->screen.lost && k->device.fd >= 0) {
         const enum gn_flip_act what = gn_flip_step(&k->flip, now_ns);
-        ok = apply_flip_act(k, what, now_ns) && send_waiting(k, now_ns);
+        ok = apply_flip_act(k, what, now_ns);
+        if (ok && may_send_waiting(k) && now_ns >= k->flip.next_ns) {
+            if (now_ns - k->frames.waiting_ns < 12 * GN_KMS_S) {
+                gn_kms_send(k, k->frames.waiting, now_ns);
+            } else { /* refused for as long as a flip may take: counts as a lost flip */
+                k->frames.waiting_ns = now_ns;
+                ok = apply_flip_act(k, gn_flip_lost(&k->flip), now_ns);
+            }
+        }
         const bool idle = !k->flip.pending && !k->frames.waiting.fb && !k->blank;
         if (k->lit && k->master && idle && k->frames.front.fb && now_ns >= k->due.again_ns)
             gn_kms_send(k, k->frames.front, now_ns);

@@ -225,10 +225,17 @@ static void add_property(struct request *r, uint32_t object, uint32_t property, 
     if (r->o->drm->ModeAtomicAddProperty(r->list, object, property, value) < 0) r->bad = true;
 }
 
-static int commit(struct request *r, uint32_t flags, void *user) {
+static int commit_request(struct request *r, uint32_t flags, void *user) {
     const struct gn_kms_output *o = r->o;
     if (r->bad) return ENOMEM;
     return error_of(o->drm->ModeAtomicCommit(o->fd, r->list, flags, user));
+}
+
+/* Commits and frees it. */
+static int end_request(struct request *r, uint32_t flags, void *user) {
+    const int error = commit_request(r, flags, user);
+    r->o->drm->ModeAtomicFree(r->list);
+    return error;
 }
 
 /* Another program may have left a cursor, an overlay or a second connector on the CRTC. Unreadable
@@ -293,8 +300,8 @@ static int commit_light(struct gn_kms_output *o, const drmModeModeInfo *mode, ui
     add_property(&r, o->plane, p[GN_PROP_PLANE_W], mode->hdisplay);
     add_property(&r, o->plane, p[GN_PROP_PLANE_H], mode->vdisplay);
     add_property(&r, o->plane, p[GN_PROP_PLANE_ROTATION], DRM_MODE_ROTATE_0);
-    int error = commit(&r, DRM_MODE_ATOMIC_TEST_ONLY | DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
-    if (error == 0) error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
+    int error = commit_request(&r, DRM_MODE_ATOMIC_TEST_ONLY | DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
+    if (error == 0) error = commit_request(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
     o->drm->ModeAtomicFree(r.list);
     return error;
 }
@@ -322,9 +329,7 @@ int gn_kms_output_sleep(struct gn_kms_output *o) {
     struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
     if (!r.list) return ENOMEM;
     add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 0);
-    const int error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
-    o->drm->ModeAtomicFree(r.list);
-    return error;
+    return end_request(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
 }
 
 /* Setting the same mode again does not wake the monitor, and another program may have put it to
@@ -367,9 +372,7 @@ int gn_kms_output_flip(struct gn_kms_output *o, uint32_t fb, int fence, void *us
     add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_FB], fb);
     if (fence >= 0)
         add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_FENCE], (uint64_t)fence);
-    const int error = commit(&r, DRM_MODE_ATOMIC_NONBLOCK | DRM_MODE_PAGE_FLIP_EVENT, user);
-    o->drm->ModeAtomicFree(r.list);
-    return error;
+    return end_request(&r, DRM_MODE_ATOMIC_NONBLOCK | DRM_MODE_PAGE_FLIP_EVENT, user);
 }
 
 int gn_kms_output_dark(struct gn_kms_output *o) {
@@ -382,9 +385,7 @@ int gn_kms_output_dark(struct gn_kms_output *o) {
     add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_CRTC], 0);
     add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_MODE], 0);
     add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 0);
-    const int error = commit(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
-    o->drm->ModeAtomicFree(r.list);
-    return error;
+    return end_request(&r, DRM_MODE_ATOMIC_ALLOW_MODESET, NULL);
 }
 
 /* Asked while it is active: an inactive CRTC reports no vblanks either. */

@@ -80,19 +80,6 @@ static struct kms_screen *create_screen(struct gn_display *display, struct gn_er
     return s;
 }
 
-static bool draw_on(struct kms_screen *s, const char *path, struct gn_err *err) {
-    s->node = s->drm->open(path);
-    if (s->node < 0)
-        return gn_fail(err, "%s: %s%s", path, strerror(errno),
-                       errno == EACCES ? "; add the user to the group video" : "");
-    s->drm->DropMaster(s->node); /* opening made us master, which would block other programs */
-    s->scanout = gn_scanout_gbm.open(s->node, NULL, err);
-    if (s->scanout) return true;
-    s->drm->close(s->node);
-    s->node = -1;
-    return gn_fail_prefix(err, "%s", path);
-}
-
 /* Off screen: the first card on which GL starts. */
 static bool kms_open(struct gn_display *display, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_kms_node nodes[GN_KMS_CARDS_MAX];
@@ -102,8 +89,21 @@ static bool kms_open(struct gn_display *display, struct gn_warnings *warnings, s
     if (!s) return false;
     const int count = s->drm->list(nodes, GN_KMS_CARDS_MAX);
     gn_fail(&why, "no card in /dev/dri; load the kernel driver of the display");
-    for (int i = 0; i < count; i++)
-        if (draw_on(s, nodes[i].path, &why)) return true;
+    for (int i = 0; i < count; i++) {
+        const char *path = nodes[i].path;
+        s->node = s->drm->open(path);
+        if (s->node < 0) {
+            gn_fail(&why, "%s: %s%s", path, strerror(errno),
+                    errno == EACCES ? "; add the user to the group video" : "");
+            continue;
+        }
+        s->drm->DropMaster(s->node); /* opening made us master, which would block other programs */
+        s->scanout = gn_scanout_gbm.open(s->node, NULL, &why);
+        if (s->scanout) return true;
+        gn_fail_prefix(&why, "%s", path);
+        s->drm->close(s->node);
+        s->node = -1;
+    }
     *err = why;
     kms_close(display);
     return false;
