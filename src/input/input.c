@@ -20,7 +20,6 @@ static const struct gn_input_source *const sources[] = {
     GN_SOURCE_TABLE(X)
 #undef X
 };
-enum { SOURCES = sizeof sources / sizeof sources[0] };
 
 /* ---- opening ------------------------------------------------------------------------------- */
 
@@ -44,7 +43,7 @@ static void on_news(void *user, uint32_t events, int64_t now_ns) {
 
 static void set_timer(struct gn_input *input) {
     int64_t due_ns = gn_gestures_deadline(&input->gestures);
-    for (size_t i = 0; i < SOURCES; i++) {
+    for (size_t i = 0; i < GN_SOURCE_COUNT; i++) {
         const int64_t its_ns = sources[i]->deadline ? sources[i]->deadline(input) : NEVER;
         if (its_ns < due_ns) due_ns = its_ns;
     }
@@ -66,7 +65,6 @@ struct gn_input *gn_input_open_in(const struct gn_input_world *world,
     input->devices.context = world->evdev_context;
     snprintf(input->devices_folder, sizeof input->devices_folder, "%s/input", folder);
     input->devices.folder = input->devices_folder;
-    input->terminal = (struct gn_terminal){.fd = -1, .wake_fd = -1};
     input->notify.fd = input->folder_watch = input->devices_watch = -1;
     input->poll_ns = NEVER;
     gn_devices_init(&input->devices);
@@ -86,7 +84,7 @@ struct gn_input *gn_input_open_in(const struct gn_input_world *world,
                                           .user = input};
         if (input->notify.fd >= 0 && gn_loop_add(opts->loop, &input->notify)) watch_folders(input);
     }
-    for (size_t i = 0; i < SOURCES; i++)
+    for (size_t i = 0; i < GN_SOURCE_COUNT; i++)
         if (sources[i]->open) sources[i]->open(input, world, now_ns, warnings);
     set_timer(input);
     return input;
@@ -100,7 +98,7 @@ struct gn_input *gn_input_open(const struct gn_input_opts *opts, int64_t now_ns,
 
 void gn_input_close(struct gn_input *input) {
     if (!input) return;
-    for (size_t i = SOURCES; i-- > 0;)
+    for (size_t i = GN_SOURCE_COUNT; i-- > 0;)
         if (sources[i]->close) sources[i]->close(input);
     gn_loop_remove(&input->notify);
     gn_loop_remove_timer(&input->timer);
@@ -153,13 +151,13 @@ static void report_notes(struct gn_input *input) {
 
 static void dispatch_input(void *user, int64_t now_ns) {
     struct gn_input *input = user;
-    for (size_t i = 0; i < SOURCES; i++)
+    for (size_t i = 0; i < GN_SOURCE_COUNT; i++)
         if (sources[i]->read) sources[i]->read(input, now_ns);
     if (input->has_news) read_news(input, now_ns);
-    for (size_t i = 0; i < SOURCES; i++)
+    for (size_t i = 0; i < GN_SOURCE_COUNT; i++)
         if (sources[i]->step) sources[i]->step(input, now_ns);
     gn_gestures_step(&input->gestures, now_ns);
-    for (size_t i = 0; i < SOURCES; i++)
+    for (size_t i = 0; i < GN_SOURCE_COUNT; i++)
         if (sources[i]->check) sources[i]->check(input, now_ns);
     report_notes(input);
     set_timer(input);

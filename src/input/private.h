@@ -25,9 +25,9 @@ struct gn_input {
     struct gn_keys keys;
     struct gn_lines lines;
     struct gn_devices devices;
-    struct gn_terminal terminal;
     struct gn_play play;
     struct gn_key_source window;
+    void *states[GN_SOURCE_COUNT]; /* of sources that have no field here */
     char devices_folder[64];
     struct gn_timer timer;           /* due when anything is due or readable */
     struct gn_watch notify;          /* inotify; fd -1: folders are scanned every 2 s */

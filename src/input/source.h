@@ -1,5 +1,4 @@
-/* Sources of keys and edges. A file that defines gn_source_NAME and a row of the table add one; its
- * state is a field of struct gn_input. */
+/* Sources of keys and edges. A file that defines gn_source_NAME and a row of the table add one. */
 #ifndef GN_INPUT_SOURCE_H
 #define GN_INPUT_SOURCE_H
 
@@ -8,8 +7,10 @@
 
 struct gn_input_world;
 
-/* All may be NULL. A source adds its descriptors to the input's loop and arms the input's timer
- * when one becomes readable; then read, step and check of all sources are called, in this order. */
+/* All may be NULL. A source's own state is input->states[GN_SOURCE_NAME]: NULL until its open makes
+ * it, freed by its close. A source adds its descriptors to the input's loop and arms the input's
+ * timer when one becomes readable; then read, step and check of all sources are called, in this
+ * order. */
 struct gn_input_source {
     void (*open)(struct gn_input *input, const struct gn_input_world *world, int64_t now_ns,
                  struct gn_warnings *warnings);
@@ -31,5 +32,11 @@ struct gn_input_source {
 #define X(name) extern const struct gn_input_source gn_source_##name;
 GN_SOURCE_TABLE(X)
 #undef X
+enum {
+#define X(name) GN_SOURCE_##name,
+    GN_SOURCE_TABLE(X)
+#undef X
+        GN_SOURCE_COUNT
+};
 
 #endif

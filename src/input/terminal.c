@@ -3,11 +3,13 @@
 #include <errno.h>
 #include <linux/kd.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <sys/eventfd.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include "core/arena.h"
 #include "input/private.h"
 
 /* Signals that end the process before the terminal is closed. */
@@ -107,11 +109,11 @@ static void resume_terminal(struct gn_terminal *t) {
 /* Does nothing if standard input is no terminal, or another input has one open. */
 static void open_terminal(struct gn_input *input, const struct gn_input_world *world,
                           int64_t now_ns, struct gn_warnings *warnings) {
-    struct gn_terminal *t = &input->terminal;
     struct gn_loop *loop = input->opts.loop;
     const int fd = world->terminal ? *world->terminal : STDIN_FILENO;
     (void)now_ns, (void)warnings;
     if (!input->opts.terminal || own.open || !isatty(fd) || tcgetattr(fd, &own.saved)) return;
+    struct gn_terminal *t = input->states[GN_SOURCE_terminal] = gn_xalloc(1, sizeof *t);
     *t = (struct gn_terminal){.fd = fd, .loop = loop, .timer = &input->timer};
     t->watch = (struct gn_watch){.fd = fd, .events = EPOLLIN, .call = on_readable, .user = t};
     t->wake_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
@@ -139,17 +141,18 @@ static void open_terminal(struct gn_input *input, const struct gn_input_world *w
 }
 
 static void click_key(struct gn_input *input, unsigned key, int64_t now_ns) {
+    const struct gn_terminal *t = input->states[GN_SOURCE_terminal];
     char type;
     if (key == GN_KEY_NONE) return;
     /* on a text console the terminal and the input device report the same key */
-    if (gn_devices_have(&input->devices, key) && ioctl(input->terminal.fd, KDGKBTYPE, &type) == 0)
-        return;
+    if (gn_devices_have(&input->devices, key) && ioctl(t->fd, KDGKBTYPE, &type) == 0) return;
     gn_keys_click(&input->keys, key, now_ns);
 }
 
 static void read_terminal(struct gn_input *input, int64_t now_ns) {
-    struct gn_terminal *t = &input->terminal;
+    struct gn_terminal *t = input->states[GN_SOURCE_terminal];
     uint8_t bytes[256];
+    if (!t) return;
     if (t->resumed) resume_terminal(t);
     if (!t->readable) return;
     t->readable = false;
@@ -164,16 +167,18 @@ static void read_terminal(struct gn_input *input, int64_t now_ns) {
 }
 
 static void step_terminal(struct gn_input *input, int64_t now_ns) {
-    click_key(input, gn_terminal_keys_wait(&input->terminal.keys, now_ns), now_ns);
+    struct gn_terminal *t = input->states[GN_SOURCE_terminal];
+    if (t) click_key(input, gn_terminal_keys_wait(&t->keys, now_ns), now_ns);
 }
 
 static int64_t terminal_deadline(const struct gn_input *input) {
-    return gn_terminal_keys_deadline(&input->terminal.keys);
+    const struct gn_terminal *t = input->states[GN_SOURCE_terminal];
+    return t ? gn_terminal_keys_deadline(&t->keys) : INT64_MAX;
 }
 
 static void close_terminal(struct gn_input *input) {
-    struct gn_terminal *t = &input->terminal;
-    if (t->fd < 0) return;
+    struct gn_terminal *t = input->states[GN_SOURCE_terminal];
+    if (!t) return;
     watch_fd(t, false);
     gn_loop_remove(&t->wake);
     set_raw(false);
@@ -182,7 +187,8 @@ static void close_terminal(struct gn_input *input) {
     sigaction(SIGCONT, &own.old_continue, NULL);
     for (int i = 0; i < ENDS; i++) sigaction(ends[i], &own.old_ends[i], NULL);
     if (t->wake_fd >= 0) close(t->wake_fd);
-    *t = (struct gn_terminal){.fd = -1, .wake_fd = -1};
+    free(t);
+    input->states[GN_SOURCE_terminal] = NULL;
 }
 
 const struct gn_input_source gn_source_terminal = {

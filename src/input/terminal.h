@@ -11,9 +11,9 @@
 #include "core/loop.h"
 #include "input/terminal_keys.h"
 
-struct gn_terminal { /* fd -1: none */
-    int fd;          /* borrowed */
-    int wake_fd;     /* becomes readable after SIGCONT */
+struct gn_terminal {
+    int fd;      /* borrowed */
+    int wake_fd; /* becomes readable after SIGCONT */
     struct gn_loop *loop;
     struct gn_timer *timer;      /* armed when a descriptor becomes readable */
     struct gn_watch watch, wake; /* of fd and wake_fd */

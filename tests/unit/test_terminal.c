@@ -109,7 +109,8 @@ static void test_the_end_of_the_terminal_is_not_the_end(void **state) {
     close(master);
     for (int i = 0; i < 3; i++) wakes(0);
     assert_false(wakes(50)); /* it does not spin */
-    assert_false(input->terminal.reading);
+    const struct gn_terminal *t = input->states[GN_SOURCE_terminal];
+    assert_false(t->reading);
     close_input(input);
     close(slave);
 }
@@ -119,7 +120,7 @@ static void test_what_is_no_terminal_is_not_read(void **state) {
     slave = open("/dev/null", O_RDONLY | O_CLOEXEC);
     struct gn_input *input = open_input();
     assert_non_null(input);
-    assert_int_equal(input->terminal.fd, -1);
+    assert_null(input->states[GN_SOURCE_terminal]);
     assert_false(wakes(0));
     close_input(input);
     close(slave);
