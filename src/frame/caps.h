@@ -1,5 +1,5 @@
-/* What a GPU says that it can do, until a plan first asks for it; then what was proved by a draw
- * and a read-back. Plain data. */
+/* Capabilities of a GPU: those that the driver claims, and, once a plan needs them, those that a
+ * draw and a read-back proved. Plain data. */
 #ifndef GN_FRAME_CAPS_H
 #define GN_FRAME_CAPS_H
 
@@ -35,14 +35,14 @@ struct gn_caps {
     bool software; /* llvmpipe, softpipe, swrast, SwiftShader */
     bool tiler;    /* it keeps a tile of the picture on chip, with all its samples */
 };
-/* The encodings that caps prove, as gn_encoding_choose wants them. */
+/* The encodings that caps prove, for gn_encoding_choose. */
 uint32_t gn_caps_encodings(const struct gn_caps *caps);
-/* The capability that a way to keep moments takes. */
+/* The capability that a format of moments needs. */
 enum gn_cap gn_cap_of_moments(enum gn_moments moments);
-/* The ways to keep moments that caps prove, as gn_moments_choose wants them. */
+/* The formats of moments that caps prove, for gn_moments_choose. */
 uint32_t gn_caps_moments(const struct gn_caps *caps);
-/* A comma list of names to bits of gn_cap; NULL and "" are none. A name that is not there is a
- * usage error that lists those that are. */
+/* A comma list of names to bits of gn_cap; NULL and "" are none. An unknown name is a usage error
+ * that lists the known ones. */
 bool gn_caps_parse(const char *list, uint32_t *out, struct gn_err *err);
 
 #endif

@@ -10,20 +10,20 @@ struct gn_orbit {             /* zeroed: as the camera stands */
     vec3 shift_m;             /* of what it looks at, world space, before the turntable */
     float zoom;               /* logarithm of how many times nearer; orthographic: larger */
 };
-struct gn_orbit_hand {     /* what a hand does, zeroed: nothing */
+struct gn_orbit_hand {     /* input by a pointer; zeroed: none */
     float turn[2], pan[2]; /* drags to the right and up, in heights of the picture */
     float zoom;            /* added to the orbit's */
     float aspect;          /* of the picture */
 };
 
 bool gn_orbit_is_zero(const struct gn_orbit *orbit);
-/* The next orbit, seen through a camera of the scene at this pose. What is dragged follows the
- * hand: a pan by its own distance, a turn half round for a height of the picture. The eye never
- * goes over the poles, nor nearer than twice the near plane, nor 50 times as far away. */
+/* The next orbit, for a camera of the scene at this pose. A pan moves the scene with the pointer;
+ * dragging by the height of the picture turns it by 180 degrees. The camera stays between the
+ * poles, not nearer than twice the near plane and not farther than 50 times its distance. */
 struct gn_orbit gn_orbit_step(const struct gn_orbit *orbit, const struct gn_orbit_hand *hand,
                               const struct gn_pose *pose, uint32_t camera);
-/* gn_pose_view() moved by it. What the camera looks at is the point on its axis that is as far away
- * as the scene's centre. The distance in metres from the eye to it. */
+/* gn_pose_view() moved by it. It looks at the point on its axis at the distance of the scene's
+ * centre. Returns the distance in metres to that point. */
 float gn_orbit_view(const struct gn_orbit *orbit, const struct gn_pose *pose, uint32_t camera,
                     mat4 view_from_world, vec3 eye_ws);
 /* The orthographic half-sizes in metres that show all of the camera's rectangle in a picture of

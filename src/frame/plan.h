@@ -36,7 +36,7 @@ struct gn_light_key {  /* one light of a LIT or visibility program */
 enum gn_receiver { /* whose shadows an item receives */
                    GN_RECEIVES_MAPS,
                    GN_RECEIVES_NOTHING,
-                   GN_RECEIVES_ALL, /* of what is for the plane, too */
+                   GN_RECEIVES_ALL, /* planar ones, too */
 };
 struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps come first. */
     uint64_t features;  /* GN_FEATURE(..) */
@@ -44,8 +44,8 @@ struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps
     uint8_t encoding;  /* DISTANCE: what it writes; PANEL: what it shows; FILTER: of the map, where
                           the step reads that, and 0 */
     uint8_t taps;      /* LIT, visibility: of techniques that take them; 0: none does */
-    uint8_t taps_turn; /* they are turned from pixel to pixel */
-    uint8_t receiver;  /* gn_receiver, of LIT to which more light is added */
+    uint8_t taps_turn; /* the pattern is rotated per pixel */
+    uint8_t receiver;  /* gn_receiver, of LIT, with more than one group of lights */
     uint8_t step;      /* FILTER: gn_filter_step */
     uint8_t technique; /* FILTER: whose moments; 0 where the step makes none of codes */
     uint8_t moments;   /* FILTER: gn_moments of what it reads and writes */
@@ -63,7 +63,7 @@ struct gn_instance {     /* instance attributes, locations 10..15 */
     float surface[4];    /* roughness, metalness, occlusion strength, alpha cutoff */
     float emissive[4];   /* linear radiance; w unused */
 };
-#define GN_NO_GEOMETRY UINT32_MAX /* a draw of bare vertices: gl_VertexID is all they have */
+#define GN_NO_GEOMETRY UINT32_MAX /* a draw of bare vertices: they have only gl_VertexID */
 struct gn_draw {                  /* one instanced call */
     uint32_t program;             /* index into plan->programs */
     uint32_t geometry, material;  /* material: for textures, transforms */
@@ -121,7 +121,7 @@ struct gn_copy {
     struct gn_rect from; /* of the pages */
     uint32_t to_x, to_y; /* its lower left corner in the map */
 };
-/* Whether samplers weigh what is read, and there is nothing beside it that must not come in. */
+/* Whether its moments are sampled linearly, and no other tile lies beside them. */
 static inline bool gn_view_has_mipmaps(const struct gn_shadow_view *view) {
     return gn_moments[view->moments].linear && view->map.tile_count == 1;
 }
@@ -157,7 +157,7 @@ struct gn_pass {
     struct gn_rect viewport;   /* a tile or a page; width 0: all of the target */
     struct gn_rect rect;       /* draws nothing outside (scissor); width 0: no such bound */
     bool depth_write;          /* the depth test is always LEQUAL */
-    bool discard_depth;        /* nobody reads the depth after this pass: invalidate */
+    bool discard_depth;        /* no later pass reads the depth: invalidate */
     struct gn_content content; /* all but PICTURE */
     uint32_t first_draw, draw_count;
     /* Constants of the pass's programs, laid out by shaders_es/blocks.glsl; counts in vec4. */
@@ -179,7 +179,7 @@ struct gn_pass {
             uint32_t border_px; /* this many texels at the target's rim stay cleared (scissor) */
         } map;
         struct gn_pass_copy {
-            struct gn_target from; /* holds nothing any more afterwards */
+            struct gn_target from; /* undefined afterwards */
             uint32_t count;
             struct gn_copy copies[GN_SHADOW_PAGES_MAX];
         } copy;
@@ -208,17 +208,17 @@ struct gn_plan {
     struct gn_draw *draws;
     struct gn_instance *instances;
     struct gn_program_key *programs; /* those that the draws use, each once, and those that they
-                                        will when an additive light comes near */
+                                        need when an added light comes near */
     struct gn_shadow_view *shadows;  /* one per slot: a map each */
     const uint32_t *lights;          /* of the scene: the lights of the frame, group by group */
     const struct gn_caption_atlas *atlas; /* what captions read; NULL: there are none */
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
-    uint32_t culled; /* items that the eye does not see */
+    uint32_t culled; /* items that the camera does not see */
     bool waits;      /* for another frame: a filtered map is older than the pose (filter_texels) */
     float exposure;
 };
 
-/* The plan as text: stable, made for reading and for diff. */
+/* The plan as text: stable, readable, for diffs. */
 void gn_plan_print(const struct gn_plan *plan, FILE *to);
 /* All preconditions that gl/ relies on, in one list; NULL when the plan holds them, else the first
  * one broken. */

@@ -102,7 +102,7 @@ struct gn_frame {
 enum { GN_PASS_SIZE = 110 };
 /* Sets of a slot: a page of a tile each. */
 enum { GN_SLOT_SETS = GN_SHADOW_TILES_MAX * GN_SHADOW_PAGES_MAX };
-/* Whose constants stand where. */
+/* Index of a set of constants. */
 enum gn_frame_constants {
     GN_CONSTANTS_SHADOW,                                      /* GN_SLOT_SETS a slot */
     GN_CONSTANTS_PICTURE = GN_ALL_SHADOWS_MAX * GN_SLOT_SETS, /* a group each */
@@ -114,26 +114,26 @@ float (*gn_frame_constants(const struct gn_frame *frame, uint32_t which))[4];
 
 /* Of visible items: receivers of planar shadows, or the rest. */
 enum gn_part { GN_PART_ALL, GN_PART_PLANE, GN_PART_REST };
-/* Which items a pass takes, and with which program. */
+/* Which items a pass draws, and with which program. */
 struct gn_selection {
-    const uint8_t *casts; /* shadow pass: those marked by bit `page`; NULL: what the eye sees */
+    const uint8_t *casts; /* shadow pass: those marked by bit `page`; NULL: what the camera sees */
     uint32_t page;
     const struct gn_shadow_view *view;  /* shadow pass */
-    bool mirrored;                      /* it is drawn as in a mirror */
-    const struct gn_light_group *group; /* what is added: to items that it reaches; NULL: first */
+    bool mirrored;                      /* drawn mirrored */
+    const struct gn_light_group *group; /* added: draws items in its reach; NULL: the first */
     enum gn_part part;                  /* not of a shadow pass */
     const struct gn_frame_opts *opts;   /* never NULL */
 };
 
 /* ---- pass.c: programs, passes, bare draws ---- */
 
-/* Its index in the plan, where each key stands once. */
+/* Its index in the plan, which has each key once. */
 uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *key);
 struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame, enum gn_pass_kind kind);
 void gn_frame_end_pass(struct gn_frame *frame);
 /* Begins a pass to the output. */
 struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label);
-/* The same with what the programs of a group of lights read; what a later group gives is added. */
+/* The same with what the programs of a group of lights read; later groups are added by blending. */
 struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group);
 /* Whether a last pass encodes the picture. */
 bool gn_frame_is_encoded(const struct gn_frame *frame);
@@ -143,7 +143,7 @@ void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key
 
 /* ---- draws.c ---- */
 
-/* Blended items that a picture sees are not drawn but gathered in frame->items.blended. */
+/* Visible blended items of a picture are not drawn but gathered in frame->items.blended. */
 void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_selection *s);
 /* As a draw of its own, or one more instance of the last draw, if that is *open and fits. */
@@ -164,18 +164,19 @@ GN_FRAME_STEPS(X)
 
 /* The passes that turn a map into what shaders read; none where that is the map. */
 void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot);
-/* Of all that decides what a tile is filtered into; never 0. */
+/* Of all that the moments of a tile depend on; never 0. */
 uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile);
-/* budget.c: after the lights' views are known. Puts older ones in the place of those that have to
- * wait. */
+/* budget.c: after the lights' views are known. Replaces views over the budget by their older ones.
+ */
 void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts);
 
 /* ---- stencil.c, overlay.c: what belongs to the picture ---- */
 
-/* Planar shadows without a map. Draws what takes such shadows in a group's light, and those. */
+/* Planar shadows without a map. Draws the receivers of such shadows in a group's light, and the
+ * shadows. */
 void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts, uint32_t group);
-/* Whether the group has any that can be seen. */
+/* Whether the group has any that is visible. */
 bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group);
 /* Where a rectangle of the picture is in the output. */
 struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect rect);
@@ -188,10 +189,10 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
 float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_frame_opts *opts);
 void gn_frame_group_lights(struct gn_frame *frame, const struct gn_pose *pose);
-/* Where each group's light can fall in the picture. */
+/* The bounds of each group's light in the picture. */
 void gn_frame_bound_groups(struct gn_frame *frame);
 bool gn_group_touches(const struct gn_light_group *group, const struct gn_box *box_ws);
-/* Which of the chosen lights throw a slide. Those of a pass stand in the order of its lights. */
+/* Which of the chosen lights have a slide. A pass has them in the order of its lights. */
 void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *opts,
                             struct gn_warnings *warnings);
 void gn_frame_slide_constants(const struct gn_frame *frame, const struct gn_pose *pose,
@@ -201,10 +202,10 @@ void gn_frame_slide_constants(const struct gn_frame *frame, const struct gn_pose
 
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts, struct gn_warnings *warnings);
-/* How many cascades a light has. By the eye as the camera stands when it is asked first and, if it
- * is animated, as it will at eight places of its way; and again when options change that matter:
- * while the eye moves neither programs nor targets change. opts: of the fit, map_px of a map
- * without cascades, cascades: the most. */
+/* How many cascades a light has. Chosen once, for the current camera and, if it is animated, for
+ * eight points of its path, and again when options change that matter: while the camera moves
+ * neither programs nor targets change. opts: of the fit, map_px of a map without cascades,
+ * cascades: the most. */
 uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose,
                                   const struct gn_frame_opts *frame_opts, uint32_t slot,
                                   const struct gn_shadow_opts *opts);
@@ -223,22 +224,22 @@ void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from
                                float (*constants)[4]);
 
 /* key.c: the program that draws an item. */
-/* Whether that asks about the shadows of lights for the plane alone. */
+/* Whether that reads the shadows of planar lights. */
 bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item, const struct gn_frame_opts *opts);
 struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t item,
                                  const struct gn_frame_opts *opts);
 struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
                                     const struct gn_shadow_view *view);
-/* What adds a group's light to what `lit` draws. */
+/* The program that adds a group's light to what `lit` draws. */
 struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_program_key *lit,
                                       const struct gn_light_group *group,
                                       const struct gn_frame_opts *opts);
 
-/* eye.c: clip_from_world of the camera, its place and the constants that tell of it. */
+/* eye.c: clip_from_world of the camera, its position and their constants. */
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]);
-/* The eye of the same camera at another pose. */
+/* The same camera at another pose. */
 void gn_frame_eye_at(const struct gn_frame *frame, const struct gn_pose *pose,
                      const struct gn_frame_opts *opts, struct gn_eye *eye);
 

@@ -1,4 +1,4 @@
-/* What happens to a finished picture: it is kept, and laid over later ones. */
+/* Cross-fades: a finished picture is kept and blended over later ones. */
 #include "gl/private.h"
 
 static const char fade_vertex[] = "#version 300 es\n"
@@ -6,7 +6,7 @@ static const char fade_vertex[] = "#version 300 es\n"
                                   "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, "
                                   "gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
                                   "}\n";
-/* Premultiplied: what is kept, and how much of it. */
+/* Premultiplied: the kept picture times its share. */
 static const char fade_fragment[] = "#version 300 es\n"
                                     "precision mediump float;\n"
                                     "uniform lowp sampler2D u_kept;\n"

@@ -20,16 +20,16 @@ struct gn_gl_opts {
     bool desktop;        /* a desktop GL context (OSMesa): switch GL_FRAMEBUFFER_SRGB on */
     bool (*stop)(void);  /* asked before each program is made, and before each draw of a plan that
                             runs first with one: true breaks off, and that is a failure; or NULL */
-    bool prove_later;    /* leave proofs to gn_gl_prove(): the first picture is there sooner */
+    bool prove_later;    /* leave proofs to gn_gl_prove(): a faster start */
     bool debug;          /* KHR_debug messages become errors that gn_gl_error() reports, and the
                             source of a program that fails is kept */
 };
 
 struct gn_gl;
 /* Loads the function table, learns and proves what the GPU can do (by a draw and a read-back),
- * makes what every plan needs. What the driver claims and the GPU fails at is missing from then on,
- * with a warning. NULL when the context is not OpenGL ES 3.0 or more: the error names the GPU and
- * what it has. */
+ * makes what every plan needs. A capability that the driver claims and that fails is missing from
+ * then on, with a warning. NULL when the context is not OpenGL ES 3.0 or later: the error names the
+ * GPU and its version. */
 struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *warnings,
                            struct gn_err *err);
 void gn_gl_destroy(struct gn_gl *gl);
@@ -42,29 +42,28 @@ bool gn_gl_draws_right(struct gn_gl *gl);
 
 /* Uploads a scene, replacing the one before. The scene must outlive its use here. */
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err);
-/* The same beside the scene that is shown, a piece at a time. stage() begins; NULL: drops what
- * there is of one. step() sends about so many bytes, and sets *whole when all of it is there.
- * show() puts it in the place of the other one, which is gone from then on; only when whole. */
+/* Uploads a second scene in pieces while the first is shown. stage() begins; NULL: drops the staged
+ * scene. step() uploads about so many bytes, and sets *whole when the upload is complete. show()
+ * replaces the first scene, which is freed; only when whole. */
 void gn_gl_stage(struct gn_gl *gl, const struct gn_scene *scene);
 bool gn_gl_stage_step(struct gn_gl *gl, size_t bytes, bool *whole, struct gn_err *err);
 void gn_gl_stage_show(struct gn_gl *gl);
 
-/* Proves what the plan needs of the GPU and nothing has proved yet. False when the GPU fails at
- * some of it: gn_gl_caps() has lost that, and the plan is to be built again from what is left. */
+/* Tests the capabilities that the plan needs and that were not tested yet. False when one fails:
+ * gn_gl_caps() no longer has it, and the plan must be built again with what is left. */
 bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan);
-/* Makes the programs and targets that a plan needs, if they are not there: after this gn_gl_run()
- * of the plan, and of plans with the same keys and sizes, allocates nothing and makes no GL object.
+/* Makes the programs and targets that a plan needs, if they do not exist: after this gn_gl_run() of
+ * the plan, and of plans with the same keys and sizes, allocates nothing and makes no GL object.
  */
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
-/* The same, a piece a call, for a plan that will be wanted later, of the scene that is shown or of
- * one that is staged and whole: what is shown stays as it is, but it has to be drawn before it is
- * shown again. Maps first, then one program a call, which is drawn with once. Build the plan with
- * all_seen. */
+/* The same, one step per call, for a plan that is needed later, of the current scene or of a staged
+ * one that is whole. The current picture must be drawn again before it is shown again. Maps first,
+ * then one program per call, which draws once. Build the plan with all_seen. */
 enum gn_gl_warmth {
     GN_GL_WARM_FAILED,  /* err says why */
     GN_GL_WARM_MORE,    /* call again */
     GN_GL_WARM_DONE,    /* nothing was left to do */
-    GN_GL_WARM_REBUILD, /* the GPU fails at some of it: build the plan again from what is left */
+    GN_GL_WARM_REBUILD, /* a capability failed: build the plan again with what is left */
 };
 enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
 /* Warm-up is done: releases the driver's compiler. */
@@ -72,9 +71,9 @@ void gn_gl_warm_end(struct gn_gl *gl);
 /* The composed source of the stage that failed last in a program of gn_gl_prepare(), its lines
  * numbered as the driver counts them; NULL when none did, or without `debug`. */
 const char *gn_gl_failed_source(const struct gn_gl *gl);
-/* The window: the framebuffer that the display gives the context. A picture of its size goes
- * straight there, or, with more samples than one, by way of a target of ours; all others are drawn
- * off screen. NULL: there is none. */
+/* The window: the framebuffer that the display gives the context. A picture of its size is drawn to
+ * it, with several samples after they are resolved off screen; all others are drawn off screen.
+ * NULL: no window. */
 struct gn_gl_window {
     uint32_t width_px, height_px;
     bool srgb; /* it encodes; else a plan must be unencoded to go there */
@@ -86,8 +85,9 @@ void gn_gl_set_window(struct gn_gl *gl, const struct gn_gl_window *window);
  * bench). */
 bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err);
 
-/* Keeps a copy of the last picture, of bytes, to be laid over later ones: between gn_gl_run() and
- * sending it on its way. prepare() makes what that takes, for the output of the last plan. */
+/* Keeps a copy of the last picture, 8 bits per channel, to be blended over later ones: call it
+ * between gn_gl_run() and presenting. prepare() makes its objects, for the output of the last plan.
+ */
 bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err);
 bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err);
 /* Blends the kept picture over the current one. share: its weight, 0..1. No effect if sizes differ.
@@ -107,7 +107,7 @@ void gn_gl_finish_frame(struct gn_gl *gl); /* a 1-pixel read-back: ends a timed 
  * else), width_px x height_px floats of the view, first row at v = 0. For tests and --aov map. */
 bool gn_gl_read_map(struct gn_gl *gl, uint32_t slot, float *out, struct gn_err *err);
 
-struct gn_gl_stats { /* of the last frame, but for the last three */
+struct gn_gl_stats { /* of the last frame, except the last three */
     uint32_t gl_calls, draws, shadow_draws, shadow_passes_skipped;
     uint64_t triangles;
     uint64_t objects_created; /* GL objects made since create */

@@ -144,7 +144,8 @@ bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, s
 }
 
 /* Releases the driver's compiler between plans. In Mesa it holds 3 MB, 1.4 ms to free and 5
- * to make again; released later, after the first picture, its memory is not given back any more. */
+ * to make again; released later, after the first picture, its memory is not returned to the system.
+ */
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     const uint64_t made = gl->programs.made;
     if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");

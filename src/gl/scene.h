@@ -24,15 +24,15 @@ struct gn_gl_vertices { /* one vertex array per set of attributes in use */
     size_t offset;
 };
 enum { GN_GL_VERTICES_MAX = 32, GN_GL_INSTANCE_RING = 3, GN_GL_SAMPLER_KINDS = 144 };
-struct gn_gl_picture { /* one that is being sent, a few rows at a time */
+struct gn_gl_picture { /* being uploaded, a few rows at a time */
     struct gn_image image;
-    uint8_t *owned; /* its pixels, if they are ours; freed when it is sent */
+    uint8_t *owned; /* its pixels, if they are ours; freed when it is uploaded */
     bool open, srgb, mipmaps;
     GLint level;
     GLsizei levels;
-    uint32_t row; /* of the level: sent so far */
+    uint32_t row; /* of the level: uploaded so far */
     struct gn_image half;
-    uint8_t *half_owned; /* the next level, as far as it is made */
+    uint8_t *half_owned; /* the next level, in progress */
 };
 enum gn_gl_upload_phase {
     GN_GL_UPLOAD_POSITIONS,
@@ -67,16 +67,16 @@ struct gn_gl_scene {
     uint32_t vertices_count;
 };
 void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene);
-/* Sends about so many bytes; *done: that was all of it. After a failure nothing is left. */
+/* Uploads about so many bytes; *done: the scene is complete. On failure all of it is freed. */
 bool gn_gl_scene_step(struct gn_gl *gl, size_t bytes, bool *done, struct gn_err *err);
-/* The staged scene and the one that is shown change places. */
+/* Swaps the staged scene and the current one. */
 void gn_gl_stage_swap(struct gn_gl *gl);
 void gn_gl_scene_finish(struct gn_gl *gl);
-/* The vertex array for a set of attributes, made if need be; false when there are too many. */
+/* The vertex array for a set of attributes, made if missing; false when there are too many. */
 bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err *err);
 bool gn_gl_vertices_known(struct gn_gl *gl, uint32_t attributes);
 void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_instance);
-/* Sends about so many bytes; true: that was all of it. */
+/* Uploads about so many bytes; true: all textures are complete. */
 bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes);
 void gn_gl_textures_finish(struct gn_gl *gl);
 void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref);

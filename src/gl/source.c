@@ -51,7 +51,7 @@ char *gn_gl_text_numbered(const struct gn_gl_text *text) {
     return out.data;
 }
 
-/* The bytes of a shader file; *owned is what the caller finishes (zero for an embedded one). */
+/* The bytes of a shader file. The caller finishes *owned (zero for an embedded file). */
 static const char *file_text(const struct gn_gl_source *source, const char *name,
                              struct gn_bytes *owned, struct gn_err *err) {
     *owned = (struct gn_bytes){0};

@@ -123,7 +123,7 @@ void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]) {
     GL(gl, ClearColor)(rgba[0], rgba[1], rgba[2], rgba[3]);
 }
 
-/* The context may have been another's. What that one has bound went with its objects. */
+/* Another gn_gl may have used the context; its bindings ended with its objects. */
 void gn_gl_state_init(struct gn_gl *gl) {
     static const GLenum framebuffer_srgb = 0x8DB9; /* desktop GL only: ES always encodes */
     static const GLenum off[] = {GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE,

@@ -9,7 +9,7 @@ static bool slot_is_srgb(uint32_t slot) { return gn_texture_slots[slot].texels =
 
 /* ---- textures ---- */
 
-/* Makes the copy *image small enough; returns what is to be freed, or NULL. */
+/* Halves *image until it fits the GPU; returns the pixels that the caller frees, or NULL. */
 static uint8_t *shrink(struct gn_gl *gl, const struct gn_gl_curve *curve, uint32_t index,
                        struct gn_image *image, bool srgb) {
     const uint32_t largest = (uint32_t)gl->caps.max_texture_px;

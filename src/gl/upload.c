@@ -1,5 +1,6 @@
-/* The scene's vertices on the GPU: one set of buffers for all of it. Positions stand alone, so that
- * shadow passes fetch nothing else; indices are 16 bits wide wherever that is enough. */
+/* The scene's vertices on the GPU: one set of buffers for all of it. Positions have a buffer of
+ * their own, so that shadow passes fetch nothing else; indices have 16 bits where that is enough.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -198,7 +199,7 @@ void gn_gl_scene_finish(struct gn_gl *gl) {
     *s = (struct gn_gl_scene){0};
 }
 
-/* ---- a second one beside it ---- */
+/* ---- the staged scene ---- */
 
 void gn_gl_stage_swap(struct gn_gl *gl) {
     const struct gn_gl_scene shown = gl->scene;
@@ -291,7 +292,7 @@ bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err 
     return true;
 }
 
-/* ES 3.0 has no base instance: the pointers move instead. */
+/* ES 3.0 has no base instance: the attribute pointers change instead. */
 void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_instance) {
     struct gn_gl_vertices *v = find_vertices(&gl->scene, attributes);
     const GLuint buffer = gl->instances.buffers[gl->instances.current];
