@@ -224,8 +224,9 @@ static const struct gn_screen_opts *copy_opts(const struct gn_screen_opts *opts)
     char *at = (char *)(copy + 1);
     for (int i = 0; i < 4; i++)
         if (texts[i]) {
-            *copies[i] = strcpy(at, texts[i]);
-            at += strlen(at) + 1;
+            const size_t length = strlen(texts[i]) + 1;
+            *copies[i] = memcpy(at, texts[i], length);
+            at += length;
         }
     return copy;
 }
