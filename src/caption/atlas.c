@@ -1,4 +1,4 @@
-/* Shelves: glyphs of about one height stand in a row, left to right, as they come. */
+/* Shelf packing: glyphs stand in rows, left to right, in the order in which they come. */
 #include "caption/atlas.h"
 
 #include <stdlib.h>
@@ -21,7 +21,7 @@ void gn_atlas_seal(struct gn_atlas *atlas) {
     p->generation = gn_hash(GN_HASH_INIT, p->coverage, (size_t)p->width_px * p->height_px) | 1;
 }
 
-/* Twice as high, or where there is none yet, as wide as some twenty characters. */
+/* Doubles the height; the first time it is as wide as about twenty characters. */
 static bool grow_atlas(struct gn_atlas *atlas, uint32_t line_px) {
     struct gn_caption_atlas *p = &atlas->picture;
     const uint32_t before = p->height_px, height = before ? 2 * before : FIRST_HEIGHT_PX;
@@ -68,7 +68,7 @@ static void fill_glyph(struct gn_atlas *atlas, struct gn_atlas_glyph *g,
         memcpy(to + row * stride, from->coverage + row * from->stride, g->width_px);
 }
 
-/* A hollow rectangle, three fifths of a line high. */
+/* For a character that the font has not: a hollow rectangle, three fifths of a line high. */
 static void fill_box(struct gn_atlas *atlas, struct gn_atlas_glyph *g) {
     const uint32_t height = g->line_px * 3 / 5 + 1, width = height * 2 / 3 + 1;
     const uint32_t rim = g->line_px / 14 + 1;

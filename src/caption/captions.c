@@ -15,12 +15,12 @@ enum {
     LINE_MAX_PX = 128,
 };
 
-/* Where a kind stands, and how large. */
+/* Place and size of each kind. */
 static const struct row {
-    uint32_t lines_a_side; /* so many lines would fill the picture's shorter side */
+    uint32_t lines_a_side; /* this many lines fill the picture's shorter side */
     uint32_t most_lines;   /* 0: as many as there is room for */
     bool wraps, at_top;
-    int64_t lasts_ns; /* 0: until it is taken away */
+    int64_t lasts_ns; /* 0: until it is removed */
 } rows[GN_CAPTION_KIND_COUNT] = {
     [GN_CAPTION_INFO] = {.lines_a_side = 30, .at_top = true},
     [GN_CAPTION_MODE] = {.lines_a_side = 24, .most_lines = 1, .lasts_ns = GN_CAPTION_MODE_NS},
@@ -38,10 +38,10 @@ struct gn_captions {
     struct gn_atlas atlas;
     struct gn_caption_run run;
     struct gn_caption_quad quads[QUADS_MAX];
-    uint32_t bottom_px; /* how much of the picture's lower part is taken */
-    int64_t shown_ns;   /* when the last run is of */
+    uint32_t bottom_px; /* height in use at the picture's lower edge */
+    int64_t shown_ns;   /* time of the last run */
     bool changed;       /* since then */
-    bool stale;         /* the quads are not of these texts */
+    bool stale;         /* the quads show other texts */
 };
 
 struct gn_captions *gn_captions_create(const struct gn_captions_opts *opts) {
@@ -108,7 +108,7 @@ static int32_t advance_of(void *data, uint32_t code) {
     return gn_atlas_glyph(&c->atlas, c->font, code)->advance_px;
 }
 
-/* The part of it that is in the picture. */
+/* Clips the quad to the picture and adds it. */
 static void push_quad(struct gn_captions *c, struct gn_caption_quad quad) {
     const int32_t right = quad.x + quad.width, bottom = quad.y + quad.height;
     const int32_t width = (int32_t)c->run.width_px, height = (int32_t)c->run.height_px;
@@ -137,7 +137,8 @@ static int32_t push_text(struct gn_captions *c, enum gn_caption_kind kind, const
     return x;
 }
 
-/* The ground under lines: half a line wider on either side than they are, and a quarter higher. */
+/* The ground under the lines is half a line wider on each side than they are, and a quarter higher.
+ */
 static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
     static const char gap[] = GN_LAYOUT_GAP;
     const struct row *row = &rows[kind];
@@ -146,7 +147,7 @@ static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
     struct gn_layout_line lines[LINES_MAX];
     if (!gn_font_resize(c->font, line_px_of(row, width, height))) return;
 
-    /* a large line away from the edges: televisions do not show all of a picture */
+    /* the margin is a large line: televisions do not show the edges of a picture */
     const int32_t margin = (int32_t)line_px_of(&rows[GN_CAPTION_MODE], width, height);
     const int32_t line = (int32_t)c->font->line_px, beside = line / 2, above = line / 4;
     const int32_t lowest = (int32_t)height - margin - (int32_t)c->bottom_px;
@@ -183,7 +184,7 @@ static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
     if (!row->at_top) c->bottom_px += (uint32_t)(tall + above);
 }
 
-/* From below: an error, over it the mode, which is drawn last. */
+/* From below: the error, above it the mode, which is drawn last. */
 static void lay_out_all(struct gn_captions *c) {
     static const enum gn_caption_kind order[GN_CAPTION_KIND_COUNT] = {
         GN_CAPTION_ERROR, GN_CAPTION_INFO, GN_CAPTION_MODE};
@@ -218,7 +219,7 @@ const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t wid
         c->run.height_px = height_px;
         if (other_size) gn_atlas_reset(&c->atlas);
         lay_out_all(c);
-        if (c->atlas.full) { /* of glyphs that were needed once */
+        if (c->atlas.full) { /* with glyphs that are no longer used */
             gn_atlas_reset(&c->atlas);
             lay_out_all(c);
         }

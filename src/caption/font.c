@@ -11,7 +11,7 @@ bool gn_font_resize(struct gn_font *font, uint32_t line_px) {
     return font->ops->resize(font, line_px);
 }
 
-/* A file can say anything about its glyphs. */
+/* The file is untrusted: checks what it says about its glyphs. */
 bool gn_font_glyph(struct gn_font *font, uint32_t code, struct gn_glyph *out) {
     enum { MOST = GN_FONT_GLYPH_PX_MAX };
     *out = (struct gn_glyph){0};

@@ -9,12 +9,12 @@ enum { SCALE_MAX = 16 };
 
 struct dots {
     struct gn_font font;
-    uint32_t scale; /* pixels a dot */
+    uint32_t scale; /* pixels per dot */
     uint8_t coverage[SCALE_MAX * GN_DOT_FONT_ROWS * SCALE_MAX * GN_DOT_FONT_COLUMNS];
 };
 
-/* The nearest whole multiple. */
-static bool resize(struct gn_font *font, uint32_t line_px) {
+/* Dots are a whole number of pixels: the nearest line height. */
+static bool resize_dots(struct gn_font *font, uint32_t line_px) {
     struct dots *d = (struct dots *)font;
     const uint32_t scale = (line_px + GN_DOT_FONT_HEIGHT / 2) / GN_DOT_FONT_HEIGHT;
     d->scale = scale < 1 ? 1 : scale > SCALE_MAX ? SCALE_MAX : scale;
@@ -23,7 +23,7 @@ static bool resize(struct gn_font *font, uint32_t line_px) {
     return true;
 }
 
-static bool glyph(struct gn_font *font, uint32_t code, struct gn_glyph *out) {
+static bool render_glyph(struct gn_font *font, uint32_t code, struct gn_glyph *out) {
     struct dots *d = (struct dots *)font;
     const uint8_t *rows = gn_dot_font_rows(code);
     const uint32_t width = GN_DOT_FONT_COLUMNS * d->scale, height = GN_DOT_FONT_ROWS * d->scale;
@@ -45,9 +45,9 @@ static bool glyph(struct gn_font *font, uint32_t code, struct gn_glyph *out) {
 static void close_dots(struct gn_font *font) { free(font); }
 
 struct gn_font *gn_font_open_dots(void) {
-    static const struct gn_font_ops ops = {resize, glyph, close_dots};
+    static const struct gn_font_ops ops = {resize_dots, render_glyph, close_dots};
     struct dots *d = gn_xalloc(1, sizeof *d);
     d->font.ops = &ops;
-    resize(&d->font, GN_DOT_FONT_HEIGHT);
+    resize_dots(&d->font, GN_DOT_FONT_HEIGHT);
     return &d->font;
 }

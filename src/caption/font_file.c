@@ -13,14 +13,14 @@
 
 struct file_font {
     struct gn_font font;
-    struct gn_bytes bytes; /* its own, or empty */
+    struct gn_bytes bytes; /* owned; empty: of the caller */
     FT_Library library;
     FT_Face face;
 };
 
-/* As many pixels an em as make lines of that height, whose descenders are within it; no more than
- * that, where a font says that it is all ascenders. */
-static bool resize(struct gn_font *font, uint32_t line_px) {
+/* Pixels per em so that ascender and descender fit the line; at least half the line's height,
+ * whatever the font says about its ascender. */
+static bool resize_face(struct gn_font *font, uint32_t line_px) {
     struct file_font *f = (struct file_font *)font;
     const uint32_t tall = (uint32_t)(f->face->ascender > 0 ? f->face->ascender : 0) +
                           (uint32_t)(f->face->descender < 0 ? -f->face->descender : 0);
@@ -36,7 +36,7 @@ static bool resize(struct gn_font *font, uint32_t line_px) {
     return true;
 }
 
-/* Before it is drawn: an outline may span far more than anyone has memory for. */
+/* Checked before rendering: an outline may need more memory than there is. */
 static bool is_moderate(const FT_GlyphSlot slot) {
     FT_BBox box;
     if (slot->format != FT_GLYPH_FORMAT_OUTLINE) return false;
@@ -45,7 +45,7 @@ static bool is_moderate(const FT_GlyphSlot slot) {
            box.yMax - box.yMin < 64 * GN_FONT_GLYPH_PX_MAX;
 }
 
-static bool glyph(struct gn_font *font, uint32_t code, struct gn_glyph *out) {
+static bool render_glyph(struct gn_font *font, uint32_t code, struct gn_glyph *out) {
     struct file_font *f = (struct file_font *)font;
     const FT_UInt index = FT_Get_Char_Index(f->face, code);
     if (index == 0 || FT_Load_Glyph(f->face, index, FT_LOAD_NO_BITMAP)) return false;
@@ -66,12 +66,12 @@ static bool glyph(struct gn_font *font, uint32_t code, struct gn_glyph *out) {
 
 static void close_file(struct gn_font *font) {
     struct file_font *f = (struct file_font *)font;
-    if (f->library) FT_Done_FreeType(f->library); /* the face, too */
+    if (f->library) FT_Done_FreeType(f->library); /* and the face */
     gn_bytes_finish(&f->bytes);
     free(f);
 }
 
-static const struct gn_font_ops ops = {resize, glyph, close_file};
+static const struct gn_font_ops ops = {resize_face, render_glyph, close_file};
 
 struct gn_font *gn_font_open_bytes(const uint8_t *data, size_t size, struct gn_err *err) {
     struct file_font *f = gn_xalloc(1, sizeof *f);
@@ -80,7 +80,7 @@ struct gn_font *gn_font_open_bytes(const uint8_t *data, size_t size, struct gn_e
                         FT_New_Memory_Face(f->library, data, (FT_Long)size, 0, &f->face) == 0;
     if (opened && FT_IS_SCALABLE(f->face) && f->face->charmap &&
         f->face->charmap->encoding == FT_ENCODING_UNICODE && f->face->units_per_EM > 0 &&
-        resize(&f->font, 20))
+        resize_face(&f->font, 20))
         return &f->font;
     close_file(&f->font);
     gn_fail(err, "not a scalable Unicode font that FreeType can read");

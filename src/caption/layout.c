@@ -6,9 +6,9 @@ enum { REPLACEMENT = 0xfffd };
 
 /* ---- UTF-8 (Unicode 15, table 3-7) ---- */
 
-/* How many bytes a character of that first byte has, and between what its second one lies; 0: it
- * begins none. */
-static int sequence(uint8_t lead, uint8_t *least, uint8_t *most) {
+/* The length in bytes of a character with that first byte, and the range of its second byte; 0: no
+ * character begins so. */
+static int sequence_length(uint8_t lead, uint8_t *least, uint8_t *most) {
     *least = lead == 0xe0 ? 0xa0 : lead == 0xf0 ? 0x90 : 0x80;
     *most = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
     if (lead < 0x80) return 1;
@@ -16,10 +16,10 @@ static int sequence(uint8_t lead, uint8_t *least, uint8_t *most) {
     return lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
 }
 
-static uint32_t decode(const char **text, const char *end) {
+static uint32_t decode_character(const char **text, const char *end) {
     const uint8_t *at = (const uint8_t *)*text;
     uint8_t least, most;
-    const int length = sequence(at[0], &least, &most);
+    const int length = sequence_length(at[0], &least, &most);
     if (length <= 1) {
         ++*text;
         return length ? at[0] : REPLACEMENT;
@@ -27,7 +27,7 @@ static uint32_t decode(const char **text, const char *end) {
     uint32_t code = at[0] & (0x7fu >> length);
     for (int i = 1; i < length; i++) {
         if ((const char *)at + i == end || at[i] < least || at[i] > most) {
-            *text += i; /* what follows may be whole again */
+            *text += i; /* the next character may be valid */
             return REPLACEMENT;
         }
         code = code << 6 | (at[i] & 0x3f);
@@ -37,8 +37,8 @@ static uint32_t decode(const char **text, const char *end) {
     return code;
 }
 
-/* Controls, marks of direction, joiners, selectors: nothing that is seen. */
-static bool is_unseen(uint32_t code) {
+/* Controls, direction marks, joiners and variation selectors. */
+static bool is_invisible(uint32_t code) {
     return (code < 0x20 && code != '\n') || (code >= 0x7f && code < 0xa0) || code == 0xad ||
            (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
            (code >= 0x2060 && code <= 0x206f) || (code >= 0xfe00 && code <= 0xfe0f) ||
@@ -47,9 +47,9 @@ static bool is_unseen(uint32_t code) {
 
 uint32_t gn_layout_next(const char **text, const char *end) {
     while (*text < end && **text) {
-        const uint32_t code = decode(text, end);
+        const uint32_t code = decode_character(text, end);
         if (code == '\t') return ' ';
-        if (!is_unseen(code)) return code;
+        if (!is_invisible(code)) return code;
     }
     return 0;
 }
@@ -70,8 +70,8 @@ static const char *trim_spaces(const char *begin, const char *end) {
     return end;
 }
 
-/* Where a line of so much room ends: behind its last word that fits, or within the only one. At
- * least one character long, so that there is an end of it. */
+/* The end of a line of at most `room` pixels: after the last word that fits, or within the first
+ * word. The line has at least one character, so that a layout ends. */
 static const char *break_at(const struct gn_layout_opts *opts, const char *begin, const char *end,
                             int32_t room, bool words) {
     const char *at = begin, *word = begin;

@@ -29,7 +29,7 @@
 
 struct gn_arena_block {
     struct gn_arena_block *next;
-    size_t size, used; /* of data */
+    size_t size, used; /* bytes of data */
     _Alignas(ALIGNMENT) unsigned char data[];
 };
 
@@ -52,13 +52,14 @@ static struct gn_arena_block *add_block(struct gn_arena *arena, size_t least) {
     return block;
 }
 
-/* In the current block, in an empty one behind it, where a reset leaves them, or in a new one. */
+/* Makes a block with room current: the current one, an empty one behind it, where a reset leaves
+ * them, or a new one. */
 static bool find_room(struct gn_arena *arena, size_t size) {
     struct gn_arena_block *current = arena->current, *found = NULL;
     if (current && current->size - current->used >= size) return true;
     struct gn_arena_block **link = current ? &current->next : NULL;
     while (link && *link && (*link)->size < size) link = &(*link)->next;
-    if (link && *link) { /* moved up */
+    if (link && *link) { /* moved to behind the current one */
         found = *link;
         *link = found->next;
         found->next = current->next;
@@ -92,7 +93,7 @@ char *gn_arena_strdup(struct gn_arena *arena, const char *text) {
     return copy ? memcpy(copy, text, size) : NULL;
 }
 
-/* Frees the block if it is empty then: it was allocated for this piece and may be large. */
+/* Frees the block if it is then empty: it was allocated for this piece and may be large. */
 void gn_arena_undo(struct gn_arena *arena, void *piece, size_t bytes) {
     struct gn_arena_block *block = arena->current, *before = NULL;
     block->used -= padded_size(bytes);

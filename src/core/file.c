@@ -29,8 +29,7 @@ static bool fail_size(struct gn_err *err, const char *path, size_t limit) {
     return gn_fail(err, "%s: larger than the limit of %zu bytes", path, limit);
 }
 
-/* The size that the file had when it was opened is a hint only: it may grow, and files of /proc say
- * 0. */
+/* The size when the file was opened is only a hint: it may grow, and files of /proc report 0. */
 static bool read_all(int fd, const char *path, size_t hint, size_t limit, struct gn_bytes *out,
                      struct gn_err *err) {
     size_t room = hint + 1;
@@ -93,7 +92,7 @@ static bool write_all(int fd, const void *data, size_t size) {
     return true;
 }
 
-/* -1: the path names none of ours. */
+/* -1: the path names no descriptor of this process. */
 static int descriptor_of(const char *path) {
     static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
     if (strcmp(path, "/dev/stdout") == 0) return STDOUT_FILENO;
@@ -107,14 +106,14 @@ static int descriptor_of(const char *path) {
     return -1;
 }
 
-/* Into the descriptor that the path names, at the position it already has, or a new one. */
+/* Writes to the descriptor that the path names, at its present position, or opens the path. */
 static bool write_in_place(const char *path, const void *data, size_t size, struct gn_err *err) {
     struct stat info;
     int fd = descriptor_of(path);
     fd = fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
     if (fd < 0) return fail_errno(err, path, "write");
     bool ok = write_all(fd, data, size);
-    if (ok && fstat(fd, &info) == 0 && S_ISREG(info.st_mode)) { /* it ends after the data */
+    if (ok && fstat(fd, &info) == 0 && S_ISREG(info.st_mode)) { /* the file ends after the data */
         off_t end = lseek(fd, 0, SEEK_CUR);
         ok = end >= 0 && ftruncate(fd, end) == 0;
     }
@@ -125,7 +124,7 @@ static bool write_in_place(const char *path, const void *data, size_t size, stru
 
 static bool write_and_rename(const char *path, const char *target, const struct stat *old,
                              const void *data, size_t size, struct gn_err *err) {
-    /* beside the target, under a name that is not taken */
+    /* a new file beside the target */
     char name[PATH_MAX];
     const char *slash = strrchr(target, '/');
     int folder = slash ? (int)(slash - target + 1) : 0, fd = -1;
@@ -172,8 +171,8 @@ bool gn_file_write(const char *path, const void *data, size_t size, struct gn_er
     if (exists && S_ISDIR(info.st_mode)) return gn_fail(err, "%s: cannot write: is a folder", path);
     if (!path[0]) return gn_fail(err, "cannot write to a file without a name");
 
-    /* written in place: what is not a regular file, or names a descriptor; /dev/shm holds regular
-     * files */
+    /* not a regular file, or the name of a descriptor: written in place; /dev/shm has regular files
+     */
     const bool in_dev = strncmp(path, "/dev/", 5) == 0 && strncmp(path, "/dev/shm/", 9) != 0;
     if ((exists && !S_ISREG(info.st_mode)) || in_dev || strncmp(path, "/proc/", 6) == 0)
         return write_in_place(path, data, size, err);

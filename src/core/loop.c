@@ -12,7 +12,7 @@
 #include "core/arena.h"
 #include "core/clock.h"
 
-enum { READY_MAX = 64 }; /* of one step; the rest is ready in the next */
+enum { READY_MAX = 64 }; /* per call; the rest is ready in the next */
 
 struct list {
     struct gn_loop_link *first, *last;
@@ -176,8 +176,7 @@ int gn_loop_step(struct gn_loop *loop, int64_t until_ns) {
     }
     int ready = 0;
     if (!loop->clock_ns && until_ns > gn_clock_monotonic_ns()) {
-        /* the timerfd stays readable once it is over; arming it again resets that, so it is never
-         * read */
+        /* an expired timerfd stays readable until it is armed again, so it is never read */
         if (until_ns != loop->armed_ns) {
             const int64_t ns = until_ns == GN_LOOP_NEVER ? 0 : until_ns; /* 0 disarms it */
             const struct itimerspec when = {.it_value = {ns / GN_NS_PER_S, ns % GN_NS_PER_S}};

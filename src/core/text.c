@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define DISTANCE_MAX 31
-#define ENDS_MIN     64 /* texts of fewer bytes are cut at the end */
+#define ENDS_MIN     64 /* shorter buffers get only the beginning of a text */
 
 static void cut_at_character(char *text, size_t length) {
     size_t start = length;
@@ -44,7 +44,7 @@ void gn_text_vformat(char *out, size_t size, const char *format, va_list args) {
     }
     va_end(again);
 
-    /* without control characters: those of ASCII, and U+0080 to U+009F */
+    /* remove control characters: those of ASCII, and U+0080 to U+009F */
     char *to = out;
     for (const unsigned char *c = (const unsigned char *)out; *c; c++) {
         const bool is_long = c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0;

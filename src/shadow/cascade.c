@@ -5,19 +5,19 @@
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define NEAR_STEPS    1.0f /* an octave, of the distances that splits are made from */
+#define NEAR_STEPS    1.0f /* per octave: rounding of the distances that splits are made from */
 #define FAR_STEPS     2.0f
-#define LEAST_RATIO   1.25f          /* of two splits: wider apart than a zone is */
-#define LEAST_ROOM    (1.0f / 64.0f) /* for penumbrae to each side of a tile, as a share of it */
+#define LEAST_RATIO   1.25f          /* of successive splits: wider apart than they fade */
+#define LEAST_ROOM    (1.0f / 64.0f) /* gutters for penumbrae, as a share of a tile's side */
 #define MOST_ROOM     (1.0f / 8.0f)
-#define TABLE_ROOM    (1.0f / 4.0f) /* GN_TABLE_REACH_PX is less, but of very small maps */
+#define TABLE_ROOM    (1.0f / 4.0f) /* GN_TABLE_REACH_PX is less, except in very small maps */
 #define UNBOUND       1e9f
-#define SPAN_STEPS    2.0f  /* an octave */
+#define SPAN_STEPS    2.0f  /* per octave */
 #define NEAREST_STEPS 32.0f /* within a span */
 #define LEAST_SPAN    (1.0f / 256.0f)
 
-/* To the next of so many steps per octave, up or down. */
-static float step(float size, float steps, bool up) {
+/* Rounds up or down to one of so many steps per octave. */
+static float round_to_step(float size, float steps, bool up) {
     const float at = steps * log2f(size);
     return exp2f((up ? ceilf(at) : floorf(at)) / steps);
 }
@@ -33,10 +33,9 @@ static bool reads_table(const struct gn_shadow_view *view) {
     return gn_techniques[view->technique].filter == GN_FILTER_TABLE;
 }
 
-/* How far beside a place a technique reads; a soft one no farther than there is room for, as a
- * share of a tile. What reads a table needs no gutter for that: it knows where its tile ends, and
- * that all is clear beyond (shaders_es/lib/table.glsl), but reads that from the outermost texels.
- */
+/* Gutters as wide as the technique reads beside a place: a soft one at most `room`, as a share of a
+ * tile's side. A technique with a table needs no gutter for its reach, because its shader knows
+ * where the tile ends (shaders_es/lib/table.glsl); it reads the outermost texels only. */
 static void lay_gutters(struct gn_shadow_view *view, float room) {
     const struct gn_technique_row *row = &gn_techniques[view->technique];
     const uint32_t fixed = row->radius_texels + 1,
@@ -49,7 +48,7 @@ static void lay_gutters(struct gn_shadow_view *view, float room) {
     view->lookup.held_px = 0.5f * (float)view->map.inner_px + view->lookup.reach_px;
 }
 
-/* Of three the map has room for four: what is beside a tile is always one. */
+/* Three cascades get a map for four, so that each tile has neighbours on the same sides. */
 void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view) {
     uint32_t size_px[2];
     gn_cascade_map_size(cascades, view->map.tile_px, size_px);
@@ -63,7 +62,7 @@ void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view) {
         view->raster.tiles[i].y_px = i / 2 * view->map.tile_px;
         view->raster.tiles[i].empty = i >= cascades;
         if (gn_techniques[view->technique].filter == GN_FILTER_BLUR)
-            view->cascades[i].blur_px = GN_BLUR_LEAST_PX; /* of empty ones */
+            view->cascades[i].blur_px = GN_BLUR_LEAST_PX; /* for empty tiles */
     }
 }
 
@@ -71,8 +70,8 @@ void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view) {
 
 static void set_splits(struct gn_shadow_view *view, const struct gn_distances *seen) {
     const uint32_t n = view->map.cascade_count;
-    float far_m = step(fmaxf(seen->far_m, 1e-6f), FAR_STEPS, true);
-    const float near_m = step(fmaxf(gn_distances_nearest(seen), 1e-6f), NEAR_STEPS, false);
+    float far_m = round_to_step(fmaxf(seen->far_m, 1e-6f), FAR_STEPS, true);
+    const float near_m = round_to_step(fmaxf(gn_distances_nearest(seen), 1e-6f), NEAR_STEPS, false);
     far_m = fmaxf(far_m, near_m * powf(LEAST_RATIO, (float)n));
     for (uint32_t i = 0; i < n; i++) {
         struct gn_shadow_cascade *c = &view->cascades[i];
@@ -95,7 +94,7 @@ static bool cut_frustum(const struct gn_eye *eye, const struct gn_shadow_cascade
     for (int k = 0; k < 2; k++) {
         const float sign = k ? -1.0f : 1.0f, share = (at[k] - ends[0]) / (ends[1] - ends[0]);
         if (at[k] == ends[k]) continue;
-        for (int i = 0; i < 4; i++) /* along the four edges */
+        for (int i = 0; i < 4; i++) /* the corners move along the frustum's four edges */
             glm_vec3_lerp((float *)eye->corners[i], (float *)eye->corners[i + 4], share,
                           part->corners[i + 4 * k]);
         glm_vec4_scale(depth, sign, part->planes[4 + k]);
@@ -118,7 +117,7 @@ static void copy_tile(struct gn_shadow_view *view, uint32_t index,
     const float wanted = most(1.01f * (tile->penumbra.farthest - tile->penumbra.nearest),
                               LEAST_SPAN * tile->code.far_m) *
                          NEAREST_STEPS / (NEAREST_STEPS - 1.0f);
-    c->span = least(step(wanted, SPAN_STEPS, true), tile->code.far_m);
+    c->span = least(round_to_step(wanted, SPAN_STEPS, true), tile->code.far_m);
     const float part = c->span / NEAREST_STEPS;
     c->nearest = least(floorf(tile->penumbra.nearest / part) * part, tile->code.far_m - c->span);
     if (!gn_technique_filters_map(tile->technique)) c->nearest = tile->penumbra.nearest;
@@ -139,7 +138,7 @@ static bool fit_tile(const struct gn_fitter *f, uint32_t index, float blur_most_
     tile->map.tile_px = tile->map.width_px = tile->map.height_px = f->view->map.inner_px;
     tile->map.tile_count = 1;
     tile->map.cascade_count = 0;
-    tile->raster.tiles[0].empty = false; /* the first may have been */
+    tile->raster.tiles[0].empty = false; /* tile 0 of the view may be */
     struct gn_fitter own = *f;
     own.is_cascade = true;
     own.blur_most_m = blur_most_m;
@@ -153,7 +152,7 @@ static bool fit_tile(const struct gn_fitter *f, uint32_t index, float blur_most_
     return true;
 }
 
-/* Every tile, in gutters as they are; false: all are empty. */
+/* Fits every tile with the present gutters; false: all are empty. */
 static bool fit_tiles(const struct gn_fitter *f, float widest_m[GN_CASCADES_MAX]) {
     struct gn_shadow_view *view = f->view, tile;
     float blur_most_m = 0.0f;
@@ -191,8 +190,9 @@ static bool has_room(const struct gn_shadow_view *view, const float widest_m[GN_
     return true;
 }
 
-/* In gutters as narrow as have room for all penumbrae that can be seen. How wide these are does not
- * go by the gutters, but texels do: by as much as these leave of a tile. */
+/* Gutters are doubled until they have room for all penumbrae that can be seen. The penumbrae's
+ * width does not depend on the gutters; the texel's does, since wider gutters leave less of the
+ * tile. */
 bool gn_cascades_fit(const struct gn_fitter *f) {
     struct gn_shadow_view *view = f->view;
     struct gn_distances seen;
@@ -212,8 +212,8 @@ bool gn_cascades_fit(const struct gn_fitter *f) {
         if (view->map.inner_px != fitted_px) fit_tiles(f, widest_m);
     }
 
-    /* Where a tile has no room for the widest of its penumbrae, no place's is wider than in
-     * proportion to its distance from the eye: a limit by tiles would be seen at each split. */
+    /* Where a tile has no room for its widest penumbra, penumbrae are limited in proportion to the
+     * distance from the eye: a limit per tile would be visible at each split. */
     view->penumbra.growth = UNBOUND;
     for (uint32_t i = 0; i < view->map.cascade_count; i++) {
         const bool last = i + 1 == view->map.cascade_count;

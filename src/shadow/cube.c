@@ -4,8 +4,8 @@
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define SHARED_TEXELS 1.0f  /* to each side of an edge of two tiles */
-#define EDGE_TEXELS   0.25f /* from where the gutter would begin to such an edge */
+#define SHARED_TEXELS 1.0f  /* drawn by both tiles on each side of their common edge */
+#define EDGE_TEXELS   0.25f /* from the gutter's begin to that edge */
 
 /* Aims and measures all tiles: the depths of the casters in any of them. False: all are empty. */
 static bool find_tiles(struct gn_fitter *f, struct gn_shadow_region *depths) {
@@ -40,10 +40,10 @@ static bool find_tiles(struct gn_fitter *f, struct gn_shadow_region *depths) {
     return found;
 }
 
-/* A place beyond the edge is looked up where tiles are shared; pushed off its surface it may lie
- * sqrt(2) normal offsets further: at 45 degrees a tangent grows so much faster. The edge itself
- * lies in no middle and on no border of texels, where two taps opposite each other would change
- * them at once. */
+/* Where tiles share their edges, places beyond an edge are looked up too, and the normal offset
+ * moves them further by up to sqrt(2) offsets, since tangents grow that much faster at 45 degrees.
+ * The edge lies neither in the middle of a texel nor between two, where two opposite taps would
+ * change texels at once. */
 static void set_gutter(struct gn_shadow_view *view) {
     const struct gn_technique_row *row = &gn_techniques[view->technique];
     const bool shared = gn_technique_shades(view->technique);
@@ -68,8 +68,8 @@ bool gn_cube_fit(struct gn_fitter *f) {
     if (!find_tiles(f, &depths)) return false;
     float near_depth, far_depth;
     double edge = -0.5 * (double)view->lookup.texel * view->map.tile_px;
-    /* what moves shall change the tiles that it is in: near and far, which are for all, go by
-     * steps */
+    /* near and far are common to all tiles: they change in steps, so that what moves redraws only
+     * the tiles that it is in */
     depths.near = exp2f(floorf(4.0f * log2f(depths.near)) / 4.0f);
     depths.far = exp2f(ceilf(4.0f * log2f(depths.far)) / 4.0f);
     depths.far_radial = exp2f(ceilf(4.0f * log2f(depths.far_radial)) / 4.0f);

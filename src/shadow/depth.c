@@ -1,15 +1,14 @@
-/* Depths of a light's view: near and far, their codes, and how wide penumbrae and blurs are by
- * them.
- */
+/* Depths of a light's view: near and far, their encoding, and the width of penumbrae and blurs that
+ * follows from them. */
 #include <math.h>
 
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define NEAREST_STEP (1.0f / 64.0f) /* of a sun's depths */
+#define NEAREST_STEP (1.0f / 64.0f) /* of a directional light's range of depths */
 
-/* With some room on each side. Of a sun never none: casters in one plane across its light span no
- * depth, and in a plane through the world's origin that depth is 0. */
+/* Padded on each side. A directional light's padding is never 0: casters in one plane across its
+ * direction span no depth, and in a plane through the world's origin the depth itself is 0. */
 void gn_fitter_set_depths(const struct gn_fitter *f, const struct gn_shadow_region *depths,
                           float *near_depth, float *far_depth) {
     struct gn_shadow_view *view = f->view;
@@ -30,8 +29,9 @@ static float half_float_step(float value) {
 void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_depth) {
     struct gn_shadow_view *view = f->view;
     float range = view->code.far_m - view->code.near_m;
-    float float_step = 7e-7f * view->code.far_m; /* of the interpolation */
-    /* A sun's depths may span less than the scene: then places themselves are coarser. */
+    float float_step = 7e-7f * view->code.far_m; /* rounding of the interpolated distance */
+    /* A directional light's depths may span less than the scene: then the rounding of positions is
+     * coarser. */
     if (!view->perspective) float_step = fmaxf(float_step, 2e-7f * gn_scene_reach_m(f->pose));
     view->code.scale = 1.0f;
     view->code.offset = 0.0f;
@@ -63,7 +63,7 @@ void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_d
         return;
     case GN_ENCODING_R32UI:
         if (!gn_technique_filters_map(view->technique)) return;
-        view->code.scale = 1.0f / range; /* 0..1: what moments are made of */
+        view->code.scale = 1.0f / range; /* 0 to 1, for moments */
         view->code.offset = -view->code.near_m / range;
         view->code.far_end = 1.0f;
         return;
@@ -74,8 +74,8 @@ void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_d
 }
 
 /* Similar triangles (Fernando, "Percentage-Closer Soft Shadows", 2005): in plane units a blocker at
- * b throws on a receiver at r a penumbra of radius (r - b) tan(sun's radius), or radius (1/b - 1/r)
- * of a lamp. */
+ * depth b throws on a receiver at depth r a penumbra of radius (r - b) tan(angular radius) for a
+ * directional light, radius (1/b - 1/r) for a spot or point light. */
 void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_region *window,
                             float near_depth, float far_depth) {
     struct gn_shadow_view *view = f->view;
@@ -88,7 +88,8 @@ void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_re
     }
     view->penumbra.nearest = -1.0f / near_depth;
     if (!view->perspective) view->penumbra.nearest = most(window->near - near_depth, 0.0f);
-    const float part = NEAREST_STEP * view->code.far_m; /* it stays while the eye moves little */
+    const float part =
+        NEAREST_STEP * view->code.far_m; /* steps: it stays while the eye moves little */
     if (!view->perspective && !f->is_cascade)
         view->penumbra.nearest = floorf(view->penumbra.nearest / part) * part;
     view->penumbra.farthest = window->far - near_depth;
@@ -97,8 +98,9 @@ void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_re
     view->penumbra.bias = -view->code.offset / view->code.scale;
 }
 
-/* A blur cannot know how far blockers are: it is as wide as the penumbra of what stands before the
- * farthest caster by a quarter of what all of them span, within what a map is fit for. */
+/* A blur does not know the distance of blockers. It is as wide as the penumbra that a blocker
+ * throws on a receiver at the far end, a quarter of the casters' range of depths behind it; within
+ * GN_BLUR_LEAST_PX and GN_BLUR_MOST_PX. */
 void gn_fitter_set_blur(const struct gn_fitter *f, float near_depth, float far_depth) {
     struct gn_shadow_view *view = f->view;
     if (gn_techniques[view->technique].filter != GN_FILTER_BLUR) return;
@@ -106,7 +108,7 @@ void gn_fitter_set_blur(const struct gn_fitter *f, float near_depth, float far_d
     const float spread =
         view->perspective ? 1.0f / (far_depth - behind) - 1.0f / far_depth : behind;
     float blur = f->light_radius * spread;
-    if (f->blur_most_m > 0.0f) blur = least(blur, f->blur_most_m); /* or it jumps at each split */
+    if (f->blur_most_m > 0.0f) blur = least(blur, f->blur_most_m); /* else it jumps at each split */
     const float blur_px = blur / view->lookup.texel;
     view->penumbra.blur_px = least(most(blur_px, GN_BLUR_LEAST_PX), GN_BLUR_MOST_PX);
 }

@@ -1,12 +1,11 @@
-/* Distances along the view of what is seen in a directional light's shadow: what cascades are made
- * for.
- */
+/* Distances along the view between which a directional light's shadows are seen: the range of the
+ * cascades. */
 #include <math.h>
 
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define NEAREST_SHARE (1.0f / 400.0f) /* what is nearer than this, of the farthest, is small */
+#define NEAREST_SHARE (1.0f / 400.0f) /* of the farthest: what is nearer counts as this far */
 
 static void add_places(struct gn_distances *d, const vec4 plane, const struct gn_polygon *polygon) {
     for (int i = 0; i < polygon->count; i++) {
@@ -22,15 +21,14 @@ static void clip_by(struct gn_polygon *polygon, const vec4 *planes, int count) {
 
 enum { PLANES = 10, WALKED_TRIANGLES = 10000 };
 
-/* Those triangles alone are clipped that may lie nearer or farther than what is known. world:
- * planes round what counts. */
+/* Clips only triangles that may extend the range. world: the planes that enclose what counts. */
 static void add_triangles(const struct gn_fitter *f, uint32_t item, const vec4 world[PLANES],
                           const vec4 depth_ws, struct gn_distances *d) {
     const struct gn_scene *scene = f->pose->scene;
     const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
     const vec4 *m = (const vec4 *)f->pose->items[item].world_from_item;
     vec4 planes[PLANES], depth;
-    for (int c = 0; c < 4; c++) { /* a plane goes by the transpose */
+    for (int c = 0; c < 4; c++) { /* planes are transformed by the transpose */
         depth[c] = glm_vec4_dot((float *)depth_ws, (float *)m[c]);
         for (int i = 0; i < PLANES; i++)
             planes[i][c] = glm_vec4_dot((float *)world[i], (float *)m[c]);
@@ -46,7 +44,7 @@ static void add_triangles(const struct gn_fitter *f, uint32_t item, const vec4 w
             high = most(high, at);
         }
         if (low >= d->near_m && high <= d->far_m) continue;
-        bool is_outside = false; /* wholly behind one of them */
+        bool is_outside = false; /* all of it is behind one plane */
         for (int p = 0; p < PLANES && !is_outside; p++) {
             int behind = 0;
             for (int k = 0; k < 3; k++)
@@ -84,8 +82,8 @@ bool gn_distances_find(const struct gn_fitter *f, struct gn_distances *seen) {
     gn_fitter_remember(&all);
     if (!gn_window_find(&all, false, &found)) return false;
 
-    /* the four planes round the window of all that is seen, which any cascade can hold, and the
-     * eye's six: world space */
+    /* in world space: the four planes round the window of all that is seen, which bounds every
+     * cascade, and the eye's six */
     const struct gn_shadow_region *window = &found.window;
     const vec4 *m = f->tile->light_from_world; /* rigid: rows are the light's axes */
     vec4 planes[PLANES], depth;
@@ -98,7 +96,7 @@ bool gn_distances_find(const struct gn_fitter *f, struct gn_distances *seen) {
     }
     for (int i = 0; i < 6; i++) glm_vec4_copy((float *)f->eye->planes[i], planes[4 + i]);
 
-    /* what receives within them */
+    /* the receivers within them */
     const struct gn_scene *scene = f->pose->scene;
     *seen = (struct gn_distances){INFINITY, -INFINITY};
     for (uint32_t i = 0; i < all.memory->item_count; i++) {
@@ -117,7 +115,7 @@ bool gn_distances_find(const struct gn_fitter *f, struct gn_distances *seen) {
     return seen->near_m <= seen->far_m;
 }
 
-/* The nearest place that counts. */
+/* The nearest distance that cascades are fitted to. */
 float gn_distances_nearest(const struct gn_distances *seen) {
     return fmaxf(seen->near_m, NEAREST_SHARE * seen->far_m);
 }

@@ -109,10 +109,10 @@ void gn_box_planes(vec3 corners[8], vec4 planes[6]) {
     for (int i = 0; i < 6; i++) {
         vec3 a, b;
         glm_vec3_sub(corners[faces[i][2]], corners[faces[i][0]],
-                     a); /* diagonals: stand for a face with a short side */
+                     a); /* diagonals: they work for a face with a side of length 0 */
         glm_vec3_sub(corners[faces[i][3]], corners[faces[i][1]], b);
         glm_vec3_cross(a, b, planes[i]);
-        gn_unit(planes[i]); /* zero stays zero: cuts nothing */
+        gn_unit(planes[i]); /* a zero vector stays zero: such a plane cuts nothing */
         planes[i][3] = -glm_vec3_dot(planes[i], corners[faces[i][0]]);
         float inside = glm_vec3_dot(planes[i], middle) + planes[i][3];
         if (inside < 0.0f) glm_vec4_negate(planes[i]);

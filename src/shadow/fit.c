@@ -1,4 +1,4 @@
-/* Fitting a shadow view: chooses how, and finishes it. */
+/* Fits a shadow view: chooses the way, and finishes the result. */
 #include "shadow/fit.h"
 
 #include <assert.h>
@@ -21,7 +21,7 @@ void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, ui
     size_px[1] = atlas ? 2 * map_px : map_px;
 }
 
-/* All that does not depend on what casts or is seen. */
+/* What does not depend on casters and receivers. */
 static void begin_view(const struct gn_pose *pose, uint32_t light,
                        const struct gn_shadow_opts *opts, struct gn_shadow_view *view) {
     const enum gn_light_type type = pose->scene->lights[light].type;
@@ -47,10 +47,10 @@ static void begin_view(const struct gn_pose *pose, uint32_t light,
     glm_vec3_negate_to(direction, view->to_light_ws);
 }
 
-/* All of the map is the far end, so wherever it is read there is light. But techniques ask how the
- * code changes across the map: it must have two directions. It is the light's frame, one unit wide,
- * with a code of 0 everywhere. */
-static void make_empty(struct gn_shadow_view *view) {
+/* The whole map is cleared to the far end, so all lookups are lit. Techniques also use derivatives
+ * of the map's coordinates, so the matrix must not be singular: it is the light's frame, one unit
+ * wide, with a code of 0 everywhere. */
+static void make_view_empty(struct gn_shadow_view *view) {
     mat4 m;
     gn_shadow_look(view, m);
     for (int c = 0; c < 4; c++) {
@@ -93,11 +93,11 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                        : view->map.cascade_count > 0 ? gn_cascades_fit(&f)
                        : view->map.tile_count > 1    ? gn_cube_fit(&f)
                                                      : gn_single_fit(&f);
-    if (!found) make_empty(view);
+    if (!found) make_view_empty(view);
     if (!found || row->on_plane) return found;
 
-    /* normal offset and slope by the width that the technique averages over; figures measured by
-     * `make truth` */
+    /* normal offset and slope follow the width that the technique averages over; the factors are
+     * measured by `make truth` */
     view->lookup.normal_offset = row->bias_texels;
     view->lookup.slope_offset = 0.7f * row->bias_texels;
     view->lookup.slope_max = 4.0f;

@@ -1,6 +1,6 @@
-/* What items cover of what a light can show, and of that what the eye sees: kept from frame to
- * frame, so that what stands still is measured once. What lies within other planes
- * (gn_fitter_within) is measured anew each time: of casters that reach beyond what is seen. */
+/* The regions that items cover in a light's plane, and the parts of them that the eye sees. Both
+ * are kept from frame to frame, so that what stands still is measured once. gn_fitter_within()
+ * measures anew each time; it is called for casters that reach beyond what is seen. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "shadow/region.h"
 
 #define NEAREST_TRIANGLES                                                                          \
-    10000 /* of up to this many round the light it is asked which is nearest */
+    10000 /* of an item round the light: with more the nearest is not searched for */
 
 void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count) {
     memory->item_count = item_count;
@@ -38,7 +38,7 @@ void gn_fitter_set_cone(struct gn_fitter *f, float tan_cone) {
     vec4 planes[6] = {{1, 0, -tan_cone, 0},  {-1, 0, -tan_cone, 0},  {0, 1, -tan_cone, 0},
                       {0, -1, -tan_cone, 0}, {0, 0, -1, -f->near_m}, {0, 0, 1, f->range_m}};
     f->cone_count = isfinite(f->range_m) ? 6 : 5;
-    for (int i = 0; i < f->cone_count; i++) /* a plane goes by the transpose: world from light */
+    for (int i = 0; i < f->cone_count; i++) /* planes are transformed by the transpose */
         for (int c = 0; c < 4; c++)
             f->cone[i][c] = glm_vec4_dot(planes[i], f->tile->light_from_world[c]);
 }
@@ -61,7 +61,7 @@ static void add_polygon(const struct gn_fitter *f, struct gn_shadow_region *r,
     for (int i = 0; i < polygon->count; i++) add_point(f, r, polygon->at[i]);
 }
 
-/* The hull of box and frustum: clipped faces of each by the other. */
+/* The intersection of box and frustum: faces of each clipped by the other. */
 static void add_body(const struct gn_fitter *f, struct gn_shadow_region *r, vec3 corners[8],
                      bool seen_only) {
     struct gn_polygon face;
@@ -79,7 +79,7 @@ static void add_body(const struct gn_fitter *f, struct gn_shadow_region *r, vec3
     }
 }
 
-/* A body whose box the light is in may come nearer than the box does. */
+/* The light is in the item's box: the item may come nearer than the box's faces. */
 static void add_nearest(const struct gn_fitter *f, struct gn_shadow_region *r, uint32_t item) {
     const struct gn_scene *scene = f->pose->scene;
     const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
@@ -103,16 +103,16 @@ static void add_nearest(const struct gn_fitter *f, struct gn_shadow_region *r, u
             glm_vec3_minv(low, p, low);
             glm_vec3_maxv(high, p, high);
         }
-        /* how far from the light the triangle's box begins, by the largest coordinate */
+        /* the nearest point of the triangle's box, by its largest coordinate */
         float from = 0.0f;
         for (int k = 0; k < 3; k++) from = most(from, most(low[k], -high[k]));
         r->near = least(r->near, most(from / most(f->tan_cone, 1.0f), f->near_m));
     }
 }
 
-/* What an item covers, of that what the light can show, and of that - if so wanted - what the eye
- * sees. */
-static struct gn_shadow_region measure(const struct gn_fitter *f, uint32_t item, bool seen_only) {
+/* The region of an item within the light's cone; seen_only: and within the eye's frustum. */
+static struct gn_shadow_region measure_item(const struct gn_fitter *f, uint32_t item,
+                                            bool seen_only) {
     struct gn_shadow_region r = nothing;
     const struct gn_pose_item *posed = &f->pose->items[item];
     const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
@@ -150,7 +150,7 @@ struct gn_shadow_region gn_fitter_within(const struct gn_fitter *f, uint32_t ite
     struct gn_fitter own = *f;
     memcpy(own.cone, planes, (size_t)count * sizeof *planes);
     own.cone_count = count;
-    return measure(&own, item, false);
+    return measure_item(&own, item, false);
 }
 
 void gn_fitter_remember(const struct gn_fitter *f) {
@@ -168,7 +168,7 @@ void gn_fitter_remember(const struct gn_fitter *f) {
             continue;
         }
         bool same = m->light_hash == light && m->pose_hash[i] == posed->hash;
-        if (!same) m->whole[i] = measure(f, i, false);
+        if (!same) m->whole[i] = measure_item(f, i, false);
         m->pose_hash[i] = posed->hash;
         if (same && m->eye_hash == eye) continue;
         if (region_is_empty(&m->whole[i])) {
@@ -178,7 +178,7 @@ void gn_fitter_remember(const struct gn_fitter *f) {
         m->seen[i] = !gn_eye_sees(f->eye, &posed->box_ws)                ? GN_SEEN_NOT
                      : gn_planes_hold(f->eye->planes, 6, &posed->box_ws) ? GN_SEEN_WHOLE
                                                                          : GN_SEEN_PARTLY;
-        if (m->seen[i] == GN_SEEN_PARTLY) m->part[i] = measure(f, i, true);
+        if (m->seen[i] == GN_SEEN_PARTLY) m->part[i] = measure_item(f, i, true);
     }
     m->light_hash = light;
     m->eye_hash = eye;

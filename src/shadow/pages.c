@@ -5,7 +5,8 @@
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-/* Of one axis: the stretch of the window in the page that texel `first` lies in, up to `end`. */
+/* Along one axis: the part of the window, from texel `first` to `end`, in the page that `first`
+ * lies in. */
 struct stretch {
     double corner; /* the page's */
     uint32_t from_px, size_px;
@@ -19,14 +20,15 @@ static struct stretch stretch_at(double anchor, double first, double end, uint32
 
 void gn_pages_lay(const double anchor[2], const double first[2], const double last[2],
                   uint32_t map_px, struct gn_shadow_drawn *drawn) {
-    struct stretch along[2][2]; /* of each axis 1 or 2 */
+    struct stretch along[2][2]; /* 1 or 2 along each axis */
     uint32_t counts[2];
     *drawn = (struct gn_shadow_drawn){.paged = false};
     for (int k = 0; k < 2; k++) {
         const double end = fmin(last[k] + 1, first[k] + map_px - 2);
         const struct stretch s = along[k][0] = stretch_at(anchor[k], first[k], end, map_px);
         counts[k] = 1;
-        /* in one page, but not at its edge, which stays cleared: what is read outside is lit */
+        /* paged, unless one page holds it without touching the page's edge, which stays cleared so
+         * that lookups outside are lit */
         if (s.from_px < 1 || s.size_px != (uint32_t)(end - first[k]) ||
             s.from_px + s.size_px >= map_px)
             drawn->paged = true;
@@ -54,19 +56,22 @@ void gn_pages_lay(const double anchor[2], const double first[2], const double la
 
 /* ---- the view ---- */
 
-/* How wide a window is drawn beside what it must hold: the filter, and a texel for the bias. */
-static double beside(const struct gn_shadow_view *view) {
+/* Texels drawn on each side of what a window must hold: the filter's radius, and one for the bias.
+ */
+static double border_texels(const struct gn_shadow_view *view) {
     return gn_techniques[view->technique].radius_texels + 1;
 }
 
-/* Such that the texels of a span, those beside it and the map's edge fit wherever it begins. */
+/* The texel with which a region, the texels beside it and the map's edge fit, wherever the region
+ * begins. */
 static float texel_for(const struct gn_fitter *f, const struct gn_shadow_region *r) {
-    const double room = f->view->map.tile_px - 2 * beside(f->view) - 4;
+    const double room = f->view->map.tile_px - 2 * border_texels(f->view) - 4;
     const float span = fmaxf(r->max[0] - r->min[0], r->max[1] - r->min[1]);
     return gn_shadow_step(fmaxf(span, 1e-6f * f->scene_size_m) / (float)fmax(room, 1.0));
 }
 
-/* As glm_ortho() of map_px texels from the corner on, but of the same scale wherever that is. */
+/* As glm_ortho() of map_px texels from the corner on, but with a scale that does not depend on the
+ * corner. */
 static void set_clip(const struct gn_shadow_view *view, const double corner[2], float near_depth,
                      float far_depth, mat4 clip_from_world) {
     mat4 clip_from_light = GLM_MAT4_IDENTITY_INIT;
@@ -79,9 +84,10 @@ static void set_clip(const struct gn_shadow_view *view, const double corner[2], 
     glm_mat4_mul(clip_from_light, (vec4 *)view->raster.tiles[0].light_from_world, clip_from_world);
 }
 
-/* Chooses the texel and the window that the pages begin with, which depends on the texel alone, not
- * on the eye. Nearly all is taken as all: then the map does not go with the eye. And what is sure
- * to hold all is taken as that, where it is no larger: it is known already. */
+/* Chooses the texel, and returns the window that the pages begin with; it depends on the texel
+ * alone, not on the eye. Where the window of all that any eye sees needs a texel at most one step
+ * larger, that window is taken: then the map does not move with the eye. Its upper bound (`most`)
+ * is tried first, since it is known already. */
 static struct gn_shadow_region choose_texel(const struct gn_fitter *f,
                                             const struct gn_window *found) {
     const float fine = texel_for(f, &found->window), next = 1.001f * gn_shadow_step(1.01f * fine);
@@ -100,12 +106,12 @@ void gn_pages_fit(const struct gn_fitter *f, const struct gn_window *found, floa
     struct gn_shadow_drawn *drawn = &view->raster.drawn;
     double anchor[2], first[2], last[2];
     const struct gn_shadow_region all = choose_texel(f, found), *window = &found->window;
-    for (int k = 0; k < 2; k++) { /* of rounding, all may end a hair before the window */
+    for (int k = 0; k < 2; k++) { /* by rounding, `all` may end slightly before the window */
         const float low = fmaxf(window->min[k], all.min[k]),
                     high = fminf(window->max[k], all.max[k]);
-        anchor[k] = floor((double)all.min[k] / view->lookup.texel) - beside(view) - 1;
-        first[k] = floor((double)low / view->lookup.texel) - beside(view);
-        last[k] = fmax(floor((double)high / view->lookup.texel) + beside(view), first[k]);
+        anchor[k] = floor((double)all.min[k] / view->lookup.texel) - border_texels(view) - 1;
+        first[k] = floor((double)low / view->lookup.texel) - border_texels(view);
+        last[k] = fmax(floor((double)high / view->lookup.texel) + border_texels(view), first[k]);
     }
     gn_pages_lay(anchor, first, last, view->map.tile_px, drawn);
     set_clip(view, drawn->corner_texels, near_depth, far_depth,
@@ -114,9 +120,9 @@ void gn_pages_fit(const struct gn_fitter *f, const struct gn_window *found, floa
         set_clip(view, drawn->pages[p].corner, near_depth, far_depth,
                  drawn->pages[p].clip_from_world);
 
-    /* What may touch the part of a page that is drawn: a texel more to each side, since rasterisers
-     * round. Whether or not an eye needs a caster for what it sees, it is in that part: what a
-     * texel holds does not depend on the eye. */
+    /* Marks the pages that each caster may touch, with a texel more on each side, since rasterisers
+     * round. Casters are drawn whether or not this eye needs them: a texel's content does not
+     * depend on the eye. */
     struct gn_shadow_region parts[GN_SHADOW_PAGES_MAX];
     for (uint32_t p = 0; p < drawn->page_count; p++) {
         const struct gn_shadow_page *page = &drawn->pages[p];

@@ -1,9 +1,9 @@
-/* Fitting a planar shadow. With the plane n.p + d = 0 and the light at L = (xyz, 1), or towards
- * (xyz, 0), the matrix (P.L) I - L P^T of P = (n, d) takes a point to where its shadow falls on the
- * plane, in homogeneous coordinates (Blinn, "Me and My (Fake) Shadow", 1988). Its w is the light's
- * height over the plane less the point's, so the near plane can be laid just below the light and
- * the far plane a hair above the receiver: what pierces either is cut there by the rasteriser, and
- * what stands on the plane, or lies in it, does not darken it by its foot. */
+/* Fits a planar shadow. With the plane n.p + d = 0 and the light at L = (xyz, 1), or towards (xyz,
+ * 0), the matrix (P.L) I - L P^T of P = (n, d) projects a point to its shadow on the plane, in
+ * homogeneous coordinates (Blinn, "Me and My (Fake) Shadow", 1988). Its w is the light's height
+ * over the plane minus the point's, so the near plane is laid just below the light and the far
+ * plane slightly above the receiver: the rasteriser cuts casters at both, and what stands on the
+ * plane or lies in it does not shadow it at the contact. */
 #include "shadow/planar.h"
 
 #include <math.h>
@@ -12,19 +12,20 @@
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define HAIR         3e-5f /* of the scene's size: so high over the plane a caster begins */
-#define LIGHT_SHARE  (1.0f / 128.0f) /* of the light's height: so far below it they end */
+#define HAIR 3e-5f /* of the scene's size: casters begin at this height over the plane */
+#define LIGHT_SHARE                                                                                \
+    (1.0f / 128.0f) /* of the light's height: casters end this far below the light */
 #define CONE_MAX_RAD 1.48f
 
 struct planar {
     const struct gn_pose *pose;
     const struct gn_eye *eye;
     struct gn_shadow_view *view;
-    vec4 plane;             /* world space; the light's side is positive */
-    vec4 light;             /* xyz, 1; or towards it, 0, so long that plane.light = 1 */
-    mat4 fallen_from_world; /* to where the shadow falls, world space, times w */
+    vec4 plane; /* world space; positive on the light's side */
+    vec4 light; /* its place, 1; or the direction towards it, 0, scaled to plane.light = 1 */
+    mat4 fallen_from_world; /* projects onto the plane, world space, homogeneous */
     mat4 shadow_from_world; /* plane coordinates times w; height over the plane; w */
-    float low_m, high_m;    /* heights between which a thing casts */
+    float low_m, high_m;    /* heights between which casters cast */
     float scene_size_m;
 };
 
@@ -132,13 +133,13 @@ static struct gn_shadow_region shadow_of(const struct planar *f, uint32_t item) 
     return r;
 }
 
-/* What of the plane can be seen to be dark. */
+/* The part of the plane where a shadow can be seen. */
 static struct gn_shadow_region receivers_of(const struct planar *f, const struct gn_light *light) {
     struct gn_shadow_region r = nothing, in_range = nothing;
     vec4 *plane_from_world = f->view->raster.tiles[0].light_from_world;
 
-    /* the planes that hold it: the eye's, and those of a pyramid round a spot's cone (left, right,
-     * bottom, top; its near and far are not used) */
+    /* it lies within the eye's planes, and within a pyramid round a spot light's cone (left, right,
+     * bottom, top; near and far are not used) */
     vec4 planes[12];
     int count = 6;
     memcpy(planes, f->eye->planes, sizeof f->eye->planes);
@@ -167,7 +168,7 @@ static struct gn_shadow_region receivers_of(const struct planar *f, const struct
         }
     }
     if (light->range_m <= 0.0f || !f->view->perspective) return r;
-    vec3 foot; /* of the light, round which its range ends */
+    vec3 foot; /* the light's foot on the plane, the centre of its range there */
     glm_mat4_mulv3(plane_from_world, f->view->light_ws, 1.0f, foot);
     float radius = sqrtf(fmaxf(light->range_m * light->range_m - foot[2] * foot[2], 0.0f));
     for (int k = 0; k < 2; k++) {
@@ -196,7 +197,7 @@ static struct gn_shadow_region find_window(const struct planar *f, const struct 
 
 /* ---- the view ---- */
 
-/* Linear in height over the plane: -w where casters end, w where they begin. */
+/* Clip z is linear in the height over the plane: -w where casters end, w where they begin. */
 static void set_clip(struct planar *f, const double low[2]) {
     struct gn_shadow_view *view = f->view;
     vec4 *m = f->shadow_from_world;
@@ -221,10 +222,11 @@ static void set_clip(struct planar *f, const double low[2]) {
     }
 }
 
-/* The eye shall see the casters as they fall; what pierces either height the rasteriser cannot cut
- * as well, since there w grows with the distance from the eye too: heights are for a shader. */
+/* The stencil is drawn from the eye, with casters projected onto the plane. The rasteriser cannot
+ * cut at the two heights here, since w also grows with the distance from the eye: the shader gets
+ * them. */
 static bool set_stencil(struct planar *f, const struct gn_shadow_region *window) {
-    /* where the eye sees the window */
+    /* the window's bounds on the screen */
     struct gn_shadow_region screen = nothing;
     struct gn_polygon quad = {.count = 4};
     mat4 world_from_plane;
@@ -254,7 +256,7 @@ bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
     view->code.scale = view->code.far_end = view->code.far_m = 1.0f;
     if (!set_plane(&f)) return false;
 
-    /* the heights */
+    /* the heights between which casters cast */
     float highest = 0.0f;
     for (uint32_t i = 0; i < pose->scene->item_count; i++)
         if (is_caster(&f, i))
@@ -272,7 +274,7 @@ bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
     if (region_is_empty(&window)) return false;
     if (view->encoding == GN_ENCODING_STENCIL) return set_stencil(&f, &window);
 
-    /* the mask's window, on whole texels, and what leads there */
+    /* the mask: its window on whole texels, and its matrices */
     double low[2];
     gn_shadow_snap(view, window.min, window.max, 1e-6f * f.scene_size_m, low);
     set_clip(&f, low);

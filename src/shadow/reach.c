@@ -1,13 +1,14 @@
-/* The screen bounds are those of a convex body of eight corners that holds the reach: the cube
- * round the ball, and for a spot also the pyramid round the cone. What the eye sees of such a body
- * is bounded by its faces cut by the eye's planes, and by the eye's faces cut by the body's. */
+/* The screen bounds are those of a convex body with eight corners that encloses the light's reach:
+ * the cube round its sphere, and for a spot light also the pyramid round its cone. The visible part
+ * of such a body is bounded by its faces clipped by the eye's planes, and by the eye's faces
+ * clipped by the body's planes. */
 #include "shadow/reach.h"
 
 #include <math.h>
 
 #include "shadow/private.h"
 
-#define PYRAMID_MAX_TAN 3.0f /* of a wider cone the ball is as good a bound */
+#define PYRAMID_MAX_TAN 3.0f /* for a wider cone the sphere is as good a bound */
 
 void gn_reach_build(struct gn_reach *reach, const struct gn_pose *pose, uint32_t light) {
     const struct gn_light *l = &pose->scene->lights[light];
@@ -29,7 +30,7 @@ bool gn_reach_touches(const struct gn_reach *reach, const struct gn_box *box_ws)
     if (!gn_box_is_near(box_ws, reach->place_ws, reach->range_m)) return false;
     if (!reach->cone) return true;
 
-    /* of the ball round the box: its centre's distance from the cone's surface */
+    /* the sphere round the box: its centre's distance from the cone's surface */
     vec3 centre, v;
     glm_vec3_center((float *)box_ws->min, (float *)box_ws->max, centre);
     float radius = 0.5001f * glm_vec3_distance((float *)box_ws->min, (float *)box_ws->max);
@@ -45,7 +46,7 @@ struct bounds { /* -1..1 */
     float min[2], max[2];
 };
 
-/* Face by face, cut by six planes each. */
+/* Adds the faces, each clipped by six planes. */
 static void add_faces(struct bounds *b, const vec3 corners[8], const vec4 planes[6],
                       const struct gn_eye *eye) {
     for (int face = 0; face < 6; face++) {
@@ -73,7 +74,7 @@ static struct bounds body_bounds(const vec3 corners[8], const struct gn_eye *eye
     return b;
 }
 
-static int pixel(float at, uint32_t size, float pad) {
+static int pixel_edge(float at, uint32_t size, float pad) {
     float px = (0.5f * at + 0.5f) * (float)size + pad;
     return (int)fminf(fmaxf(pad < 0.0f ? floorf(px) : ceilf(px), 0.0f), (float)size);
 }
@@ -82,15 +83,15 @@ struct gn_reach_rect gn_reach_rect(const struct gn_reach *reach, const struct gn
                                    uint32_t width_px, uint32_t height_px) {
     if (reach->everywhere) return (struct gn_reach_rect){0, 0, (int)width_px, (int)height_px};
 
-    /* the cube round the ball */
+    /* the cube round the sphere */
     vec3 corners[8];
     for (int i = 0; i < 8; i++)
         for (int k = 0; k < 3; k++)
             corners[i][k] = reach->place_ws[k] + (i >> k & 1 ? reach->range_m : -reach->range_m);
     struct bounds b = body_bounds(corners, eye);
 
-    /* the pyramid round the cone: four of its eight corners are the light, nearly, since a face
-     * that is a point has no plane */
+    /* the pyramid round the cone: four of its eight corners are close to the light, not at it,
+     * since a face that is a point has no plane */
     if (reach->cone && reach->sin_cone < PYRAMID_MAX_TAN * reach->cos_cone) {
         vec3 side[2], axis;
         glm_vec3_copy((float *)reach->axis_ws, axis);
@@ -113,11 +114,11 @@ struct gn_reach_rect gn_reach_rect(const struct gn_reach *reach, const struct gn
         }
     }
 
-    /* a pixel more on each side: for rounding, and for samples outside a pixel's middle */
+    /* a pixel more on each side: for rounding, and for samples that are not in a pixel's middle */
     if (!(b.min[0] <= b.max[0])) return (struct gn_reach_rect){0};
     return (struct gn_reach_rect){
-        pixel(b.min[0], width_px, -1.0f), pixel(b.min[1], height_px, -1.0f),
-        pixel(b.max[0], width_px, 1.0f), pixel(b.max[1], height_px, 1.0f)};
+        pixel_edge(b.min[0], width_px, -1.0f), pixel_edge(b.min[1], height_px, -1.0f),
+        pixel_edge(b.max[0], width_px, 1.0f), pixel_edge(b.max[1], height_px, 1.0f)};
 }
 
 struct gn_reach_rect gn_reach_rect_unite(struct gn_reach_rect a, struct gn_reach_rect b) {

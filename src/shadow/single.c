@@ -3,7 +3,7 @@
 
 #include "shadow/private.h"
 
-#define LEAST_TANGENT 1e-6f /* side of a spot's window; a sun's: as much of the scene's size */
+#define LEAST_TANGENT 1e-6f /* least side of a spot light's window */
 
 bool gn_single_fit(struct gn_fitter *f) {
     struct gn_shadow_view *view = f->view;
@@ -30,7 +30,7 @@ bool gn_single_fit(struct gn_fitter *f) {
     glm_mat4_mul(map_from_clip, (vec4 *)tile->clip_from_world, view->lookup.map_from_world);
     if (!view->perspective && view->encoding != GN_ENCODING_DEPTH)
         for (int c = 0; c < 4; c++) {
-            /* z is the code itself: distance from the near plane is -z_ls - near */
+            /* z is the code itself; the distance from the near plane is -z_ls - near */
             float depth = -tile->light_from_world[c][2] - (c == 3 ? near_depth : 0.0f);
             view->lookup.map_from_world[c][2] =
                 depth * view->code.scale + (c == 3 ? view->code.offset : 0.0f);

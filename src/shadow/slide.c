@@ -4,7 +4,7 @@
 
 #include "shadow/fit.h"
 
-#define LEAST_M 1e-4f /* what is nearer to the lamp has no place on a slide */
+#define LEAST_M 1e-4f /* what is nearer to the light gets nothing of the slide */
 
 enum gn_slide gn_slide_of(const struct gn_light *light) {
     if (!gn_light_types[light->type].has_cone || light->slide < 0) return GN_SLIDE_NONE;
@@ -14,7 +14,7 @@ enum gn_slide gn_slide_of(const struct gn_light *light) {
 void gn_slide_build(const struct gn_pose *pose, uint32_t light, struct gn_slide_view *view) {
     const struct gn_light *l = &pose->scene->lights[light];
 
-    /* how far away it is, and its width and height one metre from the lamp */
+    /* its distance, and its width and height one metre from the light */
     const float *given = l->slide_size_m;
     const float cone = 2.0f * tanf(fminf(l->outer_rad, GN_SPOT_MAX_RAD));
     float distance = l->slide_distance_m, size[2] = {cone, cone};

@@ -29,7 +29,7 @@ static int rank_of(enum gn_technique technique) {
 }
 
 void gn_techniques_by_rank(enum gn_technique out[GN_TECHNIQUE_COUNT]) {
-    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) { /* insertion: stable, and they are few */
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) { /* insertion sort: stable; there are few */
         const enum gn_technique technique = (enum gn_technique)i;
         int at = i;
         for (; at > 0 && rank_of(out[at - 1]) > rank_of(technique); at--) out[at] = out[at - 1];

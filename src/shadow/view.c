@@ -1,5 +1,5 @@
-/* What fits of all kinds share: items that cast and receive, the light's frame, whole texels, what
- * decides a map's content. */
+/* Shared by all ways of fitting: which items cast and receive, the light's frame, snapping to whole
+ * texels, the hash of a map's content. */
 #include <math.h>
 
 #include "core/hash.h"

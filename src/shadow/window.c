@@ -1,25 +1,26 @@
-/* The window. What matters are pairs: a caster, and something that the eye sees behind it. The
- * window is the intersection of what the seen receivers and the casters cover in plane coordinates,
- * narrowed twice, since each limits the other; near and far are those of the casters alone and do
- * not depend on the eye (a receiver beyond the last caster compares against the far end). A large
- * flat caster with nothing behind it - the ground - is left out altogether: it can darken nothing,
- * and what is not in the map can neither shadow itself nor cost resolution. What lies beyond the
- * light's range is left out too: nothing is lit there, and it stands before nothing that is. */
+/* The window that a map must hold. A shadow needs a pair: a caster, and a receiver behind it that
+ * the eye sees. The window is the intersection of the regions that visible receivers and casters
+ * cover in plane coordinates, narrowed twice, since each limits the other; near and far are those
+ * of the casters alone and do not depend on the eye (a receiver beyond the last caster compares
+ * against the far end). A large flat caster with nothing behind it, such as the ground, is left
+ * out: it shadows nothing, and what is not in the map can neither shadow itself nor cost
+ * resolution. What lies beyond the light's range is left out too: nothing is lit there, and it is
+ * in front of nothing that is. */
 #include <math.h>
 #include <string.h>
 
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-enum { MOST_LOOKS = 1 << 20 /* at boxes, in search of what is useless */ };
+enum { MOST_LOOKS = 1 << 20 /* box tests in all walks of caster_region() */ };
 
 static bool item_receives(const struct gn_fitter *f, uint32_t item) {
     return gn_shadow_item_receives(f->pose, item, f->view);
 }
 
-/* What a caster covers; of a large flat one the part that has any receiver behind its plane, seen
- * or not. That is a walk over all items: of as many as `looks`, in order, that is done; of a scene
- * of thousands of them the others count whole. */
+/* The region of a caster; of a large flat one only the part with a receiver behind its plane, seen
+ * or not. That is a walk over all items, done while `looks` lasts: in a scene with thousands of
+ * flat casters the rest count whole. */
 static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t item,
                                              uint32_t *looks) {
     const struct gn_shadow_region *whole = gn_fitter_whole(f, item);
@@ -30,7 +31,7 @@ static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t
         return *whole;
     *looks -= f->memory->item_count;
 
-    /* its plane in world space, the light's side positive, unless the light sees it edge-on */
+    /* its plane in world space, positive on the light's side; whole if the light sees it edge-on */
     vec4 plane;
     gn_pose_plane(f->pose, item, plane);
     const float towards = f->view->perspective
@@ -49,15 +50,15 @@ static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t
     return region_is_empty(&r) ? nothing : r;
 }
 
-/* How far off, in plane units, a caster can reach by its penumbra: as in gn_fitter_set_penumbra().
- */
-static float reach(const struct gn_fitter *f, float near, float far) {
+/* The radius in plane units of the penumbra of a caster at `near` on a receiver at `far`: as in
+ * gn_fitter_set_penumbra(). */
+static float penumbra_reach(const struct gn_fitter *f, float near, float far) {
     if (!gn_techniques[f->view->technique].soft || far <= near) return 0.0f;
     float spread = f->view->perspective ? 1.0f / most(near, f->near_m) - 1.0f / far : far - near;
     return f->light_radius * spread;
 }
 
-/* What the eye sees of an item that receives, or all of it; NULL: nothing. */
+/* The region of a receiver that the eye sees, or all of it; NULL: none. */
 static const struct gn_shadow_region *receiver_region(const struct gn_fitter *f, uint32_t item,
                                                       bool everything) {
     if (!item_receives(f, item)) return NULL;
@@ -74,8 +75,8 @@ bool gn_window_is_all(const struct gn_fitter *f) {
     return true;
 }
 
-/* Round all places of which a sun's penumbra reaches those receivers: the farther from these
- * towards the light, the farther aside. World space. */
+/* World space planes round all places whose penumbra under a directional light reaches those
+ * receivers: the nearer to the light, the farther aside. */
 enum { REACH_PLANES = 5 };
 static void reach_planes(const struct gn_fitter *f, const struct gn_shadow_region *receivers,
                          vec4 planes[REACH_PLANES]) {
@@ -87,11 +88,11 @@ static void reach_planes(const struct gn_fitter *f, const struct gn_shadow_regio
                                    {0, -1, r, r * far + receivers->max[1]},
                                    {0, 0, 1, far}};
     for (int i = 0; i < REACH_PLANES; i++)
-        for (int c = 0; c < 4; c++) /* a plane goes by the transpose */
+        for (int c = 0; c < 4; c++) /* planes are transformed by the transpose */
             planes[i][c] = glm_vec4_dot(of_light[i], (float *)f->tile->light_from_world[c]);
 }
 
-/* The casters that matter for those receivers, united; marks those. */
+/* Unites the casters that matter for those receivers, and marks them. */
 static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
                                              const struct gn_shadow_region *receivers,
                                              struct gn_shadow_region *depths) {
@@ -109,15 +110,16 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
         struct gn_shadow_region r = caster_region(f, i, &looks);
         if (region_is_empty(&r)) continue;
         unite(depths, &r);
-        struct gn_shadow_region reached = grown(receivers, reach(f, r.near, receivers->far));
+        struct gn_shadow_region reached =
+            grown(receivers, penumbra_reach(f, r.near, receivers->far));
         bool matters = regions_meet(&r, &reached) && r.near <= receivers->far;
-        /* What a whole tile holds, or a page, does not go with the eye. */
+        /* The content of a whole tile or page does not depend on the eye. */
         casts[i] = matters || f->view->map.tile_count > 1 || !f->view->perspective;
         if (!matters) continue;
         const bool is_long = r.min[0] < receivers->min[0] || r.max[0] > receivers->max[0] ||
                              r.min[1] < receivers->min[1] || r.max[1] > receivers->max[1];
         r = intersect(&r, &reached);
-        if (near_counts && is_long) { /* it is not as near all over */
+        if (near_counts && is_long) { /* not all of it is as near */
             const struct gn_shadow_region part = gn_fitter_within(f, i, planes, REACH_PLANES);
             r = intersect(&part, &r);
         }
@@ -127,7 +129,7 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
 }
 
 bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window *found) {
-    /* what receives: what of it counts, and all of it */
+    /* receivers: the parts that count, and all of them */
     struct gn_shadow_region receivers = nothing, all = nothing, again = nothing;
     for (uint32_t i = 0; i < f->memory->item_count; i++) {
         const struct gn_shadow_region *seen = receiver_region(f, i, everything);
@@ -137,21 +139,22 @@ bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window
     }
     unite(&all, &receivers);
 
-    /* where any eye's window is: what all casters cover, and all receivers */
+    /* bounds of any eye's window: all casters and all receivers */
     const struct gn_shadow_region casters = unite_casters(f, &receivers, &found->depths);
     if (region_is_empty(&casters)) return false;
-    const struct gn_shadow_region all_reached = grown(&all, reach(f, found->depths.near, all.far));
+    const struct gn_shadow_region all_reached =
+        grown(&all, penumbra_reach(f, found->depths.near, all.far));
     found->most = intersect(&found->depths, &all_reached);
 
-    /* receivers once more, now that the casters are known */
+    /* receivers again, now that the casters are known */
     for (uint32_t i = 0; i < f->memory->item_count; i++) {
         const struct gn_shadow_region *seen = receiver_region(f, i, everything);
         if (!seen) continue;
         const struct gn_shadow_region *whole = gn_fitter_whole(f, i);
-        struct gn_shadow_region reached = grown(whole, reach(f, casters.near, whole->far));
+        struct gn_shadow_region reached = grown(whole, penumbra_reach(f, casters.near, whole->far));
         if (!regions_meet(&reached, &casters)) continue;
         if (seen->far < casters.near) continue;
-        reached = grown(seen, reach(f, casters.near, seen->far));
+        reached = grown(seen, penumbra_reach(f, casters.near, seen->far));
         if (!regions_meet(&reached, &casters)) continue;
         struct gn_shadow_region r = intersect(&reached, &casters);
         unite(&again, &r);
