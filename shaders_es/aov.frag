@@ -1,12 +1,12 @@
-// What is known about a pixel beside its colour, as the bits of floats: xyz the value, w unused.
+// Arbitrary output variables (visibility, distance, normal) of a pixel, as the bits of floats: xyz the value, w unused.
 #include "lib/surface.glsl"
 #include "lib/light.glsl"
 #include "lib/shadow_place.glsl"
 
 layout(location = 0) out uvec4 o_bits;
 
-// Only what the geometry and the filter say: 1 outside the cone and the range; a casting surface that the light reaches only
-// from its other side blocks itself.
+// Visibility from geometry and filter alone: 1 outside of cone and range; a caster whose lit side is the other one blocks itself.
+// See lit.frag for the arguments.
 #define SEE_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
     { \
         light_sample l = light_at(slot, type, v_position); \

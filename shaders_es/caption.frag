@@ -1,6 +1,6 @@
-// Captions: a ground that lets CAPTION_SHADE of the picture through, then white as far as a glyph covers the pixel, in linear
-// light. A target that does not encode is blended as it is stored: there the weights are such that it comes out the same on
-// black and on white, and nearly so between. A fade is a mixture of the picture with that and without.
+// Captions: a background with transmittance CAPTION_SHADE, then white weighted by the glyph's coverage, in linear light. A target
+// without sRGB encoding is blended as stored: the weights are chosen so that the result is exact on black and on white, and close
+// between. A fade blends the pictures with and without the caption.
 #include "lib/srgb.glsl"
 
 uniform highp sampler2D u_map_0; // the atlas
@@ -9,10 +9,10 @@ flat in vec2 v_look;
 layout(location = 0) out vec4 o_color;
 
 void main() {
-    float light = linear_from_srgb(vec3(CAPTION_SHADE)).r; // what the ground leaves of white
+    float light = linear_from_srgb(vec3(CAPTION_SHADE)).r; // transmittance of the background, linear
     float shade = ENCODE_SRGB ? CAPTION_SHADE : light;
-    float strength = v_look.x, added = 0.0, left = shade; // in full: what is added, what is left of the picture
-    float left_before = 1.0;                              // of the picture, when this is drawn
+    float strength = v_look.x, added = 0.0, left = shade; // at full opacity: added light, and transmittance
+    float left_before = 1.0;                              // transmittance of what was drawn before
     if (v_look.y < 0.5) {
         added = texelFetch(u_map_0, ivec2(v_texel), 0).r;
         left = shade * (1.0 - added);

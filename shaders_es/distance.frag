@@ -1,5 +1,5 @@
-// The distance from the light in the code of the map's encoding, whose file defines MAP_OUT and map_encode(). A directional
-// light's is linear in depth.
+// Writes the encoded distance from the light. The file of the encoding (lib/map_*.glsl) defines MAP_OUT and map_encode(). For a
+// directional light the distance is the depth, which is linear.
 #include "lib/pass.glsl"
 #include "lib/caster.frag.glsl"
 

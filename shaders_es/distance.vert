@@ -1,4 +1,4 @@
-// Casters into a distance map.
+// Draws casters into a distance map.
 #include "lib/caster.vert.glsl"
 
 #ifdef WITH_PERSPECTIVE

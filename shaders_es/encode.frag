@@ -1,4 +1,4 @@
-// The linear picture as bytes, for a GPU that has no target that encodes.
+// Encodes the linear picture as sRGB bytes, for GPUs without sRGB render targets.
 #include "lib/srgb.glsl"
 
 uniform highp sampler2D u_map_0;

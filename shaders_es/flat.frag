@@ -1,4 +1,4 @@
-// What stands between light and plane; its only output is the stencil.
+// Planar shadows in the stencil: casters between light and plane. Writes no colour.
 #include "lib/pass.glsl"
 #include "lib/caster.frag.glsl"
 

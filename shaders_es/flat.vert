@@ -1,7 +1,8 @@
-// Casters as they fall on the plane, as the eye sees them: PASS_CLIP leads there. Where they fall is marked whatever its depth.
+// Planar shadows in the stencil: PASS_CLIP projects casters onto the plane, then into the camera's clip space. The stencil is
+// written whatever the depth.
 #include "lib/caster.vert.glsl"
 
-centroid out float v_height; // over the plane, metres
+centroid out float v_height; // above the plane, metres
 
 void main() {
     vec3 p = position_ws();

@@ -1,5 +1,5 @@
 // colour = ambient x albedo x occlusion + sum over lights of (1 - strength (1 - visibility)) x (diffuse + specular) + emissive,
-// in linear space, after exposure. ADDITIVE: the sum over lights alone.
+// in linear space, after exposure. ADDITIVE: only the sum over lights.
 #include "lib/flat_constants.glsl"
 #include "lib/surface.glsl"
 #include "lib/light.glsl"
@@ -44,7 +44,7 @@ vec3 surface_emission() {
     return emission;
 }
 
-// What every light needs of the surface. Blinn-Phong normalised: (n + 8) / 8 pi, of which the 1 / pi is in the light.
+// Inputs of the BRDF, the same for all lights. Normalised Blinn-Phong: (n + 8) / 8 pi; LIGHT_COLOR contains the 1 / pi.
 struct surface {
     vec3 normal, to_eye, diffuse, specular;
     float exponent;
@@ -65,7 +65,7 @@ surface surface_make(vec4 base) {
     return s;
 }
 
-// What a light adds. Without specular the albedo is the same for all light: it is multiplied in once, at the end.
+// Reflected radiance of one light; seen: visibility, 1 = lit. Without SPECULAR it lacks the albedo, which main() multiplies in.
 vec3 surface_light(surface s, light_sample l, float seen) {
     vec3 arriving = l.color * (max(dot(s.normal, l.to_light), 0.0) * seen);
     if (!SPECULAR) return arriving;
@@ -73,7 +73,7 @@ vec3 surface_light(surface s, light_sample l, float seen) {
     return (s.diffuse + s.specular * pow(n_h, s.exponent)) * arriving;
 }
 
-// Light number `slot` of the pass as it arrives here, if nothing but a slide is in between.
+// Light `slot` of the pass at this fragment, unshadowed but with the transmittance of its slide.
 light_sample light_here(const int slot, const int type) {
     light_sample l = light_at(slot, type, v_position);
 #ifdef WITH_SLIDES
@@ -82,6 +82,12 @@ light_sample light_here(const int slot, const int type) {
     return l;
 }
 
+// src/gl/compose.c writes the loops over lights as macros, so that every argument is a constant of the program:
+// EACH_SHADOWED_LIGHT(F) is one F(slot, LIGHT_.., radial, shadow_visibility_N, u_map_SLOT) per shadowed light. radial is true if
+// the map holds distances (point and spot lights, encodings other than depth); N is the first slot with the same technique and
+// encoding. EACH_OPEN_LIGHT(F) is one F(slot, LIGHT_..) per light without a shadow.
+// SHADOW_LINEAR[slot], also from compose.c, is true where uv and code are linear over a triangle: directional lights without
+// cascades, and planar shadows. lit.vert computes them there as v_shadow[slot]; else v_shadow[slot] is 0 and unused.
 #define ADD_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
     { \
         light_sample l = light_here(slot, type); \
@@ -107,6 +113,6 @@ void main() {
     }
     if (ENCODE_SRGB) color = srgb_from_linear(color);
     o_color = ALPHA_BLEND ? vec4(color * base.a, base.a) : vec4(color, 1.0);
-    if (ADDITIVE) o_color.a = 0.0; // blended as premultiplied, it is added
+    if (ADDITIVE) o_color.a = 0.0; // with premultiplied blending this adds
     if (CUT_LAST) surface_cut(base);
 }

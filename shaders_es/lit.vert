@@ -1,9 +1,9 @@
-// Vertices for lit.frag and aov.frag.
+// Vertex shader of lit.frag and aov.frag. Sets v_shadow[slot] where SHADOW_LINEAR[slot] (see lit.frag).
 #include "lib/pass.glsl"
 #include "lib/vertex.glsl"
 #include "lib/shadow_point.glsl"
 
-invariant gl_Position; // what is added finds its own depth
+invariant gl_Position; // additive passes draw the same surfaces again and need the same depth (LEQUAL)
 
 #ifdef WITH_VERTEX_COLOR
 out vec4 v_color;

@@ -1,4 +1,4 @@
-// The gizmo of a light: its colour with a dark edge, so that it can be seen on anything.
+// Light gizmo: the light's colour with a dark outline, to be visible on any background.
 #include "lib/srgb.glsl"
 
 flat in vec4 v_hue;

@@ -1,21 +1,21 @@
-// The gizmo of a light, of quads made from the vertex's number: a disc at its position, lines for its kind and extent.
-// Point: eight rays, and three circles as wide as its range. Spot: its cone, with the circle it ends in where it has a range.
-// Directional: a sun with an arrow. Sizes on the screen are in pixels.
+// Light gizmo, built of quads from gl_VertexID: a disc at the position, lines for type and extent. Point: eight rays and, with a
+// range, three circles of that radius. Spot: the cone, with its end circle if there is a range. Directional: a sun with an arrow.
+// Disc radius, ray length and line width are in pixels.
 #include "lib/pass.glsl"
 #include "lib/vertex.glsl"
 
 flat out vec4 v_hue;        // rgb linear, alpha
-flat out float v_half;      // pixels: radius of the disc, half width of a line
-out vec3 v_local;           // pixels from the middle, or across; 0..1 along the line
-flat out float v_fades;     // 1: gone at the line's end
+flat out float v_half;      // radius of the disc or half width of a line, pixels
+out vec3 v_local;           // disc: xy from its centre, pixels; line: x across, pixels, z along, 0..1
+flat out float v_fades;     // 1: fades to transparent at the end of the line
 flat out float v_disc;      // 1: the disc, 0: a line
 
 const float DISC_PX = 7.0;
 const float LINE_PX = 1.1;
 const float TURN = 6.2831853;
-const int ROUND = 32;       // lines of a circle
+const int ROUND = 32;       // lines per circle
 
-// An end of a line: a place in the mark's own metres, and pixels from there.
+// End of a line: a point in the space of the gizmo, metres, and an offset from it in pixels.
 struct line_end {
     vec3 at;
     vec2 px;
@@ -31,7 +31,7 @@ line_end ray_end(int i, bool outer) {
     return line_end(vec3(0.0), (outer ? 15.0 : 10.5) * vec2(cos(angle), sin(angle)));
 }
 
-// Three circles across the axes.
+// Three circles, each normal to an axis.
 line_end ball_end(int i, bool last, float radius) {
     vec3 p = on_circle(i % ROUND + (last ? 1 : 0), radius);
     int circle = i / ROUND;
@@ -45,14 +45,14 @@ line_end cone_end(int i, bool last, float depth, float tangent) {
     return line_end(last ? foot + on_circle((i - ROUND) * 4, depth * tangent) : vec3(0.0), vec2(0.0));
 }
 
-// A shaft, and four lines for its head.
+// A shaft, and four lines for the head.
 line_end arrow_end(int i, bool last, float size) {
     vec3 tip = vec3(0.0, 0.0, size);
     if (i == 0) return line_end(last ? tip : vec3(0.0), vec2(0.0));
     return line_end(last ? vec3(on_circle(i * 8, 0.12 * size).xy, 0.8 * size) : tip, vec2(0.0));
 }
 
-// Line 0..MARK_QUADS - 2 of the mark; those that it has not have no length.
+// Line i, 0..MARK_QUADS - 2; lines that the gizmo does not use have length 0.
 line_end mark_end(int i, bool last) {
     line_end none = line_end(vec3(0.0), vec2(0.0));
     float size = a_surface.y;
@@ -68,7 +68,7 @@ vec4 clip_of(vec3 p) {
     return pass_matrix(PASS_CLIP) * vec4(dot(a_world_0, at), dot(a_world_1, at), dot(a_world_2, at), 1.0);
 }
 
-// Clipped behind the camera.
+// Moves a along the line to b to the front of the camera.
 vec4 before_eye(vec4 a, vec4 b) {
     const float least = 0.001;
     return a.w < least && b.w > least ? mix(a, b, (least - a.w) / (b.w - a.w)) : a;
@@ -77,7 +77,7 @@ vec4 before_eye(vec4 a, vec4 b) {
 void main() {
     vec2 pixel = u_pass[MARK_PIXEL].xy;
     int quad = gl_VertexID / 6;
-    bool disc = quad == MARK_QUADS - 1; // over its lines
+    bool disc = quad == MARK_QUADS - 1; // drawn last, over the lines
     int corner = gl_VertexID % 6;
     corner = corner < 3 ? corner : corner == 3 ? 2 : corner == 4 ? 1 : 3; // two triangles: 0 1 2, 2 1 3
     bool last = corner >= 2;
@@ -101,6 +101,6 @@ void main() {
     vec2 at = (last ? q : p) + across;
     if (disc) at += vec2(0.0, v_local.y);
     float z = last ? clip_b.z / clip_b.w : clip_a.z / clip_a.w;
-    if (a_base_color.a < 1.0) z = -1.0; // the pale one lies on top of everything
+    if (a_base_color.a < 1.0) z = -1.0; // the translucent copy ignores depth
     gl_Position = seen && (disc || length_px > 0.01) ? vec4(at * pixel, z, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }

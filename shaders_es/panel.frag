@@ -1,5 +1,5 @@
-// A shadow map, near dark and far white, in a thin frame of its light's colour. The grey is already sRGB-encoded, as
-// `--aov map` writes it. The file of the map's encoding defines map_code().
+// Panel of a shadow map: near is dark, far is white, in a thin frame of the light's colour. The grey is already sRGB-encoded, as
+// `--aov map` writes it. map_code() comes from the file of the map's encoding (lib/map_*.glsl).
 #include "lib/pass.glsl"
 #include "lib/srgb.glsl"
 
@@ -14,7 +14,7 @@ void main() {
     vec2 inside = min(v_uv, 1.0 - v_uv) * u_pass[PANEL_PX].xy;
     float depth = min(inside.x, inside.y);
     bool on_frame = depth < frame.w;
-    if (depth < frame.w + 1.0) seen = 0.0; // a dark line sets a white frame off from a white map
+    if (depth < frame.w + 1.0) seen = 0.0; // a dark line separates a white frame from a white map
     if (ENCODE_SRGB) o_color = vec4(on_frame ? srgb_from_linear(frame.rgb) : vec3(seen), 1.0);
     else o_color = vec4(on_frame ? frame.rgb : linear_from_srgb(vec3(seen)), 1.0);
 }

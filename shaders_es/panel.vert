@@ -1,4 +1,4 @@
-// A panel: a rectangle of the picture, in front of everything.
+// Panel: a rectangle in front of the picture.
 #include "lib/pass.glsl"
 
 out vec2 v_uv;

@@ -1,5 +1,5 @@
-// Codes of a map into moments, averaged over a row of texels round each: the first half of a box whose ends may cut a texel. Within
-// the tile alone. What is past an end of the map's range lies at it: exponents have no room beyond.
+// Box blur, 1 of 2: converts codes to moments and averages them along a row, within the tile. The ends of the box may cut texels.
+// Codes are clamped to the range of the moments, since exponential moments would overflow.
 #include "lib/pass.glsl"
 
 uniform MAP_SAMPLER u_map_0;

@@ -1,4 +1,4 @@
-// The other half of the box: moments averaged over a column.
+// Box blur, 2 of 2: averages moments along a column, within the tile.
 #include "lib/pass.glsl"
 
 uniform MOMENTS_SAMPLER u_map_0;

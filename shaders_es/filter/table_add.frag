@@ -1,8 +1,8 @@
-// Summed-area table, 5 of 5: what a column's blocks lack is added.
+// Summed-area table, 5 of 5: adds to each texel the sum of the blocks before it in its column.
 #include "lib/pass.glsl"
 
-uniform MOMENTS_SAMPLER u_map_0; // columns
-uniform MOMENTS_SAMPLER u_map_1; // of the blocks before
+uniform MOMENTS_SAMPLER u_map_0; // step 3: column sums within blocks
+uniform MOMENTS_SAMPLER u_map_1; // step 4: sums of the preceding blocks
 layout(location = 0) out MOMENTS_OUT o_moments;
 
 void main() {

@@ -1,4 +1,5 @@
-// Summed-area table, 4 of 5: as 2 with x and y in each other's place, so that both results fit into one narrow texture.
+// Summed-area table, 4 of 5: as step 2 for columns, with x and y of the result swapped, so that both steps use the same narrow
+// texture.
 #include "lib/pass.glsl"
 
 uniform MOMENTS_SAMPLER u_map_0;

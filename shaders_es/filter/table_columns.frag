@@ -1,8 +1,8 @@
-// Summed-area table, 3 of 5: what a row's blocks lack is added, then columns are summed as rows were.
+// Summed-area table, 3 of 5: adds to each row sum the sum of the blocks before it, then sums columns within blocks.
 #include "lib/pass.glsl"
 
-uniform MOMENTS_SAMPLER u_map_0; // rows
-uniform MOMENTS_SAMPLER u_map_1; // of the blocks before
+uniform MOMENTS_SAMPLER u_map_0; // step 1: row sums within blocks
+uniform MOMENTS_SAMPLER u_map_1; // step 2: sums of the preceding blocks
 layout(location = 0) out MOMENTS_OUT o_moments;
 
 void main() {

@@ -1,4 +1,5 @@
-// Summed-area table, 2 of 5: at x, y the sum of the blocks before block x of the tile's row y, of which the last texel has all.
+// Summed-area table, 2 of 5: at (x, y) the sum of all blocks before block x in row y of the tile. The last texel of a block holds
+// its sum.
 #include "lib/pass.glsl"
 
 uniform MOMENTS_SAMPLER u_map_0;

@@ -1,4 +1,4 @@
-// Summed-area table, 1 of 5: sums of a row's texels from the first of each block on. A block is TABLE_BLOCK texels of the tile.
+// Summed-area table, 1 of 5: prefix sums of each row within blocks of TABLE_BLOCK texels of the tile.
 #include "lib/pass.glsl"
 
 uniform MAP_SAMPLER u_map_0;
@@ -9,7 +9,7 @@ void main() {
     vec2 texel = u_pass[FILTER_SIZE].zw;
     float reach = u_pass[FILTER_TABLE].x;
     vec2 code = u_pass[FILTER_CODE].xy;
-    vec4 sum = vec4(0.0); // rounded as a whole: half of the error that rounded texels would add up to
+    vec4 sum = vec4(0.0); // rounded once per sum: half of the error of summing rounded texels
     for (int x = at.x - (at.x - corner.x) % TABLE_BLOCK; x <= at.x; x++)
         sum += moments_of(clamp(code.y + code.x * map_code(u_map_0, (vec2(x, at.y) + 0.5) * texel), 0.0, 1.0));
     o_moments = table_fixed(sum, reach);

@@ -1,4 +1,4 @@
-// A masked caster casts its holes.
+// Alpha-masked casters: discards fragments below the alpha cutoff.
 #ifdef WITH_ALPHA_MASK
 in vec2 v_uv;
 in float v_alpha;

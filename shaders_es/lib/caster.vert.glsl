@@ -1,4 +1,4 @@
-// What both shadow passes' vertex shaders share: where a caster's vertex goes, and what its alpha is read with.
+// Vertices of casters: clip position, and the inputs of the alpha test. Shared by depth.vert, distance.vert and flat.vert.
 #include "lib/pass.glsl"
 #include "lib/vertex.glsl"
 

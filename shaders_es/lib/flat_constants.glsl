@@ -1,6 +1,6 @@
-// Included before anything else by a fragment shader that may get its most-read constants as flat varyings. A software driver
-// loads and spreads a uniform anew for every few pixels (llvmpipe: about 0.3 ms a float and frame at 1280x720), while a flat
-// varying costs it nothing; on a GPU it is the other way round.
+// Passes the most-read constants as flat varyings (WITH_FLAT_CONSTANTS). A software driver loads and broadcasts a uniform for
+// every few pixels (llvmpipe: about 0.3 ms per float and frame at 1280x720), while a flat varying costs it nothing; on a GPU it
+// is the reverse. Fragment shaders include this file first.
 #ifdef WITH_FLAT_CONSTANTS
 #define PASS(i) pass_constant(i)
 #endif

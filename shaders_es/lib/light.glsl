@@ -1,16 +1,16 @@
-// Light from a directional, point or spot light, per fragment, in linear space.
+// Unshadowed light from a directional, point or spot light, per fragment, in linear space.
 
 #define LIGHT(slot, what) PASS(PASS_LIGHTS + (slot)*LIGHT_SIZE + (what))
 
 struct light_sample {
     vec3 to_light; // unit
-    vec3 color;    // lux over pi on a surface that faces the light, after exposure
+    vec3 color;    // illuminance over pi of a surface normal to the light, lux, after exposure
     float cone;    // spot: 0 outside the outer angle, 1 inside the inner one; else 1
     bool in_range;
 };
 
-// type: LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT. Inverse-square falloff with the range window of KHR_lights_punctual; the
-// cone goes by smoothstep of the cosines.
+// type: LIGHT_DIRECTIONAL, LIGHT_POINT or LIGHT_SPOT. p: world space. Inverse-square falloff with the range window of
+// KHR_lights_punctual; the cone is a smoothstep of the cosine.
 light_sample light_at(const int slot, const int type, vec3 p) {
     vec3 color = LIGHT(slot, LIGHT_COLOR).rgb;
     vec4 place = LIGHT(slot, LIGHT_PLACE);

@@ -1,5 +1,5 @@
 //@ names map_code
-// Depth texture behind a sampler that does not compare, NEAREST: for techniques that need the distance of blockers.
+// Depth texture with a sampler without comparison, NEAREST: for techniques that need the depth of blockers.
 #undef MAP_SAMPLER
 #undef MAP_OUT
 #define MAP_SAMPLER sampler2D

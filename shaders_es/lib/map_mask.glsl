@@ -1,5 +1,5 @@
 //@ names map_encode map_code map_in_stencil
-// How much of the light arrives at a plane: R8, cleared to 1, LINEAR. Casters write the same whatever their order.
+// Planar shadow mask: visibility of the light on the plane. R8, cleared to 1, LINEAR. All casters write 0, in any order.
 #undef MAP_SAMPLER
 #undef MAP_OUT
 #define MAP_SAMPLER sampler2D

@@ -1,5 +1,5 @@
 //@ names map_encode map_code
-// Half-float colour texture, NEAREST: centred distance -1 (near) .. 1 (far), or metres (r16f-raw).
+// Half-float colour texture, NEAREST: centred distance, -1 (near) .. 1 (far), or metres (r16f-raw).
 #undef MAP_SAMPLER
 #undef MAP_OUT
 #define MAP_SAMPLER sampler2D

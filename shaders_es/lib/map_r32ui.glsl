@@ -1,5 +1,5 @@
 //@ names map_encode map_code
-// The bits of the distance in metres, lossless.
+// Integer texture with the bits of the distance as a float, metres: lossless.
 #undef MAP_SAMPLER
 #undef MAP_OUT
 #define MAP_SAMPLER usampler2D

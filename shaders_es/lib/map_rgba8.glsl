@@ -1,6 +1,6 @@
 //@ names map_encode map_code
-// Distance 0 (near) .. 1 (far) in four bytes, most significant first. Each channel is rounded again before it is put together:
-// V3D returns RGBA8 as half floats, which would cost all but the first 11 bits. The far end is a little under 1.
+// Distance 0 (near) .. 1 (far) in four bytes, most significant first. Each channel is rounded before decoding: V3D returns RGBA8
+// as half floats, which would leave 11 bits of the distance. The far end is slightly under 1.
 #undef MAP_SAMPLER
 #undef MAP_OUT
 #define MAP_SAMPLER sampler2D

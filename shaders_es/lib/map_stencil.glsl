@@ -1,6 +1,6 @@
 //@ names map_code map_in_stencil
-// No map: casters marked the picture's stencil, and a pass draws only what is marked alike. Its far end says how much light
-// arrives there.
+// No map: casters mark the stencil of the picture, and a pass draws only pixels with one stencil value. CODE_FAR_END of the pass
+// is the visibility there.
 #undef MAP_SAMPLER
 #define MAP_SAMPLER sampler2D
 

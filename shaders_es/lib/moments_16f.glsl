@@ -1,5 +1,5 @@
 //@ names moments_store moments_fetch moments_at moments_step
-// Moments as half floats, which samplers weigh. MOMENTS_MIDDLE is taken off, where they are finest.
+// Moments as half floats, filtered by the sampler. MOMENTS_MIDDLE is subtracted: half floats are most precise near 0.
 #undef MOMENTS
 #undef MOMENTS_SAMPLER
 #undef MOMENTS_OUT

@@ -1,5 +1,5 @@
 //@ names moments_store moments_fetch moments_at moments_step
-// Moments in 0..1 as integers of 16 bits, which no sampler weighs.
+// Moments in 0..1 as 16-bit integers, filtered in the shader.
 #undef MOMENTS
 #undef MOMENTS_SAMPLER
 #undef MOMENTS_OUT
@@ -13,7 +13,7 @@ uvec4 moments_store(vec4 m) { return uvec4(clamp(m, 0.0, 1.0) * 65535.0 + 0.5); 
 
 vec4 moments_fetch(MOMENTS_SAMPLER map, ivec2 texel) { return vec4(texelFetch(map, texel, 0)) * (1.0 / 65535.0); }
 
-// Weighs the four texels round uv (0..1 over the map); beyond the edge the outermost texel goes on. size: as in shadow_place.
+// Bilinear lookup at uv (0..1 over the map), clamped to the edge. size: as in shadow_place.
 vec4 moments_at(MOMENTS_SAMPLER map, vec2 uv, vec4 size) {
     vec2 p = uv * size.xy - 0.5;
     ivec2 last = ivec2(size.xy) - 1;

@@ -1,5 +1,5 @@
 //@ names moments_store moments_fetch moments_at moments_step
-// Moments as the bits of floats: all of ES 3.0 draws to integers, and few GPUs weigh floats of 32 bits in a sampler anyhow.
+// Moments as the bits of 32-bit floats: every ES 3.0 GPU renders to integer formats, and few filter 32-bit floats in a sampler.
 #undef MOMENTS
 #undef MOMENTS_SAMPLER
 #undef MOMENTS_OUT
@@ -13,7 +13,7 @@ uvec4 moments_store(vec4 m) { return floatBitsToUint(m); }
 
 vec4 moments_fetch(MOMENTS_SAMPLER map, ivec2 texel) { return uintBitsToFloat(texelFetch(map, texel, 0)); }
 
-// Weighs the four texels round uv (0..1 over the map); beyond the edge the outermost texel goes on. size: as in shadow_place.
+// Bilinear lookup at uv (0..1 over the map), clamped to the edge. size: as in shadow_place.
 vec4 moments_at(MOMENTS_SAMPLER map, vec2 uv, vec4 size) {
     vec2 p = uv * size.xy - 0.5;
     ivec2 last = ivec2(size.xy) - 1;

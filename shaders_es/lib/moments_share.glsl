@@ -1,6 +1,7 @@
 //@ names moments_store moments_fetch moments_at moments_step moments_exponents
-// Four moments of casters and what share of texels these are. The share, in 12 bits, stands in the last three of each of four floats,
-// which are means over casters alone and so lose nothing by it; whoever adds weighs them by it: columns are share (twice), moments.
+// Four moments of casters, and the fraction of texels covered by casters (share). The share has 12 bits: the last three of each
+// of the four floats. These are means over casters only; as MOMENTS they are multiplied by the share, so that they can be added:
+// the columns are the share (twice), two moments, two moments.
 #undef MOMENTS
 #undef MOMENTS_SAMPLER
 #undef MOMENTS_OUT
@@ -25,7 +26,7 @@ mat3x2 moments_fetch(MOMENTS_SAMPLER map, ivec2 texel) {
     return mat3x2(vec2(1.0), m.xy, m.zw) * (float(part.x | part.y | part.z | part.w) * (1.0 / 4095.0));
 }
 
-// Weighs the four texels round uv (0..1 over the map); beyond the edge the outermost texel goes on. size: as in shadow_place.
+// Bilinear lookup at uv (0..1 over the map), clamped to the edge. size: as in shadow_place.
 mat3x2 moments_at(MOMENTS_SAMPLER map, vec2 uv, vec4 size) {
     vec2 p = uv * size.xy - 0.5;
     ivec2 last = ivec2(size.xy) - 1;

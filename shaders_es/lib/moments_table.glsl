@@ -1,5 +1,5 @@
 //@ names table_fixed
-// Summed-area tables: sums in fixed point that wrap round. Samplers weigh none.
+// Summed-area table (SAT): fixed-point sums that wrap around. Not filtered by samplers.
 #undef MOMENTS_SAMPLER
 #undef MOMENTS_OUT
 #define MOMENTS_SAMPLER usampler2D

@@ -1,5 +1,6 @@
 //@ names moments_store moments_fetch moments_at moments_step
-// Three moments in 0..1, x, y and w, in 21 bits each of two integers, the third in what the others leave. No sampler weighs them.
+// Three moments in 0..1 (x, y and w) of 21 bits each in two 32-bit integers, w split over the upper 11 bits of both. Filtered in
+// the shader.
 #undef MOMENTS
 #undef MOMENTS_SAMPLER
 #undef MOMENTS_OUT
@@ -19,7 +20,7 @@ vec4 moments_fetch(MOMENTS_SAMPLER map, ivec2 texel) {
     return vec4(t & 0x1fffffu, 0u, rest.x | rest.y << 11) * (1.0 / 2097151.0);
 }
 
-// Weighs the four texels round uv (0..1 over the map); beyond the edge the outermost texel goes on. size: as in shadow_place.
+// Bilinear lookup at uv (0..1 over the map), clamped to the edge. size: as in shadow_place.
 vec4 moments_at(MOMENTS_SAMPLER map, vec2 uv, vec4 size) {
     vec2 p = uv * size.xy - 0.5;
     ivec2 last = ivec2(size.xy) - 1;

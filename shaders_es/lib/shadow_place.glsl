@@ -1,30 +1,29 @@
-// Where a shadow is looked up, and what a technique can use about the place. What it does not use costs nothing: compilers
-// remove it.
+// Lookup of a shadow: position in the map and parameters for the techniques. Compilers remove what a technique does not use.
 #include "lib/flat_constants.glsl"
 #include "lib/shadow_point.glsl"
 
 struct shadow_place {
-    vec3 at;    // uv over the map (0..1) and code, pushed off the surface
+    vec3 at;    // uv over the map (0..1) and code of the receiver, after the bias (shadow_push())
     vec4 size;  // xy: width and height of the map in texels; zw: their inverse
-    float far;  // the far end's code: what the map is cleared to
-    vec2 slope; // how the code of the receiver's plane changes, per uv
-    // How wide a penumbra is: SHADOW_PENUMBRA's four, here. Penumbra depth grows with the distance from the light: scale * code + bias,
-    // or the negative inverse of that. A blocker at depth b casts on a receiver at depth r a penumbra of radius * (r - b) texels, and no
-    // blocker is before `nearest`. The tangent of the emitter's radius grows with the distance for a directional light, with
-    // 1 / distance for a spot or point light.
+    float far;  // code of the far end: the clear value of the map
+    vec2 slope; // gradient of the code on the receiver's plane, per uv
+    // Width of penumbrae: the PENUMBRA_.. of SHADOW_PENUMBRA, for this fragment. Penumbra depth grows with the distance from the
+    // light: scale * code + bias, or the negative inverse of that. A blocker at penumbra depth b casts on a receiver at r a
+    // penumbra of radius * (r - b) texels; no blocker is nearer than `nearest`. For a directional light, penumbra depth is linear
+    // in the distance; for a spot or point light, whose map is in tangents, in -1 / distance.
     vec4 penumbra;
     bool inverse; // penumbra depth is the negative inverse
-    float reach;  // how far from here a technique may read, texels: SAT, and all techniques of tiles
-    vec4 window;  // and where: lower left and upper right edge of the tile, texels
+    float reach;  // largest offset from `at` that a technique may read, texels: SAT, and any technique with tiles
+    vec4 window;  // lower left and upper right edge of the tile, texels: the limit of reads
     vec2 beside;  // as in shadow_tile and shadow_cascade
 };
 
-// Beyond the edge of the map: the outermost texels of one that is filtered are not all lit.
+// True outside of the map, where all is lit: the border texels of a filtered map need not be.
 bool shadow_outside(shadow_place s) { return any(greaterThan(abs(s.at.xy - 0.5), vec2(0.5))); }
 
-// The receiver may be in the map, and end there: where a share of a square is left of a plane that is cut by a straight edge, its
-// middle is at most radius (1 - share) from the square's. By so much its code may differ from the receiver's. radius: half of the
-// square's side, texels.
+// Largest difference between the mean code of the receiver's plane over a square and the receiver's own code. If the receiver is
+// a caster, ends within the square at a straight edge and covers the fraction `share` of it, then the centroid of that part is at
+// most radius (1 - share) from the centre of the square. radius: half of the square's side, texels.
 float shadow_cut(shadow_place s, float radius, float share) { return dot(abs(s.slope), s.size.zw) * radius * max(1.0 - share, 0.0); }
 
 float shadow_penumbra_depth(shadow_place s, float code) {
@@ -32,8 +31,9 @@ float shadow_penumbra_depth(shadow_place s, float code) {
     return s.inverse ? -1.0 / x : x;
 }
 
-// How the code changes on the plane with normal n, per uv; u, v, code: their gradients there, world space. On a plane seen edge-on
-// by the light it has no end: n is turned to the light by then. Solves gradient(code) = slope.x grad(u) + slope.y grad(v) + c n.
+// Gradient of the code per uv on the plane with normal n; u, v, code: their gradients in world space. Solves
+// gradient(code) = slope.x grad(u) + slope.y grad(v) + c n. The slope is infinite on a plane edge-on to the light, so n is tilted
+// towards the light until |cos(n, l)| is about 0.1.
 vec2 shadow_slope(vec3 u, vec3 v, vec3 code, vec3 n, vec3 l) {
     float c = dot(n, l);
     n += l * (c < 0.0 ? min(-0.1 - c, 0.0) : max(0.1 - c, 0.0));
@@ -45,7 +45,7 @@ vec2 shadow_slope_directional(const int slot, vec3 face, vec3 l) {
     return shadow_slope(vec3(m[0].x, m[1].x, m[2].x), vec3(m[0].y, m[1].y, m[2].y), vec3(m[0].z, m[1].z, m[2].z), face, l);
 }
 
-// Of a projection, at p: the gradient of x / w is (grad x - (x / w) grad w) / w.
+// Projective map, at p: the gradient of x / w is (grad x - (x / w) grad w) / w.
 vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 face, vec3 l) {
     mat4 m = shadow_matrix(slot);
     vec3 axis = vec3(m[0].w, m[1].w, m[2].w);
@@ -59,8 +59,8 @@ vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 
 #include "lib/shadow_tile.glsl"
 #include "lib/shadow_cascade.glsl"
 
-// p, n, l: the surface, its normal and the direction to the light, world space; face: normal of the triangle itself; from_vertex:
-// what the vertex shader found where SHADOW_LINEAR. radial: the map holds distances, not depths.
+// p, n, l: position and normal of the surface and direction to the light, world space; face: normal of the triangle; from_vertex:
+// v_shadow[slot], used where SHADOW_LINEAR[slot]; radial: the map holds distances, not depths.
 shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
     shadow_place s;
     s.size = SHADOW(slot, SHADOW_MAP_SIZE);
@@ -78,7 +78,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.at = shadow_cascade_at(slot, c, p, n, l);
         s.slope = shadow_cascade_slope(slot, c, face, l);
         s.penumbra.PENUMBRA_RADIUS /= c.texel;
-        // No wider than there is room for, nor than in proportion to the distance.
+        // Limits penumbrae to the reach of a tile and, in proportion to the view depth, to PENUMBRA_GROWTH.
         float depth = shadow_penumbra_depth(s, s.at.z);
         s.penumbra.PENUMBRA_NEAREST =
             max(c.nearest, depth - min(s.reach / s.penumbra.PENUMBRA_RADIUS, s.penumbra.PENUMBRA_GROWTH / gl_FragCoord.w));
@@ -96,7 +96,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.at = shadow_tile_at(slot, radial, t);
         s.slope = shadow_tile_slope(slot, radial, t, face);
         if (radial) s.penumbra.PENUMBRA_RADIUS *= length(t.q) / t.q.z;
-        // No wider than the gutter.
+        // Limits penumbrae to the gutter.
         s.penumbra.PENUMBRA_NEAREST =
             max(s.penumbra.PENUMBRA_NEAREST, shadow_penumbra_depth(s, s.at.z) - s.reach / s.penumbra.PENUMBRA_RADIUS);
         vec2 tile = s.size.xy * vec2(1.0 / 3.0, 0.5);
@@ -105,14 +105,15 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     } else {
         s.at = shadow_point_spot(slot, radial, p, n, l);
         s.slope = shadow_slope_spot(slot, radial, s.at, p, face, l);
-        mat4 m = shadow_matrix(slot); // tangents grow off the axis: by distance over depth
+        mat4 m = shadow_matrix(slot); // off the axis tangents grow by distance / depth
         float w = dot(vec3(m[0].w, m[1].w, m[2].w), p) + m[3].w;
         if (radial) s.penumbra.PENUMBRA_RADIUS *= distance(p, SHADOW(slot, SHADOW_PLACE).xyz) / w;
     }
     return s;
 }
 
-// Visibility of a light at s, 1 = lit; seen: the technique's result. Takes derivatives: not behind a branch.
+// Visibility of a light at s, 1 = lit, blended between tiles or cascades over the pixels of a quad; seen: the technique's result.
+// Takes derivatives: not behind a branch.
 float shadow_mixed(const int slot, shadow_place s, float seen) {
     if (!SHADOW_SHARED[slot]) return seen;
     seen += s.beside.y * dFdy(seen);

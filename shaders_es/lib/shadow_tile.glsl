@@ -1,34 +1,35 @@
-// Point lights: the map is an atlas of 3 x 2 tiles. Each looks along an axis of the world (x, y, z are columns, the negative ends
-// the upper row), 45 degrees to each side and a gutter more, for what is read beside a place near its edge.
+// Point lights: the map is an atlas of 3 x 2 tiles, the faces of a cube. Columns are the world axes x, y, z; the lower row looks
+// along the positive, the upper row along the negative direction. A tile covers 45 degrees to each side plus a gutter for
+// filters.
 
 struct shadow_tile {
-    bool along_x, along_z; // its axis; neither: y
-    float side;            // 1 or -1: which end of it
-    vec3 q;                // from the light to the point: across the tile in the order of the other axes, and depth
-    vec2 beside;           // what of the answer's derivatives is added to it: shadow_mixed()
+    bool along_x, along_z; // axis of the tile; neither: y
+    float side;            // 1 or -1: direction along the axis
+    vec3 q;                // from the light to the point: xy along the other two axes in their order, z depth
+    vec2 beside;           // factors on the x and y derivatives of the visibility that shadow_mixed() adds
 };
 
-// v: from the light to the point, world space. The same place in the tile's frame, with depth times side last.
+// v in the frame of the tile; z is side * depth. v: from the light to the point, world space.
 vec3 shadow_tile_turn(shadow_tile t, vec3 v) {
     return vec3(t.along_x ? v.y : v.x, t.along_z ? v.y : v.z, t.along_x ? v.x : t.along_z ? v.z : v.y);
 }
 
-// Selects cost 13 instructions less than branches on a Pi 4 (of 180 for all of pcf with a point light), and 20 less than rows of
-// constants by the tile's number.
+// The tile of a direction. On a Pi 4 selects cost 13 instructions less than branches (of 180 for pcf with a point light), and 20
+// less than a table of constants per tile.
 shadow_tile shadow_tile_of(vec3 v) {
     vec3 a = abs(v);
     shadow_tile t;
     float depth = max(a.x, a.y);
     t.along_z = a.z > depth;
     depth = max(depth, a.z);
-    t.along_x = a.x >= depth; // not both: then z would not be the larger
+    t.along_x = a.x >= depth; // never with along_z: then a.z > a.x
     t.q = shadow_tile_turn(t, v);
     t.side = t.q.z < 0.0 ? -1.0 : 1.0;
     t.q.z = depth;
     return t;
 }
 
-// Where to look it up: uv and code. radial: the map holds distances.
+// uv over the map and code. radial: the map holds distances.
 vec3 shadow_tile_at(const int slot, const bool radial, shadow_tile t) {
     vec4 tiles = SHADOW(slot, SHADOW_TILES);
     vec2 middle = t.along_x ? vec2(1.0 / 6.0, 0.5) : t.along_z ? vec2(5.0 / 6.0, 0.5) : vec2(0.5);
@@ -39,26 +40,25 @@ vec3 shadow_tile_at(const int slot, const bool radial, shadow_tile t) {
     return vec3(t.q.xy * inverse * tiles.xy + middle, code);
 }
 
-// The tile is that of the pushed point: all that is looked up for a point just beside an edge lies on one side of it.
+// The tile of the point after the bias, so that near an edge the lookup stays within one tile.
 shadow_tile shadow_tile_pushed(const int slot, const bool radial, vec3 p, vec3 n, vec3 l) {
     vec3 v = p - SHADOW(slot, SHADOW_PLACE).xyz;
     shadow_tile t = shadow_tile_of(v);
     return shadow_tile_of(v + shadow_push(slot, n, l, radial ? dot(n, l) : shadow_tile_turn(t, n).z, t.q.z));
 }
 
-// The texels of two tiles lie differently, so a filter makes different shades of them on either side of an edge. Round it, up to
-// CODE_SHARED to each side, the four pixels of a quad share the tiles that are near: the lower left one asks the nearest, the upper
-// left one the next, and those on the right as well unless a third is near: then both ask that. shadow_mixed() gives all four the
-// same mean, whose weights change from tile to tile without a step: by halves on an edge, by thirds in a corner (Penner, "Shader
-// Amortization using Pixel Quad Message Passing", GPU Pro 2, 2011). Who is who is told from the quad's middle, so all four agree; and
-// it is right for derivatives that are taken once a quad as well, of its left pixels and of either row. On a Pi 4 this costs 62
-// instructions (of 229 with pcf); two tiles alone, with a step in the corners, 34, asking twice there, in a loop, 71 and half of
-// the threads.
+// Two tiles have different texel grids, so filtered shadows differ across an edge. Within CODE_SHARED of an edge the four pixels
+// of a quad sample all tiles near it: the lower left pixel the nearest tile, the upper left pixel the second; the right pixels do
+// the same or, where a third tile is near, both sample that. shadow_mixed() gives all four the same weighted mean; the weights
+// are continuous: halves on an edge, thirds in a corner (Penner, "Shader Amortization using Pixel Quad Message Passing", GPU Pro
+// 2, 2011). The tiles are ordered at the centre of the quad, so all four pixels agree. This also holds for GPUs that compute one
+// derivative per quad, from the left pixels and either row. Cost on a Pi 4: 62 instructions (of 229 with pcf). Alternatives: two
+// tiles only, with a discontinuity in corners, 34; sampling two tiles per pixel in a loop, 71 and half of the threads.
 shadow_tile shadow_tile_shared(const int slot, const bool radial, vec3 p, vec3 n, vec3 l) {
     vec3 v = p - SHADOW(slot, SHADOW_PLACE).xyz;
-    vec2 turn = 2.0 * fract(0.5 * gl_FragCoord.xy) - 1.0; // from the quad's middle, pixels
-    turn.y *= dFdy(turn.y);                               // in a picture of an odd height quads may begin at its top
-    vec3 a = abs(v - turn.x * dFdx(p) - turn.y * dFdy(p)) * vec3(1.0, 0.999999, 0.999998); // no two are the same
+    vec2 turn = 2.0 * fract(0.5 * gl_FragCoord.xy) - 1.0; // from the centre of the quad, pixels
+    turn.y *= dFdy(turn.y);                               // pictures of odd height may have quads aligned to the top
+    vec3 a = abs(v - turn.x * dFdx(p) - turn.y * dFdy(p)) * vec3(1.0, 0.999999, 0.999998); // breaks ties
     float larger = max(a.x, a.y), smaller = min(a.x, a.y);
     float depth = max(larger, a.z), second = max(smaller, min(larger, a.z)), third = min(smaller, a.z);
     vec2 near = max(1.0 - (depth - vec2(third, second)) / (depth * SHADOW(slot, SHADOW_CODE).CODE_SHARED), 0.0);
@@ -76,7 +76,7 @@ shadow_tile shadow_tile_shared(const int slot, const bool radial, vec3 p, vec3 n
     return t;
 }
 
-// As shadow_slope_spot, in the tile's frame.
+// As shadow_slope_spot(), in the frame of the tile.
 vec2 shadow_tile_slope(const int slot, const bool radial, shadow_tile t, vec3 face) {
     vec4 tiles = SHADOW(slot, SHADOW_TILES);
     float inverse = 1.0 / t.q.z;

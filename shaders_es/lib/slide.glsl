@@ -1,14 +1,14 @@
-// A slide in the beam of a spot: a projective texture (Segal, Korobkin, van Widenfelt, Foran, Haeberli, "Fast Shadows and Lighting
-// Effects Using Texture Mapping", 1992).
+// Slide (gobo) in the beam of a spot light: a projective texture (Segal, Korobkin, van Widenfelt, Foran, Haeberli, "Fast Shadows
+// and Lighting Effects Using Texture Mapping", 1992).
 #include "lib/flat_constants.glsl"
 
 #define SLIDE(index, what) u_pass[PASS_SLIDES + (index)*SLIDE_SIZE + (what)]
 
-// What a slide leaves of the light that goes to p, world space; 0..1, linear. film: light that misses the slide goes on, else it
-// is stopped, and so for what lies between the light and the slide. Its alpha is the film's opacity: clear film is white.
+// Transmittance of the slide for light towards p (world space): 0..1, linear. Outside of the slide, and between light and slide,
+// it is 1 for film and 0 otherwise. Alpha is the opacity of the colour: transparent is white.
 //
-// uv is divided by no depth less than the slide's own: so it has no jump and no end, behind the light either, and its differences
-// from pixel to pixel may choose the level. The frame's edge lies inwards over one pixel: outside there is exactly nothing.
+// The divisor of uv is at least the depth of the slide, so uv is continuous and finite even behind the light, and its derivatives
+// may select the mipmap level. The edge is antialiased inwards over one pixel: outside the slide has exactly no effect.
 vec3 slide_light(const int index, const bool film, mediump sampler2D slide, vec3 p) {
     vec4 u = SLIDE(index, SLIDE_U), v = SLIDE(index, SLIDE_V), w = SLIDE(index, SLIDE_W), place = SLIDE(index, SLIDE_PLACE);
     float depth = dot(w.xyz, p) + w.w;
@@ -23,7 +23,8 @@ vec3 slide_light(const int index, const bool film, mediump sampler2D slide, vec3
 
 #define SLIDE_OF(slot, index, film, slide) if (light == slot) return slide_light(index, film, slide, p);
 
-// What the slide of a light of this pass leaves of its light at p; 1 without one. Takes derivatives: not behind a branch.
+// Transmittance of the slide of light number `light` of the pass towards p; 1 without a slide. Takes derivatives: not behind a
+// branch. EACH_SLIDE: src/gl/compose.c.
 vec3 slide_of(const int light, vec3 p) {
     EACH_SLIDE(SLIDE_OF)
     return vec3(1.0);

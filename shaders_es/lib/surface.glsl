@@ -1,4 +1,4 @@
-// The surface under a fragment: what lit.frag and aov.frag share.
+// The surface at a fragment. Shared by lit.frag and aov.frag.
 #include "lib/pass.glsl"
 
 #ifdef WITH_VERTEX_COLOR
@@ -13,14 +13,14 @@ EACH_TEXTURE(DECLARE_UV)
 flat in vec4 v_surface;  // roughness, metalness, occlusion strength, alpha cutoff
 flat in vec4 v_emissive; // radiance; w: 1 = casts
 #ifdef WITH_SHADOWS
-in vec3 v_shadow[SHADOW_COUNT]; // where SHADOW_LINEAR: uv and code
+in vec3 v_shadow[SHADOW_COUNT]; // uv and code of slots with SHADOW_LINEAR, from lit.vert
 #endif
 
 #ifdef WITH_BASE_TEXTURE
 uniform mediump sampler2D u_texture_base;
 #endif
 
-// Linear, alpha last.
+// Linear base colour and alpha.
 vec4 surface_base() {
     vec4 base = v_color;
 #ifdef WITH_BASE_TEXTURE
@@ -29,7 +29,7 @@ vec4 surface_base() {
     return base;
 }
 
-// Fragments of a masked material's holes are gone after this, and with them the derivatives of their neighbours.
+// Alpha mask: discards fragments below the cutoff. Derivatives in neighbouring fragments are undefined after this.
 void surface_cut(vec4 base) {
     if (ALPHA_MASK && base.a < v_surface.w) discard;
 }
@@ -43,7 +43,7 @@ vec3 surface_normal() {
 // Unit vector towards the camera.
 vec3 surface_to_eye() { return normalize(PASS(PASS_EYE).xyz - v_position * PASS(PASS_EYE).w); }
 
-// Of the triangle itself, towards the viewer; unit. Takes derivatives: not behind a branch.
+// Unit normal of the triangle, towards the viewer. Takes derivatives: not behind a branch.
 vec3 surface_face_normal() {
     vec3 n = normalize(cross(dFdx(v_position), dFdy(v_position)));
     return dot(n, surface_to_eye()) < 0.0 ? -n : n;

@@ -1,13 +1,13 @@
-// Means over squares out of a summed-area table (Crow, "Summed-Area Tables for Texture Mapping", 1984), whatever their size by as many
-// reads. At each texel stands the sum of all from the tile's lower left corner to it, itself included, in fixed point. The sums wrap
-// round, and the difference of two is right as long as what lies between them fits into 32 bits: TABLE_SCALE.
-// An edge is counted in texels from the map's lower left corner; to its left lies the texel before it.
+// Means over squares from a summed-area table (SAT: Crow, "Summed-Area Tables for Texture Mapping", 1984); the number of reads
+// does not depend on the size. Each texel holds the sum from the tile's lower left corner up to and including itself, in fixed
+// point. Sums wrap around; a difference of two is exact as long as the sum between them fits into 32 bits: TABLE_SCALE. Edges are
+// counted in texels from the map's lower left corner: edge i is between texels i - 1 and i.
 
-// Half the side of the square that is as good as a disk of radius 1: it has the disk's area, or its variance.
+// Half side of the square that replaces a disk of radius 1: of equal area in the search, of equal variance in the filter.
 const float TABLE_SEARCH = 0.886;
 const float TABLE_FILTER = 0.866;
-// Blockers are looked for twice: in the whole square from which any may reach here, where what is near the receiver is hard to tell
-// from the receiver's own plane, and in the few texels right above it, which count so much more.
+// Two blocker searches: in the square that contains all blockers of the receiver, where blockers close to the receiver can hardly
+// be separated from its own plane; and within TABLE_CLOSE texels of the receiver, with weight TABLE_CLOSER.
 const float TABLE_CLOSE = 1.0;
 const float TABLE_CLOSER = 3.0;
 
@@ -20,17 +20,17 @@ uvec4 table_between(highp usampler2D table, ivec2 low, ivec2 high) {
            table_sum(table, low.x, low.y);
 }
 
-// How far round the place blockers are looked for, texels.
+// Radius of the blocker search, texels.
 float table_widest(shadow_place s) {
     return clamp(s.penumbra.PENUMBRA_RADIUS * (shadow_penumbra_depth(s, s.at.z) - s.penumbra.PENUMBRA_NEAREST), 1.0, s.reach / TABLE_SEARCH);
 }
 
-// The radius of the penumbra that what is at `code` throws here, texels.
+// Radius at the receiver of the penumbra of a blocker at `code`, texels.
 float table_penumbra(shadow_place s, float code, float widest) {
     return clamp(s.penumbra.PENUMBRA_RADIUS * (shadow_penumbra_depth(s, s.at.z) - shadow_penumbra_depth(s, code)), 1.0, widest);
 }
 
-// Three edges on each axis, of whole texels, in the order of their places: half of the square round s.at is 2 * radius wide.
+// Edges in whole texels, three per axis in ascending order, of the square around s.at that is 2 * radius wide.
 void table_edges(shadow_place s, float radius, out ivec2 low, out ivec2 middle, out ivec2 high) {
     vec2 p = s.at.xy * s.size.xy + 0.5;
     middle = ivec2(clamp(p, s.window.xy + 2.0, s.window.zw - 1.0));
@@ -38,8 +38,8 @@ void table_edges(shadow_place s, float radius, out ivec2 low, out ivec2 middle, 
     high = min(max(ivec2(p + radius), middle + 1), ivec2(s.window.zw));
 }
 
-// Mean over the square that is 2 * radius texels wide. Its edges, in whole texels, are good enough to look for blockers. beyond: what
-// lies outside of the map, or of its tile.
+// Mean over the square that is 2 * radius texels wide, with its edges at whole texels: sufficient for a blocker search. beyond:
+// value outside of the tile.
 vec4 table_mean_about(highp usampler2D table, shadow_place s, float radius, vec4 beyond) {
     ivec2 low, middle, high;
     table_edges(s, radius, low, middle, high);
@@ -48,7 +48,7 @@ vec4 table_mean_about(highp usampler2D table, shadow_place s, float radius, vec4
     return table_value(table_between(table, low, high), s.reach) * share + beyond * (1.0 - side.x * side.y * share);
 }
 
-// What the cut texels at the left and right end weigh in a row of sums, and the whole ones between them.
+// Differences of a row of sums: the partly covered texels at the left and right end, and the whole texels between them.
 struct table_row { uvec4 left, inside, right; };
 
 table_row table_row_at(highp usampler2D table, ivec4 x, int y) {
@@ -60,7 +60,7 @@ vec4 table_weigh(table_row above, table_row below, vec2 ends) {
     return vec4(above.left - below.left) * ends.x + vec4(above.inside - below.inside) + vec4(above.right - below.right) * ends.y;
 }
 
-// The same to the edge, wherever that cuts texels, so that a picture has no steps. beyond: what lies outside of the map.
+// Mean over the square with exact edges, which may cut texels, so that it is continuous. beyond: value outside of the tile.
 vec4 table_mean(highp usampler2D table, shadow_place s, float radius, vec4 beyond) {
     vec2 p = s.at.xy * s.size.xy;
     vec2 low = clamp(p - radius, s.window.xy + 1.0, s.window.zw - 1.0), high = clamp(p + radius, low + 1.0, s.window.zw);

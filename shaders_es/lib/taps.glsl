@@ -1,6 +1,6 @@
 //@ names taps_lit taps_to_map
-// The share of taps, spread over a disk, that see the light: TAPS / 2 points of the unit disk in SHADOW_TAPS, and their opposites.
-// radius: texels. Each tap compares with the receiver's plane at its own place, so that a wide filter shadows no surface that it lies on.
+// Fraction of lit taps over a disk: the TAPS / 2 points of the unit disk in SHADOW_TAPS, and their opposites. radius: texels.
+// Each tap is compared with the receiver's plane at the tap, so that a wide filter does not make a surface shadow itself.
 #include "lib/noise.glsl"
 
 // From the unit disk to uv and code.

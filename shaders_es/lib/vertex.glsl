@@ -1,4 +1,4 @@
-// Attributes of a vertex and of an instance, and what every vertex shader makes of them.
+// Attributes of vertices and instances, and functions of them that all vertex shaders share.
 VERTEX_ATTRIBUTES // a_position, a_normal, a_uv0, a_uv1, a_color: the rows of src/scene/attribute.h
 layout(location = 10) in vec4 a_world_0; // rows of world_from_item
 layout(location = 11) in vec4 a_world_1;
@@ -14,8 +14,8 @@ vec3 position_ws() {
     return vec3(dot(a_world_0, p), dot(a_world_1, p), dot(a_world_2, p));
 }
 
-// Normals go by the inverse transpose, here as the cofactor matrix, whose rows are cross products of the matrix's rows: right
-// for any scale, and for a mirrored one, whose determinant's sign is taken out. Not of unit length.
+// Not of unit length. Normals transform by the inverse transpose, here the cofactor matrix, whose rows are cross products of the
+// matrix's rows: correct for any scale. For mirroring transforms the sign of the determinant is removed.
 vec3 normal_ws() {
     vec3 c0 = cross(a_world_1.xyz, a_world_2.xyz);
     vec3 c1 = cross(a_world_2.xyz, a_world_0.xyz);
@@ -24,7 +24,7 @@ vec3 normal_ws() {
     return dot(a_world_0.xyz, c0) < 0.0 ? -n : n;
 }
 
-// Texture coordinates of a slot, SLOT_BASE or another; `second`: from the second set.
+// Texture coordinates of a slot (SLOT_BASE ..); second: from TEXCOORD_1.
 vec2 slot_uv(const int slot, const bool second) {
     vec3 uv = vec3(second ? a_uv1 : a_uv0, 1.0);
     return vec2(dot(u_uv[2 * slot].xyz, uv), dot(u_uv[2 * slot + 1].xyz, uv));

@@ -1,6 +1,6 @@
 //@ names moments_of
-// The powers z .. z^4 of a distance, 0..1, turned and moved so that they fill 0..1 each and rounding costs least: the quantisation of
-// Peters and Klein, "Moment Shadow Mapping", I3D 2015.
+// Moments z .. z^4 of a distance, 0..1, under an affine transform that makes each fill 0..1 and minimises rounding errors: the
+// quantisation of Peters and Klein, "Moment Shadow Mapping", I3D 2015.
 vec4 moments_of(float z) {
     float z2 = z * z;
     mat4 spread = mat4(-2.07224649, 13.7948857237, 0.105877704, 9.7924062118,

@@ -1,7 +1,9 @@
 //@ names moments_of MOMENTS_CLEAR
-// Two moments of a caster's distance z, 0..1, both in 0..1: z and 4 (z - z^2), and 1; where the map is clear, nothing. Averages are
-// those over casters, times the share that these have. The variance is then x (1 - x) - y / 4 of x and y by w, and takes from
-// rounding at most 1.25 steps of its storage, where z^2 in the second's place would cost 3.
-const float MOMENTS_CLEAR = 0.9995; // of the far end all encodings are nearer to 1 than this, and no caster is, but those behind all that is seen
+// Moments of a caster's distance z, 0..1: x = z, y = 4 (z - z^2), w = 1 (coverage); 0 where the map is empty. All are in 0..1.
+// After averaging they are means over casters times the fraction w of texels covered by casters; the variance is x (1 - x) - y /
+// 4 of x / w and y / w. Rounding changes it by at most 1.25 steps of the storage; with z^2 as the second moment it would be 3.
+
+// Distances above this are empty texels: the far end is, in every encoding; of casters only those behind everything visible are.
+const float MOMENTS_CLEAR = 0.9995;
 
 vec4 moments_of(float z) { return z < MOMENTS_CLEAR ? vec4(z, 4.0 * z * (1.0 - z), 0.0, 1.0) : vec4(0.0); }

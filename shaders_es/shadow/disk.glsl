@@ -1,3 +1,4 @@
 //@ names shadow_visibility
-// Taps evenly spread over a disk of three texels: radius by the square root, turned by the golden angle.
+// PCF with taps on a Vogel disk of three texels: radius by the square root, angle in steps of the golden angle (Vogel, "A Better
+// Way to Construct the Sunflower Head", 1979). taps_lit() compares with map_code() of the light's encoding (lib/map_*.glsl).
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) { return taps_lit(map, s, 3.0, noise_turn()); }

@@ -1,12 +1,12 @@
 //@ names shadow_visibility EVSM_LEAST EVSM_REACH EVSM_BLEED evsm_bound
-// Exponential variance shadow maps (Lauritzen, McCool, "Layered Variance Shadow Maps", 2008): Chebyshev's bound of the distance warped
-// by e^(a z), which makes little of what lies behind another caster, and of -e^(-b z), for what the first leaves too light where
-// casters are steep. The lesser of both holds, of the share of texels that hold casters; through all others light passes.
+// Exponential variance shadow maps (Lauritzen, McCool, "Layered Variance Shadow Maps", 2008): Chebyshev's bound of the distance
+// warped by e^(a z), which reduces light bleeding behind a second caster, and by -e^(-b z), for steep casters that the first
+// leaves too light. Visibility is the lower bound, applied to the fraction of texels covered by casters; the rest is lit.
 
-// Variance 0 is not to be had of rounded moments; a flat surface has what its texels span.
+// Least variance, in units of the squared warp: rounded moments never reach 0, and a flat surface varies within a texel.
 const float EVSM_LEAST = max(4.0 * moments_step, 1e-5);
 const float EVSM_REACH = 4.5; // half of the widest blur, texels
-// Cut off, and the rest stretched: so much light the bound leaves at the foot of a wall, where blocker and receiver meet.
+// Light that the bound leaks where blocker and receiver meet: subtracted, the rest rescaled.
 const float EVSM_BLEED = 0.03;
 
 vec2 evsm_bound(vec2 mean, vec2 square, vec2 w) {

@@ -1,18 +1,18 @@
 //@ names shadow_visibility MSM_BIAS MSM_FULL MSM_MIDDLE msm_dark
-// Moment shadow maps (Peters, Klein, "Moment Shadow Mapping", I3D 2015): of all distributions of casters with these four moments, the
-// one that leaves the receiver most light: it has three casters, one of them at the receiver (the "Hamburger" bound).
+// Moment shadow maps (Peters, Klein, "Moment Shadow Mapping", I3D 2015): visibility is the upper bound over all distributions of
+// casters with the same four moments. It is reached by three casters, one of them at the receiver (the "Hamburger" bound).
 
-// Rounded moments may be of no distribution at all: as much is mixed in of one that has three casters, at the ends and the middle
-// of the range (Peters et al., "Beyond Hard Shadows: Moment Shadow Maps for Single Scattering, Soft Shadows and Translucent
-// Occluders", JCGT 2017).
+// Rounded moments may be invalid (of no distribution), so they are blended by this weight with MSM_MIDDLE, the moments of three
+// casters at the ends and the middle of the range (Peters et al., "Beyond Hard Shadows: Moment Shadow Maps for Single Scattering,
+// Soft Shadows and Translucent Occluders", JCGT 2017).
 const float MSM_BIAS = max(2.0 * moments_step, 3e-6);
-// More than this is full shadow: so much of it the mixture leaves, and the bound at the foot of a wall, where blocker and receiver meet.
+// Darkness that counts as full shadow: the blend lowers it, and the bound leaks light where blocker and receiver meet.
 const float MSM_FULL = 0.925;
 const vec4 MSM_MIDDLE = vec4(0.5, 0.407, 0.3605, 0.33725);
 
-// z: 0..1. What the nearer casters take away.
+// Fraction of the light blocked in front of z (0..1): the lower bound for the moments b.
 float msm_dark(vec4 b, float z) {
-    // Cholesky of the Hankel matrix of the moments, and its solution for (1, z, z^2).
+    // Cholesky decomposition of the Hankel matrix of the moments, solved for (1, z, z^2).
     float spread = max(b.y - b.x * b.x, 1e-8);
     float skew = (b.z - b.x * b.y) / spread;
     float rest = max(b.w - b.y * b.y - (b.z - b.x * b.y) * skew, 1e-10);

@@ -1,5 +1,5 @@
 //@ names shadow_visibility
-// Four taps half a texel away along both diagonals: a 3 x 3 texel tent.
+// PCF with four bilinear taps, half a texel away along both diagonals: a 3 x 3 texel tent.
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
     vec2 a = s.at.xy - 0.5 * s.size.zw;
     vec2 b = s.at.xy + 0.5 * s.size.zw;

@@ -1,3 +1,3 @@
 //@ names shadow_visibility
-// One hardware tap: the four texels round the point, weighed bilinearly.
+// PCF with one bilinear tap, by the sampler where the map is a depth texture: four texels around the point.
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) { return map_lit_linear(map, s.at, s); }

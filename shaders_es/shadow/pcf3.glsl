@@ -1,7 +1,8 @@
 //@ names shadow_visibility
-// [1 2 1] x [1 2 1] taps of 2 x 2 texels, in four fetches instead of nine. Along one axis, with the point a fraction f past a
-// texel's centre, the taps at -1, 0, 1 weigh the texels -1..2 by 1-f, 2-f, 1+f, f; a linear fetch between two of them returns
-// their weighted sum: the left pair weighs 3-2f and lies (2-f)/(3-2f) past texel -1, the right pair 1+2f and f/(1+2f) past 1.
+// PCF, [1 2 1] x [1 2 1] taps of 2 x 2 texels, in four fetches instead of nine. Along one axis, with the point a fraction f past
+// a texel's centre, the taps at -1, 0, 1 give the texels -1..2 the weights 1-f, 2-f, 1+f, f; a linear fetch between two texels
+// returns their weighted sum: the left pair has weight 3-2f and is at (2-f)/(3-2f) past texel -1, the right pair has 1+2f at
+// f/(1+2f) past 1.
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
     vec2 p = s.at.xy * s.size.xy - 0.5;
     vec2 base = floor(p);

@@ -1,6 +1,6 @@
 //@ names shadow_visibility
-// [1 3 4 3 1] squared taps of 2 x 2 texels, in nine fetches instead of 25. Along one axis the texels -2..3 weigh 1-f, 3-2f,
-// 4-f, 3+f, 1+2f, f; each pair is one linear fetch (as in pcf3.glsl), of weight 4-3f, 7 and 1+3f.
+// PCF, [1 3 4 3 1] squared taps of 2 x 2 texels, in nine fetches instead of 25. Along one axis the texels -2..3 have the weights
+// 1-f, 3-2f, 4-f, 3+f, 1+2f, f; each pair is one linear fetch (as in pcf3.glsl), of weight 4-3f, 7 and 1+3f.
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
     vec2 p = s.at.xy * s.size.xy - 0.5;
     vec2 base = floor(p);

@@ -1,22 +1,24 @@
 //@ names shadow_visibility SMSM_BIAS SMSM_CLEAR smsm_moments smsm_blocked
-// Moment soft shadow mapping (Peters, Muenstermann, Wetzstein, Klein, "Improved Moment Shadow Maps for Translucent Occluders, Soft
-// Shadows and Single Scattering", JCGT 6 (1), 2017): as vssm, from four moments, which separate three distances.
+// Moment soft shadow mapping (Peters, Muenstermann, Wetzstein, Klein, "Improved Moment Shadow Maps for Translucent Occluders,
+// Soft Shadows and Single Scattering", JCGT 6 (1), 2017): as vssm, but with four moments, which separate three distances.
 #include "lib/table.glsl"
 
-const vec4 SMSM_CLEAR = vec4(0.0, 0.0, 0.98112522, 1.0); // the far end's moments
-const float SMSM_BIAS = 5e-6; // 6e-7 in the paper, whose tables have finer steps than those that are right for wide penumbrae
+const vec4 SMSM_CLEAR = vec4(0.0, 0.0, 0.98112522, 1.0); // moments of the far end
+const float SMSM_BIAS = 5e-6; // 6e-7 in the paper, whose SAT has finer steps than one for wide penumbrae
 
-// Moments of z = 2 c - 1, moved a little towards those of all z, so that rounding leaves them moments of something.
+// Moments of z = 2 c - 1 from their stored basis (moments/smsm.glsl), blended slightly with those of a distribution over all z,
+// so that they stay valid after rounding.
 vec4 smsm_moments(vec4 m) {
     float p = m.x - 0.5, q = m.z - 0.5;
     vec4 b = vec4(1.7320508 * q - p / 3.0, 0.125 * m.y + m.w, (1.2990381 * q) - 0.75 * p, m.w - 0.125 * m.y);
     return mix(b, vec4(0.0, 0.628, 0.0, 0.628), SMSM_BIAS);
 }
 
-// Of the distribution with these moments that has all its weight at z0 and at two other places: the least share that lies before z0,
-// and that times where it lies on average.
+// For the distribution with the moments b at three points, one of them z0: the fraction of casters in front of z0 (a lower bound
+// for all distributions with these moments), and that times their mean z.
 vec2 smsm_blocked(vec4 b, float z0) {
-    // Cholesky's decomposition of the moments' Hankel matrix, by which c0 + c1 z + c2 z^2 is found, and the other two are its roots.
+    // Cholesky decomposition of the Hankel matrix of the moments, solved for c0 + c1 z + c2 z^2; the other two points are its
+    // roots.
     float spread = max(b.y - b.x * b.x, 1e-7);
     float skew = (b.z - b.x * b.y) / spread;
     float rest = max(b.w - b.y * b.y - (b.z - b.x * b.y) * skew, 1e-9);
@@ -31,10 +33,10 @@ vec2 smsm_blocked(vec4 b, float z0) {
     return vec2(w.x + w.y, dot(w, z));
 }
 
-// A receiver that slopes has a plane that takes part in the mean: up to 2 * across * radius before z0, so that some of it would be
-// blocked by itself. In a wide square only what is half as far before it counts. Where a share is wanted that is too strict, since it
-// is the least that there can be: then the share before z0 itself is mixed with it. Nor is it more than half of the way to the
-// blockers, where there are some right above to those.
+// The plane of a sloped receiver contributes to the mean, up to 2 * across * radius in front of z0, so it would block itself. In
+// blocker searches only what is half as far in front of z0 counts as a blocker. In the filter that offset alone is too strict,
+// since the fraction is a lower bound already, so the fraction in front of z0 itself is mixed in; and the offset is limited to
+// half of the distance to the blockers, to those of the close search where it found some.
 float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
     float z0 = 2.0 * clamp(s.at.z, -1.0, s.far) - 1.0, across = dot(abs(s.slope), s.size.zw);
     float widest = table_widest(s), wide = TABLE_SEARCH * widest;
@@ -47,5 +49,5 @@ float shadow_visibility(MOMENTS_SAMPLER table, shadow_place s) {
     float before = 0.5 * (z0 - mix(z, (0.001 * z0 + near.y) / (0.001 + near.x), clamp(near.x, 0.0, 1.0)));
     float all = smsm_blocked(b, z0).x, sure = smsm_blocked(b, z0 - min(across * radius, before)).x;
     float blocked = 0.5 * (min(all, sure) + min(all, 3.0 * sure));
-    return blocked > 0.0 ? 1.0 - min(blocked, 1.0) : 1.0; // what is no number is lit
+    return blocked > 0.0 ? 1.0 - min(blocked, 1.0) : 1.0; // NaN is lit
 }

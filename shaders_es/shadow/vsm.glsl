@@ -1,8 +1,8 @@
 //@ names shadow_visibility VSM_BLEED VSM_REACH
-// Variance shadow maps (Donnelly, Lauritzen, "Variance Shadow Maps", 2006): by Chebyshev's inequality at most s^2 / (s^2 + (z - m)^2)
-// of the light passes, exactly so behind one caster before one receiver. What two casters one behind the other let through so is cut
-// off below VSM_BLEED, and the rest is stretched (Lauritzen, GPU Gems 3, ch. 8). That is asked of the share of texels that hold
-// casters; through all others light passes, whether the receiver, which may be no caster, is in the map or not.
+// Variance shadow maps (Donnelly, Lauritzen, "Variance Shadow Maps", 2006): by Chebyshev's inequality visibility is at most s^2 /
+// (s^2 + (z - m)^2), with equality for one blocker in front of one receiver. Light bleeding behind two casters is reduced by
+// subtracting VSM_BLEED and rescaling the rest (Lauritzen, GPU Gems 3, ch. 8). This applies to the fraction of texels covered by
+// casters; the rest is lit, whether the receiver is in the map (is a caster) or not.
 const float VSM_BLEED = 0.2;
 const float VSM_REACH = 4.5; // half of the widest blur, texels
 

@@ -1,14 +1,14 @@
 //@ names shadow_visibility vssm_blockers
-// Variance soft shadow maps (Yang, Dong, Feng, Seidel, Kautz, "Variance Soft Shadow Mapping", 2010): as pcss, but how far blockers are and
-// how much they let through is read from the mean and the variance over a square, by Chebyshev's inequality, which is exact where
-// there are but two distances: that of the blockers and that of the receiver. Both are those of casters: where the map is clear light
-// passes, and a receiver that is in no map leaves the blockers alone. Behind m + v / (m - z) there is as much as in front.
+// Variance soft shadow maps (Yang, Dong, Feng, Seidel, Kautz, "Variance Soft Shadow Mapping", 2010): as pcss, but the distance of
+// the blockers and the visibility are computed from mean m and variance v over a square, by Chebyshev's inequality, which is
+// exact for two distances: the blockers' and the receiver's z. The blockers are then at m + v / (m - z). Mean and variance are
+// those of casters: where the map is empty it is lit, and if the receiver is not in the map, only blockers remain.
 #include "lib/table.glsl"
 
-// The code of the blockers in a square of this radius, and the share of it that they take, of all: 0 where there are none.
-// A receiver that slopes is many distances. Those of its plane vary by `own`, so of a share p of blockers that are d nearer the mean
-// lies p d before the receiver, and the variance is (1 - p) (p d d + own): own p p + (v + beyond beyond - own) p = beyond beyond.
-// Where the receiver is in no map p comes out as 1, which is right as well. What is there may vary less than its plane would.
+// x: code of the blockers in a square of this radius (texels), y: fraction of the whole square that they cover, 0 without
+// blockers. A sloped receiver covers a range of depths, of variance `own`, at most v. With a fraction p of blockers that are
+// nearer by d, the mean is nearer than the receiver by beyond = p d, and the variance is v = (1 - p) (p d d + own), hence own p p
+// + (v + beyond beyond - own) p = beyond beyond. If the receiver is not in the map, p is 1, which is correct too.
 vec2 vssm_blockers(shadow_place s, vec4 m, float radius) {
     if (m.w < 1e-4) return vec2(0.0);
     float mean = m.x / m.w, beyond = s.at.z - shadow_cut(s, radius, m.w) - mean;
