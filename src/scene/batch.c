@@ -16,24 +16,6 @@ struct look {
     uint32_t material; /* whose it is; not compared */
 };
 
-static struct look look_of(const struct gn_material *m, uint32_t material) {
-    struct look look = {.material = material};
-    uint32_t *to = look.word;
-    for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++, to += SLOT_WORDS) {
-        const struct gn_texture_ref *ref = &m->textures[i];
-        if (ref->texture < 0) continue;
-        to[0] = (uint32_t)ref->texture + 1;
-        to[1] = ref->uv_set;
-        memcpy(to + 2, ref->uv_from_uv, sizeof ref->uv_from_uv);
-    }
-    *to++ = m->alpha;
-    *to++ = m->double_sided;
-    *to++ = m->unlit;
-    *to++ = gn_material_is_specular(m) && !m->unlit;
-    *to++ = gn_material_is_emissive(m);
-    return look;
-}
-
 static int compare_looks(const void *a, const void *b) {
     return memcmp(((const struct look *)a)->word, ((const struct look *)b)->word,
                   LOOK_WORDS * sizeof(uint32_t));
@@ -44,7 +26,23 @@ static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
     uint32_t count = g->scene->material_count, number = 0;
     struct look *looks = gn_gltf_alloc(g, &g->memory.load, count, sizeof *looks);
     if (!looks) return false;
-    for (uint32_t i = 0; i < count; i++) looks[i] = look_of(&g->scene->materials[i], i);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct gn_material *m = &g->scene->materials[i];
+        uint32_t *to = looks[i].word;
+        looks[i].material = i;
+        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++, to += SLOT_WORDS) {
+            const struct gn_texture_ref *ref = &m->textures[slot];
+            if (ref->texture < 0) continue;
+            to[0] = (uint32_t)ref->texture + 1;
+            to[1] = ref->uv_set;
+            memcpy(to + 2, ref->uv_from_uv, sizeof ref->uv_from_uv);
+        }
+        *to++ = m->alpha;
+        *to++ = m->double_sided;
+        *to++ = m->unlit;
+        *to++ = gn_material_is_specular(m) && !m->unlit;
+        *to++ = gn_material_is_emissive(m);
+    }
     qsort(looks, count, sizeof *looks, compare_looks);
     for (uint32_t i = 0; i < count; i++) {
         if (i > 0 && compare_looks(&looks[i], &looks[i - 1]) != 0) number++;
@@ -66,25 +64,23 @@ static int compare_items(const void *a, const void *b) {
     return 0;
 }
 
-static struct item_key key_of(const struct gn_scene *scene, uint32_t index, const uint32_t *looks) {
-    const struct gn_item *item = &scene->items[index];
-    uint32_t flags = (uint32_t)item->casts | (uint32_t)item->receives << 1 |
-                     (uint32_t)item->plane << 2 | (uint32_t)item->cast_faces << 3;
-    return (struct item_key){.part = {[KEY_ALPHA] = scene->materials[item->material].alpha,
-                                      [KEY_LOOK] = looks[item->material],
-                                      [KEY_GEOMETRY] = item->geometry,
-                                      [KEY_FLAGS] = flags,
-                                      [KEY_ORDER] = index},
-                             .item = *item};
-}
-
 bool gn_scene_batch(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     gn_arena_reset(&g->memory.step);
     uint32_t *looks = gn_gltf_alloc(g, &g->memory.step, scene->material_count, sizeof *looks);
     struct item_key *keys = gn_gltf_alloc(g, &g->memory.step, scene->item_count, sizeof *keys);
     if (g->failed || !number_looks(g, looks)) return false;
-    for (uint32_t i = 0; i < scene->item_count; i++) keys[i] = key_of(scene, i, looks);
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        const struct gn_item *item = &scene->items[i];
+        uint32_t flags = (uint32_t)item->casts | (uint32_t)item->receives << 1 |
+                         (uint32_t)item->plane << 2 | (uint32_t)item->cast_faces << 3;
+        keys[i] = (struct item_key){.part = {[KEY_ALPHA] = scene->materials[item->material].alpha,
+                                             [KEY_LOOK] = looks[item->material],
+                                             [KEY_GEOMETRY] = item->geometry,
+                                             [KEY_FLAGS] = flags,
+                                             [KEY_ORDER] = i},
+                                    .item = *item};
+    }
     qsort(keys, scene->item_count, sizeof *keys, compare_items);
     for (uint32_t i = 0; i < scene->item_count; i++) {
         bool next =

@@ -22,17 +22,6 @@ struct welder {
     double *volume;   /* per root: six times the signed volume */
 };
 
-static bool allocate_welder(struct welder *w, struct gn_arena *arena) {
-    uint32_t count = w->geometry->vertex_count, size = 16;
-    while (size < 2 * (uint64_t)count && size < 1u << 31) size *= 2;
-    w->mask = size - 1;
-    w->slots = gn_arena_alloc(arena, size, sizeof *w->slots);
-    w->vertex = gn_arena_alloc(arena, count, sizeof *w->vertex);
-    w->body = gn_arena_alloc(arena, count, sizeof *w->body);
-    w->volume = gn_arena_alloc(arena, count, sizeof *w->volume);
-    return w->slots && w->vertex && w->body && w->volume;
-}
-
 static const float *position_of(const struct welder *w, uint32_t vertex) {
     return w->scene->buffers.positions + 3 * ((size_t)w->geometry->first_vertex + vertex);
 }
@@ -63,17 +52,6 @@ static uint64_t edge_hash(uint32_t a, uint32_t b) {
     return a < b ? h : -h;
 }
 
-static double volume_six(const float *a, const float *b, const float *c, const float *from) {
-    double u[3], v[3], w[3];
-    for (int k = 0; k < 3; k++) {
-        u[k] = (double)a[k] - (double)from[k];
-        v[k] = (double)b[k] - (double)from[k];
-        w[k] = (double)c[k] - (double)from[k];
-    }
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-           u[2] * (v[0] * w[1] - v[1] * w[0]);
-}
-
 static bool edges_meet(struct welder *w) {
     uint64_t sum = 0;
     const uint32_t *index = w->scene->buffers.indices + w->geometry->first_index;
@@ -94,9 +72,15 @@ static bool bodies_are_outward(struct welder *w) {
     uint32_t first = w->geometry->first_vertex;
     for (uint32_t i = 0; i < w->geometry->index_count; i += 3) {
         uint32_t body = body_root(w, w->vertex[index[i] - first]);
-        w->volume[body] +=
-            volume_six(position_of(w, index[i] - first), position_of(w, index[i + 1] - first),
-                       position_of(w, index[i + 2] - first), position_of(w, body));
+        const float *from = position_of(w, body);
+        double e[3][3]; /* from a vertex of the body to those of the triangle */
+        for (uint32_t k = 0; k < 3; k++)
+            for (int axis = 0; axis < 3; axis++)
+                e[k][axis] =
+                    (double)position_of(w, index[i + k] - first)[axis] - (double)from[axis];
+        w->volume[body] += e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+                           e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+                           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
     }
     for (uint32_t v = 0; v < w->geometry->vertex_count; v++)
         if (w->volume[v] < 0.0) return false;
@@ -104,11 +88,22 @@ static bool bodies_are_outward(struct welder *w) {
 }
 
 bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *geometry) {
+    if (geometry->index_count < 12 || geometry->flat) return false;
     size_t room = gn_gltf_room(g);
     struct gn_arena arena = {.limit = room ? room : 1};
-    struct welder w = {.scene = g->scene, .geometry = geometry};
+    uint32_t count = geometry->vertex_count, size = 16;
+    while (size < 2 * (uint64_t)count && size < 1u << 31) size *= 2;
+    struct welder w = {
+        .scene = g->scene,
+        .geometry = geometry,
+        .slots = gn_arena_alloc(&arena, size, sizeof *w.slots),
+        .mask = size - 1,
+        .vertex = gn_arena_alloc(&arena, count, sizeof *w.vertex),
+        .body = gn_arena_alloc(&arena, count, sizeof *w.body),
+        .volume = gn_arena_alloc(&arena, count, sizeof *w.volume),
+    };
     bool closed = false;
-    if (geometry->index_count >= 12 && !geometry->flat && allocate_welder(&w, &arena)) {
+    if (w.slots && w.vertex && w.body && w.volume) {
         weld_vertices(&w);
         closed = edges_meet(&w) && bodies_are_outward(&w);
     }

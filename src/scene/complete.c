@@ -5,8 +5,6 @@
 
 #include "scene/pose.h"
 
-/* ---- added nodes ---- */
-
 /* A node at position whose -Z looks along forward_ws. */
 static uint32_t add_node(struct gn_gltf *g, const char *name, vec3 position, vec3 forward_ws) {
     struct gn_scene *scene = g->scene;
@@ -42,21 +40,21 @@ static void make_light(struct gn_gltf *g) {
     };
 }
 
-/* ---- the camera ---- */
-
-static void corner_of(const struct gn_box *box, int i, vec3 out) {
-    for (int k = 0; k < 3; k++) out[k] = i >> k & 1 ? box->max[k] : box->min[k];
-}
-
-/* How far from the middle, along `back`, all of the box is in the picture, in 4:3 and wider; reach:
- * of the box along it. */
-static float fitting_distance(const struct gn_box *box, vec3 axes[3], float slope, float reach[2]) {
-    float distance = 0;
-    vec3 middle, corner;
-    glm_vec3_center((float *)box->min, (float *)box->max, middle);
-    reach[0] = reach[1] = 0;
+/* A three-quarter view: from the front, the right and above; all of the box is in the picture, in
+ * 4:3 and wider. */
+static void make_camera(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    const struct gn_box *box = &scene->box;
+    const float yfov_rad = glm_rad(35), filled = .92f, slope = tanf(yfov_rad / 2) * filled;
+    vec3 axes[3] = {{0}, {0}, {.55f, .5f, 1}}, middle, eye, forward;
+    glm_vec3_normalize(axes[2]);
+    glm_vec3_crossn(GLM_YUP, axes[2], axes[0]);
+    glm_vec3_cross(axes[2], axes[0], axes[1]);
+    glm_vec3_center(scene->box.min, scene->box.max, middle);
+    float distance = 0, reach[2] = {0}; /* of the eye, and of the box, along axes[2] */
     for (int i = 0; i < 8; i++) {
-        corner_of(box, i, corner);
+        vec3 corner;
+        for (int k = 0; k < 3; k++) corner[k] = i >> k & 1 ? box->max[k] : box->min[k];
         glm_vec3_sub(corner, middle, corner);
         float x = fabsf(glm_vec3_dot(corner, axes[0])), y = fabsf(glm_vec3_dot(corner, axes[1]));
         float z = glm_vec3_dot(corner, axes[2]);
@@ -64,23 +62,9 @@ static float fitting_distance(const struct gn_box *box, vec3 axes[3], float slop
         reach[0] = fminf(reach[0], z);
         reach[1] = fmaxf(reach[1], z);
     }
-    return distance;
-}
-
-/* A three-quarter view: from the front, the right and above. */
-static void make_camera(struct gn_gltf *g) {
-    struct gn_scene *scene = g->scene;
-    const float yfov_rad = glm_rad(35), filled = .92f;
-    vec3 axes[3] = {{0}, {0}, {.55f, .5f, 1}}, middle, eye, forward;
-    glm_vec3_normalize(axes[2]);
-    glm_vec3_crossn(GLM_YUP, axes[2], axes[0]);
-    glm_vec3_cross(axes[2], axes[0], axes[1]);
-    float reach[2];
-    float distance = fitting_distance(&scene->box, axes, tanf(yfov_rad / 2) * filled, reach);
     float size = fmaxf(glm_vec3_distance(scene->box.min, scene->box.max), 1e-3f);
     distance = fmaxf(distance, size * .5f);
     scene->added.camera = true;
-    glm_vec3_center(scene->box.min, scene->box.max, middle);
     glm_vec3_scale(axes[2], distance, eye);
     glm_vec3_add(eye, middle, eye);
     glm_vec3_negate_to(axes[2], forward);
@@ -93,10 +77,8 @@ static void make_camera(struct gn_gltf *g) {
     };
 }
 
-/* ---- messages ---- */
-
-static void name_missing(struct gn_gltf *g) {
-    static const char *const names[GN_MISSING_COUNT] = {
+bool gn_scene_complete(struct gn_gltf *g) {
+    static const char *const missing[GN_MISSING_COUNT] = {
         [GN_MISSING_SKINS] = "skins",
         [GN_MISSING_MORPHS] = "morph targets",
         [GN_MISSING_NORMAL_MAPS] = "normal maps",
@@ -106,15 +88,6 @@ static void name_missing(struct gn_gltf *g) {
         [GN_MISSING_DRACO] = "Draco-compressed meshes",
         [GN_MISSING_POINTERS] = "animation pointers",
     };
-    char list[200] = "";
-    for (size_t i = 0, at = 0; i < GN_MISSING_COUNT; i++)
-        if (g->is_missing[i])
-            at +=
-                (size_t)snprintf(list + at, sizeof list - at, "%s%s", at > 0 ? ", " : "", names[i]);
-    if (list[0]) gn_gltf_warn(g, NULL, "shown without %s: not supported yet", list);
-}
-
-bool gn_scene_complete(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_NONE);
@@ -125,6 +98,11 @@ bool gn_scene_complete(struct gn_gltf *g) {
     gn_pose_finish(&pose);
     if (scene->light_count == 0) make_light(g);
     if (scene->camera_count == 0) make_camera(g);
-    name_missing(g);
+    char list[200] = "";
+    for (size_t i = 0, at = 0; i < GN_MISSING_COUNT; i++)
+        if (g->is_missing[i])
+            at += (size_t)snprintf(list + at, sizeof list - at, "%s%s", at > 0 ? ", " : "",
+                                   missing[i]);
+    if (list[0]) gn_gltf_warn(g, NULL, "shown without %s: not supported yet", list);
     return !g->failed;
 }

@@ -57,62 +57,52 @@ static bool put_bytes(struct gn_gltf *g, const struct gather *gather, size_t com
     return all != NULL;
 }
 
-/* One attribute of the vertices first .. first + count; huge and infinite values become 0. */
-static bool put_attribute(struct gn_gltf *g, const struct gather *gather,
-                          const struct gn_attribute_row *row, void *array) {
-    if (!array) return true;
-    const size_t components = row->components;
-    uint8_t *out = (uint8_t *)array + gather->first * row->bytes;
-    if (row->format == GN_ATTRIBUTE_UNORM8) {
-        if (gather->accessor) return put_bytes(g, gather, components, out);
-        memset(out, row->missing_is_1 ? 255 : 0, gather->count * row->bytes);
-        return true;
-    }
-    float *floats = (float *)(void *)out;
-    if (!gather->accessor && !row->missing_is_1) return true;
-    if (gather->accessor && !put_floats(g, gather, components, floats)) return false;
-    for (size_t i = 0; i < gather->count * components; i++) {
-        if (!gather->accessor && row->missing_is_1) floats[i] = 1;
-        if (!(fabsf(floats[i]) < 1e18f)) floats[i] = 0;
-    }
-    return true;
-}
-
-/* All but positions and normals. */
+/* All attributes but positions and normals, of the vertices first .. first + count; huge and
+ * infinite values become 0. */
 static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
                                  struct gather gather) {
     for (int i = GN_ATTRIBUTE_NORMAL + 1; i < GN_ATTRIBUTE_COUNT; i++) {
+        const struct gn_attribute_row *row = &gn_attributes[i];
+        uint8_t *array = g->scene->buffers.attributes[i];
         gather.accessor = gn_gltf_accessor(g, attribute[i]);
-        if (!put_attribute(g, &gather, &gn_attributes[i], g->scene->buffers.attributes[i]))
-            return false;
+        if (!array) continue;
+        uint8_t *bytes = array + gather.first * row->bytes;
+        float *floats = (float *)(void *)bytes;
+        const size_t count = gather.count * row->components;
+        if (!gather.accessor) { /* the array is zeroed */
+            if (row->missing_is_1 && row->format == GN_ATTRIBUTE_UNORM8)
+                memset(bytes, 255, gather.count * row->bytes);
+            else if (row->missing_is_1)
+                for (size_t k = 0; k < count; k++) floats[k] = 1;
+        } else if (row->format == GN_ATTRIBUTE_UNORM8) {
+            if (!put_bytes(g, &gather, row->components, bytes)) return false;
+        } else {
+            if (!put_floats(g, &gather, row->components, floats)) return false;
+            for (size_t k = 0; k < count; k++)
+                if (!(fabsf(floats[k]) < 1e18f)) floats[k] = 0;
+        }
     }
     return true;
 }
 
-/* ---- vertices with normals of their own ---- */
-
-static void normalize_normals(struct gn_vertices *vertices, float *normals) {
+static bool fill_vertices(struct gn_gltf *g, struct gn_vertices *vertices) {
+    if (vertices->filled) return true;
+    struct gn_scene_buffers *buffers = &g->scene->buffers;
+    vertices->filled = true;
+    vertices->first = buffers->vertex_count;
+    buffers->vertex_count += vertices->count;
+    struct gather gather = {.first = vertices->first, .count = vertices->count};
+    gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_POSITION]);
+    put_floats(g, &gather, 3, buffers->positions + 3 * gather.first);
+    gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
+    put_floats(g, &gather, 3, buffers->normals + 3 * gather.first);
     for (size_t i = 0; i < vertices->count; i++) {
-        float *n = normals + 3 * i;
+        float *n = buffers->normals + 3 * (vertices->first + i);
         float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         bool right = length > 1e-12f && length < 1e18f;
         if (!right) vertices->lacks_normals = true;
         for (int k = 0; k < 3; k++) n[k] = right ? n[k] / length : 0;
     }
-}
-
-static bool fill_vertices(struct gn_gltf *g, struct gn_vertices *vertices) {
-    if (vertices->filled) return true;
-    struct gn_scene *scene = g->scene;
-    vertices->filled = true;
-    vertices->first = scene->buffers.vertex_count;
-    scene->buffers.vertex_count += vertices->count;
-    struct gather gather = {.first = vertices->first, .count = vertices->count};
-    gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_POSITION]);
-    put_floats(g, &gather, 3, scene->buffers.positions + 3 * gather.first);
-    gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
-    put_floats(g, &gather, 3, scene->buffers.normals + 3 * gather.first);
-    normalize_normals(vertices, scene->buffers.normals + 3 * (size_t)vertices->first);
     return put_other_attributes(g, vertices->attribute, gather);
 }
 
@@ -137,22 +127,6 @@ static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at,
     return raw;
 }
 
-/* The corners of triangle t, wound as glTF 2.0, 3.7.2.1 has it. */
-static void triangle_at(const uint32_t *raw, int32_t mode, size_t t, uint32_t out[3]) {
-    size_t odd = t % 2;
-    if (mode == MODE_TRIANGLES)
-        memcpy(out, raw + 3 * t, 3 * sizeof *out);
-    else if (mode == MODE_STRIP) {
-        out[0] = raw[t];
-        out[1] = raw[t + 1 + odd];
-        out[2] = raw[t + 2 - odd];
-    } else {
-        out[0] = raw[t + 1];
-        out[1] = raw[t + 2];
-        out[2] = raw[0];
-    }
-}
-
 /* Unrolls strips and fans into out, dropping triangles with equal indices or with a
  * position that is not finite; returns the number of corners. */
 static size_t unroll_triangles(struct gn_gltf *g, const struct gn_at *at,
@@ -160,8 +134,19 @@ static size_t unroll_triangles(struct gn_gltf *g, const struct gn_at *at,
                                const float *positions, uint32_t *out) {
     size_t count = 0, dropped = 0;
     for (size_t t = 0; t < shape->corner_count / 3; t++) {
-        uint32_t v[3];
-        triangle_at(raw, shape->mode, t, v);
+        const size_t odd = t % 2;
+        uint32_t v[3]; /* wound as in glTF 2.0, 3.7.2.1 */
+        if (shape->mode == MODE_TRIANGLES)
+            memcpy(v, raw + 3 * t, sizeof v);
+        else if (shape->mode == MODE_STRIP) {
+            v[0] = raw[t];
+            v[1] = raw[t + 1 + odd];
+            v[2] = raw[t + 2 - odd];
+        } else {
+            v[0] = raw[t + 1];
+            v[1] = raw[t + 2];
+            v[2] = raw[0];
+        }
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
         if (position_is_usable(positions + 3 * (size_t)v[0]) &&
             position_is_usable(positions + 3 * (size_t)v[1]) &&
@@ -228,28 +213,6 @@ static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
     return true;
 }
 
-static bool fill_geometry(struct gn_gltf *g, struct gn_shape *shape, struct gn_geometry *geometry) {
-    struct gn_at root = gn_at_root(g), meshes = gn_at_array(g, &root, "meshes");
-    struct gn_at mesh = gn_at_element(&meshes, shape->mesh);
-    struct gn_at list = gn_at_array(g, &mesh, "primitives");
-    struct gn_at at = gn_at_element(&list, shape->primitive);
-    gn_arena_reset(&g->memory.step);
-    geometry->first_index = g->scene->buffers.index_count;
-    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
-        geometry->attributes |= (uint32_t)(shape->attribute[i] >= 0) << i;
-    bool flat = shape->vertices == UINT32_MAX;
-    if (!(flat ? fill_flat_geometry : fill_shared_geometry)(g, &at, shape, geometry)) return false;
-    g->scene->buffers.index_count += geometry->index_count;
-    gn_geometry_measure(g->scene, geometry, &shape->area);
-    /* The test visits all vertices, which many geometries may share: run it only where most belong
-     * to this one. */
-    if (geometry->vertex_count <= 2 * (uint64_t)geometry->index_count)
-        geometry->closed = gn_geometry_is_closed(g, geometry);
-    return true;
-}
-
-/* ---- all of them ---- */
-
 /* Allocates for the largest possible number of vertices and indices. */
 static bool allocate_vertices(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
@@ -281,19 +244,35 @@ static bool allocate_vertices(struct gn_gltf *g) {
     return !g->failed;
 }
 
-/* Makes vertices that no triangle uses finite, too. */
-static void tidy_vertices(struct gn_scene *scene) {
+bool gn_gltf_geometries(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    struct gn_at root = gn_at_root(g), meshes = gn_at_array(g, &root, "meshes");
+    if (!allocate_vertices(g)) return false;
+    for (uint32_t i = 0; i < scene->geometry_count; i++) {
+        struct gn_shape *shape = &g->primitives.shapes[i];
+        struct gn_geometry *geometry = &scene->geometries[i];
+        struct gn_at mesh = gn_at_element(&meshes, shape->mesh);
+        struct gn_at list = gn_at_array(g, &mesh, "primitives");
+        struct gn_at at = gn_at_element(&list, shape->primitive);
+        gn_arena_reset(&g->memory.step);
+        geometry->first_index = scene->buffers.index_count;
+        for (int k = 0; k < GN_ATTRIBUTE_COUNT; k++)
+            geometry->attributes |= (uint32_t)(shape->attribute[k] >= 0) << k;
+        bool filled = shape->vertices == UINT32_MAX ? fill_flat_geometry(g, &at, shape, geometry)
+                                                    : fill_shared_geometry(g, &at, shape, geometry);
+        if (!filled) return false;
+        scene->buffers.index_count += geometry->index_count;
+        gn_geometry_measure(scene, geometry, &shape->area);
+        /* The test visits all vertices, which many geometries may share: run it only where most
+         * belong to this one. */
+        if (geometry->vertex_count <= 2 * (uint64_t)geometry->index_count)
+            geometry->closed = gn_geometry_is_closed(g, geometry);
+    }
+    /* makes vertices that no triangle uses finite, too */
     for (size_t i = 0; i < scene->buffers.vertex_count; i++) {
         float *p = scene->buffers.positions + 3 * i, *n = scene->buffers.normals + 3 * i;
         if (!position_is_usable(p)) memset(p, 0, 3 * sizeof *p);
         if (n[0] == 0 && n[1] == 0 && n[2] == 0) n[1] = 1;
     }
-}
-
-bool gn_gltf_geometries(struct gn_gltf *g) {
-    if (!allocate_vertices(g)) return false;
-    for (uint32_t i = 0; i < g->scene->geometry_count; i++)
-        if (!fill_geometry(g, &g->primitives.shapes[i], &g->scene->geometries[i])) return false;
-    tidy_vertices(g->scene);
     return true;
 }

@@ -78,19 +78,6 @@ size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geomet
 
 /* ---- bounds ---- */
 
-static struct gn_box box_of(const struct gn_scene *scene, const struct gn_geometry *geometry) {
-    struct gn_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    const uint32_t *index = scene->buffers.indices + geometry->first_index;
-    for (size_t i = 0; i < geometry->index_count; i++) {
-        const float *p = scene->buffers.positions + 3 * (size_t)index[i];
-        for (int k = 0; k < 3; k++) {
-            if (p[k] < box.min[k]) box.min[k] = p[k];
-            if (p[k] > box.max[k]) box.max[k] = p[k];
-        }
-    }
-    return box;
-}
-
 /* The normal of the largest triangle, oriented to the side that most of the area faces. */
 static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry *geometry,
                          double out[3], double *area) {
@@ -114,31 +101,35 @@ static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry 
     return best > 0;
 }
 
-static bool lies_in_plane(const struct gn_scene *scene, const struct gn_geometry *geometry,
-                          const double n[3], double d, double tolerance) {
-    const uint32_t *index = scene->buffers.indices + geometry->first_index;
-    for (size_t i = 0; i < geometry->index_count; i++) {
-        const float *p = scene->buffers.positions + 3 * (size_t)index[i];
-        double distance = n[0] * (double)p[0] + n[1] * (double)p[1] + n[2] * (double)p[2] + d;
-        if (!(fabs(distance) <= tolerance)) return false;
-    }
-    return true;
-}
-
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area) {
+    const uint32_t *index = scene->buffers.indices + geometry->first_index;
+    const float *positions = scene->buffers.positions;
     *area = 0;
     if (geometry->index_count == 0) return;
-    geometry->box = box_of(scene, geometry);
+    struct gn_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = 0; i < geometry->index_count; i++) {
+        const float *p = positions + 3 * (size_t)index[i];
+        for (int k = 0; k < 3; k++) {
+            if (p[k] < box.min[k]) box.min[k] = p[k];
+            if (p[k] > box.max[k]) box.max[k] = p[k];
+        }
+    }
+    geometry->box = box;
+
     double n[3] = {0}, size[3], d = 0;
     if (!guess_normal(scene, geometry, n, area)) return;
-    const float *on =
-        scene->buffers.positions + 3 * (size_t)scene->buffers.indices[geometry->first_index];
+    const float *on = positions + 3 * (size_t)index[0];
     for (int k = 0; k < 3; k++) {
-        size[k] = (double)geometry->box.max[k] - (double)geometry->box.min[k];
+        size[k] = (double)box.max[k] - (double)box.min[k];
         d -= n[k] * (double)on[k];
     }
-    geometry->flat = lies_in_plane(scene, geometry, n, d, 1e-5 * length_of(size));
-    if (!geometry->flat) return;
+    const double tolerance = 1e-5 * length_of(size);
+    for (size_t i = 0; i < geometry->index_count; i++) {
+        const float *p = positions + 3 * (size_t)index[i];
+        double distance = n[0] * (double)p[0] + n[1] * (double)p[1] + n[2] * (double)p[2] + d;
+        if (!(fabs(distance) <= tolerance)) return;
+    }
+    geometry->flat = true;
     for (int k = 0; k < 3; k++) geometry->plane[k] = (float)n[k];
     geometry->plane[3] = (float)d;
 }

@@ -20,8 +20,8 @@ static bool count_textures(struct gn_gltf *g) {
     return !g->failed;
 }
 
-/* What a frame would draw, before any of it is unpacked: a few hundred bytes can name a million
- * instances of a million triangles, which no GPU comes back from. */
+/* Limits what a frame would draw, before any of it is unpacked: a few hundred bytes can name a
+ * million instances of a million triangles, which would hang any GPU. */
 static bool check_triangles(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes");
     uint64_t total = 0;
@@ -49,14 +49,6 @@ static bool (*const STEPS[])(struct gn_gltf *) = {
     gn_gltf_cameras,       gn_gltf_animations, gn_scene_complete, gn_scene_batch,
 };
 
-static void finish_load(struct gn_gltf *g) {
-    for (size_t i = 0; i < g->file.buffer_count; i++) gn_blob_finish(g, &g->file.buffers[i]);
-    json_decref(g->file.json);
-    gn_arena_finish(&g->memory.step);
-    gn_arena_finish(&g->memory.load);
-    free(g->folder);
-}
-
 static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_t size) {
     struct holder *holder = gn_xalloc(1, sizeof *holder);
     holder->scene.memory.arena = holder;
@@ -67,7 +59,11 @@ static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_
     for (size_t i = 0; done && i < sizeof STEPS / sizeof STEPS[0]; i++) done = STEPS[i](g);
     done = done && !g->failed;
     holder->scene.memory.bytes = holder->arena.used + sizeof *holder;
-    finish_load(g);
+    for (size_t i = 0; i < g->file.buffer_count; i++) gn_blob_finish(g, &g->file.buffers[i]);
+    json_decref(g->file.json);
+    gn_arena_finish(&g->memory.step);
+    gn_arena_finish(&g->memory.load);
+    free(g->folder);
     if (done) return &holder->scene;
     gn_scene_destroy(&holder->scene);
     return NULL;
@@ -81,18 +77,6 @@ struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t
     return load_scene(&g, data, size);
 }
 
-/* The real path of the file's folder, or NULL. */
-static char *folder_of(const char *path) {
-    const char *slash = strrchr(path, '/');
-    if (!slash) return realpath(".", NULL);
-    char folder[PATH_MAX];
-    size_t size = slash == path ? 1 : (size_t)(slash - path);
-    if (size >= sizeof folder) return NULL;
-    memcpy(folder, path, size);
-    folder[size] = 0;
-    return realpath(folder, NULL);
-}
-
 struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_gltf g = {.path = path, .warnings = warnings, .err = err};
@@ -100,7 +84,14 @@ struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *l
     struct gn_bytes bytes = {0};
     uint64_t most = g.limits.file_mb << 20;
     if (!gn_file_read(path, most < SIZE_MAX ? (size_t)most : SIZE_MAX, &bytes, err)) return NULL;
-    g.folder = folder_of(path);
+    const char *slash = strrchr(path, '/');
+    char folder[PATH_MAX] = ".";
+    size_t length = slash == path ? 1 : slash ? (size_t)(slash - path) : strlen(folder);
+    if (length < sizeof folder) {
+        memcpy(folder, slash ? path : ".", length);
+        folder[length] = 0;
+        g.folder = realpath(folder, NULL);
+    }
     struct gn_scene *scene = load_scene(&g, bytes.data, bytes.size);
     gn_bytes_finish(&bytes);
     return scene;

@@ -44,12 +44,6 @@ double gn_cofactor(mat4 m, mat3 out) {
     return det;
 }
 
-static bool matrix_is_usable(mat4 m) {
-    for (int i = 0; i < 16; i++)
-        if (!(fabsf(m[i / 4][i % 4]) < LIMIT)) return false;
-    return true;
-}
-
 /* ---- boxes ---- */
 
 static const struct gn_box EMPTY = {{INFINITY, INFINITY, INFINITY},
@@ -79,12 +73,6 @@ static struct gn_box transform_box(mat4 m, const struct gn_box *box) {
     return out;
 }
 
-static bool box_usable(const struct gn_box *box) {
-    for (int k = 0; k < 3; k++)
-        if (!(fabsf(box->min[k]) < LIMIT && fabsf(box->max[k]) < LIMIT)) return false;
-    return true;
-}
-
 /* ---- items ---- */
 
 static void pose_item(struct gn_pose *pose, uint32_t i) {
@@ -96,14 +84,17 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
         glm_mat4_copy(world_from_node, out->world_from_item);
     else
         glm_mat4_mul(world_from_node, scene->instances[item->instance], out->world_from_item);
-    out->visible = matrix_is_usable(out->world_from_item);
+    out->visible = true;
+    for (int k = 0; k < 16; k++) out->visible &= fabsf(out->world_from_item[k / 4][k % 4]) < LIMIT;
     if (out->visible) {
         mat3 cofactor; /* nothing has an area if it is 0 */
         out->mirrored = gn_cofactor(out->world_from_item, cofactor) < 0;
         out->box_ws = transform_box(out->world_from_item, &scene->geometries[item->geometry].box);
         float area =
             glm_vec3_norm(cofactor[0]) + glm_vec3_norm(cofactor[1]) + glm_vec3_norm(cofactor[2]);
-        out->visible = area > 0 && box_usable(&out->box_ws);
+        out->visible = area > 0;
+        for (int k = 0; k < 3; k++)
+            out->visible &= fabsf(out->box_ws.min[k]) < LIMIT && fabsf(out->box_ws.max[k]) < LIMIT;
     }
     if (!out->visible) out->box_ws = EMPTY;
     out->hash = gn_hash(GN_HASH_INIT, out->world_from_item, sizeof out->world_from_item);
@@ -126,17 +117,12 @@ static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
     return pose->clips == (int)clip;
 }
 
-/* The time within the clip; in integers until it is small. */
-static double clip_time_s(const struct gn_clip *clip, int64_t time_ns) {
-    if (clip->duration_ns <= 0) return 0;
-    int64_t local_ns = time_ns % clip->duration_ns;
-    if (local_ns < 0) local_ns += clip->duration_ns;
-    return (double)local_ns * 1e-9;
-}
-
 static void apply_clip(struct gn_pose *pose, const struct gn_clip *clip) {
     struct memory *memory = pose->memory;
-    double time_s = clip_time_s(clip, pose->time_ns);
+    /* the time within the clip; in integers until it is small */
+    int64_t local_ns = clip->duration_ns > 0 ? pose->time_ns % clip->duration_ns : 0;
+    if (local_ns < 0) local_ns += clip->duration_ns;
+    double time_s = (double)local_ns * 1e-9;
     for (uint32_t i = 0; i < clip->channel_count; i++) {
         const struct gn_channel *channel =
             &pose->scene->animation.channels[clip->first_channel + i];
@@ -148,7 +134,9 @@ static void apply_clip(struct gn_pose *pose, const struct gn_clip *clip) {
     }
 }
 
-static void mark_moving(struct gn_pose *pose) {
+/* Marks and lists the nodes and items that the clips animate. */
+static void find_moving(struct gn_pose *pose) {
+    struct memory *memory = pose->memory;
     const struct gn_scene *scene = pose->scene;
     for (uint32_t c = 0; c < scene->animation.clip_count; c++) {
         const struct gn_clip *clip = &scene->animation.clips[c];
@@ -160,33 +148,13 @@ static void mark_moving(struct gn_pose *pose) {
     for (uint32_t i = 0; i < scene->node_count; i++) {
         int32_t parent = scene->nodes[i].parent;
         if (parent >= 0 && pose->node_moves[parent]) pose->node_moves[i] = true;
-    }
-}
-
-/* ---- life ---- */
-
-static void list_moving(struct gn_pose *pose) {
-    struct memory *memory = pose->memory;
-    const struct gn_scene *scene = pose->scene;
-    for (uint32_t i = 0; i < scene->node_count; i++)
         if (pose->node_moves[i]) memory->nodes[memory->node_count++] = i;
+    }
     for (uint32_t i = 0; i < scene->item_count; i++)
         if (pose->node_moves[scene->items[i].node]) memory->items[memory->item_count++] = i;
 }
 
-/* Poses everything once; items that are not animated keep this pose. */
-static void pose_still(struct gn_pose *pose) {
-    struct memory *memory = pose->memory;
-    const struct gn_scene *scene = pose->scene;
-    memory->still_ws = EMPTY;
-    for (uint32_t i = 0; i < scene->node_count; i++) pose_node(pose, i);
-    for (uint32_t i = 0; i < scene->item_count; i++) {
-        if (pose->node_moves[scene->items[i].node]) continue;
-        pose_item(pose, i);
-        join_boxes(&memory->still_ws, &pose->items[i].box_ws);
-    }
-    pose->box_ws = memory->still_ws;
-}
+/* ---- life ---- */
 
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips) {
     *pose = (struct gn_pose){.scene = scene, .clips = clips};
@@ -210,9 +178,17 @@ void gn_pose_choose(struct gn_pose *pose, int clips) {
         memcpy(memory->local, scene->nodes, scene->node_count * sizeof *memory->local);
         memset(pose->node_moves, 0, scene->node_count * sizeof *pose->node_moves);
     }
-    mark_moving(pose);
-    list_moving(pose);
-    pose_still(pose);
+    find_moving(pose);
+
+    /* everything is posed once; items that are not animated keep this pose */
+    memory->still_ws = EMPTY;
+    for (uint32_t i = 0; i < scene->node_count; i++) pose_node(pose, i);
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        if (pose->node_moves[scene->items[i].node]) continue;
+        pose_item(pose, i);
+        join_boxes(&memory->still_ws, &pose->items[i].box_ws);
+    }
+    pose->box_ws = memory->still_ws;
     gn_pose_step(pose, 0);
 }
 

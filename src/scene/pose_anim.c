@@ -3,19 +3,6 @@
 
 #include <string.h>
 
-/* The last key at or before time_s, or the first. */
-static uint32_t key_before(const struct gn_channel *channel, double time_s) {
-    uint32_t low = 0, high = channel->key_count;
-    while (high - low > 1) {
-        uint32_t middle = low + (high - low) / 2;
-        if ((double)channel->times_s[middle] <= time_s)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 static void interpolate_linear(const struct gn_channel *channel, const float *a, const float *b,
                                float u, float *out) {
     if (channel->path != GN_ANIM_ROTATION) {
@@ -43,7 +30,14 @@ void gn_channel_sample(const struct gn_channel *channel, double time_s, float *o
     int n = channel->path == GN_ANIM_ROTATION ? 4 : 3;
     bool cubic = channel->interpolation == GN_ANIM_CUBIC;
     size_t stride = (size_t)n * (cubic ? 3 : 1);
-    uint32_t k = key_before(channel, time_s);
+    uint32_t k = 0; /* the last key at or before time_s, or the first */
+    for (uint32_t end = channel->key_count; end - k > 1;) {
+        uint32_t middle = k + (end - k) / 2;
+        if ((double)channel->times_s[middle] <= time_s)
+            k = middle;
+        else
+            end = middle;
+    }
     const float *key = channel->values + k * stride;
     double start_s = (double)channel->times_s[k];
     if (k + 1 == channel->key_count || time_s <= start_s || channel->interpolation == GN_ANIM_STEP)

@@ -28,16 +28,12 @@ static size_t percent_decode(const char *text, uint8_t *out) {
 
 /* ---- data: ---- */
 
-static void base64_table(int8_t table[256]) {
+static bool base64_decode(const char *text, size_t length, uint8_t *out, size_t *size) {
     static const char alphabet[] =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    memset(table, -1, 256);
-    for (int i = 0; i < 64; i++) table[(uint8_t)alphabet[i]] = (int8_t)i;
-}
-
-static bool base64_decode(const char *text, size_t length, uint8_t *out, size_t *size) {
     int8_t table[256];
-    base64_table(table);
+    memset(table, -1, sizeof table);
+    for (int i = 0; i < 64; i++) table[(uint8_t)alphabet[i]] = (int8_t)i;
     while (length > 0 && text[length - 1] == '=') length--;
     uint32_t bits = 0;
     size_t n = 0;
@@ -95,53 +91,40 @@ static bool path_climbs(const char *path) {
     return depth < 0;
 }
 
-/* The file's path below the folder, decoded; '\', which some exporters write, becomes '/'. */
-static bool relative_path(const char *uri, char *out, size_t size, struct gn_err *err) {
-    if (strlen(uri) >= size) return gn_fail(err, "URI of %zu characters is too long", strlen(uri));
-    size_t n = percent_decode(uri, (uint8_t *)out);
-    out[n] = 0;
-    if (n == 0) return gn_fail(err, "empty URI");
-    if (strlen(out) != n) return gn_fail(err, "'%s': a file name cannot contain a zero byte", uri);
-    for (char *c = strchr(out, '\\'); c; c = strchr(c, '\\')) *c = '/';
-    if (has_scheme(uri)) return gn_fail(err, "'%.80s': only files beside the model are read", uri);
-    if (out[0] == '/' || path_climbs(out))
-        return gn_fail(err, "'%.80s' lies outside the model's folder; put the file beside it", uri);
-    return true;
-}
+bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err) {
+    *out = (struct gn_blob){0};
+    if (strncasecmp(uri, "data:", 5) == 0) return fetch_data(g, uri, out, err);
 
-static bool is_inside(const char *folder, const char *path) {
-    size_t n = strlen(folder);
-    while (n > 0 && folder[n - 1] == '/') n--; /* "/" itself */
-    return strncmp(folder, path, n) == 0 && path[n] == '/';
-}
-
-static size_t file_limit(const struct gn_gltf *g) {
-    uint64_t most = g->limits.file_mb << 20;
-    size_t room = gn_gltf_room(g);
-    return most < room ? (size_t)most : room;
-}
-
-static bool fetch_file(struct gn_gltf *g, const char *uri, struct gn_blob *out,
-                       struct gn_err *err) {
+    /* the file's path below the folder; '\', which some exporters write, becomes '/' */
     char below[PATH_MAX] = "", full[2 * PATH_MAX], real[PATH_MAX];
-    if (!relative_path(uri, below, sizeof below, err)) return false;
+    if (strlen(uri) >= sizeof below)
+        return gn_fail(err, "URI of %zu characters is too long", strlen(uri));
+    size_t length = percent_decode(uri, (uint8_t *)below);
+    below[length] = 0;
+    if (length == 0) return gn_fail(err, "empty URI");
+    if (strlen(below) != length)
+        return gn_fail(err, "'%s': a file name cannot contain a zero byte", uri);
+    for (char *c = strchr(below, '\\'); c; c = strchr(c, '\\')) *c = '/';
+    if (has_scheme(uri)) return gn_fail(err, "'%.80s': only files beside the model are read", uri);
+    if (below[0] == '/' || path_climbs(below))
+        return gn_fail(err, "'%.80s' lies outside the model's folder; put the file beside it", uri);
+
     if (!g->folder) return gn_fail(err, "'%.80s': a model in memory cannot name other files", uri);
-    if (file_limit(g) == 0) return gn_fail(err, "'%.80s': no memory left for it", uri);
+    uint64_t limit = g->limits.file_mb << 20;
+    size_t room = gn_gltf_room(g), folder_length = strlen(g->folder);
+    if (limit > room) limit = room;
+    if (limit == 0) return gn_fail(err, "'%.80s': no memory left for it", uri);
     snprintf(full, sizeof full, "%s/%s", g->folder, below);
-    if (realpath(full, real) && !is_inside(g->folder, real))
+    while (folder_length > 0 && g->folder[folder_length - 1] == '/') folder_length--; /* "/" */
+    if (realpath(full, real) &&
+        (strncmp(g->folder, real, folder_length) != 0 || real[folder_length] != '/'))
         return gn_fail(err, "'%.80s' leads outside the model's folder; put the file beside it",
                        uri);
-    if (!gn_file_read(full, file_limit(g), &out->file, err)) return false;
+    if (!gn_file_read(full, (size_t)limit, &out->file, err)) return false;
     out->data = out->file.data;
     out->size = out->file.size;
     g->memory.other_bytes += out->size;
     return true;
-}
-
-bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err) {
-    *out = (struct gn_blob){0};
-    if (strncasecmp(uri, "data:", 5) == 0) return fetch_data(g, uri, out, err);
-    return fetch_file(g, uri, out, err);
 }
 
 void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob) {
