@@ -23,14 +23,6 @@ bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_er
     return done;
 }
 
-/* Adobe stores CMYK inverted. */
-static void rgb_from_cmyk(uint8_t *pixels, size_t count) {
-    for (uint8_t *p = pixels; p < pixels + 4 * count; p += 4) {
-        for (int k = 0; k < 3; k++) p[k] = (uint8_t)((p[k] * p[3] + 127) / 255);
-        p[3] = 255;
-    }
-}
-
 static bool decode_jpeg(tjhandle handle, const uint8_t *data, size_t size, const uint32_t px[2],
                         uint8_t *rgba, struct gn_err *err) {
     int read[2], space;
@@ -44,7 +36,11 @@ static bool decode_jpeg(tjhandle handle, const uint8_t *data, size_t size, const
     if (failed != 0 && tjGetErrorCode(handle) != TJERR_WARNING)
         return gn_fail(err, "JPEG: %s", tjGetErrorStr2(handle));
     if (failed != 0) return gn_fail(err, "JPEG: damaged: %s", tjGetErrorStr2(handle));
-    if (inks) rgb_from_cmyk(rgba, (size_t)px[0] * px[1]);
+    const uint8_t *end = rgba + 4 * (size_t)px[0] * px[1];
+    for (uint8_t *p = rgba; inks && p < end; p += 4) { /* Adobe stores CMYK inverted */
+        for (int k = 0; k < 3; k++) p[k] = (uint8_t)((p[k] * p[3] + 127) / 255);
+        p[3] = 255;
+    }
     return true;
 }
 

@@ -12,15 +12,6 @@ static uint32_t big_endian(const uint8_t *p) {
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | (uint32_t)p[3];
 }
 
-/* Whether the size in the header exceeds what deflate can expand the file to; checked before memory
- * is allocated. */
-static bool too_small(const uint8_t *data, size_t size, const uint32_t px[2]) {
-    static const uint8_t channels[] = {1, 0, 3, 1, 2, 0, 4};
-    uint64_t bits = (uint64_t)data[24] * (data[25] < sizeof channels ? channels[data[25]] : 1);
-    if (bits > 64) bits = 64;
-    return (uint64_t)px[0] * px[1] / 8 * bits / 1100 > size;
-}
-
 /* Whether a chunk before the pixels is longer than the file: libpng would allocate and clear that
  * length (up to 2 GB) before it reads. */
 static bool has_long_chunk(const uint8_t *data, size_t size) {
@@ -34,12 +25,16 @@ static bool has_long_chunk(const uint8_t *data, size_t size) {
 }
 
 bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err) {
+    static const uint8_t channels[] = {1, 0, 3, 1, 2, 0, 4};
     if (size < IHDR_END || memcmp(data + 12, "IHDR", 4) != 0) return gn_fail(err, "PNG: truncated");
     px[0] = big_endian(data + 16);
     px[1] = big_endian(data + 20);
     if (px[0] > INT32_MAX || px[1] > INT32_MAX)
         return gn_fail(err, "PNG: width or height out of range");
-    if (too_small(data, size, px) || has_long_chunk(data, size))
+    /* deflate expands at most 1032 times: refuse a larger size before memory is allocated for it */
+    uint64_t bits = (uint64_t)data[24] * (data[25] < sizeof channels ? channels[data[25]] : 1);
+    if (bits > 64) bits = 64;
+    if ((uint64_t)px[0] * px[1] / 8 * bits / 1100 > size || has_long_chunk(data, size))
         return gn_fail(err, "PNG: truncated");
     return true;
 }
@@ -73,27 +68,19 @@ static void on_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
-static void set_limits(png_structp png, const uint32_t px[2]) {
-    png_set_user_limits(png, px[0], px[1]);
-    png_set_chunk_cache_max(png, 64);
-    png_set_chunk_malloc_max(png, 1 << 20);
-    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
-}
-
-static void set_rgba8(png_structp png) {
-    png_set_expand(png);
-    png_set_scale_16(png);
-    png_set_gray_to_rgb(png);
-    png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
-    png_set_interlace_handling(png);
-}
-
 static bool decode_png(struct reader *reader, const uint32_t px[2], uint8_t *rgba) {
     if (setjmp(reader->leave)) return false;
     png_set_read_fn(reader->png, reader, read_bytes);
-    set_limits(reader->png, px);
+    png_set_user_limits(reader->png, px[0], px[1]);
+    png_set_chunk_cache_max(reader->png, 64);
+    png_set_chunk_malloc_max(reader->png, 1 << 20);
+    png_set_keep_unknown_chunks(reader->png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
     png_read_info(reader->png, reader->info);
-    set_rgba8(reader->png);
+    png_set_expand(reader->png);
+    png_set_scale_16(reader->png);
+    png_set_gray_to_rgb(reader->png);
+    png_set_add_alpha(reader->png, 255, PNG_FILLER_AFTER);
+    png_set_interlace_handling(reader->png);
     png_read_update_info(reader->png, reader->info);
     if (png_get_rowbytes(reader->png, reader->info) != 4 * (size_t)px[0] ||
         png_get_image_height(reader->png, reader->info) != px[1])

@@ -112,12 +112,6 @@ bool gn_picture_write_png16_grey(const char *path, const float *grey, int width_
     return ok;
 }
 
-static void put_little_endian(uint8_t *to, float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    for (int k = 0; k < 4; k++) to[k] = (uint8_t)(bits >> 8 * k);
-}
-
 bool gn_picture_write_pfm(const char *path, const float *values, int channels, int width_px,
                           int height_px, struct gn_err *err) {
     char header[64];
@@ -128,9 +122,12 @@ bool gn_picture_write_pfm(const char *path, const float *values, int channels, i
     if (!file) return false;
     memcpy(file, header, (size_t)length);
     for (int y = 0; y < height_px; y++)
-        for (size_t x = 0; x < row; x++)
-            put_little_endian(file + length + 4 * ((size_t)(height_px - 1 - y) * row + x),
-                              values[(size_t)y * row + x]);
+        for (size_t x = 0; x < row; x++) { /* bottom row first, little-endian */
+            uint8_t *to = file + length + 4 * ((size_t)(height_px - 1 - y) * row + x);
+            uint32_t bits;
+            memcpy(&bits, &values[(size_t)y * row + x], sizeof bits);
+            for (int k = 0; k < 4; k++) to[k] = (uint8_t)(bits >> 8 * k);
+        }
     bool ok = gn_file_write(path, file, (size_t)length + 4 * count, err);
     free(file);
     return ok;
