@@ -25,17 +25,17 @@ static const struct gn_input_source *const sources[] = {
 
 /* Watches the device folders with inotify, as far as possible. */
 static void watch_folders(struct gn_input *input) {
-    const uint32_t news = IN_CREATE | IN_ATTRIB | IN_MOVED_TO | IN_DELETE | IN_ONLYDIR;
+    const uint32_t events = IN_CREATE | IN_ATTRIB | IN_MOVED_TO | IN_DELETE | IN_ONLYDIR;
     if (input->folder_watch < 0)
-        input->folder_watch = inotify_add_watch(input->notify.fd, input->lines.folder, news);
+        input->folder_watch = inotify_add_watch(input->notify.fd, input->lines.folder, events);
     if (input->devices_watch < 0 && input->opts.devices)
-        input->devices_watch = inotify_add_watch(input->notify.fd, input->devices_folder, news);
+        input->devices_watch = inotify_add_watch(input->notify.fd, input->devices_folder, events);
 }
 
-static void on_news(void *user, uint32_t events, int64_t now_ns) {
+static void on_folder_event(void *user, uint32_t events, int64_t now_ns) {
     struct gn_input *input = user;
     (void)events;
-    input->has_news = true;
+    input->folders_changed = true;
     input->timer.due_ns = now_ns;
 }
 
@@ -80,7 +80,7 @@ struct gn_input *gn_input_open_in(const struct gn_input_world *world,
     if (watches) {
         input->notify = (struct gn_watch){.fd = inotify_init1(IN_CLOEXEC | IN_NONBLOCK),
                                           .events = EPOLLIN,
-                                          .call = on_news,
+                                          .call = on_folder_event,
                                           .user = input};
         if (input->notify.fd >= 0 && gn_loop_add(opts->loop, &input->notify)) watch_folders(input);
     }
@@ -108,10 +108,10 @@ void gn_input_close(struct gn_input *input) {
 
 /* ---- dispatching --------------------------------------------------------------------------- */
 
-static void read_news(struct gn_input *input, int64_t now_ns) {
+static void read_folder_events(struct gn_input *input, int64_t now_ns) {
     _Alignas(struct inotify_event) char buffer[4096];
     bool chips = false, devices = false; /* changed */
-    input->has_news = false;
+    input->folders_changed = false;
     for (ssize_t size; (size = read(input->notify.fd, buffer, sizeof buffer)) > 0;)
         for (ssize_t at = 0; at < size;) {
             const struct inotify_event *event = (const struct inotify_event *)(buffer + at);
@@ -142,10 +142,10 @@ static void report_notes(struct gn_input *input) {
     while (gn_gestures_note(&input->gestures, &note))
         gn_report(&input->reports, "button \"%s\": %s", input->opts.buttons[note.button].name,
                   texts[note.kind]);
-    const unsigned dropped = input->gestures.dropped - input->said_dropped;
+    const unsigned dropped = input->gestures.dropped - input->reported_dropped;
     if (dropped && input->gestures.queue_begin == input->gestures.queue_end) {
         gn_report(&input->reports, "buttons: %u gestures dropped, queue full", dropped);
-        input->said_dropped += dropped;
+        input->reported_dropped += dropped;
     }
 }
 
@@ -153,7 +153,7 @@ static void dispatch_input(void *user, int64_t now_ns) {
     struct gn_input *input = user;
     for (size_t i = 0; i < GN_SOURCE_COUNT; i++)
         if (sources[i]->read) sources[i]->read(input, now_ns);
-    if (input->has_news) read_news(input, now_ns);
+    if (input->folders_changed) read_folder_events(input, now_ns);
     for (size_t i = 0; i < GN_SOURCE_COUNT; i++)
         if (sources[i]->step) sources[i]->step(input, now_ns);
     gn_gestures_step(&input->gestures, now_ns);

@@ -37,8 +37,8 @@ bool gn_lines_init(struct gn_lines *lines, const struct gn_line_opts *opts, int 
 
 /* Reported once, until the text for this line changes. */
 static void report_once(struct gn_lines *lines, struct gn_line *l, const char *text) {
-    if (strcmp(l->said, text) == 0) return;
-    snprintf(l->said, sizeof l->said, "%s", text);
+    if (strcmp(l->reported, text) == 0) return;
+    snprintf(l->reported, sizeof l->reported, "%s", text);
     gn_report(lines->reports, "button \"%s\": %s%s", l->opts.button, text,
               l->opts.optional && l->problem ? " (default button: its keys still work)" : "");
 }
@@ -185,7 +185,7 @@ static void take_search_result(struct gn_lines *lines, struct gn_line *l,
     }
     const bool denied = search->refused && (search->error == EACCES || search->error == EPERM);
     if (l->problem == MISSING && !denied) /* reported already, perhaps as disconnected */
-        snprintf(text, sizeof text, "%s", l->said);
+        snprintf(text, sizeof text, "%s", l->reported);
     else if (denied)
         describe_denied(search->refused_path, name_of(l), text, sizeof text);
     else if (search->chips == 0)

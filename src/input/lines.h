@@ -37,7 +37,7 @@ struct gn_line {
     uint32_t seqno;
     int problem;                          /* an enum of lines.c; 0: none */
     int64_t since_ns, retry_ns, check_ns; /* INT64_MAX: never */
-    char said[GN_REPORT_SIZE];
+    char reported[GN_REPORT_SIZE];
 };
 struct gn_lines {
     const struct gn_gpio_ops *ops;

@@ -31,10 +31,10 @@ struct gn_input {
     char devices_folder[64];
     struct gn_timer timer;           /* due when anything is due or readable */
     struct gn_watch notify;          /* inotify; fd -1: folders are scanned every 2 s */
-    bool has_news;                   /* notify is readable */
+    bool folders_changed;            /* notify is readable */
     int folder_watch, devices_watch; /* -1: not watched */
     int64_t poll_ns;                 /* when to scan the folders; INT64_MAX: never */
-    unsigned said_dropped;
+    unsigned reported_dropped;
 };
 
 struct gn_input *gn_input_open_in(const struct gn_input_world *world,
