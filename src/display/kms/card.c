@@ -58,14 +58,14 @@ static uint64_t hash_modes(const struct gn_kms_connector *c) {
     uint64_t hash = GN_HASH_INIT;
     for (int i = 0; i < c->mode_count; i++) {
         const drmModeModeInfo *m = &c->modes[i];
-        const uint32_t told[] = {m->clock,
-                                 m->hdisplay,
-                                 m->htotal,
-                                 m->vtotal,
-                                 m->vdisplay,
-                                 m->flags,
-                                 m->type & DRM_MODE_TYPE_PREFERRED};
-        hash = gn_hash(hash, told, sizeof told);
+        const uint32_t fields[] = {m->clock,
+                                   m->hdisplay,
+                                   m->htotal,
+                                   m->vtotal,
+                                   m->vdisplay,
+                                   m->flags,
+                                   m->type & DRM_MODE_TYPE_PREFERRED};
+        hash = gn_hash(hash, fields, sizeof fields);
     }
     return hash;
 }

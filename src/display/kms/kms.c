@@ -213,7 +213,10 @@ bool gn_kms_renew(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
 
 /* ---- create and destroy ---- */
 
-static const struct gn_screen_opts *copy_opts(const struct gn_screen_opts *opts) {
+struct gn_kms *gn_kms_create(const struct gn_kms_env *env, const struct gn_screen_opts *opts,
+                             int64_t now_ns) {
+    struct gn_kms *k = gn_xalloc(1, sizeof *k);
+    /* a copy of the options, followed by their texts */
     const char *const texts[] = {opts->connector, opts->card, opts->render_node, opts->modeline};
     size_t size = sizeof *opts;
     for (int i = 0; i < 4; i++) size += texts[i] ? strlen(texts[i]) + 1 : 0;
@@ -228,14 +231,8 @@ static const struct gn_screen_opts *copy_opts(const struct gn_screen_opts *opts)
             *copies[i] = memcpy(at, texts[i], length);
             at += length;
         }
-    return copy;
-}
-
-struct gn_kms *gn_kms_create(const struct gn_kms_env *env, const struct gn_screen_opts *opts,
-                             int64_t now_ns) {
-    struct gn_kms *k = gn_xalloc(1, sizeof *k);
     k->env = *env;
-    k->opts = copy_opts(opts);
+    k->opts = copy;
     k->device.fd = -1;
     k->frames.front.fence = k->frames.pending.fence = k->frames.waiting.fence = -1;
     k->due.scan_ns = now_ns;

@@ -21,22 +21,22 @@ static bool leads_to(const char *link, const char *path) {
 
 /* Matches the path, a link to it, or its place: "platform-gpu-card" is the same as "platform-gpu",
  * with or without /dev/dri/by-path, which only udev creates. */
-static bool is_asked_for(const struct gn_kms *k, const struct gn_kms_node *node) {
+static bool is_configured(const struct gn_kms *k, const struct gn_kms_node *node) {
     const size_t folder = sizeof BY_PATH - 1, length = strlen(node->place);
-    const char *asked = k->opts->card;
+    const char *card = k->opts->card;
     char link[PATH_MAX];
-    if (!asked || strcmp(asked, node->path) == 0 || leads_to(asked, node->path)) return true;
-    if (strncmp(asked, BY_PATH, folder) == 0) asked += folder;
-    snprintf(link, sizeof link, BY_PATH "%s", asked);
+    if (!card || strcmp(card, node->path) == 0 || leads_to(card, node->path)) return true;
+    if (strncmp(card, BY_PATH, folder) == 0) card += folder;
+    snprintf(link, sizeof link, BY_PATH "%s", card);
     if (leads_to(link, node->path)) return true;
-    return length > 0 && strncmp(asked, node->place, length) == 0 &&
-           (asked[length] == 0 || strcmp(asked + length, "-card") == 0);
+    return length > 0 && strncmp(card, node->place, length) == 0 &&
+           (card[length] == 0 || strcmp(card + length, "-card") == 0);
 }
 
 /* Score of a card, -1 if it cannot show anything. The snapshot is left in device.fresh. */
 static int score_card(struct gn_kms *k, const struct gn_kms_node *node, bool probe, int *fd) {
     struct gn_err why = {0};
-    if (!is_asked_for(k, node)) return -1;
+    if (!is_configured(k, node)) return -1;
     *fd = k->env.drm->open(node->path);
     if (*fd < 0) {
         snprintf(k->text.reason, sizeof k->text.reason, "%s: %s%s", node->path, strerror(errno),
@@ -61,7 +61,7 @@ static int find_card(struct gn_kms *k, int least, bool probe, struct gn_kms_node
     k->text.reason[0] = 0;
     for (int i = 0; i < count; i++) {
         int fd = -1;
-        is_there |= is_asked_for(k, &nodes[i]);
+        is_there |= is_configured(k, &nodes[i]);
         if (k->device.fd >= 0 && strcmp(nodes[i].path, k->device.node.path) == 0) continue;
         const int score = score_card(k, &nodes[i], probe, &fd);
         if (score <= best) {

@@ -28,7 +28,7 @@ bool gn_uevent_is_drm(const char *message, size_t size) {
 }
 
 bool gn_uevent_read(int fd) {
-    bool heard = false;
+    bool found = false;
     for (;;) {
         char message[8192];
         struct sockaddr_nl from = {0};
@@ -37,12 +37,12 @@ bool gn_uevent_read(int fd) {
             recvfrom(fd, message, sizeof message, 0, (struct sockaddr *)&from, &length);
         if (size < 0 && errno == EINTR) continue;
         if (size < 0 && errno == ENOBUFS) { /* queue overflow: messages were dropped */
-            heard = true;
+            found = true;
             continue;
         }
-        if (size < 0) return heard;
+        if (size < 0) return found;
         /* any process may send to a netlink socket; the kernel's port is 0 */
         if (length == sizeof from && from.nl_pid == 0)
-            heard |= gn_uevent_is_drm(message, (size_t)size);
+            found |= gn_uevent_is_drm(message, (size_t)size);
     }
 }
