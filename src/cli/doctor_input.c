@@ -8,25 +8,6 @@ enum { COLUMNS = 96 };
 
 /* ---- for people ---------------------------------------------------------------------------- */
 
-static void print_lines(const struct gn_input_chip *chip, FILE *to) {
-    int column = fprintf(to, "    ");
-    for (int i = 0; i < chip->line_count; i++) {
-        const struct gn_input_line *line = &chip->lines[i];
-        if (!line->name[0] && !line->used) continue;
-        char word[160];
-        int used = line->name[0] ? snprintf(word, sizeof word, "%s", line->name)
-                                 : snprintf(word, sizeof word, "line %d", i);
-        if (line->used)
-            snprintf(word + used, sizeof word - (size_t)used, " (in use%s%s)",
-                     line->consumer[0] ? " by " : "", line->consumer);
-        const int length = (int)strlen(word);
-        if (column + 1 + length > COLUMNS) column = fprintf(to, "\n     ") - 1;
-        fprintf(to, " %s", word);
-        column += 1 + length;
-    }
-    fprintf(to, "\n");
-}
-
 void gn_doctor_print_input(const struct gn_doctor_report *report, FILE *to) {
     const struct gn_input_list *input = &report->input;
     for (int i = 0; i < input->chip_count; i++) {
@@ -41,7 +22,23 @@ void gn_doctor_print_input(const struct gn_doctor_report *report, FILE *to) {
                 chip->line_count == 1 ? "" : "s", chip->label);
         if (!named) fprintf(to, "; without names: write label:%s/NUMBER", chip->label);
         fprintf(to, "\n");
-        if (named || used) print_lines(chip, to);
+        if (!named && !used) continue;
+        int column = fprintf(to, "    ");
+        for (int k = 0; k < chip->line_count; k++) {
+            const struct gn_input_line *line = &chip->lines[k];
+            if (!line->name[0] && !line->used) continue;
+            char word[160];
+            int length = line->name[0] ? snprintf(word, sizeof word, "%s", line->name)
+                                       : snprintf(word, sizeof word, "line %d", k);
+            if (line->used)
+                snprintf(word + length, sizeof word - (size_t)length, " (in use%s%s)",
+                         line->consumer[0] ? " by " : "", line->consumer);
+            length = (int)strlen(word);
+            if (column + 1 + length > COLUMNS) column = fprintf(to, "\n     ") - 1;
+            fprintf(to, " %s", word);
+            column += 1 + length;
+        }
+        fprintf(to, "\n");
     }
     fprintf(to, "  read by %s\n", input->library ? input->library : "nothing in this build");
     fprintf(to, "\nKeys\n  %d input device%s", input->devices, input->devices == 1 ? "" : "s");

@@ -113,20 +113,19 @@ static const struct group {
     {"other options", NULL, false},
 };
 
-static bool is_in_group(const struct gn_option_row *row, const struct group *group) {
-    static const char *const shadows[] = {"shadow", "map", "planar", "taps", "filter"};
-    if (!row->section || !group->section) return row->section == group->section;
-    bool of_shadows = false;
-    for (size_t i = 0; i < sizeof shadows / sizeof *shadows; i++)
-        of_shadows |= strncmp(row->name, shadows[i], strlen(shadows[i])) == 0;
-    return strcmp(row->section, group->section) == 0 && of_shadows == group->shadows;
-}
-
 static void print_group(FILE *to, const struct group *group, enum gn_command command) {
+    static const char *const shadows[] = {"shadow", "map", "planar", "taps", "filter"};
     bool begun = false;
     for (int i = 0; i < GN_OPTION_COUNT; i++) {
         const struct gn_option_row *row = &gn_option_rows[i];
-        if (!(row->commands & 1u << command) || !is_in_group(row, group)) continue;
+        bool of_shadows = false;
+        for (size_t k = 0; k < sizeof shadows / sizeof *shadows; k++)
+            of_shadows |= strncmp(row->name, shadows[k], strlen(shadows[k])) == 0;
+        const bool in_group =
+            row->section && group->section
+                ? strcmp(row->section, group->section) == 0 && of_shadows == group->shadows
+                : row->section == group->section;
+        if (!(row->commands & 1u << command) || !in_group) continue;
         if (!begun) fprintf(to, "\n%s:\n", group->heading);
         begun = true;
         char text[500], name[80], letter[8] = "    ";

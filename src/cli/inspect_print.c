@@ -44,48 +44,6 @@ __attribute__((format(printf, 2, 3))) static void line(FILE *to, const char *for
     fprintf(to, "  %s\n", text);
 }
 
-static void print_content(const struct gn_inspection *in, FILE *to) {
-    const struct gn_scene *s = in->scene;
-    struct kinds k = count_kinds(s);
-    vec3 size;
-    size_of(s, size);
-    fprintf(to, "Scene\n");
-    line(to, "%-11s %s", "file", in->file);
-    if (s->name && s->name[0]) line(to, "%-11s %s", "name", s->name);
-    line(to, "%-11s %.4g x %.4g x %.4g m", "size", (double)size[0], (double)size[1],
-         (double)size[2]);
-    line(to, "%-11s %u", "nodes", s->node_count);
-    line(to, "%-11s %u in %u batches, %u of them instances", "items", s->item_count, s->batch_count,
-         s->instance_count);
-    line(to, "%-11s %u geometries, %u vertices, %llu triangles in all items", "meshes",
-         s->geometry_count, s->buffers.vertex_count, (unsigned long long)s->triangle_count);
-    line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided", "materials",
-         s->material_count, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK],
-         k.alpha[GN_ALPHA_BLEND], k.unlit, k.double_sided);
-    const float *c[] = {s->environment.sky, s->environment.ground, s->environment.background};
-    static const char *const names[] = {"sky", "ground", "background"};
-    for (int i = 0; i < 3; i++)
-        line(to, "%-11s %.3g %.3g %.3g", names[i], (double)c[i][0], (double)c[i][1],
-             (double)c[i][2]);
-}
-
-static void print_light(const struct gn_scene *s, uint32_t i, FILE *to) {
-    const struct gn_light *light = &s->lights[i];
-    char cone[64] = "", range[32] = "", map[32] = "", slide[32] = "";
-    if (gn_light_types[light->type].has_cone)
-        snprintf(cone, sizeof cone, ", cone %.3g to %.3g degrees", GN_DEG(light->inner_rad),
-                 GN_DEG(light->outer_rad));
-    if (light->range_m > 0) snprintf(range, sizeof range, ", range %.4g m", (double)light->range_m);
-    if (light->map_px) snprintf(map, sizeof map, ", map %u px", light->map_px);
-    if (light->slide >= 0) snprintf(slide, sizeof slide, ", slide texture %d", light->slide);
-    line(to, "%-3u %s: %s, %.4g %s%s%s, shadow %s%s, radius %.3g, strength %.3g%s%s", i,
-         light->name, gn_light_types[light->type].name, intensity(light),
-         gn_light_types[light->type].unit, cone, range,
-         light->technique ? light->technique : "by mode", map, (double)light->radius,
-         (double)light->shadow_strength, slide,
-         is_made(s->added.light, i, s->light_count) ? " (made: the file has none)" : "");
-}
-
 static void print_lists(const struct gn_scene *s, FILE *to) {
     if (s->pictures.image_count)
         fprintf(to, "\nTextures: %u of %u images\n", s->pictures.texture_count,
@@ -95,7 +53,23 @@ static void print_lists(const struct gn_scene *s, FILE *to) {
              s->pictures.images[i].height_px, s->pictures.images[i].has_alpha ? " with alpha" : "",
              GN_MB(gn_inspect_image_bytes(s, i)));
     fprintf(to, "\nLights\n");
-    for (uint32_t i = 0; i < s->light_count; i++) print_light(s, i, to);
+    for (uint32_t i = 0; i < s->light_count; i++) {
+        const struct gn_light *light = &s->lights[i];
+        char cone[64] = "", range[32] = "", map[32] = "", slide[32] = "";
+        if (gn_light_types[light->type].has_cone)
+            snprintf(cone, sizeof cone, ", cone %.3g to %.3g degrees", GN_DEG(light->inner_rad),
+                     GN_DEG(light->outer_rad));
+        if (light->range_m > 0)
+            snprintf(range, sizeof range, ", range %.4g m", (double)light->range_m);
+        if (light->map_px) snprintf(map, sizeof map, ", map %u px", light->map_px);
+        if (light->slide >= 0) snprintf(slide, sizeof slide, ", slide texture %d", light->slide);
+        line(to, "%-3u %s: %s, %.4g %s%s%s, shadow %s%s, radius %.3g, strength %.3g%s%s", i,
+             light->name, gn_light_types[light->type].name, intensity(light),
+             gn_light_types[light->type].unit, cone, range,
+             light->technique ? light->technique : "by mode", map, (double)light->radius,
+             (double)light->shadow_strength, slide,
+             is_made(s->added.light, i, s->light_count) ? " (made: the file has none)" : "");
+    }
     fprintf(to, "\nCameras\n");
     for (uint32_t i = 0; i < s->camera_count; i++) {
         const struct gn_camera *c = &s->cameras[i];
@@ -117,8 +91,29 @@ static void print_lists(const struct gn_scene *s, FILE *to) {
 }
 
 void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
-    print_content(in, to);
-    print_lists(in->scene, to);
+    const struct gn_scene *s = in->scene;
+    struct kinds k = count_kinds(s);
+    vec3 size;
+    size_of(s, size);
+    fprintf(to, "Scene\n");
+    line(to, "%-11s %s", "file", in->file);
+    if (s->name && s->name[0]) line(to, "%-11s %s", "name", s->name);
+    line(to, "%-11s %.4g x %.4g x %.4g m", "size", (double)size[0], (double)size[1],
+         (double)size[2]);
+    line(to, "%-11s %u", "nodes", s->node_count);
+    line(to, "%-11s %u in %u batches, %u of them instances", "items", s->item_count, s->batch_count,
+         s->instance_count);
+    line(to, "%-11s %u geometries, %u vertices, %llu triangles in all items", "meshes",
+         s->geometry_count, s->buffers.vertex_count, (unsigned long long)s->triangle_count);
+    line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided", "materials",
+         s->material_count, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK],
+         k.alpha[GN_ALPHA_BLEND], k.unlit, k.double_sided);
+    const float *colors[] = {s->environment.sky, s->environment.ground, s->environment.background};
+    static const char *const names[] = {"sky", "ground", "background"};
+    for (int i = 0; i < 3; i++)
+        line(to, "%-11s %.3g %.3g %.3g", names[i], (double)colors[i][0], (double)colors[i][1],
+             (double)colors[i][2]);
+    print_lists(s, to);
 
     const struct gn_scene_cost *c = &in->cost;
     fprintf(to, "\nCost at %dx%d through the first camera\n", GN_INSPECT_WIDTH_PX,
@@ -131,7 +126,7 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
     line(to, "%-11s %.2f MB vertices, %.2f indices, %.2f textures, %.2f maps, %.2f picture",
          "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
          GN_MB(c->map_bytes), GN_MB(c->target_bytes));
-    line(to, "%-11s %.2f MB", "memory", GN_MB(in->scene->memory.bytes));
+    line(to, "%-11s %.2f MB", "memory", GN_MB(s->memory.bytes));
 
     const int warnings = in->warnings ? in->warnings->count : 0;
     fprintf(to, "\nProblems\n");

@@ -122,23 +122,6 @@ static void add_row(struct gn_selftest *test, enum gn_technique technique,
         row->scenes[i] = (struct gn_selftest_count){NAN, NAN};
 }
 
-/* The techniques in every format of map that the GPU has. The truth has the shadows on all
- * surfaces: planar ones are not in it. */
-static void list_rows(struct gn_selftest *test, uint32_t encodings, uint32_t moments) {
-    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
-        const enum gn_technique t = (enum gn_technique)i;
-        const struct gn_technique_row *technique = &gn_techniques[i];
-        if (gn_technique_filters_map(t)) {
-            for (int k = 0; k < GN_STORES_MAX && technique->stores[k]; k++)
-                if (moments & 1u << technique->stores[k])
-                    add_row(test, t, GN_ENCODING_AUTO, (enum gn_moments)technique->stores[k]);
-        } else if (technique->file && !technique->on_plane) {
-            for (int e = 0; e < GN_ENCODING_COUNT; e++)
-                if (encodings & 1u << e) add_row(test, t, (enum gn_encoding)e, GN_MOMENTS_NONE);
-        }
-    }
-}
-
 static const char *format_of(const struct gn_selftest_row *row) {
     return row->moments ? gn_moments[row->moments].name : gn_encodings[row->encoding].name;
 }
@@ -154,7 +137,22 @@ bool gn_selftest_run(struct gn_selftest *test, struct gn_gl *gl, struct gn_err *
         snprintf(test->scenes[test->scene_count++], sizeof test->scenes[0], "%.*s",
                  (int)(length - skip - 4), e->name + skip);
     }
-    list_rows(test, gn_caps_encodings(gn_gl_caps(gl)), gn_caps_moments(gn_gl_caps(gl)));
+    /* The techniques in every format of map that the GPU has. The truth has the shadows on all
+     * surfaces: planar ones are not in it. */
+    const uint32_t encodings = gn_caps_encodings(gn_gl_caps(gl));
+    const uint32_t moments = gn_caps_moments(gn_gl_caps(gl));
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
+        const enum gn_technique t = (enum gn_technique)i;
+        const struct gn_technique_row *technique = &gn_techniques[i];
+        if (gn_technique_filters_map(t)) {
+            for (int k = 0; k < GN_STORES_MAX && technique->stores[k]; k++)
+                if (moments & 1u << technique->stores[k])
+                    add_row(test, t, GN_ENCODING_AUTO, (enum gn_moments)technique->stores[k]);
+        } else if (technique->file && !technique->on_plane) {
+            for (int e = 0; e < GN_ENCODING_COUNT; e++)
+                if (encodings & 1u << e) add_row(test, t, (enum gn_encoding)e, GN_MOMENTS_NONE);
+        }
+    }
     test->all = test->row_count * test->scene_count;
     if (!test->all) return gn_fail(err, "self-test: this build has no scenes inside");
     for (uint32_t i = 0; i < test->scene_count; i++)
