@@ -27,17 +27,6 @@ struct args {
 
 /* ---- splitting ----------------------------------------------------------------------------- */
 
-static bool fail_option(const char *name, size_t length, struct gn_err *err) {
-    char wanted[32];
-    snprintf(wanted, sizeof wanted, "%.*s", (int)(length < 31 ? length : 31), name);
-    struct gn_text_guess guess = {0};
-    for (int i = 0; i < GN_OPTION_COUNT; i++)
-        if (gn_option_rows[i].commands) gn_text_guess(&guess, wanted, gn_option_rows[i].name);
-    if (guess.name)
-        return gn_fail_usage(err, "unknown option --%s; did you mean --%s?", wanted, guess.name);
-    return gn_fail_usage(err, "unknown option --%s; --help lists the options", wanted);
-}
-
 static bool add_flag(struct args *args, const struct gn_option_row *row, const char *text,
                      const char *label, struct gn_err *err) {
     bool is_flag = row->kind == GN_KIND_FLAG;
@@ -54,8 +43,16 @@ static bool add_long(struct args *args, const char *name, struct gn_err *err) {
     const char *equals = strchr(name, '=');
     size_t length = equals ? (size_t)(equals - name) : strlen(name);
     const struct gn_option_row *row = gn_option_find(name, length);
-    if (!row) return fail_option(name, length, err);
     char label[40];
+    if (!row) {
+        struct gn_text_guess guess = {0};
+        snprintf(label, sizeof label, "%.*s", (int)(length < 31 ? length : 31), name);
+        for (int i = 0; i < GN_OPTION_COUNT; i++)
+            if (gn_option_rows[i].commands) gn_text_guess(&guess, label, gn_option_rows[i].name);
+        if (guess.name)
+            return gn_fail_usage(err, "unknown option --%s; did you mean --%s?", label, guess.name);
+        return gn_fail_usage(err, "unknown option --%s; --help lists the options", label);
+    }
     snprintf(label, sizeof label, "--%s", row->name);
     return add_flag(args, row, equals ? equals + 1 : NULL, label, err);
 }
@@ -101,11 +98,6 @@ static bool add_word(struct args *args, const char *word, struct gn_err *err) {
     return true;
 }
 
-/* `ctl set exposure -2` */
-static bool is_value(const struct args *args, const char *arg) {
-    return is_ctl(args) && args->word_count > 1 && strchr("0123456789.", arg[1]);
-}
-
 static bool fail_command(const char *word, struct gn_err *err) {
     struct gn_text_guess guess = {0};
     for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
@@ -121,8 +113,23 @@ static bool fail_command(const char *word, struct gn_err *err) {
                          word);
 }
 
-/* `gnomon help [COMMAND]` is --help, `gnomon version` is --version. */
-static bool take_help(struct args *args, struct gn_err *err) {
+static bool split_words(struct args *args, struct gn_err *err) {
+    bool only_words = false, ok = true;
+    while (ok && args->at < args->argc) {
+        const char *arg = args->argv[args->at++];
+        const bool is_value = /* `ctl set exposure -2` */
+            is_ctl(args) && args->word_count > 1 && arg[0] && strchr("0123456789.", arg[1]);
+        if (only_words || arg[0] != '-' || !arg[1] || is_value)
+            ok = add_word(args, arg, err);
+        else if (arg[1] != '-')
+            ok = add_letters(args, arg + 1, err);
+        else if (arg[2])
+            ok = add_long(args, arg + 2, err);
+        else
+            only_words = true;
+    }
+    if (!ok) return false;
+    /* `gnomon help [COMMAND]` is --help, `gnomon version` is --version */
     const char *word = args->word_count > 0 ? args->words[0] : "", *command = args->words[1];
     const bool is_help = strcmp(word, "help") == 0;
     if (!is_help && strcmp(word, "version") != 0) return true;
@@ -134,22 +141,6 @@ static bool take_help(struct args *args, struct gn_err *err) {
     return add_flag(args, gn_option_find(word, strlen(word)), NULL, word, err);
 }
 
-static bool split(struct args *args, struct gn_err *err) {
-    bool only_words = false, ok = true;
-    while (ok && args->at < args->argc) {
-        const char *arg = args->argv[args->at++];
-        if (only_words || arg[0] != '-' || !arg[1] || is_value(args, arg))
-            ok = add_word(args, arg, err);
-        else if (arg[1] != '-')
-            ok = add_letters(args, arg + 1, err);
-        else if (arg[2])
-            ok = add_long(args, arg + 2, err);
-        else
-            only_words = true;
-    }
-    return ok && take_help(args, err);
-}
-
 static const struct flag *find_flag(const struct args *args, const char *name) {
     for (int i = args->flag_count - 1; i >= 0; i--)
         if (strcmp(args->flags[i].row->name, name) == 0) return &args->flags[i];
@@ -157,10 +148,6 @@ static const struct flag *find_flag(const struct args *args, const char *name) {
 }
 
 /* ---- the command --------------------------------------------------------------------------- */
-
-static bool looks_like_file(const char *word) {
-    return strpbrk(word, "./") || access(word, F_OK) == 0;
-}
 
 static enum gn_command command_now(const struct args *args) {
     return args->options->settings->run.command;
@@ -171,7 +158,8 @@ static bool find_command(struct args *args, struct gn_err *err) {
     const enum gn_command command = first ? command_of(first) : GN_COMMAND_AUTO;
     const bool bare = command == GN_COMMAND_AUTO;
     gn_options_run_as(args->options, command);
-    if (bare && first && !looks_like_file(first)) return fail_command(first, err);
+    if (bare && first && !strpbrk(first, "./") && access(first, F_OK) != 0)
+        return fail_command(first, err);
     if (bare && args->words[1])
         return gn_fail_usage(err, "one scene at a time; what is \"%.80s\"?", args->words[1]);
     if (command == GN_COMMAND_DOCTOR && args->words[1])
@@ -179,7 +167,11 @@ static bool find_command(struct args *args, struct gn_err *err) {
     return true;
 }
 
-static bool fail_unfit(const struct flag *flag, enum gn_command command, struct gn_err *err) {
+static bool check_flags(const struct args *args, struct gn_err *err) {
+    const enum gn_command command = command_now(args);
+    const struct flag *flag = args->flags, *end = args->flags + args->flag_count;
+    while (flag < end && flag->row->commands & (1u << command)) flag++;
+    if (flag == end) return true;
     char takers[64] = "";
     size_t used = 0;
     for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
@@ -191,79 +183,57 @@ static bool fail_unfit(const struct flag *flag, enum gn_command command, struct 
                          name ? name : "the bare gnomon", takers);
 }
 
-static bool check_flags(const struct args *args, struct gn_err *err) {
-    enum gn_command command = command_now(args);
-    for (int i = 0; i < args->flag_count; i++)
-        if (!(args->flags[i].row->commands & (1u << command)))
-            return fail_unfit(&args->flags[i], command, err);
-    return true;
-}
-
 /* ---- the INI file, the flags, the mode ----------------------------------------------------- */
 
-/* A kiosk with a bad file runs on with its defaults and says so; only a file that was named and is
- * not there stops it. */
-static bool run_without_config(struct args *args, bool named, struct gn_warnings *warnings,
-                               const struct gn_err *err) {
-    struct gn_options *options = args->options;
-    const enum gn_command command = command_now(args);
-    const bool is_show = command == GN_COMMAND_SHOW && !find_flag(args, "check");
-    if ((!is_show && command != GN_COMMAND_CTL) || (named && err->status != GN_EXIT_USAGE))
-        return false;
-    gn_options_finish(options);
-    gn_options_init(options, command);
-    options->config_error = gn_arena_strdup(&options->arena, err->text);
-    if (is_show) gn_warn(warnings, "%s (running with the defaults)", err->text);
-    return true;
-}
-
+/* A kiosk with a bad file runs on with its defaults and prints a warning; only a file that was
+ * named and does not exist stops it. */
 static bool read_config(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
+    struct gn_options *options = args->options;
     char found[PATH_MAX];
     const enum gn_command command = command_now(args);
-    const struct flag *named = find_flag(args, "config");
-    if (find_flag(args, "check")) named = find_flag(args, "check");
-    bool searches = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW ||
-                    (command == GN_COMMAND_CTL && !find_flag(args, "socket"));
+    const struct flag *check = find_flag(args, "check");
+    const struct flag *named = check ? check : find_flag(args, "config");
+    const bool searches = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW ||
+                          (command == GN_COMMAND_CTL && !find_flag(args, "socket"));
     if (!named && !(searches && gn_config_find(found, sizeof found))) return true;
     struct gn_err why = {0};
-    if (gn_config_load(args->options, named ? named->text : found, &why)) return true;
-    if (run_without_config(args, named, warnings, &why)) return true;
-    *err = why;
-    return false;
-}
-
-static bool take_words(struct args *args, struct gn_err *err) {
-    struct gn_options *options = args->options;
-    const char **words = gn_arena_alloc(&options->arena, 1 + GN_CTL_WORDS_MAX, sizeof *words);
-    if (!words) return gn_fail(err, "ctl: no memory left");
-    options->word_count = args->word_count - 1;
-    memcpy(words, args->words + 1, (size_t)options->word_count * sizeof *words);
-    options->words = words;
+    if (gn_config_load(options, named ? named->text : found, &why)) return true;
+    const bool is_show = command == GN_COMMAND_SHOW && !check;
+    if ((!is_show && command != GN_COMMAND_CTL) || (named && why.status != GN_EXIT_USAGE)) {
+        *err = why;
+        return false;
+    }
+    gn_options_finish(options);
+    gn_options_init(options, command);
+    options->config_error = gn_arena_strdup(&options->arena, why.text);
+    if (is_show) gn_warn(warnings, "%s (running with the defaults)", why.text);
     return true;
 }
 
 static bool apply_flags(struct args *args, struct gn_err *err) {
+    struct gn_options *options = args->options;
     for (int i = 0; i < args->flag_count; i++) {
         const struct flag *flag = &args->flags[i];
-        if (!gn_options_set(args->options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
+        if (!gn_options_set(options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
             return false;
     }
-    if (command_now(args) == GN_COMMAND_CTL) return take_words(args, err);
+    if (command_now(args) == GN_COMMAND_CTL) {
+        const char **words = gn_arena_alloc(&options->arena, 1 + GN_CTL_WORDS_MAX, sizeof *words);
+        if (!words) return gn_fail(err, "ctl: no memory left");
+        options->word_count = args->word_count - 1;
+        memcpy(words, args->words + 1, (size_t)options->word_count * sizeof *words);
+        options->words = words;
+        return true;
+    }
     const struct gn_option_row *row = gn_option_find_key("scene", "file");
     for (int i = command_now(args) != GN_COMMAND_AUTO; i < args->word_count; i++)
-        if (!gn_options_set(args->options, row, args->words[i], GN_SOURCE_FLAG, "SCENE", err))
+        if (!gn_options_set(options, row, args->words[i], GN_SOURCE_FLAG, "SCENE", err))
             return false;
     return true;
 }
 
-static bool choose_mode(struct gn_options *options, struct gn_err *err) {
-    const struct gn_settings *s = options->settings;
-    return !s->run.mode || options->config_error || gn_options_choose(options, s->run.mode, err) ||
-           gn_fail_prefix(err, "%s", gn_settings_label(s, run.mode));
-}
-
-/* Both come from the same source: reject instead of guessing. In a file only a warning, or a kiosk
- * would end. */
+/* --animation and --no-animation from the same source: reject instead of guessing. In a file it is
+ * only a warning, or a kiosk would end. */
 static bool check_animation(const struct gn_settings *s, struct gn_warnings *warnings,
                             struct gn_err *err) {
     const char *clip = s->scene.animation;
@@ -279,21 +249,6 @@ static bool check_animation(const struct gn_settings *s, struct gn_warnings *war
     return true;
 }
 
-static bool understand(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
-    struct gn_options *options = args->options;
-    if (!split(args, err)) return false;
-    struct gn_run_settings *run = &options->all[0].run;
-    run->help = find_flag(args, "help");
-    run->version = find_flag(args, "version");
-    if (run->help && args->words[0]) run->command = command_of(args->words[0]);
-    if (run->help || run->version) return true;
-    if (!find_command(args, err) || !check_flags(args, err) || !read_config(args, warnings, err) ||
-        !apply_flags(args, err))
-        return false;
-    gn_options_resolve(options);
-    return choose_mode(options, err) && check_animation(options->settings, warnings, err);
-}
-
 bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
                    struct gn_warnings *warnings, struct gn_err *err) {
     struct args args = {.options = options, .argv = argv, .argc = argc, .at = 1};
@@ -301,7 +256,21 @@ bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
     for (int i = 0; i < argc; i++) letters += strlen(argv[i]);
     args.flags = gn_xalloc(letters + 1, sizeof *args.flags);
     gn_options_init(options, GN_COMMAND_AUTO);
-    bool ok = understand(&args, warnings, err);
+    bool ok = split_words(&args, err);
+    struct gn_run_settings *run = &options->all[0].run;
+    run->help = ok && find_flag(&args, "help");
+    run->version = ok && find_flag(&args, "version");
+    if (run->help && args.words[0]) run->command = command_of(args.words[0]);
+    if (ok && !run->help && !run->version) {
+        ok = find_command(&args, err) && check_flags(&args, err) &&
+             read_config(&args, warnings, err) && apply_flags(&args, err);
+        if (ok) gn_options_resolve(options);
+        const struct gn_settings *s = options->settings;
+        if (ok && s->run.mode && !options->config_error)
+            ok = gn_options_choose(options, s->run.mode, err) ||
+                 gn_fail_prefix(err, "%s", gn_settings_label(s, run.mode));
+        ok = ok && check_animation(options->settings, warnings, err);
+    }
     options->argc = argc;
     options->argv = argv;
     free(args.flags);

@@ -59,7 +59,7 @@ struct words { /* separated by spaces; they point into the text */
     } items[WORDS_MAX];
 };
 
-static bool split(const char *text, struct words *words) {
+static bool split_words(const char *text, struct words *words) {
     *words = (struct words){0};
     for (text += strspn(text, " \t"); *text; text += strspn(text, " \t")) {
         if (words->count == WORDS_MAX) return false;
@@ -71,19 +71,19 @@ static bool split(const char *text, struct words *words) {
     return words->count > 0;
 }
 
-static void take(const struct words *words, int i, char *out, size_t size) {
+static void copy_word(const struct words *words, int i, char *out, size_t size) {
     const size_t length = words->items[i].length;
     snprintf(out, size, "%.*s", (int)(length < size ? length : size - 1), words->items[i].at);
 }
 
 /* ---- one key at a time --------------------------------------------------------------------- */
 
-static struct gn_button_config *last(const struct gn_config_buttons *config) {
+static struct gn_button_config *last_button(const struct gn_config_buttons *config) {
     return &config->buttons->items[config->buttons->count - 1];
 }
 
-static bool keep(const struct gn_config_buttons *config, const char *text, const char **out,
-                 const char *label, struct gn_err *err) {
+static bool keep_text(const struct gn_config_buttons *config, const char *text, const char **out,
+                      const char *label, struct gn_err *err) {
     *out = gn_arena_strdup(config->arena, text);
     return *out || gn_fail(err, "%s: no memory left", label);
 }
@@ -100,19 +100,16 @@ static bool fail_taken(const struct gn_config_buttons *config, int button, int k
                          config->buttons->items[button].opts.name, config->lines[button].keys[key]);
 }
 
-/* The numbers of GPIO chips change with kernel updates. */
-static bool is_line(const char *text) {
-    const char *slash = strrchr(text, '/');
-    if (strncmp(text, "gpiochip", 8) == 0 || text[strspn(text, "0123456789")] == '\0') return false;
-    if (strncmp(text, "label:", 6) != 0) return true;
-    return slash && slash > text + 6 && slash[1] && strlen(slash + 1) < 6 &&
-           !slash[1 + strspn(slash + 1, "0123456789")];
-}
-
 static bool set_line(struct gn_config_buttons *config, int key, const char *text, const char *label,
                      struct gn_err *err) {
+    const char *slash = strrchr(text, '/');
     (void)key;
-    if (!is_line(text))
+    /* not by number: the numbers of GPIO chips change with kernel updates */
+    bool valid = strncmp(text, "gpiochip", 8) != 0 && text[strspn(text, "0123456789")];
+    if (strncmp(text, "label:", 6) == 0)
+        valid = slash && slash > text + 6 && slash[1] && strlen(slash + 1) < 6 &&
+                !slash[1 + strspn(slash + 1, "0123456789")];
+    if (!valid)
         return fail_value(label, text,
                           "a line's name such as GPIO17, or label:LABEL/OFFSET such as "
                           "label:pinctrl-rp1/17 (the numbers of chips change)",
@@ -121,68 +118,63 @@ static bool set_line(struct gn_config_buttons *config, int key, const char *text
         const char *other = config->buttons->items[b].opts.line;
         if (other && strcmp(other, text) == 0) return fail_taken(config, b, LINE, text, label, err);
     }
-    return keep(config, text, &last(config)->opts.line, label, err);
+    return keep_text(config, text, &last_button(config)->opts.line, label, err);
 }
 
 static bool has_key(const char *text, unsigned key) {
     struct words words;
     char name[64];
-    if (!text || !split(text, &words)) return false;
+    if (!text || !split_words(text, &words)) return false;
     for (int i = 0; i < words.count; i++) {
-        take(&words, i, name, sizeof name);
+        copy_word(&words, i, name, sizeof name);
         if (gn_key_find(name) == key) return true;
     }
     return false;
 }
 
-static bool check_key(const struct gn_config_buttons *config, const struct words *words, int i,
-                      const char *label, struct gn_err *err) {
-    char name[64], other[64];
-    take(words, i, name, sizeof name);
-    const unsigned key = gn_key_find(name);
-    if (key == GN_KEY_NONE)
-        return fail_value(
-            label, name,
-            "a key; expected names such as space, right, f1, a, btn_0 or key_600, a space between "
-            "two",
-            err);
-    for (int j = 0; j < i; j++) {
-        take(words, j, other, sizeof other);
-        if (gn_key_find(other) == key)
-            return gn_fail_usage(err, "%s: \"%s\" is there twice", label, name);
-    }
-    for (int b = 0; b < config->buttons->count - 1; b++)
-        if (has_key(config->buttons->items[b].opts.keys, key))
-            return fail_taken(config, b, KEYS, name, label, err);
-    return true;
-}
-
 static bool set_keys(struct gn_config_buttons *config, int key, const char *text, const char *label,
                      struct gn_err *err) {
     struct words words;
+    char name[64];
+    unsigned found[WORDS_MAX];
     (void)key;
-    if (!split(text, &words))
+    if (!split_words(text, &words))
         return fail_value(label, text, "one to 32 names of keys, a space between two", err);
-    for (int i = 0; i < words.count; i++)
-        if (!check_key(config, &words, i, label, err)) return false;
-    return keep(config, text, &last(config)->opts.keys, label, err);
+    for (int i = 0; i < words.count; i++) {
+        copy_word(&words, i, name, sizeof name);
+        found[i] = gn_key_find(name);
+        if (found[i] == GN_KEY_NONE)
+            return fail_value(
+                label, name,
+                "a key; expected names such as space, right, f1, a, btn_0 or key_600, a space "
+                "between two",
+                err);
+        for (int j = 0; j < i; j++)
+            if (found[j] == found[i])
+                return gn_fail_usage(err, "%s: \"%s\" is there twice", label, name);
+        for (int b = 0; b < config->buttons->count - 1; b++)
+            if (has_key(config->buttons->items[b].opts.keys, found[i]))
+                return fail_taken(config, b, KEYS, name, label, err);
+    }
+    return keep_text(config, text, &last_button(config)->opts.keys, label, err);
 }
 
 static bool set_chord(struct gn_config_buttons *config, int key, const char *text,
                       const char *label, struct gn_err *err) {
     struct words words;
     (void)key;
-    if (!split(text, &words) || words.count < 2)
+    if (!split_words(text, &words) || words.count < 2)
         return fail_value(label, text, "two or more names of other buttons, a space between two",
                           err);
-    return keep(config, text, &last(config)->opts.chord, label, err);
+    return keep_text(config, text, &last_button(config)->opts.chord, label, err);
 }
 
 static bool set_active_high(struct gn_config_buttons *config, int key, const char *text,
                             const char *label, struct gn_err *err) {
     static const struct gn_option_row flag = {.kind = GN_KIND_FLAG};
     (void)key;
-    return gn_value_parse(&flag, text, &last(config)->opts.active_high, config->arena, label, err);
+    return gn_value_parse(&flag, text, &last_button(config)->opts.active_high, config->arena, label,
+                          err);
 }
 
 static bool set_bias(struct gn_config_buttons *config, int key, const char *text, const char *label,
@@ -195,7 +187,7 @@ static bool set_bias(struct gn_config_buttons *config, int key, const char *text
     int bias;
     (void)key;
     if (!gn_value_parse(&row, text, &bias, config->arena, label, err)) return false;
-    last(config)->opts.bias = (enum gn_bias)bias;
+    last_button(config)->opts.bias = (enum gn_bias)bias;
     return true;
 }
 
@@ -206,15 +198,16 @@ static bool set_ms(struct gn_config_buttons *config, int key, const char *text, 
     int ms;
     if (!gn_value_parse(&row, text, &ms, config->arena, label, err)) return false;
     const int64_t ns = ms * NS_PER_MS;
-    memcpy((char *)&last(config)->opts + keys[key].offset, &ns, sizeof ns);
+    memcpy((char *)&last_button(config)->opts + keys[key].offset, &ns, sizeof ns);
     return true;
 }
 
 static bool set_action(struct gn_config_buttons *config, int key, const char *text,
                        const char *label, struct gn_err *err) {
-    struct gn_binding *on = &last(config)->on[keys[key].gesture];
+    struct gn_binding *on = &last_button(config)->on[keys[key].gesture];
     const char *kept;
-    if (!keep(config, text, &kept, label, err) || !gn_action_parse(kept, label, &on->action, err))
+    if (!keep_text(config, text, &kept, label, err) ||
+        !gn_action_parse(kept, label, &on->action, err))
         return false;
     on->bound = true;
     return true;
@@ -238,30 +231,28 @@ bool gn_config_button_open(struct gn_config_buttons *config, const struct gn_ini
         return gn_fail_usage(err, "%s: more than %d buttons", line->where, GN_BUTTONS_MAX);
     config->lines[buttons->count].section = line->number;
     buttons->items[buttons->count++] = (struct gn_button_config){0};
-    return keep(config, line->name, &last(config)->opts.name, line->where, err);
-}
-
-static bool fail_button_key(const struct gn_ini_line *line, struct gn_err *err) {
-    char list[200] = "";
-    size_t used = 0;
-    struct gn_text_guess guess = {0};
-    for (int i = 0; i < GN_BUTTON_KEY_COUNT; i++) {
-        gn_text_guess(&guess, line->key, keys[i].row.name);
-        used += (size_t)snprintf(list + used, sizeof list - used, "%s %s", used ? "," : "",
-                                 keys[i].row.name);
-    }
-    if (guess.name)
-        return gn_fail_usage(err, "%s: unknown key \"%s\" in [button]; expected %s", line->where,
-                             line->key, guess.name);
-    return gn_fail_usage(err, "%s: unknown key \"%s\"; [button] knows%s", line->where, line->key,
-                         list);
+    return keep_text(config, line->name, &last_button(config)->opts.name, line->where, err);
 }
 
 bool gn_config_button_set(struct gn_config_buttons *config, const struct gn_ini_line *line,
                           struct gn_err *err) {
     int key = 0;
     while (key < GN_BUTTON_KEY_COUNT && strcmp(keys[key].row.name, line->key) != 0) key++;
-    if (key == GN_BUTTON_KEY_COUNT) return fail_button_key(line, err);
+    if (key == GN_BUTTON_KEY_COUNT) {
+        char list[200] = "";
+        size_t used = 0;
+        struct gn_text_guess guess = {0};
+        for (int i = 0; i < GN_BUTTON_KEY_COUNT; i++) {
+            gn_text_guess(&guess, line->key, keys[i].row.name);
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s %s", used ? "," : "",
+                                     keys[i].row.name);
+        }
+        if (guess.name)
+            return gn_fail_usage(err, "%s: unknown key \"%s\" in [button]; expected %s",
+                                 line->where, line->key, guess.name);
+        return gn_fail_usage(err, "%s: unknown key \"%s\"; [button] knows%s", line->where,
+                             line->key, list);
+    }
     int *seen = &config->lines[config->buttons->count - 1].keys[key];
     if (*seen)
         return gn_fail_usage(err, "%s: %s is set already, in line %d", line->where, line->key,
@@ -282,23 +273,19 @@ struct check {
     struct gn_err *err;
 };
 
-static int find_button(const struct gn_buttons *buttons, const char *name) {
-    for (int i = 0; i < buttons->count; i++)
-        if (strcmp(buttons->items[i].opts.name, name) == 0) return i;
-    return -1;
-}
-
 static bool check_chord(const struct check *c, int button) {
     const struct gn_buttons *buttons = c->config->buttons;
     const int line = c->config->lines[button].keys[CHORD];
     struct words words;
     char name[64];
     bool seen[GN_BUTTONS_MAX] = {false};
-    split(buttons->items[button].opts.chord, &words);
+    split_words(buttons->items[button].opts.chord, &words);
     for (int i = 0; i < words.count; i++) {
-        take(&words, i, name, sizeof name);
-        const int other = find_button(buttons, name);
-        if (other < 0)
+        copy_word(&words, i, name, sizeof name);
+        int other = 0;
+        while (other < buttons->count && strcmp(buttons->items[other].opts.name, name) != 0)
+            other++;
+        if (other == buttons->count)
             return gn_fail_usage(c->err, "%s:%d: chord: there is no button \"%s\"", c->path, line,
                                  name);
         if (buttons->items[other].opts.chord)
@@ -340,57 +327,41 @@ static bool is_in_chord(const struct gn_buttons *buttons, const char *name) {
     struct words words;
     char member[64];
     for (int i = 0; i < buttons->count; i++) {
-        if (!buttons->items[i].opts.chord || !split(buttons->items[i].opts.chord, &words)) continue;
+        if (!buttons->items[i].opts.chord || !split_words(buttons->items[i].opts.chord, &words))
+            continue;
         for (int w = 0; w < words.count; w++) {
-            take(&words, w, member, sizeof member);
+            copy_word(&words, w, member, sizeof member);
             if (strcmp(member, name) == 0) return true;
         }
     }
     return false;
 }
 
-static bool has_mode(const struct gn_options *options, const char *name) {
-    enum gn_technique unused;
-    for (int i = 0; i < options->mode_count; i++)
-        if (strcmp(options->modes[i].name, name) == 0) return true;
-    return options->mode_count == 0 && gn_technique_find(name, &unused, NULL);
-}
-
-static bool fail_mode(const struct check *c, int line, const char *key, const char *name) {
-    char names[300] = "";
-    size_t used = 0;
-    for (int i = 0; i < c->options->mode_count && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s \"%s\"", i ? "," : "",
-                                 c->options->modes[i].name);
-    return gn_fail_usage(c->err, "%s:%d: %s: no mode \"%s\"; expected%s", c->path, line, key, name,
-                         used ? names : " a technique, since the file has no modes");
-}
-
 static bool check_actions(const struct check *c, int button) {
     const struct gn_button_config *config = &c->config->buttons->items[button];
+    const struct gn_options *o = c->options;
     const int *lines = c->config->lines[button].keys;
     bool does_something = is_in_chord(c->config->buttons, config->opts.name);
     for (int key = PRESS; key <= REPEAT; key++) {
         const struct gn_binding *on = &config->on[keys[key].gesture];
         does_something |= on->bound;
-        if (on->bound && on->action.kind == GN_ACTION_MODE &&
-            !has_mode(c->options, on->action.name))
-            return fail_mode(c, lines[key], keys[key].row.name, on->action.name);
+        if (!on->bound || on->action.kind != GN_ACTION_MODE) continue;
+        enum gn_technique unused; /* techniques are the modes of a file without any */
+        bool found = !o->mode_count && gn_technique_find(on->action.name, &unused, NULL);
+        for (int i = 0; i < o->mode_count; i++)
+            found |= strcmp(o->modes[i].name, on->action.name) == 0;
+        if (found) continue;
+        char names[300];
+        gn_options_list_modes(o, names, sizeof names);
+        return gn_fail_usage(c->err, "%s:%d: %s: no mode \"%s\"; expected%s", c->path, lines[key],
+                             keys[key].row.name, on->action.name,
+                             o->mode_count ? names : " a technique, since the file has no modes");
     }
     return does_something ||
            gn_fail_usage(c->err,
                          "%s:%d: button \"%s\" has no action: set press, click, double, hold "
                          "or repeat",
                          c->path, c->config->lines[button].section, config->opts.name);
-}
-
-/* The action of a chord is under press; an active-high line is pulled down by default. */
-static void complete(struct gn_button_config *config, const int *lines) {
-    if (config->opts.chord) {
-        config->on[GN_GESTURE_CHORD] = config->on[GN_GESTURE_PRESS];
-        config->on[GN_GESTURE_PRESS] = (struct gn_binding){0};
-    }
-    if (config->opts.active_high && !lines[BIAS]) config->opts.bias = GN_BIAS_PULL_DOWN;
 }
 
 bool gn_config_button_check(const struct gn_config_buttons *config,
@@ -401,7 +372,14 @@ bool gn_config_button_check(const struct gn_config_buttons *config,
         if (!check_place(&check, b) || !check_actions(&check, b) ||
             (config->buttons->items[b].opts.chord && !check_chord(&check, b)))
             return false;
-    for (int b = 0; b < config->buttons->count; b++)
-        complete(&config->buttons->items[b], config->lines[b].keys);
+    for (int b = 0; b < config->buttons->count; b++) {
+        struct gn_button_config *button = &config->buttons->items[b];
+        if (button->opts.chord) { /* its action is under press */
+            button->on[GN_GESTURE_CHORD] = button->on[GN_GESTURE_PRESS];
+            button->on[GN_GESTURE_PRESS] = (struct gn_binding){0};
+        }
+        if (button->opts.active_high && !config->lines[b].keys[BIAS])
+            button->opts.bias = GN_BIAS_PULL_DOWN;
+    }
     return true;
 }

@@ -36,7 +36,8 @@ void gn_changes_destroy(struct gn_changes *changes) {
     free(changes);
 }
 
-/* ---- which ---------------------------------------------------------------------------------- */
+/* ---- the option
+ * ---------------------------------------------------------------------------------- */
 
 static const char *const why_fixed[] = {
     [GN_CHANGE_NEVER] = "is not an option of the kiosk",
@@ -54,20 +55,9 @@ static void spell(const char *key, char *out, size_t size) {
         if (*c == '-') *c = '_';
 }
 
-static bool fail_key(const char *key, struct gn_err *err) {
-    struct gn_text_guess guess = {0};
-    char names[GN_OPTION_COUNT][32];
-    for (int i = 0; i < GN_OPTION_COUNT; i++) {
-        gn_option_key(&gn_option_rows[i], names[i], sizeof names[i]);
-        if (gn_option_rows[i].change == GN_CHANGE_LIVE) gn_text_guess(&guess, key, names[i]);
-    }
-    if (guess.name)
-        return gn_fail_usage(err, "unknown key \"%.60s\"; did you mean %s?", key, guess.name);
-    return gn_fail_usage(err, "unknown key \"%.60s\"; expected one of [scene] or [render]", key);
-}
-
 const struct gn_option_row *gn_changes_find(const char *key, struct gn_err *err) {
-    char spelled[80], name[64];
+    struct gn_text_guess guess = {0};
+    char spelled[80], name[64], names[GN_OPTION_COUNT][32];
     spell(key, spelled, sizeof spelled);
     const char *dot = strchr(spelled, '.');
     const size_t length = dot ? (size_t)(dot - spelled) : 0;
@@ -81,7 +71,14 @@ const struct gn_option_row *gn_changes_find(const char *key, struct gn_err *err)
         spell(row->name, name, sizeof name); /* [display] mode is display_mode */
         if (strcmp(name, dot ? dot + 1 : spelled) == 0) return row;
     }
-    fail_key(spelled, err);
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        gn_option_key(&gn_option_rows[i], names[i], sizeof names[i]);
+        if (gn_option_rows[i].change == GN_CHANGE_LIVE) gn_text_guess(&guess, spelled, names[i]);
+    }
+    if (guess.name)
+        gn_fail_usage(err, "unknown key \"%.60s\"; did you mean %s?", spelled, guess.name);
+    else
+        gn_fail_usage(err, "unknown key \"%.60s\"; expected one of [scene] or [render]", spelled);
     return NULL;
 }
 

@@ -34,47 +34,42 @@ struct load {
     struct gn_mode *modes;
     struct gn_mode *mode;      /* whose section this is, or NULL */
     struct gn_override **link; /* where its next setting goes */
-    bool in_button;            /* this is a button's */
+    bool in_button;            /* the section is of a button */
     struct gn_config_buttons buttons;
     int lines[GN_OPTION_COUNT]; /* where each was set outside of modes */
 };
 
 /* ---- sections ------------------------------------------------------------------------------ */
 
-static bool open_mode(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
-    struct gn_options *options = load->options;
-    if (!line->name)
-        return gn_fail_usage(err, "%s: a mode has a name: [mode \"NAME\"]", line->where);
-    for (int i = 0; i < options->mode_count; i++)
-        if (strcmp(load->modes[i].name, line->name) == 0)
-            return gn_fail_usage(err, "%s: mode \"%s\" is there already, in line %d", line->where,
-                                 line->name, load->modes[i].line);
-    if (options->mode_count == GN_MODES_MAX)
-        return gn_fail_usage(err, "%s: more than %d modes", line->where, GN_MODES_MAX);
-    load->mode = &load->modes[options->mode_count++];
-    load->mode->name = gn_arena_strdup(&options->arena, line->name);
-    load->mode->line = line->number;
-    load->link = &load->mode->first;
-    return load->mode->name || gn_fail(err, "%s: no memory left", line->where);
-}
-
-static bool open_button(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
-    struct gn_arena *arena = &load->options->arena;
-    if (!load->buttons.buttons)
-        load->buttons.buttons = gn_arena_alloc(arena, 1, sizeof *load->buttons.buttons);
-    if (!load->buttons.buttons) return gn_fail(err, "%s: no memory left", line->where);
-    load->buttons.arena = arena;
-    load->in_button = true;
-    load->options->buttons = load->buttons.buttons;
-    return gn_config_button_open(&load->buttons, line, err);
-}
-
 static bool open_section(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
     static const char *const plain[] = {"display", "scene", "render", "kiosk"};
+    struct gn_options *options = load->options;
+    struct gn_config_buttons *buttons = &load->buttons;
     load->mode = NULL;
-    load->in_button = false;
-    if (strcmp(line->section, "mode") == 0) return open_mode(load, line, err);
-    if (strcmp(line->section, "button") == 0) return open_button(load, line, err);
+    load->in_button = strcmp(line->section, "button") == 0;
+    if (strcmp(line->section, "mode") == 0) {
+        if (!line->name)
+            return gn_fail_usage(err, "%s: a mode has a name: [mode \"NAME\"]", line->where);
+        for (int i = 0; i < options->mode_count; i++)
+            if (strcmp(load->modes[i].name, line->name) == 0)
+                return gn_fail_usage(err, "%s: mode \"%s\" is there already, in line %d",
+                                     line->where, line->name, load->modes[i].line);
+        if (options->mode_count == GN_MODES_MAX)
+            return gn_fail_usage(err, "%s: more than %d modes", line->where, GN_MODES_MAX);
+        load->mode = &load->modes[options->mode_count++];
+        load->mode->name = gn_arena_strdup(&options->arena, line->name);
+        load->mode->line = line->number;
+        load->link = &load->mode->first;
+        return load->mode->name || gn_fail(err, "%s: no memory left", line->where);
+    }
+    if (load->in_button) {
+        buttons->arena = &options->arena;
+        if (!buttons->buttons)
+            buttons->buttons = gn_arena_alloc(buttons->arena, 1, sizeof *buttons->buttons);
+        if (!buttons->buttons) return gn_fail(err, "%s: no memory left", line->where);
+        options->buttons = buttons->buttons;
+        return gn_config_button_open(buttons, line, err);
+    }
     for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
         if (strcmp(line->section, plain[i]) == 0)
             return !line->name ||
@@ -108,17 +103,6 @@ static bool fail_key(const struct gn_ini_line *line, const char *section, struct
                              line->section, keys);
     return gn_fail_usage(err, "%s: unknown key \"%s\" in [%s]; expected %s", line->where, line->key,
                          line->section, near);
-}
-
-/* Paths are seen from the folder of the file that names them. */
-static const char *resolve(const struct load *load, const struct gn_option_row *row,
-                           const char *text, char *buffer, size_t size) {
-    const char *slash = strrchr(load->path, '/');
-    if ((row->kind != GN_KIND_PATH && row->kind != GN_KIND_SCENES) || text[0] == '/' ||
-        text[0] == '\0' || !slash)
-        return text;
-    snprintf(buffer, size, "%.*s%s", (int)(slash - load->path + 1), load->path, text);
-    return buffer;
 }
 
 static struct gn_override *find_override(const struct gn_mode *mode,
@@ -163,9 +147,15 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
     if (line_before(load, row))
         return gn_fail_usage(err, "%s: %s is set already, in line %d", line->where, line->key,
                              line_before(load, row));
-    char label[400], buffer[PATH_MAX];
+    char label[400], path[PATH_MAX];
     snprintf(label, sizeof label, "%s: %s", line->where, line->key);
-    const char *text = resolve(load, row, line->value, buffer, sizeof buffer);
+    /* relative paths begin at the folder of the file */
+    const char *text = line->value, *slash = strrchr(load->path, '/');
+    if ((row->kind == GN_KIND_PATH || row->kind == GN_KIND_SCENES) && text[0] && text[0] != '/' &&
+        slash) {
+        snprintf(path, sizeof path, "%.*s%s", (int)(slash - load->path + 1), load->path, text);
+        text = path;
+    }
     if (load->mode) return set_in_mode(load, row, text, label, line->number, err);
     load->lines[row - gn_option_rows] = line->number;
     return gn_options_set(load->options, row, text, GN_SOURCE_INI, label, err);

@@ -29,13 +29,7 @@ static bool is_nothing(const char *rest) {
     return *rest == '\0' || *rest == ';' || *rest == '#';
 }
 
-/* The end of a quoted name that begins at text, or NULL. */
-static char *end_of_quotes(char *text) {
-    char *close = *text == '"' ? strchr(text + 1, '"') : NULL;
-    return close && close > text + 1 ? close : NULL;
-}
-
-static bool check_header(struct reader *r, const char *line) {
+static bool read_header(struct reader *r, const char *line) {
     snprintf(r->header, sizeof r->header, "%s", line + 1);
     char *close = strchr(r->header, ']');
     if (!close) return refuse(r, "a section ends with ]");
@@ -43,7 +37,8 @@ static bool check_header(struct reader *r, const char *line) {
     *close = '\0';
     char *space = strpbrk(r->header, " \t\"");
     char *quote = space ? space + strspn(space, " \t") : NULL;
-    char *end = quote ? end_of_quotes(quote) : NULL;
+    char *end = quote && *quote == '"' ? strchr(quote + 1, '"') : NULL;
+    if (end && end == quote + 1) end = NULL; /* an empty name */
     if (space && (!end || end[1])) return refuse(r, "expected [section] or [section \"NAME\"]");
     if (end) *end = *space = '\0';
     r->section = r->header;
@@ -72,19 +67,8 @@ static bool check_setting(struct reader *r, const char *line) {
     return true;
 }
 
-static bool check_line(struct reader *r, const char *line) {
-    if (is_nothing(line)) return true;
-    return line[0] == '[' ? check_header(r, line) : check_setting(r, line);
-}
-
-static bool is_text(const char *at, size_t length) {
-    for (size_t i = 0; i < length; i++)
-        if (((unsigned char)at[i] < 0x20 && at[i] != '\t') || at[i] == 0x7f) return false;
-    return true;
-}
-
-/* Takes the next line; the byte order mark that some editors leave is no part of it. */
-static bool take_line(struct reader *r, char *line) {
+/* Copies the next line, without the byte order mark that some editors leave. */
+static bool next_line(struct reader *r, char *line) {
     const char *newline = memchr(r->at, '\n', (size_t)(r->end - r->at));
     const char *start = r->at, *stop = newline ? newline : r->end;
     r->at = newline ? newline + 1 : r->end;
@@ -92,8 +76,9 @@ static bool take_line(struct reader *r, char *line) {
     if (r->number == 1 && stop - start >= 3 && memcmp(start, "\xef\xbb\xbf", 3) == 0) start += 3;
     if (stop > start && stop[-1] == '\r') stop--;
     if (stop - start > GN_INI_LINE_MAX) return refuse(r, "a line of more than 190 characters");
-    if (!is_text(start, (size_t)(stop - start)))
-        return refuse(r, "control characters; this is not a text file");
+    for (const char *at = start; at < stop; at++)
+        if (((unsigned char)*at < 0x20 && *at != '\t') || *at == 0x7f)
+            return refuse(r, "control characters; this is not a text file");
     memcpy(line, start, (size_t)(stop - start));
     line[stop - start] = '\0';
     return true;
@@ -102,7 +87,9 @@ static bool take_line(struct reader *r, char *line) {
 static char *read_line(char *out, int size, void *user) {
     struct reader *r = user;
     char line[GN_INI_LINE_MAX + 1];
-    if (r->failed || r->at == r->end || !take_line(r, line) || !check_line(r, line)) return NULL;
+    if (r->failed || r->at == r->end || !next_line(r, line)) return NULL;
+    if (!is_nothing(line) && !(line[0] == '[' ? read_header(r, line) : check_setting(r, line)))
+        return NULL;
     snprintf(out, (size_t)size, "%s\n", line);
     return out;
 }

@@ -83,19 +83,21 @@ int gn_options_find_mode(const struct gn_options *options, const char *name) {
     return 0;
 }
 
-static bool fail_no_mode(const struct gn_options *options, const char *name, struct gn_err *err) {
-    char names[300] = "";
+void gn_options_list_modes(const struct gn_options *options, char *out, size_t size) {
     size_t used = 0;
-    for (int i = 0; i < options->mode_count && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s \"%s\"", i ? "," : "",
+    out[0] = '\0';
+    for (int i = 0; i < options->mode_count && used < size; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s \"%s\"", i ? "," : "",
                                  options->modes[i].name);
-    return gn_fail_usage(err, "no mode \"%.48s\"; %s has%s", name, options->config_path, names);
 }
 
 bool gn_options_choose(struct gn_options *options, const char *name, struct gn_err *err) {
     const int found = gn_options_find_mode(options, name);
     enum gn_technique unused;
-    if (!found && options->mode_count) return fail_no_mode(options, name, err);
+    char names[300];
+    gn_options_list_modes(options, names, sizeof names);
+    if (!found && options->mode_count)
+        return gn_fail_usage(err, "no mode \"%.48s\"; %s has%s", name, options->config_path, names);
     if (!found) return gn_technique_find(name, &unused, err); /* fails, and lists them */
     options->settings = &options->all[found];
     return true;

@@ -62,6 +62,8 @@ bool gn_options_set(struct gn_options *options, const struct gn_option_row *row,
 void gn_options_resolve(struct gn_options *options);
 /* The place in `all` of the mode of that name; 0: there is none. */
 int gn_options_find_mode(const struct gn_options *options, const char *name);
+/* The modes of the INI file for a message: ' "Day", "Night"'; "" without any. */
+void gn_options_list_modes(const struct gn_options *options, char *out, size_t size);
 /* Makes `settings` those of that mode. A name that is not there is a usage error that lists those
  * that are. */
 bool gn_options_choose(struct gn_options *options, const char *name, struct gn_err *err);
