@@ -1,4 +1,4 @@
-/* The glyphs that captions have needed so far, side by side in one picture of 8 bits. */
+/* The glyphs that captions have used so far, side by side in one picture of 8 bits. */
 #ifndef GN_CAPTION_ATLAS_H
 #define GN_CAPTION_ATLAS_H
 

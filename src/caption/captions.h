@@ -5,13 +5,13 @@
 #include "caption/run.h"
 #include "core/warn.h"
 
-#define GN_CAPTION_MODE_NS INT64_C(2000000000) /* so long a mode's name is there */
-#define GN_CAPTION_FADE_NS INT64_C(300000000)  /* of which it fades */
+#define GN_CAPTION_MODE_NS INT64_C(2000000000) /* how long a mode's name is shown */
+#define GN_CAPTION_FADE_NS INT64_C(300000000)  /* the part of it in which it fades */
 
 struct gn_captions;
 struct gn_captions_opts { /* zero means the default written beside */
     const char
-        *font; /* file; the first of where packages put them; "" the font inside the program */
+        *font; /* file; NULL: the first found in the folders of packages; "": the built-in font */
     struct gn_warnings *warnings; /* receives a warning when a font is not used; none */
 };
 /* Reads nothing yet: the font is opened when a text is first laid out. The texts in opts must
@@ -19,8 +19,8 @@ struct gn_captions_opts { /* zero means the default written beside */
 struct gn_captions *gn_captions_create(const struct gn_captions_opts *opts);
 void gn_captions_destroy(struct gn_captions *captions); /* NULL is legal */
 
-/* Shows a text (copied, cut at 2 kB) in place of the one of that kind; NULL or "" takes that away.
- * Equal text: a mode's time starts again, else nothing changes. */
+/* Replaces the text of that kind (copied, cut at 2 kB); NULL or "" removes it. Equal text: a mode's
+ * time starts again, else nothing changes. */
 void gn_captions_set(struct gn_captions *captions, enum gn_caption_kind kind, const char *text,
                      int64_t now_ns);
 /* Opacity of a caption that was set that long ago: 1, fading at the end of a mode's time, then 0.

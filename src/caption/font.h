@@ -31,13 +31,13 @@ struct gn_font {
 /* Larger files and glyphs are rejected. */
 enum { GN_FONT_BYTES_MAX = 32 << 20, GN_FONT_GLYPH_PX_MAX = 512 };
 
-/* The font inside the program, in whole multiples of its dots: ASCII only. Never fails. */
+/* The built-in font, in whole multiples of its dots: ASCII only. Never fails. */
 struct gn_font *gn_font_open_dots(void);
 /* A font that FreeType reads, hinted, from memory that must outlive it; fails if it cannot be
  * read or FreeType was not built in. */
 struct gn_font *gn_font_open_bytes(const uint8_t *data, size_t size, struct gn_err *err);
-/* The file of that name; NULL: the first there is of the places where packages put DejaVu Sans and
- * others like it. A file that is no font, or too large, is a failure that names it. */
+/* The file of that name; NULL: the first that exists of the paths where packages install DejaVu
+ * Sans and similar fonts. A file that is no font, or too large, is a failure that names it. */
 struct gn_font *gn_font_open_file(const char *path, struct gn_err *err);
 void gn_font_close(struct gn_font *font); /* NULL is legal */
 

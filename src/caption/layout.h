@@ -7,16 +7,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define GN_LAYOUT_GAP "..." /* in place of what is cut */
+#define GN_LAYOUT_GAP "..." /* replaces what is cut */
 
 /* The character at *text, which moves on behind it; 0: the text ends. Only characters that are
  * drawn, and '\n'. */
 uint32_t gn_layout_next(const char **text, const char *end);
 
 struct gn_layout_opts {
-    int32_t width_px; /* room for a line */
+    int32_t width_px; /* width of a line */
     uint32_t most_lines;
-    bool wraps; /* between words, within those that are longer than a line; else lines are cut */
+    bool wraps; /* breaks lines between words, and words longer than a line; else lines are cut */
     int32_t (*advance_px)(void *data, uint32_t code); /* of a character */
     void *data;
 };

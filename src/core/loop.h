@@ -65,7 +65,8 @@ bool gn_loop_add_signals(struct gn_loop *loop, struct gn_signals *signals, const
 void gn_loop_remove_signals(struct gn_signals *signals);
 
 /* Waits until a descriptor is ready or a timer is due, at the latest until until_ns (0: does not
- * wait), and calls what is. How many that were, those without a callback too. */
+ * wait), and calls their callbacks. Returns how many there were, including those without a
+ * callback. */
 int gn_loop_step(struct gn_loop *loop, int64_t until_ns);
 
 #endif

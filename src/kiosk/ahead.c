@@ -82,7 +82,7 @@ static bool work_on_staged(struct gn_show *s) {
         return !(scenes->looks.ready >> mode & 1) &&
                warm_mode(s, &scenes->looks, &scenes->frame, &staged->pose, mode);
 
-    /* its upload; after a lost context it begins again */
+    /* upload it; after a lost context the upload begins again */
     if (!scenes->frame) {
         gn_gl_stage(s->stage.gl, staged->scene);
         scenes->frame = gn_frame_create(staged->scene, gn_gl_caps(s->stage.gl));
@@ -217,7 +217,7 @@ void gn_show_advance(struct gn_show *s) {
         return;
     }
 
-    /* one load at a time: also one whose scene is no longer wanted is finished first */
+    /* one load at a time; a load whose scene is no longer wanted is finished first, too */
     if (scene != scenes->shown && !scenes->staged && !gn_loader_is_busy(scenes->loader)) {
         struct gn_scene_limits limits;
         struct gn_err err = {0};
@@ -228,7 +228,7 @@ void gn_show_advance(struct gn_show *s) {
     if (scenes->staged && !(scenes->looks.ready >> s->kiosk.wanted.mode & 1)) s->ahead.idle = false;
     if (!is_ready(s, scene)) return;
 
-    /* a fade begins with the last picture: it is drawn once more, and kept */
+    /* a fade starts from the last picture, which is drawn once more and kept */
     if (s->rules.fade_ns > 0 && s->stage.gl && s->stage.display.screen.lit &&
         s->counts.frames > 0 && !s->fade.kept && !s->kiosk.blanked)
         s->fade.keeps = true;

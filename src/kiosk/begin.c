@@ -1,4 +1,4 @@
-/* From arguments to a first mode: what a start and a reload have in common. */
+/* From arguments to the first mode: shared by start and reload. */
 #include <stdlib.h>
 
 #include "core/arena.h"
@@ -14,7 +14,7 @@ struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn
                                         struct gn_err *err) {
     struct gn_options *o = gn_xalloc(1, sizeof *o);
     if (gn_args_parse(o, like->argc, like->argv, warnings, err)) {
-        gn_options_run_as(o, GN_COMMAND_SHOW); /* also if it was the bare command */
+        gn_options_run_as(o, GN_COMMAND_SHOW); /* also for the bare command */
         return o;
     }
     gn_show_drop_options(o);

@@ -26,7 +26,7 @@ bool gn_show_wants_frame(const struct gn_show *s) {
     return moves || differs || gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
-/* If a screenshot is asked for, it is this frame. */
+/* Fills a requested screenshot from this frame. */
 static void fill_screenshot(struct gn_show *s) {
     const struct gn_frame_opts *f = &s->stage.frame_opts;
     struct gn_err err = {0};
@@ -58,11 +58,11 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
                        err))
         return false;
     if (view.old > 0.0f) gn_gl_lay_over(s->stage.gl, view.old);
-    if (s->fade.keeps) { /* the picture that a fade begins with */
+    if (s->fade.keeps) { /* this picture is the start of a fade */
         struct gn_err why = {0};
         if (!gn_gl_keep(s->stage.gl, &why)) {
             gn_show_report_problem(s, why.text);
-            s->rules.fade_ns = 0; /* no fades any more */
+            s->rules.fade_ns = 0; /* disables fades */
         }
         s->fade.keeps = false;
         s->fade.kept = true;

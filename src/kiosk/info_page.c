@@ -66,7 +66,7 @@ static void add_addresses(struct gn_info_page *page) {
     if (count == 0) add_line(page, "Address: none");
 }
 
-/* Of the kernel's thermal zones the hottest. */
+/* The hottest of the kernel's thermal zones. */
 static void add_temperature(struct gn_info_page *page, const char *root) {
     long hottest = 0; /* thousandths of a degree */
     for (int zone = 0; zone < ZONES_MAX; zone++) {

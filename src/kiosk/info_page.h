@@ -18,7 +18,7 @@ struct gn_info_page { /* zeroed: no text yet */
     uint64_t shown; /* the screen's count at that time */
     bool made;
 };
-/* Makes the text, at most once a second; true: it was made anew. The frame rate is that since the
+/* Makes the text, at most once a second; true: it is a new one. The frame rate is that since the
  * previous text. Reads the network addresses and the temperature; does not block. */
 bool gn_info_page_step(struct gn_info_page *page, const struct gn_info *info, int64_t now_ns);
 

@@ -3,7 +3,7 @@
 
 #include "kiosk/private.h"
 
-/* A window has keys of its own: then the terminal's are not read. */
+/* The terminal's keys are not read if the display is a window, which has its own. */
 bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
     gn_input_close(s->buttons.input);
     s->buttons.input = NULL;
@@ -35,8 +35,7 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
         const struct gn_kiosk before = s->kiosk, *now = &s->kiosk;
         gn_show_act(s, &action, event.time_ns);
 
-        /* the latency of edges that change the picture; one that is undone before it was shown is
-         * dropped */
+        /* measures edges that change the picture; drops one that is undone before it was shown */
         if (now->blanked || (gn_kiosk_waits(&before) && !gn_kiosk_waits(now)))
             gn_latency_drop(&s->buttons.latency);
         else if (before.wanted.mode != now->wanted.mode ||
@@ -46,7 +45,7 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
     }
     const bool prints =
         s->config.options->buttons ||
-        s->stage.settings->run.verbose; /* not of the default buttons, which few kiosks have */
+        s->stage.settings->run.verbose; /* not for the default buttons, which few kiosks have */
     while (gn_input_report(s->buttons.input, text, sizeof text))
         if (prints) fprintf(stderr, "gnomon: warning: %s\n", text);
 }

@@ -62,7 +62,7 @@ static void act_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                      const struct gn_kiosk_event *e) {
     if (e->mode >= 0 && e->mode < modes_of(rules)) {
         const int own = rules->own_scene[e->mode];
-        s->bad_modes &= ~(1u << e->mode); /* asked for by name: try again */
+        s->bad_modes &= ~(1u << e->mode); /* requested by name: try again */
         if (own > 0) s->bad_scenes &= ~(UINT64_C(1) << (own - 1));
         s->wanted.mode = e->mode;
     }
@@ -126,7 +126,7 @@ static void apply_action(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
 
 /* ---- other events ---- */
 
-/* A problem is a longer text to read. */
+/* A problem's text is longer and takes more time to read. */
 static int64_t caption_duration_ns(const struct gn_kiosk_rules *rules,
                                    enum gn_kiosk_caption caption) {
     return (caption == GN_KIOSK_CAPTION_PROBLEM ? 5 : 1) * rules->caption_ns;

@@ -1,4 +1,4 @@
-/* The modes of the kiosk: their list, their scenes, and one of them entered. */
+/* Modes of the kiosk: the list, the scenes, and entering one. */
 #include <string.h>
 
 #include "kiosk/private.h"
@@ -20,7 +20,7 @@ int gn_show_find_mode(const struct gn_show_modes *modes, const char *name) {
     return -1;
 }
 
-/* Without modes in the file each technique is one, the best first. The technique of the options
+/* Without modes in the file each technique is a mode, the best first. The technique of the options
  * gets no settings of its own, so that lights keep the technique that the scene names; if it comes
  * from the command line it is the only mode. */
 static void list_techniques(struct gn_show *s) {
@@ -41,7 +41,7 @@ static void list_techniques(struct gn_show *s) {
     }
 }
 
-/* The number of a path; a new one is added if there is room. */
+/* The number of the scene with that path; adds it if there is room. */
 static int find_scene(struct gn_show_scenes *scenes, const char *path) {
     for (int i = 0; i < scenes->count; i++) {
         const char *other = scenes->paths[i];

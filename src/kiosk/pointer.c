@@ -1,8 +1,8 @@
 #include "kiosk/pointer.h"
 
-static const float NOTCH = 0.1f; /* of a wheel: log of the change of distance */
+static const float NOTCH = 0.1f; /* logarithm of the change of distance per notch of the wheel */
 
-/* A drag in the window as a drag on the picture, which is drawn turned clockwise. */
+/* Converts a drag in the window to the picture, which is drawn rotated clockwise. */
 static void turn_back(const struct gn_screen *screen, const float drag[2], float out[2]) {
     static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const float *t = turns[screen->rotate_deg / 90 % 4];

@@ -31,7 +31,7 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
     gn_show_open_captions(s);
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why))
-        gn_show_report_problem(s, why.text); /* the kiosk runs without buttons */
+        gn_show_report_problem(s, why.text); /* not fatal: the kiosk runs without buttons */
     s->kiosk.blanked = blanked;
     if (!s->stage.settings->run.verbose) return true;
     printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);

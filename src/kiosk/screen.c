@@ -56,9 +56,9 @@ void gn_show_fit_to_screen(struct gn_show *s) {
     const bool unencoded = direct && !screen->srgb;
     const struct gn_settings *o = s->stage.settings;
     const uint32_t msaa = gn_settings_given(o, render.msaa) ? (uint32_t)o->render.msaa
-                          : gn_gl_caps(s->stage.gl)->tiler ? 4 /* costs such GPUs next to nothing */
-                                                           : 0;
-    if (s->context.unencoded != unencoded || s->context.msaa != msaa) { /* needs other programs */
+                          : gn_gl_caps(s->stage.gl)->tiler  ? 4 /* nearly free on such GPUs */
+                                                            : 0;
+    if (s->context.unencoded != unencoded || s->context.msaa != msaa) { /* other programs */
         s->looks.ready = s->scenes.looks.ready = 0;
         s->ahead.idle = false;
     }
@@ -114,7 +114,7 @@ bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     /* without a monitor the programs are made by drawing a small frame */
     s->stage.frame_opts.width_px = 64;
     s->stage.frame_opts.height_px = 36;
-    s->stage.frame_opts.captions = NULL; /* laid out for another size */
+    s->stage.frame_opts.captions = NULL; /* those are laid out for another size */
     gn_gl_set_window(s->stage.gl, NULL);
     if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns, s->warnings, err))
         return show_failure(s, err);

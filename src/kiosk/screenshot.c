@@ -91,10 +91,10 @@ static size_t pixel_index(const struct gn_screenshot *s, uint32_t u, uint32_t v)
 
 static void signal_done(const struct gn_screenshot *shot) {
     const uint64_t one = 1;
-    if (write(shot->done, &one, sizeof one) < 0) abort(); /* an eventfd takes more than that */
+    if (write(shot->done, &one, sizeof one) < 0) abort(); /* cannot overflow */
 }
 
-/* Frames have priority: on Linux a thread has its own nice value. */
+/* Frames have priority: the thread lowers its own, which on Linux does not affect the others. */
 static void *write_in_thread(void *user) {
     struct gn_screenshot *s = user;
     const bool on_side = s->turn_deg % 180 != 0;

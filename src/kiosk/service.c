@@ -26,7 +26,7 @@ static int64_t watchdog_ns(void) {
     return value * 1000;
 }
 
-/* It comes again as long as no flip completes. */
+/* Wakes the loop again until a flip completes. */
 static void rearm_watchdog(void *user, int64_t now_ns) {
     struct gn_service *s = user;
     s->timer.due_ns = now_ns + s->every_ns;
@@ -62,7 +62,7 @@ bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64
     const uint64_t shown = screen->counts.shown;
     const bool sleeps = screen->blank || screen->status[0];
     if (s->socket < 0) return false;
-    if (shown < s->shown) s->shown = 0; /* opened again */
+    if (shown < s->shown) s->shown = 0; /* the display was opened again */
     const char *status = screen->status[0] ? screen->status : screen->what;
     if (*status && strcmp(status, s->status) != 0) {
         char line[sizeof s->status + sizeof "STATUS="];

@@ -27,7 +27,7 @@ static int64_t due_ns(const struct gn_show *s) {
     const int64_t now_ns = gn_loop_now_ns(s->loop);
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
     if (gn_show_has_work(s) && s->ahead.due_ns < at_ns) at_ns = s->ahead.due_ns;
-    const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue one waits for the screen */
+    const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue text waits for the screen */
     if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
     return at_ns;
 }
@@ -36,7 +36,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     struct gn_screen *screen = &s->stage.display.screen;
     gn_loop_step(s->loop, due_ns(s));
 
-    /* what has come: requests, a reload, events of the display, buttons and keys */
+    /* input: requests, a reload, events of the display, buttons and keys */
     gn_show_answer_requests(s);
     if (s->ends) return true;
     if (s->reloads && !gn_show_reload(s, err)) return false;
@@ -48,7 +48,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     gn_show_take_input(s, &pointer);
     if (s->ends) return true;
 
-    /* the machine: its timeouts, and what it wants to be shown */
+    /* the machine: timeouts, and the wanted mode and scene */
     const struct gn_kiosk_event tick = {.kind = GN_KIOSK_TICK, .time_ns = gn_loop_now_ns(s->loop)};
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &tick);
     if (s->kiosk.blanked != screen->blank)
@@ -62,10 +62,10 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     if (gn_show_wants_frame(s)) {
         if (!gn_show_frame(s, err)) return false;
     } else if (gn_show_has_work(s) && gn_loop_now_ns(s->loop) >= s->ahead.due_ns) {
-        gn_gl_set_window(s->stage.gl, NULL); /* no drawing to it outside of begin and present */
+        gn_gl_set_window(s->stage.gl, NULL); /* not drawn to outside of begin and present */
         gn_show_work(s);
     }
-    gn_show_advance(s); /* that piece may have been the last one it waits for */
+    gn_show_advance(s); /* that piece may have been the last one it waited for */
     gn_show_enter_changed(s);
     return true;
 }
@@ -97,7 +97,7 @@ void gn_show_close(struct gn_show *s) {
     free(s);
 }
 
-/* If it fails half-way the caller closes. */
+/* After a failure the caller closes. */
 static bool open_all(struct gn_show *s, const struct gn_options *options, struct gn_err *err) {
     /* signals first, and until the process ends: one while the scene loads, or a second one while
      * the kiosk closes, must be handled like any other */

@@ -7,12 +7,12 @@
 #include "core/warn.h"
 #include "options/options.h"
 
-/* Where gn_show_run() runs, whatever the options say. */
+/* The display for gn_show_run(), instead of the options' one. */
 struct gn_show_place {
     const char *backend; /* as in --backend; must outlive the call */
-    bool opened;         /* the display did open: what failed failed later */
+    bool opened;         /* set when the display has opened: a failure came later */
 };
-/* The kiosk from its start to its end. place NULL: as the options say. */
+/* Runs the kiosk from start to end. place NULL: the options' display. */
 bool gn_show_run(const struct gn_options *options, struct gn_show_place *place,
                  struct gn_warnings *warnings, struct gn_err *err);
 

@@ -25,7 +25,7 @@
 #include "shadow/fit.h"
 
 #define GN_CASCADE_FADE 0.1f /* the zone's width, as a share of the split's distance */
-/* What fitting cascades remembers: each tile, and all that is seen. */
+/* Memories of a view with cascades: one for each tile, and one for all that is seen. */
 enum { GN_CASCADE_MEMORIES = GN_CASCADES_MAX + 1, GN_CASCADE_LEAST_PX = 64 };
 
 /* Whether there can be any: not for spot and point lights, on a plane, in a map smaller than
@@ -33,16 +33,16 @@ enum { GN_CASCADE_MEMORIES = GN_CASCADES_MAX + 1, GN_CASCADE_LEAST_PX = 64 };
 bool gn_cascade_can(const struct gn_light *light, const struct gn_eye *eye,
                     const struct gn_shadow_opts *opts);
 
-/* How large a texel of such a view is where it appears largest: metres per metre of distance from
- * the camera; 0 when nothing visible is in shadow. Allocates nothing; memory: one where
- * opts->cascades is 0 or 1, else GN_CASCADE_MEMORIES. */
+/* The largest apparent size of a texel of such a view: metres per metre of distance from the
+ * camera; 0 when nothing visible is in shadow. Allocates nothing; memory: one where opts->cascades
+ * is 0 or 1, else GN_CASCADE_MEMORIES. */
 float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                          const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory);
 
-/* The size of a map of so many tiles of map_px. */
+/* The size of a map with that many tiles of map_px. */
 void gn_cascade_map_size(uint32_t cascades, uint32_t map_px, uint32_t size_px[2]);
 
-/* Private to the room: begins such a view. */
+/* Private to src/shadow: begins such a view. */
 void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view);
 
 #endif

@@ -46,7 +46,7 @@ enum gn_filter_step {
     GN_STEP_COUNT,
 };
 struct gn_filter_step_row {
-    const char *name; /* of passes, for people */
+    const char *name; /* of passes, for printing */
     const char *file; /* below shaders_es/ */
     bool reads_map;   /* codes; else moments */
 };

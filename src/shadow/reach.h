@@ -1,5 +1,5 @@
-/* A light's influence: a ball round it (its range, or all of the scene), for a spot the part of the
- * ball inside its cone. Pure; every answer is conservative: it may say "inside" wrongly. */
+/* A light's influence: a sphere round it (its range, or the whole scene), for a spot light the part
+ * of the sphere inside its cone. Pure; every answer is conservative: it may be "inside" wrongly. */
 #ifndef GN_SHADOW_REACH_H
 #define GN_SHADOW_REACH_H
 
@@ -9,7 +9,7 @@ struct gn_reach {
     bool everywhere; /* directional */
     bool cone;
     vec3 place_ws, axis_ws;
-    float range_m;            /* to the scene's farthest corner, or less */
+    float range_m;            /* at most to the scene's farthest corner */
     float sin_cone, cos_cone; /* of the outer half-angle */
 };
 struct gn_reach_rect { /* pixels, first row at the bottom, ends not included; empty: x0 >= x1 */

@@ -7,7 +7,7 @@
 static const struct gn_shadow_region nothing = {
     {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, INFINITY, -INFINITY, 0.0f};
 
-/* As fminf and fmaxf, which are calls, for numbers. */
+/* As fminf() and fmaxf(), but inline, and not for NaN. */
 static inline float least(float a, float b) { return a < b ? a : b; }
 static inline float most(float a, float b) { return a > b ? a : b; }
 

@@ -1,6 +1,5 @@
-/* A slide in the beam of a spot: where a point of the world falls on its picture. Pure.
- *
- * The slide stands upright across the light's axis, its middle on it: seen from the light its right
+/* The slide of a spot light (a gobo): the position of a point of the world in its picture. Pure.
+ * The slide is perpendicular to the light's axis and centred on it: seen from the light its right
  * is the node's +X and its top the node's +Y, so it rolls with the node. */
 #ifndef GN_SHADOW_SLIDE_H
 #define GN_SHADOW_SLIDE_H
@@ -19,7 +18,7 @@ struct gn_slide_view {
     /* Of a point (p, 1), world space: u w, v w and w. (u, v) are 0..1 over the slide from its upper
      * left corner, as glTF has them; w is the depth along the light's axis in metres. */
     vec4 u, v, w;
-    float near_m; /* depth of the slide, over 0: only what is farther is behind it */
+    float near_m; /* depth of the slide, above 0: only what is farther is behind it */
 };
 
 /* GN_SLIDE_NONE if the light has none. */

@@ -1,5 +1,5 @@
-/* Sample positions of the techniques that take many samples: points in the unit disk, evenly
- * spread, each with its opposite: a shader transforms half of them, and their mean is the disk's
+/* Sample positions for techniques that take many samples: points spread evenly in the unit disk,
+ * each with its opposite, so that a shader transforms half of them and their mean is the disk's
  * centre. Pure. */
 #ifndef GN_SHADOW_TAPS_H
 #define GN_SHADOW_TAPS_H

@@ -25,9 +25,9 @@ enum gn_encoding {
     GN_ENCODING_R16F,  /* (d - c) / h over near..far, half float, with its own depth attachment */
     GN_ENCODING_R16F_RAW, /* metres, half float: coarse far off, shown for comparison */
     GN_ENCODING_RGBA8,    /* (d - near) / (far - near) in four bytes */
-    GN_ENCODING_MASK,     /* of a plane: how much light arrives, 0..1. From here on only for
-                             techniques that are on_plane; not selectable by name */
-    GN_ENCODING_STENCIL,  /* of a plane: no map, but marks in the picture's own stencil */
+    GN_ENCODING_MASK, /* on a plane: visibility, 0 to 1. From here on only for techniques that are
+                         on_plane; not selectable by name */
+    GN_ENCODING_STENCIL, /* on a plane: no map, but marks in the picture's stencil */
     GN_ENCODING_COUNT,
     GN_ENCODING_AUTO = GN_ENCODING_COUNT,
 };
@@ -36,21 +36,21 @@ struct gn_technique_row {
     const char *name;
     int rank;         /* place in the kiosk's order of modes, from 1, best first; 0: last */
     const char *file; /* below shaders_es/, NULL for none */
-    bool filters;     /* compares four texels and weighs them: wants a LINEAR compare sampler */
+    bool filters;     /* compares and weighs four texels: needs a LINEAR compare sampler */
     bool searches;    /* needs a blocker's distance: samples a depth map without hardware compare */
     bool reads_distance; /* `auto` selects a distance map for it; else a depth map */
     bool on_plane;       /* only the scene's plane receives its shadows: planar.h */
-    bool soft; /* its penumbrae are as wide as the light is large: the map reaches as far */
+    bool soft;           /* penumbrae by the light's size: the map includes their width */
     enum gn_taps taps;
-    enum gn_filter filter;         /* passes turn its map into moments, which it reads; else NONE */
-    const char *moments;           /* below shaders_es/: what a code is turned into */
-    float moments_middle;          /* half floats are kept less this: the middle of their range */
-    uint8_t stores[GN_STORES_MAX]; /* gn_moments that keep it, best first, then NONE */
-    unsigned map_px;               /* its default, where that is not 1024 */
-    unsigned radius_texels; /* how far from the point it reads, rounded up: margin of the map */
-    float bias_texels; /* what the normal offset and slope grow with. Of a flat surface what is read
-                          up to 1.7 times as far away stays lit; beyond that lie under 2 % of the
-                          filter's weight */
+    enum gn_filter filter; /* passes convert the map into moments, which it reads; else NONE */
+    const char *moments;   /* below shaders_es/: converts a code to moments */
+    float moments_middle;  /* subtracted before storing as half floats: the middle of the range */
+    uint8_t stores[GN_STORES_MAX]; /* gn_moments that can store it, best first, then NONE */
+    unsigned map_px;               /* default resolution, where that is not 1024 */
+    unsigned radius_texels; /* reads at most so far from the point, rounded up: margin of the map */
+    float bias_texels; /* scale of the normal offset and slope. On a flat surface lookups up to 1.7
+                          times as far away stay lit; less than 2 % of the filter's weight lies
+                          beyond */
     const char *what;  /* one line of help */
     const char *source;
 };

@@ -12,7 +12,7 @@
 #include "core/arena.h"
 #include "stage/stage.h"
 
-/* Shared by loader and thread; whichever leaves last frees it. The thread uses nothing else. */
+/* Shared by loader and thread; the last one to leave frees it. The thread uses nothing else. */
 struct job {
     struct gn_loaded *loaded;
     struct gn_scene_limits limits;

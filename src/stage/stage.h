@@ -9,7 +9,7 @@
 #include "gl/gl.h"
 #include "options/settings.h"
 
-/* How a scene is drawn, by the settings. */
+/* How the settings draw a scene. */
 struct gn_stage_look {
     struct gn_frame_opts frame_opts;
     int clips; /* as gn_pose_init() wants them */
@@ -25,7 +25,7 @@ struct gn_stage {
     bool waits; /* the last plan's */
 };
 
-/* --limit, as the loader wants them. */
+/* The limits of --limit, for the loader. */
 bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits *limits,
                      struct gn_err *err);
 /* A scene by its path; NULL: the built-in one. Uses no shared state: it may run in a thread. */
@@ -44,7 +44,7 @@ bool gn_stage_load(struct gn_stage *stage, const struct gn_settings *settings,
                    struct gn_warnings *warnings, struct gn_err *err);
 /* Opens the display of --backend, makes the context current, loads the scene into it. */
 bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err);
-/* The part of it that lives in the context that is current; stop_gl is legal without, too. */
+/* The part that lives in the current context; stop_gl is legal without it, too. */
 bool gn_stage_start_gl(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err);
 void gn_stage_stop_gl(struct gn_stage *stage);
 /* The scene and the turntable at a time. */

@@ -13,7 +13,7 @@
 #include "kiosk/private.h"
 #include "kiosk/screenshot.h"
 
-static const int64_t SCREENSHOT_NS = 5 * GN_NS_PER_S; /* no frame until then: nothing is shown */
+static const int64_t SCREENSHOT_NS = 5 * GN_NS_PER_S; /* limit until its frame comes */
 
 struct gn_show_control {
     struct gn_control *control;
@@ -71,7 +71,7 @@ void gn_show_close_control(struct gn_show *s) {
 
 /* ---- actions ---- */
 
-/* While the screen is off a button only switches it on; a command is carried out, too. */
+/* While the screen is off a button only switches it on; a command also has its effect. */
 static json_t *answer_action(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     const struct gn_action action = {gn_ctl_action(r->command), r->words[0]};
     const int64_t now_ns = gn_loop_now_ns(s->loop);
@@ -99,7 +99,7 @@ static json_t *answer_set(struct gn_show *s, const struct gn_request *r, struct 
     if (!row) return NULL;
     if (!s->config.changes) s->config.changes = gn_changes_create(s->config.options);
     if (!gn_changes_set(s->config.changes, row, r->words[1], err)) return NULL;
-    if (!gn_show_look(s, s->stage.scene, &looks, err)) { /* a mode cannot be drawn with it */
+    if (!gn_show_look(s, s->stage.scene, &looks, err)) { /* a mode cannot use it */
         gn_changes_undo(s->config.changes);
         return NULL;
     }
@@ -134,7 +134,7 @@ void gn_show_enter_changed(struct gn_show *s) {
 
 /* ---- screenshots ---- */
 
-/* Answered once the picture is written. */
+/* Answered when the picture is written. */
 static json_t *answer_screenshot(struct gn_show *s, const struct gn_request *r,
                                  struct gn_err *err) {
     struct gn_show_control *c = s->control;
@@ -183,7 +183,7 @@ static void finish_screenshot(void *user, uint32_t events, int64_t now_ns) {
 
 /* ---- reloading ---- */
 
-/* Answered once it is done. */
+/* Answered when the reload is done. */
 static json_t *answer_reload(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     struct gn_show_control *c = s->control;
     if (c->reload) {

@@ -19,12 +19,12 @@ static const int64_t SILENT_NS =
     30 * GN_NS_PER_S; /* a client without a line for as long may be replaced */
 static const int64_t CHANGE_NS = GN_NS_PER_S / GN_CONTROL_CHANGES_PER_S;
 
-/* The large part of a client: zero pages of the kernel until it is used. */
+/* The large part of a client: takes no memory until it is used. */
 struct buffers {
     char in[GN_REQUEST_LINE_MAX + 1];
     struct gn_request request;
 };
-/* Its events are edge-triggered, so they are remembered. */
+/* Events are edge-triggered, so they are kept as flags. */
 struct client {
     int fd; /* -1: none */
     struct gn_watch watch;
@@ -42,10 +42,10 @@ struct gn_control {
     struct gn_listen listen;
     struct gn_loop *loop;
     struct gn_watch listener;
-    struct gn_timer timer; /* when anything is to be done; what is ready makes it due */
+    struct gn_timer timer; /* due when there is something to do */
     int spare;             /* a descriptor that is closed to refuse a connection without any left */
-    bool pending;          /* connections are */
-    int64_t now_ns, changes_ns; /* changes_ns: when all changes so far would be due, evenly */
+    bool pending;          /* connections wait to be accepted */
+    int64_t now_ns, changes_ns; /* changes_ns: virtual time of the leaky bucket */
     int turn;                   /* the client that is served first */
     int budget;
     int queue[CLIENTS], queued, first;
@@ -110,7 +110,7 @@ struct gn_control_counts gn_control_counts(const struct gn_control *c) {
 
 /* ---- replies -------------------------------------------------------------------------------- */
 
-/* The line, to be freed. Without memory a fixed one. */
+/* The reply's line; the caller frees it. A fixed one if there is no memory for it. */
 static char *line_of(json_t *reply, size_t *size) {
     char *text = reply ? json_dumps(reply, JSON_COMPACT) : NULL;
     json_decref(reply);
@@ -185,7 +185,7 @@ static bool has_line(const struct client *client, size_t *length) {
     return newline || (client->ended && client->used > 0);
 }
 
-/* Is there anything to do for it now? */
+/* Whether there is something to do for it now. */
 static bool is_due(const struct client *client) {
     size_t length;
     return client->fd >= 0 && !client->out && !client->waits &&
@@ -239,7 +239,7 @@ static struct client *find_room(struct gn_control *c) {
     return silent;
 }
 
-/* Sends its only reply; a fresh socket has room for it. */
+/* Sends the only reply; a new socket has room for it. */
 static void refuse_connection(struct gn_control *c, int fd, const struct gn_err *err) {
     size_t size;
     char *line = line_of(gn_reply_failure(err), &size);
@@ -292,8 +292,8 @@ static void accept_connections(struct gn_control *c) {
         if (fd >= 0) {
             admit_client(c, fd);
         } else if (errno == EMFILE || errno == ENFILE) {
-            /* the pending connection would keep the listener readable for ever: the spare
-             * descriptor is closed to accept and refuse it */
+            /* no descriptor is left, and the pending connection keeps the listener readable: the
+             * spare descriptor is closed to accept and refuse it */
             struct gn_err err = {0};
             if (c->spare >= 0) close(c->spare);
             fd = accept4(c->listen.fd, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);

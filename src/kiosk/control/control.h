@@ -12,9 +12,9 @@
 #include "kiosk/control/request.h"
 
 enum {
-    GN_CONTROL_CLIENTS_MAX = 64,   /* one more replaces a client that was silent for 30 s, else it
-                                      is answered "busy" and cut off */
-    GN_CONTROL_PER_STEP = 16,      /* lines handled, or pieces of 4 KiB discarded */
+    GN_CONTROL_CLIENTS_MAX = 64, /* another one replaces a client that was silent for 30 s, else it
+                                    gets "busy" and is closed */
+    GN_CONTROL_PER_STEP = 16,    /* lines handled, or pieces of 4 KiB discarded */
     GN_CONTROL_CHANGES_PER_S = 20, /* commands that may cost a frame, of all clients together,
                                       with a burst of 20; more are "busy" */
 };
@@ -22,14 +22,14 @@ enum {
 struct gn_control_counts {
     uint64_t accepted, refused; /* clients; refused: not permitted, or too many */
     uint64_t requests, wrong, busy, answered;
-    uint64_t cut; /* clients cut off because they did not read */
+    uint64_t cut; /* clients closed because they did not read */
 };
 
 struct gn_control;
 /* Makes the socket; see gn_listen_open(). From now on the loop serves clients. NULL: the kiosk runs
  * without, and err says why. */
 struct gn_control *gn_control_open(const char *path, struct gn_loop *loop, struct gn_err *err);
-void gn_control_close(struct gn_control *control); /* NULL is fine */
+void gn_control_close(struct gn_control *control); /* NULL is legal */
 const char *gn_control_path(const struct gn_control *control);
 struct gn_control_counts gn_control_counts(const struct gn_control *control);
 

@@ -53,8 +53,8 @@ static bool is_same_file(int fd, const char *path) {
            open.st_ino == there.st_ino;
 }
 
-/* Held until the process ends, in whatever way. The previous holder may have unlinked the file just
- * before we locked it: then it locks nothing, and we try again. */
+/* The lock is held until the process ends or crashes. The previous holder may have unlinked the
+ * file just before we locked it: then the lock is worthless, and we try again. */
 static bool take_lock(struct gn_listen *l, struct gn_err *err) {
     char path[GN_LISTEN_PATH_MAX + 8];
     lock_path(l, path, sizeof path);
@@ -162,7 +162,7 @@ bool gn_listen_permits(const struct gn_listen *l, int fd, uid_t *uid) {
     if (!known) return false;
     if (peer.uid == 0 || peer.uid == l->uid || peer.gid == l->gid) return true;
 
-    gid_t groups[GROUPS_MAX]; /* the others that it is in */
+    gid_t groups[GROUPS_MAX]; /* its supplementary groups */
     size = sizeof groups;
     if (getsockopt(fd, SOL_SOCKET, SO_PEERGROUPS, groups, &size) != 0) return false;
     for (size_t i = 0; i < size / sizeof *groups; i++)

@@ -8,7 +8,7 @@
 
 #include "core/err.h"
 
-#define GN_LISTEN_PATH_MAX 108 /* with the ending zero: the kernel's bound */
+#define GN_LISTEN_PATH_MAX 108 /* with the terminating zero: the kernel's limit */
 
 struct gn_listen { /* descriptors -1: none */
     int fd, lock;

@@ -21,7 +21,7 @@ static bool is_deep(const char *line, size_t length) {
     return false;
 }
 
-/* A member as a word; NULL: missing, or of another type. */
+/* A member as a string; NULL: missing, or of another type. */
 static const char *word_of(const json_t *value, bool any, char *number, size_t size) {
     if (json_is_string(value)) return json_string_value(value);
     if (!any) return NULL;
@@ -47,7 +47,7 @@ static bool read_members(json_t *root, struct gn_request *out, struct gn_err *er
     }
     out->command = (enum gn_ctl)command;
 
-    /* all members are known */
+    /* check that all members are known */
     const struct gn_ctl_row *row = &gn_ctl_rows[command];
     json_t *value;
     json_object_foreach(root, key, value) {
@@ -57,7 +57,7 @@ static bool read_members(json_t *root, struct gn_request *out, struct gn_err *er
         if (!known) return gn_fail_usage(err, "%s: unknown member \"%.60s\"", row->name, key);
     }
 
-    /* none is missing; each is copied as a word */
+    /* check that none is missing, and copy each as a word */
     size_t used = 0;
     for (int i = 0; i < GN_CTL_WORDS_MAX && row->members[i]; i++) {
         char number[40];
