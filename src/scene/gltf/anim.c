@@ -20,13 +20,11 @@ static bool read_sampler(struct gn_gltf *g, const struct gn_at *at, struct sampl
     int32_t output = gn_at_ref(g, at, "output", g->file.accessor_count, "accessors");
     sampler->input_index = gn_at_ref(g, at, "input", g->file.accessor_count, "accessors");
     const char *name = gn_at_text(g, at, "interpolation");
-    bool known = !name;
-    for (int i = 0; name && i < 3; i++) {
-        if (strcmp(name, names[i]) != 0) continue;
-        sampler->interpolation = (enum gn_anim_interpolation)i;
-        known = true;
-    }
-    if (!known) gn_gltf_warn(g, at, "interpolation '%.20s' is unknown; taken as LINEAR", name);
+    int word = gn_json_word(gn_at_any(at, "interpolation").json, names, 3);
+    if (word >= 0)
+        sampler->interpolation = (enum gn_anim_interpolation)word;
+    else if (name)
+        gn_gltf_warn(g, at, "interpolation '%.20s' is unknown; taken as LINEAR", name);
     sampler->input = gn_gltf_accessor(g, sampler->input_index);
     sampler->output = gn_gltf_accessor(g, output);
     if (g->failed) return false;
@@ -72,9 +70,10 @@ static int32_t read_target(struct gn_gltf *g, const struct gn_at *at, enum gn_an
     int32_t node = gn_at_ref(g, &target, "node", g->file.node_count, "nodes");
     const char *name = gn_at_text(g, &target, "path");
     if (g->failed || !name) return -1;
-    for (int i = 0; i < 3; i++) {
-        *path = (enum gn_anim_path)i;
-        if (strcmp(name, names[i]) == 0) return node < 0 ? -1 : g->to_scene.node[node];
+    int word = gn_json_word(gn_at_any(&target, "path").json, names, 3);
+    if (word >= 0) {
+        *path = (enum gn_anim_path)word;
+        return node < 0 ? -1 : g->to_scene.node[node];
     }
     if (strcmp(name, "weights") == 0)
         g->is_missing[GN_MISSING_MORPHS] = true;

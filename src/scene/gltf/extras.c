@@ -49,9 +49,8 @@ static bool take_flag(struct gn_gltf *g, const struct gn_at *extras, const char 
 static int take_word(struct gn_gltf *g, const struct gn_at *extras, const char *key,
                      const char *const *names, int count) {
     struct gn_at at = gn_at_any(extras, key);
-    const char *word = json_string_value(at.json);
-    for (int i = 0; word && i < count; i++)
-        if (strcmp(word, names[i]) == 0) return i;
+    int word = gn_json_word(at.json, names, count);
+    if (word >= 0) return word;
     char wanted[64] = "one of";
     for (int i = 0; i < count; i++)
         snprintf(wanted + strlen(wanted), sizeof wanted - strlen(wanted), " %s", names[i]);

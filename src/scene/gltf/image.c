@@ -56,38 +56,37 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
     return true;
 }
 
-/* *view_out: the view that holds it, or NULL. */
-static bool fetch_image(struct gn_gltf *g, const struct gn_at *at, struct gn_blob *blob,
-                        struct gn_view **view_out, struct gn_err *err) {
-    const char *uri = gn_at_text(g, at, "uri");
-    int32_t view = gn_at_ref(g, at, "bufferView", g->file.view_count, "bufferViews");
-    if (g->failed) return false;
-    if (uri) return gn_uri_fetch(g, uri, blob, err);
-    if (view < 0) return gn_fail(err, "has neither uri nor bufferView");
-    if (!g->file.views[view].data) return gn_fail(err, "bufferView %d holds no data", view);
-    if (g->file.views[view].damaged) return gn_fail(err, "bufferView %d is damaged", view);
-    *view_out = &g->file.views[view];
-    blob->data = g->file.views[view].data;
-    blob->size = g->file.views[view].size;
-    return true;
-}
-
 /* The index of the scene's image for one of the file, or DROPPED. */
 static int32_t image_at(struct gn_gltf *g, int32_t index) {
     if (g->to_scene.image[index] != UNSEEN) return g->to_scene.image[index];
     g->to_scene.image[index] = DROPPED;
+    struct gn_scene_pictures *pictures = &g->scene->pictures;
     struct gn_at root = gn_at_root(g), images = gn_at_array(g, &root, "images");
     struct gn_at at = gn_at_item(g, &images, (size_t)index);
+    const char *uri = gn_at_text(g, &at, "uri");
+    int32_t number = gn_at_ref(g, &at, "bufferView", g->file.view_count, "bufferViews");
+    if (g->failed) return DROPPED;
+    struct gn_view *view = !uri && number >= 0 ? &g->file.views[number] : NULL;
     struct gn_blob blob = {0};
-    struct gn_view *view = NULL;
     struct gn_err err = {0};
-    struct gn_scene *scene = g->scene;
-    bool done = fetch_image(g, &at, &blob, &view, &err) &&
-                decode_image(g, &blob, &scene->pictures.images[scene->pictures.image_count], &err);
-    if (!done && view) view->damaged = true;
+    bool found = false;
+    if (uri)
+        found = gn_uri_fetch(g, uri, &blob, &err);
+    else if (!view)
+        gn_fail(&err, "has neither uri nor bufferView");
+    else if (!view->data)
+        gn_fail(&err, "bufferView %d holds no data", number);
+    else if (view->damaged)
+        gn_fail(&err, "bufferView %d is damaged", number);
+    else {
+        found = true;
+        blob = (struct gn_blob){.data = view->data, .size = view->size};
+    }
+    bool done = found && decode_image(g, &blob, &pictures->images[pictures->image_count], &err);
+    if (found && !done && view) view->damaged = true;
     gn_blob_finish(g, &blob);
     if (done)
-        g->to_scene.image[index] = (int32_t)scene->pictures.image_count++;
+        g->to_scene.image[index] = (int32_t)pictures->image_count++;
     else if (!g->failed)
         gn_gltf_warn(g, &at, "%s; shown without this picture", err.text);
     return g->to_scene.image[index];

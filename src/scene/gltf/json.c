@@ -128,6 +128,13 @@ bool gn_json_whole(const json_t *json, int64_t *out) {
     return true;
 }
 
+int gn_json_word(const json_t *json, const char *const *names, int count) {
+    const char *word = json_string_value(json);
+    for (int i = 0; word && i < count; i++)
+        if (strcmp(word, names[i]) == 0) return i;
+    return -1;
+}
+
 const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up, const char *key) {
     struct gn_at at = gn_at_any(up, key);
     return check_type(g, &at, json_is_string(at.json), "a string") ? json_string_value(at.json)

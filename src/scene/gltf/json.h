@@ -14,10 +14,10 @@ struct gn_at {
     const struct gn_at *up; /* must outlive this one */
     const char *key;        /* NULL: element `index` of up */
     size_t index;
-    json_t *json; /* NULL: there is no such thing */
+    json_t *json; /* NULL: absent */
 };
 
-/* Parses text into g->json; offset is where in the file it stands. */
+/* Parses text into g->file.json; offset: of the text in the file, for messages. */
 bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offset);
 
 struct gn_at gn_at_root(const struct gn_gltf *g);
@@ -42,8 +42,10 @@ bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *key, si
 int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t count,
                   const char *what);
 int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, const char *what);
-/* A number or an integral real, for those who do not want a failure. */
+/* A finite number; an integer or an integral real. False without a failure of the load. */
 bool gn_json_number(const json_t *json, double *out);
 bool gn_json_whole(const json_t *json, int64_t *out);
+/* The index of a string among names, or -1. */
+int gn_json_word(const json_t *json, const char *const *names, int count);
 
 #endif

@@ -60,13 +60,10 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
     m->unlit = gn_at_extension(g, at, "extensions.KHR_materials_unlit").json != NULL;
     const char *alpha = gn_at_text(g, at, "alphaMode");
     struct gn_at alpha_at = gn_at_any(at, "alphaMode");
-    bool known = !alpha;
-    for (int i = 0; alpha && i < 3; i++) {
-        if (strcmp(alpha, alphas[i]) != 0) continue;
-        m->alpha = (enum gn_alpha)i;
-        known = true;
-    }
-    if (!known)
+    int word = gn_json_word(alpha_at.json, alphas, 3);
+    if (word >= 0)
+        m->alpha = (enum gn_alpha)word;
+    else if (alpha)
         gn_gltf_warn(g, &alpha_at, "'%.20s' is none of OPAQUE, MASK, BLEND; taken as OPAQUE",
                      alpha);
     m->alpha_cutoff = clamp(gn_at_float(g, at, "alphaCutoff", .5f), 0, 2);

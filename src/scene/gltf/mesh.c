@@ -43,26 +43,6 @@ struct reader {
     uint32_t shape_count;
 };
 
-/* ---- attributes ---- */
-
-static bool check_attribute(struct gn_gltf *g, const struct gn_at *attributes, int which,
-                            int32_t index, size_t vertex_count) {
-    const struct gn_attribute_row *row = &gn_attributes[which];
-    const struct gn_accessor *a = gn_gltf_accessor(g, index);
-    if (!a) return index < 0;
-    struct gn_at at = gn_at_any(attributes, row->semantic);
-    if (a->components < row->components_min || a->components > row->components)
-        return gn_gltf_fail(g, &at, "accessor %d has %d components, must be VEC%d", index,
-                            a->components, row->components_min);
-    if (!(row->types >> (a->component - GN_I8) & 1))
-        return gn_gltf_fail(g, &at,
-                            "accessor %d has component type %d, which is not allowed for it", index,
-                            a->component);
-    if (a->count != vertex_count)
-        return gn_gltf_fail(g, &at, "%zu elements, but POSITION has %zu", a->count, vertex_count);
-    return true;
-}
-
 /* The number of vertices, or 0: failed, or nothing to show (with a warning). */
 static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, int32_t *out) {
     struct gn_at attributes = gn_at_object(g, primitive, "attributes");
@@ -84,9 +64,21 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
         gn_gltf_fail(g, primitive, "%zu vertices are more than can be drawn", positions->count);
         return 0;
     }
-    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
-        if (!check_attribute(g, &attributes, i, out[i], positions->count)) return 0;
-    return positions->count;
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT && !g->failed; i++) {
+        const struct gn_attribute_row *row = &gn_attributes[i];
+        const struct gn_accessor *a = gn_gltf_accessor(g, out[i]);
+        if (!a) continue;
+        struct gn_at at = gn_at_any(&attributes, row->semantic);
+        if (a->components < row->components_min || a->components > row->components)
+            gn_gltf_fail(g, &at, "accessor %d has %d components, must be VEC%d", out[i],
+                         a->components, row->components_min);
+        else if (!(row->types >> (a->component - GN_I8) & 1))
+            gn_gltf_fail(g, &at, "accessor %d has component type %d, which is not allowed for it",
+                         out[i], a->component);
+        else if (a->count != positions->count)
+            gn_gltf_fail(g, &at, "%zu elements, but POSITION has %zu", a->count, positions->count);
+    }
+    return g->failed ? 0 : positions->count;
 }
 
 /* Fills the shape's key and size; false: failed or nothing to show. */
