@@ -128,32 +128,28 @@ void gn_import_lights(struct gn_import *import) {
 
 /* ---- cameras ---- */
 
-static json_t *lens_of(const struct gn_import *import, const struct aiCamera *camera, float unit) {
-    float aspect = camera->mAspect;
-    if (!isfinite(aspect) || aspect <= 0.0f) aspect = 16.0f / 9.0f;
-    /* exporters' near planes have no common unit; ours is placed where it cuts nothing */
-    struct aiVector3D size = {import->high[0] - import->low[0], import->high[1] - import->low[1],
-                              import->high[2] - import->low[2]};
-    float near_m = 1e-3f * length_of(size);
-    if (!isfinite(near_m) || near_m <= 1e-5f) near_m = 1e-2f;
-    if (camera->mOrthographicWidth > 0.0f) {
-        double half = (double)(camera->mOrthographicWidth * unit);
-        return json_pack("{s:s,s:{s:f,s:f,s:f,s:f}}", "type", "orthographic", "orthographic",
-                         "xmag", half, "ymag", half / (double)aspect, "znear", (double)near_m,
-                         "zfar", 4000.0 * (double)near_m);
-    }
-    float yfov = 2.0f * atanf(tanf(0.5f * camera->mHorizontalFOV) / aspect);
-    if (!(yfov > 0.01f && yfov < 3.1f)) yfov = 0.7f;
-    return json_pack("{s:s,s:{s:f,s:f}}", "type", "perspective", "perspective", "yfov",
-                     (double)yfov, "znear", (double)near_m);
-}
-
 void gn_import_cameras(struct gn_import *import) {
+    /* exporters' near planes have no common unit; ours is placed where it cuts nothing */
+    float near_m = 1e-3f * length_of((struct aiVector3D){import->high[0] - import->low[0],
+                                                         import->high[1] - import->low[1],
+                                                         import->high[2] - import->low[2]});
+    if (!isfinite(near_m) || near_m <= 1e-5f) near_m = 1e-2f;
     for (unsigned i = 0; i < import->scene->mNumCameras; i++) {
         const struct aiCamera *camera = import->scene->mCameras[i];
         const struct gn_import_node *at = find_node(import, camera->mName.data);
         if (!at) continue;
-        json_t *object = lens_of(import, camera, unit_of(at));
+        float aspect = camera->mAspect;
+        if (!isfinite(aspect) || aspect <= 0.0f) aspect = 16.0f / 9.0f;
+        float yfov = 2.0f * atanf(tanf(0.5f * camera->mHorizontalFOV) / aspect);
+        if (!(yfov > 0.01f && yfov < 3.1f)) yfov = 0.7f;
+        double half = (double)(camera->mOrthographicWidth * unit_of(at));
+        json_t *object =
+            camera->mOrthographicWidth > 0.0f
+                ? json_pack("{s:s,s:{s:f,s:f,s:f,s:f}}", "type", "orthographic", "orthographic",
+                            "xmag", half, "ymag", half / (double)aspect, "znear", (double)near_m,
+                            "zfar", 4000.0 * (double)near_m)
+                : json_pack("{s:s,s:{s:f,s:f}}", "type", "perspective", "perspective", "yfov",
+                            (double)yfov, "znear", (double)near_m);
         json_object_set_new(object, "name", gn_glb_text(camera->mName.data));
         int index = gn_glb_add(&import->glb, "cameras", object);
         struct aiMatrix4x4 placed =

@@ -87,22 +87,6 @@ static int add_indices(struct gn_import *import, const struct gn_import_shape *s
     return index;
 }
 
-static json_t *write_primitive(struct gn_import *import, const struct gn_import_shape *shape) {
-    const struct aiMesh *mesh = shape->mesh;
-    json_t *attributes = json_pack("{s:i,s:i}", "POSITION", add_vectors(import, shape, true),
-                                   "NORMAL", add_vectors(import, shape, false));
-    static const char *const sets[] = {"TEXCOORD_0", "TEXCOORD_1"};
-    for (int i = 0; i < 2 && mesh->mTextureCoords[i]; i++)
-        json_object_set_new(attributes, sets[i], json_integer(add_uvs(import, shape, i)));
-    if (mesh->mColors[0])
-        json_object_set_new(attributes, "COLOR_0", json_integer(add_colors(import, shape)));
-    json_t *object =
-        json_pack("{s:o,s:i}", "attributes", attributes, "indices", add_indices(import, shape));
-    int material = gn_import_material(import, mesh->mMaterialIndex);
-    if (material >= 0) json_object_set_new(object, "material", json_integer(material));
-    return object;
-}
-
 /* JSON null if the mesh has no triangles. */
 static json_t *make_primitive(struct gn_import *import, const struct aiMesh *mesh) {
     struct gn_import_shape shape = {.mesh = mesh};
@@ -124,7 +108,21 @@ static json_t *make_primitive(struct gn_import *import, const struct aiMesh *mes
         memcpy(shape.normals, mesh->mNormals, count * sizeof *shape.normals);
     } else if (shape.index_count)
         gn_import_normals(&shape);
-    if (shape.index_count) object = write_primitive(import, &shape);
+
+    if (shape.index_count) {
+        static const char *const sets[] = {"TEXCOORD_0", "TEXCOORD_1"};
+        int normals = add_vectors(import, &shape, false),
+            positions = add_vectors(import, &shape, true);
+        json_t *attributes = json_pack("{s:i,s:i}", "POSITION", positions, "NORMAL", normals);
+        for (int i = 0; i < 2 && mesh->mTextureCoords[i]; i++)
+            json_object_set_new(attributes, sets[i], json_integer(add_uvs(import, &shape, i)));
+        if (mesh->mColors[0])
+            json_object_set_new(attributes, "COLOR_0", json_integer(add_colors(import, &shape)));
+        object = json_pack("{s:o,s:i}", "attributes", attributes, "indices",
+                           add_indices(import, &shape));
+        int material = gn_import_material(import, mesh->mMaterialIndex);
+        if (material >= 0) json_object_set_new(object, "material", json_integer(material));
+    }
     free(shape.indices);
     free(shape.origin);
     free(shape.normals);

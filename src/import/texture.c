@@ -84,28 +84,21 @@ static bool fetch_image(struct gn_import *import, const char *name, struct gn_by
     return false;
 }
 
-/* The base image, the opacity map, or both merged; empty if there is none. */
-static struct gn_bytes gather_image(struct gn_import *import, const struct request *request) {
-    struct gn_bytes base = {0}, opacity = {0}, both = {0};
-    bool has_base = request->base[0] && fetch_image(import, request->base, &base);
-    bool has_opacity = request->opacity[0] && strcmp(request->base, request->opacity) != 0 &&
-                       fetch_image(import, request->opacity, &opacity);
-    if (!has_opacity) return base;
-    bool merged = gn_import_picture_merge(has_base ? &base : NULL, &opacity, &both);
-    if (!merged)
-        gn_warn(import->warnings, "%s: image %.100s cannot be decoded; shown without it",
-                import->opts->model, request->opacity);
-    gn_bytes_finish(&opacity);
-    if (!merged) return base;
-    gn_bytes_finish(&base);
-    return both;
-}
-
-/* Writes the image; the caller adds the texture. */
+/* Writes the base image, the opacity map, or both merged; the caller adds the texture. */
 static struct gn_import_texture make_image(struct gn_import *import,
                                            const struct request *request) {
     struct gn_import_texture made = {.image = -1};
-    struct gn_bytes picture = gather_image(import, request);
+    struct gn_bytes picture = {0}, opacity = {0}, both = {0};
+    bool has_base = request->base[0] && fetch_image(import, request->base, &picture);
+    bool has_opacity = request->opacity[0] && strcmp(request->base, request->opacity) != 0 &&
+                       fetch_image(import, request->opacity, &opacity);
+    if (has_opacity && gn_import_picture_merge(has_base ? &picture : NULL, &opacity, &both)) {
+        gn_bytes_finish(&picture);
+        picture = both;
+    } else if (has_opacity)
+        gn_warn(import->warnings, "%s: image %.100s cannot be decoded; shown without it",
+                import->opts->model, request->opacity);
+    gn_bytes_finish(&opacity);
     if (picture.size) {
         int view = gn_glb_view(&import->glb, picture.data, picture.size);
         made.image =
