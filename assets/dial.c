@@ -8,7 +8,7 @@
 
 #define RADIANS (float)(M_PI / 180)
 
-static const float BURIED = 0.006f; /* how deep strips stand in the plate, metres */
+static const float BURIED = 0.006f; /* depth of strips inside the plate, metres */
 
 /* ---- strips ---- */
 
@@ -34,7 +34,7 @@ static void add_ring(struct gn_shape *shape, float radius, float width) {
 
 /* ---- numerals ---- */
 
-/* A letter's strokes in a cell of height 1: x0, y0, x1, y1, width. */
+/* Strokes of a letter in a cell of height 1: x0, y0, x1, y1, width. */
 struct letter {
     char name;
     float advance;
@@ -78,18 +78,18 @@ static void add_numeral(struct gn_shape *shape, const char *numeral, float size)
 
 /* ---- hour lines ---- */
 
-struct ray { /* of one hour on the plate: its start (the style's foot) and its direction, (x, z) */
+struct ray { /* hour line on the plate: start (the foot of the style) and direction, (x, z) */
     float from[2], along[2];
 };
 
 static struct ray hour_ray(const struct gn_dial *dial, float hour) {
     float h = (hour - 12) * 15 * RADIANS;
     float angle = atan2f(sinf(dial->latitude * RADIANS) * sinf(h), cosf(h));
-    float side = hour > 12 ? 1 : -1; /* the eastern edge throws the afternoon's shadow */
+    float side = hour > 12 ? 1 : -1; /* the eastern edge casts the shadow in the afternoon */
     return (struct ray){{side * dial->thickness / 2, dial->centre}, {sinf(angle), -cosf(angle)}};
 }
 
-/* How far along the ray the circle about the plate's middle lies. */
+/* Distance along the ray to the circle around the plate's centre. */
 static float reach(const struct ray *ray, float radius) {
     float b = ray->from[0] * ray->along[0] + ray->from[1] * ray->along[1];
     float c = ray->from[0] * ray->from[0] + ray->from[1] * ray->from[1] - radius * radius;

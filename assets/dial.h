@@ -2,7 +2,7 @@
  * latitude.
  *
  * The plate lies in the pen's xz plane with its surface at y = 0, north towards -z, east towards
- * +x. The shadow's edge of the hour angle h makes with the noon line an angle whose tangent is
+ * +x. At hour angle h the edge of the shadow makes an angle with the noon line whose tangent is
  * sin(latitude) tan(h). */
 #ifndef GN_ASSETS_DIAL_H
 #define GN_ASSETS_DIAL_H
@@ -10,20 +10,19 @@
 struct gn_shape;
 
 struct gn_dial {
-    float latitude;  /* degrees north */
-    float radius;    /* of the plate, metres */
-    float centre;    /* where the style meets the plate: metres south of the plate's middle */
-    float length;    /* of the gnomon's foot, metres */
-    float thickness; /* of the gnomon, metres; the noon line is as wide */
+    float latitude; /* degrees north */
+    float radius;   /* of the plate, metres */
+    float centre; /* distance from the plate's centre, south, to where the style meets it, metres */
+    float length; /* of the gnomon's foot, metres */
+    float thickness; /* of the gnomon and width of the noon line, metres */
 };
 
-/* Rings, hour lines from five to seven and their numerals: thin strips that stand 4 to 7 mm proud.
- */
+/* Rings, hour lines from five to seven and their numerals: thin strips, raised by 4 to 7 mm. */
 void gn_dial_inlay(struct gn_shape *shape, const struct gn_dial *dial);
-/* A plate whose upper edge is parallel to the earth's axis, scalloped at the back, pierced by a
- * star. */
+/* Gnomon: an upright plate whose upper edge is parallel to the earth's axis, with a curved back
+ * edge and a star-shaped hole. */
 void gn_dial_gnomon(struct gn_shape *shape, const struct gn_dial *dial);
-/* Unit vector towards the sun; `declination` in degrees, `hour` in true solar time, 12 at noon. */
+/* Unit vector towards the sun; `declination` in degrees, `hour` in true solar time, 12 is noon. */
 void gn_dial_sun(const struct gn_dial *dial, float declination, float hour, float out[3]);
 
 #endif

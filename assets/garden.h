@@ -43,7 +43,7 @@ struct gn_place {
     float yaw;     /* degrees about +y */
 };
 
-/* Paints the pictures and mixes the materials into garden->glb. */
+/* Adds the textures and materials to garden->glb. */
 void gn_garden_init(struct gn_garden *garden, struct gn_glb *glb);
 
 /* An empty shape whose UVs suit the surface. */
@@ -51,14 +51,14 @@ struct gn_shape gn_garden_begin(enum gn_surface surface);
 /* Makes a mesh of the shape and frees the shape. */
 int gn_garden_mesh(struct gn_garden *garden, const char *name, struct gn_shape *shape,
                    enum gn_surface surface);
-/* Puts a mesh somewhere; `extras` is a JSON object or NULL. Returns the node. */
+/* Adds a node with the mesh; `extras` is a JSON object or NULL. Returns the node. */
 int gn_garden_stand(struct gn_garden *garden, const char *name, int mesh, struct gn_place at,
                     const char *extras);
-/* A thing that is there once, its shape already in the scene's coordinates. Frees the shape. */
+/* Adds a mesh and a node for a shape that is already in scene coordinates. Frees the shape. */
 void gn_garden_put(struct gn_garden *garden, const char *name, struct gn_shape *shape,
                    enum gn_surface surface);
 
-/* ornaments.c: what stands still */
+/* ornaments.c: static objects */
 void gn_garden_add_portico(struct gn_garden *garden);
 void gn_garden_add_bench(struct gn_garden *garden);
 void gn_garden_add_urns(struct gn_garden *garden);
@@ -72,7 +72,7 @@ void gn_garden_add_screen(struct gn_garden *garden);
 void gn_garden_add_trees(struct gn_garden *garden);
 void gn_garden_add_cypresses(struct gn_garden *garden);
 
-/* movers.c: what moves, every twelve seconds the same way */
+/* movers.c: animated objects, with a period of twelve seconds */
 void gn_garden_add_hoop(struct gn_garden *garden);
 void gn_garden_add_gull(struct gn_garden *garden);
 

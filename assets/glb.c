@@ -15,7 +15,7 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "glTF buffers are litt
 
 enum { FLOAT = 5126, U16 = 5123, U32 = 5125, VERTICES = 34962, INDICES = 34963 };
 
-struct attributes { /* of one geometry: accessor numbers, -1 where absent */
+struct attributes { /* of one geometry: accessor indices, -1 where absent */
     int position, normal, uv, indices;
 };
 
@@ -32,7 +32,7 @@ struct gn_glb {
 
 /* ---- JSON ---- */
 
-/* The shortest decimal that reads back as the same float: jansson then prints just these digits. */
+/* The shortest decimal that reads back as the same float; jansson prints exactly these digits. */
 static json_t *number(float value) {
     assert(isfinite(value));
     char text[32];
@@ -438,8 +438,8 @@ static void cross(const float a[3], const float b[3], float out[3]) {
         out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* Quaternion of the rotation whose matrix has the columns x, y, z: the largest component first, for
- * precision. */
+/* Quaternion of the rotation matrix with columns x, y, z; the largest component is computed first,
+ * for precision. */
 static void from_axes(const float x[3], const float y[3], const float z[3], float q[4]) {
     float square[4] = {1 + x[0] - y[1] - z[2], 1 - x[0] + y[1] - z[2], 1 - x[0] - y[1] + z[2],
                        1 + x[0] + y[1] + z[2]};

@@ -53,7 +53,7 @@ struct gn_glb_light {
     enum gn_glb_light_kind kind;
     float rgb[3];       /* linear; all 0 means white */
     float intensity;    /* lux (directional) or candela */
-    float range;        /* metres; 0 means without end */
+    float range;        /* metres; 0 means unlimited */
     float inner, outer; /* spot: half angles in radians */
     const char *extras; /* a JSON object */
 };
@@ -63,7 +63,7 @@ struct gn_glb_channel {
     enum gn_glb_path path;
     enum gn_glb_interpolation interpolation;
     int keys;
-    const float *times; /* keys, seconds, rising */
+    const float *times; /* of the keys, seconds, ascending */
     const float
         *values; /* keys x 3 or 4; CUBICSPLINE: in-tangent, value, out-tangent of each key */
 };
@@ -79,7 +79,7 @@ int gn_glb_texture(struct gn_glb *glb, const char *name, const struct gn_image *
                    enum gn_glb_wrap wrap);
 int gn_glb_material(struct gn_glb *glb, const struct gn_glb_material *material);
 int gn_glb_mesh(struct gn_glb *glb, const char *name, int geometry, int material);
-/* One more primitive of a mesh made before. */
+/* Adds a primitive to an existing mesh. */
 void gn_glb_mesh_add(struct gn_glb *glb, int mesh, int geometry, int material);
 int gn_glb_camera(struct gn_glb *glb, const struct gn_glb_camera *camera);
 int gn_glb_light(struct gn_glb *glb, const struct gn_glb_light *light);

@@ -1,6 +1,6 @@
-/* The two scenes in which renderers are timed against each other: g x g boxes of one geometry, a
- * turning knot, a sun. S1 has 64 boxes, S2 4,096. Illuminance and hemisphere are such that the
- * picture is plain Lambert: colour x (0.25 + 0.75 n.l). */
+/* Benchmark scenes: g x g boxes of one geometry, a rotating knot, a sun. S1 has 64 boxes, S2 4,096.
+ * Illuminance and hemisphere are chosen so that the picture is plain Lambert: colour x (0.25 + 0.75
+ * n.l). */
 #include "glb.h"
 #include "shapes.h"
 
@@ -51,7 +51,7 @@ static void add_boxes(struct gn_glb *glb, int grid) {
     gn_shape_finish(&shape);
 }
 
-/* 0.02 rad a frame at 60 frames a second. */
+/* 0.02 rad per frame at 60 frames per second. */
 static void turn_forever(struct gn_glb *glb, int node) {
     enum { KEYS = 9 };
     const double period = 2 * M_PI / 1.2;

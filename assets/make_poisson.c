@@ -1,9 +1,9 @@
-/* Makes the Poisson disks of `--shadow poisson`: points in the unit disk and their opposites, no
- * two of them closer than a distance that is as large as can be. Bridson, "Fast Poisson Disk
- * Sampling in Arbitrary Dimensions", SIGGRAPH 2007: new points are tried in a ring of one to two
- * distances round those there are, until none fits. The distance is found by bisection, then the
- * points are scaled to the disk's own mean square radius, so that a filter widens nothing. Prints a
- * C table of one point of each pair. */
+/* Makes the Poisson disks of `--shadow poisson`: points in the unit disk and their opposites, with
+ * the largest possible minimum distance. Bridson, "Fast Poisson Disk Sampling in Arbitrary
+ * Dimensions", SIGGRAPH 2007: new points are tried in a ring of one to two distances around
+ * existing ones, until none fits. The distance is found by bisection; then the points are scaled to
+ * the mean square radius of the disk, so that filters keep their width. Prints a C table of one
+ * point of each pair. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -38,7 +38,7 @@ static void add_point(struct disk *disk, const double p[2]) {
     memcpy(disk->at[disk->count++], p, sizeof disk->at[0]);
 }
 
-/* Adds a neighbour of the point if one fits. */
+/* Adds a neighbour of the point, if one fits. */
 static bool neighbour(struct disk *disk, const double from[2], double apart, uint64_t *state) {
     for (int i = 0; i < TRIES; i++) {
         double angle = 2 * M_PI * dice(state), radius = apart * sqrt(1 + 3 * dice(state));

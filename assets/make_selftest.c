@@ -3,8 +3,8 @@
  * casting in double precision; the scenes are small enough for that.
  *
  * Rules: opaque and masked surfaces cast from both sides, masked ones with their holes; a surface
- * seen from the side away from the light is dark; outside a spot's cone and on the background
- * everything is lit. */
+ * whose visible side faces away from the light is dark; pixels outside of a spot's cone and of the
+ * background are lit. */
 #include "glb.h"
 #include "outline.h"
 #include "paint.h"
@@ -22,16 +22,16 @@ enum { WIDTH = 128, HEIGHT = 96, PARTS_MAX = 5, LATTICE_PX = 60, BAND_PX = 2, AL
 
 struct part {
     const char *name;
-    struct gn_shape shape; /* placed by its pen: the nodes stand at the origin */
+    struct gn_shape shape; /* in scene coordinates: nodes are at the origin */
     bool double_sided, lattice;
 };
 
 struct scene {
     const char *name;
     void (*make)(struct scene *scene);
-    float light[3]; /* place of the spot, or where a directional light comes from */
-    float aim[3];   /* what the light looks at */
-    float cone;     /* half angle of the spot, degrees; 0: directional; ALL_ROUND: a point */
+    float light[3]; /* position of the light; directional: it shines from here to `aim` */
+    float aim[3];   /* target of the light */
+    float cone;     /* half angle of a spot, degrees; 0: directional; ALL_ROUND: point light */
     struct part parts[PARTS_MAX];
     int part_count;
 };
@@ -110,7 +110,7 @@ static void make_stack(struct scene *scene) {
     gn_shape_box(high, 1.5f, .1f, 1.5f);
 }
 
-/* A lamp among boxes, and a wall behind. */
+/* A point light between boxes, and a wall behind. */
 static void make_lamp(struct scene *scene) {
     static const float at[3][3] = {{-1.3f, -.9f, 20}, {1.2f, -.7f, 50}, {-.3f, 1.3f, 5}};
     add_ground(scene);
@@ -219,7 +219,7 @@ struct ray {
     double from[3], along[3];
 };
 struct hit {
-    double t, normal[3]; /* towards where the ray came from */
+    double t, normal[3]; /* towards the ray's origin */
     int part;            /* -1: none */
 };
 
@@ -254,8 +254,8 @@ static bool in_hole(const struct gn_vertex *const v[3], double b, double c) {
     return is_hole(x, y);
 }
 
-/* Möller, Trumbore, "Fast, minimum storage ray-triangle intersection", 1997. `cull`: not the back
- * of a single-sided surface. */
+/* Möller, Trumbore, "Fast, minimum storage ray-triangle intersection", 1997. `cull`: ignores the
+ * back of single-sided surfaces. */
 static bool hits_triangle(const struct part *part, size_t first, const struct ray *ray, bool cull,
                           struct hit *hit) {
     const struct gn_vertex *v[3];
@@ -267,7 +267,7 @@ static bool hits_triangle(const struct part *part, size_t first, const struct ra
     minus(p[1], p[0], e1);
     minus(p[2], p[0], e2);
     cross(ray->along, e2, h);
-    double det = dot(e1, h); /* positive: the front is seen */
+    double det = dot(e1, h); /* positive: front face */
     if (det == 0 || (cull && !part->double_sided && det < 0)) return false;
     minus(ray->from, p[0], s);
     double b = dot(s, h) / det;
@@ -321,7 +321,7 @@ static bool is_lit(const struct scene *scene, const struct pixel *pixel) {
     struct ray ray;
     widen(scene->light, light);
     widen(scene->aim, aim);
-    minus(light, aim, axis); /* against the way the light shines */
+    minus(light, aim, axis); /* towards the light */
     minus(light, pixel->point, ray.along);
     double within = 1 - 1e-6, length = sqrt(dot(ray.along, ray.along) * dot(axis, axis));
     if (scene->cone > 0 && dot(ray.along, axis) < length * cos(scene->cone * RADIANS)) return true;

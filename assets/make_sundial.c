@@ -1,4 +1,4 @@
-/* The default scene: a sundial in a walled court, three o'clock on an afternoon in August, 50
+/* The default scene: a sundial in a walled court, at three o'clock on an afternoon in August, 50
  * degrees north. */
 #include "dial.h"
 #include "garden.h"
@@ -11,7 +11,7 @@ static const struct gn_dial dial = {
     .latitude = GN_LATITUDE, .radius = 1.42f, .centre = 0.72f, .length = 0.92f, .thickness = 0.07f};
 static const float DIAL_TOP = 1.245f;
 
-/* Ground layers cast no shadows: as casters they would only enlarge the fit of every shadow map. */
+/* Ground layers do not cast: as casters they would only enlarge the extent of every shadow map. */
 static void add_ground(struct gn_garden *g) {
     struct gn_shape court = gn_garden_begin(COURT), lawn = gn_garden_begin(LAWN);
     gn_shape_paving(&court, 1.4f, 7.1f, 10, 48);

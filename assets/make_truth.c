@@ -1,6 +1,6 @@
-/* The scenes in which shadows are measured against ray-traced truth: a ground and casters of every
- * kind under one light. They are generated from tables and a seed; `--contact` writes the two
- * scenes of the contact test instead. */
+/* Scenes for comparing shadows with ray-traced truth: a ground and all kinds of casters under one
+ * light, generated from tables and a seed. `--contact` writes the two scenes of the contact test
+ * instead. */
 #include "glb.h"
 #include "outline.h"
 #include "shapes.h"
@@ -30,11 +30,11 @@ static const struct scene scenes[] = {
 enum site { OPEN, ROOM, PEN, WALLED };
 static const char *const sites[] = {"in the open", "in a room", "inside a fence", "near a wall"};
 
-/* Point lights, after those. */
+/* Scenes with a point light, numbered after those above. */
 static const struct lamp {
     float size;    /* side of the ground, metres */
-    float azimuth; /* what the camera goes by */
-    float at[3];   /* in tenths of the ground */
+    float azimuth; /* decides the camera's position */
+    float at[3];   /* in tenths of the ground's size */
     enum site site;
 } lamps[] = {
     {5, 40, {.4f, 2.6f, -.3f}, ROOM},       {13, 150, {.2f, 2.0f, .3f}, PEN},
@@ -47,16 +47,16 @@ _Static_assert(SCENES == 24 && LAMPS == 6, "the table is part of the contract");
 
 enum kind { BOX, WALL, BALL, FENCE, TILT, KINDS };
 
-struct spot { /* a caster's place on the ground, in units of the scene's scale */
+struct spot { /* position of a caster on the ground, in units of the scene's scale */
     float x, z, radius;
 };
 
 struct build {
     struct gn_glb *glb;
     const struct scene *scene;
-    const struct lamp *lamp; /* instead of the scene's light; NULL: none */
+    const struct lamp *lamp; /* point light instead of the scene's light, or NULL */
     uint32_t seed;
-    float unit; /* metres of what would be one metre in a scene of 10 m */
+    float unit; /* scale, metres: 1 for a scene of 10 m */
     struct spot placed[CASTERS_MAX];
     int count;
     int counts[KINDS];
@@ -79,7 +79,7 @@ static bool is_free(const struct build *b, float x, float z, float radius) {
     return true;
 }
 
-/* A free circle on the ground; false if none was found. */
+/* Finds a free circle on the ground; false if there is none. */
 static bool find_place(struct build *b, float radius, struct spot *out) {
     for (int tries = 0; tries < 200; tries++) {
         float reach = 4.4f - radius, x = chance(b, -reach, reach), z = chance(b, -reach, reach);
@@ -90,7 +90,7 @@ static bool find_place(struct build *b, float radius, struct spot *out) {
     return false;
 }
 
-/* ---- casters, in units of the scene's scale, standing at the pen ---- */
+/* ---- casters, in units of the scene's scale, at the pen ---- */
 
 typedef void caster_fn(struct build *b, struct gn_shape *shape);
 
@@ -190,7 +190,7 @@ static void add_fixed(struct build *b, const char *name, const struct gn_shape *
                     .mesh = gn_glb_mesh(b->glb, name, gn_glb_geometry(b->glb, shape), material)});
 }
 
-/* Walls and a ceiling, seen from inside only; they are one mesh. */
+/* Walls and a ceiling in one mesh, visible from inside only. */
 static void add_room(struct build *b) {
     float size = b->scene->size, height = .5f * size;
     struct gn_shape shape;
@@ -209,7 +209,7 @@ static void add_room(struct build *b) {
     gn_shape_finish(&shape);
 }
 
-/* Four fences around the free centre. */
+/* Four fences around the empty centre. */
 static void add_pen(struct build *b) {
     struct gn_shape shape;
     gn_shape_init(&shape, 0);
@@ -236,7 +236,7 @@ static void add_wall(struct build *b) {
     gn_shape_finish(&shape);
 }
 
-/* Keeps casters away from the lamp and the centre. */
+/* Keeps casters away from the point light and the centre. */
 static void add_site(struct build *b) {
     const struct lamp *lamp = b->lamp;
     b->placed[b->count++] = (struct spot){lamp->at[0], lamp->at[2], .4f};
@@ -254,8 +254,8 @@ static void towards(float elevation, float azimuth, float distance, float out[3]
     out[2] = -distance * cosf(e) * sinf(a);
 }
 
-/* The half angle under which a spot at `eye` that looks at the origin sees the ground and all that
- * stands on it. */
+/* Half angle of a spot at `eye`, aimed at the origin, that covers the ground and all objects on it.
+ */
 static float cover(const float eye[3], float size) {
     float widest = 0, distance = sqrtf(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]);
     for (int corner = 0; corner < 8; corner++) {
@@ -297,7 +297,7 @@ static void add_light(struct build *b) {
     gn_glb_node(b->glb, &node);
 }
 
-/* Views the ground across the direction of the light. */
+/* The camera looks across the direction of the light. */
 static void add_camera(struct build *b) {
     float size = b->scene->size, side = chance(b, 0, 1) < .5f ? -1 : 1, eye[3];
     towards(chance(b, 30, 42), b->scene->azimuth + side * chance(b, 60, 115), 1.08f * size, eye);
@@ -371,7 +371,7 @@ static bool write_truth(const char *folder, int index) {
     return write_scene(&b, folder, name);
 }
 
-/* A box of 1 m in the middle of 10 m. */
+/* A box of 1 m in the centre of a ground of 10 m. */
 static bool write_contact(const char *folder, const char *name, float distance) {
     const struct scene scene = {10, 45, 30, distance};
     struct build b;

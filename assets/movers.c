@@ -60,9 +60,9 @@ static int body_mesh(struct gn_garden *g) {
     return gn_garden_mesh(g, "gull", &shape, GULL);
 }
 
-enum { LAP = 8 }; /* seconds of key frames; the lap takes twelve seconds */
+enum { LAP = 8 }; /* key frames of a lap, which takes twelve seconds */
 
-/* Where the gull is at the lap's share t, and its velocity per share. */
+/* Position of the gull at the fraction t of a lap, and its derivative by t. */
 static void gull_at(float t, float at[3], float velocity[3]) {
     float a = 2 * (float)M_PI * (t + .2f), w = 2 * (float)M_PI;
     at[0] = -.8f + 3.3f * cosf(a), at[1] = 3.5f + .35f * sinf(2 * a), at[2] = .9f + 3.6f * sinf(a);

@@ -1,4 +1,4 @@
-/* The things around the dial that throw and catch shadows: thick, round, thin, and with holes. */
+/* Objects around the dial that cast and receive shadows: thick, round, thin, and with holes. */
 #include "garden.h"
 
 #include "glb.h"
@@ -120,7 +120,7 @@ void gn_garden_add_armillary(struct gn_garden *g) {
     for (int i = 0; i < 3; i++) {
         gn_shape_at(&rings, 0, 1.5f, 0);
         gn_shape_turn(&rings, 'x',
-                      GN_LATITUDE - 90); /* the equator's ring lies square to the earth's axis */
+                      GN_LATITUDE - 90); /* the equatorial ring is normal to the earth's axis */
         if (i > 0) gn_shape_turn(&rings, 'z', 90);
         if (i > 1) gn_shape_turn(&rings, 'x', 90);
         gn_shape_torus(&rings, .46f + .018f * (float)i, .016f, 32, 6);

@@ -1,5 +1,5 @@
-/* Polygons are cut into triangles by removing ears (G. H. Meisters, "Polygons have ears", 1975); a
- * hole is first joined to the outline by a cut of no width. */
+/* Triangulation by ear clipping (G. H. Meisters, "Polygons have ears", 1975); a hole is first
+ * joined to the outline by a cut of zero width. */
 #include "outline.h"
 
 #include "shapes.h"
@@ -10,7 +10,7 @@
 
 #define CREASE_COS 0.819f /* of 35 degrees */
 
-/* Outward normal of an edge, the outside lying to its right. */
+/* Outward normal of an edge; the outside is to its right. */
 static void edge_normal(const float a[2], const float b[2], float out[2]) {
     float dx = b[0] - a[0], dy = b[1] - a[1], length = hypotf(dx, dy);
     out[0] = dy / length;
@@ -38,8 +38,7 @@ static bool is_ear(const float (*p)[2], const int *ring, int count, int i) {
 
 enum { OUTLINE_MAX = 256 };
 
-/* Cuts the polygon p[0..count) into triangles by removing ears; returns the number of indices
- * written. */
+/* Triangulates the polygon p[0..count) by ear clipping; returns the number of indices written. */
 static int cut_ears(const float (*p)[2], int count, int *corners) {
     int ring[OUTLINE_MAX], written = 0;
     for (int i = 0; i < count; i++) ring[i] = i;
@@ -66,7 +65,7 @@ static void nearest_pair(const struct gn_outline *o, int *outer, int *inner) {
         }
 }
 
-/* Joins outline and hole (backwards) by a cut of no width into one polygon; returns its size. */
+/* Joins outline and reversed hole into one polygon by a cut of zero width; returns its size. */
 static int join_hole(const struct gn_outline *o, float (*joined)[2]) {
     int outer = 0, inner = 0, count = 0;
     if (o->hole) nearest_pair(o, &outer, &inner);
@@ -95,7 +94,7 @@ static void outline_face(struct gn_shape *shape, const struct gn_outline *o, flo
                           first + (uint32_t)corners[side > 0 ? i + 2 : i + 1]);
 }
 
-/* The normal at the end `at` of an edge: shared with the neighbour where the corner is blunt. */
+/* Normal at the end `at` of an edge: averaged with the adjacent edge where the corner is blunt. */
 static void rim_normal(const float edge[2], const float neighbour[2], float out[3]) {
     bool smooth = edge[0] * neighbour[0] + edge[1] * neighbour[1] > CREASE_COS;
     out[0] = edge[0] + (smooth ? neighbour[0] : 0);
@@ -103,7 +102,7 @@ static void rim_normal(const float edge[2], const float neighbour[2], float out[
     out[2] = 0;
 }
 
-/* The wall along a closed outline; `step` is 1 for the outside, -1 for a hole. */
+/* The wall along a closed outline; `step` is 1 for the outline, -1 for a hole. */
 static void outline_rim(struct gn_shape *shape, const float (*p)[2], int count, float depth,
                         int step) {
     for (int i = 0; i < count; i++) {

@@ -1,4 +1,4 @@
-/* Shapes cut out of a board: polygons with thickness, and the fences made of them. */
+/* Extruded polygons, and fences made of them. */
 #ifndef GN_ASSETS_OUTLINE_H
 #define GN_ASSETS_OUTLINE_H
 
@@ -12,12 +12,12 @@ struct gn_outline {
     const float (*hole)[2]; /* one hole, counter-clockwise as well; may be NULL */
     int hole_count;
 };
-/* The outline in the pen's xy plane, thick in z from -depth/2 to depth/2. */
+/* The outline is in the pen's xy plane and extruded in z from -depth/2 to depth/2. */
 void gn_shape_extrude(struct gn_shape *shape, const struct gn_outline *outline, float depth);
 
 struct gn_fence {
     float length, height; /* metres, along +x from the pen, standing on y = 0 */
-    float pitch;          /* from pale to pale */
+    float pitch;          /* distance between pales, metres */
     float pale, depth;    /* width and thickness of a pale */
     bool pointed;
 };

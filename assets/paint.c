@@ -52,7 +52,7 @@ static float ramp(float low, float high, float v) {
     return fade(clamp01((v - low) / (high - low)));
 }
 
-/* Value noise with the period 1 in both directions, `cells` cells in it. */
+/* Value noise of period 1 in both directions, with `cells` cells per period. */
 static float noise(float u, float v, int cells, unsigned seed) {
     float x = u * (float)cells, y = v * (float)cells;
     int ix = (int)floorf(x), iy = (int)floorf(y);
@@ -72,7 +72,7 @@ static float fractal(float u, float v, int cells, int octaves, unsigned seed) {
     return sum / weight;
 }
 
-/* Few levels: invisible in grain, and the PNG has a third of the size. */
+/* Few grey levels: not visible in grain, and the PNG has a third of the size. */
 static unsigned char level(float v) { return (unsigned char)(lroundf(clamp01(v) * 63) * 255 / 63); }
 
 typedef float grey_fn(float u, float v, const void *what);
@@ -104,7 +104,7 @@ void gn_paint_grain(struct gn_image *image, int size_px, float contrast, unsigne
 
 enum { COURSES = 4 };
 
-/* Distance from the joint, in courses, of the stone that (u, v) lies on; the joints waver a little.
+/* Distance of (u, v) from the nearest joint of its stone, in courses; joints are slightly uneven.
  */
 static float joint_distance(float u, float v, unsigned seed, int *stone, int *course) {
     float y = v * COURSES;
@@ -167,9 +167,8 @@ void gn_paint_lattice(struct gn_image *image, int size_px, int meshes, unsigned 
               v = ((float)(i / size_px) + 0.5f) / (float)size_px;
         float a = (u + v) * (float)meshes, b = (u - v) * (float)meshes + (float)meshes;
         float da = fabsf(a - floorf(a) - 0.5f), db = fabsf(b - floorf(b) - 0.5f);
-        bool over = ((int)floorf(a) + (int)floorf(b)) % 2
-                        ? da > 0.36f
-                        : db <= 0.36f; /* which lath lies on top */
+        bool over = ((int)floorf(a) + (int)floorf(b)) % 2 ? da > 0.36f
+                                                          : db <= 0.36f; /* which lath is on top */
         float along = over ? a : b, tone = 0.8f + 0.15f * noise(along, 0.5f * (u + v), 16, seed);
         float edge = fminf(fabsf(da - 0.36f), fabsf(db - 0.36f));
         tone *= 0.75f + 0.25f * ramp(0, 0.06f, edge);
@@ -211,7 +210,7 @@ static void draw_twig(struct gn_image *image, float x0, float y0, float x1, floa
     }
 }
 
-/* Transparent pixels take the mean leaf's colour, so that mip-maps get no dark rims. */
+/* Transparent pixels get the mean colour of a leaf, so that mipmaps have no dark edges. */
 static void flood(struct gn_image *image) {
     for (int i = 0; i < image->width * image->height; i++)
         set_pixel(image, i % image->width, i / image->width, (float[3]){0.5f, 0.76f, 0.3f}, 0);
@@ -241,17 +240,16 @@ void gn_paint_branch(struct gn_image *image, int size_px, unsigned seed) {
 
 /* ---- light through a window ---- */
 
-/* x from -.5 to .5, y from -.75 up to .75; the head is a half circle about (0, SPRING). */
+/* x from -.5 to .5, y from -.75 to .75, upwards; the head is a half circle around (0, SPRING). */
 static const float HALF = 0.43f, SILL = -0.68f, SPRING = 0.25f, BAR = 0.02f, SOFT = 0.012f;
 enum { ROWS = 3, QUARRIES = 3 /* diamonds across */ };
 
-/* How far inside the opening. */
+/* Distance from the edge of the opening, inwards. */
 static float opening(float x, float y) {
     return y > SPRING ? HALF - hypotf(x, y - SPRING) : fminf(HALF - fabsf(x), y - SILL);
 }
 
-/* How far from the middle of the nearest bar of stone: mullion, transoms, the spokes of the head.
- */
+/* Distance from the axis of the nearest stone bar: mullion, transoms, spokes of the head. */
 static float bars(float x, float y) {
     float row = (SPRING - SILL) / ROWS, r = hypotf(x, y - SPRING);
     float transom = fabsf(y - SILL - row * roundf((y - SILL) / row));
@@ -261,7 +259,7 @@ static float bars(float x, float y) {
     return fminf(fminf(spoke, fabsf(r - 0.5f * HALF)), y - SPRING);
 }
 
-/* How far from the nearest lead, and which piece of glass. */
+/* Distance from the nearest lead, and the index of the piece of glass. */
 static float leads(float x, float y, int piece[2]) {
     float a = (x * 1.35f + y) * QUARRIES, b = (x * 1.35f - y) * QUARRIES;
     piece[0] = (int)floorf(a), piece[1] = (int)floorf(b);

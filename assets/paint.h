@@ -1,5 +1,4 @@
-/* Small pictures painted by arithmetic, for the generators of this folder. All but the window tile.
- */
+/* Small procedural pictures, for the generators of this folder. All except the window tile. */
 #ifndef GN_ASSETS_PAINT_H
 #define GN_ASSETS_PAINT_H
 
@@ -12,24 +11,24 @@ struct gn_image {
 
 void gn_image_init(struct gn_image *image, int width, int height, int channels);
 void gn_image_finish(struct gn_image *image);
-/* The picture as a PNG file in memory; free it. */
+/* The picture as a PNG file in memory; the caller frees it. */
 void *gn_image_png(const struct gn_image *image, size_t *size);
 
-/* Grey, near white: multiply it with a base colour. `contrast` 0..1 is how dark the darkest grain
- * gets. */
+/* Grey, near white, to be multiplied by a base colour. `contrast` 0..1: 1 - value of the darkest
+ * grain. */
 void gn_paint_grain(struct gn_image *image, int size_px, float contrast, unsigned seed);
 /* Grey: rough-hewn setts, 4 courses of 4 stones. */
 void gn_paint_paving(struct gn_image *image, int size_px, unsigned seed);
 /* Grey: grain of wood along v. */
 void gn_paint_wood(struct gn_image *image, int size_px, unsigned seed);
-/* Grey: the many small leaves of a hedge or a lawn. */
+/* Grey: small leaves of a hedge or a lawn. */
 void gn_paint_hedge(struct gn_image *image, int size_px, unsigned seed);
 /* RGBA: a diagonal lattice of laths with holes between them. */
 void gn_paint_lattice(struct gn_image *image, int size_px, int meshes, unsigned seed);
 /* RGBA: a twig with leaves, growing from the middle of the bottom edge. */
 void gn_paint_branch(struct gn_image *image, int size_px, unsigned seed);
-/* RGB: a round-headed window of leaded glass with a mullion and transoms, black round it; half as
- * high again as wide. For the light that falls through it. */
+/* RGB: a round-headed window of leaded glass with a mullion and transoms, black outside of it;
+ * height 1.5 times the width. A slide for light that falls through it. */
 void gn_paint_window(struct gn_image *image, int width_px, unsigned seed);
 
 #endif

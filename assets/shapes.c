@@ -86,15 +86,15 @@ void gn_shape_triangle(struct gn_shape *shape, uint32_t a, uint32_t b, uint32_t 
     shape->index_count += 3;
 }
 
-/* Texture coordinates as they are, whatever the scale. */
+/* Vertex with final texture coordinates, without uv_per_m. */
 static uint32_t raw_vertex(struct gn_shape *shape, const float position[3], const float normal[3],
                            float u, float v) {
     float scale = shape->uv_per_m != 0 ? shape->uv_per_m : 1;
     return gn_shape_vertex(shape, position, normal, (float[2]){u / scale, v / scale});
 }
 
-/* Two triangles for every cell of a grid of vertices that starts at `first`, with `across` to the
- * right and `up` rows: row r, column c is vertex first + r * (across + 1) + c. */
+/* Two triangles for each cell of a grid of vertices that starts at `first`, with `across` columns
+ * and `up` rows of cells: row r, column c is vertex first + r * (across + 1) + c. */
 static void weave(struct gn_shape *shape, uint32_t first, int across, int up) {
     for (int r = 0; r < up; r++)
         for (int c = 0; c < across; c++) {
@@ -106,7 +106,7 @@ static void weave(struct gn_shape *shape, uint32_t first, int across, int up) {
 
 /* ---- flat things ---- */
 
-/* One side of a box: outward along `axis` (0..2) times `sign`. */
+/* One side of a box: its normal is `axis` (0..2) times `sign`. */
 static void box_side(struct gn_shape *shape, const float half[3], int axis, float sign) {
     int u = (axis + 1) % 3, w = (axis + 2) % 3;
     uint32_t first = (uint32_t)shape->vertex_count;
@@ -190,7 +190,7 @@ void gn_shape_ring(struct gn_shape *shape, float inner, float outer, int around)
 struct sweep {
     float from, to; /* radians from +x towards -z */
     int around;
-    float u; /* texture metres for the whole sweep */
+    float u; /* texture width of the whole sweep, metres */
 };
 
 static uint32_t sweep_row(struct gn_shape *shape, const struct sweep *s, const float point[2],
@@ -216,7 +216,7 @@ static void sweep_band(struct gn_shape *shape, uint32_t low, uint32_t high, int 
     }
 }
 
-/* Outward normal of the profile's segment that starts at point `a`. */
+/* Outward normal of the profile segment that starts at point `a`. */
 static void segment_normal(const float a[2], const float b[2], float out[2]) {
     float dr = b[0] - a[0], dy = b[1] - a[1], length = hypotf(dr, dy);
     out[0] = dy / length;
@@ -333,7 +333,8 @@ static void unit(float v[3]) {
     for (int i = 0; i < 3; i++) v[i] /= length;
 }
 
-/* Makes `side` perpendicular to `along`: carried from ring to ring, it keeps a tube from twisting.
+/* Makes `side` perpendicular to `along`. Passed from ring to ring, it prevents a tube from
+ * twisting.
  */
 static void straighten(float side[3], const float along[3]) {
     float slip = dot(side, along);

@@ -1,7 +1,7 @@
 /* Triangle meshes with outward normals, counter-clockwise seen from outside.
  *
- * Each call appends a piece, placed by the pen (a rotation and a translation, like a
- * turtle's). UVs are in metres times `uv_per_m`, so that a tiling texture keeps its size on all
+ * Each call appends a piece, placed by the pen (a rotation and a translation, as in turtle
+ * graphics). UVs are in metres times `uv_per_m`, so that a tiling texture has the same size on all
  * pieces. */
 #ifndef GN_ASSETS_SHAPES_H
 #define GN_ASSETS_SHAPES_H
@@ -31,7 +31,7 @@ struct gn_shape {
 void gn_shape_init(struct gn_shape *shape, float uv_per_m);
 void gn_shape_finish(struct gn_shape *shape);
 
-/* The pen. Moves and turns are relative to the pen's own axes; `home` undoes all. */
+/* The pen. Moves and turns are relative to the pen's own axes; `home` resets it. */
 void gn_shape_home(struct gn_shape *shape);
 void gn_shape_at(struct gn_shape *shape, float x, float y, float z); /* home, then move */
 void gn_shape_move(struct gn_shape *shape, float x, float y, float z);
@@ -48,21 +48,20 @@ void gn_shape_box(struct gn_shape *shape, float sx, float sy, float sz);
 void gn_shape_block(struct gn_shape *shape, float sx, float sy, float sz);
 /* Single-sided rectangle in the pen's xz plane, facing +y. */
 void gn_shape_plane(struct gn_shape *shape, float sx, float sz);
-/* Rectangle in the pen's xy plane, facing +z, standing on y = 0, UV 0..1 with v = 0 at the top: a
- * card. */
+/* Rectangle in the pen's xy plane, facing +z, standing on y = 0, UV 0..1 with v = 0 at the top. */
 void gn_shape_card(struct gn_shape *shape, float sx, float sy);
 void gn_shape_sphere(struct gn_shape *shape, float radius, int around, int down);
-/* Standing on y = 0, about +y, with caps. */
+/* Cylinder about +y, standing on y = 0, with caps. */
 void gn_shape_cylinder(struct gn_shape *shape, float radius, float height, int around);
-/* Flat ring facing +y, in courses whose stones keep their width (see the paving texture of
- * paint.h): each course is one `v` quarter of the texture, and repeats it round the ring a whole
- * number of times. */
+/* Flat ring facing +y, in courses whose stones have the same width (see the paving texture of
+ * paint.h): each course is one quarter of the texture in v, repeated around the ring a whole number
+ * of times. */
 void gn_shape_paving(struct gn_shape *shape, float inner, float outer, int courses, int around);
 /* Flat ring without UV courses, facing +y. */
 void gn_shape_ring(struct gn_shape *shape, float inner, float outer, int around);
-/* Surface of revolution about +y of the profile (radius, height) pairs. Seen with the radius to the
- * right and the height up, the outside lies to the right of the way along the profile, i.e. it goes
- * up on the outside. Corners sharper than 35 degrees are creased. */
+/* Surface of revolution about +y of the profile (radius, height) pairs. With the radius to the
+ * right and the height up, the outside is to the right of the direction along the profile, i.e. the
+ * profile goes up on the outside. Corners sharper than 35 degrees are creased. */
 void gn_shape_lathe(struct gn_shape *shape, const float (*profile)[2], int points, int around);
 /* The same over the angles from..to degrees (from +x towards -z), of a closed convex profile, with
  * both ends closed. */
@@ -70,7 +69,7 @@ void gn_shape_arc(struct gn_shape *shape, const float (*profile)[2], int points,
                   float to, int around);
 /* Ring of radius `major` in the pen's xz plane. */
 void gn_shape_torus(struct gn_shape *shape, float major, float minor, int around, int section);
-/* Round bar through the points; closed ends. */
+/* Round bar through the points, with closed ends. */
 void gn_shape_tube(struct gn_shape *shape, const float (*points)[3], int count, float radius,
                    int section);
 /* Straight round bar. */
