@@ -1,6 +1,7 @@
-/* Host tool: embed NAME=FILE.. writes a C file that holds the files as read-only bytes (by .incbin,
- * so that megabytes cost the compiler nothing) and the table behind src/core/embedded.h. Paths are
- * seen from the top folder. */
+/* Host tool: embed NAME=FILE.. writes a C file with the files as read-only bytes (by .incbin, which
+ * costs no compile time) and the table of src/core/embedded.h. Paths are relative to the top
+ * folder.
+ */
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>

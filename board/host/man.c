@@ -1,4 +1,4 @@
-/* Host tool: what is generated from the tables of commands and options. man PAGE prints gnomon.1,
+/* Host tool: man PAGE prints a page generated from the tables of commands and options: gnomon.1 or
  * gnomon.ini.5 (roff), or options.md, the table of keys in src/options/README.md. */
 #include <string.h>
 
