@@ -77,7 +77,7 @@ static unsigned take_events(struct client *c) {
     return events;
 }
 
-/* As the supervisor does: a new process. */
+/* A new process, as the supervisor starts one. */
 static void start_anew(struct client *c) {
     c->gave_up = true;
     c->restarts++;
@@ -104,14 +104,14 @@ static bool draw(struct client *c, struct gn_err *err) {
         sim_paint(c->colour);
     c->frames++;
     c->changed = false;
-    if (c->blank) sim_complain("drawn while it is switched off");
+    if (c->blank) sim_complain("frame drawn while blank");
     return gn_kms_present(c->kms, c->told_ns, err);
 }
 
 static void after_console_switch(struct client *c, unsigned events) {
     if (!(events & GN_KMS_EVENT_VT_LEFT)) return;
     if (sim_is_master(gn_kms_fd(c->kms)) && sim_counts.failed == 0)
-        sim_complain("it is still master on another console");
+        sim_complain("still master on another console");
     for (int n = 0; n < SIM_CARDS; n++) sim_console_takes(n);
 }
 
@@ -119,7 +119,7 @@ static void count_spin(struct client *c) {
     c->steps++;
     if (sim_now() > c->now_ns) c->spins = 0;
     c->now_ns = sim_now();
-    if (++c->spins == SPINS_MAX) sim_complain("it spins: %s", client_screen(c)->status);
+    if (++c->spins == SPINS_MAX) sim_complain("busy loop: %s", client_screen(c)->status);
 }
 
 static void step(struct client *c) {
@@ -135,13 +135,13 @@ static void step(struct client *c) {
     }
     if (ok && wants_frame(c)) ok = draw(c, &err);
     if (ok) return;
-    if (!err.text[0]) sim_complain("it gave up without a word");
+    if (!err.text[0]) sim_complain("gave up without an error");
     start_anew(c);
 }
 
 /* ---- time ---- */
 
-/* The kiosk would step again at once. */
+/* Whether the kiosk would step again at once. */
 static bool is_busy(const struct client *c) {
     return client_screen(c)->lost || wants_frame(c) || c->heard || sim_readable(gn_kms_fd(c->kms));
 }

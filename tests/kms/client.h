@@ -1,6 +1,6 @@
-/* A client of the KMS screen, as the kiosk is one, on the simulator's clock: steps when due, renews
- * a lost context, and draws a new colour whenever it may, or, for a still picture, only when it has
- * changed or is damaged. */
+/* A client of the KMS screen, like the kiosk, on the simulator's clock: steps when due, renews a
+ * lost context, and draws a new colour whenever the screen allows it or, for a still picture, only
+ * when it has changed or the screen is not lit. */
 #ifndef GN_KMS_CLIENT_H
 #define GN_KMS_CLIENT_H
 
@@ -20,19 +20,19 @@ struct client {
     int spins;       /* steps at that time */
 };
 
-/* a machine to run on, with its name for messages */
+/* A kind of machine, with its name for messages. */
 struct client_kind {
     const char *name;
     struct sim_traits traits;
     struct gn_screen_opts opts;
     struct sim_gpu gpu;
 };
-/* One card with that monitor (SIM_NO_MONITOR: none), and the first 5 frames if there is one. */
+/* A new simulation of one card with that monitor; with a monitor, runs the first 5 frames. */
 void client_begin(struct client *client, const struct client_kind *kind, int monitor);
-/* Fails the test if the simulator has complained. */
+/* Fails the test if the simulator has recorded a violation. */
 void client_end(struct client *client, const struct client_kind *kind);
 
-/* Whether clients receive uevents; initially they do. */
+/* Whether clients receive uevents; the default is true. */
 void client_has_uevents(bool uevents);
 void client_open(struct client *client, const struct gn_screen_opts *opts);
 /* As client_begin() in a new simulation, with a card that shows the console, and 3 frames. */
@@ -45,10 +45,11 @@ void client_enter_console(struct client *client);
 void client_blank(struct client *client, bool on);
 
 void client_run(struct client *client, int64_t for_ns);
-/* Runs until so many frames are shown, or 5 s. */
+/* Runs until `count` more frames are drawn, at most 5 s. */
 void client_frames(struct client *client, long count);
-/* From now on the picture is still. Returns true if it is visible within that time and still, or
- * again, 12 s later; `took` gets the time until it was. */
+/* Makes the picture still. Returns true if it becomes visible within that time and is visible 12 s
+ * later; other programs may interrupt it, so up to three attempts. `took_ns` gets the longest wait.
+ */
 bool client_settle(struct client *client, int64_t within_ns, int64_t *took_ns);
 
 #endif

@@ -60,7 +60,7 @@ static void build_stranger(void) {
 
 /* ---- scenarios ---- */
 
-/* As client_run() with a still picture: for time to pass without frames. */
+/* client_run() with a still picture: time passes without frames. */
 static void rest(struct client *c, int64_t for_ns) {
     c->moves = false;
     client_run(c, for_ns);
@@ -92,7 +92,7 @@ static void change_monitor(struct client *c) {
     client_run(c, SIM_S / 2);
 }
 
-/* The twin has the same modes but gets its own preferred one. */
+/* The twin has the same modes but must get its preferred one. */
 static void change_twin(struct client *c) {
     sim_refuse_mode((struct sim_refusal){96, EINVAL, false});
     client_frames(c, 3);
@@ -168,8 +168,8 @@ static void stall_reopened(struct client *c) {
     stall_until(c, SIM_STALLS_UNTIL_REOPENED);
     rest(c, 14 * SIM_S);
 }
-static void stall_event(struct client *c) { stall_until(c, SIM_LOSES_AN_EVENT); }
-static void event_too_late(struct client *c) { stall_until(c, SIM_TELLS_LATE); }
+static void stall_event(struct client *c) { stall_until(c, SIM_EVENT_LOST); }
+static void event_too_late(struct client *c) { stall_until(c, SIM_EVENT_LATE); }
 static void stall_short(struct client *c) {
     client_frames(c, 3);
     sim_stall(0, SIM_STALLS);
@@ -202,12 +202,12 @@ static void gl_starts_late(struct client *c) {
     rest(c, 11 * SIM_S);
 }
 
-/* Blanked for a night with many events. */
+/* Blanks for a long time, with many events. */
 static void sleep_and_wake(struct client *c) {
     client_frames(c, 3);
     client_blank(c, true);
     client_run(c, 14 * SIM_S);
-    if (sim_counts.failed == 0 && !sim_is_dark()) sim_complain("it is not dark");
+    if (sim_counts.failed == 0 && !sim_is_dark()) sim_complain("screen not dark");
     client_blank(c, false);
     client_frames(c, 2);
     client_blank(c, true);
@@ -236,44 +236,44 @@ static void a_text_and_back(struct client *c) {
 }
 
 const struct scene scenes[] = {
-    {"it starts lit", build_good, NULL, .opts = {0}, .put_back = true},
+    {"plain start", build_good, NULL, .opts = {0}, .put_back = true},
     {"fences and modifiers", build_rich, NULL, .opts = {0}, .put_back = true},
-    {"a plane that the console has turned", build_taken, switch_console, .opts = {0},
+    {"plane left rotated by the console", build_taken, switch_console, .opts = {0},
      .needs_atomic = true},
-    {"starts without a monitor, which then comes", build_no_monitor, plug_late, .opts = {0}},
-    {"unplugged and plugged", build_good, replug, .opts = {0}},
-    {"another monitor, and another connector", build_good, change_monitor, .opts = {0}},
-    {"another monitor with the same modes, and a viewer that is resized", build_good, change_twin,
+    {"start without a monitor, plugged later", build_no_monitor, plug_late, .opts = {0}},
+    {"monitor unplugged and plugged", build_good, replug, .opts = {0}},
+    {"other monitor, then other connector", build_good, change_monitor, .opts = {0}},
+    {"other monitor with the same modes, then a resized viewer", build_good, change_twin,
      .opts = {0}},
-    {"a monitor that does not say what it is", build_unknown, NULL, .opts = {0}},
-    {"a mode that cannot be set", build_refused, NULL, .opts = {0}},
-    {"a mode that cannot be set, as is seen late", build_refused_late, NULL, .opts = {0}},
-    {"no mode can be set for a while", build_good, modes_come_back, .opts = {0}},
-    {"another console and back", build_rich, switch_console, .opts = {0}},
-    {"another console and back, three times", build_good, switch_console_fast, .opts = {0}},
-    {"the card goes and comes back with another number", build_good, card_comes_back, .opts = {0}},
-    {"a GPU that shows nothing beside the card", build_two_cards, NULL, .opts = {0}},
-    {"the monitor goes to another card and back", build_pair, other_card, .opts = {0}},
-    {"the older interface", build_old, replug, .opts = {0}, .put_back = true},
-    {"the older interface, asked for", build_good, switch_console, .opts = {.legacy = true}},
-    {"a driver without vblank", build_virtual, replug, .opts = {0}},
-    {"a driver without vblank, 10 frames a second", build_virtual, NULL, .opts = {.max_fps = 10}},
-    {"copied into dumb buffers", build_copies, replug, .opts = {0}},
-    {"a link that goes bad", build_good, bad_link, .opts = {0}},
-    {"a link that goes bad, the older interface", build_old, bad_link, .opts = {0}},
-    {"somebody else is master, twice", build_stranger, stranger_goes, .opts = {0},
+    {"monitor without EDID", build_unknown, NULL, .opts = {0}},
+    {"mode refused", build_refused, NULL, .opts = {0}},
+    {"mode refused after TEST_ONLY accepted it", build_refused_late, NULL, .opts = {0}},
+    {"all modes refused temporarily", build_good, modes_come_back, .opts = {0}},
+    {"switch of consoles", build_rich, switch_console, .opts = {0}},
+    {"fast switch of consoles, three times", build_good, switch_console_fast, .opts = {0}},
+    {"card lost, back with another number", build_good, card_comes_back, .opts = {0}},
+    {"second card that only renders", build_two_cards, NULL, .opts = {0}},
+    {"monitor moved to another card and back", build_pair, other_card, .opts = {0}},
+    {"legacy interface", build_old, replug, .opts = {0}, .put_back = true},
+    {"legacy interface by option", build_good, switch_console, .opts = {.legacy = true}},
+    {"driver without vblank", build_virtual, replug, .opts = {0}},
+    {"driver without vblank, 10 frames per second", build_virtual, NULL, .opts = {.max_fps = 10}},
+    {"copies into dumb buffers", build_copies, replug, .opts = {0}},
+    {"bad link", build_good, bad_link, .opts = {0}},
+    {"bad link, legacy interface", build_old, bad_link, .opts = {0}},
+    {"another process is master, twice", build_stranger, stranger_goes, .opts = {0},
      .needs_atomic = true},
-    {"a stall that ends when relit", build_good, stall_relit, .opts = {0}},
-    {"a stall that ends when reopened", build_good, stall_reopened, .slack_ns = 15 * SIM_S,
+    {"stall that a modeset ends", build_good, stall_relit, .opts = {0}},
+    {"stall that reopening the card ends", build_good, stall_reopened, .slack_ns = 15 * SIM_S,
      .opts = {0}},
-    {"a stall that ends by itself", build_rich, stall_short, .opts = {0}},
-    {"a stall that goes on until the program gives up", build_old, stall_long, .opts = {0},
-     .slack_ns = 30 * SIM_S, .may_give_up = true},
-    {"an event that is lost", build_good, stall_event, .opts = {0}},
-    {"an event that comes too late", build_good, event_too_late, .opts = {0}},
-    {"switched off and on", build_good, sleep_and_wake, .opts = {0}},
-    {"switched off and on, the older interface", build_old, sleep_and_wake, .opts = {0}},
-    {"a text and back", build_rich, a_text_and_back, .opts = {0}},
+    {"temporary stall", build_rich, stall_short, .opts = {0}},
+    {"stall until the program gives up", build_old, stall_long, .opts = {0}, .slack_ns = 30 * SIM_S,
+     .may_give_up = true},
+    {"flip event lost", build_good, stall_event, .opts = {0}},
+    {"flip event too late", build_good, event_too_late, .opts = {0}},
+    {"blanked and unblanked", build_good, sleep_and_wake, .opts = {0}},
+    {"blanked and unblanked, legacy interface", build_old, sleep_and_wake, .opts = {0}},
+    {"message and back", build_rich, a_text_and_back, .opts = {0}},
     {"GL starts late", build_good, gl_starts_late, .opts = {0}},
 };
 const int scene_count = (int)(sizeof scenes / sizeof *scenes);
@@ -296,14 +296,13 @@ struct ending scene_run(const struct scene *scene, void (*prepare)(void *), void
     const bool right = client_settle(&c, WITHIN + scene->slack_ns, &e.took_ns);
     snprintf(status, sizeof status, "%s", client_screen(&c)->status);
     if (right && !prepare && client_screen(&c)->counts.again == 0)
-        sim_complain("a still picture is not flipped again");
+        sim_complain("still picture not flipped again");
     e.frames = c.frames;
     e.gave_up = c.gave_up;
     client_close(&c);
-    if (scene->put_back && !prepare && !sim_shows_console(0))
-        sim_complain("the console's picture is not put back");
+    if (scene->put_back && !prepare && !sim_shows_console(0)) sim_complain("console not restored");
     e.calls = sim_counts.all_calls;
-    if (!right) sim_complain("no right picture: %s", status[0] ? status : "it says all is well");
+    if (!right) sim_complain("wrong picture: %s", status[0] ? status : "no problem reported");
     sim_end();
     snprintf(e.complaint, sizeof e.complaint, "%s", sim_complaint());
     return e;

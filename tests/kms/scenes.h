@@ -1,4 +1,4 @@
-/* Scenarios for screens: each starts with a new simulated machine and ends in a visible result. */
+/* Scenarios: each starts with a new simulated machine and ends with a visible picture. */
 #ifndef GN_KMS_SCENES_H
 #define GN_KMS_SCENES_H
 
@@ -11,16 +11,16 @@ struct scene {
     struct gn_screen_opts opts;
     int64_t slack_ns; /* extra time it may take */
     bool may_give_up;
-    bool put_back;     /* the console is visible again at the end */
+    bool put_back;     /* the console must be visible at the end */
     bool needs_atomic; /* the legacy interface cannot recover from it */
 };
 extern const struct scene scenes[];
 extern const int scene_count;
 
-/* Runs a scenario until its picture is stable or a complaint, then closes everything. `prepare`, if
- * not NULL, is called when the machine is set up. */
+/* Runs a scenario until its picture is stable or the time is up, then closes everything. `prepare`,
+ * if not NULL, is called when the machine is set up. */
 struct ending {
-    int64_t took_ns; /* from the end of `play` to the right picture */
+    int64_t took_ns; /* from the end of `play` until the right picture is visible */
     long frames, calls;
     bool gave_up;
     char complaint[240]; /* "": success */

@@ -83,11 +83,11 @@ int sim_end(void) {
         {"buffers", sim_counts.buffers},
         {"dumb buffers", sim_counts.dumbs},
         {"mappings", sim_counts.maps},
-        {"libdrm's structs", sim_counts.replies},
+        {"libdrm structs", sim_counts.replies},
         {"descriptors", open_descriptors() - fds_before},
     };
     for (size_t i = 0; i < sizeof alive / sizeof *alive; i++)
-        if (alive[i].count != 0) sim_complain("%d %s are left", alive[i].count, alive[i].what);
+        if (alive[i].count != 0) sim_complain("%d %s leaked", alive[i].count, alive[i].what);
     return sim_counts.complaints;
 }
 
@@ -169,7 +169,7 @@ void sim_stall(int n, enum sim_stall how) {
     }
 }
 
-/* A new owner of the CRTCs waits for the flip, or the kernel times it out. */
+/* A new owner of the CRTCs waits for the flip until the kernel's timeout. */
 static void take_over(struct sim_card *card, int owner) {
     for (int i = 0; i < SIM_CRTCS; i++)
         if (card->crtcs[i].flip.pending) sim_finish_flip(card, i);

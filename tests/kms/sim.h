@@ -1,10 +1,10 @@
-/* Simulated kernel and GPU for tests of the KMS screen: libdrm and GBM behind the two tables
+/* Simulated kernel and GPU for tests of the KMS screen: libdrm and GBM behind the two tables that
  * gn_kms uses, on a virtual clock. One machine at a time.
  *
- * It implements the kernel's rules: who is master, what an atomic commit must contain, EBUSY
- * while a flip is pending, removing a visible framebuffer switches the CRTC off. It counts
- * objects, reports violations, and can make any call fail. A frame is one colour, a number, so
- * that what is shown can be compared with what was drawn. */
+ * It implements the kernel's rules: DRM master, what an atomic commit must contain, EBUSY while a
+ * flip is pending, removing a visible framebuffer switches the CRTC off. It counts objects, reports
+ * violations, and can make any call fail. A frame is one colour, a number, so that tests can
+ * compare the visible frame with the drawn one. */
 #ifndef GN_KMS_SIM_H
 #define GN_KMS_SIM_H
 
@@ -16,7 +16,7 @@
 
 enum { SIM_CARDS = 2, SIM_CONNECTORS = 2, SIM_CRTCS = 2, SIM_MODES = 4, SIM_BROKEN = 4 };
 
-enum sim_op { /* operations that can fail and are counted */
+enum sim_op { /* operations that are counted and can be made to fail */
 #define X(function, name) SIM_##name,
               GN_DRM_TABLE(X)
 #undef X
@@ -29,13 +29,13 @@ enum sim_op { /* operations that can fail and are counted */
               SIM_OPS
 };
 
-enum sim_stall { /* flips without an event */
+enum sim_stall { /* how flips go wrong: no event comes unless a comment says otherwise */
                  SIM_FLOWS,
                  SIM_STALLS_UNTIL_RELIT,
                  SIM_STALLS_UNTIL_REOPENED,
                  SIM_STALLS,
-                 SIM_LOSES_AN_EVENT, /* one event is lost; the flip itself completes */
-                 SIM_TELLS_LATE,     /* one event is 12.1 s late */
+                 SIM_EVENT_LOST, /* one event is lost; the flip itself completes */
+                 SIM_EVENT_LATE, /* one event is 12.1 s late */
                  SIM_STALL_COUNT
 };
 enum sim_incident { /* incidents between two calls; each is undone after two seconds */
@@ -48,7 +48,7 @@ enum sim_incident { /* incidents between two calls; each is undone after two sec
 };
 
 struct sim_traits { /* of a card; zero is a normal one */
-    bool gpu_alone; /* render only */
+    bool gpu_alone; /* cannot scan out: render only */
     bool legacy;    /* no atomic interface */
     bool no_vblank; /* no vblank: flips complete at once, as with virtio */
     bool modifiers, fences;
@@ -78,16 +78,17 @@ extern const struct gn_scanout_ops sim_gl;
 
 /* A machine without cards, at 100 s. Frees the previous one. */
 void sim_begin(void);
-/* Checks that the program released everything: one complaint for each leak, else 0. */
+/* Reports a violation for each kind of object that the program leaked. Returns the number of
+ * violations. */
 int sim_end(void);
 void sim_add_card(int card, const char *path, const struct sim_traits *traits);
 void sim_set_gpu(const struct sim_gpu *gpu);
 void sim_refuse_mode(struct sim_refusal refusal);
 void sim_allow_modes(void);
 
-/* Monitors: 0 none; `kind` 1.. selects modes and EDID. SIM_TWIN: same modes as SIM_FULL_HD, another
- * monitor. SIM_NO_EDID: connection unknown. SIM_VIEWER and SIM_WIDE_VIEWER have no EDID and the
- * same modes with another preferred one, like a virtual card whose viewer is resized. */
+/* Monitors; each kind has its modes and EDID. SIM_TWIN: another monitor with the modes of
+ * SIM_FULL_HD. SIM_NO_EDID: connection status unknown. SIM_VIEWER and SIM_WIDE_VIEWER have no EDID
+ * and the same modes but different preferred ones, like a virtual card whose viewer is resized. */
 enum {
     SIM_NO_MONITOR,
     SIM_FULL_HD,
@@ -102,12 +103,13 @@ enum {
 void sim_plug(int card, int connector, int kind);
 void sim_break_link(int card, int connector);
 void sim_lose_card(int card);
-/* All object ids are new. NULL: at its old path. */
+/* The card returns with new object ids. NULL: at its old path. */
 void sim_return_card(int card, const char *path);
 void sim_stall(int card, enum sim_stall how);
 void sim_console_takes(int card); /* master is dropped and the text console is shown */
+/* Another process becomes master and shows its own picture. */
 void sim_stranger_takes(int card);
-/* `dark`: and switches its CRTC off. */
+/* `dark`: the other process also switches its CRTC off. */
 void sim_stranger_leaves(int card, bool dark);
 
 /* ---- time ---- */
@@ -116,15 +118,15 @@ int64_t sim_now(void);
 int64_t sim_next(void); /* time of the next event; INT64_MAX: none */
 void sim_run_to(int64_t ns);
 bool sim_readable(int fd);
-bool sim_take_uevent(void); /* whether one was sent since the last call */
+bool sim_take_uevent(void); /* whether a uevent was sent since the last call */
 
 /* ---- failures ---- */
 
-/* The nth call of an op (from 1) and the next `burst` - 1 fail; 0: none. */
+/* The nth call of an op (from 1) and the next `burst` - 1 calls fail; 0: none. */
 void sim_fail(enum sim_op op, long nth, int burst, int error);
-/* Each call fails with a probability of 1 in `often`; 0: never. */
+/* Each call fails with probability 1 / `often`; 0: never. */
 void sim_fail_often(uint64_t seed, unsigned often);
-/* Before the nth call of any op. */
+/* The incident happens before the nth call of any op. */
 void sim_happen(enum sim_incident what, long nth);
 void sim_trace(bool on); /* prints every call */
 const char *sim_op_name(enum sim_op op);
@@ -134,12 +136,12 @@ const char *sim_incident_name(enum sim_incident what);
 
 /* ---- what is visible ---- */
 
-/* Draws the current frame in that colour; legal between begin and present. */
+/* Draws the current frame in that colour; valid between begin and present. */
 void sim_paint(uint32_t colour);
 void sim_paint_copy(uint8_t *pixels, uint32_t colour);
-/* Some connected monitor shows that colour, not covered by an overlay. */
+/* True if a connected monitor shows that colour, not covered by an overlay. */
 bool sim_shows(uint32_t colour);
-/* All connected monitors are off. */
+/* True if all connected monitors are off. */
 bool sim_is_dark(void);
 bool sim_shows_console(int card);
 bool sim_is_master(int fd);
@@ -149,10 +151,10 @@ bool sim_is_master(int fd);
 struct sim_counts {
     long calls[SIM_OPS], all_calls;
     long failed;      /* calls made to fail */
-    long flips, sets; /* completed ones */
+    long flips, sets; /* completed flips and modesets */
     long blinks;      /* modesets that change a CRTC's mode */
     long waits;       /* commits that waited for a flip */
-    /* alive now, and the maximum */
+    /* objects now, and their maximum */
     int files, fbs, blobs, buffers, dumbs, maps, replies, fences_given;
     int most_fbs, most_buffers, most_blobs;
     int complaints;

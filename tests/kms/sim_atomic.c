@@ -68,7 +68,7 @@ static int set_crtc(struct sim_card *card, struct sim_crtc_state *c, const struc
 static int set_fence(struct sim_plane_state *p, uint64_t value) {
     p->fence = (int)value;
     if (p->fence < 0 || fcntl(p->fence, F_GETFD) >= 0) return 0;
-    sim_complain("a fence that is closed");
+    sim_complain("closed fence in a request");
     return EINVAL;
 }
 
@@ -85,7 +85,7 @@ static int set_plane(struct sim_card *card, struct sim_plane_state *p, const str
     switch (property) {
     case SIM_P_FB:
         if (item->value && !sim_fb_find(card, (uint32_t)item->value)) {
-            sim_complain("framebuffer %u is shown and is none", (unsigned)item->value);
+            sim_complain("unknown framebuffer %u in a request", (unsigned)item->value);
             return EINVAL;
         }
         p->fb = (uint32_t)item->value;
@@ -131,7 +131,7 @@ static int commit_flip(struct sim_card *card, const struct sim_state *next, unsi
         if (!(touched >> i & 1)) continue;
         if (!next->crtcs[i].active && flip->user) return EINVAL;
         if (!card->crtcs[i].flip.pending) continue;
-        sim_complain("a commit while a flip is pending");
+        sim_complain("commit while a flip is pending");
         return EBUSY;
     }
     card->state = *next;

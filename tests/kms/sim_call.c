@@ -15,7 +15,7 @@ static struct {
     enum sim_incident incident;
     long incident_at; /* 0: none pending */
     int64_t pass_ns;
-    int card, connector, monitor; /* what it affected */
+    int card, connector, monitor; /* affected by the incident */
 } plan;
 static bool traced;
 
@@ -38,11 +38,11 @@ static const char *const op_names[SIM_OPS] = {
     [SIM_gl_swap] = "eglSwapBuffers",
 };
 static const char *const incident_names[SIM_INCIDENTS] = {
-    [SIM_CARD_GOES] = "the card goes",
-    [SIM_MONITOR_GOES] = "the monitor goes",
-    [SIM_MONITOR_CHANGES] = "another monitor comes",
-    [SIM_MASTER_GOES] = "master goes",
-    [SIM_LINK_GOES_BAD] = "the link goes bad",
+    [SIM_CARD_GOES] = "card lost",
+    [SIM_MONITOR_GOES] = "monitor unplugged",
+    [SIM_MONITOR_CHANGES] = "other monitor plugged",
+    [SIM_MASTER_GOES] = "master lost",
+    [SIM_LINK_GOES_BAD] = "bad link",
 };
 
 enum { ERRORS = 12 };
@@ -196,7 +196,7 @@ struct sim_file *sim_find_file(int fd) {
 
 int sim_index_of(const struct sim_file *file) { return (int)(file - sim.files); }
 
-/* NULL if the card is gone, also when another took its place. */
+/* NULL if the card is gone, even if another one has its place. */
 struct sim_card *sim_card_of(const struct sim_file *file) {
     struct sim_card *card = &sim.cards[file->card];
     return card->present && card->life == file->life ? card : NULL;
@@ -207,7 +207,7 @@ struct sim_file *sim_enter(enum sim_op op, int fd) {
     const int error = errno;
     struct sim_file *file = fd >= SIM_FIRST_FD ? sim_find_file(fd) : NULL;
     if (!file) {
-        sim_complain("%s on descriptor %d, which is not open", op_names[op], fd);
+        sim_complain("%s on closed descriptor %d", op_names[op], fd);
         errno = EBADF;
         return NULL;
     }
@@ -235,7 +235,7 @@ void sim_reply_free(void *bytes) {
     if (!bytes) return;
     struct reply *reply = (struct reply *)((char *)bytes - offsetof(struct reply, bytes));
     if (reply->magic != MAGIC) {
-        sim_complain("a struct of libdrm's is freed twice");
+        sim_complain("libdrm struct freed twice");
         return;
     }
     reply->magic = 0;

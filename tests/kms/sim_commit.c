@@ -1,4 +1,4 @@
-/* Commits: the rules they must obey, and pending flips. */
+/* Commits: their rules, and pending flips. */
 #include <drm_fourcc.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -9,7 +9,7 @@
 /* ---- flips ---- */
 
 bool sim_is_stalled(const struct sim_crtc *c) {
-    return c->stall != SIM_FLOWS && c->stall != SIM_LOSES_AN_EVENT && c->stall != SIM_TELLS_LATE;
+    return c->stall != SIM_FLOWS && c->stall != SIM_EVENT_LOST && c->stall != SIM_EVENT_LATE;
 }
 
 static int64_t period_ns(const drmModeModeInfo *m) {
@@ -20,7 +20,7 @@ static void tell(struct sim_card *card, int crtc, const struct sim_flip *flip, i
     struct sim_file *f = flip->file >= 0 ? &sim.files[flip->file] : NULL;
     if (!f || !flip->user) return;
     if (f->event_count == SIM_EVENTS) {
-        sim_complain("more than %d events are not read", SIM_EVENTS);
+        sim_complain("more than %d unread events", SIM_EVENTS);
         return;
     }
     const int64_t since_ns = ns - card->crtcs[crtc].lit_ns;
@@ -42,12 +42,12 @@ void sim_finish_flip(struct sim_card *card, int crtc) {
     c->shown = flip.fb;
     sim_counts.flips++;
     if (c->stall == SIM_FLOWS) tell(card, crtc, &flip, sim.now_ns);
-    if (c->stall == SIM_TELLS_LATE) {
+    if (c->stall == SIM_EVENT_LATE) {
         sim.late.flip = flip;
         sim.late.flip.done_ns = sim.now_ns + 12100 * SIM_MS;
         sim.late.card = (int)(card - sim.cards), sim.late.crtc = crtc;
     }
-    if (c->stall == SIM_LOSES_AN_EVENT || c->stall == SIM_TELLS_LATE) c->stall = SIM_FLOWS;
+    if (c->stall == SIM_EVENT_LOST || c->stall == SIM_EVENT_LATE) c->stall = SIM_FLOWS;
 }
 
 void sim_tell_late(void) {
@@ -307,9 +307,9 @@ static int page_flip(int fd, uint32_t id, uint32_t fb_id, uint32_t flags, void *
     if (fb->format != old->format) return -EINVAL;
     for (int i = 0; i < SIM_CONNECTORS; i++)
         if (card->state.connectors[i].crtc == crtc && card->state.connectors[i].asleep)
-            sim_complain("a page flip while the monitor sleeps");
+            sim_complain("page flip while the monitor sleeps");
     if (card->crtcs[crtc].flip.pending) {
-        sim_complain("a page flip while a flip is pending");
+        sim_complain("page flip while a flip is pending");
         return -EBUSY;
     }
     card->state.planes[crtc].fb = fb_id;
@@ -337,7 +337,7 @@ static int handle_event(int fd, drmEventContextPtr context) {
     if (!f) return -1;
     errno = EAGAIN;
     if (f->event_count == 0) return -1;
-    if (context->version < 3 || !context->page_flip_handler2) sim_complain("no handler of flips");
+    if (context->version < 3 || !context->page_flip_handler2) sim_complain("no page flip handler");
     struct sim_event all[SIM_EVENTS];
     const int count = f->event_count;
     memcpy(all, f->events, sizeof all);

@@ -1,4 +1,4 @@
-/* A GPU that draws colours as numbers: contexts, surfaces of four buffers, frames. */
+/* A GPU whose frames are colours: contexts, surfaces of four buffers, frames. */
 #include <drm_fourcc.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -31,7 +31,7 @@ static void *open_context(int fd, const char *render_node, struct gn_err *err) {
         gn_fail(err, "GL does not start");
         return NULL;
     }
-    if (current) sim_complain("a second context");
+    if (current) sim_complain("second GL context");
     current = calloc(1, sizeof *current);
     if (!current) abort();
     current->fd = fd;
@@ -54,9 +54,9 @@ static void drop_surface(void *state) {
     struct context *c = check(state, "drop_surface");
     if (!c || !c->has_surface) return;
     struct sim_file *f = sim_find_file(c->fd);
-    if (!f) sim_complain("a surface outlives its card");
+    if (!f) sim_complain("surface outlives its card");
     for (int i = 0; i < BUFFERS; i++) {
-        if (c->buffers[i].locked) sim_complain("a surface is dropped of which a buffer is held");
+        if (c->buffers[i].locked) sim_complain("surface destroyed with a locked buffer");
         if (f) sim_handle_close(f, c->buffers[i].handle);
         sim_bo_unref(c->buffers[i].bo);
         c->buffers[i] = (struct buffer){0};
@@ -70,7 +70,7 @@ static bool set_surface(void *state, const struct gn_surface_opts *o, struct gn_
     if (!c) return gn_fail(err, "no context");
     drop_surface(c);
     if (o->fallback >= GN_FALLBACK_COPY || o->width_px == 0 || o->format_count == 0)
-        sim_complain("a surface of nothing");
+        sim_complain("surface without size or format");
     struct sim_file *f = sim_enter(SIM_gl_surface, c->fd);
     const bool unlisted = o->fallback == GN_FALLBACK_MODIFIERS && o->modifier_count == 0;
     if (!f || unlisted || sim.gpu.no_surface[o->fallback]) return gn_fail(err, "no such surface");
@@ -100,7 +100,7 @@ static bool swap(void *state, bool want_fence, struct gn_buffer *out, int *fence
     struct context *c = check(state, "swap");
     struct buffer *b = c ? back_buffer(c) : NULL;
     *fence = -1;
-    if (!b) sim_complain("a frame without a buffer");
+    if (!b) sim_complain("frame without a buffer");
     if (sim_fails(SIM_gl_swap) || !b) return gn_fail(err, "eglSwapBuffers failed");
     b->locked = true;
     *out = (struct gn_buffer){.key = b,
@@ -123,7 +123,7 @@ static void release(void *state, void *key) {
         c->buffers[i].locked = false;
         return;
     }
-    sim_complain("a buffer is released that is not held");
+    sim_complain("released buffer was not locked");
 }
 
 static bool has_free(void *state) {
@@ -159,7 +159,7 @@ void sim_gl_reset(void) {
 
 /* ---- painting ---- */
 
-/* While flips are stalled, it is undefined which buffer is shown. */
+/* While flips are stalled, the visible buffer is undefined. */
 static bool is_stalled(const struct sim_crtc *c) {
     return c->stall != SIM_FLOWS ||
            (c->flip.pending && sim.now_ns - c->flip.committed_ns > 250 * SIM_MS);
@@ -171,16 +171,16 @@ static void check_unseen(const struct sim_bo *bo) {
         for (int i = 0; i < SIM_CRTCS; i++) {
             const struct sim_crtc *c = &sim.cards[n].crtcs[i];
             if (!sim.cards[n].state.crtcs[i].active || is_stalled(c)) continue;
-            if (c->shown && c->shown->bo == bo) sim_complain("what is shown is painted over");
+            if (c->shown && c->shown->bo == bo) sim_complain("draws into the visible buffer");
             if (c->flip.pending && c->flip.fb && c->flip.fb->bo == bo)
-                sim_complain("what is about to be shown is painted over");
+                sim_complain("draws into a queued buffer");
         }
 }
 
 void sim_paint(uint32_t colour) {
     struct buffer *b = current ? back_buffer(current) : NULL;
     if (!b) {
-        sim_complain("painted, and there is no buffer");
+        sim_complain("draws without a buffer");
         return;
     }
     check_unseen(b->bo);
@@ -197,5 +197,5 @@ void sim_paint_copy(uint8_t *pixels, uint32_t colour) {
             memcpy(pixels + h->bo->size - sizeof colour, &colour, sizeof colour);
             return;
         }
-    sim_complain("a copy goes nowhere");
+    sim_complain("copy into unmapped memory");
 }

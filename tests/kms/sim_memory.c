@@ -1,4 +1,4 @@
-/* Memory and its references: files with handles, framebuffers, blobs, mappings. */
+/* Memory and references to it: files with handles, framebuffers, blobs, mappings. */
 #include <drm_fourcc.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -95,7 +95,7 @@ void sim_fb_unref(struct sim_fb *fb) {
     *fb = (struct sim_fb){0};
 }
 
-/* As drm_framebuffer_remove(): switches off what shows it. */
+/* Like drm_framebuffer_remove(): switches off the CRTCs and planes that show it. */
 void sim_fb_remove(struct sim_card *card, struct sim_fb *fb) {
     struct sim_state next = card->state;
     bool dark = false;
@@ -126,7 +126,7 @@ static int add_fb(struct sim_file *file, uint32_t width, uint32_t height, uint32
     struct sim_card *card = sim_card_of(file);
     const struct sim_handle *h = find_handle(file, handles[0]);
     if (!h) {
-        sim_complain("a framebuffer of memory that is gone");
+        sim_complain("framebuffer of a freed buffer");
         return -ENOENT;
     }
     if (!format_is_known(format) || width > h->bo->width_px || height > h->bo->height_px)
@@ -170,7 +170,7 @@ static int rm_fb(int fd, uint32_t id) {
     struct sim_card *card = card_of_fd(fd, &file);
     struct sim_fb *fb = card ? sim_fb_find(card, id) : NULL;
     if (card && (!fb || fb->file != file || fb->asked))
-        sim_complain("framebuffer %u is removed and is none of ours", id);
+        sim_complain("removes unknown framebuffer %u", id);
     if (fb && !ok) fb->asked = true;
     if (!ok) return -error;
     if (!fb || fb->file != file) return -ENOENT;
@@ -210,7 +210,7 @@ static int destroy_blob(int fd, uint32_t id) {
     struct sim_card *card = card_of_fd(fd, &file);
     struct sim_blob *blob = card ? sim_blob_find(card, id) : NULL;
     if (card && (!blob || blob->file != file || blob->asked))
-        sim_complain("blob %u is destroyed and is none of ours", id);
+        sim_complain("destroys unknown blob %u", id);
     if (blob && !ok) blob->asked = true;
     if (!ok) return -error;
     if (!blob) return -ENOENT;
@@ -232,14 +232,14 @@ static int create_dumb(struct sim_file *file, struct drm_mode_create_dumb *d) {
 
 static int map_dumb(struct sim_file *file, struct drm_mode_map_dumb *d) {
     const struct sim_handle *h = find_handle(file, d->handle);
-    if (!h || !h->dumb) sim_complain("a dumb buffer is mapped that is none");
+    if (!h || !h->dumb) sim_complain("maps an unknown dumb buffer");
     d->offset = (uint64_t)d->handle << 12;
     return h ? 0 : ENOENT;
 }
 
 static int destroy_dumb(struct sim_file *file, const struct drm_mode_destroy_dumb *d, bool ok) {
     struct sim_handle *h = find_handle(file, d->handle);
-    if (!h || !h->dumb || h->asked) sim_complain("a dumb buffer is destroyed that is none");
+    if (!h || !h->dumb || h->asked) sim_complain("destroys an unknown dumb buffer");
     if (h && !ok) h->asked = true;
     if (ok) sim_handle_close(file, d->handle);
     return h ? 0 : ENOENT;
@@ -273,20 +273,20 @@ static void *map(int fd, uint64_t offset, size_t size) {
         sim_counts.maps++;
         return h->bo->pixels;
     }
-    if (file) sim_complain("a mapping of nothing, or more than 16");
+    if (file) sim_complain("invalid mapping, or more than 16");
     return NULL;
 }
 
 static void unmap(void *memory, size_t size) {
     for (int i = 0; i < 16; i++) {
         if (!maps[i].bo || maps[i].bo->pixels != memory) continue;
-        if (maps[i].size != size) sim_complain("another size is unmapped than was mapped");
+        if (maps[i].size != size) sim_complain("unmapped size differs from mapped size");
         sim_bo_unref(maps[i].bo);
         maps[i].bo = NULL;
         sim_counts.maps--;
         return;
     }
-    sim_complain("memory is unmapped that is not mapped");
+    sim_complain("unmaps memory that is not mapped");
 }
 
 /* ---- files ---- */
@@ -318,12 +318,12 @@ static void close_objects(struct sim_card *card, int file) {
     }
     for (int i = 0; i < SIM_FBS; i++) {
         if (!card->fbs[i].id || card->fbs[i].file != file) continue;
-        if (!card->fbs[i].asked) sim_complain("a framebuffer is left when the card is closed");
+        if (!card->fbs[i].asked) sim_complain("framebuffer leaked at close");
         sim_fb_remove(card, &card->fbs[i]);
     }
     for (int i = 0; i < SIM_BLOBS; i++) {
         if (!card->blobs[i].id || card->blobs[i].file != file) continue;
-        if (!card->blobs[i].asked) sim_complain("a blob is left when the card is closed");
+        if (!card->blobs[i].asked) sim_complain("blob leaked at close");
         card->blobs[i].id = 0;
         sim_counts.blobs--;
     }
@@ -332,11 +332,11 @@ static void close_objects(struct sim_card *card, int file) {
 void sim_file_close(struct sim_file *file) {
     struct sim_card *card = sim_card_of(file);
     const int index = sim_index_of(file);
-    if (file->scanouts > 0) sim_complain("a card is closed under GL");
+    if (file->scanouts > 0) sim_complain("card closed while GL uses it");
     if (card) close_objects(card, index);
     for (int i = 0; i < SIM_HANDLES; i++) {
         if (!file->handles[i].number) continue;
-        if (!file->handles[i].asked) sim_complain("a buffer is left when the card is closed");
+        if (!file->handles[i].asked) sim_complain("buffer leaked at close");
         sim_handle_close(file, file->handles[i].number);
     }
     if (card && card->master == index) card->master = SIM_NOBODY;
@@ -350,7 +350,7 @@ static void close_card(int fd) {
     if (file)
         sim_file_close(file);
     else
-        sim_complain("descriptor %d is closed and is not open", fd);
+        sim_complain("closes closed descriptor %d", fd);
 }
 
 void sim_fill_memory(struct gn_drm_ops *ops) {

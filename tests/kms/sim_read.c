@@ -1,4 +1,4 @@
-/* Queries: a card's objects, their properties, and who is master. */
+/* Queries: the objects of a card, their properties, and DRM master. */
 #include <drm_fourcc.h>
 #include <errno.h>
 #include <stdio.h>
@@ -173,7 +173,7 @@ static drmModePropertyPtr property(int fd, uint32_t id) {
     return p;
 }
 
-/* They differ in the serial number only. */
+/* EDIDs of kinds of monitors differ in the serial number only. */
 static drmModePropertyBlobPtr edid_blob(uint32_t id, int kind) {
     struct reply {
         drmModePropertyBlobRes blob;

@@ -55,7 +55,7 @@ struct sim_fb {
     uint32_t id; /* 0: removed but still shown */
     int refs;
     int file;   /* owner, or SIM_CONSOLE.. */
-    bool asked; /* removal was requested while shown */
+    bool asked; /* removal was requested while visible */
     struct sim_bo *bo;
     uint32_t width_px, height_px, format;
 };
@@ -107,7 +107,7 @@ struct sim_card {
     bool there, present; /* there: the card was added */
     char path[64], place[96];
     struct sim_traits traits;
-    unsigned life; /* counts how often it was added */
+    unsigned life; /* how often it was added */
     uint32_t base; /* of its object ids */
     uint32_t next_id;
     int master;
@@ -155,7 +155,7 @@ struct sim_world {
 };
 extern struct sim_world sim;
 
-/* sim_call.c: entry of every call; NULL or true: the call fails with errno set. */
+/* sim_call.c: entry of every call. Returns NULL or true if the call fails, with errno set. */
 struct sim_file *sim_enter(enum sim_op op, int fd);
 bool sim_fails(enum sim_op op);
 void sim_call_reset(void);
@@ -201,7 +201,7 @@ void sim_tell_late(void);
 bool sim_is_stalled(const struct sim_crtc *crtc);
 void sim_wait_for_flips(struct sim_card *card);
 struct sim_file *sim_enter_as_master(enum sim_op op, int fd);
-void sim_refresh(struct sim_card *card); /* updates what is shown from the committed state */
+void sim_refresh(struct sim_card *card); /* updates the visible framebuffers from the state */
 
 /* Fill the drm table's functions, one per file. */
 void sim_fill_read(struct gn_drm_ops *ops);

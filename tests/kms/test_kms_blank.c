@@ -1,5 +1,5 @@
-/* Blanking: the screen stays dark through all events, never fails however long it takes, and
- * returns at once. */
+/* Blanking: the screen stays dark through all events, does not fail over time, and returns at once.
+ */
 #include <errno.h>
 #include <stdlib.h>
 
@@ -12,7 +12,7 @@ static const struct client_kind kinds[] = {
     {.name = "atomic", .traits = {.console = true}},
     {.name = "fences", .traits = {.console = true, .modifiers = true, .fences = true}},
     {.name = "legacy", .traits = {.console = true, .legacy = true}},
-    {.name = "legacy, asked for", .opts = {.legacy = true}},
+    {.name = "legacy by option", .opts = {.legacy = true}},
     {.name = "no vblank", .traits = {.no_vblank = true}},
     {.name = "copies", .gpu = {.no_surface = {true, true, true}}},
 };
@@ -23,7 +23,7 @@ static void end(const struct client_kind *kind) { client_end(&c, kind); }
 
 static void expect_dark(const struct client_kind *kind) {
     const struct gn_screen *s = client_screen(&c);
-    if (!sim_is_dark()) fail_msg("%s: it is not dark: %s", kind->name, s->status);
+    if (!sim_is_dark()) fail_msg("%s: screen not dark: %s", kind->name, s->status);
     assert_true(s->blank);
     assert_false(s->lit || s->may_draw);
 }
@@ -31,12 +31,12 @@ static void expect_dark(const struct client_kind *kind) {
 static void expect_right(const struct client_kind *kind) {
     int64_t took_ns;
     if (!client_settle(&c, SIM_S, &took_ns))
-        fail_msg("%s: no right picture: %s", kind->name, client_screen(&c)->status);
+        fail_msg("%s: wrong picture: %s", kind->name, client_screen(&c)->status);
     assert_false(client_screen(&c)->blank);
 }
 
-/* Much longer than the recovery of a lost flip takes. */
-static void test_a_night(void **state) {
+/* Much longer than the recovery from a lost flip. */
+static void test_long_blank(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
         begin(&kinds[i], SIM_FULL_HD);
@@ -55,7 +55,7 @@ static void test_a_night(void **state) {
         assert_int_equal(client_screen(&c)->counts.opened, opened);
         const uint32_t last = c.colour;
         client_blank(&c, false);
-        if (!sim_shows(last)) fail_msg("%s: not at once", kinds[i].name);
+        if (!sim_shows(last)) fail_msg("%s: last frame not shown at once", kinds[i].name);
         assert_true(client_screen(&c)->lit);
         expect_right(&kinds[i]);
         assert_int_equal(client_screen(&c)->counts.stalled, 0);
@@ -63,7 +63,7 @@ static void test_a_night(void **state) {
     }
 }
 
-static void test_in_the_middle_of_a_flip(void **state) {
+static void test_blank_during_flip(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++)
         for (int64_t at = 0; at < 20; at++) {
@@ -82,7 +82,7 @@ static void test_in_the_middle_of_a_flip(void **state) {
 }
 
 /* The pending flip gets no event. */
-static void test_a_flip_that_is_lost_is_no_failure_now(void **state) {
+static void test_blank_after_lost_flip(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
         begin(&kinds[i], SIM_FULL_HD);
@@ -101,7 +101,7 @@ static void test_a_flip_that_is_lost_is_no_failure_now(void **state) {
     }
 }
 
-static void test_monitors_come_and_go(void **state) {
+static void test_hotplug_while_blank(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
         begin(&kinds[i], SIM_FULL_HD);
@@ -129,7 +129,7 @@ static void test_monitors_come_and_go(void **state) {
     }
 }
 
-static void test_consoles_come_and_go(void **state) {
+static void test_console_switches_while_blank(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
         begin(&kinds[i], SIM_FULL_HD);
@@ -160,7 +160,7 @@ static void test_consoles_come_and_go(void **state) {
     }
 }
 
-static void test_the_card_comes_and_goes(void **state) {
+static void test_lost_card_while_blank(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
         begin(&kinds[i], SIM_FULL_HD);
@@ -177,7 +177,7 @@ static void test_the_card_comes_and_goes(void **state) {
     }
 }
 
-static void test_before_anything_was_seen(void **state) {
+static void test_blank_before_first_frame(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
         begin(&kinds[i], SIM_NO_MONITOR);
@@ -192,7 +192,7 @@ static void test_before_anything_was_seen(void **state) {
     }
 }
 
-static void test_at_the_end_the_console_is_seen(void **state) {
+static void test_end_restores_console(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
         if (!kinds[i].traits.console) continue;
@@ -207,8 +207,8 @@ static void test_at_the_end_the_console_is_seen(void **state) {
     }
 }
 
-/* The screen ends dark whatever commits were refused. */
-static void test_the_kernel_refuses_for_a_while(void **state) {
+/* Refused commits are retried until the screen is dark. */
+static void test_blank_refused_temporarily(void **state) {
     (void)state;
     static const int errors[] = {EBUSY, EINTR, ENOMEM, EACCES, EINVAL, ENOSPC, ENODEV};
     for (int i = 0; i < KINDS; i++)
@@ -230,15 +230,15 @@ static void test_the_kernel_refuses_for_a_while(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_night),
-        cmocka_unit_test(test_in_the_middle_of_a_flip),
-        cmocka_unit_test(test_a_flip_that_is_lost_is_no_failure_now),
-        cmocka_unit_test(test_monitors_come_and_go),
-        cmocka_unit_test(test_consoles_come_and_go),
-        cmocka_unit_test(test_the_card_comes_and_goes),
-        cmocka_unit_test(test_before_anything_was_seen),
-        cmocka_unit_test(test_at_the_end_the_console_is_seen),
-        cmocka_unit_test(test_the_kernel_refuses_for_a_while),
+        cmocka_unit_test(test_long_blank),
+        cmocka_unit_test(test_blank_during_flip),
+        cmocka_unit_test(test_blank_after_lost_flip),
+        cmocka_unit_test(test_hotplug_while_blank),
+        cmocka_unit_test(test_console_switches_while_blank),
+        cmocka_unit_test(test_lost_card_while_blank),
+        cmocka_unit_test(test_blank_before_first_frame),
+        cmocka_unit_test(test_end_restores_console),
+        cmocka_unit_test(test_blank_refused_temporarily),
     };
     return RUN(tests);
 }

@@ -19,7 +19,7 @@ static void end(void) {
     assert_int_equal(sim_end(), 0);
 }
 
-static void test_without_a_monitor_it_may_go_as_often_as_it_likes(void **state) {
+static void test_repeated_loss_without_monitor(void **state) {
     (void)state;
     begin(SIM_NO_MONITOR, &(struct gn_screen_opts){0});
     for (int i = 0; i < 10; i++) {
@@ -32,8 +32,8 @@ static void test_without_a_monitor_it_may_go_as_often_as_it_likes(void **state) 
     end();
 }
 
-/* Opening a card without a master makes the opener master. */
-static void test_one_that_returns_is_left_to_who_has_the_console(void **state) {
+/* The kernel makes the process that opens a card without a master its master. */
+static void test_no_master_on_another_console(void **state) {
     (void)state;
     begin(SIM_FULL_HD, &(struct gn_screen_opts){0});
     client_leave_console(&c);
@@ -56,7 +56,7 @@ static void expect_taken(const char *card) {
     end();
 }
 
-static void test_by_any_of_its_names(void **state) {
+static void test_select_by_name(void **state) {
     (void)state;
     expect_taken("/dev/dri/card0");
     expect_taken("platform-gpu0");
@@ -64,8 +64,8 @@ static void test_by_any_of_its_names(void **state) {
     expect_taken("/dev/dri/by-path/platform-gpu0-card");
 }
 
-/* udev creates such links in /dev/dri/by-path; their names need not match the card's place. */
-static void test_by_a_link_to_it(void **state) {
+/* udev creates such links in /dev/dri/by-path; their names may differ from the card's `place`. */
+static void test_select_by_link(void **state) {
     (void)state;
     char folder[] = "/tmp/gnomon-cards-XXXXXX", node[80], link[80], other[80];
     assert_non_null(mkdtemp(folder));
@@ -93,8 +93,8 @@ static void test_by_a_link_to_it(void **state) {
     rmdir(folder);
 }
 
-/* The mode set by firmware or console is kept, even if another one is preferred. */
-static void test_the_mode_in_use_is_kept_at_the_start(void **state) {
+/* The mode set by firmware or console is kept, even if another mode is preferred. */
+static void test_start_keeps_current_mode(void **state) {
     (void)state;
     begin(SIM_WIDE_VIEWER, &(struct gn_screen_opts){0});
     assert_true(client_screen(&c)->lit);
@@ -102,7 +102,7 @@ static void test_the_mode_in_use_is_kept_at_the_start(void **state) {
     end();
 }
 
-static void test_one_that_is_not_there_is_named(void **state) {
+static void test_missing_card_is_named(void **state) {
     (void)state;
     begin(SIM_FULL_HD, &(struct gn_screen_opts){.card = "platform-gpu7-card"});
     assert_string_equal(client_screen(&c)->status,
@@ -124,15 +124,15 @@ static void expect_a_wait(int error) {
     }
 }
 
-/* A framebuffer refused temporarily is retried: no smaller mode, no copy. */
-static void test_a_framebuffer_that_is_refused_for_a_moment(void **state) {
+/* A temporarily refused framebuffer is retried: no smaller mode, no copy. */
+static void test_framebuffer_refused_temporarily(void **state) {
     (void)state;
     expect_a_wait(ENOMEM);
     expect_a_wait(EBUSY);
 }
 
 /* Containers receive no uevents. */
-static void test_without_uevents_it_looks_by_itself(void **state) {
+static void test_polling_without_uevents(void **state) {
     (void)state;
     client_has_uevents(false);
     begin(SIM_FULL_HD, &(struct gn_screen_opts){0});
@@ -151,14 +151,14 @@ static void test_without_uevents_it_looks_by_itself(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_without_a_monitor_it_may_go_as_often_as_it_likes),
-        cmocka_unit_test(test_one_that_returns_is_left_to_who_has_the_console),
-        cmocka_unit_test(test_by_any_of_its_names),
-        cmocka_unit_test(test_by_a_link_to_it),
-        cmocka_unit_test(test_the_mode_in_use_is_kept_at_the_start),
-        cmocka_unit_test(test_one_that_is_not_there_is_named),
-        cmocka_unit_test(test_a_framebuffer_that_is_refused_for_a_moment),
-        cmocka_unit_test(test_without_uevents_it_looks_by_itself),
+        cmocka_unit_test(test_repeated_loss_without_monitor),
+        cmocka_unit_test(test_no_master_on_another_console),
+        cmocka_unit_test(test_select_by_name),
+        cmocka_unit_test(test_select_by_link),
+        cmocka_unit_test(test_start_keeps_current_mode),
+        cmocka_unit_test(test_missing_card_is_named),
+        cmocka_unit_test(test_framebuffer_refused_temporarily),
+        cmocka_unit_test(test_polling_without_uevents),
     };
     return RUN(tests);
 }

@@ -15,7 +15,7 @@
 #include "core/clock.h"
 #include "scenes.h"
 
-enum { BAD_MAX = 20 }; /* stops printing */
+enum { BAD_MAX = 20 }; /* failures after which no more scenarios run */
 
 struct fault {
     enum sim_op op;
@@ -37,7 +37,7 @@ static void prepare(void *context) {
         sim_fail(f->op, f->nth, f->burst, f->error);
 }
 
-/* The text before the colon reproduces it. */
+/* The text before the colon is the arguments that reproduce the failure. */
 static void tell(const struct scene *scene, const struct fault *f, const char *complaint) {
     const int number = (int)(scene - scenes);
     total.bad++;
@@ -62,7 +62,7 @@ static void run(const struct scene *scene, struct fault *f) {
     if (e.took_ns > *slowest_ns && !scene->may_give_up) *slowest_ns = e.took_ns;
     total.given_up += e.gave_up;
     const bool may_give_up = scene->may_give_up || (f && f->burst > 1);
-    if (e.gave_up && !may_give_up && !e.complaint[0]) tell(scene, f, "it gave up");
+    if (e.gave_up && !may_give_up && !e.complaint[0]) tell(scene, f, "gave up");
     if (e.complaint[0]) tell(scene, f, e.complaint);
 }
 
@@ -98,7 +98,7 @@ static void run_scene(const struct scene *scene, bool full) {
 static enum sim_op op_of(const char *name) {
     for (int op = 0; op < SIM_OPS; op++)
         if (strcmp(sim_op_name(op), name) == 0) return op;
-    printf("there is no %s\n", name);
+    printf("unknown operation %s\n", name);
     exit(2);
 }
 

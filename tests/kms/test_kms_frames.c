@@ -1,4 +1,4 @@
-/* Many frames in a row on virtual time: no growth, no allocation, no missed refresh. */
+/* Many frames on virtual time: no memory growth, no allocation, no missed refresh. */
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,12 +28,12 @@ static size_t bytes_in_use(void) {
     return info.uordblks + info.hblkhd;
 }
 
-/* Returns 0, or 1 and prints what was wrong. */
+/* Returns 0, or 1 after printing the failure. */
 static int check(const struct kind *kind, long frames, size_t grown, unsigned long allocations,
                  const struct gn_screen_counts *counts) {
     const char *wrong = sim_complaint();
     if (!wrong[0] && grown > MOST_GROWTH) wrong = "memory grows";
-    if (!wrong[0] && allocations > 0) wrong = "it allocates";
+    if (!wrong[0] && allocations > 0) wrong = "allocations in the frame loop";
     if (!wrong[0] && counts->missed > 0) wrong = "refreshes are missed";
     if (!wrong[0] && counts->shown < (uint64_t)frames) wrong = "not all frames are shown";
     if (wrong[0]) printf("FAIL  %s: %s\n", kind->name, wrong);
@@ -62,7 +62,7 @@ static int run(const struct kind *kind, long frames) {
     const size_t now = bytes_in_use(), grown = now > bytes ? now - bytes : 0;
     const double seconds = (double)(sim_now() - virtual_ns) / 1e9;
     const unsigned long asked = gn_alloc_count() - allocations;
-    if (!client_settle(&c, 5 * SIM_S, &took_ns)) sim_complain("no right picture at the end");
+    if (!client_settle(&c, 5 * SIM_S, &took_ns)) sim_complain("wrong picture at the end");
     struct gn_screen_counts counts = client_screen(&c)->counts;
     counts.shown -= shown;
     const long calls = sim_counts.all_calls;

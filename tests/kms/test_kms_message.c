@@ -1,4 +1,4 @@
-/* A message in place of frames: it waits for no flip, survives all events, and ends on request. */
+/* A message instead of frames: it waits for no flip, survives all events, and ends on request. */
 #include <errno.h>
 #include <string.h>
 
@@ -26,7 +26,7 @@ static void say(const char *text) {
 }
 
 static void expect_notice(const struct client_kind *kind, const char *text) {
-    if (!sim_shows(GROUND)) fail_msg("%s: no text is seen", kind->name);
+    if (!sim_shows(GROUND)) fail_msg("%s: message not visible", kind->name);
     assert_string_equal(client_screen(&c)->status, text);
     assert_false(client_screen(&c)->may_draw);
 }
@@ -34,11 +34,11 @@ static void expect_notice(const struct client_kind *kind, const char *text) {
 static void expect_right(const struct client_kind *kind) {
     int64_t took_ns;
     if (!client_settle(&c, SIM_S, &took_ns))
-        fail_msg("%s: no right picture: %s", kind->name, client_screen(&c)->status);
+        fail_msg("%s: wrong picture: %s", kind->name, client_screen(&c)->status);
 }
 
 /* At every millisecond of two refreshes. */
-static void test_it_waits_for_no_flip(void **state) {
+static void test_message_waits_for_no_flip(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++)
         for (int64_t at = 0; at < 40; at++) {
@@ -57,7 +57,7 @@ static void test_it_waits_for_no_flip(void **state) {
         }
 }
 
-static void test_one_after_another(void **state) {
+static void test_successive_messages(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
         begin(&kinds[i]);
@@ -67,7 +67,7 @@ static void test_one_after_another(void **state) {
         expect_notice(&kinds[i], "two");
         say("three");
         say(NULL);
-        say(NULL); /* there is none */
+        say(NULL); /* without a message */
         expect_right(&kinds[i]);
         say(NULL);
         expect_right(&kinds[i]);
@@ -75,7 +75,7 @@ static void test_one_after_another(void **state) {
     }
 }
 
-static void test_it_stays_through_much(void **state) {
+static void test_message_survives_events(void **state) {
     (void)state;
     for (int i = 0; i < KINDS; i++) {
         begin(&kinds[i]);
@@ -108,8 +108,8 @@ static void test_it_stays_through_much(void **state) {
     }
 }
 
-/* Its event never comes: recovery ends it, then the text is shown. */
-static void test_after_a_flip_that_is_lost(void **state) {
+/* The flip's event never comes: after the recovery the message is shown. */
+static void test_message_after_lost_flip(void **state) {
     (void)state;
     begin(&kinds[0]);
     sim_stall(0, SIM_STALLS_UNTIL_RELIT);
@@ -123,7 +123,7 @@ static void test_after_a_flip_that_is_lost(void **state) {
 }
 
 /* Without GL the reason is shown until GL starts. */
-static void test_without_gl(void **state) {
+static void test_message_without_gl(void **state) {
     (void)state;
     sim_begin();
     sim_set_gpu(&(struct sim_gpu){.no_gl = true});
@@ -147,11 +147,11 @@ static void test_without_gl(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_it_waits_for_no_flip),
-        cmocka_unit_test(test_one_after_another),
-        cmocka_unit_test(test_it_stays_through_much),
-        cmocka_unit_test(test_after_a_flip_that_is_lost),
-        cmocka_unit_test(test_without_gl),
+        cmocka_unit_test(test_message_waits_for_no_flip),
+        cmocka_unit_test(test_successive_messages),
+        cmocka_unit_test(test_message_survives_events),
+        cmocka_unit_test(test_message_after_lost_flip),
+        cmocka_unit_test(test_message_without_gl),
     };
     return RUN(tests);
 }

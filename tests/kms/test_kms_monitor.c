@@ -1,4 +1,4 @@
-/* Which mode a monitor gets after another one, or after itself. */
+/* The mode of a monitor that is plugged again, or after another one. */
 #include <errno.h>
 #include <string.h>
 
@@ -35,7 +35,7 @@ static void begin_with_second_mode(void) {
     expect_width(64);
 }
 
-static void test_the_same_one_keeps_its_mode_and_does_not_blink(void **state) {
+static void test_same_monitor_keeps_mode(void **state) {
     (void)state;
     begin_with_second_mode();
     const long blinks = sim_counts.blinks;
@@ -47,7 +47,7 @@ static void test_the_same_one_keeps_its_mode_and_does_not_blink(void **state) {
     end();
 }
 
-static void test_another_one_gets_what_it_prefers(void **state) {
+static void test_other_monitor_gets_preferred_mode(void **state) {
     (void)state;
     begin_with_second_mode();
     sim_plug(0, 0, SIM_NO_MONITOR);
@@ -57,8 +57,8 @@ static void test_another_one_gets_what_it_prefers(void **state) {
     end();
 }
 
-/* As after a reload that keeps the display: the names it was opened with are gone. */
-static void test_names_need_not_outlive_the_opening(void **state) {
+/* The caller's option strings are gone, as after a reload that keeps the display. */
+static void test_names_are_copied(void **state) {
     (void)state;
     char name[] = "HDMI-A-1", card[] = "/dev/dri/card0";
     begin(SIM_FULL_HD, &(struct gn_screen_opts){.connector = name, .card = card});
@@ -72,7 +72,7 @@ static void test_names_need_not_outlive_the_opening(void **state) {
     end();
 }
 
-static void test_another_one_in_a_moment(void **state) {
+static void test_fast_change_of_monitor(void **state) {
     (void)state;
     begin_with_second_mode();
     sim_plug(0, 0, SIM_TWIN);
@@ -80,8 +80,8 @@ static void test_another_one_in_a_moment(void **state) {
     end();
 }
 
-/* The twin's mode was refused too: a returning monitor must not take over the other one's. */
-static void test_a_mode_belongs_to_the_one_it_was_lit_for(void **state) {
+/* The twin's mode was refused too: the twin must not inherit the other monitor's mode. */
+static void test_mode_belongs_to_monitor(void **state) {
     (void)state;
     begin_with_second_mode();
     sim_stranger_takes(0);
@@ -97,7 +97,7 @@ static void test_a_mode_belongs_to_the_one_it_was_lit_for(void **state) {
     end();
 }
 
-static void test_without_edid_by_what_it_prefers(void **state) {
+static void test_preferred_mode_without_edid(void **state) {
     (void)state;
     begin(SIM_VIEWER, &(struct gn_screen_opts){0});
     expect_width(64);
@@ -114,7 +114,7 @@ static void test_without_edid_by_what_it_prefers(void **state) {
     end();
 }
 
-static void test_what_is_configured_holds(void **state) {
+static void test_configured_mode_is_kept(void **state) {
     (void)state;
     begin(SIM_FULL_HD, &(struct gn_screen_opts){.mode_width = 64, .mode_height = 48});
     expect_width(64);
@@ -127,7 +127,7 @@ static void test_what_is_configured_holds(void **state) {
     end();
 }
 
-static void test_a_cap_on_what_is_chosen_unasked(void **state) {
+static void test_cap_of_automatic_mode(void **state) {
     (void)state;
     begin(SIM_FULL_HD, &(struct gn_screen_opts){.cap_width = 64, .cap_height = 48});
     expect_width(64);
@@ -137,7 +137,7 @@ static void test_a_cap_on_what_is_chosen_unasked(void **state) {
 }
 
 /* The reason is shown on the screen, too. */
-static void test_a_render_node_that_is_not_there(void **state) {
+static void test_missing_render_node(void **state) {
     (void)state;
     begin(SIM_FULL_HD, &(struct gn_screen_opts){.render_node = "/dev/dri/renderD200"});
     assert_false(client_screen(&c)->has_context);
@@ -152,7 +152,7 @@ static void test_a_render_node_that_is_not_there(void **state) {
 }
 
 /* Probing stalls slow machines: only after events, and every 10 s. */
-static void test_while_there_is_none_the_wires_are_seldom_asked(void **state) {
+static void test_probing_is_rare_without_monitor(void **state) {
     (void)state;
     begin(SIM_NO_MONITOR, &(struct gn_screen_opts){0});
     const long *calls = sim_counts.calls, probes = calls[SIM_ModeGetConnector],
@@ -167,7 +167,7 @@ static void test_while_there_is_none_the_wires_are_seldom_asked(void **state) {
     end();
 }
 
-static void test_without_a_uevent_it_is_seen_later(void **state) {
+static void test_hotplug_without_uevent(void **state) {
     (void)state;
     begin(SIM_NO_MONITOR, &(struct gn_screen_opts){0});
     sim_plug(0, 0, SIM_FULL_HD);
@@ -177,8 +177,8 @@ static void test_without_a_uevent_it_is_seen_later(void **state) {
     end();
 }
 
-/* No probing while another console was shown. */
-static void test_another_one_came_while_it_was_away(void **state) {
+/* Connectors are not probed while another console is active. */
+static void test_hotplug_on_another_console(void **state) {
     (void)state;
     begin_with_second_mode();
     client_leave_console(&c);
@@ -193,18 +193,18 @@ static void test_another_one_came_while_it_was_away(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_same_one_keeps_its_mode_and_does_not_blink),
-        cmocka_unit_test(test_another_one_gets_what_it_prefers),
-        cmocka_unit_test(test_names_need_not_outlive_the_opening),
-        cmocka_unit_test(test_another_one_in_a_moment),
-        cmocka_unit_test(test_a_mode_belongs_to_the_one_it_was_lit_for),
-        cmocka_unit_test(test_without_edid_by_what_it_prefers),
-        cmocka_unit_test(test_what_is_configured_holds),
-        cmocka_unit_test(test_while_there_is_none_the_wires_are_seldom_asked),
-        cmocka_unit_test(test_without_a_uevent_it_is_seen_later),
-        cmocka_unit_test(test_another_one_came_while_it_was_away),
-        cmocka_unit_test(test_a_cap_on_what_is_chosen_unasked),
-        cmocka_unit_test(test_a_render_node_that_is_not_there),
+        cmocka_unit_test(test_same_monitor_keeps_mode),
+        cmocka_unit_test(test_other_monitor_gets_preferred_mode),
+        cmocka_unit_test(test_names_are_copied),
+        cmocka_unit_test(test_fast_change_of_monitor),
+        cmocka_unit_test(test_mode_belongs_to_monitor),
+        cmocka_unit_test(test_preferred_mode_without_edid),
+        cmocka_unit_test(test_configured_mode_is_kept),
+        cmocka_unit_test(test_probing_is_rare_without_monitor),
+        cmocka_unit_test(test_hotplug_without_uevent),
+        cmocka_unit_test(test_hotplug_on_another_console),
+        cmocka_unit_test(test_cap_of_automatic_mode),
+        cmocka_unit_test(test_missing_render_node),
     };
     return RUN(tests);
 }

@@ -2,7 +2,7 @@
  * cards of all kinds. After each, the right picture must be shown within bounded time, and
  * nothing leak.
  *
- *   test_kms_schedules [SEED]     one of them, with every call */
+ *   test_kms_schedules [SEED]     one schedule, with a trace of all calls */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,7 +31,7 @@ static uint64_t next(void) { return gn_dice_next(&dice); }
 static int below(int n) { return (int)(next() % (uint64_t)n); }
 static bool one_in(int n) { return below(n) == 0; }
 
-/* ---- a life ---- */
+/* ---- schedules ---- */
 
 static void build(void) {
     const int cards = 1 + one_in(3);
@@ -57,7 +57,7 @@ static void plug_something(void) {
     sim_plug(card, connector, one_in(3) ? SIM_NO_MONITOR : below(SIM_MONITORS));
 }
 
-/* Returns soon. */
+/* Leaves the console in one of two calls, and enters it in the next. */
 static void switch_console(struct client *c) {
     if (c->away)
         client_enter_console(c);
@@ -151,7 +151,7 @@ static void live(uint64_t seed) {
     snprintf(status, sizeof status, "%s", client_screen(&c)->status);
     client_close(&c);
     add_up(&c, took_ns);
-    if (!right) sim_complain("no right picture: %s", status[0] ? status : "it says all is well");
+    if (!right) sim_complain("wrong picture: %s", status[0] ? status : "no problem reported");
     if (sim_end() == 0) return;
     total.bad++;
     printf("FAIL  seed %" PRIu64 ": %s\n", seed, sim_complaint());

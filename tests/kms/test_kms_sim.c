@@ -1,4 +1,4 @@
-/* The simulator itself: it implements the kernel's rules and detects violations. */
+/* Tests of the simulator: it implements the kernel's rules and detects violations. */
 #include <drm_fourcc.h>
 #include <errno.h>
 
@@ -64,7 +64,7 @@ static void clean_up(void) {
     assert_int_equal(sim_end(), 0);
 }
 
-static void test_a_life_without_complaint(void **state) {
+static void test_valid_use(void **state) {
     (void)state;
     assert_int_equal(set_crtc(), 0);
     assert_true(sim_shows(0));
@@ -75,21 +75,21 @@ static void test_a_life_without_complaint(void **state) {
     clean_up();
 }
 
-static void test_a_flip_while_one_is_pending(void **state) {
+static void test_flip_while_pending(void **state) {
     (void)state;
     set_crtc();
     assert_int_equal(page_flip(), 0);
     assert_int_equal(page_flip(), -EBUSY);
-    assert_string_equal(sim_complaint(), "a page flip while a flip is pending");
+    assert_string_equal(sim_complaint(), "page flip while a flip is pending");
 }
 
-static void test_a_flip_on_a_dark_crtc(void **state) {
+static void test_flip_on_inactive_crtc(void **state) {
     (void)state;
     assert_int_equal(page_flip(), -EBUSY);
     clean_up();
 }
 
-static void test_master_is_one(void **state) {
+static void test_single_master(void **state) {
     (void)state;
     const int second = sim_drm.open("/dev/dri/card0");
     assert_false(sim_drm.IsMaster(second));
@@ -105,7 +105,7 @@ static void test_master_is_one(void **state) {
     clean_up();
 }
 
-static void test_what_is_removed_goes_dark(void **state) {
+static void test_removal_disables_crtc(void **state) {
     (void)state;
     set_crtc();
     assert_int_equal(sim_drm.ModeRmFB(k.fd, k.fb), 0);
@@ -114,7 +114,7 @@ static void test_what_is_removed_goes_dark(void **state) {
     clean_up();
 }
 
-static void test_a_card_that_has_gone(void **state) {
+static void test_lost_card(void **state) {
     (void)state;
     set_crtc();
     sim_lose_card(0);
@@ -128,17 +128,17 @@ static void test_a_card_that_has_gone(void **state) {
     assert_int_equal(sim_end(), 0);
 }
 
-static void test_a_leak_is_seen(void **state) {
+static void test_leak_is_reported(void **state) {
     (void)state;
     add_fb(k.handle);
     sim_drm.ModeRmFB(k.fd, k.fb);
     destroy_dumb(k.handle);
     sim_drm.close(k.fd);
     assert_true(sim_end() > 0);
-    assert_string_equal(sim_complaint(), "a framebuffer is left when the card is closed");
+    assert_string_equal(sim_complaint(), "framebuffer leaked at close");
 }
 
-static void test_to_free_twice_is_seen(void **state) {
+static void test_double_free_is_reported(void **state) {
     (void)state;
     sim_drm.ModeRmFB(k.fd, k.fb);
     assert_int_equal(sim_drm.ModeRmFB(k.fd, k.fb), -ENOENT);
@@ -148,7 +148,7 @@ static void test_to_free_twice_is_seen(void **state) {
     assert_true(sim_counts.complaints >= 3); /* the dumb buffer is reported, too */
 }
 
-static void test_a_test_changes_nothing(void **state) {
+static void test_test_only_changes_nothing(void **state) {
     (void)state;
     assert_int_equal(set_crtc(), 0);
     assert_int_equal(sim_drm.SetClientCap(k.fd, DRM_CLIENT_CAP_ATOMIC, 1), 0);
@@ -169,7 +169,7 @@ static void test_a_test_changes_nothing(void **state) {
     clean_up();
 }
 
-static void test_a_stall_ends_after_ten_seconds(void **state) {
+static void test_stall_times_out(void **state) {
     (void)state;
     set_crtc();
     sim_stall(0, SIM_STALLS);
@@ -183,16 +183,16 @@ static void test_a_stall_ends_after_ten_seconds(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_a_life_without_complaint, set_up),
-        cmocka_unit_test_setup(test_a_flip_while_one_is_pending, set_up),
-        cmocka_unit_test_setup(test_a_flip_on_a_dark_crtc, set_up),
-        cmocka_unit_test_setup(test_master_is_one, set_up),
-        cmocka_unit_test_setup(test_what_is_removed_goes_dark, set_up),
-        cmocka_unit_test_setup(test_a_card_that_has_gone, set_up),
-        cmocka_unit_test_setup(test_a_leak_is_seen, set_up),
-        cmocka_unit_test_setup(test_to_free_twice_is_seen, set_up),
-        cmocka_unit_test_setup(test_a_test_changes_nothing, set_up),
-        cmocka_unit_test_setup(test_a_stall_ends_after_ten_seconds, set_up),
+        cmocka_unit_test_setup(test_valid_use, set_up),
+        cmocka_unit_test_setup(test_flip_while_pending, set_up),
+        cmocka_unit_test_setup(test_flip_on_inactive_crtc, set_up),
+        cmocka_unit_test_setup(test_single_master, set_up),
+        cmocka_unit_test_setup(test_removal_disables_crtc, set_up),
+        cmocka_unit_test_setup(test_lost_card, set_up),
+        cmocka_unit_test_setup(test_leak_is_reported, set_up),
+        cmocka_unit_test_setup(test_double_free_is_reported, set_up),
+        cmocka_unit_test_setup(test_test_only_changes_nothing, set_up),
+        cmocka_unit_test_setup(test_stall_times_out, set_up),
     };
     return RUN(tests);
 }
