@@ -11,12 +11,12 @@
 
 static bool has_desktop(void) { return getenv("WAYLAND_DISPLAY") || getenv("DISPLAY"); }
 
-static bool is(const char *backend, const char *name) { return strcmp(backend, name) == 0; }
+static bool is_backend(const char *backend, const char *name) { return strcmp(backend, name) == 0; }
 
 bool gn_cli_auto(const struct gn_options *options, struct gn_warnings *warnings,
                  struct gn_err *err) {
     const char *backend = options->settings->display.backend;
-    const bool forced = is(backend, "window"), automatic = is(backend, "auto");
+    const bool forced = is_backend(backend, "window"), automatic = is_backend(backend, "auto");
     if (forced || (automatic && has_desktop())) {
         struct gn_show_place place = {.backend = "window"};
         struct gn_err why = {0};
@@ -27,7 +27,7 @@ bool gn_cli_auto(const struct gn_options *options, struct gn_warnings *warnings,
         }
         if (options->settings->run.verbose) gn_warn(warnings, "no window: %s", why.text);
     }
-    if (is(backend, "kms") || (automatic && !has_desktop() && gn_display_is_free("kms")))
+    if (is_backend(backend, "kms") || (automatic && !has_desktop() && gn_display_is_free("kms")))
         return gn_cli_show(options, warnings, err);
     struct gn_settings settings = *options->settings;
     struct gn_options here = *options;

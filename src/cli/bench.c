@@ -17,11 +17,11 @@
 
 enum { WARM_UP = 10, BLOCK = 6, FRAMES_DEFAULT = 60, FPS = 60, MS_NS = 1000000 };
 
-struct entry { /* a technique that takes part */
+struct entry { /* a technique to measure */
     struct gn_frame_opts opts;
     struct gn_bench_run *run;
     uint32_t frame; /* steps of animation so far */
-    double *ms;     /* of timed frames; those so far: run->frames */
+    double *ms;     /* of timed frames: run->frames so far */
     int64_t cpu_ns;
     uint64_t allocations; /* in timed frames, of memory and GL objects: there should be none */
 };
@@ -170,8 +170,8 @@ static bool start_bench(struct bench *b, struct gn_err *err) {
     return true;
 }
 
-/* The process began when its clock of CPU time did: until here it has not waited for anything. The
- * kernel's own figure counts in steps of 10 ms. */
+/* The start of the process is now less its CPU time, since nothing has waited so far; the time in
+ * /proc/self/stat has steps of 10 ms. */
 bool gn_cli_bench(const struct gn_options *options, struct gn_warnings *warnings,
                   struct gn_err *err) {
     struct bench b = {

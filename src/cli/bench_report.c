@@ -81,7 +81,9 @@ void gn_bench_print(const struct gn_bench_report *report, FILE *to) {
 /* ---- for programs ---- */
 
 /* To the microsecond. */
-static json_t *number(double value) { return gn_json_make_number(round(value * 1000.0) / 1000.0); }
+static json_t *number_json(double value) {
+    return gn_json_make_number(round(value * 1000.0) / 1000.0);
+}
 
 bool gn_bench_print_json(const struct gn_bench_report *report, FILE *to, struct gn_err *err) {
     char size[32];
@@ -90,25 +92,25 @@ bool gn_bench_print_json(const struct gn_bench_report *report, FILE *to, struct 
     json_object_set_new(object, "gl_renderer", gn_json_make_text(report->renderer));
     json_object_set_new(object, "scene", gn_json_make_text(report->scene));
     json_object_set_new(object, "size", gn_json_make_text(size));
-    json_object_set_new(object, "start_to_first_picture_ms", number(report->start_ms));
+    json_object_set_new(object, "start_to_first_picture_ms", number_json(report->start_ms));
     json_object_set_new(object, "cache", gn_json_make_text(report->cache_warm ? "warm" : "cold"));
-    json_object_set_new(object, "private_dirty_mb", number(report->private_dirty_mb));
+    json_object_set_new(object, "private_dirty_mb", number_json(report->private_dirty_mb));
     json_object_set_new(object, "private_dirty_empty_context_mb",
-                        number(report->private_dirty_empty_context_mb));
+                        number_json(report->private_dirty_empty_context_mb));
     for (uint32_t i = 0; i < report->run_count; i++) {
         const struct gn_bench_run *r = &report->runs[i];
         json_t *run = json_object(), *passes = json_array();
         for (uint32_t k = 0; k < r->pass_count; k++)
             json_array_append_new(passes, json_pack("{s:o, s:o}", "label",
                                                     gn_json_make_text(r->passes[k].label), "ms",
-                                                    number(r->passes[k].ms)));
+                                                    number_json(r->passes[k].ms)));
         json_object_set_new(run, "technique", gn_json_make_text(r->technique));
         json_object_set_new(run, "map_format", gn_json_make_text(r->map_format));
         json_object_set_new(run, "output", gn_json_make_text(r->output));
         json_object_set_new(run, "frames", gn_json_make_count(r->frames));
-        json_object_set_new(run, "ms_median", number(r->ms_median));
-        json_object_set_new(run, "ms_p95", number(r->ms_p95));
-        json_object_set_new(run, "cpu_ms", number(r->cpu_ms));
+        json_object_set_new(run, "ms_median", number_json(r->ms_median));
+        json_object_set_new(run, "ms_p95", number_json(r->ms_p95));
+        json_object_set_new(run, "cpu_ms", number_json(r->cpu_ms));
         json_object_set_new(run, "passes", passes);
         json_object_set_new(run, "draws", gn_json_make_count(r->stats.draws));
         json_object_set_new(run, "gl_calls", gn_json_make_count(r->stats.gl_calls));

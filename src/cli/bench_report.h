@@ -9,15 +9,15 @@
 #include "gl/gl.h"
 
 struct gn_bench_pass {
-    char label[48]; /* of the plan's pass; passes of one label are one */
+    char label[48]; /* of the plan; passes with the same label are added up */
     double ms; /* per frame: wall clock around the pass and a read-back, from a run of its own */
 };
 
-enum { GN_BENCH_NAMES = 128 }; /* room for all that there are, joined */
+enum { GN_BENCH_NAMES = 128 }; /* bytes for all names, joined */
 struct gn_bench_run {          /* one technique */
     char technique[GN_BENCH_NAMES];
-    char map_format[GN_BENCH_NAMES]; /* what its maps were, "none" without any; "depth+r16f" if they
-                                        differ */
+    char map_format[GN_BENCH_NAMES]; /* of its maps: "depth+r16f" if they differ, "none" without
+                                        any */
     const char *output;              /* "srgb", "linear" */
     uint32_t frames;
     double ms_median, ms_p95;     /* wall clock of a frame, read-back included */
@@ -32,23 +32,23 @@ struct gn_bench_report {
     const char *renderer, *scene;
     uint32_t width_px, height_px;
     double start_ms; /* from the start of the process until the first picture is read back */
-    bool cache_warm; /* that picture needed nothing that the driver had not compiled before */
-    double private_dirty_mb, private_dirty_empty_context_mb; /* 2^20 bytes; NAN: not known */
+    bool cache_warm; /* all shaders of that picture were in the driver's cache */
+    double private_dirty_mb, private_dirty_empty_context_mb; /* 2^20 bytes; NAN: unknown */
     struct gn_bench_run *runs;
     uint32_t run_count;
 };
 
 /* The value below which a share 0..1 of the values lies (nearest rank); sorts them. count > 0. */
 double gn_bench_quantile(double *values, uint32_t count, double share);
-/* Adds ms to the pass of that label, which is made if it is not there. */
+/* Adds ms to the pass with that label; adds the pass if there is none. */
 void gn_bench_add_pass(struct gn_bench_run *run, const char *label, double ms);
-/* Adds a name to a list joined by '+', of GN_BENCH_NAMES bytes, unless it is there; never a part of
- * one. */
+/* Adds a name to a list joined by '+', of GN_BENCH_NAMES bytes, unless it is in it or does not
+ * fit. */
 void gn_bench_add_name(char *list, const char *name);
 
 /* Aligned, for people: one row a technique; the ratio is that of cpu_ms to the first row's. */
 void gn_bench_print(const struct gn_bench_report *report, FILE *to);
-/* One JSON object, the fields in the order of the contract; what is not known is null. */
+/* One JSON object, the fields in the order of the contract; unknown values are null. */
 bool gn_bench_print_json(const struct gn_bench_report *report, FILE *to, struct gn_err *err);
 
 #endif

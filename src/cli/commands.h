@@ -1,5 +1,5 @@
-/* The commands, one file each. Each returns false with err filled; what it has to say to the user
- * goes to stdout, once. */
+/* The commands, one file each. Each prints its result to stdout; false with err filled is a
+ * failure. */
 #ifndef GN_CLI_COMMANDS_H
 #define GN_CLI_COMMANDS_H
 

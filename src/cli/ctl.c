@@ -30,7 +30,7 @@ struct talk { /* with the kiosk */
 /* ---- the request -------------------------------------------------------------------------- */
 
 /* The command of the words, if their number is right; or -1. */
-static int find_command(const struct gn_options *o, struct gn_err *err) {
+static int find_request(const struct gn_options *o, struct gn_err *err) {
     const char *name = o->word_count > 0 ? o->words[0] : NULL;
     const int command = name ? gn_ctl_find(name) : -1;
     if (command < 0) {
@@ -244,7 +244,7 @@ static bool print_reply(const struct gn_settings *o, json_t *reply, struct gn_er
 bool gn_cli_ctl(const struct gn_options *options, struct gn_warnings *warnings,
                 struct gn_err *err) {
     (void)warnings;
-    const int command = find_command(options, err);
+    const int command = find_request(options, err);
     json_t *request = command < 0 ? NULL : make_request(options, command, err);
     if (!request) return false;
     const bool is_slow = gn_ctl_rows[command].flags & GN_CTL_SLOW;

@@ -40,7 +40,8 @@ void gn_doctor_diagnose_input(struct gn_doctor_report *report) {
                        "this build has no support for GPIO buttons: it is without libgpiod");
     for (int i = 0; i < input->chip_count; i++) {
         const struct gn_input_chip *chip = &input->chips[i];
-        if (chip->error && chip->error != EACCES && chip->error != EPERM) /* said of the node */
+        if (chip->error && chip->error != EACCES &&
+            chip->error != EPERM) /* a problem of the device */
             gn_problem_add(&report->problems, "look for the chip in the kernel's messages (dmesg)",
                            "%s cannot be opened: %s", chip->path, strerror(chip->error));
     }

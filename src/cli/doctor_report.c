@@ -5,9 +5,9 @@
 
 #include "cli/doctor_input.h"
 #include "core/json.h"
-#include <config.h> /* made by the build; not cli/config.h */
+#include <config.h> /* made by the build */
 
-/* What is used where a capability is not proved. */
+/* What is used without a capability. */
 static const char *const instead[GN_CAP_COUNT] = {
     [GN_CAP_DEPTH_COMPARE] = "shaders compare, on r32ui or r16f maps: slower",
     [GN_CAP_R32UI] = "r16f or depth maps",
@@ -24,7 +24,7 @@ static const char *const instead[GN_CAP_COUNT] = {
 
 /* ---- for people ---------------------------------------------------------------------------- */
 
-/* What a technique's maps are kept in, if nothing is asked for. */
+/* The default format of a technique's maps. */
 static const char *chosen_name(const struct gn_caps *caps, enum gn_technique technique) {
     bool fell_back;
     if (gn_technique_filters_map(technique))
@@ -120,8 +120,8 @@ void gn_doctor_print(const struct gn_doctor_report *report, FILE *to) {
 
 /* ---- for programs -------------------------------------------------------------------------- */
 
-/* What is not known is empty. */
-static json_t *text(const char *value) {
+/* An empty text is unknown: null. */
+static json_t *text_json(const char *value) {
     return gn_json_make_text(value && value[0] ? value : NULL);
 }
 
@@ -146,8 +146,8 @@ static json_t *gpu_json(const struct gn_doctor_backend *b) {
             json_object_set_new(chosen, gn_techniques[i].name,
                                 json_string(chosen_name(caps, (enum gn_technique)i)));
     return json_pack("{ss so so so sb si si so so so so}", "backend", b->name, "vendor",
-                     text(caps->vendor), "renderer", text(caps->renderer), "gles",
-                     text(caps->version), "software", caps->software, "max_texture_px",
+                     text_json(caps->vendor), "renderer", text_json(caps->renderer), "gles",
+                     text_json(caps->version), "software", caps->software, "max_texture_px",
                      caps->max_texture_px, "texture_units", caps->max_texture_units, "proved",
                      proved, "not_proved", not_proved, "map_formats", formats, "auto", chosen);
 }
@@ -158,15 +158,16 @@ static json_t *devices_json(const struct gn_doctor_report *report, bool gpio) {
     for (int i = 0; i < m->device_count; i++) {
         const struct gn_device *d = &m->devices[i];
         if ((d->kind == GN_DEVICE_GPIO) != gpio) continue;
-        json_t *device = json_pack(
-            "{so so so sb sb}", "path", text(d->path), gpio ? "device" : "driver", text(d->driver),
-            "group", text(d->group), "readable", d->readable, "writable", d->writable);
+        json_t *device =
+            json_pack("{so so so sb sb}", "path", text_json(d->path), gpio ? "device" : "driver",
+                      text_json(d->driver), "group", text_json(d->group), "readable", d->readable,
+                      "writable", d->writable);
         if (gpio) {
             gn_doctor_describe_chip(report, d->path, device);
         } else {
             json_object_set_new(device, "kind",
                                 json_string(d->kind == GN_DEVICE_CARD ? "card" : "render"));
-            json_object_set_new(device, "holder", text(d->holder));
+            json_object_set_new(device, "holder", text_json(d->holder));
         }
         json_array_append_new(all, device);
     }
@@ -177,26 +178,28 @@ bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struc
     const struct gn_machine *m = &report->machine;
     const bool draws = report->chosen >= 0;
     json_t *groups = json_array(), *backends = json_array(), *connectors = json_array();
-    for (int i = 0; i < m->group_count; i++) json_array_append_new(groups, text(m->groups[i]));
+    for (int i = 0; i < m->group_count; i++) json_array_append_new(groups, text_json(m->groups[i]));
     json_t *machine = json_pack(
-        "{so so so so si sI sI sI so so}", "model", text(m->model), "system", text(m->system),
-        "kernel", text(m->kernel), "arch", text(m->arch), "cpus", m->cpus, "memory_mb",
-        (json_int_t)m->memory_mb, "memory_free_mb", (json_int_t)m->free_mb, "cma_mb",
-        (json_int_t)m->cma_mb, "user", text(m->user), "groups", groups);
+        "{so so so so si sI sI sI so so}", "model", text_json(m->model), "system",
+        text_json(m->system), "kernel", text_json(m->kernel), "arch", text_json(m->arch), "cpus",
+        m->cpus, "memory_mb", (json_int_t)m->memory_mb, "memory_free_mb", (json_int_t)m->free_mb,
+        "cma_mb", (json_int_t)m->cma_mb, "user", text_json(m->user), "groups", groups);
     for (int i = 0; i < report->backend_count; i++) {
         const struct gn_doctor_backend *b = &report->backends[i];
         json_array_append_new(
-            backends, json_pack("{ss so sb sb so so so so so}", "name", b->name, "what",
-                                text(b->what), "built", b->built, "opens", b->opens, "why",
-                                text(b->why), "vendor", text(b->caps.vendor), "renderer",
-                                text(b->caps.renderer), "gles", text(b->caps.version), "software",
-                                b->opens ? json_boolean(b->caps.software) : json_null()));
+            backends,
+            json_pack("{ss so sb sb so so so so so}", "name", b->name, "what", text_json(b->what),
+                      "built", b->built, "opens", b->opens, "why", text_json(b->why), "vendor",
+                      text_json(b->caps.vendor), "renderer", text_json(b->caps.renderer), "gles",
+                      text_json(b->caps.version), "software",
+                      b->opens ? json_boolean(b->caps.software) : json_null()));
     }
     for (int i = 0; i < m->connector_count; i++) {
         const struct gn_connector *c = &m->connectors[i];
-        json_array_append_new(connectors, json_pack("{so so so so}", "name", text(c->name),
-                                                    "status", text(c->status), "mode",
-                                                    text(c->mode), "modes", text(c->modes)));
+        json_array_append_new(connectors,
+                              json_pack("{so so so so}", "name", text_json(c->name), "status",
+                                        text_json(c->status), "mode", text_json(c->mode), "modes",
+                                        text_json(c->modes)));
     }
     json_t *all = json_pack("{ss sb so so so so so so so so}", "version", GN_VERSION, "can_draw",
                             draws, "machine", machine, "backends", backends, "gpu",

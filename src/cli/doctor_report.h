@@ -14,7 +14,7 @@
 enum { GN_DOCTOR_BACKENDS = 8 };
 
 struct gn_doctor_backend {
-    const char *name, *what; /* what: a line for people, NULL if it is not built in */
+    const char *name, *what; /* what: a line of text, NULL if it is not built in */
     bool built, opens;
     bool is_window, is_console; /* as in struct gn_display_ops */
     char why[320];              /* it does not open */
@@ -25,7 +25,7 @@ struct gn_doctor_report {
     struct gn_input_list input;
     struct gn_doctor_backend backends[GN_DOCTOR_BACKENDS];
     int backend_count;
-    int chosen; /* the one that is described; -1: nothing can draw */
+    int chosen; /* index of the backend whose GPU is described; -1: none opens */
     struct gn_problem_list problems;
     const struct gn_selftest *self_test; /* NULL: not asked for, or it did not start */
 };

@@ -1,5 +1,5 @@
-/* The driver's cache of compiled shaders, looked at from outside: Mesa does not say whether it
- * found what it needed, but what it did not find it compiles and writes there. */
+/* The size of the driver's cache of compiled shaders. Mesa does not report cache hits, but it
+ * writes every shader that it has to compile. */
 #ifndef GN_CLI_DRIVER_CACHE_H
 #define GN_CLI_DRIVER_CACHE_H
 
@@ -15,8 +15,8 @@ struct gn_driver_cache {
  * $MESA_SHADER_CACHE_DISABLE is true. The driver writes from a thread of its own: wait for it. */
 struct gn_driver_cache gn_driver_cache_read(void);
 
-/* Whether what was drawn between two readings came out of the cache: it holds something and gained
- * nothing. Any other driver than Mesa counts as cold. */
+/* Whether all shaders used between two readings were in the cache: it is not empty and has not
+ * grown. Any other driver than Mesa counts as cold. */
 bool gn_driver_cache_warm(const struct gn_driver_cache *before,
                           const struct gn_driver_cache *after);
 

@@ -17,7 +17,7 @@ bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnin
         ok = gn_inspect_print_json(&in, stdout, err);
     else
         gn_inspect_print(&in, stdout);
-    *warnings = (struct gn_warnings){0}; /* the report has said them */
+    *warnings = (struct gn_warnings){0}; /* they are in the report */
     gn_scene_destroy(scene);
     return ok;
 }

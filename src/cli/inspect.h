@@ -1,4 +1,4 @@
-/* What is in a scene, what it costs and what is wrong with it: found out without a GPU. */
+/* What is in a scene, what it costs and what is wrong with it, without a GPU. */
 #ifndef GN_CLI_INSPECT_H
 #define GN_CLI_INSPECT_H
 
@@ -11,7 +11,8 @@
 
 enum { GN_INSPECT_WIDTH_PX = 1280, GN_INSPECT_HEIGHT_PX = 720 };
 
-struct gn_scene_cost { /* of the default view: first camera, 1280x720, time 0, a GPU that can all */
+struct gn_scene_cost { /* of the default view: first camera, 1280x720, time 0, a GPU with all
+                          capabilities */
     uint32_t passes, shadow_passes; /* a map of several tiles has a pass for each */
     uint32_t draws, shadow_draws, programs, culled;
     uint64_t triangles, shadow_triangles;

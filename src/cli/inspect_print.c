@@ -8,7 +8,7 @@
 #include "core/json.h"
 #include "core/text.h"
 
-static double intensity(const struct gn_light *light) {
+static double max_channel(const struct gn_light *light) {
     return (double)fmaxf(light->color[0], fmaxf(light->color[1], light->color[2]));
 }
 
@@ -28,14 +28,14 @@ static struct kinds count_kinds(const struct gn_scene *scene) {
     return k;
 }
 
-static void size_of(const struct gn_scene *scene, vec3 out) {
+static void get_scene_size(const struct gn_scene *scene, vec3 out) {
     for (int k = 0; k < 3; k++) out[k] = fmaxf(0.0f, scene->box.max[k] - scene->box.min[k]);
 }
 
 /* ---- for people ---------------------------------------------------------------------------- */
 
 /* Names come from a file: control characters are dropped. */
-__attribute__((format(printf, 2, 3))) static void line(FILE *to, const char *format, ...) {
+__attribute__((format(printf, 2, 3))) static void print_line(FILE *to, const char *format, ...) {
     char text[512];
     va_list args;
     va_start(args, format);
@@ -49,9 +49,10 @@ static void print_lists(const struct gn_scene *s, FILE *to) {
         fprintf(to, "\nTextures: %u of %u images\n", s->pictures.texture_count,
                 s->pictures.image_count);
     for (uint32_t i = 0; i < s->pictures.image_count; i++)
-        line(to, "%-3u %ux%u%s, %.2f MB", i, s->pictures.images[i].width_px,
-             s->pictures.images[i].height_px, s->pictures.images[i].has_alpha ? " with alpha" : "",
-             GN_MB(gn_inspect_image_bytes(s, i)));
+        print_line(to, "%-3u %ux%u%s, %.2f MB", i, s->pictures.images[i].width_px,
+                   s->pictures.images[i].height_px,
+                   s->pictures.images[i].has_alpha ? " with alpha" : "",
+                   GN_MB(gn_inspect_image_bytes(s, i)));
     fprintf(to, "\nLights\n");
     for (uint32_t i = 0; i < s->light_count; i++) {
         const struct gn_light *light = &s->lights[i];
@@ -63,12 +64,12 @@ static void print_lists(const struct gn_scene *s, FILE *to) {
             snprintf(range, sizeof range, ", range %.4g m", (double)light->range_m);
         if (light->map_px) snprintf(map, sizeof map, ", map %u px", light->map_px);
         if (light->slide >= 0) snprintf(slide, sizeof slide, ", slide texture %d", light->slide);
-        line(to, "%-3u %s: %s, %.4g %s%s%s, shadow %s%s, radius %.3g, strength %.3g%s%s", i,
-             light->name, gn_light_types[light->type].name, intensity(light),
-             gn_light_types[light->type].unit, cone, range,
-             light->technique ? light->technique : "by mode", map, (double)light->radius,
-             (double)light->shadow_strength, slide,
-             is_made(s->added.light, i, s->light_count) ? " (made: the file has none)" : "");
+        print_line(to, "%-3u %s: %s, %.4g %s%s%s, shadow %s%s, radius %.3g, strength %.3g%s%s", i,
+                   light->name, gn_light_types[light->type].name, max_channel(light),
+                   gn_light_types[light->type].unit, cone, range,
+                   light->technique ? light->technique : "by mode", map, (double)light->radius,
+                   (double)light->shadow_strength, slide,
+                   is_made(s->added.light, i, s->light_count) ? " (made: the file has none)" : "");
     }
     fprintf(to, "\nCameras\n");
     for (uint32_t i = 0; i < s->camera_count; i++) {
@@ -79,66 +80,69 @@ static void print_lists(const struct gn_scene *s, FILE *to) {
         else
             snprintf(lens, sizeof lens, "perspective, %.3g degrees high", GN_DEG(c->yfov_rad));
         if (c->far_m > 0) snprintf(far, sizeof far, "%.4g m", (double)c->far_m);
-        line(to, "%-3u %s: %s, from %.4g m to %s%s", i, c->name, lens, (double)c->near_m, far,
-             is_made(s->added.camera, i, s->camera_count) ? " (made: the file has none)" : "");
+        print_line(to, "%-3u %s: %s, from %.4g m to %s%s", i, c->name, lens, (double)c->near_m, far,
+                   is_made(s->added.camera, i, s->camera_count) ? " (made: the file has none)"
+                                                                : "");
     }
     if (s->animation.clip_count) fprintf(to, "\nClips\n");
     for (uint32_t i = 0; i < s->animation.clip_count; i++)
-        line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->animation.clips[i].name,
-             (double)s->animation.clips[i].duration_ns * 1e-9, s->animation.clips[i].channel_count,
-             s->animation.clips[i].channel_count == 1 ? "" : "s",
-             s->animation.clips[i].on_by_default ? "on" : "off");
+        print_line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->animation.clips[i].name,
+                   (double)s->animation.clips[i].duration_ns * 1e-9,
+                   s->animation.clips[i].channel_count,
+                   s->animation.clips[i].channel_count == 1 ? "" : "s",
+                   s->animation.clips[i].on_by_default ? "on" : "off");
 }
 
 void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
     const struct gn_scene *s = in->scene;
     struct kinds k = count_kinds(s);
     vec3 size;
-    size_of(s, size);
+    get_scene_size(s, size);
     fprintf(to, "Scene\n");
-    line(to, "%-11s %s", "file", in->file);
-    if (s->name && s->name[0]) line(to, "%-11s %s", "name", s->name);
-    line(to, "%-11s %.4g x %.4g x %.4g m", "size", (double)size[0], (double)size[1],
-         (double)size[2]);
-    line(to, "%-11s %u", "nodes", s->node_count);
-    line(to, "%-11s %u in %u batches, %u of them instances", "items", s->item_count, s->batch_count,
-         s->instance_count);
-    line(to, "%-11s %u geometries, %u vertices, %llu triangles in all items", "meshes",
-         s->geometry_count, s->buffers.vertex_count, (unsigned long long)s->triangle_count);
-    line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided", "materials",
-         s->material_count, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK],
-         k.alpha[GN_ALPHA_BLEND], k.unlit, k.double_sided);
+    print_line(to, "%-11s %s", "file", in->file);
+    if (s->name && s->name[0]) print_line(to, "%-11s %s", "name", s->name);
+    print_line(to, "%-11s %.4g x %.4g x %.4g m", "size", (double)size[0], (double)size[1],
+               (double)size[2]);
+    print_line(to, "%-11s %u", "nodes", s->node_count);
+    print_line(to, "%-11s %u in %u batches, %u of them instances", "items", s->item_count,
+               s->batch_count, s->instance_count);
+    print_line(to, "%-11s %u geometries, %u vertices, %llu triangles in all items", "meshes",
+               s->geometry_count, s->buffers.vertex_count, (unsigned long long)s->triangle_count);
+    print_line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided", "materials",
+               s->material_count, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK],
+               k.alpha[GN_ALPHA_BLEND], k.unlit, k.double_sided);
     const float *colors[] = {s->environment.sky, s->environment.ground, s->environment.background};
     static const char *const names[] = {"sky", "ground", "background"};
     for (int i = 0; i < 3; i++)
-        line(to, "%-11s %.3g %.3g %.3g", names[i], (double)colors[i][0], (double)colors[i][1],
-             (double)colors[i][2]);
+        print_line(to, "%-11s %.3g %.3g %.3g", names[i], (double)colors[i][0], (double)colors[i][1],
+                   (double)colors[i][2]);
     print_lists(s, to);
 
     const struct gn_scene_cost *c = &in->cost;
     fprintf(to, "\nCost at %dx%d through the first camera\n", GN_INSPECT_WIDTH_PX,
             GN_INSPECT_HEIGHT_PX);
-    line(to, "%-11s %u passes, %u draw calls, %llu triangles; %u items out of sight", "picture",
-         c->passes, c->draws, (unsigned long long)c->triangles, c->culled);
-    line(to, "%-11s %u passes, %u draw calls, %llu triangles, when something moves", "shadows",
-         c->shadow_passes, c->shadow_draws, (unsigned long long)c->shadow_triangles);
-    line(to, "%-11s %u", "programs", c->programs);
-    line(to, "%-11s %.2f MB vertices, %.2f indices, %.2f textures, %.2f maps, %.2f picture",
-         "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
-         GN_MB(c->map_bytes), GN_MB(c->target_bytes));
-    line(to, "%-11s %.2f MB", "memory", GN_MB(s->memory.bytes));
+    print_line(to, "%-11s %u passes, %u draw calls, %llu triangles; %u items out of sight",
+               "picture", c->passes, c->draws, (unsigned long long)c->triangles, c->culled);
+    print_line(to, "%-11s %u passes, %u draw calls, %llu triangles, when something moves",
+               "shadows", c->shadow_passes, c->shadow_draws,
+               (unsigned long long)c->shadow_triangles);
+    print_line(to, "%-11s %u", "programs", c->programs);
+    print_line(to, "%-11s %.2f MB vertices, %.2f indices, %.2f textures, %.2f maps, %.2f picture",
+               "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
+               GN_MB(c->map_bytes), GN_MB(c->target_bytes));
+    print_line(to, "%-11s %.2f MB", "memory", GN_MB(s->memory.bytes));
 
     const int warnings = in->warnings ? in->warnings->count : 0;
     fprintf(to, "\nProblems\n");
-    if (!warnings && !in->advice.count) line(to, "nothing");
-    for (int i = 0; i < warnings; i++) line(to, "- %s", in->warnings->text[i]);
+    if (!warnings && !in->advice.count) print_line(to, "nothing");
+    for (int i = 0; i < warnings; i++) print_line(to, "- %s", in->warnings->text[i]);
     if (warnings && in->warnings->dropped)
-        line(to, "- and %d more like these", in->warnings->dropped);
+        print_line(to, "- and %d more like these", in->warnings->dropped);
     for (uint32_t i = 0; i < in->advice.count; i++) {
-        line(to, "- %s", in->advice.items[i].what);
-        line(to, "  cure: %s", in->advice.items[i].cure);
+        print_line(to, "- %s", in->advice.items[i].what);
+        print_line(to, "  cure: %s", in->advice.items[i].cure);
     }
-    if (in->advice.dropped) line(to, "- and %u more like these", in->advice.dropped);
+    if (in->advice.dropped) print_line(to, "- and %u more like these", in->advice.dropped);
 }
 
 /* ---- for programs -------------------------------------------------------------------------- */
@@ -146,21 +150,21 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
 static json_t *number_or_null(bool present, double value) {
     return present ? gn_json_make_number(value) : json_null();
 }
-static json_t *vector(const float *v) {
+static json_t *vector_json(const float *v) {
     return json_pack("[ooo]", gn_json_make_number((double)v[0]), gn_json_make_number((double)v[1]),
                      gn_json_make_number((double)v[2]));
 }
 
 static json_t *light_json(const struct gn_scene *s, uint32_t i) {
     const struct gn_light *l = &s->lights[i];
-    double strongest = intensity(l);
+    double strongest = max_channel(l);
     bool spot = gn_light_types[l->type].has_cone;
     vec3 color;
     for (int k = 0; k < 3; k++) color[k] = strongest > 0 ? l->color[k] / (float)strongest : 0.0f;
     return json_pack("{so ss so ss so so so so so so so so so sb}", "name",
                      gn_json_make_text(l->name), "type", gn_light_types[l->type].name, "intensity",
                      gn_json_make_number(strongest), "unit", gn_light_types[l->type].unit, "color",
-                     vector(color), "range_m", number_or_null(l->range_m > 0, l->range_m),
+                     vector_json(color), "range_m", number_or_null(l->range_m > 0, l->range_m),
                      "inner_deg", number_or_null(spot, GN_DEG(l->inner_rad)), "outer_deg",
                      number_or_null(spot, GN_DEG(l->outer_rad)), "gnomon_shadow",
                      gn_json_make_text(l->technique), "gnomon_map_px",
@@ -176,7 +180,7 @@ static json_t *content_json(const struct gn_inspection *in) {
     const struct gn_scene *s = in->scene;
     const struct kinds k = count_kinds(s);
     vec3 size;
-    size_of(s, size);
+    get_scene_size(s, size);
     json_t *counts = json_pack(
         "{so so so so so so so so}", "nodes", gn_json_make_count(s->node_count), "items",
         gn_json_make_count(s->item_count), "instances", gn_json_make_count(s->instance_count),
@@ -192,7 +196,7 @@ static json_t *content_json(const struct gn_inspection *in) {
                   gn_json_make_count(k.alpha[GN_ALPHA_BLEND]), "unlit", gn_json_make_count(k.unlit),
                   "double_sided", gn_json_make_count(k.double_sided));
     return json_pack("{so so so so so}", "file", gn_json_make_text(in->file), "name",
-                     gn_json_make_text(s->name), "size_m", vector(size), "counts", counts,
+                     gn_json_make_text(s->name), "size_m", vector_json(size), "counts", counts,
                      "materials", materials);
 }
 
@@ -238,9 +242,9 @@ bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_e
     json_t *all = content_json(in);
     add_lists(all, s);
     json_object_set_new(all, "hemisphere",
-                        json_pack("{so so so}", "sky", vector(s->environment.sky), "ground",
-                                  vector(s->environment.ground), "background",
-                                  vector(s->environment.background)));
+                        json_pack("{so so so}", "sky", vector_json(s->environment.sky), "ground",
+                                  vector_json(s->environment.ground), "background",
+                                  vector_json(s->environment.background)));
     json_t *cost = json_pack(
         "{si si so so so so so so so so so so so so so so}", "width_px", GN_INSPECT_WIDTH_PX,
         "height_px", GN_INSPECT_HEIGHT_PX, "passes", gn_json_make_count(c->passes), "shadow_passes",

@@ -14,8 +14,8 @@
 
 #include "core/text.h"
 
-__attribute__((format(printf, 3, 4))) static void say(char *out, size_t size, const char *format,
-                                                      ...) {
+__attribute__((format(printf, 3, 4))) static void format_text(char *out, size_t size,
+                                                              const char *format, ...) {
     va_list args;
     va_start(args, format);
     gn_text_vformat(out, size, format, args);
@@ -23,7 +23,7 @@ __attribute__((format(printf, 3, 4))) static void say(char *out, size_t size, co
 }
 
 /* The first bytes of a file of the kernel, as text; "" if it cannot be read. */
-static const char *slurp(const char *root, const char *path, char *out, size_t size) {
+static const char *read_text(const char *root, const char *path, char *out, size_t size) {
     char full[PATH_MAX];
     snprintf(full, sizeof full, "%s%s", root, path);
     int fd = open(full, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -34,7 +34,7 @@ static const char *slurp(const char *root, const char *path, char *out, size_t s
 }
 
 static void copy_line(char *out, size_t size, const char *text) {
-    say(out, size, "%.*s", (int)strcspn(text, "\n"), text);
+    format_text(out, size, "%.*s", (int)strcspn(text, "\n"), text);
 }
 
 static const char *base_name(const char *path) {
@@ -50,9 +50,9 @@ static uint64_t meminfo_mb(const char *text, const char *key) {
 static void name_group(gid_t gid, char *out, size_t size) {
     const struct group *group = getgrgid(gid);
     if (group)
-        say(out, size, "%s", group->gr_name);
+        format_text(out, size, "%s", group->gr_name);
     else
-        say(out, size, "%u", (unsigned)gid);
+        format_text(out, size, "%u", (unsigned)gid);
 }
 
 /* ---- devices ------------------------------------------------------------------------------- */
@@ -63,7 +63,7 @@ static void add_device(struct gn_machine *m, enum gn_device_kind kind, const cha
     if (m->device_count == GN_MACHINE_DEVICES || stat(full, &info)) return;
     struct gn_device *device = &m->devices[m->device_count++];
     device->kind = kind;
-    say(device->path, sizeof device->path, "%s", full + strlen(root));
+    format_text(device->path, sizeof device->path, "%s", full + strlen(root));
     name_group(info.st_gid, device->group, sizeof device->group);
     device->group_may = (info.st_mode & 0060) == 0060;
     device->readable = access(full, R_OK) == 0;
@@ -79,7 +79,7 @@ static void add_device(struct gn_machine *m, enum gn_device_kind kind, const cha
     if (length <= 0) return;
     target[length] = 0;
     if (gpio && strrchr(target, '/')) *strrchr(target, '/') = 0; /* the chip's parent */
-    say(device->driver, sizeof device->driver, "%s", base_name(target));
+    format_text(device->driver, sizeof device->driver, "%s", base_name(target));
 }
 
 /* full: ".../card0-HDMI-A-1/status" */
@@ -88,11 +88,11 @@ static void add_connector(struct gn_machine *m, const char *full, const char *ro
     if (m->connector_count == GN_MACHINE_CONNECTORS) return;
     struct gn_connector *connector = &m->connectors[m->connector_count++];
     snprintf(folder, sizeof folder, "%.*s", (int)(strrchr(full, '/') - full), full);
-    say(connector->name, sizeof connector->name, "%s", base_name(folder));
+    format_text(connector->name, sizeof connector->name, "%s", base_name(folder));
     copy_line(connector->status, sizeof connector->status,
-              slurp(root, full + strlen(root), text, sizeof text));
+              read_text(root, full + strlen(root), text, sizeof text));
     snprintf(path, sizeof path, "%s/modes", folder);
-    slurp(root, path + strlen(root), text, sizeof text);
+    read_text(root, path + strlen(root), text, sizeof text);
     copy_line(connector->mode, sizeof connector->mode, text);
     /* modes, one a line; those that differ in their rate only are equal lines */
     size_t used = 0, length;
@@ -134,28 +134,28 @@ void gn_machine_read(struct gn_machine *machine, const char *root) {
     struct utsname name;
     *machine = (struct gn_machine){0};
     copy_line(machine->model, sizeof machine->model,
-              slurp(root, "/proc/device-tree/model", text, sizeof text));
+              read_text(root, "/proc/device-tree/model", text, sizeof text));
     const char *pretty =
-        strstr(slurp(root, "/etc/os-release", text, sizeof text), "PRETTY_NAME=\"");
+        strstr(read_text(root, "/etc/os-release", text, sizeof text), "PRETTY_NAME=\"");
     if (pretty)
-        say(machine->system, sizeof machine->system, "%.*s", (int)strcspn(pretty + 13, "\"\n"),
-            pretty + 13);
+        format_text(machine->system, sizeof machine->system, "%.*s",
+                    (int)strcspn(pretty + 13, "\"\n"), pretty + 13);
     if (uname(&name) == 0) {
-        say(machine->kernel, sizeof machine->kernel, "%s %s", name.sysname, name.release);
-        say(machine->arch, sizeof machine->arch, "%s", name.machine);
+        format_text(machine->kernel, sizeof machine->kernel, "%s %s", name.sysname, name.release);
+        format_text(machine->arch, sizeof machine->arch, "%s", name.machine);
     }
     const long cpus = sysconf(_SC_NPROCESSORS_ONLN);
     machine->cpus = cpus > 0 ? (int)cpus : 1;
-    slurp(root, "/proc/meminfo", text, sizeof text);
+    read_text(root, "/proc/meminfo", text, sizeof text);
     machine->memory_mb = meminfo_mb(text, "MemTotal:");
     machine->free_mb = meminfo_mb(text, "MemAvailable:");
     machine->cma_mb = meminfo_mb(text, "CmaTotal:");
 
     const struct passwd *user = getpwuid(geteuid());
     if (user)
-        say(machine->user, sizeof machine->user, "%s", user->pw_name);
+        format_text(machine->user, sizeof machine->user, "%s", user->pw_name);
     else
-        say(machine->user, sizeof machine->user, "%u", (unsigned)geteuid());
+        format_text(machine->user, sizeof machine->user, "%u", (unsigned)geteuid());
     gid_t ids[GN_MACHINE_GROUPS];
     int count = getgroups(GN_MACHINE_GROUPS - 1, ids);
     if (count < 0) count = 0;

@@ -1,4 +1,4 @@
-/* What the kernel says about this machine and what this user may open: memory, groups, DRM cards
+/* This machine according to the kernel, and what this user may open: memory, groups, DRM cards
  * with their connectors, GPIO chips. Nothing is opened, all is read from /proc, /sys and the modes
  * of the device nodes. */
 #ifndef GN_CLI_MACHINE_H
@@ -18,7 +18,7 @@ struct gn_device {
     char group[32]; /* that owns the node; its number where it has no name */
     bool group_may; /* that group may read and write */
     bool readable, writable; /* by this user */
-    char holder[64];         /* CARD: who has it open, "Xorg (pid 612)"; "": nobody is seen */
+    char holder[64]; /* CARD: the process that has it open, "Xorg (pid 612)"; "": none found */
 };
 struct gn_connector {
     char name[48];   /* "card0-HDMI-A-1" */
@@ -43,7 +43,7 @@ struct gn_machine {
     int connector_count;
 };
 
-/* root stands before every path: "" but in tests. What is not there stays empty. */
+/* root is put before every path: "" except in tests. Missing values stay empty. */
 void gn_machine_read(struct gn_machine *machine, const char *root);
 
 #endif

@@ -1,12 +1,12 @@
-/* What this process costs a machine: private dirty pages, which nobody shares and nobody can drop;
- * and what of it a bare GL context costs already. */
+/* Memory of this process: private dirty pages, which are not shared and cannot be dropped; and the
+ * part of it that an empty GL context takes. */
 #ifndef GN_CLI_MEMORY_H
 #define GN_CLI_MEMORY_H
 
 #include <stdbool.h>
 #include <sys/types.h>
 
-/* Megabytes (2^20 bytes) by /proc/self/smaps_rollup; NAN where the kernel does not say. */
+/* Megabytes (2^20 bytes) by /proc/self/smaps_rollup; NAN if the kernel has no such file. */
 double gn_memory_private_dirty_mb(void);
 
 /* A child that waits until it is asked, then opens the display, makes its context, measures itself

@@ -1,6 +1,6 @@
-/* Does this GPU draw shadows as they are? Small scenes inside the program, each with the truth
- * about every pixel, found by rays when the program was built; drawn with every technique in every
- * map encoding that the GPU has.
+/* Compares the shadows that this GPU draws with ray-traced ones. Small scenes are embedded, each
+ * with whether every pixel is lit, traced when the program was built; they are drawn with every
+ * technique in every map format that the GPU has.
  *
  * Embedded are pairs "selftest/NAME.glb" and "selftest/NAME.truth". The latter: the eight bytes
  * "gntruth1"; width and height in pixels, 16 bits each, little endian; then runs of pixels, rows
@@ -26,7 +26,7 @@ enum {
 #define GN_SELFTEST_AWAY_MAX  0.3
 #define GN_SELFTEST_WRONG_MAX 1.0
 
-struct gn_selftest_count { /* of a scene, in per cent; NAN: not drawn */
+struct gn_selftest_count { /* wrong pixels of a scene, in per cent; NAN: not drawn */
     double away, wrong;
 };
 struct gn_selftest_row {
@@ -44,8 +44,8 @@ struct gn_selftest {
     uint32_t done, all; /* pictures */
 };
 
-/* Draws all; fills `done` as it goes. False when the scenes inside are broken or cannot be loaded;
- * what one row fails on stands in that row. */
+/* Draws all; fills `done` as it goes. False if an embedded scene is broken or cannot be loaded;
+ * the failure of a row is in that row. */
 bool gn_selftest_run(struct gn_selftest *test, struct gn_gl *gl, struct gn_err *err);
 
 struct gn_selftest_sum {

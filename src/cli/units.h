@@ -1,4 +1,4 @@
-/* From what the program reckons in to what people read. */
+/* Units of reports from those of the code. */
 #ifndef GN_CLI_UNITS_H
 #define GN_CLI_UNITS_H
 

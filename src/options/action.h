@@ -1,4 +1,4 @@
-/* What a kiosk can be told to do, whoever tells it: a button, a key, the control socket. */
+/* Actions of a kiosk, by a button, a key or the control socket. */
 #ifndef GN_OPTIONS_ACTION_H
 #define GN_OPTIONS_ACTION_H
 
@@ -31,7 +31,7 @@ enum gn_action_kind {
 };
 struct gn_action { /* zeroed: none */
     enum gn_action_kind kind;
-    const char *name; /* of the mode, else NULL; whoever parsed it owns it */
+    const char *name; /* of the mode, else NULL; points into the parsed text */
 };
 
 enum gn_idle { /* what a kiosk does after idle_after seconds without an event */

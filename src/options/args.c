@@ -113,7 +113,7 @@ static bool fail_command(const char *word, struct gn_err *err) {
                          word);
 }
 
-static bool split_words(struct args *args, struct gn_err *err) {
+static bool split_arguments(struct args *args, struct gn_err *err) {
     bool only_words = false, ok = true;
     while (ok && args->at < args->argc) {
         const char *arg = args->argv[args->at++];
@@ -153,7 +153,7 @@ static enum gn_command command_now(const struct args *args) {
     return args->options->settings->run.command;
 }
 
-static bool find_command(struct args *args, struct gn_err *err) {
+static bool choose_command(struct args *args, struct gn_err *err) {
     const char *first = args->words[0];
     const enum gn_command command = first ? command_of(first) : GN_COMMAND_AUTO;
     const bool bare = command == GN_COMMAND_AUTO;
@@ -256,13 +256,13 @@ bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
     for (int i = 0; i < argc; i++) letters += strlen(argv[i]);
     args.flags = gn_xalloc(letters + 1, sizeof *args.flags);
     gn_options_init(options, GN_COMMAND_AUTO);
-    bool ok = split_words(&args, err);
+    bool ok = split_arguments(&args, err);
     struct gn_run_settings *run = &options->all[0].run;
     run->help = ok && find_flag(&args, "help");
     run->version = ok && find_flag(&args, "version");
     if (run->help && args.words[0]) run->command = command_of(args.words[0]);
     if (ok && !run->help && !run->version) {
-        ok = find_command(&args, err) && check_flags(&args, err) &&
+        ok = choose_command(&args, err) && check_flags(&args, err) &&
              read_config(&args, warnings, err) && apply_flags(&args, err);
         if (ok) gn_options_resolve(options);
         const struct gn_settings *s = options->settings;

@@ -7,8 +7,8 @@
 
 /* Fills options, which gn_options_finish() must finish also after a failure. Flags and scene may
  * stand in any order, "--" ends the flags. `show` and the bare command look for a configuration
- * file, the others read the one that -c names. With
- * --help or --version nothing else is looked at or read. */
+ * file, the others read the one that -c names. With --help or
+ * --version no file is read and nothing else is checked. */
 bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
                    struct gn_warnings *warnings, struct gn_err *err);
 

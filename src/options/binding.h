@@ -1,4 +1,4 @@
-/* Which gesture of which button does what: what the configuration says, or the defaults. */
+/* The actions of gestures of buttons, from the configuration or by default. */
 #ifndef GN_OPTIONS_BINDING_H
 #define GN_OPTIONS_BINDING_H
 
@@ -18,13 +18,13 @@ struct gn_buttons {
     struct gn_button_config items[GN_BUTTONS_MAX];
 };
 
-/* What there is without a configuration: the lines GPIO17 (next) and GPIO27 (prev), if there are
- * such, and keys. */
+/* The buttons without a configuration: the lines GPIO17 (next) and GPIO27 (prev), if they exist,
+ * and keys. */
 void gn_buttons_defaults(struct gn_buttons *out);
-/* Fills the options of an input, an array of GN_BUTTONS_MAX, with what is bound to what. The count.
- */
+/* Fills the options of an input, an array of GN_BUTTONS_MAX, from the buttons; returns their
+ * count. */
 int gn_buttons_opts(const struct gn_buttons *buttons, struct gn_button_opts *out);
-/* What a gesture is to do; kind GN_ACTION_NONE: nothing. */
+/* The action of a gesture; kind GN_ACTION_NONE: none. */
 struct gn_action gn_buttons_action(const struct gn_buttons *buttons,
                                    const struct gn_gesture_event *event);
 

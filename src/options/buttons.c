@@ -93,7 +93,7 @@ static bool fail_value(const char *label, const char *text, const char *expected
     return gn_fail_usage(err, "%s: \"%.80s\" is not %s", label, text, expected);
 }
 
-/* Names the button that uses the line or key already. */
+/* The message names the button that has the line or key. */
 static bool fail_taken(const struct gn_config_buttons *config, int button, int key,
                        const char *what, const char *label, struct gn_err *err) {
     return gn_fail_usage(err, "%s: \"%s\" is button \"%s\"'s already, in line %d", label, what,

@@ -1,4 +1,4 @@
-/* [button "NAME"] of the configuration file: where a button is, and what it does. */
+/* [button "NAME"] of the configuration file: the source of a button and its actions. */
 #ifndef GN_OPTIONS_BUTTONS_H
 #define GN_OPTIONS_BUTTONS_H
 
@@ -22,14 +22,14 @@ struct gn_config_buttons {
     } lines[GN_BUTTONS_MAX];
 };
 
-/* A section begins; a setting of the last one. Texts are kept. Usage errors: file, line, key, and
- * what was expected. */
+/* Begins a section; sets a key of the last one. Texts are copied. Usage errors: file, line, key,
+ * and what was expected. */
 bool gn_config_button_open(struct gn_config_buttons *config, const struct gn_ini_line *line,
                            struct gn_err *err);
 bool gn_config_button_set(struct gn_config_buttons *config, const struct gn_ini_line *line,
                           struct gn_err *err);
-/* What can be said only of the whole file, path: modes that are not there, chords of nothing,
- * buttons that are nowhere or do nothing. */
+/* Checks that need the whole file: modes and buttons that do not exist, buttons without a source or
+ * an action. `path` is for messages. */
 bool gn_config_button_check(const struct gn_config_buttons *config,
                             const struct gn_options *options, const char *path, struct gn_err *err);
 

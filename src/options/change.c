@@ -49,7 +49,7 @@ static const char *const why_fixed[] = {
 };
 
 /* "max-fps" as "max_fps" */
-static void spell(const char *key, char *out, size_t size) {
+static void spell_key(const char *key, char *out, size_t size) {
     snprintf(out, size, "%s", key);
     for (char *c = out; *c; c++)
         if (*c == '-') *c = '_';
@@ -58,7 +58,7 @@ static void spell(const char *key, char *out, size_t size) {
 const struct gn_option_row *gn_changes_find(const char *key, struct gn_err *err) {
     struct gn_text_guess guess = {0};
     char spelled[80], name[64], names[GN_OPTION_COUNT][32];
-    spell(key, spelled, sizeof spelled);
+    spell_key(key, spelled, sizeof spelled);
     const char *dot = strchr(spelled, '.');
     const size_t length = dot ? (size_t)(dot - spelled) : 0;
     for (int i = 0; i < GN_OPTION_COUNT; i++) {
@@ -68,7 +68,7 @@ const struct gn_option_row *gn_changes_find(const char *key, struct gn_err *err)
             continue;
         gn_option_key(row, name, sizeof name);
         if (strcmp(name, dot ? dot + 1 : spelled) == 0) return row;
-        spell(row->name, name, sizeof name); /* [display] mode is display_mode */
+        spell_key(row->name, name, sizeof name); /* [display] mode is display_mode */
         if (strcmp(name, dot ? dot + 1 : spelled) == 0) return row;
     }
     for (int i = 0; i < GN_OPTION_COUNT; i++) {

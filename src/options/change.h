@@ -8,20 +8,20 @@
 
 struct gn_changes;
 
-/* The options are resolved, and outlive the changes; or NULL destroys nothing. */
+/* The options must be resolved, and outlive the changes. */
 struct gn_changes *gn_changes_create(struct gn_options *options);
 void gn_changes_destroy(struct gn_changes *changes);
 
 /* Sets one option in the settings of all modes, as GN_SOURCE_SET; options->all and ->settings point
  * to the new ones then. The old ones live until the next change, their texts until the next but one
- * of the same option; whoever keeps more than a pass through the loop copies. What belongs to the
- * display, or is read only as the kiosk starts, cannot be set: a failure that says why. */
+ * of the same option; copy what must live longer. Options of the display and those
+ * that are read only at the start cannot be set: a failure with the reason. */
 bool gn_changes_set(struct gn_changes *changes, const struct gn_option_row *row, const char *text,
                     struct gn_err *err);
-/* Takes back the last change, as if it had not been. Once. */
+/* Undoes the last change; at most once for each. */
 void gn_changes_undo(struct gn_changes *changes);
 
-/* A row by key as `ctl set` has it, with _ or -, with or without its section: "shadow",
+/* The row of a key of `ctl set`, with _ or -, with or without its section: "shadow",
  * "render.shadow", "scene.file", "scene". NULL, and a usage error that names the nearest. */
 const struct gn_option_row *gn_changes_find(const char *key, struct gn_err *err);
 

@@ -1,4 +1,4 @@
-/* What a running kiosk can be asked over its socket: one table for the server, the client, --help
+/* Requests to a running kiosk over its socket: one table for the server, the client, --help
  * and the manual. */
 #ifndef GN_OPTIONS_COMMAND_H
 #define GN_OPTIONS_COMMAND_H
@@ -7,7 +7,7 @@
 
 #include "options/action.h"
 
-/* The commands that are no actions: X(ID, id, name, arguments, flags, help, members..). A row and
+/* The commands that are not actions: X(ID, id, name, arguments, flags, help, members..). A row and
  * the function answer_<id> of kiosk/control/answer.c make a command. */
 /* clang-format off */
 #define GN_REQUESTS(X)                                                                             \
@@ -25,7 +25,7 @@
 
 enum {                     /* flags */
        GN_CTL_CHANGES = 1, /* it may cost a frame: at most GN_CONTROL_CHANGES_PER_S a second */
-       GN_CTL_SLOW = 2,    /* it is answered when it is done, which may take seconds */
+       GN_CTL_SLOW = 2,    /* the reply comes when it is done, which may take seconds */
 };
 enum gn_ctl { /* first the actions, in their order: gn_ctl_action() */
 #define X(ID, ...) GN_CTL_##ID,
@@ -43,7 +43,7 @@ struct gn_ctl_row {
 };
 extern const struct gn_ctl_row gn_ctl_rows[GN_CTL_COUNT];
 
-enum gn_action_kind gn_ctl_action(enum gn_ctl command); /* GN_ACTION_NONE: it is no action */
+enum gn_action_kind gn_ctl_action(enum gn_ctl command); /* GN_ACTION_NONE: it is not an action */
 int gn_ctl_find(const char *name);                      /* enum gn_ctl, or -1 */
 int gn_ctl_words(enum gn_ctl command);                  /* how many words it takes */
 void gn_ctl_list(char *out, size_t size);               /* " next, prev, mode NAME, .." */

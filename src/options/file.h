@@ -4,7 +4,7 @@
 
 #include "options/options.h"
 
-/* The first that is there of $XDG_CONFIG_HOME/gnomon/kiosk.ini (~/.config without it) and
+/* The first that exists of $XDG_CONFIG_HOME/gnomon/kiosk.ini (~/.config without it) and
  * /etc/gnomon/kiosk.ini. */
 bool gn_config_find(char *path, size_t size);
 

@@ -16,7 +16,7 @@ struct reader {
     const char *section, *name;
 };
 
-static bool refuse(struct reader *r, const char *what) {
+static bool refuse_line(struct reader *r, const char *what) {
     r->failed = true;
     gn_fail_usage(r->err, "%s: %s", r->where, what);
     return false;
@@ -32,19 +32,20 @@ static bool is_nothing(const char *rest) {
 static bool read_header(struct reader *r, const char *line) {
     snprintf(r->header, sizeof r->header, "%s", line + 1);
     char *close = strchr(r->header, ']');
-    if (!close) return refuse(r, "a section ends with ]");
-    if (!is_nothing(close + 1)) return refuse(r, "nothing may follow the ] of a section");
+    if (!close) return refuse_line(r, "a section ends with ]");
+    if (!is_nothing(close + 1)) return refuse_line(r, "nothing may follow the ] of a section");
     *close = '\0';
     char *space = strpbrk(r->header, " \t\"");
     char *quote = space ? space + strspn(space, " \t") : NULL;
     char *end = quote && *quote == '"' ? strchr(quote + 1, '"') : NULL;
     if (end && end == quote + 1) end = NULL; /* an empty name */
-    if (space && (!end || end[1])) return refuse(r, "expected [section] or [section \"NAME\"]");
+    if (space && (!end || end[1]))
+        return refuse_line(r, "expected [section] or [section \"NAME\"]");
     if (end) *end = *space = '\0';
     r->section = r->header;
     r->name = end ? quote + 1 : NULL;
     if (strlen(r->section) > GN_INI_NAME_MAX || (r->name && strlen(r->name) > GN_INI_NAME_MAX))
-        return refuse(r, "a name of more than 48 characters");
+        return refuse_line(r, "a name of more than 48 characters");
     struct gn_ini_line opened = {r->where, r->number, r->section, r->name, NULL, NULL};
     r->failed = !r->handler(r->user, &opened, r->err);
     return !r->failed;
@@ -53,17 +54,17 @@ static bool read_header(struct reader *r, const char *line) {
 static bool check_setting(struct reader *r, const char *line) {
     size_t length = strcspn(line, "=:");
     if (is_blank(line[0]))
-        return refuse(r,
-                      "begins with a space; a setting is one line and begins at its first column");
+        return refuse_line(
+            r, "begins with a space; a setting is one line and begins at its first column");
     if (line[length] != '=') {
         r->failed = true;
         return gn_fail_usage(r->err, "%s: expected KEY = VALUE or [section], not \"%.60s\"",
                              r->where, line);
     }
     while (length > 0 && is_blank(line[length - 1])) length--;
-    if (length == 0) return refuse(r, "expected a key before the =");
-    if (length > GN_INI_NAME_MAX) return refuse(r, "a key of more than 48 characters");
-    if (!r->section) return refuse(r, "a setting before the first [section]");
+    if (length == 0) return refuse_line(r, "expected a key before the =");
+    if (length > GN_INI_NAME_MAX) return refuse_line(r, "a key of more than 48 characters");
+    if (!r->section) return refuse_line(r, "a setting before the first [section]");
     return true;
 }
 
@@ -75,10 +76,10 @@ static bool next_line(struct reader *r, char *line) {
     snprintf(r->where, sizeof r->where, "%.256s:%d", r->path, ++r->number);
     if (r->number == 1 && stop - start >= 3 && memcmp(start, "\xef\xbb\xbf", 3) == 0) start += 3;
     if (stop > start && stop[-1] == '\r') stop--;
-    if (stop - start > GN_INI_LINE_MAX) return refuse(r, "a line of more than 190 characters");
+    if (stop - start > GN_INI_LINE_MAX) return refuse_line(r, "a line of more than 190 characters");
     for (const char *at = start; at < stop; at++)
         if (((unsigned char)*at < 0x20 && *at != '\t') || *at == 0x7f)
-            return refuse(r, "control characters; this is not a text file");
+            return refuse_line(r, "control characters; this is not a text file");
     memcpy(line, start, (size_t)(stop - start));
     line[stop - start] = '\0';
     return true;

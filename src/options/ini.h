@@ -1,6 +1,6 @@
-/* INI files, strictly: one setting per line, nothing cut, nothing guessed. inih splits the lines;
- * before it sees them this room counts them and refuses those over 190 characters, names over 48,
- * continuation lines and bytes that are no text. */
+/* INI files, strictly: one setting per line, nothing shortened, nothing guessed. inih splits the
+ * lines; before that they are counted, and lines over 190 characters, names over 48, continuation
+ * lines and control characters are refused. */
 #ifndef GN_OPTIONS_INI_H
 #define GN_OPTIONS_INI_H
 

@@ -1,5 +1,5 @@
-/* What the command line and the configuration file ask for: the settings of each mode, the modes,
- * the buttons. */
+/* The command line and the configuration file, read: the settings of each mode, the modes, the
+ * buttons. */
 #ifndef GN_OPTIONS_OPTIONS_H
 #define GN_OPTIONS_OPTIONS_H
 
@@ -33,11 +33,11 @@ struct gn_options {
     const struct gn_buttons *buttons; /* of the INI file; NULL: it has none */
     const char *config_path;          /* the INI file that was read, or NULL */
     const char
-        *config_error; /* `show` runs on with the defaults when that file is bad: why, or NULL */
+        *config_error; /* why the file was not used and `show` runs with the defaults, or NULL */
 
-    const char *const *words; /* of ctl: its command and what follows; they are argv's */
+    const char *const *words; /* of ctl: its command and arguments; argv's texts */
     int word_count;
-    int argc; /* as main() has them: to read all of it again */
+    int argc; /* of main(): a reload parses them again */
     char *const *argv;
     struct gn_arena arena; /* all texts */
 };
@@ -51,8 +51,8 @@ void gn_options_finish(struct gn_options *options);
 bool gn_options_parse(const struct gn_options *options, const struct gn_option_row *row,
                       const char *text, void *value, struct gn_arena *arena, const char *label,
                       struct gn_err *err);
-/* Sets one option from text, before the modes are resolved, if nothing stronger has set it. `label`
- * is how a message names it: "--size", "kiosk.ini:3: size". */
+/* Sets one option from text, before the modes are resolved, unless a stronger source has set it.
+ * `label` names it in messages: "--size", "kiosk.ini:3: size". */
 bool gn_options_set(struct gn_options *options, const struct gn_option_row *row, const char *text,
                     enum gn_source source, const char *label, struct gn_err *err);
 
@@ -64,10 +64,10 @@ void gn_options_resolve(struct gn_options *options);
 int gn_options_find_mode(const struct gn_options *options, const char *name);
 /* The modes of the INI file for a message: ' "Day", "Night"'; "" without any. */
 void gn_options_list_modes(const struct gn_options *options, char *out, size_t size);
-/* Makes `settings` those of that mode. A name that is not there is a usage error that lists those
- * that are. */
+/* Makes `settings` those of that mode. An unknown name is a usage error that lists the known
+ * ones. */
 bool gn_options_choose(struct gn_options *options, const char *name, struct gn_err *err);
-/* All settings are for another command from now on. */
+/* Changes the command of all settings. */
 void gn_options_run_as(struct gn_options *options, enum gn_command command);
 
 #endif

@@ -48,13 +48,13 @@ enum gn_source {
     GN_SOURCE_INI,
     GN_SOURCE_MODE,
     GN_SOURCE_FLAG,
-    GN_SOURCE_SET, /* while running; a reload forgets it */
-};                 /* later ones win */
+    GN_SOURCE_SET, /* by `ctl set`, until a reload */
+};                 /* later ones override earlier ones */
 
 struct gn_scene_settings {
     union {
         const char *path;          /* NULL: the default scene inside the program */
-        struct gn_scene_list list; /* that one, and what `show` goes on to */
+        struct gn_scene_list list; /* that one, and those of next-scene */
     };
     const char *camera, *animation; /* NAME or number; NULL: the first; animation may be "none" */
     bool no_animation;
@@ -63,28 +63,28 @@ struct gn_scene_settings {
 };
 struct gn_render_settings {
     struct gn_size size;
-    struct gn_technique_list shadow; /* one; for bench any number. Given (see below) it beats what
-                                        a light says */
-    int map_px;                      /* given it beats what a light says */
+    struct gn_technique_list shadow; /* one; for bench any number. Set (gn_settings_given()) it
+                                        overrides that of lights */
+    int map_px;                      /* set it overrides that of lights */
     int map_format;                  /* GN_MAP_FORMAT() */
     int planar_in_stencil;           /* 0, 1 */
     int taps;
     bool taps_fixed;
-    double filter_budget;   /* million texels; 0: no end */
-    double shadow_strength; /* given it beats what a light says */
+    double filter_budget;   /* million texels; 0: no limit */
+    double shadow_strength; /* set it overrides that of lights */
     bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */
     int aov;   /* enum gn_aov, or GN_AOV_COUNT: the light's map */
     enum gn_picture output;
     double exposure_ev; /* NAN: automatic */
     int msaa;           /* samples: 0, 2 or 4 */
-    const char *font;   /* of texts on the picture: a file; NULL: the first of the usual ones */
+    const char *font;   /* file, for captions; NULL: the first usual one that exists */
     const char *shaders, *without;
     struct gn_limits limits;
 };
 struct gn_display_settings {
     const char *backend, *card, *render_node, *connector;
-    struct gn_display_mode mode; /* 0x0: the display's */
+    struct gn_display_mode mode; /* 0x0: the display's preferred one */
     struct gn_display_mode max_mode;
     const char *modeline;
     int rotate_deg, max_fps; /* 0: as fast as the display */
@@ -101,14 +101,14 @@ struct gn_run_settings { /* of this run of the program: flags only */
     enum gn_command command;
     const char *input_script;
     const char *config, *mode, *out;
-    const char *check;   /* a configuration file that is only looked at, or NULL */
+    const char *check;   /* a configuration file that is only checked, or NULL */
     const char *caption; /* text on the picture, or NULL */
     int frames;
     double fps;
     bool plan, json, self_test, stats, verbose, version, help;
 };
 struct gn_settings {
-    const char *mode; /* the name of the mode that is in them, or NULL */
+    const char *mode; /* the name of their mode, or NULL */
     struct gn_scene_settings scene;
     struct gn_render_settings render;
     struct gn_display_settings display;
@@ -118,20 +118,20 @@ struct gn_settings {
     const char *label[GN_OPTION_COUNT]; /* see gn_settings_label(); NULL: at its default */
 };
 
-/* For those that make them: sets a value if nothing stronger has set it. The label must outlive the
- * settings. */
+/* Used while settings are made: sets a value unless a stronger source has set it. The label must
+ * outlive the settings. */
 void gn_settings_put(struct gn_settings *settings, const struct gn_option_row *row,
                      const void *value, enum gn_source source, const char *label);
 
 const void *gn_settings_value(const struct gn_settings *settings, const struct gn_option_row *row);
-/* As one would write it: "pcf", "1280x720", "auto". */
+/* As it is written in a file: "pcf", "1280x720", "auto". */
 void gn_settings_text(const struct gn_settings *settings, const struct gn_option_row *row,
                       char *out, size_t size);
 
-/* Where a field's value comes from, by the field: gn_settings_source(s, offsetof(struct
- * gn_settings, render.shadow)). */
+/* The source of a field's value: gn_settings_source(s, offsetof(struct gn_settings,
+ * render.shadow)). */
 enum gn_source gn_settings_source(const struct gn_settings *settings, size_t offset);
-/* How a message names a field, by where its value comes from: "--camera", "kiosk.ini:9: camera". */
+/* The name of a field in messages, by its source: "--camera", "kiosk.ini:9: camera". */
 const char *gn_settings_label_at(const struct gn_settings *settings, size_t offset);
 #define gn_settings_label(settings, field)                                                         \
     gn_settings_label_at(settings, offsetof(struct gn_settings, field))

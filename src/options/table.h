@@ -1,5 +1,5 @@
 /* The table of options. A row makes a flag, an INI key, a line of --help and of the man page, and
- * fills a field of struct gn_settings; whoever needs the value reads the field. */
+ * fills a field of struct gn_settings, where its value is read. */
 #ifndef GN_OPTIONS_TABLE_H
 #define GN_OPTIONS_TABLE_H
 

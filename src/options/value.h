@@ -1,4 +1,4 @@
-/* Texts to values and back to words: what a value must look like, per kind of option. */
+/* Values of options from text and to text, per kind of option. */
 #ifndef GN_OPTIONS_VALUE_H
 #define GN_OPTIONS_VALUE_H
 
@@ -8,22 +8,22 @@
 
 /* Parses text into the field (of gn_value_size bytes); all of text must be the value. Texts are
  * kept in the arena. GN_KIND_LIMIT adds to what is in the field. A failure is a usage error:
- * `LABEL: "TEXT" is not EXPECTED`, or `LABEL: ` and what the room says that knows such names. */
+ * `LABEL: "TEXT" is not EXPECTED`, or `LABEL: ` and the message of the room that knows such names.
+ */
 bool gn_value_parse(const struct gn_option_row *row, const char *text, void *field,
                     struct gn_arena *arena, const char *label, struct gn_err *err);
 size_t gn_value_size(enum gn_option_kind kind);
 
-/* The value as one would write it, for reading aloud: "pcf", "1280x720", "auto"; "" for a text that
- * is not there. */
+/* The value as it is written in a file: "pcf", "1280x720", "auto"; "" for a text that is NULL. */
 void gn_value_text(const struct gn_option_row *row, const void *field, char *out, size_t size);
 
-/* Whether two fields hold the same. Not for limits and lists of scenes. */
+/* Whether two fields have the same value. Not for limits and lists of scenes. */
 bool gn_value_same(const struct gn_option_row *row, const void *a, const void *b);
 
 /* "a whole number from 16 to 16384" */
 void gn_value_expected(const struct gn_option_row *row, char *out, size_t size);
 
-/* Decimal numbers in the C locale's way, all of text, without hex, inf, nan or leading space. */
+/* Decimal numbers as in the C locale, all of text, without hex, inf, nan or leading space. */
 bool gn_parse_int(const char *text, int64_t *out);
 bool gn_parse_number(const char *text, double *out);
 
