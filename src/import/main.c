@@ -46,16 +46,6 @@ static bool parse_number(const char *name, const char *text, int most, int *valu
     return true;
 }
 
-static bool parse_up(const char *text, enum gn_import_up *up, struct gn_err *err) {
-    static const char *const words[] = {"auto", "y", "z"};
-    for (int i = 0; i < 3; i++) {
-        if (strcmp(text, words[i]) != 0) continue;
-        *up = (enum gn_import_up)i;
-        return true;
-    }
-    return gn_fail_usage(err, "--up: \"%s\" is not auto, y or z", text);
-}
-
 /* opts->model stays NULL when help or the version was printed. */
 static bool parse_args(int argc, char **argv, struct gn_import_opts *opts, struct gn_err *err) {
     static const struct option options[] = {{"output", required_argument, NULL, 'o'},
@@ -73,7 +63,13 @@ static bool parse_args(int argc, char **argv, struct gn_import_opts *opts, struc
         case 'h': fputs(help, stdout); return true;
         case OPTION_VERSION: fputs("gnomon-import " GN_VERSION "\n", stdout); return true;
         case 'o': opts->out = optarg; break;
-        case OPTION_UP: ok = parse_up(optarg, &opts->up, err); break;
+        case OPTION_UP:
+            opts->up = strcmp(optarg, "y") == 0   ? GN_IMPORT_UP_Y
+                       : strcmp(optarg, "z") == 0 ? GN_IMPORT_UP_Z
+                                                  : GN_IMPORT_UP_AUTO;
+            ok = opts->up != GN_IMPORT_UP_AUTO || strcmp(optarg, "auto") == 0 ||
+                 gn_fail_usage(err, "--up: \"%s\" is not auto, y or z", optarg);
+            break;
         case OPTION_MEMORY:
             ok = parse_number("memory", optarg, 1 << 20, &opts->memory_mb, err);
             break;
@@ -95,19 +91,6 @@ static bool parse_args(int argc, char **argv, struct gn_import_opts *opts, struc
         return gn_fail_usage(err,
                              "%s: unknown file extension; expected .obj, .fbx, .stl, .ply or .dae",
                              opts->model);
-    return true;
-}
-
-/* Output is MODEL with .glb as its extension; that file must not exist. */
-static bool choose_out(struct gn_import_opts *opts, struct gn_err *err) {
-    static char out[PATH_MAX];
-    if (opts->out) return true;
-    int stem = (int)(strrchr(opts->model, '.') - opts->model);
-    if (snprintf(out, sizeof out, "%.*s.glb", stem, opts->model) >= (int)sizeof out)
-        return gn_fail(err, "%s: path too long; name the output with -o", opts->model);
-    if (access(out, F_OK) == 0)
-        return gn_fail(err, "%s exists; use -o %s to overwrite it", out, out);
-    opts->out = out;
     return true;
 }
 
@@ -162,7 +145,15 @@ static bool import_model(int argc, char **argv, struct gn_err *err) {
                                   .file_mb = 512};
     if (!parse_args(argc, argv, &opts, err)) return false;
     if (!opts.model) return true;
-    if (!choose_out(&opts, err)) return false;
+    char out[PATH_MAX];
+    if (!opts.out) { /* MODEL with .glb as its extension; that file must not exist */
+        int stem = (int)(strrchr(opts.model, '.') - opts.model);
+        if (snprintf(out, sizeof out, "%.*s.glb", stem, opts.model) >= (int)sizeof out)
+            return gn_fail(err, "%s: path too long; name the output with -o", opts.model);
+        if (access(out, F_OK) == 0)
+            return gn_fail(err, "%s exists; use -o %s to overwrite it", out, out);
+        opts.out = out;
+    }
     struct gn_import_report *report = gn_child_share(sizeof *report, err);
     if (!report) return false;
     struct job job = {.opts = &opts, .fd = memfd_create("gnomon-import", MFD_CLOEXEC)};

@@ -77,28 +77,28 @@ static float meta_sign(const struct gn_import *import, const char *key) {
     return meta_number(import, key, 1.0f) < 0.0f ? -1.0f : 1.0f;
 }
 
-/* Each row selects the FBX axis that is our X, Y or Z. Left unchanged if it is no rotation. */
-static void set_fbx_axes(const struct gn_import *import, float m[3][3]) {
-    int axis[3] = {(int)meta_number(import, "CoordAxis", 0.0f),
-                   (int)meta_number(import, "UpAxis", 1.0f),
-                   (int)meta_number(import, "FrontAxis", 2.0f)};
-    int seen = 0;
-    for (int i = 0; i < 3; i++) seen |= axis[i] >= 0 && axis[i] < 3 ? 1 << axis[i] : 0;
-    if (seen != 7) return;
-    memset(m, 0, 9 * sizeof m[0][0]);
-    m[0][axis[0]] = meta_sign(import, "CoordAxisSign");
-    m[1][axis[1]] = meta_sign(import, "UpAxisSign");
-    m[2][axis[2]] = meta_sign(import, "FrontAxisSign");
-    bool even = axis[1] == (axis[0] + 1) % 3;
-    float determinant = m[0][axis[0]] * m[1][axis[1]] * m[2][axis[2]] * (even ? 1.0f : -1.0f);
-    if (determinant < 0.0f) m[2][axis[2]] = -m[2][axis[2]]; /* no mirroring */
-}
-
 static struct aiMatrix4x4 world_from_model(const struct gn_import *import) {
     enum gn_import_up up =
         import->opts->up == GN_IMPORT_UP_AUTO ? up_of[import->format] : import->opts->up;
     float m[3][3] = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}}, scale = 1.0f;
-    if (up == GN_IMPORT_UP_AUTO) set_fbx_axes(import, m);
+    if (up == GN_IMPORT_UP_AUTO) {
+        /* each row selects the FBX axis that is our X, Y or Z; unchanged if it is no rotation */
+        int axis[3] = {(int)meta_number(import, "CoordAxis", 0.0f),
+                       (int)meta_number(import, "UpAxis", 1.0f),
+                       (int)meta_number(import, "FrontAxis", 2.0f)};
+        int seen = 0;
+        for (int i = 0; i < 3; i++) seen |= axis[i] >= 0 && axis[i] < 3 ? 1 << axis[i] : 0;
+        if (seen == 7) {
+            memset(m, 0, sizeof m);
+            m[0][axis[0]] = meta_sign(import, "CoordAxisSign");
+            m[1][axis[1]] = meta_sign(import, "UpAxisSign");
+            m[2][axis[2]] = meta_sign(import, "FrontAxisSign");
+            bool even = axis[1] == (axis[0] + 1) % 3;
+            float determinant =
+                m[0][axis[0]] * m[1][axis[1]] * m[2][axis[2]] * (even ? 1.0f : -1.0f);
+            if (determinant < 0.0f) m[2][axis[2]] = -m[2][axis[2]]; /* no mirroring */
+        }
+    }
     if (up == GN_IMPORT_UP_Z) {
         m[1][1] = m[2][2] = 0.0f;
         m[1][2] = 1.0f;

@@ -46,23 +46,16 @@ static const char *last_part(const char *path) {
     return at;
 }
 
-/* An embedded texture by index ("*3") or by name. */
-static const struct aiTexture *find_inside(const struct gn_import *import, const char *name) {
-    unsigned count = import->scene->mNumTextures;
-    struct aiTexture *const *all = import->scene->mTextures;
-    if (name[0] == '*') {
-        unsigned long number = strtoul(name + 1, NULL, 10);
-        return number < count ? all[number] : NULL;
-    }
-    for (unsigned i = 0; i < count; i++)
-        if (strcmp(last_part(all[i]->mFilename.data), last_part(name)) == 0) return all[i];
-    return NULL;
-}
-
 /* Reads an image; warns and fails unless it is a PNG or JPEG. */
 static bool fetch_image(struct gn_import *import, const char *name, struct gn_bytes *bytes) {
-    const struct aiTexture *inside = find_inside(import, name);
     const char *model = import->opts->model;
+    const unsigned count = import->scene->mNumTextures;
+    struct aiTexture *const *all = import->scene->mTextures;
+    const struct aiTexture *inside = NULL; /* embedded, by index ("*3") or by name */
+    const unsigned long index = name[0] == '*' ? strtoul(name + 1, NULL, 10) : count;
+    if (index < count) inside = all[index];
+    for (unsigned i = 0; i < count && name[0] != '*' && !inside; i++)
+        if (strcmp(last_part(all[i]->mFilename.data), last_part(name)) == 0) inside = all[i];
     *bytes = (struct gn_bytes){0};
     bool found = false;
     if (!inside)

@@ -85,27 +85,6 @@ static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
     return true;
 }
 
-static bool fill_vertices(struct gn_gltf *g, struct gn_vertices *vertices) {
-    if (vertices->filled) return true;
-    struct gn_scene_buffers *buffers = &g->scene->buffers;
-    vertices->filled = true;
-    vertices->first = buffers->vertex_count;
-    buffers->vertex_count += vertices->count;
-    struct gather gather = {.first = vertices->first, .count = vertices->count};
-    gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_POSITION]);
-    put_floats(g, &gather, 3, buffers->positions + 3 * gather.first);
-    gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
-    put_floats(g, &gather, 3, buffers->normals + 3 * gather.first);
-    for (size_t i = 0; i < vertices->count; i++) {
-        float *n = buffers->normals + 3 * (vertices->first + i);
-        float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        bool right = length > 1e-12f && length < 1e18f;
-        if (!right) vertices->lacks_normals = true;
-        for (int k = 0; k < 3; k++) n[k] = right ? n[k] / length : 0;
-    }
-    return put_other_attributes(g, vertices->attribute, gather);
-}
-
 /* ---- corners ---- */
 
 static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at,
@@ -195,20 +174,37 @@ static bool fill_flat_geometry(struct gn_gltf *g, const struct gn_at *at,
 
 static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
                                  const struct gn_shape *shape, struct gn_geometry *geometry) {
-    struct gn_scene *scene = g->scene;
+    struct gn_scene_buffers *buffers = &g->scene->buffers;
     struct gn_vertices *vertices = &g->primitives.vertices[shape->vertices];
+    if (!vertices->filled) {
+        vertices->filled = true;
+        vertices->first = buffers->vertex_count;
+        buffers->vertex_count += vertices->count;
+        struct gather gather = {.first = vertices->first, .count = vertices->count};
+        gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_POSITION]);
+        put_floats(g, &gather, 3, buffers->positions + 3 * gather.first);
+        gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
+        put_floats(g, &gather, 3, buffers->normals + 3 * gather.first);
+        for (size_t i = gather.first; i < gather.first + gather.count; i++) {
+            float *n = buffers->normals + 3 * i;
+            float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+            bool right = length > 1e-12f && length < 1e18f;
+            if (!right) vertices->lacks_normals = true;
+            for (int k = 0; k < 3; k++) n[k] = right ? n[k] / length : 0;
+        }
+        if (!put_other_attributes(g, vertices->attribute, gather)) return false;
+    }
     size_t count = 0;
-    if (!fill_vertices(g, vertices)) return false;
     const uint32_t *raw = read_corners(g, at, shape, &count);
     if (!raw) return false;
-    uint32_t *corners = scene->buffers.indices + geometry->first_index;
-    count = unroll_triangles(g, at, shape, raw,
-                             scene->buffers.positions + 3 * (size_t)vertices->first, corners);
+    uint32_t *corners = buffers->indices + geometry->first_index;
+    count = unroll_triangles(g, at, shape, raw, buffers->positions + 3 * (size_t)vertices->first,
+                             corners);
     for (size_t i = 0; i < count; i++) corners[i] += vertices->first;
     geometry->first_vertex = vertices->first;
     geometry->vertex_count = vertices->count;
     geometry->index_count = (uint32_t)count;
-    if (vertices->lacks_normals && gn_geometry_repair_normals(scene, geometry) > 0)
+    if (vertices->lacks_normals && gn_geometry_repair_normals(g->scene, geometry) > 0)
         gn_gltf_warn(g, at, "normals without length; those of the faces are used");
     return true;
 }

@@ -106,59 +106,43 @@ void gn_scene_destroy(struct gn_scene *scene) {
 
 /* ---- finding ---- */
 
-static const char *camera_name(const struct gn_scene *scene, uint32_t i) {
-    return scene->cameras[i].name;
-}
-static const char *camera_node(const struct gn_scene *scene, uint32_t i) {
-    return scene->nodes[scene->cameras[i].node].name;
-}
-static const char *clip_name(const struct gn_scene *scene, uint32_t i) {
-    return scene->animation.clips[i].name;
+enum list { CAMERAS, CLIPS };
+
+/* second: of a camera, the name of its node. */
+static const char *listed_name(const struct gn_scene *scene, enum list list, uint32_t i,
+                               bool second) {
+    if (list == CLIPS) return scene->animation.clips[i].name;
+    return second ? scene->nodes[scene->cameras[i].node].name : scene->cameras[i].name;
 }
 
-struct list {
-    const char *kind;
-    uint32_t count;
-    const char *(*name)(const struct gn_scene *, uint32_t);
-    const char *(*second_name)(const struct gn_scene *, uint32_t);
-};
-
-static int find_by_name(const struct gn_scene *scene, const struct list *list, const char *what,
-                        const char *(*name)(const struct gn_scene *, uint32_t)) {
-    for (uint32_t i = 0; i < list->count; i++)
-        if (strcmp(name(scene, i), what) == 0) return (int)i;
-    return -1;
-}
-
-static int find_named(const struct gn_scene *scene, const struct list *list, const char *what,
-                      struct gn_err *err) {
-    if (list->count > 0 && (!what || !*what)) return 0;
-    int found = what ? find_by_name(scene, list, what, list->name) : -1;
-    if (found < 0 && what) found = find_by_name(scene, list, what, list->second_name);
+static int find_listed(const struct gn_scene *scene, enum list list, const char *what,
+                       struct gn_err *err) {
+    const char *kind = list == CLIPS ? "animation" : "camera";
+    uint32_t count = list == CLIPS ? scene->animation.clip_count : scene->camera_count;
+    if (count > 0 && (!what || !*what)) return 0;
+    for (uint32_t i = 0; what && i < 2 * count; i++)
+        if (strcmp(listed_name(scene, list, i % count, i >= count), what) == 0)
+            return (int)(i % count);
     char *end = NULL;
     unsigned long number =
         what && *what >= '0' && *what <= '9' ? strtoul(what, &end, 10) : ULONG_MAX;
-    if (found < 0 && end && *end == 0 && number < list->count) found = (int)number;
-    if (found >= 0) return found;
+    if (end && *end == 0 && number < count) return (int)number;
     char names[360] = "";
     size_t at = 0;
-    for (uint32_t i = 0; i < list->count && at < sizeof names; i++)
+    for (uint32_t i = 0; i < count && at < sizeof names; i++)
         at += (size_t)snprintf(names + at, sizeof names - at, "%s%" PRIu32 " '%.40s'",
-                               i > 0 ? ", " : "", i, list->name(scene, i));
-    if (list->count == 0)
-        gn_fail_usage(err, "the scene has no %s", list->kind);
+                               i > 0 ? ", " : "", i, listed_name(scene, list, i, false));
+    if (count == 0)
+        gn_fail_usage(err, "the scene has no %s", kind);
     else
-        gn_fail_usage(err, "no %s named '%.60s'; available: %s", list->kind, what, names);
+        gn_fail_usage(err, "no %s named '%.60s'; available: %s", kind, what, names);
     return -1;
 }
 
 int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct gn_err *err) {
-    return find_named(
-        scene, &(struct list){"camera", scene->camera_count, camera_name, camera_node}, what, err);
+    return find_listed(scene, CAMERAS, what, err);
 }
 
 int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err) {
-    return find_named(
-        scene, &(struct list){"animation", scene->animation.clip_count, clip_name, clip_name}, what,
-        err);
+    return find_listed(scene, CLIPS, what, err);
 }

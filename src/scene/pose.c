@@ -117,23 +117,6 @@ static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
     return pose->clips == (int)clip;
 }
 
-static void apply_clip(struct gn_pose *pose, const struct gn_clip *clip) {
-    struct memory *memory = pose->memory;
-    /* the time within the clip; in integers until it is small */
-    int64_t local_ns = clip->duration_ns > 0 ? pose->time_ns % clip->duration_ns : 0;
-    if (local_ns < 0) local_ns += clip->duration_ns;
-    double time_s = (double)local_ns * 1e-9;
-    for (uint32_t i = 0; i < clip->channel_count; i++) {
-        const struct gn_channel *channel =
-            &pose->scene->animation.channels[clip->first_channel + i];
-        struct gn_node *node = &memory->local[channel->node];
-        float *const target[] = {[GN_ANIM_TRANSLATION] = node->translation,
-                                 [GN_ANIM_ROTATION] = node->rotation,
-                                 [GN_ANIM_SCALE] = node->scale};
-        gn_channel_sample(channel, time_s, target[channel->path]);
-    }
-}
-
 /* Marks and lists the nodes and items that the clips animate. */
 static void find_moving(struct gn_pose *pose) {
     struct memory *memory = pose->memory;
@@ -196,8 +179,23 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     struct memory *memory = pose->memory;
     pose->time_ns = time_ns;
     if (!pose->animated) return;
-    for (uint32_t c = 0; c < pose->scene->animation.clip_count; c++)
-        if (clip_on(pose, c)) apply_clip(pose, &pose->scene->animation.clips[c]);
+    const struct gn_scene_animation *animation = &pose->scene->animation;
+    for (uint32_t c = 0; c < animation->clip_count; c++) {
+        const struct gn_clip *clip = &animation->clips[c];
+        if (!clip_on(pose, c)) continue;
+        /* the time within the clip; in integers until it is small */
+        int64_t local_ns = clip->duration_ns > 0 ? time_ns % clip->duration_ns : 0;
+        if (local_ns < 0) local_ns += clip->duration_ns;
+        double time_s = (double)local_ns * 1e-9;
+        for (uint32_t i = 0; i < clip->channel_count; i++) {
+            const struct gn_channel *channel = &animation->channels[clip->first_channel + i];
+            struct gn_node *node = &memory->local[channel->node];
+            float *const target[] = {[GN_ANIM_TRANSLATION] = node->translation,
+                                     [GN_ANIM_ROTATION] = node->rotation,
+                                     [GN_ANIM_SCALE] = node->scale};
+            gn_channel_sample(channel, time_s, target[channel->path]);
+        }
+    }
     for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
     pose->box_ws = memory->still_ws;
     for (uint32_t i = 0; i < memory->item_count; i++) {
