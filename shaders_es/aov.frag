@@ -5,8 +5,8 @@
 
 layout(location = 0) out uvec4 o_bits;
 
-// Visibility from geometry and filter alone: 1 outside of cone and range; a caster whose lit side is the other one blocks itself.
-// See lit.frag for the arguments.
+// Visibility from geometry and filter alone: 1 outside of cone and range; a caster whose visible side faces away from the light
+// blocks itself. See lit.frag for the arguments.
 #define SEE_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
     { \
         light_sample l = light_at(slot, type, v_position); \

@@ -1,5 +1,6 @@
 // Box blur, 1 of 2: converts codes to moments and averages them along a row, within the tile. The ends of the box may cut texels.
-// Codes are clamped to the range of the moments, since exponential moments would overflow.
+// Codes are clamped to the range of the moments, since exponential moments would overflow. map_code() comes from lib/map_*.glsl of
+// the light's encoding, moments_of() from moments/ of its technique, moments_store() from lib/moments_*.glsl.
 #include "lib/pass.glsl"
 
 uniform MAP_SAMPLER u_map_0;

@@ -1,4 +1,5 @@
-// Summed-area table, 1 of 5: prefix sums of each row within blocks of TABLE_BLOCK texels of the tile.
+// Summed-area table, 1 of 5: prefix sums of each row within blocks of TABLE_BLOCK texels of the tile. map_code() comes from
+// lib/map_*.glsl of the light's encoding, moments_of() from moments/ of its technique.
 #include "lib/pass.glsl"
 
 uniform MAP_SAMPLER u_map_0;

@@ -4,7 +4,7 @@
 
 struct light_sample {
     vec3 to_light; // unit
-    vec3 color;    // illuminance over pi of a surface normal to the light, lux, after exposure
+    vec3 color;    // illuminance over pi of a surface that faces the light, lux, after exposure
     float cone;    // spot: 0 outside the outer angle, 1 inside the inner one; else 1
     bool in_range;
 };

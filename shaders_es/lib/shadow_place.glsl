@@ -33,7 +33,7 @@ float shadow_penumbra_depth(shadow_place s, float code) {
 
 // Gradient of the code per uv on the plane with normal n; u, v, code: their gradients in world space. Solves
 // gradient(code) = slope.x grad(u) + slope.y grad(v) + c n. The slope is infinite on a plane edge-on to the light, so n is tilted
-// towards the light until |cos(n, l)| is about 0.1.
+// towards the light until |dot(n, l)| is 0.1.
 vec2 shadow_slope(vec3 u, vec3 v, vec3 code, vec3 n, vec3 l) {
     float c = dot(n, l);
     n += l * (c < 0.0 ? min(-0.1 - c, 0.0) : max(0.1 - c, 0.0));

@@ -1,7 +1,7 @@
 // Means over squares from a summed-area table (SAT: Crow, "Summed-Area Tables for Texture Mapping", 1984); the number of reads
 // does not depend on the size. Each texel holds the sum from the tile's lower left corner up to and including itself, in fixed
-// point. Sums wrap around; a difference of two is exact as long as the sum between them fits into 32 bits: TABLE_SCALE. Edges are
-// counted in texels from the map's lower left corner: edge i is between texels i - 1 and i.
+// point. Sums wrap around; a difference of two is exact as long as the sum between them fits into 32 bits: TABLE_SCALE.
+// Edges are counted in texels from the map's lower left corner: edge i is between texels i - 1 and i.
 
 // Half side of the square that replaces a disk of radius 1: of equal area in the search, of equal variance in the filter.
 const float TABLE_SEARCH = 0.886;

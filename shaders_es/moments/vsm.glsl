@@ -1,7 +1,7 @@
 //@ names moments_of MOMENTS_CLEAR
 // Moments of a caster's distance z, 0..1: x = z, y = 4 (z - z^2), w = 1 (coverage); 0 where the map is empty. All are in 0..1.
-// After averaging they are means over casters times the fraction w of texels covered by casters; the variance is x (1 - x) - y /
-// 4 of x / w and y / w. Rounding changes it by at most 1.25 steps of the storage; with z^2 as the second moment it would be 3.
+// After averaging they are means over casters times the fraction w of texels covered by casters. With x and y divided by w, the
+// variance is x (1 - x) - y / 4. Rounding changes it by at most 1.25 steps of the storage; with z^2 instead of y it would be 3.
 
 // Distances above this are empty texels: the far end is, in every encoding; of casters only those behind everything visible are.
 const float MOMENTS_CLEAR = 0.9995;

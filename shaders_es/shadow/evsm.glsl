@@ -1,7 +1,7 @@
 //@ names shadow_visibility EVSM_LEAST EVSM_REACH EVSM_BLEED evsm_bound
 // Exponential variance shadow maps (Lauritzen, McCool, "Layered Variance Shadow Maps", 2008): Chebyshev's bound of the distance
 // warped by e^(a z), which reduces light bleeding behind a second caster, and by -e^(-b z), for steep casters that the first
-// leaves too light. Visibility is the lower bound, applied to the fraction of texels covered by casters; the rest is lit.
+// leaves too light. Visibility is the lesser of both bounds, applied to the fraction of texels covered by casters; the rest is lit.
 
 // Least variance, in units of the squared warp: rounded moments never reach 0, and a flat surface varies within a texel.
 const float EVSM_LEAST = max(4.0 * moments_step, 1e-5);

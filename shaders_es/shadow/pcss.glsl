@@ -1,6 +1,7 @@
 //@ names shadow_visibility
-// map_code() comes from lib/map_*.glsl of the light's encoding. Percentage-closer soft shadows (Fernando, 2005): the mean
-// distance of the blockers in the part of the map that can contain them, then PCF as wide as their penumbra is at the receiver.
+// map_code() comes from lib/map_*.glsl of the light's encoding.
+// Percentage-closer soft shadows (Fernando, "Percentage-Closer Soft Shadows", 2005): the mean distance of the blockers in the part
+// of the map that can contain them, then PCF as wide as their penumbra is at the receiver.
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
     mat2 turn = noise_turn();
     float depth = shadow_penumbra_depth(s, s.at.z);

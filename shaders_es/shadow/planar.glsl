@@ -1,6 +1,7 @@
 //@ names shadow_visibility
-// map_code() comes from lib/map_mask.glsl or lib/map_stencil.glsl, the light's encoding. Planar shadow mask, four bilinear taps
-// half a texel away along both diagonals: a 3 x 3 texel tent. With the stencil, visibility is a constant of the pass.
+// map_code() comes from lib/map_mask.glsl or lib/map_stencil.glsl, the light's encoding.
+// Planar shadow mask, four bilinear taps half a texel away along both diagonals: a 3 x 3 texel tent. With the stencil, visibility
+// is a constant of the pass.
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
     if (map_in_stencil) return s.far;
     vec2 a = s.at.xy - 0.5 * s.size.zw;

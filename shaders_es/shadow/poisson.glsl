@@ -1,4 +1,3 @@
 //@ names shadow_visibility
-// PCF with Poisson-distributed taps on a disk of three texels (Bridson, "Fast Poisson Disk Sampling in Arbitrary Dimensions",
-// 2007).
+// PCF with taps on a Poisson disk of three texels (Bridson, "Fast Poisson Disk Sampling in Arbitrary Dimensions", 2007).
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) { return taps_lit(map, s, 3.0, noise_turn()); }

@@ -5,10 +5,10 @@
 // those of casters: where the map is empty it is lit, and if the receiver is not in the map, only blockers remain.
 #include "lib/table.glsl"
 
-// x: code of the blockers in a square of this radius (texels), y: fraction of the whole square that they cover, 0 without
-// blockers. A sloped receiver covers a range of depths, of variance `own`, at most v. With a fraction p of blockers that are
-// nearer by d, the mean is nearer than the receiver by beyond = p d, and the variance is v = (1 - p) (p d d + own), hence own p p
-// + (v + beyond beyond - own) p = beyond beyond. If the receiver is not in the map, p is 1, which is correct too.
+// x: code of the blockers in a square of this radius (texels), y: fraction of the whole square that they cover, 0 without blockers.
+// A sloped receiver covers a range of depths, of variance `own`, at most v. With a fraction p of blockers that are nearer by d, the
+// mean is nearer than the receiver by beyond = p d, and the variance is v = (1 - p) (p d d + own), hence
+// own p p + (v + beyond beyond - own) p = beyond beyond. If the receiver is not in the map, p is 1, which is correct too.
 vec2 vssm_blockers(shadow_place s, vec4 m, float radius) {
     if (m.w < 1e-4) return vec2(0.0);
     float mean = m.x / m.w, beyond = s.at.z - shadow_cut(s, radius, m.w) - mean;
