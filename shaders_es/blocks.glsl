@@ -2,8 +2,8 @@
  * costs Mali load/store slots. Included by GLSL and by C: only #define and #ifdef, only comments of this kind.
  * A named component is constant[BIAS_SLOPE] in C and constant.BIAS_SLOPE in GLSL: an index costs up to seven instructions more
  * on embedded GPUs.
- * A code is a distance or depth as the shadow map encodes it (encoded distance). A penumbra depth grows with the distance from the
- * light such that a penumbra's radius is proportional to the difference of receiver and blocker (lib/shadow_place.glsl). */
+ * A code is a distance or depth as the shadow map encodes it (encoded distance). Penumbra depth grows with the distance from the
+ * light such that a penumbra's radius is proportional to its difference between receiver and blocker (lib/shadow_place.glsl). */
 #ifdef GL_ES
 #define AT_X x
 #define AT_Y y
@@ -31,7 +31,7 @@
 #define PASS_SHADOWS 34   /* GN_SHADOWS_MAX x SHADOW_SIZE; slot i belongs to light i */
 #define SHADOW_SIZE 9
 #define SHADOW_MAP 0      /* directional, spot: 4 columns of map_from_world; cascades: xy in metres across the light, z code */
-#define SHADOW_TILES 0    /* point, instead of SHADOW_MAP: xy: uv per unit of tangent; zw: code of a depth map at depth d is z + w / d */
+#define SHADOW_TILES 0    /* point, instead of SHADOW_MAP: xy: uv per unit of tangent; zw: depth maps: code at depth d is z + w / d */
 #define SHADOW_BIAS 4
 #define BIAS_NORMAL AT_X /* normal offset, plane units (texel size times texels); cascades: texels */
 #define BIAS_SLOPE AT_Y /* slope offset, same unit */
@@ -70,7 +70,7 @@
 #define FILTER_RECT 0     /* xy: lower left texel of the tile; zw: upper right texel, inclusive */
 #define FILTER_BLUR 1     /* x: half of the box width, texels; y: offset of the last texel from the centre; z: 1 / width */
 #define FILTER_SIZE 2     /* xy: width and height of the map in texels; zw: their inverse */
-#define FILTER_TABLE 3    /* x: largest read offset from a lookup in the SAT, texels; y: column of the first block sum of the tile */
+#define FILTER_TABLE 3    /* x: largest read offset from a lookup in the SAT, texels; y: column of the tile's first block sum */
 #define FILTER_CODE 4     /* code * x + y: 0..1 over the range that moments cover */
 #define FILTER_CONSTANTS 5
 /* Summed-area tables (SAT) */

@@ -1,6 +1,6 @@
 //@ names shadow_visibility VSM_BLEED VSM_REACH
-// Variance shadow maps (Donnelly, Lauritzen, "Variance Shadow Maps", 2006): by Chebyshev's inequality visibility is at most s^2 /
-// (s^2 + (z - m)^2), with equality for one blocker in front of one receiver. Light bleeding behind two casters is reduced by
+// Variance shadow maps (Donnelly, Lauritzen, "Variance Shadow Maps", 2006): by Chebyshev's inequality visibility is at most
+// s^2 / (s^2 + (z - m)^2), with equality for one blocker in front of one receiver. Light bleeding behind two casters is reduced by
 // subtracting VSM_BLEED and rescaling the rest (Lauritzen, GPU Gems 3, ch. 8). This applies to the fraction of texels covered by
 // casters; the rest is lit, whether the receiver is in the map (is a caster) or not.
 const float VSM_BLEED = 0.2;
