@@ -19,7 +19,7 @@ _Static_assert(CASCADES_ZONES == GN_CASCADES_MAX && CASCADES_SIZE == CASCADES_ZO
 
 static void put3(float to[4], const float *v) { memcpy(to, v, sizeof(vec3)); }
 
-static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
+static void set_shadow(const struct gn_shadow_view *view, float (*c)[4]) {
     const struct gn_shadow_lookup *lookup = &view->lookup;
     const bool cascades = view->map.cascade_count > 0;
     c[SHADOW_CODE][CODE_FAR_END] = view->code.far_end;
@@ -57,7 +57,7 @@ static void shadow_slot(const struct gn_shadow_view *view, float (*c)[4]) {
     c[SHADOW_PENUMBRA][PENUMBRA_BIAS] = penumbra->bias;
 }
 
-static void cascade_constants(const struct gn_shadow_view *view, float (*constants)[4]) {
+static void set_cascades(const struct gn_shadow_view *view, float (*constants)[4]) {
     const double middle = 0.5 * (double)view->map.inner_px;
     if (view->map.cascade_count == 0) return;
     for (uint32_t i = 0; i < GN_CASCADES_MAX; i++) {
@@ -97,8 +97,8 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
         constants[PASS_CONES + i / 4][i % 4] = 1.0f / fmaxf(inner - outer, 1e-4f);
         if (i >= group->shadow_count) continue;
         const struct gn_shadow_view *view = &frame->shadows[group->first_shadow + i];
-        shadow_slot(view, constants + PASS_SHADOWS + i * SHADOW_SIZE);
-        cascade_constants(view, constants + PASS_CASCADES + i * CASCADES_SIZE);
+        set_shadow(view, constants + PASS_SHADOWS + i * SHADOW_SIZE);
+        set_cascades(view, constants + PASS_CASCADES + i * CASCADES_SIZE);
     }
 }
 

@@ -85,8 +85,8 @@ enum { CONSTANTS_AT = 8 };
 _Static_assert(PASS_CODE_ADD < CONSTANTS_AT && CONSTANTS_AT + FILTER_CONSTANTS <= GN_PASS_SIZE,
                "room for the constants of a filter");
 
-static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
-                       const struct gn_filter_stage *stage, bool last) {
+static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
+                           const struct gn_filter_stage *stage, bool last) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
@@ -121,7 +121,7 @@ static void stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
         .tile = tile, .hash = gn_frame_filter_hash(view, tile), .completes = last};
     pass->depth_write = false;
     for (int i = 0; i < GN_FILTER_FROM_MAX; i++) {
-        const int from = stage->from[i];
+        const int8_t from = stage->from[i];
         struct gn_read *read = &pass->filter.reads[i];
         *read = (struct gn_read){.kind = GN_READ_NOTHING};
         if (from == GN_FROM_NOTHING) continue;
@@ -142,5 +142,5 @@ void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot) {
     const struct gn_filter_row *filter = &gn_filters[gn_techniques[view->technique].filter];
     for (uint32_t i = 0; i < filter->count; i++)
         for (uint32_t tile = 0; tile < view->map.tile_count; tile++)
-            stage_pass(frame, slot, tile, &filter->stages[i], i + 1 == filter->count);
+            add_stage_pass(frame, slot, tile, &filter->stages[i], i + 1 == filter->count);
 }

@@ -65,8 +65,8 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
     }
 }
 
-static void picture_constants(struct gn_frame *frame, const struct gn_pose *pose,
-                              const struct gn_frame_opts *opts) {
+static void set_picture_constants(struct gn_frame *frame, const struct gn_pose *pose,
+                                  const struct gn_frame_opts *opts) {
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PICTURE);
     memcpy(c[PASS_SKY], frame->scene->environment.sky, sizeof(vec3));
     memcpy(c[PASS_GROUND], frame->scene->environment.ground, sizeof(vec3));
@@ -110,7 +110,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
         plan->output = GN_OUTPUT_FLOAT;
     gn_frame_fit_shadows(frame, pose, opts, warnings);
     gn_frame_hold_maps(frame, opts);
-    picture_constants(frame, pose, opts);
+    set_picture_constants(frame, pose, opts);
 #define X(name) gn_frame_add_##name(frame, pose, opts);
     GN_FRAME_STEPS(X)
 #undef X

@@ -45,8 +45,8 @@ static void bound_tile(const struct gn_shadow_view *view, uint32_t index, struct
         (struct gn_rect){tile->x_px, tile->y_px, view->map.tile_px, view->map.tile_px};
 }
 
-static void tile_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
-                      uint32_t index, const struct gn_frame_opts *opts) {
+static void add_tile_pass(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
+                          uint32_t index, const struct gn_frame_opts *opts) {
     struct gn_shadow_view *view = &frame->shadows[slot];
     struct gn_shadow_tile *tile = &view->raster.tiles[index];
     struct gn_pass *pass = begin_pass(frame, GN_PASS_MAP, slot, index, 0, tile->clip_from_world);
@@ -81,8 +81,8 @@ static struct gn_target pages_target(const struct gn_frame *frame, const struct 
                               .encoding = view->encoding};
 }
 
-static void paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
-                         const struct paged *map, const struct gn_frame_opts *opts) {
+static void add_paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                             const struct paged *map, const struct gn_frame_opts *opts) {
     for (uint32_t i = 0; i < map->page_count; i++) {
         struct gn_shadow_page *page = &map->pages[i];
         struct gn_pass *part =
@@ -120,8 +120,8 @@ static void paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_end_pass(frame);
 }
 
-static void map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
-                       const struct gn_frame_opts *opts) {
+static void add_map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
+                           const struct gn_frame_opts *opts) {
     struct gn_shadow_view *view = &frame->shadows[slot];
     if (view->encoding == GN_ENCODING_STENCIL) return;
     if (view->raster.drawn.paged) {
@@ -129,12 +129,12 @@ static void map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint3
                                   .page_px = view->map.tile_px,
                                   .page_count = view->raster.drawn.page_count,
                                   .pages = view->raster.drawn.pages};
-        paged_passes(frame, pose, &map, opts);
+        add_paged_passes(frame, pose, &map, opts);
         return;
     }
     for (uint32_t tile = 0; tile < view->map.tile_count; tile++) {
         if (view->map.cascade_count == 0 || view->raster.tiles[tile].empty) {
-            tile_pass(frame, pose, slot, tile, opts);
+            add_tile_pass(frame, pose, slot, tile, opts);
             continue;
         }
         const struct paged map = {.slot = slot,
@@ -144,14 +144,14 @@ static void map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint3
                                   .to_px = {view->raster.tiles[tile].x_px + view->map.gutter_px,
                                             view->raster.tiles[tile].y_px + view->map.gutter_px},
                                   .pages = view->cascades[tile].drawn.pages};
-        paged_passes(frame, pose, &map, opts);
+        add_paged_passes(frame, pose, &map, opts);
     }
 }
 
 void gn_frame_add_maps(struct gn_frame *frame, const struct gn_pose *pose,
                        const struct gn_frame_opts *opts) {
     for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
-        map_passes(frame, pose, slot, opts);
+        add_map_passes(frame, pose, slot, opts);
         gn_frame_filter_passes(frame, slot);
     }
 }

@@ -84,7 +84,7 @@ static struct gn_instance make_mark(const struct gn_frame *frame, const struct g
 }
 
 /* All gizmos twice: first pale, through everything, then where they are not hidden. */
-static void marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
+static void add_marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
     const uint32_t first = frame->instances.count, count = frame->scene->light_count;
     struct gn_program_key key = overlay_key(frame, GN_PROGRAM_MARK);
     struct gn_pass *pass = gn_frame_picture_pass(frame, "marks of lights");
@@ -116,8 +116,8 @@ struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect
     return r;
 }
 
-static void panel_constants(const struct gn_frame *frame, const struct gn_shadow_view *view,
-                            const struct gn_rect *rect, float (*c)[4]) {
+static void set_panel_constants(const struct gn_frame *frame, const struct gn_shadow_view *view,
+                                const struct gn_rect *rect, float (*c)[4]) {
     const float size[2] = {(float)frame->picture.width_px, (float)frame->picture.height_px};
     const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
     const float rectangle[4] = {2.0f * (float)rect->x / size[0] - 1.0f,
@@ -136,7 +136,7 @@ static void panel_constants(const struct gn_frame *frame, const struct gn_shadow
     c[PANEL_PX][3] = frame->picture.turn[1];
 }
 
-static void panel_pass(struct gn_frame *frame, uint32_t slot) {
+static void add_panel_pass(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     if (view->encoding == GN_ENCODING_STENCIL) return; /* it has no map */
     /* Along the lower edge, from the left: a quarter of the height, or less so that all fit. */
@@ -155,7 +155,7 @@ static void panel_pass(struct gn_frame *frame, uint32_t slot) {
     key.encoding = (uint8_t)view->encoding;
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_PANEL) +
                    (size_t)slot * PANEL_SIZE;
-    panel_constants(frame, view, &rect, c);
+    set_panel_constants(frame, view, &rect, c);
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     pass->depth_write = false;
     pass->rect = gn_frame_turned_rect(frame, rect);
@@ -173,7 +173,7 @@ _Static_assert(GN_ALL_SHADOWS_MAX *PANEL_SIZE <= GN_PASS_SIZE, "room for all pan
 void gn_frame_add_overlay(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts) {
     if (opts->debug.aov != GN_AOV_COLOR) return;
-    if (opts->debug.show_lights && frame->scene->light_count > 0) marks_pass(frame, pose);
+    if (opts->debug.show_lights && frame->scene->light_count > 0) add_marks_pass(frame, pose);
     for (uint32_t i = 0; opts->debug.show_maps && i < frame->shadow_count; i++)
-        panel_pass(frame, i);
+        add_panel_pass(frame, i);
 }

@@ -41,8 +41,8 @@ static bool add_to_blended(struct gn_frame *frame, const struct gn_pose *pose,
     return added;
 }
 
-static void blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
-                         const struct gn_frame_opts *opts) {
+static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
+                             const struct gn_frame_opts *opts) {
     const struct gn_selection seen = {.opts = opts};
     const struct gn_placed *placed = frame->items.blended.at;
     bool begun = false, open = false;
@@ -111,7 +111,7 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
         if (frame->passes.at[frame->passes.count - 1].draw_count == 0) frame->passes.count--;
         if (marks) gn_frame_plane_passes(frame, pose, opts, i);
     }
-    blend_passes(frame, pose, opts);
+    add_blend_passes(frame, pose, opts);
     keep_additive_programs(frame, opts);
 }
 

@@ -90,9 +90,9 @@ static float (*fall_constants(const struct gn_frame *frame, uint32_t slot))[4] {
     return c;
 }
 
-static void caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
-                        const struct gn_frame_opts *opts, const struct marks *marks,
-                        uint32_t index) {
+static void add_caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
+                            const struct gn_frame_opts *opts, const struct marks *marks,
+                            uint32_t index) {
     const uint32_t slot = marks->slots[index];
     const struct gn_shadow_view *view = &frame->shadows[slot];
     const uint8_t bit = (uint8_t)(1u << index);
@@ -132,8 +132,8 @@ static float (*set_constants(struct gn_frame *frame, const struct marks *marks, 
 }
 
 /* The draws of `lit` again, where the marks are this set. */
-static void set_pass(struct gn_frame *frame, const struct marks *marks, uint32_t set,
-                     const struct gn_pass *lit) {
+static void add_set_pass(struct gn_frame *frame, const struct marks *marks, uint32_t set,
+                         const struct gn_pass *lit) {
     struct gn_rect rect = marks->all; /* where the set can occur */
     for (uint32_t i = 0; i < marks->count; i++)
         if (set >> i & 1) rect = intersect_rects(rect, marks->rects[i]);
@@ -164,7 +164,7 @@ void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
     frame->passes.count--;
     if (lit.draw_count == 0) return;
     if (group == 0) *gn_frame_begin_pass(frame, GN_PASS_PICTURE) = lit;
-    for (uint32_t i = 0; i < marks.count; i++) caster_pass(frame, pose, opts, &marks, i);
+    for (uint32_t i = 0; i < marks.count; i++) add_caster_pass(frame, pose, opts, &marks, i);
     for (uint32_t set = group == 0; set < 1u << marks.count; set++)
-        set_pass(frame, &marks, set, &lit);
+        add_set_pass(frame, &marks, set, &lit);
 }

@@ -253,36 +253,37 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
     return gn_gl_source_add(&source, main_file, out, err);
 }
 
-static void append(char *out, size_t size, const char *separator, const char *word) {
+static void append_word(char *out, size_t size, const char *separator, const char *word) {
     size_t used = strlen(out);
     snprintf(out + used, size - used, "%s%s", separator, word);
 }
 
 void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
     snprintf(out, size, "%s", gn_programs[key->kind].name);
-    if (key->kind == GN_PROGRAM_AOV) append(out, size, " ", aov_names[key->aov]);
+    if (key->kind == GN_PROGRAM_AOV) append_word(out, size, " ", aov_names[key->aov]);
     if (gn_programs[key->kind].reads & GN_PROGRAM_ENCODING)
-        append(out, size, " ", gn_encodings[key->encoding].name);
+        append_word(out, size, " ", gn_encodings[key->encoding].name);
     if (key->kind == GN_PROGRAM_FILTER) {
-        append(out, size, " ", gn_filter_steps[key->step].name);
-        append(out, size, ", ", gn_techniques[key->technique].name);
-        append(out, size, " ", gn_moments[key->moments].name);
+        append_word(out, size, " ", gn_filter_steps[key->step].name);
+        append_word(out, size, ", ", gn_techniques[key->technique].name);
+        append_word(out, size, " ", gn_moments[key->moments].name);
     }
     const char *separator = " ";
     for (int i = 0; i < GN_FEATURE_COUNT; i++) {
         if (!(key->features >> gn_features[i].bit & 1)) continue;
-        append(out, size, separator, gn_features[i].glsl);
+        append_word(out, size, separator, gn_features[i].glsl);
         separator = "|";
     }
     for (int i = 0; i < key->light_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
-        append(out, size, ", ", gn_light_types[light->type].glsl + sizeof "LIGHT_" - 1);
-        if (light->slide) append(out, size, " ", light->slide == GN_SLIDE_LIT ? "film" : "slide");
+        append_word(out, size, ", ", gn_light_types[light->type].glsl + sizeof "LIGHT_" - 1);
+        if (light->slide)
+            append_word(out, size, " ", light->slide == GN_SLIDE_LIT ? "film" : "slide");
         if (i >= key->shadow_count) continue;
-        append(out, size, " ", gn_techniques[light->technique].name);
-        append(out, size, " ",
-               light->moments ? gn_moments[light->moments].name
-                              : gn_encodings[light->encoding].name);
-        if (light->cascades) append(out, size, " ", "cascades");
+        append_word(out, size, " ", gn_techniques[light->technique].name);
+        append_word(out, size, " ",
+                    light->moments ? gn_moments[light->moments].name
+                                   : gn_encodings[light->encoding].name);
+        if (light->cascades) append_word(out, size, " ", "cascades");
     }
 }

@@ -8,22 +8,18 @@
 
 enum { STEPS = sizeof((struct gn_gl_curve *)0)->encode - 1 };
 
-static float decode(float x) {
+static float srgb_decode(float x) {
     return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
 }
 
-static float encode(float x) {
+static float srgb_encode(float x) {
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
 }
 
 void gn_gl_curve_init(struct gn_gl_curve *curve) {
-    for (int i = 0; i < 256; i++) curve->decode[i] = decode((float)i / 255) * STEPS / 4;
+    for (int i = 0; i < 256; i++) curve->decode[i] = srgb_decode((float)i / 255) * STEPS / 4;
     for (int i = 0; i <= STEPS; i++)
-        curve->encode[i] = (uint8_t)(encode((float)i / STEPS) * 255 + 0.5f);
-}
-
-static uint8_t mean_code(const uint8_t *const in[4], int c) {
-    return (uint8_t)((in[0][c] + in[1][c] + in[2][c] + in[3][c] + 2) / 4);
+        curve->encode[i] = (uint8_t)(srgb_encode((float)i / STEPS) * 255 + 0.5f);
 }
 
 struct gn_image gn_gl_image_half(const struct gn_image *image) {
@@ -43,7 +39,7 @@ void gn_gl_image_halve_rows(const struct gn_gl_curve *curve, const struct gn_ima
             const uint8_t *const in[4] = {p, p + right, p + below, p + below + right};
             for (int c = 0; c < 4; c++) {
                 if (!srgb || c == 3) {
-                    to[c] = mean_code(in, c);
+                    to[c] = (uint8_t)((in[0][c] + in[1][c] + in[2][c] + in[3][c] + 2) / 4);
                     continue;
                 }
                 const float sum = curve->decode[in[0][c]] + curve->decode[in[1][c]] +

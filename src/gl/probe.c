@@ -76,7 +76,7 @@ static uint32_t caps_of(uint32_t mask) {
     return caps;
 }
 
-static bool complete(struct gn_gl *gl) {
+static bool is_complete(struct gn_gl *gl) {
     return GL(gl, CheckFramebufferStatus)(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
@@ -206,7 +206,7 @@ static uint32_t prove_at_once(struct gn_gl *gl, uint32_t mask) {
     if (mask & rows_of(1u << GN_CAP_DEPTH_COMPARE)) make_depth(gl, &proof);
     make_colors(gl, &proof);
     uint32_t proved = 0;
-    if (complete(gl)) {
+    if (is_complete(gl)) {
         GLenum attachment = GL_COLOR_ATTACHMENT0;
         gn_gl_use_program(gl, proof.program);
         const GLint u_map = GL(gl, GetUniformLocation)(proof.program, "u_map");
@@ -238,7 +238,7 @@ static bool prove_samples(struct gn_gl *gl) {
     }
     bool right = false;
     gn_gl_bind_framebuffer(gl, framebuffers[0]);
-    if (complete(gl)) {
+    if (is_complete(gl)) {
         gn_gl_set_scissor(gl, NULL);
         gn_gl_set_color_write(gl, true);
         GL(gl, ClearBufferfv)(GL_COLOR, 0, color);
@@ -267,7 +267,7 @@ uint32_t gn_gl_probe_claims(struct gn_gl *gl) {
         GLuint framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
         gn_gl_bind_framebuffer(gl, framebuffer);
         GLuint color = attach_new(gl, GL_COLOR_ATTACHMENT0, rows[i].format, 0);
-        if (complete(gl)) mask |= 1u << i;
+        if (is_complete(gl)) mask |= 1u << i;
         gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &framebuffer);
         gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &color);
     }

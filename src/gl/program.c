@@ -26,8 +26,8 @@ static bool fail_log(const char *log, const char *stage, struct gn_err *err) {
                    *line ? line : "the driver gave no reason");
 }
 
-static bool compile(struct gn_gl *gl, GLuint program, int stage, const char *source,
-                    struct gn_err *err) {
+static bool compile_stage(struct gn_gl *gl, GLuint program, int stage, const char *source,
+                          struct gn_err *err) {
     char log[2048] = "";
     GLint ok = 0;
     GLuint shader =
@@ -44,13 +44,13 @@ static bool compile(struct gn_gl *gl, GLuint program, int stage, const char *sou
 }
 
 /* 0 on failure; *failed says at which stage. */
-static GLuint build(struct gn_gl *gl, const char *const sources[2], int *failed,
-                    struct gn_err *err) {
+static GLuint build_program(struct gn_gl *gl, const char *const sources[2], int *failed,
+                            struct gn_err *err) {
     GLuint program = GL(gl, CreateProgram)();
     gl->objects_created++;
     gl->programs.made++;
     for (*failed = 0; *failed < 2; ++*failed)
-        if (!compile(gl, program, *failed, sources[*failed], err)) goto fail;
+        if (!compile_stage(gl, program, *failed, sources[*failed], err)) goto fail;
     char log[2048] = "";
     GLint ok = 0;
     GL(gl, LinkProgram)(program);
@@ -66,7 +66,7 @@ fail:
 GLuint gn_gl_program_link(struct gn_gl *gl, const char *vertex, const char *fragment,
                           struct gn_err *err) {
     int failed;
-    return build(gl, (const char *const[]){vertex, fragment}, &failed, err);
+    return build_program(gl, (const char *const[]){vertex, fragment}, &failed, err);
 }
 
 static GLuint compose_and_build(struct gn_gl *gl, const struct gn_program_key *key,
@@ -77,7 +77,7 @@ static GLuint compose_and_build(struct gn_gl *gl, const struct gn_program_key *k
     }
     sources->composed = true;
     const char *const text[2] = {sources->stage[0].data, sources->stage[1].data};
-    GLuint program = build(gl, text, &sources->failed, err);
+    GLuint program = build_program(gl, text, &sources->failed, err);
     if (program) return program;
     char name[200];
     gn_gl_key_text(key, name, sizeof name);

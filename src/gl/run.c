@@ -58,7 +58,7 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     /* The first tile may have cleared the depth of later ones, which is needed until those are
      * drawn. */
     bool depth_done = pass->discard_depth;
-    if (depth_done && pass->kind == GN_PASS_MAP) {
+    if (depth_done && map && pass->kind == GN_PASS_MAP) {
         const struct gn_shadow_view *view = &plan->shadows[pass->target.slot];
         for (uint32_t tile = pass->content.tile + 1; tile < view->map.tile_count; tile++)
             depth_done &= holds_content(map, tile, view->raster.tiles[tile].content_hash);

@@ -48,7 +48,7 @@ void gn_gl_use_program(struct gn_gl *gl, GLuint name) {
     GL(gl, UseProgram)(name);
 }
 
-static void enable(struct gn_gl *gl, GLenum what, bool *cached, bool on) {
+static void enable_cached(struct gn_gl *gl, GLenum what, bool *cached, bool on) {
     if (*cached == on) return;
     *cached = on;
     if (on)
@@ -64,26 +64,26 @@ void gn_gl_set_viewport(struct gn_gl *gl, struct gn_gl_rect rect) {
 }
 
 void gn_gl_set_scissor(struct gn_gl *gl, const struct gn_gl_rect *rect) {
-    enable(gl, GL_SCISSOR_TEST, &gl->state.scissor_on, rect);
+    enable_cached(gl, GL_SCISSOR_TEST, &gl->state.scissor_on, rect);
     if (!rect || memcmp(&gl->state.scissor, rect, sizeof *rect) == 0) return;
     gl->state.scissor = *rect;
     GL(gl, Scissor)(rect->x, rect->y, rect->width, rect->height);
 }
 
 void gn_gl_set_depth(struct gn_gl *gl, bool test, bool write) {
-    enable(gl, GL_DEPTH_TEST, &gl->state.depth_on, test);
+    enable_cached(gl, GL_DEPTH_TEST, &gl->state.depth_on, test);
     if (gl->state.depth_write == write) return;
     gl->state.depth_write = write;
     GL(gl, DepthMask)(write);
 }
 
 void gn_gl_set_blend(struct gn_gl *gl, enum gn_blend blend) {
-    enable(gl, GL_BLEND, &gl->state.blend_on, blend != GN_BLEND_OFF);
+    enable_cached(gl, GL_BLEND, &gl->state.blend_on, blend != GN_BLEND_OFF);
 }
 
 void gn_gl_set_cull(struct gn_gl *gl, enum gn_cull cull, bool mirrored) {
     struct gn_gl_state *s = &gl->state;
-    enable(gl, GL_CULL_FACE, &s->cull_on, cull != GN_CULL_NONE);
+    enable_cached(gl, GL_CULL_FACE, &s->cull_on, cull != GN_CULL_NONE);
     if (cull != GN_CULL_NONE && s->cull != cull) {
         s->cull = (uint8_t)cull;
         GL(gl, CullFace)(cull == GN_CULL_BACK ? GL_BACK : GL_FRONT);
@@ -107,7 +107,7 @@ void gn_gl_set_stencil_writes(struct gn_gl *gl, uint8_t bits) {
 
 void gn_gl_set_stencil(struct gn_gl *gl, const struct gn_stencil *stencil) {
     struct gn_stencil *s = &gl->state.stencil;
-    enable(gl, GL_STENCIL_TEST, &gl->state.stencil_on, stencil->reads || stencil->writes);
+    enable_cached(gl, GL_STENCIL_TEST, &gl->state.stencil_on, stencil->reads || stencil->writes);
     if (!gl->state.stencil_on) return;
     gn_gl_set_stencil_writes(gl, stencil->writes);
     if (s->value == stencil->value && s->reads == stencil->reads) return;

@@ -10,8 +10,8 @@ static bool slot_is_srgb(uint32_t slot) { return gn_texture_slots[slot].texels =
 /* ---- textures ---- */
 
 /* Halves *image until it fits the GPU; returns the pixels that the caller frees, or NULL. */
-static uint8_t *shrink(struct gn_gl *gl, const struct gn_gl_curve *curve, uint32_t index,
-                       struct gn_image *image, bool srgb) {
+static uint8_t *shrink_image(struct gn_gl *gl, const struct gn_gl_curve *curve, uint32_t index,
+                             struct gn_image *image, bool srgb) {
     const uint32_t largest = (uint32_t)gl->caps.max_texture_px;
     const struct gn_image before = *image;
     uint8_t *owned = NULL;
@@ -135,7 +135,7 @@ static bool open_next_picture(struct gn_gl *gl) {
     }
     struct gn_gl_picture *p = &s->upload.picture;
     *p = (struct gn_gl_picture){.image = pictures->images[index], .srgb = srgb, .open = true};
-    p->owned = shrink(gl, s->upload.curve, index, &p->image, srgb);
+    p->owned = shrink_image(gl, s->upload.curve, index, &p->image, srgb);
     for (uint32_t i = 0; i < pictures->texture_count; i++)
         p->mipmaps |= pictures->textures[i].image == index && pictures->textures[i].mipmaps;
     const uint32_t width = p->image.width_px, height = p->image.height_px;

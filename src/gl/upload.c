@@ -241,7 +241,7 @@ void gn_gl_stage_show(struct gn_gl *gl) {
 
 /* ---- vertex arrays ---- */
 
-static bool reads(uint32_t attributes, int location) { return attributes >> location & 1; }
+static bool reads_location(uint32_t attributes, int location) { return attributes >> location & 1; }
 
 static void point_attribute(struct gn_gl *gl, GLuint location, GLint size, GLenum type,
                             GLsizei stride, size_t offset) {
@@ -276,7 +276,7 @@ bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err 
     for (GLuint i = GN_ATTRIBUTE_POSITION + 1; i < GN_ATTRIBUTE_COUNT; i++) {
         const struct gn_attribute_row *row = &gn_attributes[i];
         const struct gl_format *format = &gl_formats[row->format];
-        if (!reads(attributes, (int)i)) continue;
+        if (!reads_location(attributes, (int)i)) continue;
         if (s->attribute_at[i] >= 0) {
             GL(gl, EnableVertexAttribArray)(i);
             point_attribute(gl, i, format->size ? format->size : row->components, format->type,
@@ -285,7 +285,7 @@ bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err 
             GL(gl, VertexAttrib4f)(i, 1.0f, 1.0f, 1.0f, 1.0f);
     }
     for (int i = GN_GL_WORLD; i < GN_GL_LOCATION_COUNT; i++) {
-        if (!reads(attributes, i)) continue;
+        if (!reads_location(attributes, i)) continue;
         GL(gl, EnableVertexAttribArray)((GLuint)i);
         GL(gl, VertexAttribDivisor)((GLuint)i, 1);
     }
@@ -303,7 +303,7 @@ void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_i
     v->offset = offset;
     gn_gl_bind_array_buffer(gl, buffer);
     for (int i = GN_GL_WORLD; i < GN_GL_LOCATION_COUNT; i++)
-        if (reads(attributes, i))
+        if (reads_location(attributes, i))
             point_attribute(gl, (GLuint)i, 4, GL_FLOAT, sizeof(struct gn_instance),
                             offset + (size_t)(i - GN_GL_WORLD) * 4 * sizeof(float));
 }
