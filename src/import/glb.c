@@ -18,12 +18,6 @@ void gn_glb_init(struct gn_glb *glb) {
         json_pack("{s:s,s:s}", "version", "2.0", "generator", "gnomon-import " GN_VERSION));
 }
 
-void gn_glb_finish(struct gn_glb *glb) {
-    json_decref(glb->root);
-    free(glb->bin);
-    *glb = (struct gn_glb){0};
-}
-
 int gn_glb_add(struct gn_glb *glb, const char *array, json_t *item) {
     json_t *list = json_object_get(glb->root, array);
     if (!list) {

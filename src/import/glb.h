@@ -28,7 +28,6 @@ struct gn_glb_accessor {
 };
 
 void gn_glb_init(struct gn_glb *glb);
-void gn_glb_finish(struct gn_glb *glb);
 
 /* Appends an item to an array of the root, creating the array if needed. Takes ownership of the
  * item; returns its index. */

@@ -13,7 +13,7 @@ enum {
 };
 struct look {
     uint32_t word[LOOK_WORDS];
-    uint32_t material; /* whose it is; not compared */
+    uint32_t material; /* its index; not compared */
 };
 
 static int compare_looks(const void *a, const void *b) {

@@ -30,7 +30,7 @@ static float *read_floats(struct gn_gltf *g, const struct gn_accessor *a, size_t
     return all;
 }
 
-/* Floats as they are. */
+/* Copies elements as floats. */
 static bool put_floats(struct gn_gltf *g, const struct gather *gather, size_t components,
                        float *out) {
     if (!gather->source) {

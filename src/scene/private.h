@@ -70,7 +70,7 @@ struct gn_vertices { /* a set of attribute accessors; geometries with normals sh
     uint32_t first, count;
     bool filled, lacks_normals; /* some normal had no length */
 };
-struct gn_shape { /* what a geometry is made of */
+struct gn_shape { /* the source of a geometry */
     int32_t attribute[GN_ATTRIBUTE_COUNT];
     int32_t indices, mode;
     uint32_t vertices;        /* index into primitives.vertices; UINT32_MAX: flat normals */
@@ -80,7 +80,7 @@ struct gn_shape { /* what a geometry is made of */
 };
 
 enum gn_tristate { GN_UNSET, GN_NO, GN_YES };
-struct gn_placed { /* what a node of the scene carries, beyond its transform */
+struct gn_placed { /* what glTF and its extras attach to a node of the scene */
     size_t json;   /* its number in the file */
     int32_t mesh;
     uint32_t first_instance, instance_count;

@@ -96,8 +96,8 @@ struct gn_node {
     versor rotation;
 };
 
-struct gn_light { /* one per node that carries one, in the order of a depth-first walk of the scene
-                   */
+/* One per node that has a light, in the order of a depth-first walk of the scene. */
+struct gn_light {
     const char *name;
     uint32_t node; /* shines along its -Z */
     enum gn_light_type type;

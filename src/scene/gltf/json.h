@@ -1,5 +1,5 @@
 /* A cursor into the JSON of a glTF file that knows its path, and typed getters. A getter that finds
- * the wrong type fails the load with that path and answers with a harmless value. */
+ * the wrong type fails the load with that path and returns a harmless value. */
 #ifndef GN_SCENE_GLTF_JSON_H
 #define GN_SCENE_GLTF_JSON_H
 
