@@ -144,9 +144,11 @@ static bool fail_talk(const struct talk *t, const char *what, struct gn_err *err
 static bool send_request(struct talk *t, const json_t *request, struct gn_err *err) {
     char *line = json_dumps(request, JSON_COMPACT);
     size_t left = line ? strlen(line) : 0;
-    bool ok = (line && left <= GN_REQUEST_LINE_MAX) ||
-              gn_fail_usage(err, "ctl: more than %d bytes", GN_REQUEST_LINE_MAX);
-    if (ok) line[left++] = '\n';
+    bool ok = line && left <= GN_REQUEST_LINE_MAX;
+    if (ok)
+        line[left++] = '\n';
+    else
+        gn_fail_usage(err, "ctl: more than %d bytes", GN_REQUEST_LINE_MAX);
     for (const char *at = line; ok && left > 0;) {
         const ssize_t sent = send(t->fd, at, left, MSG_NOSIGNAL);
         if (sent < 0 && errno == EPIPE) break; /* the reply has the reason */
