@@ -8,18 +8,18 @@
 
 enum { STEPS = sizeof((struct gn_gl_curve *)0)->encode - 1 };
 
-static float srgb_decode(float x) {
-    return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
-}
-
-static float srgb_encode(float x) {
-    return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
-}
-
 void gn_gl_curve_init(struct gn_gl_curve *curve) {
-    for (int i = 0; i < 256; i++) curve->decode[i] = srgb_decode((float)i / 255) * STEPS / 4;
-    for (int i = 0; i <= STEPS; i++)
-        curve->encode[i] = (uint8_t)(srgb_encode((float)i / STEPS) * 255 + 0.5f);
+    for (int i = 0; i < 256; i++) {
+        const float code = (float)i / 255;
+        const float light = code <= 0.04045f ? code / 12.92f : powf((code + 0.055f) / 1.055f, 2.4f);
+        curve->decode[i] = light * STEPS / 4;
+    }
+    for (int i = 0; i <= STEPS; i++) {
+        const float light = (float)i / STEPS;
+        const float code =
+            light <= 0.0031308f ? 12.92f * light : 1.055f * powf(light, 1 / 2.4f) - 0.055f;
+        curve->encode[i] = (uint8_t)(code * 255 + 0.5f);
+    }
 }
 
 struct gn_image gn_gl_image_half(const struct gn_image *image) {
