@@ -85,7 +85,7 @@ static void print_buttons(const struct gn_options *o) {
     struct gn_buttons defaults;
     gn_buttons_defaults(&defaults);
     const struct gn_buttons *buttons = o->buttons ? o->buttons : &defaults;
-    if (!o->buttons) puts("no buttons in the file, so there are:");
+    if (!o->buttons) puts("buttons: none in the file; defaults:");
     for (int i = 0; i < buttons->count; i++) {
         const struct gn_button_config *button = &buttons->items[i];
         const struct gn_button_opts *from = &button->opts;
@@ -123,14 +123,14 @@ static void print_check(const struct check *c, const struct gn_options *o) {
         }
         if (count) putchar('\n');
     }
-    if (o->mode_count == 0) puts("modes: the techniques, one after the other");
+    if (o->mode_count == 0) puts("modes: none in the file; one per technique");
     for (int i = 0; i < o->mode_count; i++) {
         const struct gn_mode *mode = &o->modes[i];
         printf("mode \"%s\": ", mode->name);
         int count = 0;
         for (const struct gn_override *set = mode->first; set; set = set->next)
             print_setting(set->row, set->value, count++);
-        puts(count ? "" : "nothing of its own");
+        puts(count ? "" : "no settings of its own");
     }
     print_buttons(o);
 }

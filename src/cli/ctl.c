@@ -153,9 +153,9 @@ static bool send_request(struct talk *t, const json_t *request, struct gn_err *e
         const ssize_t sent = send(t->fd, at, left, MSG_NOSIGNAL);
         if (sent < 0 && errno == EPIPE) break; /* the reply has the reason */
         if (sent < 0 && errno != EAGAIN && errno != EINTR)
-            ok = fail_talk(t, "has hung up", err);
+            ok = fail_talk(t, "closed the connection", err);
         else if (sent < 0 && !wait_for(t, POLLOUT))
-            ok = fail_talk(t, "does not listen", err);
+            ok = fail_talk(t, "accepts no data", err);
         else if (sent > 0)
             at += sent, left -= (size_t)sent;
     }
@@ -169,23 +169,23 @@ static json_t *receive_reply(struct talk *t, struct gn_err *err) {
     do {
         const ssize_t got = recv(t->fd, t->reply + used, sizeof t->reply - 1 - used, 0);
         if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) {
-            fail_talk(t, "has hung up", err);
+            fail_talk(t, "closed the connection", err);
             return NULL;
         }
         if (got < 0 && !wait_for(t, POLLIN)) {
-            fail_talk(t, "does not answer", err);
+            fail_talk(t, "did not answer in time", err);
             return NULL;
         }
         used += got > 0 ? (size_t)got : 0;
         t->reply[used] = '\0';
     } while (!memchr(t->reply, '\n', used) && used < sizeof t->reply - 1);
     if (!memchr(t->reply, '\n', used)) {
-        fail_talk(t, "says too much", err);
+        fail_talk(t, "sent too long a reply", err);
         return NULL;
     }
     json_t *reply = json_loads(t->reply, 0, NULL);
     if (json_is_object(reply)) return reply;
-    fail_talk(t, "says what is no answer", err);
+    fail_talk(t, "sent an invalid reply", err);
     json_decref(reply);
     return NULL;
 }

@@ -244,5 +244,5 @@ void gn_kiosk_print(const struct gn_kiosk *s, FILE *to) {
     if (gn_kiosk_waits(s)) fprintf(to, " wants mode %d scene %d", s->wanted.mode, s->wanted.scene);
     fprintf(to, " camera +%u at %.3f s%s%s%s%s%s%s\n", s->camera, (double)s->scene_ns * 1e-9,
             s->paused ? " paused" : "", s->blanked ? " blanked" : "", s->info ? " info" : "",
-            s->fade_ns ? " fades" : "", s->caption ? " says" : "", captions[s->caption]);
+            s->fade_ns ? " fades" : "", s->caption ? " caption" : "", captions[s->caption]);
 }

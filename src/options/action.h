@@ -9,7 +9,8 @@
 
 /* The table of actions: X(ID, id, name, argument, help, member of a request..). A row and the
  * function act_<id> of kiosk/machine.c make an action of buttons, keys and `gnomon ctl`. The first
- * mode follows the last; any action lights a blanked screen, and does no more then. */
+ * mode follows the last; while the screen is blanked, an action
+ * only switches it on. */
 /* clang-format off */
 #define GN_ACTIONS(X)                                                                              \
     X(NEXT, next, "next", "", "go to the next mode", NULL)                                         \

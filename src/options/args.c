@@ -92,7 +92,7 @@ static bool add_word(struct args *args, const char *word, struct gn_err *err) {
     if (!is_ctl(args) && args->word_count == (is_show ? 1 + GN_SCENES_MAX : 2))
         return gn_fail_usage(err,
                              is_show ? "too many scenes, from \"%.80s\" on"
-                                     : "one scene at a time; what is \"%.80s\"?",
+                                     : "unexpected argument \"%.80s\": only one scene",
                              word);
     args->words[args->word_count++] = word;
     return true;
@@ -161,9 +161,10 @@ static bool choose_command(struct args *args, struct gn_err *err) {
     if (bare && first && !strpbrk(first, "./") && access(first, F_OK) != 0)
         return fail_command(first, err);
     if (bare && args->words[1])
-        return gn_fail_usage(err, "one scene at a time; what is \"%.80s\"?", args->words[1]);
+        return gn_fail_usage(err, "unexpected argument \"%.80s\": only one scene", args->words[1]);
     if (command == GN_COMMAND_DOCTOR && args->words[1])
-        return gn_fail_usage(err, "doctor takes no scene; what is \"%.80s\"?", args->words[1]);
+        return gn_fail_usage(err, "doctor takes no scene: unexpected argument \"%.80s\"",
+                             args->words[1]);
     return true;
 }
 

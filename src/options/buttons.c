@@ -35,15 +35,15 @@ static const struct {
     [ACTIVE_HIGH] = {.row = {"active_high", "yes|no", "the line is high while pressed (no)"}, .set = set_active_high},
     [BIAS] = {.row = {"bias", "pull-up|pull-down|none", "bias of the line (pull-up, or pull-down with active_high)"}, .set = set_bias},
     [DEBOUNCE_MS] = {.row = {"debounce_ms", "MS", "debounce time (20)"}, .set = set_ms, .offset = TIME(debounce_ns), .least_ms = 1, .most_ms = 1000},
-    [HOLD_MS] = {.row = {"hold_ms", "MS", "how long a hold is, and what goes before the first repeat (800)"}, .set = set_ms, .offset = TIME(hold_ns), .least_ms = 50, .most_ms = 60000},
-    [DOUBLE_MS] = {.row = {"double_ms", "MS", "how soon the second press of a double follows (350)"}, .set = set_ms, .offset = TIME(double_ns), .least_ms = 50, .most_ms = 5000},
-    [REPEAT_MS] = {.row = {"repeat_ms", "MS", "how long from one repeat to the next (200)"}, .set = set_ms, .offset = TIME(repeat_ns), .least_ms = 50, .most_ms = 60000},
-    [CHORD_MS] = {.row = {"chord_ms", "MS", "how close together a chord's buttons go down (80)"}, .set = set_ms, .offset = TIME(chord_ns), .least_ms = 10, .most_ms = 1000},
+    [HOLD_MS] = {.row = {"hold_ms", "MS", "duration of a hold, and delay before the first repeat (800)"}, .set = set_ms, .offset = TIME(hold_ns), .least_ms = 50, .most_ms = 60000},
+    [DOUBLE_MS] = {.row = {"double_ms", "MS", "longest time between the presses of a double (350)"}, .set = set_ms, .offset = TIME(double_ns), .least_ms = 50, .most_ms = 5000},
+    [REPEAT_MS] = {.row = {"repeat_ms", "MS", "time between repeats (200)"}, .set = set_ms, .offset = TIME(repeat_ns), .least_ms = 50, .most_ms = 60000},
+    [CHORD_MS] = {.row = {"chord_ms", "MS", "longest time between the presses of a chord (80)"}, .set = set_ms, .offset = TIME(chord_ns), .least_ms = 10, .most_ms = 1000},
     [PRESS] = {.row = {"press", "ACTION", "when the button is pressed"}, .set = set_action, .gesture = GN_GESTURE_PRESS},
     [CLICK] = {.row = {"click", "ACTION", "when it is released before hold"}, .set = set_action, .gesture = GN_GESTURE_CLICK},
     [DOUBLE] = {.row = {"double", "ACTION", "when it is pressed a second time"}, .set = set_action, .gesture = GN_GESTURE_DOUBLE},
-    [HOLD] = {.row = {"hold", "ACTION", "when it has been held"}, .set = set_action, .gesture = GN_GESTURE_HOLD},
-    [REPEAT] = {.row = {"repeat", "ACTION", "when it has been held, and again and again while it is"}, .set = set_action, .gesture = GN_GESTURE_REPEAT},
+    [HOLD] = {.row = {"hold", "ACTION", "when it has been held for hold_ms"}, .set = set_action, .gesture = GN_GESTURE_HOLD},
+    [REPEAT] = {.row = {"repeat", "ACTION", "on hold, then every repeat_ms while held"}, .set = set_action, .gesture = GN_GESTURE_REPEAT},
 };
 /* clang-format on */
 
@@ -250,7 +250,7 @@ bool gn_config_button_set(struct gn_config_buttons *config, const struct gn_ini_
         if (guess.name)
             return gn_fail_usage(err, "%s: unknown key \"%s\" in [button]; expected %s",
                                  line->where, line->key, guess.name);
-        return gn_fail_usage(err, "%s: unknown key \"%s\"; [button] knows%s", line->where,
+        return gn_fail_usage(err, "%s: unknown key \"%s\"; keys of [button]:%s", line->where,
                              line->key, list);
     }
     int *seen = &config->lines[config->buttons->count - 1].keys[key];

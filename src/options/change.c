@@ -78,7 +78,8 @@ const struct gn_option_row *gn_changes_find(const char *key, struct gn_err *err)
     if (guess.name)
         gn_fail_usage(err, "unknown key \"%.60s\"; did you mean %s?", spelled, guess.name);
     else
-        gn_fail_usage(err, "unknown key \"%.60s\"; expected one of [scene] or [render]", spelled);
+        gn_fail_usage(err, "unknown key \"%.60s\"; expected a key of [scene], [render] or [kiosk]",
+                      spelled);
     return NULL;
 }
 

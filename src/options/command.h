@@ -12,7 +12,7 @@
 /* clang-format off */
 #define GN_REQUESTS(X)                                                                             \
     X(SET, set, "set", "KEY VALUE", GN_CTL_CHANGES,                                                \
-      "change an option of [scene] or [render] until reload; stronger than modes and flags",       \
+      "change an option until reload; overrides modes and flags",       \
       "key", "value")                                                                              \
     X(GET, get, "get", "KEY", 0, "print an option's value and where it comes from", "key")         \
     X(STATUS, status, "status", "", 0, "print the state of the kiosk", NULL)                       \

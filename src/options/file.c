@@ -99,7 +99,7 @@ static bool fail_key(const struct gn_ini_line *line, const char *section, struct
         used += (size_t)snprintf(keys + used, sizeof keys - used, "%s %s", used ? "," : "", key);
     }
     if (!guess.name)
-        return gn_fail_usage(err, "%s: unknown key \"%s\"; [%s] knows%s", line->where, line->key,
+        return gn_fail_usage(err, "%s: unknown key \"%s\"; keys of [%s]:%s", line->where, line->key,
                              line->section, keys);
     return gn_fail_usage(err, "%s: unknown key \"%s\" in [%s]; expected %s", line->where, line->key,
                          line->section, near);

@@ -25,7 +25,7 @@ GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .va
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
           .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_px))
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
-          .help = "texture format of shadow maps; from rg32ui on: of filtered ones", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_format))
+          .help = "texture format of shadow maps; rg32ui and those after it: for filtered techniques", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_format))
 GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
           .help = "draw planar shadows with a mask texture (soft edges) or the stencil buffer (sharp edges)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar_in_stencil))
 GN_OPTION(.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "16",
@@ -99,13 +99,13 @@ GN_OPTION(.name = "input-script", .kind = GN_KIND_PATH, .value = "FILE",
 GN_OPTION(.name = "config", .letter = 'c', .kind = GN_KIND_PATH, .value = "FILE",
           .help = "read this INI file", .commands = DRAW | BIT(INSPECT) | BIT(CTL), .offset = FIELD(run.config))
 GN_OPTION(.name = "check", .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "read this INI file as show would and check all that it names; print what it makes, and end", .commands = BIT(SHOW), .offset = FIELD(run.check))
+          .help = "check this INI file and the files it names, print the resulting settings", .commands = BIT(SHOW), .offset = FIELD(run.check))
 GN_OPTION(.name = "mode", .kind = GN_KIND_TEXT, .value = "NAME",
           .help = "start in this mode of the INI file, or with this technique", .commands = DRAW, .offset = FIELD(run.mode))
 GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
           .help = "write to this file; %04d in it becomes the number of the frame", .commands = BIT(RENDER), .offset = FIELD(run.out))
 GN_OPTION(.name = "caption", .kind = GN_KIND_TEXT, .value = "TEXT",
-          .help = "write this on the picture, as the kiosk writes what went wrong", .commands = BIT(RENDER), .offset = FIELD(run.caption))
+          .help = "draw this text on the picture, as the kiosk does with an error", .commands = BIT(RENDER), .offset = FIELD(run.caption))
 GN_OPTION(.name = "frames", .kind = GN_KIND_INT, .min = 1, .max = 1000000, .value = "N",
           .help = "number of frames; show exits after them", .commands = BIT(SHOW) | BIT(RENDER) | BIT(BENCH), .offset = FIELD(run.frames))
 GN_OPTION(.name = "fps", .kind = GN_KIND_NUMBER, .min = .001, .max = 1000, .value = "F", .unit = "frames per second", .fallback = "60",

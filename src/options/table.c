@@ -51,17 +51,18 @@ const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
     [GN_COMMAND_AUTO] =
         {NULL, "[OPTION..] [SCENE]",
          "shows a scene: in a window, without a desktop full screen, else as gnomon.png"},
-    [GN_COMMAND_SHOW] = {"show", "show [OPTION..] [SCENE..]",
-                         "the kiosk: full screen without a desktop, runs until it is told to end"},
+    [GN_COMMAND_SHOW] =
+        {"show", "show [OPTION..] [SCENE..]",
+         "the kiosk: full screen without a desktop, runs until SIGTERM or `gnomon ctl quit`"},
     [GN_COMMAND_RENDER] = {"render", "render [OPTION..] [SCENE] -o FILE",
                            "draws into a file: .png, .pfm, or frame-%04d.png with --frames"},
     [GN_COMMAND_BENCH] =
         {"bench", "bench [OPTION..] [SCENE]",
          "measures: time per frame and pass, draws, triangles, bytes, first picture, memory"},
     [GN_COMMAND_INSPECT] = {"inspect", "inspect [OPTION..] [SCENE]",
-                            "says what is in a scene, what it costs and what is wrong with it"},
+                            "lists a scene's contents, cost and problems"},
     [GN_COMMAND_DOCTOR] = {"doctor", "doctor [OPTION..]",
-                           "says what this machine can do, and the cure for what it cannot"},
+                           "tests this machine and says how to fix problems"},
     [GN_COMMAND_CTL] = {"ctl", "ctl [OPTION..] COMMAND [WORD..]", "talks to a running kiosk"},
 };
 

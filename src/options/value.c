@@ -264,10 +264,9 @@ void gn_value_expected(const struct gn_option_row *row, char *out, size_t size) 
     case GN_KIND_TEXT:
     case GN_KIND_MODELINE:
     case GN_KIND_PATH:
-    case GN_KIND_CAPS: snprintf(out, size, "%s (it is empty)", row->value); break;
+    case GN_KIND_CAPS: snprintf(out, size, "%s (empty)", row->value); break;
     case GN_KIND_SCENES:
-        snprintf(out, size, "%s (it is empty, or they are more than %d)", row->value,
-                 GN_SCENES_MAX);
+        snprintf(out, size, "%s (empty, or more than %d of them)", row->value, GN_SCENES_MAX);
         break;
     case GN_KIND_LIMIT:
         snprintf(out, size, "NAME=VALUE with a whole number from %.0f to %.0f, at most %d times",

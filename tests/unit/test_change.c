@@ -87,7 +87,7 @@ static void a_key_may_be_written_in_several_ways(void **state) {
     }
     assert_no_change("scene.shadow", "pcf", "unknown key");
     assert_no_change("shadwo", "pcf", "unknown key \"shadwo\"; did you mean shadow?");
-    assert_no_change("zzzzzzzz", "1", "expected one of [scene] or [render]");
+    assert_no_change("zzzzzzzz", "1", "expected a key of [scene], [render] or [kiosk]");
 }
 
 static void what_cannot_change_says_why(void **state) {

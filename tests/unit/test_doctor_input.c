@@ -81,7 +81,7 @@ static void test_each_problem_has_its_cure(void **state) {
     assert_string_equal(report.problems.items[0].what,
                         "/dev/gpiochip2 cannot be opened: Input/output error");
     assert_string_equal(report.problems.items[1].what,
-                        "2 of 5 input devices may not be read: keys there are not heard");
+                        "2 of 5 input devices may not be read: keys there are ignored");
     assert_string_equal(report.problems.items[1].cure,
                         "sudo usermod -aG input kiosk, then log in again");
     fill(&report);
