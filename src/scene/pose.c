@@ -137,7 +137,7 @@ static void find_moving(struct gn_pose *pose) {
         if (pose->node_moves[scene->items[i].node]) memory->items[memory->item_count++] = i;
 }
 
-/* ---- life ---- */
+/* ---- the pose ---- */
 
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips) {
     *pose = (struct gn_pose){.scene = scene, .clips = clips};

@@ -96,21 +96,6 @@ bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {
 
 /* ---- versions and extensions ---- */
 
-static bool check_version(struct gn_gltf *g, const struct gn_at *asset) {
-    const char *version = gn_at_text(g, asset, "version");
-    const char *least = gn_at_text(g, asset, "minVersion");
-    struct gn_at at = gn_at_any(asset, "version");
-    if (g->failed) return false;
-    if (!version) return gn_gltf_fail(g, &at, "missing; only glTF 2.0 is read");
-    char *end = NULL;
-    if (strtol(version, &end, 10) != 2 || *end != '.')
-        return gn_gltf_fail(g, &at, "'%.20s'; only glTF 2.0 is read: export it again", version);
-    at = gn_at_any(asset, "minVersion");
-    if (least && strcmp(least, "2.0") != 0)
-        return gn_gltf_fail(g, &at, "'%.20s'; only glTF 2.0 is read", least);
-    return true;
-}
-
 static const char *const SUPPORTED[] = {
     "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_unlit",
     "KHR_mesh_quantization", "KHR_texture_transform",           "EXT_mesh_gpu_instancing",
@@ -130,7 +115,19 @@ static const struct cure {
 
 bool gn_gltf_check_support(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), asset = gn_at_object(g, &root, "asset");
-    if (g->failed || !check_version(g, &asset)) return false;
+    const char *version = gn_at_text(g, &asset, "version");
+    const char *least = gn_at_text(g, &asset, "minVersion");
+    struct gn_at version_at = gn_at_any(&asset, "version"),
+                 least_at = gn_at_any(&asset, "minVersion");
+    if (g->failed) return false;
+    if (!version) return gn_gltf_fail(g, &version_at, "missing; only glTF 2.0 is read");
+    char *end = NULL;
+    if (strtol(version, &end, 10) != 2 || *end != '.')
+        return gn_gltf_fail(g, &version_at, "'%.20s'; only glTF 2.0 is read: export it again",
+                            version);
+    if (least && strcmp(least, "2.0") != 0)
+        return gn_gltf_fail(g, &least_at, "'%.20s'; only glTF 2.0 is read", least);
+
     struct gn_at used = gn_at_array(g, &root, "extensionsUsed");
     for (size_t i = 0; i < gn_at_size(&used); i++) {
         const char *name = json_string_value(json_array_get(used.json, i));

@@ -73,7 +73,7 @@ static bool read_tree(struct tree *tree) {
     return true;
 }
 
-/* ---- what is shown ---- */
+/* ---- walking the tree ---- */
 
 static void push_node(struct tree *tree, int32_t node) {
     if (tree->sources[node].queued) return;
@@ -89,19 +89,6 @@ static void push_children(struct tree *tree, int32_t node) {
         int32_t child = child_at(tree, &children, i);
         if (child >= 0 && tree->sources[child].parent == node) push_node(tree, child);
     }
-}
-
-/* Marks a listed node and its descendants as shown, its ancestors as kept. */
-static void mark_shown(struct tree *tree, int32_t listed) {
-    push_node(tree, listed);
-    while (tree->depth > 0) {
-        int32_t node = tree->stack[--tree->depth];
-        tree->sources[node].shown = tree->sources[node].kept = true;
-        push_children(tree, node);
-    }
-    for (int32_t n = tree->sources[listed].parent; n >= 0 && !tree->sources[n].kept;
-         n = tree->sources[n].parent)
-        tree->sources[n].kept = true;
 }
 
 /* ---- the nodes of the scene ---- */
@@ -157,8 +144,9 @@ static void add_tree(struct tree *tree, int32_t listed, int32_t *roots) {
     }
 }
 
-/* The nodes to begin with, each once; in the order of the scene's list. */
-static size_t listed_nodes(struct tree *tree, const struct gn_at *list, bool all, int32_t *out) {
+/* The nodes that the scene lists, or all roots, each once, in this order. Marks them and their
+ * descendants as shown, their ancestors as kept. */
+static size_t find_listed(struct tree *tree, const struct gn_at *list, bool all, int32_t *out) {
     size_t count = 0;
     for (size_t i = 0; !all && i < gn_at_size(list); i++) {
         int32_t node = child_at(tree, list, i);
@@ -175,7 +163,19 @@ static size_t listed_nodes(struct tree *tree, const struct gn_at *list, bool all
     }
     for (size_t i = 0; all && i < tree->count; i++)
         if (tree->sources[i].parent < 0) out[count++] = (int32_t)i;
+
     for (size_t i = 0; i < tree->count; i++) tree->sources[i].queued = false;
+    for (size_t i = 0; i < count; i++) {
+        push_node(tree, out[i]);
+        while (tree->depth > 0) {
+            int32_t node = tree->stack[--tree->depth];
+            tree->sources[node].shown = tree->sources[node].kept = true;
+            push_children(tree, node);
+        }
+        for (int32_t n = tree->sources[out[i]].parent; n >= 0 && !tree->sources[n].kept;
+             n = tree->sources[n].parent)
+            tree->sources[n].kept = true;
+    }
     return count;
 }
 
@@ -201,8 +201,7 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     if (g->failed || !tree.sources || !listed || !roots) return false;
     g->scene->name = gn_gltf_strdup(g, gn_at_text(g, &scene, "name"));
     gn_extras_scene(g, &scene);
-    size_t count = listed_nodes(&tree, &list, scene.json == NULL, listed);
-    for (size_t i = 0; i < count; i++) mark_shown(&tree, listed[i]);
+    size_t count = find_listed(&tree, &list, scene.json == NULL, listed);
     for (size_t i = 0; i < tree.count; i++) {
         tree.sources[i].queued = false;
         roots[i] = -1;
