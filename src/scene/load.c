@@ -33,11 +33,12 @@ static bool check_triangles(struct gn_gltf *g) {
         const struct gn_primitive *primitives = &g->primitives.list[mesh->first_primitive];
         for (uint32_t k = 0; k < mesh->primitive_count; k++)
             triangles += g->primitives.shapes[primitives[k].geometry].corner_count / 3;
-        total += triangles * (placed->instance_count ? placed->instance_count : 1);
-        if (total > g->limits.triangles_per_frame)
+        const uint64_t instances = placed->instance_count ? placed->instance_count : 1;
+        if (triangles > 0 && instances > (g->limits.triangles_per_frame - total) / triangles)
             return gn_gltf_fail(g, &nodes,
                                 "more triangles than the limit triangles_per_frame=%" PRIu64,
                                 g->limits.triangles_per_frame);
+        total += triangles * instances;
     }
     return true;
 }

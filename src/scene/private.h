@@ -162,6 +162,7 @@ bool gn_gltf_buffers(struct gn_gltf *g);    /* gltf/buffers.c */
 bool gn_gltf_accessors(struct gn_gltf *g);  /* gltf/accessor.c */
 bool gn_gltf_nodes(struct gn_gltf *g);      /* gltf/node.c */
 bool gn_gltf_meshes(struct gn_gltf *g);     /* gltf/mesh.c */
+bool gn_gltf_instances(struct gn_gltf *g);  /* gltf/instance.c */
 bool gn_gltf_geometries(struct gn_gltf *g); /* geometry.c */
 bool gn_gltf_items(struct gn_gltf *g);      /* gltf/item.c */
 bool gn_gltf_materials(struct gn_gltf *g);  /* gltf/material.c */

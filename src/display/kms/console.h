@@ -10,12 +10,12 @@
 struct gn_console {
     int tty; /* -1: none */
     struct gn_signals signals;
-    bool leaves;  /* signalfd, readable on a request to switch; -1: none */
-    bool entered; /* Blocks SIGUSR1 and SIGUSR2 permanently: call before creating threads. */
+    bool leaves; /* a switch away is requested: call gn_console_let_go() when the screen is released
+                  */
+    bool entered; /* switched back to us; whoever reads it clears it */
 };
 
-/* Reads the signals. *left: a switch away is requested, call gn_console_let_go() when the screen is
- * released; *entered: switched back to us. */
+/* Blocks SIGUSR1 and SIGUSR2 permanently: call before creating threads. */
 void gn_console_open(struct gn_console *console, struct gn_loop *loop);
 void gn_console_let_go(struct gn_console *console);
 /* Restores text mode, also if it was left in graphics mode by a killed process or a splash. */

@@ -185,11 +185,12 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
         !k->away && k->device.fd >= 0)
         gn_kms_send_message(k, now_ns);
     gn_kms_sleep(k, now_ns);
-    if (k->losses > 3) ok = false;
     publish_state(k, now_ns);
-    if (ok) return true;
-    gn_fail(err, "%s: page flips on %s no longer complete; see the kernel log",
-            k->monitor.connector[0] ? k->monitor.connector : "display", k->device.node.path);
+    if (ok && k->losses <= 3) return true;
+    gn_fail(err, "%s: %s %s; see the kernel log",
+            k->monitor.connector[0] ? k->monitor.connector : "display",
+            ok ? "the GL context is lost again and again on" : "page flips no longer complete on",
+            k->device.node.path);
     if (err) err->status = GN_EXIT_DISPLAY;
     return false;
 }

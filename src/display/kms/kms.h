@@ -35,7 +35,7 @@ void gn_kms_destroy(struct gn_kms *kms);
 int gn_kms_fd(const struct gn_kms *kms);
 /* When step must be called at the latest; INT64_MAX: never. */
 int64_t gn_kms_deadline(const struct gn_kms *kms, int64_t now_ns);
-/* State of the screen; `fd` is -1. Valid until the next call of a function below. */
+/* State of the screen. Valid until the next call of a function below. */
 const struct gn_screen *gn_kms_screen(const struct gn_kms *kms);
 gn_display_proc gn_kms_get_proc(struct gn_kms *kms, const char *name);
 

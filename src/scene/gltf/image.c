@@ -21,8 +21,9 @@ static const struct format {
 
 /* ---- pictures ---- */
 
+/* *damaged: the picture cannot be decoded, whatever the limits. */
 static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct gn_image *image,
-                         struct gn_err *err) {
+                         bool *damaged, struct gn_err *err) {
     const struct format *format = NULL;
     for (size_t i = 0; i < sizeof FORMATS / sizeof FORMATS[0]; i++)
         if (blob->data && blob->size >= FORMATS[i].magic_size &&
@@ -45,6 +46,7 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
     uint8_t *rgba = gn_gltf_alloc(g, g->memory.scene, texels, 4);
     if (!rgba) return false;
     if (!format->read(blob->data, blob->size, px, rgba, err)) {
+        *damaged = true;
         g->damaged_texels += texels;
         gn_arena_undo(g->memory.scene, rgba, 4 * texels);
         return false;
@@ -82,8 +84,10 @@ static int32_t image_at(struct gn_gltf *g, int32_t index) {
         found = true;
         blob = (struct gn_blob){.data = view->data, .size = view->size};
     }
-    bool done = found && decode_image(g, &blob, &pictures->images[pictures->image_count], &err);
-    if (found && !done && view) view->damaged = true;
+    bool damaged = false;
+    bool done =
+        found && decode_image(g, &blob, &pictures->images[pictures->image_count], &damaged, &err);
+    if (view) view->damaged |= damaged;
     gn_blob_finish(g, &blob);
     if (done)
         g->to_scene.image[index] = (int32_t)pictures->image_count++;
