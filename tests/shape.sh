@@ -1,6 +1,6 @@
 #!/bin/sh
 # The shape of the code, by its layout (clang-format's): how long functions are, how many static ones are called
-# once, which structs have more than 25 fields. Figures to watch, no limits: exit status 0.
+# once (callbacks that stand once in a table counted apart), which structs have more than 25 fields. Figures to watch, no limits: exit status 0.
 # A field is a declarator; those of a struct inside without a name are the outer one's, those of a part are not.
 set -eu
 find "${1:-src}" -name '*.c' | sort | xargs awk '
@@ -12,8 +12,9 @@ function finish_file(    name) {
     for (name in statics) {
         static_count++
         once += used[name] == 1
+        callbacks += used[name] == 1 && !called[name]
     }
-    split("", statics); split("", used); in_function = 0; head = ""
+    split("", statics); split("", used); split("", called); in_function = 0; head = ""
 }
 FNR == 1 { finish_file() }
 {
@@ -43,8 +44,10 @@ FNR == 1 { finish_file() }
 { # every name used outside the head of its definition; a declaration ahead is no use
     if (!in_function && line ~ /^static .*\);? *$/) next
     while (match(line, /[a-zA-Z_][a-zA-Z_0-9]*/)) {
-        used[substr(line, RSTART, RLENGTH)]++
+        word = substr(line, RSTART, RLENGTH)
         line = substr(line, RSTART + RLENGTH)
+        used[word]++
+        called[word] += line ~ /^\(/
     }
 }
 in_function && /^\}/ { finish_function(); in_function = 0 }
@@ -58,7 +61,8 @@ END {
         if (i > 60) long += tally[i]
     }
     printf "%d functions: median %d lines, p90 %d, longest %d: %s; %d over 60\n", count, median, p90, longest, longest_name, long
-    printf "%d static functions, %d used once: %.1f %%\n", static_count, once, 100 * once / static_count
+    printf "%d static functions, %d named once: %.1f %%; called once: %.1f %% (%d are callbacks)\n",
+        static_count, once, 100 * once / static_count, 100 * (once - callbacks) / static_count, callbacks
 }'
 find "${1:-src}" -name '*.[ch]' | sort | xargs awk '
 # Every { .. } of a struct or union is a level; a level without declarators after it adds to the one around it.
