@@ -19,6 +19,22 @@ static void test_msm_plan(void **state) {
     gn_plan_end(&f);
 }
 
+/* Its filters still run, though no instance is drawn. */
+static void test_a_camera_that_sees_nothing_gets_a_valid_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    choose(&f, GN_TECHNIQUE_MSM);
+    f.opts.view.camera = 1; /* looks away */
+    f.scene->light_count = 1;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    assert_int_equal(plan->instance_count, 0);
+    assert_true(plan->draw_count > 0);
+    const char *broken = gn_plan_check(plan);
+    if (broken) fail_msg("%s", broken);
+    gn_plan_end(&f);
+}
+
 /* Of the first filter pass in the plan. */
 static uint64_t hash_of(const struct gn_plan *plan) {
     for (uint32_t i = 0; i < plan->pass_count; i++)
@@ -82,6 +98,7 @@ static void test_what_a_gpu_lacks_is_replaced(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_msm_plan),
+        cmocka_unit_test(test_a_camera_that_sees_nothing_gets_a_valid_plan),
         cmocka_unit_test(test_filters_change_with_their_map_and_technique_alone),
         cmocka_unit_test(test_what_a_gpu_lacks_is_replaced),
     };
