@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/beneath.h"
+
 static const char *kind_name(mode_t mode) {
     return S_ISDIR(mode)    ? "a folder"
            : S_ISFIFO(mode) ? "a FIFO"
@@ -52,12 +54,12 @@ static bool read_all(int fd, const char *path, size_t hint, size_t limit, struct
     return true;
 }
 
-bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err) {
+/* Closes fd; -1: errno says why there is none. */
+static bool read_and_close(int fd, const char *path, size_t limit, struct gn_bytes *out,
+                           struct gn_err *err) {
     struct stat info = {0};
     bool ok = false;
     *out = (struct gn_bytes){0};
-    /* does not block: neither on a FIFO without a writer nor on a device */
-    int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (fd < 0 && errno == ENXIO)
         gn_fail(err, "%s: is a socket or device, not a file", path);
     else if (fd < 0)
@@ -73,6 +75,25 @@ bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct g
     close_quietly(fd);
     if (!ok) gn_bytes_finish(out);
     return ok;
+}
+
+bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err) {
+    /* does not block: neither on a FIFO without a writer nor on a device */
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    return read_and_close(fd, path, limit, out, err);
+}
+
+bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, struct gn_bytes *out,
+                          struct gn_err *err) {
+    char path[2 * PATH_MAX];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    *out = (struct gn_bytes){0};
+    const int fd = gn_open_beneath(folder, name);
+    if (fd == -EXDEV)
+        return gn_fail(err, "'%.80s' leads outside the model's folder; put the file beside it",
+                       name);
+    if (fd < 0) errno = -fd;
+    return read_and_close(fd < 0 ? -1 : fd, path, limit, out, err);
 }
 
 void gn_bytes_finish(struct gn_bytes *bytes) {

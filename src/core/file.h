@@ -17,6 +17,10 @@ struct gn_bytes {
 /* Reads a regular file of at most limit bytes (0 = no limit). Refuses directories, devices, FIFOs
  * and sockets (without blocking on one); the error has the path and the reason. */
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err);
+/* The same for a name out of a model: a file of the model's folder or below. Refuses a path or a
+ * link that leads outside; see gn_open_beneath(). */
+bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, struct gn_bytes *out,
+                          struct gn_err *err);
 void gn_bytes_finish(struct gn_bytes *bytes);
 
 /* Writes path atomically: a temporary file in the same folder, fsync'd and renamed, removed on

@@ -24,16 +24,9 @@ static size_t file_limit(const struct gn_import *import) {
     return (size_t)import->opts->file_mb << 20;
 }
 
-/* Reads the file if its real path is inside the folder. */
 static bool read_in(const struct gn_import *import, const char *relative, struct gn_bytes *bytes) {
-    char path[2 * PATH_MAX];
-    size_t length = strlen(import->folder);
-    int all = snprintf(path, sizeof path, "%s/%s", import->folder, relative);
-    char *real = all < (int)sizeof path ? realpath(path, NULL) : NULL;
-    bool ok = real && strncmp(real, import->folder, length) == 0 && real[length] == '/' &&
-              gn_file_read(real, file_limit(import), bytes, NULL);
-    free(real);
-    return ok;
+    const char *folder = import->folder[0] ? import->folder : "/";
+    return gn_file_read_beneath(folder, relative, file_limit(import), bytes, NULL);
 }
 
 /* The name relative to the folder where it begins with it, without "./" and "file://". */

@@ -1,5 +1,5 @@
 /* Fetches a URI of the model: a data URI, or a regular file in its folder or below. Everything else
- * is refused, by the real path, so that neither ".." nor a link leads out. */
+ * is refused: neither ".." nor a link leads out. */
 #include "scene/private.h"
 
 #include <ctype.h>
@@ -96,7 +96,7 @@ bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struc
     if (strncasecmp(uri, "data:", 5) == 0) return fetch_data(g, uri, out, err);
 
     /* the file's path below the folder; '\', which some exporters write, becomes '/' */
-    char below[PATH_MAX] = "", full[2 * PATH_MAX], real[PATH_MAX];
+    char below[PATH_MAX] = "";
     if (strlen(uri) >= sizeof below)
         return gn_fail(err, "URI of %zu characters is too long", strlen(uri));
     size_t length = percent_decode(uri, (uint8_t *)below);
@@ -111,16 +111,10 @@ bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struc
 
     if (!g->folder) return gn_fail(err, "'%.80s': a model in memory cannot name other files", uri);
     uint64_t limit = g->limits.file_mb << 20;
-    size_t room = gn_gltf_room(g), folder_length = strlen(g->folder);
+    size_t room = gn_gltf_room(g);
     if (limit > room) limit = room;
     if (limit == 0) return gn_fail(err, "'%.80s': no memory left for it", uri);
-    snprintf(full, sizeof full, "%s/%s", g->folder, below);
-    while (folder_length > 0 && g->folder[folder_length - 1] == '/') folder_length--; /* "/" */
-    if (realpath(full, real) &&
-        (strncmp(g->folder, real, folder_length) != 0 || real[folder_length] != '/'))
-        return gn_fail(err, "'%.80s' leads outside the model's folder; put the file beside it",
-                       uri);
-    if (!gn_file_read(full, (size_t)limit, &out->file, err)) return false;
+    if (!gn_file_read_beneath(g->folder, below, (size_t)limit, &out->file, err)) return false;
     out->data = out->file.data;
     out->size = out->file.size;
     g->memory.other_bytes += out->size;
