@@ -128,10 +128,12 @@ static int descriptor_of(const char *path) {
 }
 
 /* Writes to the descriptor that the path names, at its present position, or opens the path. */
-static bool write_in_place(const char *path, const void *data, size_t size, struct gn_err *err) {
+static bool write_in_place(const char *path, int flags, const void *data, size_t size,
+                           struct gn_err *err) {
     struct stat info;
     int fd = descriptor_of(path);
-    fd = fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
+    fd = fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0)
+                 : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC | flags);
     if (fd < 0) return fail_errno(err, path, "write");
     bool ok = write_all(fd, data, size);
     if (ok && fstat(fd, &info) == 0 && S_ISREG(info.st_mode)) { /* the file ends after the data */
@@ -143,76 +145,65 @@ static bool write_in_place(const char *path, const void *data, size_t size, stru
     return ok;
 }
 
-static bool write_and_rename(const char *path, const char *target, const struct stat *old,
-                             const void *data, size_t size, struct gn_err *err) {
-    /* a new file beside the target */
+/* A file that exists keeps its mode, and nobody else may read its successor before that. */
+static bool write_and_rename(const char *path, const struct stat *old, const void *data,
+                             size_t size, struct gn_err *err) {
+    /* a new file beside the path */
     char name[PATH_MAX];
-    const char *slash = strrchr(target, '/');
-    int folder = slash ? (int)(slash - target + 1) : 0, fd = -1;
+    const char *slash = strrchr(path, '/');
+    int folder = slash ? (int)(slash - path + 1) : 0, fd = -1;
     for (int attempt = 0; attempt < 100 && fd < 0; attempt++) {
-        int length = snprintf(name, sizeof name, "%.*s.gnomon-%ld-%d", folder, target,
-                              (long)getpid(), attempt);
+        int length = snprintf(name, sizeof name, "%.*s.gnomon-%ld-%d", folder, path, (long)getpid(),
+                              attempt);
         if (length >= (int)sizeof name) {
             errno = ENAMETOOLONG;
             break;
         }
-        fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, old ? 0600 : 0666);
         if (fd < 0 && errno != EEXIST) break;
     }
     if (fd < 0) return fail_errno(err, path, "write");
-    bool ok = write_all(fd, data, size) && (!old || fchmod(fd, old->st_mode & 07777) == 0) &&
+    bool ok = write_all(fd, data, size) && (!old || fchmod(fd, old->st_mode & 0777) == 0) &&
               fsync(fd) == 0;
     int reason = errno;
     if (close(fd) != 0 && ok) {
         ok = false;
         reason = errno;
     }
-    if (ok && rename(name, target) == 0) return true;
+    if (ok && rename(name, path) == 0) return true;
     if (ok) reason = errno;
     unlink(name);
     errno = reason;
     return fail_errno(err, path, "write");
 }
 
-/* A link's target, which need not exist; else NULL. The caller frees it. */
-static char *follow_link(const char *path) {
-    char *real = realpath(path, NULL), link[PATH_MAX], *target = NULL;
-    if (real) return real;
-    ssize_t length = readlink(path, link, sizeof link - 1);
-    if (length <= 0) return NULL;
-    link[length] = 0;
-    const char *slash = link[0] == '/' ? NULL : strrchr(path, '/');
-    int folder = slash ? (int)(slash - path + 1) : 0;
-    return asprintf(&target, "%.*s%s", folder, path, link) < 0 ? NULL : target;
-}
-
-bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err) {
-    struct stat info;
-    bool exists = stat(path, &info) == 0;
-    if (exists && S_ISDIR(info.st_mode)) return gn_fail(err, "%s: cannot write: is a folder", path);
-    if (!path[0]) return gn_fail(err, "cannot write to a file without a name");
-
-    /* not a regular file, or the name of a descriptor: written in place; /dev/shm has regular files
-     */
-    const bool in_dev = strncmp(path, "/dev/", 5) == 0 && strncmp(path, "/dev/shm/", 9) != 0;
-    if ((exists && !S_ISREG(info.st_mode)) || in_dev || strncmp(path, "/proc/", 6) == 0)
-        return write_in_place(path, data, size, err);
-
-    if (exists && access(path, W_OK) != 0) return fail_errno(err, path, "write");
-    char *real = follow_link(path); /* a link stays a link */
-    bool ok = write_and_rename(path, real ? real : path, exists ? &info : NULL, data, size, err);
-    free(real);
-    return ok;
-}
-
 bool gn_file_replace(const char *path, const void *data, size_t size, struct gn_err *err) {
     struct stat info;
     const bool exists = lstat(path, &info) == 0;
     if (!exists && errno != ENOENT) return fail_errno(err, path, "write");
+    if (exists && S_ISLNK(info.st_mode))
+        return gn_fail(err, "%s: refusing to overwrite a symbolic link; name the file itself",
+                       path);
     if (exists && !S_ISREG(info.st_mode))
-        return gn_fail(err, "%s: refusing to overwrite %s", path,
-                       S_ISLNK(info.st_mode) ? "a symbolic link" : kind_name(info.st_mode));
-    return write_and_rename(path, path, exists ? &info : NULL, data, size, err);
+        return gn_fail(err, "%s: refusing to overwrite %s", path, kind_name(info.st_mode));
+    return write_and_rename(path, exists ? &info : NULL, data, size, err);
+}
+
+bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err) {
+    struct stat info;
+    if (!path[0]) return gn_fail(err, "cannot write to a file without a name");
+
+    /* the name of a descriptor or a device, which may be a link of the system's */
+    const bool in_dev = strncmp(path, "/dev/", 5) == 0 && strncmp(path, "/dev/shm/", 9) != 0;
+    if (in_dev || strncmp(path, "/proc/", 6) == 0) return write_in_place(path, 0, data, size, err);
+
+    const bool exists = lstat(path, &info) == 0;
+    if (exists && S_ISDIR(info.st_mode)) return gn_fail(err, "%s: cannot write: is a folder", path);
+    if (exists && !S_ISREG(info.st_mode) && !S_ISLNK(info.st_mode))
+        return write_in_place(path, O_NOFOLLOW, data, size, err);
+    if (exists && S_ISREG(info.st_mode) && access(path, W_OK) != 0)
+        return fail_errno(err, path, "write");
+    return gn_file_replace(path, data, size, err);
 }
 
 void gn_file_fill_standard(void) {

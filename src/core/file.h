@@ -24,13 +24,14 @@ bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, st
 void gn_bytes_finish(struct gn_bytes *bytes);
 
 /* Writes path atomically: a temporary file in the same folder, fsync'd and renamed, removed on
- * failure. A device, a FIFO and anything in /proc or /dev but not /dev/shm, such as /dev/stdout, is
- * written directly: through the descriptor that it names, at its offset; a regular file behind it
- * is truncated after the data. */
+ * failure; a file that exists keeps its permissions. A symbolic link is refused: whoever may write
+ * to the folder could have made it. A device, a FIFO and anything in /proc or /dev but not
+ * /dev/shm, such as /dev/stdout, is written directly: through the descriptor that it names, at its
+ * offset; a regular file behind it is truncated after the data. */
 bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err);
 
 /* The same for a path from an untrusted source: replaces a regular file or creates one; refuses
- * links, folders and devices, and follows no link. */
+ * everything else. */
 bool gn_file_replace(const char *path, const void *data, size_t size, struct gn_err *err);
 
 /* Opens /dev/null as each of the descriptors 0, 1 and 2 that is closed: otherwise the next file

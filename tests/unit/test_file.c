@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -189,22 +190,58 @@ static void the_mode_of_a_file_stays(void **state) {
     assert_int_equal(info.st_mode & 07777, 0640);
 }
 
-static void a_link_stays_a_link(void **state) {
+/* fs.protected_symlinks is of the same mind, but about folders that all may write to only. */
+static void no_link_is_written_through(void **state) {
+    (void)state;
+    static const char *const links[][2] = {
+        {"target", "link"}, {"later", "dangling"}, {"/dev/null", "device"}, {"fifo", "to-fifo"}};
+    struct stat info;
+    struct gn_err err = {0};
+    assert_true(gn_file_write("target", "x", 1, &err));
+    for (size_t i = 0; i < sizeof links / sizeof links[0]; i++) {
+        err = (struct gn_err){0};
+        assert_int_equal(symlink(links[i][0], links[i][1]), 0);
+        assert_false(gn_file_write(links[i][1], "y", 1, &err));
+        assert_non_null(strstr(err.text, "refusing to overwrite a symbolic link"));
+        lstat(links[i][1], &info);
+        assert_true(S_ISLNK(info.st_mode));
+    }
+    assert_holds("target", "x");
+    assert_int_equal(access("later", F_OK), -1);
+}
+
+static void a_link_to_a_folder_may_be_in_the_path(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    assert_int_equal(mkdir("away", 0700), 0);
+    assert_int_equal(symlink("away", "folder-link"), 0);
+    assert_true(gn_file_write("folder-link/file", "z", 1, &err));
+    assert_holds("away/file", "z");
+}
+
+/* In place of libc's: the mode that the new file had until now. */
+static mode_t mode_before;
+int fchmod(int fd, mode_t mode) {
+    struct stat info;
+    fstat(fd, &info);
+    mode_before = info.st_mode & 07777;
+    return (int)syscall(SYS_fchmod, fd, mode);
+}
+
+static void a_private_file_is_private_at_all_times(void **state) {
     (void)state;
     struct gn_err err = {0};
     struct stat info;
-    assert_true(gn_file_write("target", "x", 1, &err));
-    assert_int_equal(symlink("target", "link"), 0);
-    assert_true(gn_file_write("link", "y", 1, &err));
-    lstat("link", &info);
-    assert_true(S_ISLNK(info.st_mode));
-    assert_holds("target", "y");
-    assert_int_equal(mkdir("away", 0700), 0);
-    assert_int_equal(symlink("../later", "away/link"), 0); /* leads to nothing yet */
-    assert_true(gn_file_write("away/link", "z", 1, &err));
-    lstat("away/link", &info);
-    assert_true(S_ISLNK(info.st_mode));
-    assert_holds("later", "z");
+    const mode_t mask = umask(0);
+    assert_true(gn_file_write("private", "x", 1, &err));
+    stat("private", &info);
+    assert_int_equal(info.st_mode & 07777, 0666);
+    chmod("private", 04600);
+    assert_true(gn_file_write("private", "y", 1, &err));
+    stat("private", &info);
+    assert_int_equal(mode_before, 0600);
+    assert_int_equal(info.st_mode & 07777, 0600); /* no set-user-ID bit for new content */
+    umask(mask);
 }
 
 static void a_pipe_is_written_to_directly(void **state) {
@@ -234,7 +271,9 @@ int main(void) {
         cmocka_unit_test(a_file_in_shared_memory_is_a_file),
         cmocka_unit_test(an_old_reader_keeps_the_old_file),
         cmocka_unit_test(the_mode_of_a_file_stays),
-        cmocka_unit_test(a_link_stays_a_link),
+        cmocka_unit_test(no_link_is_written_through),
+        cmocka_unit_test(a_link_to_a_folder_may_be_in_the_path),
+        cmocka_unit_test(a_private_file_is_private_at_all_times),
         cmocka_unit_test(a_pipe_is_written_to_directly),
     };
     return cmocka_run_group_tests(tests, enter, leave);
