@@ -198,6 +198,67 @@ static void test_integral_reals_are_integers(void **state) {
     gn_scene_destroy(scene);
 }
 
+/* A square in a scene whose extras are {key: value}; what jansson cannot write may be in both. */
+static struct gn_scene *load_with_extra(const char *key, const char *value) {
+    struct gn_maker maker;
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0],'extras':{'@':0}}]");
+    struct gn_made made = gn_maker_gltf(&maker);
+    char *text = malloc(made.size + strlen(key) + strlen(value) + 1);
+    const char *at = strstr((const char *)made.data, "\"@\"");
+    const int before = (int)(at - (const char *)made.data), after = before + (int)strlen("'@':0");
+    const int size = sprintf(text, "%.*s\"%s\":%s%.*s", before, (const char *)made.data, key, value,
+                             (int)made.size - after, (const char *)made.data + after);
+    reset(NULL);
+    struct gn_scene *scene = gn_scene_load_bytes("t", text, (size_t)size, NULL, &warnings, &err);
+    free(text);
+    free(made.data);
+    gn_maker_finish(&maker);
+    return scene;
+}
+
+static void test_extras_may_have_any_number_and_any_escape(void **state) {
+    (void)state;
+    static const char *const values[] = {
+        "18446744073709551615",
+        "-99999999999999999999",
+        "1e400",
+        "[-1E+400]",
+        "123.5e99999999999",
+        "0.0000001e99999",
+        "0e99999999",
+        "1e-99999",
+        "9.99e307",
+        "\"a\\u0000b\"",
+        "\"\\ud800\"",
+        "\"\\udc00\\ud800x\"",
+        "{\"a\\u0000b\":1}",
+        "\"\\\\u0000 1e400\"",
+        "\"\\uD83D\\uDE00\"",
+    };
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
+        struct gn_scene *scene = load_with_extra("x", values[i]);
+        if (!scene || warnings.count > 0)
+            fail_msg("%s: %s", values[i], scene ? warnings.text[0] : err.text);
+        gn_scene_destroy(scene);
+    }
+    struct gn_scene *scene = load_with_extra("a\\u0000b", "1");
+    assert_non_null(scene);
+    gn_scene_destroy(scene);
+    assert_null(load_with_extra("x", "1e400x"));
+    assert_null(load_with_extra("x", "\"\\u000g\""));
+}
+
+static void test_numbers_beyond_a_double_are_no_values(void **state) {
+    (void)state;
+    gn_scene_destroy(load_with_extra("gnomon_sky", "1e400"));
+    assert_string_equal(warnings.text[0], "t: scenes[0].extras.gnomon_sky: must be a colour: "
+                                          "[r, g, b], linear, 0 or more; ignored");
+    gn_scene_destroy(load_with_extra("gnomon_sky", "0e400"));
+    assert_int_equal(warnings.count, 0);
+}
+
 static void test_deep_nesting(void **state) {
     (void)state;
     char text[4000] = "{\"a\":";
@@ -335,6 +396,8 @@ int main(void) {
         cmocka_unit_test(test_gltf_with_bom_and_data_uri),
         cmocka_unit_test(test_wrong_json),
         cmocka_unit_test(test_integral_reals_are_integers),
+        cmocka_unit_test(test_extras_may_have_any_number_and_any_escape),
+        cmocka_unit_test(test_numbers_beyond_a_double_are_no_values),
         cmocka_unit_test(test_deep_nesting),
         cmocka_unit_test(test_duplicate_keys_are_tolerated),
         cmocka_unit_test_setup_teardown(test_uris, make_folder, remove_folder),

@@ -3,12 +3,16 @@
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "scene/gltf/json_text.h"
 
 /* ---- parsing ---- */
 
 /* The parser recurses and allocates as the text tells it to: bound both before it starts. A
- * container or a key costs jansson about 256 bytes, any other value about 96. */
+ * container or a key costs jansson about 256 bytes, any other value about 96; the text is copied
+ * once by gn_json_text_replace() and once, as strings, by jansson. */
 static bool check_json_size(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
     uint64_t depth = 0, bytes = 2 * (uint64_t)size;
     bool quoted = false;
@@ -44,7 +48,9 @@ static bool check_json_size(struct gn_gltf *g, const char *text, size_t size, si
 bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
     if (!check_json_size(g, text, size, offset)) return false;
     json_error_t error;
-    g->file.json = json_loadb(text, size, 0, &error);
+    char *replaced = gn_json_text_replace(text, size);
+    g->file.json = json_loadb(replaced ? replaced : text, size, JSON_DECODE_INT_AS_REAL, &error);
+    free(replaced);
     if (!g->file.json) {
         size_t byte = offset + (error.position > 0 ? (size_t)error.position : 0);
         return gn_gltf_fail(g, NULL, "byte %zu (line %d): JSON: %s", byte, error.line, error.text);
@@ -118,12 +124,8 @@ bool gn_json_number(const json_t *json, double *out) {
 }
 
 bool gn_json_whole(const json_t *json, int64_t *out) {
-    if (json_is_integer(json)) {
-        *out = json_integer_value(json);
-        return true;
-    }
     double real = json_is_real(json) ? json_real_value(json) : 0.5;
-    if (!(fabs(real) < 9007199254740992.0) || floor(real) != real) return false;
+    if (!(fabs(real) < 9223372036854775808.0) || floor(real) != real) return false;
     *out = (int64_t)real;
     return true;
 }

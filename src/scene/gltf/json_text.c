@@ -1,0 +1,92 @@
+/* Valid JSON that jansson refuses: numbers beyond a double, and escapes that are no character. Both
+ * are legal in names and extras of a file that is otherwise all right. */
+#include "scene/gltf/json_text.h"
+
+#include <ctype.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DOUBLE_DIGITS = 308, EXPONENT_MAX = 1 << 30 }; /* every number below 1e308 is a double */
+
+/* The end of the digits at c, and in *place how many of them stand between the first that counts
+ * and the point: the number is below 10^place, and not below a tenth of it. 0: all are zeros. */
+static const char *read_digits(const char *c, const char *end, int64_t *place) {
+    bool behind_point = false, counts = false;
+    for (; c < end && (isdigit((unsigned char)*c) || (*c == '.' && !behind_point)); c++) {
+        behind_point |= *c == '.';
+        if (*c == '.') continue;
+        counts |= *c != '0';
+        if (counts != behind_point) *place += counts ? 1 : -1;
+    }
+    if (!counts) *place = INT64_MIN / 2;
+    return c;
+}
+
+static const char *read_exponent(const char *c, const char *end, int64_t *exponent) {
+    if (c == end || (*c != 'e' && *c != 'E')) return c;
+    c++;
+    const bool minus = c < end && *c == '-';
+    if (c < end && (*c == '-' || *c == '+')) c++;
+    for (; c < end && isdigit((unsigned char)*c); c++)
+        if (*exponent < EXPONENT_MAX) *exponent = *exponent * 10 + (*c - '0');
+    if (minus) *exponent = -*exponent;
+    return c;
+}
+
+/* The code of the \uXXXX at c, or -1. */
+static int32_t read_escape(const char *c, const char *end) {
+    int32_t code = 0;
+    if (end - c < 6 || c[0] != '\\' || c[1] != 'u') return -1;
+    for (int i = 2; i < 6; i++) {
+        if (!isxdigit((unsigned char)c[i])) return -1;
+        const int digit = isdigit((unsigned char)c[i]) ? c[i] - '0' : (c[i] | 0x20) - 'a' + 10;
+        code = code * 16 + digit;
+    }
+    return code;
+}
+
+/* The length of the escape at c; *bad: it is NUL, or one half of a surrogate pair. */
+static size_t escape_length(const char *c, const char *end, bool *bad) {
+    const int32_t code = read_escape(c, end);
+    *bad = code == 0 || (code >= 0xd800 && code < 0xe000);
+    if (code < 0) return end - c < 2 ? 1 : 2;
+    const int32_t next = read_escape(c + 6, end);
+    if (code < 0xd800 || code >= 0xdc00 || next < 0xdc00 || next >= 0xe000) return 6;
+    *bad = false;
+    return 12;
+}
+
+/* Finds what is to be replaced, and replaces it in out if that is not NULL. */
+static bool replace_all(const char *text, size_t size, char *out) {
+    const char *end = text + size;
+    bool quoted = false, found = false;
+    for (const char *c = text; c < end;) {
+        const char *start = c;
+        bool bad = false;
+        if (quoted && *c == '\\') {
+            c += escape_length(c, end, &bad);
+            if (bad && out) memcpy(out + (start - text), "\\ufffd", 6);
+        } else if (!quoted && isdigit((unsigned char)*c)) {
+            int64_t place = 0, exponent = 0;
+            c = read_exponent(read_digits(c, end, &place), end, &exponent);
+            bad = place + exponent > DOUBLE_DIGITS;
+            if (bad && out) {
+                memset(out + (start - text), ' ', (size_t)(c - start));
+                memcpy(out + (start - text), "9e307", 5); /* no such number is shorter */
+            }
+        } else {
+            quoted ^= *c++ == '"';
+        }
+        found |= bad;
+    }
+    return found;
+}
+
+char *gn_json_text_replace(const char *text, size_t size) {
+    char *out = replace_all(text, size, NULL) ? malloc(size) : NULL;
+    if (!out) return NULL;
+    memcpy(out, text, size);
+    replace_all(text, size, out);
+    return out;
+}
