@@ -5,23 +5,27 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include "cli/commands.h"
 #include "core/clock.h"
+#include "core/file.h"
 #include "core/json.h"
 #include "kiosk/control/listen.h"
 #include "kiosk/control/request.h"
+#include "kiosk/screenshot.h"
 #include "options/command.h"
 
 static const int64_t PATIENCE_NS = 10 * GN_NS_PER_S;
 static const int64_t LONG_PATIENCE_NS = 60 * GN_NS_PER_S; /* a scene may have to be loaded */
-enum { REPLY_MAX = 256 * 1024 };
+enum { REPLY_MAX = 256 * 1024, PICTURE_MAX = 1 << 30 };
 
 struct talk { /* with the kiosk */
     int fd;
+    int memory; /* a memory file to be passed with the request; -1: none */
     char path[PATH_MAX];
     int64_t until_ns;
     char reply[REPLY_MAX];
@@ -141,6 +145,24 @@ static bool fail_talk(const struct talk *t, const char *what, struct gn_err *err
     return gn_fail(err, "the kiosk at %s %s", t->path, what);
 }
 
+/* The descriptor goes with the first byte. */
+static ssize_t send_piece(struct talk *t, const char *data, size_t size, bool first) {
+    union {
+        struct cmsghdr header;
+        char bytes[CMSG_SPACE(sizeof(int))];
+    } control = {.header = {.cmsg_len = CMSG_LEN(sizeof(int)),
+                            .cmsg_level = SOL_SOCKET,
+                            .cmsg_type = SCM_RIGHTS}};
+    struct iovec piece = {(void *)data, size};
+    struct msghdr message = {.msg_iov = &piece, .msg_iovlen = 1};
+    if (first && t->memory >= 0) {
+        memcpy(CMSG_DATA(&control.header), &t->memory, sizeof(int));
+        message.msg_control = &control;
+        message.msg_controllen = sizeof control;
+    }
+    return sendmsg(t->fd, &message, MSG_NOSIGNAL);
+}
+
 static bool send_request(struct talk *t, const json_t *request, struct gn_err *err) {
     char *line = json_dumps(request, JSON_COMPACT);
     size_t left = line ? strlen(line) : 0;
@@ -150,7 +172,7 @@ static bool send_request(struct talk *t, const json_t *request, struct gn_err *e
     else
         gn_fail_usage(err, "ctl: more than %d bytes", GN_REQUEST_LINE_MAX);
     for (const char *at = line; ok && left > 0;) {
-        const ssize_t sent = send(t->fd, at, left, MSG_NOSIGNAL);
+        const ssize_t sent = send_piece(t, at, left, at == line);
         if (sent < 0 && errno == EPIPE) break; /* the reply has the reason */
         if (sent < 0 && errno != EAGAIN && errno != EINTR)
             ok = fail_talk(t, "closed the connection", err);
@@ -188,6 +210,28 @@ static json_t *receive_reply(struct talk *t, struct gn_err *err) {
     fail_talk(t, "sent an invalid reply", err);
     json_decref(reply);
     return NULL;
+}
+
+/* ---- the picture of a screenshot ------------------------------------------------------------- */
+
+/* The kiosk writes into memory, and this process the file, with the rights of its user. */
+static bool make_memory(struct talk *t, const char *path, struct gn_err *err) {
+    if (!gn_screenshot_check(path, err)) return false;
+    t->memory = memfd_create("gnomon-screenshot", MFD_CLOEXEC);
+    return t->memory >= 0 ||
+           gn_fail(err, "screenshot: cannot make a memory file: %s", strerror(errno));
+}
+
+static bool save_memory(struct talk *t, const char *path, struct gn_err *err) {
+    struct gn_bytes png;
+    const int fd = t->memory;
+    t->memory = -1;
+    lseek(fd, 0, SEEK_SET);
+    bool ok = gn_file_read_fd(fd, path, PICTURE_MAX, &png, err);
+    if (ok && png.size == 0) ok = fail_talk(t, "sent no picture; is it an older one?", err);
+    ok = ok && gn_file_replace(path, png.data, png.size, err);
+    gn_bytes_finish(&png);
+    return ok;
 }
 
 /* ---- the reply --------------------------------------------------------------------------- */
@@ -251,13 +295,21 @@ bool gn_cli_ctl(const struct gn_options *options, struct gn_warnings *warnings,
     if (!request) return false;
     const bool is_slow = gn_ctl_rows[command].flags & GN_CTL_SLOW;
     struct talk *talk = gn_xalloc(1, sizeof *talk);
-    talk->fd = -1;
+    talk->fd = talk->memory = -1;
     talk->until_ns = gn_clock_monotonic_ns() + (is_slow ? LONG_PATIENCE_NS : PATIENCE_NS);
     json_t *reply = NULL;
-    if (connect_kiosk(talk, options->settings, err) && send_request(talk, request, err))
+    const bool has_file = gn_ctl_rows[command].flags & GN_CTL_FILE;
+    const char *path = has_file ? json_string_value(json_object_get(request, "file")) : NULL;
+    if ((!path || make_memory(talk, path, err)) && connect_kiosk(talk, options->settings, err) &&
+        send_request(talk, request, err))
         reply = receive_reply(talk, err);
+    if (path && json_is_true(json_object_get(reply, "ok")) && !save_memory(talk, path, err)) {
+        json_decref(reply);
+        reply = NULL;
+    }
     json_decref(request);
     if (talk->fd >= 0) close(talk->fd);
+    if (talk->memory >= 0) close(talk->memory);
     free(talk);
     const bool ok = reply && print_reply(options->settings, reply, err);
     json_decref(reply);

@@ -54,9 +54,9 @@ static bool read_all(int fd, const char *path, size_t hint, size_t limit, struct
     return true;
 }
 
-/* Closes fd; -1: errno says why there is none. */
-static bool read_and_close(int fd, const char *path, size_t limit, struct gn_bytes *out,
-                           struct gn_err *err) {
+/* fd -1: errno says why there is none. */
+bool gn_file_read_fd(int fd, const char *path, size_t limit, struct gn_bytes *out,
+                     struct gn_err *err) {
     struct stat info = {0};
     bool ok = false;
     *out = (struct gn_bytes){0};
@@ -80,7 +80,7 @@ static bool read_and_close(int fd, const char *path, size_t limit, struct gn_byt
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err) {
     /* does not block: neither on a FIFO without a writer nor on a device */
     const int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    return read_and_close(fd, path, limit, out, err);
+    return gn_file_read_fd(fd, path, limit, out, err);
 }
 
 bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, struct gn_bytes *out,
@@ -93,7 +93,7 @@ bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, st
         return gn_fail(err, "'%.80s' leads outside the model's folder; put the file beside it",
                        name);
     if (fd < 0) errno = -fd;
-    return read_and_close(fd < 0 ? -1 : fd, path, limit, out, err);
+    return gn_file_read_fd(fd < 0 ? -1 : fd, path, limit, out, err);
 }
 
 void gn_bytes_finish(struct gn_bytes *bytes) {

@@ -21,6 +21,9 @@ bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct g
  * link that leads outside; see gn_open_beneath(). */
 bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, struct gn_bytes *out,
                           struct gn_err *err);
+/* The same for a file that is open, from the descriptor's position; closes it. path is for err. */
+bool gn_file_read_fd(int fd, const char *path, size_t limit, struct gn_bytes *out,
+                     struct gn_err *err);
 void gn_bytes_finish(struct gn_bytes *bytes);
 
 /* Writes path atomically: a temporary file in the same folder, fsync'd and renamed, removed on

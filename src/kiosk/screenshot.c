@@ -1,6 +1,7 @@
 #include "kiosk/screenshot.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -20,6 +21,7 @@ struct gn_screenshot {
     bool asked, runs, failed; /* at most one is true */
     pthread_t thread;
     char path[PATH_MAX];
+    int fd; /* -1: the path */
     uint32_t width_px, height_px;
     unsigned turn_deg;
     uint8_t *rgba;
@@ -37,6 +39,38 @@ bool gn_screenshot_check(const char *path, struct gn_err *err) {
     if (length >= PATH_MAX) return gn_fail_usage(err, "screenshot: the path is too long");
     if (lstat(path, &info) == 0 && !S_ISREG(info.st_mode))
         return gn_fail(err, "screenshot: %.200s is no regular file; not replacing it", path);
+    return true;
+}
+
+/* The path as the real path of the folder and a name, so that nobody can lead it elsewhere by a
+ * link later; false: it is not directly in the folder. */
+static bool resolve_in(const char *folder, const char *path, char *target) {
+    char wanted[PATH_MAX], given[PATH_MAX], parent[PATH_MAX];
+    const char *slash = strrchr(path, '/');
+    snprintf(parent, sizeof parent, "%.*s", (int)(slash - path + 1), path);
+    return realpath(folder, wanted) && realpath(parent, given) && strcmp(wanted, given) == 0 &&
+           snprintf(target, PATH_MAX, "%s%s", wanted[1] ? wanted : "", slash) < PATH_MAX;
+}
+
+bool gn_screenshot_permits(const char *path, int fd, const char *folder, char *target,
+                           struct gn_err *err) {
+    target[0] = 0;
+    if (fd < 0 && !gn_screenshot_check(path, err)) return false;
+    if (fd < 0 && folder && resolve_in(folder, path, target)) return true;
+    if (fd < 0 && folder)
+        return gn_fail(err,
+                       "screenshot: %.200s is not in %.200s; pass a memory file, or a path there",
+                       path, folder);
+    if (fd < 0)
+        return gn_fail(err,
+                       "screenshot: no file was passed: use gnomon ctl, or name a folder for them "
+                       "as screenshots in [kiosk]");
+    /* seals are a property of memory files alone; others may be pipes, or files of a remote or
+     * user's file system, on which a write can wait for ever */
+    const int flags = fcntl(fd, F_GETFL);
+    if (fcntl(fd, F_GET_SEALS) < 0 || (flags & O_ACCMODE) == O_RDONLY || flags & O_PATH)
+        return gn_fail(err,
+                       "screenshot: the descriptor that was passed is no writable memory file");
     return true;
 }
 
@@ -59,7 +93,8 @@ void gn_screenshot_destroy(struct gn_screenshot *shot) {
 
 int gn_screenshot_fd(const struct gn_screenshot *shot) { return shot->done; }
 
-void gn_screenshot_ask(struct gn_screenshot *shot, const char *path) {
+void gn_screenshot_ask(struct gn_screenshot *shot, const char *path, int fd) {
+    shot->fd = fd;
     snprintf(shot->path, sizeof shot->path, "%s", path);
     shot->asked = true;
 }
@@ -94,6 +129,18 @@ static void signal_done(const struct gn_screenshot *shot) {
     if (write(shot->done, &one, sizeof one) < 0) abort(); /* cannot overflow */
 }
 
+static bool write_memory(int fd, const struct gn_bytes *png, struct gn_err *err) {
+    for (size_t at = 0; at < png->size;) {
+        const ssize_t put = pwrite(fd, png->data + at, png->size - at, (off_t)at);
+        if (put < 0 && errno == EINTR) continue;
+        if (put <= 0)
+            return gn_fail(err, "screenshot: cannot write to the client's memory file: %s",
+                           strerror(errno));
+        at += (size_t)put;
+    }
+    return true;
+}
+
 /* Frames have priority: the thread lowers its own, which on Linux does not affect the others. */
 static void *write_in_thread(void *user) {
     struct gn_screenshot *s = user;
@@ -107,7 +154,8 @@ static void *write_in_thread(void *user) {
         for (uint32_t u = 0; u < width; u++)
             memcpy(rgb + 3 * ((size_t)v * width + u), s->rgba + 4 * pixel_index(s, u, v), 3);
     s->ok = rgb && gn_picture_encode_png8(rgb, (int)width, (int)height, &png, &s->err) &&
-            gn_file_replace(s->path, png.data, png.size, &s->err);
+            (s->fd >= 0 ? write_memory(s->fd, &png, &s->err)
+                        : gn_file_replace(s->path, png.data, png.size, &s->err));
     gn_bytes_finish(&png);
     free(rgb);
     signal_done(s);

@@ -8,17 +8,24 @@
 
 #include "core/err.h"
 
-/* May a picture be written there? An absolute path that ends in .png; there is a regular file or
- * nothing: a path that comes over a socket may be no link and no device. */
+/* For the client: may a picture be written there? An absolute path that ends in .png; there is a
+ * regular file or nothing. */
 bool gn_screenshot_check(const char *path, struct gn_err *err);
+/* For the kiosk: may it write there for a client? With a descriptor: that is a memory file, which
+ * no write waits for. Without one (-1): the path is that of a file in the folder of --screenshots
+ * (NULL: there is none), since it is written with the kiosk's rights; target (PATH_MAX bytes) gets
+ * its real path. */
+bool gn_screenshot_permits(const char *path, int fd, const char *folder, char *target,
+                           struct gn_err *err);
 
 struct gn_screenshot;
 struct gn_screenshot *gn_screenshot_create(struct gn_err *err);
 void gn_screenshot_destroy(struct gn_screenshot *shot); /* waits for the thread; NULL is legal */
 int gn_screenshot_fd(const struct gn_screenshot *shot); /* readable when one can be taken */
 
-/* The next frame is to be written there; the path is copied. Not while another one is under way. */
-void gn_screenshot_ask(struct gn_screenshot *shot, const char *path);
+/* The next frame is to be written into fd, which stays the caller's and open until it is done, or
+ * (-1) to the path, which is copied. Not while another one is under way. */
+void gn_screenshot_ask(struct gn_screenshot *shot, const char *path, int fd);
 bool gn_screenshot_is_asked(const struct gn_screenshot *shot); /* and no frame has filled it */
 /* Memory for the frame: RGBA of that size, top row first, turned clockwise by turn_deg (0, 90, 180,
  * 270). Whoever has filled it starts the thread. NULL: no memory. */

@@ -16,7 +16,7 @@
       "key", "value")                                                                              \
     X(GET, get, "get", "KEY", 0, "print an option's value and where it comes from", "key")         \
     X(STATUS, status, "status", "", 0, "print the state of the kiosk", NULL)                       \
-    X(SCREENSHOT, screenshot, "screenshot", "FILE", GN_CTL_CHANGES | GN_CTL_SLOW,                  \
+    X(SCREENSHOT, screenshot, "screenshot", "FILE", GN_CTL_CHANGES | GN_CTL_SLOW | GN_CTL_FILE,    \
       "write the next frame as a .png", "file")                                                    \
     X(RELOAD, reload, "reload", "", GN_CTL_CHANGES | GN_CTL_SLOW,                                  \
       "read the configuration and the scene again", NULL)                                          \
@@ -26,6 +26,7 @@
 enum {                     /* flags */
        GN_CTL_CHANGES = 1, /* it may cost a frame: at most GN_CONTROL_CHANGES_PER_S a second */
        GN_CTL_SLOW = 2,    /* the reply comes when it is done, which may take seconds */
+       GN_CTL_FILE = 4,    /* the client passes a memory file, and the kiosk writes into it */
 };
 enum gn_ctl { /* first the actions, in their order: gn_ctl_action() */
 #define X(ID, ...) GN_CTL_##ID,

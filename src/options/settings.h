@@ -93,7 +93,8 @@ struct gn_display_settings {
 struct gn_kiosk_settings {
     int idle; /* enum gn_idle */
     int64_t idle_after_ns, fade_ns;
-    const char *socket; /* NULL: see gn_listen_default() */
+    const char *socket;      /* NULL: see gn_listen_default() */
+    const char *screenshots; /* folder; NULL: none */
     bool captions;
     int64_t caption_ns;
 };

@@ -132,6 +132,16 @@ static void every_option_of_the_file_is_one_or_the_other(void **state) {
     assert_true(cannot >= 10);
 }
 
+/* Whoever may use the socket would choose files that the kiosk opens with its rights. */
+static void no_file_can_be_named_by_ctl(void **state) {
+    (void)state;
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        const struct gn_option_row *row = &gn_option_rows[i];
+        if (row->kind == GN_KIND_PATH || row->kind == GN_KIND_SCENES)
+            assert_int_not_equal(row->change, GN_CHANGE_LIVE);
+    }
+}
+
 static void a_change_can_be_taken_back(void **state) {
     (void)state;
     assert_true(parse("show --camera Top"));
@@ -280,6 +290,7 @@ static void help_lists_every_command(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_file_can_be_named_by_ctl),
         cmocka_unit_test_teardown(a_change_beats_the_command_line_and_every_mode, drop_all),
         cmocka_unit_test_teardown(a_key_may_be_written_in_several_ways, drop_all),
         cmocka_unit_test_teardown(what_cannot_change_says_why, drop_all),

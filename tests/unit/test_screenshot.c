@@ -1,10 +1,14 @@
 #include "unit/check.h"
 
+#include <fcntl.h>
+#include <limits.h>
 #include <math.h>
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -47,7 +51,7 @@ static void a_turned_screen_gives_an_upright_picture(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof screens / sizeof screens[0]; i++) {
         struct gn_picture picture = {0};
-        gn_screenshot_ask(shot, in_folder("a.png"));
+        gn_screenshot_ask(shot, in_folder("a.png"), -1);
         uint8_t *rgba = gn_screenshot_begin(shot, screens[i].width_px, screens[i].height_px,
                                             screens[i].turn_deg, &err);
         assert_non_null(rgba);
@@ -87,6 +91,82 @@ static void a_name_that_is_not_fit_is_refused_before(void **state) {
     assert_false(gn_screenshot_check(path, &err));
 }
 
+static void fill(unsigned value) {
+    uint8_t *rgba = gn_screenshot_begin(shot, 2, 2, 0, &err);
+    assert_non_null(rgba);
+    memset(rgba, (int)value, 16);
+    assert_true(gn_screenshot_start(shot, &err));
+}
+
+static void a_client_gets_it_in_its_memory_file(void **state) {
+    (void)state;
+    char memory[40], target[PATH_MAX];
+    struct gn_picture picture = {0};
+    const int fd = memfd_create("test", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+    assert_true(gn_screenshot_permits("/any/where.png", fd, NULL, target, &err));
+    gn_screenshot_ask(shot, in_folder("none.png"), fd);
+    fill(51);
+    if (!finish()) fail_msg("%s", err.text);
+    assert_int_equal(access(path, F_OK), -1);
+    snprintf(memory, sizeof memory, "/proc/self/fd/%d", fd);
+    if (!gn_picture_read(&picture, memory, &err)) fail_msg("%s", err.text);
+    assert_int_equal(lrintf(gn_picture_at(&picture, 1, 1)[0] * 255), 51);
+    gn_picture_finish(&picture);
+
+    /* one that cannot be written is the client's mistake */
+    assert_int_equal(fcntl(fd, F_ADD_SEALS, F_SEAL_WRITE), 0);
+    gn_screenshot_ask(shot, path, fd);
+    fill(52);
+    assert_false(finish());
+    assert_non_null(strstr(err.text, "client's memory file"));
+    close(fd);
+}
+
+static void no_other_descriptor_is_written_to(void **state) {
+    (void)state;
+    char target[PATH_MAX];
+    int pipes[2];
+    assert_int_equal(pipe(pipes), 0);
+    const int fds[] = {pipes[1], open("/dev/null", O_RDWR), socket(AF_UNIX, SOCK_STREAM, 0),
+                       open("/proc/self/stat", O_RDONLY), open("/tmp", O_PATH)};
+    for (size_t i = 0; i < sizeof fds / sizeof fds[0]; i++) {
+        assert_true(fds[i] >= 0);
+        assert_false(gn_screenshot_permits("/tmp/x.png", fds[i], "/tmp", target, &err));
+        assert_non_null(strstr(err.text, "no writable memory file"));
+        close(fds[i]);
+    }
+    close(pipes[0]);
+}
+
+static void the_kiosk_writes_into_the_configured_folder_only(void **state) {
+    (void)state;
+    static const char *const outside[] = {"shots/a/x.png", "shots/../x.png", "shotsx/x.png",
+                                          "x.png"};
+    char shots[100], link[100], target[PATH_MAX], wanted[PATH_MAX];
+    assert_int_equal(mkdir(in_folder("shots"), 0700), 0);
+    snprintf(shots, sizeof shots, "%s", path);
+    assert_int_equal(mkdir(in_folder("shots/a"), 0700), 0);
+    assert_int_equal(mkdir(in_folder("shotsx"), 0700), 0);
+    snprintf(link, sizeof link, "%s", in_folder("way"));
+    assert_int_equal(symlink(shots, link), 0);
+    assert_non_null(realpath(shots, wanted));
+    strcat(wanted, "/x.png");
+    assert_true(gn_screenshot_permits(in_folder("shots/x.png"), -1, shots, target, &err));
+    assert_string_equal(target, wanted);
+    assert_true(gn_screenshot_permits(path, -1, link, target, &err));
+    assert_string_equal(target, wanted);
+    assert_true(gn_screenshot_permits(in_folder("way/x.png"), -1, shots, target, &err));
+    assert_string_equal(target, wanted);
+    assert_true(gn_screenshot_permits("/x.png", -1, "/", target, &err));
+    assert_string_equal(target, "/x.png");
+    for (size_t i = 0; i < sizeof outside / sizeof outside[0]; i++) {
+        assert_false(gn_screenshot_permits(in_folder(outside[i]), -1, shots, target, &err));
+        assert_non_null(strstr(err.text, "is not in /"));
+    }
+    assert_false(gn_screenshot_permits("/tmp/x.png", -1, NULL, target, &err));
+    assert_non_null(strstr(err.text, "screenshots in [kiosk]"));
+}
+
 /* Whatever comes there after the check. */
 static void nothing_but_a_file_is_written_over(void **state) {
     (void)state;
@@ -108,7 +188,7 @@ static void nothing_but_a_file_is_written_over(void **state) {
     assert_true(gn_file_replace(victim, "new", 3, &err));
     assert_int_equal(stat(victim, &info), 0);
     assert_int_equal(info.st_size, 3);
-    gn_screenshot_ask(shot, in_folder("no/such.png"));
+    gn_screenshot_ask(shot, in_folder("no/such.png"), -1);
     assert_non_null(gn_screenshot_begin(shot, 2, 2, 0, &err));
     assert_true(gn_screenshot_start(shot, &err));
     assert_false(finish());
@@ -119,7 +199,7 @@ static void what_fails_is_taken_with_its_reason(void **state) {
     (void)state;
     struct gn_err why = {0};
     bool ok = true;
-    gn_screenshot_ask(shot, in_folder("b.png"));
+    gn_screenshot_ask(shot, in_folder("b.png"), -1);
     assert_non_null(gn_screenshot_begin(shot, 1000, 1000, 0, &err));
     assert_false(gn_screenshot_take(shot, &ok, &err));
     gn_fail(&why, "no frame came");
@@ -128,7 +208,7 @@ static void what_fails_is_taken_with_its_reason(void **state) {
     assert_false(finish());
     assert_string_equal(err.text, "no frame came");
     assert_false(gn_screenshot_take(shot, &ok, &err));
-    gn_screenshot_ask(shot, path);
+    gn_screenshot_ask(shot, path, -1);
     assert_non_null(gn_screenshot_begin(shot, 1000, 1000, 0, &err));
     assert_true(gn_screenshot_start(shot, &err)); /* the end waits for it */
 }
@@ -162,6 +242,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_turned_screen_gives_an_upright_picture, begin, end),
         cmocka_unit_test(a_name_that_is_not_fit_is_refused_before),
+        cmocka_unit_test_setup_teardown(a_client_gets_it_in_its_memory_file, begin, end),
+        cmocka_unit_test(no_other_descriptor_is_written_to),
+        cmocka_unit_test(the_kiosk_writes_into_the_configured_folder_only),
         cmocka_unit_test_setup_teardown(nothing_but_a_file_is_written_over, begin, end),
         cmocka_unit_test_setup_teardown(what_fails_is_taken_with_its_reason, begin, end),
     };

@@ -1,6 +1,7 @@
 #include "kiosk/control/answer.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -139,7 +140,9 @@ static json_t *answer_screenshot(struct gn_show *s, const struct gn_request *r,
                                  struct gn_err *err) {
     struct gn_show_control *c = s->control;
     const struct gn_screen *screen = &s->stage.display.screen;
-    if (!gn_screenshot_check(r->words[0], err)) return NULL;
+    const char *folder = s->stage.settings->kiosk.screenshots;
+    char target[PATH_MAX];
+    if (!gn_screenshot_permits(r->words[0], r->fd, folder, target, err)) return NULL;
     if (c->screenshot) {
         gn_fail(err, "busy");
     } else if (s->kiosk.blanked) {
@@ -150,7 +153,7 @@ static json_t *answer_screenshot(struct gn_show *s, const struct gn_request *r,
     } else {
         c->screenshot = r;
         c->screenshot_late.due_ns = gn_loop_now_ns(s->loop) + SCREENSHOT_NS;
-        gn_screenshot_ask(s->screenshot, r->words[0]);
+        gn_screenshot_ask(s->screenshot, target, r->fd);
         s->changed = true;
     }
     return NULL;

@@ -32,6 +32,7 @@ struct client {
     struct buffers *buffers;
     bool readable, ended, skips; /* skips: it discards the rest of a line that is too long */
     bool waits;                  /* for the owner to answer its request */
+    int passed;                  /* a descriptor that came, for its next request; -1: none */
     size_t used;                 /* of buffers->in */
     char *out;                   /* the unsent part of a reply; from malloc */
     size_t out_size, out_at;
@@ -70,7 +71,8 @@ struct gn_control *gn_control_open(const char *path, struct gn_loop *loop, struc
     c->loop = loop;
     c->listen = (struct gn_listen){.fd = -1, .lock = -1};
     for (int i = 0; i < CLIENTS; i++)
-        c->clients[i] = (struct client){.fd = -1, .control = c, .buffers = &c->buffers[i]};
+        c->clients[i] =
+            (struct client){.fd = -1, .passed = -1, .control = c, .buffers = &c->buffers[i]};
     c->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
     c->timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = serve_clients, .user = c};
     gn_loop_add_timer(loop, &c->timer);
@@ -84,8 +86,15 @@ struct gn_control *gn_control_open(const char *path, struct gn_loop *loop, struc
     return NULL;
 }
 
+static void close_passed(int *fd) {
+    if (*fd >= 0) close(*fd);
+    *fd = -1;
+}
+
 static void drop_client(struct client *client) {
     gn_loop_remove(&client->watch);
+    close_passed(&client->passed);
+    if (client->waits) close_passed(&client->buffers->request.fd);
     close(client->fd);
     free(client->out);
     client->fd = -1;
@@ -173,6 +182,10 @@ static void take_line(struct gn_control *c, struct client *client, const char *l
     } else {
         const int index = (int)(client - c->clients);
         client->buffers->request.from = (uint64_t)index;
+        if (gn_ctl_rows[client->buffers->request.command].flags & GN_CTL_FILE) {
+            client->buffers->request.fd = client->passed;
+            client->passed = -1;
+        }
         client->waits = true;
         c->queue[(c->first + c->queued++) % CLIENTS] = index;
     }
@@ -191,6 +204,37 @@ static bool is_due(const struct client *client) {
     return client->fd >= 0 && !client->out && !client->waits &&
            (client->readable || client->ended || has_line(client, &length) ||
             client->used == sizeof client->buffers->in);
+}
+
+/* Keeps the first of the descriptors that came, in place of an earlier one; of the others the
+ * kernel closes those that do not fit. */
+static void take_passed(struct client *client, struct msghdr *message) {
+    bool first = true;
+    for (struct cmsghdr *c = CMSG_FIRSTHDR(message); c; c = CMSG_NXTHDR(message, c)) {
+        if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_RIGHTS) continue;
+        for (size_t at = CMSG_LEN(0); at + sizeof(int) <= c->cmsg_len; at += sizeof(int)) {
+            int fd;
+            memcpy(&fd, (const char *)c + at, sizeof fd);
+            close_passed(first ? &client->passed : &fd);
+            if (first) client->passed = fd;
+            first = false;
+        }
+    }
+}
+
+static ssize_t receive_input(struct client *client, char *to, size_t room) {
+    union {
+        struct cmsghdr header;
+        char bytes[CMSG_SPACE(sizeof(int))];
+    } control;
+    struct iovec piece = {to, room};
+    struct msghdr message = {.msg_iov = &piece,
+                             .msg_iovlen = 1,
+                             .msg_control = &control,
+                             .msg_controllen = sizeof control};
+    const ssize_t got = recvmsg(client->fd, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
+    if (got >= 0) take_passed(client, &message);
+    return got;
 }
 
 /* Handles one line, or reads one piece of input. */
@@ -212,7 +256,7 @@ static void serve_client(struct gn_control *c, struct client *client) {
         client->skips = true;
     } else if (client->readable) {
         const size_t room = sizeof client->buffers->in - client->used;
-        const ssize_t got = recv(client->fd, in + client->used, room, MSG_DONTWAIT);
+        const ssize_t got = receive_input(client, in + client->used, room);
         if (got > 0) {
             client->used += (size_t)got;
         } else if (got == 0 || errno != EINTR) {
@@ -354,6 +398,7 @@ const struct gn_request *gn_control_next(struct gn_control *c) {
 void gn_control_answer(struct gn_control *c, const struct gn_request *request, json_t *json) {
     struct client *client = &c->clients[request->from];
     client->waits = false;
+    close_passed(&client->buffers->request.fd);
     c->now_ns = gn_loop_now_ns(c->loop);
     if (json && !json_object_get(json, "ok")) json_object_set_new(json, "ok", json_true());
     send_reply(c, client, json);

@@ -79,6 +79,7 @@ static bool read_members(json_t *root, struct gn_request *out, struct gn_err *er
 
 bool gn_request_parse(const char *line, size_t length, struct gn_request *out, struct gn_err *err) {
     json_error_t why;
+    out->fd = -1;
     for (int i = 0; i < GN_CTL_WORDS_MAX; i++) out->words[i] = NULL;
     if (length > GN_REQUEST_LINE_MAX)
         return gn_fail_usage(err, "request is longer than %d bytes", GN_REQUEST_LINE_MAX);
