@@ -96,12 +96,13 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
     struct gn_import *import = (struct gn_import *)(void *)io->UserData;
     struct gn_bytes bytes;
     if (*mode != 'r') return NULL;
-    bool found = strcmp(name, import->name) == 0
-                     ? gn_file_read(import->opts->model, file_limit(import), &bytes, NULL)
-                     : gn_import_folder_read(import, name, &bytes);
+    const bool is_model = strcmp(name, import->name) == 0;
+    const size_t length = strlen(name);
+    const bool is_material = length > 4 && strcasecmp(name + length - 4, ".mtl") == 0;
+    const bool found = is_model
+                           ? gn_file_read(import->opts->model, file_limit(import), &bytes, NULL)
+                           : gn_import_folder_read(import, name, &bytes);
     if (!found) {
-        size_t length = strlen(name);
-        bool is_material = length > 4 && strcasecmp(name + length - 4, ".mtl") == 0;
         if (is_material && !import->warned_materials)
             gn_warn(import->warnings,
                     "%s: material file %.100s not found in the model's folder; shown without it",
@@ -109,6 +110,8 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
         import->warned_materials |= is_material;
         return NULL;
     }
+    if (is_model && import->format == GN_MODEL_PLY) gn_import_ply_guard(&bytes);
+    if (!is_model && is_material) gn_import_mtl_clean(&bytes);
     struct opened *o = gn_import_alloc(sizeof *o);
     *o = (struct opened){.bytes = bytes};
     o->file = (struct aiFile){.ReadProc = read_some,

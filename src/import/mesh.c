@@ -87,6 +87,27 @@ static int add_indices(struct gn_import *import, const struct gn_import_shape *s
     return index;
 }
 
+/* False for three corners on one line: a sine below the precision of floats. */
+static bool has_area(const struct aiMesh *mesh, const uint32_t corners[3]) {
+    double edges[2][3], lengths[2] = {0.0, 0.0}, area = 0.0;
+    const struct aiVector3D *a = &mesh->mVertices[corners[0]];
+    for (int i = 0; i < 2; i++) {
+        const struct aiVector3D *b = &mesh->mVertices[corners[1 + i]];
+        const double edge[3] = {(double)b->x - (double)a->x, (double)b->y - (double)a->y,
+                                (double)b->z - (double)a->z};
+        for (int k = 0; k < 3; k++) {
+            edges[i][k] = edge[k];
+            lengths[i] += edge[k] * edge[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        const int u = (k + 1) % 3, v = (k + 2) % 3;
+        const double part = edges[0][u] * edges[1][v] - edges[0][v] * edges[1][u];
+        area += part * part;
+    }
+    return area > 1e-13 * lengths[0] * lengths[1];
+}
+
 /* JSON null if the mesh has no triangles. */
 static json_t *make_primitive(struct gn_import *import, const struct aiMesh *mesh) {
     struct gn_import_shape shape = {.mesh = mesh};
@@ -99,6 +120,8 @@ static json_t *make_primitive(struct gn_import *import, const struct aiMesh *mes
             is_triangle = face->mIndices[k] < mesh->mNumVertices;
         for (int k = 0; k < 3 && is_triangle; k++)
             shape.indices[shape.index_count++] = face->mIndices[k];
+        if (is_triangle && !import->has_area)
+            import->has_area = has_area(mesh, &shape.indices[shape.index_count - 3]);
     }
     if (shape.index_count && mesh->mNormals) {
         size_t count = shape.vertex_count = mesh->mNumVertices;

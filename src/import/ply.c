@@ -1,5 +1,5 @@
-/* Checks the header of a PLY file before assimp reads it: assimp 5.2 hangs on an unknown format
- * line. */
+/* PLY files before assimp 5.2 reads them: it hangs on an unknown format line, and loses a byte of
+ * some binary ones. */
 #include <string.h>
 
 #include "import/private.h"
@@ -26,4 +26,19 @@ bool gn_import_ply_check(const struct gn_import *import) {
                    "%s: bad or missing format line in the header: expected ascii, "
                    "binary_little_endian or binary_big_endian",
                    path);
+}
+
+/* assimp takes a line feed that follows the header of a binary file for the rest of its last line,
+ * and then reads all numbers one byte too early. */
+void gn_import_ply_guard(struct gn_bytes *bytes) {
+    static const char last[] = "\nend_header\n";
+    const char *header = memmem(bytes->data, bytes->size, last, strlen(last));
+    if (!header || !memmem(bytes->data, (size_t)(header - (const char *)bytes->data),
+                           "\nformat binary", strlen("\nformat binary")))
+        return;
+    const size_t at = (size_t)(header - (const char *)bytes->data) + strlen(last);
+    if (at >= bytes->size || bytes->data[at] != '\n') return;
+    bytes->data = gn_import_grow(bytes->data, bytes->size + 2);
+    memmove(bytes->data + at + 1, bytes->data + at, bytes->size + 1 - at);
+    bytes->size++;
 }

@@ -67,6 +67,7 @@ struct gn_import {
     struct gn_warnings *warnings;
     struct gn_err *err;
     bool warned_materials; /* warned of a missing material file */
+    bool has_area;         /* some triangle has one */
     json_t **primitives;   /* per aiMesh: its primitive, JSON null if empty, NULL if not made yet */
     int *meshes;           /* per aiMesh: glTF mesh of nodes with only this one, -1 if empty, or
                               GN_IMPORT_UNSEEN */
@@ -106,6 +107,13 @@ struct aiFileIO gn_import_folder_io(struct gn_import *import);
 
 /* Fails for a header that would hang assimp. */
 bool gn_import_ply_check(const struct gn_import *import);
+/* Keeps assimp from skipping the first byte of a binary body. */
+void gn_import_ply_guard(struct gn_bytes *bytes);
+
+/* ---- mtl.c ---- */
+
+/* Blanks the lines of a material file for which assimp would refuse the model. */
+void gn_import_mtl_clean(struct gn_bytes *bytes);
 
 /* ---- the scene ---- */
 

@@ -209,6 +209,11 @@ bool gn_import_scene_build(struct gn_import *import) {
     gn_glb_add(&import->glb, "scenes", json_pack("{s:[i]}", "nodes", 0));
     add_nodes(import);
     if (!json_object_get(import->glb.root, "meshes")) return fail_empty(import);
+    if (!import->has_area)
+        return gn_fail(import->err,
+                       "%s: no triangle has an area: each has its corners on one line; export it "
+                       "again",
+                       import->opts->model);
     gn_import_lights(import);
     gn_import_cameras(import);
     return true;

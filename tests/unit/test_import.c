@@ -174,6 +174,25 @@ static void test_missing_materials_are_told(void **state) {
     gn_scene_destroy(scene);
 }
 
+/* Blender writes aniso; the others are in the format's specification. */
+static void test_materials_have_lines_that_assimp_cannot_read(void **state) {
+    (void)state;
+    static const char *const lines[] = {
+        "aniso 0.5",    "  anisor 0",  "Ka spectral a.rfl 1",
+        "Ks xyz 1 1 1", "d -halo 0.5", "decal no.png",
+        "Tf",           "a thing",     "Pcx 1",
+    };
+    help_import_put("n.obj", "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        char text[200];
+        snprintf(text, sizeof text, "newmtl m\r\n%s\r\nKd 1 0 0.25\r\n", lines[i]);
+        help_import_put("n.mtl", text);
+        struct gn_scene *scene = help_import_load("n.obj");
+        help_import_near(help_import_material(scene)->base_color[2], 0.25f);
+        gn_scene_destroy(scene);
+    }
+}
+
 /* ---- refusals ---- */
 
 static void test_what_is_no_model_is_refused_by_one_line(void **state) {
@@ -186,6 +205,9 @@ static void test_what_is_no_model_is_refused_by_one_line(void **state) {
     help_import_refused("empty.stl", "cannot be read as STL");
     help_import_put("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n");
     help_import_refused("points.obj", "no triangles");
+    help_import_put("lines.obj",
+                    "v 0 0 0\nv 0.1 0.1 0.1\nv 0.3 0.3 0.3\nf 1 2 3\nf 1 1 2\nf 3 3 3\n");
+    help_import_refused("lines.obj", "no triangle has an area");
     help_import_refused("gone.obj", "cannot open");
     assert_int_equal(mkdir(help_import_path("dir.ply"), 0700), 0);
     help_import_refused("dir.ply", "is a folder");
@@ -210,6 +232,7 @@ int main(void) {
         cmocka_unit_test(test_pictures_outside_the_folder_are_not_read),
         cmocka_unit_test(test_a_path_of_another_machine_is_found_by_its_last_part),
         cmocka_unit_test(test_missing_materials_are_told),
+        cmocka_unit_test(test_materials_have_lines_that_assimp_cannot_read),
         cmocka_unit_test(test_what_is_no_model_is_refused_by_one_line),
         cmocka_unit_test(test_names_are_known_by_their_ends),
     };

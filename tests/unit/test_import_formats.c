@@ -83,6 +83,32 @@ static void test_a_place_is_one_whatever_the_sign_of_its_zeros(void **state) {
 
 /* ---- STL, PLY ---- */
 
+/* A line feed is the first byte of one file in 256. */
+static void test_a_binary_ply_may_begin_with_any_byte(void **state) {
+    (void)state;
+    static const char *const ends[] = {"\n", "\r\n"};
+    for (int i = 0; i < 4; i++) {
+        static const char *const orders[] = {"little", "big"};
+        static const uint8_t body[] = {
+            '\n', 0,   0, 0, 0, 0, 0,   0,   0,   0,   0,   0, /* about 0 0 0 */
+            0,    0,   0, 0, 0, 0, 0,   0,   '@', '@', '@', '@', '@', '@',
+            '@',  '@', 0, 0, 0, 0, '@', '@', '@', '@', 3,   0,   1,   2};
+        char data[400];
+        const char *end = ends[i / 2];
+        const int size = snprintf(
+            data, sizeof data - sizeof body,
+            "ply%sformat binary_%s_endian 1.0%selement vertex 3%sproperty float x%sproperty float "
+            "y%sproperty float z%selement face 1%sproperty list uchar uchar vertex_indices%s"
+            "end_header%s",
+            end, orders[i % 2], end, end, end, end, end, end, end, end);
+        memcpy(data + size, body, sizeof body);
+        help_import_put_bytes("f.ply", data, (size_t)size + sizeof body);
+        struct gn_scene *scene = help_import_load("f.ply");
+        help_import_box(scene, 0, 0, 0, 3.0039f, 3.0039f, 0);
+        gn_scene_destroy(scene);
+    }
+}
+
 static void test_an_stl_has_z_up_in_either_form(void **state) {
     (void)state;
     help_import_put("a.stl",
@@ -214,6 +240,7 @@ int main(void) {
         cmocka_unit_test(test_a_box_without_normals_gets_flat_ones_that_look_out),
         cmocka_unit_test(test_a_cylinder_without_normals_is_smooth_round_and_sharp_at_its_rim),
         cmocka_unit_test(test_a_place_is_one_whatever_the_sign_of_its_zeros),
+        cmocka_unit_test(test_a_binary_ply_may_begin_with_any_byte),
         cmocka_unit_test(test_an_stl_has_z_up_in_either_form),
         cmocka_unit_test(test_vertex_colours_become_linear_on_white),
         cmocka_unit_test(test_a_collada_scene_keeps_its_unit_axis_and_instances),
