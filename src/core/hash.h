@@ -1,4 +1,5 @@
-/* A 64-bit hash for change detection (shadow maps, program keys). Not for hostile input. */
+/* 64-bit hashes: a quick one for change detection (shadow maps, program keys), and a keyed one for
+ * tables whose keys come from a file. */
 #ifndef GN_CORE_HASH_H
 #define GN_CORE_HASH_H
 
@@ -9,5 +10,12 @@
 
 /* Chainable: h = gn_hash(h, a, sizeof a); h = gn_hash(h, b, sizeof b). Any size; 8 bytes a step. */
 uint64_t gn_hash(uint64_t h, const void *data, size_t size);
+
+/* A secret of this process: nobody can make a file whose keys collide under it. */
+struct gn_hash_key {
+    uint64_t word[2];
+};
+struct gn_hash_key gn_hash_key_make(void);
+uint64_t gn_hash_keyed(const struct gn_hash_key *key, const void *data, size_t size);
 
 #endif

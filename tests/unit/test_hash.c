@@ -70,11 +70,41 @@ static void one_bit_flips_half_of_the_bits(void **state) {
     assert_in_range(flips / 192, 28, 36);
 }
 
+/* The reference implementation's vector for no bytes under the key 00 01 .. 0f. */
+static void the_keyed_hash_is_siphash_1_3(void **state) {
+    (void)state;
+    const struct gn_hash_key key = {{UINT64_C(0x0706050403020100), UINT64_C(0x0f0e0d0c0b0a0908)}};
+    assert_true(gn_hash_keyed(&key, "", 0) == UINT64_C(0xabac0158050fc4dc));
+}
+
+static void bytes_length_and_key_count(void **state) {
+    (void)state;
+    const struct gn_hash_key mine = gn_hash_key_make(), other = {{1, 2}};
+    const char zeros[24] = {0}, text[] = "the shadow of a gnomon";
+    uint64_t seen[24];
+    for (size_t i = 0; i < sizeof zeros; i++) {
+        seen[i] = gn_hash_keyed(&mine, zeros, i);
+        for (size_t k = 0; k < i; k++) assert_true(seen[k] != seen[i]);
+    }
+    for (size_t i = 0; i < sizeof text; i++) {
+        char copy[sizeof text];
+        memcpy(copy, text, sizeof text);
+        assert_true(gn_hash_keyed(&mine, copy, i) == gn_hash_keyed(&mine, text, i));
+        copy[i] ^= 1;
+        assert_true(gn_hash_keyed(&mine, copy, i + 1) != gn_hash_keyed(&mine, text, i + 1));
+    }
+    assert_true(gn_hash_keyed(&mine, text, 8) != gn_hash_keyed(&other, text, 8));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equal_bytes_hash_equally),       cmocka_unit_test(the_length_counts),
-        cmocka_unit_test(the_order_of_a_chain_counts),    cmocka_unit_test(every_bit_counts),
+        cmocka_unit_test(equal_bytes_hash_equally),
+        cmocka_unit_test(the_length_counts),
+        cmocka_unit_test(the_order_of_a_chain_counts),
+        cmocka_unit_test(every_bit_counts),
         cmocka_unit_test(one_bit_flips_half_of_the_bits),
+        cmocka_unit_test(the_keyed_hash_is_siphash_1_3),
+        cmocka_unit_test(bytes_length_and_key_count),
     };
     return RUN(tests);
 }
