@@ -14,6 +14,7 @@
 
 struct welder {
     const struct gn_scene *scene;
+    const struct gn_hash_key *key;
     const struct gn_geometry *geometry;
     uint32_t *slots; /* hash table of vertex + 1 */
     uint32_t mask;
@@ -30,7 +31,7 @@ static void weld_vertices(struct welder *w) {
     for (uint32_t v = 0; v < w->geometry->vertex_count; v++) {
         float p[3];
         for (int k = 0; k < 3; k++) p[k] = position_of(w, v)[k] + 0.0f; /* -0 is 0 */
-        uint32_t at = (uint32_t)(gn_hash(GN_HASH_INIT, p, sizeof p) >> 20) & w->mask;
+        uint32_t at = (uint32_t)gn_hash_keyed(w->key, p, sizeof p) & w->mask;
         for (; w->slots[at]; at = (at + 1) & w->mask) {
             const float *q = position_of(w, w->slots[at] - 1);
             if (q[0] == p[0] && q[1] == p[1] && q[2] == p[2]) break;
@@ -95,6 +96,7 @@ bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *ge
     while (size < 2 * (uint64_t)count && size < 1u << 31) size *= 2;
     struct welder w = {
         .scene = g->scene,
+        .key = &g->hash_key,
         .geometry = geometry,
         .slots = gn_arena_alloc(&arena, size, sizeof *w.slots),
         .mask = size - 1,

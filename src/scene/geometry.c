@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5 };
@@ -21,40 +22,35 @@ struct gather {
     size_t first, count;
 };
 
-/* All elements of the accessor, in work memory; missing components are 1 (an alpha, for one). */
-static float *read_floats(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
-    float *all = gn_gltf_alloc(g, &g->memory.step, (uint64_t)a->count * components, sizeof *all);
-    for (size_t i = 0; all && a->components < components && i < a->count * components; i++)
-        all[i] = 1;
-    if (all) gn_accessor_floats(a, components, all);
-    return all;
+/* Copies elements as floats; missing components stay as they are. */
+static void put_floats(const struct gather *gather, size_t components, float *out) {
+    if (gather->source)
+        gn_accessor_gather(gather->accessor, components, gather->source, gather->count, out);
+    else
+        gn_accessor_floats(gather->accessor, components, out);
 }
 
-/* Copies elements as floats. */
-static bool put_floats(struct gn_gltf *g, const struct gather *gather, size_t components,
-                       float *out) {
-    if (!gather->source) {
-        gn_accessor_floats(gather->accessor, components, out);
-        return true;
-    }
-    const float *all = read_floats(g, gather->accessor, components);
-    for (size_t i = 0; all && i < gather->count; i++)
-        memcpy(out + i * components, all + gather->source[i] * components,
-               components * sizeof *out);
-    return all != NULL;
+/* The same in work memory; missing components are 1 (an alpha, for one). */
+static float *read_floats(struct gn_gltf *g, const struct gather *gather, size_t components) {
+    const size_t count = gather->count * components;
+    float *floats =
+        gn_gltf_alloc(g, &g->memory.step, (uint64_t)gather->count * components, sizeof *floats);
+    if (!floats) return NULL;
+    for (size_t i = 0; gather->accessor->components < components && i < count; i++) floats[i] = 1;
+    put_floats(gather, components, floats);
+    return floats;
 }
 
 static bool put_bytes(struct gn_gltf *g, const struct gather *gather, size_t components,
                       uint8_t *out) {
     struct gn_accessor a = *gather->accessor;
     a.normalized = true;
-    const float *all = read_floats(g, &a, components);
-    for (size_t i = 0; all && i < gather->count; i++) {
-        const float *from = all + components * (gather->source ? gather->source[i] : i);
-        for (size_t k = 0; k < components; k++)
-            out[components * i + k] = (uint8_t)(fminf(fmaxf(from[k], 0), 1) * 255 + .5f);
-    }
-    return all != NULL;
+    struct gather normalized = *gather;
+    normalized.accessor = &a;
+    const float *floats = read_floats(g, &normalized, components);
+    for (size_t i = 0; floats && i < gather->count * components; i++)
+        out[i] = (uint8_t)(fminf(fmaxf(floats[i], 0), 1) * 255 + .5f);
+    return floats != NULL;
 }
 
 /* All attributes but positions and normals, of the vertices first .. first + count; huge and
@@ -77,7 +73,7 @@ static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
         } else if (row->format == GN_ATTRIBUTE_UNORM8) {
             if (!put_bytes(g, &gather, row->components, bytes)) return false;
         } else {
-            if (!put_floats(g, &gather, row->components, floats)) return false;
+            put_floats(&gather, row->components, floats);
             for (size_t k = 0; k < count; k++)
                 if (!(fabsf(floats[k]) < 1e18f)) floats[k] = 0;
         }
@@ -87,6 +83,7 @@ static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
 
 /* ---- corners ---- */
 
+/* In work memory. */
 static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at,
                               const struct gn_shape *shape, size_t *count) {
     size_t vertex_count = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_POSITION])->count;
@@ -104,6 +101,30 @@ static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at,
         return NULL;
     }
     return raw;
+}
+
+static int compare_indices(const void *a, const void *b) {
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Numbers the vertices that the corners use from 0 on, as the elements of *used, in work memory:
+ * what a primitive costs depends on its own size, not on that of the accessors that it shares. */
+static bool number_used_vertices(struct gn_gltf *g, uint32_t *corners, size_t count,
+                                 uint32_t **used, size_t *used_count) {
+    uint32_t *list = *used = gn_gltf_alloc(g, &g->memory.step, count, sizeof *list);
+    if (!list) return false;
+    size_t n = 0;
+    memcpy(list, corners, count * sizeof *list);
+    qsort(list, count, sizeof *list, compare_indices);
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 || list[i] != list[n - 1]) list[n++] = list[i];
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t *at = bsearch(&corners[i], list, n, sizeof *list, compare_indices);
+        corners[i] = (uint32_t)(at - list);
+    }
+    *used_count = n;
+    return true;
 }
 
 /* Unrolls strips and fans into out, dropping triangles with equal indices or with a
@@ -148,14 +169,20 @@ static bool fill_flat_geometry(struct gn_gltf *g, const struct gn_at *at,
                                const struct gn_shape *shape, struct gn_geometry *geometry) {
     struct gn_scene *scene = g->scene;
     const struct gn_accessor *a = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_POSITION]);
+    struct gather vertices = {.accessor = a, .count = a->count};
     size_t count = 0, made = 0;
-    const float *positions = read_floats(g, a, 3);
-    const uint32_t *raw = positions ? read_corners(g, at, shape, &count) : NULL;
+    uint32_t *raw = read_corners(g, at, shape, &count), *used = NULL;
     if (!raw) return false;
+    if (count < a->count && !number_used_vertices(g, raw, count, &used, &vertices.count))
+        return false;
+    vertices.source = used;
+    const float *positions = read_floats(g, &vertices, 3);
+    if (!positions) return false;
     uint32_t *corners = scene->buffers.indices + geometry->first_index, *source = NULL;
     float *normals = NULL;
     count = unroll_triangles(g, at, shape, raw, positions, corners);
-    if (!gn_geometry_flat_normals(g, positions, corners, count, a->count, &source, &normals, &made))
+    if (!gn_geometry_flat_normals(g, positions, corners, count, vertices.count, &source, &normals,
+                                  &made))
         return false;
     geometry->first_vertex = scene->buffers.vertex_count;
     geometry->vertex_count = (uint32_t)made;
@@ -166,6 +193,7 @@ static bool fill_flat_geometry(struct gn_gltf *g, const struct gn_at *at,
     for (size_t i = 0; i < made; i++)
         memcpy(scene->buffers.positions + 3 * (geometry->first_vertex + i),
                positions + 3 * (size_t)source[i], 3 * sizeof *positions);
+    for (size_t i = 0; used && i < made; i++) source[i] = used[source[i]];
     scene->buffers.vertex_count += geometry->vertex_count;
     return put_other_attributes(
         g, shape->attribute,
@@ -182,9 +210,9 @@ static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
         buffers->vertex_count += vertices->count;
         struct gather gather = {.first = vertices->first, .count = vertices->count};
         gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_POSITION]);
-        put_floats(g, &gather, 3, buffers->positions + 3 * gather.first);
+        put_floats(&gather, 3, buffers->positions + 3 * gather.first);
         gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
-        put_floats(g, &gather, 3, buffers->normals + 3 * gather.first);
+        put_floats(&gather, 3, buffers->normals + 3 * gather.first);
         for (size_t i = gather.first; i < gather.first + gather.count; i++) {
             float *n = buffers->normals + 3 * i;
             float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);

@@ -56,6 +56,7 @@ static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_
     g->memory.scene = &holder->arena;
     g->scene = &holder->scene;
     g->memory.other_bytes = size;
+    g->hash_key = gn_hash_key_make();
     bool done = gn_gltf_open(g, data, size);
     for (size_t i = 0; done && i < sizeof STEPS / sizeof STEPS[0]; i++) done = STEPS[i](g);
     done = done && !g->failed;

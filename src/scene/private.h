@@ -5,6 +5,7 @@
 
 #include "core/arena.h"
 #include "core/file.h"
+#include "core/hash.h"
 #include "scene/gltf/json.h"
 #include "scene/scene.h"
 
@@ -125,6 +126,7 @@ struct gn_gltf {
     struct gn_scene_limits limits;
     struct gn_warnings *warnings;
     struct gn_err *err;
+    struct gn_hash_key hash_key; /* of the tables of this load */
     bool failed;
     bool is_missing[GN_MISSING_COUNT];
     struct gn_gltf_memory memory;
@@ -185,6 +187,9 @@ const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index);
 /* All elements as floats, normalised as the accessor says, into out: components x count of them;
  * missing components stay as they are. */
 void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *out);
+/* The same for the elements that source names, count of them. */
+void gn_accessor_gather(const struct gn_accessor *a, size_t components, const uint32_t *source,
+                        size_t count, float *out);
 /* All elements as numbers, into out: count of them. The accessor is of unsigned scalars. */
 void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out);
 

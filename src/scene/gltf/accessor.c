@@ -201,18 +201,26 @@ static float component_float(const uint8_t *p, enum gn_component component, bool
     }
 }
 
+/* n components of an element as floats; those past it stay as they are. */
+static void read_element(const struct gn_accessor *a, size_t index, size_t n, float *out) {
+    const uint8_t *element = a->data + index * a->stride;
+    const size_t size = component_size(a->component);
+    if (a->component == GN_F32)
+        memcpy(out, element, n * sizeof *out);
+    else
+        for (size_t k = 0; k < n; k++)
+            out[k] = component_float(element + k * size, a->component, a->normalized);
+}
+
 void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *out) {
-    size_t n = a->components < components ? a->components : components;
-    size_t size = component_size(a->component);
-    for (size_t i = 0; i < a->count; i++) {
-        const uint8_t *element = a->data + i * a->stride;
-        float *to = out + i * components;
-        if (a->component == GN_F32)
-            memcpy(to, element, n * sizeof *to);
-        else
-            for (size_t k = 0; k < n; k++)
-                to[k] = component_float(element + k * size, a->component, a->normalized);
-    }
+    const size_t n = a->components < components ? a->components : components;
+    for (size_t i = 0; i < a->count; i++) read_element(a, i, n, out + i * components);
+}
+
+void gn_accessor_gather(const struct gn_accessor *a, size_t components, const uint32_t *source,
+                        size_t count, float *out) {
+    const size_t n = a->components < components ? a->components : components;
+    for (size_t i = 0; i < count; i++) read_element(a, source[i], n, out + i * components);
 }
 
 void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out) {

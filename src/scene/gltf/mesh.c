@@ -16,19 +16,21 @@ struct table {
     uint32_t *slots; /* index + 1, or 0 */
     size_t mask, stride, key_size;
     const char *keys; /* the first key */
+    const struct gn_hash_key *hash_key;
 };
 
 static bool table_init(struct gn_gltf *g, struct table *table, size_t most) {
     size_t size = 16;
     while (size < 2 * most) size *= 2;
     table->mask = size - 1;
+    table->hash_key = &g->hash_key;
     table->slots = gn_gltf_alloc(g, &g->memory.load, size, sizeof *table->slots);
     return table->slots != NULL;
 }
 
 /* The slot of an equal key, or the empty one where it belongs. */
 static uint32_t *table_find(const struct table *table, const void *key) {
-    size_t at = (size_t)gn_hash(GN_HASH_INIT, key, table->key_size) & table->mask;
+    size_t at = (size_t)gn_hash_keyed(table->hash_key, key, table->key_size) & table->mask;
     for (;; at = (at + 1) & table->mask) {
         uint32_t slot = table->slots[at];
         if (slot == 0 ||

@@ -1,0 +1,119 @@
+/* Small files whose work would grow with the square of their size, or with what they only claim.
+ * Each took between five seconds and hours. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "core/hash.h"
+#include "unit/scene_help.h"
+
+static double start_s;
+
+static double cpu_s(void) { return (double)clock() / CLOCKS_PER_SEC; }
+
+static int begin(void **state) {
+    start_s = cpu_s();
+    return setup(state);
+}
+
+static void assert_quick(void) {
+    const double took_s = cpu_s() - start_s;
+    if (took_s > 3) fail_msg("%g s", took_s);
+}
+
+static void test_a_primitive_costs_its_own_size_not_that_of_its_accessor(void **state) {
+    (void)state;
+    static const uint8_t indices[3] = {0, 1, 2};
+    gn_maker_add(&maker, "accessors", "{'componentType':5126,'count':19000000,'type':'VEC3'}");
+    enum { COUNT = 100, SIZE = 60 * COUNT };
+    char *json = malloc(SIZE);
+    size_t used = (size_t)sprintf(json, "[{'primitives':[{'attributes':{'POSITION':0}}");
+    for (int i = 0; i < COUNT; i++) {
+        const int accessor =
+            gn_maker_accessor(&maker, "SCALAR", 5121, 3, indices, sizeof indices, NULL);
+        used += (size_t)snprintf(json + used, SIZE - used,
+                                 ",{'attributes':{'POSITION':2},'indices':%d}", accessor);
+    }
+    snprintf(json + used, SIZE - used, "]}]");
+    gn_maker_set(&maker, "meshes", json);
+    free(json);
+    struct gn_scene *scene = load();
+    assert_int_equal(scene->geometry_count, COUNT + 1);
+    gn_scene_destroy(scene);
+    assert_quick();
+}
+
+static void test_a_part_of_the_vertices_keeps_its_attributes(void **state) {
+    (void)state;
+    static const uint8_t indices[6] = {3, 2, 1, 3, 2, 1};
+    static const float uv[8] = {0, .125f, .25f, .375f, .5f, .625f, .75f, .875f};
+    gn_maker_accessor(&maker, "VEC2", 5126, 4, uv, sizeof uv, NULL);
+    gn_maker_accessor(&maker, "SCALAR", 5121, 3, indices, sizeof indices, NULL);
+    gn_maker_accessor(&maker, "SCALAR", 5121, 6, indices, sizeof indices, NULL);
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':2},'indices':3},"
+                 "{'attributes':{'POSITION':0,'TEXCOORD_0':2},'indices':4}]}]");
+    struct gn_scene *scene = load();
+    const struct gn_geometry *part = &scene->geometries[0], *whole = &scene->geometries[1];
+    assert_int_equal(part->vertex_count, 3);
+    assert_int_equal(whole->vertex_count, 3);
+    for (uint32_t i = 0; i < 3; i++) {
+        const uint32_t a = part->first_vertex + i, b = whole->first_vertex + i;
+        assert_memory_equal(scene->buffers.positions + 3 * a, scene->buffers.positions + 3 * b, 12);
+        assert_near(scene->buffers.uv0[2 * a], uv[2 * indices[i]]);
+        assert_near(scene->buffers.uv0[2 * a + 1], uv[2 * indices[i] + 1]);
+    }
+    gn_scene_destroy(scene);
+}
+
+/* ---- positions that collide under gn_hash() ---- */
+
+/* x such that x ^ x >> bits is y. */
+static uint64_t undo_shift(uint64_t y, int bits) {
+    uint64_t x = y;
+    for (int done = bits; done < 64; done += bits) x = y ^ x >> bits;
+    return x;
+}
+
+/* The word that takes the hash from `from` to `to`: core/hash.c, backwards. */
+static uint64_t word_between(uint64_t from, uint64_t to) {
+    uint64_t inverse = 1; /* of the factor, modulo 2^64, by Newton's iteration */
+    const uint64_t factor = UINT64_C(0xd6e8feb86659fd93);
+    for (int i = 0; i < 6; i++) inverse *= 2 - factor * inverse;
+    return undo_shift(undo_shift(to, 29) * inverse, 32) * inverse ^ from;
+}
+
+static void test_positions_cannot_be_made_to_collide(void **state) {
+    (void)state;
+    enum { COUNT = 99999, BYTES = 12 };
+    float(*positions)[3] = malloc(COUNT * sizeof *positions);
+    uint32_t bits = 0x49800000;
+    for (int n = 0; n < COUNT; bits -= 37) {
+        const uint64_t last = bits ^ ((uint64_t)BYTES << 56 | (uint64_t)BYTES << 24);
+        const uint64_t middle = word_between(last, UINT64_C(0x123456789abcdef0));
+        const uint64_t first = word_between(GN_HASH_INIT, middle);
+        float *p = positions[n];
+        memcpy(p, &first, sizeof first);
+        memcpy(p + 2, &bits, sizeof bits);
+        assert_true(n > 0 || gn_hash(GN_HASH_INIT, p, BYTES) == UINT64_C(0x123456789abcdef0));
+        n += fabsf(p[0]) > 1e-9f && fabsf(p[0]) < 1e6f && fabsf(p[1]) > 1e-9f && fabsf(p[1]) < 1e6f;
+    }
+    gn_maker_accessor(&maker, "VEC3", 5126, COUNT, positions, COUNT * sizeof *positions, NULL);
+    gn_maker_set(&maker, "meshes", "[{'primitives':[{'attributes':{'POSITION':2}}]}]");
+    struct gn_scene *scene = load();
+    assert_false(scene->geometries[0].flat); /* else nothing is looked up */
+    assert_false(scene->geometries[0].closed);
+    gn_scene_destroy(scene);
+    free(positions);
+    assert_quick();
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(test_a_primitive_costs_its_own_size_not_that_of_its_accessor, begin),
+        cmocka_unit_test_setup(test_a_part_of_the_vertices_keeps_its_attributes, begin),
+        cmocka_unit_test_setup(test_positions_cannot_be_made_to_collide, begin),
+    };
+    return RUN(tests);
+}
