@@ -5,16 +5,28 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/hash.h"
 #include "import/private.h"
 
 static const float CREASE_COS =
     0.766f; /* cos 40 degrees: a ten-sided cylinder is smooth, a box is not */
 
+/* Of a place with more corners, the faces around it are grouped by the direction of their normals:
+ * GROUPS along each axis. Up to there, each corner is compared with each. */
+enum { MOST_CORNERS = 256, GROUPS = 6, GROUP_COUNT = GROUPS * GROUPS * GROUPS };
+
+struct group {
+    struct aiVector3D sum;  /* of the normals, weighted by angle */
+    struct aiVector3D unit; /* its direction, or 0 */
+};
+
 struct place {           /* groups vertices by position, across texture seams */
     uint32_t *of_vertex; /* per vertex: its place */
     uint32_t *first;     /* per place: its first entry in `corners`; one more at the end */
     uint32_t *corners;   /* index numbers: 3 x face + 0, 1 or 2 */
-    size_t count;
+    uint32_t *groups;    /* per place: its first group + 1, or 0: none */
+    struct group *all_groups;
+    size_t count, group_count;
 };
 
 struct faces {
@@ -70,44 +82,96 @@ static struct aiVector3D direction_to(const struct gn_import_shape *shape, size_
     return unit_vector((struct aiVector3D){b->x - a->x, b->y - a->y, b->z - a->z});
 }
 
+static struct aiVector3D add_weighted(struct aiVector3D sum, struct aiVector3D v, float weight) {
+    return (struct aiVector3D){sum.x + weight * v.x, sum.y + weight * v.y, sum.z + weight * v.z};
+}
+
+/* ---- groups: n faces around a place would cost n x n ---- */
+
+static int group_along(float component) {
+    const int i = (int)((component + 1.0f) / 2.0f * (float)GROUPS);
+    return i < 0 ? 0 : i >= GROUPS ? GROUPS - 1 : i;
+}
+
+static int group_of(struct aiVector3D normal) {
+    return (group_along(normal.x) * GROUPS + group_along(normal.y)) * GROUPS +
+           group_along(normal.z);
+}
+
+static void make_groups(struct place *place, const struct faces *faces) {
+    place->groups = gn_import_alloc(place->count * sizeof *place->groups);
+    for (size_t p = 0; p < place->count; p++) {
+        const bool is_large = place->first[p + 1] - place->first[p] > MOST_CORNERS;
+        place->groups[p] = is_large ? (uint32_t)place->group_count + 1 : 0;
+        place->group_count += is_large ? GROUP_COUNT : 0;
+    }
+    place->all_groups = gn_import_alloc(place->group_count * sizeof *place->all_groups);
+    memset(place->all_groups, 0, place->group_count * sizeof *place->all_groups);
+    for (size_t p = 0; p < place->count; p++) {
+        if (!place->groups[p]) continue;
+        struct group *groups = &place->all_groups[place->groups[p] - 1];
+        for (uint32_t i = place->first[p]; i < place->first[p + 1]; i++) {
+            const struct aiVector3D n = faces->normals[place->corners[i] / 3];
+            struct group *group = &groups[group_of(n)];
+            group->sum = add_weighted(group->sum, n, faces->angles[place->corners[i]]);
+        }
+        for (int k = 0; k < GROUP_COUNT; k++) groups[k].unit = unit_vector(groups[k].sum);
+    }
+}
+
 static struct aiVector3D corner_normal(const struct place *place, const struct faces *faces,
                                        uint32_t at, struct aiVector3D own) {
     struct aiVector3D sum = {0.0f, 0.0f, 0.0f};
-    for (uint32_t i = place->first[at]; i < place->first[at + 1]; i++) {
+    const struct group *groups =
+        place->groups[at] ? &place->all_groups[place->groups[at] - 1] : NULL;
+    for (int k = 0; groups && k < GROUP_COUNT; k++)
+        if (dot_product(own, groups[k].unit) >= CREASE_COS)
+            sum = add_weighted(sum, groups[k].sum, 1.0f);
+    for (uint32_t i = place->first[at]; !groups && i < place->first[at + 1]; i++) {
         struct aiVector3D n = faces->normals[place->corners[i] / 3];
         float weight = dot_product(own, n) >= CREASE_COS ? faces->angles[place->corners[i]] : 0.0f;
-        sum = (struct aiVector3D){sum.x + weight * n.x, sum.y + weight * n.y, sum.z + weight * n.z};
+        sum = add_weighted(sum, n, weight);
     }
     sum = unit_vector(sum);
     return dot_product(sum, sum) > 0.0f ? sum : (struct aiVector3D){0.0f, 1.0f, 0.0f};
 }
 
-/* One vertex for each vertex and normal. next chains the copies of a vertex of the mesh. */
+/* ---- vertices ---- */
+
+struct vertex_key {
+    uint32_t origin; /* the vertex of the mesh */
+    struct aiVector3D normal;
+};
+_Static_assert(sizeof(struct vertex_key) == 16, "no padding: it is hashed");
+
+/* One vertex for each vertex of the mesh and normal. */
 static void split_vertices(struct gn_import_shape *shape, const struct place *place,
                            const struct faces *faces) {
-    uint32_t *heads = gn_import_alloc(shape->mesh->mNumVertices * sizeof *heads);
-    uint32_t *next = gn_import_alloc(shape->index_count * sizeof *next);
-    memset(heads, 0xff, shape->mesh->mNumVertices * sizeof *heads);
+    size_t size = 16;
+    while (size < 2 * shape->index_count) size *= 2;
+    uint32_t *slots = gn_import_alloc(size * sizeof *slots); /* vertex + 1, or 0 */
+    memset(slots, 0, size * sizeof *slots);
+    const struct gn_hash_key hash_key = gn_hash_key_make();
     shape->origin = gn_import_alloc(shape->index_count * sizeof *shape->origin);
     shape->normals = gn_import_alloc(shape->index_count * sizeof *shape->normals);
     shape->vertex_count = 0;
     for (size_t i = 0; i < shape->index_count; i++) {
-        uint32_t vertex = shape->indices[i], copy = heads[vertex];
-        struct aiVector3D normal =
-            corner_normal(place, faces, place->of_vertex[vertex], faces->normals[i / 3]);
-        while (copy != UINT32_MAX && memcmp(&shape->normals[copy], &normal, sizeof normal) != 0)
-            copy = next[copy];
-        if (copy == UINT32_MAX) {
-            copy = shape->vertex_count++;
-            shape->origin[copy] = vertex;
-            shape->normals[copy] = normal;
-            next[copy] = heads[vertex];
-            heads[vertex] = copy;
+        const uint32_t vertex = shape->indices[i];
+        const struct vertex_key key = {
+            vertex, corner_normal(place, faces, place->of_vertex[vertex], faces->normals[i / 3])};
+        size_t at = (size_t)gn_hash_keyed(&hash_key, &key, sizeof key) & (size - 1);
+        for (; slots[at]; at = (at + 1) & (size - 1))
+            if (shape->origin[slots[at] - 1] == vertex &&
+                memcmp(&shape->normals[slots[at] - 1], &key.normal, sizeof key.normal) == 0)
+                break;
+        if (!slots[at]) {
+            shape->origin[shape->vertex_count] = vertex;
+            shape->normals[shape->vertex_count] = key.normal;
+            slots[at] = ++shape->vertex_count;
         }
-        shape->indices[i] = copy;
+        shape->indices[i] = slots[at] - 1;
     }
-    free(heads);
-    free(next);
+    free(slots);
 }
 
 void gn_import_normals(struct gn_import_shape *shape) {
@@ -126,10 +190,13 @@ void gn_import_normals(struct gn_import_shape *shape) {
         faces.angles[i + 1] = acosf(fminf(fmaxf(-dot_product(u, w), -1.0f), 1.0f));
         faces.angles[i + 2] = acosf(fminf(fmaxf(dot_product(v, w), -1.0f), 1.0f));
     }
+    make_groups(&place, &faces);
     split_vertices(shape, &place, &faces);
     free(faces.normals);
     free(faces.angles);
     free(place.of_vertex);
     free(place.first);
     free(place.corners);
+    free(place.groups);
+    free(place.all_groups);
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "gltf_maker.h"
@@ -193,6 +194,55 @@ static void test_materials_have_lines_that_assimp_cannot_read(void **state) {
     }
 }
 
+/* ---- normals ---- */
+
+/* Each face of the fan has another normal: 60,000 took 19 s. */
+static void test_many_faces_around_a_point_get_normals_at_once(void **state) {
+    (void)state;
+    enum { COUNT = 60000, SIZE = 90 * COUNT };
+    char *text = malloc(SIZE);
+    size_t used = (size_t)sprintf(text, "v 0 0 0\n");
+    for (int i = 0; i < COUNT; i++) {
+        const double angle = 2 * 3.14159265358979 * i / COUNT;
+        used += (size_t)snprintf(text + used, SIZE - used, "v %.5f %.5f %.5f\n", cos(angle),
+                                 sin(angle), (i * 7919) % 1000 * .002 - 1);
+    }
+    for (int i = 0; i < COUNT; i++)
+        used +=
+            (size_t)snprintf(text + used, SIZE - used, "f 1 %d %d\n", i + 2, (i + 1) % COUNT + 2);
+    help_import_put("fan.obj", text);
+    free(text);
+    const time_t start = time(NULL);
+    struct gn_scene *scene = help_import_load("fan.obj");
+    assert_in_range(time(NULL) - start, 0, 8);
+    assert_int_equal(scene->triangle_count, COUNT);
+    gn_scene_destroy(scene);
+}
+
+/* As many faces as are grouped by direction: a cone's tip is smooth, and flat faces stay flat. */
+static void test_normals_of_a_cone_with_many_sides(void **state) {
+    (void)state;
+    enum { COUNT = 720, SIZE = 80 * COUNT };
+    char *text = malloc(SIZE);
+    size_t used = (size_t)sprintf(text, "v 0 0.1 0\n");
+    for (int i = 0; i < COUNT; i++) {
+        const double angle = 2 * 3.14159265358979 * i / COUNT;
+        used +=
+            (size_t)snprintf(text + used, SIZE - used, "v %.6f 0 %.6f\n", sin(angle), cos(angle));
+    }
+    for (int i = 0; i < COUNT; i++)
+        used +=
+            (size_t)snprintf(text + used, SIZE - used, "f 1 %d %d\n", i + 2, (i + 1) % COUNT + 2);
+    help_import_put("cone.obj", text);
+    free(text);
+    struct gn_scene *scene = help_import_load("cone.obj");
+    assert_int_equal(scene->buffers.vertex_count, COUNT + 1); /* the tip is one vertex */
+    for (uint32_t i = 0; i < scene->buffers.vertex_count; i++)
+        if (scene->buffers.positions[3 * i + 1] > .05f)
+            help_import_near(scene->buffers.normals[3 * i + 1], 1);
+    gn_scene_destroy(scene);
+}
+
 /* ---- refusals ---- */
 
 static void test_what_is_no_model_is_refused_by_one_line(void **state) {
@@ -233,6 +283,8 @@ int main(void) {
         cmocka_unit_test(test_a_path_of_another_machine_is_found_by_its_last_part),
         cmocka_unit_test(test_missing_materials_are_told),
         cmocka_unit_test(test_materials_have_lines_that_assimp_cannot_read),
+        cmocka_unit_test(test_many_faces_around_a_point_get_normals_at_once),
+        cmocka_unit_test(test_normals_of_a_cone_with_many_sides),
         cmocka_unit_test(test_what_is_no_model_is_refused_by_one_line),
         cmocka_unit_test(test_names_are_known_by_their_ends),
     };
