@@ -9,24 +9,31 @@
 #include "core/stop.h"
 #include "options/args.h"
 
-static gn_cli_command *const commands[] = {
-    [GN_COMMAND_AUTO] = gn_cli_auto,       [GN_COMMAND_SHOW] = gn_cli_show,
-    [GN_COMMAND_RENDER] = gn_cli_render,   [GN_COMMAND_BENCH] = gn_cli_bench,
-    [GN_COMMAND_INSPECT] = gn_cli_inspect, [GN_COMMAND_DOCTOR] = gn_cli_doctor,
-    [GN_COMMAND_CTL] = gn_cli_ctl,
+static const struct {
+    gn_cli_command *run;
+    bool handles_signals; /* SIGTERM and SIGINT, by itself; else they end the process */
+} commands[] = {
+    [GN_COMMAND_AUTO] = {gn_cli_auto, true}, [GN_COMMAND_SHOW] = {gn_cli_show, true},
+    [GN_COMMAND_RENDER] = {gn_cli_render},   [GN_COMMAND_BENCH] = {gn_cli_bench},
+    [GN_COMMAND_INSPECT] = {gn_cli_inspect}, [GN_COMMAND_DOCTOR] = {gn_cli_doctor},
+    [GN_COMMAND_CTL] = {gn_cli_ctl},
 };
 _Static_assert(sizeof commands / sizeof commands[0] == GN_COMMAND_COUNT, "a row per command");
 
 static bool run(const struct gn_options *options, struct gn_warnings *warnings,
                 struct gn_err *err) {
+    const enum gn_command command = options->settings->run.command;
+    const bool prints = options->settings->run.version || options->settings->run.help ||
+                        options->settings->run.check;
+    if (prints || !commands[command].handles_signals) gn_stop_end_process();
     if (options->settings->run.version)
         puts("gnomon " GN_VERSION);
     else if (options->settings->run.help)
-        gn_help_print(stdout, options->settings->run.command);
+        gn_help_print(stdout, command);
     else if (options->settings->run.check)
         return gn_cli_check(options, warnings, err);
     else
-        return commands[options->settings->run.command](options, warnings, err);
+        return commands[command].run(options, warnings, err);
     return true;
 }
 
@@ -42,10 +49,10 @@ int main(int argc, char **argv) {
     static struct gn_warnings warnings;
     struct gn_options options;
     struct gn_err err = {0};
+    gn_stop_block();
     gn_file_fill_standard();
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN); /* a write past the limit fails and is reported like a full disk */
-    gn_stop_at_once();
     bool ok =
         gn_args_parse(&options, argc, argv, &warnings, &err) && run(&options, &warnings, &err);
     if (ok) ok = gn_file_flush_output(&err);

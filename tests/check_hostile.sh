@@ -269,14 +269,31 @@ if [ $asan = 0 ]; then
         case $?$said in 1gnomon:*) ;; *) complain "ulimit -v $kib: $? $said" ;; esac
     done
 fi
-for signal in TERM INT; do
-    for command in 'bench --size 64x64 --frames 100000 --json' 'show --backend egl --size 64x64' \
-        "render --size 64x64 --frames 100000 -o $folder/%06d.pfm"; do
+# interrupted while it loads, compiles, draws a long frame or writes to nobody
+mkfifo "$folder/fifo.png"
+truncate -s 120000000 "$folder/zeros.bin"
+cat > "$folder/zeros.gltf" << END
+{"asset":{"version":"2.0"},"buffers":[{"byteLength":120000000,"uri":"zeros.bin"}],
+"bufferViews":[{"buffer":0,"byteLength":120000000}],"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":9999999,"type":"VEC3","min":[0,0,0],"max":[2,0,2]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]}
+END
+for signal in TERM=143 INT=130; do
+    for command in '.5 bench --size 64x64 --frames 100000 --json' '.5 show --backend egl --size 64x64' \
+        ".2 inspect $folder/zeros.gltf" ".4 render --size 8x8 -o $folder/fifo.png" \
+        ".7 render --size 4096x4096 --msaa 4 --shadow pcss -o $folder/long.png" \
+        "1 render --size 64x64 --frames 100000 -o $folder/%06d.pfm"; do
+        after=${command%% *} command=${command#* }
+        wanted=${signal#*=} from=$(date +%s%N)
+        case $command in show*) wanted=0 ;; esac
         # shellcheck disable=SC2086
-        said=$(timeout --preserve-status -s $signal .5 "$gnomon" $command 2>&1)
-        [ "$?$said" = 0 ] || complain "$command by SIG$signal: $? $said"
+        said=$(timeout -k 5 --preserve-status -s "${signal%=*}" "$after" "$gnomon" $command 2>&1)
+        got=$? took=$((($(date +%s%N) - from) / 1000000))
+        [ "$got$said" = "$wanted" ] || complain "$command by SIG${signal%=*}: $got $said"
+        [ $took -le 2000 ] || complain "$command by SIG${signal%=*}: $took ms"
     done
 done
+[ ! -e "$folder/long.png" ] || complain 'a picture of an interrupted frame'
 [ "$(echo "$folder"/.gnomon-*)" = "$folder/.gnomon-*" ] || complain 'what a stopped run leaves'
 for file in "$folder"/0*.pfm; do
     [ "$(wc -c < "$file")" = $((64 * 64 * 12 + 14)) ] || complain "$file is torn"

@@ -32,9 +32,9 @@ bool gn_cli_auto(const struct gn_options *options, struct gn_warnings *warnings,
     struct gn_settings settings = *options->settings;
     struct gn_options here = *options;
     settings.run.out = "gnomon.png";
+    gn_stop_end_process();
     here.settings = &settings;
     if (!gn_cli_render(&here, warnings, err)) return false;
-    if (gn_stop_asked()) return true;
     char *path = realpath(settings.run.out, NULL);
     printf("%s\n", path ? path : settings.run.out);
     free(path);

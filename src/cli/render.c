@@ -8,7 +8,6 @@
 #include "caption/captions.h"
 #include "cli/commands.h"
 #include "core/clock.h"
-#include "core/stop.h"
 #include "image/write.h"
 #include "shadow/grey.h"
 #include "stage/stage.h"
@@ -134,7 +133,7 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
         r->floats = gn_picture_alloc(pixels, 4 * sizeof(float), err);
         if (!r->floats) return false;
     }
-    for (int i = 0; i < frames && !gn_stop_asked(); i++) {
+    for (int i = 0; i < frames; i++) {
         char path[4096];
         int length = is_pattern(o->run.out) ? snprintf(path, sizeof path, o->run.out, i)
                                             : snprintf(path, sizeof path, "%s", o->run.out);
@@ -156,7 +155,6 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
                    struct gn_err *err) {
     const struct gn_settings *o = options->settings;
     struct render r = {0};
-    gn_stop_block(NULL);
     bool ok = check_options(o, &r, err) && gn_stage_load(&r.stage, o, warnings, err);
     r.stage.frame_opts.output_float = o->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
     ok = ok && gn_stage_open(&r.stage, warnings, err);
@@ -172,5 +170,5 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
     free(r.floats);
     gn_stage_close(&r.stage);
     gn_captions_destroy(r.captions);
-    return ok || gn_stop_asked(); /* work that a signal ended is no failure */
+    return ok;
 }

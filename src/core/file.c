@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/beneath.h"
+#include "core/stop.h"
 
 static const char *kind_name(mode_t mode) {
     return S_ISDIR(mode)    ? "a folder"
@@ -152,6 +153,7 @@ static bool write_and_rename(const char *path, const struct stat *old, const voi
     char name[PATH_MAX];
     const char *slash = strrchr(path, '/');
     int folder = slash ? (int)(slash - path + 1) : 0, fd = -1;
+    gn_stop_hold();
     for (int attempt = 0; attempt < 100 && fd < 0; attempt++) {
         int length = snprintf(name, sizeof name, "%.*s.gnomon-%ld-%d", folder, path, (long)getpid(),
                               attempt);
@@ -162,6 +164,7 @@ static bool write_and_rename(const char *path, const struct stat *old, const voi
         fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, old ? 0600 : 0666);
         if (fd < 0 && errno != EEXIST) break;
     }
+    gn_stop_release(fd >= 0 ? name : NULL);
     if (fd < 0) return fail_errno(err, path, "write");
     bool ok = write_all(fd, data, size) && (!old || fchmod(fd, old->st_mode & 0777) == 0) &&
               fsync(fd) == 0;
@@ -170,9 +173,12 @@ static bool write_and_rename(const char *path, const struct stat *old, const voi
         ok = false;
         reason = errno;
     }
-    if (ok && rename(name, path) == 0) return true;
-    if (ok) reason = errno;
-    unlink(name);
+    gn_stop_hold();
+    const bool renamed = ok && rename(name, path) == 0;
+    if (ok && !renamed) reason = errno;
+    if (!renamed) unlink(name);
+    gn_stop_release(NULL);
+    if (renamed) return true;
     errno = reason;
     return fail_errno(err, path, "write");
 }

@@ -1,43 +1,73 @@
 #include "core/stop.h"
 
+#include <pthread.h>
 #include <stddef.h>
 #include <unistd.h>
 
-#include "core/err.h"
-
+/* Both signals but those that are ignored: a blocked one would come in spite of that. */
 static void set_stop_signals(sigset_t *signals) {
+    static const int numbers[] = {SIGTERM, SIGINT};
+    struct sigaction old;
     sigemptyset(signals);
-    sigaddset(signals, SIGTERM);
-    sigaddset(signals, SIGINT);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (sigaction(numbers[i], NULL, &old) != 0 || old.sa_handler != SIG_IGN)
+            sigaddset(signals, numbers[i]);
 }
 
-void gn_stop_block(sigset_t *signals) {
-    sigset_t both;
-    set_stop_signals(&both);
-    sigprocmask(SIG_BLOCK, &both, NULL);
-    if (signals) *signals = both;
+void gn_stop_block(void) {
+    sigset_t signals;
+    set_stop_signals(&signals);
+    sigprocmask(SIG_BLOCK, &signals, NULL);
 }
 
 void gn_stop_signals(sigset_t *signals) {
-    set_stop_signals(signals);
+    sigemptyset(signals);
+    sigaddset(signals, SIGTERM);
+    sigaddset(signals, SIGINT);
     sigaddset(signals, SIGHUP);
-}
-
-static void exit_at_once(int signal) {
-    (void)signal;
-    _exit(GN_EXIT_OK);
-}
-
-void gn_stop_at_once(void) {
-    static const int signals[] = {SIGTERM, SIGINT};
-    struct sigaction old, now = {.sa_handler = exit_at_once};
-    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
-        if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
-            sigaction(signals[i], &now, NULL);
 }
 
 bool gn_stop_asked(void) {
     sigset_t pending;
     sigpending(&pending);
     return sigismember(&pending, SIGTERM) || sigismember(&pending, SIGINT);
+}
+
+/* ---- the thread that ends the process -------------------------------------------------------- */
+
+static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+static const char *temporary_path; /* under the mutex */
+
+void gn_stop_hold(void) { pthread_mutex_lock(&mutex); }
+
+void gn_stop_release(const char *temporary) {
+    temporary_path = temporary;
+    pthread_mutex_unlock(&mutex);
+}
+
+static void *wait_for_signal(void *unused) {
+    sigset_t signals;
+    int number = 0;
+    (void)unused;
+    set_stop_signals(&signals);
+    while (sigwait(&signals, &number) != 0) {
+    }
+    gn_stop_hold(); /* never released: nothing is renamed any more */
+    if (temporary_path) unlink(temporary_path);
+    _exit(128 + number);
+}
+
+void gn_stop_end_process(void) {
+    enum { STACK_BYTES = 256 << 10 };
+    pthread_t thread;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+    pthread_attr_setstacksize(&attributes, STACK_BYTES);
+    const bool runs = pthread_create(&thread, &attributes, wait_for_signal, NULL) == 0;
+    pthread_attr_destroy(&attributes);
+    if (runs) return;
+    sigset_t signals; /* without a thread the kernel ends the process, and the file stays */
+    set_stop_signals(&signals);
+    sigprocmask(SIG_UNBLOCK, &signals, NULL);
 }

@@ -1,22 +1,28 @@
-/* SIGTERM and SIGINT as a request to stop, with exit status 0. Code that writes files or has
- * something to finish calls gn_stop_block() and polls gn_stop_asked() between pieces of work. For
- * everything else gn_stop_at_once(), which main() calls, is enough; it works while a driver hangs,
- * too. */
+/* SIGTERM and SIGINT. main() blocks both before it does anything else, so that threads of libraries
+ * and drivers never get them. Then either gn_stop_end_process() has a thread wait for them, which
+ * ends the process at any time, or the kiosk's event loop takes them. */
 #ifndef GN_CORE_STOP_H
 #define GN_CORE_STOP_H
 
 #include <signal.h>
 #include <stdbool.h>
 
-/* From now on either signal ends the process at once, unless the parent process set it to be
- * ignored. Buffered output is lost. */
-void gn_stop_at_once(void);
 /* From now on both signals stay pending instead of ending the process. Threads made later inherit
- * this. The set, if not NULL, gets the two. */
-void gn_stop_block(sigset_t *signals);
+ * this. A signal that the parent process set to be ignored stays ignored until gn_stop_signals().
+ */
+void gn_stop_block(void);
 /* Both and SIGHUP, for gn_loop_add_signals(). */
 void gn_stop_signals(sigset_t *signals);
 /* Whether either is pending. Never waits. */
 bool gn_stop_asked(void);
+
+/* After gn_stop_block(): either signal now ends the process, whatever the other threads do (a
+ * driver that compiles, a write to a FIFO without a reader), with exit status 128 + its number.
+ * Buffered output is lost. */
+void gn_stop_end_process(void);
+/* Between the two no signal ends the process. The file of that name is removed before one does;
+ * NULL: none. One at a time; the name must stay valid until the next release. */
+void gn_stop_hold(void);
+void gn_stop_release(const char *temporary);
 
 #endif

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/child.h"
+#include "core/stop.h"
 #include "import/private.h"
 
 static const char help[] =
@@ -29,7 +30,8 @@ static const char help[] =
     "  -h, --help             this text\n"
     "      --version          the version\n"
     "\n"
-    "Exit status: 0 done, 1 runtime error: bad model, or output not written, 2 wrong usage.\n";
+    "Exit status: 0 done, 1 runtime error: bad model, or output not written, 2 wrong usage,\n"
+    "130 or 143 interrupted by SIGINT or SIGTERM.\n";
 
 /* ---- arguments ---- */
 
@@ -176,8 +178,10 @@ static bool import_model(int argc, char **argv, struct gn_err *err) {
 
 int main(int argc, char **argv) {
     struct gn_err err = {0};
+    gn_stop_block();
     gn_file_fill_standard();
     signal(SIGPIPE, SIG_IGN);
+    gn_stop_end_process();
     if (import_model(argc, argv, &err) && gn_file_flush_output(&err)) return GN_EXIT_OK;
     fprintf(stderr, "gnomon-import: %s\n", err.text);
     return err.status == GN_EXIT_USAGE ? GN_EXIT_USAGE : GN_EXIT_RUNTIME;
