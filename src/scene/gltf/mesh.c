@@ -6,42 +6,13 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "core/hash.h"
+#include "scene/gltf/table.h"
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 
-/* ---- a hash table of structs in an array, by a key in each ---- */
-
-struct table {
-    uint32_t *slots; /* index + 1, or 0 */
-    size_t mask, stride, key_size;
-    const char *keys; /* the first key */
-    const struct gn_hash_key *hash_key;
-};
-
-static bool table_init(struct gn_gltf *g, struct table *table, size_t most) {
-    size_t size = 16;
-    while (size < 2 * most) size *= 2;
-    table->mask = size - 1;
-    table->hash_key = &g->hash_key;
-    table->slots = gn_gltf_alloc(g, &g->memory.load, size, sizeof *table->slots);
-    return table->slots != NULL;
-}
-
-/* The slot of an equal key, or the empty one where it belongs. */
-static uint32_t *table_find(const struct table *table, const void *key) {
-    size_t at = (size_t)gn_hash_keyed(table->hash_key, key, table->key_size) & table->mask;
-    for (;; at = (at + 1) & table->mask) {
-        uint32_t slot = table->slots[at];
-        if (slot == 0 ||
-            memcmp(table->keys + (slot - 1) * table->stride, key, table->key_size) == 0)
-            return &table->slots[at];
-    }
-}
-
 struct reader {
     struct gn_gltf *g;
-    struct table shapes, vertices;
+    struct gn_table shapes, vertices;
     uint32_t shape_count;
 };
 
@@ -126,12 +97,12 @@ static void read_primitive(struct reader *reader, const struct gn_at *primitive,
     if (gn_at_size(&(struct gn_at){.json = json_object_get(primitive->json, "targets")}) > 0)
         g->is_missing[GN_MISSING_MORPHS] = true;
     if (g->failed || !read_shape(g, primitive, &shape) || g->failed) return;
-    uint32_t *known = table_find(&reader->shapes, shape.attribute);
+    uint32_t *known = gn_table_find(&reader->shapes, shape.attribute);
     if (*known == 0) {
         /* only vertices with normals in the file are shared: flat normals depend on the triangles
          */
         if (shape.attribute[GN_ATTRIBUTE_NORMAL] >= 0) {
-            uint32_t *set = table_find(&reader->vertices, shape.attribute);
+            uint32_t *set = gn_table_find(&reader->vertices, shape.attribute);
             if (*set == 0) {
                 struct gn_vertices *vertices =
                     &g->primitives.vertices[g->primitives.vertices_count++];
@@ -165,15 +136,16 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
     g->primitives.vertices =
         gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.vertices);
     if (g->failed) return false;
-    reader.shapes = (struct table){.stride = sizeof *g->primitives.shapes,
-                                   .key_size = (GN_ATTRIBUTE_COUNT + 2) * sizeof(int32_t),
-                                   .keys = (const char *)g->primitives.shapes};
-    reader.vertices = (struct table){.stride = sizeof *g->primitives.vertices,
-                                     .key_size = GN_ATTRIBUTE_COUNT * sizeof(int32_t),
-                                     .keys = (const char *)g->primitives.vertices};
+    reader.shapes = (struct gn_table){.stride = sizeof *g->primitives.shapes,
+                                      .key_size = (GN_ATTRIBUTE_COUNT + 2) * sizeof(int32_t),
+                                      .keys = (const char *)g->primitives.shapes};
+    reader.vertices = (struct gn_table){.stride = sizeof *g->primitives.vertices,
+                                        .key_size = GN_ATTRIBUTE_COUNT * sizeof(int32_t),
+                                        .keys = (const char *)g->primitives.vertices};
     _Static_assert(offsetof(struct gn_shape, mode) == (GN_ATTRIBUTE_COUNT + 1) * sizeof(int32_t),
                    "key");
-    if (!table_init(g, &reader.shapes, primitives) || !table_init(g, &reader.vertices, primitives))
+    if (!gn_table_init(g, &reader.shapes, primitives) ||
+        !gn_table_init(g, &reader.vertices, primitives))
         return false;
     for (size_t i = 0; i < g->file.mesh_count && !g->failed; i++) {
         if (!g->file.meshes[i].used) continue;
