@@ -55,24 +55,23 @@ static bool read_all(int fd, const char *path, size_t hint, size_t limit, struct
     return true;
 }
 
-/* fd -1: errno says why there is none. */
+/* Whether it is a regular file. fd -1: errno says why there is none. */
+static bool check_regular(int fd, const char *path, struct stat *info, struct gn_err *err) {
+    if (fd < 0 && errno == ENXIO)
+        return gn_fail(err, "%s: is a socket or device, not a file", path);
+    if (fd < 0) return fail_errno(err, path, "open");
+    if (fstat(fd, info) != 0) return fail_errno(err, path, "read");
+    return S_ISREG(info->st_mode) ||
+           gn_fail(err, "%s: is %s, not a file", path, kind_name(info->st_mode));
+}
+
 bool gn_file_read_fd(int fd, const char *path, size_t limit, struct gn_bytes *out,
                      struct gn_err *err) {
     struct stat info = {0};
-    bool ok = false;
     *out = (struct gn_bytes){0};
-    if (fd < 0 && errno == ENXIO)
-        gn_fail(err, "%s: is a socket or device, not a file", path);
-    else if (fd < 0)
-        fail_errno(err, path, "open");
-    else if (fstat(fd, &info) != 0)
-        fail_errno(err, path, "read");
-    else if (!S_ISREG(info.st_mode))
-        gn_fail(err, "%s: is %s, not a file", path, kind_name(info.st_mode));
-    else if (limit && (uintmax_t)info.st_size > limit)
-        fail_size(err, path, limit);
-    else
-        ok = read_all(fd, path, (size_t)info.st_size, limit, out, err);
+    bool ok = check_regular(fd, path, &info, err);
+    if (ok && limit && (uintmax_t)info.st_size > limit) ok = fail_size(err, path, limit);
+    ok = ok && read_all(fd, path, (size_t)info.st_size, limit, out, err);
     close_quietly(fd);
     if (!ok) gn_bytes_finish(out);
     return ok;
@@ -84,17 +83,28 @@ bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct g
     return gn_file_read_fd(fd, path, limit, out, err);
 }
 
+int gn_file_open_beneath(const char *folder, const char *name, struct gn_err *err) {
+    char path[2 * PATH_MAX];
+    struct stat info;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    int fd = gn_open_beneath(folder, name);
+    if (fd == -EXDEV) {
+        gn_fail(err, "'%.80s' leads outside the model's folder; put the file beside it", name);
+        return -1;
+    }
+    if (fd < 0) errno = -fd, fd = -1;
+    if (check_regular(fd, path, &info, err)) return fd;
+    close_quietly(fd);
+    return -1;
+}
+
 bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, struct gn_bytes *out,
                           struct gn_err *err) {
     char path[2 * PATH_MAX];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     *out = (struct gn_bytes){0};
-    const int fd = gn_open_beneath(folder, name);
-    if (fd == -EXDEV)
-        return gn_fail(err, "'%.80s' leads outside the model's folder; put the file beside it",
-                       name);
-    if (fd < 0) errno = -fd;
-    return gn_file_read_fd(fd < 0 ? -1 : fd, path, limit, out, err);
+    const int fd = gn_file_open_beneath(folder, name, err);
+    return fd >= 0 && gn_file_read_fd(fd, path, limit, out, err);
 }
 
 void gn_bytes_finish(struct gn_bytes *bytes) {

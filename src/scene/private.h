@@ -7,6 +7,7 @@
 #include "core/file.h"
 #include "core/hash.h"
 #include "scene/gltf/json.h"
+#include "scene/gltf/table.h"
 #include "scene/scene.h"
 
 struct gn_blob { /* bytes of a file, a data URI or a part of the model itself */
@@ -19,7 +20,6 @@ struct gn_view { /* a bufferView that lies inside its buffer; data is NULL where
                     placeholder */
     const uint8_t *data;
     size_t size, stride; /* stride 0: tight */
-    bool damaged;        /* holds a picture that could not be decoded */
 };
 
 enum gn_component { /* glTF's numbers */
@@ -115,6 +115,15 @@ struct gn_gltf_primitives { /* of the meshes in use, mesh by mesh, and what they
     struct gn_vertices *vertices;
     size_t count, vertices_count;
 };
+struct gn_picture {  /* the source of images */
+    uint64_t key[3]; /* a file: 1, device, inode; a part of a buffer: 2, address, size */
+    size_t first;    /* number of the first image in the file that names it */
+};
+struct gn_gltf_pictures { /* each is read once, whether it can be or not */
+    struct gn_picture *list;
+    size_t count;
+    struct gn_table table;
+};
 struct gn_gltf_to_scene { /* from numbers of the file to indices in the scene */
     int32_t *node;        /* -1: not shown */
     int32_t *texture;     /* -1: not looked at yet, -2: dropped */
@@ -132,6 +141,7 @@ struct gn_gltf {
     struct gn_gltf_memory memory;
     struct gn_gltf_file file;
     struct gn_gltf_primitives primitives;
+    struct gn_gltf_pictures pictures;
     struct gn_placed *placed; /* scene->node_count, + 2 */
     struct gn_gltf_to_scene to_scene;
     size_t misplaced; /* triangles that are not shown: positions that are not finite */
@@ -179,6 +189,12 @@ bool gn_scene_batch(struct gn_gltf *g);     /* batch.c */
 /* uri.c: data: URIs and files in the model's folder or below. err has no path before its
  * text. */
 bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err);
+bool gn_uri_is_data(const char *uri);
+/* The two steps of it for a file: a descriptor of a regular file, or -1; its bytes. The second
+ * closes the descriptor. */
+int gn_uri_open(struct gn_gltf *g, const char *uri, struct gn_err *err);
+bool gn_uri_read(struct gn_gltf *g, int fd, const char *uri, struct gn_blob *out,
+                 struct gn_err *err);
 void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob);
 
 /* gltf/accessor.c. The file's accessor of that number, checked, or NULL (-1 or failed); sparse ones

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 static int hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
@@ -91,34 +92,56 @@ static bool path_climbs(const char *path) {
     return depth < 0;
 }
 
-bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err) {
-    *out = (struct gn_blob){0};
-    if (strncasecmp(uri, "data:", 5) == 0) return fetch_data(g, uri, out, err);
+bool gn_uri_is_data(const char *uri) { return strncasecmp(uri, "data:", 5) == 0; }
 
+int gn_uri_open(struct gn_gltf *g, const char *uri, struct gn_err *err) {
     /* the file's path below the folder; '\', which some exporters write, becomes '/' */
     char below[PATH_MAX] = "";
-    if (strlen(uri) >= sizeof below)
-        return gn_fail(err, "URI of %zu characters is too long", strlen(uri));
-    size_t length = percent_decode(uri, (uint8_t *)below);
+    const char *refusal = NULL;
+    size_t length = strlen(uri) < sizeof below ? percent_decode(uri, (uint8_t *)below) : 0;
     below[length] = 0;
-    if (length == 0) return gn_fail(err, "empty URI");
-    if (strlen(below) != length)
-        return gn_fail(err, "'%s': a file name cannot contain a zero byte", uri);
     for (char *c = strchr(below, '\\'); c; c = strchr(c, '\\')) *c = '/';
-    if (has_scheme(uri)) return gn_fail(err, "'%.80s': only files beside the model are read", uri);
-    if (below[0] == '/' || path_climbs(below))
-        return gn_fail(err, "'%.80s' lies outside the model's folder; put the file beside it", uri);
+    if (strlen(uri) >= sizeof below)
+        gn_fail(err, "URI of %zu characters is too long", strlen(uri));
+    else if (length == 0)
+        gn_fail(err, "empty URI");
+    else if (strlen(below) != length)
+        refusal = "a file name cannot contain a zero byte";
+    else if (has_scheme(uri))
+        refusal = "only files beside the model are read";
+    else if (below[0] == '/' || path_climbs(below))
+        gn_fail(err, "'%.80s' lies outside the model's folder; put the file beside it", uri);
+    else if (!g->folder)
+        refusal = "a model in memory cannot name other files";
+    else
+        return gn_file_open_beneath(g->folder, below, err);
+    if (refusal) gn_fail(err, "'%.80s': %s", uri, refusal);
+    return -1;
+}
 
-    if (!g->folder) return gn_fail(err, "'%.80s': a model in memory cannot name other files", uri);
+bool gn_uri_read(struct gn_gltf *g, int fd, const char *uri, struct gn_blob *out,
+                 struct gn_err *err) {
     uint64_t limit = g->limits.file_mb << 20;
-    size_t room = gn_gltf_room(g);
+    const size_t room = gn_gltf_room(g);
     if (limit > room) limit = room;
-    if (limit == 0) return gn_fail(err, "'%.80s': no memory left for it", uri);
-    if (!gn_file_read_beneath(g->folder, below, (size_t)limit, &out->file, err)) return false;
+    if (limit == 0) {
+        close(fd);
+        return gn_fail(err, "'%.80s': no memory left for it", uri);
+    }
+    char path[2 * PATH_MAX];
+    snprintf(path, sizeof path, "%s/%s", g->folder, uri);
+    if (!gn_file_read_fd(fd, path, (size_t)limit, &out->file, err)) return false;
     out->data = out->file.data;
     out->size = out->file.size;
     g->memory.other_bytes += out->size;
     return true;
+}
+
+bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err) {
+    *out = (struct gn_blob){0};
+    if (gn_uri_is_data(uri)) return fetch_data(g, uri, out, err);
+    const int fd = gn_uri_open(g, uri, err);
+    return fd >= 0 && gn_uri_read(g, fd, uri, out, err);
 }
 
 void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob) {

@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
+#include "core/file.h"
 #include "core/hash.h"
 #include "unit/scene_help.h"
 
@@ -109,11 +111,83 @@ static void test_positions_cannot_be_made_to_collide(void **state) {
     assert_quick();
 }
 
+/* ---- pictures ---- */
+
+static char folder[] = "/tmp/gnomon-seconds-XXXXXX";
+
+static const char *path_of(const char *name) {
+    static char path[80];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+/* A scene in the folder, with a material for each of the images. */
+static struct gn_scene *load_images(const char *const *uris, int uri_count, int count) {
+    gn_maker_set(&maker, "meshes", "[]");
+    for (int i = 0; i < count; i++) {
+        char json[200];
+        snprintf(json, sizeof json, "{'uri':'%s'}", uris[i % uri_count]);
+        gn_maker_add(&maker, "images", json);
+        snprintf(json, sizeof json, "{'source':%d}", i);
+        gn_maker_add(&maker, "textures", json);
+        snprintf(json, sizeof json, "{'emissiveTexture':{'index':%d}}", i);
+        gn_maker_add(&maker, "materials", json);
+        snprintf(json, sizeof json,
+                 "{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':%d}]}", i);
+        gn_maker_add(&maker, "meshes", json);
+        snprintf(json, sizeof json, "{'mesh':%d}", i);
+        gn_maker_add(&maker, "nodes", json);
+    }
+    json_object_del(maker.root, "scenes");
+    json_object_del(maker.root, "scene");
+    assert_true(gn_maker_write(&maker, path_of("a.glb"), &err));
+    struct gn_scene *scene = gn_scene_load(path_of("a.glb"), NULL, &warnings, &err);
+    if (!scene) fail_msg("%s", err.text);
+    return scene;
+}
+
+static void test_a_large_file_that_is_no_picture_is_not_read(void **state) {
+    (void)state;
+    static const char *const uris[] = {"zeros.png"};
+    assert_non_null(mkdtemp(folder));
+    FILE *file = fopen(path_of("zeros.png"), "w");
+    assert_non_null(file);
+    assert_int_equal(ftruncate(fileno(file), 400 << 20), 0);
+    fclose(file);
+    struct gn_scene *scene = load_images(uris, 1, 60);
+    assert_non_null(strstr(warnings.text[0], "images[0]: neither PNG nor JPEG; shown without"));
+    assert_non_null(strstr(warnings.text[1], "images[1]: the same picture as images[0]; shown"));
+    gn_scene_destroy(scene);
+    unlink(path_of("zeros.png"));
+    assert_quick();
+}
+
+static void test_a_file_is_one_picture_whatever_it_is_called(void **state) {
+    (void)state;
+    static const char *const uris[] = {"b.png", "./b.png", "%62.png", "c.png"};
+    static const uint8_t red[4] = {255, 0, 0, 255};
+    struct gn_made png = gn_maker_png(1, 1, red);
+    assert_true(gn_file_write(path_of("b.png"), png.data, png.size, &err));
+    free(png.data);
+    assert_int_equal(symlink("b.png", path_of("c.png")), 0);
+    struct gn_scene *scene = load_images(uris, 4, 8);
+    assert_int_equal(scene->pictures.image_count, 1);
+    assert_int_equal(scene->pictures.texture_count, 8);
+    assert_int_equal(warnings.count, 0);
+    gn_scene_destroy(scene);
+    unlink(path_of("b.png"));
+    unlink(path_of("c.png"));
+    unlink(path_of("a.glb"));
+    rmdir(folder);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_a_primitive_costs_its_own_size_not_that_of_its_accessor, begin),
         cmocka_unit_test_setup(test_a_part_of_the_vertices_keeps_its_attributes, begin),
         cmocka_unit_test_setup(test_positions_cannot_be_made_to_collide, begin),
+        cmocka_unit_test_setup(test_a_large_file_that_is_no_picture_is_not_read, begin),
+        cmocka_unit_test_setup(test_a_file_is_one_picture_whatever_it_is_called, begin),
     };
     return RUN(tests);
 }

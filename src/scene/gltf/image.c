@@ -4,6 +4,8 @@
 
 #include <inttypes.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "image/read.h"
 
@@ -21,14 +23,17 @@ static const struct format {
 
 /* ---- pictures ---- */
 
-/* *damaged: the picture cannot be decoded, whatever the limits. */
+static const struct format *format_of(const void *data, size_t size) {
+    for (size_t i = 0; data && i < sizeof FORMATS / sizeof FORMATS[0]; i++)
+        if (size >= FORMATS[i].magic_size &&
+            memcmp(data, FORMATS[i].magic, FORMATS[i].magic_size) == 0)
+            return &FORMATS[i];
+    return NULL;
+}
+
 static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct gn_image *image,
-                         bool *damaged, struct gn_err *err) {
-    const struct format *format = NULL;
-    for (size_t i = 0; i < sizeof FORMATS / sizeof FORMATS[0]; i++)
-        if (blob->data && blob->size >= FORMATS[i].magic_size &&
-            memcmp(blob->data, FORMATS[i].magic, FORMATS[i].magic_size) == 0)
-            format = &FORMATS[i];
+                         struct gn_err *err) {
+    const struct format *format = format_of(blob->data, blob->size);
     uint32_t px[2] = {0};
     if (!format) return gn_fail(err, "neither PNG nor JPEG");
     if (!format->size(blob->data, blob->size, px, err)) return false;
@@ -46,7 +51,6 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
     uint8_t *rgba = gn_gltf_alloc(g, g->memory.scene, texels, 4);
     if (!rgba) return false;
     if (!format->read(blob->data, blob->size, px, rgba, err)) {
-        *damaged = true;
         g->damaged_texels += texels;
         gn_arena_undo(g->memory.scene, rgba, 4 * texels);
         return false;
@@ -58,6 +62,62 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
     return true;
 }
 
+/* The source of an image: bytes, or an open file of which only the identity is known. */
+struct source {
+    const char *uri;
+    int fd; /* -1: blob is filled */
+    struct gn_blob blob;
+    uint64_t key[3]; /* of struct gn_picture; zeros: none can be the same */
+};
+
+static bool open_source(struct gn_gltf *g, const struct gn_at *at, struct source *source,
+                        struct gn_err *err) {
+    *source = (struct source){.uri = gn_at_text(g, at, "uri"), .fd = -1};
+    const int32_t number = gn_at_ref(g, at, "bufferView", g->file.view_count, "bufferViews");
+    if (g->failed) return false;
+    if (source->uri && gn_uri_is_data(source->uri))
+        return gn_uri_fetch(g, source->uri, &source->blob, err);
+    if (source->uri) {
+        struct stat info;
+        source->fd = gn_uri_open(g, source->uri, err);
+        if (source->fd < 0) return false;
+        if (fstat(source->fd, &info) == 0)
+            memcpy(source->key, (uint64_t[]){1, info.st_dev, info.st_ino}, sizeof source->key);
+        return true;
+    }
+    if (number < 0) return gn_fail(err, "has neither uri nor bufferView");
+    const struct gn_view *view = &g->file.views[number];
+    if (!view->data) return gn_fail(err, "bufferView %d holds no data", number);
+    source->blob = (struct gn_blob){.data = view->data, .size = view->size};
+    memcpy(source->key, (uint64_t[]){2, (uintptr_t)view->data, view->size}, sizeof source->key);
+    return true;
+}
+
+/* A file of gigabytes that is no picture is not read. */
+static bool read_source(struct gn_gltf *g, struct source *source, struct gn_err *err) {
+    if (source->fd < 0) return true;
+    uint8_t head[8];
+    const ssize_t size = pread(source->fd, head, sizeof head, 0);
+    const int fd = source->fd;
+    source->fd = -1;
+    if (size < 0 || format_of(head, (size_t)size))
+        return gn_uri_read(g, fd, source->uri, &source->blob, err);
+    close(fd);
+    return gn_fail(err, "neither PNG nor JPEG");
+}
+
+/* The first image with the same source, or this one. */
+static size_t first_image_of(struct gn_gltf *g, const struct source *source, size_t index) {
+    if (!source->key[0]) return index;
+    uint32_t *known = gn_table_find(&g->pictures.table, source->key);
+    if (*known) return g->pictures.list[*known - 1].first;
+    struct gn_picture *picture = &g->pictures.list[g->pictures.count++];
+    memcpy(picture->key, source->key, sizeof picture->key);
+    picture->first = index;
+    *known = (uint32_t)g->pictures.count;
+    return index;
+}
+
 /* The index of the scene's image for one of the file, or DROPPED. */
 static int32_t image_at(struct gn_gltf *g, int32_t index) {
     if (g->to_scene.image[index] != UNSEEN) return g->to_scene.image[index];
@@ -65,33 +125,20 @@ static int32_t image_at(struct gn_gltf *g, int32_t index) {
     struct gn_scene_pictures *pictures = &g->scene->pictures;
     struct gn_at root = gn_at_root(g), images = gn_at_array(g, &root, "images");
     struct gn_at at = gn_at_item(g, &images, (size_t)index);
-    const char *uri = gn_at_text(g, &at, "uri");
-    int32_t number = gn_at_ref(g, &at, "bufferView", g->file.view_count, "bufferViews");
-    if (g->failed) return DROPPED;
-    struct gn_view *view = !uri && number >= 0 ? &g->file.views[number] : NULL;
-    struct gn_blob blob = {0};
+    struct source source;
     struct gn_err err = {0};
-    bool found = false;
-    if (uri)
-        found = gn_uri_fetch(g, uri, &blob, &err);
-    else if (!view)
-        gn_fail(&err, "has neither uri nor bufferView");
-    else if (!view->data)
-        gn_fail(&err, "bufferView %d holds no data", number);
-    else if (view->damaged)
-        gn_fail(&err, "bufferView %d is damaged", number);
-    else {
-        found = true;
-        blob = (struct gn_blob){.data = view->data, .size = view->size};
+    if (open_source(g, &at, &source, &err)) {
+        const size_t first = first_image_of(g, &source, (size_t)index);
+        if (first != (size_t)index) {
+            g->to_scene.image[index] = g->to_scene.image[first];
+            gn_fail(&err, "the same picture as images[%zu]", first);
+        } else if (read_source(g, &source, &err) &&
+                   decode_image(g, &source.blob, &pictures->images[pictures->image_count], &err))
+            g->to_scene.image[index] = (int32_t)pictures->image_count++;
+        if (source.fd >= 0) close(source.fd);
+        gn_blob_finish(g, &source.blob);
     }
-    bool damaged = false;
-    bool done =
-        found && decode_image(g, &blob, &pictures->images[pictures->image_count], &damaged, &err);
-    if (view) view->damaged |= damaged;
-    gn_blob_finish(g, &blob);
-    if (done)
-        g->to_scene.image[index] = (int32_t)pictures->image_count++;
-    else if (!g->failed)
+    if (g->to_scene.image[index] == DROPPED && !g->failed)
         gn_gltf_warn(g, &at, "%s; shown without this picture", err.text);
     return g->to_scene.image[index];
 }
@@ -142,7 +189,13 @@ static bool allocate_textures(struct gn_gltf *g) {
         gn_gltf_alloc(g, g->memory.scene, g->file.texture_count, sizeof *scene->pictures.textures);
     scene->pictures.images =
         gn_gltf_alloc(g, g->memory.scene, g->file.image_count, sizeof *scene->pictures.images);
+    g->pictures.list =
+        gn_gltf_alloc(g, &g->memory.load, g->file.image_count, sizeof *g->pictures.list);
     if (g->failed) return false;
+    g->pictures.table = (struct gn_table){.stride = sizeof *g->pictures.list,
+                                          .key_size = sizeof g->pictures.list->key,
+                                          .keys = (const char *)g->pictures.list};
+    if (!gn_table_init(g, &g->pictures.table, g->file.image_count)) return false;
     for (size_t i = 0; i < g->file.texture_count; i++) g->to_scene.texture[i] = UNSEEN;
     for (size_t i = 0; i < g->file.image_count; i++) g->to_scene.image[i] = UNSEEN;
     return true;

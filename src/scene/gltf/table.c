@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/hash.h"
+#include "scene/private.h"
 
 bool gn_table_init(struct gn_gltf *g, struct gn_table *table, size_t most) {
     size_t size = 16;

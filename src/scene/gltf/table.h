@@ -2,7 +2,12 @@
 #ifndef GN_SCENE_GLTF_TABLE_H
 #define GN_SCENE_GLTF_TABLE_H
 
-#include "scene/private.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct gn_gltf;
+struct gn_hash_key;
 
 struct gn_table {
     uint32_t *slots; /* index + 1, or 0 */
