@@ -29,6 +29,28 @@ static void join_ends(char *out, size_t size, const char *text, size_t length) {
     snprintf(out + start, size - start, "%s%s", gap, end);
 }
 
+/* The bytes of the control character at c, or 0. */
+static size_t control_length(const unsigned char *c) {
+    if (*c < 0x20 || *c == 0x7f) return 1;
+    if (c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0) return 2; /* U+0080 to U+009F */
+    if (c[0] == 0xd8 && c[1] == 0x9c) return 2;                /* U+061C */
+    if (c[0] != 0xe2) return 0;
+    if (c[1] == 0x80 && (c[2] == 0x8e || c[2] == 0x8f)) return 3; /* U+200E, U+200F */
+    if (c[1] == 0x80 && c[2] >= 0xa8 && c[2] <= 0xae) return 3;   /* U+2028 to U+202E */
+    if (c[1] == 0x81 && c[2] >= 0xa6 && c[2] <= 0xa9) return 3;   /* U+2066 to U+2069 */
+    return 0;
+}
+
+void gn_text_clean(char *text) {
+    char *to = text;
+    for (const char *c = text; *c;) {
+        const size_t length = control_length((const unsigned char *)c);
+        if (length == 0) *to++ = *c;
+        c += length > 0 ? length : 1;
+    }
+    *to = '\0';
+}
+
 void gn_text_vformat(char *out, size_t size, const char *format, va_list args) {
     va_list again;
     va_copy(again, args);
@@ -43,17 +65,7 @@ void gn_text_vformat(char *out, size_t size, const char *format, va_list args) {
         free(all);
     }
     va_end(again);
-
-    /* remove control characters: those of ASCII, and U+0080 to U+009F */
-    char *to = out;
-    for (const unsigned char *c = (const unsigned char *)out; *c; c++) {
-        const bool is_long = c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0;
-        if (is_long)
-            c++;
-        else if (*c >= 0x20 && *c != 0x7f)
-            *to++ = (char)*c;
-    }
-    *to = '\0';
+    gn_text_clean(out);
 }
 
 static int least_of_three(int a, int b, int c) {

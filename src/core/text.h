@@ -5,12 +5,15 @@
 #include <stdarg.h>
 #include <stddef.h>
 
-/* Formats into out (size > 0 bytes with the ending zero), drops C0, DEL and C1 control characters
- * and shortens a text that does not fit, at whole UTF-8 characters: in the middle ("..."), since
- * the reason stands at the end, behind names that can be long; at the end where size is under 64
- * bytes.
+/* Formats into out (size > 0 bytes with the ending zero), cleans it (gn_text_clean) and shortens a
+ * text that does not fit, at whole UTF-8 characters: in the middle ("..."), since the reason stands
+ * at the end, behind names that can be long; at the end where size is under 64 bytes.
  */
 void gn_text_vformat(char *out, size_t size, const char *format, va_list args);
+
+/* Drops, in place, what would move the cursor or turn a line round: C0, DEL and C1 control
+ * characters, separators of lines and paragraphs, and bidirectional controls. */
+void gn_text_clean(char *text);
 
 /* How many edits of a character (insert, delete, replace, swap with the next) turn a into b; texts
  * beyond 31 characters are cut. */
