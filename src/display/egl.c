@@ -4,13 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/library.h"
+
 bool gn_egl_load(struct gn_egl *egl, struct gn_err *err) {
     setenv("EGL_LOG_LEVEL", "fatal", 0); /* otherwise Mesa prints to stderr */
-    void *library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-    egl->gles = dlopen("libGLESv2.so.2", RTLD_NOW | RTLD_LOCAL);
-    if (!library || !egl->gles)
-        return gn_fail(err, "%s is missing; install libegl1 libgles2",
-                       library ? "libGLESv2.so.2" : "libEGL.so.1");
+    void *library = gn_library_open("libEGL.so.1", "libegl1", err);
+    if (!library) return false;
+    egl->gles = gn_library_open("libGLESv2.so.2", "libgles2", err);
+    if (!egl->gles) return false;
 #define X(type, name)                                                                              \
     *(void **)&egl->name = dlsym(library, "egl" #name);                                            \
     if (!egl->name) return gn_fail(err, "libEGL.so.1 has no egl" #name "; install libegl1");

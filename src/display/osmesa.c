@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "core/arena.h"
+#include "core/library.h"
 #include "display/private.h"
 
 enum { BUFFER_PX = 16 }; /* side of the unused buffer */
@@ -30,9 +31,12 @@ static bool make_context(struct osmesa *o, struct gn_err *err) {
                                  OSMESA_CONTEXT_MINOR_VERSION,
                                  3,
                                  0};
-    o->library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
-    if (!o->library) o->library = dlopen("libOSMesa.so.6", RTLD_NOW | RTLD_LOCAL);
-    if (!o->library) return gn_fail(err, "libOSMesa.so.8 is missing; install libosmesa6");
+    o->library = gn_library_open("libOSMesa.so.8", "libosmesa6", err);
+    if (!o->library) {
+        o->library = gn_library_open("libOSMesa.so.6", "libosmesa6", NULL);
+        if (!o->library) return false;
+        *err = (struct gn_err){0};
+    }
     *(void **)&o->create = dlsym(o->library, "OSMesaCreateContextAttribs");
     *(void **)&o->destroy = dlsym(o->library, "OSMesaDestroyContext");
     *(void **)&o->make_current = dlsym(o->library, "OSMesaMakeCurrent");

@@ -1,9 +1,12 @@
 #include "unit/check.h"
 
 #include "core/embedded.h"
+#include "core/err.h"
+#include "core/library.h"
 #include "core/text.h"
 
 #include <string.h>
+#include <sys/resource.h>
 
 static void distance_counts_edits(void **state) {
     (void)state;
@@ -39,6 +42,50 @@ static void a_guess_is_near(void **state) {
     assert_string_equal(guess_of(""), "");
 }
 
+static const char *cleaned(const char *text) {
+    static char out[100];
+    strcpy(out, text);
+    gn_text_clean(out);
+    return out;
+}
+
+static void what_moves_the_cursor_or_turns_a_line_is_dropped(void **state) {
+    (void)state;
+    assert_string_equal(cleaned("a\x1b[31mb\n\x7f\tc"), "a[31mbc");
+    assert_string_equal(cleaned("a\xc2\x80"
+                                "b\xc2\x9f"
+                                "c\xc2\xa0"),
+                        "abc\xc2\xa0");
+    assert_string_equal(cleaned("a\u200e\u200f"
+                                "b\u2028\u202a\u202e"
+                                "c\u2066\u2069\u061c"),
+                        "abc");
+    assert_string_equal(cleaned("\u200d\u2010\u2027\u202f\u2065\u206a\u05d0"),
+                        "\u200d\u2010\u2027\u202f\u2065\u206a\u05d0");
+    assert_string_equal(cleaned("a\xe2"), "a\xe2");
+    assert_string_equal(cleaned("a\xe2\x80"), "a\xe2\x80");
+    struct gn_err err = {0};
+    gn_fail(&err, "%s: no", "a\u202egpj.exe");
+    assert_string_equal(err.text, "agpj.exe: no");
+}
+
+/* Of a process that may open nothing more. */
+static void a_library_that_does_not_load_is_told_from_a_missing_one(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    struct rlimit old;
+    assert_null(gn_library_open("libgnomon-none.so.1", "libnone", &err));
+    assert_string_equal(err.text, "libgnomon-none.so.1 is missing; install libnone");
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &old), 0);
+    struct rlimit none = {.rlim_cur = 0, .rlim_max = old.rlim_max};
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &none), 0);
+    void *library = gn_library_open("libanl.so.1", "libc6", &err);
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &old), 0);
+    if (library) skip();
+    if (!strstr(err.text, "libanl.so.1 cannot be loaded (") || !strstr(err.text, "open files"))
+        fail_msg("%s", err.text);
+}
+
 static void long_texts_are_safe(void **state) {
     (void)state;
     char a[4000], b[4000];
@@ -67,6 +114,8 @@ int main(void) {
         cmocka_unit_test(distance_counts_edits),
         cmocka_unit_test(two_neighbours_that_changed_places_are_one_edit),
         cmocka_unit_test(a_guess_is_near),
+        cmocka_unit_test(what_moves_the_cursor_or_turns_a_line_is_dropped),
+        cmocka_unit_test(a_library_that_does_not_load_is_told_from_a_missing_one),
         cmocka_unit_test(long_texts_are_safe),
         cmocka_unit_test(embedded_files_are_found_and_end_with_zero),
     };

@@ -13,6 +13,8 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
+#include "core/library.h"
+
 /* ---- stable place of a node, as udev's path_id ---- */
 
 /* Walks up the device tree to the first bus with persistent names. */
@@ -84,11 +86,8 @@ const struct gn_drm_ops *gn_drm_real(struct gn_err *err) {
                                     .unmap = unmap_buffer};
     static bool loaded;
     if (loaded) return &ops;
-    void *library = dlopen("libdrm.so.2", RTLD_NOW | RTLD_LOCAL);
-    if (!library) {
-        gn_fail(err, "libdrm.so.2 is missing; install libdrm2");
-        return NULL;
-    }
+    void *library = gn_library_open("libdrm.so.2", "libdrm2", err);
+    if (!library) return NULL;
 #define X(function, name)                                                                          \
     *(void **)&ops.name = dlsym(library, #function);                                               \
     if (!ops.name) {                                                                               \

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/arena.h"
+#include "core/library.h"
 #include "display/egl.h"
 #include "display/kms/import.h"
 #include "display/kms/scanout.h"
@@ -66,8 +67,8 @@ static int export_plane(void *state, void *bo, int plane) {
 }
 
 static bool open_display(struct scanout *s, struct gn_err *err) {
-    void *library = dlopen("libgbm.so.1", RTLD_NOW | RTLD_LOCAL);
-    if (!library) return gn_fail(err, "libgbm.so.1 is missing; install libgbm1");
+    void *library = gn_library_open("libgbm.so.1", "libgbm1", err);
+    if (!library) return false;
 #define X(name)                                                                                    \
     *(void **)&s->name = dlsym(library, #name);                                                    \
     if (!s->name) return gn_fail(err, "libgbm.so.1 has no " #name "; install libgbm1");

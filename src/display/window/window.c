@@ -11,6 +11,7 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
+#include "core/library.h"
 #include "display/kms/flip.h"
 #include "display/private.h"
 #include "display/window/glfw.h"
@@ -44,8 +45,8 @@ enum { POLLS_MAX = 16 };
 
 static bool load_glfw(struct gn_err *err) {
     if (glfw.library) return true;
-    void *library = dlopen("libglfw.so.3", RTLD_NOW | RTLD_LOCAL);
-    if (!library) return gn_fail(err, "libglfw.so.3 is missing; install libglfw3");
+    void *library = gn_library_open("libglfw.so.3", "libglfw3", err);
+    if (!library) return false;
 #define X(name)                                                                                    \
     *(void **)&glfw.name = dlsym(library, "glfw" #name);                                           \
     if (!glfw.name) return gn_fail(err, "libglfw.so.3 has no glfw" #name "; install libglfw3");
