@@ -7,11 +7,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/beneath.h"
 #include "core/stop.h"
+#include "core/sweep.h"
 
 static const char *kind_name(mode_t mode) {
     return S_ISDIR(mode)    ? "a folder"
@@ -160,14 +162,14 @@ static bool write_in_place(const char *path, int flags, const void *data, size_t
 static bool write_and_rename(const char *path, const struct stat *old, const void *data,
                              size_t size, struct gn_err *err) {
     /* a new file beside the path */
-    char name[PATH_MAX];
+    char name[PATH_MAX], folder[PATH_MAX];
     const char *slash = strrchr(path, '/');
-    int folder = slash ? (int)(slash - path + 1) : 0, fd = -1;
+    int fd = -1;
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path + 1) : 0, path);
+    gn_sweep_folder(folder);
     gn_stop_hold();
     for (int attempt = 0; attempt < 100 && fd < 0; attempt++) {
-        int length = snprintf(name, sizeof name, "%.*s.gnomon-%ld-%d", folder, path, (long)getpid(),
-                              attempt);
-        if (length >= (int)sizeof name) {
+        if (!gn_sweep_name(name, sizeof name, folder, attempt)) {
             errno = ENAMETOOLONG;
             break;
         }
@@ -176,6 +178,7 @@ static bool write_and_rename(const char *path, const struct stat *old, const voi
     }
     gn_stop_release(fd >= 0 ? name : NULL);
     if (fd < 0) return fail_errno(err, path, "write");
+    flock(fd, LOCK_EX | LOCK_NB); /* in use: not swept */
     bool ok = write_all(fd, data, size) && (!old || fchmod(fd, old->st_mode & 0777) == 0) &&
               fsync(fd) == 0;
     int reason = errno;

@@ -5,10 +5,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/un.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "core/file.h"
@@ -259,6 +261,38 @@ static void a_pipe_is_written_to_directly(void **state) {
     assert_true(gn_file_write("/dev/null", "x", 1, &err));
 }
 
+/* ---- what a killed process left ---- */
+
+static int make_old(const char *name, int64_t age_s) {
+    const struct timespec times[2] = {{.tv_sec = time(NULL) - age_s},
+                                      {.tv_sec = time(NULL) - age_s}};
+    const int fd = open(in_folder(name), O_RDWR | O_CREAT, 0600);
+    assert_true(fd >= 0 && futimens(fd, times) == 0);
+    return fd;
+}
+
+static void temporary_files_of_the_dead_are_removed(void **state) {
+    (void)state;
+    static const char *const kept[] = {".gnomon-2-0", ".gnomon-3-0", ".gnomon-x-0", ".gnomon-4-",
+                                       ".gnomon-5-0"};
+    struct gn_err err = {0};
+    assert_int_equal(mkdir("sweep", 0700), 0);
+    assert_int_equal(chdir("sweep"), 0);
+    close(make_old("sweep/.gnomon-1-0", 100));
+    close(make_old("sweep/.gnomon-2-0", 10));
+    const int held = make_old("sweep/.gnomon-3-0", 100);
+    assert_int_equal(flock(held, LOCK_EX), 0);
+    close(make_old("sweep/.gnomon-x-0", 100));
+    close(make_old("sweep/.gnomon-4-", 100));
+    assert_int_equal(symlink(".gnomon-2-0", ".gnomon-5-0"), 0);
+    assert_true(gn_file_write("a", "b", 1, &err));
+    assert_int_not_equal(access(".gnomon-1-0", F_OK), 0);
+    for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++)
+        if (faccessat(AT_FDCWD, kept[i], F_OK, AT_SYMLINK_NOFOLLOW) != 0) fail_msg("%s", kept[i]);
+    close(held);
+    assert_int_equal(chdir(".."), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_was_written_is_read),
@@ -275,6 +309,7 @@ int main(void) {
         cmocka_unit_test(a_link_to_a_folder_may_be_in_the_path),
         cmocka_unit_test(a_private_file_is_private_at_all_times),
         cmocka_unit_test(a_pipe_is_written_to_directly),
+        cmocka_unit_test(temporary_files_of_the_dead_are_removed),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
