@@ -44,7 +44,7 @@ const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES] = {
 /* ---- texts --------------------------------------------------------------------------------- */
 
 void gn_help_phrase(const struct gn_option_row *row, char *out, size_t size) {
-    char limits[200];
+    char limits[400];
     size_t used = (size_t)snprintf(out, size, "%s", row->help);
     for (const struct gn_choice *c = row->choices; c && c->name && used < size; c++)
         used += (size_t)snprintf(out + used, size - used, "%s%s", c == row->choices ? ": " : ", ",

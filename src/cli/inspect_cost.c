@@ -4,32 +4,6 @@
 #include "cli/inspect.h"
 #include "frame/frame.h"
 
-/* Side of the pages of a map; 0 without. */
-static uint64_t page_px(const struct gn_shadow_view *view) {
-    return (view->map.cascade_count > 0 && !view->empty) || view->raster.drawn.paged
-               ? view->map.tile_px
-               : 0;
-}
-
-/* The bytes of a shadow map, of the pages that it is drawn into and of what it is filtered into.
- * Lights share pages of one kind, and the target between the steps of a filter. */
-static uint64_t shadow_bytes(const struct gn_plan *plan, uint32_t slot) {
-    const struct gn_shadow_view *view = &plan->shadows[slot];
-    const uint64_t texels = (uint64_t)view->map.width_px * view->map.height_px;
-    const uint64_t texel_bytes = gn_encodings[view->encoding].texel_bytes;
-    const uint64_t filtered = texels * gn_moments[view->moments].texel_bytes;
-    uint64_t pages = page_px(view) * page_px(view) * texel_bytes, between = filtered;
-    for (uint32_t i = 0; i < slot; i++) {
-        const struct gn_shadow_view *other = &plan->shadows[i];
-        if (other->encoding == view->encoding && page_px(other) == page_px(view)) pages = 0;
-        if (other->moments == view->moments && other->map.width_px == view->map.width_px &&
-            other->map.height_px == view->map.height_px)
-            between = 0;
-    }
-    const uint64_t mipmaps = gn_view_has_mipmaps(view) ? filtered / 3 : 0;
-    return texels * texel_bytes + pages + filtered + mipmaps + between;
-}
-
 struct image_use {
     bool as[2]; /* data, colour */
     bool mipmaps;
@@ -82,7 +56,7 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
         *(shadow ? &in->cost.shadow_draws : &in->cost.draws) += pass->draw_count;
         *(shadow ? &in->cost.shadow_triangles : &in->cost.triangles) += triangles;
     }
-    for (uint32_t i = 0; i < plan->shadow_count; i++) in->cost.map_bytes += shadow_bytes(plan, i);
+    in->cost.map_bytes = gn_plan_map_bytes(plan);
     in->cost.programs = plan->program_count;
     in->cost.culled = plan->culled;
     in->cost.target_bytes = (uint64_t)GN_INSPECT_WIDTH_PX * GN_INSPECT_HEIGHT_PX * 8;

@@ -12,6 +12,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include "core/memory.h"
 #include "core/text.h"
 
 __attribute__((format(printf, 3, 4))) static void format_text(char *out, size_t size,
@@ -40,11 +41,6 @@ static void copy_line(char *out, size_t size, const char *text) {
 static const char *base_name(const char *path) {
     const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
-}
-
-static uint64_t meminfo_mb(const char *text, const char *key) {
-    const char *at = strstr(text, key);
-    return at ? strtoull(at + strlen(key), NULL, 10) / 1024 : 0;
 }
 
 static void name_group(gid_t gid, char *out, size_t size) {
@@ -147,9 +143,9 @@ void gn_machine_read(struct gn_machine *machine, const char *root) {
     const long cpus = sysconf(_SC_NPROCESSORS_ONLN);
     machine->cpus = cpus > 0 ? (int)cpus : 1;
     read_text(root, "/proc/meminfo", text, sizeof text);
-    machine->memory_mb = meminfo_mb(text, "MemTotal:");
-    machine->free_mb = meminfo_mb(text, "MemAvailable:");
-    machine->cma_mb = meminfo_mb(text, "CmaTotal:");
+    machine->memory_mb = gn_memory_of_meminfo(text, "MemTotal:");
+    machine->free_mb = gn_memory_of_meminfo(text, "MemAvailable:");
+    machine->cma_mb = gn_memory_of_meminfo(text, "CmaTotal:");
 
     const struct passwd *user = getpwuid(geteuid());
     if (user)

@@ -45,19 +45,20 @@ static struct gn_rect tile_rect(const struct gn_shadow_view *view, uint32_t tile
 
 /* ---- sums of blocks: of all tiles side by side, as high as one ---- */
 
-static uint32_t blocks_of(const struct gn_shadow_view *view) {
-    return (view->map.tile_px + TABLE_BLOCK - 1) / TABLE_BLOCK;
+static uint32_t blocks_of(const struct gn_shadow_map *map) {
+    return (map->tile_px + TABLE_BLOCK - 1) / TABLE_BLOCK;
 }
 
-static bool is_narrow(const struct gn_shadow_view *view, uint32_t texture) {
-    const uint32_t narrow = gn_filters[gn_techniques[view->technique].filter].narrow;
+static bool is_narrow(enum gn_technique technique, uint32_t texture) {
+    const uint32_t narrow = gn_filters[gn_techniques[technique].filter].narrow;
     return narrow > 0 && texture == narrow;
 }
 
-static void texture_size(const struct gn_shadow_view *view, uint32_t texture, uint32_t size_px[2]) {
-    const bool narrow = is_narrow(view, texture);
-    size_px[0] = narrow ? view->map.tile_count * blocks_of(view) : view->map.width_px;
-    size_px[1] = narrow ? view->map.tile_px : view->map.height_px;
+void gn_frame_filter_size(enum gn_technique technique, const struct gn_shadow_map *map,
+                          uint32_t texture, uint32_t size_px[2]) {
+    const bool narrow = is_narrow(technique, texture);
+    size_px[0] = narrow ? map->tile_count * blocks_of(map) : map->width_px;
+    size_px[1] = narrow ? map->tile_px : map->height_px;
 }
 
 static void filter_constants(const struct gn_shadow_view *view, uint32_t tile, float (*c)[4]) {
@@ -72,7 +73,7 @@ static void filter_constants(const struct gn_shadow_view *view, uint32_t tile, f
     c[FILTER_BLUR][1] = ceilf(blur_px - 0.5f);
     c[FILTER_BLUR][2] = blur_px > 0.0f ? 0.5f / blur_px : 1.0f;
     c[FILTER_TABLE][0] = view->lookup.reach_px;
-    c[FILTER_TABLE][1] = (float)(tile * blocks_of(view));
+    c[FILTER_TABLE][1] = (float)(tile * blocks_of(&view->map));
     code_transform(view, tile, c[FILTER_CODE]);
     for (int k = 0; k < 2; k++) {
         c[FILTER_SIZE][k] = size[k];
@@ -102,7 +103,7 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                            CONSTANTS_AT;
     struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_FILTER);
     uint32_t size_px[2];
-    texture_size(view, stage->to, size_px);
+    gn_frame_filter_size(view->technique, &view->map, stage->to, size_px);
     snprintf(pass->label, sizeof pass->label, "shadow %u %.26s %s", slot,
              frame->scene->lights[view->light].name, gn_filter_steps[stage->step].name);
     pass->target = (struct gn_target){.kind = GN_TARGET_MOMENTS,
@@ -112,9 +113,9 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                                       .moments = view->moments,
                                       .index = stage->to,
                                       .mipmaps = stage->to == 0 && gn_view_has_mipmaps(view)};
-    if (view->map.tile_count > 1 && is_narrow(view, stage->to))
-        pass->rect = pass->viewport =
-            (struct gn_rect){tile * blocks_of(view), 0, blocks_of(view), view->map.tile_px};
+    if (view->map.tile_count > 1 && is_narrow(view->technique, stage->to))
+        pass->rect = pass->viewport = (struct gn_rect){tile * blocks_of(&view->map), 0,
+                                                       blocks_of(&view->map), view->map.tile_px};
     else if (view->map.tile_count > 1)
         pass->rect = pass->viewport = tile_rect(view, tile);
     pass->content = (struct gn_content){
@@ -127,7 +128,7 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
         if (from == GN_FROM_NOTHING) continue;
         *read = (struct gn_read){.kind = GN_READ_MAP};
         if (from == GN_FROM_MAP) continue;
-        texture_size(view, (uint32_t)from, size_px);
+        gn_frame_filter_size(view->technique, &view->map, (uint32_t)from, size_px);
         *read = (struct gn_read){GN_READ_MOMENTS, (uint32_t)from, size_px[0], size_px[1]};
     }
     filter_constants(view, tile, constants);

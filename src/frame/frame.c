@@ -84,7 +84,7 @@ static void set_picture_constants(struct gn_frame *frame, const struct gn_pose *
 static void reset_plan(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
-    frame->plan = (struct gn_plan){.scene = frame->scene};
+    frame->plan = (struct gn_plan){.scene = frame->scene, .maps_bytes = opts->shadow.maps_bytes};
     frame->plan.width_px = opts->width_px ? opts->width_px : 1280;
     frame->plan.height_px = opts->height_px ? opts->height_px : 720;
     frame->camera = (uint32_t)opts->view.camera;

@@ -17,6 +17,8 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     uint32_t cascades;         /* limit per light; 4 */
     uint64_t filter_texels; /* of filtered maps that one frame makes again, if that is more than one
                                map; others stay as they are for a while. 0: all are made */
+    uint64_t maps_bytes; /* limit on what shadows take on the GPU: maps, their pages, what they are
+                            filtered into. Maps over it are made smaller. 0: none */
     bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
     unsigned taps;          /* of disk, poisson, pcss: 8, 16, 32; 16 */
     bool taps_fixed;        /* the same for every pixel */

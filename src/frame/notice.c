@@ -33,7 +33,8 @@ void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts
                                              opts->msaa,
                                              opts->shadow.planar_in_stencil,
                                              opts->shadow.moments,
-                                             opts->shadow.map_px};
+                                             opts->shadow.map_px,
+                                             (uint32_t)(opts->shadow.maps_bytes >> 20)};
     if (memcmp(frame->notes.about, about, sizeof about) == 0) return;
     memcpy(frame->notes.about, about, sizeof about);
     frame->notes.said = 0;

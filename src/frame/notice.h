@@ -17,8 +17,9 @@ enum gn_notice {
     GN_NOTICE_MSAA,
     GN_NOTICE_BLENDED,
     GN_NOTICE_MAP_PX,
+    GN_NOTICE_MAPS_MB,
 };
-enum { GN_NOTICE_ABOUT = 10 }; /* options that a warning may be about */
+enum { GN_NOTICE_ABOUT = 11 }; /* options that a warning may be about */
 
 struct gn_frame;
 struct gn_frame_opts;

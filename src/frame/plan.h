@@ -215,9 +215,12 @@ struct gn_plan {
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
     uint32_t culled; /* items that the camera does not see */
     bool waits;      /* for another frame: a filtered map is older than the pose (filter_texels) */
+    uint64_t maps_bytes; /* the limit that its maps hold; 0: none */
     float exposure;
 };
 
+/* What its shadows take on the GPU: maps, their pages, what they are filtered into. */
+uint64_t gn_plan_map_bytes(const struct gn_plan *plan);
 /* The plan as text: stable, readable, for diffs. */
 void gn_plan_print(const struct gn_plan *plan, FILE *to);
 /* All preconditions that gl/ relies on, in one list; NULL when the plan holds them, else the first

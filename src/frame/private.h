@@ -164,6 +164,9 @@ GN_FRAME_STEPS(X)
 
 /* The passes that turn a map into what shaders read; none where that is the map. */
 void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot);
+/* Size of a texture of the technique's filter, as numbered in gn_filter_stage. */
+void gn_frame_filter_size(enum gn_technique technique, const struct gn_shadow_map *map,
+                          uint32_t texture, uint32_t size_px[2]);
 /* Of all that the moments of a tile depend on; never 0. */
 uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile);
 /* budget.c: after the lights' views are known. Replaces views over the budget by their older ones.
@@ -215,6 +218,21 @@ void gn_frame_make_memories(struct gn_frame *frame, uint32_t slot, uint32_t coun
 /* Largest resolution of a map, or of its tiles, whose texture this GPU supports. */
 uint32_t gn_frame_most_px(const struct gn_frame *frame, const struct gn_frame_light *light,
                           uint32_t cascades);
+
+/* ---- bytes.c: what they take on the GPU ---- */
+
+struct gn_map_need { /* of a light */
+    enum gn_technique technique;
+    enum gn_encoding encoding;
+    enum gn_moments moments;
+    struct gn_shadow_map map; /* without gutters */
+    bool paged;               /* drawn in pages */
+};
+/* Lights share pages of one kind, and the textures between the steps of a filter. */
+uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count);
+/* Halves map_px of the maps, by slot, until they take at most so many bytes; 0: no limit. */
+void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn_shadow_opts *maps,
+                          struct gn_warnings *warnings);
 
 /* ---- constants.c ---- */
 

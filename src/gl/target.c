@@ -190,17 +190,20 @@ static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {
     *map = (struct gn_gl_map){0};
 }
 
+static uint64_t map_bytes(const struct gn_gl_map *map) {
+    const unsigned texel_bytes = map->moments ? gn_moments[map->moments].texel_bytes
+                                              : gn_encodings[map->encoding].texel_bytes;
+    const uint64_t bytes = (uint64_t)map->width_px * map->height_px * texel_bytes;
+    return map->mipmaps ? bytes + bytes / 3 : bytes;
+}
+
 static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err) {
     static const GLenum none = GL_NONE;
     const bool is_depth = !map->moments && map->encoding == GN_ENCODING_DEPTH;
     const uint32_t side = map->width_px > map->height_px ? map->width_px : map->height_px;
     GLsizei levels = 1;
     while (map->mipmaps && side >> levels > 0) levels++;
-    const unsigned texel_bytes = map->moments ? gn_moments[map->moments].texel_bytes
-                                              : gn_encodings[map->encoding].texel_bytes;
     const GLenum format = map->moments ? moments_formats[map->moments] : map_formats[map->encoding];
-    map->bytes = (uint64_t)map->width_px * map->height_px * texel_bytes;
-    if (map->mipmaps) map->bytes += map->bytes / 3;
     map->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
     gn_gl_work_on_texture(gl, map->texture);
     GL(gl, TexStorage2D)
@@ -237,17 +240,24 @@ static struct gn_gl_map *map_find(struct gn_gl *gl, const struct gn_target *t) {
     return NULL;
 }
 
+/* The side of a stand-in. Drivers compile for sides that are powers of two, and for others, and for
+ * textures with mipmaps. */
+static uint32_t stand_in_px(uint32_t px) { return px & (px - 1) ? 3 : 4; }
+
 /* Normalises a target for lookup: pages, and intermediate moments, are shared by all lights with
- * the same format and size.
- */
-static struct gn_target kept_target(const struct gn_target *target) {
+ * the same format and size; stand-ins are shared by all lights. */
+static struct gn_target kept_target(const struct gn_gl *gl, const struct gn_target *target) {
     struct gn_target kept = *target;
     if (kept.kind == GN_TARGET_PAGES || kept.index > 0) kept.slot = GN_GL_SLOT_PAGES;
+    if (!gl->targets.stand_ins) return kept;
+    kept.slot = GN_GL_SLOT_STAND_INS;
+    kept.width_px = stand_in_px(kept.width_px);
+    kept.height_px = stand_in_px(kept.height_px);
     return kept;
 }
 
 struct gn_gl_map *gn_gl_target_find(struct gn_gl *gl, const struct gn_target *target) {
-    const struct gn_target kept = kept_target(target);
+    const struct gn_target kept = kept_target(gl, target);
     return map_find(gl, &kept);
 }
 
@@ -266,7 +276,7 @@ struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view 
                                      .encoding = map ? view->encoding : (enum gn_encoding)0,
                                      .moments = map ? GN_MOMENTS_NONE : view->moments,
                                      .mipmaps = !map && gn_view_has_mipmaps(view)};
-    return map_find(gl, &target);
+    return gn_gl_target_find(gl, &target);
 }
 
 struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot) {
@@ -280,12 +290,12 @@ struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot) {
     return latest;
 }
 
-/* Frees least recently used maps that the current plan does not use while the total is over the
- * limit. */
-static void free_old_maps(struct gn_gl *gl) {
+/* Frees least recently used maps that the current plan does not use, until there is room for so
+ * many bytes more. */
+static void make_room(struct gn_gl *gl, uint64_t most_bytes, uint64_t more_bytes) {
     for (;;) {
         struct gn_gl_map *oldest = NULL;
-        uint64_t bytes = 0;
+        uint64_t bytes = more_bytes;
         for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
             struct gn_gl_map *m = &gl->targets.maps[i];
             bytes += m->bytes;
@@ -293,7 +303,7 @@ static void free_old_maps(struct gn_gl *gl) {
                 (!oldest || m->last_used < oldest->last_used))
                 oldest = m;
         }
-        if (!oldest || bytes <= UINT64_C(1048576) * GN_GL_MAPS_MB) return;
+        if (!oldest || bytes <= most_bytes) return;
         map_finish(gl, oldest);
     }
 }
@@ -307,30 +317,38 @@ bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct g
 }
 
 bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    for (uint32_t i = 0; i < plan->pass_count; i++) {
-        const struct gn_target *target = &plan->passes[i].target, kept = kept_target(target);
-        if (plan->passes[i].kind == GN_PASS_PICTURE) continue;
-        struct gn_gl_map *map = map_find(gl, &kept);
-        if (!map) {
-            /* A free slot, else the least recently used map. Never one of this plan, which has far
-             * fewer. */
-            map = &gl->targets.maps[0];
-            for (int k = 1; k < GN_GL_MAPS_MAX; k++)
-                if (gl->targets.maps[k].last_used < map->last_used) map = &gl->targets.maps[k];
-            map_finish(gl, map);
-            *map = (struct gn_gl_map){.slot = kept.slot,
-                                      .encoding = kept.encoding,
-                                      .moments = kept.moments,
-                                      .index = kept.index,
-                                      .mipmaps = kept.mipmaps,
-                                      .width_px = kept.width_px,
-                                      .height_px = kept.height_px};
-            if (!make_map(gl, map, err)) return false;
+    const uint64_t kept_bytes = UINT64_C(1048576) * GN_GL_MAPS_MB;
+    const uint64_t most_bytes =
+        plan->maps_bytes > 0 && plan->maps_bytes < kept_bytes ? plan->maps_bytes : kept_bytes;
+    /* those that are there first: they must not make room for others */
+    for (int missing = 0; missing < 2; missing++)
+        for (uint32_t i = 0; i < plan->pass_count; i++) {
+            const struct gn_target *target = &plan->passes[i].target,
+                                   kept = kept_target(gl, target);
+            if (plan->passes[i].kind == GN_PASS_PICTURE) continue;
+            struct gn_gl_map *map = map_find(gl, &kept);
+            if (!map && !missing) continue;
+            if (!map) {
+                struct gn_gl_map made = {.slot = kept.slot,
+                                         .encoding = kept.encoding,
+                                         .moments = kept.moments,
+                                         .index = kept.index,
+                                         .mipmaps = kept.mipmaps,
+                                         .width_px = kept.width_px,
+                                         .height_px = kept.height_px};
+                made.bytes = map_bytes(&made);
+                make_room(gl, most_bytes, made.bytes);
+                /* A free slot, else the least recently used map. Never one of this plan, which has
+                 * far fewer. */
+                map = &gl->targets.maps[0];
+                for (int k = 1; k < GN_GL_MAPS_MAX; k++)
+                    if (gl->targets.maps[k].last_used < map->last_used) map = &gl->targets.maps[k];
+                map_finish(gl, map);
+                *map = made;
+                if (!make_map(gl, map, err)) return false;
+            }
             map->last_used = gl->targets.prepares;
-            free_old_maps(gl);
         }
-        map->last_used = gl->targets.prepares;
-    }
     return true;
 }
 

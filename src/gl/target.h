@@ -33,6 +33,7 @@ enum { /* maps are kept up to these limits, so that alternating plans find their
        GN_GL_MAPS_MAX = 8 * GN_ALL_SHADOWS_MAX,
        GN_GL_MAPS_MB = 256,
        GN_GL_SLOT_PAGES = GN_ALL_SHADOWS_MAX, /* slot of shared pages and intermediate moments */
+       GN_GL_SLOT_STAND_INS,
 };
 enum gn_gl_map_sampler {
     GN_GL_MAP_NEAREST,
@@ -47,6 +48,7 @@ struct gn_gl_targets {
     struct gn_gl_map maps[GN_GL_MAPS_MAX];
     GLuint map_samplers[GN_GL_MAP_SAMPLER_COUNT];
     uint64_t prepares;
+    bool stand_ins;            /* maps, pages and moments are a few texels: for warm-up draws */
     bool wants_stencil;        /* some plan will need one: avoids creating the output twice */
     struct gn_gl_output pixel; /* 1 x 1, otherwise like a plan's output: target of warm-up draws */
 };

@@ -1,6 +1,7 @@
 /* Programs ahead of time: while one plan is shown, the programs of another are made, one per call.
  * Drivers compile as late as they can, at the first draw, for the state that is set then: so each
- * program draws one pixel with the state of the plan. */
+ * program draws one pixel with the state of the plan. Its maps are stand-ins of a few texels, so
+ * that a kiosk does not hold the maps of every mode; the first picture of a mode makes them. */
 #include "gl/private.h"
 
 static void swap_outputs(struct gn_gl *gl) {
@@ -9,7 +10,7 @@ static void swap_outputs(struct gn_gl *gl) {
     gl->targets.pixel = output;
 }
 
-static enum gn_gl_warmth warm_plan(struct gn_gl *gl, const struct gn_plan *plan,
+static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan,
                                    struct gn_err *err) {
     const uint64_t made = gl->programs.made;
     if (!gn_gl_prove(gl, plan)) return GN_GL_WARM_REBUILD;
@@ -36,6 +37,14 @@ static enum gn_gl_warmth warm_plan(struct gn_gl *gl, const struct gn_plan *plan,
     if (!corner) swap_outputs(gl);
     return ok && gn_gl_error_check(gl, "making programs", err) ? GN_GL_WARM_MORE
                                                                : GN_GL_WARM_FAILED;
+}
+
+static enum gn_gl_warmth warm_plan(struct gn_gl *gl, const struct gn_plan *plan,
+                                   struct gn_err *err) {
+    gl->targets.stand_ins = true;
+    const enum gn_gl_warmth warmth = warm_next(gl, plan, err);
+    gl->targets.stand_ins = false;
+    return warmth;
 }
 
 enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {

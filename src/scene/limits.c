@@ -3,26 +3,39 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/memory.h"
 #include "scene/scene.h"
 
 static const struct row {
     const char *name;
     size_t offset;
     uint64_t fallback, most;
+    uint64_t share; /* of the machine's memory, megabytes: the fallback is at most 1/share of it.
+                       0: whatever the machine */
 } ROWS[] = {
-    {"file_mb", offsetof(struct gn_scene_limits, file_mb), 512, 1 << 20},
-    {"memory_mb", offsetof(struct gn_scene_limits, memory_mb), 1024, 1 << 20},
-    {"nodes", offsetof(struct gn_scene_limits, nodes), 100000, 100000000},
-    {"instances", offsetof(struct gn_scene_limits, instances), 1000000, 100000000},
-    {"vertices", offsetof(struct gn_scene_limits, vertices), 20000000, 1 << 30},
-    {"texels", offsetof(struct gn_scene_limits, texels), 67108864, 1 << 30},
-    {"keys", offsetof(struct gn_scene_limits, keys), 4000000, 1 << 30},
-    {"json_depth", offsetof(struct gn_scene_limits, json_depth), 512, 2000},
+    {"file_mb", offsetof(struct gn_scene_limits, file_mb), 512, 1 << 20, 0},
+    {"memory_mb", offsetof(struct gn_scene_limits, memory_mb), 1024, 1 << 20, 2},
+    {"nodes", offsetof(struct gn_scene_limits, nodes), 100000, 100000000, 0},
+    {"instances", offsetof(struct gn_scene_limits, instances), 1000000, 100000000, 0},
+    {"vertices", offsetof(struct gn_scene_limits, vertices), 20000000, 1 << 30, 0},
+    {"texels", offsetof(struct gn_scene_limits, texels), 67108864, 1 << 30, 0},
+    {"keys", offsetof(struct gn_scene_limits, keys), 4000000, 1 << 30, 0},
+    {"json_depth", offsetof(struct gn_scene_limits, json_depth), 512, 2000, 0},
+    {"maps_mb", offsetof(struct gn_scene_limits, maps_mb), 384, 1 << 20, 8},
     {"triangles_per_frame", offsetof(struct gn_scene_limits, triangles_per_frame), 100000000,
-     UINT64_C(1) << 40},
+     UINT64_C(1) << 40, 0},
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof ROWS[0] };
 _Static_assert(sizeof(struct gn_scene_limits) == ROW_COUNT * sizeof(uint64_t), "a row per limit");
+
+enum { LEAST_MB = 32 }; /* what a row with a share falls back to on the smallest machine */
+
+static uint64_t fallback_of(const struct row *row) {
+    const uint64_t memory_mb = row->share ? gn_memory_total_mb() : 0;
+    if (memory_mb == 0) return row->fallback;
+    const uint64_t mb = memory_mb / row->share > LEAST_MB ? memory_mb / row->share : LEAST_MB;
+    return mb < row->fallback ? mb : row->fallback;
+}
 
 static uint64_t *limit_field(struct gn_scene_limits *limits, const struct row *row) {
     return (uint64_t *)(void *)((char *)limits + row->offset);
@@ -38,7 +51,7 @@ bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint6
         *limit_field(limits, &ROWS[i]) = value;
         return true;
     }
-    char names[160] = "";
+    char names[200] = "";
     for (size_t i = 0, at = 0; i < ROW_COUNT && at < sizeof names; i++)
         at += (size_t)snprintf(names + at, sizeof names - at, " %s", ROWS[i].name);
     return gn_fail_usage(err, "unknown limit '%s'; limits are:%s", name, names);
@@ -48,7 +61,7 @@ struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *
     struct gn_scene_limits result = limits ? *limits : (struct gn_scene_limits){0};
     for (size_t i = 0; i < ROW_COUNT; i++) {
         uint64_t *value = limit_field(&result, &ROWS[i]);
-        if (*value == 0) *value = ROWS[i].fallback;
+        if (*value == 0) *value = fallback_of(&ROWS[i]);
         if (*value > ROWS[i].most) *value = ROWS[i].most;
     }
     return result;
@@ -56,7 +69,19 @@ struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *
 
 void gn_scene_limits_list(char *out, size_t size) {
     out[0] = '\0';
-    for (size_t i = 0, at = 0; i < ROW_COUNT && at < size; i++)
+    for (size_t i = 0, at = 0; i < ROW_COUNT && at < size; i++) {
         at += (size_t)snprintf(out + at, size - at, "%s%s=%" PRIu64, i ? ", " : "", ROWS[i].name,
                                ROWS[i].fallback);
+        if (ROWS[i].share && at < size)
+            at += (size_t)snprintf(out + at, size - at, " or 1/%" PRIu64 " of the memory",
+                                   ROWS[i].share);
+    }
+}
+
+void gn_scene_limits_print(const struct gn_scene_limits *limits, char *out, size_t size) {
+    struct gn_scene_limits all = gn_scene_limits_or_default(limits);
+    out[0] = '\0';
+    for (size_t i = 0, at = 0; i < ROW_COUNT && at < size; i++)
+        at += (size_t)snprintf(out + at, size - at, "%s%s=%" PRIu64, i ? ", " : "", ROWS[i].name,
+                               *limit_field(&all, &ROWS[i]));
 }

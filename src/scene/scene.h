@@ -197,16 +197,19 @@ struct gn_scene {
     struct gn_scene_memory memory;
 };
 
-/* Limits on what a file may use; 0 = the default beside each. The names are those of --limit. */
+/* Limits on what a file may use; 0 = the default beside each, which in megabytes is less on a
+ * machine with little memory. The names are those of --limit. */
 struct gn_scene_limits {
     uint64_t file_mb;             /* 512: any one file read */
-    uint64_t memory_mb;           /* 1024: all that the scene holds */
+    uint64_t memory_mb;           /* 1024: all that the scene holds: geometry, decoded pictures
+                                     with what the GPU will have of them, the file */
     uint64_t nodes;               /* 100000 */
     uint64_t instances;           /* 1000000 */
     uint64_t vertices;            /* 20000000 */
     uint64_t texels;              /* 67108864 per picture (8192 x 8192) */
     uint64_t keys;                /* 4000000 animation keys */
     uint64_t json_depth;          /* 512 */
+    uint64_t maps_mb;             /* 384: what shadows take on the GPU in one frame */
     uint64_t triangles_per_frame; /* 100000000: of all nodes and their instances */
 };
 /* Sets a limit by name; false and a usage error that lists the names if it is unknown. */
@@ -214,7 +217,10 @@ bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint6
                          struct gn_err *err);
 /* The limits with defaults filled in; limits may be NULL. */
 struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *limits);
-/* "file_mb=512, memory_mb=1024, ..": all names with their defaults. */
+/* "file_mb=512, memory_mb=1024, ..": the limits with their defaults filled in. NULL: all defaults
+ * on this machine. */
+void gn_scene_limits_print(const struct gn_scene_limits *limits, char *out, size_t size);
+/* The same as documents have it, on any machine: all names with their defaults. */
 void gn_scene_limits_list(char *out, size_t size);
 
 /* Loads a .glb or .gltf (by content, not by name) with the files it names, which must be in its

@@ -111,7 +111,10 @@ bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *o,
         return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
                              gn_settings_label(o, render.light), o->render.light,
                              scene->light_count, scene->light_count == 1 ? "" : "s");
+    struct gn_scene_limits limits;
+    if (!gn_stage_limits(o, &limits, err)) return false;
     set_frame_opts(&look->frame_opts, o);
+    look->frame_opts.shadow.maps_bytes = gn_scene_limits_or_default(&limits).maps_mb << 20;
     int *camera = &look->frame_opts.view.camera;
     *camera = gn_scene_find_camera(scene, o->scene.camera, err);
     if (*camera >= 0) return true;

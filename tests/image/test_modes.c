@@ -77,10 +77,18 @@ static void read_picture(struct gn_show *show, uint8_t out[4 * PIXELS]) {
 
 /* ---- modes ---- */
 
+static uint64_t map_bytes(const struct gn_show *show) {
+    uint64_t bytes = 0;
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++) bytes += show->stage.gl->targets.maps[i].bytes;
+    return bytes;
+}
+
 static void one_program_a_frame_is_made_ahead_and_no_more(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--no-animation", "--turntable", "10");
     frames(show, 1);
+    const uint64_t shown_bytes = map_bytes(show);
+    assert_true(shown_bytes > 1000000);
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     unsigned busy = 0;
     while (gn_show_has_work(show)) {
@@ -94,6 +102,8 @@ static void one_program_a_frame_is_made_ahead_and_no_more(void **state) {
         assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
     }
     assert_true(busy >= 8); /* there was something to do at all */
+    /* no maps of other modes; as the camera turns, those shown get pages */
+    assert_true(map_bytes(show) <= 2 * shown_bytes);
     assert_int_equal(show->looks.ready, (1u << show->modes.count) - 1);
     gn_show_close(show);
 }

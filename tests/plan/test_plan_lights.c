@@ -32,6 +32,42 @@ static void test_many_lights_plan(void **state) {
     gn_plan_end(&f);
 }
 
+/* Whatever is asked for, and whatever the technique stores. */
+static void test_maps_are_reduced_until_they_fit_the_limit(void **state) {
+    (void)state;
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++) {
+        struct gn_plan_fixture f;
+        struct gn_light lights[13];
+        gn_plan_begin(&f, GN_EVERY_CAP);
+        add_lights(&f, lights);
+        f.opts.shadow.technique_given = true;
+        f.opts.shadow.technique = (enum gn_technique)t;
+        f.opts.shadow.map_px = 1024;
+        const uint64_t asked = gn_plan_map_bytes(gn_plan_make(&f));
+        for (uint64_t mb = 1; mb <= 64; mb *= 4) {
+            struct gn_warnings warnings = {0};
+            f.opts.shadow.maps_bytes = mb << 20;
+            const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+            assert_null(gn_plan_check(plan));
+            assert_true(gn_plan_map_bytes(plan) <= mb << 20);
+            uint32_t least = 1024, most = 0;
+            for (uint32_t i = 0; i < plan->shadow_count; i++) {
+                const uint32_t px = plan->shadows[i].map.tile_px;
+                least = px < least ? px : least;
+                most = px > most ? px : most;
+            }
+            assert_true(most <= 2 * least); /* all alike */
+            int said = 0;
+            for (int i = 0; i < warnings.count; i++)
+                said += strstr(warnings.text[i], "exceed the limit maps_mb=") != NULL;
+            assert_int_equal(said, asked > mb << 20);
+        }
+        f.opts.shadow.maps_bytes = 2 * asked; /* with pages that this eye does not need */
+        assert_int_equal(gn_plan_map_bytes(gn_plan_make(&f)), asked);
+        gn_plan_end(&f);
+    }
+}
+
 /* Six tiles, three in a row; a map of one tile fits. */
 static void test_a_map_that_is_too_large_is_made_smaller_and_said_so(void **state) {
     (void)state;
@@ -369,6 +405,7 @@ static void test_no_light_is_too_weak_for_an_exposure(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_many_lights_plan),
+        cmocka_unit_test(test_maps_are_reduced_until_they_fit_the_limit),
         cmocka_unit_test(test_constants_are_those_of_the_view),
         cmocka_unit_test(test_no_pass_overwrites_constants_of_another),
         cmocka_unit_test(test_tables_plan),

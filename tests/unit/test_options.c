@@ -365,7 +365,7 @@ static void a_default_is_printed_with_its_unit(void **state) {
                 {"shadow", " (default pcf)"},
                 {"exposure", " (in stops; default auto)"},
                 {"max-fps", " (in frames per second)"},
-                {"limit", ": file_mb=512, memory_mb=1024, "}};
+                {"limit", ": file_mb=512, memory_mb=1024 or 1/2 of the memory, "}};
     char text[500];
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

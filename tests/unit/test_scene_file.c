@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "core/file.h"
+#include "core/memory.h"
 #include "gltf_maker.h"
 #include "scene/scene.h"
 #include "unit/check.h"
@@ -381,11 +382,34 @@ static void test_limits(void **state) {
     assert_false(gn_scene_limits_set(&limits, "verts", 1, &err));
     assert_string_equal(
         err.text, "unknown limit 'verts'; limits are: file_mb memory_mb nodes instances vertices "
-                  "texels keys json_depth triangles_per_frame");
+                  "texels keys json_depth maps_mb triangles_per_frame");
     struct gn_made made = square_glb();
     assert_null(gn_scene_load_bytes("t", made.data, made.size, &limits, NULL, &err));
     assert_string_equal(err.text, "t: meshes: 6 vertices are more than the limit vertices=3");
     free(made.data);
+}
+
+/* Of a small machine a share, of a large one no more than of a middling one. */
+static void test_megabytes_fall_back_to_a_share_of_the_memory(void **state) {
+    (void)state;
+    char text[400];
+    gn_memory_pretend_mb(960);
+    struct gn_scene_limits limits = gn_scene_limits_or_default(NULL);
+    assert_int_equal(limits.maps_mb, 120);
+    assert_int_equal(limits.memory_mb, 480);
+    assert_int_equal(limits.nodes, 100000);
+    assert_true(gn_scene_limits_set(&limits, "maps_mb", 500, &err));
+    gn_scene_limits_print(&limits, text, sizeof text);
+    assert_non_null(strstr(text, "memory_mb=480,"));
+    assert_non_null(strstr(text, "maps_mb=500,"));
+    gn_memory_pretend_mb(64);
+    assert_int_equal(gn_scene_limits_or_default(NULL).maps_mb, 32);
+    gn_memory_pretend_mb(65536);
+    assert_int_equal(gn_scene_limits_or_default(NULL).maps_mb, 384);
+    assert_int_equal(gn_scene_limits_or_default(NULL).memory_mb, 1024);
+    gn_memory_pretend_mb(0); /* read it again */
+    assert_true(gn_memory_total_mb() > 0);
+    assert_int_equal(gn_memory_of_meminfo("MemTotal:  2048 kB\nMemFree: 4096 kB\n", "MemFree:"), 4);
 }
 
 int main(void) {
@@ -403,6 +427,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_uris, make_folder, remove_folder),
         cmocka_unit_test(test_memory_names_no_files),
         cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_megabytes_fall_back_to_a_share_of_the_memory),
     };
     return RUN(tests);
 }

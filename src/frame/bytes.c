@@ -1,0 +1,142 @@
+/* What shadow maps take on the GPU, and keeping that within a limit: tiles are halved until all
+ * maps of the frame fit. The largest tiles go first, whatever light they are of: the eye sees the
+ * coarse shadow beside a fine one, not the last doubling of a fine one. Of equal tiles those of the
+ * map with the most bytes go first, a point light's six before a spot's one. Neither the pose nor
+ * the camera decides, so that sizes stay while things move. */
+#include "frame/private.h"
+#include "shadow/cascade.h"
+
+enum { LEAST_PX = 16 }; /* as of --map */
+
+/* Whether shaders of two lights use the same textures between the steps of their filters. */
+static bool share_steps(const struct gn_map_need *a, const struct gn_map_need *b) {
+    return a->moments == b->moments &&
+           gn_techniques[a->technique].filter == gn_techniques[b->technique].filter &&
+           a->map.width_px == b->map.width_px && a->map.height_px == b->map.height_px;
+}
+
+static bool share_pages(const struct gn_map_need *a, const struct gn_map_need *b) {
+    return a->paged && b->paged && a->encoding == b->encoding && a->map.tile_px == b->map.tile_px;
+}
+
+static uint64_t filter_bytes(const struct gn_map_need *need, uint32_t texture) {
+    uint32_t size_px[2];
+    gn_frame_filter_size(need->technique, &need->map, texture, size_px);
+    return (uint64_t)size_px[0] * size_px[1] * gn_moments[need->moments].texel_bytes;
+}
+
+static uint64_t own_bytes(const struct gn_map_need *need) {
+    const uint64_t texels = (uint64_t)need->map.width_px * need->map.height_px;
+    const bool mipmaps = gn_moments[need->moments].linear && need->map.tile_count == 1;
+    const uint64_t filtered = need->moments ? filter_bytes(need, 0) : 0;
+    return texels * gn_encodings[need->encoding].texel_bytes + filtered +
+           (mipmaps ? filtered / 3 : 0);
+}
+
+/* The textures that the filter has beside the light's own one. */
+static uint64_t step_bytes(const struct gn_map_need *need) {
+    const struct gn_filter_row *filter = &gn_filters[gn_techniques[need->technique].filter];
+    uint32_t seen = 1; /* bits of textures */
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; need->moments && i < filter->count; i++) {
+        const uint32_t to = filter->stages[i].to;
+        if (!(seen >> to & 1)) bytes += filter_bytes(need, to);
+        seen |= 1u << to;
+    }
+    return bytes;
+}
+
+uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count) {
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct gn_map_need *need = &needs[i];
+        const uint64_t tile_px = need->map.tile_px;
+        uint64_t steps = step_bytes(need);
+        uint64_t pages =
+            need->paged ? tile_px * tile_px * gn_encodings[need->encoding].texel_bytes : 0;
+        for (uint32_t k = 0; k < i; k++) {
+            if (share_steps(&needs[k], need)) steps = 0;
+            if (share_pages(&needs[k], need)) pages = 0;
+        }
+        bytes += own_bytes(need) + steps + pages;
+    }
+    return bytes;
+}
+
+uint64_t gn_plan_map_bytes(const struct gn_plan *plan) {
+    struct gn_map_need needs[GN_ALL_SHADOWS_MAX];
+    for (uint32_t i = 0; i < plan->shadow_count; i++) {
+        const struct gn_shadow_view *view = &plan->shadows[i];
+        needs[i] = (struct gn_map_need){.technique = view->technique,
+                                        .encoding = view->encoding,
+                                        .moments = view->moments,
+                                        .map = view->map,
+                                        .paged = (view->map.cascade_count > 0 && !view->empty) ||
+                                                 view->raster.drawn.paged};
+    }
+    return gn_map_needs_bytes(needs, plan->shadow_count);
+}
+
+/* ---- the limit ---- */
+
+static void set_size(enum gn_light_type type, const struct gn_shadow_opts *opts,
+                     struct gn_map_need *need) {
+    uint32_t size_px[2];
+    const bool cascades = opts->cascades > 1;
+    if (cascades)
+        gn_cascade_map_size(opts->cascades, opts->map_px, size_px);
+    else
+        gn_shadow_map_size(type, opts->technique, opts->map_px, size_px);
+    need->map = (struct gn_shadow_map){.tile_px = opts->map_px,
+                                       .width_px = size_px[0],
+                                       .height_px = size_px[1],
+                                       .tile_count =
+                                           cascades ? (opts->cascades > 2 ? 4 : 2)
+                                                    : gn_shadow_tile_count(type, opts->technique)};
+}
+
+/* The map whose tiles are halved next; count: none can be. */
+static uint32_t find_largest(const struct gn_map_need *needs, uint32_t count) {
+    uint32_t found = count;
+    for (uint32_t i = 0; i < count; i++) {
+        if (needs[i].map.tile_px < 2 * LEAST_PX) continue;
+        if (found == count || needs[i].map.tile_px > needs[found].map.tile_px ||
+            (needs[i].map.tile_px == needs[found].map.tile_px &&
+             own_bytes(&needs[i]) >= own_bytes(&needs[found])))
+            found = i;
+    }
+    return found;
+}
+
+void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn_shadow_opts *maps,
+                          struct gn_warnings *warnings) {
+    struct gn_map_need needs[GN_ALL_SHADOWS_MAX];
+    uint32_t asked_px = 0, least_px = UINT32_MAX;
+    if (most_bytes == 0) return;
+    for (uint32_t i = 0; i < frame->shadow_count; i++) {
+        const enum gn_light_type type =
+            frame->scene->lights[gn_frame_light_of_slot(frame, i)->light].type;
+        needs[i] = (struct gn_map_need){.technique = maps[i].technique,
+                                        .encoding = maps[i].encoding,
+                                        .moments = maps[i].moments,
+                                        /* counted whether this eye needs them or not */
+                                        .paged = !gn_light_types[type].has_position &&
+                                                 !gn_techniques[maps[i].technique].on_plane};
+        set_size(type, &maps[i], &needs[i]);
+    }
+    while (gn_map_needs_bytes(needs, frame->shadow_count) > most_bytes) {
+        const uint32_t slot = find_largest(needs, frame->shadow_count);
+        if (slot == frame->shadow_count) break;
+        const struct gn_light *light =
+            &frame->scene->lights[gn_frame_light_of_slot(frame, slot)->light];
+        if (maps[slot].map_px > asked_px) asked_px = maps[slot].map_px;
+        maps[slot].map_px /= 2;
+        if (maps[slot].map_px < least_px) least_px = maps[slot].map_px;
+        set_size(light->type, &maps[slot], &needs[slot]);
+    }
+    if (asked_px > 0 && gn_frame_notice(&frame->notes.said, GN_NOTICE_MAPS_MB, warnings))
+        gn_warn(warnings,
+                "shadow maps exceed the limit maps_mb=%llu: tiles of up to %u px are reduced, the "
+                "smallest to %u px",
+                (unsigned long long)(most_bytes >> 20), asked_px, least_px);
+}
