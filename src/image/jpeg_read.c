@@ -1,6 +1,34 @@
 #include "image/read.h"
 
+#include <string.h>
 #include <turbojpeg.h>
+
+/* ---- scans ---- */
+
+/* A scan may be a few bytes, and costs a step for each coefficient of the picture. Usual files have
+ * about ten. */
+enum { MOST_SCANS = 64 };
+
+/* The number of start-of-scan markers before the end of the picture (ITU-T T.81, annex B). */
+static size_t count_scans(const uint8_t *data, size_t size) {
+    enum { STUFFED = 0x00, RST0 = 0xd0, RST7 = 0xd7, SOI = 0xd8, EOI = 0xd9, SOS = 0xda };
+    size_t scans = 0;
+    for (size_t at = 0; at + 1 < size;) {
+        const uint8_t *mark = memchr(data + at, 0xff, size - at - 1);
+        if (!mark) break;
+        at = (size_t)(mark - data) + 1;
+        const uint8_t type = data[at];
+        if (type == EOI) break;
+        if (type == 0xff) continue; /* a fill byte */
+        at++;
+        if (type == STUFFED || (type >= RST0 && type <= SOI)) continue;
+        scans += type == SOS;
+        if (size - at >= 2) at += (size_t)(data[at] << 8 | data[at + 1]);
+    }
+    return scans;
+}
+
+/* ---- pictures ---- */
 
 static bool read_header(tjhandle handle, const uint8_t *data, size_t size, int px[2], int *space,
                         struct gn_err *err) {
@@ -17,6 +45,10 @@ bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_er
     bool done = handle ? read_header(handle, data, size, read, &space, err)
                        : gn_fail(err, "JPEG: %s", tjGetErrorStr2(NULL));
     if (done && (read[0] <= 0 || read[1] <= 0)) done = gn_fail(err, "JPEG: width or height is 0");
+    const size_t scans = done ? count_scans(data, size) : 0;
+    if (scans > MOST_SCANS)
+        done = gn_fail(err, "JPEG: %zu scans, at most %d are read: save it again, not progressive",
+                       scans, MOST_SCANS);
     px[0] = (uint32_t)read[0];
     px[1] = (uint32_t)read[1];
     if (handle) tjDestroy(handle);
@@ -30,9 +62,9 @@ static bool decode_jpeg(tjhandle handle, const uint8_t *data, size_t size, const
     if ((uint32_t)read[0] != px[0] || (uint32_t)read[1] != px[1])
         return gn_fail(err, "JPEG: size differs from its header");
     bool inks = space == TJCS_CMYK || space == TJCS_YCCK;
-    int failed =
-        tjDecompress2(handle, data, (unsigned long)size, rgba, read[0], 0, read[1],
-                      inks ? TJPF_CMYK : TJPF_RGBA, TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT);
+    int failed = tjDecompress2(handle, data, (unsigned long)size, rgba, read[0], 0, read[1],
+                               inks ? TJPF_CMYK : TJPF_RGBA,
+                               TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING | TJFLAG_ACCURATEDCT);
     if (failed != 0 && tjGetErrorCode(handle) != TJERR_WARNING)
         return gn_fail(err, "JPEG: %s", tjGetErrorStr2(handle));
     if (failed != 0) return gn_fail(err, "JPEG: damaged: %s", tjGetErrorStr2(handle));

@@ -53,7 +53,7 @@ static bool read_jpeg(const struct gn_bytes *picture, struct pixels *out) {
         *out = (struct pixels){.width_px = (uint32_t)width, .height_px = (uint32_t)height};
         out->rgba = gn_import_alloc(4 * (size_t)width * (size_t)height);
         ok = tjDecompress2(jpeg, picture->data, picture->size, out->rgba, width, 0, height,
-                           TJPF_RGBA, 0) == 0;
+                           TJPF_RGBA, TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING) == 0;
     }
     if (jpeg) tjDestroy(jpeg);
     return ok;
