@@ -130,7 +130,8 @@ COMPILE  = $(CC) $(ALL_CFLAGS) $(if $(WERROR),-Werror) -MMD -MP
 
 # ---- what there is to build ----------------------------------------------------------------
 # x.c needs the package x and x_none.c stands in for it: the list of such pairs
-OPTIONAL := src/display/osmesa:osmesa src/display/window/window:glfw3 src/caption/font_file:freetype2
+OPTIONAL := src/display/osmesa:osmesa src/display/window/window:glfw3 src/caption/font_file:freetype2 \
+            src/core/syscall_filter:libseccomp
 without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(subst :, ,$(p))) \
              2> /dev/null && echo y),$(firstword $(subst :, ,$(p)))_none.c,\
              $(firstword $(subst :, ,$(p))).c))
@@ -138,6 +139,8 @@ without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(sub
 GPIOD   := $(firstword $(subst ., ,$(shell $(PKG) --modversion libgpiod 2> /dev/null)))
 GPIO_C  := $(if $(filter 1 2,$(GPIOD)),gpiod$(GPIOD).c,gpio_none.c)
 GPIO_LIBS := $(if $(filter 1 2,$(GPIOD)),$(shell $(PKG) --libs libgpiod))
+# gnomon-import alone filters its system calls, and a test
+SECCOMP_LIBS := $(shell $(PKG) --libs libseccomp 2> /dev/null)
 unused  := $(without) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
 SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
 TESTS_C := $(sort $(filter-out tests/board/% tests/gpus/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
@@ -167,7 +170,7 @@ $(BIN): $(call OBJ,src/main.c) $(KEEP) $(LIB)
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(GPIO_LIBS) $(LIBS)
 $(B)/gnomon-import: $(call OBJ,$(IMPORT_C)) $(LIB)
 	@echo "link $@"
-	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(shell $(PKG) --libs assimp) $(LIBS)
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(shell $(PKG) --libs assimp) $(SECCOMP_LIBS) $(LIBS)
 no-import:
 	@echo 'no gnomon-import, so no OBJ, FBX, STL, PLY, DAE: it needs libassimp-dev (make deps)'
 $(LIB): $(call OBJ,$(SRC)) $(B)/obj/gen/embedded.o
@@ -183,7 +186,7 @@ $(B)/obj/gen/embedded.o: $(B)/gen/embedded.c $(B)/flags
 define program
 $(B)/tests/$(basename $(notdir $(1))): $(call OBJ,$(1)) $(KEEP) $(TESTLIB) $(LIB)
 	@mkdir -p $$(@D) && echo "link $$@"
-	$(Q)$$(CC) $$(ALL_CFLAGS) $$(ALL_LDFLAGS) -o $$@ $$^ -lcmocka $$(GPIO_LIBS) $$(LIBS)
+	$(Q)$$(CC) $$(ALL_CFLAGS) $$(ALL_LDFLAGS) -o $$@ $$^ -lcmocka $$(GPIO_LIBS) $$(SECCOMP_LIBS) $$(LIBS)
 endef
 $(foreach c,$(PROG_C),$(eval $(call program,$(c))))
 
@@ -215,7 +218,7 @@ define keep
 @mkdir -p $(@D) && printf '%b\n' '$(1)' | cmp -s - $@ || printf '%b\n' '$(1)' > $@
 endef
 $(B)/flags: FORCE
-	$(call keep,$(shell $(CC) --version | head -n 1) $(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $(GPIO_LIBS) $(LIBS))
+	$(call keep,$(shell $(CC) --version | head -n 1) $(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $(GPIO_LIBS) $(SECCOMP_LIBS) $(LIBS))
 $(B)/sources: FORCE
 	$(call keep,$(SRC) $(IMPORT_C) $(TESTS_C) $(EMBED))
 $(B)/gen/config.h: FORCE

@@ -54,16 +54,37 @@ expect 0 '' "$gnomon" inspect --json "$model"
 expect 0 '' "$import" --up z "$model" -o "$folder/b.glb"
 "$gnomon" inspect "$folder/b.glb" | grep -q 'size  *1 x 0 x 2 m' || complain '--up z'
 
-# ---- limits: the fan costs time by the square of its triangles ----
+# ---- limits ----
 
-awk 'BEGIN { n = 150000; print "v 0 0 0"; for (i = 0; i < n; i++) printf "v %d 1 0\n", i
-             for (i = 2; i < n; i++) printf "f 1 %d %d\n", i, i + 1 }' > "$folder/m/fan.obj"
-expect 1 'fan.obj: not read within 1 s; raise the limit with gnomon-import --time' "$import" --time 1 "$folder/m/fan.obj" -o "$folder/f.glb"
+fan() { # N: as many triangles round a point
+    awk -v n="$1" 'BEGIN { print "v 0 0 0"; for (i = 0; i < n; i++) printf "v %d 1 0\n", i
+                           for (i = 2; i < n; i++) printf "f 1 %d %d\n", i, i + 1 }'
+}
+fan 150000 > "$folder/m/fan.obj"
+fan 1000000 > "$folder/m/large.obj"
+expect 1 'large.obj: not read within 1 s; raise the limit with gnomon-import --time' "$import" --time 1 "$folder/m/large.obj" -o "$folder/f.glb"
+rm "$folder/m/large.obj"
 expect 1 'fan.obj: needs more than 80 MB of memory' "$import" --memory 80 "$folder/m/fan.obj" -o "$folder/f.glb"
 expect 1 'needs more than 80 MB of memory' "$gnomon" inspect --limit memory_mb=40 "$folder/m/fan.obj"
 expect 0 '' "$gnomon" inspect --limit file_mb=1048576 --limit memory_mb=1048576 "$model"
 expect 1 'fan.obj: larger than the limit' "$import" --file 1 "$folder/m/fan.obj" -o "$folder/f.glb"
 [ ! -e "$folder/f.glb" ] || complain 'a failure left a file'
+
+# ---- rights: the process that reads the model has none (tests/unit/test_sandbox.c tries them) ----
+
+filters=0
+! ldd "$import" | grep -q libseccomp || filters=2
+wanted="CapPrm: 0000000000000000 CapEff: 0000000000000000 NoNewPrivs: 1 Seccomp: $filters "
+rights=''
+"$import" "$folder/m/fan.obj" -o "$folder/f.glb" 2> "$folder/err" &
+while [ "$rights" != "$wanted" ] && kill -0 $! 2> /dev/null; do
+    for child in $(cat /proc/$!/task/$!/children 2> /dev/null); do
+        rights=$(awk '/^(CapEff|CapPrm|NoNewPrivs|Seccomp):/ { printf "%s %s ", $1, $2 }' "/proc/$child/status" 2> /dev/null)
+    done
+done
+kill $! 2> /dev/null
+wait $! 2> /dev/null
+[ "$rights" = "$wanted" ] || complain "the rights of the process that reads the model: $rights"
 
 # ---- an importer that misbehaves, beside a copy of gnomon ----
 

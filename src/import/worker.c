@@ -1,10 +1,12 @@
-/* The child that reads a model: sets its resource limits and converts. It frees nothing; its memory
- * goes with the process. */
+/* The child that reads a model: sets its resource limits, gives up its rights and converts. It
+ * frees nothing; its memory goes with the process. */
 #include <signal.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
+#include "core/sandbox.h"
 #include "import/private.h"
 
 /* Sanitizers reserve more address space than any limit. */
@@ -24,6 +26,16 @@ static void limit_resource(int what, rlim_t most) {
     setrlimit(what, &limit);
 }
 
+/* The folder as folder.c finds it. */
+static bool enter_sandbox(const struct gn_import_opts *opts, int fd, struct gn_err *err) {
+    char folder[PATH_MAX] = "./";
+    const char *slash = strrchr(opts->model, '/');
+    if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - opts->model + 1), opts->model);
+    const struct gn_sandbox sandbox = {.folder = folder, .file = opts->model, .output = fd};
+    return gn_sandbox_enter(&sandbox, err) >= 0 ||
+           gn_fail_prefix(err, "%s: the importer", opts->model);
+}
+
 void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_report *report) {
     static struct gn_import import;
     gn_import_memory_begin(opts, report);
@@ -37,6 +49,7 @@ void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_
     signal(SIGXFSZ, SIG_IGN);
     setenv("LIBC_FATAL_STDERR_", "1", 1); /* otherwise glibc writes to the terminal */
 
+    if (!enter_sandbox(opts, fd, &report->err)) return;
     import = (struct gn_import){.opts = opts,
                                 .format = gn_model_format_of(opts->model),
                                 .warnings = &report->warnings,
