@@ -1,9 +1,12 @@
 /* gnomon show --check FILE: reads the configuration as show does and checks what it names: loads
- * the scenes, looks for cameras and clips in them. Then prints what a kiosk would make of it. */
+ * the scenes, looks for cameras and clips in them; fonts, the socket, devices. Then prints what a
+ * kiosk would make of it. */
 #include <stdio.h>
 #include <string.h>
 
+#include "caption/font.h"
 #include "cli/commands.h"
+#include "kiosk/control/listen.h"
 #include "options/args.h"
 #include "options/binding.h"
 #include "options/value.h"
@@ -65,6 +68,41 @@ static bool check_looks(struct check *c, const struct gn_settings *settings, str
             return true;
         }
     return false;
+}
+
+/* ---- what else the settings name ------------------------------------------------------------ */
+
+/* As "HDMI-A-1": the kernel's names end with a number. */
+static bool check_connector(const struct gn_settings *s, struct gn_err *err) {
+    const char *name = s->display.connector, *dash = name ? strrchr(name, '-') : NULL;
+    if (!name || (dash && dash > name && dash[1] && !dash[1 + strspn(dash + 1, "0123456789")]))
+        return true;
+    return gn_fail_usage(err,
+                         "%s: \"%s\" is not a connector such as HDMI-A-1; gnomon doctor lists them",
+                         gn_settings_label(s, display.connector), name);
+}
+
+/* Cards are named by path, or by their place on the bus; a card that is away may come back. */
+static bool check_device(const char *name, const char *label, struct gn_err *err) {
+    const bool is_number =
+        name && (strncmp(name, "card", 4) == 0 || strncmp(name, "renderD", 7) == 0);
+    if (!name || (!is_number && name[0] && !strpbrk(name, " \t"))) return true;
+    return gn_fail_usage(err,
+                         "%s: \"%s\" is not a device such as platform-gpu or a path of "
+                         "/dev/dri/by-path; gnomon doctor lists them",
+                         label, name);
+}
+
+static bool check_names(const struct gn_settings *s, struct gn_err *err) {
+    struct gn_font *font = s->render.font ? gn_font_open_file(s->render.font, err) : NULL;
+    gn_font_close(font);
+    if (s->render.font && !font)
+        return gn_fail_prefix(err, "%s", gn_settings_label(s, render.font));
+    if (s->kiosk.socket && !gn_listen_check(s->kiosk.socket, err))
+        return gn_fail_prefix(err, "%s", gn_settings_label(s, kiosk.socket));
+    return check_connector(s, err) &&
+           check_device(s->display.card, gn_settings_label(s, display.card), err) &&
+           check_device(s->display.render_node, gn_settings_label(s, display.render_node), err);
 }
 
 /* ---- what a kiosk makes of it
@@ -142,8 +180,9 @@ bool gn_cli_check(const struct gn_options *options, struct gn_warnings *warnings
     bool ok = gn_args_parse(&again, options->argc, options->argv, NULL, err);
     if (ok) gn_options_run_as(&again, GN_COMMAND_RENDER); /* a missing camera or clip is an error */
     ok = ok && gn_stage_limits(again.settings, &c.limits, err) &&
-         check_looks(&c, again.settings, err);
-    for (int i = 0; ok && i < again.mode_count; i++) ok = check_looks(&c, &again.all[1 + i], err);
+         check_names(again.settings, err) && check_looks(&c, again.settings, err);
+    for (int i = 0; ok && i < again.mode_count; i++)
+        ok = check_names(&again.all[1 + i], err) && check_looks(&c, &again.all[1 + i], err);
     if (ok) print_check(&c, options);
     for (int i = 0; i < c.scene_count; i++) gn_scene_destroy(c.scenes[i]);
     gn_options_finish(&again);

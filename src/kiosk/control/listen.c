@@ -18,6 +18,36 @@
 #define SYSTEM_FOLDER "/run/gnomon"
 enum { GROUPS_MAX = 1024, BACKLOG = 64 };
 
+/* ---- paths that cannot be ------------------------------------------------------------------- */
+
+static bool check_length(const char *path, struct gn_err *err) {
+    return strlen(path) < GN_LISTEN_PATH_MAX ||
+           gn_fail(err, "control socket %.200s: longer than %d bytes", path,
+                   GN_LISTEN_PATH_MAX - 1);
+}
+
+static bool fail_kind(const char *path, struct gn_err *err) {
+    return gn_fail(err, "control socket %s: path exists and is not a socket; not replacing it",
+                   path);
+}
+
+bool gn_listen_check(const char *path, struct gn_err *err) {
+    char folder[GN_LISTEN_PATH_MAX];
+    struct stat info;
+    if (!check_length(path, err)) return false;
+    if (lstat(path, &info) == 0) return S_ISSOCK(info.st_mode) || fail_kind(path, err);
+    snprintf(folder, sizeof folder, "%s", path);
+    for (int level = 0; level < 2; level++) { /* the last folder is made */
+        char *slash = strrchr(folder, '/');
+        if (!slash || slash == folder) return true;
+        *slash = '\0';
+        if (stat(folder, &info) != 0) continue;
+        return S_ISDIR(info.st_mode) ||
+               gn_fail(err, "control socket %s: %s is not a folder", path, folder);
+    }
+    return gn_fail(err, "control socket %s: there is no folder %s", path, folder);
+}
+
 /* ---- where ---------------------------------------------------------------------------------- */
 
 static bool user_path(char *path, size_t size) {
@@ -86,9 +116,7 @@ static bool remove_stale_socket(const struct gn_listen *l, struct gn_err *err) {
     const struct sockaddr_un address = address_of(l);
     struct stat info;
     if (lstat(l->path, &info) != 0) return errno == ENOENT || fail_errno(l, "cannot stat it", err);
-    if (!S_ISSOCK(info.st_mode))
-        return gn_fail(err, "control socket %s: path exists and is not a socket; not replacing it",
-                       l->path);
+    if (!S_ISSOCK(info.st_mode)) return fail_kind(l->path, err);
     const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     const bool refused = fd >= 0 &&
                          connect(fd, (const struct sockaddr *)&address, sizeof address) != 0 &&
@@ -124,9 +152,7 @@ static bool bind_socket(struct gn_listen *l, struct gn_err *err) {
 bool gn_listen_open(struct gn_listen *l, const char *path, struct gn_err *err) {
     char folder[GN_LISTEN_PATH_MAX];
     *l = (struct gn_listen){.fd = -1, .lock = -1};
-    if (strlen(path) + 1 > sizeof l->path)
-        return gn_fail(err, "control socket %.200s: longer than %zu bytes", path,
-                       sizeof l->path - 1);
+    if (!check_length(path, err)) return false;
     snprintf(l->path, sizeof l->path, "%s", path);
     snprintf(folder, sizeof folder, "%s", path);
     char *slash = strrchr(folder, '/');

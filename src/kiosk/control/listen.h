@@ -29,6 +29,8 @@ bool gn_listen_candidate(int index, char *path, size_t size);
  * is replaced; fails if a process listens on it or the path is not a socket. Makes the last folder
  * of the path, with mode 0700, if only that is missing. */
 bool gn_listen_open(struct gn_listen *listen, const char *path, struct gn_err *err);
+/* Could gn_listen_open() make it, as far as names tell? Opens and makes nothing. */
+bool gn_listen_check(const char *path, struct gn_err *err);
 /* Removes both files, if they are still ours. */
 void gn_listen_close(struct gn_listen *listen);
 
