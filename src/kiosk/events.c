@@ -10,6 +10,14 @@ void gn_show_report_problem(struct gn_show *s, const char *text) {
     fprintf(stderr, "gnomon: warning: %s\n", text);
 }
 
+void gn_show_report_error(struct gn_show *s, const char *text) {
+    gn_show_report_problem(s, text);
+    if (s->config.options->config_error) return; /* the first one is likely the cause */
+    snprintf(s->config.error, sizeof s->config.error, "%s", text);
+    s->config.options->config_error = s->config.error;
+    s->changed = true;
+}
+
 void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time_ns) {
     const struct gn_kiosk_event event = {.kind = GN_KIOSK_ACTION,
                                          .time_ns = time_ns,

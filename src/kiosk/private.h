@@ -24,7 +24,7 @@ struct gn_show_config {
     struct gn_options *options;  /* owned: a reload makes others */
     struct gn_changes *changes;  /* by `ctl set`; NULL: none yet */
     struct gn_show_place *place; /* NULL: the options say where */
-    char error[512];             /* of the last reload; options->config_error */
+    char error[512];             /* of start or the last reload; options->config_error */
 };
 /* The screen's context, and what frames are drawn with in it. */
 struct gn_show_context {
@@ -189,6 +189,9 @@ struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn
 void gn_show_drop_options(struct gn_options *options);
 bool gn_show_load(struct gn_stage *stage, struct gn_options *options, struct gn_warnings *warnings,
                   struct gn_err *err);
+/* The first load: the built-in scene stands in for one that cannot be loaded, with the reason on
+ * the screen. Not in a window, whose user reads it in the terminal. */
+bool gn_show_load_first(struct gn_show *show, struct gn_err *err);
 /* After the options and the stage are loaded: lists modes and scenes, enters the first. */
 bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 
@@ -197,6 +200,8 @@ bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
 /* A problem that does not end the kiosk: printed once, and shown by a caption. */
 void gn_show_report_problem(struct gn_show *show, const char *text);
+/* One that lasts: the caption stays until a reload, and the status has it as config.error. */
+void gn_show_report_error(struct gn_show *show, const char *text);
 
 /* ---- modes.c: the list of modes, and one of them entered ------------------------------------- */
 

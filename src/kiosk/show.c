@@ -113,13 +113,16 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
         !gn_service_open(&s->service, s->loop, gn_loop_now_ns(s->loop), err))
         return false;
     s->config.options = gn_show_read_options(options, NULL, err);
-    if (!s->config.options || !gn_show_load(&s->stage, s->config.options, s->warnings, err))
-        return false;
+    if (!s->config.options || !gn_show_load_first(s, err)) return false;
     gn_show_open_captions(s);
     s->counts.most_frames =
         s->stage.settings->run.frames > 0 ? (uint64_t)s->stage.settings->run.frames : UINT64_MAX;
-    if (!gn_show_begin(s, err) || !gn_show_open_display(s, err) || !gn_show_open_input(s, err))
-        return false;
+    if (!gn_show_begin(s, err) || !gn_show_open_display(s, err)) return false;
+    if (!gn_show_open_input(s, err)) { /* a script is of the command line */
+        if (s->stage.settings->run.input_script) return false;
+        gn_show_report_error(s, err->text);
+        *err = (struct gn_err){0};
+    }
     gn_show_stats_open(&s->stats, s->stage.settings, &s->stage.display, s->loop);
     gn_show_open_control(s);
     return true;

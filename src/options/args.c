@@ -186,8 +186,7 @@ static bool check_flags(const struct args *args, struct gn_err *err) {
 
 /* ---- the INI file, the flags, the mode ----------------------------------------------------- */
 
-/* A kiosk with a bad file runs on with its defaults and prints a warning; only a file that was
- * named and does not exist stops it. */
+/* A kiosk whose file is bad, or cannot be read, runs with its defaults and shows the reason. */
 static bool read_config(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_options *options = args->options;
     char found[PATH_MAX];
@@ -200,7 +199,8 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     struct gn_err why = {0};
     if (gn_config_load(options, named ? named->text : found, &why)) return true;
     const bool is_show = command == GN_COMMAND_SHOW && !check;
-    if ((!is_show && command != GN_COMMAND_CTL) || (named && why.status != GN_EXIT_USAGE)) {
+    const bool is_ctl = command == GN_COMMAND_CTL && !(named && why.status != GN_EXIT_USAGE);
+    if (!is_show && !is_ctl) {
         *err = why;
         return false;
     }

@@ -135,5 +135,59 @@ while IFS= read -r line; do
     [ -z "${GN_FULL:-}" ] && [ $((number % 6)) != 1 ] || runs $number
 done < good.ini
 
+# ---- a start that is never black: a picture, status 0, and the reason on the screen and in the status
+
+mkdir folder.ini && mkfifo fifo.ini && head -c 1100000 /dev/zero > long.ini
+printf '[scene]\nfile = none.glb\ncamera = Top\n' > scene.ini
+printf '[kiosk]\nsocket = folder.ini\n' > socket.ini
+printf '{"asset": {}}' > bad.gltf
+
+# starts TEXT ARGUMENT..
+starts() {
+    local text=$1
+    shift
+    timeout 60 "$gnomon" show --backend egl --size 32x18 --frames 2 "$@" > out 2> err
+    local got=$?
+    [ "$got" = 0 ] && grep -qF "warning: $text" err || complain "show $*: status $got, $(cat err)"
+}
+starts 'folder.ini: is a folder, not a file (running' -c folder.ini
+starts 'fifo.ini: is a FIFO, not a file (running' -c fifo.ini
+starts 'long.ini: larger than the limit' -c long.ini
+starts 'none.ini: cannot open: No such file or directory (running' -c none.ini
+starts 'scene.ini:2: file: none.glb: cannot open: No such file or directory (showing the default' -c scene.ini
+starts 'bad.gltf: asset.version: missing' bad.gltf
+starts 'none.glb: cannot open' none.glb sundial.glb --camera nosuch
+starts 'control socket folder.ini: path exists and is not a socket' -c socket.ini
+timeout 60 "$gnomon" show --backend egl --frames 2 --camera nosuch sundial.glb > out 2> err
+[ $? = 2 ] || complain "a wrong command line does not end the kiosk: $(cat err)"
+
+for file in scene.ini folder.ini; do
+    timeout 60 "$gnomon" show --backend egl --size 32x18 -c $file --socket ctl-$file 2> /dev/null &
+    for _ in $(seq 100); do [ -S ctl-$file ] || sleep .1; done
+    "$gnomon" ctl --socket ctl-$file status > out 2> err || complain "$file: status: $(cat err)"
+    grep -q "^config.error: $file:* *[2i]" out && grep -q '^scene: (default scene)' out || complain "$file: status: $(cat out)"
+    "$gnomon" ctl --socket ctl-$file quit > /dev/null
+    wait $! || complain "$file: status $? at the end"
+done
+
+# ---- what --check looks at
+
+# checked TEXT LINE..: an INI file of those lines is refused
+checked() {
+    local text=$1
+    shift
+    printf '%s\n' "$@" > bad.ini
+    timeout 60 "$gnomon" show --check bad.ini > out 2> err && complain "--check passes $*"
+    grep -qF "gnomon: bad.ini:2: $text" err || complain "--check $*: $(cat err)"
+}
+checked 'file: none.glb: cannot open' '[scene]' 'file = none.glb'
+checked 'font: none.ttf: cannot open' '[render]' 'font = none.ttf'
+checked 'font: good.ini: not a scalable' '[mode "A"]' 'font = good.ini'
+checked 'socket: control socket folder.ini: path exists' '[kiosk]' 'socket = folder.ini'
+checked 'socket: control socket good.ini/ctl: good.ini is not a folder' '[kiosk]' 'socket = good.ini/ctl'
+checked 'socket: control socket none/none/ctl: there is no folder none' '[kiosk]' 'socket = none/none/ctl'
+checked 'connector: "HDMI" is not a connector' '[display]' 'connector = HDMI'
+checked 'card: "card1" is not a device' '[display]' 'card = card1'
+
 echo "$lines lines, $cases ways to break them, $kiosks kiosks that ran on"
 exit $bad

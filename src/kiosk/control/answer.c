@@ -61,7 +61,10 @@ void gn_show_open_control(struct gn_show *s) {
         }
         gn_fail(&err, "control socket %s: cannot wait: %s", named ? named : path, strerror(errno));
     }
-    gn_warn(s->warnings, "%s", err.text);
+    if (named)
+        gn_show_report_error(s, err.text);
+    else
+        gn_show_report_problem(s, err.text);
     close_all(s, c);
 }
 
