@@ -14,6 +14,7 @@
 #include "core/clock.h"
 #include "core/file.h"
 #include "core/json.h"
+#include "core/text.h"
 #include "kiosk/control/listen.h"
 #include "kiosk/control/request.h"
 #include "kiosk/screenshot.h"
@@ -238,7 +239,7 @@ static bool save_memory(struct talk *t, const char *path, struct gn_err *err) {
 
 static void print_value(const json_t *value) {
     if (json_is_string(value))
-        fputs(json_string_value(value), stdout);
+        gn_text_print(json_string_value(value), stdout);
     else if (json_is_integer(value))
         printf("%lld", (long long)json_integer_value(value));
     else if (json_is_real(value))
@@ -261,7 +262,8 @@ static int print_object(const char *prefix, json_t *object) {
             print_object(name, value);
             continue;
         }
-        printf("%s: ", name);
+        gn_text_print(name, stdout);
+        fputs(": ", stdout);
         if (!json_is_array(value)) print_value(value);
         for (size_t i = 0; i < json_array_size(value); i++) {
             if (i) fputs(", ", stdout);

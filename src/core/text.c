@@ -51,6 +51,21 @@ void gn_text_clean(char *text) {
     *to = '\0';
 }
 
+void gn_text_print(const char *text, FILE *to) {
+    for (const unsigned char *c = (const unsigned char *)text; *c;) {
+        const size_t length = control_length(c);
+        if (length == 0)
+            putc(*c, to);
+        else if (length == 1)
+            fprintf(to, "\\u%04x", *c);
+        else if (length == 2)
+            fprintf(to, "\\u%04x", (c[0] & 0x1fu) << 6 | (c[1] & 0x3fu));
+        else
+            fprintf(to, "\\u%04x", (c[0] & 0xfu) << 12 | (c[1] & 0x3fu) << 6 | (c[2] & 0x3fu));
+        c += length > 0 ? length : 1;
+    }
+}
+
 void gn_text_vformat(char *out, size_t size, const char *format, va_list args) {
     va_list again;
     va_copy(again, args);

@@ -193,6 +193,13 @@ expect 0 'file' screenshot turned.png
 "$compare" turned.png two.png > out || complain "a screenshot of a turned screen is not upright: $(cat out)"
 stop
 
+# ---- a name with control characters does not reach the terminal as such -----------------------------
+evil=$(printf 'a\033[31m\302\233b.glb')
+cp sundial.glb "$evil"
+start "$evil"
+expect 0 'a\u001b[31m\u009bb.glb' status
+stop
+
 # ---- nothing moves, nobody asks, no caption ends: what was asked for is shown all the same ---------
 printf '%s\n' '[scene]' 'file = sundial.glb' 'no_animation = yes' '[kiosk]' 'captions = no' \
     '[mode "Plain"]' 'shadow = none' '[mode "Soft"]' 'shadow = pcss' > kiosk.ini

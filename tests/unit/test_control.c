@@ -263,29 +263,78 @@ static void more_changes_than_a_frame_can_take_are_busy(void **state) {
 
 static void the_65th_client_is_told_so(void **state) {
     (void)state;
+    /* of the kiosk's user; root has some of its own */
+    const int places = GN_CONTROL_CLIENTS_MAX - (geteuid() ? GN_CONTROL_KEPT : 0);
     int fds[GN_CONTROL_CLIENTS_MAX + 1];
-    for (int i = 0; i < GN_CONTROL_CLIENTS_MAX; i++) {
+    for (int i = 0; i < places; i++) {
         fds[i] = enter_client();
         serve();
     }
-    const int last = fds[GN_CONTROL_CLIENTS_MAX] = enter_client();
+    const int last = fds[places] = enter_client();
     serve();
     assert_string_equal(heard(last), "{\"ok\":false,\"error\":\"busy\",\"status\":1}\n");
     assert_true(is_closed(last));
-    for (int i = 0; i < GN_CONTROL_CLIENTS_MAX; i++) say(fds[i], "{\"cmd\":\"status\"}\n");
-    assert_int_equal(serve(), GN_CONTROL_CLIENTS_MAX);
+    for (int i = 0; i < places; i++) say(fds[i], "{\"cmd\":\"status\"}\n");
+    assert_int_equal(serve(), places);
     close(last);
     /* the one that has been silent for longest makes room */
     gn_ctl_test.now_ns += 31 * GN_NS_PER_S;
-    for (int i = 1; i < GN_CONTROL_CLIENTS_MAX; i++) say(fds[i], "{\"cmd\":\"status\"}\n");
+    for (int i = 1; i < places; i++) say(fds[i], "{\"cmd\":\"status\"}\n");
     serve();
     const int late = enter_client();
     say(late, "{\"cmd\":\"status\"}\n");
     assert_int_equal(serve(), 1);
     assert_int_equal(count_lines(heard(fds[0])), 1);
     assert_true(is_closed(fds[0]));
-    for (int i = 0; i < GN_CONTROL_CLIENTS_MAX; i++) close(fds[i]);
+    for (int i = 0; i < places; i++) close(fds[i]);
     close(late);
+}
+
+/* As that user, in the socket's group. */
+static int enter_as(uid_t uid) {
+    assert_int_equal(seteuid(uid), 0);
+    const int fd = enter_client();
+    assert_int_equal(seteuid(0), 0);
+    serve();
+    return fd;
+}
+
+static bool is_answered(int fd) {
+    if (send(fd, "{\"cmd\":\"status\"}\n", 17, MSG_NOSIGNAL) != 17) return false;
+    serve();
+    return strstr(heard(fd), "\"ok\":true") != NULL;
+}
+
+static void no_user_takes_the_places_of_others(void **state) {
+    (void)state;
+    enum { OTHERS = GN_CONTROL_CLIENTS_MAX - GN_CONTROL_KEPT };
+    int fds[GN_CONTROL_CLIENTS_MAX];
+    if (geteuid() != 0) skip();
+    assert_int_equal(chmod(gn_ctl_test.folder, 0711), 0);
+    for (int i = 0; i < OTHERS; i++) { /* each as many as he may have */
+        const uid_t uid = (uid_t)(1001 + i / GN_CONTROL_USER_MAX);
+        assert_true(is_answered(fds[i] = enter_as(uid)));
+        if (i % GN_CONTROL_USER_MAX != GN_CONTROL_USER_MAX - 1) continue;
+        const int more = enter_as(uid);
+        assert_non_null(strstr(heard(more), "busy"));
+        close(more);
+    }
+    const int more = enter_as(2000);
+    assert_non_null(strstr(heard(more), "busy"));
+    close(more);
+    for (int i = OTHERS; i < GN_CONTROL_CLIENTS_MAX; i++)
+        assert_true(is_answered(fds[i] = enter_as(0)));
+
+    /* a user at his limit loses his own silent client, not another's */
+    gn_ctl_test.now_ns += 31 * GN_NS_PER_S;
+    for (int i = 2; i < GN_CONTROL_CLIENTS_MAX; i++)
+        if (i != 20) assert_true(is_answered(fds[i]));
+    const int late = enter_as(1002);
+    assert_true(is_answered(late));
+    assert_true(is_closed(fds[20]));
+    assert_true(is_answered(fds[0]) && is_answered(fds[1]));
+    close(late);
+    for (int i = 0; i < GN_CONTROL_CLIENTS_MAX; i++) close(fds[i]);
 }
 
 static void who_does_not_read_is_cut_off(void **state) {
@@ -350,6 +399,7 @@ int main(void) {
         TEST(who_talks_all_the_time_keeps_nobody_waiting),
         TEST(more_changes_than_a_frame_can_take_are_busy),
         TEST(the_65th_client_is_told_so),
+        TEST(no_user_takes_the_places_of_others),
         TEST(who_does_not_read_is_cut_off),
         TEST(without_descriptors_nobody_spins),
     };

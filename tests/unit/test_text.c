@@ -5,6 +5,7 @@
 #include "core/library.h"
 #include "core/text.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 
@@ -95,6 +96,17 @@ static void long_texts_are_safe(void **state) {
     assert_int_equal(gn_text_distance(a, b), 31);
 }
 
+static void what_moves_the_cursor_is_printed_escaped(void **state) {
+    (void)state;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    gn_text_print("a\x1b[31m\n\x7f \xc2\x9b \xe2\x80\xae \xd8\x9c \xc3\xa9 \\", to);
+    fclose(to);
+    assert_string_equal(text, "a\\u001b[31m\\u000a\\u007f \\u009b \\u202e \\u061c \xc3\xa9 \\");
+    free(text);
+}
+
 static void embedded_files_are_found_and_end_with_zero(void **state) {
     (void)state;
     assert_null(gn_embedded_find("no such file"));
@@ -115,6 +127,7 @@ int main(void) {
         cmocka_unit_test(two_neighbours_that_changed_places_are_one_edit),
         cmocka_unit_test(a_guess_is_near),
         cmocka_unit_test(what_moves_the_cursor_or_turns_a_line_is_dropped),
+        cmocka_unit_test(what_moves_the_cursor_is_printed_escaped),
         cmocka_unit_test(a_library_that_does_not_load_is_told_from_a_missing_one),
         cmocka_unit_test(long_texts_are_safe),
         cmocka_unit_test(embedded_files_are_found_and_end_with_zero),

@@ -27,6 +27,7 @@ struct buffers {
 /* Events are edge-triggered, so they are kept as flags. */
 struct client {
     int fd; /* -1: none */
+    uid_t uid;
     struct gn_watch watch;
     struct gn_control *control;
     struct buffers *buffers;
@@ -270,17 +271,40 @@ static void serve_client(struct gn_control *c, struct client *client) {
 
 /* ---- clients -------------------------------------------------------------------------------- */
 
-static struct client *find_room(struct gn_control *c) {
-    struct client *silent = NULL;
+/* May that user have one more client, once `without` (or NULL) has gone? */
+static bool has_place(const struct gn_control *c, uid_t uid, const struct client *without) {
+    const uid_t owners[] = {0, c->listen.uid};
+    int places = 0, own = 0, kept = 0;
+    for (int i = 0; i < CLIENTS; i++) {
+        const bool is_free = c->clients[i].fd < 0 || &c->clients[i] == without;
+        places += is_free;
+        own += !is_free && c->clients[i].uid == uid;
+    }
+    for (int k = 0; k < (c->listen.uid ? 2 : 1); k++) {
+        int has = 0;
+        if (owners[k] == uid) continue;
+        for (int i = 0; i < CLIENTS; i++)
+            has += c->clients[i].fd >= 0 && &c->clients[i] != without &&
+                   c->clients[i].uid == owners[k];
+        kept += has < GN_CONTROL_KEPT ? GN_CONTROL_KEPT - has : 0;
+    }
+    return places > kept && (own < GN_CONTROL_USER_MAX || gn_listen_is_owner(&c->listen, uid));
+}
+
+/* An unused client, or that of the user who was silent for longest. */
+static struct client *find_room(struct gn_control *c, uid_t uid) {
+    struct client *found = NULL;
+    const bool is_full = !has_place(c, uid, NULL);
     for (int i = 0; i < CLIENTS; i++) {
         struct client *client = &c->clients[i];
-        if (client->fd < 0) return client;
-        if (!client->waits && !client->out && (!silent || client->line_ns < silent->line_ns))
-            silent = client;
+        if (!is_full && client->fd < 0) return client;
+        const bool is_silent = client->fd >= 0 && !client->waits && !client->out &&
+                               c->now_ns - client->line_ns >= SILENT_NS;
+        if (is_silent && (!found || client->line_ns < found->line_ns) && has_place(c, uid, client))
+            found = client;
     }
-    if (!silent || c->now_ns - silent->line_ns < SILENT_NS) return NULL;
-    drop_client(silent);
-    return silent;
+    if (found) drop_client(found);
+    return found;
 }
 
 /* Sends the only reply; a new socket has room for it. */
@@ -310,7 +334,7 @@ static void admit_client(struct gn_control *c, int fd) {
         refuse_connection(c, fd, &err);
         return;
     }
-    struct client *client = find_room(c);
+    struct client *client = find_room(c, uid);
     if (client)
         client->watch = (struct gn_watch){.fd = fd,
                                           .events = EPOLLIN | EPOLLOUT | EPOLLRDHUP | EPOLLET,
@@ -322,6 +346,7 @@ static void admit_client(struct gn_control *c, int fd) {
         return;
     }
     client->fd = fd;
+    client->uid = uid;
     client->readable = true;
     client->ended = client->skips = client->waits = false;
     client->used = 0;

@@ -14,6 +14,8 @@
 enum {
     GN_CONTROL_CLIENTS_MAX = 64, /* another one replaces a client that was silent for 30 s, else it
                                     gets "busy" and is closed */
+    GN_CONTROL_USER_MAX = 16,    /* of these for a user other than root and the kiosk's */
+    GN_CONTROL_KEPT = 8,         /* of these for root alone, and as many for the kiosk's user */
     GN_CONTROL_PER_STEP = 16,    /* lines handled, or pieces of 4 KiB discarded */
     GN_CONTROL_CHANGES_PER_S = 20, /* commands that may cost a frame, of all clients together,
                                       with a burst of 20; more are "busy" */

@@ -180,13 +180,15 @@ void gn_listen_close(struct gn_listen *l) {
 
 /* ---- who ------------------------------------------------------------------------------------ */
 
+bool gn_listen_is_owner(const struct gn_listen *l, uid_t uid) { return uid == 0 || uid == l->uid; }
+
 bool gn_listen_permits(const struct gn_listen *l, int fd, uid_t *uid) {
     struct ucred peer = {.uid = (uid_t)-1};
     socklen_t size = sizeof peer;
     const bool known = getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0;
     *uid = peer.uid;
     if (!known) return false;
-    if (peer.uid == 0 || peer.uid == l->uid || peer.gid == l->gid) return true;
+    if (gn_listen_is_owner(l, peer.uid) || peer.gid == l->gid) return true;
 
     gid_t groups[GROUPS_MAX]; /* its supplementary groups */
     size = sizeof groups;

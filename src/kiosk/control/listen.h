@@ -34,6 +34,7 @@ bool gn_listen_check(const char *path, struct gn_err *err);
 /* Removes both files, if they are still ours. */
 void gn_listen_close(struct gn_listen *listen);
 
+bool gn_listen_is_owner(const struct gn_listen *listen, uid_t uid); /* the kiosk's user, or root */
 /* Is the peer permitted: the kiosk's user, root, or a member of the socket's group? *uid is the
  * peer's. */
 bool gn_listen_permits(const struct gn_listen *listen, int fd, uid_t *uid);
