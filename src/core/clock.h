@@ -8,5 +8,6 @@
 
 int64_t gn_clock_monotonic_ns(void);
 int64_t gn_clock_process_cpu_ns(void); /* CPU time of this process, all threads */
+int64_t gn_clock_thread_cpu_ns(void);
 
 #endif

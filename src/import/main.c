@@ -118,7 +118,9 @@ static bool wait_child(const struct job *job, struct gn_import_report *report, s
                gn_fail(err, "%s: the importer failed without a reason", o->model);
     }
     if (strncmp(end.text, "hangs", 5) == 0)
-        return gn_fail(err, "%s: not read within %d s; raise the limit with gnomon-import --time S",
+        return gn_fail(err,
+                       "%s: not read within %d s; raise the limit: gnomon --limit seconds=N, or "
+                       "gnomon-import --time N",
                        o->model, o->time_s);
     return gn_fail(err, "%s: the importer %s on it; export it as .glb where it was made", o->model,
                    end.text);

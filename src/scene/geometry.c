@@ -284,7 +284,7 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
             geometry->attributes |= (uint32_t)(shape->attribute[k] >= 0) << k;
         bool filled = shape->vertices == UINT32_MAX ? fill_flat_geometry(g, &at, shape, geometry)
                                                     : fill_shared_geometry(g, &at, shape, geometry);
-        if (!filled) return false;
+        if (!filled || !gn_gltf_check_time(g)) return false;
         scene->buffers.index_count += geometry->index_count;
         gn_geometry_measure(scene, geometry, &shape->area);
         /* The test visits all vertices, which many geometries may share: run it only where most

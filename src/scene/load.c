@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/clock.h"
+
 struct holder { /* what scene->memory.arena points to */
     struct gn_arena arena;
     struct gn_scene scene;
@@ -57,8 +59,10 @@ static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_
     g->scene = &holder->scene;
     g->memory.other_bytes = size;
     g->hash_key = gn_hash_key_make();
+    g->end_ns = gn_clock_thread_cpu_ns() + (int64_t)g->limits.seconds * GN_NS_PER_S;
     bool done = gn_gltf_open(g, data, size);
-    for (size_t i = 0; done && i < sizeof STEPS / sizeof STEPS[0]; i++) done = STEPS[i](g);
+    for (size_t i = 0; done && i < sizeof STEPS / sizeof STEPS[0]; i++)
+        done = STEPS[i](g) && gn_gltf_check_time(g);
     done = done && !g->failed;
     holder->scene.memory.bytes = holder->arena.used + sizeof *holder;
     for (size_t i = 0; i < g->file.buffer_count; i++) gn_blob_finish(g, &g->file.buffers[i]);

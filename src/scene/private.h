@@ -136,6 +136,8 @@ struct gn_gltf {
     struct gn_warnings *warnings;
     struct gn_err *err;
     struct gn_hash_key hash_key; /* of the tables of this load */
+    int64_t end_ns;              /* of the thread's processor time: the limit on seconds */
+    uint32_t getters;            /* calls since the start; every so often one looks at the clock */
     bool failed;
     bool is_missing[GN_MISSING_COUNT];
     struct gn_gltf_memory memory;
@@ -165,6 +167,12 @@ void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, s
 char *gn_gltf_strdup(struct gn_gltf *g, const char *text); /* "" for NULL; into the scene */
 /* Bytes left within memory_mb. */
 size_t gn_gltf_room(const struct gn_gltf *g);
+
+/* ---- gltf/time.c ---- */
+
+/* Fails the load when its limit on seconds is over. Reads a clock: once for each geometry, picture
+ * and clip, and in one of many getters of gltf/json.h. */
+bool gn_gltf_check_time(struct gn_gltf *g);
 
 /* ---- the steps of load.c, in order ---- */
 

@@ -209,6 +209,8 @@ struct gn_scene_limits {
     uint64_t texels;              /* 67108864 per picture (8192 x 8192) */
     uint64_t keys;                /* 4000000 animation keys */
     uint64_t json_depth;          /* 512 */
+    uint64_t seconds;             /* 60: processor time that the load takes, and time that the
+                                     import of another format takes before it */
     uint64_t maps_mb;             /* 384: what shadows take on the GPU in one frame */
     uint64_t triangles_per_frame; /* 100000000: of all nodes and their instances */
 };

@@ -14,7 +14,7 @@
 #include "core/stop.h"
 
 enum {
-    LONGEST_S = 75, /* it times out by itself after 60 */
+    GRACE_S = 15, /* it times out by itself, so long before it is killed */
     MOST_FILE_MB = 4095,
     MOST_MEMORY_MB = 1 << 20, /* its largest value of --memory */
 };
@@ -61,8 +61,8 @@ static bool find_program(char *out, size_t size) {
 
 struct job {
     const char *program, *path;
-    uint64_t file_mb, memory_mb; /* 0: its defaults */
-    int glb, log;                /* memfds: its output and its messages */
+    uint64_t file_mb, memory_mb, seconds; /* 0: its defaults */
+    int glb, log;                         /* memfds: its output and its messages */
 };
 
 static uint64_t at_most(uint64_t value, uint64_t most) { return value < most ? value : most; }
@@ -70,18 +70,18 @@ static uint64_t at_most(uint64_t value, uint64_t most) { return value < most ? v
 static void exec_program(void *shared, const void *argument) {
     (void)shared;
     const struct job *job = argument;
-    char file[24], memory[24];
+    const struct {
+        const char *option;
+        uint64_t value;
+    } limits[] = {{"--file", job->file_mb}, {"--memory", job->memory_mb}, {"--time", job->seconds}};
+    char values[3][24];
     const char *line[12] = {PROGRAM, "-o", "/dev/stdout"};
     int n = 3;
-    if (job->file_mb) {
-        snprintf(file, sizeof file, "%llu", (unsigned long long)job->file_mb);
-        line[n++] = "--file";
-        line[n++] = file;
-    }
-    if (job->memory_mb) {
-        snprintf(memory, sizeof memory, "%llu", (unsigned long long)job->memory_mb);
-        line[n++] = "--memory";
-        line[n++] = memory;
+    for (int i = 0; i < 3; i++) {
+        if (!limits[i].value) continue;
+        snprintf(values[i], sizeof values[i], "%llu", (unsigned long long)limits[i].value);
+        line[n++] = limits[i].option;
+        line[n++] = values[i];
     }
     line[n++] = "--";
     line[n] = job->path;
@@ -134,14 +134,18 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
                       .path = path,
                       .file_mb = at_most(limits->file_mb, MOST_FILE_MB),
                       .memory_mb = at_most(2 * limits->memory_mb, MOST_MEMORY_MB),
+                      .seconds = limits->seconds,
                       .glb = memfd_create("gnomon-glb", MFD_CLOEXEC),
                       .log = memfd_create("gnomon-log", MFD_CLOEXEC)};
     struct gn_scene *scene = NULL;
     if (job.glb < 0 || job.log < 0)
         gn_fail(err, "%s: no memory to import it: %s", path, strerror(errno));
     else {
-        const struct gn_child child = {
-            .work = exec_program, .argument = &job, .stop = gn_stop_asked, .stall_s = LONGEST_S};
+        const struct gn_child child = {.work = exec_program,
+                                       .argument = &job,
+                                       .stop = gn_stop_asked,
+                                       .stall_s = (int)gn_scene_limits_or_default(limits).seconds +
+                                                  GRACE_S};
         struct gn_err end = {0}, reported = {0};
         size_t size = 0;
         const bool ok = gn_child_run(&child, NULL, &end);

@@ -112,6 +112,42 @@ static void test_positions_cannot_be_made_to_collide(void **state) {
     assert_quick();
 }
 
+/* ---- --limit seconds ---- */
+
+/* Many primitives read the same indices: their work is far more than their bytes. */
+static void test_a_load_ends_at_its_limit_of_processor_time(void **state) {
+    (void)state;
+    struct gn_scene_limits limits = {.seconds = 1, .vertices = 1000000000, .memory_mb = 1 << 20};
+    enum { COUNT = 400, CORNERS = 300000 };
+    uint16_t *indices = calloc(CORNERS, sizeof *indices);
+    for (int i = 0; i < CORNERS; i++) indices[i] = (uint16_t)(i * 7919);
+    gn_maker_add(&maker, "accessors", "{'componentType':5126,'count':65536,'type':'VEC3'}");
+    gn_maker_set(&maker, "meshes", "[]");
+    gn_maker_set(&maker, "nodes", "[{'mesh':0}]");
+    const int view = gn_maker_view(&maker, indices, CORNERS * sizeof *indices);
+    char *json = malloc(100 * COUNT);
+    size_t used = (size_t)sprintf(json, "{'primitives':[");
+    for (int i = 0; i < COUNT; i++) {
+        char accessor[120];
+        snprintf(accessor, sizeof accessor,
+                 "{'bufferView':%d,'componentType':5123,'count':%d,'type':'SCALAR'}", view,
+                 CORNERS);
+        used += (size_t)snprintf(json + used, 100 * COUNT - used,
+                                 "%s{'attributes':{'POSITION':2},'indices':%d}", i ? "," : "",
+                                 gn_maker_add(&maker, "accessors", accessor));
+    }
+    snprintf(json + used, 100 * COUNT - used, "]}");
+    gn_maker_add(&maker, "meshes", json);
+    struct gn_made glb = gn_maker_glb(&maker);
+    assert_null(gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err));
+    assert_string_equal(err.text, "t: takes longer to load than the limit seconds=1");
+    free(json);
+    free(indices);
+    free(glb.data);
+    gn_maker_finish(&maker);
+    assert_quick();
+}
+
 /* ---- pictures ---- */
 
 static char folder[] = "/tmp/gnomon-seconds-XXXXXX";
@@ -263,6 +299,7 @@ int main(void) {
         cmocka_unit_test_setup(test_a_primitive_costs_its_own_size_not_that_of_its_accessor, begin),
         cmocka_unit_test_setup(test_a_part_of_the_vertices_keeps_its_attributes, begin),
         cmocka_unit_test_setup(test_positions_cannot_be_made_to_collide, begin),
+        cmocka_unit_test_setup(test_a_load_ends_at_its_limit_of_processor_time, begin),
         cmocka_unit_test(test_scans_of_a_jpeg_are_bounded),
         cmocka_unit_test_setup(test_a_large_file_that_is_no_picture_is_not_read, begin),
         cmocka_unit_test_setup(test_a_file_is_one_picture_whatever_it_is_called, begin),

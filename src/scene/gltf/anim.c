@@ -148,6 +148,7 @@ static void read_clip(struct gn_gltf *g, const struct gn_at *at, struct gn_clip 
                  channels = gn_at_array(g, at, "channels");
     float last_s = 0;
     clip->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
+    gn_gltf_check_time(g);
     clip->first_channel = animation->channel_count;
     clip->on_by_default = true;
     for (size_t i = 0; i < gn_at_size(&channels) && !g->failed; i++) {

@@ -49,7 +49,7 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
         return gn_fail(err, "not decoded: damaged pictures have used up the limit texels=%" PRIu64,
                        g->limits.texels);
     uint8_t *rgba = gn_gltf_alloc(g, g->memory.scene, texels, 4);
-    if (!rgba) return false;
+    if (!rgba || !gn_gltf_check_time(g)) return false;
     if (!format->read(blob->data, blob->size, px, rgba, err)) {
         g->damaged_texels += texels;
         gn_arena_undo(g->memory.scene, rgba, 4 * texels);

@@ -68,6 +68,7 @@ static bool check_type(struct gn_gltf *g, struct gn_at *at, bool right, const ch
         [JSON_OBJECT] = "an object",    [JSON_ARRAY] = "an array", [JSON_STRING] = "a string",
         [JSON_INTEGER] = "a number",    [JSON_REAL] = "a number",  [JSON_TRUE] = "true or false",
         [JSON_FALSE] = "true or false", [JSON_NULL] = "null"};
+    if (++g->getters % 1024 == 0) gn_gltf_check_time(g);
     if (!at->json) return false;
     if (right) return true;
     gn_gltf_fail(g, at, "must be %s, is %s", wanted, types[json_typeof(at->json)]);
