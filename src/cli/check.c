@@ -1,8 +1,10 @@
 /* gnomon show --check FILE: reads the configuration as show does and checks what it names: loads
- * the scenes, looks for cameras and clips in them; fonts, the socket, devices. Then prints what a
- * kiosk would make of it. */
+ * the scenes, looks for cameras and clips in them; fonts, the socket, devices, folders. Then
+ * prints what a kiosk would make of it. */
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "caption/font.h"
 #include "cli/commands.h"
@@ -93,6 +95,13 @@ static bool check_device(const char *name, const char *label, struct gn_err *err
                          label, name);
 }
 
+static bool check_folder(const char *path, const char *label, struct gn_err *err) {
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return gn_fail(err, "%s: %s: cannot use it: %s", label, path, strerror(errno));
+    return S_ISDIR(info.st_mode) || gn_fail(err, "%s: %s: is not a folder", label, path);
+}
+
 static bool check_names(const struct gn_settings *s, struct gn_err *err) {
     struct gn_font *font = s->render.font ? gn_font_open_file(s->render.font, err) : NULL;
     gn_font_close(font);
@@ -100,6 +109,9 @@ static bool check_names(const struct gn_settings *s, struct gn_err *err) {
         return gn_fail_prefix(err, "%s", gn_settings_label(s, render.font));
     if (s->kiosk.socket && !gn_listen_check(s->kiosk.socket, err))
         return gn_fail_prefix(err, "%s", gn_settings_label(s, kiosk.socket));
+    const char *screenshots = s->kiosk.screenshots;
+    if (screenshots && !check_folder(screenshots, gn_settings_label(s, kiosk.screenshots), err))
+        return false;
     return check_connector(s, err) &&
            check_device(s->display.card, gn_settings_label(s, display.card), err) &&
            check_device(s->display.render_node, gn_settings_label(s, display.render_node), err);

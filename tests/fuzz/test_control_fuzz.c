@@ -6,6 +6,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -152,8 +153,30 @@ static int count_descriptors(void) {
     return count;
 }
 
-/* They send anything, in pieces, close in the middle, shut one direction, never read; among them
- * one that behaves, and is answered. */
+/* With so many descriptors of /dev/null. */
+static ssize_t send_with(int fd, void *data, size_t size, int count) {
+    union {
+        struct cmsghdr header;
+        char bytes[CMSG_SPACE(8 * sizeof(int))];
+    } control = {.header = {.cmsg_len = CMSG_LEN((size_t)count * sizeof(int)),
+                            .cmsg_level = SOL_SOCKET,
+                            .cmsg_type = SCM_RIGHTS}};
+    const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    for (int i = 0; i < count; i++)
+        memcpy(CMSG_DATA(&control.header) + (size_t)i * sizeof null, &null, sizeof null);
+    struct iovec piece = {data, size};
+    struct msghdr message = {.msg_iov = &piece, .msg_iovlen = 1};
+    if (count) message.msg_control = &control;
+    if (count) message.msg_controllen = CMSG_SPACE((size_t)count * sizeof(int));
+    const ssize_t sent = sendmsg(fd, &message, MSG_NOSIGNAL | MSG_DONTWAIT);
+    const int reason = errno;
+    close(null);
+    errno = reason;
+    return sent;
+}
+
+/* They send anything, descriptors too, in pieces, close in the middle, shut one direction, never
+ * read; among them one that behaves, and is answered. */
 static void one_who_behaves_is_answered_amid_those_who_do_not(void **state) {
     enum { HORDE = 90 };
     int horde[HORDE];
@@ -172,7 +195,8 @@ static void one_who_behaves_is_answered_amid_those_who_do_not(void **state) {
             const size_t size = below(what ? 300 : sizeof noise);
             for (size_t i = 0; i < size; i++)
                 noise[i] = below(20) ? (char)roll() : "\n{}\"[]"[below(6)];
-            if (send(*one, noise, size, MSG_NOSIGNAL | MSG_DONTWAIT) < 0 && errno == EPIPE) {
+            if (send_with(*one, noise, size, below(4) ? 0 : 1 + (int)below(8)) < 0 &&
+                errno == EPIPE) {
                 close(*one);
                 *one = -1;
             }

@@ -239,6 +239,8 @@ sed 's/file = sundial.glb/file = moondial.glb/' good.ini > kiosk.ini
 checks 1 'kiosk.ini:2: file: ' kiosk.ini
 sed 's/press = next/press = mode Nosuch/' good.ini > kiosk.ini
 checks 2 'kiosk.ini:15: press: no mode "Nosuch"; expected "Plain", "Top", "Dial"' kiosk.ini
+printf '%s\n' '[kiosk]' 'screenshots = nowhere' > kiosk.ini
+checks 1 'kiosk.ini:2: screenshots: ' kiosk.ini
 checks 1 'missing.ini' missing.ini
 
 exit $bad

@@ -204,9 +204,16 @@ static void run_child(int hidden, int from) {
     _exit(0);
 }
 
+static void put(const char *name, const char *text) {
+    struct gn_err err = {0};
+    assert_true(gn_file_write(in_top(name), text, strlen(text), &err));
+}
+
 /* Tries all with those layers hidden; an attempt that ends the child is one that worked. */
 static void try_all(int hidden) {
     *shared = (struct shared){0};
+    put("in/model", "model"); /* an earlier one may have got at it */
+    put("in/victim", "victim");
     for (int from = 0; from < ATTEMPTS; from = shared->tried + 1) {
         int status;
         shared->tried = -1;
@@ -293,11 +300,6 @@ static void it_still_dies_with_its_parent(void **state) {
     close(ends[0]);
 }
 
-static void put(const char *name, const char *text) {
-    struct gn_err err = {0};
-    assert_true(gn_file_write(in_top(name), text, strlen(text), &err));
-}
-
 static int enter(void **state) {
     (void)state;
     struct sockaddr_in at = {.sin_family = AF_INET, .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
@@ -309,9 +311,7 @@ static int enter(void **state) {
     snprintf(elsewhere, sizeof elsewhere, "%s/elsewhere", top);
     mkdir(folder, 0755);
     mkdir(in_top("in/sub"), 0755);
-    put("in/model", "model");
     put("in/sub/picture", "picture");
-    put("in/victim", "victim");
     put("secret", "secret");
     put("elsewhere", "model");
     parent = getpid();
