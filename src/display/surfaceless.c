@@ -45,8 +45,10 @@ static bool open_context(struct surfaceless *s, struct gn_err *err) {
     if (!get_display) return gn_fail(err, "EGL lacks eglGetPlatformDisplayEXT");
     s->display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
     if (s->display == EGL_NO_DISPLAY || !s->egl.Initialize(s->display, NULL, NULL))
-        return gn_fail(err, "eglInitialize failed (0x%x); install libgl1-mesa-dri",
-                       s->egl.GetError());
+        return gn_fail(
+            err,
+            "eglInitialize failed (0x%x); install libgl1-mesa-dri, or check memory and open files",
+            s->egl.GetError());
     s->egl.BindAPI(EGL_OPENGL_ES_API);
     const char *has = s->egl.QueryString(s->display, EGL_EXTENSIONS);
     const bool needs_surface = !gn_egl_has(has, "EGL_KHR_surfaceless_context");

@@ -5,6 +5,7 @@
 #include "core/library.h"
 #include "core/text.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -45,7 +46,7 @@ static void a_guess_is_near(void **state) {
 
 static const char *cleaned(const char *text) {
     static char out[100];
-    strcpy(out, text);
+    snprintf(out, sizeof out, "%s", text);
     gn_text_clean(out);
     return out;
 }

@@ -88,8 +88,10 @@ static bool open_display(struct scanout *s, struct gn_err *err) {
     if (!s->gbm) return gn_fail(err, "no GBM driver for this device; install libgl1-mesa-dri");
     s->display = get_display(EGL_PLATFORM_GBM_KHR, s->gbm, NULL);
     if (s->display == EGL_NO_DISPLAY || !s->egl.Initialize(s->display, NULL, NULL))
-        return gn_fail(err, "eglInitialize failed (0x%x); install libgl1-mesa-dri",
-                       s->egl.GetError());
+        return gn_fail(
+            err,
+            "eglInitialize failed (0x%x); install libgl1-mesa-dri, or check memory and open files",
+            s->egl.GetError());
     s->egl.BindAPI(EGL_OPENGL_ES_API);
     return true;
 }

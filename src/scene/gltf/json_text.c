@@ -7,10 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const char huge[] = {'9', 'e', '3', '0', '7'}; /* no number of 1e308 or more is shorter */
+static const char replacement[] = {'\\', 'u', 'f', 'f', 'f', 'd'};
 enum { DOUBLE_DIGITS = 308, EXPONENT_MAX = 1 << 30 }; /* every number below 1e308 is a double */
 
 /* The end of the digits at c, and in *place how many of them stand between the first that counts
- * and the point: the number is below 10^place, and not below a tenth of it. 0: all are zeros. */
+ * and the point: the number is below 10^place, and not below a tenth of it; far below 0 if all are
+ * zeros. */
 static const char *read_digits(const char *c, const char *end, int64_t *place) {
     bool behind_point = false, counts = false;
     for (; c < end && (isdigit((unsigned char)*c) || (*c == '.' && !behind_point)); c++) {
@@ -66,14 +69,14 @@ static bool replace_all(const char *text, size_t size, char *out) {
         bool bad = false;
         if (quoted && *c == '\\') {
             c += escape_length(c, end, &bad);
-            if (bad && out) memcpy(out + (start - text), "\\ufffd", 6);
+            if (bad && out) memcpy(out + (start - text), replacement, sizeof replacement);
         } else if (!quoted && isdigit((unsigned char)*c)) {
             int64_t place = 0, exponent = 0;
             c = read_exponent(read_digits(c, end, &place), end, &exponent);
             bad = place + exponent > DOUBLE_DIGITS;
             if (bad && out) {
                 memset(out + (start - text), ' ', (size_t)(c - start));
-                memcpy(out + (start - text), "9e307", 5); /* no such number is shorter */
+                memcpy(out + (start - text), huge, sizeof huge);
             }
         } else {
             quoted ^= *c++ == '"';
