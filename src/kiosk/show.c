@@ -109,9 +109,11 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     s->counts.begun_ns = gn_loop_now_ns(s->loop);
     if (!gn_loop_add_signals(s->loop, &s->signals, &set))
         return gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
-    if (!gn_show_open_loader(s, err) ||
-        !gn_service_open(&s->service, s->loop, gn_loop_now_ns(s->loop), err))
-        return false;
+    if (!gn_show_open_loader(s, err)) return false;
+    if (!gn_service_open(&s->service, s->loop, gn_loop_now_ns(s->loop), err)) {
+        gn_show_report_problem(s, err->text); /* the picture is more important */
+        *err = (struct gn_err){0};
+    }
     s->config.options = gn_show_read_options(options, NULL, err);
     if (!s->config.options || !gn_show_load_first(s, err)) return false;
     gn_show_open_captions(s);

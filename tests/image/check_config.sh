@@ -157,6 +157,7 @@ starts 'none.ini: cannot open: No such file or directory (running' -c none.ini
 starts 'scene.ini:2: file: none.glb: cannot open: No such file or directory (showing the default' -c scene.ini
 starts 'bad.gltf: asset.version: missing' bad.gltf
 starts 'none.glb: cannot open' none.glb sundial.glb --camera nosuch
+NOTIFY_SOCKET=vsock:2:1 starts 'NOTIFY_SOCKET=vsock:2:1: expected a path' sundial.glb
 starts 'control socket folder.ini: path exists and is not a socket' -c socket.ini
 timeout 60 "$gnomon" show --backend egl --frames 2 --camera nosuch sundial.glb > out 2> err
 [ $? = 2 ] || complain "a wrong command line does not end the kiosk: $(cat err)"
