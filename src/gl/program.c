@@ -26,8 +26,9 @@ static bool fail_log(const char *log, const char *stage, struct gn_err *err) {
                    *line ? line : "the driver gave no reason");
 }
 
+/* Attaches *shader, which lives on until it is detached. */
 static bool compile_stage(struct gn_gl *gl, GLuint program, int stage, const char *source,
-                          struct gn_err *err) {
+                          GLuint *shader_made, struct gn_err *err) {
     char log[2048] = "";
     GLint ok = 0;
     GLuint shader =
@@ -39,7 +40,8 @@ static bool compile_stage(struct gn_gl *gl, GLuint program, int stage, const cha
         GL(gl, AttachShader)(program, shader);
     else
         GL(gl, GetShaderInfoLog)(shader, sizeof log, NULL, log);
-    GL(gl, DeleteShader)(shader); /* lives on with the program */
+    GL(gl, DeleteShader)(shader);
+    *shader_made = shader;
     return ok || fail_log(log, stage_names[stage], err);
 }
 
@@ -49,13 +51,19 @@ static GLuint build_program(struct gn_gl *gl, const char *const sources[2], int 
     GLuint program = GL(gl, CreateProgram)();
     gl->objects_created++;
     gl->programs.made++;
+    GLuint shaders[2];
     for (*failed = 0; *failed < 2; ++*failed)
-        if (!compile_stage(gl, program, *failed, sources[*failed], err)) goto fail;
+        if (!compile_stage(gl, program, *failed, sources[*failed], &shaders[*failed], err))
+            goto fail;
     char log[2048] = "";
     GLint ok = 0;
     GL(gl, LinkProgram)(program);
     GL(gl, GetProgramiv)(program, GL_LINK_STATUS, &ok);
-    if (ok) return program;
+    if (ok) {
+        /* a program never links again: what the stages were compiled into is freed */
+        for (int i = 0; i < 2; i++) GL(gl, DetachShader)(program, shaders[i]);
+        return program;
+    }
     GL(gl, GetProgramInfoLog)(program, sizeof log, NULL, log);
     fail_log(log, stage_names[2], err);
 fail:
