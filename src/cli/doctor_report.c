@@ -5,6 +5,7 @@
 
 #include "cli/doctor_input.h"
 #include "core/json.h"
+#include "scene/scene.h"
 #include <config.h> /* made by the build */
 
 /* What is used without a capability. */
@@ -90,6 +91,9 @@ void gn_doctor_print(const struct gn_doctor_report *report, FILE *to) {
     fprintf(to, "  %-11s %llu MB, %llu MB free", "memory", (unsigned long long)m->memory_mb,
             (unsigned long long)m->free_mb);
     if (m->cma_mb) fprintf(to, ", %llu MB contiguous (CMA)", (unsigned long long)m->cma_mb);
+    char limits[400];
+    gn_scene_limits_print(NULL, limits, sizeof limits);
+    fprintf(to, "\n  %-11s %s", "limits", limits);
     fprintf(to, "\n  %-11s %s; groups", "user", m->user);
     for (int i = 0; i < m->group_count; i++) fprintf(to, " %s", m->groups[i]);
 
@@ -178,12 +182,15 @@ bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struc
     const struct gn_machine *m = &report->machine;
     const bool draws = report->chosen >= 0;
     json_t *groups = json_array(), *backends = json_array(), *connectors = json_array();
+    char limits[400];
+    gn_scene_limits_print(NULL, limits, sizeof limits);
     for (int i = 0; i < m->group_count; i++) json_array_append_new(groups, text_json(m->groups[i]));
-    json_t *machine = json_pack(
-        "{so so so so si sI sI sI so so}", "model", text_json(m->model), "system",
-        text_json(m->system), "kernel", text_json(m->kernel), "arch", text_json(m->arch), "cpus",
-        m->cpus, "memory_mb", (json_int_t)m->memory_mb, "memory_free_mb", (json_int_t)m->free_mb,
-        "cma_mb", (json_int_t)m->cma_mb, "user", text_json(m->user), "groups", groups);
+    json_t *machine =
+        json_pack("{so so so so si sI sI sI ss so so}", "model", text_json(m->model), "system",
+                  text_json(m->system), "kernel", text_json(m->kernel), "arch", text_json(m->arch),
+                  "cpus", m->cpus, "memory_mb", (json_int_t)m->memory_mb, "memory_free_mb",
+                  (json_int_t)m->free_mb, "cma_mb", (json_int_t)m->cma_mb, "limits", limits, "user",
+                  text_json(m->user), "groups", groups);
     for (int i = 0; i < report->backend_count; i++) {
         const struct gn_doctor_backend *b = &report->backends[i];
         json_array_append_new(

@@ -38,15 +38,13 @@ void gn_doctor_diagnose_input(struct gn_doctor_report *report); /* of buttons an
 void gn_doctor_print(const struct gn_doctor_report *report, FILE *to);
 /* One object:
  * version, can_draw (bool),
- * machine {model|null, system, kernel, arch, cpus, memory_mb, memory_free_mb, cma_mb, user, groups
- *     [name]},
- * backends [{name, what|null, built, opens, why|null, vendor|null, renderer|null, gles|null,
- *     software|null}],
- * gpu null or {backend, vendor, renderer, gles, software, max_texture_px, texture_units, proved
- *     [name], not_proved [{name, instead}], map_formats [name], auto {technique: map format}},
- * cards [{path, kind (card, render), driver|null, group, readable, writable, holder|null}],
- * connectors [{name, status, mode|null, modes|null}],
- * gpio [{path, device|null, group, readable, writable, label|null, lines null or [{name|null, used,
+ * machine {model|null, system, kernel, arch, cpus, memory_mb, memory_free_mb, cma_mb, limits, user,
+ * groups [name]}, backends [{name, what|null, built, opens, why|null, vendor|null, renderer|null,
+ * gles|null, software|null}], gpu null or {backend, vendor, renderer, gles, software,
+ * max_texture_px, texture_units, proved [name], not_proved [{name, instead}], map_formats [name],
+ * auto {technique: map format}}, cards [{path, kind (card, render), driver|null, group, readable,
+ * writable, holder|null}], connectors [{name, status, mode|null, modes|null}], gpio [{path,
+ * device|null, group, readable, writable, label|null, lines null or [{name|null, used,
  *     consumer|null}] by number}],
  * input {gpio_library|null, devices, devices_denied},
  * problems [{what, cure}],

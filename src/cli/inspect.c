@@ -13,6 +13,16 @@ bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnin
     bool ok = true;
     const char *path = options->settings->scene.path;
     gn_inspect_build(&in, path ? path : "(default scene)", scene, warnings);
+    struct gn_scene_limits limits;
+    if (gn_stage_limits(options->settings, &limits, err)) {
+        gn_scene_limits_print(&limits, in.limits, sizeof in.limits);
+        limits = gn_scene_limits_or_default(&limits);
+        if (in.cost.map_bytes >> 20 >= limits.maps_mb)
+            gn_problem_add(&in.advice, "lower gnomon_map_px, or give fewer lights a shadow",
+                           "shadow maps of %llu MB exceed the limit maps_mb=%llu: they are reduced",
+                           (unsigned long long)in.cost.map_bytes >> 20,
+                           (unsigned long long)limits.maps_mb);
+    }
     if (options->settings->run.json)
         ok = gn_inspect_print_json(&in, stdout, err);
     else

@@ -24,16 +24,14 @@ struct gn_inspection {
     const char *file; /* as in messages */
     const struct gn_scene *scene;
     const struct gn_warnings *warnings; /* of loading */
+    char limits[400];                   /* as gn_scene_limits_print() makes them, or "" */
     struct gn_scene_cost cost;
     struct gn_problem_list advice;
 };
 
-/* All but `warnings` of it; file and scene must outlive it. */
+/* All but `limits` of it; file and scene must outlive it. */
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
                       const struct gn_warnings *warnings);
-/* GPU bytes of a picture with its mip-maps, once for each way (colour, data) in which it is used.
- */
-uint64_t gn_inspect_image_bytes(const struct gn_scene *scene, uint32_t image);
 /* Fills advice; the cost must be known. */
 void gn_inspect_advise(struct gn_inspection *in);
 
@@ -52,6 +50,7 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to);
  * cost {width_px, height_px, passes, shadow_passes, draws, shadow_draws, programs, culled,
  *     triangles, shadow_triangles, vertex_bytes, index_bytes, texture_bytes, map_bytes,
  *     target_bytes, memory_bytes},
+ * limits (text: NAME=VALUE, ..),
  * warnings [text], warnings_dropped, advice [{what, cure}], advice_dropped. */
 bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_err *err);
 

@@ -4,31 +4,6 @@
 #include "cli/inspect.h"
 #include "frame/frame.h"
 
-struct image_use {
-    bool as[2]; /* data, colour */
-    bool mipmaps;
-};
-
-static void use_image(struct image_use *use, const struct gn_scene *scene, uint32_t image,
-                      int32_t texture, bool color) {
-    if (texture < 0 || scene->pictures.textures[texture].image != image) return;
-    use->as[color] = true;
-    use->mipmaps |= scene->pictures.textures[texture].mipmaps;
-}
-
-uint64_t gn_inspect_image_bytes(const struct gn_scene *scene, uint32_t image) {
-    struct image_use use = {0};
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
-            use_image(&use, scene, image, scene->materials[i].textures[slot].texture,
-                      gn_texture_slots[slot].texels == GN_TEXELS_SRGB);
-    for (uint32_t i = 0; i < scene->light_count; i++)
-        use_image(&use, scene, image, scene->lights[i].slide, true);
-    uint64_t pixels =
-        (uint64_t)scene->pictures.images[image].width_px * scene->pictures.images[image].height_px;
-    return (uint64_t)(use.as[0] + use.as[1]) * (pixels * 4 * (use.mipmaps ? 4 : 3) / 3);
-}
-
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
                       const struct gn_warnings *warnings) {
     *in = (struct gn_inspection){.file = file, .scene = scene, .warnings = warnings};
@@ -64,10 +39,8 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
     gn_pose_finish(&pose);
 
     in->cost.vertex_bytes = (uint64_t)gn_scene_vertex_bytes(scene) * scene->buffers.vertex_count;
-    /* as gl/ lays them out: indices have 16 bits where that is enough */
-    in->cost.index_bytes =
-        (uint64_t)scene->buffers.index_count * (scene->buffers.vertex_count > 65536 ? 4 : 2);
+    in->cost.index_bytes = gn_scene_index_bytes(scene);
     for (uint32_t i = 0; i < scene->pictures.image_count; i++)
-        in->cost.texture_bytes += gn_inspect_image_bytes(scene, i);
+        in->cost.texture_bytes += gn_scene_image_bytes(&scene->pictures.images[i]);
     gn_inspect_advise(in);
 }

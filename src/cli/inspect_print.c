@@ -52,7 +52,7 @@ static void print_lists(const struct gn_scene *s, FILE *to) {
         print_line(to, "%-3u %ux%u%s, %.2f MB", i, s->pictures.images[i].width_px,
                    s->pictures.images[i].height_px,
                    s->pictures.images[i].has_alpha ? " with alpha" : "",
-                   GN_MB(gn_inspect_image_bytes(s, i)));
+                   GN_MB(gn_scene_image_bytes(&s->pictures.images[i])));
     fprintf(to, "\nLights\n");
     for (uint32_t i = 0; i < s->light_count; i++) {
         const struct gn_light *light = &s->lights[i];
@@ -131,6 +131,7 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
                "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
                GN_MB(c->map_bytes), GN_MB(c->target_bytes));
     print_line(to, "%-11s %.2f MB", "memory", GN_MB(s->memory.bytes));
+    if (in->limits[0]) print_line(to, "%-11s %s", "limits", in->limits);
 
     const int warnings = in->warnings ? in->warnings->count : 0;
     fprintf(to, "\nProblems\n");
@@ -205,11 +206,11 @@ static void add_lists(json_t *all, const struct gn_scene *s) {
     json_t *clips = json_array();
     for (uint32_t i = 0; i < s->pictures.image_count; i++) {
         const struct gn_image *image = &s->pictures.images[i];
-        json_array_append_new(images, json_pack("{so so sb so}", "width_px",
-                                                gn_json_make_count(image->width_px), "height_px",
-                                                gn_json_make_count(image->height_px), "alpha",
-                                                image->has_alpha, "bytes",
-                                                gn_json_make_count(gn_inspect_image_bytes(s, i))));
+        json_array_append_new(
+            images,
+            json_pack("{so so sb so}", "width_px", gn_json_make_count(image->width_px), "height_px",
+                      gn_json_make_count(image->height_px), "alpha", image->has_alpha, "bytes",
+                      gn_json_make_count(gn_scene_image_bytes(&s->pictures.images[i]))));
     }
     for (uint32_t i = 0; i < s->light_count; i++) json_array_append_new(lights, light_json(s, i));
     for (uint32_t i = 0; i < s->camera_count; i++) {
@@ -257,6 +258,7 @@ bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_e
         gn_json_make_count(c->map_bytes), "target_bytes", gn_json_make_count(c->target_bytes),
         "memory_bytes", gn_json_make_count(s->memory.bytes));
     json_object_set_new(all, "cost", cost);
+    json_object_set_new(all, "limits", gn_json_make_text(in->limits));
 
     json_t *warnings = json_array();
     for (int i = 0; in->warnings && i < in->warnings->count; i++)

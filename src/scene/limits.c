@@ -22,6 +22,7 @@ static const struct row {
     {"keys", offsetof(struct gn_scene_limits, keys), 4000000, 1 << 30, 0},
     {"json_depth", offsetof(struct gn_scene_limits, json_depth), 512, 2000, 0},
     {"seconds", offsetof(struct gn_scene_limits, seconds), 60, 86400, 0},
+    {"gpu_mb", offsetof(struct gn_scene_limits, gpu_mb), 1024, 1 << 20, 2},
     {"maps_mb", offsetof(struct gn_scene_limits, maps_mb), 384, 1 << 20, 8},
     {"triangles_per_frame", offsetof(struct gn_scene_limits, triangles_per_frame), 100000000,
      UINT64_C(1) << 40, 0},

@@ -50,6 +50,7 @@ static bool (*const STEPS[])(struct gn_gltf *) = {
     gn_gltf_nodes,         gn_gltf_meshes,     gn_gltf_instances, check_triangles,
     gn_gltf_geometries,    gn_gltf_items,      gn_gltf_materials, gn_gltf_lights,
     gn_gltf_cameras,       gn_gltf_animations, gn_scene_complete, gn_scene_batch,
+    gn_scene_count_gpu,
 };
 
 static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_t size) {

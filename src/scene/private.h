@@ -191,6 +191,7 @@ bool gn_gltf_cameras(struct gn_gltf *g);    /* gltf/camera.c */
 bool gn_gltf_animations(struct gn_gltf *g); /* gltf/anim.c */
 bool gn_scene_complete(struct gn_gltf *g);  /* complete.c */
 bool gn_scene_batch(struct gn_gltf *g);     /* batch.c */
+bool gn_scene_count_gpu(struct gn_gltf *g); /* gpu.c */
 
 /* ---- helpers ---- */
 

@@ -22,8 +22,10 @@ struct gn_box { /* axis-aligned; empty when min > max */
 /* Pixels of a decoded picture. Row 0 is the top row, which glTF puts at v = 0. */
 struct gn_image {
     uint32_t width_px, height_px;
-    const uint8_t *rgba; /* width x height x 4, sRGB-encoded or linear as its use requires */
-    bool has_alpha;      /* some texel is not opaque */
+    const uint8_t *rgba;    /* width x height x 4, sRGB-encoded or linear as its use requires */
+    bool has_alpha;         /* some texel is not opaque */
+    bool as_data, as_color; /* materials and lights read it so: a texture of each format */
+    bool mipmaps;           /* of these */
 };
 
 enum gn_wrap { GN_WRAP_REPEAT, GN_WRAP_CLAMP, GN_WRAP_MIRROR };
@@ -211,6 +213,7 @@ struct gn_scene_limits {
     uint64_t json_depth;          /* 512 */
     uint64_t seconds;             /* 60: processor time that the load takes, and time that the
                                      import of another format takes before it */
+    uint64_t gpu_mb;              /* 1024: its textures and buffers on the GPU */
     uint64_t maps_mb;             /* 384: what shadows take on the GPU in one frame */
     uint64_t triangles_per_frame; /* 100000000: of all nodes and their instances */
 };
@@ -236,6 +239,10 @@ struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t
                                      struct gn_warnings *warnings, struct gn_err *err);
 void gn_scene_destroy(struct gn_scene *scene);
 
+/* What the GPU will have of a picture, with mipmaps, and of all indices, which have 16 bits where
+ * that is enough. */
+uint64_t gn_scene_image_bytes(const struct gn_image *image);
+uint64_t gn_scene_index_bytes(const struct gn_scene *scene);
 /* Size of a vertex in GPU memory. */
 uint32_t gn_scene_vertex_bytes(const struct gn_scene *scene);
 

@@ -100,8 +100,8 @@ static void test_a_picture_costs_its_mipmaps_once_a_use(void **state) {
     set_material("{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}},"
                  "'occlusionTexture':{'index':0}}");
     inspect();
-    assert_int_equal(gn_inspect_image_bytes(scene, 0), 2 * (16 * 8 * 4 * 4 / 3));
-    assert_int_equal(in.cost.texture_bytes, gn_inspect_image_bytes(scene, 0));
+    assert_int_equal(gn_scene_image_bytes(&scene->pictures.images[0]), 2 * (16 * 8 * 4 * 4 / 3));
+    assert_int_equal(in.cost.texture_bytes, gn_scene_image_bytes(&scene->pictures.images[0]));
 }
 
 static void test_a_slide_costs_what_a_picture_does(void **state) {
@@ -218,10 +218,14 @@ static json_t *report(void) {
 
 static void test_json_has_its_fields(void **state) {
     (void)state;
-    static const char *const fields[] = {
-        "file",   "name",     "size_m",           "counts", "materials",
-        "images", "lights",   "cameras",          "clips",  "hemisphere",
-        "cost",   "warnings", "warnings_dropped", "advice", "advice_dropped"};
+    static const char *const fields[] = {"file",      "name",
+                                         "size_m",    "counts",
+                                         "materials", "images",
+                                         "lights",    "cameras",
+                                         "clips",     "hemisphere",
+                                         "cost",      "limits",
+                                         "warnings",  "warnings_dropped",
+                                         "advice",    "advice_dropped"};
     set_lights(1, "{'type':'spot','intensity':50}", 2);
     inspect();
     json_t *all = report();

@@ -199,6 +199,39 @@ static void test_broken_pictures_keep_no_memory(void **state) {
     free(rgba);
 }
 
+/* A picture of 512 x 512 with its mipmaps, once for each way in which it is read. */
+static void test_textures_are_within_gpu_mb(void **state) {
+    (void)state;
+    enum { SIDE = 512 };
+    uint8_t *rgba = calloc(SIDE * SIDE, 4);
+    struct gn_made png = gn_maker_png(SIDE, SIDE, rgba);
+    add_picture(png.data, png.size);
+    for (int both = 0; both < 2; both++) {
+        gn_maker_set(&maker, "materials",
+                     both ? "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}},"
+                            "'occlusionTexture':{'index':0}}]"
+                          : BASE_TEXTURE);
+        struct gn_made glb = gn_maker_glb(&maker);
+        struct gn_scene_limits limits = {.gpu_mb = (uint64_t)both + 2};
+        struct gn_scene *scene =
+            gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
+        if (!scene) fail_msg("%s", err.text);
+        const uint64_t bytes = gn_scene_image_bytes(&scene->pictures.images[0]);
+        assert_int_equal(bytes, (both + 1) * (SIDE * SIDE * 4 * 4 / 3));
+        gn_scene_destroy(scene);
+        limits.gpu_mb--;
+        assert_null(gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err));
+        assert_string_equal(err.text, both ? "t: textures of 3 MB and buffers of 1 MB are over the "
+                                             "limit gpu_mb=2"
+                                           : "t: textures of 2 MB and buffers of 1 MB are over the "
+                                             "limit gpu_mb=1");
+        free(glb.data);
+    }
+    gn_maker_finish(&maker);
+    free(png.data);
+    free(rgba);
+}
+
 /* Two images in one bufferView: the second is not decoded again. */
 static void test_a_damaged_view_is_decoded_once(void **state) {
     (void)state;
@@ -289,6 +322,7 @@ int main(void) {
         cmocka_unit_test_setup(test_jpeg, setup_with_material),
         cmocka_unit_test_setup(test_broken_pictures_cost_a_warning, setup_with_material),
         cmocka_unit_test_setup(test_broken_pictures_keep_no_memory, setup_with_material),
+        cmocka_unit_test_setup(test_textures_are_within_gpu_mb, setup_with_material),
         cmocka_unit_test_setup(test_a_damaged_view_is_decoded_once, setup_with_material),
         cmocka_unit_test_setup(test_missing_picture_file, setup_with_material),
         cmocka_unit_test_setup(test_later_work_is_named_once, setup_with_material),

@@ -1,0 +1,42 @@
+/* What a scene takes on the GPU, counted before anything is uploaded. */
+#include "scene/private.h"
+
+#include <inttypes.h>
+
+static void mark_use(struct gn_scene *scene, int32_t texture, bool color) {
+    if (texture < 0) return;
+    const struct gn_texture *t = &scene->pictures.textures[texture];
+    struct gn_image *image = &scene->pictures.images[t->image];
+    *(color ? &image->as_color : &image->as_data) = true;
+    image->mipmaps |= t->mipmaps;
+}
+
+uint64_t gn_scene_image_bytes(const struct gn_image *image) {
+    const uint64_t texels = (uint64_t)image->width_px * image->height_px;
+    return (uint64_t)(image->as_data + image->as_color) *
+           (texels * 4 * (image->mipmaps ? 4 : 3) / 3);
+}
+
+uint64_t gn_scene_index_bytes(const struct gn_scene *scene) {
+    return (uint64_t)scene->buffers.index_count * (scene->buffers.vertex_count > 65536 ? 4 : 2);
+}
+
+bool gn_scene_count_gpu(struct gn_gltf *g) {
+    struct gn_scene *scene = g->scene;
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
+            mark_use(scene, scene->materials[i].textures[slot].texture,
+                     gn_texture_slots[slot].texels == GN_TEXELS_SRGB);
+    for (uint32_t i = 0; i < scene->light_count; i++) mark_use(scene, scene->lights[i].slide, true);
+    uint64_t textures = 0,
+             buffers = gn_scene_index_bytes(scene) +
+                       (uint64_t)gn_scene_vertex_bytes(scene) * scene->buffers.vertex_count;
+    for (uint32_t i = 0; i < scene->pictures.image_count; i++)
+        textures += gn_scene_image_bytes(&scene->pictures.images[i]);
+    const uint64_t most_mb = g->limits.gpu_mb;
+    if (textures + buffers <= most_mb << 20) return true;
+    return gn_gltf_fail(g, NULL,
+                        "textures of %" PRIu64 " MB and buffers of %" PRIu64
+                        " MB are over the limit gpu_mb=%" PRIu64,
+                        (textures + 1048575) >> 20, (buffers + 1048575) >> 20, most_mb);
+}
