@@ -62,9 +62,9 @@ bool gn_screenshot_permits(const char *path, int fd, const char *folder, char *t
                        "screenshot: %.200s is not in %.200s; pass a memory file, or a path there",
                        path, folder);
     if (fd < 0)
-        return gn_fail(err,
-                       "screenshot: no file was passed: use gnomon ctl, or name a folder for them "
-                       "as screenshots in [kiosk]");
+        return gn_fail(
+            err, "screenshot: no memory file was passed: use gnomon ctl, or name a folder for them "
+                 "as screenshots in [kiosk]");
     /* seals are a property of memory files alone; others may be pipes, or files of a remote or
      * user's file system, on which a write can wait for ever */
     const int flags = fcntl(fd, F_GETFL);

@@ -11,6 +11,7 @@
 #include "core/arena.h"
 #include "core/clock.h"
 #include "kiosk/control/listen.h"
+#include "kiosk/control/passed.h"
 
 enum { CLIENTS = GN_CONTROL_CLIENTS_MAX, ACCEPTS_PER_DISPATCH = 16 };
 static const int64_t STUCK_NS =
@@ -207,34 +208,13 @@ static bool is_due(const struct client *client) {
             client->used == sizeof client->buffers->in);
 }
 
-/* Keeps the first of the descriptors that came, in place of an earlier one; of the others the
- * kernel closes those that do not fit. */
-static void take_passed(struct client *client, struct msghdr *message) {
-    bool first = true;
-    for (struct cmsghdr *c = CMSG_FIRSTHDR(message); c; c = CMSG_NXTHDR(message, c)) {
-        if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_RIGHTS) continue;
-        for (size_t at = CMSG_LEN(0); at + sizeof(int) <= c->cmsg_len; at += sizeof(int)) {
-            int fd;
-            memcpy(&fd, (const char *)c + at, sizeof fd);
-            close_passed(first ? &client->passed : &fd);
-            if (first) client->passed = fd;
-            first = false;
-        }
-    }
-}
-
+/* A descriptor takes the place of an earlier one. */
 static ssize_t receive_input(struct client *client, char *to, size_t room) {
-    union {
-        struct cmsghdr header;
-        char bytes[CMSG_SPACE(sizeof(int))];
-    } control;
-    struct iovec piece = {to, room};
-    struct msghdr message = {.msg_iov = &piece,
-                             .msg_iovlen = 1,
-                             .msg_control = &control,
-                             .msg_controllen = sizeof control};
-    const ssize_t got = recvmsg(client->fd, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
-    if (got >= 0) take_passed(client, &message);
+    int passed;
+    const ssize_t got = gn_passed_receive(client->fd, to, room, &passed);
+    if (passed < 0) return got;
+    close_passed(&client->passed);
+    client->passed = passed;
     return got;
 }
 

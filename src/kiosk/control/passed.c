@@ -1,0 +1,68 @@
+#include "kiosk/control/passed.h"
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+/* While more closing threads wait, descriptors are not received: then the kernel drops them, which
+ * waits for nobody, since no process has had them. */
+enum { THREADS_MAX = 4 };
+static atomic_int threads;
+
+static void *close_in_thread(void *user) {
+    close((int)(intptr_t)user);
+    atomic_fetch_sub(&threads, 1);
+    return NULL;
+}
+
+static void close_aside(int fd) {
+    pthread_attr_t attributes;
+    pthread_t thread;
+    atomic_fetch_add(&threads, 1);
+    pthread_attr_init(&attributes);
+    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+    if (pthread_create(&thread, &attributes, close_in_thread, (void *)(intptr_t)fd) != 0)
+        close_in_thread((void *)(intptr_t)fd);
+    pthread_attr_destroy(&attributes);
+}
+
+/* Keeps the first memory file. Only those have seals. */
+static int take_descriptors(struct msghdr *message) {
+    int kept = -1;
+    for (struct cmsghdr *c = CMSG_FIRSTHDR(message); c; c = CMSG_NXTHDR(message, c)) {
+        if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_RIGHTS) continue;
+        for (size_t at = CMSG_LEN(0); at + sizeof(int) <= c->cmsg_len; at += sizeof(int)) {
+            int fd;
+            memcpy(&fd, (const char *)c + at, sizeof fd);
+            const int is_memory = fcntl(fd, F_GET_SEALS) >= 0;
+            if (is_memory && kept < 0)
+                kept = fd;
+            else if (is_memory)
+                close(fd);
+            else
+                close_aside(fd);
+        }
+    }
+    return kept;
+}
+
+ssize_t gn_passed_receive(int socket, void *to, size_t room, int *passed) {
+    union {
+        struct cmsghdr header;
+        char bytes[CMSG_SPACE(sizeof(int))];
+    } control;
+    struct iovec piece = {to, room};
+    struct msghdr message = {.msg_iov = &piece, .msg_iovlen = 1};
+    *passed = -1;
+    if (atomic_load(&threads) < THREADS_MAX) {
+        message.msg_control = &control;
+        message.msg_controllen = sizeof control;
+    }
+    const ssize_t got = recvmsg(socket, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
+    if (got >= 0) *passed = take_descriptors(&message);
+    return got;
+}
