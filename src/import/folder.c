@@ -111,6 +111,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
         return NULL;
     }
     if (is_model && import->format == GN_MODEL_PLY) gn_import_ply_guard(&bytes);
+    if (is_model && import->format == GN_MODEL_OBJ) gn_import_obj_pad(&bytes);
     if (!is_model && is_material) gn_import_mtl_clean(&bytes);
     struct opened *o = gn_import_alloc(sizeof *o);
     *o = (struct opened){.bytes = bytes};

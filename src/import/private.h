@@ -110,6 +110,11 @@ bool gn_import_ply_check(const struct gn_import *import);
 /* Keeps assimp from skipping the first byte of a binary body. */
 void gn_import_ply_guard(struct gn_bytes *bytes);
 
+/* ---- obj.c ---- */
+
+/* Writes ".5" as "0.5". */
+void gn_import_obj_pad(struct gn_bytes *bytes);
+
 /* ---- mtl.c ---- */
 
 /* Blanks the lines of a material file for which assimp would refuse the model. */

@@ -243,6 +243,14 @@ static void test_normals_of_a_cone_with_many_sides(void **state) {
     gn_scene_destroy(scene);
 }
 
+static void test_numbers_of_an_obj_may_begin_with_their_point(void **state) {
+    (void)state;
+    help_import_put("p.obj", "v .5 0 -.5\nv\t.25 .0 .5\nv 1. 2 +.5 \nvt .1 .2\nf 1/1 2/1 3/1");
+    struct gn_scene *scene = help_import_load("p.obj");
+    help_import_box(scene, 0.25f, 0, -0.5f, 1, 2, 0.5f);
+    gn_scene_destroy(scene);
+}
+
 /* ---- refusals ---- */
 
 static void test_what_is_no_model_is_refused_by_one_line(void **state) {
@@ -285,6 +293,7 @@ int main(void) {
         cmocka_unit_test(test_materials_have_lines_that_assimp_cannot_read),
         cmocka_unit_test(test_many_faces_around_a_point_get_normals_at_once),
         cmocka_unit_test(test_normals_of_a_cone_with_many_sides),
+        cmocka_unit_test(test_numbers_of_an_obj_may_begin_with_their_point),
         cmocka_unit_test(test_what_is_no_model_is_refused_by_one_line),
         cmocka_unit_test(test_names_are_known_by_their_ends),
     };
