@@ -7,6 +7,7 @@
 #include <string.h>
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5 };
+enum { CLOSED_CORNERS = 2 }; /* tested for being closed, for each vertex of the limit */
 
 /* The square of a larger number overflows a float. */
 static bool position_is_usable(const float *p) {
@@ -288,9 +289,12 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
         scene->buffers.index_count += geometry->index_count;
         gn_geometry_measure(scene, geometry, &shape->area);
         /* The test visits all vertices, which many geometries may share: run it only where most
-         * belong to this one. */
-        if (geometry->vertex_count <= 2 * (uint64_t)geometry->index_count)
+         * belong to this one. Many geometries may read the same indices, too: its work is bounded
+         * by the limit on vertices. */
+        const bool is_own = geometry->vertex_count <= 2 * (uint64_t)geometry->index_count;
+        if (is_own && g->closed_corners <= CLOSED_CORNERS * g->limits.vertices)
             geometry->closed = gn_geometry_is_closed(g, geometry);
+        g->closed_corners += geometry->index_count;
     }
     /* makes vertices that no triangle uses finite, too */
     for (size_t i = 0; i < scene->buffers.vertex_count; i++) {

@@ -148,7 +148,9 @@ struct gn_gltf {
     struct gn_gltf_to_scene to_scene;
     size_t misplaced; /* triangles that are not shown: positions that are not finite */
     uint64_t key_total;
-    uint64_t damaged_texels; /* of pictures whose decoding failed */
+    uint64_t decode_work;    /* of the pictures in memory; see decode_image() */
+    uint64_t damaged_work;   /* of those whose decoding failed */
+    uint64_t closed_corners; /* of geometries tested by gn_geometry_is_closed() */
     struct gn_scene *scene;
 };
 

@@ -294,12 +294,43 @@ static void test_scans_of_a_jpeg_are_bounded(void **state) {
     }
 }
 
+/* 1 x 999999 in a few kB: few texels, but many rows. */
+static void test_narrow_pictures_cannot_take_minutes(void **state) {
+    (void)state;
+    enum { HEIGHT = 999999, COUNT = 40 };
+    uint8_t *grey = calloc(HEIGHT, 4);
+    struct gn_made png = gn_maker_png(1, HEIGHT, grey);
+    free(grey);
+    gn_maker_set(&maker, "meshes", "[{'primitives':[]}]");
+    json_t *primitives =
+        json_object_get(json_array_get(json_object_get(maker.root, "meshes"), 0), "primitives");
+    for (int i = 0; i < COUNT; i++) {
+        char json[100];
+        snprintf(json, sizeof json, "{'bufferView':%d,'mimeType':'image/png'}",
+                 gn_maker_view(&maker, png.data, png.size));
+        gn_maker_add(&maker, "images", json);
+        snprintf(json, sizeof json, "{'source':%d}", i);
+        gn_maker_add(&maker, "textures", json);
+        snprintf(json, sizeof json, "{'emissiveTexture':{'index':%d}}", i);
+        gn_maker_add(&maker, "materials", json);
+        json_array_append_new(primitives, json_pack("{s:{s:i},s:i,s:i}", "attributes", "POSITION",
+                                                    0, "indices", 1, "material", i));
+    }
+    free(png.data);
+    struct gn_scene *scene = load();
+    assert_in_range(scene->pictures.image_count, 1, 4);
+    assert_non_null(strstr(warnings.text[0], "not decoded: pictures of narrow rows take too long"));
+    gn_scene_destroy(scene);
+    assert_quick();
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_a_primitive_costs_its_own_size_not_that_of_its_accessor, begin),
         cmocka_unit_test_setup(test_a_part_of_the_vertices_keeps_its_attributes, begin),
         cmocka_unit_test_setup(test_positions_cannot_be_made_to_collide, begin),
         cmocka_unit_test_setup(test_a_load_ends_at_its_limit_of_processor_time, begin),
+        cmocka_unit_test_setup(test_narrow_pictures_cannot_take_minutes, begin),
         cmocka_unit_test(test_scans_of_a_jpeg_are_bounded),
         cmocka_unit_test_setup(test_a_large_file_that_is_no_picture_is_not_read, begin),
         cmocka_unit_test_setup(test_a_file_is_one_picture_whatever_it_is_called, begin),

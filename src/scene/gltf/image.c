@@ -31,6 +31,10 @@ static const struct format *format_of(const void *data, size_t size) {
     return NULL;
 }
 
+/* Decoding costs time by texels, and by rows where these are short: libpng visits each in up to
+ * seven passes. A row counts as so many texels more. */
+enum { ROW_WORK = 128 };
+
 static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct gn_image *image,
                          struct gn_err *err) {
     const struct format *format = format_of(blob->data, blob->size);
@@ -45,16 +49,22 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
                        px[1], g->limits.texels);
     if (4 * texels + with_mipmaps > gn_gltf_room(g))
         return gn_fail(err, "exceeds the limit memory_mb");
-    if (g->damaged_texels > g->limits.texels)
+    const uint64_t work = texels + (uint64_t)ROW_WORK * px[1];
+    if (g->decode_work > (g->limits.memory_mb << 20) / 4)
+        return gn_fail(err,
+                       "not decoded: pictures of narrow rows take too long for memory_mb=%" PRIu64,
+                       g->limits.memory_mb);
+    if (g->damaged_work > g->limits.texels)
         return gn_fail(err, "not decoded: damaged pictures have used up the limit texels=%" PRIu64,
                        g->limits.texels);
     uint8_t *rgba = gn_gltf_alloc(g, g->memory.scene, texels, 4);
     if (!rgba || !gn_gltf_check_time(g)) return false;
     if (!format->read(blob->data, blob->size, px, rgba, err)) {
-        g->damaged_texels += texels;
+        g->damaged_work += work;
         gn_arena_undo(g->memory.scene, rgba, 4 * texels);
         return false;
     }
+    g->decode_work += work;
     g->memory.other_bytes += with_mipmaps;
     *image = (struct gn_image){.width_px = px[0], .height_px = px[1], .rgba = rgba};
     for (uint64_t i = 0; i < texels && !image->has_alpha; i++)
