@@ -46,7 +46,8 @@ static bool wait_for_child(pid_t pid, int end, const struct gn_child *child, voi
                    gn_fail(err, "exits (status %d)", WEXITSTATUS(status));
         if (ended < 0 && errno != EINTR)
             return gn_fail(err, "cannot be waited for: %s", strerror(errno));
-        if (child->stop && child->stop()) return end_child(pid) || gn_fail(err, "was stopped");
+        if (child->cancel && atomic_load(child->cancel))
+            return end_child(pid) || gn_fail(err, "was stopped");
         uint32_t now = child->progress ? *(const volatile uint32_t *)child->progress : 0;
         if (now != seen) since_ns = gn_clock_monotonic_ns();
         seen = now;

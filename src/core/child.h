@@ -3,6 +3,7 @@
 #ifndef GN_CORE_CHILD_H
 #define GN_CORE_CHILD_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -12,7 +13,7 @@
 struct gn_child {
     void (*work)(void *shared, const void *argument);  /* runs in the child */
     void (*watch)(void *shared, const void *argument); /* about ten times a second here; or NULL */
-    bool (*stop)(void); /* called as often; true kills the child; or NULL */
+    const atomic_bool *cancel; /* read as often; true kills the child; or NULL */
     const void *argument;
     const uint32_t *progress; /* counter in the shared memory; NULL: none. See stall_s */
     int stall_s;              /* seconds without progress until the child is killed; 0: 60 */

@@ -28,7 +28,8 @@ static const struct row {
      UINT64_C(1) << 40, 0},
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof ROWS[0] };
-_Static_assert(sizeof(struct gn_scene_limits) == ROW_COUNT * sizeof(uint64_t), "a row per limit");
+_Static_assert(offsetof(struct gn_scene_limits, cancel) == ROW_COUNT * sizeof(uint64_t),
+               "a row per limit");
 
 enum { LEAST_MB = 32 }; /* what a row with a share falls back to on the smallest machine */
 

@@ -172,8 +172,8 @@ size_t gn_gltf_room(const struct gn_gltf *g);
 
 /* ---- gltf/time.c ---- */
 
-/* Fails the load when its limit on seconds is over. Reads a clock: once for each geometry, picture
- * and clip, and in one of many getters of gltf/json.h. */
+/* Fails the load when its limit on seconds is over or it is cancelled. Reads a clock: once for each
+ * geometry, picture and clip, and in one of many getters of gltf/json.h. */
 bool gn_gltf_check_time(struct gn_gltf *g);
 
 /* ---- the steps of load.c, in order ---- */

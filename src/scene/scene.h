@@ -5,6 +5,7 @@
 #define GN_SCENE_SCENE_H
 
 #include <cglm/cglm.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -216,6 +217,7 @@ struct gn_scene_limits {
     uint64_t gpu_mb;              /* 1024: its textures and buffers on the GPU */
     uint64_t maps_mb;             /* 384: what shadows take on the GPU in one frame */
     uint64_t triangles_per_frame; /* 100000000: of all nodes and their instances */
+    const atomic_bool *cancel;    /* another thread sets it to end the load, which fails; or NULL */
 };
 /* Sets a limit by name; false and a usage error that lists the names if it is unknown. */
 bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,

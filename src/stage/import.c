@@ -11,7 +11,6 @@
 
 #include "core/child.h"
 #include "core/model.h"
-#include "core/stop.h"
 
 enum {
     GRACE_S = 15, /* it times out by itself, so long before it is killed */
@@ -143,7 +142,7 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
     else {
         const struct gn_child child = {.work = exec_program,
                                        .argument = &job,
-                                       .stop = gn_stop_asked,
+                                       .cancel = limits->cancel,
                                        .stall_s = (int)gn_scene_limits_or_default(limits).seconds +
                                                   GRACE_S};
         struct gn_err end = {0}, reported = {0};

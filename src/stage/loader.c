@@ -17,8 +17,10 @@ struct job {
     struct gn_loaded *loaded;
     struct gn_scene_limits limits;
     char *path; /* NULL: the default scene */
-    int event;  /* a duplicate of the loader's; the thread closes it */
+    int number;
+    int event; /* a duplicate of the loader's; the thread closes it */
     atomic_int state;
+    atomic_bool cancelled;
 };
 enum { RUNS, IS_DONE, IS_LEFT };
 
@@ -67,12 +69,22 @@ int gn_loader_fd(const struct gn_loader *loader) { return loader->event; }
 
 bool gn_loader_is_busy(const struct gn_loader *loader) { return loader->job; }
 
+int gn_loader_number(const struct gn_loader *loader) {
+    const struct job *job = loader->job;
+    return job && !atomic_load(&job->cancelled) ? job->number : -1;
+}
+
+void gn_loader_cancel(struct gn_loader *loader) {
+    if (loader->job) atomic_store(&loader->job->cancelled, true);
+}
+
 bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
                      const struct gn_scene_limits *limits, struct gn_err *err) {
     struct job *job = gn_xalloc(1, sizeof *job);
     job->loaded = gn_xalloc(1, sizeof *job->loaded);
-    job->loaded->number = number;
+    job->loaded->number = job->number = number;
     job->limits = *limits;
+    job->limits.cancel = &job->cancelled;
     job->path = path ? strdup(path) : NULL;
     job->event = fcntl(loader->event, F_DUPFD_CLOEXEC, 0);
     if (job->event < 0) {
@@ -101,8 +113,8 @@ struct gn_loaded *gn_loader_take(struct gn_loader *loader) {
     if (read(loader->event, &count, sizeof count) < 0) {
     }
     if (!job || atomic_load(&job->state) != IS_DONE) return NULL;
-    struct gn_loaded *loaded = job->loaded;
-    job->loaded = NULL;
+    struct gn_loaded *loaded = atomic_load(&job->cancelled) ? NULL : job->loaded;
+    if (loaded) job->loaded = NULL;
     loader->job = NULL;
     job_destroy(job);
     return loaded;
@@ -110,6 +122,7 @@ struct gn_loaded *gn_loader_take(struct gn_loader *loader) {
 
 void gn_loader_close(struct gn_loader *loader) {
     if (!loader) return;
+    gn_loader_cancel(loader);
     if (loader->job && atomic_exchange(&loader->job->state, IS_LEFT) == IS_DONE)
         job_destroy(loader->job);
     close(loader->event);

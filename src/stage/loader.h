@@ -1,4 +1,5 @@
-/* Scenes loaded in a thread, one at a time, while frames go on. */
+/* Scenes loaded in a thread, one at a time, while frames go on. A load may be cancelled; the next
+ * one starts when its thread has ended, within a moment. */
 #ifndef GN_STAGE_LOADER_H
 #define GN_STAGE_LOADER_H
 
@@ -7,7 +8,7 @@
 
 struct gn_loader;
 struct gn_loaded {
-    int number;             /* of gn_loader_start() */
+    int number;             /* of gn_loader_start(), from 0 */
     struct gn_scene *scene; /* NULL: failed, see err */
     struct gn_pose pose;    /* of the scene, with its default clips, at 0 */
     struct gn_err err;
@@ -15,15 +16,19 @@ struct gn_loaded {
 };
 
 struct gn_loader *gn_loader_open(struct gn_err *err);
-int gn_loader_fd(const struct gn_loader *loader); /* readable when a scene can be taken */
-bool gn_loader_is_busy(const struct gn_loader *loader);
+int gn_loader_fd(const struct gn_loader *loader);       /* readable when a scene can be taken */
+bool gn_loader_is_busy(const struct gn_loader *loader); /* a thread runs or is to be taken */
+/* The number of the load that runs and is not cancelled, else -1. */
+int gn_loader_number(const struct gn_loader *loader);
 /* Starts the thread; not while busy. The path is copied; NULL: the built-in scene. */
 bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
                      const struct gn_scene_limits *limits, struct gn_err *err);
-/* The loaded scene, owned by the caller; NULL: not done yet. */
+/* Drops what is loaded, if anything is: gn_loader_take() will not return it. Does not wait. */
+void gn_loader_cancel(struct gn_loader *loader);
+/* The loaded scene, owned by the caller; NULL: not done yet, or it was cancelled. */
 struct gn_loaded *gn_loader_take(struct gn_loader *loader);
 void gn_loaded_destroy(struct gn_loaded *loaded); /* NULL is legal */
-/* Does not wait: a thread that still loads frees its scene when it is done. */
+/* Does not wait: a thread that still loads is cancelled and frees its scene. */
 void gn_loader_close(struct gn_loader *loader);
 
 #endif

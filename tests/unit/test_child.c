@@ -71,10 +71,10 @@ static void test_a_hang_ends(void **state) {
     assert_string_equal(err.text, "hangs (no progress for 1 s)");
 }
 
-static bool at_once(void) { return true; }
-static void test_a_child_is_killed_when_asked_to_stop(void **state) {
+static void test_a_cancelled_child_is_killed(void **state) {
     (void)state;
-    const struct gn_child child = {.work = hang, .stop = at_once};
+    static const atomic_bool cancel = true;
+    const struct gn_child child = {.work = hang, .cancel = &cancel};
     assert_false(gn_child_run(&child, NULL, &err));
     assert_string_equal(err.text, "was stopped");
 }
@@ -121,7 +121,7 @@ int main(void) {
         cmocka_unit_test(test_a_crash_is_an_answer),
         cmocka_unit_test(test_an_early_end_is_an_answer),
         cmocka_unit_test(test_a_hang_ends),
-        cmocka_unit_test(test_a_child_is_killed_when_asked_to_stop),
+        cmocka_unit_test(test_a_cancelled_child_is_killed),
         cmocka_unit_test(test_progress_is_no_hang),
         cmocka_unit_test(test_a_child_is_not_heard),
     };

@@ -79,6 +79,18 @@ static void test_glb_header(void **state) {
     refuse_changed(15, 1, "t: byte 12: a chunk of 16777692 bytes, but 544 are left");
 }
 
+static void test_a_cancelled_load_fails(void **state) {
+    (void)state;
+    static atomic_bool cancel;
+    const struct gn_scene_limits limits = {.cancel = &cancel};
+    struct gn_scene *scene = gn_scene_load("assets/bench/s1.glb", &limits, &warnings, &err);
+    assert_non_null(scene);
+    gn_scene_destroy(scene);
+    cancel = true;
+    assert_null(gn_scene_load("assets/bench/s1.glb", &limits, &warnings, &err));
+    assert_string_equal(err.text, "assets/bench/s1.glb: no longer wanted");
+}
+
 static void test_trailing_data_is_a_warning(void **state) {
     (void)state;
     struct gn_made made = square_glb();
@@ -416,6 +428,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_not_gltf),
         cmocka_unit_test(test_glb_header),
+        cmocka_unit_test_setup(test_a_cancelled_load_fails, reset),
         cmocka_unit_test_setup(test_trailing_data_is_a_warning, reset),
         cmocka_unit_test(test_gltf_with_bom_and_data_uri),
         cmocka_unit_test(test_wrong_json),

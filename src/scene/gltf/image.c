@@ -137,7 +137,7 @@ static int32_t image_at(struct gn_gltf *g, int32_t index) {
     struct gn_at at = gn_at_item(g, &images, (size_t)index);
     struct source source;
     struct gn_err err = {0};
-    if (open_source(g, &at, &source, &err)) {
+    if (gn_gltf_check_time(g) && open_source(g, &at, &source, &err)) {
         const size_t first = first_image_of(g, &source, (size_t)index);
         if (first != (size_t)index) {
             g->to_scene.image[index] = g->to_scene.image[first];

@@ -1,5 +1,6 @@
-/* The limit on seconds. It counts processor time of the thread that loads, so that a busy machine
- * or a slow disk refuses no scene that it would show otherwise. */
+/* The limit on seconds, and the flag that cancels a load. The limit counts processor time of the
+ * thread that loads, so that a busy machine or a slow disk refuses no scene that it would show
+ * otherwise. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -7,6 +8,8 @@
 #include "core/clock.h"
 
 bool gn_gltf_check_time(struct gn_gltf *g) {
+    if (!g->failed && g->limits.cancel && atomic_load(g->limits.cancel))
+        return gn_gltf_fail(g, NULL, "no longer wanted");
     if (g->failed || gn_clock_thread_cpu_ns() < g->end_ns) return !g->failed;
     return gn_gltf_fail(g, NULL, "takes longer to load than the limit seconds=%" PRIu64,
                         g->limits.seconds);
