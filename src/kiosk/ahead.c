@@ -127,9 +127,13 @@ static void take_loaded(void *user, uint32_t events, int64_t now_ns) {
     struct gn_show *s = user;
     struct gn_loaded *loaded = gn_loader_take(s->scenes.loader);
     (void)events, (void)now_ns;
-    if (!loaded) return;
+    if (!loaded) return; /* not done, or cancelled */
     for (int i = 0; i < loaded->warnings.count; i++)
         gn_warn(s->warnings, "%s", loaded->warnings.text[i]);
+    if (loaded->number == GN_SHOW_RELOAD) {
+        s->reload.loaded = loaded;
+        return;
+    }
     if (loaded->scene && gn_show_look(s, loaded->scene, &s->scenes.looks, &loaded->err)) {
         gn_show_drop_staged(s);
         s->scenes.staged = loaded;
@@ -148,13 +152,19 @@ void gn_show_close_loader(struct gn_show *s) {
 
 bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
     struct gn_watch *watch = &s->scenes.loader_watch;
-    gn_show_close_loader(s);
     s->scenes.loader = gn_loader_open(err);
     if (!s->scenes.loader) return false;
     *watch = (struct gn_watch){
         .fd = gn_loader_fd(s->scenes.loader), .events = EPOLLIN, .call = take_loaded, .user = s};
     return gn_loop_add(s->loop, watch) ||
            gn_fail(err, "show: cannot wait for scenes: %s", strerror(errno));
+}
+
+bool gn_show_start_load(struct gn_show *s, int number, const char *path,
+                        const struct gn_settings *settings, struct gn_err *err) {
+    struct gn_scene_limits limits;
+    return gn_stage_limits(settings, &limits, err) &&
+           gn_loader_start(s->scenes.loader, number, path, &limits, err);
 }
 
 static bool is_ready(const struct gn_show *s, int scene) {
@@ -211,18 +221,20 @@ static void show_wanted(struct gn_show *s, int scene) {
 void gn_show_advance(struct gn_show *s) {
     struct gn_show_scenes *scenes = &s->scenes;
     const int scene = gn_kiosk_scene(&s->rules, &s->kiosk.wanted);
+    const int loading = gn_loader_number(scenes->loader);
     if (scenes->staged && scenes->staged->number != scene) gn_show_drop_staged(s);
+    if (loading != GN_SHOW_RELOAD && (loading != scene || scene == scenes->shown))
+        gn_loader_cancel(scenes->loader);
     if (!gn_kiosk_waits(&s->kiosk)) {
         s->fade.keeps = s->fade.kept = false;
         return;
     }
 
-    /* one load at a time; a load whose scene is no longer wanted is finished first, too */
-    if (scene != scenes->shown && !scenes->staged && !gn_loader_is_busy(scenes->loader)) {
-        struct gn_scene_limits limits;
+    /* one load at a time; a reload, which may change the list, comes first */
+    if (scene != scenes->shown && !scenes->staged && !s->reload.options &&
+        !gn_loader_is_busy(scenes->loader)) {
         struct gn_err err = {0};
-        if (!gn_stage_limits(s->stage.settings, &limits, &err) ||
-            !gn_loader_start(scenes->loader, scene, scenes->paths[scene], &limits, &err))
+        if (!gn_show_start_load(s, scene, scenes->paths[scene], s->stage.settings, &err))
             fail_place(s, GN_KIOSK_SCENE_FAILED, scene, err.text);
     }
     if (scenes->staged && !(scenes->looks.ready >> s->kiosk.wanted.mode & 1)) s->ahead.idle = false;

@@ -18,17 +18,40 @@ struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn
     struct gn_options *o = gn_xalloc(1, sizeof *o);
     if (gn_args_parse(o, like->argc, like->argv, warnings, err)) {
         gn_options_run_as(o, GN_COMMAND_SHOW); /* also for the bare command */
+        /* with modes in the file one of them is always on */
+        if (!o->settings->mode && o->mode_count > 0) o->settings = &o->all[1];
         return o;
     }
     gn_show_drop_options(o);
     return NULL;
 }
 
-/* With modes in the file one of them is always on. */
-bool gn_show_load(struct gn_stage *stage, struct gn_options *o, struct gn_warnings *warnings,
-                  struct gn_err *err) {
-    if (!o->settings->mode && o->mode_count > 0) o->settings = &o->all[1];
-    return gn_stage_load(stage, o->settings, warnings, err);
+/* One black triangle on black, for the texts that are shown while the first scene loads. */
+static const char nothing[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_unlit\"],"
+    "\"scenes\":[{\"nodes\":[0],\"extras\":{\"gnomon_background\":[0,0,0]}}],"
+    "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+    "\"material\":0}]}],\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1]},"
+    "\"extensions\":{\"KHR_materials_unlit\":{}}}],"
+    "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAA\"}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+    "\"min\":[0,0,0],\"max\":[1,0,1]}]}";
+
+bool gn_show_load_nothing(struct gn_show *s, struct gn_err *err) {
+    struct gn_options *o = gn_show_read_options(s->config.options, NULL, err);
+    if (!o) return false;
+    for (int i = 0; i < o->all_count; i++) { /* what speaks of a scene */
+        struct gn_settings *settings = &o->all[i];
+        settings->scene = (struct gn_scene_settings){.list.count = 1};
+        settings->run.input_script = NULL;
+    }
+    s->reload = (struct gn_show_reload){.options = s->config.options, .first = true};
+    s->config.options = o;
+    return gn_stage_take(
+        &s->stage, o->settings,
+        gn_scene_load_bytes("(nothing)", nothing, sizeof nothing - 1, NULL, NULL, err), NULL, err);
 }
 
 static bool is_same_path(const char *a, const char *b) { return a && strcmp(a, b) == 0; }
@@ -44,22 +67,22 @@ static void replace_scene(struct gn_options *o, const char *path) {
     }
 }
 
-bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
-    struct gn_options *o = s->config.options;
-    if (gn_show_load(&s->stage, o, s->warnings, err)) return true;
-    const bool is_scene_bad = !s->stage.scene && o->settings->scene.path;
-    if (!is_scene_bad || s->config.place || gn_stop_asked()) return false;
-    char why[sizeof err->text];
-    snprintf(why, sizeof why, "%.480s (showing the default scene)", err->text);
+bool gn_show_take_first(const struct gn_show *s, struct gn_stage *stage, struct gn_options *o,
+                        struct gn_scene *scene, char why[GN_SHOW_WHY], struct gn_err *err) {
+    why[0] = 0;
+    if (!scene) gn_stage_name_source(o->settings, err);
+    if (gn_stage_take(stage, o->settings, scene, s->warnings, err)) return true;
+    if (scene || !o->settings->scene.path || s->config.place) return false;
+    snprintf(why, GN_SHOW_WHY, "%.480s (showing the default scene)", err->text);
     *err = (struct gn_err){0};
-    gn_stage_close(&s->stage);
+    gn_stage_close(stage);
     replace_scene(o, o->settings->scene.path);
-    if (!gn_show_load(&s->stage, o, s->warnings, err)) return false;
-    gn_show_report_error(s, why);
-    return true;
+    return gn_stage_load(stage, o->settings, s->warnings, err);
 }
 
 bool gn_show_begin(struct gn_show *s, struct gn_err *err) {
+    const int frames = s->stage.settings->run.frames;
+    s->counts.most_frames = frames > 0 && !s->reload.first ? (uint64_t)frames : UINT64_MAX;
     gn_show_list_modes(s);
     s->kiosk = (struct gn_kiosk){.shown.mode = s->modes.first, .wanted.mode = s->modes.first};
     s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);

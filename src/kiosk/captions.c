@@ -16,10 +16,13 @@ void gn_show_open_captions(struct gn_show *s) {
 }
 
 /* The last part of the path; NULL: the built-in scene. */
-static const char *scene_name(const struct gn_show *s, int scene) {
-    const char *path = s->scenes.paths[scene];
+static const char *path_name(const char *path) {
     const char *slash = path ? strrchr(path, '/') : NULL;
     return !path ? "default scene" : slash ? slash + 1 : path;
+}
+
+static const char *scene_name(const struct gn_show *s, int scene) {
+    return path_name(s->scenes.paths[scene]);
 }
 
 void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
@@ -30,6 +33,12 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
     /* captions of changes: a text is set only when it changes */
     const char *error = s->config.options->config_error;
     if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = t->problem;
+    char loading[200];
+    if (!error && s->reload.first) {
+        snprintf(loading, sizeof loading, "loading %s ..",
+                 path_name(s->reload.options->settings->scene.path));
+        error = loading;
+    }
     gn_captions_set(t->captions, GN_CAPTION_ERROR, error, now_ns);
     if (view->caption != t->view.caption || s->kiosk.caption_ns != t->since_ns) {
         t->view = *view;

@@ -66,6 +66,14 @@ struct gn_show_scenes {
     struct gn_show_looks looks;
 };
 
+/* A reload, and the first load: its scene loads while frames go on. */
+enum { GN_SHOW_RELOAD = GN_KIOSK_SCENES_MAX }; /* the number of its scene for the loader */
+struct gn_show_reload {
+    struct gn_options *options; /* read; NULL: none */
+    struct gn_loaded *loaded;   /* their scene; NULL: not yet */
+    bool first;                 /* there is nothing to go back to */
+};
+
 /* Texts on the picture. */
 struct gn_show_text {
     struct gn_captions *captions;
@@ -103,6 +111,7 @@ struct gn_show {
     struct gn_show_modes modes;
     struct gn_show_looks looks; /* of the stage's scene */
     struct gn_show_scenes scenes;
+    struct gn_show_reload reload;
     struct gn_kiosk_rules rules;
     struct gn_kiosk kiosk;
     struct gn_kiosk_view drawn; /* by the last frame */
@@ -129,7 +138,13 @@ bool gn_show_step(struct gn_show *show, struct gn_err *err);
 
 /* ---- reload.c: SIGHUP and ctl reload --------------------------------------------------------- */
 
-bool gn_show_reload(struct gn_show *show, struct gn_err *err);
+/* Reads the options again, and begins to load their scene. An unfinished reload is dropped. */
+void gn_show_reload(struct gn_show *show);
+/* The first load: starts it and waits for a second; then frames begin without it. */
+bool gn_show_load_first(struct gn_show *show, struct gn_err *err);
+/* Goes on with either. False: the new configuration cannot be shown and the old one is gone. */
+bool gn_show_step_reload(struct gn_show *show, struct gn_err *err);
+void gn_show_drop_reload(struct gn_show *show);
 
 /* control/answer.c stands here; see control/answer.h. */
 
@@ -157,9 +172,11 @@ void gn_show_work(struct gn_show *show);
 bool gn_show_has_work(const struct gn_show *show);
 /* The context ends, and with it all programs and uploads. */
 void gn_show_forget_work(struct gn_show *show);
-/* A new loader; what the one before still loads is dropped. */
 bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
 void gn_show_close_loader(struct gn_show *show);
+/* Not while the loader is busy. path NULL: the default scene. */
+bool gn_show_start_load(struct gn_show *show, int number, const char *path,
+                        const struct gn_settings *settings, struct gn_err *err);
 /* Loads the wanted scene, and shows the wanted mode and scene once they are ready. */
 void gn_show_advance(struct gn_show *show);
 /* gn_show_advance() can show the wanted mode and scene now. */
@@ -184,14 +201,19 @@ void gn_show_take_input(struct gn_show *show, const struct gn_pointer *pointer);
 
 /* ---- begin.c: from arguments to a first mode ------------------------------------------------- */
 
+/* With the settings of the first mode, or of none. */
 struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
                                         struct gn_err *err);
 void gn_show_drop_options(struct gn_options *options);
-bool gn_show_load(struct gn_stage *stage, struct gn_options *options, struct gn_warnings *warnings,
-                  struct gn_err *err);
-/* The first load: the built-in scene stands in for one that cannot be loaded, with the reason on
- * the screen. Not in a window, whose user reads it in the terminal. */
-bool gn_show_load_first(struct gn_show *show, struct gn_err *err);
+/* A black stage, and options without any scene; those that there are become a reload's. */
+bool gn_show_load_nothing(struct gn_show *show, struct gn_err *err);
+/* Puts the scene of the first load on the stage; NULL: it failed, see err. Then the built-in scene
+ * stands in for it, and why has the reason for the screen, else "". Not in a window, whose user
+ * reads it in the terminal. */
+enum { GN_SHOW_WHY = 512 };
+bool gn_show_take_first(const struct gn_show *show, struct gn_stage *stage,
+                        struct gn_options *options, struct gn_scene *scene, char why[GN_SHOW_WHY],
+                        struct gn_err *err);
 /* After the options and the stage are loaded: lists modes and scenes, enters the first. */
 bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 

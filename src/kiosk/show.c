@@ -39,7 +39,8 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     /* input: requests, a reload, events of the display, buttons and keys */
     gn_show_answer_requests(s);
     if (s->ends) return true;
-    if (s->reloads && !gn_show_reload(s, err)) return false;
+    if (s->reloads) gn_show_reload(s);
+    if (!gn_show_step_reload(s, err)) return false;
     if (!gn_display_dispatch(&s->stage.display, gn_loop_now_ns(s->loop), err)) return false;
     const struct gn_pointer pointer = screen->pointer;
     screen->pointer = (struct gn_pointer){0};
@@ -85,6 +86,7 @@ void gn_show_close(struct gn_show *s) {
     gn_show_close_control(s);
     gn_input_close(s->buttons.input);
     gn_captions_destroy(s->text.captions);
+    if (s->scenes.loader) gn_show_drop_reload(s);
     gn_show_close_loader(s);
     gn_show_drop_staged(s);
     gn_stage_close(&s->stage);
@@ -117,8 +119,6 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     s->config.options = gn_show_read_options(options, NULL, err);
     if (!s->config.options || !gn_show_load_first(s, err)) return false;
     gn_show_open_captions(s);
-    s->counts.most_frames =
-        s->stage.settings->run.frames > 0 ? (uint64_t)s->stage.settings->run.frames : UINT64_MAX;
     if (!gn_show_begin(s, err) || !gn_show_open_display(s, err)) return false;
     if (!gn_show_open_input(s, err)) { /* a script is of the command line */
         if (s->stage.settings->run.input_script) return false;

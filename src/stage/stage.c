@@ -33,15 +33,18 @@ bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits 
     return true;
 }
 
-/* A name that is not from the command line is reported with its source. */
+void gn_stage_name_source(const struct gn_settings *settings, struct gn_err *err) {
+    const size_t offset = offsetof(struct gn_settings, scene.path);
+    if (settings->scene.path && gn_settings_source(settings, offset) != GN_SOURCE_FLAG)
+        gn_fail_prefix(err, "%s", gn_settings_label(settings, scene.path));
+}
+
 struct gn_scene *gn_stage_scene(const struct gn_settings *settings, struct gn_warnings *warnings,
                                 struct gn_err *err) {
     struct gn_scene_limits limits;
     if (!gn_stage_limits(settings, &limits, err)) return NULL;
     struct gn_scene *scene = gn_stage_read(settings->scene.path, &limits, warnings, err);
-    size_t offset = offsetof(struct gn_settings, scene.path);
-    if (!scene && settings->scene.path && gn_settings_source(settings, offset) != GN_SOURCE_FLAG)
-        gn_fail_prefix(err, "%s", gn_settings_label(settings, scene.path));
+    if (!scene) gn_stage_name_source(settings, err);
     return scene;
 }
 
@@ -122,16 +125,20 @@ bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *o,
     return do_without(o, offsetof(struct gn_settings, scene.camera), warnings, err);
 }
 
-bool gn_stage_load(struct gn_stage *stage, const struct gn_settings *settings,
-                   struct gn_warnings *warnings, struct gn_err *err) {
-    *stage = (struct gn_stage){.settings = settings};
-    stage->scene = gn_stage_scene(settings, warnings, err);
+bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
+                   struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err) {
+    *stage = (struct gn_stage){.settings = settings, .scene = scene};
     struct gn_stage_look look;
-    if (!stage->scene || !gn_stage_look(&look, settings, stage->scene, warnings, err)) return false;
+    if (!scene || !gn_stage_look(&look, settings, scene, warnings, err)) return false;
     stage->frame_opts = look.frame_opts;
-    gn_pose_init(&stage->pose, stage->scene, look.clips);
+    gn_pose_init(&stage->pose, scene, look.clips);
     gn_pose_step(&stage->pose, settings->scene.time_ns);
     return true;
+}
+
+bool gn_stage_load(struct gn_stage *stage, const struct gn_settings *settings,
+                   struct gn_warnings *warnings, struct gn_err *err) {
+    return gn_stage_take(stage, settings, gn_stage_scene(settings, warnings, err), warnings, err);
 }
 
 bool gn_stage_start_gl(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err) {

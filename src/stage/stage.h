@@ -38,6 +38,12 @@ bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *setting
  */
 struct gn_scene *gn_stage_scene(const struct gn_settings *settings, struct gn_warnings *warnings,
                                 struct gn_err *err);
+/* Puts the source of the scene's name before a failure to load it, unless that is a flag. */
+void gn_stage_name_source(const struct gn_settings *settings, struct gn_err *err);
+/* The same as gn_stage_load() with a scene that is loaded; it is the stage's from then on, also
+ * after a failure. NULL: fails, err stays. */
+bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
+                   struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err);
 /* Loads the scene, poses it at --time and checks what the options say about it (camera, animation,
  * light, technique). */
 bool gn_stage_load(struct gn_stage *stage, const struct gn_settings *settings,

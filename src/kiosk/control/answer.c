@@ -192,10 +192,10 @@ static void finish_screenshot(void *user, uint32_t events, int64_t now_ns) {
 /* Answered when the reload is done. */
 static json_t *answer_reload(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     struct gn_show_control *c = s->control;
-    if (c->reload) {
-        gn_fail(err, "busy");
-        return NULL;
-    }
+    struct gn_err replaced;
+    (void)err;
+    gn_fail(&replaced, "a later reload replaces this one");
+    if (c->reload) gn_control_refuse(c->control, c->reload, &replaced);
     c->reload = r;
     s->reloads = true;
     return NULL;

@@ -1,0 +1,215 @@
+/* The kiosk while scenes load: frames go on, nothing waits for what nobody wants any more, and the
+ * first picture does not wait for the first scene. The slow scene is a model whose importer, found
+ * in PATH, sleeps. */
+#include "unit/check.h"
+
+#include <config.h> /* the generated one */
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/clock.h"
+#include "kiosk/private.h"
+#include "options/args.h"
+#include "unit/gl_help.h"
+
+#define PATIENCE_NS (60 * GN_NS_PER_S)
+
+static char folder[100], good[300], other[300];
+static struct gn_warnings warnings;
+
+static const char *in_folder(const char *name) {
+    static char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void write_config(const char *scene) {
+    char text[500];
+    snprintf(text, sizeof text, "[scene]\nfile = %s\nturntable = 10\n[render]\nshadow = hard\n",
+             scene);
+    help_write(folder, "kiosk.ini", text);
+}
+
+/* An importer that takes two seconds, or is never done. */
+static void write_importer(bool ends) {
+    char text[800];
+    snprintf(text, sizeof text, "#!/bin/sh\necho $$ > '%s/pid'\n%s sleep %d\nexec cat '%s'\n",
+             folder, ends ? "" : "exec", ends ? 2 : 1000, good);
+    help_write(folder, "gnomon-import", text);
+    chmod(in_folder("gnomon-import"), 0755);
+    unlink(in_folder("pid"));
+}
+
+static bool importer_runs(void) {
+    char name[40], state = 'Z';
+    int pid = 0;
+    FILE *file = fopen(in_folder("pid"), "r");
+    if (!file || fscanf(file, "%d", &pid) != 1) pid = 0;
+    if (file) fclose(file);
+    snprintf(name, sizeof name, "/proc/%d/stat", pid);
+    file = pid ? fopen(name, "r") : NULL;
+    if (file && fscanf(file, "%*d %*s %c", &state) != 1) state = 'Z';
+    if (file) fclose(file);
+    return state != 'Z';
+}
+
+static int begin(void **state) {
+    struct gn_display display;
+    char path[300];
+    (void)state;
+    help_open(&display, "egl"); /* or the test is skipped */
+    gn_display_close(&display);
+    if (access(GN_PREFIX "/libexec/gnomon-import", X_OK) == 0 ||
+        access(GN_PREFIX "/bin/gnomon-import", X_OK) == 0) {
+        puts("another gnomon-import is installed and would be used");
+        exit(77);
+    }
+    snprintf(folder, sizeof folder, "%s", help_folder());
+    snprintf(path, sizeof path, "%s:%s", folder, getenv("PATH"));
+    setenv("PATH", path, 1);
+    help_write(folder, "slow.obj", "");
+    char *here = realpath(".", NULL);
+    snprintf(good, sizeof good, "%s/assets/bench/s1.glb", here);
+    snprintf(other, sizeof other, "%s/assets/bench/s2.glb", here);
+    free(here);
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    help_remove(folder);
+    return 0;
+}
+
+static struct gn_show *open_show(const char *scene) {
+    static char config[200];
+    static const char *argv[] = {"gnomon", "show", "--backend", "egl", "--size",
+                                 "64x64",  "-c",   config,      NULL};
+    struct gn_options options;
+    struct gn_err err = {0};
+    write_config(scene);
+    snprintf(config, sizeof config, "%s", in_folder("kiosk.ini"));
+    if (!gn_args_parse(&options, 8, (char *const *)(uintptr_t)argv, &warnings, &err))
+        fail_msg("%s", err.text);
+    struct gn_show *show = gn_show_open(&options, &warnings, &err);
+    gn_options_finish(&options);
+    if (!show) fail_msg("%s", err.text);
+    return show;
+}
+
+static void step(struct gn_show *show) {
+    struct gn_err err = {0};
+    if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+}
+
+static void frames(struct gn_show *show, unsigned count) {
+    const uint64_t end = show->counts.frames + count;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (show->counts.frames < end) {
+        step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+}
+
+static bool is_shown(const struct gn_show *show, const char *scene) {
+    return !show->reload.options && strcmp(show->scenes.paths[show->drawn.scene], scene) == 0;
+}
+
+static void wait_for_importer(struct gn_show *show) {
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (!importer_runs()) {
+        step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+}
+
+static void frames_go_on_during_a_reload_and_a_later_one_replaces_it(void **state) {
+    (void)state;
+    write_importer(false);
+    struct gn_show *show = open_show(good);
+    frames(show, 2);
+    write_config(in_folder("slow.obj"));
+    show->reloads = true;
+    wait_for_importer(show);
+    frames(show, 20);
+    assert_non_null(show->reload.options);
+    assert_int_equal(gn_loader_number(show->scenes.loader), GN_SHOW_RELOAD);
+    assert_string_equal(show->scenes.paths[show->drawn.scene], good);
+
+    /* the later one, and the importer is gone */
+    write_config(other);
+    show->reloads = true;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (!is_shown(show, other)) {
+        frames(show, 1);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS / 3);
+    }
+    assert_false(importer_runs());
+    gn_show_close(show);
+}
+
+static void a_bad_reload_keeps_the_scene(void **state) {
+    (void)state;
+    struct gn_show *show = open_show(good);
+    frames(show, 2);
+    help_write(folder, "bad.glb", "this is no scene");
+    write_config(in_folder("bad.glb"));
+    show->reloads = true;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (!show->config.options->config_error) {
+        step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+    assert_non_null(strstr(show->config.error, "kiosk.ini:2: file: "));
+    assert_non_null(strstr(show->config.error, "bad.glb: byte 0"));
+    frames(show, 2);
+    assert_true(is_shown(show, good));
+    gn_show_close(show);
+}
+
+static void the_first_picture_does_not_wait_for_the_first_scene(void **state) {
+    (void)state;
+    write_importer(true);
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    struct gn_show *show = open_show(in_folder("slow.obj"));
+    assert_true(show->reload.first);
+    frames(show, 1);
+    assert_true(show->reload.first || gn_clock_monotonic_ns() - begun_ns > 2 * GN_NS_PER_S);
+    show->reloads = true; /* goes on with the first load */
+    while (show->reload.first) {
+        step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+    frames(show, 2);
+    assert_true(is_shown(show, in_folder("slow.obj")));
+    gn_show_close(show);
+}
+
+static void the_end_does_not_wait_for_the_first_scene(void **state) {
+    (void)state;
+    write_importer(false);
+    struct gn_show *show = open_show(in_folder("slow.obj"));
+    frames(show, 1);
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    gn_show_close(show);
+    assert_true(gn_clock_monotonic_ns() - begun_ns < 2 * GN_NS_PER_S);
+    while (importer_runs()) {
+        usleep(10000);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS / 3);
+    }
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) cmocka_set_test_filter(argv[1]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_go_on_during_a_reload_and_a_later_one_replaces_it),
+        cmocka_unit_test(a_bad_reload_keeps_the_scene),
+        cmocka_unit_test(the_first_picture_does_not_wait_for_the_first_scene),
+        cmocka_unit_test(the_end_does_not_wait_for_the_first_scene),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
