@@ -284,7 +284,7 @@ static void test_scans_of_a_jpeg_are_bounded(void **state) {
             assert_string_equal(err.text, "JPEG: 499 scans, at most 64 are read: save it again, "
                                           "not progressive");
         } else {
-            uint8_t *rgba = malloc(4 * 64 * 64);
+            uint8_t *rgba = calloc(64 * 64, 4);
             if (!ok || !gn_jpeg_read(jpeg.data, jpeg.size, px, rgba, &err))
                 fail_msg("%s", err.text);
             assert_true(rgba[0] == 128 && rgba[3] == 255);
