@@ -200,7 +200,7 @@ static bool is_opaque(const struct hole_case *hole) {
     static const uint8_t texels[8] = {0, 0, 0, 255, 0, 0, 0, 0};
     struct small s;
     small_init(&s);
-    s.image = (struct gn_image){2, 1, texels, true};
+    s.image = (struct gn_image){.width_px = 2, .height_px = 1, .rgba = texels, .has_alpha = true};
     s.texture = (struct gn_texture){
         .wrap_s = hole->wrap, .wrap_t = hole->wrap, .mag_nearest = hole->nearest};
     struct gn_material *material = small_item(&s);
