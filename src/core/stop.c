@@ -1,6 +1,7 @@
 #include "core/stop.h"
 
 #include <pthread.h>
+#include <semaphore.h>
 #include <stddef.h>
 #include <unistd.h>
 
@@ -45,11 +46,11 @@ void gn_stop_release(const char *temporary) {
     pthread_mutex_unlock(&mutex);
 }
 
-static void *wait_for_signal(void *unused) {
+static void *wait_for_signal(void *started) {
     sigset_t signals;
     int number = 0;
-    (void)unused;
     set_stop_signals(&signals);
+    sem_post(started);
     while (sigwait(&signals, &number) != 0) {
     }
     gn_stop_hold(); /* never released: nothing is renamed any more */
@@ -59,14 +60,21 @@ static void *wait_for_signal(void *unused) {
 
 void gn_stop_end_process(void) {
     enum { STACK_BYTES = 256 << 10 };
+    static sem_t started; /* static: the thread may still be in sem_post() when this returns */
     pthread_t thread;
     pthread_attr_t attributes;
+    sem_init(&started, 0, 0);
     pthread_attr_init(&attributes);
     pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
     pthread_attr_setstacksize(&attributes, STACK_BYTES);
-    const bool runs = pthread_create(&thread, &attributes, wait_for_signal, NULL) == 0;
+    const bool runs = pthread_create(&thread, &attributes, wait_for_signal, &started) == 0;
     pthread_attr_destroy(&attributes);
-    if (runs) return;
+    if (runs) {
+        /* A child forked while the thread starts would inherit the locks that it holds then. */
+        while (sem_wait(&started) != 0) {
+        }
+        return;
+    }
     sigset_t signals; /* without a thread the kernel ends the process, and the file stays */
     set_stop_signals(&signals);
     sigprocmask(SIG_UNBLOCK, &signals, NULL);
