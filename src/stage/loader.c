@@ -36,6 +36,27 @@ void gn_loaded_destroy(struct gn_loaded *loaded) {
     free(loaded);
 }
 
+static bool start_thread(void *(*run)(void *), void *argument, int *error) {
+    pthread_t thread;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+    *error = pthread_create(&thread, &attributes, run, argument);
+    pthread_attr_destroy(&attributes);
+    return *error == 0;
+}
+
+static void *destroy_in_thread(void *argument) {
+    gn_loaded_destroy(argument);
+    return NULL;
+}
+
+void gn_loaded_drop(struct gn_loaded *loaded) {
+    int error;
+    if (loaded && (!loaded->scene || !start_thread(destroy_in_thread, loaded, &error)))
+        gn_loaded_destroy(loaded);
+}
+
 static void job_destroy(struct job *job) {
     gn_loaded_destroy(job->loaded);
     free(job->path);
@@ -90,13 +111,8 @@ bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
     if (job->event < 0) {
         gn_fail(err, "no descriptor to load a scene: %s", strerror(errno));
     } else {
-        pthread_t thread;
-        pthread_attr_t attributes;
-        pthread_attr_init(&attributes);
-        pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
-        const int error = pthread_create(&thread, &attributes, load_in_thread, job);
-        pthread_attr_destroy(&attributes);
-        if (error == 0) {
+        int error;
+        if (start_thread(load_in_thread, job, &error)) {
             loader->job = job;
             return true;
         }
@@ -113,8 +129,12 @@ struct gn_loaded *gn_loader_take(struct gn_loader *loader) {
     if (read(loader->event, &count, sizeof count) < 0) {
     }
     if (!job || atomic_load(&job->state) != IS_DONE) return NULL;
-    struct gn_loaded *loaded = atomic_load(&job->cancelled) ? NULL : job->loaded;
-    if (loaded) job->loaded = NULL;
+    struct gn_loaded *loaded = job->loaded;
+    job->loaded = NULL;
+    if (atomic_load(&job->cancelled)) {
+        gn_loaded_drop(loaded);
+        loaded = NULL;
+    }
     loader->job = NULL;
     job_destroy(job);
     return loaded;
