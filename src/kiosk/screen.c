@@ -14,7 +14,7 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
     uint32_t without = 0;
     const bool srgb =
         !gn_caps_parse(o->render.without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
-    /* a still picture must be flipped within half of the watchdog's timeout */
+    /* a still picture must be flipped within a quarter of the watchdog's timeout */
     const int64_t again_ns = s->service.every_ns * 3 / 4;
     s->context.screen_opts = (struct gn_screen_opts){
         .loop = s->loop,

@@ -49,7 +49,7 @@ bool gn_service_open(struct gn_service *s, struct gn_loop *loop, int64_t now_ns,
 
     s->socket = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (s->socket < 0) return gn_fail(err, "cannot notify the supervisor: %s", strerror(errno));
-    s->every_ns = watchdog_ns() / 2;
+    s->every_ns = watchdog_ns() / 4;
     s->next_ns = now_ns + s->every_ns;
     s->timer = (struct gn_timer){.due_ns = s->next_ns, .call = rearm_watchdog, .user = s};
     if (s->every_ns > 0) gn_loop_add_timer(loop, &s->timer);

@@ -1,9 +1,9 @@
 /* The systemd protocol (sd_notify(3)): a datagram each, to $NOTIFY_SOCKET. READY=1 with the first
- * completed flip, or as soon as the screen's status says what it waits for. WATCHDOG=1 every half
- * of $WATCHDOG_USEC, only if a flip has completed since the last one or the screen sleeps: it is
- * switched off, or waits for a card, a monitor or a console. So a flip, GPU or loop that hangs ends
- * with a restart, and a still picture is drawn again in time to feed the watchdog. Without
- * $NOTIFY_SOCKET nothing is done. */
+ * completed flip, or as soon as the screen's status says what it waits for. WATCHDOG=1 every
+ * quarter of $WATCHDOG_USEC, only if a flip has completed since the last one or the screen sleeps:
+ * it is switched off, or waits for a card, a monitor or a console. So a flip, GPU or loop that
+ * hangs ends with a restart, and a still picture is drawn again in time to feed the watchdog.
+ * Without $NOTIFY_SOCKET nothing is done. */
 #ifndef GN_KIOSK_SERVICE_H
 #define GN_KIOSK_SERVICE_H
 
@@ -18,7 +18,7 @@
 struct gn_service {
     int socket;            /* -1: no $NOTIFY_SOCKET */
     struct gn_timer timer; /* ends the wait when step is due; added only with a watchdog */
-    int64_t every_ns;      /* half of the watchdog's timeout; 0: no watchdog */
+    int64_t every_ns;      /* a quarter of the watchdog's timeout; 0: no watchdog */
     int64_t next_ns;
     uint64_t shown; /* completed flips when it was fed last */
     bool ready;
