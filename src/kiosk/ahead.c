@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "kiosk/private.h"
 
 enum { SLICE_BYTES = 1 << 20 };
@@ -19,11 +20,15 @@ void gn_show_forget_work(struct gn_show *s) {
 void gn_show_drop_staged(struct gn_show *s) {
     if (s->stage.gl) gn_gl_stage(s->stage.gl, NULL);
     gn_frame_destroy(s->scenes.frame);
-    gn_loaded_destroy(s->scenes.staged);
+    gn_loaded_drop(s->scenes.staged);
     s->scenes.frame = NULL;
     s->scenes.staged = NULL;
     s->scenes.whole = false;
     s->scenes.looks.ready = 0;
+}
+
+bool gn_show_reload_is_staged(const struct gn_show *s) {
+    return s->scenes.staged && s->scenes.staged->number == GN_SHOW_RELOAD;
 }
 
 /* The mode or scene of that number cannot be shown. */
@@ -34,6 +39,19 @@ static void fail_place(struct gn_show *s, enum gn_kiosk_event_kind kind, int num
     gn_show_report_problem(s, why);
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
     gn_latency_drop(&s->buttons.latency);
+}
+
+/* The staged scene cannot be shown. For a reload this is as if it had not loaded. */
+static void fail_staged(struct gn_show *s, const struct gn_err *err) {
+    const int number = s->scenes.staged->number;
+    gn_show_drop_staged(s);
+    if (number != GN_SHOW_RELOAD) {
+        fail_place(s, GN_KIOSK_SCENE_FAILED, number, err->text);
+        return;
+    }
+    s->reload.loaded = gn_xalloc(1, sizeof *s->reload.loaded);
+    s->reload.loaded->number = number;
+    s->reload.loaded->err = *err;
 }
 
 /* ---- programs ---- */
@@ -58,6 +76,10 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
     switch (gn_gl_warm(s->stage.gl, plan, &err)) {
     case GN_GL_WARM_DONE: looks->ready |= 1u << mode; return false;
     case GN_GL_WARM_FAILED:
+        if (looks == &s->scenes.looks && gn_show_reload_is_staged(s)) {
+            fail_staged(s, &err);
+            return true;
+        }
         snprintf(text, sizeof text, "mode \"%.40s\": %s", s->modes.names[mode], err.text);
         looks->ready |= 1u << mode; /* not tried again */
         fail_place(s, GN_KIOSK_MODE_FAILED, mode, text);
@@ -72,10 +94,56 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
 
 /* ---- the staged scene ---- */
 
+/* The look in scenes.looks that the staged scene is shown in first. */
+static int staged_mode(const struct gn_show *s) {
+    return gn_show_reload_is_staged(s) ? 0 : s->kiosk.wanted.mode;
+}
+
+static bool staged_is_ready(const struct gn_show *s) {
+    return !s->stage.gl || (s->scenes.whole && s->scenes.looks.ready >> staged_mode(s) & 1);
+}
+
+void gn_show_stage_reload(struct gn_show *s, const struct gn_stage_look *look) {
+    struct gn_show_scenes *scenes = &s->scenes;
+    if (s->reload.loaded) {
+        gn_show_drop_staged(s);
+        scenes->staged = s->reload.loaded;
+        s->reload.loaded = NULL;
+    }
+    scenes->looks.of[0] = *look;
+    scenes->looks.ready = 0;
+    if (look->clips != scenes->staged->pose.clips)
+        gn_pose_choose(&scenes->staged->pose, look->clips);
+    s->ahead.idle = false;
+}
+
+bool gn_show_reload_is_ready(const struct gn_show *s) {
+    return gn_show_reload_is_staged(s) && staged_is_ready(s);
+}
+
+void gn_show_take_staged(struct gn_show *s) {
+    struct gn_show_scenes *scenes = &s->scenes;
+    struct gn_stage *stage = &s->stage;
+    struct gn_loaded *staged = scenes->staged;
+    const struct gn_loaded shown = {.scene = stage->scene, .pose = stage->pose};
+    if (stage->gl) {
+        gn_gl_stage_show(stage->gl);
+        gn_frame_destroy(stage->frame);
+        stage->frame = scenes->frame;
+        scenes->frame = NULL;
+    }
+    stage->scene = staged->scene;
+    stage->pose = staged->pose;
+    staged->scene = shown.scene;
+    staged->pose = shown.pose;
+    gn_show_drop_staged(s);
+    s->ahead.idle = false;
+}
+
 static bool work_on_staged(struct gn_show *s) {
     struct gn_show_scenes *scenes = &s->scenes;
     struct gn_loaded *staged = scenes->staged;
-    const int mode = s->kiosk.wanted.mode;
+    const int mode = staged_mode(s);
     struct gn_err err = {0};
     if (!staged) return false;
     if (scenes->whole)
@@ -87,9 +155,7 @@ static bool work_on_staged(struct gn_show *s) {
         gn_gl_stage(s->stage.gl, staged->scene);
         scenes->frame = gn_frame_create(staged->scene, gn_gl_caps(s->stage.gl));
     } else if (!gn_gl_stage_step(s->stage.gl, SLICE_BYTES, &scenes->whole, &err)) {
-        const int number = staged->number;
-        gn_show_drop_staged(s);
-        fail_place(s, GN_KIOSK_SCENE_FAILED, number, err.text);
+        fail_staged(s, &err);
     }
     return true;
 }
@@ -141,7 +207,7 @@ static void take_loaded(void *user, uint32_t events, int64_t now_ns) {
         return;
     }
     fail_place(s, GN_KIOSK_SCENE_FAILED, loaded->number, loaded->err.text);
-    gn_loaded_destroy(loaded);
+    gn_loaded_drop(loaded);
 }
 
 void gn_show_close_loader(struct gn_show *s) {
@@ -171,11 +237,11 @@ static bool is_ready(const struct gn_show *s, int scene) {
     const struct gn_show_scenes *scenes = &s->scenes;
     const uint32_t bit = 1u << s->kiosk.wanted.mode;
     if (scene == scenes->shown) return !s->stage.gl || s->looks.ready & bit;
-    if (!scenes->staged || scenes->staged->number != scene) return false;
-    return !s->stage.gl || (scenes->whole && scenes->looks.ready & bit);
+    return scenes->staged && scenes->staged->number == scene && staged_is_ready(s);
 }
 
 bool gn_show_can_advance(const struct gn_show *s) {
+    if (gn_show_reload_is_ready(s)) return true;
     return gn_kiosk_waits(&s->kiosk) && !s->fade.keeps &&
            is_ready(s, gn_kiosk_scene(&s->rules, &s->kiosk.wanted));
 }
@@ -191,24 +257,10 @@ static void show_wanted(struct gn_show *s, int scene) {
 
     /* the staged scene replaces the stage's */
     if (scene != scenes->shown) {
-        struct gn_loaded *staged = scenes->staged;
-        if (stage->gl) {
-            gn_gl_stage_show(stage->gl);
-            gn_frame_destroy(stage->frame);
-            stage->frame = scenes->frame;
-            scenes->frame = NULL;
-        }
-        gn_pose_finish(&stage->pose);
-        gn_scene_destroy(stage->scene);
-        stage->scene = staged->scene;
-        stage->pose = staged->pose;
-        stage->frame_opts.view.orbit = (struct gn_orbit){0};
         s->looks = scenes->looks;
-        scenes->shown = staged->number;
-        staged->scene = NULL;
-        staged->pose = (struct gn_pose){0};
-        gn_show_drop_staged(s);
-        s->ahead.idle = false;
+        scenes->shown = scene;
+        stage->frame_opts.view.orbit = (struct gn_orbit){0};
+        gn_show_take_staged(s);
     }
     gn_show_enter(s);
     s->fade.keeps = s->fade.kept = false;
@@ -222,7 +274,8 @@ void gn_show_advance(struct gn_show *s) {
     struct gn_show_scenes *scenes = &s->scenes;
     const int scene = gn_kiosk_scene(&s->rules, &s->kiosk.wanted);
     const int loading = gn_loader_number(scenes->loader);
-    if (scenes->staged && scenes->staged->number != scene) gn_show_drop_staged(s);
+    if (scenes->staged && scenes->staged->number != scene && !gn_show_reload_is_staged(s))
+        gn_show_drop_staged(s);
     if (loading != GN_SHOW_RELOAD && (loading != scene || scene == scenes->shown))
         gn_loader_cancel(scenes->loader);
     if (!gn_kiosk_waits(&s->kiosk)) {
@@ -237,7 +290,7 @@ void gn_show_advance(struct gn_show *s) {
         if (!gn_show_start_load(s, scene, scenes->paths[scene], s->stage.settings, &err))
             fail_place(s, GN_KIOSK_SCENE_FAILED, scene, err.text);
     }
-    if (scenes->staged && !(scenes->looks.ready >> s->kiosk.wanted.mode & 1)) s->ahead.idle = false;
+    if (scenes->staged && !(scenes->looks.ready >> staged_mode(s) & 1)) s->ahead.idle = false;
     if (!is_ready(s, scene)) return;
 
     /* a fade starts from the last picture, which is drawn once more and kept */

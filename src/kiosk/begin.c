@@ -67,17 +67,22 @@ static void replace_scene(struct gn_options *o, const char *path) {
     }
 }
 
-bool gn_show_take_first(const struct gn_show *s, struct gn_stage *stage, struct gn_options *o,
-                        struct gn_scene *scene, char why[GN_SHOW_WHY], struct gn_err *err) {
+bool gn_show_look_at_first(const struct gn_show *s, struct gn_options *o, struct gn_loaded *loaded,
+                           struct gn_stage_look *look, char why[GN_SHOW_WHY], struct gn_err *err) {
+    const bool replaces = !loaded->scene && o->settings->scene.path && !s->config.place;
     why[0] = 0;
-    if (!scene) gn_stage_name_source(o->settings, err);
-    if (gn_stage_take(stage, o->settings, scene, s->warnings, err)) return true;
-    if (scene || !o->settings->scene.path || s->config.place) return false;
-    snprintf(why, GN_SHOW_WHY, "%.480s (showing the default scene)", err->text);
-    *err = (struct gn_err){0};
-    gn_stage_close(stage);
-    replace_scene(o, o->settings->scene.path);
-    return gn_stage_load(stage, o->settings, s->warnings, err);
+    if (!loaded->scene) {
+        *err = loaded->err;
+        gn_stage_name_source(o->settings, err);
+        if (!replaces) return false;
+        snprintf(why, GN_SHOW_WHY, "%.480s (showing the default scene)", err->text);
+        *err = (struct gn_err){0};
+        replace_scene(o, o->settings->scene.path);
+        loaded->scene = gn_stage_scene(o->settings, s->warnings, err);
+        if (!loaded->scene) return false;
+        gn_pose_init(&loaded->pose, loaded->scene, GN_POSE_DEFAULT);
+    }
+    return gn_stage_look(look, o->settings, loaded->scene, s->warnings, err);
 }
 
 bool gn_show_begin(struct gn_show *s, struct gn_err *err) {

@@ -60,18 +60,19 @@ struct gn_show_scenes {
     int shown;                              /* the number of the stage's scene */
     struct gn_loader *loader;
     struct gn_watch loader_watch;
-    struct gn_loaded *staged; /* loaded, to be shown next; NULL: none */
-    struct gn_frame *frame;   /* of the staged scene, while there is a context */
-    bool whole;               /* all of the staged scene is on the GPU */
-    struct gn_show_looks looks;
+    struct gn_loaded *staged;   /* loaded, to be shown next, or a reload's; NULL: none */
+    struct gn_frame *frame;     /* of the staged scene, while there is a context */
+    bool whole;                 /* all of the staged scene is on the GPU */
+    struct gn_show_looks looks; /* of the staged scene; a reload's has one, at 0 */
 };
 
 /* A reload, and the first load: its scene loads while frames go on. */
-enum { GN_SHOW_RELOAD = GN_KIOSK_SCENES_MAX }; /* the number of its scene for the loader */
+enum { GN_SHOW_RELOAD = GN_KIOSK_SCENES_MAX /* the number of its scene */, GN_SHOW_WHY = 512 };
 struct gn_show_reload {
     struct gn_options *options; /* read; NULL: none */
-    struct gn_loaded *loaded;   /* their scene; NULL: not yet */
+    struct gn_loaded *loaded;   /* their scene; NULL: not yet, or it is staged */
     bool first;                 /* there is nothing to go back to */
+    char why[GN_SHOW_WHY];      /* why the built-in scene replaces the first one; "": it does not */
 };
 
 /* Texts on the picture. */
@@ -181,6 +182,12 @@ bool gn_show_start_load(struct gn_show *show, int number, const char *path,
 void gn_show_advance(struct gn_show *show);
 /* gn_show_advance() can show the wanted mode and scene now. */
 bool gn_show_can_advance(const struct gn_show *show);
+/* Stages reload.loaded, or changes the look of what is staged. A failure is in reload.loaded. */
+void gn_show_stage_reload(struct gn_show *show, const struct gn_stage_look *look);
+bool gn_show_reload_is_staged(const struct gn_show *show); /* complete or not */
+bool gn_show_reload_is_ready(const struct gn_show *show);  /* it is complete */
+/* Replaces the stage's scene by the staged one. With GL only if that is complete. */
+void gn_show_take_staged(struct gn_show *show);
 void gn_show_drop_staged(struct gn_show *show);
 
 /* ---- captions.c: texts on the picture -------------------------------------------------------- */
@@ -207,13 +214,12 @@ struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn
 void gn_show_drop_options(struct gn_options *options);
 /* A black stage, and options without any scene; those that there are become a reload's. */
 bool gn_show_load_nothing(struct gn_show *show, struct gn_err *err);
-/* Puts the scene of the first load on the stage; NULL: it failed, see err. Then the built-in scene
- * stands in for it, and why has the reason for the screen, else "". Not in a window, whose user
- * reads it in the terminal. */
-enum { GN_SHOW_WHY = 512 };
-bool gn_show_take_first(const struct gn_show *show, struct gn_stage *stage,
-                        struct gn_options *options, struct gn_scene *scene, char why[GN_SHOW_WHY],
-                        struct gn_err *err);
+/* How the options draw the scene of the first load. If that failed, the built-in scene replaces it
+ * in both, and why has the reason for the screen, else "". Not in a window, whose user reads it in
+ * the terminal. */
+bool gn_show_look_at_first(const struct gn_show *show, struct gn_options *options,
+                           struct gn_loaded *loaded, struct gn_stage_look *look,
+                           char why[GN_SHOW_WHY], struct gn_err *err);
 /* After the options and the stage are loaded: lists modes and scenes, enters the first. */
 bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 

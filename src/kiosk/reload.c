@@ -1,31 +1,40 @@
-/* Reload (SIGHUP, ctl): all options are read again, and a thread loads the scene while frames go
- * on. If either fails the kiosk keeps the last good configuration and its picture. The first load
- * is one, too, once it takes over a second: until then a black stage is the last good one. */
+/* Reload (SIGHUP, ctl): all options are read again, a thread loads the scene, and work ahead puts
+ * it on the GPU, while frames go on. If one fails the kiosk keeps the last good configuration and
+ * its picture. The first load is one, too, once it takes over a second: until then a black stage is
+ * the last good one. */
 #include <stdio.h>
 #include <string.h>
 
 #include "core/clock.h"
 #include "kiosk/private.h"
 
-/* Replaces stage and options; the display stays open if its settings are the same. */
-static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_options *options,
-                       struct gn_err *err) {
+/* The context stays, with the programs that were made in it. Not with a folder of shaders, whose
+ * files may have changed. */
+static bool keeps_gl(const struct gn_show *s, const struct gn_settings *fresh) {
+    const struct gn_settings *now = s->stage.settings;
+    return s->stage.gl && !now->render.shaders && !fresh->render.shaders &&
+           gn_show_same_screen(now, fresh);
+}
+
+/* Replaces the scene by the staged one, and the options; the display stays open if its settings
+ * are the same. */
+static bool take_reload(struct gn_show *s, struct gn_options *options, struct gn_err *err) {
     const bool keeps_display = gn_show_same_screen(s->stage.settings, options->settings);
-    gn_show_drop_staged(s);
-    gn_show_stop_gl(s);
-    if (keeps_display) {
-        fresh->display = s->stage.display;
-        s->stage.display = (struct gn_display){0};
+    if (!keeps_gl(s, options->settings)) {
+        gn_show_stop_gl(s);
+        s->context.generation = 0;
     }
-    gn_stage_close(&s->stage);
+    if (!keeps_display) gn_display_close(&s->stage.display);
+    gn_show_take_staged(s);
+    s->fade.prepared = false;
     gn_input_close(s->buttons.input); /* it points to names in the options */
     s->buttons.input = NULL;
     gn_changes_destroy(s->config.changes);
     s->config.changes = NULL;
     gn_show_drop_options(s->config.options);
-    s->stage = *fresh;
     s->config.options = options;
-    s->context.generation = 0;
+    s->stage.settings = options->settings;
+    s->stage.frame_opts.view.orbit = (struct gn_orbit){0};
     const bool blanked = s->kiosk.blanked;
     if (!gn_show_begin(s, err) || (!keeps_display && !gn_show_open_display(s, err))) return false;
     gn_show_open_captions(s);
@@ -43,7 +52,8 @@ static bool take_stage(struct gn_show *s, struct gn_stage *fresh, struct gn_opti
 
 void gn_show_drop_reload(struct gn_show *s) {
     gn_show_drop_options(s->reload.options);
-    gn_loaded_destroy(s->reload.loaded);
+    gn_loaded_drop(s->reload.loaded);
+    if (gn_show_reload_is_staged(s)) gn_show_drop_staged(s);
     if (gn_loader_number(s->scenes.loader) == GN_SHOW_RELOAD) gn_loader_cancel(s->scenes.loader);
     s->reload = (struct gn_show_reload){0};
 }
@@ -96,45 +106,68 @@ static void choose_mode_again(const struct gn_show *s, struct gn_options *option
         options->settings = before;
 }
 
-/* The scene that was loaded, with its options in the place of the old ones. */
+/* How the scene is drawn in the mode that it will be shown in. */
+static bool look_at_loaded(struct gn_show *s, struct gn_stage_look *look, struct gn_err *why) {
+    struct gn_show_reload *r = &s->reload;
+    if (r->first) return gn_show_look_at_first(s, r->options, r->loaded, look, r->why, why);
+    choose_mode_again(s, r->options);
+    if (r->loaded->scene)
+        return gn_stage_look(look, r->options->settings, r->loaded->scene, s->warnings, why);
+    *why = r->loaded->err;
+    gn_stage_name_source(r->options->settings, why);
+    return false;
+}
+
+/* The mode may change while the scene is uploaded, too. */
+static bool look_again(struct gn_show *s, struct gn_err *why) {
+    struct gn_options *options = s->reload.options;
+    const struct gn_settings *before = options->settings;
+    struct gn_stage_look look;
+    if (s->reload.first) return true;
+    choose_mode_again(s, options);
+    if (options->settings == before) return true;
+    if (!gn_stage_look(&look, options->settings, s->scenes.staged->scene, s->warnings, why))
+        return false;
+    gn_show_stage_reload(s, &look);
+    return true;
+}
+
+/* Shows the staged scene once it is complete, with its options in the place of the old ones. */
 static bool finish_reload(struct gn_show *s, struct gn_err *err) {
     struct gn_show_reload *r = &s->reload;
-    const bool first = r->first;
-    struct gn_options *options = r->options;
-    struct gn_err why = r->loaded->err;
-    struct gn_scene *scene = r->loaded->scene;
-    struct gn_stage fresh = {0};
-    char missing[GN_SHOW_WHY] = "";
-    r->loaded->scene = NULL;
-    bool ok;
-    if (first) {
-        ok = gn_show_take_first(s, &fresh, options, scene, missing, &why);
-    } else {
-        choose_mode_again(s, options);
-        if (!scene) gn_stage_name_source(options->settings, &why);
-        ok = gn_stage_take(&fresh, options->settings, scene, s->warnings, &why);
+    struct gn_err why = {0};
+    if (!look_again(s, &why)) {
+        keep_old(s, &why);
+        return true;
     }
-    if (!ok) {
-        gn_stage_close(&fresh);
-        if (!first) keep_old(s, &why);
-        if (first) *err = why;
-        return !first;
-    }
-    r->options = NULL;
-    gn_show_drop_reload(s);
-    ok = take_stage(s, &fresh, options, err);
-    if (ok && first) s->counts.frames = 0;
-    if (ok && missing[0]) gn_show_report_error(s, missing);
+    if (keeps_gl(s, r->options->settings) && !gn_show_reload_is_ready(s)) return true;
+    const struct gn_show_reload taken = *r;
+    *r = (struct gn_show_reload){0};
+    const bool ok = take_reload(s, taken.options, err);
+    if (ok && taken.first) s->counts.frames = 0;
+    if (ok && taken.why[0]) gn_show_report_error(s, taken.why);
     gn_show_answer_reload(s, ok ? NULL : err);
     return ok;
 }
 
 bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
+    struct gn_show_reload *r = &s->reload;
+    struct gn_stage_look look;
     struct gn_err why = {0};
-    if (!s->reload.options) return true;
-    if (s->reload.loaded) return finish_reload(s, err);
-    if (gn_loader_is_busy(s->scenes.loader)) return true;
-    const struct gn_settings *o = s->reload.options->settings;
+    if (!r->options) return true;
+    if (r->loaded) {
+        if (look_at_loaded(s, &look, &why)) {
+            gn_show_stage_reload(s, &look);
+        } else if (r->first) {
+            *err = why;
+            return false;
+        } else {
+            keep_old(s, &why);
+        }
+    }
+    if (gn_show_reload_is_staged(s)) return finish_reload(s, err);
+    if (!r->options || gn_loader_is_busy(s->scenes.loader)) return true;
+    const struct gn_settings *o = r->options->settings;
     if (!gn_show_start_load(s, GN_SHOW_RELOAD, o->scene.path, o, &why)) keep_old(s, &why);
     return true;
 }
@@ -147,12 +180,14 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
         gn_loop_step(s->loop, until_ns);
     if (s->ends) return false;
     if (!s->reload.loaded) return gn_show_load_nothing(s, err);
-    char missing[GN_SHOW_WHY];
     struct gn_loaded *loaded = s->reload.loaded;
-    *err = loaded->err;
-    const bool ok =
-        gn_show_take_first(s, &s->stage, s->config.options, loaded->scene, missing, err);
+    struct gn_stage_look look;
+    char missing[GN_SHOW_WHY];
+    const bool ok = gn_show_look_at_first(s, s->config.options, loaded, &look, missing, err);
+    s->stage = (struct gn_stage){
+        .settings = s->config.options->settings, .scene = loaded->scene, .pose = loaded->pose};
     loaded->scene = NULL;
+    loaded->pose = (struct gn_pose){0};
     gn_show_drop_reload(s);
     if (ok && missing[0]) gn_show_report_error(s, missing);
     return ok;

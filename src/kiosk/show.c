@@ -65,6 +65,8 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     } else if (gn_show_has_work(s) && gn_loop_now_ns(s->loop) >= s->ahead.due_ns) {
         gn_gl_set_window(s->stage.gl, NULL); /* not drawn to outside of begin and present */
         gn_show_work(s);
+        /* no frame to miss: what is waited for is not spread over frames */
+        if (s->scenes.staged && screen->may_draw) s->ahead.due_ns = gn_loop_now_ns(s->loop);
     }
     gn_show_advance(s); /* that piece may have been the last one it waited for */
     gn_show_enter_changed(s);

@@ -152,6 +152,66 @@ static void frames_go_on_during_a_reload_and_a_later_one_replaces_it(void **stat
     gn_show_close(show);
 }
 
+/* A scene of 36 MB. */
+static const char *write_huge(void) {
+    enum { VERTICES = 2999997 };
+    char text[700];
+    help_write(folder, "huge.bin", "");
+    assert_int_equal(truncate(in_folder("huge.bin"), 12 * VERTICES), 0);
+    snprintf(
+        text, sizeof text,
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+        "\"buffers\":[{\"byteLength\":%d,\"uri\":\"huge.bin\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d}],\"accessors\":[{\"bufferView\":0,"
+        "\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[2,0,2]}]}",
+        12 * VERTICES, 12 * VERTICES, VERTICES);
+    help_write(folder, "huge.gltf", text);
+    return in_folder("huge.gltf");
+}
+
+static void wait_for_staging(struct gn_show *show) {
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (!gn_show_reload_is_staged(show)) {
+        step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+}
+
+static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
+    (void)state;
+    struct gn_show *show = open_show(good);
+    frames(show, 2);
+    const struct gn_gl *gl = show->stage.gl;
+    write_config(write_huge());
+    show->reloads = true;
+    wait_for_staging(show);
+    frames(show, 20); /* a megabyte in each */
+    assert_true(gn_show_reload_is_staged(show));
+    assert_string_equal(show->scenes.paths[show->drawn.scene], good);
+
+    /* the mode may change meanwhile */
+    const struct gn_action pcf = {.kind = GN_ACTION_MODE, .name = "pcf"};
+    gn_show_act(show, &pcf, gn_clock_monotonic_ns());
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (!is_shown(show, in_folder("huge.gltf"))) {
+        frames(show, 1);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+    assert_string_equal(show->modes.names[show->kiosk.shown.mode], "pcf");
+    assert_ptr_equal(show->stage.gl, gl);
+
+    /* one that is not complete yet is dropped for a later one */
+    write_config(good);
+    show->reloads = true;
+    wait_for_staging(show);
+    write_config(in_folder("huge.gltf"));
+    show->reloads = true;
+    step(show);
+    assert_false(gn_show_reload_is_staged(show));
+    gn_show_close(show);
+}
+
 static void a_bad_reload_keeps_the_scene(void **state) {
     (void)state;
     struct gn_show *show = open_show(good);
@@ -207,6 +267,7 @@ int main(int argc, char **argv) {
     if (argc > 1) cmocka_set_test_filter(argv[1]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_go_on_during_a_reload_and_a_later_one_replaces_it),
+        cmocka_unit_test(frames_go_on_while_the_scene_of_a_reload_is_uploaded),
         cmocka_unit_test(a_bad_reload_keeps_the_scene),
         cmocka_unit_test(the_first_picture_does_not_wait_for_the_first_scene),
         cmocka_unit_test(the_end_does_not_wait_for_the_first_scene),

@@ -111,7 +111,8 @@ static json_t *answer_set(struct gn_show *s, const struct gn_request *r, struct 
     s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
     s->ahead.idle = false; /* the changed settings have no programs yet */
     gn_show_take_rules(s);
-    gn_show_drop_staged(s); /* it was prepared with the old options */
+    if (!gn_show_reload_is_staged(s)) /* it was prepared with the old options */
+        gn_show_drop_staged(s);
     s->control->status.waits = true;
     gn_settings_text(s->stage.settings, row, text, sizeof text);
     return json_pack("{s:s, s:o}", "key", row->name, "value", gn_reply_text(text));
