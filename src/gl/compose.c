@@ -63,20 +63,6 @@ static int pair_of(const struct gn_program_key *key, int i) {
     }
 }
 
-/* The files of a light's shadow, each after those that it uses. */
-enum { PAIR_FILES = 4 };
-static void pair_files(const struct gn_light_key *light, const char *files[PAIR_FILES]) {
-    const struct gn_technique_row *technique = &gn_techniques[light->technique];
-    const bool compares = compares_in_sampler(light);
-    files[0] = compares ? "lib/map_depth.glsl" : gn_encodings[light->encoding].file;
-    files[1] = compares ? NULL : "lib/map_lit.glsl";
-    files[2] = technique->taps ? "lib/taps.glsl" : NULL;
-    files[3] = technique->file;
-    if (!light->moments) return;
-    files[0] = gn_moments[light->moments].file;
-    files[1] = technique->moments;
-}
-
 static void add_middle(int technique, struct gn_gl_text *out) {
     gn_gl_text_add(out, "#define MOMENTS_MIDDLE %.1f\n",
                    (double)gn_techniques[technique].moments_middle);
@@ -84,9 +70,18 @@ static void add_middle(int technique, struct gn_gl_text *out) {
 
 static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *light, int suffix,
                      struct gn_gl_text *out, struct gn_err *err) {
+    enum { PAIR_FILES = 4 };
     const struct gn_technique_row *technique = &gn_techniques[light->technique];
-    const char *files[PAIR_FILES];
-    pair_files(light, files);
+    const bool compares = compares_in_sampler(light);
+    /* the files of the light's shadow, each after those that it uses */
+    const char *files[PAIR_FILES] = {compares ? "lib/map_depth.glsl"
+                                              : gn_encodings[light->encoding].file,
+                                     compares ? NULL : "lib/map_lit.glsl",
+                                     technique->taps ? "lib/taps.glsl" : NULL, technique->file};
+    if (light->moments) {
+        files[0] = gn_moments[light->moments].file;
+        files[1] = technique->moments;
+    }
     if (technique->taps)
         gn_gl_text_add(out, "#define SHADOW_TAPS %s\n", taps_names[technique->taps]);
     add_middle(light->technique, out);
@@ -107,21 +102,6 @@ static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *lig
                         "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n"
                         "#undef MOMENTS\n");
     return true;
-}
-
-static void add_taps(const struct gn_program_key *key, struct gn_gl_text *out) {
-    if (!key->taps) return;
-    gn_gl_text_add(out, "const int TAPS = %d;\nconst bool TAPS_TURN = %s;\n", key->taps,
-                   key->taps_turn ? "true" : "false");
-    for (int kind = GN_TAPS_DISK; kind <= GN_TAPS_POISSON; kind++) {
-        float taps[GN_TAPS_MAX / 2][2];
-        gn_taps_build(kind, key->taps, taps);
-        gn_gl_text_add(out, "const vec2 %s[TAPS / 2] = vec2[TAPS / 2](", taps_names[kind]);
-        for (int i = 0; i < key->taps / 2; i++)
-            gn_gl_text_add(out, "%svec2(%.6f, %.6f)", i ? ", " : "", (double)taps[i][0],
-                           (double)taps[i][1]);
-        gn_gl_text_add(out, ");\n");
-    }
 }
 
 /* One per shadow, at least one: shaders that use none declare them, too. */
@@ -177,24 +157,24 @@ static bool add_slides(struct gn_gl_source *source, const struct gn_program_key 
     return !count || gn_gl_source_add(source, "lib/slide.glsl", out, err);
 }
 
-/* The files of a filter step: how moments are stored, how the map is read, what moments a distance
- * has. */
-static bool add_filter(struct gn_gl_source *source, const struct gn_program_key *key,
-                       struct gn_gl_text *out, struct gn_err *err) {
-    add_middle(key->technique, out); /* 0 of NONE: moments are averaged as stored */
-    if (!gn_gl_source_add(source, gn_moments[key->moments].file, out, err)) return false;
-    return !gn_filter_steps[key->step].reads_map ||
-           (gn_gl_source_add(source, gn_encodings[key->encoding].file, out, err) &&
-            gn_gl_source_add(source, gn_techniques[key->technique].moments, out, err));
-}
-
 /* What the fragment shaders of lit surfaces are made of: maps, taps, slides, and loops over them.
  */
 static bool add_lights(struct gn_gl_source *source, const struct gn_program_key *key,
                        struct gn_gl_text *out, struct gn_err *err) {
     if (key->shadow_count && !gn_gl_source_add(source, "lib/shadow_place.glsl", out, err))
         return false;
-    add_taps(key, out);
+    if (key->taps)
+        gn_gl_text_add(out, "const int TAPS = %d;\nconst bool TAPS_TURN = %s;\n", key->taps,
+                       key->taps_turn ? "true" : "false");
+    for (int kind = GN_TAPS_DISK; key->taps && kind <= GN_TAPS_POISSON; kind++) {
+        float taps[GN_TAPS_MAX / 2][2];
+        gn_taps_build(kind, key->taps, taps);
+        gn_gl_text_add(out, "const vec2 %s[TAPS / 2] = vec2[TAPS / 2](", taps_names[kind]);
+        for (int i = 0; i < key->taps / 2; i++)
+            gn_gl_text_add(out, "%svec2(%.6f, %.6f)", i ? ", " : "", (double)taps[i][0],
+                           (double)taps[i][1]);
+        gn_gl_text_add(out, ");\n");
+    }
     for (int i = 0; i < key->shadow_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
         const bool integers = light->moments ? !gn_moments[light->moments].linear
@@ -247,9 +227,17 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
     if (program->reads & GN_PROGRAM_ENCODING && fragment &&
         !gn_gl_source_add(&source, gn_encodings[key->encoding].file, out, err))
         return false;
-    if (filter && !add_filter(&source, key, out, err)) return false;
     const char *main_file = fragment ? program->fragment : program->vertex;
-    if (filter) main_file = gn_filter_steps[key->step].file;
+    if (filter) { /* how moments are stored, how the map is read, what moments a distance has */
+        const struct gn_filter_step_row *step = &gn_filter_steps[key->step];
+        add_middle(key->technique, out); /* 0 of NONE: moments are averaged as stored */
+        if (!gn_gl_source_add(&source, gn_moments[key->moments].file, out, err)) return false;
+        if (step->reads_map &&
+            (!gn_gl_source_add(&source, gn_encodings[key->encoding].file, out, err) ||
+             !gn_gl_source_add(&source, gn_techniques[key->technique].moments, out, err)))
+            return false;
+        main_file = step->file;
+    }
     return gn_gl_source_add(&source, main_file, out, err);
 }
 

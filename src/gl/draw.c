@@ -13,12 +13,13 @@ static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *v
                                                            : GN_GL_MAP_COMPARE];
 }
 
-/* Binds what a filter reads, unfiltered. */
-static void bind_reads(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
-    const uint32_t slot = pass->target.slot;
-    for (GLuint i = 0; i < GN_FILTER_FROM_MAX; i++) {
+void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
+    const GLuint nearest = gl->targets.map_samplers[GN_GL_MAP_NEAREST];
+    const struct gn_pass_picture *picture = &pass->picture;
+    for (GLuint i = 0; pass->kind == GN_PASS_FILTER && i < GN_FILTER_FROM_MAX; i++) {
         const struct gn_read *read = &pass->filter.reads[i];
         if (read->kind == GN_READ_NOTHING) continue;
+        const uint32_t slot = pass->target.slot;
         struct gn_target target = pass->target;
         target.index = read->index;
         target.mipmaps &= read->index == 0;
@@ -27,16 +28,8 @@ static void bind_reads(struct gn_gl *gl, const struct gn_plan *plan, const struc
         const struct gn_gl_map *map = read->kind == GN_READ_MOMENTS
                                           ? gn_gl_target_find(gl, &target)
                                           : gn_gl_view_find(gl, &plan->shadows[slot], slot, false);
-        if (map)
-            gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture,
-                               gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
+        if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, nearest);
     }
-}
-
-void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
-    const GLuint nearest = gl->targets.map_samplers[GN_GL_MAP_NEAREST];
-    const struct gn_pass_picture *picture = &pass->picture;
-    if (pass->kind == GN_PASS_FILTER) bind_reads(gl, plan, pass);
     if (pass->kind != GN_PASS_PICTURE) return;
     if (picture->reads_atlas)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->atlas.texture, nearest);
@@ -53,17 +46,6 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
     for (uint32_t i = 0; i < picture->slide_count; i++) gn_gl_slide_bind(gl, i, picture->slides[i]);
 }
 
-static void set_material(struct gn_gl *gl, struct gn_gl_program *program, uint32_t material) {
-    if (!program->texture_slots) return;
-    const struct gn_texture_ref *refs = gl->scene.scene->materials[material].textures;
-    for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
-        if (program->texture_slots >> slot & 1) gn_gl_texture_bind(gl, slot, &refs[slot]);
-    const uint32_t uv = gl->scene.material_uv[material];
-    if (program->uv == uv || program->u_uv < 0) return;
-    program->uv = uv;
-    GL(gl, Uniform4fv)(program->u_uv, 2 * GN_TEXTURE_SLOT_COUNT, gl->scene.uv[uv][0]);
-}
-
 void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
                 uint64_t constants_hash, uint32_t most_indices) {
     struct gn_gl_program *program = gl->plan_programs.at[d->program];
@@ -77,7 +59,16 @@ void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_dr
         program->constants_hash = constants_hash;
         GL(gl, Uniform4fv)(program->u_pass, (GLsizei)pass->constant_count, pass->constants[0]);
     }
-    if (geometry) set_material(gl, program, d->material);
+    if (geometry && program->texture_slots) {
+        const struct gn_texture_ref *refs = gl->scene.scene->materials[d->material].textures;
+        for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
+            if (program->texture_slots >> slot & 1) gn_gl_texture_bind(gl, slot, &refs[slot]);
+        const uint32_t uv = gl->scene.material_uv[d->material];
+        if (program->uv != uv && program->u_uv >= 0) {
+            program->uv = uv;
+            GL(gl, Uniform4fv)(program->u_uv, 2 * GN_TEXTURE_SLOT_COUNT, gl->scene.uv[uv][0]);
+        }
+    }
     gn_gl_set_cull(gl, geometry ? d->cull : GN_CULL_NONE, geometry && d->mirrored);
     gn_gl_vertices_bind(gl, program->attributes, d->first_instance);
     if (geometry) {

@@ -177,20 +177,6 @@ static void make_depth(struct gn_gl *gl, struct proof *proof) {
     GL(gl, ClearBufferfv)(GL_DEPTH, 0, &half);
 }
 
-static void make_colors(struct gn_gl *gl, struct proof *proof) {
-    GLenum buffers[OUTPUTS_MAX];
-    GLsizei count = 0;
-    proof->framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
-    gn_gl_bind_framebuffer(gl, proof->framebuffer);
-    for (int i = 0; i < ROW_COUNT; i++) {
-        if (!(proof->mask >> i & 1)) continue;
-        buffers[count] = GL_COLOR_ATTACHMENT0 + (GLenum)count;
-        proof->colors[count] = attach_new(gl, buffers[count], rows[i].format, 0);
-        count++;
-    }
-    GL(gl, DrawBuffers)(count, buffers);
-}
-
 /* Of at most OUTPUTS_MAX rows, those that are read back as they were drawn. */
 static uint32_t prove_at_once(struct gn_gl *gl, uint32_t mask) {
     struct proof proof = {.mask = mask};
@@ -204,7 +190,17 @@ static uint32_t prove_at_once(struct gn_gl *gl, uint32_t mask) {
     gn_gl_set_color_write(gl, true);
     gn_gl_set_stencil(gl, &(struct gn_stencil){0});
     if (mask & rows_of(1u << GN_CAP_DEPTH_COMPARE)) make_depth(gl, &proof);
-    make_colors(gl, &proof);
+    GLenum buffers[OUTPUTS_MAX];
+    GLsizei count = 0;
+    proof.framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
+    gn_gl_bind_framebuffer(gl, proof.framebuffer);
+    for (int i = 0; i < ROW_COUNT; i++) {
+        if (!(mask >> i & 1)) continue;
+        buffers[count] = GL_COLOR_ATTACHMENT0 + (GLenum)count;
+        proof.colors[count] = attach_new(gl, buffers[count], rows[i].format, 0);
+        count++;
+    }
+    GL(gl, DrawBuffers)(count, buffers);
     uint32_t proved = 0;
     if (is_complete(gl)) {
         GLenum attachment = GL_COLOR_ATTACHMENT0;

@@ -26,37 +26,31 @@ static bool fail_log(const char *log, const char *stage, struct gn_err *err) {
                    *line ? line : "the driver gave no reason");
 }
 
-/* Attaches *shader, which lives on until it is detached. */
-static bool compile_stage(struct gn_gl *gl, GLuint program, int stage, const char *source,
-                          GLuint *shader_made, struct gn_err *err) {
-    char log[2048] = "";
-    GLint ok = 0;
-    GLuint shader =
-        GL(gl, CreateShader)(stage == GN_GL_VERTEX ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
-    GL(gl, ShaderSource)(shader, 1, &source, NULL);
-    GL(gl, CompileShader)(shader);
-    GL(gl, GetShaderiv)(shader, GL_COMPILE_STATUS, &ok);
-    if (ok)
-        GL(gl, AttachShader)(program, shader);
-    else
-        GL(gl, GetShaderInfoLog)(shader, sizeof log, NULL, log);
-    GL(gl, DeleteShader)(shader);
-    *shader_made = shader;
-    return ok || fail_log(log, stage_names[stage], err);
-}
-
 /* 0 on failure; *failed says at which stage. */
 static GLuint build_program(struct gn_gl *gl, const char *const sources[2], int *failed,
                             struct gn_err *err) {
     GLuint program = GL(gl, CreateProgram)();
     gl->objects_created++;
     gl->programs.made++;
-    GLuint shaders[2];
-    for (*failed = 0; *failed < 2; ++*failed)
-        if (!compile_stage(gl, program, *failed, sources[*failed], &shaders[*failed], err))
-            goto fail;
+    GLuint shaders[2]; /* attached, they live on until they are detached */
     char log[2048] = "";
     GLint ok = 0;
+    for (*failed = 0; *failed < 2; ++*failed) {
+        GLuint shader = shaders[*failed] =
+            GL(gl, CreateShader)(*failed == GN_GL_VERTEX ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
+        GL(gl, ShaderSource)(shader, 1, &sources[*failed], NULL);
+        GL(gl, CompileShader)(shader);
+        GL(gl, GetShaderiv)(shader, GL_COMPILE_STATUS, &ok);
+        if (ok)
+            GL(gl, AttachShader)(program, shader);
+        else
+            GL(gl, GetShaderInfoLog)(shader, sizeof log, NULL, log);
+        GL(gl, DeleteShader)(shader);
+        if (ok) continue;
+        fail_log(log, stage_names[*failed], err);
+        goto fail;
+    }
+    ok = 0;
     GL(gl, LinkProgram)(program);
     GL(gl, GetProgramiv)(program, GL_LINK_STATUS, &ok);
     if (ok) {

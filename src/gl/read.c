@@ -60,14 +60,6 @@ bool gn_gl_read_xrgb8888(struct gn_gl *gl, uint8_t *out, size_t stride, struct g
     return true;
 }
 
-static float float_from_half(uint16_t h) {
-    const int exponent = h >> 10 & 31;
-    const float fraction = (float)(h & 1023);
-    float x = exponent ? ldexpf(1024 + fraction, exponent - 25) : ldexpf(fraction, -24);
-    if (exponent == 31) x = fraction > 0 ? NAN : INFINITY;
-    return h & 0x8000 ? -x : x;
-}
-
 /* A driver with only EXT_color_buffer_half_float may read only half floats. */
 void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float *out) {
     gn_gl_error_keep(gl); /* an earlier error is not about floats */
@@ -79,7 +71,11 @@ void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float 
     for (size_t i = 4 * (size_t)width * height; i-- > 0;) {
         uint16_t h;
         memcpy(&h, halves + 2 * i, sizeof h);
-        out[i] = float_from_half(h);
+        const int exponent = h >> 10 & 31;
+        const float fraction = (float)(h & 1023);
+        float x = exponent ? ldexpf(1024 + fraction, exponent - 25) : ldexpf(fraction, -24);
+        if (exponent == 31) x = fraction > 0 ? NAN : INFINITY;
+        out[i] = h & 0x8000 ? -x : x;
     }
 }
 
@@ -136,26 +132,6 @@ static const char copy_fragment[] =
     "    o_bits = floatBitsToUint(texelFetch(u_map, ivec2(gl_FragCoord.xy), 0));\n"
     "}\n";
 
-static void draw_copy(struct gn_gl *gl, GLuint program, const struct gn_gl_map *map) {
-    GLuint array = gn_gl_object_create(gl, GN_GL_VERTEX_ARRAY);
-    gn_gl_bind_vertex_array(gl, array);
-    gn_gl_use_program(gl, program);
-    const GLint u_map = GL(gl, GetUniformLocation)(program, "u_map");
-    GL(gl, Uniform1i)(u_map, GN_GL_UNIT_WORK);
-    gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, map->texture,
-                       gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
-    gn_gl_set_viewport(gl,
-                       (struct gn_gl_rect){0, 0, (GLsizei)map->width_px, (GLsizei)map->height_px});
-    gn_gl_set_scissor(gl, NULL);
-    gn_gl_set_depth(gl, false, false);
-    gn_gl_set_blend(gl, GN_BLEND_OFF);
-    gn_gl_set_cull(gl, GN_CULL_NONE, false);
-    gn_gl_set_color_write(gl, true);
-    gn_gl_set_stencil(gl, &(struct gn_stencil){0});
-    GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
-    gn_gl_object_destroy(gl, GN_GL_VERTEX_ARRAY, &array);
-}
-
 static bool read_by_copy(struct gn_gl *gl, const struct gn_gl_map *map, uint32_t *rgba,
                          struct gn_err *err) {
     GLuint program = gn_gl_program_link(gl, copy_vertex, copy_fragment, err);
@@ -170,7 +146,23 @@ static bool read_by_copy(struct gn_gl *gl, const struct gn_gl_map *map, uint32_t
     (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
     bool ok = gn_gl_framebuffer_check(gl, "copy of a shadow map", err);
     if (ok) {
-        draw_copy(gl, program, map);
+        GLuint array = gn_gl_object_create(gl, GN_GL_VERTEX_ARRAY);
+        gn_gl_bind_vertex_array(gl, array);
+        gn_gl_use_program(gl, program);
+        const GLint u_map = GL(gl, GetUniformLocation)(program, "u_map");
+        GL(gl, Uniform1i)(u_map, GN_GL_UNIT_WORK);
+        gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, map->texture,
+                           gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
+        gn_gl_set_viewport(
+            gl, (struct gn_gl_rect){0, 0, (GLsizei)map->width_px, (GLsizei)map->height_px});
+        gn_gl_set_scissor(gl, NULL);
+        gn_gl_set_depth(gl, false, false);
+        gn_gl_set_blend(gl, GN_BLEND_OFF);
+        gn_gl_set_cull(gl, GN_CULL_NONE, false);
+        gn_gl_set_color_write(gl, true);
+        gn_gl_set_stencil(gl, &(struct gn_stencil){0});
+        GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
+        gn_gl_object_destroy(gl, GN_GL_VERTEX_ARRAY, &array);
         read_pixels(gl, map->width_px, map->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, rgba);
     }
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &framebuffer);

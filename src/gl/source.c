@@ -65,15 +65,6 @@ static const char *file_text(const struct gn_gl_source *source, const char *name
     return file ? (const char *)file->data : NULL;
 }
 
-/* The name in a line `#include "name"`. */
-static bool parse_include(const char *line, size_t length, char name[64]) {
-    char copy[128];
-    if (length >= sizeof copy) return false;
-    memcpy(copy, line, length);
-    copy[length] = 0;
-    return sscanf(copy, " # include \"%63[^\"]\"", name) == 1;
-}
-
 static bool seen_before(struct gn_gl_source *source, const char *name) {
     for (unsigned i = 0; i < source->seen_count; i++)
         if (strcmp(source->seen[i], name) == 0) return true;
@@ -97,8 +88,9 @@ static bool add_file(struct gn_gl_source *source, const char *name, int depth,
     bool ok = at;
     while (ok && *at) {
         size_t length = strcspn(at, "\n");
-        char included[64];
-        if (!parse_include(at, length, included)) {
+        char start[128] = "", included[64];
+        if (length < sizeof start) memcpy(start, at, length);
+        if (sscanf(start, " # include \"%63[^\"]\"", included) != 1) {
             gn_gl_text_add_bytes(out, at, length);
             gn_gl_text_add_bytes(out, "\n", 1);
         } else if (!seen_before(source, included))

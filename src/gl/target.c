@@ -47,17 +47,6 @@ static const struct {
     [GN_OUTPUT_AOV] = {GL_RGBA32UI, 16},
 };
 
-static uint32_t possible_samples(struct gn_gl *gl, const struct gn_plan *plan) {
-    GLint most = 0;
-    if (plan->msaa < 2 || plan->output == GN_OUTPUT_AOV) return 0;
-    if (!(gl->caps.has & 1u << GN_CAP_MSAA4)) return 0;
-    GL(gl, GetInternalformativ)
-    (GL_RENDERBUFFER, output_formats[plan->output].format, GL_SAMPLES, 1,
-     &most); /* largest first */
-    uint32_t samples = plan->msaa < (uint32_t)most ? plan->msaa : (uint32_t)most;
-    return samples > 1 ? samples : 0;
-}
-
 static void output_finish(struct gn_gl *gl, struct gn_gl_output *o) {
     if (o->resolved == o->framebuffer) o->resolved = o->resolved_color = 0;
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->framebuffer);
@@ -150,7 +139,13 @@ static bool output_ensure(struct gn_gl *gl, struct gn_gl_output *o, bool pixel,
         o->encodes == wanted.encodes)
         return true;
     output_finish(gl, o);
-    wanted.msaa = possible_samples(gl, plan);
+    if (plan->msaa > 1 && plan->output != GN_OUTPUT_AOV && gl->caps.has & 1u << GN_CAP_MSAA4) {
+        GLint most = 0; /* the largest is listed first */
+        GL(gl, GetInternalformativ)
+        (GL_RENDERBUFFER, output_formats[plan->output].format, GL_SAMPLES, 1, &most);
+        const uint32_t samples = plan->msaa < (uint32_t)most ? plan->msaa : (uint32_t)most;
+        wanted.msaa = samples > 1 ? samples : 0;
+    }
     *o = wanted;
     if (output_make(gl, o, err)) return true;
     output_finish(gl, o);
@@ -188,13 +183,6 @@ static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {
     gn_gl_object_destroy(gl, GN_GL_TEXTURE, &map->texture);
     gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &map->depth);
     *map = (struct gn_gl_map){0};
-}
-
-static uint64_t map_bytes(const struct gn_gl_map *map) {
-    const unsigned texel_bytes = map->moments ? gn_moments[map->moments].texel_bytes
-                                              : gn_encodings[map->encoding].texel_bytes;
-    const uint64_t bytes = (uint64_t)map->width_px * map->height_px * texel_bytes;
-    return map->mipmaps ? bytes + bytes / 3 : bytes;
 }
 
 static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err) {
@@ -336,7 +324,10 @@ bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_e
                                          .mipmaps = kept.mipmaps,
                                          .width_px = kept.width_px,
                                          .height_px = kept.height_px};
-                made.bytes = map_bytes(&made);
+                const unsigned texel_bytes = made.moments ? gn_moments[made.moments].texel_bytes
+                                                          : gn_encodings[made.encoding].texel_bytes;
+                made.bytes = (uint64_t)made.width_px * made.height_px * texel_bytes;
+                if (made.mipmaps) made.bytes += made.bytes / 3;
                 make_room(gl, most_bytes, made.bytes);
                 /* A free slot, else the least recently used map. Never one of this plan, which has
                  * far fewer. */

@@ -9,40 +9,6 @@ static bool slot_is_srgb(uint32_t slot) { return gn_texture_slots[slot].texels =
 
 /* ---- textures ---- */
 
-/* Halves *image until it fits the GPU; returns the pixels that the caller frees, or NULL. */
-static uint8_t *shrink_image(struct gn_gl *gl, const struct gn_gl_curve *curve, uint32_t index,
-                             struct gn_image *image, bool srgb) {
-    const uint32_t largest = (uint32_t)gl->caps.max_texture_px;
-    const struct gn_image before = *image;
-    uint8_t *owned = NULL;
-    while (image->width_px > largest || image->height_px > largest) {
-        uint8_t *old = owned;
-        owned = gn_gl_image_halve(curve, image, srgb);
-        free(old);
-    }
-    if (owned)
-        gn_warn(gl->warnings,
-                "image %u: %ux%u pixels exceed the texture size of this GPU; reduced to %ux%u",
-                index, before.width_px, before.height_px, image->width_px, image->height_px);
-    return owned;
-}
-
-/* Begins the next smaller level; false: there is none. */
-static bool begin_next_level(struct gn_gl_picture *p) {
-    if (p->level > 0) {
-        free(p->owned);
-        p->owned = p->half_owned;
-        p->image = p->half;
-        p->half_owned = NULL;
-    }
-    p->row = 0;
-    if (++p->level >= p->levels) return false;
-    p->half = gn_gl_image_half(&p->image);
-    p->half_owned = gn_xalloc((size_t)p->half.width_px * p->half.height_px, 4);
-    p->half.rgba = p->half_owned;
-    return true;
-}
-
 static void close_picture(struct gn_gl_picture *p) {
     free(p->owned);
     free(p->half_owned);
@@ -71,7 +37,22 @@ static size_t send_rows(struct gn_gl *gl, size_t bytes) {
         GL(gl, GenerateMipmap)(GL_TEXTURE_2D);
         p->levels = 1;
     }
-    if (!begin_next_level(p)) close_picture(p);
+
+    /* the next smaller level, or none */
+    if (p->level > 0) {
+        free(p->owned);
+        p->owned = p->half_owned;
+        p->image = p->half;
+        p->half_owned = NULL;
+    }
+    p->row = 0;
+    if (++p->level < p->levels) {
+        p->half = gn_gl_image_half(&p->image);
+        p->half_owned = gn_xalloc((size_t)p->half.width_px * p->half.height_px, 4);
+        p->half.rgba = p->half_owned;
+    } else {
+        close_picture(p);
+    }
     return count * row;
 }
 
@@ -135,7 +116,20 @@ static bool open_next_picture(struct gn_gl *gl) {
     }
     struct gn_gl_picture *p = &s->upload.picture;
     *p = (struct gn_gl_picture){.image = pictures->images[index], .srgb = srgb, .open = true};
-    p->owned = shrink_image(gl, s->upload.curve, index, &p->image, srgb);
+
+    /* halved until it fits the GPU */
+    const struct gn_image *whole = &pictures->images[index];
+    const uint32_t largest = (uint32_t)gl->caps.max_texture_px;
+    while (p->image.width_px > largest || p->image.height_px > largest) {
+        uint8_t *old = p->owned;
+        p->owned = gn_gl_image_halve(s->upload.curve, &p->image, srgb);
+        free(old);
+    }
+    if (p->owned)
+        gn_warn(gl->warnings,
+                "image %u: %ux%u pixels exceed the texture size of this GPU; reduced to %ux%u",
+                index, whole->width_px, whole->height_px, p->image.width_px, p->image.height_px);
+
     for (uint32_t i = 0; i < pictures->texture_count; i++)
         p->mipmaps |= pictures->textures[i].image == index && pictures->textures[i].mipmaps;
     const uint32_t width = p->image.width_px, height = p->image.height_px;

@@ -92,18 +92,6 @@ static bool send_attributes(struct gn_gl *gl, size_t bytes) {
     return end == all;
 }
 
-static void send_narrow_indices(struct gn_gl *gl, const uint32_t *indices, uint32_t begin,
-                                uint32_t end) {
-    uint16_t narrow[PIECE];
-    for (uint32_t first = begin; first < end; first += PIECE) {
-        uint32_t n = end - first < PIECE ? end - first : PIECE;
-        for (uint32_t i = 0; i < n; i++) narrow[i] = (uint16_t)indices[first + i];
-        GL(gl, BufferSubData)
-        (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * sizeof *narrow),
-         (GLsizeiptr)(n * sizeof *narrow), narrow);
-    }
-}
-
 static bool send_indices(struct gn_gl *gl, size_t bytes) {
     struct gn_gl_scene *s = &gl->scene;
     const uint32_t all = s->scene->buffers.index_count, first = s->upload.first;
@@ -114,14 +102,20 @@ static bool send_indices(struct gn_gl *gl, size_t bytes) {
     if (first == 0)
         s->indices = make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, NULL, all * s->index_size);
     GL(gl, BindBuffer)(GL_ELEMENT_ARRAY_BUFFER, s->indices);
-    const uint32_t n = portion(bytes, s->index_size, all - first);
-    if (!wide)
-        send_narrow_indices(gl, s->scene->buffers.indices, first, first + n);
-    else if (n > 0)
+    const uint32_t *indices = s->scene->buffers.indices;
+    const uint32_t end = first + portion(bytes, s->index_size, all - first);
+    if (wide && end > first) GL(gl, BufferSubData)
+    (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * s->index_size),
+     (GLsizeiptr)((end - first) * s->index_size), indices + first);
+    for (uint32_t at = first; !wide && at < end; at += PIECE) {
+        uint16_t narrow[PIECE];
+        const uint32_t n = end - at < PIECE ? end - at : PIECE;
+        for (uint32_t i = 0; i < n; i++) narrow[i] = (uint16_t)indices[at + i];
         GL(gl, BufferSubData)
-    (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * s->index_size), (GLsizeiptr)(n * s->index_size),
-     s->scene->buffers.indices + first);
-    s->upload.first += n;
+        (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(at * sizeof *narrow), (GLsizeiptr)(n * sizeof *narrow),
+         narrow);
+    }
+    s->upload.first = end;
     return s->upload.first == all;
 }
 
@@ -129,24 +123,6 @@ static bool same_rows(const float (*a)[4], const float (*b)[4]) {
     for (int i = 0; i < 2 * GN_TEXTURE_SLOT_COUNT * 4; i++)
         if (a[i / 4][i % 4] != b[i / 4][i % 4]) return false;
     return true;
-}
-
-/* Materials with equal transforms, as nearly all have, share one set, so that a program keeps its
- * uniforms. */
-static void collect_uv(struct gn_gl_scene *s) {
-    s->uv = gn_xalloc(s->scene->material_count + 1, sizeof *s->uv);
-    s->material_uv = gn_xalloc(s->scene->material_count + 1, sizeof *s->material_uv);
-    for (uint32_t i = 0; i < s->scene->material_count; i++) {
-        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-            const float *m = s->scene->materials[i].textures[slot].uv_from_uv;
-            const float both[8] = {m[0], m[2], m[4], 0, m[1], m[3], m[5], 0};
-            memcpy(s->uv[s->uv_count][2 * slot], both, sizeof both);
-        }
-        uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
-        while (same < s->uv_count && !same_rows(s->uv[same], s->uv[s->uv_count])) same++;
-        s->material_uv[i] = same;
-        s->uv_count += same == s->uv_count;
-    }
 }
 
 static void forget_programs(struct gn_gl *gl) {
@@ -162,7 +138,23 @@ void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene) {
         gl->scene.attribute_at[i] = here ? gl->scene.attribute_stride : -1;
         if (here) gl->scene.attribute_stride += gn_attributes[i].gpu_bytes;
     }
-    collect_uv(&gl->scene);
+
+    /* Materials with equal transforms, as nearly all have, share one set, so that a program keeps
+     * its uniforms. */
+    struct gn_gl_scene *s = &gl->scene;
+    s->uv = gn_xalloc(scene->material_count + 1, sizeof *s->uv);
+    s->material_uv = gn_xalloc(scene->material_count + 1, sizeof *s->material_uv);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+            const float *m = scene->materials[i].textures[slot].uv_from_uv;
+            const float both[8] = {m[0], m[2], m[4], 0, m[1], m[3], m[5], 0};
+            memcpy(s->uv[s->uv_count][2 * slot], both, sizeof both);
+        }
+        uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
+        while (same < s->uv_count && !same_rows(s->uv[same], s->uv[s->uv_count])) same++;
+        s->material_uv[i] = same;
+        s->uv_count += same == s->uv_count;
+    }
     forget_programs(gl);
 }
 
