@@ -66,20 +66,6 @@ void gn_cascades_lay(uint32_t cascades, struct gn_shadow_view *view) {
     }
 }
 
-/* ---- splits ---- */
-
-static void set_splits(struct gn_shadow_view *view, const struct gn_distances *seen) {
-    const uint32_t n = view->map.cascade_count;
-    float far_m = round_to_step(fmaxf(seen->far_m, 1e-6f), FAR_STEPS, true);
-    const float near_m = round_to_step(fmaxf(gn_distances_nearest(seen), 1e-6f), NEAR_STEPS, false);
-    far_m = fmaxf(far_m, near_m * powf(LEAST_RATIO, (float)n));
-    for (uint32_t i = 0; i < n; i++) {
-        struct gn_shadow_cascade *c = &view->cascades[i];
-        c->end_m = i + 1 < n ? near_m * powf(far_m / near_m, (float)(i + 1) / (float)n) : INFINITY;
-        c->begin_m = i > 0 ? (1.0f - GN_CASCADE_FADE) * view->cascades[i - 1].end_m : 0.0f;
-    }
-}
-
 /* The part of the eye's frustum between two distances; false: none. */
 static bool cut_frustum(const struct gn_eye *eye, const struct gn_shadow_cascade *c,
                         struct gn_eye *part) {
@@ -199,7 +185,19 @@ bool gn_cascades_fit(const struct gn_fitter *f) {
     float widest_m[GN_CASCADES_MAX], room = LEAST_ROOM;
     const float most_room = reads_table(view) ? TABLE_ROOM : MOST_ROOM;
     if (!gn_distances_find(f, &seen)) return false;
-    set_splits(view, &seen);
+
+    /* the splits: each cascade is as many times as long as the one before */
+    const uint32_t n = view->map.cascade_count;
+    float far_m = round_to_step(fmaxf(seen.far_m, 1e-6f), FAR_STEPS, true);
+    const float near_m =
+        round_to_step(fmaxf(gn_distances_nearest(&seen), 1e-6f), NEAR_STEPS, false);
+    far_m = fmaxf(far_m, near_m * powf(LEAST_RATIO, (float)n));
+    for (uint32_t i = 0; i < n; i++) {
+        struct gn_shadow_cascade *c = &view->cascades[i];
+        c->end_m = i + 1 < n ? near_m * powf(far_m / near_m, (float)(i + 1) / (float)n) : INFINITY;
+        c->begin_m = i > 0 ? (1.0f - GN_CASCADE_FADE) * view->cascades[i - 1].end_m : 0.0f;
+    }
+
     if (!fit_tiles(f, widest_m)) return false;
     while (gn_techniques[view->technique].soft && room < most_room && !has_room(view, widest_m)) {
         const uint32_t fitted_px = view->map.inner_px;

@@ -40,11 +40,14 @@ static bool find_tiles(struct gn_fitter *f, struct gn_shadow_region *depths) {
     return found;
 }
 
-/* Where tiles share their edges, places beyond an edge are looked up too, and the normal offset
- * moves them further by up to sqrt(2) offsets, since tangents grow that much faster at 45 degrees.
- * The edge lies neither in the middle of a texel nor between two, where two opposite taps would
- * change texels at once. */
-static void set_gutter(struct gn_shadow_view *view) {
+bool gn_cube_fit(struct gn_fitter *f) {
+    struct gn_shadow_view *view = f->view;
+    struct gn_shadow_region depths;
+
+    /* Where tiles share their edges, places beyond an edge are looked up too, and the normal offset
+     * moves them further by up to sqrt(2) offsets, since tangents grow that much faster at 45
+     * degrees. The edge lies neither in the middle of a texel nor between two, where two opposite
+     * taps would change texels at once. */
     const struct gn_technique_row *row = &gn_techniques[view->technique];
     const bool shared = gn_technique_shades(view->technique);
     const float beyond =
@@ -59,12 +62,7 @@ static void set_gutter(struct gn_shadow_view *view) {
     view->lookup.texel =
         2.0f / ((float)(view->map.tile_px - 2 * view->map.gutter_px) + 2.0f * EDGE_TEXELS);
     view->lookup.shared = SHARED_TEXELS * view->lookup.texel;
-}
 
-bool gn_cube_fit(struct gn_fitter *f) {
-    struct gn_shadow_view *view = f->view;
-    struct gn_shadow_region depths;
-    set_gutter(view);
     if (!find_tiles(f, &depths)) return false;
     float near_depth, far_depth;
     double edge = -0.5 * (double)view->lookup.texel * view->map.tile_px;

@@ -21,32 +21,6 @@ void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, ui
     size_px[1] = atlas ? 2 * map_px : map_px;
 }
 
-/* What does not depend on casters and receivers. */
-static void begin_view(const struct gn_pose *pose, uint32_t light,
-                       const struct gn_shadow_opts *opts, struct gn_shadow_view *view) {
-    const enum gn_light_type type = pose->scene->lights[light].type;
-    uint32_t size_px[2];
-    vec3 direction;
-    gn_shadow_map_size(type, opts->technique, opts->map_px, size_px);
-    *view =
-        (struct gn_shadow_view){.light = light,
-                                .technique = opts->technique,
-                                .encoding = opts->encoding,
-                                .moments = opts->moments,
-                                .all_receive = opts->all_receive,
-                                .perspective = gn_light_types[type].has_position,
-                                .map = {.tile_px = opts->map_px,
-                                        .width_px = size_px[0],
-                                        .height_px = size_px[1],
-                                        .tile_count = gn_shadow_tile_count(type, opts->technique)}};
-    if (gn_techniques[view->technique].filter == GN_FILTER_TABLE)
-        view->lookup.reach_px = GN_TABLE_REACH_PX;
-    if (opts->cascades > 1 && !view->perspective && !gn_techniques[opts->technique].on_plane)
-        gn_cascades_lay(opts->cascades, view);
-    gn_pose_light(pose, light, view->light_ws, direction);
-    glm_vec3_negate_to(direction, view->to_light_ws);
-}
-
 /* The whole map is cleared to the far end, so all lookups are lit. Techniques also use derivatives
  * of the map's coordinates, so the matrix must not be singular: it is the light's frame, one unit
  * wide, with a code of 0 everywhere. */
@@ -80,7 +54,29 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
     assert(opts->technique != GN_TECHNIQUE_NONE);
     const struct gn_technique_row *row = &gn_techniques[opts->technique];
     const struct gn_light *l = &pose->scene->lights[light];
-    begin_view(pose, light, opts, view);
+
+    /* what does not depend on casters and receivers */
+    const enum gn_light_type type = l->type;
+    uint32_t size_px[2];
+    vec3 direction;
+    gn_shadow_map_size(type, opts->technique, opts->map_px, size_px);
+    *view =
+        (struct gn_shadow_view){.light = light,
+                                .technique = opts->technique,
+                                .encoding = opts->encoding,
+                                .moments = opts->moments,
+                                .all_receive = opts->all_receive,
+                                .perspective = gn_light_types[type].has_position,
+                                .map = {.tile_px = opts->map_px,
+                                        .width_px = size_px[0],
+                                        .height_px = size_px[1],
+                                        .tile_count = gn_shadow_tile_count(type, opts->technique)}};
+    if (row->filter == GN_FILTER_TABLE) view->lookup.reach_px = GN_TABLE_REACH_PX;
+    if (opts->cascades > 1 && !view->perspective && !row->on_plane)
+        gn_cascades_lay(opts->cascades, view);
+    gn_pose_light(pose, light, view->light_ws, direction);
+    glm_vec3_negate_to(direction, view->to_light_ws);
+
     struct gn_fitter f = {.pose = pose,
                           .eye = eye,
                           .memory = memory,

@@ -61,24 +61,6 @@ static void add_polygon(const struct gn_fitter *f, struct gn_shadow_region *r,
     for (int i = 0; i < polygon->count; i++) add_point(f, r, polygon->at[i]);
 }
 
-/* The intersection of box and frustum: faces of each clipped by the other. */
-static void add_body(const struct gn_fitter *f, struct gn_shadow_region *r, vec3 corners[8],
-                     bool seen_only) {
-    struct gn_polygon face;
-    for (int i = 0; i < 6; i++) {
-        gn_box_face(corners, i, &face);
-        add_polygon(f, r, &face, seen_only);
-    }
-    if (!seen_only) return;
-    vec4 planes[6];
-    gn_box_planes(corners, planes);
-    for (int i = 0; i < 6; i++) {
-        gn_box_face((vec3 *)f->eye->corners, i, &face);
-        for (int k = 0; k < 6 && face.count; k++) gn_polygon_clip(&face, planes[k]);
-        add_polygon(f, r, &face, false);
-    }
-}
-
 /* The light is in the item's box: the item may come nearer than the box's faces. */
 static void add_nearest(const struct gn_fitter *f, struct gn_shadow_region *r, uint32_t item) {
     const struct gn_scene *scene = f->pose->scene;
@@ -129,8 +111,20 @@ static struct gn_shadow_region measure_item(const struct gn_fitter *f, uint32_t 
             gn_item_triangle(f->pose, item, i, &triangle);
             add_polygon(f, &r, &triangle, seen_only);
         }
-    else
-        add_body(f, &r, corners, seen_only);
+    else { /* the intersection of box and frustum: faces of each clipped by the other */
+        struct gn_polygon face;
+        for (int i = 0; i < 6; i++) {
+            gn_box_face(corners, i, &face);
+            add_polygon(f, &r, &face, seen_only);
+        }
+        vec4 planes[6] = {0};
+        if (seen_only) gn_box_planes(corners, planes);
+        for (int i = 0; seen_only && i < 6; i++) {
+            gn_box_face((vec3 *)f->eye->corners, i, &face);
+            for (int k = 0; k < 6 && face.count; k++) gn_polygon_clip(&face, planes[k]);
+            add_polygon(f, &r, &face, false);
+        }
+    }
     if (f->view->perspective && g->index_count > 3 * GN_EXACT_TRIANGLES && !seen_only)
         add_nearest(f, &r, item);
     return r;

@@ -178,23 +178,6 @@ static struct gn_shadow_region receivers_of(const struct planar *f, const struct
     return intersect(&r, &in_range);
 }
 
-/* The part of the plane that is both seen and reached by shadows, empty if there is none; marks the
- * casters that reach it. */
-static struct gn_shadow_region find_window(const struct planar *f, const struct gn_light *light,
-                                           uint8_t *casts) {
-    struct gn_shadow_region receivers = receivers_of(f, light), window = nothing;
-    memset(casts, 0, f->pose->scene->item_count);
-    if (region_is_empty(&receivers)) return nothing;
-    for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
-        if (!is_caster(f, i)) continue;
-        struct gn_shadow_region shadow = shadow_of(f, i);
-        if (region_is_empty(&shadow) || !regions_meet(&shadow, &receivers)) continue;
-        casts[i] = 1;
-        unite(&window, &shadow);
-    }
-    return intersect(&window, &receivers);
-}
-
 /* ---- the view ---- */
 
 /* Clip z is linear in the height over the plane: -w where casters end, w where they begin. */
@@ -269,8 +252,19 @@ bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
     }
     if (f.high_m <= f.low_m) return false;
 
-    const struct gn_shadow_region window =
-        find_window(&f, &pose->scene->lights[view->light], memory->casts);
+    /* the window: the part of the plane that is both seen and reached by shadows */
+    struct gn_shadow_region window = nothing;
+    const struct gn_shadow_region receivers = receivers_of(&f, &pose->scene->lights[view->light]);
+    memset(memory->casts, 0, pose->scene->item_count);
+    if (region_is_empty(&receivers)) return false;
+    for (uint32_t i = 0; i < pose->scene->item_count; i++) {
+        if (!is_caster(&f, i)) continue;
+        const struct gn_shadow_region shadow = shadow_of(&f, i);
+        if (region_is_empty(&shadow) || !regions_meet(&shadow, &receivers)) continue;
+        memory->casts[i] = 1;
+        unite(&window, &shadow);
+    }
+    window = intersect(&window, &receivers);
     if (region_is_empty(&window)) return false;
     if (view->encoding == GN_ENCODING_STENCIL) return set_stencil(&f, &window);
 

@@ -75,23 +75,6 @@ bool gn_window_is_all(const struct gn_fitter *f) {
     return true;
 }
 
-/* World space planes round all places whose penumbra under a directional light reaches those
- * receivers: the nearer to the light, the farther aside. */
-enum { REACH_PLANES = 5 };
-static void reach_planes(const struct gn_fitter *f, const struct gn_shadow_region *receivers,
-                         vec4 planes[REACH_PLANES]) {
-    const float r = gn_techniques[f->view->technique].soft ? f->light_radius : 0.0f,
-                far = receivers->far;
-    vec4 of_light[REACH_PLANES] = {{1, 0, r, r * far - receivers->min[0]},
-                                   {-1, 0, r, r * far + receivers->max[0]},
-                                   {0, 1, r, r * far - receivers->min[1]},
-                                   {0, -1, r, r * far + receivers->max[1]},
-                                   {0, 0, 1, far}};
-    for (int i = 0; i < REACH_PLANES; i++)
-        for (int c = 0; c < 4; c++) /* planes are transformed by the transpose */
-            planes[i][c] = glm_vec4_dot(of_light[i], (float *)f->tile->light_from_world[c]);
-}
-
 /* Unites the casters that matter for those receivers, and marks them. */
 static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
                                              const struct gn_shadow_region *receivers,
@@ -101,8 +84,22 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
     uint32_t looks = MOST_LOOKS;
     const bool near_counts = (gn_techniques[f->view->technique].soft && !f->view->perspective) ||
                              (f->is_cascade && gn_technique_filters_map(f->view->technique));
-    vec4 planes[REACH_PLANES];
-    reach_planes(f, receivers, planes);
+
+    /* World space planes round all places whose penumbra under a directional light reaches those
+     * receivers: the nearer to the light, the farther aside. */
+    enum { REACH_PLANES = 5 };
+    const float reach = gn_techniques[f->view->technique].soft ? f->light_radius : 0.0f,
+                far = receivers->far;
+    vec4 planes[REACH_PLANES],
+        of_light[REACH_PLANES] = {{1, 0, reach, reach * far - receivers->min[0]},
+                                  {-1, 0, reach, reach * far + receivers->max[0]},
+                                  {0, 1, reach, reach * far - receivers->min[1]},
+                                  {0, -1, reach, reach * far + receivers->max[1]},
+                                  {0, 0, 1, far}};
+    for (int i = 0; i < REACH_PLANES; i++)
+        for (int c = 0; c < 4; c++) /* planes are transformed by the transpose */
+            planes[i][c] = glm_vec4_dot(of_light[i], (float *)f->tile->light_from_world[c]);
+
     *depths = nothing;
     memset(casts, 0, f->memory->item_count);
     for (uint32_t i = 0; i < f->memory->item_count; i++) {
