@@ -7,16 +7,6 @@ static bool is_filtered(const struct gn_shadow_view *view) {
     return view->moments != GN_MOMENTS_NONE;
 }
 
-/* Whether shaders may read the old map instead of the new one. */
-static bool can_keep_map(const struct gn_shadow_view *old, const struct gn_shadow_view *new) {
-    return is_filtered(old) && old->light == new->light && old->technique == new->technique &&
-           old->encoding == new->encoding && old->moments == new->moments &&
-           old->map.width_px == new->map.width_px && old->map.height_px == new->map.height_px &&
-           old->map.tile_count == new->map.tile_count &&
-           old->map.cascade_count == new->map.cascade_count &&
-           old->all_receive == new->all_receive && old->empty == new->empty;
-}
-
 static void update_kept(struct gn_frame *frame, uint32_t slot) {
     frame->kept[slot].view = frame->shadows[slot];
     frame->kept[slot].waited = 0;
@@ -29,7 +19,14 @@ void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts
     for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
         const struct gn_shadow_view *view = &frame->shadows[slot], *old = &frame->kept[slot].view;
         if (!is_filtered(view)) continue;
-        if (can_keep_map(old, view))
+        const bool can_wait = /* shaders may read the old map instead of the new one */
+            is_filtered(old) && old->light == view->light && old->technique == view->technique &&
+            old->encoding == view->encoding && old->moments == view->moments &&
+            old->map.width_px == view->map.width_px && old->map.height_px == view->map.height_px &&
+            old->map.tile_count == view->map.tile_count &&
+            old->map.cascade_count == view->map.cascade_count &&
+            old->all_receive == view->all_receive && old->empty == view->empty;
+        if (can_wait)
             for (uint32_t tile = 0; tile < view->map.tile_count; tile++) {
                 if (gn_frame_filter_hash(old, tile) != gn_frame_filter_hash(view, tile))
                     texels[slot] += (uint64_t)view->map.tile_px * view->map.tile_px;

@@ -8,17 +8,6 @@
 
 enum { LEAST_PX = 16 }; /* as of --map */
 
-/* Whether shaders of two lights use the same textures between the steps of their filters. */
-static bool share_steps(const struct gn_map_need *a, const struct gn_map_need *b) {
-    return a->moments == b->moments &&
-           gn_techniques[a->technique].filter == gn_techniques[b->technique].filter &&
-           a->map.width_px == b->map.width_px && a->map.height_px == b->map.height_px;
-}
-
-static bool share_pages(const struct gn_map_need *a, const struct gn_map_need *b) {
-    return a->paged && b->paged && a->encoding == b->encoding && a->map.tile_px == b->map.tile_px;
-}
-
 static uint64_t filter_bytes(const struct gn_map_need *need, uint32_t texture) {
     uint32_t size_px[2];
     gn_frame_filter_size(need->technique, &need->map, texture, size_px);
@@ -33,30 +22,30 @@ static uint64_t own_bytes(const struct gn_map_need *need) {
            (mipmaps ? filtered / 3 : 0);
 }
 
-/* The textures that the filter has beside the light's own one. */
-static uint64_t step_bytes(const struct gn_map_need *need) {
-    const struct gn_filter_row *filter = &gn_filters[gn_techniques[need->technique].filter];
-    uint32_t seen = 1; /* bits of textures */
-    uint64_t bytes = 0;
-    for (uint32_t i = 0; need->moments && i < filter->count; i++) {
-        const uint32_t to = filter->stages[i].to;
-        if (!(seen >> to & 1)) bytes += filter_bytes(need, to);
-        seen |= 1u << to;
-    }
-    return bytes;
-}
-
 uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count) {
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < count; i++) {
         const struct gn_map_need *need = &needs[i];
+        const struct gn_filter_row *filter = &gn_filters[gn_techniques[need->technique].filter];
         const uint64_t tile_px = need->map.tile_px;
-        uint64_t steps = step_bytes(need);
         uint64_t pages =
             need->paged ? tile_px * tile_px * gn_encodings[need->encoding].texel_bytes : 0;
-        for (uint32_t k = 0; k < i; k++) {
-            if (share_steps(&needs[k], need)) steps = 0;
-            if (share_pages(&needs[k], need)) pages = 0;
+        uint64_t steps = 0; /* the textures that the filter has beside the light's own one */
+        uint32_t seen = 1;  /* bits of textures */
+        for (uint32_t k = 0; need->moments && k < filter->count; k++) {
+            const uint32_t to = filter->stages[k].to;
+            if (!(seen >> to & 1)) steps += filter_bytes(need, to);
+            seen |= 1u << to;
+        }
+        for (const struct gn_map_need *other = needs; other < need; other++) {
+            if (other->moments == need->moments &&
+                gn_techniques[other->technique].filter == gn_techniques[need->technique].filter &&
+                other->map.width_px == need->map.width_px &&
+                other->map.height_px == need->map.height_px)
+                steps = 0; /* the two use the same textures between the steps */
+            if (other->paged && need->paged && other->encoding == need->encoding &&
+                other->map.tile_px == need->map.tile_px)
+                pages = 0;
         }
         bytes += own_bytes(need) + steps + pages;
     }
@@ -95,19 +84,6 @@ static void set_size(enum gn_light_type type, const struct gn_shadow_opts *opts,
                                                     : gn_shadow_tile_count(type, opts->technique)};
 }
 
-/* The map whose tiles are halved next; count: none can be. */
-static uint32_t find_largest(const struct gn_map_need *needs, uint32_t count) {
-    uint32_t found = count;
-    for (uint32_t i = 0; i < count; i++) {
-        if (needs[i].map.tile_px < 2 * LEAST_PX) continue;
-        if (found == count || needs[i].map.tile_px > needs[found].map.tile_px ||
-            (needs[i].map.tile_px == needs[found].map.tile_px &&
-             own_bytes(&needs[i]) >= own_bytes(&needs[found])))
-            found = i;
-    }
-    return found;
-}
-
 void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn_shadow_opts *maps,
                           struct gn_warnings *warnings) {
     struct gn_map_need needs[GN_ALL_SHADOWS_MAX];
@@ -125,7 +101,14 @@ void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn
         set_size(type, &maps[i], &needs[i]);
     }
     while (gn_map_needs_bytes(needs, frame->shadow_count) > most_bytes) {
-        const uint32_t slot = find_largest(needs, frame->shadow_count);
+        uint32_t slot = frame->shadow_count; /* of the map whose tiles are halved next */
+        for (uint32_t i = 0; i < frame->shadow_count; i++) {
+            if (needs[i].map.tile_px < 2 * LEAST_PX) continue;
+            if (slot == frame->shadow_count || needs[i].map.tile_px > needs[slot].map.tile_px ||
+                (needs[i].map.tile_px == needs[slot].map.tile_px &&
+                 own_bytes(&needs[i]) >= own_bytes(&needs[slot])))
+                slot = i;
+        }
         if (slot == frame->shadow_count) break;
         const struct gn_light *light =
             &frame->scene->lights[gn_frame_light_of_slot(frame, slot)->light];

@@ -5,8 +5,19 @@
 #include "blocks.glsl"
 #include "frame/private.h"
 
-static void draw_captions(struct gn_frame *frame, const struct gn_program_key *key,
-                          const struct gn_caption_run *run) {
+void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
+                           const struct gn_frame_opts *opts) {
+    (void)pose;
+    const struct gn_caption_run *run = opts->captions;
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = GN_PROGRAM_CAPTION;
+    if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
+    if (opts->debug.aov != GN_AOV_COLOR) return;
+    if (opts->captions_later) gn_frame_program(frame, &key);
+    if (!run || run->width_px != frame->picture.width_px ||
+        run->height_px != frame->picture.height_px)
+        return;
     const uint32_t first = frame->instances.count;
     int32_t left = INT32_MAX, top = INT32_MAX, right = 0, bottom = 0; /* of what is visible */
     for (uint32_t i = 0; i < run->quad_count; i++) {
@@ -40,21 +51,6 @@ static void draw_captions(struct gn_frame *frame, const struct gn_program_key *k
     c[CAPTION_PX][2] = frame->picture.turn[0];
     c[CAPTION_PX][3] = frame->picture.turn[1];
     frame->plan.atlas = run->atlas;
-    gn_frame_draw_bare(frame, key, 6, first, frame->instances.count - first);
+    gn_frame_draw_bare(frame, &key, 6, first, frame->instances.count - first);
     gn_frame_end_pass(frame);
-}
-
-void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
-                           const struct gn_frame_opts *opts) {
-    (void)pose;
-    const struct gn_caption_run *run = opts->captions;
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = GN_PROGRAM_CAPTION;
-    if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
-    if (opts->debug.aov != GN_AOV_COLOR) return;
-    if (opts->captions_later) gn_frame_program(frame, &key);
-    if (run && run->width_px == frame->picture.width_px &&
-        run->height_px == frame->picture.height_px)
-        draw_captions(frame, &key, run);
 }

@@ -192,9 +192,24 @@ static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *
     return broken;
 }
 
-/* Pages are cleared by the first pass to them, and copied by the pass after the last. Only the last
- * pass to the output resolves it. */
-static const char *check_order(const struct gn_plan *plan) {
+const char *gn_plan_check(const struct gn_plan *plan) {
+    REQUIRE(plan->scene != NULL);
+    REQUIRE(plan->width_px > 0 && plan->height_px > 0);
+    REQUIRE(plan->pass_count > 0);
+    REQUIRE(plan->shadow_count <= GN_ALL_SHADOWS_MAX);
+    REQUIRE(plan->light_count <= GN_ALL_LIGHTS_MAX);
+    for (uint32_t i = 0; i < plan->shadow_count; i++)
+        REQUIRE(plan->stencil || plan->shadows[i].encoding != GN_ENCODING_STENCIL);
+    REQUIRE(isfinite(plan->exposure) && plan->exposure > 0.0f);
+    const char *broken = NULL;
+    for (uint32_t i = 0; i < plan->program_count && !broken; i++)
+        broken = check_key(&plan->programs[i]);
+    for (uint32_t i = 0; i < plan->pass_count && !broken; i++)
+        broken = check_pass(plan, &plan->passes[i]);
+    if (broken) return broken;
+
+    /* The order: pages are cleared by the first pass to them, and copied by the pass after the
+     * last. Only the last pass to the output resolves it. */
     const struct gn_pass *passes = plan->passes;
     uint32_t last = plan->pass_count;
     for (uint32_t i = 0; i < plan->pass_count; i++) {
@@ -216,21 +231,4 @@ static const char *check_order(const struct gn_plan *plan) {
     REQUIRE((passes[plan->pass_count - 1].target.kind == GN_TARGET_ENCODED) ==
             (plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT));
     return NULL;
-}
-
-const char *gn_plan_check(const struct gn_plan *plan) {
-    REQUIRE(plan->scene != NULL);
-    REQUIRE(plan->width_px > 0 && plan->height_px > 0);
-    REQUIRE(plan->pass_count > 0);
-    REQUIRE(plan->shadow_count <= GN_ALL_SHADOWS_MAX);
-    REQUIRE(plan->light_count <= GN_ALL_LIGHTS_MAX);
-    for (uint32_t i = 0; i < plan->shadow_count; i++)
-        REQUIRE(plan->stencil || plan->shadows[i].encoding != GN_ENCODING_STENCIL);
-    REQUIRE(isfinite(plan->exposure) && plan->exposure > 0.0f);
-    const char *broken = NULL;
-    for (uint32_t i = 0; i < plan->program_count && !broken; i++)
-        broken = check_key(&plan->programs[i]);
-    for (uint32_t i = 0; i < plan->pass_count && !broken; i++)
-        broken = check_pass(plan, &plan->passes[i]);
-    return broken ? broken : check_order(plan);
 }

@@ -5,22 +5,6 @@
 
 #include "frame/private.h"
 
-static void add_instance(struct gn_frame *frame, const struct gn_pose *pose, uint32_t index) {
-    const struct gn_item *item = &frame->scene->items[index];
-    const struct gn_material *m = &frame->scene->materials[item->material];
-    struct gn_instance *instance = &GN_LIST_PUSH(&frame->instances);
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 4; c++)
-            instance->world[r][c] = pose->items[index].world_from_item[c][r];
-    memcpy(instance->base_color, m->base_color, sizeof instance->base_color);
-    instance->surface[0] = m->roughness;
-    instance->surface[1] = m->metalness;
-    instance->surface[2] = m->occlusion_strength;
-    instance->surface[3] = m->alpha_cutoff;
-    memcpy(instance->emissive, m->emissive, sizeof m->emissive);
-    instance->emissive[3] = gn_shadow_item_casts(frame->scene, index) ? 1.0f : 0.0f;
-}
-
 /* A closed body needs only the faces towards a light outside it, or, with `auto`, only the others
  * (second depth: Wang, Molnar 1994). Open bodies need both. */
 static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_pose *pose,
@@ -93,7 +77,17 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
                                                        .mirrored = mirrored};
         *open = true;
     }
-    add_instance(frame, pose, item);
+    const struct gn_material *m = &frame->scene->materials[what->material];
+    struct gn_instance *instance = &GN_LIST_PUSH(&frame->instances);
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 4; c++) instance->world[r][c] = pose->items[item].world_from_item[c][r];
+    memcpy(instance->base_color, m->base_color, sizeof instance->base_color);
+    instance->surface[0] = m->roughness;
+    instance->surface[1] = m->metalness;
+    instance->surface[2] = m->occlusion_strength;
+    instance->surface[3] = m->alpha_cutoff;
+    memcpy(instance->emissive, m->emissive, sizeof m->emissive);
+    instance->emissive[3] = gn_shadow_item_casts(frame->scene, item) ? 1.0f : 0.0f;
     struct gn_draw *draw = &frame->draws.at[frame->draws.count - 1];
     float depth_m = s->casts ? 0.0f : depth_of(frame, &pose->items[item].box_ws, true);
     draw->depth_m += (depth_m - draw->depth_m) / (float)++draw->instance_count;

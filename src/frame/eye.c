@@ -6,23 +6,6 @@
 
 #define FAR_TIMES 1e4f /* times the extent of the scene */
 
-/* Rotates the camera about the vertical axis through the scene's centre. */
-static void turn_camera(const struct gn_pose *pose, float angle_rad, mat4 view_from_world,
-                        vec3 eye_ws) {
-    if (angle_rad == 0.0f) return;
-    vec3 centre, back;
-    mat4 turned_from_world = GLM_MAT4_IDENTITY_INIT;
-    glm_vec3_center((float *)pose->scene->box.min, (float *)pose->scene->box.max, centre);
-    glm_vec3_negate_to(centre, back);
-    glm_translate(turned_from_world, centre);
-    glm_rotate_y(turned_from_world, -angle_rad, turned_from_world);
-    glm_translate(turned_from_world, back);
-    glm_mat4_mul(view_from_world, turned_from_world, view_from_world);
-    glm_vec3_sub(eye_ws, centre, eye_ws);
-    glm_vec3_rotate(eye_ws, angle_rad, (vec3){0.0f, 1.0f, 0.0f});
-    glm_vec3_add(eye_ws, centre, eye_ws);
-}
-
 /* A camera moved by the user shows all of the scene: the camera's own near and far planes then only
  * extend the range. */
 static void make_projection(const struct gn_camera *camera, const struct gn_orbit *orbit,
@@ -56,7 +39,20 @@ static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
     float reach_m[2]; /* to what is looked at, and to the end of the scene */
     reach_m[0] = gn_orbit_view(&opts->view.orbit, pose, (uint32_t)opts->view.camera,
                                look->view_from_world, look->eye_ws);
-    turn_camera(pose, opts->view.turntable_rad, look->view_from_world, look->eye_ws);
+    const float angle_rad = opts->view.turntable_rad;
+    if (angle_rad != 0.0f) { /* about the vertical axis through the scene's centre */
+        vec3 centre, back;
+        mat4 turned_from_world = GLM_MAT4_IDENTITY_INIT;
+        glm_vec3_center((float *)pose->scene->box.min, (float *)pose->scene->box.max, centre);
+        glm_vec3_negate_to(centre, back);
+        glm_translate(turned_from_world, centre);
+        glm_rotate_y(turned_from_world, -angle_rad, turned_from_world);
+        glm_translate(turned_from_world, back);
+        glm_mat4_mul(look->view_from_world, turned_from_world, look->view_from_world);
+        glm_vec3_sub(look->eye_ws, centre, look->eye_ws);
+        glm_vec3_rotate(look->eye_ws, angle_rad, (vec3){0.0f, 1.0f, 0.0f});
+        glm_vec3_add(look->eye_ws, centre, look->eye_ws);
+    }
     const struct gn_box *box = &pose->box_ws;
     vec3 reach;
     for (int k = 0; k < 3; k++)

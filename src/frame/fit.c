@@ -2,43 +2,40 @@
 #include "frame/private.h"
 #include "shadow/cascade.h"
 
-/* How large a light's map is wanted, as far as this GPU's textures go. */
-static struct gn_shadow_opts choose_map(struct gn_frame *frame, const struct gn_pose *pose,
-                                        const struct gn_frame_opts *opts, uint32_t slot,
-                                        struct gn_warnings *warnings) {
-    struct gn_frame_light *light = gn_frame_light_of_slot(frame, slot);
-    const struct gn_light *l = &frame->scene->lights[light->light];
-    const uint32_t most = gn_frame_most_px(frame, light, 1);
-    uint32_t asked = opts->shadow.map_px; /* the side of the map, or of each of its tiles */
-    if (!asked) asked = l->map_px;
-    if (!asked) asked = gn_techniques[light->technique].map_px;
-    if (!asked) asked = 1024;
-    if (light->encoding == GN_ENCODING_STENCIL) asked = 0; /* no map */
-    struct gn_shadow_opts shadow = {.technique = light->technique,
-                                    .encoding = light->encoding,
-                                    .moments = light->moments,
-                                    .map_px = asked < most ? asked : most,
-                                    .all_receive = opts->debug.aov == GN_AOV_VISIBILITY,
-                                    .cascades = opts->shadow.cascades ? opts->shadow.cascades
-                                                                      : GN_CASCADES_MAX};
-    gn_frame_make_memories(frame, slot, gn_shadow_tile_count(l->type, light->technique));
-    light->cascades = shadow.cascades = gn_frame_choose_cascades(frame, pose, opts, slot, &shadow);
-    if (shadow.cascades > 1) gn_frame_make_memories(frame, slot, GN_CASCADE_MEMORIES);
-    const uint32_t most_each = gn_frame_most_px(frame, light, shadow.cascades);
-    if (shadow.map_px > most_each) shadow.map_px = most_each;
-    if (shadow.map_px < asked &&
-        gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_MAP_PX, warnings))
-        gn_warn(warnings,
-                "light '%s': map tiles of %u px exceed the texture size of this GPU; using %u px",
-                l->name, asked, shadow.map_px);
-    return shadow;
-}
-
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     struct gn_shadow_opts maps[GN_ALL_SHADOWS_MAX];
-    for (uint32_t i = 0; i < frame->shadow_count; i++)
-        maps[i] = choose_map(frame, pose, opts, i, warnings);
+    for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
+        /* how large the light's map is wanted, as far as this GPU's textures go */
+        struct gn_frame_light *light = gn_frame_light_of_slot(frame, slot);
+        const struct gn_light *l = &frame->scene->lights[light->light];
+        const uint32_t most = gn_frame_most_px(frame, light, 1);
+        uint32_t asked = opts->shadow.map_px; /* the side of the map, or of each of its tiles */
+        if (!asked) asked = l->map_px;
+        if (!asked) asked = gn_techniques[light->technique].map_px;
+        if (!asked) asked = 1024;
+        if (light->encoding == GN_ENCODING_STENCIL) asked = 0; /* no map */
+        maps[slot] = (struct gn_shadow_opts){
+            .technique = light->technique,
+            .encoding = light->encoding,
+            .moments = light->moments,
+            .map_px = asked < most ? asked : most,
+            .all_receive = opts->debug.aov == GN_AOV_VISIBILITY,
+            .cascades = opts->shadow.cascades ? opts->shadow.cascades : GN_CASCADES_MAX};
+        struct gn_shadow_opts *shadow = &maps[slot];
+        gn_frame_make_memories(frame, slot, gn_shadow_tile_count(l->type, light->technique));
+        light->cascades = shadow->cascades =
+            gn_frame_choose_cascades(frame, pose, opts, slot, shadow);
+        if (shadow->cascades > 1) gn_frame_make_memories(frame, slot, GN_CASCADE_MEMORIES);
+        const uint32_t most_each = gn_frame_most_px(frame, light, shadow->cascades);
+        if (shadow->map_px > most_each) shadow->map_px = most_each;
+        if (shadow->map_px < asked &&
+            gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_MAP_PX, warnings))
+            gn_warn(
+                warnings,
+                "light '%s': map tiles of %u px exceed the texture size of this GPU; using %u px",
+                l->name, asked, shadow->map_px);
+    }
     gn_frame_shrink_maps(frame, opts->shadow.maps_bytes, maps, warnings);
     /* An empty view keeps its slot: programs do not depend on what is visible. */
     for (uint32_t i = 0; i < frame->shadow_count; i++)

@@ -81,24 +81,20 @@ static void set_picture_constants(struct gn_frame *frame, const struct gn_pose *
     }
 }
 
-static void reset_plan(struct gn_frame *frame, const struct gn_frame_opts *opts) {
-    static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
-    frame->plan = (struct gn_plan){.scene = frame->scene, .maps_bytes = opts->shadow.maps_bytes};
-    frame->plan.width_px = opts->width_px ? opts->width_px : 1280;
-    frame->plan.height_px = opts->height_px ? opts->height_px : 720;
-    frame->camera = (uint32_t)opts->view.camera;
-    const bool on_side = opts->turn_deg / 90 % 2;
-    frame->picture.width_px = on_side ? frame->plan.height_px : frame->plan.width_px;
-    frame->picture.height_px = on_side ? frame->plan.width_px : frame->plan.height_px;
-    memcpy(frame->picture.turn, turns[opts->turn_deg / 90 % 4], sizeof frame->picture.turn);
-}
-
 const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
                                      const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings) {
+    static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     struct gn_plan *plan = &frame->plan;
-    reset_plan(frame, opts);
+    frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
+    *plan = (struct gn_plan){.scene = frame->scene, .maps_bytes = opts->shadow.maps_bytes};
+    plan->width_px = opts->width_px ? opts->width_px : 1280;
+    plan->height_px = opts->height_px ? opts->height_px : 720;
+    frame->camera = (uint32_t)opts->view.camera;
+    const bool on_side = opts->turn_deg / 90 % 2;
+    frame->picture.width_px = on_side ? plan->height_px : plan->width_px;
+    frame->picture.height_px = on_side ? plan->width_px : plan->height_px;
+    memcpy(frame->picture.turn, turns[opts->turn_deg / 90 % 4], sizeof frame->picture.turn);
     gn_frame_take_note(frame, opts);
     choose_output(frame, opts, warnings);
     gn_frame_eye(frame, pose, opts, gn_frame_constants(frame, GN_CONSTANTS_PICTURE));

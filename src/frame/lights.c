@@ -64,37 +64,29 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
     return GN_TECHNIQUE_NONE;
 }
 
-/* The format of a filtered map. A format can be requested for the moments of a filtered map, or for
- * an unfiltered map, not for both.
- */
-static void choose_moments(struct gn_frame *frame, const struct gn_frame_opts *opts,
-                           struct gn_frame_light *light, struct gn_warnings *warnings) {
-    const bool filters = gn_technique_filters_map(light->technique);
-    const char *technique = gn_techniques[light->technique].name;
-    bool fell_back = false;
-    if (filters)
-        light->moments =
-            gn_moments_choose(gn_techniques[light->technique].stores, opts->shadow.moments,
-                              gn_caps_moments(&frame->caps), &fell_back);
-    const bool wants_map = opts->shadow.encoding != GN_ENCODING_AUTO,
-               wants_moments = opts->shadow.moments;
-    if (!(filters ? fell_back || wants_map : wants_moments)) return;
-    if (!gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_ENCODING, warnings))
-        return;
-    gn_warn(warnings, "%s does not support map format %s%s; using %s", technique,
-            wants_map ? gn_encodings[opts->shadow.encoding].name
-                      : gn_moments[opts->shadow.moments].name,
-            fell_back ? " on this GPU" : "",
-            filters ? gn_moments[light->moments].name : gn_encodings[light->encoding].name);
-}
-
 static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *opts,
                             struct gn_frame_light *light, struct gn_warnings *warnings) {
+    const struct gn_technique_row *technique = &gn_techniques[light->technique];
     uint32_t *said = &frame->notes.lights.at[light->light].said;
-    bool fell_back;
+    bool fell_back, moments_fell_back = false;
     light->encoding = gn_encoding_choose(light->technique, opts->shadow.encoding,
                                          gn_caps_encodings(&frame->caps), &fell_back);
-    choose_moments(frame, opts, light, warnings);
+
+    /* A format can be requested for the moments of a filtered map, or for an unfiltered map, not
+     * for both. */
+    const bool filters = gn_technique_filters_map(light->technique);
+    if (filters)
+        light->moments = gn_moments_choose(technique->stores, opts->shadow.moments,
+                                           gn_caps_moments(&frame->caps), &moments_fell_back);
+    const bool wants_map = opts->shadow.encoding != GN_ENCODING_AUTO,
+               wants_moments = opts->shadow.moments;
+    if ((filters ? moments_fell_back || wants_map : wants_moments) &&
+        gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
+        gn_warn(warnings, "%s does not support map format %s%s; using %s", technique->name,
+                wants_map ? gn_encodings[opts->shadow.encoding].name
+                          : gn_moments[opts->shadow.moments].name,
+                moments_fell_back ? " on this GPU" : "",
+                filters ? gn_moments[light->moments].name : gn_encodings[light->encoding].name);
     if (fell_back && gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
         gn_warn(warnings, "this GPU cannot render to map format %s; using %s",
                 gn_encodings[opts->shadow.encoding].name, gn_encodings[light->encoding].name);
@@ -137,20 +129,6 @@ static void warn_of_limit(struct gn_frame *frame, uint32_t light, enum gn_notice
             can_add_light(frame) ? "" : " on a GPU without srgb and rgba16f targets");
 }
 
-/* When full, replaces the weakest light. */
-static void add_light(struct gn_frame *frame, struct gn_frame_light light, uint32_t most,
-                      struct gn_warnings *warnings) {
-    if (frame->light_count == most) {
-        uint32_t least = find_weakest(frame, false);
-        struct gn_frame_light *at = &frame->lights[least];
-        bool stays = at->illuminance >= light.illuminance;
-        warn_of_limit(frame, stays ? light.light : at->light, GN_NOTICE_LIGHTS, most, warnings);
-        if (stays) return;
-        memmove(at, at + 1, (--frame->light_count - least) * sizeof *at);
-    }
-    frame->lights[frame->light_count++] = light;
-}
-
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     bool visibility = opts->debug.aov == GN_AOV_VISIBILITY;
@@ -164,7 +142,15 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                                                  : frame->scene->lights[i].shadow_strength;
         l.illuminance = illuminance(pose, i);
         if (has_map(&l)) choose_encoding(frame, opts, &l, warnings);
-        add_light(frame, l, most, warnings);
+        if (frame->light_count == most) { /* full: replaces the weakest, or is that itself */
+            const uint32_t least = find_weakest(frame, false);
+            struct gn_frame_light *at = &frame->lights[least];
+            const bool stays = at->illuminance >= l.illuminance;
+            warn_of_limit(frame, stays ? i : at->light, GN_NOTICE_LIGHTS, most, warnings);
+            if (stays) continue;
+            memmove(at, at + 1, (--frame->light_count - least) * sizeof *at);
+        }
+        frame->lights[frame->light_count++] = l;
     }
     uint32_t maps = 0;
     for (uint32_t i = 0; i < frame->light_count; i++) maps += has_map(&frame->lights[i]);

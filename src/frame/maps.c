@@ -120,38 +120,34 @@ static void add_paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_end_pass(frame);
 }
 
-static void add_map_passes(struct gn_frame *frame, const struct gn_pose *pose, uint32_t slot,
-                           const struct gn_frame_opts *opts) {
-    struct gn_shadow_view *view = &frame->shadows[slot];
-    if (view->encoding == GN_ENCODING_STENCIL) return;
-    if (view->raster.drawn.paged) {
-        const struct paged map = {.slot = slot,
-                                  .page_px = view->map.tile_px,
-                                  .page_count = view->raster.drawn.page_count,
-                                  .pages = view->raster.drawn.pages};
-        add_paged_passes(frame, pose, &map, opts);
-        return;
-    }
-    for (uint32_t tile = 0; tile < view->map.tile_count; tile++) {
-        if (view->map.cascade_count == 0 || view->raster.tiles[tile].empty) {
-            add_tile_pass(frame, pose, slot, tile, opts);
-            continue;
-        }
-        const struct paged map = {.slot = slot,
-                                  .tile = tile,
-                                  .page_px = view->map.inner_px,
-                                  .page_count = view->cascades[tile].drawn.page_count,
-                                  .to_px = {view->raster.tiles[tile].x_px + view->map.gutter_px,
-                                            view->raster.tiles[tile].y_px + view->map.gutter_px},
-                                  .pages = view->cascades[tile].drawn.pages};
-        add_paged_passes(frame, pose, &map, opts);
-    }
-}
-
 void gn_frame_add_maps(struct gn_frame *frame, const struct gn_pose *pose,
                        const struct gn_frame_opts *opts) {
     for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
-        add_map_passes(frame, pose, slot, opts);
+        struct gn_shadow_view *view = &frame->shadows[slot];
+        const bool in_stencil = view->encoding == GN_ENCODING_STENCIL,
+                   paged = view->raster.drawn.paged;
+        if (paged && !in_stencil) {
+            const struct paged map = {.slot = slot,
+                                      .page_px = view->map.tile_px,
+                                      .page_count = view->raster.drawn.page_count,
+                                      .pages = view->raster.drawn.pages};
+            add_paged_passes(frame, pose, &map, opts);
+        }
+        for (uint32_t tile = 0; !paged && !in_stencil && tile < view->map.tile_count; tile++) {
+            if (view->map.cascade_count == 0 || view->raster.tiles[tile].empty) {
+                add_tile_pass(frame, pose, slot, tile, opts);
+                continue;
+            }
+            const struct paged map = {
+                .slot = slot,
+                .tile = tile,
+                .page_px = view->map.inner_px,
+                .page_count = view->cascades[tile].drawn.page_count,
+                .to_px = {view->raster.tiles[tile].x_px + view->map.gutter_px,
+                          view->raster.tiles[tile].y_px + view->map.gutter_px},
+                .pages = view->cascades[tile].drawn.pages};
+            add_paged_passes(frame, pose, &map, opts);
+        }
         gn_frame_filter_passes(frame, slot);
     }
 }

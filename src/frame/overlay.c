@@ -116,26 +116,6 @@ struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect
     return r;
 }
 
-static void set_panel_constants(const struct gn_frame *frame, const struct gn_shadow_view *view,
-                                const struct gn_rect *rect, float (*c)[4]) {
-    const float size[2] = {(float)frame->picture.width_px, (float)frame->picture.height_px};
-    const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
-    const float rectangle[4] = {2.0f * (float)rect->x / size[0] - 1.0f,
-                                2.0f * (float)rect->y / size[1] - 1.0f,
-                                2.0f * (float)(rect->x + rect->width) / size[0] - 1.0f,
-                                2.0f * (float)(rect->y + rect->height) / size[1] - 1.0f};
-    memcpy(c[PANEL_RECT], rectangle, sizeof rectangle);
-    c[PANEL_GREY][0] = grey.scale;
-    c[PANEL_GREY][1] = grey.offset;
-    c[PANEL_GREY][2] = grey.power;
-    hue_of(&frame->scene->lights[view->light], c[PANEL_FRAME]);
-    c[PANEL_FRAME][3] = rect->width > 24 ? FRAME_PX * pixel_scale(frame) : 1.0f;
-    c[PANEL_PX][0] = (float)rect->width;
-    c[PANEL_PX][1] = (float)rect->height;
-    c[PANEL_PX][2] = frame->picture.turn[0];
-    c[PANEL_PX][3] = frame->picture.turn[1];
-}
-
 static void add_panel_pass(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     if (view->encoding == GN_ENCODING_STENCIL) return; /* it has no map */
@@ -155,7 +135,22 @@ static void add_panel_pass(struct gn_frame *frame, uint32_t slot) {
     key.encoding = (uint8_t)view->encoding;
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_PANEL) +
                    (size_t)slot * PANEL_SIZE;
-    set_panel_constants(frame, view, &rect, c);
+    const float size[2] = {(float)width, (float)height};
+    const struct gn_shadow_grey grey = gn_shadow_grey_of(view);
+    const float rectangle[4] = {2.0f * (float)rect.x / size[0] - 1.0f,
+                                2.0f * (float)rect.y / size[1] - 1.0f,
+                                2.0f * (float)(rect.x + rect.width) / size[0] - 1.0f,
+                                2.0f * (float)(rect.y + rect.height) / size[1] - 1.0f};
+    memcpy(c[PANEL_RECT], rectangle, sizeof rectangle);
+    c[PANEL_GREY][0] = grey.scale;
+    c[PANEL_GREY][1] = grey.offset;
+    c[PANEL_GREY][2] = grey.power;
+    hue_of(&frame->scene->lights[view->light], c[PANEL_FRAME]);
+    c[PANEL_FRAME][3] = rect.width > 24 ? FRAME_PX * pixel_scale(frame) : 1.0f;
+    c[PANEL_PX][0] = (float)rect.width;
+    c[PANEL_PX][1] = (float)rect.height;
+    c[PANEL_PX][2] = frame->picture.turn[0];
+    c[PANEL_PX][3] = frame->picture.turn[1];
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     pass->depth_write = false;
     pass->rect = gn_frame_turned_rect(frame, rect);

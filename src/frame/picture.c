@@ -21,26 +21,6 @@ static int by_depth(const void *a, const void *b) {
     return x->item < y->item ? -1 : 1;
 }
 
-/* Adds the other groups' light to one blended item; true if there was any. */
-static bool add_to_blended(struct gn_frame *frame, const struct gn_pose *pose,
-                           const struct gn_frame_opts *opts, uint32_t item) {
-    bool added = false;
-    for (uint32_t i = 1; i < frame->group_count; i++) {
-        const struct gn_light_group *g = &frame->groups[i];
-        if (frame->scene->materials[frame->scene->items[item].material].unlit || !g->seen ||
-            !gn_group_touches(g, &pose->items[item].box_ws))
-            continue;
-        struct gn_selection reached = {.group = g, .opts = opts};
-        bool open = false;
-        if (!added) gn_frame_end_pass(frame);
-        added = true;
-        gn_frame_lit_pass(frame, "blend", i);
-        gn_frame_draw_item(frame, pose, &reached, item, &open);
-        gn_frame_end_pass(frame);
-    }
-    return added;
-}
-
 static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts) {
     const struct gn_selection seen = {.opts = opts};
@@ -54,28 +34,31 @@ static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
             pass->picture.blend = GN_BLEND_ALPHA;
             pass->depth_write = false;
         }
-        open = begun && frame->scene->items[placed[i].item].batch ==
-                            frame->scene->items[placed[i - 1].item].batch;
-        gn_frame_draw_item(frame, pose, &seen, placed[i].item, &open);
-        begun = !add_to_blended(frame, pose, opts, placed[i].item);
+        const uint32_t item = placed[i].item;
+        const struct gn_item *what = &frame->scene->items[item];
+        open = begun && what->batch == frame->scene->items[placed[i - 1].item].batch;
+        gn_frame_draw_item(frame, pose, &seen, item, &open);
+
+        /* the other groups' light; the pass ends where there is any */
+        begun = true;
+        for (uint32_t k = 1; k < frame->group_count; k++) {
+            const struct gn_light_group *g = &frame->groups[k];
+            if (frame->scene->materials[what->material].unlit || !g->seen ||
+                !gn_group_touches(g, &pose->items[item].box_ws))
+                continue;
+            struct gn_selection reached = {.group = g, .opts = opts};
+            bool own = false;
+            if (begun) gn_frame_end_pass(frame);
+            begun = false;
+            gn_frame_lit_pass(frame, "blend", k);
+            gn_frame_draw_item(frame, pose, &reached, item, &own);
+            gn_frame_end_pass(frame);
+        }
     }
     if (begun) gn_frame_end_pass(frame);
 }
 
 /* ---- all of them ---- */
-
-/* Programs are made before they are needed: a light that comes near needs no new one. */
-static void keep_additive_programs(struct gn_frame *frame, const struct gn_frame_opts *opts) {
-    const uint32_t count = frame->programs.count;
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t g = 1; g < frame->group_count; g++) {
-            const struct gn_program_key lit = frame->programs.at[i];
-            if (lit.kind != GN_PROGRAM_LIT) continue;
-            if (lit.features & (GN_FEATURE(UNLIT) | GN_FEATURE(ADDITIVE))) continue;
-            struct gn_program_key key = gn_key_additive(frame, &lit, &frame->groups[g], opts);
-            gn_frame_program(frame, &key);
-        }
-}
 
 void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts) {
@@ -112,7 +95,17 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
         if (marks) gn_frame_plane_passes(frame, pose, opts, i);
     }
     add_blend_passes(frame, pose, opts);
-    keep_additive_programs(frame, opts);
+
+    /* Programs are made before they are needed: a light that comes near needs no new one. */
+    const uint32_t count = frame->programs.count;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t g = 1; g < frame->group_count; g++) {
+            const struct gn_program_key lit = frame->programs.at[i];
+            if (lit.kind != GN_PROGRAM_LIT) continue;
+            if (lit.features & (GN_FEATURE(UNLIT) | GN_FEATURE(ADDITIVE))) continue;
+            struct gn_program_key key = gn_key_additive(frame, &lit, &frame->groups[g], opts);
+            gn_frame_program(frame, &key);
+        }
 }
 
 /* Encodes the linear picture where no target of the GPU does. */

@@ -87,20 +87,6 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
     }
 }
 
-static void print_draw(const struct gn_plan *plan, const struct gn_draw *draw, FILE *to) {
-    if (draw->geometry == GN_NO_GEOMETRY) {
-        fprintf(to, "    draw program %u, %u vertices x %u\n", draw->program, draw->vertex_count,
-                draw->instance_count);
-        return;
-    }
-    const struct gn_geometry *g = &plan->scene->geometries[draw->geometry];
-    const char *material = plan->scene->materials[draw->material].name;
-    fprintf(to,
-            "    draw program %u, geometry %u (%u triangles) x %u, material %u '%s', cull %s%s\n",
-            draw->program, draw->geometry, g->index_count / 3, draw->instance_count, draw->material,
-            material, culls[draw->cull], draw->mirrored ? ", mirrored" : "");
-}
-
 static void print_target(const struct gn_pass *pass, FILE *to) {
     fprintf(to, "pass '%s' -> ", pass->label);
     switch (pass->target.kind) {
@@ -175,8 +161,20 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
         fprintf(to, ", depth read-only");
     if (pass->discard_depth) fprintf(to, ", depth discarded");
     fprintf(to, "\n");
-    for (uint32_t i = 0; i < pass->draw_count; i++)
-        print_draw(plan, &plan->draws[pass->first_draw + i], to);
+    for (uint32_t i = 0; i < pass->draw_count; i++) {
+        const struct gn_draw *draw = &plan->draws[pass->first_draw + i];
+        if (draw->geometry == GN_NO_GEOMETRY) {
+            fprintf(to, "    draw program %u, %u vertices x %u\n", draw->program,
+                    draw->vertex_count, draw->instance_count);
+            continue;
+        }
+        fprintf(
+            to,
+            "    draw program %u, geometry %u (%u triangles) x %u, material %u '%s', cull %s%s\n",
+            draw->program, draw->geometry, plan->scene->geometries[draw->geometry].index_count / 3,
+            draw->instance_count, draw->material, plan->scene->materials[draw->material].name,
+            culls[draw->cull], draw->mirrored ? ", mirrored" : "");
+    }
 }
 
 void gn_plan_print(const struct gn_plan *plan, FILE *to) {

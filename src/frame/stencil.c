@@ -77,19 +77,6 @@ bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group) {
 
 /* ---- casters ---- */
 
-static float (*fall_constants(const struct gn_frame *frame, uint32_t slot))[4] {
-    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS);
-    const struct gn_shadow_view *view = &frame->shadows[slot];
-    mat4 clip_from_world;
-    glm_mat4_mul((vec4 *)frame->eye.clip_from_world, (vec4 *)view->raster.tiles[0].clip_from_world,
-                 clip_from_world);
-    memcpy(c[PASS_CLIP], clip_from_world, sizeof clip_from_world);
-    for (int k = 0; k < 4; k++) c[FLAT_PLANE][k] = view->raster.tiles[0].light_from_world[k][2];
-    c[FLAT_HEIGHTS][0] = view->code.near_m;
-    c[FLAT_HEIGHTS][1] = view->code.far_m;
-    return c;
-}
-
 static void add_caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, const struct marks *marks,
                             uint32_t index) {
@@ -104,10 +91,18 @@ static void add_caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
     pass->picture.stencil = (struct gn_stencil){.value = SEEN | bit, .reads = SEEN, .writes = bit};
     pass->rect = pass_rect(frame, marks->rects[index]);
     if (marks->group > 0 && index == 0) pass->clear.stencil_bits = SETS - 1;
-    const float(*constants)[4] = pass->constants = fall_constants(frame, slot);
+    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS);
+    mat4 clip_from_world;
+    glm_mat4_mul((vec4 *)frame->eye.clip_from_world, (vec4 *)view->raster.tiles[0].clip_from_world,
+                 clip_from_world);
+    memcpy(c[PASS_CLIP], clip_from_world, sizeof clip_from_world);
+    for (int k = 0; k < 4; k++) c[FLAT_PLANE][k] = view->raster.tiles[0].light_from_world[k][2];
+    c[FLAT_HEIGHTS][0] = view->code.near_m;
+    c[FLAT_HEIGHTS][1] = view->code.far_m;
+    pass->constants = c;
     pass->constant_count = FLAT_HEIGHTS + 1;
     const bool behind = glm_vec4_dot(gn_frame_constants(frame, GN_CONSTANTS_PICTURE)[PASS_EYE],
-                                     (float *)constants[FLAT_PLANE]) < 0.0f;
+                                     c[FLAT_PLANE]) < 0.0f;
     struct gn_selection casters = {.casts = frame->memory[slot][0].casts,
                                    .view = view,
                                    .mirrored = behind, /* seen as in a mirror */
@@ -117,19 +112,6 @@ static void add_caster_pass(struct gn_frame *frame, const struct gn_pose *pose,
 }
 
 /* ---- the plane ---- */
-
-/* The group's constants, without light from the lights of a set. */
-static float (*set_constants(struct gn_frame *frame, const struct marks *marks, uint32_t set))[4] {
-    const size_t of_pass = GN_PASS_SIZE * sizeof *frame->sets;
-    if (!frame->sets) frame->sets = gn_xalloc(GN_GROUPS_MAX * SETS, of_pass);
-    float(*c)[4] = frame->sets + (size_t)(marks->group * SETS + set) * GN_PASS_SIZE;
-    memcpy(c, gn_frame_constants(frame, GN_CONSTANTS_PICTURE + marks->group), of_pass);
-    for (uint32_t i = 0; i < marks->count; i++) {
-        const uint32_t at = marks->slots[i] - frame->groups[marks->group].first_shadow;
-        if (set >> i & 1) c[PASS_SHADOWS + at * SHADOW_SIZE + SHADOW_CODE][CODE_FAR_END] = 0.0f;
-    }
-    return c;
-}
 
 /* The draws of `lit` again, where the marks are this set. */
 static void add_set_pass(struct gn_frame *frame, const struct marks *marks, uint32_t set,
@@ -149,7 +131,17 @@ static void add_set_pass(struct gn_frame *frame, const struct marks *marks, uint
     pass->depth_write = false;
     pass->picture.stencil = (struct gn_stencil){
         .value = (uint8_t)(SEEN | set), .reads = (uint8_t)(SEEN | ((1u << marks->count) - 1))};
-    pass->constants = set_constants(frame, marks, set);
+
+    /* the group's constants, without light from the lights of the set */
+    const size_t of_pass = GN_PASS_SIZE * sizeof *frame->sets;
+    if (!frame->sets) frame->sets = gn_xalloc(GN_GROUPS_MAX * SETS, of_pass);
+    float(*c)[4] = frame->sets + (size_t)(marks->group * SETS + set) * GN_PASS_SIZE;
+    memcpy(c, gn_frame_constants(frame, GN_CONSTANTS_PICTURE + marks->group), of_pass);
+    for (uint32_t i = 0; i < marks->count; i++) {
+        const uint32_t at = marks->slots[i] - frame->groups[marks->group].first_shadow;
+        if (set >> i & 1) c[PASS_SHADOWS + at * SHADOW_SIZE + SHADOW_CODE][CODE_FAR_END] = 0.0f;
+    }
+    pass->constants = c;
 }
 
 void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
