@@ -27,19 +27,6 @@ static void append_text(char *list, size_t size, const char *text) {
     list[used + length] = 0;
 }
 
-static bool open_any(struct gn_display *display, struct gn_warnings *warnings, struct gn_err *err) {
-    char reasons[sizeof err->text] = "";
-    for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
-        struct gn_err why = {0};
-        if (open_row(display, *row, warnings, &why)) return true;
-        if (*reasons) append_text(reasons, sizeof reasons, "; ");
-        append_text(reasons, sizeof reasons, (*row)->name);
-        append_text(reasons, sizeof reasons, ": ");
-        append_text(reasons, sizeof reasons, why.text);
-    }
-    return gn_fail(err, "no display can be opened: %s", reasons);
-}
-
 static bool fail_unknown(const char *name, struct gn_err *err) {
     char names[sizeof err->text] = "auto";
     for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
@@ -58,10 +45,21 @@ static const struct gn_display_ops *find_row(const char *name) {
 bool gn_display_open(struct gn_display *display, const char *name, struct gn_warnings *warnings,
                      struct gn_err *err) {
     *display = (struct gn_display){0};
-    if (strcmp(name, "auto") == 0) return open_any(display, warnings, err);
-    const struct gn_display_ops *row = find_row(name);
-    if (!row) return fail_unknown(name, err);
-    return open_row(display, row, warnings, err) || gn_fail_prefix(err, "backend %s", name);
+    if (strcmp(name, "auto") != 0) {
+        const struct gn_display_ops *row = find_row(name);
+        if (!row) return fail_unknown(name, err);
+        return open_row(display, row, warnings, err) || gn_fail_prefix(err, "backend %s", name);
+    }
+    char reasons[sizeof err->text] = "";
+    for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
+        struct gn_err why = {0};
+        if (open_row(display, *row, warnings, &why)) return true;
+        if (*reasons) append_text(reasons, sizeof reasons, "; ");
+        append_text(reasons, sizeof reasons, (*row)->name);
+        append_text(reasons, sizeof reasons, ": ");
+        append_text(reasons, sizeof reasons, why.text);
+    }
+    return gn_fail(err, "no display can be opened: %s", reasons);
 }
 
 static const struct gn_screen_ops *screen_of(const struct gn_display *display) {

@@ -23,13 +23,6 @@ struct reader {
 
 /* ---- connectors ---- */
 
-/* Rotation that compensates the "panel orientation" property. */
-static unsigned degrees_of(const char *orientation) {
-    if (strcmp(orientation, "Upside Down") == 0) return 180;
-    if (strcmp(orientation, "Left Side Up") == 0) return 270;
-    return strcmp(orientation, "Right Side Up") == 0 ? 90 : 0;
-}
-
 static void read_properties(struct reader *r, const drmModeConnector *from,
                             struct gn_kms_connector *out) {
     for (int i = 0; i < from->count_props; i++) {
@@ -40,9 +33,14 @@ static void read_properties(struct reader *r, const drmModeConnector *from,
         if (strcmp(p->name, "link-status") == 0) out->bad_link = value != 0;
         if (strcmp(p->name, "non-desktop") == 0 && value != 0)
             out->connected = out->unknown = false;
-        if (strcmp(p->name, "panel orientation") == 0)
-            for (int k = 0; k < p->count_enums; k++)
-                if (p->enums[k].value == value) out->orientation_deg = degrees_of(p->enums[k].name);
+        for (int k = 0; k < p->count_enums; k++) {
+            const char *way = p->enums[k].name;
+            if (strcmp(p->name, "panel orientation") != 0 || p->enums[k].value != value) continue;
+            out->orientation_deg = strcmp(way, "Upside Down") == 0     ? 180 /* compensates it */
+                                   : strcmp(way, "Left Side Up") == 0  ? 270
+                                   : strcmp(way, "Right Side Up") == 0 ? 90
+                                                                       : 0;
+        }
         if (strcmp(p->name, "EDID") == 0 && (uint32_t)value != 0) { /* has the serial number */
             drmModePropertyBlobRes *blob = r->drm->ModeGetPropertyBlob(r->fd, (uint32_t)value);
             r->card->partial |= !blob;
@@ -51,23 +49,6 @@ static void read_properties(struct reader *r, const drmModeConnector *from,
         }
         r->drm->ModeFreeProperty(p);
     }
-}
-
-/* Identifies monitors without EDID; includes the preferred flag. */
-static uint64_t hash_modes(const struct gn_kms_connector *c) {
-    uint64_t hash = GN_HASH_INIT;
-    for (int i = 0; i < c->mode_count; i++) {
-        const drmModeModeInfo *m = &c->modes[i];
-        const uint32_t fields[] = {m->clock,
-                                   m->hdisplay,
-                                   m->htotal,
-                                   m->vtotal,
-                                   m->vdisplay,
-                                   m->flags,
-                                   m->type & DRM_MODE_TYPE_PREFERRED};
-        hash = gn_hash(hash, fields, sizeof fields);
-    }
-    return hash;
 }
 
 static void read_connector(struct reader *r, const drmModeConnector *from) {
@@ -95,7 +76,21 @@ static void read_connector(struct reader *r, const drmModeConnector *from) {
     }
     out->crtcs &= (1u << r->card->crtc_count) - 1;
     read_properties(r, from, out);
-    if (out->monitor == 0 && out->mode_count > 0) out->monitor = hash_modes(out);
+    if (out->monitor != 0 || out->mode_count == 0) return;
+
+    /* a monitor without EDID is identified by its modes, and by which of them is preferred */
+    out->monitor = GN_HASH_INIT;
+    for (int i = 0; i < out->mode_count; i++) {
+        const drmModeModeInfo *m = &out->modes[i];
+        const uint32_t fields[] = {m->clock,
+                                   m->hdisplay,
+                                   m->htotal,
+                                   m->vtotal,
+                                   m->vdisplay,
+                                   m->flags,
+                                   m->type & DRM_MODE_TYPE_PREFERRED};
+        out->monitor = gn_hash(out->monitor, fields, sizeof fields);
+    }
 }
 
 bool gn_kms_card_read(const struct gn_drm_ops *drm, int fd, bool probe, struct gn_kms_card *out,

@@ -114,23 +114,6 @@ static void push_mode(struct candidates *l, const drmModeModeInfo *mode) {
     if (mode && l->count < GN_KMS_CANDIDATES_MAX) l->out[l->count++] = *mode;
 }
 
-static void push_configured(struct candidates *l, const struct gn_kms_connector *c,
-                            const struct gn_screen_opts *o) {
-    drmModeModeInfo made;
-    const drmModeModeInfo *listed = NULL;
-    if (o->modeline && gn_kms_modeline_parse(o->modeline, &made)) push_mode(l, &made);
-    if (o->mode_width == 0) return;
-    for (int i = 0; i < c->mode_count; i++) {
-        const drmModeModeInfo *m = &c->modes[i];
-        if (m->hdisplay != o->mode_width || m->vdisplay != o->mode_height) continue;
-        if (o->mode_hz > 0 && distance_hz(m, o->mode_hz) > 0.6) continue;
-        if (!listed || fits_better(m, listed, o->mode_hz)) listed = m;
-    }
-    if (!listed)
-        made = gn_kms_mode_cvt(o->mode_width, o->mode_height, o->mode_hz > 0 ? o->mode_hz : 60);
-    push_mode(l, listed ? listed : &made);
-}
-
 int gn_kms_mode_candidates(const struct gn_kms_card *card, int connector, int crtc,
                            const struct gn_screen_opts *opts, drmModeModeInfo *out) {
     const struct gn_kms_connector *c = &card->connectors[connector];
@@ -149,7 +132,21 @@ int gn_kms_mode_candidates(const struct gn_kms_card *card, int connector, int cr
             preferred = m;
     }
     struct candidates l = {out, 0};
-    push_configured(&l, c, opts);
+    drmModeModeInfo made;
+    if (opts->modeline && gn_kms_modeline_parse(opts->modeline, &made)) push_mode(&l, &made);
+    if (opts->mode_width != 0) { /* the configured size: a listed mode, or a made one */
+        const drmModeModeInfo *listed = NULL;
+        for (int i = 0; i < c->mode_count; i++) {
+            const drmModeModeInfo *m = &c->modes[i];
+            if (m->hdisplay != opts->mode_width || m->vdisplay != opts->mode_height) continue;
+            if (opts->mode_hz > 0 && distance_hz(m, opts->mode_hz) > 0.6) continue;
+            if (!listed || fits_better(m, listed, opts->mode_hz)) listed = m;
+        }
+        if (!listed)
+            made = gn_kms_mode_cvt(opts->mode_width, opts->mode_height,
+                                   opts->mode_hz > 0 ? opts->mode_hz : 60);
+        push_mode(&l, listed ? listed : &made);
+    }
     if (offered && now->lit && is_progressive(&now->mode) && is_within_cap(&now->mode, opts))
         push_mode(&l, &now->mode);
     push_mode(&l, preferred);

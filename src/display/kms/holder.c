@@ -7,21 +7,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static bool is_open_in(int folder, const char *node) {
-    DIR *fds = fdopendir(folder);
-    bool found = false;
-    if (!fds) close(folder);
-    for (struct dirent *entry; fds && !found && (entry = readdir(fds));) {
-        char target[128];
-        const ssize_t length = readlinkat(dirfd(fds), entry->d_name, target, sizeof target - 1);
-        if (length <= 0) continue;
-        target[length] = 0;
-        found = strcmp(target, node) == 0;
-    }
-    if (fds) closedir(fds);
-    return found;
-}
-
 /* The kernel does not report a card's master: returns the process that has it open. Session
  * managers hold cards on behalf of others: returns one only if there is no other process. */
 bool gn_kms_find_holder(const char *node, char *out, size_t size) {
@@ -34,7 +19,18 @@ bool gn_kms_find_holder(const char *node, char *out, size_t size) {
         if (pid <= 0 || pid == getpid()) continue;
         snprintf(path, sizeof path, "/proc/%ld/fd", pid);
         const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (folder < 0 || !is_open_in(folder, node)) continue;
+        DIR *fds = folder < 0 ? NULL : fdopendir(folder);
+        if (folder >= 0 && !fds) close(folder);
+        bool is_open = false;
+        for (struct dirent *fd; fds && !is_open && (fd = readdir(fds));) {
+            char target[128];
+            const ssize_t length = readlinkat(dirfd(fds), fd->d_name, target, sizeof target - 1);
+            if (length <= 0) continue;
+            target[length] = 0;
+            is_open = strcmp(target, node) == 0;
+        }
+        if (fds) closedir(fds);
+        if (!is_open) continue;
         snprintf(path, sizeof path, "/proc/%ld/comm", pid);
         FILE *file = fopen(path, "re");
         if (!file || !fgets(name, sizeof name, file)) snprintf(name, sizeof name, "a program");

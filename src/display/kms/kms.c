@@ -12,29 +12,6 @@
 
 /* ---- published state ---- */
 
-static void write_status(struct gn_kms *k) {
-    char *out = k->screen.status;
-    const size_t size = sizeof k->screen.status;
-    *out = 0;
-    if (k->device.fd < 0 || k->screen.lost)
-        snprintf(out, size, "waiting for a card%s%s", k->text.reason[0] ? ": " : "",
-                 k->text.reason);
-    else if (k->away)
-        snprintf(out, size, "another console is active");
-    else if (k->blank)
-        snprintf(out, size, "switched off");
-    else if (!k->monitor.connected && k->text.reason[0])
-        snprintf(out, size, "%s", k->text.reason);
-    else if (!k->monitor.connected)
-        snprintf(out, size, "waiting for a monitor%s%s", k->opts->connector ? " on " : "",
-                 k->opts->connector ? k->opts->connector : "");
-    else if (k->text.message[0])
-        snprintf(out, size, "%s", k->text.message);
-    else if (!k->master)
-        snprintf(out, size, "%s controls the screen (%s)",
-                 k->text.holder[0] ? k->text.holder : "another program", k->device.node.path);
-}
-
 static void publish_state(struct gn_kms *k, int64_t now_ns) {
     struct gn_screen *s = &k->screen;
     const bool copies = k->buffers.opts.fallback == GN_FALLBACK_COPY;
@@ -58,7 +35,27 @@ static void publish_state(struct gn_kms *k, int64_t now_ns) {
     s->counts.shown = k->flip.shown;
     s->counts.missed = k->flip.missed;
     s->counts.stalled = k->flip.stalls;
-    write_status(k);
+
+    char *out = s->status;
+    const size_t size = sizeof s->status;
+    *out = 0;
+    if (k->device.fd < 0 || k->screen.lost)
+        snprintf(out, size, "waiting for a card%s%s", k->text.reason[0] ? ": " : "",
+                 k->text.reason);
+    else if (k->away)
+        snprintf(out, size, "another console is active");
+    else if (k->blank)
+        snprintf(out, size, "switched off");
+    else if (!k->monitor.connected && k->text.reason[0])
+        snprintf(out, size, "%s", k->text.reason);
+    else if (!k->monitor.connected)
+        snprintf(out, size, "waiting for a monitor%s%s", k->opts->connector ? " on " : "",
+                 k->opts->connector ? k->opts->connector : "");
+    else if (k->text.message[0])
+        snprintf(out, size, "%s", k->text.message);
+    else if (!k->master)
+        snprintf(out, size, "%s controls the screen (%s)",
+                 k->text.holder[0] ? k->text.holder : "another program", k->device.node.path);
 }
 
 const struct gn_screen *gn_kms_screen(const struct gn_kms *k) { return &k->screen; }

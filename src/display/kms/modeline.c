@@ -20,7 +20,11 @@ static void complete_mode(drmModeModeInfo *m) {
     snprintf(m->name, sizeof m->name, "%ux%u", m->hdisplay, m->vdisplay);
 }
 
-static bool read_flags(const char *text, uint32_t *flags) {
+static bool is_ascending(const unsigned t[4]) {
+    return t[0] > 0 && t[0] <= t[1] && t[1] < t[2] && t[2] <= t[3] && t[3] < 65536;
+}
+
+bool gn_kms_modeline_parse(const char *text, drmModeModeInfo *out) {
     static const struct {
         const char *word;
         uint32_t flag;
@@ -28,22 +32,6 @@ static bool read_flags(const char *text, uint32_t *flags) {
                  {"+vsync", DRM_MODE_FLAG_PVSYNC},       {"-vsync", DRM_MODE_FLAG_NVSYNC},
                  {"interlace", DRM_MODE_FLAG_INTERLACE}, {"doublescan", DRM_MODE_FLAG_DBLSCAN}};
     enum { KNOWN = sizeof known / sizeof *known };
-    char copy[64], *rest = NULL;
-    if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy) return false;
-    for (char *word = strtok_r(copy, " \t", &rest); word; word = strtok_r(NULL, " \t", &rest)) {
-        size_t i = 0;
-        while (i < KNOWN && strcasecmp(word, known[i].word) != 0) i++;
-        if (i == KNOWN) return false;
-        *flags |= known[i].flag;
-    }
-    return true;
-}
-
-static bool is_ascending(const unsigned t[4]) {
-    return t[0] > 0 && t[0] <= t[1] && t[1] < t[2] && t[2] <= t[3] && t[3] < 65536;
-}
-
-bool gn_kms_modeline_parse(const char *text, drmModeModeInfo *out) {
     double mhz;
     unsigned h[4], v[4];
     int used = 0;
@@ -57,25 +45,30 @@ bool gn_kms_modeline_parse(const char *text, drmModeModeInfo *out) {
     out->hsync_end = (uint16_t)h[2], out->htotal = (uint16_t)h[3];
     out->vdisplay = (uint16_t)v[0], out->vsync_start = (uint16_t)v[1];
     out->vsync_end = (uint16_t)v[2], out->vtotal = (uint16_t)v[3];
-    if (!read_flags(text + used, &out->flags)) return false;
+
+    char flags[64], *rest = NULL;
+    if (snprintf(flags, sizeof flags, "%s", text + used) >= (int)sizeof flags) return false;
+    for (char *word = strtok_r(flags, " \t", &rest); word; word = strtok_r(NULL, " \t", &rest)) {
+        size_t i = 0;
+        while (i < KNOWN && strcasecmp(word, known[i].word) != 0) i++;
+        if (i == KNOWN) return false;
+        out->flags |= known[i].flag;
+    }
     complete_mode(out);
     return true;
-}
-
-/* CVT encodes the aspect ratio in the vertical sync width. */
-static unsigned vsync_lines(uint32_t w, uint32_t h) {
-    if (w * 3 == h * 4) return 4;
-    if (w * 9 == h * 16) return 5;
-    if (w * 10 == h * 16) return 6;
-    if (w * 4 == h * 5 || w * 9 == h * 15) return 7;
-    return 10;
 }
 
 /* VESA Coordinated Video Timings 1.2, 5.4: reduced blanking. */
 drmModeModeInfo gn_kms_mode_cvt(uint32_t width_px, uint32_t height_px, double hz) {
     enum { H_BLANK = 160, H_FRONT = 48, H_SYNC = 32, V_FRONT = 3, V_BACK_LEAST = 6 };
     const double blank_us = 460.0, step_khz = 250.0;
-    const uint32_t w = width_px & ~7u, h = height_px, sync = vsync_lines(width_px, height_px);
+    const uint32_t w = width_px & ~7u, h = height_px;
+    /* CVT encodes the aspect ratio in the vertical sync width. */
+    const uint32_t sync = width_px * 3 == h * 4                             ? 4
+                          : width_px * 9 == h * 16                          ? 5
+                          : width_px * 10 == h * 16                         ? 6
+                          : width_px * 4 == h * 5 || width_px * 9 == h * 15 ? 7
+                                                                            : 10;
     const double line_us = (1e6 / hz - blank_us) / h;
     uint32_t blank = (uint32_t)(blank_us / line_us) + 1;
     if (blank < V_FRONT + sync + V_BACK_LEAST) blank = V_FRONT + sync + V_BACK_LEAST;

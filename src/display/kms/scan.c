@@ -178,19 +178,6 @@ static bool is_listed(const struct gn_kms_connector *c, const drmModeModeInfo *m
     return false;
 }
 
-/* A monitor that comes back keeps its mode if it still lists it. */
-static void keep_mode(struct gn_kms *k, const struct gn_kms_connector *c,
-                      const drmModeModeInfo *mode) {
-    struct gn_kms_monitor *m = &k->monitor;
-    int at = 0;
-    while (at < m->candidate_count && !gn_kms_mode_equal(&m->candidates[at], mode)) at++;
-    if (at == m->candidate_count && !is_listed(c, mode)) return;
-    if (at == GN_KMS_CANDIDATES_MAX) at--; /* replaces the last one */
-    if (at == m->candidate_count) m->candidate_count++;
-    memmove(&m->candidates[1], &m->candidates[0], (size_t)at * sizeof *mode);
-    m->candidates[0] = *mode;
-}
-
 static bool is_unreadable(const struct gn_kms *k) {
     return k->device.unreadable > 0 && k->device.unreadable < UNREADABLE_MAX;
 }
@@ -230,7 +217,18 @@ static void use_connector(struct gn_kms *k, int connector, int64_t now_ns) {
                known = was_lit && k->monitor.lit_for == c->monitor;
     k->monitor.candidate_count = gn_kms_mode_candidates(
         &k->device.card, connector, was_lit && !known ? -1 : crtc, k->opts, k->monitor.candidates);
-    if (known) keep_mode(k, c, &k->output.mode);
+    struct gn_kms_monitor *m = &k->monitor;
+    if (known) { /* a monitor that comes back keeps its mode if it still lists it */
+        const drmModeModeInfo *mode = &k->output.mode;
+        int at = 0;
+        while (at < m->candidate_count && !gn_kms_mode_equal(&m->candidates[at], mode)) at++;
+        if (at < m->candidate_count || is_listed(c, mode)) {
+            if (at == GN_KMS_CANDIDATES_MAX) at--; /* replaces the last one */
+            if (at == m->candidate_count) m->candidate_count++;
+            memmove(&m->candidates[1], &m->candidates[0], (size_t)at * sizeof *mode);
+            m->candidates[0] = *mode;
+        }
+    }
     k->monitor.mode = 0;
     k->monitor.connected = true;
     k->text.reason[0] = 0;

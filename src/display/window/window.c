@@ -245,36 +245,34 @@ static struct window *create_window(struct gn_display *display, struct gn_err *e
     return NULL;
 }
 
-/* Hidden until its first frame. */
-static bool make_window(struct window *w, uint32_t width_px, uint32_t height_px, bool srgb,
-                        bool robust) {
-    const int hints[][2] = {
-        {GLFW_CLIENT_API, GLFW_OPENGL_ES_API},
-        {GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API},
-        {GLFW_CONTEXT_VERSION_MAJOR, 3},
-        {GLFW_CONTEXT_VERSION_MINOR, 0},
-        {GLFW_CONTEXT_ROBUSTNESS, robust ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS},
-        {GLFW_SRGB_CAPABLE, srgb},
-        {GLFW_SAMPLES, 0}, /* multisampling would resolve encoded values */
-        {GLFW_ALPHA_BITS, 0},
-        {GLFW_STENCIL_BITS, 8},
-        {GLFW_VISIBLE, GLFW_FALSE},
-        {GLFW_AUTO_ICONIFY, GLFW_FALSE},
-    };
-    for (size_t i = 0; i < sizeof hints / sizeof *hints; i++)
-        glfw.WindowHint(hints[i][0], hints[i][1]);
-    glfw.WindowHintString(GLFW_X11_CLASS_NAME, "gnomon");
-    glfw.WindowHintString(GLFW_X11_INSTANCE_NAME, "gnomon");
-    w->handle = glfw.CreateWindow((int)width_px, (int)height_px, "gnomon", NULL, NULL);
-    if (w->handle) glfw.MakeContextCurrent(w->handle);
-    return w->handle;
-}
-
-/* Prefers an sRGB framebuffer and a robust context; falls back to one or none of them. */
-static bool make_best_window(struct window *w, uint32_t width_px, uint32_t height_px,
-                             struct gn_err *err) {
-    for (int i = w->opts.unencoded ? 2 : 0; i < 4; i++)
-        if (make_window(w, width_px, height_px, i < 2, i % 2 == 0)) return true;
+/* Hidden until its first frame. Prefers an sRGB framebuffer and a robust context; falls back to one
+ * or none of them. */
+static bool make_window(struct window *w, uint32_t width_px, uint32_t height_px,
+                        struct gn_err *err) {
+    for (int attempt = w->opts.unencoded ? 2 : 0; attempt < 4; attempt++) {
+        const int hints[][2] = {
+            {GLFW_CLIENT_API, GLFW_OPENGL_ES_API},
+            {GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API},
+            {GLFW_CONTEXT_VERSION_MAJOR, 3},
+            {GLFW_CONTEXT_VERSION_MINOR, 0},
+            {GLFW_CONTEXT_ROBUSTNESS,
+             attempt % 2 == 0 ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS},
+            {GLFW_SRGB_CAPABLE, attempt < 2},
+            {GLFW_SAMPLES, 0}, /* multisampling would resolve encoded values */
+            {GLFW_ALPHA_BITS, 0},
+            {GLFW_STENCIL_BITS, 8},
+            {GLFW_VISIBLE, GLFW_FALSE},
+            {GLFW_AUTO_ICONIFY, GLFW_FALSE},
+        };
+        for (size_t i = 0; i < sizeof hints / sizeof *hints; i++)
+            glfw.WindowHint(hints[i][0], hints[i][1]);
+        glfw.WindowHintString(GLFW_X11_CLASS_NAME, "gnomon");
+        glfw.WindowHintString(GLFW_X11_INSTANCE_NAME, "gnomon");
+        w->handle = glfw.CreateWindow((int)width_px, (int)height_px, "gnomon", NULL, NULL);
+        if (!w->handle) continue;
+        glfw.MakeContextCurrent(w->handle);
+        return true;
+    }
     return gn_fail(err, "cannot create a window with OpenGL ES 3.0 (%s)", glfw_error());
 }
 
@@ -284,7 +282,7 @@ static bool window_open(struct gn_display *display, struct gn_warnings *warnings
     (void)warnings;
     struct window *w = create_window(display, err);
     if (!w) return false;
-    if (make_best_window(w, 16, 16, err)) return true;
+    if (make_window(w, 16, 16, err)) return true;
     window_close(display);
     return false;
 }
@@ -296,7 +294,7 @@ static bool make_screen(struct gn_display *display, uint32_t width_px, uint32_t 
                         struct gn_err *err) {
     struct window *w = display->state;
     struct gn_screen *s = &display->screen;
-    if (!make_best_window(w, width_px, height_px, err)) return false;
+    if (!make_window(w, width_px, height_px, err)) return false;
     glfw.SetWindowUserPointer(w->handle, w);
     glfw.SetWindowCloseCallback(w->handle, on_close);
     glfw.SetWindowRefreshCallback(w->handle, on_refresh);
