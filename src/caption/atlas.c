@@ -21,19 +21,6 @@ void gn_atlas_seal(struct gn_atlas *atlas) {
     p->generation = gn_hash(GN_HASH_INIT, p->coverage, (size_t)p->width_px * p->height_px) | 1;
 }
 
-/* Doubles the height; the first time it is as wide as about twenty characters. */
-static bool grow_atlas(struct gn_atlas *atlas, uint32_t line_px) {
-    struct gn_caption_atlas *p = &atlas->picture;
-    const uint32_t before = p->height_px, height = before ? 2 * before : FIRST_HEIGHT_PX;
-    if (height > GN_ATLAS_SIDE_MAX) return false;
-    if (!before) p->width_px = line_px <= 24 ? 256 : line_px <= 48 ? 512 : 1024;
-    uint8_t *more = gn_xrealloc((void *)p->coverage, height, p->width_px);
-    memset(more + (size_t)before * p->width_px, 0, (size_t)(height - before) * p->width_px);
-    p->coverage = more;
-    p->height_px = height;
-    return true;
-}
-
 static void fill_glyph(struct gn_atlas *atlas, struct gn_atlas_glyph *g,
                        const struct gn_glyph *from) {
     struct gn_caption_atlas *p = &atlas->picture;
@@ -47,10 +34,20 @@ static void fill_glyph(struct gn_atlas *atlas, struct gn_atlas_glyph *g,
         atlas->shelf_y += atlas->shelf_px;
         atlas->shelf_x = atlas->shelf_px = 0;
     }
-    bool grown = true;
-    while (grown && atlas->shelf_y + from->height_px > p->height_px)
-        grown = grow_atlas(atlas, g->line_px);
-    if (!grown || atlas->shelf_x + from->width_px > p->width_px) {
+    while (atlas->shelf_y + from->height_px > p->height_px) {
+        /* doubles the height; the first time it is as wide as about twenty characters */
+        const uint32_t before = p->height_px, height = before ? 2 * before : FIRST_HEIGHT_PX;
+        if (height > GN_ATLAS_SIDE_MAX) {
+            atlas->full = true;
+            return;
+        }
+        if (!before) p->width_px = g->line_px <= 24 ? 256 : g->line_px <= 48 ? 512 : 1024;
+        uint8_t *more = gn_xrealloc((void *)p->coverage, height, p->width_px);
+        memset(more + (size_t)before * p->width_px, 0, (size_t)(height - before) * p->width_px);
+        p->coverage = more;
+        p->height_px = height;
+    }
+    if (atlas->shelf_x + from->width_px > p->width_px) {
         atlas->full = true;
         return;
     }
@@ -68,8 +65,25 @@ static void fill_glyph(struct gn_atlas *atlas, struct gn_atlas_glyph *g,
         memcpy(to + row * stride, from->coverage + row * from->stride, g->width_px);
 }
 
-/* For a character that the font has not: a hollow rectangle, three fifths of a line high. */
-static void fill_box(struct gn_atlas *atlas, struct gn_atlas_glyph *g) {
+const struct gn_atlas_glyph *gn_atlas_glyph(struct gn_atlas *atlas, struct gn_font *font,
+                                            uint32_t code) {
+    static const struct gn_atlas_glyph none = {0};
+    struct gn_glyph from;
+    for (uint32_t i = 0; i < atlas->count; i++)
+        if (atlas->glyphs[i].code == code && atlas->glyphs[i].line_px == font->line_px)
+            return &atlas->glyphs[i];
+    if (atlas->count == GN_ATLAS_GLYPHS_MAX) {
+        atlas->full = true;
+        return &none;
+    }
+    struct gn_atlas_glyph *g = &atlas->glyphs[atlas->count++];
+    *g = (struct gn_atlas_glyph){.code = code, .line_px = font->line_px};
+    if (gn_font_glyph(font, code, &from)) {
+        fill_glyph(atlas, g, &from);
+        return g;
+    }
+
+    /* the font has no such character: a hollow rectangle, three fifths of a line high */
     const uint32_t height = g->line_px * 3 / 5 + 1, width = height * 2 / 3 + 1;
     const uint32_t rim = g->line_px / 14 + 1;
     uint8_t *coverage = gn_xalloc((size_t)width * height, 1);
@@ -86,24 +100,5 @@ static void fill_box(struct gn_atlas *atlas, struct gn_atlas_glyph *g) {
                                   .stride = width,
                                   .coverage = coverage});
     free(coverage);
-}
-
-const struct gn_atlas_glyph *gn_atlas_glyph(struct gn_atlas *atlas, struct gn_font *font,
-                                            uint32_t code) {
-    static const struct gn_atlas_glyph none = {0};
-    struct gn_glyph from;
-    for (uint32_t i = 0; i < atlas->count; i++)
-        if (atlas->glyphs[i].code == code && atlas->glyphs[i].line_px == font->line_px)
-            return &atlas->glyphs[i];
-    if (atlas->count == GN_ATLAS_GLYPHS_MAX) {
-        atlas->full = true;
-        return &none;
-    }
-    struct gn_atlas_glyph *g = &atlas->glyphs[atlas->count++];
-    *g = (struct gn_atlas_glyph){.code = code, .line_px = font->line_px};
-    if (gn_font_glyph(font, code, &from))
-        fill_glyph(atlas, g, &from);
-    else
-        fill_box(atlas, g);
     return g;
 }

@@ -36,21 +36,18 @@ static bool resize_face(struct gn_font *font, uint32_t line_px) {
     return true;
 }
 
-/* Checked before rendering: an outline may need more memory than there is. */
-static bool is_moderate(const FT_GlyphSlot slot) {
-    FT_BBox box;
-    if (slot->format != FT_GLYPH_FORMAT_OUTLINE) return false;
-    FT_Outline_Get_CBox(&slot->outline, &box);
-    return box.xMax - box.xMin < 64 * GN_FONT_GLYPH_PX_MAX &&
-           box.yMax - box.yMin < 64 * GN_FONT_GLYPH_PX_MAX;
-}
-
 static bool render_glyph(struct gn_font *font, uint32_t code, struct gn_glyph *out) {
     struct file_font *f = (struct file_font *)font;
     const FT_UInt index = FT_Get_Char_Index(f->face, code);
     if (index == 0 || FT_Load_Glyph(f->face, index, FT_LOAD_NO_BITMAP)) return false;
     const FT_GlyphSlot slot = f->face->glyph;
-    if (!is_moderate(slot) || FT_Render_Glyph(slot, FT_RENDER_MODE_NORMAL)) return false;
+    if (slot->format != FT_GLYPH_FORMAT_OUTLINE) return false;
+    FT_BBox box; /* checked before rendering: an outline may need more memory than there is */
+    FT_Outline_Get_CBox(&slot->outline, &box);
+    if (box.xMax - box.xMin >= 64 * GN_FONT_GLYPH_PX_MAX ||
+        box.yMax - box.yMin >= 64 * GN_FONT_GLYPH_PX_MAX ||
+        FT_Render_Glyph(slot, FT_RENDER_MODE_NORMAL))
+        return false;
     if (slot->bitmap.pixel_mode != FT_PIXEL_MODE_GRAY || slot->bitmap.pitch < 0 ||
         slot->bitmap.num_grays != 256)
         return false;

@@ -6,25 +6,22 @@ enum { REPLACEMENT = 0xfffd };
 
 /* ---- UTF-8 (Unicode 15, table 3-7) ---- */
 
-/* The length in bytes of a character with that first byte, and the range of its second byte; 0: no
- * character begins so. */
-static int sequence_length(uint8_t lead, uint8_t *least, uint8_t *most) {
-    *least = lead == 0xe0 ? 0xa0 : lead == 0xf0 ? 0x90 : 0x80;
-    *most = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
-    if (lead < 0x80) return 1;
-    if (lead < 0xc2 || lead > 0xf4) return 0;
-    return lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-}
-
 static uint32_t decode_character(const char **text, const char *end) {
     const uint8_t *at = (const uint8_t *)*text;
-    uint8_t least, most;
-    const int length = sequence_length(at[0], &least, &most);
-    if (length <= 1) {
+    const uint8_t lead = at[0];
+    if (lead < 0xc2 || lead > 0xf4) { /* ASCII, or no first byte of a character */
         ++*text;
-        return length ? at[0] : REPLACEMENT;
+        return lead < 0x80 ? lead : REPLACEMENT;
     }
-    uint32_t code = at[0] & (0x7fu >> length);
+    const int length = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+    /* the range of the second byte */
+    uint8_t least = lead == 0xe0   ? 0xa0
+                    : lead == 0xf0 ? 0x90
+                                   : 0x80,
+            most = lead == 0xed   ? 0x9f
+                   : lead == 0xf4 ? 0x8f
+                                  : 0xbf;
+    uint32_t code = lead & (0x7fu >> length);
     for (int i = 1; i < length; i++) {
         if ((const char *)at + i == end || at[i] < least || at[i] > most) {
             *text += i; /* the next character may be valid */
@@ -37,19 +34,16 @@ static uint32_t decode_character(const char **text, const char *end) {
     return code;
 }
 
-/* Controls, direction marks, joiners and variation selectors. */
-static bool is_invisible(uint32_t code) {
-    return (code < 0x20 && code != '\n') || (code >= 0x7f && code < 0xa0) || code == 0xad ||
-           (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
-           (code >= 0x2060 && code <= 0x206f) || (code >= 0xfe00 && code <= 0xfe0f) ||
-           code == 0xfeff || code >= 0xe0000;
-}
-
 uint32_t gn_layout_next(const char **text, const char *end) {
     while (*text < end && **text) {
         const uint32_t code = decode_character(text, end);
         if (code == '\t') return ' ';
-        if (!is_invisible(code)) return code;
+        const bool invisible = /* controls, direction marks, joiners and variation selectors */
+            (code < 0x20 && code != '\n') || (code >= 0x7f && code < 0xa0) || code == 0xad ||
+            (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
+            (code >= 0x2060 && code <= 0x206f) || (code >= 0xfe00 && code <= 0xfe0f) ||
+            code == 0xfeff || code >= 0xe0000;
+        if (!invisible) return code;
     }
     return 0;
 }

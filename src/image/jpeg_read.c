@@ -3,33 +3,6 @@
 #include <string.h>
 #include <turbojpeg.h>
 
-/* ---- scans ---- */
-
-/* A scan may be a few bytes, and costs a step for each coefficient of the picture. Usual files have
- * about ten. */
-enum { MOST_SCANS = 64 };
-
-/* The number of start-of-scan markers before the end of the picture (ITU-T T.81, annex B). */
-static size_t count_scans(const uint8_t *data, size_t size) {
-    enum { STUFFED = 0x00, RST0 = 0xd0, RST7 = 0xd7, SOI = 0xd8, EOI = 0xd9, SOS = 0xda };
-    size_t scans = 0;
-    for (size_t at = 0; at + 1 < size;) {
-        const uint8_t *mark = memchr(data + at, 0xff, size - at - 1);
-        if (!mark) break;
-        at = (size_t)(mark - data) + 1;
-        const uint8_t type = data[at];
-        if (type == EOI) break;
-        if (type == 0xff) continue; /* a fill byte */
-        at++;
-        if (type == STUFFED || (type >= RST0 && type <= SOI)) continue;
-        scans += type == SOS;
-        if (size - at >= 2) at += (size_t)(data[at] << 8 | data[at + 1]);
-    }
-    return scans;
-}
-
-/* ---- pictures ---- */
-
 static bool read_header(tjhandle handle, const uint8_t *data, size_t size, int px[2], int *space,
                         struct gn_err *err) {
     int sampling;
@@ -45,7 +18,25 @@ bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_er
     bool done = handle ? read_header(handle, data, size, read, &space, err)
                        : gn_fail(err, "JPEG: %s", tjGetErrorStr2(NULL));
     if (done && (read[0] <= 0 || read[1] <= 0)) done = gn_fail(err, "JPEG: width or height is 0");
-    const size_t scans = done ? count_scans(data, size) : 0;
+
+    /* A scan may be a few bytes, and costs a step for each coefficient of the picture. Usual files
+     * have about ten. Counts the start-of-scan markers before the end of the picture (ITU-T T.81,
+     * annex B). */
+    enum { STUFFED = 0x00, RST0 = 0xd0, RST7 = 0xd7, SOI = 0xd8, EOI = 0xd9, SOS = 0xda };
+    enum { MOST_SCANS = 64 };
+    size_t scans = 0;
+    for (size_t at = 0; done && at + 1 < size;) {
+        const uint8_t *mark = memchr(data + at, 0xff, size - at - 1);
+        if (!mark) break;
+        at = (size_t)(mark - data) + 1;
+        const uint8_t type = data[at];
+        if (type == EOI) break;
+        if (type == 0xff) continue; /* a fill byte */
+        at++;
+        if (type == STUFFED || (type >= RST0 && type <= SOI)) continue;
+        scans += type == SOS;
+        if (size - at >= 2) at += (size_t)(data[at] << 8 | data[at + 1]);
+    }
     if (scans > MOST_SCANS)
         done = gn_fail(err, "JPEG: %zu scans, at most %d are read: save it again, not progressive",
                        scans, MOST_SCANS);

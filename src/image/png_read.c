@@ -12,18 +12,6 @@ static uint32_t big_endian(const uint8_t *p) {
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | (uint32_t)p[3];
 }
 
-/* Whether a chunk before the pixels is longer than the file: libpng would allocate and clear that
- * length (up to 2 GB) before it reads. */
-static bool has_long_chunk(const uint8_t *data, size_t size) {
-    for (size_t at = 8; size - at >= 12;) {
-        const size_t length = big_endian(data + at);
-        if (memcmp(data + at + 4, "IDAT", 4) == 0) return false;
-        if (length > size - at - 12) return true;
-        at += 12 + length;
-    }
-    return false;
-}
-
 bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err) {
     static const uint8_t channels[] = {1, 0, 3, 1, 2, 0, 4};
     if (size < IHDR_END || memcmp(data + 12, "IHDR", 4) != 0) return gn_fail(err, "PNG: truncated");
@@ -34,8 +22,14 @@ bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err
     /* deflate expands at most 1032 times: refuse a larger size before memory is allocated for it */
     uint64_t bits = (uint64_t)data[24] * (data[25] < sizeof channels ? channels[data[25]] : 1);
     if (bits > 64) bits = 64;
-    if ((uint64_t)px[0] * px[1] / 8 * bits / 1100 > size || has_long_chunk(data, size))
-        return gn_fail(err, "PNG: truncated");
+    if ((uint64_t)px[0] * px[1] / 8 * bits / 1100 > size) return gn_fail(err, "PNG: truncated");
+    /* so, too, if a chunk before the pixels is longer than the file: libpng would allocate and
+     * clear that length (up to 2 GB) before it reads */
+    for (size_t at = 8; size - at >= 12 && memcmp(data + at + 4, "IDAT", 4) != 0;) {
+        const size_t length = big_endian(data + at);
+        if (length > size - at - 12) return gn_fail(err, "PNG: truncated");
+        at += 12 + length;
+    }
     return true;
 }
 
