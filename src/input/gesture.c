@@ -184,28 +184,6 @@ static void end_chords(struct gn_gestures *g, int member, int64_t first_ns, bool
 
 /* ---- edges --------------------------------------------------------------------------------- */
 
-static void press_button(struct gn_gestures *g, int i, int64_t first_ns) {
-    struct gn_gesture_button *b = &g->buttons[i];
-    b->down_ns = g->now_ns;
-    b->down_first_ns = first_ns;
-    b->second = b->due_ns[GN_DUE_CLICK] != NEVER;
-    b->due_ns[GN_DUE_CLICK] = NEVER;
-    if (!b->together) b->due_ns[GN_DUE_STUCK] = g->now_ns + b->opts.stuck_ns;
-    if (!b->chords) {
-        begin_press(g, i);
-        return;
-    }
-    int64_t longest_ns = 0;
-    for (int c = 0; c < g->count; c++)
-        if (b->chords >> c & 1 && g->buttons[c].opts.chord_ns > longest_ns)
-            longest_ns = g->buttons[c].opts.chord_ns;
-    b->state = GN_BUTTON_WAITING;
-    b->due_ns[GN_DUE_CHORD] = g->now_ns + longest_ns;
-    const uint32_t set = waiting_buttons(g);
-    const int chord = find_complete(g, i, set);
-    if (chord >= 0 && !may_grow(g, chord, set)) fire_chord(g, chord);
-}
-
 /* The combined state may have changed. */
 static void update_button(struct gn_gestures *g, int i, int64_t first_ns) {
     struct gn_gesture_button *b = &g->buttons[i];
@@ -213,7 +191,24 @@ static void update_button(struct gn_gestures *g, int i, int64_t first_ns) {
     if (down == b->down) return;
     b->down = down;
     if (down) {
-        press_button(g, i, first_ns);
+        b->down_ns = g->now_ns;
+        b->down_first_ns = first_ns;
+        b->second = b->due_ns[GN_DUE_CLICK] != NEVER;
+        b->due_ns[GN_DUE_CLICK] = NEVER;
+        if (!b->together) b->due_ns[GN_DUE_STUCK] = g->now_ns + b->opts.stuck_ns;
+        if (!b->chords) {
+            begin_press(g, i);
+            return;
+        }
+        int64_t longest_ns = 0;
+        for (int c = 0; c < g->count; c++)
+            if (b->chords >> c & 1 && g->buttons[c].opts.chord_ns > longest_ns)
+                longest_ns = g->buttons[c].opts.chord_ns;
+        b->state = GN_BUTTON_WAITING;
+        b->due_ns[GN_DUE_CHORD] = g->now_ns + longest_ns;
+        const uint32_t set = waiting_buttons(g);
+        const int chord = find_complete(g, i, set);
+        if (chord >= 0 && !may_grow(g, chord, set)) fire_chord(g, chord);
         return;
     }
     if (b->state == GN_BUTTON_WAITING) resolve_chord(g, i);

@@ -48,42 +48,32 @@ static int get_line_info(void *chip, unsigned offset, struct gn_gpio_line *out) 
     return 0;
 }
 
-/* libgpiod objects of a request; NULL where allocation failed. */
-struct parts {
-    struct gpiod_line_settings *settings;
-    struct gpiod_line_config *lines;
-    struct gpiod_request_config *request;
-};
-
-static bool fill_request(struct parts *parts, const struct gn_gpio_wish *wish) {
+static int request_line(void *chip, const struct gn_gpio_wish *wish, void **line) {
     static const enum gpiod_line_bias biases[] = {[GN_BIAS_PULL_UP] = GPIOD_LINE_BIAS_PULL_UP,
                                                   [GN_BIAS_PULL_DOWN] = GPIOD_LINE_BIAS_PULL_DOWN,
                                                   [GN_BIAS_NONE] = GPIOD_LINE_BIAS_AS_IS};
-    if (!parts->settings || !parts->lines || !parts->request) return false;
-    gpiod_line_settings_set_direction(parts->settings, GPIOD_LINE_DIRECTION_INPUT);
-    gpiod_line_settings_set_edge_detection(parts->settings, GPIOD_LINE_EDGE_BOTH);
-    gpiod_line_settings_set_bias(parts->settings, biases[wish->bias]);
-    gpiod_line_settings_set_debounce_period_us(parts->settings,
-                                               (unsigned long)(wish->debounce_ns / 1000));
-    gpiod_line_settings_set_event_clock(parts->settings, GPIOD_LINE_CLOCK_MONOTONIC);
-    gpiod_request_config_set_consumer(parts->request, "gnomon");
-    return gpiod_line_config_add_line_settings(parts->lines, &wish->offset, 1, parts->settings) ==
-           0;
-}
-
-static int request_line(void *chip, const struct gn_gpio_wish *wish, void **line) {
-    struct parts parts = {.settings = gpiod_line_settings_new(),
-                          .lines = gpiod_line_config_new(),
-                          .request = gpiod_request_config_new()};
+    /* NULL where allocation failed */
+    struct gpiod_line_settings *settings = gpiod_line_settings_new();
+    struct gpiod_line_config *lines = gpiod_line_config_new();
+    struct gpiod_request_config *request = gpiod_request_config_new();
     struct line made = {.events = gpiod_edge_event_buffer_new(GN_GPIO_EVENTS),
                         .offset = wish->offset};
     errno = 0;
-    if (made.events && fill_request(&parts, wish))
-        made.request = gpiod_chip_request_lines(chip, parts.request, parts.lines);
+    if (made.events && settings && lines && request) {
+        gpiod_line_settings_set_direction(settings, GPIOD_LINE_DIRECTION_INPUT);
+        gpiod_line_settings_set_edge_detection(settings, GPIOD_LINE_EDGE_BOTH);
+        gpiod_line_settings_set_bias(settings, biases[wish->bias]);
+        gpiod_line_settings_set_debounce_period_us(settings,
+                                                   (unsigned long)(wish->debounce_ns / 1000));
+        gpiod_line_settings_set_event_clock(settings, GPIOD_LINE_CLOCK_MONOTONIC);
+        gpiod_request_config_set_consumer(request, "gnomon");
+        if (gpiod_line_config_add_line_settings(lines, &wish->offset, 1, settings) == 0)
+            made.request = gpiod_chip_request_lines(chip, request, lines);
+    }
     const int error = made.request ? 0 : error_of();
-    gpiod_request_config_free(parts.request);
-    gpiod_line_config_free(parts.lines);
-    gpiod_line_settings_free(parts.settings);
+    gpiod_request_config_free(request);
+    gpiod_line_config_free(lines);
+    gpiod_line_settings_free(settings);
     if (error) {
         gpiod_edge_event_buffer_free(made.events);
         return error;

@@ -83,21 +83,6 @@ static void lose_line(struct gn_lines *lines, struct gn_line *l, int error, int6
     report_once(lines, l, text);
 }
 
-/* Requests with the configured bias, or without if the chip has none. */
-static int request_line(struct gn_lines *lines, struct gn_line *l, void *chip, unsigned offset) {
-    const int64_t kernel_ns = INT64_C(5000000);
-    struct gn_gpio_wish wish = {.offset = offset, .bias = l->opts.bias, .debounce_ns = kernel_ns};
-    if (l->opts.debounce_ns > 0 && l->opts.debounce_ns < 4 * kernel_ns)
-        wish.debounce_ns = l->opts.debounce_ns / 4;
-    const int error = lines->ops->request(chip, &wish, &l->request);
-    l->no_bias = false;
-    if ((error != EINVAL && error != EOPNOTSUPP && error != ENOTSUPP_) || wish.bias == GN_BIAS_NONE)
-        return error;
-    wish.bias = GN_BIAS_NONE;
-    l->no_bias = lines->ops->request(chip, &wish, &l->request) == 0;
-    return l->no_bias ? 0 : error;
-}
-
 static void on_readable(void *user, uint32_t events, int64_t now_ns) {
     struct gn_line *l = user;
     l->readable = true;
@@ -147,7 +132,20 @@ static void acquire_line(struct gn_lines *lines, struct gn_line *l,
              match->offset);
     int error = lines->ops->open(lines->context, match->path, &chip, &info);
     if (!error) {
-        error = request_line(lines, l, chip, match->offset);
+        const int64_t kernel_ns = INT64_C(5000000), quarter_ns = l->opts.debounce_ns / 4;
+        struct gn_gpio_wish wish = {.offset = match->offset,
+                                    .bias = l->opts.bias,
+                                    .debounce_ns = l->opts.debounce_ns > 0 && quarter_ns < kernel_ns
+                                                       ? quarter_ns
+                                                       : kernel_ns};
+        error = lines->ops->request(chip, &wish, &l->request);
+        l->no_bias = false;
+        if ((error == EINVAL || error == EOPNOTSUPP || error == ENOTSUPP_) &&
+            wish.bias != GN_BIAS_NONE) { /* the chip has none: without it */
+            wish.bias = GN_BIAS_NONE;
+            l->no_bias = lines->ops->request(chip, &wish, &l->request) == 0;
+            if (l->no_bias) error = 0;
+        }
         lines->ops->close(chip);
     }
     if (!error) {

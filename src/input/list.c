@@ -5,28 +5,6 @@
 
 #include "input/private.h"
 
-static void list_chip(const struct gn_gpio_ops *ops, void *context, struct gn_input_chip *chip,
-                      struct gn_arena *arena) {
-    struct gn_gpio_chip info = {0};
-    void *opened;
-    chip->error = ops->open(context, chip->path, &opened, &info);
-    if (chip->error) return;
-    snprintf(chip->name, sizeof chip->name, "%s", info.name);
-    snprintf(chip->label, sizeof chip->label, "%s", info.label);
-    struct gn_input_line *lines = gn_arena_alloc(arena, info.lines, sizeof *lines);
-    chip->lines = lines;
-    for (unsigned i = 0; lines && i < info.lines; i++) {
-        struct gn_gpio_line line = {0};
-        if (ops->look(opened, i, &line) == 0) {
-            memcpy(lines[i].name, line.name, sizeof line.name);
-            memcpy(lines[i].consumer, line.consumer, sizeof line.consumer);
-            lines[i].used = line.used;
-        }
-        chip->line_count++;
-    }
-    ops->close(opened);
-}
-
 void gn_input_list_in(const struct gn_input_world *world, struct gn_input_list *out) {
     const struct gn_gpio_ops *ops = world->gpio ? world->gpio : &gn_gpio_library;
     const char *folder = world->folder ? world->folder : "/dev";
@@ -44,8 +22,26 @@ void gn_input_list_in(const struct gn_input_world *world, struct gn_input_list *
     if (!ops->library) return;
     out->chip_count = gn_line_list_chips(folder, paths, GN_INPUT_CHIPS_MAX);
     for (int i = 0; i < out->chip_count; i++) {
-        memcpy(out->chips[i].path, paths[i], sizeof paths[i]);
-        list_chip(ops, world->gpio_context, &out->chips[i], &out->arena);
+        struct gn_input_chip *chip = &out->chips[i];
+        struct gn_gpio_chip info = {0};
+        void *opened;
+        memcpy(chip->path, paths[i], sizeof paths[i]);
+        chip->error = ops->open(world->gpio_context, chip->path, &opened, &info);
+        if (chip->error) continue;
+        snprintf(chip->name, sizeof chip->name, "%s", info.name);
+        snprintf(chip->label, sizeof chip->label, "%s", info.label);
+        struct gn_input_line *lines = gn_arena_alloc(&out->arena, info.lines, sizeof *lines);
+        chip->lines = lines;
+        for (unsigned k = 0; lines && k < info.lines; k++) {
+            struct gn_gpio_line line = {0};
+            if (ops->look(opened, k, &line) == 0) {
+                memcpy(lines[k].name, line.name, sizeof line.name);
+                memcpy(lines[k].consumer, line.consumer, sizeof line.consumer);
+                lines[k].used = line.used;
+            }
+            chip->line_count++;
+        }
+        ops->close(opened);
     }
 }
 

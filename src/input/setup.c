@@ -4,28 +4,6 @@
 
 #include "input/private.h"
 
-static bool parse_chord(const struct gn_input_opts *opts, int chord, uint32_t *out,
-                        struct gn_err *err) {
-    *out = 0;
-    for (const char *at = opts->buttons[chord].chord; at && *(at += strspn(at, " \t"));) {
-        const size_t length = strcspn(at, " \t");
-        int i = 0;
-        while (i < opts->button_count && (strncmp(opts->buttons[i].name, at, length) != 0 ||
-                                          opts->buttons[i].name[length] != '\0'))
-            i++;
-        if (i == opts->button_count)
-            return gn_fail_usage(err, "chord: unknown button \"%.*s\"",
-                                 (int)(length < 60 ? length : 60), at);
-        if (i == chord || opts->buttons[i].chord)
-            return gn_fail_usage(err, "chord: \"%s\" is a chord itself", opts->buttons[i].name);
-        *out |= UINT32_C(1) << i;
-        at += length;
-    }
-    if (opts->buttons[chord].chord && __builtin_popcount(*out) < 2)
-        return gn_fail_usage(err, "chord: expected two buttons or more, separated by spaces");
-    return true;
-}
-
 static bool set_up_button(struct gn_input *input, int i, struct gn_gesture_opts *gesture,
                           struct gn_line_opts *line, struct gn_err *err) {
     const struct gn_button_opts *b = &input->opts.buttons[i];
@@ -47,7 +25,26 @@ static bool set_up_button(struct gn_input *input, int i, struct gn_gesture_opts 
     };
     if (b->chord && b->line) return gn_fail_usage(err, "a chord cannot have a line");
     if (b->keys && !gn_keys_bind(&input->keys, i, b->keys, err)) return gn_fail_prefix(err, "keys");
-    return parse_chord(&input->opts, i, &gesture->chord, err);
+
+    /* the names of a chord's buttons */
+    const struct gn_input_opts *opts = &input->opts;
+    for (const char *at = b->chord; at && *(at += strspn(at, " \t"));) {
+        const size_t length = strcspn(at, " \t");
+        int other = 0;
+        while (other < opts->button_count && (strncmp(opts->buttons[other].name, at, length) != 0 ||
+                                              opts->buttons[other].name[length] != '\0'))
+            other++;
+        if (other == opts->button_count)
+            return gn_fail_usage(err, "chord: unknown button \"%.*s\"",
+                                 (int)(length < 60 ? length : 60), at);
+        if (other == i || opts->buttons[other].chord)
+            return gn_fail_usage(err, "chord: \"%s\" is a chord itself", opts->buttons[other].name);
+        gesture->chord |= UINT32_C(1) << other;
+        at += length;
+    }
+    if (b->chord && __builtin_popcount(gesture->chord) < 2)
+        return gn_fail_usage(err, "chord: expected two buttons or more, separated by spaces");
+    return true;
 }
 
 bool gn_input_set_up(struct gn_input *input, int64_t now_ns, struct gn_err *err) {
