@@ -112,23 +112,6 @@ static struct gn_override *find_override(const struct gn_mode *mode,
     return override;
 }
 
-static bool set_in_mode(struct load *load, const struct gn_option_row *row, const char *text,
-                        const char *label, int number, struct gn_err *err) {
-    struct gn_arena *arena = &load->options->arena;
-    struct gn_override *override = find_override(load->mode, row);
-    if (override)
-        return gn_options_parse(load->options, row, text, override->value, arena, label, err);
-    override = gn_arena_alloc(arena, 1, sizeof *override);
-    void *value = gn_arena_alloc(arena, 1, gn_value_size(row->kind));
-    const char *kept = gn_arena_strdup(arena, label);
-    if (!override || !value || !kept) return gn_fail(err, "%s: no memory left", label);
-    if (!gn_options_parse(load->options, row, text, value, arena, label, err)) return false;
-    *override = (struct gn_override){.row = row, .value = value, .label = kept, .line = number};
-    *load->link = override;
-    load->link = &override->next;
-    return true;
-}
-
 static int line_before(struct load *load, const struct gn_option_row *row) {
     if (row->kind == GN_KIND_LIMIT || (row->kind == GN_KIND_SCENES && !load->mode))
         return 0; /* may be given again */
@@ -156,9 +139,24 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
         snprintf(path, sizeof path, "%.*s%s", (int)(slash - load->path + 1), load->path, text);
         text = path;
     }
-    if (load->mode) return set_in_mode(load, row, text, label, line->number, err);
-    load->lines[row - gn_option_rows] = line->number;
-    return gn_options_set(load->options, row, text, GN_SOURCE_INI, label, err);
+    if (!load->mode) {
+        load->lines[row - gn_option_rows] = line->number;
+        return gn_options_set(load->options, row, text, GN_SOURCE_INI, label, err);
+    }
+    struct gn_arena *arena = &load->options->arena;
+    struct gn_override *override = find_override(load->mode, row);
+    if (override)
+        return gn_options_parse(load->options, row, text, override->value, arena, label, err);
+    override = gn_arena_alloc(arena, 1, sizeof *override);
+    void *value = gn_arena_alloc(arena, 1, gn_value_size(row->kind));
+    const char *kept = gn_arena_strdup(arena, label);
+    if (!override || !value || !kept) return gn_fail(err, "%s: no memory left", label);
+    if (!gn_options_parse(load->options, row, text, value, arena, label, err)) return false;
+    *override =
+        (struct gn_override){.row = row, .value = value, .label = kept, .line = line->number};
+    *load->link = override;
+    load->link = &override->next;
+    return true;
 }
 
 bool gn_config_load(struct gn_options *options, const char *path, struct gn_err *err) {
