@@ -85,45 +85,47 @@ static float strength_of(const struct gn_import *import, const struct aiLight *l
     return PI * distance_m * distance_m / divisor;
 }
 
-static void add_light(struct gn_import *import, const struct aiLight *light) {
-    const char *type = light->mType == aiLightSource_DIRECTIONAL ? "directional"
-                       : light->mType == aiLightSource_SPOT      ? "spot"
-                       : light->mType == aiLightSource_POINT || light->mType == aiLightSource_AREA
-                           ? "point"
-                           : NULL; /* ambient lights are ignored */
-    const struct gn_import_node *at = find_node(import, light->mName.data);
-    float rgb[3] = {light->mColorDiffuse.r, light->mColorDiffuse.g, light->mColorDiffuse.b};
-    float most = fmaxf(fmaxf(rgb[0], rgb[1]), rgb[2]);
-    if (!at || !type || !isfinite(rgb[0] + rgb[1] + rgb[2]) || most <= 0.0f) return;
-    struct aiMatrix4x4 placed = place_matrix(at, light->mPosition, light->mDirection, light->mUp);
-    float strength = most * strength_of(import, light, at, &placed);
-    if (!isfinite(strength)) return;
-    for (int k = 0; k < 3; k++) rgb[k] = fmaxf(rgb[k], 0.0f) / most;
-    json_t *object = json_pack("{s:o,s:s,s:o,s:f}", "name", gn_glb_text(light->mName.data), "type",
-                               type, "color", gn_glb_floats(rgb, 3), "intensity", (double)strength);
-    if (light->mType == aiLightSource_SPOT) {
-        /* assimp gives full cone angles; for Collada, which has one only, it invents the outer */
-        float outer = 0.5f * light->mAngleOuterCone, inner = 0.5f * light->mAngleInnerCone;
-        if (import->format == GN_MODEL_DAE || !(outer > 0.01f)) outer = inner;
-        if (!(outer > 0.01f)) outer = 0.25f * PI;
-        outer = fminf(outer, 0.5f * PI);
-        if (!(inner >= 0.0f) || inner >= outer) inner = 0.85f * outer;
-        json_object_set_new(object, "spot",
-                            json_pack("{s:f,s:f}", "innerConeAngle", (double)inner,
-                                      "outerConeAngle", (double)outer));
-    }
-    json_t *extension = gn_glb_extension(&import->glb, "KHR_lights_punctual");
-    json_t *lights = json_object_get(extension, "lights");
-    if (!lights) json_object_set_new(extension, "lights", lights = json_array());
-    json_array_append_new(lights, object);
-    json_object_set_new(
-        add_node(import, light->mName.data, &placed), "extensions",
-        json_pack("{s:{s:i}}", "KHR_lights_punctual", "light", (int)json_array_size(lights) - 1));
-}
-
 void gn_import_lights(struct gn_import *import) {
-    for (unsigned i = 0; i < import->scene->mNumLights; i++)
-        add_light(import, import->scene->mLights[i]);
+    for (unsigned i = 0; i < import->scene->mNumLights; i++) {
+        const struct aiLight *light = import->scene->mLights[i];
+        const char *type =
+            light->mType == aiLightSource_DIRECTIONAL ? "directional"
+            : light->mType == aiLightSource_SPOT      ? "spot"
+            : light->mType == aiLightSource_POINT || light->mType == aiLightSource_AREA
+                ? "point"
+                : NULL; /* ambient lights are ignored */
+        const struct gn_import_node *at = find_node(import, light->mName.data);
+        float rgb[3] = {light->mColorDiffuse.r, light->mColorDiffuse.g, light->mColorDiffuse.b};
+        float most = fmaxf(fmaxf(rgb[0], rgb[1]), rgb[2]);
+        if (!at || !type || !isfinite(rgb[0] + rgb[1] + rgb[2]) || most <= 0.0f) continue;
+        struct aiMatrix4x4 placed =
+            place_matrix(at, light->mPosition, light->mDirection, light->mUp);
+        float strength = most * strength_of(import, light, at, &placed);
+        if (!isfinite(strength)) continue;
+        for (int k = 0; k < 3; k++) rgb[k] = fmaxf(rgb[k], 0.0f) / most;
+        json_t *object =
+            json_pack("{s:o,s:s,s:o,s:f}", "name", gn_glb_text(light->mName.data), "type", type,
+                      "color", gn_glb_floats(rgb, 3), "intensity", (double)strength);
+        if (light->mType == aiLightSource_SPOT) {
+            /* assimp gives full cone angles; for Collada, which has one only, it invents the outer
+             */
+            float outer = 0.5f * light->mAngleOuterCone, inner = 0.5f * light->mAngleInnerCone;
+            if (import->format == GN_MODEL_DAE || !(outer > 0.01f)) outer = inner;
+            if (!(outer > 0.01f)) outer = 0.25f * PI;
+            outer = fminf(outer, 0.5f * PI);
+            if (!(inner >= 0.0f) || inner >= outer) inner = 0.85f * outer;
+            json_object_set_new(object, "spot",
+                                json_pack("{s:f,s:f}", "innerConeAngle", (double)inner,
+                                          "outerConeAngle", (double)outer));
+        }
+        json_t *extension = gn_glb_extension(&import->glb, "KHR_lights_punctual");
+        json_t *lights = json_object_get(extension, "lights");
+        if (!lights) json_object_set_new(extension, "lights", lights = json_array());
+        json_array_append_new(lights, object);
+        json_object_set_new(add_node(import, light->mName.data, &placed), "extensions",
+                            json_pack("{s:{s:i}}", "KHR_lights_punctual", "light",
+                                      (int)json_array_size(lights) - 1));
+    }
 }
 
 /* ---- cameras ---- */

@@ -97,7 +97,10 @@ static void set_emissive(struct gn_import *import, const struct aiMaterial *mate
                                   "emissiveStrength", (double)strength));
 }
 
-static json_t *make_material(struct gn_import *import, unsigned index) {
+int gn_import_material(struct gn_import *import, unsigned index) {
+    if (index >= import->scene->mNumMaterials) return -1;
+    int *known = &import->materials[index];
+    if (*known != GN_IMPORT_UNSEEN) return *known;
     const struct aiMaterial *material = import->scene->mMaterials[index];
     struct aiString name = {0};
     float rgba[4];
@@ -130,13 +133,5 @@ static json_t *make_material(struct gn_import *import, unsigned index) {
             aiReturn_SUCCESS ||
         double_sided != 0)
         json_object_set_new(object, "doubleSided", json_true());
-    return object;
-}
-
-int gn_import_material(struct gn_import *import, unsigned index) {
-    if (index >= import->scene->mNumMaterials) return -1;
-    int *known = &import->materials[index];
-    if (*known == GN_IMPORT_UNSEEN)
-        *known = gn_glb_add(&import->glb, "materials", make_material(import, index));
-    return *known;
+    return *known = gn_glb_add(&import->glb, "materials", object);
 }

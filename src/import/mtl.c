@@ -15,30 +15,24 @@ static const struct word {
     {"bump", false},   {"norm", false}, {"disp", false}, {"refl", false},
 };
 
-static size_t word_length(const char *c, const char *end) {
-    const char *start = c;
-    while (c < end && !isspace((unsigned char)*c)) c++;
-    return (size_t)(c - start);
-}
-
 static const char *skip_blanks(const char *c, const char *end) {
     while (c < end && (*c == ' ' || *c == '\t')) c++;
     return c;
 }
 
-static bool is_number(const char *c, const char *end) {
-    if (c < end && (*c == '-' || *c == '+')) c++;
-    return c < end && (isdigit((unsigned char)*c) || *c == '.' || strncasecmp(c, "nan", 3) == 0 ||
-                       strncasecmp(c, "inf", 3) == 0);
-}
-
 static bool is_readable(const char *line, const char *end) {
     const char *c = skip_blanks(line, end);
-    const size_t length = word_length(c, end);
+    size_t length = 0;
+    while (c + length < end && !isspace((unsigned char)c[length])) length++;
+    const char *value = skip_blanks(c + length, end);
+    if (value < end && (*value == '-' || *value == '+')) value++;
+    const bool is_number =
+        value < end && (isdigit((unsigned char)*value) || *value == '.' ||
+                        strncasecmp(value, "nan", 3) == 0 || strncasecmp(value, "inf", 3) == 0);
     if (length > 4 && strncasecmp(c, "map_", 4) == 0) return true;
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
         if (strlen(words[i].name) == length && strncasecmp(c, words[i].name, length) == 0)
-            return !words[i].has_number || is_number(skip_blanks(c + length, end), end);
+            return !words[i].has_number || is_number;
     return false;
 }
 

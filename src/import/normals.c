@@ -42,30 +42,6 @@ static int compare_positions(const void *a, const void *b, void *positions) {
     return memcmp(from, to, sizeof from);
 }
 
-static void find_places(struct place *place, const struct gn_import_shape *shape) {
-    const struct aiMesh *mesh = shape->mesh;
-    uint32_t *order = gn_import_alloc(mesh->mNumVertices * sizeof *order);
-    place->of_vertex = gn_import_alloc(mesh->mNumVertices * sizeof *order);
-    for (uint32_t i = 0; i < mesh->mNumVertices; i++) order[i] = i;
-    qsort_r(order, mesh->mNumVertices, sizeof *order, compare_positions, mesh->mVertices);
-    for (uint32_t i = 0; i < mesh->mNumVertices; i++) {
-        if (i == 0 || compare_positions(&order[i - 1], &order[i], mesh->mVertices) != 0)
-            place->count++;
-        place->of_vertex[order[i]] = (uint32_t)place->count - 1;
-    }
-    free(order);
-
-    /* a counting sort of the corners by place */
-    uint32_t *next = gn_import_alloc((place->count + 2) * sizeof *next);
-    place->first = next;
-    place->corners = gn_import_alloc(shape->index_count * sizeof *place->corners);
-    memset(next, 0, (place->count + 2) * sizeof *next);
-    for (size_t i = 0; i < shape->index_count; i++) next[place->of_vertex[shape->indices[i]] + 2]++;
-    for (size_t i = 2; i < place->count + 2; i++) next[i] += next[i - 1];
-    for (size_t i = 0; i < shape->index_count; i++)
-        place->corners[next[place->of_vertex[shape->indices[i]] + 1]++] = (uint32_t)i;
-}
-
 static float dot_product(struct aiVector3D a, struct aiVector3D b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -93,11 +69,6 @@ static int group_along(float component) {
     return i < 0 ? 0 : i >= GROUPS ? GROUPS - 1 : i;
 }
 
-static int group_of(struct aiVector3D normal) {
-    return (group_along(normal.x) * GROUPS + group_along(normal.y)) * GROUPS +
-           group_along(normal.z);
-}
-
 static void make_groups(struct place *place, const struct faces *faces) {
     place->groups = gn_import_alloc(place->count * sizeof *place->groups);
     for (size_t p = 0; p < place->count; p++) {
@@ -112,7 +83,8 @@ static void make_groups(struct place *place, const struct faces *faces) {
         struct group *groups = &place->all_groups[place->groups[p] - 1];
         for (uint32_t i = place->first[p]; i < place->first[p + 1]; i++) {
             const struct aiVector3D n = faces->normals[place->corners[i] / 3];
-            struct group *group = &groups[group_of(n)];
+            struct group *group =
+                &groups[(group_along(n.x) * GROUPS + group_along(n.y)) * GROUPS + group_along(n.z)];
             group->sum = add_weighted(group->sum, n, faces->angles[place->corners[i]]);
         }
         for (int k = 0; k < GROUP_COUNT; k++) groups[k].unit = unit_vector(groups[k].sum);
@@ -175,8 +147,28 @@ static void split_vertices(struct gn_import_shape *shape, const struct place *pl
 }
 
 void gn_import_normals(struct gn_import_shape *shape) {
+    const struct aiMesh *mesh = shape->mesh;
     struct place place = {0};
-    find_places(&place, shape);
+    uint32_t *order = gn_import_alloc(mesh->mNumVertices * sizeof *order);
+    place.of_vertex = gn_import_alloc(mesh->mNumVertices * sizeof *order);
+    for (uint32_t i = 0; i < mesh->mNumVertices; i++) order[i] = i;
+    qsort_r(order, mesh->mNumVertices, sizeof *order, compare_positions, mesh->mVertices);
+    for (uint32_t i = 0; i < mesh->mNumVertices; i++) {
+        if (i == 0 || compare_positions(&order[i - 1], &order[i], mesh->mVertices) != 0)
+            place.count++;
+        place.of_vertex[order[i]] = (uint32_t)place.count - 1;
+    }
+    free(order);
+
+    /* a counting sort of the corners by place */
+    uint32_t *next = place.first = gn_import_alloc((place.count + 2) * sizeof *next);
+    place.corners = gn_import_alloc(shape->index_count * sizeof *place.corners);
+    memset(next, 0, (place.count + 2) * sizeof *next);
+    for (size_t i = 0; i < shape->index_count; i++) next[place.of_vertex[shape->indices[i]] + 2]++;
+    for (size_t i = 2; i < place.count + 2; i++) next[i] += next[i - 1];
+    for (size_t i = 0; i < shape->index_count; i++)
+        place.corners[next[place.of_vertex[shape->indices[i]] + 1]++] = (uint32_t)i;
+
     struct faces faces = {
         .normals = gn_import_alloc(shape->index_count / 3 * sizeof *faces.normals),
         .angles = gn_import_alloc(shape->index_count * sizeof *faces.angles),

@@ -85,24 +85,6 @@ struct gn_import_alpha gn_import_picture_alpha(const struct gn_bytes *picture) {
     return (struct gn_import_alpha){.has_alpha = clear + soft > 0, .soft = 2 * soft > clear};
 }
 
-/* Both are resampled to the larger size, nearest texel. */
-static struct pixels merge_opacity(const struct pixels *base, const struct pixels *opacity) {
-    bool larger = opacity->width_px > base->width_px;
-    struct pixels out = {.width_px = (larger ? opacity : base)->width_px,
-                         .height_px = (larger ? opacity : base)->height_px};
-    out.rgba = gn_import_alloc(4 * (size_t)out.width_px * out.height_px);
-    for (size_t y = 0; y < out.height_px; y++)
-        for (size_t x = 0; x < out.width_px; x++) {
-            size_t bx = x * base->width_px / out.width_px, by = y * base->height_px / out.height_px;
-            size_t ox = x * opacity->width_px / out.width_px,
-                   oy = y * opacity->height_px / out.height_px;
-            uint8_t *to = out.rgba + 4 * (y * out.width_px + x);
-            memcpy(to, base->rgba + 4 * (by * base->width_px + bx), 3);
-            to[3] = opacity->rgba[4 * (oy * opacity->width_px + ox) + (opacity->has_alpha ? 3 : 0)];
-        }
-    return out;
-}
-
 bool gn_import_picture_merge(const struct gn_bytes *base, const struct gn_bytes *opacity,
                              struct gn_bytes *png) {
     uint8_t white[4] = {255, 255, 255, 255};
@@ -110,8 +92,20 @@ bool gn_import_picture_merge(const struct gn_bytes *base, const struct gn_bytes 
     *png = (struct gn_bytes){0};
     if (!read_pixels(opacity, &alpha)) return false;
     bool ok = !base || read_pixels(base, &colour);
-    if (ok) {
-        struct pixels both = merge_opacity(&colour, &alpha);
+    if (ok) { /* both are resampled to the larger size, nearest texel */
+        const struct pixels *larger = alpha.width_px > colour.width_px ? &alpha : &colour;
+        struct pixels both = {.width_px = larger->width_px, .height_px = larger->height_px};
+        both.rgba = gn_import_alloc(4 * (size_t)both.width_px * both.height_px);
+        for (size_t i = 0; i < (size_t)both.width_px * both.height_px; i++) {
+            const size_t x = i % both.width_px, y = i / both.width_px;
+            const size_t cx = x * colour.width_px / both.width_px,
+                         cy = y * colour.height_px / both.height_px,
+                         ax = x * alpha.width_px / both.width_px,
+                         ay = y * alpha.height_px / both.height_px;
+            memcpy(both.rgba + 4 * i, colour.rgba + 4 * (cy * colour.width_px + cx), 3);
+            both.rgba[4 * i + 3] =
+                alpha.rgba[4 * (ay * alpha.width_px + ax) + (alpha.has_alpha ? 3 : 0)];
+        }
         png_image header = {.version = PNG_IMAGE_VERSION,
                             .width = both.width_px,
                             .height = both.height_px,
