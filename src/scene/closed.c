@@ -27,21 +27,6 @@ static const float *position_of(const struct welder *w, uint32_t vertex) {
     return w->scene->buffers.positions + 3 * ((size_t)w->geometry->first_vertex + vertex);
 }
 
-static void weld_vertices(struct welder *w) {
-    for (uint32_t v = 0; v < w->geometry->vertex_count; v++) {
-        float p[3];
-        for (int k = 0; k < 3; k++) p[k] = position_of(w, v)[k] + 0.0f; /* -0 is 0 */
-        uint32_t at = (uint32_t)gn_hash_keyed(w->key, p, sizeof p) & w->mask;
-        for (; w->slots[at]; at = (at + 1) & w->mask) {
-            const float *q = position_of(w, w->slots[at] - 1);
-            if (q[0] == p[0] && q[1] == p[1] && q[2] == p[2]) break;
-        }
-        if (!w->slots[at]) w->slots[at] = v + 1;
-        w->vertex[v] = w->slots[at] - 1;
-        w->body[v] = v;
-    }
-}
-
 static uint32_t body_root(struct welder *w, uint32_t vertex) {
     while (w->body[vertex] != vertex) vertex = w->body[vertex] = w->body[w->body[vertex]];
     return vertex;
@@ -104,11 +89,23 @@ bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *ge
         .body = gn_arena_alloc(&arena, count, sizeof *w.body),
         .volume = gn_arena_alloc(&arena, count, sizeof *w.volume),
     };
-    bool closed = false;
-    if (w.slots && w.vertex && w.body && w.volume) {
-        weld_vertices(&w);
-        closed = edges_meet(&w) && bodies_are_outward(&w);
+    const bool has_memory = w.slots && w.vertex && w.body && w.volume;
+
+    /* vertices in the same place become one */
+    for (uint32_t v = 0; has_memory && v < count; v++) {
+        float p[3];
+        for (int k = 0; k < 3; k++) p[k] = position_of(&w, v)[k] + 0.0f; /* -0 is 0 */
+        uint32_t at = (uint32_t)gn_hash_keyed(w.key, p, sizeof p) & w.mask;
+        for (; w.slots[at]; at = (at + 1) & w.mask) {
+            const float *q = position_of(&w, w.slots[at] - 1);
+            if (q[0] == p[0] && q[1] == p[1] && q[2] == p[2]) break;
+        }
+        if (!w.slots[at]) w.slots[at] = v + 1;
+        w.vertex[v] = w.slots[at] - 1;
+        w.body[v] = v;
     }
+
+    const bool closed = has_memory && edges_meet(&w) && bodies_are_outward(&w);
     gn_arena_finish(&arena);
     return closed;
 }

@@ -22,24 +22,6 @@ static uint32_t add_node(struct gn_gltf *g, const char *name, vec3 position, vec
     return scene->node_count++;
 }
 
-/* A light from above, the front and a little left of the added camera: the three visible sides of a
- * box are lit differently. An unlit white side would have the colour of the background. */
-static void make_light(struct gn_gltf *g) {
-    struct gn_scene *scene = g->scene;
-    scene->added.light = true;
-    vec3 middle;
-    glm_vec3_center(scene->box.min, scene->box.max, middle);
-    scene->lights[scene->light_count++] = (struct gn_light){
-        .name = "key light",
-        .node = add_node(g, "key light", middle, (vec3){-.2f, -1, -.6f}),
-        .type = GN_LIGHT_DIRECTIONAL,
-        .color = {2.8f, 2.8f * .95f, 2.8f * .87f},
-        .radius = gn_light_types[GN_LIGHT_DIRECTIONAL].radius,
-        .shadow_strength = 1,
-        .slide = -1,
-    };
-}
-
 /* A three-quarter view: from the front, the right and above; all of the box is in the picture, in
  * 4:3 and wider. */
 static void make_camera(struct gn_gltf *g) {
@@ -96,7 +78,23 @@ bool gn_scene_complete(struct gn_gltf *g) {
         scene->box = (struct gn_box){{-1, -1, -1}, {1, 1, 1}};
     gn_scene_find_plane(g, &pose);
     gn_pose_finish(&pose);
-    if (scene->light_count == 0) make_light(g);
+    if (scene->light_count == 0) {
+        /* A light from above, the front and a little left of the added camera: the three visible
+         * sides of a box are lit differently. An unlit white side would have the colour of the
+         * background. */
+        vec3 middle;
+        glm_vec3_center(scene->box.min, scene->box.max, middle);
+        scene->added.light = true;
+        scene->lights[scene->light_count++] = (struct gn_light){
+            .name = "key light",
+            .node = add_node(g, "key light", middle, (vec3){-.2f, -1, -.6f}),
+            .type = GN_LIGHT_DIRECTIONAL,
+            .color = {2.8f, 2.8f * .95f, 2.8f * .87f},
+            .radius = gn_light_types[GN_LIGHT_DIRECTIONAL].radius,
+            .shadow_strength = 1,
+            .slide = -1,
+        };
+    }
     if (scene->camera_count == 0) make_camera(g);
     char list[200] = "";
     for (size_t i = 0, at = 0; i < GN_MISSING_COUNT; i++)

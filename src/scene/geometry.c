@@ -42,18 +42,6 @@ static float *read_floats(struct gn_gltf *g, const struct gather *gather, size_t
     return floats;
 }
 
-static bool put_bytes(struct gn_gltf *g, const struct gather *gather, size_t components,
-                      uint8_t *out) {
-    struct gn_accessor a = *gather->accessor;
-    a.normalized = true;
-    struct gather normalized = *gather;
-    normalized.accessor = &a;
-    const float *floats = read_floats(g, &normalized, components);
-    for (size_t i = 0; floats && i < gather->count * components; i++)
-        out[i] = (uint8_t)(fminf(fmaxf(floats[i], 0), 1) * 255 + .5f);
-    return floats != NULL;
-}
-
 /* All attributes but positions and normals, of the vertices first .. first + count; huge and
  * infinite values become 0. */
 static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
@@ -72,7 +60,14 @@ static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
             else if (row->missing_is_1)
                 for (size_t k = 0; k < count; k++) floats[k] = 1;
         } else if (row->format == GN_ATTRIBUTE_UNORM8) {
-            if (!put_bytes(g, &gather, row->components, bytes)) return false;
+            struct gn_accessor normalized = *gather.accessor;
+            struct gather from = gather;
+            normalized.normalized = true;
+            from.accessor = &normalized;
+            const float *values = read_floats(g, &from, row->components);
+            if (!values) return false;
+            for (size_t k = 0; k < count; k++)
+                bytes[k] = (uint8_t)(fminf(fmaxf(values[k], 0), 1) * 255 + .5f);
         } else {
             put_floats(&gather, row->components, floats);
             for (size_t k = 0; k < count; k++)

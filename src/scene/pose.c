@@ -117,26 +117,6 @@ static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
     return pose->clips == (int)clip;
 }
 
-/* Marks and lists the nodes and items that the clips animate. */
-static void find_moving(struct gn_pose *pose) {
-    struct memory *memory = pose->memory;
-    const struct gn_scene *scene = pose->scene;
-    for (uint32_t c = 0; c < scene->animation.clip_count; c++) {
-        const struct gn_clip *clip = &scene->animation.clips[c];
-        if (!clip_on(pose, c)) continue;
-        if (clip->channel_count > 0) pose->animated = true;
-        for (uint32_t i = 0; i < clip->channel_count; i++)
-            pose->node_moves[scene->animation.channels[clip->first_channel + i].node] = true;
-    }
-    for (uint32_t i = 0; i < scene->node_count; i++) {
-        int32_t parent = scene->nodes[i].parent;
-        if (parent >= 0 && pose->node_moves[parent]) pose->node_moves[i] = true;
-        if (pose->node_moves[i]) memory->nodes[memory->node_count++] = i;
-    }
-    for (uint32_t i = 0; i < scene->item_count; i++)
-        if (pose->node_moves[scene->items[i].node]) memory->items[memory->item_count++] = i;
-}
-
 /* ---- the pose ---- */
 
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips) {
@@ -161,7 +141,22 @@ void gn_pose_choose(struct gn_pose *pose, int clips) {
         memcpy(memory->local, scene->nodes, scene->node_count * sizeof *memory->local);
         memset(pose->node_moves, 0, scene->node_count * sizeof *pose->node_moves);
     }
-    find_moving(pose);
+
+    /* marks and lists the nodes and items that the clips animate */
+    for (uint32_t c = 0; c < scene->animation.clip_count; c++) {
+        const struct gn_clip *clip = &scene->animation.clips[c];
+        if (!clip_on(pose, c)) continue;
+        if (clip->channel_count > 0) pose->animated = true;
+        for (uint32_t i = 0; i < clip->channel_count; i++)
+            pose->node_moves[scene->animation.channels[clip->first_channel + i].node] = true;
+    }
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        int32_t parent = scene->nodes[i].parent;
+        if (parent >= 0 && pose->node_moves[parent]) pose->node_moves[i] = true;
+        if (pose->node_moves[i]) memory->nodes[memory->node_count++] = i;
+    }
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (pose->node_moves[scene->items[i].node]) memory->items[memory->item_count++] = i;
 
     /* everything is posed once; items that are not animated keep this pose */
     memory->still_ws = EMPTY;

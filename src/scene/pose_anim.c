@@ -3,29 +3,6 @@
 
 #include <string.h>
 
-static void interpolate_linear(const struct gn_channel *channel, const float *a, const float *b,
-                               float u, float *out) {
-    if (channel->path != GN_ANIM_ROTATION) {
-        for (int i = 0; i < 3; i++) out[i] = a[i] + (b[i] - a[i]) * u;
-        return;
-    }
-    versor from, to;
-    memcpy(from, a, sizeof from);
-    memcpy(to, b, sizeof to);
-    glm_quat_normalize(from);
-    glm_quat_normalize(to);
-    glm_quat_slerp(from, to, u, out);
-}
-
-/* a and b are whole keys: in-tangent, value, out-tangent. */
-static void interpolate_cubic(const float *a, const float *b, int n, float dt_s, float u,
-                              float *out) {
-    float u2 = u * u, u3 = u2 * u;
-    for (int i = 0; i < n; i++)
-        out[i] = (2 * u3 - 3 * u2 + 1) * a[n + i] + dt_s * (u3 - 2 * u2 + u) * a[2 * n + i] +
-                 (3 * u2 - 2 * u3) * b[n + i] + dt_s * (u3 - u2) * b[i];
-}
-
 void gn_channel_sample(const struct gn_channel *channel, double time_s, float *out) {
     int n = channel->path == GN_ANIM_ROTATION ? 4 : 3;
     bool cubic = channel->interpolation == GN_ANIM_CUBIC;
@@ -44,11 +21,21 @@ void gn_channel_sample(const struct gn_channel *channel, double time_s, float *o
         memcpy(out, key + (cubic ? n : 0), (size_t)n * sizeof *out);
     else {
         double dt_s = (double)channel->times_s[k + 1] - start_s; /* not 0: time_s lies between */
-        float u = (float)((time_s - start_s) / dt_s);
-        if (cubic)
-            interpolate_cubic(key, key + stride, n, (float)dt_s, u, out);
-        else
-            interpolate_linear(channel, key, key + stride, u, out);
+        float u = (float)((time_s - start_s) / dt_s), u2 = u * u, u3 = u2 * u, dt = (float)dt_s;
+        const float *a = key, *b = key + stride;
+        /* whole keys of a cubic: in-tangent, value, out-tangent */
+        for (int i = 0; cubic && i < n; i++)
+            out[i] = (2 * u3 - 3 * u2 + 1) * a[n + i] + dt * (u3 - 2 * u2 + u) * a[2 * n + i] +
+                     (3 * u2 - 2 * u3) * b[n + i] + dt * (u3 - u2) * b[i];
+        for (int i = 0; !cubic && n == 3 && i < n; i++) out[i] = a[i] + (b[i] - a[i]) * u;
+        if (!cubic && n == 4) {
+            versor from, to;
+            memcpy(from, a, sizeof from);
+            memcpy(to, b, sizeof to);
+            glm_quat_normalize(from);
+            glm_quat_normalize(to);
+            glm_quat_slerp(from, to, u, out);
+        }
     }
     if (n == 4) glm_quat_normalize(out);
 }

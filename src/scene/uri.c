@@ -49,23 +49,6 @@ static bool base64_decode(const char *text, size_t length, uint8_t *out, size_t 
     return length % 4 != 1;
 }
 
-static bool fetch_data(struct gn_gltf *g, const char *uri, struct gn_blob *out,
-                       struct gn_err *err) {
-    const char *comma = strchr(uri, ',');
-    if (!comma) return gn_fail(err, "data URI without a comma");
-    size_t length = strlen(comma + 1);
-    uint8_t *bytes = gn_gltf_alloc(g, &g->memory.load, length, 1);
-    if (!bytes) return false;
-    static const char mark[] = ";base64";
-    size_t header = (size_t)(comma - uri), tail = sizeof mark - 1;
-    out->data = bytes;
-    if (header < tail || strncasecmp(comma - tail, mark, tail) != 0)
-        out->size = percent_decode(comma + 1, bytes);
-    else if (!base64_decode(comma + 1, length, bytes, &out->size))
-        return gn_fail(err, "data URI: not valid base64");
-    return true;
-}
-
 /* ---- files ---- */
 
 static bool has_scheme(const char *uri) {
@@ -139,9 +122,23 @@ bool gn_uri_read(struct gn_gltf *g, int fd, const char *uri, struct gn_blob *out
 
 bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err) {
     *out = (struct gn_blob){0};
-    if (gn_uri_is_data(uri)) return fetch_data(g, uri, out, err);
-    const int fd = gn_uri_open(g, uri, err);
-    return fd >= 0 && gn_uri_read(g, fd, uri, out, err);
+    if (!gn_uri_is_data(uri)) {
+        const int fd = gn_uri_open(g, uri, err);
+        return fd >= 0 && gn_uri_read(g, fd, uri, out, err);
+    }
+    static const char mark[] = ";base64";
+    const char *comma = strchr(uri, ',');
+    if (!comma) return gn_fail(err, "data URI without a comma");
+    size_t length = strlen(comma + 1);
+    uint8_t *bytes = gn_gltf_alloc(g, &g->memory.load, length, 1);
+    if (!bytes) return false;
+    size_t header = (size_t)(comma - uri), tail = sizeof mark - 1;
+    out->data = bytes;
+    if (header < tail || strncasecmp(comma - tail, mark, tail) != 0)
+        out->size = percent_decode(comma + 1, bytes);
+    else if (!base64_decode(comma + 1, length, bytes, &out->size))
+        return gn_fail(err, "data URI: not valid base64");
+    return true;
 }
 
 void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob) {

@@ -141,31 +141,6 @@ static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct
 
 /* ---- clips ---- */
 
-static void read_clip(struct gn_gltf *g, const struct gn_at *at, struct gn_clip *clip,
-                      uint8_t *claimed) {
-    struct gn_scene_animation *animation = &g->scene->animation;
-    struct gn_at samplers = gn_at_array(g, at, "samplers"),
-                 channels = gn_at_array(g, at, "channels");
-    float last_s = 0;
-    clip->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
-    gn_gltf_check_time(g);
-    clip->first_channel = animation->channel_count;
-    clip->on_by_default = true;
-    for (size_t i = 0; i < gn_at_size(&channels) && !g->failed; i++) {
-        struct gn_at channel_at = gn_at_item(g, &channels, i);
-        struct gn_channel *channel = &animation->channels[animation->channel_count];
-        if (g->failed || !read_channel(g, &channel_at, &samplers, channel)) continue;
-        const float *times_s = channel->times_s;
-        if (times_s) last_s = fmaxf(last_s, times_s[channel->key_count - 1]);
-        if (claimed[channel->node] & 1U << channel->path) clip->on_by_default = false;
-        animation->channel_count++;
-    }
-    clip->channel_count = animation->channel_count - clip->first_channel;
-    clip->duration_ns = llround((double)last_s * 1e9);
-    for (uint32_t i = clip->first_channel; i < animation->channel_count; i++)
-        claimed[animation->channels[i].node] |= (uint8_t)(1U << animation->channels[i].path);
-}
-
 bool gn_gltf_animations(struct gn_gltf *g) {
     struct gn_scene_animation *animation = &g->scene->animation;
     struct gn_at root = gn_at_root(g), array = gn_at_array(g, &root, "animations");
@@ -181,7 +156,27 @@ bool gn_gltf_animations(struct gn_gltf *g) {
     uint8_t *claimed = gn_gltf_alloc(g, &g->memory.load, g->scene->node_count, 1);
     for (size_t i = 0; i < count && !g->failed; i++) {
         struct gn_at at = gn_at_element(&array, i);
-        read_clip(g, &at, &animation->clips[animation->clip_count++], claimed);
+        struct gn_clip *clip = &animation->clips[animation->clip_count++];
+        struct gn_at samplers = gn_at_array(g, &at, "samplers"),
+                     list = gn_at_array(g, &at, "channels");
+        float last_s = 0;
+        clip->name = gn_gltf_strdup(g, gn_at_text(g, &at, "name"));
+        gn_gltf_check_time(g);
+        clip->first_channel = animation->channel_count;
+        clip->on_by_default = true;
+        for (size_t k = 0; k < gn_at_size(&list) && !g->failed; k++) {
+            struct gn_at channel_at = gn_at_item(g, &list, k);
+            struct gn_channel *channel = &animation->channels[animation->channel_count];
+            if (g->failed || !read_channel(g, &channel_at, &samplers, channel)) continue;
+            const float *times_s = channel->times_s;
+            if (times_s) last_s = fmaxf(last_s, times_s[channel->key_count - 1]);
+            if (claimed[channel->node] & 1U << channel->path) clip->on_by_default = false;
+            animation->channel_count++;
+        }
+        clip->channel_count = animation->channel_count - clip->first_channel;
+        clip->duration_ns = llround((double)last_s * 1e9);
+        for (uint32_t k = clip->first_channel; k < animation->channel_count; k++)
+            claimed[animation->channels[k].node] |= (uint8_t)(1U << animation->channels[k].path);
     }
     return !g->failed;
 }
