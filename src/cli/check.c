@@ -74,16 +74,6 @@ static bool check_looks(struct check *c, const struct gn_settings *settings, str
 
 /* ---- what else the settings name ------------------------------------------------------------ */
 
-/* As "HDMI-A-1": the kernel's names end with a number. */
-static bool check_connector(const struct gn_settings *s, struct gn_err *err) {
-    const char *name = s->display.connector, *dash = name ? strrchr(name, '-') : NULL;
-    if (!name || (dash && dash > name && dash[1] && !dash[1 + strspn(dash + 1, "0123456789")]))
-        return true;
-    return gn_fail_usage(err,
-                         "%s: \"%s\" is not a connector such as HDMI-A-1; gnomon doctor lists them",
-                         gn_settings_label(s, display.connector), name);
-}
-
 /* Cards are named by path, or by their place on the bus; a card that is away may come back. */
 static bool check_device(const char *name, const char *label, struct gn_err *err) {
     const bool is_number =
@@ -95,13 +85,6 @@ static bool check_device(const char *name, const char *label, struct gn_err *err
                          label, name);
 }
 
-static bool check_folder(const char *path, const char *label, struct gn_err *err) {
-    struct stat info;
-    if (stat(path, &info) != 0)
-        return gn_fail(err, "%s: %s: cannot use it: %s", label, path, strerror(errno));
-    return S_ISDIR(info.st_mode) || gn_fail(err, "%s: %s: is not a folder", label, path);
-}
-
 static bool check_names(const struct gn_settings *s, struct gn_err *err) {
     struct gn_font *font = s->render.font ? gn_font_open_file(s->render.font, err) : NULL;
     gn_font_close(font);
@@ -109,11 +92,21 @@ static bool check_names(const struct gn_settings *s, struct gn_err *err) {
         return gn_fail_prefix(err, "%s", gn_settings_label(s, render.font));
     if (s->kiosk.socket && !gn_listen_check(s->kiosk.socket, err))
         return gn_fail_prefix(err, "%s", gn_settings_label(s, kiosk.socket));
-    const char *screenshots = s->kiosk.screenshots;
-    if (screenshots && !check_folder(screenshots, gn_settings_label(s, kiosk.screenshots), err))
-        return false;
-    return check_connector(s, err) &&
-           check_device(s->display.card, gn_settings_label(s, display.card), err) &&
+    const char *folder = s->kiosk.screenshots;
+    struct stat info;
+    if (folder && stat(folder, &info) != 0)
+        return gn_fail(err, "%s: %s: cannot use it: %s", gn_settings_label(s, kiosk.screenshots),
+                       folder, strerror(errno));
+    if (folder && !S_ISDIR(info.st_mode))
+        return gn_fail(err, "%s: %s: is not a folder", gn_settings_label(s, kiosk.screenshots),
+                       folder);
+    /* as "HDMI-A-1": the kernel's names end with a number */
+    const char *name = s->display.connector, *dash = name ? strrchr(name, '-') : NULL;
+    if (name && (!dash || dash == name || !dash[1] || dash[1 + strspn(dash + 1, "0123456789")]))
+        return gn_fail_usage(
+            err, "%s: \"%s\" is not a connector such as HDMI-A-1; gnomon doctor lists them",
+            gn_settings_label(s, display.connector), name);
+    return check_device(s->display.card, gn_settings_label(s, display.card), err) &&
            check_device(s->display.render_node, gn_settings_label(s, display.render_node), err);
 }
 

@@ -10,33 +10,6 @@ enum { TEXTURE_MAX_PX = 4096, TRIANGLES_MAX = 500000, DRAWS_MAX = 500, TEXTURES_
 #define CONE_MAX_DEG 80.0f
 #define DEPTH_RATIO  1e6f
 
-/* The scene as a whole. */
-static void check_amounts(struct gn_inspection *in) {
-    const struct gn_scene *s = in->scene;
-    float size = glm_vec3_distance((float *)s->box.min, (float *)s->box.max);
-    if (!s->item_count)
-        gn_problem_add(&in->advice, "export the meshes too, or check what was selected",
-                       "there is nothing to draw");
-    else if (size < SIZE_MIN_M)
-        gn_problem_add(&in->advice, "lengths are metres: scale it up, or apply the scale on export",
-                       "the whole scene is only %.3g m across", (double)size);
-    else if (size > SIZE_MAX_M)
-        gn_problem_add(&in->advice,
-                       "lengths are metres: scale it down, or take away what lies far off",
-                       "the scene is %.4g m across: shadow maps get coarse", (double)size);
-    if (s->triangle_count > TRIANGLES_MAX)
-        gn_problem_add(&in->advice, "simplify the densest meshes (Blender: Decimate)",
-                       "%llu triangles are many for a small board",
-                       (unsigned long long)s->triangle_count);
-    if (in->cost.draws > DRAWS_MAX)
-        gn_problem_add(&in->advice,
-                       "join meshes, or let equal ones share their mesh (Blender: Alt+D)",
-                       "%u draw calls in one picture", in->cost.draws);
-    if (GN_MB(in->cost.texture_bytes) > TEXTURES_MAX_MB)
-        gn_problem_add(&in->advice, "make the largest textures smaller",
-                       "textures take %.0f MB of GPU memory", GN_MB(in->cost.texture_bytes));
-}
-
 static void check_surfaces(struct gn_inspection *in) {
     const struct gn_scene *s = in->scene;
     for (uint32_t i = 0; i < s->pictures.image_count; i++) {
@@ -121,7 +94,31 @@ static void check_lights(struct gn_inspection *in) {
 
 void gn_inspect_advise(struct gn_inspection *in) {
     const struct gn_scene *s = in->scene;
-    check_amounts(in);
+
+    /* the scene as a whole */
+    float size = glm_vec3_distance((float *)s->box.min, (float *)s->box.max);
+    if (!s->item_count)
+        gn_problem_add(&in->advice, "export the meshes too, or check what was selected",
+                       "there is nothing to draw");
+    else if (size < SIZE_MIN_M)
+        gn_problem_add(&in->advice, "lengths are metres: scale it up, or apply the scale on export",
+                       "the whole scene is only %.3g m across", (double)size);
+    else if (size > SIZE_MAX_M)
+        gn_problem_add(&in->advice,
+                       "lengths are metres: scale it down, or take away what lies far off",
+                       "the scene is %.4g m across: shadow maps get coarse", (double)size);
+    if (s->triangle_count > TRIANGLES_MAX)
+        gn_problem_add(&in->advice, "simplify the densest meshes (Blender: Decimate)",
+                       "%llu triangles are many for a small board",
+                       (unsigned long long)s->triangle_count);
+    if (in->cost.draws > DRAWS_MAX)
+        gn_problem_add(&in->advice,
+                       "join meshes, or let equal ones share their mesh (Blender: Alt+D)",
+                       "%u draw calls in one picture", in->cost.draws);
+    if (GN_MB(in->cost.texture_bytes) > TEXTURES_MAX_MB)
+        gn_problem_add(&in->advice, "make the largest textures smaller",
+                       "textures take %.0f MB of GPU memory", GN_MB(in->cost.texture_bytes));
+
     check_surfaces(in);
     check_lights(in);
     for (uint32_t i = 0; i < s->camera_count; i++) {

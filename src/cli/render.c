@@ -29,44 +29,10 @@ static bool is_pattern(const char *path) {
     return *p == 'd' && p - percent <= 4 && !strchr(p, '%');
 }
 
-static bool check_options(const struct gn_settings *o, struct render *r, struct gn_err *err) {
-    if (!o->run.out) return gn_fail_usage(err, "render: no output file: add -o FILE.png");
-    if (!gn_picture_format_of(o->run.out, &r->format, err)) return false;
-    if (o->run.frames > 1 && !is_pattern(o->run.out))
-        return gn_fail_usage(
-            err, "-o %s: with --frames %d the name needs a number, as in frame-%%04d.png",
-            o->run.out, o->run.frames);
-    if (strchr(o->run.out, '%') && !is_pattern(o->run.out))
-        return gn_fail_usage(
-            err, "-o %s: only one %%d, as in frame-%%04d.png, can stand in the name", o->run.out);
-    if (o->render.aov == GN_AOV_DISTANCE && r->format != GN_PICTURE_PFM)
-        return gn_fail_usage(err, "-o %s: distances are metres and need a .pfm file", o->run.out);
-    r->map = o->render.aov == GN_AOV_COUNT;
-    return true;
-}
-
 static void keep_channels(float *values, size_t count, int channels) {
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < channels; k++)
             values[i * (size_t)channels + (size_t)k] = values[4 * i + (size_t)k];
-}
-
-static bool write_color(struct render *r, const struct gn_plan *plan, const char *path,
-                        struct gn_err *err) {
-    int w = (int)plan->width_px, h = (int)plan->height_px;
-    if (r->format == GN_PICTURE_PNG)
-        return gn_gl_read_rgba8(r->stage.gl, r->rgba, err) &&
-               gn_picture_write_png8(path, r->rgba, w, h,
-                                     r->stage.settings->render.output == GN_PICTURE_SRGB, err);
-    if (plan->output == GN_OUTPUT_FLOAT) {
-        if (!gn_gl_read_f32(r->stage.gl, r->floats, err)) return false;
-    } else {
-        if (!gn_gl_read_rgba8(r->stage.gl, r->rgba, err)) return false;
-        for (size_t i = 0; i < 4 * (size_t)w * (size_t)h; i++)
-            r->floats[i] = (float)r->rgba[i] / 255.0f;
-    }
-    keep_channels(r->floats, (size_t)w * (size_t)h, 3);
-    return gn_picture_write_pfm(path, r->floats, 3, w, h, err);
 }
 
 static bool write_grey(const struct render *r, const char *path, const float *grey, int w, int h,
@@ -107,9 +73,17 @@ static bool write_picture(struct render *r, const struct gn_plan *plan, const ch
     const int w = (int)plan->width_px, h = (int)plan->height_px;
     const size_t pixels = (size_t)w * (size_t)h;
     if (r->map) return write_map(r, plan, path, err);
-    if (plan->aov == GN_AOV_COLOR) return write_color(r, plan, path, err);
-    if (!gn_gl_read_f32(r->stage.gl, r->floats, err)) return false;
-    if (plan->aov != GN_AOV_NORMAL) {
+    if (plan->aov == GN_AOV_COLOR && r->format == GN_PICTURE_PNG)
+        return gn_gl_read_rgba8(r->stage.gl, r->rgba, err) &&
+               gn_picture_write_png8(path, r->rgba, w, h,
+                                     r->stage.settings->render.output == GN_PICTURE_SRGB, err);
+    if (plan->aov == GN_AOV_COLOR && plan->output != GN_OUTPUT_FLOAT) {
+        if (!gn_gl_read_rgba8(r->stage.gl, r->rgba, err)) return false;
+        for (size_t i = 0; i < 4 * pixels; i++) r->floats[i] = (float)r->rgba[i] / 255.0f;
+    } else if (!gn_gl_read_f32(r->stage.gl, r->floats, err)) {
+        return false;
+    }
+    if (plan->aov != GN_AOV_NORMAL && plan->aov != GN_AOV_COLOR) {
         keep_channels(r->floats, pixels, 1);
         return write_grey(r, path, r->floats, w, h, err);
     }
@@ -154,8 +128,20 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
 bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warnings,
                    struct gn_err *err) {
     const struct gn_settings *o = options->settings;
-    struct render r = {0};
-    bool ok = check_options(o, &r, err) && gn_stage_load(&r.stage, o, warnings, err);
+    struct render r = {.map = o->render.aov == GN_AOV_COUNT};
+    if (!o->run.out) return gn_fail_usage(err, "render: no output file: add -o FILE.png");
+    if (!gn_picture_format_of(o->run.out, &r.format, err)) return false;
+    if (o->run.frames > 1 && !is_pattern(o->run.out))
+        return gn_fail_usage(
+            err, "-o %s: with --frames %d the name needs a number, as in frame-%%04d.png",
+            o->run.out, o->run.frames);
+    if (strchr(o->run.out, '%') && !is_pattern(o->run.out))
+        return gn_fail_usage(
+            err, "-o %s: only one %%d, as in frame-%%04d.png, can stand in the name", o->run.out);
+    if (o->render.aov == GN_AOV_DISTANCE && r.format != GN_PICTURE_PFM)
+        return gn_fail_usage(err, "-o %s: distances are metres and need a .pfm file", o->run.out);
+
+    bool ok = gn_stage_load(&r.stage, o, warnings, err);
     r.stage.frame_opts.output_float = o->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
     ok = ok && gn_stage_open(&r.stage, warnings, err);
     if (ok && o->run.caption) { /* it stays: one layout for all frames */
