@@ -34,6 +34,7 @@ static bool end_child(pid_t pid) {
 static bool wait_for_child(pid_t pid, int end, const struct gn_child *child, void *shared,
                            struct gn_err *err) {
     int stall_s = child->stall_s ? child->stall_s : 60, status = 0;
+    int wake = child->wake ? child->wake : -1;
     int64_t since_ns = gn_clock_monotonic_ns();
     uint32_t seen = 0;
     for (int round = 0;; round++) {
@@ -56,8 +57,9 @@ static bool wait_for_child(pid_t pid, int end, const struct gn_child *child, voi
 
         /* Sleeps 0.1 s, less in the first rounds: most work is short. The child's exit ends the
          * sleep where the kernel has pidfd_open() (5.3). */
-        struct pollfd wake = {.fd = end, .events = POLLIN};
-        poll(&wake, 1, round < 20 ? 5 : 100);
+        struct pollfd wakes[] = {{.fd = end, .events = POLLIN}, {.fd = wake, .events = POLLIN}};
+        poll(wakes, 2, round < 20 ? 5 : 100);
+        if (wakes[1].revents & ~POLLIN) wake = -1; /* nobody can write any more */
     }
 }
 

@@ -13,6 +13,7 @@
 struct gn_child {
     void (*work)(void *shared, const void *argument);  /* runs in the child */
     void (*watch)(void *shared, const void *argument); /* about ten times a second here; or NULL */
+    int wake; /* a descriptor: when it has input, watch is called at once; 0: none */
     const atomic_bool *cancel; /* read as often; true kills the child; or NULL */
     const void *argument;
     const uint32_t *progress; /* counter in the shared memory; NULL: none. See stall_s */

@@ -79,15 +79,29 @@ bool gn_file_read_fd(int fd, const char *path, size_t limit, struct gn_bytes *ou
     return ok;
 }
 
+/* Does not block: neither on a FIFO without a writer nor on a device. */
+static int open_to_read(const char *path) {
+    return open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+}
+
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err) {
-    /* does not block: neither on a FIFO without a writer nor on a device */
-    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    return gn_file_read_fd(fd, path, limit, out, err);
+    return gn_file_read_fd(open_to_read(path), path, limit, out, err);
+}
+
+/* The descriptor if it is that of a regular file, else closes it. */
+static int keep_regular(int fd, const char *path, struct gn_err *err) {
+    struct stat info;
+    if (check_regular(fd, path, &info, err)) return fd;
+    close_quietly(fd);
+    return -1;
+}
+
+int gn_file_open(const char *path, struct gn_err *err) {
+    return keep_regular(open_to_read(path), path, err);
 }
 
 int gn_file_open_beneath(const char *folder, const char *name, struct gn_err *err) {
     char path[2 * PATH_MAX];
-    struct stat info;
     snprintf(path, sizeof path, "%s/%s", folder, name);
     int fd = gn_open_beneath(folder, name);
     if (fd == -EXDEV) {
@@ -95,9 +109,7 @@ int gn_file_open_beneath(const char *folder, const char *name, struct gn_err *er
         return -1;
     }
     if (fd < 0) errno = -fd, fd = -1;
-    if (check_regular(fd, path, &info, err)) return fd;
-    close_quietly(fd);
-    return -1;
+    return keep_regular(fd, path, err);
 }
 
 bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, struct gn_bytes *out,

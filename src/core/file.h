@@ -24,6 +24,8 @@ bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, st
 /* Opens such a file, so that its first bytes can be looked at before it is read; -1 with the reason
  * if there is none or it is no regular file. */
 int gn_file_open_beneath(const char *folder, const char *name, struct gn_err *err);
+/* Opens a regular file for reading; -1 with the reason if it is none. */
+int gn_file_open(const char *path, struct gn_err *err);
 /* Reads a file that is open, from the descriptor's position; closes it. path is for err. */
 bool gn_file_read_fd(int fd, const char *path, size_t limit, struct gn_bytes *out,
                      struct gn_err *err);
