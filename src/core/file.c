@@ -112,15 +112,6 @@ int gn_file_open_beneath(const char *folder, const char *name, struct gn_err *er
     return keep_regular(fd, path, err);
 }
 
-bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, struct gn_bytes *out,
-                          struct gn_err *err) {
-    char path[2 * PATH_MAX];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    *out = (struct gn_bytes){0};
-    const int fd = gn_file_open_beneath(folder, name, err);
-    return fd >= 0 && gn_file_read_fd(fd, path, limit, out, err);
-}
-
 void gn_bytes_finish(struct gn_bytes *bytes) {
     free(bytes->data);
     *bytes = (struct gn_bytes){0};

@@ -17,12 +17,9 @@ struct gn_bytes {
 /* Reads a regular file of at most limit bytes (0 = no limit). Refuses directories, devices, FIFOs
  * and sockets (without blocking on one); the error has the path and the reason. */
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err);
-/* The same for a name out of a model: a file of the model's folder or below. Refuses a path or a
- * link that leads outside; see gn_open_beneath(). */
-bool gn_file_read_beneath(const char *folder, const char *name, size_t limit, struct gn_bytes *out,
-                          struct gn_err *err);
-/* Opens such a file, so that its first bytes can be looked at before it is read; -1 with the reason
- * if there is none or it is no regular file. */
+/* Opens a file that a model names, of its folder or below, so that its first bytes can be looked at
+ * before it is read; -1 with the reason if there is none, if it is no regular file, or if the path
+ * or a link leads outside; see gn_open_beneath(). */
 int gn_file_open_beneath(const char *folder, const char *name, struct gn_err *err);
 /* Opens a regular file for reading; -1 with the reason if it is none. */
 int gn_file_open(const char *path, struct gn_err *err);

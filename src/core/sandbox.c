@@ -4,8 +4,8 @@
 #include "core/sandbox.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <grp.h>
+#include <limits.h>
 #include <linux/capability.h>
 #include <sched.h>
 #include <signal.h>
@@ -13,7 +13,6 @@
 #include <stdint.h>
 #include <string.h>
 #include <sys/prctl.h>
-#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -24,12 +23,7 @@
 struct ruleset { /* struct landlock_ruleset_attr */
     uint64_t files, network, scopes;
 };
-struct __attribute__((packed)) beneath { /* struct landlock_path_beneath_attr */
-    uint64_t allowed;
-    int32_t parent;
-};
-enum { PATH_BENEATH = 1, GET_VERSION = 1 };
-enum { READ_FILE = 1 << 2, READ_FOLDER = 1 << 3 }; /* the last not for a rule on a file */
+enum { GET_VERSION = 1 };
 
 /* All that a version can forbid: bits, and how long its struct is. */
 static const struct version {
@@ -45,46 +39,41 @@ static const struct version {
 };
 enum { VERSIONS = sizeof versions / sizeof versions[0] };
 
-static bool allow_reading(int rules, const char *path, uint64_t rights) {
-    const struct beneath rule = {rights, open(path, O_PATH | O_CLOEXEC)};
-    if (rule.parent < 0) return true; /* then it cannot be read at all */
-    const bool ok = syscall(SYS_landlock_add_rule, rules, PATH_BENEATH, &rule, 0) == 0;
-    close(rule.parent);
-    return ok;
-}
-
-/* 1: in force; 0: the kernel has none; -1: failed. */
-static int confine_files(const struct gn_sandbox *s, struct gn_err *err) {
+/* Without a rule nothing is allowed. 1: in force; 0: the kernel has none; -1: failed. */
+static int forbid_files(struct gn_err *err) {
     const long found = syscall(SYS_landlock_create_ruleset, NULL, 0, GET_VERSION);
     if (found < 1) return 0;
     const struct version *version = &versions[(found < VERSIONS ? found : VERSIONS) - 1];
     const int rules = (int)syscall(SYS_landlock_create_ruleset, &version->all, version->size, 0);
-    const bool ok = rules >= 0 && allow_reading(rules, s->folder, READ_FILE | READ_FOLDER) &&
-                    allow_reading(rules, s->file, READ_FILE) &&
-                    syscall(SYS_landlock_restrict_self, rules, 0) == 0;
-    if (!ok) gn_fail(err, "cannot confine itself to its folder (Landlock): %s", strerror(errno));
+    const bool ok = rules >= 0 && syscall(SYS_landlock_restrict_self, rules, 0) == 0;
+    if (!ok) gn_fail(err, "cannot renounce access to files (Landlock): %s", strerror(errno));
     if (rules >= 0) close(rules);
     return ok ? 1 : -1;
 }
 
 /* ---- what a process has ---------------------------------------------------------------------- */
 
-static void close_others(int kept) {
-    for (int first = STDERR_FILENO + 1; first >= 0;) {
-        const int last = first <= kept ? kept - 1 : INT32_MAX;
-        if (first <= last && syscall(SYS_close_range, (unsigned)first, (unsigned)last, 0) != 0)
-            for (int fd = first; fd <= last && fd < 4096; fd++) close(fd); /* before Linux 5.9 */
-        first = last < kept ? kept + 1 : -1;
-    }
+static void close_between(int before, int after) {
+    const int first = before > STDERR_FILENO ? before + 1 : STDERR_FILENO + 1, last = after - 1;
+    if (first <= last && syscall(SYS_close_range, (unsigned)first, (unsigned)last, 0) != 0)
+        for (int fd = first; fd <= last && fd < 4096; fd++) close(fd); /* before Linux 5.9 */
 }
 
-/* Root without capabilities cannot read what others keep private, so it becomes the file's owner.
- */
-static void become_owner(const char *path) {
-    struct stat info;
-    if (geteuid() != 0 || stat(path, &info) != 0 || info.st_uid == 0) return;
-    if (setgroups(0, NULL) != 0 || setresgid(info.st_gid, info.st_gid, info.st_gid) != 0) return;
-    (void)!setresuid(info.st_uid, info.st_uid, info.st_uid); /* without, it stays root by name */
+static void close_others(const int kept[2]) {
+    const int low = kept[0] < kept[1] ? kept[0] : kept[1];
+    const int high = kept[0] < kept[1] ? kept[1] : kept[0];
+    close_between(-1, low);
+    close_between(low, high);
+    close_between(high, INT_MAX);
+}
+
+/* Root without capabilities still owns root's files and devices. Where a container has no such
+ * user it stays root by name. */
+static void become_nobody(void) {
+    enum { NOBODY = 65534 };
+    if (geteuid() != 0) return;
+    if (setgroups(0, NULL) != 0 || setresgid(NOBODY, NOBODY, NOBODY) != 0) return;
+    (void)!setresuid(NOBODY, NOBODY, NOBODY);
 }
 
 static bool drop_capabilities(struct gn_err *err) {
@@ -95,25 +84,25 @@ static bool drop_capabilities(struct gn_err *err) {
            gn_fail(err, "cannot drop its capabilities: %s", strerror(errno));
 }
 
-int gn_sandbox_enter(const struct gn_sandbox *s, struct gn_err *err) {
+int gn_sandbox_enter(const int kept[2], struct gn_err *err) {
     const pid_t parent = getppid();
     int parent_signal = 0;
     prctl(PR_GET_PDEATHSIG, &parent_signal);
-    close_others(s->output);
+    close_others(kept);
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) {
         gn_fail(err, "cannot renounce more rights: %s", strerror(errno));
         return -1;
     }
     /* A network of its own, without a link to any other. Not permitted in all containers. */
     (void)!unshare(geteuid() == 0 ? CLONE_NEWNET : CLONE_NEWUSER | CLONE_NEWNET);
-    become_owner(s->file);
+    become_nobody();
     if (!drop_capabilities(err)) return -1;
 
     /* the kernel forgets this signal when rights change; the parent may have died by now */
     prctl(PR_SET_PDEATHSIG, parent_signal);
     if (parent_signal && getppid() != parent) _exit(0);
 
-    const int files = confine_files(s, err);
+    const int files = forbid_files(err);
     const int calls = files < 0 ? -1 : gn_syscall_filter(err);
     if (calls < 0) return -1;
     return (files ? GN_SANDBOX_LANDLOCK : 0) | (calls ? GN_SANDBOX_FILTER : 0);

@@ -1,13 +1,15 @@
-/* File access confined to the model's folder. Models name materials and textures by paths of the
- * machine that exported them: a path that leads out of the folder is retried by its base name. */
+/* Files of the model's folder, which the parent opens. Models name materials and textures by paths
+ * of the machine that exported them: a path that leads out of the folder is retried by its base
+ * name. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <unistd.h>
 
+#include "core/opener.h"
 #include "import/private.h"
 
-bool gn_import_folder_open(struct gn_import *import) {
+bool gn_import_folder_find(struct gn_import *import) {
     const char *path = import->opts->model, *slash = strrchr(path, '/');
     char folder[PATH_MAX];
     int length = slash ? (int)(slash - path + 1) : 2;
@@ -24,9 +26,20 @@ static size_t file_limit(const struct gn_import *import) {
     return (size_t)import->opts->file_mb << 20;
 }
 
+int gn_import_model_open(const struct gn_import *import, struct gn_err *err) {
+    return gn_opener_ask(import->opener, "", err);
+}
+
+bool gn_import_model_read(const struct gn_import *import, struct gn_bytes *bytes,
+                          struct gn_err *err) {
+    const int fd = gn_import_model_open(import, err);
+    *bytes = (struct gn_bytes){0};
+    return fd >= 0 && gn_file_read_fd(fd, import->opts->model, file_limit(import), bytes, err);
+}
+
 static bool read_in(const struct gn_import *import, const char *relative, struct gn_bytes *bytes) {
-    const char *folder = import->folder[0] ? import->folder : "/";
-    return gn_file_read_beneath(folder, relative, file_limit(import), bytes, NULL);
+    const int fd = gn_opener_ask(import->opener, relative, NULL);
+    return fd >= 0 && gn_file_read_fd(fd, relative, file_limit(import), bytes, NULL);
 }
 
 /* The name relative to the folder where it begins with it, without "./" and "file://". */
@@ -99,9 +112,8 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
     const bool is_model = strcmp(name, import->name) == 0;
     const size_t length = strlen(name);
     const bool is_material = length > 4 && strcasecmp(name + length - 4, ".mtl") == 0;
-    const bool found = is_model
-                           ? gn_file_read(import->opts->model, file_limit(import), &bytes, NULL)
-                           : gn_import_folder_read(import, name, &bytes);
+    const bool found = is_model ? gn_import_model_read(import, &bytes, NULL)
+                                : gn_import_folder_read(import, name, &bytes);
     if (!found) {
         if (is_material && !import->warned_materials)
             gn_warn(import->warnings,

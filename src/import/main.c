@@ -6,11 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/child.h"
+#include "core/opener.h"
 #include "core/stop.h"
+#include "core/text.h"
 #include "import/private.h"
 
 static const char help[] =
@@ -100,17 +103,29 @@ static bool parse_args(int argc, char **argv, struct gn_import_opts *opts, struc
 
 struct job {
     const struct gn_import_opts *opts;
-    int fd; /* memfd; the kernel frees it with its last descriptor */
+    int fd;                  /* memfd; the kernel frees it with its last descriptor */
+    int child_end;           /* of the socketpair on which the child asks for files */
+    struct gn_opener opener; /* its other end */
 };
 
 static void run_child(void *shared, const void *argument) {
     const struct job *job = argument;
-    gn_import_work(job->opts, job->fd, shared);
+    gn_import_work(job->opts, job->fd, job->child_end, shared);
+}
+
+static void open_file(void *shared, const void *argument) {
+    const struct job *job = argument;
+    (void)shared;
+    gn_opener_serve(&job->opener);
 }
 
 static bool wait_child(const struct job *job, struct gn_import_report *report, struct gn_err *err) {
     const struct gn_import_opts *o = job->opts;
-    struct gn_child child = {.work = run_child, .argument = job, .stall_s = o->time_s};
+    const struct gn_child child = {.work = run_child,
+                                   .watch = open_file,
+                                   .wake = job->opener.socket,
+                                   .argument = job,
+                                   .stall_s = o->time_s};
     struct gn_err end = {0};
     if (gn_child_run(&child, report, &end)) {
         gn_fail(err, "%.511s", report->err.text); /* a model may have put any bytes there */
@@ -138,6 +153,43 @@ static bool write_output(const struct job *job, struct gn_err *err) {
     return ok;
 }
 
+static bool run_job(const struct gn_import_opts *opts, struct gn_import_report *report,
+                    struct gn_err *err) {
+    char folder[PATH_MAX] = "./";
+    const char *slash = strrchr(opts->model, '/');
+    int ends[2] = {-1, -1};
+    bool ok = false;
+    if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - opts->model + 1), opts->model);
+    struct job job = {.opts = opts, .fd = memfd_create("gnomon-import", MFD_CLOEXEC)};
+    if (job.fd < 0)
+        gn_fail(err, "%s: cannot create a memory file for its .glb: %s", opts->model,
+                strerror(errno));
+    else if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+        gn_fail(err, "%s: cannot connect to the importer: %s", opts->model, strerror(errno));
+    else {
+        job.child_end = ends[1];
+        job.opener = (struct gn_opener){ends[0], folder, opts->model};
+        ok = wait_child(&job, report, err) && report->done && write_output(&job, err);
+    }
+    for (int i = 0; i < 2; i++)
+        if (ends[i] >= 0) close(ends[i]);
+    if (job.fd >= 0) close(job.fd);
+    return ok;
+}
+
+/* The child may have put any bytes there. */
+static void print_warnings(const struct gn_warnings *warnings) {
+    for (int i = 0; warnings && i < warnings->count && i < GN_WARN_MAX; i++) {
+        char text[sizeof warnings->text[i] + 1];
+        snprintf(text, sizeof text, "%.*s", (int)sizeof warnings->text[i], warnings->text[i]);
+        fputs("gnomon-import: warning: ", stderr);
+        gn_text_print(text, stderr);
+        fputc('\n', stderr);
+    }
+    if (warnings && warnings->dropped)
+        fprintf(stderr, "gnomon-import: warning: and %d more\n", warnings->dropped);
+}
+
 static bool import_model(int argc, char **argv, struct gn_err *err) {
     long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     long machine_mb = pages > 0 && page > 0 ? (long)((long long)pages * page >> 20) : 4096;
@@ -160,20 +212,8 @@ static bool import_model(int argc, char **argv, struct gn_err *err) {
     }
     struct gn_import_report *report = gn_child_share(sizeof *report, err);
     if (!report) return false;
-    struct job job = {.opts = &opts, .fd = memfd_create("gnomon-import", MFD_CLOEXEC)};
-    bool ok = false;
-    if (job.fd < 0)
-        gn_fail(err, "%s: cannot create a memory file for its .glb: %s", opts.model,
-                strerror(errno));
-    else {
-        ok = wait_child(&job, report, err) && report->done && write_output(&job, err);
-        close(job.fd);
-    }
-    const struct gn_warnings *warnings = &report->warnings;
-    for (int i = 0; ok && i < warnings->count && i < GN_WARN_MAX; i++)
-        fprintf(stderr, "gnomon-import: warning: %.255s\n", warnings->text[i]);
-    if (ok && warnings->dropped)
-        fprintf(stderr, "gnomon-import: warning: and %d more\n", warnings->dropped);
+    const bool ok = run_job(&opts, report, err);
+    print_warnings(ok ? &report->warnings : NULL);
     gn_child_unshare(report, sizeof *report);
     return ok;
 }

@@ -1,6 +1,7 @@
 /* PLY files before assimp 5.2 reads them: it hangs on an unknown format line, and loses a byte of
  * some binary ones. */
 #include <string.h>
+#include <unistd.h>
 
 #include "import/private.h"
 
@@ -8,11 +9,11 @@ bool gn_import_ply_check(const struct gn_import *import) {
     static const char *const known[] = {"ascii ", "binary_little_endian ", "binary_big_endian "};
     char header[4096];
     const char *path = import->opts->model;
-    FILE *file = fopen(path, "rb");
-    if (!file) return true; /* the reader reports the error */
-    const size_t size = fread(header, 1, sizeof header - 1, file);
-    fclose(file);
-    header[size] = 0;
+    const int fd = gn_import_model_open(import, NULL);
+    if (fd < 0) return true; /* the reader reports the error */
+    const ssize_t size = read(fd, header, sizeof header - 1);
+    close(fd);
+    header[size > 0 ? size : 0] = 0;
     if (strncmp(header, "ply", 3) != 0) return true; /* assimp rejects it */
     for (const char *line = header; line; line = strpbrk(line, "\r\n")) {
         line += strspn(line, "\r\n");

@@ -59,8 +59,9 @@ struct gn_import_node { /* in glTF node order */
 
 struct gn_import {
     const struct gn_import_opts *opts;
+    int opener; /* to the parent, which opens files: core/opener.h */
     enum gn_model_format format;
-    char folder[PATH_MAX]; /* real path of the model's folder; nothing outside it is read */
+    char folder[PATH_MAX]; /* real path of the model's folder; "" for "/" */
     char name[PATH_MAX];   /* path given to assimp: folder/name */
     const struct aiScene *scene;
     struct gn_glb glb;
@@ -81,8 +82,10 @@ struct gn_import {
 
 /* ---- worker.c ---- */
 
-/* Runs in the child: sets limits, converts into fd, fills the report. */
-void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_report *report);
+/* Runs in the child: sets limits, gives up its rights, converts into fd, fills the report. opener:
+ * a socket to the parent, see core/opener.h. */
+void gn_import_work(const struct gn_import_opts *opts, int fd, int opener,
+                    struct gn_import_report *report);
 
 /* ---- memory.c ---- */
 
@@ -95,7 +98,12 @@ void gn_import_no_memory(void) __attribute__((noreturn));
 
 /* ---- folder.c ---- */
 
-bool gn_import_folder_open(struct gn_import *import);
+/* Fills folder and name. Needs access to files. */
+bool gn_import_folder_find(struct gn_import *import);
+/* Opens and reads the model itself. */
+int gn_import_model_open(const struct gn_import *import, struct gn_err *err);
+bool gn_import_model_read(const struct gn_import *import, struct gn_bytes *bytes,
+                          struct gn_err *err);
 /* Reads a file that the model names, by its path if that lies in the folder, else by its base name.
  * Returns false without a message if there is none. */
 bool gn_import_folder_read(const struct gn_import *import, const char *name,

@@ -182,10 +182,7 @@ static void add_nodes(struct gn_import *import) {
 
 bool gn_import_scene_build(struct gn_import *import) {
     struct gn_bytes probe;
-    if (!gn_import_folder_open(import)) return false;
-    if (!gn_file_read(import->opts->model, (size_t)import->opts->file_mb << 20, &probe,
-                      import->err))
-        return false;
+    if (!gn_import_model_read(import, &probe, import->err)) return false;
     gn_bytes_finish(&probe);
     if (!read_scene(import)) return false;
     const struct aiScene *scene = import->scene;

@@ -26,19 +26,16 @@ static void limit_resource(int what, rlim_t most) {
     setrlimit(what, &limit);
 }
 
-/* The folder as folder.c finds it. */
-static bool enter_sandbox(const struct gn_import_opts *opts, int fd, struct gn_err *err) {
-    char folder[PATH_MAX] = "./";
-    const char *slash = strrchr(opts->model, '/');
-    if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - opts->model + 1), opts->model);
-    const struct gn_sandbox sandbox = {.folder = folder, .file = opts->model, .output = fd};
-    return gn_sandbox_enter(&sandbox, err) >= 0 ||
-           gn_fail_prefix(err, "%s: the importer", opts->model);
-}
-
-void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_report *report) {
+void gn_import_work(const struct gn_import_opts *opts, int fd, int opener,
+                    struct gn_import_report *report) {
     static struct gn_import import;
     gn_import_memory_begin(opts, report);
+    import = (struct gn_import){.opts = opts,
+                                .opener = opener,
+                                .format = gn_model_format_of(opts->model),
+                                .warnings = &report->warnings,
+                                .err = &report->err};
+    if (!gn_import_folder_find(&import)) return;
 
     /* the parent enforces wall time; RLIMIT_CPU is a second line of defence */
     if (BOUND_MEMORY) limit_resource(RLIMIT_AS, (rlim_t)opts->memory_mb << 20);
@@ -49,11 +46,11 @@ void gn_import_work(const struct gn_import_opts *opts, int fd, struct gn_import_
     signal(SIGXFSZ, SIG_IGN);
     setenv("LIBC_FATAL_STDERR_", "1", 1); /* otherwise glibc writes to the terminal */
 
-    if (!enter_sandbox(opts, fd, &report->err)) return;
-    import = (struct gn_import){.opts = opts,
-                                .format = gn_model_format_of(opts->model),
-                                .warnings = &report->warnings,
-                                .err = &report->err};
+    const int kept[2] = {fd, opener};
+    if (gn_sandbox_enter(kept, &report->err) < 0) {
+        gn_fail_prefix(&report->err, "%s: the importer", opts->model);
+        return;
+    }
     gn_glb_init(&import.glb);
     if (!gn_import_scene_build(&import)) return;
     report->done = gn_glb_write(&import.glb, fd, &report->err);

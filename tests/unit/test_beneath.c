@@ -136,9 +136,10 @@ static int try_names(void) {
     };
     int wrong = 0;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct gn_bytes bytes;
+        struct gn_bytes bytes = {0};
         struct gn_err err = {0};
-        const bool ok = gn_file_read_beneath(folder, cases[i].name, 100, &bytes, &err);
+        const int fd = gn_file_open_beneath(folder, cases[i].name, &err);
+        const bool ok = fd >= 0 && gn_file_read_fd(fd, cases[i].name, 100, &bytes, &err);
         const char *got = ok ? (const char *)bytes.data : err.text;
         const char *message = cases[i].message ? cases[i].message : "inside";
         if (ok != !cases[i].message || !strstr(got, message)) {
