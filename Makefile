@@ -143,7 +143,7 @@ GPIO_LIBS := $(if $(filter 1 2,$(GPIOD)),$(shell $(PKG) --libs libgpiod))
 SECCOMP_LIBS := $(shell $(PKG) --libs libseccomp 2> /dev/null)
 unused  := $(without) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
 SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
-TESTS_C := $(sort $(filter-out tests/board/% tests/gpus/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
+TESTS_C := $(sort $(filter-out tests/board/% tests/gpus/% tests/import/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
 PROG_C  := $(foreach d,unit plan image fuzz kms angle,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
 LIB     := $(B)/libgnomon.a
@@ -162,7 +162,8 @@ EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(su
 KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
 
 all: $(BIN) $(IMPORT) $(SCENES) man
-tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth
+tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth \
+       $(if $(IMPORT_C),$(B)/tests/hostile_assimp.so)
 man: $(O)/gnomon.1 $(O)/gnomon.ini.5
 
 $(BIN): $(call OBJ,src/main.c) $(KEEP) $(LIB)
@@ -197,10 +198,11 @@ $(B)/tests/tool_gpus: $(call OBJ,$(filter-out %/ident.c,$(wildcard tests/gpus/*.
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(GPIO_LIBS) $(LIBS)
 $(B)/tests/firstflip.so: tests/board/firstflip.c
 $(B)/tests/ident.so: tests/gpus/ident.c
-$(B)/tests/firstflip.so $(B)/tests/ident.so: $(B)/flags
+$(B)/tests/hostile_assimp.so: tests/import/hostile_assimp.c
+$(B)/tests/firstflip.so $(B)/tests/ident.so $(B)/tests/hostile_assimp.so: $(B)/flags
 	@mkdir -p $(@D) && echo "link $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) -fPIC -shared \
-	    $(shell $(PKG) --cflags libdrm) $(OF_ROOT) -o $@ $(filter %.c,$^) -ldl
+	    $(shell $(PKG) --cflags libdrm $(if $(IMPORT_C),assimp)) $(OF_ROOT) -o $@ $(filter %.c,$^) -ldl
 $(B)/tests/keyboard: tests/board/keyboard.c $(B)/flags
 	@mkdir -p $(@D) && echo "link $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) $(OF_ROOT) -o $@ $<

@@ -72,16 +72,37 @@ expect 1 'fan.obj: larger than the limit' "$import" --file 1 "$folder/m/fan.obj"
 filters=0
 ! ldd "$import" | grep -q libseccomp || filters=2
 wanted="CapPrm: 0000000000000000 CapEff: 0000000000000000 NoNewPrivs: 1 Seccomp: $filters "
+! awk "$(id -u) == 0"' && $1 <= 65534 && $1 + $3 > 65534 { found = 1 } END { exit !found }' /proc/self/uid_map || wanted="Uid: 65534 $wanted"
 rights=''
 "$import" "$folder/m/fan.obj" -o "$folder/f.glb" 2> "$folder/err" &
 while [ "$rights" != "$wanted" ] && kill -0 $! 2> /dev/null; do
     for child in $(cat /proc/$!/task/$!/children 2> /dev/null); do
-        rights=$(awk '/^(CapEff|CapPrm|NoNewPrivs|Seccomp):/ { printf "%s %s ", $1, $2 }' "/proc/$child/status" 2> /dev/null)
+        rights=$(awk '/^(CapEff|CapPrm|NoNewPrivs|Seccomp):/ || (/^Uid:/ && $2 == 65534) { printf "%s %s ", $1, $2 }' "/proc/$child/status" 2> /dev/null)
     done
 done
 kill $! 2> /dev/null
 wait $! 2> /dev/null
 [ "$rights" = "$wanted" ] || complain "the rights of the process that reads the model: $rights"
+
+# ---- a library taken over by the model tries to get out, with both layers and with each hidden from it ----
+
+hostile=$(dirname "$gnomon")/tests/hostile_assimp.so
+echo secret > "$folder/secret"
+# tries HIDDEN PATTERN: what it reports
+tries() {
+    expect 1 'cannot be read as' env LD_PRELOAD="$hostile" GN_HIDE="$1" "$import" "$model" -o "$folder/f.glb"
+    sed 's/.*read as [^(]*( *//; s/).*//; s/landlock *//' "$folder/err" > "$folder/tried"
+    grep -qxE "$2" "$folder/tried" || complain "without '$1' the library can: $(cat "$folder/tried")"
+}
+if [ -e "$hostile" ]; then
+    [ $filters = 0 ] || tries '' 'gets-model'
+    [ $filters = 0 ] || tries landlock 'gets-model'
+    LD_PRELOAD="$hostile" GN_HIDE=filter "$import" "$model" -o "$folder/f.glb" 2> "$folder/err"
+    ! grep -q landlock "$folder/err" || tries filter 'gets-model connects signals forks makes-code traces'
+    [ ! -e "$model.new" ] || complain 'the library made a file'
+else
+    complain "no $hostile (make tests): what the library can do was not tried"
+fi
 
 # ---- an importer that misbehaves, beside a copy of gnomon ----
 
