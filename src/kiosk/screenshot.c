@@ -29,33 +29,43 @@ struct gn_screenshot {
     struct gn_err err;
 };
 
-bool gn_screenshot_check(const char *path, struct gn_err *err) {
+static bool check_name(const char *path, struct gn_err *err) {
     const size_t length = strlen(path);
-    struct stat info;
     if (path[0] != '/')
         return gn_fail_usage(err, "screenshot: \"%.200s\" is not an absolute path", path);
     if (length <= 4 || strcmp(path + length - 4, ".png") != 0 || path[length - 5] == '/')
         return gn_fail_usage(err, "screenshot: \"%.200s\" does not end in .png", path);
-    if (length >= PATH_MAX) return gn_fail_usage(err, "screenshot: the path is too long");
+    return length < PATH_MAX || gn_fail_usage(err, "screenshot: the path is too long");
+}
+
+bool gn_screenshot_check(const char *path, struct gn_err *err) {
+    struct stat info;
+    if (!check_name(path, err)) return false;
     if (lstat(path, &info) == 0 && !S_ISREG(info.st_mode))
         return gn_fail(err, "screenshot: %.200s is no regular file; not replacing it", path);
     return true;
 }
 
-/* The path as the real path of the folder and a name, so that nobody can lead it elsewhere by a
- * link later; false: it is not directly in the folder. */
+/* The real path of the folder and the path's last part, if the rest of the path is the folder as
+ * the configuration names it, or its real path. The path itself is not looked up: that would tell a
+ * client what is there, and could wait for a file system that does not answer. */
 static bool resolve_in(const char *folder, const char *path, char *target) {
-    char wanted[PATH_MAX], given[PATH_MAX], parent[PATH_MAX];
-    const char *slash = strrchr(path, '/');
-    snprintf(parent, sizeof parent, "%.*s", (int)(slash - path + 1), path);
-    return realpath(folder, wanted) && realpath(parent, given) && strcmp(wanted, given) == 0 &&
-           snprintf(target, PATH_MAX, "%s%s", wanted[1] ? wanted : "", slash) < PATH_MAX;
+    char real[PATH_MAX];
+    const char *const spellings[] = {folder, real}, *slash = strrchr(path, '/');
+    if (!realpath(folder, real)) return false;
+    for (int i = 0; i < 2; i++) {
+        size_t length = strlen(spellings[i]);
+        while (length > 0 && spellings[i][length - 1] == '/') length--;
+        if (length == (size_t)(slash - path) && strncmp(path, spellings[i], length) == 0)
+            return snprintf(target, PATH_MAX, "%s%s", real[1] ? real : "", slash) < PATH_MAX;
+    }
+    return false;
 }
 
 bool gn_screenshot_permits(const char *path, int fd, const char *folder, char *target,
                            struct gn_err *err) {
     target[0] = 0;
-    if (fd < 0 && !gn_screenshot_check(path, err)) return false;
+    if (fd < 0 && !check_name(path, err)) return false;
     if (fd < 0 && folder && resolve_in(folder, path, target)) return true;
     if (fd < 0 && folder)
         return gn_fail(err,

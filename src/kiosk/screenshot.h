@@ -14,7 +14,7 @@ bool gn_screenshot_check(const char *path, struct gn_err *err);
 /* For the kiosk: may it write there for a client? With a descriptor: that is a memory file, which
  * no write waits for. Without one (-1): the path is that of a file in the folder of --screenshots
  * (NULL: there is none), since it is written with the kiosk's rights; target (PATH_MAX bytes) gets
- * its real path. */
+ * its real path. What is there is looked at when it is written: gn_file_replace(). */
 bool gn_screenshot_permits(const char *path, int fd, const char *folder, char *target,
                            struct gn_err *err);
 

@@ -141,7 +141,7 @@ static void no_other_descriptor_is_written_to(void **state) {
 static void the_kiosk_writes_into_the_configured_folder_only(void **state) {
     (void)state;
     static const char *const outside[] = {"shots/a/x.png", "shots/../x.png", "shotsx/x.png",
-                                          "x.png"};
+                                          "x.png",         "way/x.png",      "shots/./x.png"};
     char shots[100], link[100], target[PATH_MAX], wanted[PATH_MAX];
     assert_int_equal(mkdir(in_folder("shots"), 0700), 0);
     snprintf(shots, sizeof shots, "%s", path);
@@ -153,9 +153,11 @@ static void the_kiosk_writes_into_the_configured_folder_only(void **state) {
     strcat(wanted, "/x.png");
     assert_true(gn_screenshot_permits(in_folder("shots/x.png"), -1, shots, target, &err));
     assert_string_equal(target, wanted);
+    assert_true(gn_screenshot_permits(path, -1, strcat(shots, "//"), target, &err));
+    assert_string_equal(target, wanted);
     assert_true(gn_screenshot_permits(path, -1, link, target, &err));
     assert_string_equal(target, wanted);
-    assert_true(gn_screenshot_permits(in_folder("way/x.png"), -1, shots, target, &err));
+    assert_true(gn_screenshot_permits(in_folder("way/x.png"), -1, link, target, &err));
     assert_string_equal(target, wanted);
     assert_true(gn_screenshot_permits("/x.png", -1, "/", target, &err));
     assert_string_equal(target, "/x.png");
@@ -165,6 +167,23 @@ static void the_kiosk_writes_into_the_configured_folder_only(void **state) {
     }
     assert_false(gn_screenshot_permits("/tmp/x.png", -1, NULL, target, &err));
     assert_non_null(strstr(err.text, "screenshots in [kiosk]"));
+}
+
+/* The kiosk may see more than its client. */
+static void a_client_does_not_learn_what_is_elsewhere(void **state) {
+    (void)state;
+    char target[PATH_MAX], shots[100], before[sizeof err.text];
+    snprintf(shots, sizeof shots, "%s/shots", folder);
+    in_folder("is.png");
+    for (int i = 0; i < 2; i++) {
+        const char *configured = i ? shots : NULL;
+        assert_false(gn_screenshot_permits(path, -1, configured, target, &err));
+        memcpy(before, err.text, sizeof before);
+        assert_int_equal(mkdir(path, 0700), 0);
+        assert_false(gn_screenshot_permits(path, -1, configured, target, &err));
+        assert_string_equal(err.text, before);
+        assert_int_equal(rmdir(path), 0);
+    }
 }
 
 /* Whatever comes there after the check. */
@@ -245,6 +264,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(a_client_gets_it_in_its_memory_file, begin, end),
         cmocka_unit_test(no_other_descriptor_is_written_to),
         cmocka_unit_test(the_kiosk_writes_into_the_configured_folder_only),
+        cmocka_unit_test(a_client_does_not_learn_what_is_elsewhere),
         cmocka_unit_test_setup_teardown(nothing_but_a_file_is_written_over, begin, end),
         cmocka_unit_test_setup_teardown(what_fails_is_taken_with_its_reason, begin, end),
     };
