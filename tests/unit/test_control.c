@@ -370,6 +370,22 @@ static void no_user_takes_the_places_of_others(void **state) {
     for (int i = 0; i < GN_CONTROL_CLIENTS_MAX; i++) close(fds[i]);
 }
 
+static void others_use_up_no_changes_of_the_owner(void **state) {
+    (void)state;
+    if (geteuid() != 0) skip();
+    assert_int_equal(chmod(gn_ctl_test.folder, 0711), 0);
+    const int other = enter_as(1001), another = enter_as(1002), own = enter_as(0);
+    for (int i = 0; i < 2 * GN_CONTROL_CHANGES_PER_S; i++)
+        say(i % 2 ? other : another, "{\"cmd\":\"next\"}\n");
+    assert_int_equal(serve(), GN_CONTROL_CHANGES_PER_S);
+    for (int i = 0; i < 2 * GN_CONTROL_CHANGES_PER_S; i++) say(own, "{\"cmd\":\"next\"}\n");
+    assert_int_equal(serve(), GN_CONTROL_CHANGES_PER_S);
+    assert_non_null(strstr(heard(own), "\"next\",\"ok\":true"));
+    close(other);
+    close(another);
+    close(own);
+}
+
 static void who_does_not_read_is_cut_off(void **state) {
     (void)state;
     const int fd = enter_client(), other = enter_client();
@@ -434,6 +450,7 @@ int main(void) {
         TEST(more_changes_than_a_frame_can_take_are_busy),
         TEST(the_65th_client_is_told_so),
         TEST(no_user_takes_the_places_of_others),
+        TEST(others_use_up_no_changes_of_the_owner),
         TEST(who_does_not_read_is_cut_off),
         TEST(without_descriptors_nobody_spins),
     };

@@ -48,8 +48,9 @@ struct gn_control {
     struct gn_timer timer; /* due when there is something to do */
     int spare;             /* a descriptor that is closed to refuse a connection without any left */
     bool pending;          /* connections wait to be accepted */
-    int64_t now_ns, changes_ns; /* changes_ns: virtual time of the leaky bucket */
-    int turn;                   /* the client that is served first */
+    int64_t now_ns;
+    int64_t changes_ns[2]; /* virtual times of the leaky buckets: of others, of owners */
+    int turn;              /* the client that is served first */
     int budget;
     int queue[CLIENTS], queued, first;
     struct gn_control_counts counts;
@@ -162,10 +163,11 @@ static void send_reply(struct gn_control *c, struct client *client, json_t *json
 /* ---- lines ---------------------------------------------------------------------------------- */
 
 /* A leaky bucket as a virtual time: a burst of one second's changes, then an even rate. */
-static bool changes_too_often(struct gn_control *c, enum gn_ctl command) {
-    if (!(gn_ctl_rows[command].flags & GN_CTL_CHANGES)) return false;
-    if (c->changes_ns - c->now_ns > GN_NS_PER_S - CHANGE_NS) return true;
-    c->changes_ns = (c->changes_ns > c->now_ns ? c->changes_ns : c->now_ns) + CHANGE_NS;
+static bool changes_too_often(struct gn_control *c, const struct client *client) {
+    int64_t *until_ns = &c->changes_ns[gn_listen_is_owner(&c->listen, client->uid)];
+    if (!(gn_ctl_rows[client->buffers->request.command].flags & GN_CTL_CHANGES)) return false;
+    if (*until_ns - c->now_ns > GN_NS_PER_S - CHANGE_NS) return true;
+    *until_ns = (*until_ns > c->now_ns ? *until_ns : c->now_ns) + CHANGE_NS;
     return false;
 }
 
@@ -177,7 +179,7 @@ static void take_line(struct gn_control *c, struct client *client, const char *l
     if (!gn_request_parse(line, length, &client->buffers->request, &err)) {
         c->counts.wrong++;
         send_reply(c, client, gn_reply_failure(&err));
-    } else if (changes_too_often(c, client->buffers->request.command)) {
+    } else if (changes_too_often(c, client)) {
         c->counts.busy++;
         gn_fail(&err, "busy");
         send_reply(c, client, gn_reply_failure(&err));

@@ -17,8 +17,9 @@ enum {
     GN_CONTROL_USER_MAX = 16,    /* of these for a user other than root and the kiosk's */
     GN_CONTROL_KEPT = 8,         /* of these for root alone, and as many for the kiosk's user */
     GN_CONTROL_PER_STEP = 16,    /* lines handled, or pieces of 4 KiB discarded */
-    GN_CONTROL_CHANGES_PER_S = 20, /* commands that may cost a frame, of all clients together,
-                                      with a burst of 20; more are "busy" */
+    GN_CONTROL_CHANGES_PER_S = 20, /* commands that may cost a frame, with a burst of 20; more are
+                                      "busy". Of root and the kiosk's user; and as many of all
+                                      others together */
 };
 
 struct gn_control_counts {
