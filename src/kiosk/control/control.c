@@ -90,7 +90,7 @@ struct gn_control *gn_control_open(const char *path, struct gn_loop *loop, struc
 }
 
 static void close_passed(int *fd) {
-    if (*fd >= 0) close(*fd);
+    if (*fd >= 0) gn_passed_close(*fd);
     *fd = -1;
 }
 

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* While more closing threads wait, descriptors are not received: then the kernel drops them, which
@@ -30,6 +31,15 @@ static void close_aside(int fd) {
     pthread_attr_destroy(&attributes);
 }
 
+void gn_passed_close(int fd) {
+    enum { LARGE_BLOCKS = (16 << 20) / 512 };
+    struct stat info;
+    if (fstat(fd, &info) == 0 && info.st_blocks > LARGE_BLOCKS)
+        close_aside(fd);
+    else
+        close(fd);
+}
+
 /* Keeps the first memory file. Only those have seals. */
 static int take_descriptors(struct msghdr *message) {
     int kept = -1;
@@ -42,7 +52,7 @@ static int take_descriptors(struct msghdr *message) {
             if (is_memory && kept < 0)
                 kept = fd;
             else if (is_memory)
-                close(fd);
+                gn_passed_close(fd);
             else
                 close_aside(fd);
         }

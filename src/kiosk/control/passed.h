@@ -8,5 +8,8 @@
  * bytes, which is the caller's to close, or -1. Other descriptors are closed in a thread: to close
  * a file of a user's own file system (FUSE) waits for that user's program. */
 ssize_t gn_passed_receive(int socket, void *to, size_t room, int *passed);
+/* Closes a memory file; a large one in a thread, too, since the kernel frees its memory meanwhile.
+ */
+void gn_passed_close(int fd);
 
 #endif
