@@ -41,7 +41,8 @@ uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count) {
             if (other->moments == need->moments &&
                 gn_techniques[other->technique].filter == gn_techniques[need->technique].filter &&
                 other->map.width_px == need->map.width_px &&
-                other->map.height_px == need->map.height_px)
+                other->map.height_px == need->map.height_px &&
+                other->map.tile_count == need->map.tile_count)
                 steps = 0; /* the two use the same textures between the steps */
             if (other->paged && need->paged && other->encoding == need->encoding &&
                 other->map.tile_px == need->map.tile_px)
@@ -110,12 +111,15 @@ void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn
                 slot = i;
         }
         if (slot == frame->shadow_count) break;
-        const struct gn_light *light =
-            &frame->scene->lights[gn_frame_light_of_slot(frame, slot)->light];
+        struct gn_frame_light *light = gn_frame_light_of_slot(frame, slot);
         if (maps[slot].map_px > asked_px) asked_px = maps[slot].map_px;
-        maps[slot].map_px /= 2;
+        /* smaller tiles of cascades have no room for gutters: one map takes their place */
+        if (maps[slot].cascades > 1 && maps[slot].map_px / 2 < GN_CASCADE_LEAST_PX)
+            light->cascades = maps[slot].cascades = 1;
+        else
+            maps[slot].map_px /= 2;
         if (maps[slot].map_px < least_px) least_px = maps[slot].map_px;
-        set_size(light->type, &maps[slot], &needs[slot]);
+        set_size(frame->scene->lights[light->light].type, &maps[slot], &needs[slot]);
     }
     if (asked_px > 0 && gn_frame_notice(&frame->notes.said, GN_NOTICE_MAPS_MB, warnings))
         gn_warn(warnings,

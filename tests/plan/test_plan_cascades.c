@@ -333,6 +333,37 @@ static void test_penumbrae_are_bound_alike_on_both_sides_of_a_split(void **state
     gn_plan_end(&f);
 }
 
+/* Sixteen suns in one or two megabytes: tiles of 16 or 32 px would be less than some gutters. */
+static void test_they_end_before_tiles_are_too_small(void **state) {
+    (void)state;
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
+        for (uint64_t mb = 1; mb <= 16; mb *= 2) {
+            struct gn_plan_fixture f;
+            struct gn_light suns[GN_ALL_SHADOWS_MAX];
+            begin(&f, gn_field_scene_make(), 4096);
+            for (int i = 0; i < GN_ALL_SHADOWS_MAX; i++) suns[i] = f.scene->lights[0];
+            f.scene->lights = suns;
+            f.scene->light_count = GN_ALL_SHADOWS_MAX;
+            f.opts.shadow.technique_given = true;
+            f.opts.shadow.technique = (enum gn_technique)t;
+            f.opts.shadow.maps_bytes = mb << 20;
+            const struct gn_plan *plan = gn_plan_make(&f);
+            const char *broken = gn_plan_check(plan);
+            if (broken) fail_msg("%s", broken);
+            assert_int_equal(plan->shadow_count, t == GN_TECHNIQUE_NONE ? 0 : GN_ALL_SHADOWS_MAX);
+            assert_true(gn_plan_map_bytes(plan) <= mb << 20);
+            for (uint32_t i = 0; i < plan->shadow_count; i++) {
+                const struct gn_shadow_view *view = &plan->shadows[i];
+                assert_true(2 * view->map.gutter_px < view->map.tile_px);
+                assert_true(view->map.cascade_count == 0 || view->map.tile_px >= 64);
+                for (uint32_t k = 0; k < 16 * view->map.tile_count; k++)
+                    assert_true(
+                        isfinite(view->raster.tiles[k / 16].clip_from_world[k / 4 % 4][k % 4]));
+            }
+            gn_plan_end(&f);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_field_plan),
@@ -352,6 +383,7 @@ int main(void) {
         cmocka_unit_test(test_tiles_are_drawn_again_one_by_one),
         cmocka_unit_test(test_tiles_behind_an_empty_one_are_drawn_again),
         cmocka_unit_test(test_penumbrae_are_bound_alike_on_both_sides_of_a_split),
+        cmocka_unit_test(test_they_end_before_tiles_are_too_small),
     };
     return RUN(tests);
 }

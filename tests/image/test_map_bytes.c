@@ -1,0 +1,81 @@
+/* What is counted for shadow maps, against what is allocated for them: for each technique, way to
+ * store it and kind of light. */
+#include <stdio.h>
+#include <string.h>
+
+#include "gl/private.h"
+#include "plan/stage_scene.h"
+#include "unit/check.h"
+#include "unit/gl_help.h"
+
+static struct help_stage stage;
+
+/* Of what this plan uses. */
+static uint64_t allocated_bytes(const struct gn_plan *plan) {
+    struct gn_err err = {0};
+    uint64_t bytes = 0;
+    stage.gl->targets.prepares++;
+    if (!gn_gl_maps_ensure(stage.gl, plan, &err)) fail_msg("%s", err.text);
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
+        const struct gn_gl_map *map = &stage.gl->targets.maps[i];
+        if (map->framebuffer && map->last_used == stage.gl->targets.prepares) bytes += map->bytes;
+    }
+    return bytes;
+}
+
+static uint64_t kept_bytes(void) {
+    uint64_t bytes = 0;
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++) bytes += stage.gl->targets.maps[i].bytes;
+    return bytes;
+}
+
+static void compare(const struct gn_frame_opts *opts) {
+    const struct gn_plan *plan = gn_frame_build(stage.frame, &stage.pose, opts, NULL);
+    const uint64_t allocated = allocated_bytes(plan), counted = gn_plan_map_bytes(plan);
+    if (allocated != counted)
+        fail_msg("%s, %s, %s, %u px: %llu bytes allocated, %llu counted",
+                 gn_techniques[opts->shadow.technique].name,
+                 opts->shadow.encoding < GN_ENCODING_COUNT
+                     ? gn_encodings[opts->shadow.encoding].name
+                     : "auto",
+                 gn_moments[opts->shadow.moments].name, opts->shadow.map_px,
+                 (unsigned long long)allocated, (unsigned long long)counted);
+    assert_true(opts->shadow.maps_bytes == 0 || kept_bytes() <= opts->shadow.maps_bytes);
+}
+
+static void all_that_is_allocated_is_counted(void **state) {
+    (void)state;
+    static const unsigned sizes[] = {1024, 100, 0};
+    static const uint64_t limits[] = {0, 1 << 20, 8 << 20};
+    int cases = 0;
+    for (int i = 0; i < 3; i++) {
+        help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
+        for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
+            for (int e = 0; e <= GN_ENCODING_AUTO; e++)
+                for (int m = 0; m < GN_MOMENTS_COUNT; m++)
+                    for (int k = 0; k < 6; k++) {
+                        struct gn_frame_opts opts = {.width_px = 64,
+                                                     .height_px = 64,
+                                                     .shadow.technique_given = true,
+                                                     .shadow.technique = (enum gn_technique)t,
+                                                     .shadow.encoding = (enum gn_encoding)e,
+                                                     .shadow.moments = (enum gn_moments)m,
+                                                     .shadow.map_px = sizes[k % 3],
+                                                     .shadow.maps_bytes = limits[i],
+                                                     .shadow.cascades = k / 3 ? 1 : 0};
+                        const bool filters = gn_technique_filters_map(opts.shadow.technique);
+                        if (e == GN_ENCODING_STENCIL || (filters && e != GN_ENCODING_AUTO) ||
+                            (!filters && m != GN_MOMENTS_NONE))
+                            continue;
+                        compare(&opts);
+                        cases++;
+                    }
+        help_stage_close(&stage);
+    }
+    assert_true(cases > 500);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(all_that_is_allocated_is_counted)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
