@@ -120,7 +120,7 @@ void gn_import_ply_guard(struct gn_bytes *bytes);
 
 /* ---- obj.c ---- */
 
-/* Writes ".5" as "0.5". */
+/* Writes ".5" as "0.5", and "vt U" as "vt U 0"; leaves out comments of such lines. */
 void gn_import_obj_pad(struct gn_bytes *bytes);
 
 /* ---- mtl.c ---- */
