@@ -34,7 +34,7 @@ static void get_scene_size(const struct gn_scene *scene, vec3 out) {
 
 /* ---- for people ---------------------------------------------------------------------------- */
 
-/* Names come from a file: control characters are dropped. */
+/* Names come from a file: control characters are escaped. */
 __attribute__((format(printf, 2, 3))) static void print_line(FILE *to, const char *format, ...) {
     char text[512];
     va_list args;

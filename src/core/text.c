@@ -7,6 +7,7 @@
 
 #define DISTANCE_MAX 31
 #define ENDS_MIN     64 /* shorter buffers get only the beginning of a text */
+#define ESCAPE_BYTES 6  /* "\u001b" */
 
 static void cut_at_character(char *text, size_t length) {
     size_t start = length;
@@ -21,6 +22,7 @@ static void cut_at_character(char *text, size_t length) {
 /* Fills out with the beginning and the end of text. */
 static void join_ends(char *out, size_t size, const char *text, size_t length) {
     static const char gap[] = "...";
+    memcpy(out, text, size / 2);
     out[size / 2] = '\0';
     cut_at_character(out, size / 2);
     size_t start = strlen(out), room = size - 1 - start - strlen(gap);
@@ -41,46 +43,77 @@ static size_t control_length(const unsigned char *c) {
     return 0;
 }
 
-void gn_text_clean(char *text) {
-    char *to = text;
-    for (const char *c = text; *c;) {
-        const size_t length = control_length((const unsigned char *)c);
-        if (length == 0) *to++ = *c;
-        c += length > 0 ? length : 1;
-    }
-    *to = '\0';
+/* Writes the control character of so many bytes at c as \u001b; returns the end. */
+static char *write_escape(char *to, const unsigned char *c, size_t length) {
+    const unsigned code = length == 1 ? *c
+                          : length == 2
+                              ? (c[0] & 0x1fu) << 6 | (c[1] & 0x3fu)
+                              : (c[0] & 0xfu) << 12 | (c[1] & 0x3fu) << 6 | (c[2] & 0x3fu);
+    return to + snprintf(to, ESCAPE_BYTES + 1, "\\u%04x", code);
 }
 
 void gn_text_print(const char *text, FILE *to) {
     for (const unsigned char *c = (const unsigned char *)text; *c;) {
         const size_t length = control_length(c);
+        char escape[ESCAPE_BYTES + 1];
         if (length == 0)
             putc(*c, to);
-        else if (length == 1)
-            fprintf(to, "\\u%04x", *c);
-        else if (length == 2)
-            fprintf(to, "\\u%04x", (c[0] & 0x1fu) << 6 | (c[1] & 0x3fu));
         else
-            fprintf(to, "\\u%04x", (c[0] & 0xfu) << 12 | (c[1] & 0x3fu) << 6 | (c[2] & 0x3fu));
+            fwrite(escape, 1, (size_t)(write_escape(escape, c, length) - escape), to);
         c += length > 0 ? length : 1;
     }
+}
+
+/* The same into out, which has room for ESCAPE_BYTES times as much; returns the length. Tabs and
+ * ends of lines become spaces, or nothing at the end of the text. */
+static size_t escape_controls(const char *text, char *out) {
+    char *to = out, *end = out;
+    for (const unsigned char *c = (const unsigned char *)text; *c;) {
+        const size_t length = control_length(c);
+        if (*c >= '\t' && *c <= '\r') {
+            *to++ = ' ';
+        } else {
+            if (length == 0)
+                *to++ = (char)*c;
+            else
+                to = write_escape(to, c, length);
+            end = to;
+        }
+        c += length > 0 ? length : 1;
+    }
+    *end = '\0';
+    return (size_t)(end - out);
+}
+
+static bool is_clean(const char *text) {
+    while (*text && control_length((const unsigned char *)text) == 0) text++;
+    return !*text;
 }
 
 void gn_text_vformat(char *out, size_t size, const char *format, va_list args) {
     va_list again;
     va_copy(again, args);
-    int wanted = vsnprintf(out, size, format, args);
+    const int wanted = vsnprintf(out, size, format, args);
+    const size_t length = wanted > 0 ? (size_t)wanted : 0;
     if (wanted < 0) out[0] = '\0';
-    if (wanted >= (int)size) {
-        char *all = size >= ENDS_MIN ? malloc((size_t)wanted + 1) : NULL;
-        if (all && vsnprintf(all, (size_t)wanted + 1, format, again) == wanted)
-            join_ends(out, size, all, (size_t)wanted);
-        else
+    if (length >= size || !is_clean(out)) {
+        char *all = malloc((ESCAPE_BYTES + 1) * (length + 1)), *escaped = all + length + 1;
+        if (all && vsnprintf(all, length + 1, format, again) == wanted) {
+            const size_t long_length = escape_controls(all, escaped);
+            if (long_length >= size && size >= ENDS_MIN) {
+                join_ends(out, size, escaped, long_length);
+            } else {
+                snprintf(out, size, "%s", escaped);
+                if (long_length >= size) cut_at_character(out, strlen(out));
+            }
+        } else { /* no memory */
             cut_at_character(out, strlen(out));
+            for (char *c = out; *c; c++)
+                if (control_length((const unsigned char *)c)) *c = '?';
+        }
         free(all);
     }
     va_end(again);
-    gn_text_clean(out);
 }
 
 static int least_of_three(int a, int b, int c) {

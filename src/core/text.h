@@ -6,17 +6,15 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* Formats into out (size > 0 bytes with the ending zero), cleans it (gn_text_clean) and shortens a
- * text that does not fit, at whole UTF-8 characters: in the middle ("..."), since the reason stands
- * at the end, behind names that can be long; at the end where size is under 64 bytes.
- */
+/* Formats into out (size > 0 bytes with the ending zero): one line, whose control characters are
+ * escaped as gn_text_print() does; tabs and ends of lines become spaces. Shortens a text that does
+ * not fit, at whole UTF-8 characters: in the middle ("..."), since the reason stands at the end,
+ * behind names that can be long; at the end where size is under 64 bytes. */
 void gn_text_vformat(char *out, size_t size, const char *format, va_list args);
 
-/* Drops, in place, what would move the cursor or turn a line round: C0, DEL and C1 control
- * characters, separators of lines and paragraphs, and bidirectional controls. */
-void gn_text_clean(char *text);
-
-/* Prints a text from elsewhere on one line: the characters that gn_text_clean() drops as \u001b. */
+/* Prints a text from elsewhere on one line. What would move the cursor or turn a line round is
+ * printed as \u001b: C0, DEL and C1 control characters, separators of lines and paragraphs, and
+ * bidirectional controls. */
 void gn_text_print(const char *text, FILE *to);
 
 /* How many edits of a character (insert, delete, replace, swap with the next) turn a into b; texts

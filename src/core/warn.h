@@ -14,7 +14,7 @@ struct gn_warnings {
     char text[GN_WARN_MAX][256];
 };
 
-/* warnings may be NULL: then nothing is kept. One line each; control characters are dropped. */
+/* warnings may be NULL: then nothing is kept. One line each; control characters are escaped. */
 void gn_warn(struct gn_warnings *warnings, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* One "gnomon: warning: .." line each, then "and N more". */

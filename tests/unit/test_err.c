@@ -30,13 +30,23 @@ static void a_prefix_keeps_the_status(void **state) {
     assert_int_equal(err.status, GN_EXIT_USAGE);
 }
 
-static void control_characters_are_dropped(void **state) {
+static void control_characters_are_escaped(void **state) {
     (void)state;
     struct gn_err err = {0};
     gn_fail(&err, "a\nb\x1b[31mc\x7f"
                   "d\xc2\x9b"
-                  "e\t\xc3\xa9");
-    assert_string_equal(err.text, "ab[31mcde\xc3\xa9");
+                  "e\t\xc3\xa9\r\n");
+    assert_string_equal(err.text, "a b\\u001b[31mc\\u007fd\\u009be \xc3\xa9");
+
+    /* a name that becomes six times as long does not push the reason out */
+    char name[300];
+    memset(name, '\x1b', sizeof name - 1);
+    name[sizeof name - 1] = '\0';
+    gn_fail(&err, "%s: no such file", name);
+    assert_memory_equal(err.text, "\\u001b\\u001b", 12);
+    assert_non_null(strstr(err.text, "..."));
+    assert_string_equal(err.text + strlen(err.text) - 14, ": no such file");
+    for (const char *c = err.text; *c; c++) assert_true(*c >= ' ');
 }
 
 static void a_long_text_is_cut_at_a_whole_character(void **state) {
@@ -93,7 +103,7 @@ int main(void) {
         cmocka_unit_test(failing_returns_false_and_tells),
         cmocka_unit_test(nobody_needs_to_listen),
         cmocka_unit_test(a_prefix_keeps_the_status),
-        cmocka_unit_test(control_characters_are_dropped),
+        cmocka_unit_test(control_characters_are_escaped),
         cmocka_unit_test(a_long_text_is_cut_at_a_whole_character),
         cmocka_unit_test(a_long_name_does_not_push_the_reason_out),
         cmocka_unit_test(a_text_that_just_fits_is_whole),

@@ -251,15 +251,15 @@ static void test_warnings_stand_in_the_report(void **state) {
 
 static void test_text_moves_no_cursor(void **state) {
     (void)state;
-    set_material("{'name':'a\\u001b[2Jb','alphaMode':'BLEND'}");
+    set_material("{'name':'a\\u001b[2J\\u202eb','alphaMode':'BLEND'}");
     inspect();
     char *text = NULL;
     size_t size;
     FILE *file = open_memstream(&text, &size);
     gn_inspect_print(&in, file);
     fclose(file);
-    assert_null(strchr(text, '\33'));
-    assert_non_null(strstr(text, "a[2Jb"));
+    for (const char *c = text; *c; c++) assert_true(*c == '\n' || (*c >= ' ' && *c < 0x7f));
+    assert_non_null(strstr(text, "a\\u001b[2J\\u202eb"));
     assert_non_null(strstr(text, "2 triangles"));
     free(text);
 }

@@ -20,7 +20,7 @@ static void equal_texts_count_once(void **state) {
     struct gn_warnings warnings = {0};
     gn_warn(&warnings, "node %d", 1);
     gn_warn(&warnings, "node %d", 2);
-    gn_warn(&warnings, "node\n %d", 1);
+    gn_warn(&warnings, "node\n%d", 1);
     char *text = printed(&warnings);
     assert_int_equal(warnings.count, 2);
     assert_string_equal(text, "gnomon: warning: node 1\ngnomon: warning: node 2\n");
