@@ -39,6 +39,11 @@ expect 2 '--size: "100000x10"' render --size 100000x10 -o "$folder/a.png"
 expect 0 '/nowhere/x.ttf: cannot open' render --size 64x64 --caption Hi --font /nowhere/x.ttf -o "$folder/note.png"
 expect 0 '' render --size 64x64 --font /nowhere/x.ttf -o "$folder/plain.png" # nobody needs it
 cmp -s "$folder/note.png" "$folder/plain.png" && complain 'a caption that is not in the picture'
+expect 0 'warning: shadow maps exceed the limit maps_mb=1: tiles of up to' render --size 64x64 --limit maps_mb=1 -o "$folder/plain.png"
+expect 0 '' inspect --limit maps_mb=1
+grep -q 'shadow maps of [0-9]* MB exceed the limit maps_mb=1: they are reduced' "$folder/out" || complain 'inspect: maps over the limit'
+expect 0 '' inspect --limit maps_mb=100
+! grep -q maps_mb=100: "$folder/out" || complain 'inspect: maps within the limit'
 expect 2 '--size: "100000x10"' render -v --size 100000x10 -o "$folder/a.png"
 expect 2 'nosuch' render --shadow nosuch -o "$folder/a.png"
 printf '#?RADIANCE\n' > "$folder/sky.hdr"
@@ -63,7 +68,7 @@ grep -q "'stone'" "$folder/maps" || complain 'the sundial casts nothing'
 # asked to stop, a long run ends at once and leaves no half of a file
 mkdir "$folder/frames"
 "$gnomon" render assets/sundial.glb --size 64x64 --frames 9999 -o "$folder/frames/%04d.png" &
-sleep 1
+for _ in $(seq 300); do [ -e "$folder/frames/0000.png" ] || sleep .1; done
 kill -TERM $!
 wait $!
 [ $? = 143 ] || complain "render by SIGTERM: exit status $?"

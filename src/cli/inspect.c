@@ -17,10 +17,10 @@ bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnin
     if (gn_stage_limits(options->settings, &limits, err)) {
         gn_scene_limits_print(&limits, in.limits, sizeof in.limits);
         limits = gn_scene_limits_or_default(&limits);
-        if (in.cost.map_bytes >> 20 >= limits.maps_mb)
+        if (in.cost.map_bytes > limits.maps_mb << 20)
             gn_problem_add(&in.advice, "lower gnomon_map_px, or give fewer lights a shadow",
                            "shadow maps of %llu MB exceed the limit maps_mb=%llu: they are reduced",
-                           (unsigned long long)in.cost.map_bytes >> 20,
+                           (unsigned long long)(in.cost.map_bytes + 1048575) >> 20,
                            (unsigned long long)limits.maps_mb);
     }
     if (options->settings->run.json)
