@@ -37,7 +37,7 @@ static bool run(const struct gn_options *options, struct gn_warnings *warnings,
     return true;
 }
 
-static int report(bool ok, const struct gn_options *options, const struct gn_warnings *warnings,
+static int report(bool ok, const struct gn_options *options, struct gn_warnings *warnings,
                   const struct gn_err *err) {
     if (ok || options->settings->run.verbose) gn_warn_print(warnings, stderr);
     if (ok) return GN_EXIT_OK;

@@ -21,8 +21,12 @@ void gn_warn(struct gn_warnings *warnings, const char *format, ...) {
         memcpy(warnings->text[warnings->count++], text, sizeof text);
 }
 
-void gn_warn_print(const struct gn_warnings *warnings, FILE *to) {
-    for (int i = 0; i < warnings->count; i++)
-        fprintf(to, "gnomon: warning: %s\n", warnings->text[i]);
+void gn_warn_flush(struct gn_warnings *warnings, FILE *to) {
+    while (warnings->printed < warnings->count)
+        fprintf(to, "gnomon: warning: %s\n", warnings->text[warnings->printed++]);
+}
+
+void gn_warn_print(struct gn_warnings *warnings, FILE *to) {
+    gn_warn_flush(warnings, to);
     if (warnings->dropped) fprintf(to, "gnomon: warning: and %d more\n", warnings->dropped);
 }

@@ -74,8 +74,13 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
 }
 
 static bool run(struct gn_show *s, struct gn_err *err) {
-    while (!s->ends && s->counts.frames < s->counts.most_frames)
-        if (!gn_show_step(s, err)) return false;
+    bool ok = true;
+    gn_warn_flush(s->warnings, stderr);
+    while (ok && !s->ends && s->counts.frames < s->counts.most_frames) {
+        ok = gn_show_step(s, err);
+        gn_warn_flush(s->warnings, stderr);
+    }
+    if (!ok) return false;
     if (s->stage.settings->run.verbose && s->stage.gl)
         printf("%llu frames, %llu late, %lu allocations and %llu GL objects after the first\n",
                (unsigned long long)s->counts.frames,

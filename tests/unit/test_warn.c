@@ -6,7 +6,7 @@
 
 #include "core/warn.h"
 
-static char *printed(const struct gn_warnings *warnings) {
+static char *printed(struct gn_warnings *warnings) {
     char *text = NULL;
     size_t size;
     FILE *to = open_memstream(&text, &size);
@@ -48,10 +48,30 @@ static void none_print_nothing(void **state) {
     free(text);
 }
 
+static void each_is_printed_once(void **state) {
+    (void)state;
+    struct gn_warnings warnings = {0};
+    char *text = NULL;
+    size_t size;
+    FILE *to = open_memstream(&text, &size);
+    for (int i = 0; i < 3; i++) {
+        gn_warn(&warnings, "w%d", i);
+        gn_warn(&warnings, "w0");
+        if (i < 2) gn_warn_flush(&warnings, to);
+        fflush(to);
+        assert_int_equal(size, i == 0 ? 20 : 40);
+    }
+    gn_warn_print(&warnings, to);
+    fclose(to);
+    assert_string_equal(text, "gnomon: warning: w0\ngnomon: warning: w1\ngnomon: warning: w2\n");
+    free(text);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equal_texts_count_once),
         cmocka_unit_test(more_than_fit_are_counted),
+        cmocka_unit_test(each_is_printed_once),
         cmocka_unit_test(none_print_nothing),
     };
     return RUN(tests);
