@@ -57,6 +57,15 @@ void gn_captions_destroy(struct gn_captions *c) {
     free(c);
 }
 
+bool gn_captions_open_font(struct gn_captions *c, struct gn_err *err) {
+    const char *path = c->opts.font;
+    if (c->font) return true;
+    if (!path || *path) c->font = gn_font_open_file(path, err);
+    if (c->font) return true;
+    c->font = gn_font_open_dots();
+    return !path || !*path;
+}
+
 void gn_captions_set(struct gn_captions *c, enum gn_caption_kind kind, const char *text,
                      int64_t now_ns) {
     struct caption *caption = &c->captions[kind];
@@ -204,15 +213,9 @@ const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t wid
     c->shown_ns = now_ns;
     c->changed = false;
     if (!seen) return NULL;
-    if (!c->font) { /* warns once about a font that cannot be read, and continues without it */
-        struct gn_err err = {0};
-        const char *path = c->opts.font;
-        if (!path || *path) c->font = gn_font_open_file(path, &err);
-        if (!c->font && path && *path)
-            gn_warn(c->opts.warnings, "font: %s; texts are shown in the font inside the program",
-                    err.text);
-        if (!c->font) c->font = gn_font_open_dots();
-    }
+    struct gn_err err = {0};
+    if (!gn_captions_open_font(c, &err))
+        gn_warn(c->opts.warnings, "font: %s; texts are shown in the built-in font", err.text);
     if (c->stale || c->run.width_px != width_px || c->run.height_px != height_px) {
         const bool other_size = c->run.width_px != width_px || c->run.height_px != height_px;
         c->run.width_px = width_px;

@@ -3,6 +3,7 @@
 #define GN_CAPTION_CAPTIONS_H
 
 #include "caption/run.h"
+#include "core/err.h"
 #include "core/warn.h"
 
 #define GN_CAPTION_MODE_NS INT64_C(2000000000) /* how long a mode's name is shown */
@@ -18,6 +19,8 @@ struct gn_captions_opts { /* zero means the default written beside */
  * outlive it. */
 struct gn_captions *gn_captions_create(const struct gn_captions_opts *opts);
 void gn_captions_destroy(struct gn_captions *captions); /* NULL is legal */
+/* Opens the font now. False: the file in opts cannot be used, and the built-in font is. */
+bool gn_captions_open_font(struct gn_captions *captions, struct gn_err *err);
 
 /* Replaces the text of that kind (copied, cut at 2 kB); NULL or "" removes it. Equal text: a mode's
  * time starts again, else nothing changes. */

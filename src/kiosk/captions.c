@@ -13,6 +13,12 @@ void gn_show_open_captions(struct gn_show *s) {
     s->text.captions = gn_captions_create(&opts);
     s->text.view = (struct gn_kiosk_view){0};
     s->text.since_ns = 0;
+    struct gn_err why = {0};
+    if (!opts.font || gn_captions_open_font(s->text.captions, &why)) return;
+    char text[sizeof why.text + 64];
+    gn_fail_prefix(&why, "%s", gn_settings_label(s->stage.settings, render.font));
+    snprintf(text, sizeof text, "%s (texts are shown in the built-in font)", why.text);
+    gn_show_report_error(s, text);
 }
 
 /* The last part of the path; NULL: the built-in scene. */

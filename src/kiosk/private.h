@@ -192,7 +192,8 @@ void gn_show_drop_staged(struct gn_show *show);
 
 /* ---- captions.c: texts on the picture -------------------------------------------------------- */
 
-/* With the font of the settings; called again after a reload. */
+/* With the font of the settings; called again after a reload. A font that cannot be used is an
+ * error that lasts. */
 void gn_show_open_captions(struct gn_show *show);
 /* Sets the texts of the frame of that view. */
 void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *view, int64_t now_ns);
