@@ -26,13 +26,9 @@ static size_t file_limit(const struct gn_import *import) {
     return (size_t)import->opts->file_mb << 20;
 }
 
-int gn_import_model_open(const struct gn_import *import, struct gn_err *err) {
-    return gn_opener_ask(import->opener, "", err);
-}
-
 bool gn_import_model_read(const struct gn_import *import, struct gn_bytes *bytes,
                           struct gn_err *err) {
-    const int fd = gn_import_model_open(import, err);
+    const int fd = gn_opener_ask(import->opener, "", err);
     *bytes = (struct gn_bytes){0};
     return fd >= 0 && gn_file_read_fd(fd, import->opts->model, file_limit(import), bytes, err);
 }

@@ -1,19 +1,16 @@
 /* PLY files before assimp 5.2 reads them: it hangs on an unknown format line, and loses a byte of
  * some binary ones. */
 #include <string.h>
-#include <unistd.h>
 
 #include "import/private.h"
 
-bool gn_import_ply_check(const struct gn_import *import) {
+bool gn_import_ply_check(const struct gn_import *import, const struct gn_bytes *model) {
     static const char *const known[] = {"ascii ", "binary_little_endian ", "binary_big_endian "};
     char header[4096];
     const char *path = import->opts->model;
-    const int fd = gn_import_model_open(import, NULL);
-    if (fd < 0) return true; /* the reader reports the error */
-    const ssize_t size = read(fd, header, sizeof header - 1);
-    close(fd);
-    header[size > 0 ? size : 0] = 0;
+    const size_t size = model->size < sizeof header ? model->size : sizeof header - 1;
+    memcpy(header, model->data, size);
+    header[size] = 0;
     if (strncmp(header, "ply", 3) != 0) return true; /* assimp rejects it */
     for (const char *line = header; line; line = strpbrk(line, "\r\n")) {
         line += strspn(line, "\r\n");

@@ -100,8 +100,7 @@ void gn_import_no_memory(void) __attribute__((noreturn));
 
 /* Fills folder and name. Needs access to files. */
 bool gn_import_folder_find(struct gn_import *import);
-/* Opens and reads the model itself. */
-int gn_import_model_open(const struct gn_import *import, struct gn_err *err);
+/* Reads the model itself. */
 bool gn_import_model_read(const struct gn_import *import, struct gn_bytes *bytes,
                           struct gn_err *err);
 /* Reads a file that the model names, by its path if that lies in the folder, else by its base name.
@@ -114,7 +113,7 @@ struct aiFileIO gn_import_folder_io(struct gn_import *import);
 /* ---- ply.c ---- */
 
 /* Fails for a header that would hang assimp. */
-bool gn_import_ply_check(const struct gn_import *import);
+bool gn_import_ply_check(const struct gn_import *import, const struct gn_bytes *model);
 /* Keeps assimp from skipping the first byte of a binary body. */
 void gn_import_ply_guard(struct gn_bytes *bytes);
 

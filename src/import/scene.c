@@ -24,7 +24,6 @@ static bool fail_empty(const struct gn_import *import) {
 }
 
 static bool read_scene(struct gn_import *import) {
-    if (import->format == GN_MODEL_PLY && !gn_import_ply_check(import)) return false;
     struct aiFileIO io = gn_import_folder_io(import);
     struct aiPropertyStore *p = aiCreatePropertyStore();
     if (!p) gn_import_no_memory();
@@ -181,10 +180,12 @@ static void add_nodes(struct gn_import *import) {
 }
 
 bool gn_import_scene_build(struct gn_import *import) {
-    struct gn_bytes probe;
-    if (!gn_import_model_read(import, &probe, import->err)) return false;
-    gn_bytes_finish(&probe);
-    if (!read_scene(import)) return false;
+    /* for the reason why it cannot be read, which assimp does not have */
+    struct gn_bytes model;
+    if (!gn_import_model_read(import, &model, import->err)) return false;
+    const bool ok = import->format != GN_MODEL_PLY || gn_import_ply_check(import, &model);
+    gn_bytes_finish(&model);
+    if (!ok || !read_scene(import)) return false;
     const struct aiScene *scene = import->scene;
     if (!scene->mRootNode)
         return gn_fail(import->err, "%s: no scene in the file", import->opts->model);
