@@ -16,24 +16,6 @@ static void insert_step(struct gn_play *play, struct gn_play_step step) {
     play->steps[at] = step;
 }
 
-static bool add_line(struct gn_play *play, const struct gn_script_line *line,
-                     const char *const *names, int count, int64_t now_ns, struct gn_err *err) {
-    struct gn_play_step step = {.time_ns = now_ns + line->time_ns, .button = -1};
-    for (int i = 0; i < count && step.button < 0; i++)
-        if (strcmp(names[i], line->name) == 0) step.button = i;
-    if (step.button < 0) step.key = gn_key_find(line->name);
-    if (step.button < 0 && step.key == GN_KEY_NONE)
-        return gn_fail_usage(err, "unknown button or key \"%s\"", line->name);
-    if (step.button >= 0) play->buttons |= UINT32_C(1) << step.button;
-    step.down = line->what != GN_SCRIPT_UP;
-    insert_step(play, step);
-    if (line->what != GN_SCRIPT_CLICK) return true;
-    step.down = false;
-    if (step.button >= 0) step.time_ns += GN_SCRIPT_CLICK_NS;
-    insert_step(play, step);
-    return true;
-}
-
 bool gn_play_load(struct gn_play *play, const char *path, const char *const *names, int count,
                   int64_t now_ns, struct gn_err *err) {
     struct gn_bytes file = {0};
@@ -44,9 +26,23 @@ bool gn_play_load(struct gn_play *play, const char *path, const char *const *nam
     if (!ok) return false;
     play->steps = gn_arena_alloc(&play->arena, 2 * (size_t)script.count, sizeof *play->steps);
     if (!play->steps) return gn_fail(err, "%s: out of memory for its lines", path);
-    for (int i = 0; i < script.count; i++)
-        if (!add_line(play, &script.lines[i], names, count, now_ns, err))
-            return gn_fail_prefix(err, "%s:%d", path, script.lines[i].number);
+    for (int i = 0; i < script.count; i++) {
+        const struct gn_script_line *line = &script.lines[i];
+        struct gn_play_step step = {.time_ns = now_ns + line->time_ns, .button = -1};
+        for (int k = 0; k < count && step.button < 0; k++)
+            if (strcmp(names[k], line->name) == 0) step.button = k;
+        if (step.button < 0) step.key = gn_key_find(line->name);
+        if (step.button < 0 && step.key == GN_KEY_NONE)
+            return gn_fail_usage(err, "%s:%d: unknown button or key \"%s\"", path, line->number,
+                                 line->name);
+        if (step.button >= 0) play->buttons |= UINT32_C(1) << step.button;
+        step.down = line->what != GN_SCRIPT_UP;
+        insert_step(play, step);
+        if (line->what != GN_SCRIPT_CLICK) continue;
+        step.down = false;
+        if (step.button >= 0) step.time_ns += GN_SCRIPT_CLICK_NS;
+        insert_step(play, step);
+    }
     return true;
 }
 

@@ -64,20 +64,6 @@ static unsigned find_letter(uint8_t byte) {
     }
 }
 
-/* The number before ~. */
-static unsigned find_number(int number) {
-    enum { INSERT = 110, DELETE = 111 };
-    static const uint8_t keys[] = {0,          GN_KEY_HOME,   INSERT,          DELETE,
-                                   GN_KEY_END, GN_KEY_PAGEUP, GN_KEY_PAGEDOWN, GN_KEY_HOME,
-                                   GN_KEY_END};
-    static const uint8_t f_numbers[] = {0,  11, 12, 13, 14, 15, 17, 18, 19, 20, 21,
-                                        23, 24, 25, 26, 28, 29, 31, 32, 33, 34};
-    if (number < (int)sizeof keys) return keys[number];
-    for (size_t i = 1; i < sizeof f_numbers; i++)
-        if (f_numbers[i] == number) return f_keys[i];
-    return GN_KEY_NONE;
-}
-
 static unsigned step_csi(struct gn_terminal_keys *keys, uint8_t byte) {
     if (byte >= '0' && byte <= '9') {
         if (!keys->more && keys->number < 100) keys->number = 10 * keys->number + (byte - '0');
@@ -96,7 +82,19 @@ static unsigned step_csi(struct gn_terminal_keys *keys, uint8_t byte) {
     const bool other = keys->state == OTHER;
     keys->state = PLAIN;
     if (other) return GN_KEY_NONE;
-    return byte == '~' ? find_number(keys->number) : find_letter(byte);
+    if (byte != '~') return find_letter(byte);
+
+    /* the number before ~ */
+    enum { INSERT = 110, DELETE = 111 };
+    static const uint8_t numbered[] = {0,          GN_KEY_HOME,   INSERT,          DELETE,
+                                       GN_KEY_END, GN_KEY_PAGEUP, GN_KEY_PAGEDOWN, GN_KEY_HOME,
+                                       GN_KEY_END};
+    static const uint8_t f_numbers[] = {0,  11, 12, 13, 14, 15, 17, 18, 19, 20, 21,
+                                        23, 24, 25, 26, 28, 29, 31, 32, 33, 34};
+    if (keys->number < (int)sizeof numbered) return numbered[keys->number];
+    for (size_t i = 1; i < sizeof f_numbers; i++)
+        if (f_numbers[i] == keys->number) return f_keys[i];
+    return GN_KEY_NONE;
 }
 
 unsigned gn_terminal_keys_step(struct gn_terminal_keys *keys, uint8_t byte, int64_t now_ns) {
