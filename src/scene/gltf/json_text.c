@@ -11,29 +11,26 @@ static const char huge[] = {'9', 'e', '3', '0', '7'}; /* no number of 1e308 or m
 static const char replacement[] = {'\\', 'u', 'f', 'f', 'f', 'd'};
 enum { DOUBLE_DIGITS = 308, EXPONENT_MAX = 1 << 30 }; /* every number below 1e308 is a double */
 
-/* The end of the digits at c, and in *place how many of them stand between the first that counts
- * and the point: the number is below 10^place, and not below a tenth of it; far below 0 if all are
- * zeros. */
-static const char *read_digits(const char *c, const char *end, int64_t *place) {
+/* The end of the number at c, and in *power how large it is: below 10^power, and not below a tenth
+ * of that; far below 0 if all digits are zeros. */
+static const char *read_number(const char *c, const char *end, int64_t *power) {
+    int64_t place = 0, exponent = 0; /* place: digits from the first that counts to the point */
     bool behind_point = false, counts = false;
     for (; c < end && (isdigit((unsigned char)*c) || (*c == '.' && !behind_point)); c++) {
         behind_point |= *c == '.';
         if (*c == '.') continue;
         counts |= *c != '0';
-        if (counts != behind_point) *place += counts ? 1 : -1;
+        if (counts != behind_point) place += counts ? 1 : -1;
     }
-    if (!counts) *place = INT64_MIN / 2;
-    return c;
-}
-
-static const char *read_exponent(const char *c, const char *end, int64_t *exponent) {
-    if (c == end || (*c != 'e' && *c != 'E')) return c;
-    c++;
-    const bool minus = c < end && *c == '-';
-    if (c < end && (*c == '-' || *c == '+')) c++;
-    for (; c < end && isdigit((unsigned char)*c); c++)
-        if (*exponent < EXPONENT_MAX) *exponent = *exponent * 10 + (*c - '0');
-    if (minus) *exponent = -*exponent;
+    bool minus = false;
+    if (c < end && (*c == 'e' || *c == 'E')) {
+        c++;
+        minus = c < end && *c == '-';
+        if (c < end && (*c == '-' || *c == '+')) c++;
+        for (; c < end && isdigit((unsigned char)*c); c++)
+            if (exponent < EXPONENT_MAX) exponent = exponent * 10 + (*c - '0');
+    }
+    *power = (counts ? place : INT64_MIN / 2) + (minus ? -exponent : exponent);
     return c;
 }
 
@@ -71,9 +68,9 @@ static bool replace_all(const char *text, size_t size, char *out) {
             c += escape_length(c, end, &bad);
             if (bad && out) memcpy(out + (start - text), replacement, sizeof replacement);
         } else if (!quoted && isdigit((unsigned char)*c)) {
-            int64_t place = 0, exponent = 0;
-            c = read_exponent(read_digits(c, end, &place), end, &exponent);
-            bad = place + exponent > DOUBLE_DIGITS;
+            int64_t power;
+            c = read_number(c, end, &power);
+            bad = power > DOUBLE_DIGITS;
             if (bad && out) {
                 memset(out + (start - text), ' ', (size_t)(c - start));
                 memcpy(out + (start - text), huge, sizeof huge);
