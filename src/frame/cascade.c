@@ -21,17 +21,6 @@ struct views {
 };
 enum { OTHERS = 8 };
 
-/* number 0: the current camera. */
-static const struct gn_pose *find_view(struct views *v, int number, struct gn_eye *eye) {
-    *eye = v->frame->eye;
-    if (number == 0) return v->now;
-    if (!v->other.scene) gn_pose_init(&v->other, v->frame->scene, v->now->clips);
-    const int64_t ns = v->lasts_ns / (OTHERS - 1) * (number - 1);
-    gn_pose_step(&v->other, number == OTHERS && ns > 0 ? v->lasts_ns - 1 : ns); /* its end, too */
-    gn_frame_eye_at(v->frame, &v->other, v->opts, eye);
-    return &v->other;
-}
-
 /* How many pixels a texel of so many cascades covers where it is seen largest; 0: unknown, the
  * camera sees no shadow. */
 static float texel_pixels(struct views *v, uint32_t slot, const struct gn_shadow_opts *opts,
@@ -46,8 +35,16 @@ static float texel_pixels(struct views *v, uint32_t slot, const struct gn_shadow
     float most = 0.0f;
     gn_frame_make_memories(v->frame, slot, cascades > 1 ? GN_CASCADE_MEMORIES : 1);
     for (int i = 0; i < v->count; i++) {
-        struct gn_eye eye;
-        const struct gn_pose *pose = find_view(v, i, &eye);
+        struct gn_eye eye = v->frame->eye;
+        const struct gn_pose *pose = v->now;
+        if (i > 0) { /* not the current camera */
+            if (!v->other.scene) gn_pose_init(&v->other, v->frame->scene, v->now->clips);
+            const int64_t ns = v->lasts_ns / (OTHERS - 1) * (i - 1);
+            const bool last = i == OTHERS && ns > 0; /* the end of the path, too */
+            gn_pose_step(&v->other, last ? v->lasts_ns - 1 : ns);
+            gn_frame_eye_at(v->frame, &v->other, v->opts, &eye);
+            pose = &v->other;
+        }
         const float tangent =
             gn_cascade_tangent(pose, light->light, &eye, &some, v->frame->memory[slot]);
         if (i == 0 && tangent == 0.0f) return 0.0f;

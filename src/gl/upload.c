@@ -119,12 +119,6 @@ static bool send_indices(struct gn_gl *gl, size_t bytes) {
     return s->upload.first == all;
 }
 
-static bool same_rows(const float (*a)[4], const float (*b)[4]) {
-    for (int i = 0; i < 2 * GN_TEXTURE_SLOT_COUNT * 4; i++)
-        if (a[i / 4][i % 4] != b[i / 4][i % 4]) return false;
-    return true;
-}
-
 static void forget_programs(struct gn_gl *gl) {
     for (uint32_t i = 0; i < gl->programs.room; i++) gl->programs.table[i].uv = UINT32_MAX;
 }
@@ -151,7 +145,8 @@ void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene) {
             memcpy(s->uv[s->uv_count][2 * slot], both, sizeof both);
         }
         uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
-        while (same < s->uv_count && !same_rows(s->uv[same], s->uv[s->uv_count])) same++;
+        while (same < s->uv_count && memcmp(s->uv[same], s->uv[s->uv_count], sizeof *s->uv) != 0)
+            same++;
         s->material_uv[i] = same;
         s->uv_count += same == s->uv_count;
     }
