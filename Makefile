@@ -358,7 +358,7 @@ truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 # differs from origin's branch (a fresh clone has no such: accept runs lint).
 ifeq ($(if $(findstring clang,$(CC)),$(CONFIG)),debug)
 TIDY    := src/main.c $(SRC) $(IMPORT_C)
-SYNTAX  := $(TIDY) $(wildcard tests/*/*.c board/host/*.c assets/*.c)
+SYNTAX  := $(TIDY) $(filter-out $(if $(IMPORT_C),,tests/import/%),$(wildcard tests/*/*.c board/host/*.c assets/*.c))
 stamps   = $(patsubst %.c,$(B)/obj/%.$(1),$(2))
 syntax: $(call stamps,syntax,$(SYNTAX))
 lint: $(call stamps,tidy,$(TIDY))
