@@ -87,12 +87,14 @@ static void a_descriptor_goes_with_the_request_that_wants_one(void **state) {
 }
 
 /* In place of libc's: closing a pipe takes as long as a user's file system that does not answer,
- * and closing much memory as if that were freed. */
+ * and closing much memory, or a socket with messages, as if much memory were freed. */
 static bool close_is_slow;
 int close(int fd) {
     struct stat info;
+    char byte;
     if (close_is_slow && fstat(fd, &info) == 0 &&
-        (S_ISFIFO(info.st_mode) || (S_ISREG(info.st_mode) && info.st_blocks > 65536)))
+        (S_ISFIFO(info.st_mode) || (S_ISREG(info.st_mode) && info.st_blocks > 65536) ||
+         (S_ISSOCK(info.st_mode) && recv(fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0)))
         usleep(300000);
     return (int)syscall(SYS_close, fd);
 }
@@ -150,6 +152,30 @@ static void much_memory_is_closed_aside(void **state) {
     assert_int_equal(open_descriptors(), before - 2);
 }
 
+static void what_a_refused_client_sent_is_closed_aside(void **state) {
+    (void)state;
+    const int places = GN_CONTROL_CLIENTS_MAX - (geteuid() ? GN_CONTROL_KEPT : 0);
+    const int file = memfd_create("test", MFD_CLOEXEC);
+    int fds[GN_CONTROL_CLIENTS_MAX];
+    for (int i = 0; i < places; i++) {
+        fds[i] = enter_client();
+        serve();
+    }
+    const int before = open_descriptors(), late = connect_to(gn_ctl_test.path);
+    pass(late, "{}\n", &file, 1);
+    close_is_slow = true;
+    const int64_t since_ns = gn_clock_monotonic_ns();
+    serve();
+    assert_true(gn_clock_monotonic_ns() - since_ns < 300 * GN_NS_PER_S / 1000);
+    close_is_slow = false;
+    assert_non_null(strstr(heard(late), "busy"));
+    for (int i = 0; i < 100 && open_descriptors() != before + 1; i++) usleep(50000);
+    assert_int_equal(open_descriptors(), before + 1);
+    close(late);
+    close(file);
+    for (int i = 0; i < places; i++) close(fds[i]);
+}
+
 static void a_request_that_is_never_answered_keeps_no_descriptor(void **state) {
     (void)state;
     const int file = memfd_create("test", MFD_CLOEXEC), fd = enter_client();
@@ -174,6 +200,7 @@ int main(void) {
         TEST(a_descriptor_goes_with_the_request_that_wants_one),
         TEST(a_descriptor_that_is_slow_to_close_keeps_nobody_waiting),
         TEST(much_memory_is_closed_aside),
+        TEST(what_a_refused_client_sent_is_closed_aside),
         TEST(a_request_that_is_never_answered_keeps_no_descriptor),
     };
     return cmocka_run_group_tests(tests, gn_ctl_test_begin, gn_ctl_test_end);

@@ -98,7 +98,7 @@ static void drop_client(struct client *client) {
     gn_loop_remove(&client->watch);
     close_passed(&client->passed);
     if (client->waits) close_passed(&client->buffers->request.fd);
-    close(client->fd);
+    gn_passed_close_socket(client->fd);
     free(client->out);
     client->fd = -1;
     client->out = NULL;
@@ -296,7 +296,7 @@ static void refuse_connection(struct gn_control *c, int fd, const struct gn_err 
     c->counts.refused++;
     if (send(fd, line, size, MSG_NOSIGNAL | MSG_DONTWAIT) < 0) c->counts.cut++;
     free(line);
-    close(fd);
+    gn_passed_close_socket(fd);
 }
 
 static void on_client(void *user, uint32_t events, int64_t now_ns) {

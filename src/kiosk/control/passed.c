@@ -40,6 +40,15 @@ void gn_passed_close(int fd) {
         close(fd);
 }
 
+void gn_passed_close_socket(int socket) {
+    char byte;
+    if (atomic_load(&threads) < THREADS_MAX &&
+        recv(socket, &byte, sizeof byte, MSG_PEEK | MSG_DONTWAIT) > 0)
+        close_aside(socket);
+    else
+        close(socket);
+}
+
 /* Keeps the first memory file. Only those have seals. */
 static int take_descriptors(struct msghdr *message) {
     int kept = -1;

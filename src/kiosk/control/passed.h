@@ -11,5 +11,7 @@ ssize_t gn_passed_receive(int socket, void *to, size_t room, int *passed);
 /* Closes a memory file; a large one in a thread, too, since the kernel frees its memory meanwhile.
  */
 void gn_passed_close(int fd);
+/* Closes a client's socket; in a thread if messages wait in it, with whatever descriptors. */
+void gn_passed_close_socket(int socket);
 
 #endif
