@@ -1,5 +1,6 @@
 /* A kiosk in a storm of reloads and next-scenes out of good, bad, huge and slow scenes: the longest
- * time without a frame, without an answer over the socket and without WATCHDOG=1. */
+ * time without a frame, without an answer over the socket and without WATCHDOG=1; and SIGTERM at
+ * random moments of it. GN_OPERATIONS: so many operations. */
 #include "unit/check.h"
 
 #include <signal.h>
@@ -9,6 +10,8 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "core/clock.h"
@@ -17,21 +20,95 @@
 #include "unit/gl_help.h"
 
 enum { HUGE_VERTICES = 2999997, HUGE_BYTES = 12 * HUGE_VERTICES };
-#define WATCHDOG_NS (4 * GN_NS_PER_S) /* WATCHDOG=1 comes every half of it */
+#define WATCHDOG_NS (4 * GN_NS_PER_S) /* WATCHDOG=1 comes every quarter of it */
 #define PATIENCE_NS (60 * GN_NS_PER_S)
 
 static char folder[100], here[200];
 
-/* The longest time between two events of a kind. */
+static const char *const scenes[] = {"assets/bench/s1.glb", "assets/bench/s2.glb", "bad.glb",
+                                     "huge.gltf", "slow.obj"};
+enum { SCENES = sizeof scenes / sizeof *scenes, FRAMES_MAX = 100000, FIFTHS = 5 };
+
+/* The longest time between two events of a kind, and the most processor time of the main loop,
+ * which other programs do not change. */
 struct gap {
     const char *of;
-    int64_t last_ns, most_ns;
+    int64_t last_ns, last_cpu_ns; /* last_ns 0: none yet */
+    int64_t most_ns, most_cpu_ns;
 };
 
-static void end_gap(struct gap *gap) {
-    const int64_t now_ns = gn_clock_monotonic_ns();
-    if (gap->last_ns && now_ns - gap->last_ns > gap->most_ns) gap->most_ns = now_ns - gap->last_ns;
-    gap->last_ns = now_ns;
+static int64_t cpu_ns(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return t.tv_sec * GN_NS_PER_S + t.tv_nsec;
+}
+
+static void begin_gap(struct gap *gap) {
+    gap->last_ns = gn_clock_monotonic_ns();
+    gap->last_cpu_ns = cpu_ns();
+}
+
+/* The time from the one before, and the processor time; 0: this is the first. */
+struct span {
+    int64_t ns, cpu_ns;
+};
+
+static struct span end_gap(struct gap *gap) {
+    const struct gap before = *gap;
+    begin_gap(gap);
+    if (before.last_ns == 0) return (struct span){0};
+    const struct span span = {gap->last_ns - before.last_ns, gap->last_cpu_ns - before.last_cpu_ns};
+    if (span.ns > gap->most_ns) gap->most_ns = span.ns;
+    if (span.cpu_ns > gap->most_cpu_ns) gap->most_cpu_ns = span.cpu_ns;
+    return span;
+}
+
+/* From one frame to the next, by the scene that was drawn. */
+static struct frame_times {
+    size_t count;
+    int64_t ns[FRAMES_MAX], cpu_ns[FRAMES_MAX];
+} times[SCENES];
+
+static void note_frame(const struct gn_show *show, struct span span) {
+    const char *path = show->scenes.paths[show->drawn.scene];
+    for (int i = 0; path && span.ns > 0 && i < SCENES; i++) {
+        struct frame_times *t = &times[i];
+        const size_t length = strlen(path), tail = strlen(scenes[i]);
+        if (length < tail || strcmp(path + length - tail, scenes[i]) != 0) continue;
+        if (t->count == FRAMES_MAX) return;
+        t->ns[t->count] = span.ns;
+        t->cpu_ns[t->count++] = span.cpu_ns;
+    }
+}
+
+static int compare_ns(const void *a, const void *b) {
+    const int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Sorts them; returns by how much the longest is over the median, the scene's own time. */
+static int64_t print_times(const char *scene, const char *of, int64_t *ns, size_t count) {
+    qsort(ns, count, sizeof *ns, compare_ns);
+    const size_t places[] = {count / 2, count * 99 / 100, count * 999 / 1000, count - 1};
+    static const char *const names[] = {"half", "99 %", "99.9 %", "all"};
+    printf("%s: %zu frames, %s:", scene, count, of);
+    for (int i = 0; i < 4; i++)
+        printf(" %s within %.1f ms%s", names[i], (double)ns[places[i]] * 1e-6, i < 3 ? "," : "\n");
+    return ns[count - 1] - ns[count / 2];
+}
+
+/* The most over the scene's own time. */
+static struct span print_frame_times(void) {
+    struct span most = {0};
+    for (int i = 0; i < SCENES; i++) {
+        struct frame_times *t = &times[i];
+        if (t->count == 0) continue;
+        const struct span over = {print_times(scenes[i], "a frame", t->ns, t->count),
+                                  print_times(scenes[i], "loop", t->cpu_ns, t->count)};
+        if (over.ns > most.ns) most.ns = over.ns;
+        if (over.cpu_ns > most.cpu_ns) most.cpu_ns = over.cpu_ns;
+    }
+    return most;
 }
 
 static void write_scenes(void) {
@@ -62,14 +139,12 @@ static void write_scenes(void) {
 /* A random scene first. */
 static void write_config(void) {
     char text[1500];
-    const char *const names[] = {"assets/bench/s1.glb", "assets/bench/s2.glb", "bad.glb",
-                                 "huge.gltf", "slow.obj"};
-    const int count = (int)(sizeof names / sizeof *names), first = rand() % count;
+    const int first = rand() % SCENES;
     size_t used = (size_t)snprintf(text, sizeof text, "[scene]\nturntable = 10\n");
-    for (int i = 0; i < count; i++) {
-        const int k = (first + i) % count;
+    for (int i = 0; i < SCENES; i++) {
+        const int k = (first + i) % SCENES;
         used += (size_t)snprintf(text + used, sizeof text - used, "file = %s/%s\n",
-                                 k < 2 ? here : folder, names[k]);
+                                 k < 2 ? here : folder, scenes[k]);
     }
     snprintf(text + used, sizeof text - used, "[render]\nshadow = hard\n");
     help_write(folder, "kiosk.ini", text);
@@ -119,30 +194,31 @@ static long resident_mb(void) {
     return pages * sysconf(_SC_PAGESIZE) >> 20;
 }
 
+static bool is_changing(const struct gn_show *show) {
+    return show->reloads || show->reload.options || gn_kiosk_waits(&show->kiosk);
+}
+
 static void nothing_waits_for_a_scene(void **state) {
     (void)state;
     static const char status[] = "{\"cmd\":\"status\"}\n";
     const bool full = getenv("GN_FULL");
-    const int operations = full ? 1000 : 24;
+    const char *given = getenv("GN_OPERATIONS");
+    const int operations = given ? atoi(given) : full ? 1000 : 24;
     struct gap frame = {.of = "a frame"}, answer = {.of = "an answer"}, fed = {.of = "WATCHDOG=1"};
     struct gap *const gaps[] = {&frame, &answer, &fed};
-    struct gn_display display;
     char text[8192];
-    help_open(&display, "egl"); /* or the test is skipped */
-    gn_display_close(&display);
-    snprintf(folder, sizeof folder, "%s", help_folder());
-    assert_non_null(getcwd(here, sizeof here));
     srand(1);
-    write_scenes();
     write_config();
     const int notify = open_notify();
     struct gn_show *show = open_show();
     const int client = connect_client();
     bool asked = false;
-    long first_mb = 0;
+    long peaks_mb[FIFTHS] = {0};
     uint64_t frames = 0;
     for (int i = 0; i < operations; i++) {
-        if (i == operations / 4) first_mb = resident_mb();
+        const long mb = resident_mb();
+        long *peak_mb = &peaks_mb[i * FIFTHS / operations];
+        if (mb > *peak_mb) *peak_mb = mb;
         if (rand() % 2) {
             write_config();
             show->reloads = true;
@@ -150,14 +226,16 @@ static void nothing_waits_for_a_scene(void **state) {
             const struct gn_action next = {.kind = GN_ACTION_NEXT_SCENE};
             gn_show_act(show, &next, gn_clock_monotonic_ns());
         }
-        const int64_t until_ns = gn_clock_monotonic_ns() + rand() % 500 * 1000000;
+        /* the next one comes in the middle of it, or, every fourth time, when it is done */
+        const int64_t now_ns = gn_clock_monotonic_ns(), until_ns = now_ns + rand() % 500 * 1000000;
+        const bool waits = rand() % 4 == 0;
         do {
             struct gn_err err = {0};
             if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
             if (show->reload.first)
                 frame.last_ns = 0; /* "loading ..": it stands still */
             else if (show->counts.frames != frames)
-                end_gap(&frame);
+                note_frame(show, end_gap(&frame));
             frames = show->counts.frames;
             while (recv(notify, text, sizeof text, 0) > 0)
                 if (strncmp(text, "WATCHDOG=1", 10) == 0) end_gap(&fed);
@@ -166,32 +244,119 @@ static void nothing_waits_for_a_scene(void **state) {
                 asked = false;
             }
             if (!asked) {
-                answer.last_ns = gn_clock_monotonic_ns();
+                begin_gap(&answer);
                 assert_int_equal(send(client, status, sizeof status - 1, MSG_NOSIGNAL),
                                  sizeof status - 1);
                 asked = true;
             }
-        } while (gn_clock_monotonic_ns() < until_ns);
+            assert_true(gn_clock_monotonic_ns() - now_ns < PATIENCE_NS);
+        } while (gn_clock_monotonic_ns() < until_ns || (waits && is_changing(show)));
     }
-    const long last_mb = resident_mb();
     const int64_t begun_ns = gn_clock_monotonic_ns();
     gn_show_close(show);
-    printf("%d operations, %llu frames, the end took %.0f ms, %ld MB after a quarter, %ld MB\n",
+    printf("%d operations, %llu frames, the end took %.0f ms; peaks of memory in each fifth:",
            operations, (unsigned long long)frames,
-           (double)(gn_clock_monotonic_ns() - begun_ns) * 1e-6, first_mb, last_mb);
+           (double)(gn_clock_monotonic_ns() - begun_ns) * 1e-6);
+    for (int i = 0; i < FIFTHS; i++) printf(" %ld", peaks_mb[i]);
+    puts(" MB");
+    const struct span over = print_frame_times();
+    printf("most over the frame time: %.0f ms; of the loop's: %.0f ms\n", (double)over.ns * 1e-6,
+           (double)over.cpu_ns * 1e-6);
     for (int i = 0; i < 3; i++)
-        printf("longest time without %s: %.0f ms\n", gaps[i]->of, (double)gaps[i]->most_ns * 1e-6);
-    /* generous: llvmpipe draws on the same cores that load, and may compile */
-    assert_true(frame.most_ns < PATIENCE_NS / 12);
-    assert_true(answer.most_ns < PATIENCE_NS / 12);
-    assert_true(fed.most_ns < 2 * WATCHDOG_NS);
-    assert_true(last_mb < first_mb + 300 || !full);
+        printf("longest time without %s: %.0f ms; processor time of the loop: %.0f ms\n",
+               gaps[i]->of, (double)gaps[i]->most_ns * 1e-6, (double)gaps[i]->most_cpu_ns * 1e-6);
+
+    /* What other programs do not change: a program that llvmpipe compiles takes the loop .25 s, the
+     * first map of the huge scene .07 s. The rest follows from the longest frame, however long the
+     * machine makes it. */
+    assert_true(over.cpu_ns < GN_NS_PER_S);
+    assert_true(answer.most_ns < 2 * frame.most_ns + GN_NS_PER_S);
+    assert_true(fed.most_ns < WATCHDOG_NS / 4 + 2 * frame.most_ns + GN_NS_PER_S / 2);
+    assert_true(!full || peaks_mb[FIFTHS - 1] < peaks_mb[1] + 100);
     close(client);
     close(notify);
-    help_remove(folder);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_waits_for_a_scene)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+/* ---- SIGTERM --------------------------------------------------------------------------------- */
+
+/* The process has blocked the signal: it handles it. */
+static bool handles(pid_t pid, int number) {
+    char path[40], line[200];
+    unsigned long long blocked = 0;
+    snprintf(path, sizeof path, "/proc/%d/status", (int)pid);
+    FILE *file = fopen(path, "r");
+    while (file && fgets(line, sizeof line, file)) sscanf(line, "SigBlk: %llx", &blocked);
+    if (file) fclose(file);
+    return blocked >> (number - 1) & 1;
+}
+
+static pid_t start_program(void) {
+    char config[200], log[200], control[200];
+    snprintf(config, sizeof config, "%s/kiosk.ini", folder);
+    snprintf(log, sizeof log, "%s/log", folder);
+    snprintf(control, sizeof control, "%s/ctl", folder);
+    const char *program = getenv("GNOMON");
+    const pid_t pid = fork();
+    if (pid != 0) return pid;
+    if (!freopen(log, "w", stdout) || !freopen(log, "a", stderr)) _exit(126);
+    execl(program ? program : "build/release/gnomon", "gnomon", "show", "--backend", "egl",
+          "--size", "64x64", "-c", config, "--socket", control, (char *)NULL);
+    _exit(127);
+}
+
+static void sigterm_ends_it_at_any_moment(void **state) {
+    (void)state;
+    const int count = getenv("GN_FULL") ? 200 : 6;
+    int64_t most_ns = 0;
+    unsetenv("NOTIFY_SOCKET");
+    srand(2);
+    for (int i = 0; i < count; i++) {
+        int status = 0;
+        write_config();
+        const pid_t pid = start_program();
+        while (!handles(pid, SIGTERM)) {
+            assert_int_equal(waitpid(pid, &status, WNOHANG), 0);
+            usleep(100);
+        }
+        const int64_t until_ns = gn_clock_monotonic_ns() + rand() % 3000 * 1000000;
+        while (gn_clock_monotonic_ns() < until_ns) {
+            usleep(1000);
+            if (rand() % 500 || !handles(pid, SIGHUP)) continue;
+            write_config();
+            kill(pid, SIGHUP);
+        }
+        const int64_t begun_ns = gn_clock_monotonic_ns();
+        kill(pid, SIGTERM);
+        assert_int_equal(waitpid(pid, &status, 0), pid);
+        const int64_t ns = gn_clock_monotonic_ns() - begun_ns;
+        if (ns > most_ns) most_ns = ns;
+        if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+            fail_msg("%d: status %x after %.0f ms", i, (unsigned)status, (double)ns * 1e-6);
+    }
+    printf("SIGTERM at %d moments: the end took at most %.0f ms\n", count, (double)most_ns * 1e-6);
+    assert_true(most_ns < 5 * GN_NS_PER_S); /* 1 s, on a machine that does nothing else */
+}
+
+static int begin(void **state) {
+    struct gn_display display;
+    (void)state;
+    help_open(&display, "egl"); /* or the test is skipped */
+    gn_display_close(&display);
+    snprintf(folder, sizeof folder, "%s", help_folder());
+    assert_non_null(getcwd(here, sizeof here));
+    write_scenes();
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    help_remove(folder);
+    return 0;
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) cmocka_set_test_filter(argv[1]);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_waits_for_a_scene),
+                                       cmocka_unit_test(sigterm_ends_it_at_any_moment)};
+    return cmocka_run_group_tests(tests, begin, end);
 }
