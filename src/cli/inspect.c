@@ -9,20 +9,23 @@ bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnin
                     struct gn_err *err) {
     struct gn_scene *scene = gn_stage_scene(options->settings, warnings, err);
     if (!scene) return false;
+    struct gn_scene_limits limits;
+    if (!gn_stage_limits(options->settings, &limits, err)) {
+        gn_scene_destroy(scene);
+        return false;
+    }
+    limits = gn_scene_limits_or_default(&limits);
     struct gn_inspection in;
     bool ok = true;
     const char *path = options->settings->scene.path;
-    gn_inspect_build(&in, path ? path : "(default scene)", scene, warnings);
-    struct gn_scene_limits limits;
-    if (gn_stage_limits(options->settings, &limits, err)) {
-        gn_scene_limits_print(&limits, in.limits, sizeof in.limits);
-        limits = gn_scene_limits_or_default(&limits);
-        if (in.cost.map_bytes > limits.maps_mb << 20)
-            gn_problem_add(&in.advice, "lower gnomon_map_px, or give fewer lights a shadow",
-                           "shadow maps of %llu MB exceed the limit maps_mb=%llu: they are reduced",
-                           (unsigned long long)(in.cost.map_bytes + 1048575) >> 20,
-                           (unsigned long long)limits.maps_mb);
-    }
+    gn_inspect_build(&in, path ? path : "(default scene)", scene, limits.triangles_per_frame,
+                     warnings);
+    gn_scene_limits_print(&limits, in.limits, sizeof in.limits);
+    if (in.cost.map_bytes > limits.maps_mb << 20)
+        gn_problem_add(&in.advice, "lower gnomon_map_px, or give fewer lights a shadow",
+                       "shadow maps of %llu MB exceed the limit maps_mb=%llu: they are reduced",
+                       (unsigned long long)(in.cost.map_bytes + 1048575) >> 20,
+                       (unsigned long long)limits.maps_mb);
     if (options->settings->run.json)
         ok = gn_inspect_print_json(&in, stdout, err);
     else

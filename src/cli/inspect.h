@@ -29,9 +29,9 @@ struct gn_inspection {
     struct gn_problem_list advice;
 };
 
-/* All but `limits` of it; file and scene must outlive it. */
+/* All but `limits` of it; file and scene must outlive it. triangles: of a frame at most, or 0. */
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
-                      const struct gn_warnings *warnings);
+                      uint64_t triangles, const struct gn_warnings *warnings);
 /* Fills advice; the cost must be known. */
 void gn_inspect_advise(struct gn_inspection *in);
 

@@ -5,13 +5,14 @@
 #include "frame/frame.h"
 
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
-                      const struct gn_warnings *warnings) {
+                      uint64_t triangles, const struct gn_warnings *warnings) {
     *in = (struct gn_inspection){.file = file, .scene = scene, .warnings = warnings};
     const struct gn_caps caps = {
         .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
     const struct gn_frame_opts opts = {.width_px = GN_INSPECT_WIDTH_PX,
                                        .height_px = GN_INSPECT_HEIGHT_PX,
-                                       .shadow.encoding = GN_ENCODING_AUTO};
+                                       .shadow.encoding = GN_ENCODING_AUTO,
+                                       .shadow.triangles = triangles};
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     struct gn_frame *frame = gn_frame_create(scene, &caps);
@@ -19,17 +20,17 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_pass *pass = &plan->passes[i];
         const bool shadow = pass->kind != GN_PASS_PICTURE;
-        uint64_t triangles = 0;
+        uint64_t drawn = 0;
         for (uint32_t k = 0; k < pass->draw_count; k++) {
             const struct gn_draw *draw = &plan->draws[pass->first_draw + k];
             uint32_t corners = draw->geometry == GN_NO_GEOMETRY
                                    ? draw->vertex_count
                                    : scene->geometries[draw->geometry].index_count;
-            triangles += (uint64_t)corners / 3 * draw->instance_count;
+            drawn += (uint64_t)corners / 3 * draw->instance_count;
         }
         *(shadow ? &in->cost.shadow_passes : &in->cost.passes) += 1;
         *(shadow ? &in->cost.shadow_draws : &in->cost.draws) += pass->draw_count;
-        *(shadow ? &in->cost.shadow_triangles : &in->cost.triangles) += triangles;
+        *(shadow ? &in->cost.shadow_triangles : &in->cost.triangles) += drawn;
     }
     in->cost.map_bytes = gn_plan_map_bytes(plan);
     in->cost.programs = plan->program_count;

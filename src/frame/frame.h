@@ -19,6 +19,8 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
                                map; others stay as they are for a while. 0: all are made */
     uint64_t maps_bytes; /* limit on what shadows take on the GPU: maps, their pages, what they are
                             filtered into. Maps over it are made smaller. 0: none */
+    uint64_t triangles;  /* limit on what a frame draws, maps included; the weakest lights cast no
+                            shadow where it is more. 0: none */
     bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
     unsigned taps;          /* of disk, poisson, pcss: 8, 16, 32; 16 */
     bool taps_fixed;        /* the same for every pixel */

@@ -129,6 +129,41 @@ static void warn_of_limit(struct gn_frame *frame, uint32_t light, enum gn_notice
             can_add_light(frame) ? "" : " on a GPU without srgb and rgba16f targets");
 }
 
+/* How often the items are drawn for a light at most: once per tile, or per cascade. */
+static uint32_t count_views(const struct gn_frame *frame, const struct gn_frame_light *light) {
+    const enum gn_light_type type = frame->scene->lights[light->light].type;
+    if (!gn_light_types[type].has_position && !gn_techniques[light->technique].on_plane)
+        return GN_CASCADES_MAX;
+    return gn_shadow_tile_count(type, light->technique);
+}
+
+/* What an item costs beside its triangles: it is placed, culled and sorted for each map. */
+enum { ITEM_TRIANGLES = 100 };
+
+/* The weakest lights cast no shadow where the triangles of all maps exceed the limit: a few hundred
+ * bytes can ask for sixteen lights and a million instances. */
+static void bound_triangles(struct gn_frame *frame, const struct gn_frame_opts *opts,
+                            struct gn_warnings *warnings) {
+    const struct gn_scene *scene = frame->scene;
+    const uint64_t items = (uint64_t)scene->item_count * ITEM_TRIANGLES,
+                   each = scene->triangle_count > items ? scene->triangle_count : items;
+    uint64_t views = 1; /* the picture */
+    if (opts->shadow.triangles == 0) return;
+    for (uint32_t i = 0; i < frame->light_count; i++)
+        if (has_map(&frame->lights[i])) views += count_views(frame, &frame->lights[i]);
+    while (views > 1 && each > opts->shadow.triangles / views) {
+        struct gn_frame_light *light = &frame->lights[find_weakest(frame, true)];
+        if (gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_TRIANGLES,
+                            warnings))
+            gn_warn(warnings,
+                    "light '%s' casts no shadow: its maps are over the limit "
+                    "triangles_per_frame=%llu",
+                    scene->lights[light->light].name, (unsigned long long)opts->shadow.triangles);
+        views -= count_views(frame, light);
+        light->technique = GN_TECHNIQUE_NONE;
+    }
+}
+
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     bool visibility = opts->debug.aov == GN_AOV_VISIBILITY;
@@ -159,6 +194,7 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         warn_of_limit(frame, light->light, GN_NOTICE_MAPS, most_maps, warnings);
         light->technique = GN_TECHNIQUE_NONE;
     }
+    bound_triangles(frame, opts, warnings);
     /* Those with maps first, else in the scene's order. */
     struct gn_frame_light open[GN_ALL_LIGHTS_MAX];
     uint32_t open_count = 0;

@@ -18,6 +18,7 @@ enum gn_notice {
     GN_NOTICE_BLENDED,
     GN_NOTICE_MAP_PX,
     GN_NOTICE_MAPS_MB,
+    GN_NOTICE_TRIANGLES,
 };
 enum { GN_NOTICE_ABOUT = 11 }; /* options that a warning may be about */
 

@@ -205,7 +205,8 @@ struct gn_scene {
 struct gn_scene_limits {
     uint64_t file_mb;             /* 512: any one file read */
     uint64_t memory_mb;           /* 1024: all that the scene holds: geometry, decoded pictures
-                                     with what the GPU will have of them, the file */
+                                     with what the GPU will have of them, the file, and what a
+                                     pose and a frame take */
     uint64_t nodes;               /* 100000 */
     uint64_t instances;           /* 1000000 */
     uint64_t vertices;            /* 20000000 */
@@ -216,7 +217,8 @@ struct gn_scene_limits {
                                      import of another format takes before it */
     uint64_t gpu_mb;              /* 1024: its textures and buffers on the GPU */
     uint64_t maps_mb;             /* 384: what shadows take on the GPU in one frame */
-    uint64_t triangles_per_frame; /* 100000000: of all nodes and their instances */
+    uint64_t triangles_per_frame; /* 100000000: of all nodes and their instances, in the picture and
+                                     in the maps of lights; an item counts as 100 there */
     const atomic_bool *cancel;    /* another thread sets it to end the load, which fails; or NULL */
 };
 /* Sets a limit by name; false and a usage error that lists the names if it is unknown. */

@@ -117,7 +117,9 @@ bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *o,
     struct gn_scene_limits limits;
     if (!gn_stage_limits(o, &limits, err)) return false;
     set_frame_opts(&look->frame_opts, o);
-    look->frame_opts.shadow.maps_bytes = gn_scene_limits_or_default(&limits).maps_mb << 20;
+    limits = gn_scene_limits_or_default(&limits);
+    look->frame_opts.shadow.maps_bytes = limits.maps_mb << 20;
+    look->frame_opts.shadow.triangles = limits.triangles_per_frame;
     int *camera = &look->frame_opts.view.camera;
     *camera = gn_scene_find_camera(scene, o->scene.camera, err);
     if (*camera >= 0) return true;

@@ -21,7 +21,7 @@ static int teardown(void **state) {
 static void inspect(void) {
     scene = gn_maker_load(&maker, &warnings, &err);
     if (!scene) fail_msg("%s", err.text);
-    gn_inspect_build(&in, "t", scene, &warnings);
+    gn_inspect_build(&in, "t", scene, 0, &warnings);
 }
 
 static void assert_advice(const char *part) {
