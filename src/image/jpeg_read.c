@@ -12,20 +12,15 @@ static bool read_header(tjhandle handle, const uint8_t *data, size_t size, int p
     return gn_fail(err, "JPEG: %s", tjGetErrorStr2(handle));
 }
 
-bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err) {
-    tjhandle handle = tjInitDecompress();
-    int read[2] = {0}, space;
-    bool done = handle ? read_header(handle, data, size, read, &space, err)
-                       : gn_fail(err, "JPEG: %s", tjGetErrorStr2(NULL));
-    if (done && (read[0] <= 0 || read[1] <= 0)) done = gn_fail(err, "JPEG: width or height is 0");
+/* A scan may be a few bytes, and costs a step for each coefficient of the picture. Usual files have
+ * about ten. */
+enum { MOST_SCANS = 64 };
 
-    /* A scan may be a few bytes, and costs a step for each coefficient of the picture. Usual files
-     * have about ten. Counts the start-of-scan markers before the end of the picture (ITU-T T.81,
-     * annex B). */
+/* The number of start-of-scan markers before the end of the picture (ITU-T T.81, annex B). */
+static size_t count_scans(const uint8_t *data, size_t size) {
     enum { STUFFED = 0x00, RST0 = 0xd0, RST7 = 0xd7, SOI = 0xd8, EOI = 0xd9, SOS = 0xda };
-    enum { MOST_SCANS = 64 };
     size_t scans = 0;
-    for (size_t at = 0; done && at + 1 < size;) {
+    for (size_t at = 0; at + 1 < size;) {
         const uint8_t *mark = memchr(data + at, 0xff, size - at - 1);
         if (!mark) break;
         at = (size_t)(mark - data) + 1;
@@ -37,6 +32,16 @@ bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_er
         scans += type == SOS;
         if (size - at >= 2) at += (size_t)(data[at] << 8 | data[at + 1]);
     }
+    return scans;
+}
+
+bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err) {
+    tjhandle handle = tjInitDecompress();
+    int read[2] = {0}, space;
+    bool done = handle ? read_header(handle, data, size, read, &space, err)
+                       : gn_fail(err, "JPEG: %s", tjGetErrorStr2(NULL));
+    if (done && (read[0] <= 0 || read[1] <= 0)) done = gn_fail(err, "JPEG: width or height is 0");
+    const size_t scans = done ? count_scans(data, size) : 0;
     if (scans > MOST_SCANS)
         done = gn_fail(err, "JPEG: %zu scans, at most %d are read: save it again, not progressive",
                        scans, MOST_SCANS);
@@ -44,6 +49,22 @@ bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_er
     px[1] = (uint32_t)read[1];
     if (handle) tjDestroy(handle);
     return done;
+}
+
+/* With several scans libjpeg keeps the coefficients of the whole picture, two bytes each. One scan
+ * of a progressive picture is rare: it is counted as one that is not. */
+uint64_t gn_jpeg_work_bytes(const uint8_t *data, size_t size, const uint32_t px[2]) {
+    int read[2], sampling = TJSAMP_444, space = 0;
+    if (count_scans(data, size) < 2) return 0;
+    tjhandle handle = tjInitDecompress();
+    if (handle)
+        tjDecompressHeader3(handle, data, (unsigned long)size, &read[0], &read[1], &sampling,
+                            &space);
+    if (handle) tjDestroy(handle);
+    const unsigned long bytes =
+        tjBufSizeYUV2((int)px[0], 4, (int)px[1], sampling < 0 ? TJSAMP_444 : sampling);
+    const bool inks = space == TJCS_CMYK || space == TJCS_YCCK;
+    return bytes == (unsigned long)-1 ? UINT64_MAX / 4 : (uint64_t)bytes * 2 * (inks ? 4 : 3) / 3;
 }
 
 static bool decode_jpeg(tjhandle handle, const uint8_t *data, size_t size, const uint32_t px[2],

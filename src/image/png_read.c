@@ -33,6 +33,13 @@ bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err
     return true;
 }
 
+uint64_t gn_png_work_bytes(const uint8_t *data, size_t size, const uint32_t px[2]) {
+    (void)data;
+    (void)size;
+    return (uint64_t)px[1] * sizeof(png_bytep) +
+           UINT64_C(16) * px[0]; /* rows; two of 8 bytes a texel */
+}
+
 struct reader {
     const uint8_t *data;
     size_t left;

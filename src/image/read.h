@@ -17,4 +17,8 @@ bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_er
 bool gn_jpeg_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
                   struct gn_err *err);
 
+/* Bytes that reading takes beside the pixels, of a file of which the size was read. */
+uint64_t gn_png_work_bytes(const uint8_t *data, size_t size, const uint32_t px[2]);
+uint64_t gn_jpeg_work_bytes(const uint8_t *data, size_t size, const uint32_t px[2]);
+
 #endif

@@ -8,6 +8,7 @@
 
 #include "core/file.h"
 #include "core/hash.h"
+#include "fuzz/bomb_pictures.h"
 #include "image/read.h"
 #include "unit/scene_help.h"
 
@@ -218,65 +219,10 @@ static void test_a_file_is_one_picture_whatever_it_is_called(void **state) {
     rmdir(folder);
 }
 
-/* A grey progressive JPEG without a flaw: each further scan refines all coefficients, which are 0,
- * in 15 bits for 16384 blocks. */
-static struct gn_made make_scans(int side, int scans) {
-    static const uint8_t start[128] = {
-        [0] = 0xff,
-        0xd8,
-        0xff,
-        0xdb,
-        0,
-        67,
-        0, /* a table of ones follows */
-        [71] = 0xff,
-        0xc2,
-        0,
-        11,
-        8,
-        0,
-        0,
-        0,
-        0,
-        1,
-        1,
-        0x11,
-        0,
-        [84] = 0xff,
-        0xc4,
-        0,
-        20,
-        0,
-        1, /* DC: 0 is 0 */
-        [106] = 0xff,
-        0xc4,
-        0,
-        20,
-        0x10,
-        1,
-        [127] = 0xe0, /* AC: 0 is 16384 blocks or more */
-    };
-    const size_t blocks = (size_t)side * (size_t)side / 64, first = 10 + (blocks + 7) / 8;
-    const size_t each = 10 + (blocks + 16383) / 16384 * 2;
-    struct gn_made made = {.size = sizeof start + first + (size_t)scans * each + 2};
-    uint8_t *at = made.data = calloc(made.size, 1);
-    memcpy(at, start, sizeof start);
-    memset(at + 7, 1, 64);
-    at[76] = at[78] = (uint8_t)(side >> 8);
-    at[77] = at[79] = (uint8_t)side;
-    at += sizeof start;
-    memcpy(at, (uint8_t[]){0xff, 0xda, 0, 8, 1, 1, 0, 0, 0, 0}, 10);
-    at += first;
-    for (int i = 0; i < scans; i++, at += each)
-        memcpy(at, (uint8_t[]){0xff, 0xda, 0, 8, 1, 1, 0, 1, 63, i % 2 ? 0x10 : 1}, 10);
-    memcpy(at, (uint8_t[]){0xff, 0xd9}, 2);
-    return made;
-}
-
 static void test_scans_of_a_jpeg_are_bounded(void **state) {
     (void)state;
     for (int many = 0; many < 2; many++) {
-        struct gn_made jpeg = make_scans(many ? 8192 : 64, many ? 498 : 62);
+        struct gn_made jpeg = gn_bomb_jpeg_scans(many ? 8192 : 64, many ? 498 : 62);
         uint32_t px[2];
         const bool ok = gn_jpeg_size(jpeg.data, jpeg.size, px, &err);
         if (many) {

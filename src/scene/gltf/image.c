@@ -15,10 +15,11 @@ static const struct format {
     const char *magic;
     size_t magic_size;
     bool (*size)(const uint8_t *, size_t, uint32_t[2], struct gn_err *);
+    uint64_t (*work_bytes)(const uint8_t *, size_t, const uint32_t[2]);
     bool (*read)(const uint8_t *, size_t, const uint32_t[2], uint8_t *, struct gn_err *);
 } FORMATS[] = {
-    {"\x89PNG\r\n\x1a\n", 8, gn_png_size, gn_png_read},
-    {"\xff\xd8\xff", 3, gn_jpeg_size, gn_jpeg_read},
+    {"\x89PNG\r\n\x1a\n", 8, gn_png_size, gn_png_work_bytes, gn_png_read},
+    {"\xff\xd8\xff", 3, gn_jpeg_size, gn_jpeg_work_bytes, gn_jpeg_read},
 };
 
 /* ---- pictures ---- */
@@ -47,7 +48,9 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
     if (texels > g->limits.texels || px[0] > 1U << 20 || px[1] > 1U << 20)
         return gn_fail(err, "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64, px[0],
                        px[1], g->limits.texels);
-    if (4 * texels + with_mipmaps > gn_gltf_room(g))
+    /* the decoder's memory is free again before the GPU has the picture */
+    const uint64_t decoding = format->work_bytes(blob->data, blob->size, px);
+    if (4 * texels + (decoding > with_mipmaps ? decoding : with_mipmaps) > gn_gltf_room(g))
         return gn_fail(err, "exceeds the limit memory_mb");
     const uint64_t work = texels + (uint64_t)ROW_WORK * px[1];
     if (g->decode_work > (g->limits.memory_mb << 20) / 4)

@@ -3,6 +3,10 @@
 
 #include <inttypes.h>
 
+/* What an item takes where it is posed and drawn, in the arrays of the pose and of a frame, which
+ * grow by doubling. */
+enum { DRAWN_BYTES = 512 };
+
 static uint32_t copies_of(const struct gn_placed *placed) {
     return placed->instance_count > 0 ? placed->instance_count : 1;
 }
@@ -39,6 +43,11 @@ bool gn_gltf_items(struct gn_gltf *g) {
                             g->limits.instances);
     scene->items = gn_gltf_alloc(g, g->memory.scene, total, sizeof *scene->items);
     if (!scene->items) return false;
+    if (total * DRAWN_BYTES > gn_gltf_room(g))
+        return gn_gltf_fail(
+            g, &nodes, "%" PRIu64 " items: out of memory, or over the limit memory_mb=%" PRIu64,
+            total, g->limits.memory_mb);
+    g->memory.other_bytes += total * DRAWN_BYTES;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const struct gn_mesh *mesh =
             g->placed[i].mesh >= 0 ? &g->file.meshes[g->placed[i].mesh] : NULL;
