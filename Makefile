@@ -314,7 +314,7 @@ check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 # names (SLOW), the long form of LONGEST, and four of the seven GPUs.
 PICTURES := $(filter tests/image/%,$(PROG_C))
 SLOW    := $(filter $(shell awk '$$2 ~ /^[0-9]/ { print "tests/image/" $$1 ".c" }' tests/timeouts),$(PICTURES))
-LONGEST := $(filter %/test_many_lights.c %/test_gesture_traces.c %/test_storm.c,$(PROG_C))
+LONGEST := $(filter %/test_many_lights.c %/test_gesture_traces.c %/test_bombs.c %/test_storm.c,$(PROG_C))
 LONG     = $(shell grep -lE 'gn_shot_full|GN_FULL' $(1))
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
