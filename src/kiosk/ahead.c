@@ -41,16 +41,11 @@ static void fail_place(struct gn_show *s, enum gn_kiosk_event_kind kind, int num
     gn_latency_drop(&s->buttons.latency);
 }
 
-/* The staged scene cannot be shown. For a reload this is as if it had not loaded. */
-static void fail_staged(struct gn_show *s, const struct gn_err *err) {
-    const int number = s->scenes.staged->number;
+/* As if the staged scene of the reload had not loaded. */
+static void fail_reload(struct gn_show *s, const struct gn_err *err) {
     gn_show_drop_staged(s);
-    if (number != GN_SHOW_RELOAD) {
-        fail_place(s, GN_KIOSK_SCENE_FAILED, number, err->text);
-        return;
-    }
     s->reload.loaded = gn_xalloc(1, sizeof *s->reload.loaded);
-    s->reload.loaded->number = number;
+    s->reload.loaded->number = GN_SHOW_RELOAD;
     s->reload.loaded->err = *err;
 }
 
@@ -77,7 +72,7 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
     case GN_GL_WARM_DONE: looks->ready |= 1u << mode; return false;
     case GN_GL_WARM_FAILED:
         if (looks == &s->scenes.looks && gn_show_reload_is_staged(s)) {
-            fail_staged(s, &err);
+            fail_reload(s, &err);
             return true;
         }
         snprintf(text, sizeof text, "mode \"%.40s\": %s", s->modes.names[mode], err.text);
@@ -155,7 +150,13 @@ static bool work_on_staged(struct gn_show *s) {
         gn_gl_stage(s->stage.gl, staged->scene);
         scenes->frame = gn_frame_create(staged->scene, gn_gl_caps(s->stage.gl));
     } else if (!gn_gl_stage_step(s->stage.gl, SLICE_BYTES, &scenes->whole, &err)) {
-        fail_staged(s, &err);
+        const int number = staged->number;
+        if (number == GN_SHOW_RELOAD) {
+            s->reload.alone = true;
+            return true;
+        }
+        gn_show_drop_staged(s);
+        fail_place(s, GN_KIOSK_SCENE_FAILED, number, err.text);
     }
     return true;
 }

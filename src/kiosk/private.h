@@ -72,6 +72,7 @@ struct gn_show_reload {
     struct gn_options *options; /* read; NULL: none */
     struct gn_loaded *loaded;   /* their scene; NULL: not yet, or it is staged */
     bool first;                 /* there is nothing to go back to */
+    bool alone;                 /* its scene did not fit on the GPU beside the one that is shown */
     char why[GN_SHOW_WHY];      /* why the built-in scene replaces the first one; "": it does not */
 };
 

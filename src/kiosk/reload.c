@@ -9,18 +9,20 @@
 #include "kiosk/private.h"
 
 /* The context stays, with the programs that were made in it. Not with a folder of shaders, whose
- * files may have changed. */
-static bool keeps_gl(const struct gn_show *s, const struct gn_settings *fresh) {
-    const struct gn_settings *now = s->stage.settings;
-    return s->stage.gl && !now->render.shaders && !fresh->render.shaders &&
+ * files may have changed, nor when the GPU has no room for two scenes: then the old one is freed
+ * first, and the picture stands still until the new one is uploaded. */
+static bool keeps_gl(const struct gn_show *s, const struct gn_show_reload *r) {
+    const struct gn_settings *now = s->stage.settings, *fresh = r->options->settings;
+    return s->stage.gl && !r->alone && !now->render.shaders && !fresh->render.shaders &&
            gn_show_same_screen(now, fresh);
 }
 
 /* Replaces the scene by the staged one, and the options; the display stays open if its settings
  * are the same. */
-static bool take_reload(struct gn_show *s, struct gn_options *options, struct gn_err *err) {
+static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struct gn_err *err) {
+    struct gn_options *options = r->options;
     const bool keeps_display = gn_show_same_screen(s->stage.settings, options->settings);
-    if (!keeps_gl(s, options->settings)) {
+    if (!keeps_gl(s, r)) {
         gn_show_stop_gl(s);
         s->context.generation = 0;
     }
@@ -140,10 +142,10 @@ static bool finish_reload(struct gn_show *s, struct gn_err *err) {
         keep_old(s, &why);
         return true;
     }
-    if (keeps_gl(s, r->options->settings) && !gn_show_reload_is_ready(s)) return true;
+    if (keeps_gl(s, r) && !gn_show_reload_is_ready(s)) return true;
     const struct gn_show_reload taken = *r;
     *r = (struct gn_show_reload){0};
-    const bool ok = take_reload(s, taken.options, err);
+    const bool ok = take_reload(s, &taken, err);
     if (ok && taken.first) s->counts.frames = 0;
     if (ok && taken.why[0]) gn_show_report_error(s, taken.why);
     gn_show_answer_reload(s, ok ? NULL : err);

@@ -201,8 +201,18 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
     assert_string_equal(show->modes.names[show->kiosk.shown.mode], "pcf");
     assert_ptr_equal(show->stage.gl, gl);
 
-    /* one that is not complete yet is dropped for a later one */
+    /* without room for two on the GPU the old one goes first */
     write_config(good);
+    show->reloads = true;
+    wait_for_staging(show);
+    show->reload.alone = true;
+    step(show);
+    assert_null(show->reload.options);
+    frames(show, 2);
+    assert_true(is_shown(show, good));
+
+    /* one that is not complete yet is dropped for a later one */
+    write_config(other);
     show->reloads = true;
     wait_for_staging(show);
     write_config(in_folder("huge.gltf"));
