@@ -54,13 +54,17 @@ expect 0 '' "$gnomon" inspect --json "$model"
 expect 0 '' "$import" --up z "$model" -o "$folder/b.glb"
 "$gnomon" inspect "$folder/b.glb" | grep -q 'size  *1 x 0 x 2 m' || complain '--up z'
 
-# ---- limits: assimp compares the names of all objects of an OBJ with each other ----
+# ---- limits: assimp triangulates a face in steps of the square of its corners, and compares the names of
+# all objects of an OBJ with each other ----
 
 awk 'BEGIN { n = 150000; print "v 0 0 0"; for (i = 0; i < n; i++) printf "v %d 1 0\n", i
              for (i = 2; i < n; i++) printf "f 1 %d %d\n", i, i + 1 }' > "$folder/m/fan.obj"
-awk 'BEGIN { print "v 0 0 0\nv 1 0 0\nv 0 1 0"; for (i = 0; i < 90000; i++) print "o o" i "\nf 1 2 3" }' > "$folder/m/objects.obj"
-expect 1 'objects.obj: not read within 1 s; raise the limit: gnomon --limit seconds=N, or gnomon-import --time N' "$import" --time 1 "$folder/m/objects.obj" -o "$folder/f.glb"
-expect 1 'objects.obj: not read within 1 s; raise the limit: gnomon --limit seconds=N' "$gnomon" inspect --limit seconds=1 "$folder/m/objects.obj"
+awk 'BEGIN { print "v 0 0 0\nv 1 0 0\nv 0 1 0"; for (i = 0; i < 60000; i++) print "o o" i "\nf 1 2 3" }' > "$folder/m/objects.obj"
+awk 'BEGIN { n = 28000; for (i = 0; i < n; i++) print "v", cos(i * 6.283 / n) * (1 + i % 2), sin(i * 6.283 / n) * (1 + i % 2), 0
+             printf "f"; for (i = 1; i <= n; i++) printf " %d", i }' > "$folder/m/polygon.obj"
+expect 0 '' "$import" --time 8 "$folder/m/objects.obj" -o "$folder/c.glb"
+expect 1 'polygon.obj: not read within 1 s; raise the limit: gnomon --limit seconds=N, or gnomon-import --time N' "$import" --time 1 "$folder/m/polygon.obj" -o "$folder/f.glb"
+expect 1 'polygon.obj: not read within 1 s; raise the limit: gnomon --limit seconds=N' "$gnomon" inspect --limit seconds=1 "$folder/m/polygon.obj"
 expect 1 'fan.obj: needs more than 80 MB of memory' "$import" --memory 80 "$folder/m/fan.obj" -o "$folder/f.glb"
 expect 1 'needs more than 80 MB of memory' "$gnomon" inspect --limit memory_mb=40 "$folder/m/fan.obj"
 expect 0 '' "$gnomon" inspect --limit file_mb=1048576 --limit memory_mb=1048576 "$model"

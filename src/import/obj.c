@@ -1,14 +1,18 @@
 /* Lines of vertices of an OBJ file that assimp 5.2 misreads or refuses: ".5" for "0.5"; texture
- * coordinates with one number, whose second is 0; comments, in which it counts numbers. */
+ * coordinates with one number, whose second is 0; comments, in which it counts numbers. And names
+ * of objects, each of which it compares with all before: 100,000 took 30 s. Where there are many,
+ * they become names of groups, which are nodes as well and take no search. */
 #include <ctype.h>
 #include <string.h>
 
 #include "import/private.h"
 
+enum { MOST_OBJECTS = 20000 };
+
 struct copy {
     char *out; /* NULL: only counted */
-    size_t size;
-    bool differs;
+    size_t size, objects;
+    bool differs, as_groups;
 };
 
 static void put(struct copy *copy, const char *text, size_t size) {
@@ -33,6 +37,12 @@ static const char *find_single(const char *line, const char *end) {
 }
 
 static void copy_line(const char *line, const char *end, struct copy *copy) {
+    const bool is_object = *line == 'o' && end - line > 1 && is_blank(line[1]);
+    copy->objects += is_object;
+    if (is_object && copy->as_groups) {
+        put(copy, "g", 1);
+        line++;
+    }
     if (*line != 'v') {
         put(copy, line, (size_t)(end - line));
         return;
@@ -64,8 +74,9 @@ void gn_import_obj_pad(struct gn_bytes *bytes) {
     const char *text = (const char *)bytes->data, *end = text + bytes->size;
     struct copy count = {0};
     copy_lines(text, end, &count);
-    if (!count.differs) return;
-    struct copy padded = {.out = gn_import_alloc(count.size + 1)};
+    const bool as_groups = count.objects > MOST_OBJECTS;
+    if (!count.differs && !as_groups) return;
+    struct copy padded = {.out = gn_import_alloc(count.size + 1), .as_groups = as_groups};
     copy_lines(text, end, &padded);
     padded.out[padded.size] = 0;
     gn_bytes_finish(bytes);

@@ -119,7 +119,8 @@ void gn_import_ply_guard(struct gn_bytes *bytes);
 
 /* ---- obj.c ---- */
 
-/* Writes ".5" as "0.5", and "vt U" as "vt U 0"; leaves out comments of such lines. */
+/* Writes ".5" as "0.5", and "vt U" as "vt U 0"; leaves out comments of such lines. Makes groups of
+ * tens of thousands of objects. */
 void gn_import_obj_pad(struct gn_bytes *bytes);
 
 /* ---- mtl.c ---- */
