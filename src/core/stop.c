@@ -1,8 +1,11 @@
 #include "core/stop.h"
 
+#include <poll.h>
 #include <pthread.h>
 #include <semaphore.h>
 #include <stddef.h>
+#include <sys/signalfd.h>
+#include <time.h>
 #include <unistd.h>
 
 /* Both signals but those that are ignored: a blocked one would come in spite of that. */
@@ -58,24 +61,52 @@ static void *wait_for_signal(void *started) {
     _exit(128 + number);
 }
 
-void gn_stop_end_process(void) {
+/* A thread without the process's stop signals that calls run(started), which posts started. */
+static bool start_thread(void *(*run)(void *), sem_t *started) {
     enum { STACK_BYTES = 256 << 10 };
-    static sem_t started; /* static: the thread may still be in sem_post() when this returns */
     pthread_t thread;
     pthread_attr_t attributes;
-    sem_init(&started, 0, 0);
+    sem_init(started, 0, 0);
     pthread_attr_init(&attributes);
     pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
     pthread_attr_setstacksize(&attributes, STACK_BYTES);
-    const bool runs = pthread_create(&thread, &attributes, wait_for_signal, &started) == 0;
+    const bool runs = pthread_create(&thread, &attributes, run, started) == 0;
     pthread_attr_destroy(&attributes);
-    if (runs) {
-        /* A child forked while the thread starts would inherit the locks that it holds then. */
-        while (sem_wait(&started) != 0) {
-        }
-        return;
+    /* A child forked while the thread starts would inherit the locks that it holds then. */
+    while (runs && sem_wait(started) != 0) {
     }
+    return runs;
+}
+
+void gn_stop_end_process(void) {
+    static sem_t started; /* static: the thread may still be in sem_post() when this returns */
+    if (start_thread(wait_for_signal, &started)) return;
     sigset_t signals; /* without a thread the kernel ends the process, and the file stays */
     set_stop_signals(&signals);
     sigprocmask(SIG_UNBLOCK, &signals, NULL);
+}
+
+enum { LATE_STEP_NS = 50000000 };
+static int64_t late_ns;
+
+static void *wait_for_loop(void *started) {
+    sigset_t signals;
+    set_stop_signals(&signals);
+    /* readable while a signal is pending; never read: the loop takes it */
+    struct pollfd pending = {.fd = signalfd(-1, &signals, SFD_CLOEXEC), .events = POLLIN};
+    sem_post(started);
+    while (pending.fd >= 0) {
+        if (poll(&pending, 1, -1) < 1) continue;
+        for (int64_t left_ns = late_ns; gn_stop_asked(); left_ns -= LATE_STEP_NS) {
+            if (left_ns <= 0) _exit(0);
+            nanosleep(&(struct timespec){.tv_nsec = LATE_STEP_NS}, NULL);
+        }
+    }
+    return NULL;
+}
+
+void gn_stop_end_late(int64_t after_ns) {
+    static sem_t started;
+    late_ns = after_ns;
+    start_thread(wait_for_loop, &started);
 }

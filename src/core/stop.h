@@ -6,6 +6,7 @@
 
 #include <signal.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 /* From now on both signals stay pending instead of ending the process. Threads made later inherit
  * this. A signal that the parent process set to be ignored stays ignored until gn_stop_signals().
@@ -20,6 +21,10 @@ bool gn_stop_asked(void);
  * driver that compiles, a write to a FIFO without a reader), with exit status 128 + its number.
  * Buffered output is lost. */
 void gn_stop_end_process(void);
+/* For a program that takes the signals in a loop: if one is pending for longer than that, a thread
+ * ends the process with exit status 0. A GPU may take minutes for a frame, and nothing can be done
+ * meanwhile. */
+void gn_stop_end_late(int64_t after_ns);
 /* Between the two no signal ends the process. The file of that name is removed before one does;
  * NULL: none. One at a time; the name must stay valid until the next release. */
 void gn_stop_hold(void);

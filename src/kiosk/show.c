@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/arena.h"
+#include "core/clock.h"
 #include "core/stop.h"
 #include "kiosk/pointer.h"
 #include "kiosk/private.h"
@@ -151,9 +152,13 @@ struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warning
     return NULL;
 }
 
+/* Signals that the loop does not get to for so long, because of one frame, end the process. */
+#define LATE_NS (5 * GN_NS_PER_S)
+
 bool gn_show_run(const struct gn_options *options, struct gn_show_place *place,
                  struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_show *s = create(place, warnings);
+    gn_stop_end_late(LATE_NS);
     const bool ok = (open_all(s, options, err) && run(s, err)) ||
                     (err->status != GN_EXIT_DISPLAY &&
                      (s->ends || gn_stop_asked())); /* stopped on purpose: not a failure */

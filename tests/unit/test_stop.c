@@ -111,11 +111,50 @@ static void an_ignored_signal_stays_ignored(void **state) {
     signal(SIGINT, SIG_DFL);
 }
 
+/* A loop that does not get to the signal. */
+static void a_late_loop_is_ended_with_0(void **state) {
+    (void)state;
+    const pid_t pid = fork();
+    if (pid == 0) {
+        gn_stop_block();
+        gn_stop_end_late(200000000);
+        kill(getpid(), SIGTERM);
+        for (int i = 0; i < 100; i++) sleep_us(100000);
+        _exit(3);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(pid, &status, 0), pid);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+/* The loop takes the signal in time. */
+static void a_loop_in_time_ends_by_itself(void **state) {
+    (void)state;
+    const pid_t pid = fork();
+    if (pid == 0) {
+        sigset_t signals;
+        int number;
+        gn_stop_block();
+        gn_stop_signals(&signals);
+        gn_stop_end_late(200000000);
+        kill(getpid(), SIGTERM);
+        sigwait(&signals, &number);
+        sleep_us(600000);
+        _exit(3);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(pid, &status, 0), pid);
+    assert_int_equal(WEXITSTATUS(status), 3);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_interrupted_writer_leaves_a_whole_file_or_none),
         cmocka_unit_test(a_busy_thread_delays_no_signal),
         cmocka_unit_test(an_ignored_signal_stays_ignored),
+        cmocka_unit_test(a_late_loop_is_ended_with_0),
+        cmocka_unit_test(a_loop_in_time_ends_by_itself),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
