@@ -91,6 +91,8 @@ static int64_t late_ns;
 
 static void *wait_for_loop(void *started) {
     sigset_t signals;
+    sigfillset(&signals); /* the loop blocks more than both, after this thread began */
+    pthread_sigmask(SIG_SETMASK, &signals, NULL);
     set_stop_signals(&signals);
     /* readable while a signal is pending; never read: the loop takes it */
     struct pollfd pending = {.fd = signalfd(-1, &signals, SFD_CLOEXEC), .events = POLLIN};
