@@ -68,10 +68,12 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
         s->fade.kept = true;
     }
 
-    /* count allocations, except in the first frame and while a scene loads */
+    /* count allocations, except in the first frame and while a scene loads; GL objects not where a
+     * mode begins either: its maps are made then */
     if (s->counts.frames++ > 0 && !gn_loader_is_busy(s->scenes.loader)) {
         s->counts.allocations += gn_alloc_count() - allocations;
-        s->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;
+        if (view.mode == s->drawn.mode && view.scene == s->drawn.scene)
+            s->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;
     }
     s->drawn = view;
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);

@@ -98,7 +98,7 @@ struct gn_show_counts {
     int64_t begun_ns; /* the program, about */
     uint64_t frames, most_frames;
     unsigned long allocations; /* in frames after the first, without work ahead */
-    uint64_t objects;          /* of GL, in the same frames */
+    uint64_t objects;          /* of GL, in those of them that show what the one before shows */
     struct gn_frame_times times;
 };
 
