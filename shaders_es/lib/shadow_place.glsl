@@ -78,7 +78,8 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.at = shadow_cascade_at(slot, c, p, n, l);
         s.slope = shadow_cascade_slope(slot, c, face, l);
         s.penumbra.PENUMBRA_RADIUS /= c.texel;
-        // Limits penumbrae to the reach of a tile and, in proportion to the view depth, to PENUMBRA_GROWTH.
+        // Limits penumbrae to the reach of a tile and, in proportion to the view depth, to PENUMBRA_GROWTH, whose
+        // component PENUMBRA_NEAREST shares and takes over here.
         float depth = shadow_penumbra_depth(s, s.at.z);
         s.penumbra.PENUMBRA_NEAREST =
             max(c.nearest, depth - min(s.reach / s.penumbra.PENUMBRA_RADIUS, s.penumbra.PENUMBRA_GROWTH / gl_FragCoord.w));

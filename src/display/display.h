@@ -55,18 +55,19 @@ struct gn_screen {
     bool blank;          /* switched off by gn_display_blank(), so not lit */
     bool black;          /* blanking by a black frame only: draw one when may_draw */
     bool lit;            /* frames are visible */
-    bool may_draw;       /* lit and no frame in flight: begin and present are due */
+    bool may_draw; /* none is in flight: begin and present are due; the first lights the screen */
     bool damaged; /* the last frame is gone or has another size: draw again even if nothing changed;
                      cleared by begin */
     struct gn_pointer pointer;    /* accumulated input; the reader zeroes it */
-    uint32_t width_px, height_px; /* of the framebuffer; 0 while not lit */
+    uint32_t width_px, height_px; /* of the framebuffer; 0: nothing to draw to */
     unsigned rotate_deg;          /* 0, 90, 180, 270: draw rotated clockwise by this */
     bool srgb;                    /* the window's framebuffer is sRGB, single-sampled */
     uint8_t *copy_to;   /* not NULL between begin and present: draw off screen and copy here as
                            XRGB8888, top row first */
     size_t copy_stride; /* bytes */
     int64_t period_ns;  /* refresh interval */
-    int64_t seen_ns;    /* monotonic: when a frame begun now becomes visible */
+    int64_t
+        seen_ns; /* monotonic: when a frame begun now becomes visible, as of the last dispatch */
     struct gn_screen_counts counts;
     char what[80];    /* "HDMI-A-1 1920x1080@60.00 atomic"; "": nothing shown */
     char status[160]; /* one line: why nothing is shown; "" while shown */

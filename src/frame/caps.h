@@ -35,7 +35,8 @@ struct gn_caps {
     bool software; /* llvmpipe, softpipe, swrast, SwiftShader */
     bool tiler;    /* it keeps a tile of the picture on chip, with all its samples */
 };
-/* The encodings that caps prove, for gn_encoding_choose. */
+/* The encodings that caps claim, and prove once gn_gl_prove() has tried them; for
+ * gn_encoding_choose. */
 uint32_t gn_caps_encodings(const struct gn_caps *caps);
 /* The capability that a format of moments needs. */
 enum gn_cap gn_cap_of_moments(enum gn_moments moments);

@@ -62,7 +62,8 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
                        const struct gn_frame_opts *opts, enum gn_receiver receiver,
                        struct gn_program_key *key) {
     key->light_count = (uint8_t)group->count;
-    /* How many of the lights with maps the item's shadows come from: planar ones are last. */
+    /* How many of the lights with maps the item's shadows come from: planar ones are last
+     * (group.c). */
     uint32_t shadows = receiver == GN_RECEIVES_NOTHING ? 0 : group->shadow_count;
     while (receiver == GN_RECEIVES_MAPS && shadows > 0 &&
            gn_techniques[frame->lights[group->first + shadows - 1].technique].on_plane)

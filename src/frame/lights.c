@@ -195,7 +195,8 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         light->technique = GN_TECHNIQUE_NONE;
     }
     bound_triangles(frame, opts, warnings);
-    /* Those with maps first, else in the scene's order. */
+    /* those with maps first, else in the scene's order; gn_frame_group_lights() then orders them
+     * within their groups, planar ones as the last of those with maps */
     struct gn_frame_light open[GN_ALL_LIGHTS_MAX];
     uint32_t open_count = 0;
     frame->shadow_count = 0;

@@ -24,7 +24,8 @@ enum { GN_NOTICE_ABOUT = 11 }; /* options that a warning may be about */
 
 struct gn_frame;
 struct gn_frame_opts;
-/* First of all in a build. */
+/* First of all in a build: resolves the names of the lights' techniques into notes.lights, finds
+ * the plane, and lets warnings be given again when options have changed. */
 void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts);
 /* Whether to give this warning now: not given yet, and `warnings` is not NULL. Marks it as given.
  */

@@ -1,7 +1,7 @@
 /* From a program key to the source of a stage. Key bits become `const bool`, used with plain `if`;
  * a WITH_ macro stands beside each for declarations. Every technique defines the same function, and
- * so does every encoding: where a program needs several of them, the names that a file lists in its
- * `//@ names` line get a suffix by macro while the file is read. No GL. */
+ * so does every encoding: the names that a file lists in its `//@ names` line get a suffix by macro
+ * while the file is read, so that a program can have several. No GL. */
 #include <stdio.h>
 #include <string.h>
 
@@ -52,7 +52,8 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
     gn_gl_text_add(out, "const int AOV = %d;\n", key->aov);
 }
 
-/* The first light that has the technique and encoding of light i: its number is the suffix. */
+/* The first light that has the technique, encoding and moments of light i: its number is the
+ * suffix. */
 static int pair_of(const struct gn_program_key *key, int i) {
     const struct gn_light_key *light = &key->lights[i];
     for (int first = 0;; first++) {

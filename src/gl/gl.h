@@ -80,7 +80,7 @@ struct gn_gl_window {
 };
 void gn_gl_set_window(struct gn_gl *gl, const struct gn_gl_window *window);
 
-/* Draws. Shadow passes whose target holds their content_hash are skipped. pass_ms, if not NULL,
+/* Draws. Shadow passes whose target holds their content.hash are skipped. pass_ms, if not NULL,
  * gets the time of each pass (CPU wall clock around the pass and a 1-pixel read-back: slow, for
  * bench). */
 bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err);

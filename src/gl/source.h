@@ -17,8 +17,8 @@ void gn_gl_text_finish(struct gn_gl_text *text);
 char *gn_gl_text_numbered(const struct gn_gl_text *text);
 
 /* Adds the shader file `name` (a path below shaders_es), from the folder or, if that is NULL, from
- * those embedded, with its #include "name" lines resolved: each included file once per source, one
- * added here whenever it is. */
+ * those embedded, with its #include "name" lines resolved: `name` itself at each call, an included
+ * file once per source. */
 struct gn_gl_source {
     const char *folder;
     char seen[32][64]; /* included so far */

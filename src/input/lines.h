@@ -30,7 +30,7 @@ struct gn_line {
     bool wanted;
     void *request; /* NULL: waiting for the line */
     struct gn_watch watch;
-    struct gn_lines *all;
+    struct gn_lines *all;   /* the set that it is in */
     bool readable, hung_up; /* the descriptor became readable and was not read yet */
     char where[96];
     bool no_bias;

@@ -185,6 +185,7 @@ void gn_show_work(struct gn_show *s) {
     }
     s->ahead.idle = !did;
     if (s->ahead.idle) gn_gl_warm_end(s->stage.gl);
+    /* while frames go on, each does a piece; this is for when none comes */
     s->ahead.due_ns = gn_loop_now_ns(s->loop) + 2 * s->stage.display.screen.period_ns;
 }
 

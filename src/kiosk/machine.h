@@ -21,8 +21,8 @@ struct gn_kiosk_rules {                    /* zero means the default written bes
     uint32_t own_camera; /* bits 1 << mode: the mode names a camera, which is used on entering */
     enum gn_idle idle;
     int64_t idle_after_ns; /* 0: never */
-    int64_t fade_ns;       /* from the old picture to the new; 0: at once */
-    int64_t caption_ns;    /* 0: no captions */
+    int64_t fade_ns;       /* how long, from the old picture to the new; 0: at once */
+    int64_t caption_ns;    /* how long; 0: no captions */
 };
 
 enum gn_kiosk_caption {
@@ -44,8 +44,8 @@ struct gn_kiosk {                        /* zeroed: the first mode and scene, no
     bool paused, blanked, info;
     int64_t scene_ns;   /* the scene's time in the last frame */
     int64_t seen_ns;    /* when that frame is on the screen; 0: no frame yet */
-    int64_t fade_ns;    /* begin of the fade; 0: none */
-    int64_t caption_ns; /* begin of the caption */
+    int64_t fade_ns;    /* monotonic: begin of the fade; 0: none */
+    int64_t caption_ns; /* monotonic: begin of the caption */
     enum gn_kiosk_caption caption;
     int64_t used_ns; /* the last action, or what the idle timeout did */
 };

@@ -60,7 +60,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     gn_show_advance(s);
     gn_show_enter_changed(s);
 
-    /* a frame if one is due, else a piece of background work */
+    /* a frame if one is due, which does a piece of background work itself, else such a piece */
     if (gn_show_wants_frame(s)) {
         if (!gn_show_frame(s, err)) return false;
     } else if (gn_show_has_work(s) && gn_loop_now_ns(s->loop) >= s->ahead.due_ns) {
@@ -69,7 +69,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
         /* no frame to miss: what is waited for is not spread over frames */
         if (s->scenes.staged && screen->may_draw) s->ahead.due_ns = gn_loop_now_ns(s->loop);
     }
-    gn_show_advance(s); /* that piece may have been the last one it waited for */
+    gn_show_advance(s); /* that piece, or the picture kept for a fade, may be what it waited for */
     gn_show_enter_changed(s);
     return true;
 }

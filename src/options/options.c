@@ -43,8 +43,8 @@ bool gn_options_parse(const struct gn_options *options, const struct gn_option_r
 bool gn_options_set(struct gn_options *options, const struct gn_option_row *row, const char *text,
                     enum gn_source source, const char *label, struct gn_err *err) {
     struct gn_settings *settings = &options->all[0];
-    _Alignas(16) char value[sizeof(struct gn_limits)] = {0};
-    if (settings->source[row - gn_option_rows] == source) /* NAME=VALUE adds */
+    _Alignas(16) char value[sizeof(struct gn_limits)] = {0}; /* the largest kind */
+    if (settings->source[row - gn_option_rows] == source)    /* NAME=VALUE adds */
         memcpy(value, gn_settings_value(settings, row), gn_value_size(row->kind));
     if (!gn_options_parse(options, row, text, value, &options->arena, label, err)) return false;
     const char *kept = gn_arena_strdup(&options->arena, label);

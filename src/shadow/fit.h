@@ -61,7 +61,8 @@ struct gn_shadow_page {
 /* What a directional map, or the inner part of a cascade, holds; outside of it the map is cleared.
  */
 struct gn_shadow_drawn {
-    double corner_texels[2];    /* the map's lower left texel, counted from the light's axis */
+    double
+        corner_texels[2]; /* the lower left texel of what is drawn, counted from the light's axis */
     uint32_t px[2], size_px[2]; /* in the map; at least a texel from its edge */
     bool paged; /* drawn in pages, then copied; else the one page is the map. Cascades: always */
     uint32_t page_count; /* 0: nothing is drawn in pages (spot, point, on a plane, empty) */

@@ -22,7 +22,7 @@ struct gn_stage {
     struct gn_gl *gl;
     struct gn_frame *frame;
     struct gn_frame_opts frame_opts;
-    bool waits; /* the last plan's */
+    bool waits; /* as gn_plan.waits of the last plan: it wants another frame */
 };
 
 /* The limits of --limit, for the loader. */

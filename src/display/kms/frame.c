@@ -19,7 +19,7 @@ static void on_flip(int fd, unsigned sequence, unsigned s, unsigned us, unsigned
 
 void gn_kms_drain(struct gn_kms *k, int64_t now_ns) {
     drmEventContext context = {.version = 3, .page_flip_handler2 = on_flip};
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 8; i++) { /* until nothing is left to read, within bounds */
         k->frames.event_ns = -1;
         errno = 0;
         const int result = k->env.drm->HandleEvent(k->device.fd, &context);
@@ -110,7 +110,7 @@ void gn_kms_send(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
         gn_flip_done(&k->flip, 0, now_ns);
         gn_kms_take_front(k, frame, now_ns);
     }
-    k->frames.waiting = (struct gn_kms_frame){.fence = -1};
+    k->frames.waiting = (struct gn_kms_frame){.fence = -1}; /* it was this frame, or is replaced */
 }
 
 /* ---- message without GL ---- */

@@ -82,7 +82,8 @@ struct gn_kms {
     struct gn_kms_text text;
     bool master, away; /* away: another VT is active */
     bool blank;        /* blanking requested */
-    bool lit;          /* the CRTC shows the last flipped frame; false: needs a modeset */
+    bool lit; /* the CRTC shows the last flipped frame; false: needs a modeset. screen.lit is
+                 more: see publish_state() */
     struct gn_kms_frames frames;
     struct gn_flip flip;
     int losses; /* context losses with a monitor connected since the last visible frame */
