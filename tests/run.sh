@@ -1,6 +1,6 @@
 #!/bin/bash
-# run.sh [NAME=VALUE | PROGRAM]..: runs programs and scripts, JOBS (the number of processors) at a
-# time, and counts. NAME=VALUE goes into the environment of those that follow (BUILD=build/asan).
+# run.sh [NAME=VALUE | PROGRAM]..: runs programs and scripts, JOBS (one more than processors, since
+# tests also wait) at a time, and counts. NAME=VALUE goes into the environment of those that follow (BUILD=build/asan).
 # tests/timeouts has the processor seconds that each may take, and which of them run alone, after
 # the others; the longest begin first. A line is printed when a test has ended, and with it the end
 # of its log if it failed. Exit status 77 is a skip, whose last line says why; the tests inside a
@@ -19,7 +19,7 @@ export LSAN_OPTIONS=${LSAN_OPTIONS-suppressions=tests/lsan.supp:print_suppressio
 # intercept_tls_get_addr: up to gcc 13 the leak checker takes some thread-local blocks for those of an
 # older libc and crashes, once in thousands of runs
 export ASAN_OPTIONS=${ASAN_OPTIONS-allocator_may_return_null=1:detect_stack_use_after_return=1:intercept_tls_get_addr=0}
-jobs=${JOBS:-$(nproc)}
+jobs=${JOBS:-$(($(nproc) + 1))}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 # each job waits for a timeout, which ends its test when it is ended itself
