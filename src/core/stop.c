@@ -40,13 +40,29 @@ bool gn_stop_asked(void) {
 /* ---- the thread that ends the process -------------------------------------------------------- */
 
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
-static const char *temporary_path; /* under the mutex */
+static const char *temporary_path; /* under the mutex, as are these two */
+static void (*restore_call)(void *);
+static void *restore_user;
 
 void gn_stop_hold(void) { pthread_mutex_lock(&mutex); }
 
 void gn_stop_release(const char *temporary) {
     temporary_path = temporary;
     pthread_mutex_unlock(&mutex);
+}
+
+void gn_stop_set_restore(void (*restore)(void *), void *user) {
+    gn_stop_hold();
+    restore_call = restore;
+    restore_user = user;
+    pthread_mutex_unlock(&mutex);
+}
+
+static _Noreturn void end_process(int status) {
+    gn_stop_hold(); /* never released: nothing is renamed any more */
+    if (temporary_path) unlink(temporary_path);
+    if (restore_call) restore_call(restore_user);
+    _exit(status);
 }
 
 static void *wait_for_signal(void *started) {
@@ -56,9 +72,7 @@ static void *wait_for_signal(void *started) {
     sem_post(started);
     while (sigwait(&signals, &number) != 0) {
     }
-    gn_stop_hold(); /* never released: nothing is renamed any more */
-    if (temporary_path) unlink(temporary_path);
-    _exit(128 + number);
+    end_process(128 + number);
 }
 
 /* A thread without the process's stop signals that calls run(started), which posts started. */
@@ -100,7 +114,7 @@ static void *wait_for_loop(void *started) {
     while (pending.fd >= 0) {
         if (poll(&pending, 1, -1) < 1) continue;
         for (int64_t left_ns = late_ns; gn_stop_asked(); left_ns -= LATE_STEP_NS) {
-            if (left_ns <= 0) _exit(0);
+            if (left_ns <= 0) end_process(0);
             nanosleep(&(struct timespec){.tv_nsec = LATE_STEP_NS}, NULL);
         }
     }

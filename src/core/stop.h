@@ -22,9 +22,12 @@ bool gn_stop_asked(void);
  * Buffered output is lost. */
 void gn_stop_end_process(void);
 /* For a program that takes the signals in a loop: if one is pending for longer than that, a thread
- * ends the process with exit status 0. A GPU may take minutes for a frame, and nothing can be done
- * meanwhile. */
+ * removes the temporary file, calls what gn_stop_set_restore() gave it, and ends the process with
+ * exit status 0. A GPU may take minutes for a frame, and nothing can be done meanwhile. */
 void gn_stop_end_late(int64_t after_ns);
+/* What outlives the process and is not the kernel's to restore, as the mode of a console. Called in
+ * another thread, beside whatever the others do. NULL: nothing. */
+void gn_stop_set_restore(void (*restore)(void *user), void *user);
 /* Between the two no signal ends the process. The file of that name is removed before one does;
  * NULL: none. One at a time; the name must stay valid until the next release. */
 void gn_stop_hold(void);

@@ -153,7 +153,7 @@ struct gn_show *gn_show_open(const struct gn_options *options, struct gn_warning
 }
 
 /* Signals that the loop does not get to for so long, because of one frame, end the process. */
-#define LATE_NS (5 * GN_NS_PER_S)
+#define LATE_NS (GN_NS_PER_S / 10 * 8)
 
 bool gn_show_run(const struct gn_options *options, struct gn_show_place *place,
                  struct gn_warnings *warnings, struct gn_err *err) {

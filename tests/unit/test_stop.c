@@ -2,6 +2,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -111,12 +112,16 @@ static void an_ignored_signal_stays_ignored(void **state) {
     signal(SIGINT, SIG_DFL);
 }
 
+static void create_file(void *name) { close(open(name, O_CREAT | O_WRONLY, 0600)); }
+
 /* A loop that does not get to the signal. */
 static void a_late_loop_is_ended_with_0(void **state) {
     (void)state;
+    static char restored[] = "restored";
     const pid_t pid = fork();
     if (pid == 0) {
         gn_stop_block();
+        gn_stop_set_restore(create_file, restored);
         gn_stop_end_late(200000000);
         kill(getpid(), SIGTERM);
         for (int i = 0; i < 100; i++) sleep_us(100000);
@@ -126,6 +131,7 @@ static void a_late_loop_is_ended_with_0(void **state) {
     assert_int_equal(waitpid(pid, &status, 0), pid);
     assert_true(WIFEXITED(status));
     assert_int_equal(WEXITSTATUS(status), 0);
+    assert_int_equal(unlink(restored), 0);
 }
 
 /* The loop takes the signal in time. */

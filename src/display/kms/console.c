@@ -8,12 +8,21 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "core/stop.h"
+
 enum { LEAVE = SIGUSR1, ENTER = SIGUSR2 };
 
 static bool is_console(int fd) {
     int mode;
     struct vt_mode vt;
     return ioctl(fd, KDGETMODE, &mode) == 0 && ioctl(fd, VT_GETMODE, &vt) == 0;
+}
+
+static void restore_text_mode(void *user) {
+    const struct gn_console *c = user;
+    struct vt_mode automatic = {.mode = VT_AUTO};
+    ioctl(c->tty, VT_SETMODE, &automatic);
+    ioctl(c->tty, KDSETMODE, KD_TEXT);
 }
 
 /* Of several signals in one step, the last one counts. */
@@ -44,6 +53,7 @@ void gn_console_open(struct gn_console *c, struct gn_loop *loop) {
         gn_console_close(c);
         return;
     }
+    gn_stop_set_restore(restore_text_mode, c);
     ioctl(tty, KDSETMODE, KD_GRAPHICS);
 }
 
@@ -53,10 +63,9 @@ void gn_console_let_go(struct gn_console *c) {
 }
 
 void gn_console_close(struct gn_console *c) {
-    struct vt_mode automatic = {.mode = VT_AUTO};
     if (c->tty >= 0) {
-        ioctl(c->tty, VT_SETMODE, &automatic);
-        ioctl(c->tty, KDSETMODE, KD_TEXT);
+        gn_stop_set_restore(NULL, NULL);
+        restore_text_mode(c);
         close(c->tty);
     }
     gn_loop_remove_signals(&c->signals);
