@@ -90,6 +90,9 @@ static void make_sampler(struct gn_gl *gl, const struct gn_texture *t) {
 
 /* ---- all of them ---- */
 
+/* A texture costs as much time as so many bytes, however small its picture is. */
+enum { PICTURE_BYTES = 16 << 10 };
+
 /* The uses of pictures, by number: slots of materials, then lights' slides. */
 static bool use_of(const struct gn_scene *scene, uint32_t use, int32_t *texture, bool *srgb) {
     const uint32_t slots = scene->material_count * GN_TEXTURE_SLOT_COUNT;
@@ -130,8 +133,7 @@ static bool open_next_picture(struct gn_gl *gl) {
                 "image %u: %ux%u pixels exceed the texture size of this GPU; reduced to %ux%u",
                 index, whole->width_px, whole->height_px, p->image.width_px, p->image.height_px);
 
-    for (uint32_t i = 0; i < pictures->texture_count; i++)
-        p->mipmaps |= pictures->textures[i].image == index && pictures->textures[i].mipmaps;
+    p->mipmaps = p->image.mipmaps;
     const uint32_t width = p->image.width_px, height = p->image.height_px;
     p->levels = 1;
     while (p->mipmaps && (width > height ? width : height) >> p->levels > 0) p->levels++;
@@ -156,12 +158,14 @@ bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes) {
             gn_gl_curve_init(s->upload.curve);
         }
     }
-    while (sent < bytes && (p->open || open_next_picture(gl))) {
+    while (sent < bytes) {
         int32_t texture = 0;
         bool srgb = false;
+        if (!p->open && !open_next_picture(gl)) break;
+        if (p->level == 0 && p->row == 0) sent += PICTURE_BYTES;
         use_of(s->scene, s->upload.first, &texture, &srgb);
         gn_gl_work_on_texture(gl, s->images[srgb][s->scene->pictures.textures[texture].image]);
-        sent += send_rows(gl, bytes - sent);
+        sent += send_rows(gl, sent < bytes ? bytes - sent : 1);
     }
     if (p->open || sent >= bytes) return false;
     for (uint32_t i = 0; i < s->scene->pictures.texture_count; i++)
