@@ -50,8 +50,8 @@ void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_dr
 
 /* ---- running and reading (run.c, read.c) ---- */
 
-/* Draws one triangle on one pixel with a program, in each pass of the plan that uses it. Maps drawn
- * to this way lose their content. */
+/* Draws one triangle on one pixel with a program, in each pass of the plan that uses it and with
+ * each set of textures, up to 32. Maps drawn to this way lose their content. */
 bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
                  struct gn_err *err);
 bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err);

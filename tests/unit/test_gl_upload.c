@@ -94,11 +94,36 @@ static void test_small_pictures_are_uploaded_a_few_at_a_time(void **state) {
     free(materials);
 }
 
+/* A driver may compile for wrapping and mipmaps at the first draw with them. */
+static void test_a_program_is_warmed_with_each_set_of_textures(void **state) {
+    (void)state;
+    struct gn_scene scene = help_scene;
+    struct gn_texture textures[2] = {{.image = 0}, {.image = 0, .wrap_s = GN_WRAP_CLAMP}};
+    struct gn_material materials[2] = {help_scene.materials[1], help_scene.materials[1]};
+    materials[1].textures[0].texture = 1;
+    scene.pictures.textures = textures;
+    scene.pictures.texture_count = 2;
+    scene.materials = materials;
+    assert_true(gn_gl_load(gl, &scene, &err));
+    for (int textured = 0; textured < 2; textured++) {
+        begin_plan(GN_OUTPUT_SRGB8);
+        s.plan.scene = &scene;
+        if (textured) s.programs[0].features = GN_FEATURE(BASE_TEXTURE);
+        for (int i = 0; i < 4; i++)
+            add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = (uint32_t)i / 2;
+        const uint64_t before = gl->stats.draws;
+        while (gn_gl_warm(gl, &s.plan, &err) == GN_GL_WARM_MORE) {
+        }
+        assert_int_equal(gl->stats.draws - before, textured ? 2 : 1);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(test_wide_indices),
         TEST(test_large_image),
         TEST(test_mipmaps),
+        TEST(test_a_program_is_warmed_with_each_set_of_textures),
         TEST(test_small_pictures_are_uploaded_a_few_at_a_time),
     };
     return RUN(tests);
