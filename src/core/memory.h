@@ -4,6 +4,18 @@
 
 #include <stdint.h>
 
+/* GN_LIMITS_MEMORY: RLIMIT_AS can bound this build. A sanitizer reserves more than any limit. */
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#define GN_ADDRESS_SANITIZER
+#endif
+#endif
+#if defined(GN_ADDRESS_SANITIZER) || defined(__SANITIZE_ADDRESS__)
+enum { GN_LIMITS_MEMORY = 0 };
+#else
+enum { GN_LIMITS_MEMORY = 1 };
+#endif
+
 /* MemTotal of /proc/meminfo in 2^20 bytes, read once; 0: unknown. */
 uint64_t gn_memory_total_mb(void);
 /* For tests: what gn_memory_total_mb() returns from now on. */

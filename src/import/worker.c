@@ -6,20 +6,9 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
+#include "core/memory.h"
 #include "core/sandbox.h"
 #include "import/private.h"
-
-/* Sanitizers reserve more address space than any limit. */
-#ifdef __has_feature
-#if __has_feature(address_sanitizer)
-#define UNBOUNDED
-#endif
-#endif
-#if defined(UNBOUNDED) || defined(__SANITIZE_ADDRESS__)
-enum { BOUND_MEMORY = 0 };
-#else
-enum { BOUND_MEMORY = 1 };
-#endif
 
 static void limit_resource(int what, rlim_t most) {
     struct rlimit limit = {most, most};
@@ -38,7 +27,7 @@ void gn_import_work(const struct gn_import_opts *opts, int fd, int opener,
     if (!gn_import_folder_find(&import)) return;
 
     /* the parent enforces wall time; RLIMIT_CPU is a second line of defence */
-    if (BOUND_MEMORY) limit_resource(RLIMIT_AS, (rlim_t)opts->memory_mb << 20);
+    if (GN_LIMITS_MEMORY) limit_resource(RLIMIT_AS, (rlim_t)opts->memory_mb << 20);
     limit_resource(RLIMIT_CPU, (rlim_t)opts->time_s + 2);
     limit_resource(RLIMIT_FSIZE, (rlim_t)opts->file_mb << 20);
     limit_resource(RLIMIT_CORE, 0);

@@ -15,6 +15,7 @@
 
 #include "core/child.h"
 #include "core/file.h"
+#include "core/memory.h"
 #include "frame/frame.h"
 #include "fuzz/bombs.h"
 #include "scene/pose.h"
@@ -22,17 +23,8 @@
 enum { ADDRESSES_MB = 2048, SMALL_MB = 128, MAPS_MB = 64 };
 enum { SHOWN, REFUSED };
 
-/* Sanitizers reserve more address space than any limit, and keep what is freed for a while. */
-#ifdef __has_feature
-#if __has_feature(address_sanitizer)
-#define UNBOUNDED
-#endif
-#endif
-#if defined(UNBOUNDED) || defined(__SANITIZE_ADDRESS__)
-enum { BOUND_MEMORY = 0, SECONDS = 60 };
-#else
-enum { BOUND_MEMORY = 1, SECONDS = 10 };
-#endif
+/* Sanitizers are slower, and keep what is freed for a while. */
+enum { SECONDS = GN_LIMITS_MEMORY ? 10 : 60 };
 
 static struct report { /* shared with the child */
     struct gn_err err;
@@ -69,7 +61,7 @@ static int try_bomb(const struct gn_made *bomb, const struct gn_scene_limits *li
     const struct rlimit seconds = {SECONDS, SECONDS + 1},
                         addresses = {(rlim_t)ADDRESSES_MB << 20, (rlim_t)ADDRESSES_MB << 20};
     setrlimit(RLIMIT_CPU, &seconds);
-    if (BOUND_MEMORY) setrlimit(RLIMIT_AS, &addresses);
+    if (GN_LIMITS_MEMORY) setrlimit(RLIMIT_AS, &addresses);
     struct gn_warnings warnings = {0};
     struct gn_scene *scene =
         gn_scene_load_bytes("b", bomb->data, bomb->size, limits, &warnings, &report->err);
@@ -126,7 +118,7 @@ static void run_bomb(uint64_t number) {
         snprintf(what, sizeof what, "takes %.1f s", took_s);
     else if (!done)
         snprintf(what, sizeof what, "ends with status %#x", (unsigned)status);
-    else if (BOUND_MEMORY && usage.ru_maxrss > most_kb)
+    else if (GN_LIMITS_MEMORY && usage.ru_maxrss > most_kb)
         snprintf(what, sizeof what, "takes %ld MB", usage.ru_maxrss / 1024);
     else if (is_shown && report->map_bytes > (uint64_t)MAPS_MB << 20)
         snprintf(what, sizeof what, "has maps of %" PRIu64 " MB", report->map_bytes >> 20);

@@ -21,6 +21,7 @@
 #include "core/clock.h"
 #include "image/shot.h"
 #include "unit/control_help.h"
+#include "unit/folder.h"
 
 enum { CLIENTS_MAX = 50, PER_CLIENT = 20 /* a second */, ASKED_MAX = 4096 };
 
@@ -46,12 +47,10 @@ static int start_kiosk(void **state) {
 }
 
 static int stop_kiosk(void **state) {
-    char command[100];
     (void)state;
     kill(kiosk, SIGKILL);
     waitpid(kiosk, NULL, 0);
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
+    return gn_test_remove_folder(folder);
 }
 
 static int enter_kiosk(void) {

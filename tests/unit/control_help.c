@@ -11,6 +11,7 @@
 
 #include "core/clock.h"
 #include "unit/check.h"
+#include "unit/folder.h"
 
 struct gn_ctl_test gn_ctl_test;
 
@@ -98,8 +99,6 @@ int gn_ctl_test_begin(void **state) {
 }
 
 int gn_ctl_test_end(void **state) {
-    char command[100];
     (void)state;
-    snprintf(command, sizeof command, "rm -rf '%s'", gn_ctl_test.folder);
-    return system(command);
+    return gn_test_remove_folder(gn_ctl_test.folder);
 }

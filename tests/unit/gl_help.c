@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "unit/check.h"
+#include "unit/folder.h"
 
 void help_open(struct gn_display *display, const char *name) {
     struct gn_err err = {0};
@@ -79,10 +80,23 @@ void help_write(const char *folder, const char *name, const char *text) {
     fclose(file);
 }
 
-void help_remove(const char *folder) {
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    assert_int_equal(system(command), 0);
+void help_remove(const char *folder) { assert_int_equal(gn_test_remove_folder(folder), 0); }
+
+void help_write_huge(const char *folder, int vertices) {
+    const int bytes = 12 * vertices;
+    char path[256], text[700];
+    help_write(folder, "huge.bin", "");
+    snprintf(path, sizeof path, "%s/huge.bin", folder);
+    assert_int_equal(truncate(path, bytes), 0);
+    snprintf(
+        text, sizeof text,
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+        "\"buffers\":[{\"byteLength\":%d,\"uri\":\"huge.bin\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d}],\"accessors\":[{\"bufferView\":0,"
+        "\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[2,0,2]}]}",
+        bytes, bytes, vertices);
+    help_write(folder, "huge.gltf", text);
 }
 
 static float positions[] = {

@@ -39,6 +39,9 @@ const struct gn_plan *help_stage_draw(struct help_stage *stage, const struct gn_
 const char *help_folder(void);
 void help_write(const char *folder, const char *name, const char *text);
 void help_remove(const char *folder);
+/* Writes huge.gltf into the folder: one geometry of that many vertices, a multiple of 3, of 12 zero
+ * bytes each, which take no space on the disk. */
+void help_write_huge(const char *folder, int vertices);
 
 /* Two flat squares that fill the view, at depth .25 (small: half the width) and .75 of clip space.
  */

@@ -10,6 +10,7 @@
 #include "gltf_maker.h"
 #include "scene_check.h"
 #include "stage/import.h"
+#include "unit/folder.h"
 
 static char folder[64] = "/tmp/gnomon-import-XXXXXX";
 static struct gn_warnings warnings;
@@ -104,10 +105,8 @@ static int enter(void **state) {
 }
 
 static int leave(void **state) {
-    char command[128];
     (void)state;
-    snprintf(command, sizeof command, "/bin/rm -rf '%s'", folder);
-    return system(command);
+    return gn_test_remove_folder(folder);
 }
 
 int help_import_run(const struct CMUnitTest *tests, size_t count) {

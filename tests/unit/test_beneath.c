@@ -19,6 +19,7 @@
 #include "core/beneath.h"
 #include "core/file.h"
 #include "scene/scene.h"
+#include "unit/folder.h"
 
 static char top[] = "/tmp/gnomon-beneath-XXXXXX", folder[64];
 
@@ -92,9 +93,7 @@ static int enter(void **state) {
 
 static int leave(void **state) {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", top);
-    return system(command);
+    return gn_test_remove_folder(top);
 }
 
 /* openat2() fails from now on. */

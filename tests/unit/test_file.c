@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "core/file.h"
+#include "unit/folder.h"
 
 static char folder[] = "/tmp/gnomon-file-XXXXXX";
 
@@ -29,10 +30,8 @@ static int enter(void **state) {
 }
 
 static int leave(void **state) {
-    char command[128];
     (void)state;
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
+    return gn_test_remove_folder(folder);
 }
 
 static int files_here(void) {

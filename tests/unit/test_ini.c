@@ -10,6 +10,7 @@
 #include "options/args.h"
 #include "options/file.h"
 #include "options/ini.h"
+#include "unit/folder.h"
 
 static char folder[] = "/tmp/gnomon-ini-XXXXXX";
 static struct gn_err err;
@@ -326,11 +327,9 @@ static int enter(void **state) {
 }
 
 static int leave(void **state) {
-    char command[128];
     (void)state;
     gn_options_finish(&options);
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
+    return gn_test_remove_folder(folder);
 }
 
 int main(void) {

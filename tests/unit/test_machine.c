@@ -9,6 +9,7 @@
 
 #include "cli/doctor_report.h"
 #include "cli/machine.h"
+#include "unit/folder.h"
 
 static char root[64];
 static struct gn_machine machine;
@@ -40,9 +41,7 @@ static int setup(void **state) {
 
 static int teardown(void **state) {
     (void)state;
-    char command[100];
-    snprintf(command, sizeof command, "rm -rf '%s'", root);
-    return system(command);
+    return gn_test_remove_folder(root);
 }
 
 static void test_a_bare_machine_has_nothing(void **state) {

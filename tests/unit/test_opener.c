@@ -14,6 +14,7 @@
 
 #include "core/file.h"
 #include "core/opener.h"
+#include "unit/folder.h"
 
 static char top[] = "/tmp/gnomon-opener-XXXXXX", folder[64], model[64];
 static int ends[2];
@@ -159,9 +160,7 @@ static int enter(void **state) {
 
 static int leave(void **state) {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", top);
-    return system(command);
+    return gn_test_remove_folder(top);
 }
 
 int main(void) {

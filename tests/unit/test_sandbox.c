@@ -27,6 +27,7 @@
 #include "core/file.h"
 #include "core/opener.h"
 #include "core/sandbox.h"
+#include "unit/folder.h"
 
 static char top[] = "/tmp/gnomon-sandbox-XXXXXX";
 static int port, memory, asked; /* a listener on this machine; the output; to an opener of files */
@@ -361,9 +362,7 @@ static int enter(void **state) {
 
 static int leave(void **state) {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", top);
-    return system(command);
+    return gn_test_remove_folder(top);
 }
 
 int main(void) {

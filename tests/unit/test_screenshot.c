@@ -15,6 +15,7 @@
 #include "core/file.h"
 #include "image/picture.h"
 #include "kiosk/screenshot.h"
+#include "unit/folder.h"
 
 static char folder[] = "/tmp/gnomon-shot-XXXXXX", path[100];
 static struct gn_err err;
@@ -251,10 +252,8 @@ static int enter(void **state) {
 }
 
 static int leave(void **state) {
-    char command[100];
     (void)state;
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
+    return gn_test_remove_folder(folder);
 }
 
 int main(void) {

@@ -13,6 +13,7 @@
 
 #include "core/file.h"
 #include "core/stop.h"
+#include "unit/folder.h"
 
 enum { SIZE = 1 << 20 };
 
@@ -24,10 +25,8 @@ static int enter(void **state) {
 }
 
 static int leave(void **state) {
-    char command[128];
     (void)state;
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
+    return gn_test_remove_folder(folder);
 }
 
 static bool is_here(const char *start) {
