@@ -106,8 +106,9 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     } else {
         s.at = shadow_point_spot(slot, radial, p, n, l);
         s.slope = shadow_slope_spot(slot, radial, s.at, p, face, l);
-        mat4 m = shadow_matrix(slot); // off the axis tangents grow by distance / depth
+        mat4 m = shadow_matrix(slot);
         float w = dot(vec3(m[0].w, m[1].w, m[2].w), p) + m[3].w;
+        // Off the axis tangents grow by distance / depth.
         if (radial) s.penumbra.PENUMBRA_RADIUS *= distance(p, SHADOW(slot, SHADOW_PLACE).xyz) / w;
     }
     return s;

@@ -8,10 +8,10 @@ mat4 shadow_matrix(const int slot) {
     return mat4(SHADOW(slot, SHADOW_MAP), SHADOW(slot, SHADOW_MAP + 1), SHADOW(slot, SHADOW_MAP + 2), SHADOW(slot, SHADOW_MAP + 3));
 }
 
-// The bias as a vector, world space. n, l: unit normal and unit direction to the light; n_a: cosine between n and a, the unit
-// vector along which the code grows (either sign); texel: scale of the plane units at the point, metres. Across a texel the code
-// changes by texel sin(n, a) / cos(n, l): by 0 on a surface normal to a. A surface seen from its unlit side is pushed to the lit
-// side: callers test whether it faces the light.
+// The bias as a vector that is added to the point, world space. n, l: unit normal and unit direction to the light; a: unit
+// direction in which the code grows, of either sign (l for distances, the axis for depths); n_a: cosine between n and a; texel:
+// scale of the plane units at the point, metres. Across a texel the code changes by texel sin(n, a) / cos(n, l): by 0 on a surface
+// normal to a. A surface seen from its unlit side is pushed to the lit side: callers test whether it faces the light.
 vec3 shadow_push(const int slot, vec3 n, vec3 l, float n_a, float texel) {
     vec4 bias = SHADOW(slot, SHADOW_BIAS);
     float c = dot(n, l);

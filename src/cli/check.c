@@ -47,7 +47,7 @@ static bool check_look(struct check *c, const struct gn_settings *settings, cons
                        struct gn_err *err) {
     struct gn_stage_look look;
     const struct gn_scene *scene = scene_of(c, settings, path, err);
-    if (!scene || !gn_stage_look(&look, settings, scene, c->warnings, err)) return false;
+    if (!scene || !gn_stage_look_build(&look, settings, scene, c->warnings, err)) return false;
     const struct gn_technique_row *technique = &gn_techniques[look.frame_opts.shadow.technique];
     if (!look.frame_opts.shadow.technique_given || !technique->on_plane) return true;
     for (uint32_t i = 0; i < scene->item_count; i++)

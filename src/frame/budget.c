@@ -48,7 +48,7 @@ void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts
         } else {
             frame->shadows[slot] = frame->kept[slot].view;
             frame->kept[slot].waited++;
-            frame->plan.waits = true;
+            frame->plan.is_behind = true;
         }
         texels[slot] = 0;
     }

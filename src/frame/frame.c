@@ -1,6 +1,4 @@
-/* Building a plan: eye, lights, one pass per shadow map, then the picture. Items are sorted by
- * batch, so a run of them becomes one instanced call (two when some are mirrored); blended items go
- * last, farthest first, one by one. */
+/* Building a plan: eye, lights, their shadow maps, then the passes. */
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
@@ -95,12 +93,13 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     frame->picture.width_px = on_side ? plan->height_px : plan->width_px;
     frame->picture.height_px = on_side ? plan->width_px : plan->height_px;
     memcpy(frame->picture.turn, turns[opts->turn_deg / 90 % 4], sizeof frame->picture.turn);
-    gn_frame_take_note(frame, opts);
+    gn_frame_learn_scene(frame);
+    gn_frame_renew_notices(frame, opts);
     choose_output(frame, opts, warnings);
     gn_frame_eye(frame, pose, opts, gn_frame_constants(frame, GN_CONSTANTS_PICTURE));
     plan->exposure = gn_frame_exposure(frame, pose, opts);
     gn_frame_choose_lights(frame, pose, opts, warnings);
-    /* Samples are averaged in linear light, before they are encoded. */
+    /* Groups are added, and samples averaged, in linear light: then a last pass encodes. */
     const bool resolves_to_float = plan->msaa > 1 && frame->caps.has & 1u << GN_CAP_RGBA16F;
     if (plan->encode_srgb && (frame->group_count > 1 || resolves_to_float))
         plan->output = GN_OUTPUT_FLOAT;

@@ -74,19 +74,19 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
 
     /* A format can be requested for the moments of a filtered map, or for an unfiltered map, not
      * for both. */
-    const bool filters = gn_technique_filters_map(light->technique);
-    if (filters)
+    const bool filters_map = gn_technique_filters_map(light->technique);
+    if (filters_map)
         light->moments = gn_moments_choose(technique->stores, opts->shadow.moments,
                                            gn_caps_moments(&frame->caps), &moments_fell_back);
     const bool wants_map = opts->shadow.encoding != GN_ENCODING_AUTO,
                wants_moments = opts->shadow.moments;
-    if ((filters ? moments_fell_back || wants_map : wants_moments) &&
+    if ((filters_map ? moments_fell_back || wants_map : wants_moments) &&
         gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
         gn_warn(warnings, "%s does not support map format %s%s; using %s", technique->name,
                 wants_map ? gn_encodings[opts->shadow.encoding].name
                           : gn_moments[opts->shadow.moments].name,
                 moments_fell_back ? " on this GPU" : "",
-                filters ? gn_moments[light->moments].name : gn_encodings[light->encoding].name);
+                filters_map ? gn_moments[light->moments].name : gn_encodings[light->encoding].name);
     if (fell_back && gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
         gn_warn(warnings, "this GPU cannot render to map format %s; using %s",
                 gn_encodings[opts->shadow.encoding].name, gn_encodings[light->encoding].name);
@@ -98,15 +98,15 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
                 "the plane is transparent: its shadows use a mask instead of the stencil");
 }
 
-static bool has_map(const struct gn_frame_light *light) {
+static bool casts_shadow(const struct gn_frame_light *light) {
     return light->technique != GN_TECHNIQUE_NONE;
 }
 
 /* Of equal lights the last; there is at least one light. */
-static uint32_t find_weakest(const struct gn_frame *frame, bool with_map) {
+static uint32_t find_weakest(const struct gn_frame *frame, bool casting) {
     uint32_t found = UINT32_MAX;
     for (uint32_t i = 0; i < frame->light_count; i++) {
-        if (with_map && !has_map(&frame->lights[i])) continue;
+        if (casting && !casts_shadow(&frame->lights[i])) continue;
         if (found == UINT32_MAX || frame->lights[i].illuminance <= frame->lights[found].illuminance)
             found = i;
     }
@@ -150,7 +150,7 @@ static void bound_triangles(struct gn_frame *frame, const struct gn_frame_opts *
     uint64_t views = 1; /* the picture */
     if (opts->shadow.triangles == 0) return;
     for (uint32_t i = 0; i < frame->light_count; i++)
-        if (has_map(&frame->lights[i])) views += count_views(frame, &frame->lights[i]);
+        if (casts_shadow(&frame->lights[i])) views += count_views(frame, &frame->lights[i]);
     while (views > 1 && each > opts->shadow.triangles / views) {
         struct gn_frame_light *light = &frame->lights[find_weakest(frame, true)];
         if (gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_TRIANGLES,
@@ -176,7 +176,7 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         l.strength = opts->shadow.strength_given ? opts->shadow.strength
                                                  : frame->scene->lights[i].shadow_strength;
         l.illuminance = illuminance(pose, i);
-        if (has_map(&l)) choose_encoding(frame, opts, &l, warnings);
+        if (casts_shadow(&l)) choose_encoding(frame, opts, &l, warnings);
         if (frame->light_count == most) { /* full: replaces the weakest, or is that itself */
             const uint32_t least = find_weakest(frame, false);
             struct gn_frame_light *at = &frame->lights[least];
@@ -188,20 +188,20 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         frame->lights[frame->light_count++] = l;
     }
     uint32_t maps = 0;
-    for (uint32_t i = 0; i < frame->light_count; i++) maps += has_map(&frame->lights[i]);
+    for (uint32_t i = 0; i < frame->light_count; i++) maps += casts_shadow(&frame->lights[i]);
     for (; maps > most_maps; maps--) {
         struct gn_frame_light *light = &frame->lights[find_weakest(frame, true)];
         warn_of_limit(frame, light->light, GN_NOTICE_MAPS, most_maps, warnings);
         light->technique = GN_TECHNIQUE_NONE;
     }
     bound_triangles(frame, opts, warnings);
-    /* those with maps first, else in the scene's order; gn_frame_group_lights() then orders them
-     * within their groups, planar ones as the last of those with maps */
+    /* those that cast shadows first, else in the scene's order; gn_frame_group_lights() then orders
+     * them within their groups, planar ones as the last of those that cast shadows */
     struct gn_frame_light open[GN_ALL_LIGHTS_MAX];
     uint32_t open_count = 0;
     frame->shadow_count = 0;
     for (uint32_t i = 0; i < frame->light_count; i++)
-        if (has_map(&frame->lights[i]))
+        if (casts_shadow(&frame->lights[i]))
             frame->lights[frame->shadow_count++] = frame->lights[i];
         else
             open[open_count++] = frame->lights[i];

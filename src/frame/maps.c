@@ -6,6 +6,9 @@
 
 #include "frame/private.h"
 
+/* Bytes of a light's name in a label; in that of a page " page 3" follows. */
+enum { NAME_LENGTH = 36, PAGE_LENGTH = sizeof " page 3" - 1 };
+
 /* What all passes of a map have in common. page: 0 unless it draws one. */
 static struct gn_pass *begin_pass(struct gn_frame *frame, enum gn_pass_kind kind, uint32_t slot,
                                   uint32_t tile, uint32_t page, mat4 clip_from_world) {
@@ -13,10 +16,11 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, enum gn_pass_kind kind
     static const char *const cascades[GN_CASCADES_MAX] = {"1", "2", "3", "4"};
     const struct gn_shadow_view *view = &frame->shadows[slot];
     const char *side = view->map.cascade_count > 0 ? cascades[tile] : sides[tile];
-    const bool tiles = view->map.tile_count > 1;
+    const bool tiles = view->map.tile_count > 1,
+               in_pages = view->raster.drawn.paged || view->map.cascade_count > 0;
     struct gn_pass *pass = gn_frame_begin_pass(frame, kind);
     snprintf(pass->label, sizeof pass->label, "shadow %u %s%s%.*s", slot, tiles ? side : "",
-             tiles ? " " : "", view->raster.drawn.paged || view->map.cascade_count > 0 ? 29 : 36,
+             tiles ? " " : "", in_pages ? NAME_LENGTH - PAGE_LENGTH : NAME_LENGTH,
              frame->scene->lights[view->light].name);
     pass->target = (struct gn_target){.kind = GN_TARGET_SHADOW,
                                       .slot = slot,
@@ -52,7 +56,7 @@ static void add_tile_pass(struct gn_frame *frame, const struct gn_pose *pose, ui
     struct gn_pass *pass = begin_pass(frame, GN_PASS_MAP, slot, index, 0, tile->clip_from_world);
     if (view->map.tile_count > 1)
         bound_tile(view, index, pass);
-    else if (view->raster.drawn.page_count > 0)
+    else if (view->raster.drawn.page_count > 0) /* one page, the whole map: not copied (fit.h) */
         pass->rect = (struct gn_rect){view->raster.drawn.px[0], view->raster.drawn.px[1],
                                       view->raster.drawn.size_px[0], view->raster.drawn.size_px[1]};
     else

@@ -6,7 +6,7 @@
 #include "frame/private.h"
 #include "shadow/planar.h"
 
-void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+void gn_frame_learn_scene(struct gn_frame *frame) {
     const struct gn_scene *scene = frame->scene;
     if (frame->notes.lights.count < scene->light_count) {
         frame->plane.exists = gn_planar_has_plane(scene);
@@ -24,6 +24,9 @@ void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts
         GN_LIST_PUSH(&frame->notes.lights) = (struct gn_light_note){
             .technique = unknown ? GN_TECHNIQUE_PCF : technique, .unknown = unknown};
     }
+}
+
+void gn_frame_renew_notices(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     const uint32_t about[GN_NOTICE_ABOUT] = {opts->shadow.technique_given,
                                              opts->shadow.technique,
                                              opts->shadow.encoding,

@@ -1,4 +1,5 @@
-/* Warnings that are given once, and again when options change. */
+/* What is looked up once in a scene; warnings that are given once, and again when options change.
+ */
 #ifndef GN_FRAME_NOTICE_H
 #define GN_FRAME_NOTICE_H
 
@@ -24,9 +25,11 @@ enum { GN_NOTICE_ABOUT = 11 }; /* options that a warning may be about */
 
 struct gn_frame;
 struct gn_frame_opts;
-/* First of all in a build: resolves the names of the lights' techniques into notes.lights, finds
- * the plane, and lets warnings be given again when options have changed. */
-void gn_frame_take_note(struct gn_frame *frame, const struct gn_frame_opts *opts);
+/* At the first build: resolves the names of the lights' techniques into notes.lights, finds the
+ * plane. */
+void gn_frame_learn_scene(struct gn_frame *frame);
+/* Lets warnings be given again when options that they are about have changed. */
+void gn_frame_renew_notices(struct gn_frame *frame, const struct gn_frame_opts *opts);
 /* Whether to give this warning now: not given yet, and `warnings` is not NULL. Marks it as given.
  */
 bool gn_frame_notice(uint32_t *said, enum gn_notice notice, const struct gn_warnings *warnings);

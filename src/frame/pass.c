@@ -50,7 +50,7 @@ void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key
 
 /* ---- passes of the picture ---- */
 
-bool gn_frame_is_encoded(const struct gn_frame *frame) {
+bool gn_frame_encodes_last(const struct gn_frame *frame) {
     return frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_FLOAT;
 }
 

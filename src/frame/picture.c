@@ -25,22 +25,22 @@ static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts) {
     const struct gn_selection seen = {.opts = opts};
     const struct gn_placed *placed = frame->items.blended.at;
-    bool begun = false, open = false;
+    struct gn_pass *blend = NULL; /* of the first group, while it is open */
+    bool open = false;
     if (frame->items.blended.count == 0) return; /* the list may be NULL */
     qsort(frame->items.blended.at, frame->items.blended.count, sizeof *placed, by_depth);
     for (uint32_t i = 0; i < frame->items.blended.count; i++) {
-        if (!begun) {
-            struct gn_pass *pass = gn_frame_lit_pass(frame, "blend", 0);
-            pass->picture.blend = GN_BLEND_ALPHA;
-            pass->depth_write = false;
-        }
         const uint32_t item = placed[i].item;
         const struct gn_item *what = &frame->scene->items[item];
-        open = begun && what->batch == frame->scene->items[placed[i - 1].item].batch;
+        open = blend && what->batch == frame->scene->items[placed[i - 1].item].batch;
+        if (!blend) {
+            blend = gn_frame_lit_pass(frame, "blend", 0);
+            blend->picture.blend = GN_BLEND_ALPHA;
+            blend->depth_write = false;
+        }
         gn_frame_draw_item(frame, pose, &seen, item, &open);
 
         /* the other groups' light; the pass ends where there is any */
-        begun = true;
         for (uint32_t k = 1; k < frame->group_count; k++) {
             const struct gn_light_group *g = &frame->groups[k];
             if (frame->scene->materials[what->material].unlit || !g->seen ||
@@ -48,14 +48,14 @@ static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
                 continue;
             struct gn_selection reached = {.group = g, .opts = opts};
             bool own = false;
-            if (begun) gn_frame_end_pass(frame);
-            begun = false;
+            if (blend) gn_frame_end_pass(frame);
+            blend = NULL;
             gn_frame_lit_pass(frame, "blend", k);
             gn_frame_draw_item(frame, pose, &reached, item, &own);
             gn_frame_end_pass(frame);
         }
     }
-    if (begun) gn_frame_end_pass(frame);
+    if (blend) gn_frame_end_pass(frame);
 }
 
 /* ---- all of them ---- */
@@ -112,7 +112,7 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
 void gn_frame_add_encode(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_frame_opts *opts) {
     (void)pose, (void)opts;
-    if (!gn_frame_is_encoded(frame)) return;
+    if (!gn_frame_encodes_last(frame)) return;
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = GN_PROGRAM_ENCODE;

@@ -61,7 +61,7 @@ struct gn_instance {     /* instance attributes, locations 10..15 */
     float world[3][4];   /* rows of world_from_item */
     float base_color[4]; /* linear */
     float surface[4];    /* roughness, metalness, occlusion strength, alpha cutoff */
-    float emissive[4];   /* linear radiance; w unused */
+    float emissive[4];   /* linear radiance; w: 1 = casts */
 };
 #define GN_NO_GEOMETRY UINT32_MAX /* a draw of bare vertices: they have only gl_VertexID */
 struct gn_draw {                  /* one instanced call */
@@ -214,7 +214,7 @@ struct gn_plan {
     const struct gn_caption_atlas *atlas; /* what captions read; NULL: there are none */
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
     uint32_t culled; /* items that the camera does not see */
-    bool waits;      /* for another frame: a filtered map is older than the pose (filter_texels) */
+    bool is_behind; /* a filtered map is older than the pose (filter_texels): wants another frame */
     uint64_t maps_bytes; /* the limit that its maps hold; 0: none */
     float exposure;
 };

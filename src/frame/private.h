@@ -15,13 +15,13 @@ struct gn_placed {
 /* A light of this frame. */
 struct gn_frame_light {
     uint32_t light;              /* of the scene */
-    enum gn_technique technique; /* NONE: no map */
+    enum gn_technique technique; /* NONE: casts no shadow */
     enum gn_encoding encoding;
     enum gn_moments moments; /* of a technique that filters its map */
     enum gn_slide slide;
     float strength;
     float illuminance; /* at the scene's centre, lux; the weakest are dropped over the limit */
-    uint32_t cascades; /* 1: one map; once maps are fitted */
+    uint32_t cascades; /* 1: one map. Known after gn_frame_fit_shadows() */
 };
 
 /* Lights that share a pass: those with maps first. The first group is drawn with the picture, each
@@ -136,7 +136,7 @@ struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label)
 /* The same with what the programs of a group of lights read; later groups are added by blending. */
 struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group);
 /* Whether a last pass encodes the picture. */
-bool gn_frame_is_encoded(const struct gn_frame *frame);
+bool gn_frame_encodes_last(const struct gn_frame *frame);
 /* A draw of bare vertices. */
 void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key,
                         uint32_t vertex_count, uint32_t first_instance, uint32_t instance_count);

@@ -2,7 +2,8 @@
 #include "frame/private.h"
 #include "shadow/cascade.h"
 
-/* All groups before the last one with maps have as many as fit. */
+/* Maps are dealt group by group: only the last group that has any may have fewer than
+ * GN_SHADOWS_MAX. */
 struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot) {
     return &frame->lights[frame->groups[slot / GN_SHADOWS_MAX].first + slot % GN_SHADOWS_MAX];
 }

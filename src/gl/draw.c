@@ -9,8 +9,8 @@ static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *v
     if (view->encoding == GN_ENCODING_MASK) return samplers[GN_GL_MAP_LINEAR];
     if (view->encoding != GN_ENCODING_DEPTH || gn_techniques[view->technique].searches)
         return samplers[GN_GL_MAP_NEAREST];
-    return samplers[gn_techniques[view->technique].filters ? GN_GL_MAP_COMPARE_LINEAR
-                                                           : GN_GL_MAP_COMPARE];
+    return samplers[gn_techniques[view->technique].compares_linear ? GN_GL_MAP_COMPARE_LINEAR
+                                                                   : GN_GL_MAP_COMPARE];
 }
 
 void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {

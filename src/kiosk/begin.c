@@ -82,7 +82,7 @@ bool gn_show_look_at_first(const struct gn_show *s, struct gn_options *o, struct
         if (!loaded->scene) return false;
         gn_pose_init(&loaded->pose, loaded->scene, GN_POSE_DEFAULT);
     }
-    return gn_stage_look(look, o->settings, loaded->scene, s->warnings, err);
+    return gn_stage_look_build(look, o->settings, loaded->scene, s->warnings, err);
 }
 
 bool gn_show_begin(struct gn_show *s, struct gn_err *err) {

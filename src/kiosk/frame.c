@@ -43,7 +43,7 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     const int64_t seen_ns = screen->seen_ns;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, seen_ns);
     const struct gn_kiosk_event event = {.kind = GN_KIOSK_FRAME, .time_ns = seen_ns};
-    s->stage.waits = false;
+    s->stage.is_behind = false;
     if (screen->black) {
         gn_gl_black(s->stage.gl);
         return true;
@@ -109,7 +109,7 @@ bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     }
     if (!drawn) return false;
     const int64_t drawn_ns = gn_loop_now_ns(s->loop);
-    s->changed = s->stage.waits;
+    s->changed = s->stage.is_behind; /* a filtered map is older than the pose */
     if (!gn_display_present(display, drawn_ns, err)) return false;
 
     /* latency of buttons */

@@ -97,7 +97,7 @@ bool gn_show_look(const struct gn_show *s, const struct gn_scene *scene,
                   struct gn_show_looks *looks, struct gn_err *err) {
     looks->ready = 0;
     for (int i = 0; i < s->modes.count; i++)
-        if (!gn_stage_look(&looks->of[i], gn_show_settings(s, i), scene, s->warnings, err))
+        if (!gn_stage_look_build(&looks->of[i], gn_show_settings(s, i), scene, s->warnings, err))
             return false;
     return true;
 }

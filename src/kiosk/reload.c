@@ -114,7 +114,7 @@ static bool look_at_loaded(struct gn_show *s, struct gn_stage_look *look, struct
     if (r->first) return gn_show_look_at_first(s, r->options, r->loaded, look, r->why, why);
     choose_mode_again(s, r->options);
     if (r->loaded->scene)
-        return gn_stage_look(look, r->options->settings, r->loaded->scene, s->warnings, why);
+        return gn_stage_look_build(look, r->options->settings, r->loaded->scene, s->warnings, why);
     *why = r->loaded->err;
     gn_stage_name_source(r->options->settings, why);
     return false;
@@ -128,7 +128,7 @@ static bool look_again(struct gn_show *s, struct gn_err *why) {
     if (s->reload.first) return true;
     choose_mode_again(s, options);
     if (options->settings == before) return true;
-    if (!gn_stage_look(&look, options->settings, s->scenes.staged->scene, s->warnings, why))
+    if (!gn_stage_look_build(&look, options->settings, s->scenes.staged->scene, s->warnings, why))
         return false;
     gn_show_stage_reload(s, &look);
     return true;

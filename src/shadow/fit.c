@@ -97,6 +97,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
     view->lookup.normal_offset = row->bias_texels;
     view->lookup.slope_offset = 0.7f * row->bias_texels;
     view->lookup.slope_max = 4.0f;
+    /* cascades have hashed theirs */
     for (uint32_t i = 0; i < view->map.tile_count && view->map.cascade_count == 0; i++)
         view->raster.tiles[i].content_hash =
             gn_shadow_hash(pose, view, &view->raster.tiles[i], memory[i].casts);

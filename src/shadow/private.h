@@ -1,5 +1,7 @@
-/* Shared by the files of src/shadow, in the order in which they call each other: a file calls only
- * those above its own section. */
+/* Shared by the files of src/shadow, which stand from the bottom to the top: each calls only those
+ * before it. near_depth, far_depth: the clip planes of a map or tile, metres along the light's
+ * direction or the tile's axis; for a directional light counted from the world's origin, so either
+ * may be negative. */
 #ifndef GN_SHADOW_PRIVATE_H
 #define GN_SHADOW_PRIVATE_H
 

@@ -20,7 +20,7 @@ const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
 };
 
 bool gn_technique_shades(enum gn_technique technique) {
-    return gn_techniques[technique].filters || gn_techniques[technique].soft ||
+    return gn_techniques[technique].compares_linear || gn_techniques[technique].soft ||
            gn_technique_filters_map(technique);
 }
 

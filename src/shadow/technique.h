@@ -34,10 +34,10 @@ enum gn_encoding {
 
 struct gn_technique_row {
     const char *name;
-    int rank;         /* place in the kiosk's order of modes, from 1, best first; 0: last */
-    const char *file; /* below shaders_es/, NULL for none */
-    bool filters;     /* compares and weighs four texels: needs a LINEAR compare sampler */
-    bool searches;    /* needs a blocker's distance: samples a depth map without hardware compare */
+    int rank;             /* place in the kiosk's order of modes, from 1, best first; 0: last */
+    const char *file;     /* below shaders_es/, NULL for none */
+    bool compares_linear; /* compares and weighs four texels: needs a LINEAR compare sampler */
+    bool searches; /* needs a blocker's distance: samples a depth map without hardware compare */
     bool reads_distance; /* `auto` selects a distance map for it; else a depth map */
     bool on_plane;       /* only the scene's plane receives its shadows: planar.h */
     bool soft;           /* penumbrae by the light's size: the map includes their width */

@@ -101,12 +101,13 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
         .debug.show_maps = o->render.show_maps,
     };
     f->shadow.technique_given = gn_settings_given(o, render.shadow);
-    if (f->shadow.technique_given && o->render.shadow.count == 1)
+    if (f->shadow.technique_given && o->render.shadow.count == 1) /* bench sets each of a list */
         f->shadow.technique = (enum gn_technique)o->render.shadow.items[0];
 }
 
-bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *o,
-                   const struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err) {
+bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o,
+                         const struct gn_scene *scene, struct gn_warnings *warnings,
+                         struct gn_err *err) {
     const bool of_light = o->render.aov != GN_AOV_COLOR && o->render.aov != GN_AOV_DISTANCE &&
                           o->render.aov != GN_AOV_NORMAL;
     if (!choose_clips(o, scene, &look->clips, warnings, err)) return false;
@@ -131,7 +132,7 @@ bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
                    struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err) {
     *stage = (struct gn_stage){.settings = settings, .scene = scene};
     struct gn_stage_look look;
-    if (!scene || !gn_stage_look(&look, settings, scene, warnings, err)) return false;
+    if (!scene || !gn_stage_look_build(&look, settings, scene, warnings, err)) return false;
     stage->frame_opts = look.frame_opts;
     gn_pose_init(&stage->pose, scene, look.clips);
     gn_pose_step(&stage->pose, settings->scene.time_ns);
@@ -190,7 +191,7 @@ const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *
         stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
         plan = gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
     }
-    stage->waits = plan->waits;
+    stage->is_behind = plan->is_behind;
     if (gn_gl_prepare(stage->gl, plan, err)) return plan;
     const char *source = gn_gl_failed_source(stage->gl);
     if (source) fputs(source, stderr);

@@ -22,7 +22,7 @@ struct gn_stage {
     struct gn_gl *gl;
     struct gn_frame *frame;
     struct gn_frame_opts frame_opts;
-    bool waits; /* as gn_plan.waits of the last plan: it wants another frame */
+    bool is_behind; /* as in gn_plan, of the last plan: it wants another frame */
 };
 
 /* The limits of --limit, for the loader. */
@@ -32,8 +32,9 @@ bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits 
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err);
 /* Checks what the options say about a scene (camera, animation, light, technique). */
-bool gn_stage_look(struct gn_stage_look *look, const struct gn_settings *settings,
-                   const struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err);
+bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *settings,
+                         const struct gn_scene *scene, struct gn_warnings *warnings,
+                         struct gn_err *err);
 /* The scene that the options name, or the default one inside the program; limits of --limit hold.
  */
 struct gn_scene *gn_stage_scene(const struct gn_settings *settings, struct gn_warnings *warnings,

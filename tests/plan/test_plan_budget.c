@@ -31,21 +31,21 @@ static void begin(struct gn_plan_fixture *f, enum gn_technique technique, uint64
     f->opts.shadow.filter_texels = texels;
 }
 
-static struct hashes at(struct gn_plan_fixture *f, int frame, bool *waits) {
+static struct hashes at(struct gn_plan_fixture *f, int frame, bool *is_behind) {
     gn_pose_step(&f->pose, (int64_t)frame * 10 * FRAME_NS);
     const struct gn_plan *plan = gn_plan_make(f);
     assert_null(gn_plan_check(plan));
-    *waits = plan->waits;
+    *is_behind = plan->is_behind;
     return hashes_of(plan);
 }
 
 /* What a builder without a past and a budget makes of it. */
 static struct hashes fresh_at(enum gn_technique technique, int frame) {
     struct gn_plan_fixture f;
-    bool waits;
+    bool is_behind;
     begin(&f, technique, 0);
-    const struct hashes h = at(&f, frame, &waits);
-    assert_false(waits);
+    const struct hashes h = at(&f, frame, &is_behind);
+    assert_false(is_behind);
     gn_plan_end(&f);
     return h;
 }
@@ -53,15 +53,16 @@ static struct hashes fresh_at(enum gn_technique technique, int frame) {
 static void test_maps_take_turns(void **state) {
     (void)state;
     struct gn_plan_fixture f;
-    bool waits;
+    bool is_behind;
     int made[SLOTS] = {0};
     begin(&f, GN_TECHNIQUE_VSM, 1); /* less than a map: one a frame */
-    struct hashes before = at(&f, 0, &waits);
-    assert_false(waits); /* at first there is nothing to go on with */
+    struct hashes before = at(&f, 0, &is_behind);
+    assert_false(is_behind); /* at first there is nothing to go on with */
     for (int frame = 1; frame <= 4 * SLOTS; frame++) {
-        const struct hashes now = at(&f, frame, &waits), fresh = fresh_at(GN_TECHNIQUE_VSM, frame);
+        const struct hashes now = at(&f, frame, &is_behind),
+                            fresh = fresh_at(GN_TECHNIQUE_VSM, frame);
         int changed = 0;
-        assert_true(waits);
+        assert_true(is_behind);
         for (int slot = 0; slot < SLOTS; slot++) {
             if (now.of[slot] == before.of[slot]) continue;
             assert_true(now.of[slot] == fresh.of[slot]); /* and what is made is of today */
@@ -78,12 +79,12 @@ static void test_maps_take_turns(void **state) {
 static void test_what_stands_still_is_soon_up_to_date(void **state) {
     (void)state;
     struct gn_plan_fixture f;
-    bool waits;
+    bool is_behind;
     int more = 0;
     begin(&f, GN_TECHNIQUE_SMSM, 1);
-    at(&f, 0, &waits);
-    struct hashes now = at(&f, 1, &waits);
-    for (; waits; more++) now = at(&f, 1, &waits);
+    at(&f, 0, &is_behind);
+    struct hashes now = at(&f, 1, &is_behind);
+    for (; is_behind; more++) now = at(&f, 1, &is_behind);
     assert_int_equal(more, SLOTS - 1);
     const struct hashes fresh = fresh_at(GN_TECHNIQUE_SMSM, 1);
     assert_memory_equal(&now, &fresh, sizeof now);
@@ -93,11 +94,12 @@ static void test_what_stands_still_is_soon_up_to_date(void **state) {
 static void test_a_budget_for_all_holds_nothing(void **state) {
     (void)state;
     struct gn_plan_fixture f;
-    bool waits;
+    bool is_behind;
     begin(&f, GN_TECHNIQUE_EVSM, 8 * 128 * 128); /* a sun, a spot, a point light's six tiles */
     for (int frame = 0; frame < 5; frame++) {
-        const struct hashes now = at(&f, frame, &waits), fresh = fresh_at(GN_TECHNIQUE_EVSM, frame);
-        assert_false(waits);
+        const struct hashes now = at(&f, frame, &is_behind),
+                            fresh = fresh_at(GN_TECHNIQUE_EVSM, frame);
+        assert_false(is_behind);
         assert_memory_equal(&now, &fresh, sizeof now);
     }
     gn_plan_end(&f);
@@ -107,16 +109,16 @@ static void test_a_budget_for_all_holds_nothing(void **state) {
 static void test_a_switch_waits_for_nothing(void **state) {
     (void)state;
     struct gn_plan_fixture f;
-    bool waits;
+    bool is_behind;
     begin(&f, GN_TECHNIQUE_VSM, 1);
-    at(&f, 0, &waits);
+    at(&f, 0, &is_behind);
     f.opts.shadow.technique = GN_TECHNIQUE_MSM;
-    const struct hashes now = at(&f, 1, &waits), fresh = fresh_at(GN_TECHNIQUE_MSM, 1);
-    assert_false(waits);
+    const struct hashes now = at(&f, 1, &is_behind), fresh = fresh_at(GN_TECHNIQUE_MSM, 1);
+    assert_false(is_behind);
     assert_memory_equal(&now, &fresh, sizeof now);
     f.opts.shadow.technique = GN_TECHNIQUE_PCF; /* reads the map itself: always of today */
     gn_pose_step(&f.pose, 20 * FRAME_NS);
-    assert_false(gn_plan_make(&f)->waits);
+    assert_false(gn_plan_make(&f)->is_behind);
     gn_plan_end(&f);
 }
 
