@@ -1,6 +1,6 @@
 //@ names shadow_visibility
 // map_code(): lib/map_*.glsl of the light's encoding. taps_..(), noise_turn(): lib/taps.glsl, lib/noise.glsl. TAPS, SHADOW_TAPS
-// and the order of files: add_lights() and add_pair() in src/gl/compose.c.
+// and the order of files: add_lights() and add_lookup() in src/gl/compose.c.
 // Percentage-closer soft shadows (Fernando, "Percentage-Closer Soft Shadows", 2005): the mean distance of the blockers in the part
 // of the map that can contain them, then PCF as wide as their penumbra is at the receiver.
 float shadow_visibility(MAP_SAMPLER map, shadow_place s) {

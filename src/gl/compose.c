@@ -1,4 +1,4 @@
-/* From a program key to the source of a stage. Key bits become `const bool`, used with plain `if`;
+/* From a program key to the source of a shader. Key bits become `const bool`, used with plain `if`;
  * a WITH_ macro stands beside each for declarations. Every technique defines the same function, and
  * so does every encoding: the names that a file lists in its `//@ names` line get a suffix by macro
  * while the file is read, so that a program can have several. No GL. */
@@ -52,9 +52,9 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
     gn_gl_text_add(out, "const int AOV = %d;\n", key->aov);
 }
 
-/* The first light that has the technique, encoding and moments of light i: its number is the
- * suffix. */
-static int pair_of(const struct gn_program_key *key, int i) {
+/* A lookup is the code for one technique, encoding and moments. Its number, the suffix, is that of
+ * the first light that has the same three as light i. */
+static int lookup_of(const struct gn_program_key *key, int i) {
     const struct gn_light_key *light = &key->lights[i];
     for (int first = 0;; first++) {
         const struct gn_light_key *other = &key->lights[first];
@@ -69,16 +69,16 @@ static void add_middle(int technique, struct gn_gl_text *out) {
                    (double)gn_techniques[technique].moments_middle);
 }
 
-static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *light, int suffix,
-                     struct gn_gl_text *out, struct gn_err *err) {
-    enum { PAIR_FILES = 4 };
+static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *light, int suffix,
+                       struct gn_gl_text *out, struct gn_err *err) {
+    enum { LOOKUP_FILES = 4 };
     const struct gn_technique_row *technique = &gn_techniques[light->technique];
     const bool compares = compares_in_sampler(light);
     /* the files of the light's shadow, each after those that it uses */
-    const char *files[PAIR_FILES] = {compares ? "lib/map_depth.glsl"
-                                              : gn_encodings[light->encoding].file,
-                                     compares ? NULL : "lib/map_lit.glsl",
-                                     technique->taps ? "lib/taps.glsl" : NULL, technique->file};
+    const char *files[LOOKUP_FILES] = {compares ? "lib/map_depth.glsl"
+                                                : gn_encodings[light->encoding].file,
+                                       compares ? NULL : "lib/map_lit.glsl",
+                                       technique->taps ? "lib/taps.glsl" : NULL, technique->file};
     if (light->moments) {
         files[0] = gn_moments[light->moments].file;
         files[1] = technique->moments;
@@ -86,18 +86,18 @@ static bool add_pair(struct gn_gl_source *source, const struct gn_light_key *lig
     if (technique->taps)
         gn_gl_text_add(out, "#define SHADOW_TAPS %s\n", taps_names[technique->taps]);
     add_middle(light->technique, out);
-    char names[PAIR_FILES][GN_GL_NAMES_MAX][64];
-    int counts[PAIR_FILES] = {0};
-    for (int i = 0; i < PAIR_FILES; i++) {
+    char names[LOOKUP_FILES][GN_GL_NAMES_MAX][64];
+    int counts[LOOKUP_FILES] = {0};
+    for (int i = 0; i < LOOKUP_FILES; i++) {
         if (!files[i]) continue;
         counts[i] = gn_gl_source_names(source, files[i], names[i], err);
         if (counts[i] < 0) return false;
         for (int n = 0; n < counts[i]; n++)
             gn_gl_text_add(out, "#define %s %s_%d\n", names[i][n], names[i][n], suffix);
     }
-    for (int i = 0; i < PAIR_FILES; i++)
+    for (int i = 0; i < LOOKUP_FILES; i++)
         if (files[i] && !gn_gl_source_add(source, files[i], out, err)) return false;
-    for (int i = 0; i < PAIR_FILES; i++)
+    for (int i = 0; i < LOOKUP_FILES; i++)
         for (int n = 0; n < counts[i]; n++) gn_gl_text_add(out, "#undef %s\n", names[i][n]);
     gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n#undef SHADOW_TAPS\n"
                         "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n"
@@ -185,7 +185,8 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
         gn_gl_text_add(out, "uniform %s u_map_%d;\n", type, i);
     }
     for (int i = 0; i < key->shadow_count; i++)
-        if (pair_of(key, i) == i && !add_pair(source, &key->lights[i], i, out, err)) return false;
+        if (lookup_of(key, i) == i && !add_lookup(source, &key->lights[i], i, out, err))
+            return false;
     if (!add_slides(source, key, out, err)) return false;
     gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT(F)");
     for (int i = 0; i < key->shadow_count; i++) {
@@ -193,7 +194,7 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
         const struct gn_light_type_row *type = &gn_light_types[light->type];
         bool radial = type->has_position && light->encoding != GN_ENCODING_DEPTH;
         gn_gl_text_add(out, " F(%d, %s, %s, shadow_visibility_%d, u_map_%d)", i, type->glsl,
-                       radial ? "true" : "false", pair_of(key, i), i);
+                       radial ? "true" : "false", lookup_of(key, i), i);
     }
     gn_gl_text_add(out, "\n#define EACH_OPEN_LIGHT(F)");
     for (int i = key->shadow_count; i < key->light_count; i++)
@@ -202,24 +203,24 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
     return true;
 }
 
-bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_stage stage,
+bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_shader shader,
                    struct gn_gl_text *out, struct gn_err *err) {
     struct gn_gl_source source = {.folder = folder};
     const struct gn_program_row *program = &gn_programs[key->kind];
-    const bool fragment = stage == GN_GL_FRAGMENT;
+    const bool fragment = shader == GN_GL_FRAGMENT;
     const bool lit = key->kind == GN_PROGRAM_LIT || key->kind == GN_PROGRAM_AOV;
     const bool filter = key->kind == GN_PROGRAM_FILTER && fragment;
     add_constants(key, out);
     if (!gn_gl_source_add(&source, "blocks.glsl", out, err)) return false;
     if (lit) add_shadow_flags(key, out);
-    if (stage == GN_GL_VERTEX) { /* VERTEX_ATTRIBUTES declares the rows of scene/attribute.h */
+    if (shader == GN_GL_VERTEX) { /* VERTEX_ATTRIBUTES declares the rows of scene/attribute.h */
         gn_gl_text_add(out, "#define VERTEX_ATTRIBUTES");
         for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
             gn_gl_text_add(out, " layout(location = %d) in vec%d a_%s;", i,
                            gn_attributes[i].components, gn_attributes[i].name);
         gn_gl_text_add(out, "\n");
     }
-    if (lit && stage == GN_GL_VERTEX) {
+    if (lit && shader == GN_GL_VERTEX) {
         gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT_VERTEX(F)");
         for (int i = 0; i < key->shadow_count; i++) gn_gl_text_add(out, " F(%d)", i);
         gn_gl_text_add(out, "\n");

@@ -68,7 +68,7 @@ enum gn_gl_warmth {
 enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
 /* Warm-up is done: releases the driver's compiler. */
 void gn_gl_warm_end(struct gn_gl *gl);
-/* The composed source of the stage that failed last in a program of gn_gl_prepare(), its lines
+/* The composed source of the shader that failed last in a program of gn_gl_prepare(), its lines
  * numbered as the driver counts them; NULL when none did, or without `debug`. */
 const char *gn_gl_failed_source(const struct gn_gl *gl);
 /* The window: the framebuffer that the display gives the context. A picture of its size is drawn to

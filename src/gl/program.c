@@ -10,7 +10,7 @@
 
 struct sources { /* of one program, and the stage that failed */
     struct gn_gl_text stage[2];
-    int failed;    /* enum gn_gl_stage; 2: linking */
+    int failed;    /* enum gn_gl_shader; 2: linking */
     bool composed; /* both stages: a failure is the driver's */
 };
 

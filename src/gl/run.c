@@ -18,10 +18,11 @@ static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
                                                   : gl->targets.output.framebuffer;
 }
 
-/* Clearing a whole map is free on a tiled GPU; clearing one tile of it costs a load and a draw.
- * When all tiles are drawn, the first clears them all. */
-static enum gn_clear_area clear_of(const struct gn_plan *plan, struct gn_gl_map *map,
-                                   const struct gn_pass *pass) {
+/* What a pass is to clear. Clearing a whole map is free on a tiled GPU; clearing one tile of it
+ * costs a load and a draw. When all tiles are drawn, the first clears them all: notes that in
+ * map->cleared, and that no tile holds anything. */
+static enum gn_clear_area begin_clear(const struct gn_plan *plan, struct gn_gl_map *map,
+                                      const struct gn_pass *pass) {
     if (!map || pass->clear.area != GN_CLEAR_RECT) return pass->clear.area;
     if (pass->content.tile == 0) {
         const struct gn_shadow_view *view = &plan->shadows[pass->target.slot];
@@ -47,7 +48,8 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     const uint64_t hash =
         gn_hash(GN_HASH_INIT, pass->constants, pass->constant_count * sizeof *pass->constants);
     if (grouped) GL(gl, PushDebugGroup)(GL_DEBUG_SOURCE_APPLICATION_KHR, 0, -1, pass->label);
-    gn_gl_pass_begin(gl, pass, framebuffer_of(gl, pass, map), clear_of(plan, map, pass));
+    const enum gn_clear_area area = begin_clear(plan, map, pass);
+    gn_gl_pass_begin(gl, pass, framebuffer_of(gl, pass, map), area);
     gn_gl_sources_bind(gl, plan, pass);
     const bool first_time = gl->programs.run != gl->programs.made;
     if (pass->kind == GN_PASS_COPY) gn_gl_pages_copy(gl, pass);
@@ -81,7 +83,7 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
         gn_gl_view_find(gl, &plan->shadows[slot], slot, pass->kind == GN_PASS_FILTER);
     if (!to || !owner) return gn_fail(err, "%s: the plan was not prepared", pass->label);
     if (holds_content(owner, content->tile, content->hash)) {
-        owner->cleared = false;
+        owner->cleared = false; /* tile 0 was kept, so it did not clear the others */
         gl->stats.shadow_passes_skipped += pass->target.kind == GN_TARGET_SHADOW;
         return true;
     }
@@ -149,6 +151,7 @@ bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, s
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     const uint64_t made = gl->programs.made;
     if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
+    /* a guard: gn_stage_plan() has proved its plan, and without prove_later all was at create */
     if (!gn_gl_prove(gl, plan))
         return gn_fail(err,
                        "this GPU fails at a capability it claims; try again, or use --without");

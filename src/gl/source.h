@@ -1,4 +1,4 @@
-/* From shader files and a program key to the text of a stage (source.c, compose.c). No GL. */
+/* From shader files and a program key to the text of a shader (source.c, compose.c). No GL. */
 #ifndef GN_GL_SOURCE_H
 #define GN_GL_SOURCE_H
 
@@ -31,9 +31,9 @@ enum { GN_GL_NAMES_MAX = 32 };
 int gn_gl_source_names(const struct gn_gl_source *source, const char *name,
                        char names[GN_GL_NAMES_MAX][64], struct gn_err *err);
 
-/* The whole source of one stage of a variant. */
-enum gn_gl_stage { GN_GL_VERTEX, GN_GL_FRAGMENT };
-bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_stage stage,
+/* The whole source of one shader of a variant. */
+enum gn_gl_shader { GN_GL_VERTEX, GN_GL_FRAGMENT };
+bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_shader shader,
                    struct gn_gl_text *out, struct gn_err *err);
 /* A key as text: "lit BASE_TEXTURE|HEMISPHERE, spot pcf depth, point". */
 void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size);

@@ -256,8 +256,8 @@ void gn_gl_target_reduce(struct gn_gl *gl, const struct gn_gl_map *map) {
 }
 
 struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view *view,
-                                  uint32_t slot, bool moments) {
-    const bool map = !moments || !view->moments;
+                                  uint32_t slot, bool or_moments) {
+    const bool map = !or_moments || !view->moments;
     const struct gn_target target = {.slot = slot,
                                      .width_px = view->map.width_px,
                                      .height_px = view->map.height_px,

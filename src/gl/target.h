@@ -64,9 +64,9 @@ enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output);
 struct gn_gl_map *gn_gl_target_find(struct gn_gl *gl, const struct gn_target *target);
 /* Generates mipmaps, if it has any, after the base level was drawn. */
 void gn_gl_target_reduce(struct gn_gl *gl, const struct gn_gl_map *map);
-/* What shaders sample for a light: moments of the map, or the map itself. */
+/* The map of a light; or_moments: its moments where it has some, which shaders then sample. */
 struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view *view,
-                                  uint32_t slot, bool moments);
+                                  uint32_t slot, bool or_moments);
 struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl,
                                     uint32_t slot); /* most recently used; NULL: none */
 void gn_gl_targets_forget(struct gn_gl *gl);        /* invalidates all cached map contents */

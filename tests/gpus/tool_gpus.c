@@ -98,10 +98,10 @@ static bool hash_of(const struct gn_plan *plan, const struct gn_program_key *key
     *out = gn_hash(GN_HASH_INIT, key, sizeof *key);
     *out = gn_hash(*out, &plan->output, sizeof plan->output);
     *out = gn_hash(*out, &plan->msaa, sizeof plan->msaa);
-    for (int stage = GN_GL_VERTEX; stage <= GN_GL_FRAGMENT; stage++) {
+    for (int shader = GN_GL_VERTEX; shader <= GN_GL_FRAGMENT; shader++) {
         struct gn_gl_text text = {0};
         const bool ok =
-            gn_gl_compose(asked->gl->shaders, key, (enum gn_gl_stage)stage, &text, NULL);
+            gn_gl_compose(asked->gl->shaders, key, (enum gn_gl_shader)shader, &text, NULL);
         if (ok) *out = gn_hash(*out, text.data, text.size);
         gn_gl_text_finish(&text);
         if (!ok) return false;

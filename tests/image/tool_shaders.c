@@ -87,10 +87,10 @@ static bool write(const char *folder, const char *name, const struct gn_program_
     static const char *const formats[GN_ENCODING_COUNT] = {"D24",  "R32UI", "R16F",
                                                            "R16F", "RGBA8", "R8"};
     static const char *const endings[] = {"vert", "frag"};
-    for (int stage = GN_GL_VERTEX; stage <= GN_GL_FRAGMENT; stage++) {
+    for (int shader = GN_GL_VERTEX; shader <= GN_GL_FRAGMENT; shader++) {
         struct gn_gl_text text = {0};
         char path[1024], head[256];
-        if (!gn_gl_compose("shaders_es", key, (enum gn_gl_stage)stage, &text, err)) return false;
+        if (!gn_gl_compose("shaders_es", key, (enum gn_gl_shader)shader, &text, err)) return false;
         char *rest = strchr(text.data, '\n') + 1; /* after #version */
         snprintf(head, sizeof head, "%.*s//@ target %s\n", (int)(rest - text.data), text.data,
                  target_of(key));
@@ -112,7 +112,7 @@ static bool write(const char *folder, const char *name, const struct gn_program_
         char *whole = malloc(size + 1);
         if (!whole) abort();
         snprintf(whole, size + 1, "%s%s", head, rest);
-        snprintf(path, sizeof path, "%s/%s.%s", folder, name, endings[stage]);
+        snprintf(path, sizeof path, "%s/%s.%s", folder, name, endings[shader]);
         bool ok = gn_file_write(path, whole, size, err);
         free(whole);
         free(text.data);

@@ -26,10 +26,10 @@ static struct gn_program_key lit_key(void) {
     return key;
 }
 
-static char *compose(const struct gn_program_key *key, enum gn_gl_stage stage) {
+static char *compose(const struct gn_program_key *key, enum gn_gl_shader shader) {
     struct gn_gl_text text = {0};
     struct gn_err err = {0};
-    if (!gn_gl_compose(folder, key, stage, &text, &err)) fail_msg("%s", err.text);
+    if (!gn_gl_compose(folder, key, shader, &text, &err)) fail_msg("%s", err.text);
     return text.data;
 }
 
