@@ -105,9 +105,9 @@ static bool read_device(struct gn_devices *devices, struct gn_device *d, int64_t
         const size_t count = (size_t)size / sizeof *events;
         for (size_t i = 0; i < count; i++) {
             const struct input_event *e = &events[i];
-            const int64_t time_ns = gn_gesture_time_ns((int64_t)e->input_event_sec * GN_NS_PER_S +
-                                                           (int64_t)e->input_event_usec * 1000,
-                                                       now_ns);
+            const int64_t time_ns = gn_gesture_sane_time_ns(
+                (int64_t)e->input_event_sec * GN_NS_PER_S + (int64_t)e->input_event_usec * 1000,
+                now_ns);
             if (e->type == EV_SYN && e->code == SYN_DROPPED) d->dropped = true;
             if (e->type == EV_SYN && e->code == SYN_REPORT && d->dropped) {
                 d->dropped = false; /* events were lost: reads the state of all keys */

@@ -62,7 +62,8 @@ static bool binds_gesture(const struct gn_gesture_button *b, unsigned gestures) 
     return b->opts.gestures & gestures;
 }
 
-static void clear_due(struct gn_gesture_button *b) {
+/* A click may still wait for a second one; noise is the line's. */
+static void clear_press_due(struct gn_gesture_button *b) {
     for (int due = GN_DUE_CHORD; due <= GN_DUE_STUCK; due++)
         if (due != GN_DUE_CLICK) b->due_ns[due] = NEVER;
 }
@@ -93,7 +94,7 @@ static void click_before(struct gn_gestures *g, int i) {
 }
 
 static void mute_button(struct gn_gesture_button *b) {
-    clear_due(b);
+    clear_press_due(b);
     b->state = GN_BUTTON_MUTED;
 }
 
@@ -214,7 +215,7 @@ static void update_button(struct gn_gestures *g, int i, int64_t first_ns) {
     if (b->state == GN_BUTTON_WAITING) resolve_chord(g, i);
     const enum gn_gesture_state was = b->state;
     b->state = GN_BUTTON_UP;
-    clear_due(b);
+    clear_press_due(b);
     if (was == GN_BUTTON_USED) end_chords(g, i, first_ns, false);
     if (was != GN_BUTTON_DOWN || b->acted) return;
     if (binds_gesture(b, 1u << GN_GESTURE_DOUBLE)) { /* waits for a second click */
@@ -252,17 +253,18 @@ static void run_due(struct gn_gestures *g, int i, enum gn_gesture_due due) {
         if (!b->noisy) set_note(g, i, GN_NOTE_NOISY);
         b->noisy = true;
         break;
-    case GN_DUE_COUNT: break;
+    case GN_DUE_EDGE: break;
     }
 }
 
 /* ---- time ---------------------------------------------------------------------------------- */
 
-/* The first thing due, and when; timers before edges. */
+/* The first thing due, and when (NEVER: nothing); timers before edges. GN_DUE_EDGE: the button's
+ * line settles. */
 static int64_t find_due(const struct gn_gestures *g, int *button, enum gn_gesture_due *due) {
     int64_t first_ns = NEVER;
     *button = 0;
-    *due = GN_DUE_COUNT;
+    *due = GN_DUE_EDGE;
     for (int i = 0; i < g->count; i++)
         for (int d = 0; d < GN_DUE_COUNT; d++)
             if (g->buttons[i].due_ns[d] < first_ns) {
@@ -275,7 +277,7 @@ static int64_t find_due(const struct gn_gestures *g, int *button, enum gn_gestur
         if (settled_ns >= first_ns) continue;
         first_ns = settled_ns;
         *button = i;
-        *due = GN_DUE_COUNT;
+        *due = GN_DUE_EDGE;
     }
     return first_ns;
 }
@@ -292,7 +294,7 @@ void gn_gestures_step(struct gn_gestures *g, int64_t now_ns) {
     for (int64_t first_ns; (first_ns = find_due(g, &button, &due)) <= now_ns;) {
         if (first_ns == NEVER) break;
         if (first_ns > g->now_ns) g->now_ns = first_ns;
-        if (due != GN_DUE_COUNT) {
+        if (due != GN_DUE_EDGE) {
             run_due(g, button, due);
             continue;
         }
@@ -306,7 +308,7 @@ void gn_gestures_step(struct gn_gestures *g, int64_t now_ns) {
     if (now_ns > g->now_ns) g->now_ns = now_ns;
 }
 
-int64_t gn_gesture_time_ns(int64_t time_ns, int64_t now_ns) {
+int64_t gn_gesture_sane_time_ns(int64_t time_ns, int64_t now_ns) {
     const bool sane = time_ns <= now_ns + 1000 * MS && time_ns >= now_ns - 10000 * MS;
     return sane ? time_ns : now_ns;
 }
@@ -339,7 +341,8 @@ void gn_gestures_init(struct gn_gestures *g, const struct gn_gesture_opts *opts,
     }
 }
 
-static struct gn_gesture_button *clamp_time(struct gn_gestures *g, int button, int64_t time_ns) {
+/* Runs all that is due before time_ns and returns the button; from here the time is g->now_ns. */
+static struct gn_gesture_button *step_to(struct gn_gestures *g, int button, int64_t time_ns) {
     assert(button >= 0 && button < g->count);
     gn_gestures_step(g, time_ns);
     return &g->buttons[button];
@@ -354,7 +357,7 @@ static void find_held(struct gn_gestures *g, struct gn_gesture_button *b) {
 }
 
 void gn_gestures_start(struct gn_gestures *g, int button, bool level, int64_t time_ns) {
-    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
+    struct gn_gesture_button *b = step_to(g, button, time_ns);
     gn_debounce_init(&b->line, b->opts.debounce_ns, level);
     b->due_ns[GN_DUE_NOISY] = NEVER;
     if (level)
@@ -375,14 +378,14 @@ static void lose_button(struct gn_gestures *g, int i) {
 }
 
 void gn_gestures_lose(struct gn_gestures *g, int button, int64_t time_ns) {
-    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
+    struct gn_gesture_button *b = step_to(g, button, time_ns);
     gn_debounce_init(&b->line, b->opts.debounce_ns, false);
     b->due_ns[GN_DUE_NOISY] = NEVER;
     lose_button(g, button);
 }
 
 void gn_gestures_key_gone(struct gn_gestures *g, int button, int64_t time_ns) {
-    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
+    struct gn_gesture_button *b = step_to(g, button, time_ns);
     assert(b->keys > 0);
     b->keys--;
     lose_button(g, button);
@@ -394,26 +397,26 @@ static void watch_noise(struct gn_gesture_button *b) {
 }
 
 void gn_gestures_edge(struct gn_gestures *g, int button, bool level, int64_t time_ns) {
-    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
+    struct gn_gesture_button *b = step_to(g, button, time_ns);
     gn_debounce_edge(&b->line, level, g->now_ns);
     watch_noise(b);
 }
 
 void gn_gestures_level(struct gn_gestures *g, int button, bool level, int64_t time_ns) {
-    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
+    struct gn_gesture_button *b = step_to(g, button, time_ns);
     gn_debounce_level(&b->line, level, g->now_ns);
     watch_noise(b);
 }
 
 void gn_gestures_key(struct gn_gestures *g, int button, bool down, int64_t time_ns) {
-    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
+    struct gn_gesture_button *b = step_to(g, button, time_ns);
     assert(down || b->keys > 0);
     b->keys += down ? 1 : -1;
     update_button(g, button, g->now_ns);
 }
 
 void gn_gestures_key_held(struct gn_gestures *g, int button, int64_t time_ns) {
-    struct gn_gesture_button *b = clamp_time(g, button, time_ns);
+    struct gn_gesture_button *b = step_to(g, button, time_ns);
     b->keys++;
     find_held(g, b);
 }

@@ -65,6 +65,7 @@ enum gn_gesture_due {               /* timers of a button */
                       GN_DUE_STUCK,
                       GN_DUE_NOISY,
                       GN_DUE_COUNT,
+                      GN_DUE_EDGE = GN_DUE_COUNT, /* no timer: the line settles */
 };
 enum gn_gesture_state {
     GN_BUTTON_UP,
@@ -122,7 +123,7 @@ bool gn_gestures_at_rest(const struct gn_gestures *g, int button);
 
 /* Validates a kernel timestamp: returns now_ns for one ahead of the clock or more than ten seconds
  * old. */
-int64_t gn_gesture_time_ns(int64_t time_ns, int64_t now_ns);
+int64_t gn_gesture_sane_time_ns(int64_t time_ns, int64_t now_ns);
 /* Advances time. The deadline is when to call it at the latest; INT64_MAX: not before the next
  * event. */
 void gn_gestures_step(struct gn_gestures *g, int64_t now_ns);

@@ -256,7 +256,7 @@ static bool drain_line(struct gn_lines *lines, struct gn_line *l, struct edges *
             gap |= events[i].seqno && events[i].seqno != l->seqno + 1;
             l->seqno = events[i].seqno;
             edges->list[edges->count] =
-                (struct edge){.time_ns = gn_gesture_time_ns(events[i].time_ns, now_ns),
+                (struct edge){.time_ns = gn_gesture_sane_time_ns(events[i].time_ns, now_ns),
                               .button = (int)(l - lines->lines),
                               .order = edges->count,
                               .level = is_pressed(l, events[i].high)};

@@ -46,9 +46,9 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
         error = loading;
     }
     gn_captions_set(t->captions, GN_CAPTION_ERROR, error, now_ns);
-    if (view->caption != t->view.caption || s->kiosk.caption_ns != t->since_ns) {
+    if (view->caption != t->view.caption || s->kiosk.caption_begun_ns != t->since_ns) {
         t->view = *view;
-        t->since_ns = s->kiosk.caption_ns;
+        t->since_ns = s->kiosk.caption_begun_ns;
         const char *text = NULL;
         switch (view->caption) {
         case GN_KIOSK_CAPTION_MODE: text = s->modes.names[view->caption_mode]; break;

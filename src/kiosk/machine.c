@@ -17,7 +17,7 @@ bool gn_kiosk_waits(const struct gn_kiosk *s) {
 
 static void set_caption(struct gn_kiosk *s, enum gn_kiosk_caption what, int64_t time_ns) {
     s->caption = what;
-    s->caption_ns = time_ns;
+    s->caption_begun_ns = time_ns;
 }
 
 /* ---- what is wanted ---- */
@@ -134,8 +134,8 @@ static int64_t caption_duration_ns(const struct gn_kiosk_rules *rules,
 
 static void check_timeouts(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t now_ns) {
     if (s->used_ns == 0) s->used_ns = now_ns;
-    if (s->fade_ns != 0 && now_ns - s->fade_ns >= rules->fade_ns) s->fade_ns = 0;
-    if (s->caption && now_ns - s->caption_ns >= caption_duration_ns(rules, s->caption))
+    if (s->fade_begun_ns != 0 && now_ns - s->fade_begun_ns >= rules->fade_ns) s->fade_begun_ns = 0;
+    if (s->caption && now_ns - s->caption_begun_ns >= caption_duration_ns(rules, s->caption))
         s->caption = GN_KIOSK_CAPTION_NONE;
     if (rules->idle == GN_IDLE_NONE || rules->idle_after_ns <= 0 || s->blanked ||
         now_ns - s->used_ns < rules->idle_after_ns)
@@ -159,7 +159,7 @@ static void enter_wanted(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
         return;
     const bool enters = s->shown.mode != s->wanted.mode;
     if (e->scene != before || (enters && rules->own_camera >> e->mode & 1)) s->camera = 0;
-    s->fade_ns = rules->fade_ns > 0 ? e->time_ns : 0;
+    s->fade_begun_ns = rules->fade_ns > 0 ? e->time_ns : 0;
     s->shown = s->wanted;
 }
 
@@ -216,12 +216,12 @@ struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const str
         .caption_mode = state->wanted.mode,
         .caption_scene = gn_kiosk_scene(rules, &state->wanted),
     };
-    if (state->fade_ns != 0 && rules->fade_ns > 0) {
-        const double share = (double)(seen_ns - state->fade_ns) / (double)rules->fade_ns;
+    if (state->fade_begun_ns != 0 && rules->fade_ns > 0) {
+        const double share = (double)(seen_ns - state->fade_begun_ns) / (double)rules->fade_ns;
         view.old = share <= 0.0 ? 1.0f : share >= 1.0 ? 0.0f : (float)(1.0 - share);
     }
     if (!state->paused && state->seen_ns != 0) view.time_ns += seen_ns - state->seen_ns;
-    if (seen_ns - state->caption_ns < caption_duration_ns(rules, state->caption))
+    if (seen_ns - state->caption_begun_ns < caption_duration_ns(rules, state->caption))
         view.caption = state->caption;
     return view;
 }
@@ -230,9 +230,10 @@ static int64_t earlier_ns(int64_t a, int64_t b) { return a < b ? a : b; }
 
 int64_t gn_kiosk_deadline(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state) {
     int64_t at_ns = INT64_MAX;
-    if (state->fade_ns != 0) at_ns = earlier_ns(at_ns, state->fade_ns + rules->fade_ns);
+    if (state->fade_begun_ns != 0) at_ns = earlier_ns(at_ns, state->fade_begun_ns + rules->fade_ns);
     if (state->caption)
-        at_ns = earlier_ns(at_ns, state->caption_ns + caption_duration_ns(rules, state->caption));
+        at_ns =
+            earlier_ns(at_ns, state->caption_begun_ns + caption_duration_ns(rules, state->caption));
     if (rules->idle != GN_IDLE_NONE && rules->idle_after_ns > 0 && !state->blanked)
         at_ns = earlier_ns(at_ns, state->used_ns + rules->idle_after_ns);
     return at_ns;
@@ -244,5 +245,5 @@ void gn_kiosk_print(const struct gn_kiosk *s, FILE *to) {
     if (gn_kiosk_waits(s)) fprintf(to, " wants mode %d scene %d", s->wanted.mode, s->wanted.scene);
     fprintf(to, " camera +%u at %.3f s%s%s%s%s%s%s\n", s->camera, (double)s->scene_ns * 1e-9,
             s->paused ? " paused" : "", s->blanked ? " blanked" : "", s->info ? " info" : "",
-            s->fade_ns ? " fades" : "", s->caption ? " caption" : "", captions[s->caption]);
+            s->fade_begun_ns ? " fades" : "", s->caption ? " caption" : "", captions[s->caption]);
 }

@@ -42,10 +42,10 @@ struct gn_kiosk {                        /* zeroed: the first mode and scene, no
     uint32_t bad_modes;                  /* bits 1 << mode: it failed */
     uint64_t bad_scenes;
     bool paused, blanked, info;
-    int64_t scene_ns;   /* the scene's time in the last frame */
-    int64_t seen_ns;    /* when that frame is on the screen; 0: no frame yet */
-    int64_t fade_ns;    /* monotonic: begin of the fade; 0: none */
-    int64_t caption_ns; /* monotonic: begin of the caption */
+    int64_t scene_ns;         /* the scene's time in the last frame */
+    int64_t seen_ns;          /* when that frame is on the screen; 0: no frame yet */
+    int64_t fade_begun_ns;    /* monotonic; 0: no fade */
+    int64_t caption_begun_ns; /* monotonic */
     enum gn_kiosk_caption caption;
     int64_t used_ns; /* the last action, or what the idle timeout did */
 };

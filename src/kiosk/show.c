@@ -58,7 +58,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     s->changed |= gn_service_step(&s->service, screen, gn_loop_now_ns(s->loop));
     if (!gn_show_keep_context(s, err)) return false;
     gn_show_advance(s);
-    gn_show_enter_changed(s);
+    gn_show_enter_set(s);
 
     /* a frame if one is due, which does a piece of background work itself, else such a piece */
     if (gn_show_wants_frame(s)) {
@@ -70,7 +70,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
         if (s->scenes.staged && screen->may_draw) s->ahead.due_ns = gn_loop_now_ns(s->loop);
     }
     gn_show_advance(s); /* that piece, or the picture kept for a fade, may be what it waited for */
-    gn_show_enter_changed(s);
+    gn_show_enter_set(s);
     return true;
 }
 

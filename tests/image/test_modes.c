@@ -293,7 +293,7 @@ static void a_fade_begins_with_the_old_picture(void **state) {
     read_picture(show, first);
     unsigned worst = 0, all = 0;
     show->rules.fade_ns = 0; /* over */
-    show->kiosk.fade_ns = 0;
+    show->kiosk.fade_begun_ns = 0;
     show->changed = true;
     frames(show, 1);
     read_picture(show, none);

@@ -1,4 +1,4 @@
-/* Buffer ownership: at most one is scanned out, one in flight, one queued. */
+/* Buffer ownership: at most one is scanned out, one pending, one waiting. */
 #include <unistd.h>
 
 #include "display/kms/state.h"
@@ -48,7 +48,7 @@ struct gn_dumb *gn_kms_free_copy(struct gn_kms *k) {
                                                         : &k->buffers.copies[0];
 }
 
-/* ---- buffers in flight ---- */
+/* ---- frames ---- */
 
 /* `frame` replaces the front; it may be the same buffer. */
 void gn_kms_take_front(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
@@ -61,7 +61,7 @@ void gn_kms_take_front(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_
     k->due.again_ns = now_ns + (k->opts->again_ns > 0 ? k->opts->again_ns : 10 * GN_KMS_S);
 }
 
-/* `frame` may be the queued one, which is then cleared. */
+/* Also clears `waiting`, which is this frame or empty. */
 void gn_kms_discard(struct gn_kms *k, struct gn_kms_frame *frame) {
     k->frames.waiting = (struct gn_kms_frame){.fence = -1};
     if (frame->fb == k->frames.front.fb)

@@ -43,6 +43,11 @@ void gn_flip_committed(struct gn_flip *f, int64_t now_ns) {
     f->committed_ns = now_ns;
 }
 
+static void end_flip(struct gn_flip *f) {
+    f->pending = false;
+    f->begun_ns = 0;
+}
+
 void gn_flip_done(struct gn_flip *f, int64_t shown_ns, int64_t now_ns) {
     if (!f->pending) return;
     const bool possible = shown_ns > f->begun_ns - f->period_ns && shown_ns < now_ns + f->period_ns;
@@ -62,13 +67,10 @@ void gn_flip_done(struct gn_flip *f, int64_t shown_ns, int64_t now_ns) {
         const int64_t k = (f->shortest_ns - f->period_ns / 10 + f->period_ns - 1) / f->period_ns;
         f->next_ns = k > 1 ? f->shown_ns + (k - 1) * f->period_ns : 0;
     }
-    gn_flip_forget(f);
+    end_flip(f);
 }
 
-void gn_flip_forget(struct gn_flip *f) {
-    f->pending = false;
-    f->begun_ns = 0;
-}
+void gn_flip_forget(struct gn_flip *f) { end_flip(f); }
 
 void gn_flip_refused(struct gn_flip *f, int64_t now_ns) { f->next_ns = now_ns + f->period_ns; }
 
@@ -77,7 +79,7 @@ enum gn_flip_act gn_flip_lost(struct gn_flip *f) {
     const int last = (int)(sizeof acts / sizeof *acts) - 1;
     const enum gn_flip_act act = acts[f->lost_flips < last ? f->lost_flips : last];
     f->lost_flips++;
-    gn_flip_forget(f);
+    end_flip(f);
     return act;
 }
 

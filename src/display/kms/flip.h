@@ -22,7 +22,7 @@ enum gn_flip_error {                    /* class of a commit's errno */
                      GN_FLIP_BUSY,      /* EBUSY, EINTR, EAGAIN: retry after a frame */
                      GN_FLIP_NO_MASTER, /* EACCES, EPERM: another process is master */
                      GN_FLIP_CARD_GONE, /* ENODEV, ENXIO, EIO, EBADF */
-                     GN_FLIP_NO_MEMORY, /* ENOMEM: drop unused buffers, retry once */
+                     GN_FLIP_NO_MEMORY, /* ENOMEM: retry after a frame */
                      GN_FLIP_CHANGED,   /* EINVAL, ENOSPC, ENOENT, ERANGE, any other: scan the card
                                            again */
 };

@@ -161,9 +161,9 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
                 ok = apply_flip_act(k, gn_flip_lost(&k->flip), now_ns);
             }
         }
-        const bool idle = !k->flip.pending && !k->frames.waiting.fb && !k->blank;
-        if (k->lit && k->master && idle && k->frames.front.fb && now_ns >= k->due.again_ns)
-            gn_kms_send(k, k->frames.front, now_ns);
+        const bool may_repeat = k->lit && k->master && k->frames.front.fb && !k->flip.pending &&
+                                !k->frames.waiting.fb && !k->blank;
+        if (may_repeat && now_ns >= k->due.again_ns) gn_kms_send(k, k->frames.front, now_ns);
     }
     if (!k->screen.lost && !k->master && !k->away && k->device.fd >= 0 &&
         now_ns >= k->due.master_ns)
@@ -176,11 +176,10 @@ bool gn_kms_step(struct gn_kms *k, unsigned events, int64_t now_ns, struct gn_er
     }
     if (!k->screen.lost && now_ns >= k->due.scan_ns) gn_kms_scan(k, now_ns);
     /* the message is sent once: the screen keeps it */
-    const bool idle =
-        !k->flip.pending && !k->frames.waiting.fb && !k->lit && !k->blank && !k->text.changed;
-    if (!k->screen.lost && k->text.message[0] && idle && k->monitor.connected && k->master &&
-        !k->away && k->device.fd >= 0)
-        gn_kms_send_message(k, now_ns);
+    const bool may_send_message = !k->screen.lost && k->device.fd >= 0 && k->master && !k->away &&
+                                  k->monitor.connected && !k->blank && !k->lit &&
+                                  !k->flip.pending && !k->frames.waiting.fb && !k->text.changed;
+    if (may_send_message && k->text.message[0]) gn_kms_send_message(k, now_ns);
     gn_kms_sleep(k, now_ns);
     publish_state(k, now_ns);
     if (ok && k->losses <= 3) return true;

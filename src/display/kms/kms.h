@@ -39,7 +39,7 @@ int64_t gn_kms_deadline(const struct gn_kms *kms, int64_t now_ns);
 const struct gn_screen *gn_kms_screen(const struct gn_kms *kms);
 gn_display_proc gn_kms_get_proc(struct gn_kms *kms, const char *name);
 
-/* As in struct gn_screen_ops. */
+/* As in struct gn_screen_ops; step: its dispatch, with the events since the last one. */
 bool gn_kms_step(struct gn_kms *kms, unsigned events, int64_t now_ns, struct gn_err *err);
 bool gn_kms_renew(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
 bool gn_kms_begin(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);

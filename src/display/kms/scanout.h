@@ -17,7 +17,7 @@ enum { GN_FORMATS_MAX = 8, GN_MODIFIERS_MAX = 64, GN_BUFFER_PLANES_MAX = 4 };
 
 struct gn_surface_opts {
     uint32_t width_px, height_px;
-    enum gn_fallback fallback;        /* never COPY */
+    enum gn_fallback fallback;        /* set_surface() never gets COPY */
     bool unencoded;                   /* GL must not encode on write */
     uint32_t formats[GN_FORMATS_MAX]; /* DRM fourccs of the plane, best first */
     int format_count;

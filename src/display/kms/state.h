@@ -92,7 +92,7 @@ struct gn_kms {
 
 /* Files call downwards: kms.c, blank.c, frame.c, scan.c, buffers.c. */
 
-/* kms/buffers.c: buffers scanned out, in flight and queued. */
+/* kms/buffers.c: buffers scanned out, pending and waiting. */
 bool gn_kms_is_copy(const struct gn_kms *kms); /* frames are copied into dumb buffers */
 bool gn_kms_make_copies(struct gn_kms *kms);
 struct gn_dumb *gn_kms_free_copy(struct gn_kms *kms); /* the one not scanned out */

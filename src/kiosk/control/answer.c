@@ -130,7 +130,7 @@ static json_t *answer_get(struct gn_show *s, const struct gn_request *r, struct 
 }
 
 /* The old picture stays until the programs are made. */
-void gn_show_enter_changed(struct gn_show *s) {
+void gn_show_enter_set(struct gn_show *s) {
     if (!s->control || !s->control->status.waits) return;
     if (s->stage.gl && !(s->looks.ready >> s->kiosk.shown.mode & 1)) return;
     s->control->status.waits = false;
