@@ -1,6 +1,9 @@
 /* What is wrong with a scene or costs more than it must, each with its cure. None of this stops a
  * scene from being shown. */
 #include "cli/inspect.h"
+
+#include <string.h>
+
 #include "cli/units.h"
 #include "frame/plan.h"
 
@@ -71,7 +74,8 @@ static void check_lights(struct gn_inspection *in) {
                       : "set gnomon_map_px to 4096 at most: a Raspberry Pi draws no larger ones",
                 "light '%s' asks for a map of %u pixels", light->name, light->map_px);
         const bool known =
-            light->technique && gn_technique_find(light->technique, &technique, NULL);
+            light->technique &&
+            gn_technique_find(light->technique, strlen(light->technique), &technique);
         if (light->technique && !known)
             gn_problem_add(
                 &in->advice, "choose one that --shadow knows, or none",

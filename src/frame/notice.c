@@ -20,7 +20,7 @@ void gn_frame_learn_scene(struct gn_frame *frame) {
     for (uint32_t i = frame->notes.lights.count; i < scene->light_count; i++) {
         const char *name = scene->lights[i].technique;
         enum gn_technique technique = GN_TECHNIQUE_PCF;
-        bool unknown = name && !gn_technique_find(name, &technique, NULL);
+        bool unknown = name && !gn_technique_find(name, strlen(name), &technique);
         GN_LIST_PUSH(&frame->notes.lights) = (struct gn_light_note){
             .technique = unknown ? GN_TECHNIQUE_PCF : technique, .unknown = unknown};
     }

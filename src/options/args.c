@@ -233,6 +233,26 @@ static bool apply_flags(struct args *args, struct gn_err *err) {
     return true;
 }
 
+/* --animation and --no-animation from the same source: reject instead of guessing. In a file it is
+ * only a warning, or a kiosk would end. Of different sources the stronger wins:
+ * gn_stage_look_build().
+ */
+static bool check_animation(const struct gn_settings *s, struct gn_warnings *warnings,
+                            struct gn_err *err) {
+    const char *clip = s->scene.animation;
+    const enum gn_source source =
+        gn_settings_source(s, offsetof(struct gn_settings, scene.animation));
+    if (!clip || !s->scene.no_animation || strcmp(clip, "none") == 0 ||
+        source != gn_settings_source(s, offsetof(struct gn_settings, scene.no_animation)))
+        return true;
+    if (source == GN_SOURCE_FLAG)
+        return gn_fail_usage(err, "--animation %s and --no-animation exclude each other: drop one",
+                             clip);
+    gn_warn(warnings, "%s: %s is not played, since %s holds", gn_settings_label(s, scene.animation),
+            clip, gn_settings_label(s, scene.no_animation));
+    return true;
+}
+
 bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
                    struct gn_warnings *warnings, struct gn_err *err) {
     struct args args = {.options = options, .argv = argv, .argc = argc, .at = 1};
@@ -253,23 +273,7 @@ bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
         if (ok && s->run.mode && !options->config_error)
             ok = gn_options_choose(options, s->run.mode, err) ||
                  gn_fail_prefix(err, "%s", gn_settings_label(s, run.mode));
-
-        /* --animation and --no-animation from the same source: reject instead of guessing. In a
-         * file it is only a warning, or a kiosk would end. */
-        s = options->settings;
-        const char *clip = s->scene.animation;
-        const enum gn_source source =
-            gn_settings_source(s, offsetof(struct gn_settings, scene.animation));
-        const bool both =
-            ok && clip && s->scene.no_animation && strcmp(clip, "none") != 0 &&
-            source == gn_settings_source(s, offsetof(struct gn_settings, scene.no_animation));
-        if (both && source == GN_SOURCE_FLAG)
-            ok = gn_fail_usage(
-                err, "--animation %s and --no-animation exclude each other: drop one", clip);
-        else if (both)
-            gn_warn(warnings, "%s: %s is not played, since %s holds",
-                    gn_settings_label(s, scene.animation), clip,
-                    gn_settings_label(s, scene.no_animation));
+        ok = ok && check_animation(options->settings, warnings, err);
     }
     options->argc = argc;
     options->argv = argv;

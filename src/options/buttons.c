@@ -347,7 +347,8 @@ static bool check_actions(const struct check *c, int button) {
         does_something |= on->bound;
         if (!on->bound || on->action.kind != GN_ACTION_MODE) continue;
         enum gn_technique unused; /* techniques are the modes of a file without any */
-        bool found = !o->mode_count && gn_technique_find(on->action.name, &unused, NULL);
+        bool found =
+            !o->mode_count && gn_technique_find(on->action.name, strlen(on->action.name), &unused);
         for (int i = 0; i < o->mode_count; i++)
             found |= strcmp(o->modes[i].name, on->action.name) == 0;
         if (found) continue;

@@ -44,7 +44,8 @@ bool gn_options_set(struct gn_options *options, const struct gn_option_row *row,
                     enum gn_source source, const char *label, struct gn_err *err) {
     struct gn_settings *settings = &options->all[0];
     _Alignas(16) char value[sizeof(struct gn_limits)] = {0}; /* the largest kind */
-    if (settings->source[row - gn_option_rows] == source)    /* NAME=VALUE adds */
+    /* a kind that adds (scenes, limits) continues from what this source set */
+    if (settings->source[row - gn_option_rows] == source)
         memcpy(value, gn_settings_value(settings, row), gn_value_size(row->kind));
     if (!gn_options_parse(options, row, text, value, &options->arena, label, err)) return false;
     const char *kept = gn_arena_strdup(&options->arena, label);
@@ -91,14 +92,22 @@ void gn_options_list_modes(const struct gn_options *options, char *out, size_t s
                                  options->modes[i].name);
 }
 
+static bool fail_technique(const char *name, struct gn_err *err) {
+    char names[160] = "";
+    size_t used = 0;
+    for (int i = 0; i < GN_TECHNIQUE_COUNT && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "",
+                                 gn_techniques[i].name);
+    return gn_fail_usage(err, "there is no shadow technique '%s'; there are %s", name, names);
+}
+
 bool gn_options_choose(struct gn_options *options, const char *name, struct gn_err *err) {
     const int found = gn_options_find_mode(options, name);
-    enum gn_technique unused;
     char names[300];
     gn_options_list_modes(options, names, sizeof names);
     if (!found && options->mode_count)
         return gn_fail_usage(err, "no mode \"%.48s\"; %s has%s", name, options->config_path, names);
-    if (!found) return gn_technique_find(name, &unused, err); /* fails, and lists them */
+    if (!found) return fail_technique(name, err);
     options->settings = &options->all[found];
     return true;
 }

@@ -75,21 +75,13 @@ static bool parse_text(const char *text, const char **field, struct gn_arena *ar
     return *field;
 }
 
-static int find_technique(const char *name, size_t length) {
-    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
-        if (strlen(gn_techniques[i].name) == length &&
-            memcmp(gn_techniques[i].name, name, length) == 0)
-            return i;
-    return -1;
-}
-
-/* A list with more names than there are techniques has one twice, which check_value() finds. */
+/* Names past the array's end are dropped: then one is there twice, which check_value() reports. */
 static bool parse_techniques(const char *text, struct gn_technique_list *field) {
     struct gn_technique_list list = {0};
     for (const char *at = text;; at++) {
         const size_t length = strcspn(at, ",");
-        const int found = find_technique(at, length);
-        if (found < 0) return false;
+        enum gn_technique found;
+        if (!gn_technique_find(at, length, &found)) return false;
         if (list.count <= GN_TECHNIQUE_COUNT) list.items[list.count++] = (uint8_t)found;
         at += length;
         if (!*at) break;
@@ -341,6 +333,8 @@ void gn_value_text(const struct gn_option_row *row, const void *field, char *out
     }
 }
 
+/* ---- text to value, with its message ------------------------------------------------------- */
+
 bool gn_value_parse(const struct gn_option_row *row, const char *text, void *field,
                     struct gn_arena *arena, const char *label, struct gn_err *err) {
     if (parse_value(row, text, field, arena))
@@ -350,8 +344,9 @@ bool gn_value_parse(const struct gn_option_row *row, const char *text, void *fie
         gn_text_guess(&guess, text, c->name);
     if (row->kind == GN_KIND_TECHNIQUES) { /* the first wrong name of the list */
         const char *at = text;
+        enum gn_technique known;
         char word[32];
-        while (find_technique(at, strcspn(at, ",")) >= 0 && strchr(at, ','))
+        while (gn_technique_find(at, strcspn(at, ","), &known) && strchr(at, ','))
             at = strchr(at, ',') + 1;
         snprintf(word, sizeof word, "%.*s", (int)strcspn(at, ","), at);
         for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)

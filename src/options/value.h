@@ -7,8 +7,9 @@
 #include "options/settings.h"
 
 /* Parses text into the field (of gn_value_size bytes); all of text must be the value. Texts are
- * kept in the arena. GN_KIND_LIMIT adds to what is in the field. A failure is a usage error:
- * `LABEL: "TEXT" is not EXPECTED`, or `LABEL: ` and the message of the room that knows such names.
+ * kept in the arena. GN_KIND_SCENES and GN_KIND_LIMIT add to what is in the field. A failure is a
+ * usage error: `LABEL: "TEXT" is not EXPECTED`, or `LABEL: ` and the message of the room that knows
+ * such names.
  */
 bool gn_value_parse(const struct gn_option_row *row, const char *text, void *field,
                     struct gn_arena *arena, const char *label, struct gn_err *err);

@@ -37,17 +37,14 @@ void gn_techniques_by_rank(enum gn_technique out[GN_TECHNIQUE_COUNT]) {
     }
 }
 
-bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err) {
-    char names[160] = "";
-    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
-        if (strcmp(name, gn_techniques[i].name) == 0) {
+bool gn_technique_find(const char *name, size_t length, enum gn_technique *out) {
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
+        if (strlen(gn_techniques[i].name) == length &&
+            memcmp(gn_techniques[i].name, name, length) == 0) {
             *out = (enum gn_technique)i;
             return true;
         }
-        size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", gn_techniques[i].name);
-    }
-    return gn_fail_usage(err, "there is no shadow technique '%s'; there are %s", name, names);
+    return false;
 }
 
 bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *err) {

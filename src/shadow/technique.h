@@ -5,6 +5,7 @@
 #define GN_SHADOW_TECHNIQUE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "core/err.h"
@@ -75,10 +76,10 @@ static inline bool gn_technique_filters_map(enum gn_technique technique) {
 /* All techniques in the order of their ranks. */
 void gn_techniques_by_rank(enum gn_technique out[GN_TECHNIQUE_COUNT]);
 
-/* By name; on failure a usage error that lists the names. */
-bool gn_technique_find(const char *name, enum gn_technique *out, struct gn_err *err);
-bool gn_encoding_find(const char *name, enum gn_encoding *out,
-                      struct gn_err *err); /* knows "auto" */
+/* By name, of so many bytes. False: there is none. */
+bool gn_technique_find(const char *name, size_t length, enum gn_technique *out);
+/* By name, or "auto"; on failure a usage error that lists the names. */
+bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *err);
 
 /* The encoding that a technique gets: the wanted one, or for AUTO the first in the technique's
  * order that `proved` (a bit per encoding) has, else RGBA8. Where the wanted one is missing,

@@ -64,7 +64,8 @@ static bool choose_clips(const struct gn_settings *o, const struct gn_scene *sce
                          struct gn_warnings *warnings, struct gn_err *err) {
     const size_t still = offsetof(struct gn_settings, scene.no_animation),
                  clip = offsetof(struct gn_settings, scene.animation);
-    /* of --animation and --no-animation the stronger source wins: command line, mode, file */
+    /* of --animation and --no-animation the stronger source wins: command line, mode, file; from
+     * the same one: check_animation() in options/args.c */
     const bool none =
         (o->scene.animation && strcmp(o->scene.animation, "none") == 0) ||
         (o->scene.no_animation && gn_settings_source(o, still) >= gn_settings_source(o, clip));

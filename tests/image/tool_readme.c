@@ -29,7 +29,7 @@ enum { LIGHTS = sizeof lights / sizeof *lights };
 
 static const struct gn_technique_row *technique_of(const struct gn_table_row *row) {
     enum gn_technique technique = GN_TECHNIQUE_NONE;
-    gn_technique_find(row->technique, &technique, NULL);
+    gn_technique_find(row->technique, strlen(row->technique), &technique);
     return &gn_techniques[technique];
 }
 

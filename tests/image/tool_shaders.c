@@ -18,7 +18,7 @@ static struct gn_program_key lit(uint64_t features, enum gn_light_type type, con
     key.lights[0].type = (uint8_t)type;
     enum gn_technique t = GN_TECHNIQUE_NONE;
     enum gn_encoding e = GN_ENCODING_DEPTH;
-    gn_technique_find(technique, &t, NULL);
+    gn_technique_find(technique, strlen(technique), &t);
     if (gn_techniques[t].on_plane)
         e = strcmp(encoding, "stencil") == 0 ? GN_ENCODING_STENCIL : GN_ENCODING_MASK;
     else
