@@ -1,11 +1,54 @@
-/* Runs a plan: each pass sets all its state, which the cache turns into the few calls that change
- * something. Nothing here allocates, makes a GL object or uses a string that GL looks at. */
+/* Prepares a plan, then runs it: each pass sets all its state, which the cache turns into the few
+ * calls that change something. Running allocates nothing, makes no GL object and uses no string
+ * that GL looks at. */
 #include <string.h>
 
 #include "core/arena.h"
 #include "core/clock.h"
 #include "core/hash.h"
 #include "gl/private.h"
+
+/* ---- preparing ---- */
+
+static bool is_stopped(const struct gn_gl *gl, struct gn_err *err) {
+    return gl->stop && gl->stop() && !gn_fail(err, "interrupted while compiling programs");
+}
+
+static void grow_plan_programs(struct gn_gl *gl, uint32_t count) {
+    if (count <= gl->plan_programs.room) return;
+    gl->plan_programs.room = 2 * count;
+    gl->plan_programs.at =
+        gn_xrealloc(gl->plan_programs.at, gl->plan_programs.room, sizeof(struct gn_gl_program *));
+}
+
+bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err) {
+    if (!gn_gl_program_ensure(gl, key, err)) return false;
+    return gn_gl_vertices_ensure(gl, gn_gl_program_find(gl, key)->attributes, err);
+}
+
+/* Releases the driver's compiler between plans. In Mesa it holds 3 MB, 1.4 ms to free and 5
+ * to make again; released later, after the first picture, its memory is not returned to the system.
+ */
+bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
+    const uint64_t made = gl->programs.made;
+    if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
+    /* a guard: gn_stage_plan() has proved its plan, and without prove_later all was at create */
+    if (!gn_gl_prove(gl, plan))
+        return gn_fail(err,
+                       "this GPU fails at a capability it claims; try again, or use --without");
+    bool ok = true;
+    grow_plan_programs(gl, plan->program_count);
+    for (uint32_t i = 0; ok && i < plan->program_count; i++) {
+        const struct gn_program_key *key = &plan->programs[i];
+        ok = (gn_gl_program_find(gl, key) || !is_stopped(gl, err)) &&
+             gn_gl_program_prepare(gl, key, err);
+    }
+    ok = ok && gn_gl_targets_ensure(gl, plan, err) && gn_gl_atlas_ensure(gl, plan->atlas, err);
+    if (made != gl->programs.made) GL(gl, ReleaseShaderCompiler)();
+    return ok;
+}
+
+/* ---- running ---- */
 
 static bool holds_content(const struct gn_gl_map *map, uint32_t tile, uint64_t hash) {
     return hash && map->content_hash[tile] == hash;
@@ -35,10 +78,6 @@ static enum gn_clear_area begin_clear(const struct gn_plan *plan, struct gn_gl_m
         }
     }
     return map->cleared ? GN_CLEAR_NOTHING : GN_CLEAR_RECT;
-}
-
-static bool is_stopped(const struct gn_gl *gl, struct gn_err *err) {
-    return gl->stop && gl->stop() && !gn_fail(err, "interrupted while compiling programs");
 }
 
 /* map: NULL for passes of the picture. */
@@ -129,42 +168,6 @@ void gn_gl_black(struct gn_gl *gl) {
     gn_gl_set_color_write(gl, true);
     gn_gl_set_clear_color(gl, black);
     GL(gl, Clear)(GL_COLOR_BUFFER_BIT);
-}
-
-/* ---- preparing ---- */
-
-static void grow_plan_programs(struct gn_gl *gl, uint32_t count) {
-    if (count <= gl->plan_programs.room) return;
-    gl->plan_programs.room = 2 * count;
-    gl->plan_programs.at =
-        gn_xrealloc(gl->plan_programs.at, gl->plan_programs.room, sizeof(struct gn_gl_program *));
-}
-
-bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err) {
-    if (!gn_gl_program_ensure(gl, key, err)) return false;
-    return gn_gl_vertices_ensure(gl, gn_gl_program_find(gl, key)->attributes, err);
-}
-
-/* Releases the driver's compiler between plans. In Mesa it holds 3 MB, 1.4 ms to free and 5
- * to make again; released later, after the first picture, its memory is not returned to the system.
- */
-bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    const uint64_t made = gl->programs.made;
-    if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
-    /* a guard: gn_stage_plan() has proved its plan, and without prove_later all was at create */
-    if (!gn_gl_prove(gl, plan))
-        return gn_fail(err,
-                       "this GPU fails at a capability it claims; try again, or use --without");
-    bool ok = true;
-    grow_plan_programs(gl, plan->program_count);
-    for (uint32_t i = 0; ok && i < plan->program_count; i++) {
-        const struct gn_program_key *key = &plan->programs[i];
-        ok = (gn_gl_program_find(gl, key) || !is_stopped(gl, err)) &&
-             gn_gl_program_prepare(gl, key, err);
-    }
-    ok = ok && gn_gl_targets_ensure(gl, plan, err) && gn_gl_atlas_ensure(gl, plan->atlas, err);
-    if (made != gl->programs.made) GL(gl, ReleaseShaderCompiler)();
-    return ok;
 }
 
 /* ---- warm-up draws ---- */
