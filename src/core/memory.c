@@ -1,5 +1,6 @@
 #include "core/memory.h"
 
+#include <malloc.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,6 +25,11 @@ uint64_t gn_memory_total_mb(void) {
     mb = gn_memory_of_meminfo(text, "MemTotal:");
     atomic_store(&known_mb, mb);
     return mb;
+}
+
+uint64_t gn_memory_allocated(void) {
+    const struct mallinfo2 now = mallinfo2();
+    return now.uordblks + now.hblkhd;
 }
 
 void gn_memory_pretend_mb(uint64_t mb) { atomic_store(&known_mb, mb); }

@@ -18,6 +18,8 @@ enum { GN_LIMITS_MEMORY = 1 };
 
 /* MemTotal of /proc/meminfo in 2^20 bytes, read once; 0: unknown. */
 uint64_t gn_memory_total_mb(void);
+/* Bytes that are allocated in this process now, by all threads, libraries and the driver. */
+uint64_t gn_memory_allocated(void);
 /* For tests: what gn_memory_total_mb() returns from now on. */
 void gn_memory_pretend_mb(uint64_t mb);
 /* The value of a line of /proc/meminfo, "MemTotal:", in 2^20 bytes; 0: there is none. */

@@ -58,16 +58,30 @@ bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan);
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
 /* The same, one step per call, for a plan that is needed later, of the current scene or of a staged
  * one that is whole. The current picture must be drawn again before it is shown again. One program
- * per call, which draws once, to maps of a few texels. Build the plan with all_seen. */
+ * per call, which draws once, to maps of a few texels. Build the plan with all_seen. again: what
+ * was dropped is made again; without, the driver's cache on disk is enough. */
 enum gn_gl_warmth {
     GN_GL_WARM_FAILED,  /* err says why */
     GN_GL_WARM_MORE,    /* call again */
     GN_GL_WARM_DONE,    /* nothing was left to do */
     GN_GL_WARM_REBUILD, /* a capability failed: build the plan again with what is left */
 };
-enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
+enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, bool again,
+                             struct gn_err *err);
 /* Warm-up is done: releases the driver's compiler. */
 void gn_gl_warm_end(struct gn_gl *gl);
+
+/* Programs are there until they are dropped: each takes 1 to 5 MB in Mesa's drivers. Those of this
+ * plan are kept from now on; all others are idle, later ones too. */
+void gn_gl_keep_programs(struct gn_gl *gl, const struct gn_plan *plan);
+/* The memory that idle programs take, by what making them allocated; other threads may have added
+ * to it. */
+uint64_t gn_gl_idle_bytes(const struct gn_gl *gl);
+/* Drops idle programs until they take at most so much: first those that never ran, then those that
+ * ran longest ago. The one that was used last stays. False: none was dropped. */
+bool gn_gl_drop_programs(struct gn_gl *gl, uint64_t most_bytes);
+/* All programs of the plan are there. */
+bool gn_gl_has_programs(struct gn_gl *gl, const struct gn_plan *plan);
 /* The composed source of the shader that failed last in a program of gn_gl_prepare(), its lines
  * numbered as the driver counts them; NULL when none did, or without `debug`. */
 const char *gn_gl_failed_source(const struct gn_gl *gl);

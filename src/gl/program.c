@@ -141,7 +141,7 @@ static struct gn_gl_program *program_place(struct gn_gl_programs *programs,
     uint32_t i = (uint32_t)gn_hash(GN_HASH_INIT, key, sizeof *key);
     for (;; i++) {
         struct gn_gl_program *p = &programs->table[i & (programs->room - 1)];
-        if (!p->name || memcmp(&p->key, key, sizeof *key) == 0) return p;
+        if ((!p->name && !p->dropped) || memcmp(&p->key, key, sizeof *key) == 0) return p;
     }
 }
 
@@ -149,6 +149,10 @@ struct gn_gl_program *gn_gl_program_find(struct gn_gl *gl, const struct gn_progr
     if (!gl->programs.room) return NULL;
     struct gn_gl_program *p = program_place(&gl->programs, key);
     return p->name ? p : NULL;
+}
+
+bool gn_gl_program_is_dropped(struct gn_gl *gl, const struct gn_program_key *key) {
+    return gl->programs.room && program_place(&gl->programs, key)->dropped;
 }
 
 bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err) {
@@ -159,7 +163,7 @@ bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, st
         more.room = programs->room ? 2 * programs->room : 32;
         more.table = gn_xalloc(more.room, sizeof *more.table);
         for (uint32_t i = 0; i < programs->room; i++)
-            if (programs->table[i].name)
+            if (programs->table[i].name || programs->table[i].dropped)
                 *program_place(&more, &programs->table[i].key) = programs->table[i];
         free(programs->table);
         *programs = more;
@@ -167,13 +171,15 @@ bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, st
     struct sources sources = {0};
     GLuint name = compose_and_build(gl, key, &sources, err);
     if (name) {
-        struct gn_gl_program p = {.key = *key, .name = name, .uv = UINT32_MAX};
+        struct gn_gl_program p = {
+            .key = *key, .name = name, .made = programs->made, .uv = UINT32_MAX};
+        struct gn_gl_program *place = program_place(programs, key);
         p.u_pass = GL(gl, GetUniformLocation)(name, "u_pass");
         p.u_uv = GL(gl, GetUniformLocation)(name, "u_uv");
         p.attributes = active_attributes(gl, name);
         set_units(gl, &p);
-        *program_place(programs, key) = p;
-        programs->count++;
+        programs->count += !place->dropped;
+        *place = p;
     } else if (sources.composed) {
         free(gl->debug.failed_source);
         gl->debug.failed_source = gl->debug.on ? sources_log(&sources) : NULL;
@@ -184,6 +190,74 @@ bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, st
     }
     sources_finish(&sources);
     return name;
+}
+
+/* ---- those that are needed, and idle ones ---- */
+
+void gn_gl_keep_programs(struct gn_gl *gl, const struct gn_plan *plan) {
+    for (uint32_t i = 0; i < gl->programs.room; i++) gl->programs.table[i].kept = false;
+    for (uint32_t i = 0; i < plan->program_count; i++) {
+        struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[i]);
+        if (p) p->kept = true;
+    }
+}
+
+bool gn_gl_has_programs(struct gn_gl *gl, const struct gn_plan *plan) {
+    uint32_t i = 0;
+    while (i < plan->program_count && gn_gl_program_find(gl, &plan->programs[i])) i++;
+    return i == plan->program_count;
+}
+
+/* What others free meanwhile, for programs dropped before, hides a part of what this one takes: so
+ * none counts as less than they do on average. */
+void gn_gl_program_took(struct gn_gl *gl, struct gn_gl_program *program, uint64_t bytes) {
+    struct gn_gl_programs *programs = &gl->programs;
+    if (bytes > 0) {
+        programs->measured_bytes += bytes;
+        programs->measured++;
+    }
+    program->bytes = bytes;
+}
+
+uint64_t gn_gl_idle_bytes(const struct gn_gl *gl) {
+    const struct gn_gl_programs *programs = &gl->programs;
+    const uint64_t mean = programs->measured ? programs->measured_bytes / programs->measured : 0;
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < programs->room; i++) {
+        const struct gn_gl_program *p = &programs->table[i];
+        if (p->name && !p->kept) bytes += p->bytes > mean ? p->bytes : mean;
+    }
+    return bytes;
+}
+
+/* Of idle programs, a is to be dropped before b. */
+static bool goes_first(const struct gn_gl_program *a, const struct gn_gl_program *b) {
+    return a->used != b->used ? a->used < b->used : a->made < b->made;
+}
+
+/* The one to be dropped first. Not the current one: llvmpipe frees a program that is bound when it
+ * is deleted only after another one was deleted. */
+static struct gn_gl_program *first_idle(struct gn_gl *gl) {
+    struct gn_gl_program *first = NULL;
+    for (uint32_t i = 0; i < gl->programs.room; i++) {
+        struct gn_gl_program *p = &gl->programs.table[i];
+        if (p->name && !p->kept && p->name != gl->state.program && (!first || goes_first(p, first)))
+            first = p;
+    }
+    return first;
+}
+
+bool gn_gl_drop_programs(struct gn_gl *gl, uint64_t most_bytes) {
+    bool drops = false;
+    while (gn_gl_idle_bytes(gl) > most_bytes) {
+        struct gn_gl_program *p = first_idle(gl);
+        if (!p) break;
+        GL(gl, DeleteProgram)(p->name);
+        p->name = 0;
+        p->dropped = drops = true;
+    }
+    if (drops) GL(gl, Flush)(); /* draws that wait hold what they draw with */
+    return drops;
 }
 
 void gn_gl_programs_finish(struct gn_gl *gl) {

@@ -146,6 +146,9 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
         if (!p || !gn_gl_vertices_known(gl, p->attributes))
             return gn_fail(err, "program %u was not prepared", i);
     }
+    gl->programs.runs++;
+    for (uint32_t i = 0; i < plan->program_count; i++)
+        gl->plan_programs.at[i]->used = gl->programs.runs;
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     bool ok = true;
     if (pass_ms) gn_gl_wait(gl);

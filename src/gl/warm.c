@@ -2,6 +2,7 @@
  * Drivers compile as late as they can, at the first draw, for the state that is set then: so each
  * program draws one pixel with the state of the plan. Its maps are stand-ins of a few texels, so
  * that a kiosk does not hold the maps of every mode; the first picture of a mode makes them. */
+#include "core/memory.h"
 #include "gl/private.h"
 
 static void swap_outputs(struct gn_gl *gl) {
@@ -10,7 +11,7 @@ static void swap_outputs(struct gn_gl *gl) {
     gl->targets.pixel = output;
 }
 
-static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan,
+static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan, bool again,
                                    struct gn_err *err) {
     const uint64_t made = gl->programs.made;
     if (!gn_gl_prove(gl, plan)) return GN_GL_WARM_REBUILD;
@@ -20,10 +21,12 @@ static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan,
     uint32_t index =
         0; /* of the first program not made yet, or made with another scene's vertices */
     for (; index < plan->program_count; index++) {
+        if (!again && gn_gl_program_is_dropped(gl, &plan->programs[index])) continue;
         const struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[index]);
         if (!p || !gn_gl_vertices_known(gl, p->attributes)) break;
     }
     if (index == plan->program_count) return GN_GL_WARM_DONE;
+    const uint64_t bytes = gn_memory_allocated();
     if (!gn_gl_program_prepare(gl, &plan->programs[index], err)) return GN_GL_WARM_FAILED;
     /* A window has formats of its own: the draw goes to a corner of it, if the next picture covers
      * that. */
@@ -35,26 +38,31 @@ static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan,
     if (!corner) swap_outputs(gl);
     const bool ok = gn_gl_touch(gl, plan, index, err);
     if (!corner) swap_outputs(gl);
+    struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[index]);
+    const uint64_t more_bytes = gn_memory_allocated();
+    if (made != gl->programs.made)
+        gn_gl_program_took(gl, p, more_bytes > bytes ? more_bytes - bytes : 0);
     return ok && gn_gl_error_check(gl, "making programs", err) ? GN_GL_WARM_MORE
                                                                : GN_GL_WARM_FAILED;
 }
 
-static enum gn_gl_warmth warm_plan(struct gn_gl *gl, const struct gn_plan *plan,
+static enum gn_gl_warmth warm_plan(struct gn_gl *gl, const struct gn_plan *plan, bool again,
                                    struct gn_err *err) {
     gl->targets.stand_ins = true;
-    const enum gn_gl_warmth warmth = warm_next(gl, plan, err);
+    const enum gn_gl_warmth warmth = warm_next(gl, plan, again, err);
     gl->targets.stand_ins = false;
     return warmth;
 }
 
-enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
-    if (plan->scene == gl->scene.scene) return warm_plan(gl, plan, err);
+enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, bool again,
+                             struct gn_err *err) {
+    if (plan->scene == gl->scene.scene) return warm_plan(gl, plan, again, err);
     if (!gl->staged || plan->scene != gl->staged->scene) {
         gn_fail(err, "the plan's scene is not loaded");
         return GN_GL_WARM_FAILED;
     }
     gn_gl_stage_swap(gl);
-    const enum gn_gl_warmth warmth = warm_plan(gl, plan, err);
+    const enum gn_gl_warmth warmth = warm_plan(gl, plan, again, err);
     gn_gl_stage_swap(gl);
     return warmth;
 }

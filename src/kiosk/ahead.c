@@ -1,20 +1,29 @@
 /* Work ahead: programs of other modes and another scene are made ready while the kiosk shows
- * something else, one piece a frame, so that no frame is missed. */
+ * something else, one piece a frame, so that no frame is missed. A program takes 1 to 5 MB in the
+ * driver: those of other modes are made once, so that its cache on disk has them, and as many stay
+ * as a share of the memory allows. A mode without its programs is made ready when it is wanted. */
 #include <errno.h>
+#include <malloc.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "core/arena.h"
+#include "core/memory.h"
 #include "kiosk/private.h"
 
 enum { SLICE_BYTES = 1 << 20 };
 
+void gn_show_unready(struct gn_show *s) {
+    s->looks.ready = s->looks.made = s->scenes.looks.ready = 0;
+    s->ahead.keeps = s->ahead.idle = false;
+}
+
 void gn_show_forget_work(struct gn_show *s) {
-    s->looks.ready = s->scenes.looks.ready = 0;
+    gn_show_unready(s);
     s->scenes.whole = false;
     gn_frame_destroy(s->scenes.frame);
     s->scenes.frame = NULL;
-    s->ahead.idle = s->fade.prepared = false;
+    s->fade.prepared = false;
 }
 
 void gn_show_drop_staged(struct gn_show *s) {
@@ -51,10 +60,10 @@ static void fail_reload(struct gn_show *s, const struct gn_err *err) {
 
 /* ---- programs ---- */
 
-/* True: it did a piece; false: the mode is ready. */
-static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_frame **frame,
-                      const struct gn_pose *pose, int mode) {
-    /* the mode's options on this screen */
+/* All that the mode can need, on this screen. */
+static const struct gn_plan *plan_mode(const struct gn_show *s, const struct gn_show_looks *looks,
+                                       struct gn_frame *frame, const struct gn_pose *pose,
+                                       int mode) {
     const struct gn_frame_opts *now = &s->stage.frame_opts;
     struct gn_frame_opts opts = looks->of[mode].frame_opts;
     opts.width_px = now->width_px;
@@ -64,12 +73,20 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
     opts.msaa = now->msaa;
     opts.all_seen = true;
     opts.captions_later = true;
+    return gn_frame_build(frame, pose, &opts, NULL);
+}
 
+/* wanted: the mode waits for it. True: it did a piece; false: nothing was left to do. */
+static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_frame **frame,
+                      const struct gn_pose *pose, int mode, bool wanted) {
     struct gn_err err = {0};
     char text[sizeof err.text + 64];
-    const struct gn_plan *plan = gn_frame_build(*frame, pose, &opts, NULL);
-    switch (gn_gl_warm(s->stage.gl, plan, &err)) {
-    case GN_GL_WARM_DONE: looks->ready |= 1u << mode; return false;
+    const struct gn_plan *plan = plan_mode(s, looks, *frame, pose, mode);
+    switch (gn_gl_warm(s->stage.gl, plan, wanted, &err)) {
+    case GN_GL_WARM_DONE:
+        looks->made |= 1u << mode;
+        if (gn_gl_has_programs(s->stage.gl, plan)) looks->ready |= 1u << mode;
+        return false;
     case GN_GL_WARM_FAILED:
         if (looks == &s->scenes.looks && gn_show_reload_is_staged(s)) {
             fail_reload(s, &err);
@@ -77,6 +94,7 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
         }
         snprintf(text, sizeof text, "mode \"%.40s\": %s", s->modes.names[mode], err.text);
         looks->ready |= 1u << mode; /* not tried again */
+        looks->made |= 1u << mode;
         fail_place(s, GN_KIOSK_MODE_FAILED, mode, text);
         return true;
     case GN_GL_WARM_REBUILD:
@@ -85,6 +103,39 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
         return true;
     default: return true;
     }
+}
+
+/* Those of other modes, until they are within their share of the memory. */
+static void drop_programs(struct gn_show *s) {
+    struct gn_scene_limits limits;
+    struct gn_err unused = {0}; /* they were checked when the mode was looked at */
+    if (!gn_stage_limits(s->stage.settings, &limits, &unused)) return;
+    const uint64_t idle = gn_gl_idle_bytes(s->stage.gl), all = gn_memory_allocated();
+    const uint64_t needed = all > idle ? all - idle : 0;
+    const uint64_t whole = 125; /* percent: what was measured may be less than what it is */
+    limits = gn_scene_limits_or_default(&limits);
+    if (!gn_gl_drop_programs(s->stage.gl, needed / whole * limits.ahead_percent)) return;
+    s->looks.ready &= 1u << s->kiosk.shown.mode;
+    s->ahead.dropped = true;
+}
+
+/* While the wanted mode is shown, and no scene is staged: those programs are idle, too. */
+static bool work_on_others(struct gn_show *s) {
+    const int shown = s->kiosk.shown.mode;
+    if (!s->ahead.keeps) {
+        gn_gl_keep_programs(s->stage.gl,
+                            plan_mode(s, &s->looks, s->stage.frame, &s->stage.pose, shown));
+        drop_programs(s);
+        s->ahead.keeps = true;
+    }
+    for (int i = 1; i < s->modes.count; i++) {
+        const int mode = (shown + i) % s->modes.count;
+        if (s->looks.made >> mode & 1) continue;
+        if (!warm_mode(s, &s->looks, &s->stage.frame, &s->stage.pose, mode, false)) continue;
+        drop_programs(s);
+        return true;
+    }
+    return false;
 }
 
 /* ---- the staged scene ---- */
@@ -143,7 +194,7 @@ static bool work_on_staged(struct gn_show *s) {
     if (!staged) return false;
     if (scenes->whole)
         return !(scenes->looks.ready >> mode & 1) &&
-               warm_mode(s, &scenes->looks, &scenes->frame, &staged->pose, mode);
+               warm_mode(s, &scenes->looks, &scenes->frame, &staged->pose, mode, true);
 
     /* upload it; after a lost context the upload begins again */
     if (!scenes->frame) {
@@ -168,25 +219,34 @@ bool gn_show_has_work(const struct gn_show *s) {
     return !s->ahead.idle && s->stage.gl && (s->counts.frames > 0 || !screen->lit);
 }
 
-void gn_show_work(struct gn_show *s) {
-    if (!gn_show_has_work(s)) return;
-    bool did = true;
+/* False: there was none. */
+static bool work_once(struct gn_show *s) {
     if (s->rules.fade_ns > 0 && !s->fade.prepared && s->counts.frames > 0) {
         struct gn_err unused = {0}; /* the first fade reports a failure */
         gn_gl_keep_prepare(s->stage.gl, &unused);
-        s->fade.prepared = true;
-    } else {
-        did = work_on_staged(s);
+        return s->fade.prepared = true;
     }
-    for (int i = 0; !did && i < s->modes.count; i++) {
-        const int mode = (s->kiosk.wanted.mode + i) % s->modes.count;
-        did = !(s->looks.ready >> mode & 1) &&
-              warm_mode(s, &s->looks, &s->stage.frame, &s->stage.pose, mode);
+    if (work_on_staged(s)) return true;
+    const int wanted = s->kiosk.wanted.mode;
+    if (!(s->looks.ready >> wanted & 1) &&
+        warm_mode(s, &s->looks, &s->stage.frame, &s->stage.pose, wanted, true))
+        return true;
+    return wanted == s->kiosk.shown.mode && !s->scenes.staged && work_on_others(s);
+}
+
+void gn_show_work(struct gn_show *s) {
+    const int64_t period_ns = s->stage.display.screen.period_ns;
+    const int64_t until_ns = gn_loop_now_ns(s->loop) + period_ns / 4;
+    if (!gn_show_has_work(s)) return;
+    do s->ahead.idle = !work_once(s);
+    while (!s->ahead.idle && gn_kiosk_waits(&s->kiosk) && gn_loop_now_ns(s->loop) < until_ns);
+    if (s->ahead.idle) {
+        gn_gl_warm_end(s->stage.gl);
+        if (s->ahead.dropped) malloc_trim(0);
+        s->ahead.dropped = false;
     }
-    s->ahead.idle = !did;
-    if (s->ahead.idle) gn_gl_warm_end(s->stage.gl);
-    /* while frames go on, each does a piece; this is for when none comes */
-    s->ahead.due_ns = gn_loop_now_ns(s->loop) + 2 * s->stage.display.screen.period_ns;
+    /* while frames go on, each works; this is for when none comes */
+    s->ahead.due_ns = gn_loop_now_ns(s->loop) + 2 * period_ns;
 }
 
 /* ---- the wanted scene and mode ---- */
@@ -292,8 +352,10 @@ void gn_show_advance(struct gn_show *s) {
         if (!gn_show_start_load(s, scene, scenes->paths[scene], s->stage.settings, &err))
             fail_place(s, GN_KIOSK_SCENE_FAILED, scene, err.text);
     }
-    if (scenes->staged && !(scenes->looks.ready >> staged_mode(s) & 1)) s->ahead.idle = false;
-    if (!is_ready(s, scene)) return;
+    if (!is_ready(s, scene)) {
+        if (scenes->staged || scene == scenes->shown) s->ahead.idle = false;
+        return;
+    }
 
     /* a fade starts from the last picture, which is drawn once more and kept */
     if (s->rules.fade_ns > 0 && s->stage.gl && s->stage.display.screen.lit &&

@@ -95,7 +95,7 @@ const struct gn_settings *gn_show_settings(const struct gn_show *s, int mode) {
 
 bool gn_show_look(const struct gn_show *s, const struct gn_scene *scene,
                   struct gn_show_looks *looks, struct gn_err *err) {
-    looks->ready = 0;
+    looks->ready = looks->made = 0;
     for (int i = 0; i < s->modes.count; i++)
         if (!gn_stage_look_build(&looks->of[i], gn_show_settings(s, i), scene, s->warnings, err))
             return false;
@@ -110,6 +110,7 @@ void gn_show_enter(struct gn_show *s) {
     if (look->frame_opts.view.camera == before.view.camera)
         s->stage.frame_opts.view.orbit = before.view.orbit;
     if (look->clips != s->stage.pose.clips) gn_pose_choose(&s->stage.pose, look->clips);
+    s->ahead.keeps = s->ahead.idle = false;
     s->changed = true;
 }
 

@@ -49,10 +49,10 @@ struct gn_show_modes {
     int settings[GN_KIOSK_MODES_MAX]; /* places in options->all */
     int base;                         /* the one without settings of its own; -1: none */
 };
-/* Of one scene, for each mode: how it is drawn, and whether its programs are made. */
+/* Of one scene, for each mode: how it is drawn, and about its programs. */
 struct gn_show_looks {
     struct gn_stage_look of[GN_KIOSK_MODES_MAX];
-    uint32_t ready; /* bits 1 << mode */
+    uint32_t ready, made; /* bits 1 << mode: they are there; they were made at least once */
 };
 struct gn_show_scenes {
     const char *paths[GN_KIOSK_SCENES_MAX]; /* NULL: the default scene */
@@ -88,6 +88,8 @@ struct gn_show_text {
 struct gn_show_ahead {
     int64_t due_ns; /* when the next piece is, if there is any */
     bool idle;      /* there was none at the last attempt */
+    bool dropped;   /* memory is to be returned to the system */
+    bool keeps;     /* the programs of the mode that is shown are marked as such */
 };
 /* A fade begins with a kept picture. */
 struct gn_show_fade {
@@ -169,8 +171,11 @@ void gn_show_stop_gl(struct gn_show *show);
 
 /* ---- ahead.c: programs and scenes made ready while others are shown -------------------------- */
 
-/* Does one piece, if there is any: a program, or an upload of at most 1 MiB. */
+/* Does a piece, if there is any: a program, or an upload of at most 1 MiB. While the wanted mode or
+ * scene waits, as many as a quarter of a frame's time allows. */
 void gn_show_work(struct gn_show *show);
+/* Other programs than before are needed. */
+void gn_show_unready(struct gn_show *show);
 bool gn_show_has_work(const struct gn_show *show);
 /* The context ends, and with it all programs and uploads. */
 void gn_show_forget_work(struct gn_show *show);

@@ -59,8 +59,7 @@ void gn_show_fit_to_screen(struct gn_show *s) {
                           : gn_gl_caps(s->stage.gl)->tiler  ? 4 /* nearly free on such GPUs */
                                                             : 0;
     if (s->context.unencoded != unencoded || s->context.msaa != msaa) { /* other programs */
-        s->looks.ready = s->scenes.looks.ready = 0;
-        s->ahead.idle = false;
+        gn_show_unready(s);
     }
     f->unencoded = s->context.unencoded = unencoded;
     f->msaa = s->context.msaa = msaa;

@@ -67,7 +67,8 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
         gn_gl_set_window(s->stage.gl, NULL); /* not drawn to outside of begin and present */
         gn_show_work(s);
         /* no frame to miss: what is waited for is not spread over frames */
-        if (s->scenes.staged && screen->may_draw) s->ahead.due_ns = gn_loop_now_ns(s->loop);
+        if ((s->scenes.staged || gn_kiosk_waits(&s->kiosk)) && screen->may_draw)
+            s->ahead.due_ns = gn_loop_now_ns(s->loop);
     }
     gn_show_advance(s); /* that piece, or the picture kept for a fade, may be what it waited for */
     gn_show_enter_set(s);

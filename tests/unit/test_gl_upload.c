@@ -112,7 +112,7 @@ static void test_a_program_is_warmed_with_each_set_of_textures(void **state) {
         for (int i = 0; i < 4; i++)
             add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = (uint32_t)i / 2;
         const uint64_t before = gl->stats.draws;
-        while (gn_gl_warm(gl, &s.plan, &err) == GN_GL_WARM_MORE) {
+        while (gn_gl_warm(gl, &s.plan, true, &err) == GN_GL_WARM_MORE) {
         }
         assert_int_equal(gl->stats.draws - before, textured ? 2 : 1);
     }
