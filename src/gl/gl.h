@@ -76,10 +76,13 @@ void gn_gl_warm_end(struct gn_gl *gl);
 void gn_gl_keep_programs(struct gn_gl *gl, const struct gn_plan *plan);
 /* The memory that idle programs take, by what making them allocated; other threads may have added
  * to it. */
-uint64_t gn_gl_idle_bytes(const struct gn_gl *gl);
+struct gn_gl_idle {
+    uint64_t bytes, ahead_bytes; /* of all; of those that never ran */
+};
+struct gn_gl_idle gn_gl_idle_programs(const struct gn_gl *gl);
 /* Drops idle programs until they take at most so much: first those that never ran, then those that
  * ran longest ago. The one that was used last stays. False: none was dropped. */
-bool gn_gl_drop_programs(struct gn_gl *gl, uint64_t most_bytes);
+bool gn_gl_drop_programs(struct gn_gl *gl, const struct gn_gl_idle *most);
 /* All programs of the plan are there. */
 bool gn_gl_has_programs(struct gn_gl *gl, const struct gn_plan *plan);
 /* The composed source of the shader that failed last in a program of gn_gl_prepare(), its lines

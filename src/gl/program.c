@@ -219,15 +219,18 @@ void gn_gl_program_took(struct gn_gl *gl, struct gn_gl_program *program, uint64_
     program->bytes = bytes;
 }
 
-uint64_t gn_gl_idle_bytes(const struct gn_gl *gl) {
+struct gn_gl_idle gn_gl_idle_programs(const struct gn_gl *gl) {
     const struct gn_gl_programs *programs = &gl->programs;
     const uint64_t mean = programs->measured ? programs->measured_bytes / programs->measured : 0;
-    uint64_t bytes = 0;
+    struct gn_gl_idle idle = {0};
     for (uint32_t i = 0; i < programs->room; i++) {
         const struct gn_gl_program *p = &programs->table[i];
-        if (p->name && !p->kept) bytes += p->bytes > mean ? p->bytes : mean;
+        if (!p->name || p->kept) continue;
+        const uint64_t bytes = p->bytes > mean ? p->bytes : mean;
+        idle.bytes += bytes;
+        idle.ahead_bytes += p->used == 0 ? bytes : 0;
     }
-    return bytes;
+    return idle;
 }
 
 /* Of idle programs, a is to be dropped before b. */
@@ -247,11 +250,12 @@ static struct gn_gl_program *first_idle(struct gn_gl *gl) {
     return first;
 }
 
-bool gn_gl_drop_programs(struct gn_gl *gl, uint64_t most_bytes) {
+bool gn_gl_drop_programs(struct gn_gl *gl, const struct gn_gl_idle *most) {
     bool drops = false;
-    while (gn_gl_idle_bytes(gl) > most_bytes) {
+    for (;;) {
+        const struct gn_gl_idle now = gn_gl_idle_programs(gl);
         struct gn_gl_program *p = first_idle(gl);
-        if (!p) break;
+        if (!p || (now.bytes <= most->bytes && now.ahead_bytes <= most->ahead_bytes)) break;
         GL(gl, DeleteProgram)(p->name);
         p->name = 0;
         p->dropped = drops = true;

@@ -1,7 +1,7 @@
 /* Work ahead: programs of other modes and another scene are made ready while the kiosk shows
  * something else, one piece a frame, so that no frame is missed. A program takes 1 to 5 MB in the
  * driver: those of other modes are made once, so that its cache on disk has them, and as many stay
- * as a share of the memory allows. A mode without its programs is made ready when it is wanted. */
+ * as shares of the memory allow. A mode without its programs is made ready when it is wanted. */
 #include <errno.h>
 #include <malloc.h>
 #include <stdio.h>
@@ -105,16 +105,20 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
     }
 }
 
-/* Those of other modes, until they are within their share of the memory. */
+/* Programs of other modes, until those are within their shares of the memory: a limit for modes
+ * that were not shown yet, and as much as everything else takes for those that were. */
 static void drop_programs(struct gn_show *s) {
     struct gn_scene_limits limits;
     struct gn_err unused = {0}; /* they were checked when the mode was looked at */
     if (!gn_stage_limits(s->stage.settings, &limits, &unused)) return;
-    const uint64_t idle = gn_gl_idle_bytes(s->stage.gl), all = gn_memory_allocated();
-    const uint64_t needed = all > idle ? all - idle : 0;
+    const struct gn_gl_idle idle = gn_gl_idle_programs(s->stage.gl);
+    const uint64_t all = gn_memory_allocated();
+    const uint64_t needed = all > idle.bytes ? all - idle.bytes : 0;
     const uint64_t whole = 125; /* percent: what was measured may be less than what it is */
-    limits = gn_scene_limits_or_default(&limits);
-    if (!gn_gl_drop_programs(s->stage.gl, needed / whole * limits.ahead_percent)) return;
+    const uint64_t percent = gn_scene_limits_or_default(&limits).ahead_percent;
+    const struct gn_gl_idle most = {.bytes = needed / whole * (percent > 100 ? percent : 100),
+                                    .ahead_bytes = needed / whole * percent};
+    if (!gn_gl_drop_programs(s->stage.gl, &most)) return;
     s->looks.ready &= 1u << s->kiosk.shown.mode;
     s->ahead.dropped = true;
 }
