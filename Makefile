@@ -279,7 +279,7 @@ check:
 	+$(SUB) lint-changed
 	@tests/run.sh tests/layers.sh tests/format.sh BUILD=$(O)/release tests/cycles.sh \
 	    $(call quick,$(call programs,$(O)/release,$(PROG_C)) $(SCRIPTS)) \
-	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(call kinds,$(SANITIZED))) tests/check_hostile.sh
+	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(call kinds,$(SANITIZED)))
 check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(SCENES)
 	@tests/run.sh BUILD=$(B) tests/angle/check_angle.sh
 BOARD_NEEDS := gnomon tests/firstflip.so tests/keyboard tests/tool_compare
@@ -321,7 +321,7 @@ accept:
 	+$(SUB) WERROR=1 CONFIG=asan tests
 	+$(SUB) lint
 	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) $(call later,$(call programs,$(O)/release,$(LONGEST))) tests/board/smoke.guest \
-	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(SLOW),$(PICTURES))) \
+	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(SLOW),$(PICTURES))) tests/check_hostile.sh \
 	    GN_FULL=1 $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan,$(PROG_C))) \
 	    BUILD=$(O)/release $(filter-out $(call programs,$(O)/release,$(LONGEST)),$(sort $(call programs,$(O)/release,$(call LONG,$(PROG_C))) \
 	    $(call later,$(call programs,$(O)/release,$(PROG_C))))) \
