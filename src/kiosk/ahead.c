@@ -106,7 +106,8 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
 }
 
 /* Programs of other modes, until those are within their shares of the memory: a limit for modes
- * that were not shown yet, and as much as everything else takes for those that were. */
+ * that were not shown yet; for those that were as much as all else takes, or 1/16 of the machine's.
+ */
 static void drop_programs(struct gn_show *s) {
     struct gn_scene_limits limits;
     struct gn_err unused = {0}; /* they were checked when the mode was looked at */
@@ -116,8 +117,10 @@ static void drop_programs(struct gn_show *s) {
     const uint64_t needed = all > idle.bytes ? all - idle.bytes : 0;
     const uint64_t whole = 125; /* percent: what was measured may be less than what it is */
     const uint64_t percent = gn_scene_limits_or_default(&limits).ahead_percent;
-    const struct gn_gl_idle most = {.bytes = needed / whole * (percent > 100 ? percent : 100),
-                                    .ahead_bytes = needed / whole * percent};
+    struct gn_gl_idle most = {.bytes = (gn_memory_total_mb() << 20) / 16,
+                              .ahead_bytes = needed / whole * percent};
+    if (most.bytes < needed) most.bytes = needed;
+    if (most.bytes < most.ahead_bytes) most.bytes = most.ahead_bytes;
     if (!gn_gl_drop_programs(s->stage.gl, &most)) return;
     s->looks.ready &= 1u << s->kiosk.shown.mode;
     s->ahead.dropped = true;

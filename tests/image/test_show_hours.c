@@ -87,7 +87,8 @@ static void idle_ends_the_page_at_its_time_and_then_nothing_is_drawn(void **stat
 static void a_kiosk_of_two_modes_keeps_its_times_for_hours(void **state) {
     (void)state;
     enum { CHANGES = 8 * 60 };
-    struct gn_show *show = open_show("[kiosk]\nidle = next\nidle_after = 60\ncaptions = no\n"
+    struct gn_show *show = open_show("[kiosk]\nidle = next\nidle_after = 60\ncaptions = "
+                                     "no\n[render]\nlimit = ahead_percent=100000\n"
                                      "[mode \"a\"]\nshadow = hard\n[mode \"b\"]\nshadow = none\n");
     run_until(show, clock_ns + SECONDS(20));
     const int64_t begun_ns = show->kiosk.used_ns;
