@@ -60,7 +60,8 @@ vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 
 #include "lib/shadow_cascade.glsl"
 
 // p, n, l: position and normal of the surface and direction to the light, world space; face: normal of the triangle; from_vertex:
-// v_shadow[slot], used where SHADOW_LINEAR[slot]; radial: the map holds distances, not depths.
+// v_shadow[slot], used where SHADOW_LINEAR[slot]; radial: the map holds distances, not depths. SHADOW_LINEAR, _CASCADES, _SHARED
+// and _SPANS (cascades of filtered maps): add_shadow_flags() of src/gl/compose.c.
 shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
     shadow_place s;
     s.size = SHADOW(slot, SHADOW_MAP_SIZE);
@@ -78,8 +79,8 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.at = shadow_cascade_at(slot, c, p, n, l);
         s.slope = shadow_cascade_slope(slot, c, face, l);
         s.penumbra.PENUMBRA_RADIUS /= c.texel;
-        // Limits penumbrae to the reach of a tile and, in proportion to the view depth, to PENUMBRA_GROWTH, whose
-        // component PENUMBRA_NEAREST shares and takes over here.
+        // Limits penumbrae to the reach of a tile and, in proportion to the view depth, to PENUMBRA_GROWTH: one
+        // component with PENUMBRA_NEAREST, which it holds from here on.
         float depth = shadow_penumbra_depth(s, s.at.z);
         s.penumbra.PENUMBRA_NEAREST =
             max(c.nearest, depth - min(s.reach / s.penumbra.PENUMBRA_RADIUS, s.penumbra.PENUMBRA_GROWTH / gl_FragCoord.w));

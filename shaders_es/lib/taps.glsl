@@ -10,6 +10,7 @@ mat2x3 taps_to_map(shadow_place s, float radius, mat2 turn) {
     return mat2x3(vec3(x, dot(s.slope, x)), vec3(y, dot(s.slope, y)));
 }
 
+// map_lit(): of lib/map_depth.glsl where the sampler compares, else of lib/map_lit.glsl.
 float taps_lit(MAP_SAMPLER map, shadow_place s, float radius, mat2 turn) {
     mat2x3 to_map = taps_to_map(s, radius, turn);
     float lit = 0.0;

@@ -116,7 +116,8 @@ static void add_flags(const struct gn_program_key *key, const char *name, uint32
 }
 
 /* SHADOW_LINEAR: the vertex shader computes where the map is looked up; on a plane, with any light.
- * SHADOW_SHARED: tiles of the map are shared (shaders_es/lib/shadow_tile.glsl). SHADOW_CASCADES:
+ * SHADOW_SHARED: near the edge of a tile the pixels of a quad sample different tiles and average
+ * the results (shaders_es/lib/shadow_tile.glsl). SHADOW_CASCADES:
  * the tiles are cascades; SHADOW_SPANS: each encodes distances of its own. Sharing takes
  * derivatives, which are undefined after a discard: CUT_LAST cuts holes last where a map is shared,
  * and first elsewhere, where that saves work. */

@@ -24,7 +24,8 @@ struct gn_gl_programs { /* open addressing, room is a power of two, at most half
     uint64_t runs;                     /* plans that ran */
     uint64_t measured_bytes, measured; /* that so many programs took */
     uint64_t made;                     /* includes gn_gl_try_program() */
-    uint64_t run; /* value of `made` when a plan last ran: many drivers compile at the first draw */
+    uint64_t made_at_run; /* value of `made` when a plan last ran: many drivers compile at the first
+                             draw */
 };
 struct gn_gl_program *gn_gl_program_find(struct gn_gl *gl, const struct gn_program_key *key);
 /* It was made in this context, and dropped. */

@@ -90,7 +90,7 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     const enum gn_clear_area area = begin_clear(plan, map, pass);
     gn_gl_pass_begin(gl, pass, framebuffer_of(gl, pass, map), area);
     gn_gl_sources_bind(gl, plan, pass);
-    const bool first_time = gl->programs.run != gl->programs.made;
+    const bool first_time = gl->programs.made_at_run != gl->programs.made;
     if (pass->kind == GN_PASS_COPY) gn_gl_pages_copy(gl, pass);
     for (uint32_t i = 0; i < pass->draw_count; i++) {
         if (first_time && is_stopped(gl, err)) return false;
@@ -122,7 +122,7 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
         gn_gl_view_find(gl, &plan->shadows[slot], slot, pass->kind == GN_PASS_FILTER);
     if (!to || !owner) return gn_fail(err, "%s: the plan was not prepared", pass->label);
     if (holds_content(owner, content->tile, content->hash)) {
-        owner->cleared = false; /* tile 0 was kept, so it did not clear the others */
+        owner->cleared = false; /* if it is tile 0: it clears nothing in this frame */
         gl->stats.shadow_passes_skipped += pass->target.kind == GN_TARGET_SHADOW;
         return true;
     }
@@ -159,7 +159,7 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
         gn_gl_wait(gl);
         pass_ms[i] = (double)(gn_clock_monotonic_ns() - start_ns) * 1e-6;
     }
-    if (ok) gl->programs.run = gl->programs.made;
+    if (ok) gl->programs.made_at_run = gl->programs.made;
     gl->stats.gl_calls = gl->calls - calls_before;
     return ok;
 }

@@ -1,4 +1,5 @@
-/* Gestures use the time of debounced edges, one debounce interval behind the wire; edges and timers
+/* Holds, doubles and chords are measured between debounced edges, one debounce interval behind the
+ * wire; an event carries the time of its first edge. Edges and timers
  * of all buttons are processed in that order, however often step is called. A timer precedes an
  * edge at the same time: held for exactly hold_ns is a hold. */
 #include "input/gesture.h"

@@ -121,8 +121,8 @@ void gn_gestures_key_gone(struct gn_gestures *g, int button, int64_t time_ns);
 /* The line is up and nothing is pending. */
 bool gn_gestures_at_rest(const struct gn_gestures *g, int button);
 
-/* Validates a kernel timestamp: returns now_ns for one ahead of the clock or more than ten seconds
- * old. */
+/* Validates a kernel timestamp: returns now_ns for one that is more than a second ahead of the
+ * clock or more than ten seconds old. */
 int64_t gn_gesture_sane_time_ns(int64_t time_ns, int64_t now_ns);
 /* Advances time. The deadline is when to call it at the latest; INT64_MAX: not before the next
  * event. */

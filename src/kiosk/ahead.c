@@ -126,7 +126,7 @@ static void drop_programs(struct gn_show *s) {
     s->ahead.dropped = true;
 }
 
-/* While the wanted mode is shown, and no scene is staged: those programs are idle, too. */
+/* Only while the wanted mode is shown and no scene is staged: their programs could be dropped. */
 static bool work_on_others(struct gn_show *s) {
     const int shown = s->kiosk.shown.mode;
     if (!s->ahead.keeps) {

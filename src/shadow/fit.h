@@ -33,9 +33,9 @@ struct gn_shadow_opts {
                           one need an eye with a perspective */
 };
 
-/* A SAT is read at most this many texels from a place, so the widest penumbra is about twice that.
- * The fixed point of its sums (shaders_es/blocks.glsl) gets coarser with the square of it: with
- * this value they are right to a millionth. */
+/* A summed-area table (SAT, GN_FILTER_TABLE) is read at most this many texels from a place, so the
+ * widest penumbra is about twice that. The fixed point of its sums (shaders_es/blocks.glsl) gets
+ * coarser with the square of it: with this value they are right to a millionth. */
 #define GN_TABLE_REACH_PX 90
 
 enum { GN_SHADOW_TILES_MAX = 6 };

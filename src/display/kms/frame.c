@@ -110,7 +110,7 @@ void gn_kms_send(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
         gn_flip_done(&k->flip, 0, now_ns);
         gn_kms_take_front(k, frame, now_ns);
     }
-    /* it was this frame, if any: none is drawn or repeated while one waits */
+    /* `waiting` was this frame or empty: none is drawn or repeated while one waits */
     k->frames.waiting = (struct gn_kms_frame){.fence = -1};
 }
 
