@@ -148,6 +148,7 @@ struct gn_gltf {
     struct gn_gltf_to_scene to_scene;
     size_t misplaced; /* triangles that are not shown: positions that are not finite */
     uint64_t key_total;
+    uint64_t decoded_bytes;  /* of the pictures in memory */
     uint64_t decode_work;    /* of the pictures in memory; see decode_image() */
     uint64_t damaged_work;   /* of those whose decoding failed */
     uint64_t closed_corners; /* of geometries tested by gn_geometry_is_closed() */

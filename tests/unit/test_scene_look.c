@@ -232,6 +232,32 @@ static void test_textures_are_within_gpu_mb(void **state) {
     free(rgba);
 }
 
+/* Two pictures of 4 MB each, and what libpng takes. */
+static void test_pictures_are_within_decoded_mb(void **state) {
+    (void)state;
+    uint8_t *rgba = calloc(1024 * 1024, 4);
+    struct gn_made png = gn_maker_png(1024, 1024, rgba);
+    for (int i = 0; i < 2; i++) add_picture(png.data, png.size);
+    gn_maker_set(&maker, "materials",
+                 "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0},"
+                 "'metallicRoughnessTexture':{'index':1}}}]");
+    struct gn_made glb = gn_maker_glb(&maker);
+    for (uint32_t mb = 8; mb <= 9; mb++) {
+        const struct gn_scene_limits limits = {.decoded_mb = mb};
+        warnings.count = 0;
+        struct gn_scene *scene =
+            gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
+        if (!scene) fail_msg("%s", err.text);
+        assert_int_equal(scene->pictures.image_count, mb - 7);
+        if (mb == 8) assert_non_null(strstr(warnings.text[0], "over the limit decoded_mb=8"));
+        gn_scene_destroy(scene);
+    }
+    gn_maker_finish(&maker);
+    free(glb.data);
+    free(png.data);
+    free(rgba);
+}
+
 /* Two images in one bufferView: the second is not decoded again. */
 static void test_a_damaged_view_is_decoded_once(void **state) {
     (void)state;
@@ -323,6 +349,7 @@ int main(void) {
         cmocka_unit_test_setup(test_broken_pictures_cost_a_warning, setup_with_material),
         cmocka_unit_test_setup(test_broken_pictures_keep_no_memory, setup_with_material),
         cmocka_unit_test_setup(test_textures_are_within_gpu_mb, setup_with_material),
+        cmocka_unit_test_setup(test_pictures_are_within_decoded_mb, setup_with_material),
         cmocka_unit_test_setup(test_a_damaged_view_is_decoded_once, setup_with_material),
         cmocka_unit_test_setup(test_missing_picture_file, setup_with_material),
         cmocka_unit_test_setup(test_later_work_is_named_once, setup_with_material),

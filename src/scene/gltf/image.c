@@ -52,6 +52,9 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
     const uint64_t decoding = format->work_bytes(blob->data, blob->size, px);
     if (4 * texels + (decoding > with_mipmaps ? decoding : with_mipmaps) > gn_gltf_room(g))
         return gn_fail(err, "exceeds the limit memory_mb");
+    if (g->decoded_bytes + 4 * texels + decoding > g->limits.decoded_mb << 20)
+        return gn_fail(err, "not decoded: over the limit decoded_mb=%" PRIu64,
+                       g->limits.decoded_mb);
     const uint64_t work = texels + (uint64_t)ROW_WORK * px[1];
     if (g->decode_work > (g->limits.memory_mb << 20) / 4)
         return gn_fail(err,
@@ -68,6 +71,7 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
         return false;
     }
     g->decode_work += work;
+    g->decoded_bytes += 4 * texels;
     g->memory.other_bytes += with_mipmaps;
     *image = (struct gn_image){.width_px = px[0], .height_px = px[1], .rgba = rgba};
     for (uint64_t i = 0; i < texels && !image->has_alpha; i++)
