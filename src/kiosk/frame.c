@@ -49,7 +49,7 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
         return true;
     }
     gn_show_fit_to_screen(s);
-    gn_show_work(s);
+    if (!s->ahead.alone) gn_show_work(s);
     const unsigned long allocations = gn_alloc_count();
     const uint64_t objects = gn_gl_stats(s->stage.gl).objects_created;
     gn_show_take_view(s, &view);
@@ -122,5 +122,6 @@ bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
         fflush(stdout);
     }
     gn_show_stats_frame(&s->stats, drawn_ns - begun_ns);
+    s->ahead.alone = drawn_ns - begun_ns > 2 * s->stage.display.screen.period_ns;
     return true;
 }

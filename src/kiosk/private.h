@@ -88,6 +88,8 @@ struct gn_show_text {
 struct gn_show_ahead {
     int64_t due_ns; /* when the next piece is, if there is any */
     bool idle;      /* there was none at the last attempt */
+    bool alone;     /* frames are slow: a piece is a step of its own, */
+    bool has_turn;  /* and this one is */
     bool dropped;   /* memory is to be returned to the system */
     bool keeps;     /* the programs of the mode that is shown are marked as such */
 };

@@ -60,10 +60,14 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     gn_show_advance(s);
     gn_show_enter_set(s);
 
-    /* a frame if one is due, which does a piece of background work itself, else such a piece */
-    if (gn_show_wants_frame(s)) {
+    /* a frame if one is due, which does a piece of work ahead itself, else such a piece; with a
+     * slow scene they take turns, so that input is heard between them */
+    struct gn_show_ahead *ahead = &s->ahead;
+    ahead->has_turn = ahead->alone && !ahead->has_turn && gn_show_has_work(s);
+    if (gn_show_wants_frame(s) && !ahead->has_turn) {
         if (!gn_show_frame(s, err)) return false;
-    } else if (gn_show_has_work(s) && gn_loop_now_ns(s->loop) >= s->ahead.due_ns) {
+    } else if (ahead->has_turn ||
+               (gn_show_has_work(s) && gn_loop_now_ns(s->loop) >= ahead->due_ns)) {
         gn_gl_set_window(s->stage.gl, NULL); /* not drawn to outside of begin and present */
         gn_show_work(s);
         /* no frame to miss: what is waited for is not spread over frames */
