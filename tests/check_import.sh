@@ -62,7 +62,7 @@ awk 'BEGIN { n = 150000; print "v 0 0 0"; for (i = 0; i < n; i++) printf "v %d 1
 awk 'BEGIN { print "v 0 0 0\nv 1 0 0\nv 0 1 0"; for (i = 0; i < 60000; i++) print "o o" i "\nf 1 2 3" }' > "$folder/m/objects.obj"
 awk 'BEGIN { n = 28000; for (i = 0; i < n; i++) print "v", cos(i * 6.283 / n) * (1 + i % 2), sin(i * 6.283 / n) * (1 + i % 2), 0
              printf "f"; for (i = 1; i <= n; i++) printf " %d", i }' > "$folder/m/polygon.obj"
-expect 0 '' "$import" --time 8 "$folder/m/objects.obj" -o "$folder/c.glb"
+expect 0 '' prlimit --cpu=8 "$import" --time 50 "$folder/m/objects.obj" -o "$folder/c.glb"
 expect 1 'polygon.obj: not read within 1 s; raise the limit: gnomon --limit seconds=N, or gnomon-import --time N' "$import" --time 1 "$folder/m/polygon.obj" -o "$folder/f.glb"
 expect 1 'polygon.obj: not read within 1 s; raise the limit: gnomon --limit seconds=N' "$gnomon" inspect --limit seconds=1 "$folder/m/polygon.obj"
 expect 1 'fan.obj: needs more than 80 MB of memory' "$import" --memory 80 "$folder/m/fan.obj" -o "$folder/f.glb"

@@ -165,9 +165,9 @@ timeout 60 "$gnomon" show --backend egl --frames 2 --camera nosuch sundial.glb >
 # a font that cannot be used, and a warning, are told while the kiosk runs
 printf '[render]\nfont = none.ttf\nlimit = maps_mb=1\n' > font.ini
 timeout 60 "$gnomon" show --backend egl --size 32x18 -c font.ini --socket ctl-font 2> err &
-for _ in $(seq 100); do [ -S ctl-font ] || sleep .1; done
+for _ in $(seq 600); do [ -S ctl-font ] || sleep .1; done
 "$gnomon" ctl --socket ctl-font screenshot font.png > out || complain "font.ini: screenshot: $(cat out)"
-for _ in $(seq 100); do grep -q maps_mb=1 err || sleep .1; done
+for _ in $(seq 600); do grep -q maps_mb=1 err || sleep .1; done
 grep -q '^gnomon: warning: font.ini:2: font: none.ttf: cannot open: No such file or directory (texts are shown in the built-in font)$' err || complain "a missing font: $(cat err)"
 grep -q '^gnomon: warning: shadow maps exceed the limit maps_mb=1' err || complain "a warning of a kiosk: $(cat err)"
 "$gnomon" ctl --socket ctl-font status > out
@@ -178,7 +178,7 @@ wait $! || complain "font.ini: status $? at the end"
 
 for file in scene.ini folder.ini; do
     timeout 60 "$gnomon" show --backend egl --size 32x18 -c $file --socket ctl-$file 2> /dev/null &
-    for _ in $(seq 100); do [ -S ctl-$file ] || sleep .1; done
+    for _ in $(seq 600); do [ -S ctl-$file ] || sleep .1; done
     "$gnomon" ctl --socket ctl-$file status > out 2> err || complain "$file: status: $(cat err)"
     grep -q "^config.error: $file:* *[2i]" out && grep -q '^scene: (default scene)' out || complain "$file: status: $(cat out)"
     "$gnomon" ctl --socket ctl-$file quit > /dev/null

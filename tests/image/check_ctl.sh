@@ -205,7 +205,7 @@ printf '%s\n' '[scene]' 'file = sundial.glb' 'no_animation = yes' '[kiosk]' 'cap
     '[mode "Plain"]' 'shadow = none' '[mode "Soft"]' 'shadow = pcss' > kiosk.ini
 start -v -c kiosk.ini
 expect 0 'mode: Soft' mode Soft
-for _ in $(seq 100); do
+for _ in $(seq 600); do
     grep -q '^mode Soft' kiosk.out && break
     sleep 0.1
 done

@@ -22,15 +22,24 @@ static double memory_mb(struct gn_show_status *status, int64_t now_ns) {
     return status->memory_mb;
 }
 
+/* Of the wanted mode, as it will be entered; while another scene is wanted, of the one shown. */
+static uint32_t camera_of(const struct gn_show *s) {
+    const int wanted = s->kiosk.wanted.mode, shown = s->kiosk.shown.mode;
+    const bool same_scene =
+        gn_kiosk_scene(&s->rules, &s->kiosk.wanted) == gn_kiosk_scene(&s->rules, &s->kiosk.shown);
+    const int mode = same_scene ? wanted : shown;
+    const bool resets = mode != shown && s->rules.own_camera >> mode & 1;
+    const uint32_t first = (uint32_t)s->looks.of[mode].frame_opts.view.camera;
+    return (first + (resets ? 0 : s->kiosk.camera)) % s->stage.scene->camera_count;
+}
+
 json_t *gn_show_status_short(const struct gn_show *s) {
     const char *scene = s->scenes.paths[gn_kiosk_scene(&s->rules, &s->kiosk.wanted)];
-    const int first_camera = s->looks.of[s->kiosk.shown.mode].frame_opts.view.camera;
-    const uint32_t camera =
-        ((uint32_t)first_camera + s->kiosk.camera) % s->stage.scene->camera_count;
     return json_pack("{s:o, s:o, s:i, s:b, s:b, s:b}", "mode",
                      gn_json_make_text(s->modes.names[s->kiosk.wanted.mode]), "scene",
-                     gn_json_make_text(scene ? scene : "(default scene)"), "camera", (int)camera,
-                     "paused", s->kiosk.paused, "blanked", s->kiosk.blanked, "info", s->kiosk.info);
+                     gn_json_make_text(scene ? scene : "(default scene)"), "camera",
+                     (int)camera_of(s), "paused", s->kiosk.paused, "blanked", s->kiosk.blanked,
+                     "info", s->kiosk.info);
 }
 
 json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *status,
