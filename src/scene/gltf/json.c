@@ -45,12 +45,20 @@ static bool check_json_size(struct gn_gltf *g, const char *text, size_t size, si
     return true;
 }
 
+/* What jansson refuses is replaced only in a text that it has refused: few have any of it. */
+static json_t *load_json(const char *text, size_t size, json_error_t *error) {
+    json_t *json = json_loadb(text, size, 0, error);
+    if (json) return json;
+    char *replaced = gn_json_text_replace(text, size);
+    json = json_loadb(replaced ? replaced : text, size, JSON_DECODE_INT_AS_REAL, error);
+    free(replaced);
+    return json;
+}
+
 bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
     if (!check_json_size(g, text, size, offset)) return false;
     json_error_t error;
-    char *replaced = gn_json_text_replace(text, size);
-    g->file.json = json_loadb(replaced ? replaced : text, size, JSON_DECODE_INT_AS_REAL, &error);
-    free(replaced);
+    g->file.json = load_json(text, size, &error);
     if (!g->file.json) {
         size_t byte = offset + (error.position > 0 ? (size_t)error.position : 0);
         return gn_gltf_fail(g, NULL, "byte %zu (line %d): JSON: %s", byte, error.line, error.text);
@@ -62,18 +70,21 @@ bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offs
 
 /* ---- cursors ---- */
 
-/* Empties the cursor and fails unless it is absent or right. */
-static bool check_type(struct gn_gltf *g, struct gn_at *at, bool right, const char *wanted) {
+static bool fail_type(struct gn_gltf *g, struct gn_at *at, const char *wanted) {
     static const char *const types[] = {
         [JSON_OBJECT] = "an object",    [JSON_ARRAY] = "an array", [JSON_STRING] = "a string",
         [JSON_INTEGER] = "a number",    [JSON_REAL] = "a number",  [JSON_TRUE] = "true or false",
         [JSON_FALSE] = "true or false", [JSON_NULL] = "null"};
-    if (++g->getters % 1024 == 0) gn_gltf_check_time(g);
-    if (!at->json) return false;
-    if (right) return true;
     gn_gltf_fail(g, at, "must be %s, is %s", wanted, types[json_typeof(at->json)]);
     at->json = NULL;
     return false;
+}
+
+/* Empties the cursor and fails unless it is absent or right. */
+static bool check_type(struct gn_gltf *g, struct gn_at *at, bool right, const char *wanted) {
+    if (++g->getters % 1024 == 0) gn_gltf_check_time(g);
+    if (!at->json) return false;
+    return right || fail_type(g, at, wanted);
 }
 
 struct gn_at gn_at_root(const struct gn_gltf *g) {
@@ -125,7 +136,7 @@ bool gn_json_number(const json_t *json, double *out) {
 }
 
 bool gn_json_whole(const json_t *json, int64_t *out) {
-    double real = json_is_real(json) ? json_real_value(json) : 0.5;
+    double real = json_is_number(json) ? json_number_value(json) : 0.5;
     if (!(fabs(real) < 9223372036854775808.0) || floor(real) != real) return false;
     *out = (int64_t)real;
     return true;
