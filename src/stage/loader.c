@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/arena.h"
@@ -36,6 +37,9 @@ void gn_loaded_destroy(struct gn_loaded *loaded) {
     free(loaded);
 }
 
+/* Frames have priority: a thread lowers its own, which on Linux does not affect the others. */
+static void lower_priority(void) { setpriority(PRIO_PROCESS, 0, 10); }
+
 static bool start_thread(void *(*run)(void *), void *argument, int *error) {
     pthread_t thread;
     pthread_attr_t attributes;
@@ -47,6 +51,7 @@ static bool start_thread(void *(*run)(void *), void *argument, int *error) {
 }
 
 static void *destroy_in_thread(void *argument) {
+    lower_priority();
     gn_loaded_destroy(argument);
     return NULL;
 }
@@ -67,6 +72,7 @@ static void *load_in_thread(void *argument) {
     static const uint64_t one = 1;
     struct job *job = argument;
     struct gn_loaded *l = job->loaded;
+    lower_priority();
     l->scene = gn_stage_read(job->path, &job->limits, &l->warnings, &l->err);
     if (l->scene) gn_pose_init(&l->pose, l->scene, GN_POSE_DEFAULT);
     const int event = job->event; /* the job may be freed once it is done */
