@@ -33,12 +33,19 @@ quiet "$gnomon" show --backend egl --size 64x64 --frames 3
 says() {
     text=$1
     shift
-    "$@" 2> /dev/null > "$folder/out" < /dev/null
-    grep -q "$text" "$folder/out" || { echo "FAIL: $*: $(cat "$folder/out")" && bad=1; }
+    "$@" 2> /dev/null > "$folder/said" < /dev/null
+    grep -q "$text" "$folder/said" || { echo "FAIL: $*: $(cat "$folder/said")" && bad=1; }
 }
 says '^10 frames, [0-9]* late, 0 allocations and 0 GL objects' \
     "$gnomon" show -v --backend egl --size 64x64 --frames 10
-says '^1 frames, 0 late, 0 allocations and 0 GL objects' \
-    timeout -s TERM 8 "$gnomon" show -v --backend egl --size 64x64 --no-animation
+
+# within an operation of the driver that takes long SIGTERM ends it without its counts: on a busy
+# machine the work ahead of the next mode may last
+for seconds in 8 30 90; do
+    timeout -s TERM $seconds "$gnomon" show -v --backend egl --size 64x64 --no-animation \
+        2> /dev/null > "$folder/out" < /dev/null
+    ! grep -q ' late, ' "$folder/out" || break
+done
+says '^1 frames, 0 late, 0 allocations and 0 GL objects' cat "$folder/out"
 
 exit $bad
