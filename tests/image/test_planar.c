@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include "frame/frame.h"
+#include "image/planar_scene.h"
 #include "image/shot.h"
 #include "image/truth.h"
 #include "plan/stage_scene.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"
-#include "unit/gltf_maker.h"
 
 enum { WIDTH = 640, HEIGHT = 480, PIXELS = WIDTH * HEIGHT };
 
@@ -31,89 +31,6 @@ static int close_gl(void **state) {
     gn_gl_destroy(gl);
     gn_display_close(&display);
     return 0;
-}
-
-/* ---- scenes ---- */
-
-/* Beside mesh 0, a square: mesh 1 is a cube, of 2 m as well, mesh 2 a square with square holes. */
-static void add_meshes(struct gn_maker *m) {
-    static const float uv[8] = {0, 0, 0, 1, 1, 1, 1, 0};
-    gn_maker_cube(m);
-    gn_maker_accessor(m, "VEC2", 5126, 4, uv, sizeof uv, NULL);
-    gn_maker_add(m, "meshes",
-                 "{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':4},'indices':1,"
-                 "'material':0}]}");
-    gn_maker_set(m, "materials",
-                 "[{'alphaMode':'MASK','doubleSided':true,'pbrMetallicRoughness':{"
-                 "'metallicFactor':0,'baseColorTexture':{'index':0}}}]");
-}
-
-static void add_holes(struct gn_maker *m) {
-    uint8_t texels[4 * 16];
-    char image[80];
-    memset(texels, 255, sizeof texels);
-    for (int i = 0; i < 16; i++)
-        if ((i + i / 4) % 2) texels[4 * i + 3] = 0;
-    struct gn_made png = gn_maker_png(4, 4, texels);
-    snprintf(image, sizeof image, "{'mimeType':'image/png','bufferView':%d}",
-             gn_maker_view(m, png.data, png.size));
-    free(png.data);
-    gn_maker_add(m, "images", image);
-    gn_maker_set(m, "samplers",
-                 "[{'magFilter':9728,'minFilter':9728,'wrapS':33071,'wrapT':33071}]");
-    gn_maker_set(m, "textures", "[{'source':0,'sampler':0}]");
-}
-
-#define POINT "{'type':'point','intensity':100}"
-#define SPOT  "{'type':'spot','intensity':100,'spot':{'outerConeAngle':0.7,'innerConeAngle':0.6}}"
-#define SUN   "{'type':'directional','intensity':3}"
-
-static const struct light {
-    const char *name, *light, *node;
-} lights[] = {
-    {"sun", SUN, "'rotation':[-0.4334794,0.4272181,0.2454319,0.7545485]"},
-    {"point", POINT, "'translation':[-1,4,1.5]"},
-    {"spot", SPOT,
-     "'translation':[-3,6,2],'rotation':[-0.4341391,-0.4106897,-0.2323442,0.7673808]"},
-};
-
-/* How the plane lies: quaternions that turn the whole scene. */
-static const struct {
-    const char *name, *turn;
-} turns[] = {{"floor", "[0,0,0,1]"},
-             {"tilted", "[0.2791983,0,0.1116793,0.953717]"},
-             {"wall", "[0.7071068,0,0,0.7071068]"},
-             {"ceiling", "[0,0,1,0]"}};
-
-/* A ground of 10 m, the plane, with these things on it (nodes, a comma before each) and a light,
- * seen from 13 m away. */
-static struct gn_scene *make(const char *turn, const struct light *light, const char *things) {
-    struct gn_maker m;
-    struct gn_err err = {0};
-    char json[4000], children[80] = "0";
-    gn_maker_init(&m);
-    gn_maker_square(&m);
-    add_meshes(&m);
-    add_holes(&m);
-    int count = 1;
-    for (const char *p = things; (p = strstr(p, ",{'mesh'")); p++)
-        snprintf(children + strlen(children), sizeof children - strlen(children), ",%d", count++);
-    snprintf(json, sizeof json,
-             "[{'mesh':0,'scale':[5,1,5],'extras':{'gnomon_plane':true}}%s,{'children':[%s,%d,%d],"
-             "'rotation':%s},{%s,'extensions':{'KHR_lights_punctual':{'light':0}}},{'camera':0,"
-             "'translation':[3,11,7],'rotation':[-0.4546182,0.1781011,0.0933139,0.8676951]}]",
-             things, children, count + 1, count + 2, turn, light->node);
-    gn_maker_set(&m, "nodes", json);
-    snprintf(json, sizeof json, "[{'nodes':[%d]}]", count);
-    gn_maker_set(&m, "scenes", json);
-    snprintf(json, sizeof json, "{'KHR_lights_punctual':{'lights':[%s]}}", light->light);
-    gn_maker_set(&m, "extensions", json);
-    gn_maker_set(&m, "extensionsUsed", "['KHR_lights_punctual']");
-    gn_maker_set(&m, "cameras",
-                 "[{'type':'perspective','perspective':{'yfov':0.8,'znear':0.5,'zfar':40}}]");
-    struct gn_scene *scene = gn_maker_load(&m, NULL, &err);
-    if (!scene) fail_msg("%s", err.text);
-    return scene;
 }
 
 #define PLANAR(...)                                                                                \
@@ -225,23 +142,15 @@ static double compare(const char *name, const struct gn_scene *scene) {
     return 100.0 * dark / plane;
 }
 
-/* On the plane, over it, and through it; two that overlap; one with holes. */
-static const char things[] = ",{'mesh':1,'translation':[-3,0.6,-2],'scale':[0.6,0.6,0.6]}"
-                             ",{'mesh':1,'translation':[-1.5,2,-3],'scale':[0.4,0.2,0.7],'rotation'"
-                             ":[0.2073116,0,0.0621935,0.976296]}"
-                             ",{'mesh':1,'translation':[2.5,0.3,-2.5],'scale':[0.7,0.8,0.5],'"
-                             "rotation':[0.2073116,0,0.0621935,0.976296]}"
-                             ",{'mesh':2,'translation':[1.5,1.2,1.5],'scale':[1.2,1,1.2],'rotation'"
-                             ":[0.2073116,0,0.0621935,0.976296]}"
-                             ",{'mesh':1,'translation':[-2.5,1,2.5],'scale':[0.05,1,0.05]}";
-
 static void test_lights_and_planes_of_all_kinds_agree_with_truth(void **state) {
     (void)state;
-    for (size_t l = 0; l < sizeof lights / sizeof *lights; l++)
-        for (size_t t = 0; t < sizeof turns / sizeof *turns; t++) {
+    for (size_t l = 0; l < GN_PLANAR_LIGHTS; l++)
+        for (size_t t = 0; t < GN_PLANAR_TURNS; t++) {
             char name[40];
-            snprintf(name, sizeof name, "planar-%s-%s", lights[l].name, turns[t].name);
-            struct gn_scene *scene = make(turns[t].turn, &lights[l], things);
+            snprintf(name, sizeof name, "planar-%s-%s", gn_planar_lights[l].name,
+                     gn_planar_turns[t].name);
+            struct gn_scene *scene =
+                gn_planar_scene(gn_planar_turns[t].turn, &gn_planar_lights[l], gn_planar_things);
             assert_true(compare(name, scene) > 2);
             gn_scene_destroy(scene);
         }
@@ -257,10 +166,10 @@ static void test_what_is_not_between_light_and_plane_darkens_nothing(void **stat
                                  ",{'mesh':0,'translation':[2,0,-1]}";
     static const char through[] = ",{'mesh':1,'translation':[2.5,3,0],'scale':[0.2,3,0.4]}"
                                   ",{'mesh':1,'translation':[-3.5,0,-2],'scale':[0.5,0.4,0.5]}";
-    struct gn_scene *scene = make(turns[0].turn, &lights[1], behind);
+    struct gn_scene *scene = gn_planar_scene(gn_planar_turns[0].turn, &gn_planar_lights[1], behind);
     assert_true(compare("planar-behind", scene) == 0);
     gn_scene_destroy(scene);
-    scene = make(turns[0].turn, &lights[1], through);
+    scene = gn_planar_scene(gn_planar_turns[0].turn, &gn_planar_lights[1], through);
     assert_true(compare("planar-through", scene) > 1);
     gn_scene_destroy(scene);
 }
@@ -273,7 +182,7 @@ static void test_a_shadow_ends_with_its_plane(void **state) {
                                 ",{'mesh':1,'translation':[-4.6,1.5,-4],'scale':[0.3,1.5,0.3]}"
                                 ",{'mesh':0,'translation':[-6,0,-4]}"
                                 ",{'mesh':0,'translation':[0,-2,0],'scale':[9,1,9]}";
-    struct gn_scene *scene = make(turns[0].turn, &lights[0], table);
+    struct gn_scene *scene = gn_planar_scene(gn_planar_turns[0].turn, &gn_planar_lights[0], table);
     assert_true(compare("planar-edge", scene) > 0.2);
     gn_scene_destroy(scene);
 }
@@ -289,7 +198,7 @@ static const char pile[] = ",{'mesh':0,'translation':[0,1,0],'scale':[2,1,2]}"
  * and one in the shadow on the plane, whether one thing casts it or three. */
 static void expect_two_shades(const char *nodes, int suns, int way) {
     static float edges[PIXELS];
-    struct gn_scene *scene = make(turns[0].turn, &lights[0], nodes);
+    struct gn_scene *scene = gn_planar_scene(gn_planar_turns[0].turn, &gn_planar_lights[0], nodes);
     struct gn_truth truth;
     float shades[2] = {0, 0};
     int counts[2] = {0, 0};
@@ -326,7 +235,7 @@ static void test_more_lights_than_a_pass_takes(void **state) {
         snprintf(nodes + strlen(nodes), sizeof nodes - strlen(nodes),
                  ",{'mesh':0,'translation':[0,-9,0],%s,'extensions':{'KHR_lights_punctual':{"
                  "'light':0}}}",
-                 lights[0].node);
+                 gn_planar_lights[0].node);
     for (int way = 0; way < WAYS; way++) expect_two_shades(nodes, 6, way);
 }
 
@@ -335,15 +244,15 @@ static void test_more_lights_than_a_pass_takes(void **state) {
 /* A sun, a lamp and a spot at once, over things that overlap. */
 static struct gn_scene *make_three(const char *turn) {
     char nodes[3000];
-    snprintf(nodes, sizeof nodes, "%s", things);
+    snprintf(nodes, sizeof nodes, "%s", gn_planar_things);
     for (int i = 1; i < 3; i++)
         snprintf(nodes + strlen(nodes), sizeof nodes - strlen(nodes),
                  ",{'mesh':0,'scale':[0.001,0.001,0.001],%s,'extensions':{'KHR_lights_punctual':{"
                  "'light':%d}}}",
-                 lights[i].node, i);
-    struct light three = lights[0];
-    three.light = SUN "," POINT "," SPOT;
-    return make(turn, &three, nodes);
+                 gn_planar_lights[i].node, i);
+    struct gn_planar_light three = gn_planar_lights[0];
+    three.light = GN_PLANAR_SUN "," GN_PLANAR_POINT "," GN_PLANAR_SPOT;
+    return gn_planar_scene(turn, &three, nodes);
 }
 
 /* Draws with the lights of these bits alone. */
@@ -377,7 +286,7 @@ static void expect_sum(struct gn_scene *scene, const struct gn_frame_opts *opts)
 static void test_lights_at_once_are_the_sum_of_single_ones(void **state) {
     (void)state;
     static const char *const mixed[3] = {"planar", "pcf", "planar"};
-    struct gn_scene *scene = make_three(turns[1].turn);
+    struct gn_scene *scene = make_three(gn_planar_turns[1].turn);
     expect_sum(scene, &PLANAR(.output_float = true, .exposure_given = true));
     expect_sum(scene, &PLANAR(.output_float = true, .exposure_given = true,
                               .shadow.strength_given = true, .shadow.strength = 0.4f));
@@ -391,7 +300,7 @@ static void test_lights_at_once_are_the_sum_of_single_ones(void **state) {
 static void test_both_ways_show_one_picture(void **state) {
     (void)state;
     static float mask[4 * PIXELS], plain[4 * PIXELS];
-    struct gn_scene *scene = make_three(turns[0].turn);
+    struct gn_scene *scene = make_three(gn_planar_turns[0].turn);
     int smoothed = 0;
     for (uint32_t msaa = 0; msaa <= 4; msaa += 4) {
         const struct gn_frame_opts opts =
@@ -416,11 +325,12 @@ static void test_both_ways_show_one_picture(void **state) {
 /* Lit from below, where the things are, and seen from above. */
 static void test_the_other_side_of_the_plane(void **state) {
     (void)state;
-    static const struct light below = {"below", POINT, "'translation':[-1,-4,1.5]"};
+    static const struct gn_planar_light below = {"below", GN_PLANAR_POINT,
+                                                 "'translation':[-1,-4,1.5]"};
     static const char hanging[] = ",{'mesh':1,'translation':[-3,-0.8,-2],'scale':[0.6,0.6,0.6]}"
                                   ",{'mesh':0,'translation':[1,-1.5,-1]}"
                                   ",{'mesh':1,'translation':[2,2,2]}";
-    struct gn_scene *scene = make(turns[0].turn, &below, hanging);
+    struct gn_scene *scene = gn_planar_scene(gn_planar_turns[0].turn, &below, hanging);
     for (uint32_t i = 0; i < scene->item_count; i++)
         if (scene->items[i].plane) scene->items[i].casts = false;
     assert_true(compare("planar-below", scene) > 1);
