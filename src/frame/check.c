@@ -130,6 +130,11 @@ static const char *check_tile(const struct gn_plan *plan, const struct gn_pass *
 static const char *check_map(const struct gn_plan *plan, const struct gn_pass *pass) {
     const bool pages = pass->target.kind == GN_TARGET_PAGES;
     REQUIRE(pages || pass->target.kind == GN_TARGET_SHADOW);
+    const bool is_mean = pass->target.encoding == GN_ENCODING_MEAN;
+    REQUIRE(pass->map.point_count == 0 || is_mean);
+    REQUIRE(!is_mean || pass->draw_count == 0 || pass->map.point_count > 0);
+    REQUIRE(!is_mean || (pass->depth_write && !pages));
+    REQUIRE(pass->map.point_count == 0 || pass->map.points);
     if (!pages) return check_tile(plan, pass);
     REQUIRE(pass->target.slot < plan->shadow_count);
     REQUIRE(!pass->content.completes);

@@ -20,6 +20,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
             .encoding = light->encoding,
             .moments = light->moments,
             .map_px = asked < most ? asked : most,
+            .points = opts->shadow.planar_points,
             .all_receive = opts->debug.aov == GN_AOV_VISIBILITY,
             .cascades = opts->shadow.cascades ? opts->shadow.cascades : GN_CASCADES_MAX};
         struct gn_shadow_opts *shadow = &maps[slot];

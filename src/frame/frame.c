@@ -29,6 +29,7 @@ void gn_frame_destroy(struct gn_frame *frame) {
     for (int i = 0; i < GN_ALL_SHADOWS_MAX; i++)
         for (int tile = 0; tile < GN_SHADOW_TILES_MAX; tile++)
             gn_shadow_memory_finish(&frame->memory[i][tile]);
+    for (int i = 0; i < GN_ALL_SHADOWS_MAX; i++) free(frame->gathered[i].points);
     free(frame->constants);
     free(frame->sets);
     free(frame);
@@ -105,6 +106,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
         plan->output = GN_OUTPUT_FLOAT;
     gn_frame_fit_shadows(frame, pose, opts, warnings);
     gn_frame_hold_maps(frame, opts);
+    gn_frame_gather_points(frame, opts);
     set_picture_constants(frame, pose, opts);
 #define X(name) gn_frame_add_##name(frame, pose, opts);
     GN_FRAME_STEPS(X)

@@ -22,6 +22,11 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     uint64_t triangles;  /* limit on what a frame draws, maps included; the weakest lights cast no
                             shadow where it is more. 0: none */
     bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
+    uint32_t planar_points; /* else 0: shadows of a point; or of so many points of the lamp (16 to
+                               256, a power of two), their mean */
+    uint32_t gather_points; /* of them, that one frame adds to a mask; 0: all. A mask has as many
+                               when something moves that it shows, and more with each frame in
+                               which nothing does */
     unsigned taps;          /* of disk, poisson, pcss: 8, 16, 32; 16 */
     bool taps_fixed;        /* the same for every pixel */
     bool strength_given;

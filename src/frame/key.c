@@ -130,7 +130,7 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
     key.features = alpha_features(frame->scene, &frame->scene->items[item]);
     if (key.kind != GN_PROGRAM_DISTANCE) return key;
     key.encoding = (uint8_t)view->encoding;
-    if (view->perspective && view->encoding != GN_ENCODING_MASK)
+    if (view->perspective && !gn_techniques[view->technique].on_plane)
         key.features |= GN_FEATURE(PERSPECTIVE);
     return key;
 }

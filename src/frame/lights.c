@@ -90,7 +90,12 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
     if (fell_back && gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
         gn_warn(warnings, "this GPU cannot render to map format %s; using %s",
                 gn_encodings[opts->shadow.encoding].name, gn_encodings[light->encoding].name);
-    if (light->encoding != GN_ENCODING_MASK || !opts->shadow.planar_in_stencil) return;
+    if (light->encoding != GN_ENCODING_MASK) return;
+    if (!opts->shadow.planar_in_stencil) {
+        const float radius = frame->scene->lights[light->light].radius;
+        if (opts->shadow.planar_points && radius > 0.0f) light->encoding = GN_ENCODING_MEAN;
+        return;
+    }
     if (!frame->plane.blended)
         light->encoding = GN_ENCODING_STENCIL;
     else if (gn_frame_notice(&frame->notes.said, GN_NOTICE_BLENDED, warnings))

@@ -65,6 +65,7 @@ static void add_tile_pass(struct gn_frame *frame, const struct gn_pose *pose, ui
                                    .view = view,
                                    .mirrored = tile->mirrored,
                                    .opts = opts};
+    gn_frame_set_points(frame, slot, pass);
     if (!tile->empty) gn_frame_draw_items(frame, pose, &casters);
     gn_frame_end_pass(frame);
 }

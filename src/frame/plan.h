@@ -20,6 +20,7 @@
 #define GN_ALL_LIGHTS_MAX  32 /* lights in one frame: passes beyond the first add to the picture */
 #define GN_ALL_SHADOWS_MAX 16 /* of them with a map */
 #define GN_GROUPS_MAX      4  /* of lights that share a pass */
+#define GN_POINT_CONSTANTS 6  /* vec4 of a point of a lamp: PASS_CLIP to PASS_CODE_ADD */
 
 enum gn_aov { GN_AOV_COLOR, GN_AOV_VISIBILITY, GN_AOV_DISTANCE, GN_AOV_NORMAL, GN_AOV_COUNT };
 
@@ -78,8 +79,9 @@ struct gn_draw {                  /* one instanced call */
 enum gn_cull { GN_CULL_NONE, GN_CULL_BACK, GN_CULL_FRONT };
 enum gn_blend {
     GN_BLEND_OFF,
-    GN_BLEND_ALPHA, /* premultiplied: ONE, ONE_MINUS_SRC_ALPHA */
-    GN_BLEND_ADD,   /* the same with an alpha of 0: adds, and leaves the picture's alpha */
+    GN_BLEND_ALPHA,    /* premultiplied: ONE, ONE_MINUS_SRC_ALPHA */
+    GN_BLEND_ADD,      /* the same with an alpha of 0: adds, and leaves the picture's alpha */
+    GN_BLEND_SUBTRACT, /* of a mask, which holds less then; draws where the depth is LESS */
 };
 
 /* ---- passes: each carries all its state ---- */
@@ -156,7 +158,7 @@ struct gn_pass {
     struct gn_clear clear;
     struct gn_rect viewport;   /* a tile or a page; width 0: all of the target */
     struct gn_rect rect;       /* draws nothing outside (scissor); width 0: no such bound */
-    bool depth_write;          /* the depth test is always LEQUAL */
+    bool depth_write;          /* the depth test is LEQUAL but with GN_BLEND_SUBTRACT */
     bool discard_depth;        /* no later pass reads the depth: invalidate */
     struct gn_content content; /* all but PICTURE */
     uint32_t first_draw, draw_count;
@@ -177,6 +179,11 @@ struct gn_pass {
         } picture;
         struct gn_pass_map {
             uint32_t border_px; /* this many texels at the target's rim stay cleared (scissor) */
+            /* Of encoding MEAN: its draws are repeated for each point of the lamp, with constants
+             * of its own; in each texel the nearest depth is drawn once per point, and subtracted.
+             * Points that the map already has are skipped. */
+            uint32_t point_count;     /* that it has after this pass; 0: none, it is only cleared */
+            const float (*points)[4]; /* GN_POINT_CONSTANTS each */
         } map;
         struct gn_pass_copy {
             struct gn_target from; /* undefined afterwards */
@@ -214,7 +221,8 @@ struct gn_plan {
     const struct gn_caption_atlas *atlas; /* what captions read; NULL: there are none */
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
     uint32_t culled; /* items that the camera does not see */
-    bool is_behind; /* a filtered map is older than the pose (filter_texels): wants another frame */
+    bool is_behind;  /* wants another frame: a filtered map is older than the pose (filter_texels),
+                        or a planar mask lacks points of its lamp (gather_points) */
     uint64_t maps_bytes; /* the limit that its maps hold; 0: none */
     float exposure;
 };

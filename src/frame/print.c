@@ -64,9 +64,12 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
         fprintf(to, ", blur %.3g px", 2.0 * (double)view->penumbra.blur_px);
     if (view->empty)
         fprintf(to, ", empty: it darkens nothing in view\n");
-    else if (view->encoding == GN_ENCODING_MASK)
-        fprintf(to, ", texel %.4g m\n", (double)view->lookup.texel);
-    else if (!has_map)
+    else if (gn_techniques[view->technique].on_plane && has_map) {
+        fprintf(to, ", texel %.4g m", (double)view->lookup.texel);
+        if (view->lamp.count > 0)
+            fprintf(to, ", %u of %u points of the lamp", view->lamp.drawn, view->lamp.count);
+        fprintf(to, "\n");
+    } else if (!has_map)
         fprintf(to, ", from %.4g m to %.4g m over the plane\n", (double)view->code.near_m,
                 (double)view->code.far_m);
     else
@@ -142,6 +145,9 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
     print_target(pass, to);
     if (map && pass->clear.area != GN_CLEAR_NOTHING)
         fprintf(to, ", clear %.4g", (double)pass->clear.color[0]);
+    if (pass->kind == GN_PASS_MAP && pass->map.point_count > 0)
+        fprintf(to, ", points up to %u, each less %.4g", pass->map.point_count,
+                (double)pass->map.points[GN_POINT_CONSTANTS - 1][0]);
     if (pass->kind == GN_PASS_PICTURE)
         print_picture(plan, pass, to);
     else

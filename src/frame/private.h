@@ -80,6 +80,11 @@ struct gn_frame {
             view;        /* of the filtered map that is there; no moments: there is none */
         uint32_t waited; /* frames */
     } kept[GN_ALL_SHADOWS_MAX];
+    struct {
+        uint64_t hash;      /* of the mask's content; 0: there is none */
+        uint32_t drawn;     /* points of the lamp */
+        float (*points)[4]; /* their constants; NULL until there are any */
+    } gathered[GN_ALL_SHADOWS_MAX];
     GN_LIST(struct gn_draw) draws; /* these four: of the plan */
     GN_LIST(struct gn_instance) instances;
     GN_LIST(struct gn_program_key) programs;
@@ -160,7 +165,7 @@ void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first);
 GN_FRAME_STEPS(X)
 #undef X
 
-/* ---- filter.c, budget.c: what belongs to the maps ---- */
+/* ---- filter.c, budget.c, gather.c: what belongs to the maps ---- */
 
 /* The passes that turn a map into what shaders read; none where that is the map. */
 void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot);
@@ -172,6 +177,12 @@ uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile);
 /* budget.c: after the lights' views are known. Replaces views over the budget by their older ones.
  */
 void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts);
+
+/* gather.c: after the lights' views are known. How many points of its lamp each planar mask has
+ * after this frame. */
+void gn_frame_gather_points(struct gn_frame *frame, const struct gn_frame_opts *opts);
+/* Of the pass that draws such a mask. */
+void gn_frame_set_points(struct gn_frame *frame, uint32_t slot, struct gn_pass *pass);
 
 /* ---- stencil.c, overlay.c: what belongs to the picture ---- */
 

@@ -6,7 +6,7 @@ static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *v
     if (gn_view_has_mipmaps(view)) return samplers[GN_GL_MAP_TRILINEAR];
     if (view->moments)
         return samplers[gn_moments[view->moments].linear ? GN_GL_MAP_LINEAR : GN_GL_MAP_NEAREST];
-    if (view->encoding == GN_ENCODING_MASK) return samplers[GN_GL_MAP_LINEAR];
+    if (gn_techniques[view->technique].on_plane) return samplers[GN_GL_MAP_LINEAR];
     if (view->encoding != GN_ENCODING_DEPTH || gn_techniques[view->technique].searches)
         return samplers[GN_GL_MAP_NEAREST];
     return samplers[gn_techniques[view->technique].compares_linear ? GN_GL_MAP_COMPARE_LINEAR

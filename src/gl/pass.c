@@ -34,7 +34,8 @@ static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     case GN_ENCODING_R32UI: GL(gl, ClearBufferuiv)(GL_COLOR, 0, bits); break;
     case GN_ENCODING_RGBA8: GL(gl, ClearBufferfv)(GL_COLOR, 0, ones); break;
     case GN_ENCODING_R16F:
-    case GN_ENCODING_R16F_RAW: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); break;
+    case GN_ENCODING_R16F_RAW:
+    case GN_ENCODING_MEAN: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); break;
     case GN_ENCODING_MASK: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); return; /* no depth */
     default: break;
     }
@@ -82,7 +83,9 @@ void gn_gl_pass_begin(struct gn_gl *gl, const struct gn_pass *pass, GLuint frame
         pass->depth_write);
     gn_gl_set_color_write(gl, !only_stencil);
     gn_gl_set_stencil(gl, picture ? &picture->stencil : &no_stencil);
-    gn_gl_set_blend(gl, picture ? picture->blend : GN_BLEND_OFF);
+    const bool subtracts = pass->kind == GN_PASS_MAP && pass->map.point_count > 0;
+    gn_gl_set_blend(gl, picture ? picture->blend : subtracts ? GN_BLEND_SUBTRACT : GN_BLEND_OFF);
+    gn_gl_set_one_depth(gl, 0);
 }
 
 void gn_gl_depth_discard(struct gn_gl *gl, const struct gn_pass *pass) {

@@ -7,6 +7,7 @@
 #include "core/clock.h"
 #include "core/hash.h"
 #include "gl/private.h"
+#include "shadow/lamp.h"
 
 /* ---- preparing ---- */
 
@@ -80,19 +81,40 @@ static enum gn_clear_area begin_clear(const struct gn_plan *plan, struct gn_gl_m
     return map->cleared ? GN_CLEAR_NOTHING : GN_CLEAR_RECT;
 }
 
-/* map: NULL for passes of the picture. */
+/* Draws the points of a lamp that its mask lacks, from so many on. The depth buffer tells which
+ * texels a point has darkened already. */
+static void draw_points(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
+                        uint32_t first) {
+    static const float farthest = 1.0f;
+    struct gn_pass point = *pass;
+    point.constant_count = GN_POINT_CONSTANTS;
+    if (first > 0) GL(gl, ClearBufferfv)(GL_DEPTH, 0, &farthest);
+    for (uint32_t i = first; i < pass->map.point_count; i++) {
+        point.constants = pass->map.points + i * GN_POINT_CONSTANTS;
+        const uint64_t hash =
+            gn_hash(GN_HASH_INIT, point.constants, GN_POINT_CONSTANTS * sizeof *point.constants);
+        gn_gl_set_one_depth(gl, 1.0f - (float)(i + 1 - first) / (GN_LAMP_POINTS_MAX + 1));
+        for (uint32_t k = 0; k < pass->draw_count; k++)
+            gn_gl_draw(gl, &point, &plan->draws[pass->first_draw + k], hash, UINT32_MAX);
+    }
+    gn_gl_set_one_depth(gl, 0);
+}
+
+/* map: NULL for passes of the picture. points: that it has already, of the right content. */
 static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
-                      struct gn_gl_map *map, struct gn_err *err) {
+                      struct gn_gl_map *map, uint32_t points, struct gn_err *err) {
     const bool grouped = gl->debug.on && gl->caps.has & 1u << GN_CAP_DEBUG;
     const uint64_t hash =
         gn_hash(GN_HASH_INIT, pass->constants, pass->constant_count * sizeof *pass->constants);
     if (grouped) GL(gl, PushDebugGroup)(GL_DEBUG_SOURCE_APPLICATION_KHR, 0, -1, pass->label);
-    const enum gn_clear_area area = begin_clear(plan, map, pass);
+    const enum gn_clear_area area = points > 0 ? GN_CLEAR_NOTHING : begin_clear(plan, map, pass);
     gn_gl_pass_begin(gl, pass, framebuffer_of(gl, pass, map), area);
     gn_gl_sources_bind(gl, plan, pass);
     const bool first_time = gl->programs.made_at_run != gl->programs.made;
     if (pass->kind == GN_PASS_COPY) gn_gl_pages_copy(gl, pass);
-    for (uint32_t i = 0; i < pass->draw_count; i++) {
+    const bool by_points = pass->kind == GN_PASS_MAP && pass->map.point_count > 0;
+    if (by_points) draw_points(gl, plan, pass, points);
+    for (uint32_t i = 0; i < pass->draw_count && !by_points; i++) {
         if (first_time && is_stopped(gl, err)) return false;
         gn_gl_draw(gl, pass, &plan->draws[pass->first_draw + i], hash, UINT32_MAX);
     }
@@ -112,7 +134,7 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
 
 static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                      struct gn_err *err) {
-    if (pass->kind == GN_PASS_PICTURE) return draw_pass(gl, plan, pass, NULL, err);
+    if (pass->kind == GN_PASS_PICTURE) return draw_pass(gl, plan, pass, NULL, 0, err);
     const struct gn_content *content = &pass->content;
     const uint32_t slot = pass->target.slot;
     struct gn_gl_map *to = gn_gl_target_find(gl, &pass->target);
@@ -121,14 +143,18 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
     struct gn_gl_map *owner =
         gn_gl_view_find(gl, &plan->shadows[slot], slot, pass->kind == GN_PASS_FILTER);
     if (!to || !owner) return gn_fail(err, "%s: the plan was not prepared", pass->label);
-    if (holds_content(owner, content->tile, content->hash)) {
+    const bool holds = holds_content(owner, content->tile, content->hash);
+    const uint32_t wanted = pass->kind == GN_PASS_MAP ? pass->map.point_count : 0;
+    if (holds && owner->points == wanted) {
         owner->cleared = false; /* if it is tile 0: it clears nothing in this frame */
         gl->stats.shadow_passes_skipped += pass->target.kind == GN_TARGET_SHADOW;
         return true;
     }
     if (to == owner)
         owner->content_hash[content->tile] = 0; /* undefined until the pass is complete */
-    const bool ok = draw_pass(gl, plan, pass, to, err);
+    const uint32_t points = holds && owner->points < wanted ? owner->points : 0;
+    const bool ok = draw_pass(gl, plan, pass, to, points, err);
+    if (pass->kind == GN_PASS_MAP) owner->points = wanted;
     if (content->completes) owner->content_hash[content->tile] = ok ? content->hash : 0;
     if (ok && content->completes) gn_gl_target_reduce(gl, owner);
     return ok;

@@ -78,7 +78,18 @@ void gn_gl_set_depth(struct gn_gl *gl, bool test, bool write) {
 }
 
 void gn_gl_set_blend(struct gn_gl *gl, enum gn_blend blend) {
+    const bool subtracts = blend == GN_BLEND_SUBTRACT;
     enable_cached(gl, GL_BLEND, &gl->state.blend_on, blend != GN_BLEND_OFF);
+    if (gl->state.subtracts == subtracts) return;
+    gl->state.subtracts = subtracts;
+    GL(gl, BlendEquation)(subtracts ? GL_FUNC_REVERSE_SUBTRACT : GL_FUNC_ADD);
+    GL(gl, DepthFunc)(subtracts ? GL_LESS : GL_LEQUAL);
+}
+
+void gn_gl_set_one_depth(struct gn_gl *gl, float depth) {
+    if (gl->state.depth == depth) return;
+    gl->state.depth = depth;
+    GL(gl, DepthRangef)(depth, depth > 0.0f ? depth : 1.0f);
 }
 
 void gn_gl_set_cull(struct gn_gl *gl, enum gn_cull cull, bool mirrored) {
@@ -141,6 +152,8 @@ void gn_gl_state_init(struct gn_gl *gl) {
     GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, 0);
     GL(gl, UseProgram)(0);
     GL(gl, DepthFunc)(GL_LEQUAL);
+    GL(gl, DepthRangef)(0, 1);
+    GL(gl, BlendEquation)(GL_FUNC_ADD);
     GL(gl, StencilFunc)(GL_EQUAL, 0, 0);
     GL(gl, StencilOp)(GL_KEEP, GL_KEEP, GL_REPLACE);
     GL(gl, BlendFunc)(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

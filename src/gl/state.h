@@ -32,12 +32,14 @@ struct gn_gl_rect {
 struct gn_gl_state {
     GLuint framebuffer, program, vertex_array, array_buffer;
     struct gn_gl_rect viewport, scissor;
-    bool scissor_on, depth_on, depth_write, blend_on, cull_on, mirrored, stencil_on, color_write;
+    bool scissor_on, depth_on, depth_write, blend_on, subtracts, cull_on, mirrored, stencil_on,
+        color_write;
     struct gn_stencil stencil;
     uint8_t cull; /* gn_cull, when on */
     GLuint unit;  /* the active one */
     GLuint textures[GN_GL_UNIT_COUNT], samplers[GN_GL_UNIT_COUNT];
     float clear_color[4];
+    float depth; /* that all fragments have; 0: their own */
 };
 void gn_gl_state_init(
     struct gn_gl *gl); /* sets the state common to all passes; initialises the cache */
@@ -52,6 +54,8 @@ void gn_gl_set_viewport(struct gn_gl *gl, struct gn_gl_rect rect);
 void gn_gl_set_scissor(struct gn_gl *gl, const struct gn_gl_rect *rect); /* NULL: off */
 void gn_gl_set_depth(struct gn_gl *gl, bool test, bool write);
 void gn_gl_set_blend(struct gn_gl *gl, enum gn_blend blend);
+/* All fragments get this depth, 0 to 1, after they were clipped; 0: their own. */
+void gn_gl_set_one_depth(struct gn_gl *gl, float depth);
 void gn_gl_set_cull(struct gn_gl *gl, enum gn_cull cull, bool mirrored);
 void gn_gl_set_color_write(struct gn_gl *gl, bool write); /* affects clears */
 void gn_gl_set_stencil(struct gn_gl *gl, const struct gn_stencil *stencil);

@@ -20,6 +20,7 @@
     X(PFNGLBINDSAMPLERPROC, BindSampler)                                                           \
     X(PFNGLBINDTEXTUREPROC, BindTexture)                                                           \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                   \
+    X(PFNGLBLENDEQUATIONPROC, BlendEquation)                                                       \
     X(PFNGLBLENDFUNCPROC, BlendFunc)                                                               \
     X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                                                   \
     X(PFNGLBUFFERDATAPROC, BufferData)                                                             \
@@ -45,6 +46,7 @@
     X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                             \
     X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                               \
     X(PFNGLDEPTHMASKPROC, DepthMask)                                                               \
+    X(PFNGLDEPTHRANGEFPROC, DepthRangef)                                                           \
     X(PFNGLDETACHSHADERPROC, DetachShader)                                                         \
     X(PFNGLDISABLEPROC, Disable)                                                                   \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                             \

@@ -165,6 +165,7 @@ static const GLenum map_formats[GN_ENCODING_COUNT] = {
     [GN_ENCODING_R16F_RAW] = GL_R16F,
     [GN_ENCODING_RGBA8] = GL_RGBA8,
     [GN_ENCODING_MASK] = GL_R8,
+    [GN_ENCODING_MEAN] = GL_R8,      /* blended, which ES 3.0 promises; half floats it does not */
     [GN_ENCODING_STENCIL] = GL_NONE, /* no map */
 };
 
@@ -204,7 +205,9 @@ static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err
         GL(gl, DrawBuffers)(1, &none);
         GL(gl, ReadBuffer)(GL_NONE);
     } else if (!map->moments && map->encoding != GN_ENCODING_MASK) { /* which need no depth test */
-        map->depth = make_renderbuffer(gl, GL_DEPTH_COMPONENT24, 0, map->width_px, map->height_px);
+        const bool is_mean = map->encoding == GN_ENCODING_MEAN;      /* whose depths count points */
+        map->depth = make_renderbuffer(gl, is_mean ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT24, 0,
+                                       map->width_px, map->height_px);
         attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, map->depth);
     }
     if (gn_gl_framebuffer_check(gl, "shadow map", err) &&

@@ -26,7 +26,8 @@ struct gn_gl_map { /* a shadow map, or moments of one */
     uint32_t width_px, height_px;
     GLuint framebuffer, texture, depth;
     uint64_t content_hash[GN_SHADOW_TILES_MAX]; /* by tile; 0: undefined */
-    bool cleared;                               /* the first tile of this frame cleared all tiles */
+    uint32_t points; /* MEAN: of the lamp, that it has, where the hash is defined */
+    bool cleared;    /* the first tile of this frame cleared all tiles */
     uint64_t bytes, last_used;
 };
 enum { /* maps are kept up to these limits, so that alternating plans find theirs again */

@@ -68,6 +68,7 @@ void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_d
         view->code.far_end = 1.0f;
         return;
     case GN_ENCODING_MASK:
+    case GN_ENCODING_MEAN:
     case GN_ENCODING_STENCIL:
     case GN_ENCODING_COUNT: return;
     }

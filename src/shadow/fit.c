@@ -39,6 +39,7 @@ static void make_view_empty(struct gn_shadow_view *view) {
     view->penumbra = (struct gn_shadow_penumbra){.nearest = -1.0f, .growth = -1.0f, .bias = 1.0f};
     view->code.far_end = view->encoding == GN_ENCODING_RGBA8 ? GN_RGBA8_FAR : 1.0f;
     view->empty = true;
+    view->lamp.count = 0;
     if (gn_techniques[view->technique].filter == GN_FILTER_BLUR)
         view->penumbra.blur_px = GN_BLUR_LEAST_PX;
     for (uint32_t i = 0; i < view->map.tile_count; i++) {
@@ -85,7 +86,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                           .scene_size_m = gn_scene_size_m(pose),
                           .light_radius = l->radius,
                           .range_m = l->range_m > 0.0f ? l->range_m : INFINITY};
-    const bool found = row->on_plane                 ? gn_planar_fit(pose, eye, memory, view)
+    const bool found = row->on_plane ? gn_planar_fit(pose, eye, opts->points, memory, view)
                        : view->map.cascade_count > 0 ? gn_cascades_fit(&f)
                        : view->map.tile_count > 1    ? gn_cube_fit(&f)
                                                      : gn_single_fit(&f);

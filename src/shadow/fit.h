@@ -29,6 +29,7 @@ struct gn_shadow_opts {
     enum gn_moments moments;     /* of a technique that filters its map: proved ones */
     uint32_t map_px;             /* side of the map, or of a tile; with STENCIL 0 */
     bool all_receive;            /* ignore gnomon_receive: for pictures of visibility */
+    uint32_t points;             /* with MEAN: of the lamp (lamp.h) */
     uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
                           one need an eye with a perspective */
 };
@@ -141,6 +142,15 @@ struct gn_shadow_penumbra {
                     */
 };
 
+/* The points of a lamp whose shadows a planar mask is the mean of; encoding MEAN. */
+struct gn_shadow_lamp {
+    uint32_t count;   /* 0: none; 1: its middle; else as in lamp.h */
+    uint32_t drawn;   /* those whose shadows the mask has after this frame; the frame's choice */
+    float axes[3][3]; /* world space, to where lamp.h has 1 on x, y and z; z of a sun: 0 */
+    float corner[2];  /* of the mask, plane coordinates */
+    float low_m, highest_m; /* over the plane: where casters begin, and the top of the highest */
+};
+
 /* All there is to know of a light's map: see the figure in README.md. */
 struct gn_shadow_view {
     uint32_t light;
@@ -157,6 +167,7 @@ struct gn_shadow_view {
     struct gn_shadow_raster raster;
     struct gn_shadow_lookup lookup;
     struct gn_shadow_penumbra penumbra;
+    struct gn_shadow_lamp lamp;
     struct gn_shadow_cascade cascades[GN_CASCADES_MAX]; /* map.cascade_count */
 };
 

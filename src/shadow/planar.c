@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/hash.h"
+#include "shadow/lamp.h"
 #include "shadow/private.h"
 #include "shadow/region.h"
 
@@ -16,16 +18,29 @@
 #define LIGHT_SHARE                                                                                \
     (1.0f / 128.0f) /* of the light's height: casters end this far below the light */
 #define CONE_MAX_RAD 1.48f
+#define LEAST_TEXELS 0.5f /* narrower penumbrae have one point */
+
+/* The light as a point, or a point of a lamp. */
+struct aim {
+    vec4 light; /* its place, 1; or the direction towards it, 0, scaled to plane.light = 1 */
+    mat4 fallen_from_world; /* projects onto the plane, world space, homogeneous */
+    mat4 shadow_from_world; /* plane coordinates times w; height over the plane; w */
+    float light_m;          /* plane.light */
+    float low_m, high_m;    /* heights between which casters cast */
+};
+
+enum { CORNERS = 8 }; /* of a cube around a lamp; of a sun's disk half as many */
 
 struct planar {
     const struct gn_pose *pose;
     const struct gn_eye *eye;
     struct gn_shadow_view *view;
-    vec4 plane; /* world space; positive on the light's side */
-    vec4 light; /* its place, 1; or the direction towards it, 0, scaled to plane.light = 1 */
-    mat4 fallen_from_world; /* projects onto the plane, world space, homogeneous */
-    mat4 shadow_from_world; /* plane coordinates times w; height over the plane; w */
-    float low_m, high_m;    /* heights between which casters cast */
+    vec4 plane;               /* world space; positive on the light's side */
+    struct aim aim;           /* the light's middle */
+    struct aim aims[CORNERS]; /* between them is all of the lamp; the middle alone where that is all
+                               */
+    int aim_count;
+    float low_m, highest_m; /* where casters begin, and where the highest ends */
     float scene_size_m;
 };
 
@@ -69,39 +84,122 @@ static bool is_receiver(const struct planar *f, uint32_t item) {
     return f->pose->scene->items[item].plane && gn_shadow_item_receives(f->pose, item, f->view);
 }
 
-/* The plane, the light and the matrices. False: there is no plane, or the light lies in it or
- * shines along it. */
+/* place: of the light, or the direction towards it. */
+static void set_aim(const struct gn_shadow_view *view, const vec3 place, struct aim *aim) {
+    vec4 *plane_from_world = (vec4 *)view->raster.tiles[0].light_from_world;
+    vec4 plane;
+    for (int c = 0; c < 4; c++) plane[c] = plane_from_world[c][2];
+    glm_vec4((float *)place, view->perspective ? 1.0f : 0.0f, aim->light);
+    if (!view->perspective)
+        glm_vec4_scale(aim->light, 1.0f / glm_vec4_dot(plane, aim->light), aim->light);
+    aim->light_m = glm_vec4_dot(plane, aim->light);
+    for (int c = 0; c < 4; c++)
+        for (int r = 0; r < 4; r++)
+            aim->fallen_from_world[c][r] =
+                (c == r ? aim->light_m : 0.0f) - aim->light[r] * plane[c];
+    glm_mat4_mul(plane_from_world, aim->fallen_from_world, aim->shadow_from_world);
+    for (int c = 0; c < 4; c++) aim->shadow_from_world[c][2] = plane[c];
+}
+
+/* The heights between which casters cast. */
+static void set_heights(const struct gn_shadow_view *view, float low_m, float highest_m,
+                        struct aim *aim) {
+    aim->low_m = low_m;
+    aim->high_m = 1.01f * highest_m + 2.0f * low_m;
+    if (view->perspective)
+        aim->high_m =
+            aim->light_m - fmaxf(0.5f * (aim->light_m - highest_m), LIGHT_SHARE * aim->light_m);
+}
+
+/* The plane and the light's middle. False: there is no plane, or the light lies in it or shines
+ * along it. */
 static bool set_plane(struct planar *f) {
     struct gn_shadow_view *view = f->view;
     uint32_t item = 0;
     while (item < f->pose->scene->item_count && !is_receiver(f, item)) item++;
     if (item == f->pose->scene->item_count) return false;
     gn_pose_plane(f->pose, item, f->plane);
+    vec4 light;
     glm_vec4(view->perspective ? view->light_ws : view->to_light_ws,
-             view->perspective ? 1.0f : 0.0f, f->light);
-    float height = glm_vec4_dot(f->plane, f->light);
+             view->perspective ? 1.0f : 0.0f, light);
+    float height = glm_vec4_dot(f->plane, light);
     if (height < 0.0f) glm_vec4_negate(f->plane);
     height = fabsf(height);
     if (height < 1e-3f * (view->perspective ? f->scene_size_m : 1.0f)) return false;
-    if (!view->perspective) glm_vec4_scale(f->light, 1.0f / height, f->light);
 
     /* axes in the plane, right-handed with its normal: seen from the light, front faces keep their
      * winding */
     vec3 x, y, up = {0.0f, 1.0f, 0.0f}, across = {0.0f, 0.0f, -1.0f};
     glm_vec3_crossn(fabsf(f->plane[1]) > 0.99f ? across : up, f->plane, x);
     glm_vec3_cross(f->plane, x, y);
-    mat4 plane_from_world;
-    height = glm_vec4_dot(f->plane, f->light);
+    vec4 *plane_from_world = view->raster.tiles[0].light_from_world;
     for (int c = 0; c < 4; c++) {
         vec4 column = {c < 3 ? x[c] : 0.0f, c < 3 ? y[c] : 0.0f, f->plane[c], c == 3};
         glm_vec4_copy(column, plane_from_world[c]);
-        for (int r = 0; r < 4; r++)
-            f->fallen_from_world[c][r] = (c == r ? height : 0.0f) - f->light[r] * f->plane[c];
     }
-    glm_mat4_mul(plane_from_world, f->fallen_from_world, f->shadow_from_world);
-    for (int c = 0; c < 4; c++) f->shadow_from_world[c][2] = f->plane[c];
-    glm_mat4_copy(plane_from_world, view->raster.tiles[0].light_from_world);
+    set_aim(view, light, &f->aim);
     return true;
+}
+
+/* ---- the lamp ---- */
+
+/* A ball over the plane, or a disk of directions. */
+static void set_axes(struct planar *f, float radius) {
+    struct gn_shadow_view *view = f->view;
+    float(*axes)[3] = view->lamp.axes;
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 3; c++) axes[k][c] = view->raster.tiles[0].light_from_world[c][k];
+    if (!view->perspective) {
+        glm_vec3_crossn(fabsf(glm_vec3_dot(axes[0], view->to_light_ws)) > 0.9f ? axes[1] : axes[0],
+                        view->to_light_ws, axes[1]);
+        glm_vec3_cross(axes[1], view->to_light_ws, axes[0]);
+    }
+    for (int k = 0; k < 3; k++)
+        glm_vec3_scale(axes[k], k == 2 && !view->perspective ? 0.0f : radius, axes[k]);
+}
+
+/* The light at a place of the lamp, in units of its axes. What reaches down to the plane, or below
+ * it, is taken from just over it. */
+static void aim_from(const struct gn_shadow_view *view, const float at[3], struct aim *aim) {
+    vec4 *plane_from_world = (vec4 *)view->raster.tiles[0].light_from_world;
+    const float *middle = view->perspective ? view->light_ws : view->to_light_ws;
+    vec3 place, normal;
+    float heights[2]; /* of the middle, of the place */
+    glm_vec3_copy((float *)middle, place);
+    for (int k = 0; k < 3; k++) {
+        glm_vec3_muladds((float *)view->lamp.axes[k], at[k], place);
+        normal[k] = plane_from_world[k][2];
+    }
+    const float plane_m = view->perspective ? plane_from_world[3][2] : 0.0f;
+    heights[0] = glm_vec3_dot(normal, (float *)middle) + plane_m;
+    heights[1] = glm_vec3_dot(normal, place) + plane_m;
+    glm_vec3_muladds(normal, fmaxf(heights[0] / 16.0f - heights[1], 0.0f), place);
+    set_aim(view, place, aim);
+    set_heights(view, view->lamp.low_m, view->lamp.highest_m, aim);
+}
+
+/* Half of the widest penumbra, nearly. */
+static float penumbra_of(const struct planar *f, float radius) {
+    const float *to = f->view->to_light_ws;
+    const float cosine =
+        f->view->perspective ? 1.0f : fabsf(glm_vec3_dot((float *)f->plane, (float *)to));
+    const float room =
+        f->view->perspective ? f->aim.light_m - fminf(f->highest_m, f->aim.high_m) : 1.0f;
+    return radius * f->highest_m / (room * cosine * cosine);
+}
+
+static void set_lamp(struct planar *f, float radius) {
+    struct gn_shadow_view *view = f->view;
+    f->aims[0] = f->aim;
+    f->aim_count = 1;
+    if (view->encoding != GN_ENCODING_MEAN || radius <= 0.0f) return;
+    view->lamp.low_m = f->low_m;
+    view->lamp.highest_m = f->highest_m;
+    set_axes(f, radius);
+    f->aim_count = view->perspective ? CORNERS : CORNERS / 2;
+    for (int i = 0; i < f->aim_count; i++)
+        aim_from(view, (float[3]){i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f},
+                 &f->aims[i]);
 }
 
 /* ---- casters and receivers ---- */
@@ -114,22 +212,24 @@ static bool is_caster(const struct planar *f, uint32_t item) {
 /* Where the shadow of an item falls; empty if it has none. */
 static struct gn_shadow_region shadow_of(const struct planar *f, uint32_t item) {
     struct gn_shadow_region r = nothing;
-    vec4 *shadow_from_world = (vec4 *)f->shadow_from_world;
     vec3 corners[8];
     const struct gn_box *box = &f->pose->items[item].box_ws;
     const float lowest = gn_box_least(f->plane, box), highest = gn_box_most(f->plane, box);
-    if (highest <= f->low_m || lowest >= f->high_m) return nothing;
     gn_box_corners(&geometry_of(f, item)->box, f->pose->items[item].world_from_item, corners);
-    if (lowest >= f->low_m && highest <= f->high_m) {
-        for (int i = 0; i < 8; i++) add_point(&r, shadow_from_world, corners[i]);
-        return r;
+    for (const struct aim *aim = f->aims; aim < f->aims + f->aim_count; aim++) {
+        vec4 *shadow_from_world = (vec4 *)aim->shadow_from_world;
+        if (highest <= aim->low_m || lowest >= aim->high_m) continue;
+        if (lowest >= aim->low_m && highest <= aim->high_m) {
+            for (int i = 0; i < 8; i++) add_point(&r, shadow_from_world, corners[i]);
+            continue;
+        }
+        vec4 slab[2];
+        for (int k = 0; k < 4; k++) {
+            slab[0][k] = f->plane[k] - (k == 3 ? aim->low_m : 0.0f);
+            slab[1][k] = -f->plane[k] + (k == 3 ? aim->high_m : 0.0f);
+        }
+        add_body(&r, shadow_from_world, corners, slab, 2);
     }
-    vec4 slab[2];
-    for (int k = 0; k < 4; k++) {
-        slab[0][k] = f->plane[k] - (k == 3 ? f->low_m : 0.0f);
-        slab[1][k] = -f->plane[k] + (k == 3 ? f->high_m : 0.0f);
-    }
-    add_body(&r, shadow_from_world, corners, slab, 2);
     return r;
 }
 
@@ -181,28 +281,54 @@ static struct gn_shadow_region receivers_of(const struct planar *f, const struct
 /* ---- the view ---- */
 
 /* Clip z is linear in the height over the plane: -w where casters end, w where they begin. */
-static void set_clip(struct planar *f, const double low[2]) {
-    struct gn_shadow_view *view = f->view;
-    vec4 *m = f->shadow_from_world;
-    float side = view->lookup.texel * (float)view->map.tile_px;
-    float light_m = glm_vec4_dot(f->plane, f->light);
-    float w_low = view->perspective ? light_m - f->low_m : 1.0f;
-    float w_high = view->perspective ? light_m - f->high_m : 1.0f;
-    float slope = -(w_high + w_low) / (f->high_m - f->low_m);
-    float at_0 = w_low - slope * f->low_m;
+static void clip_from(const struct gn_shadow_view *view, const struct aim *aim,
+                      const float corner[2], mat4 clip_from_world) {
+    const vec4 *m = aim->shadow_from_world;
+    const float side = view->lookup.texel * (float)view->map.tile_px;
+    const float w_low = view->perspective ? aim->light_m - aim->low_m : 1.0f;
+    const float w_high = view->perspective ? aim->light_m - aim->high_m : 1.0f;
+    const float slope = -(w_high + w_low) / (aim->high_m - aim->low_m);
+    const float at_0 = w_low - slope * aim->low_m;
     for (int c = 0; c < 4; c++) {
-        for (int k = 0; k < 2; k++) {
-            float from = (float)low[k];
-            view->raster.tiles[0].clip_from_world[c][k] =
-                (2.0f * (m[c][k] - from * m[c][3]) - side * m[c][3]) / side;
+        for (int k = 0; k < 2; k++)
+            clip_from_world[c][k] =
+                (2.0f * (m[c][k] - corner[k] * m[c][3]) - side * m[c][3]) / side;
+        clip_from_world[c][2] = slope * m[c][2] + (c == 3 ? at_0 : 0.0f);
+        clip_from_world[c][3] = m[c][3];
+    }
+}
+
+static void set_lookup(struct gn_shadow_view *view, const float corner[2]) {
+    const float side = view->lookup.texel * (float)view->map.tile_px;
+    for (int c = 0; c < 4; c++) {
+        for (int k = 0; k < 2; k++)
             view->lookup.map_from_world[c][k] =
-                (view->raster.tiles[0].light_from_world[c][k] - (c == 3 ? from : 0.0f)) / side;
-        }
-        view->raster.tiles[0].clip_from_world[c][2] = slope * m[c][2] + (c == 3 ? at_0 : 0.0f);
-        view->raster.tiles[0].clip_from_world[c][3] = m[c][3];
+                (view->raster.tiles[0].light_from_world[c][k] - (c == 3 ? corner[k] : 0.0f)) / side;
         view->lookup.map_from_world[c][2] = 0.0f;
         view->lookup.map_from_world[c][3] = c == 3 ? 1.0f : 0.0f;
     }
+}
+
+void gn_planar_point(const struct gn_shadow_view *view, uint32_t index, mat4 clip_from_world) {
+    float at[3];
+    struct aim aim;
+    if (view->lamp.count <= 1) {
+        glm_mat4_copy((vec4 *)view->raster.tiles[0].clip_from_world, clip_from_world);
+        return;
+    }
+    gn_lamp_point(index, view->lamp.count, at);
+    aim_from(view, at, &aim);
+    clip_from(view, &aim, view->lamp.corner, clip_from_world);
+}
+
+/* The mask's content is decided by the lamp, too. */
+static uint64_t hash_lamp(const struct gn_shadow_view *view, uint64_t hash) {
+    const struct gn_shadow_lamp *lamp = &view->lamp;
+    if (lamp->count == 0) return hash;
+    hash = gn_hash(hash, &lamp->count, sizeof lamp->count);
+    hash = gn_hash(hash, lamp->axes, sizeof lamp->axes);
+    hash = gn_hash(hash, &lamp->highest_m, sizeof lamp->highest_m);
+    return hash ? hash : 1;
 }
 
 /* The stencil is drawn from the eye, with casters projected onto the plane. The rasteriser cannot
@@ -222,9 +348,9 @@ static bool set_stencil(struct planar *f, const struct gn_shadow_region *window)
     add_polygon(&screen, (vec4 *)f->eye->clip_from_world, &quad, (vec4 *)f->eye->planes, 6);
     if (region_is_empty(&screen)) return false;
 
-    glm_mat4_copy(f->fallen_from_world, f->view->raster.tiles[0].clip_from_world);
-    f->view->code.near_m = f->low_m;
-    f->view->code.far_m = f->high_m;
+    glm_mat4_copy(f->aim.fallen_from_world, f->view->raster.tiles[0].clip_from_world);
+    f->view->code.near_m = f->aim.low_m;
+    f->view->code.far_m = f->aim.high_m;
     for (int k = 0; k < 2; k++) {
         f->view->raster.screen_ndc[0][k] = screen.min[k];
         f->view->raster.screen_ndc[1][k] = screen.max[k];
@@ -232,7 +358,7 @@ static bool set_stencil(struct planar *f, const struct gn_shadow_region *window)
     return true;
 }
 
-bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
+bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye, uint32_t points,
                    struct gn_shadow_memory *memory, struct gn_shadow_view *view) {
     struct planar f = {
         .pose = pose, .eye = eye, .view = view, .scene_size_m = gn_scene_size_m(pose)};
@@ -240,17 +366,14 @@ bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
     if (!set_plane(&f)) return false;
 
     /* the heights between which casters cast */
-    float highest = 0.0f;
     for (uint32_t i = 0; i < pose->scene->item_count; i++)
         if (is_caster(&f, i))
-            highest = fmaxf(highest, gn_box_most(f.plane, &pose->items[i].box_ws));
+            f.highest_m = fmaxf(f.highest_m, gn_box_most(f.plane, &pose->items[i].box_ws));
     f.low_m = HAIR * f.scene_size_m + 1e-6f * gn_scene_reach_m(pose);
-    f.high_m = 1.01f * highest + 2.0f * f.low_m;
-    if (view->perspective) {
-        const float light_m = glm_vec4_dot(f.plane, f.light);
-        f.high_m = light_m - fmaxf(0.5f * (light_m - highest), LIGHT_SHARE * light_m);
-    }
-    if (f.high_m <= f.low_m) return false;
+    set_heights(view, f.low_m, f.highest_m, &f.aim);
+    if (f.aim.high_m <= f.low_m) return false;
+    const float radius = pose->scene->lights[view->light].radius;
+    set_lamp(&f, radius);
 
     /* the window: the part of the plane that is both seen and reached by shadows */
     struct gn_shadow_region window = nothing;
@@ -271,8 +394,17 @@ bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye,
     /* the mask: its window on whole texels, and its matrices */
     double low[2];
     gn_shadow_snap(view, window.min, window.max, 1e-6f * f.scene_size_m, low);
-    set_clip(&f, low);
+    const float corner[2] = {(float)low[0], (float)low[1]};
+    clip_from(view, &f.aim, corner, view->raster.tiles[0].clip_from_world);
+    set_lookup(view, corner);
+    if (view->encoding == GN_ENCODING_MEAN) {
+        const bool is_sharp = 2.0f * penumbra_of(&f, radius) < LEAST_TEXELS * view->lookup.texel;
+        memcpy(view->lamp.corner, corner, sizeof corner);
+        view->lamp.count = is_sharp ? 1 : points;
+        view->code.scale = 0.0f; /* casters write the weight of a point */
+        view->code.offset = is_sharp ? 1.0f : 256.0f / 255.0f / (float)points;
+    }
     view->raster.tiles[0].content_hash =
-        gn_shadow_hash(pose, view, view->raster.tiles, memory->casts);
+        hash_lamp(view, gn_shadow_hash(pose, view, view->raster.tiles, memory->casts));
     return true;
 }

@@ -16,6 +16,7 @@ const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
     [GN_ENCODING_R16F_RAW] = {"r16f-raw", "lib/map_r16f.glsl", 6},
     [GN_ENCODING_RGBA8] = {"rgba8", "lib/map_rgba8.glsl", 8},
     [GN_ENCODING_MASK] = {"mask", "lib/map_mask.glsl", 1},
+    [GN_ENCODING_MEAN] = {"mean", "lib/map_mean.glsl", 3},
     [GN_ENCODING_STENCIL] = {"stencil", "lib/map_stencil.glsl", 0},
 };
 

@@ -26,8 +26,9 @@ enum gn_encoding {
     GN_ENCODING_R16F,  /* (d - c) / h over near..far, half float, with its own depth attachment */
     GN_ENCODING_R16F_RAW, /* metres, half float: coarse far off, shown for comparison */
     GN_ENCODING_RGBA8,    /* (d - near) / (far - near) in four bytes */
-    GN_ENCODING_MASK, /* on a plane: visibility, 0 to 1. From here on only for techniques that are
+    GN_ENCODING_MASK, /* on a plane: visibility, 0 or 1. From here on only for techniques that are
                          on_plane; not selectable by name */
+    GN_ENCODING_MEAN, /* on a plane: 1 less the weights of the lamp's points that are hidden */
     GN_ENCODING_STENCIL, /* on a plane: no map, but marks in the picture's stencil */
     GN_ENCODING_COUNT,
     GN_ENCODING_AUTO = GN_ENCODING_COUNT,

@@ -249,6 +249,7 @@ static void try_encoding(struct bench *b, const struct stage *s, enum gn_techniq
              gn_encodings[encoding].name);
     if (gn_techniques[technique].on_plane) {
         opts.shadow.planar_in_stencil = encoding == GN_ENCODING_STENCIL;
+        opts.shadow.planar_points = encoding == GN_ENCODING_MEAN ? 64 : 0;
         opts.shadow.encoding = GN_ENCODING_AUTO;
     }
     const enum gn_light_type type = s->scene->lights[0].type;
@@ -263,7 +264,7 @@ static bool wants_encoding(const struct bench *b, enum gn_technique t, int encod
     if (t == GN_TECHNIQUE_NONE) return encoding == 0;
     const uint32_t proved = gn_caps_encodings(gn_gl_caps(b->gl));
     bool fell_back;
-    if (gn_techniques[t].on_plane && encoding == GN_ENCODING_STENCIL) return true;
+    if (gn_techniques[t].on_plane && encoding > GN_ENCODING_MASK) return true;
     const enum gn_encoding own = gn_encoding_choose(t, GN_ENCODING_AUTO, proved, &fell_back);
     if (encoding == (int)own) return true;
     return all &&
@@ -350,6 +351,7 @@ static void try_overlays(struct bench *b, const struct stage *s) {
         for (int encoding = 0; encoding < GN_ENCODING_COUNT; encoding++) {
             struct gn_frame_opts opts = opts_of((enum gn_technique)t, (enum gn_encoding)encoding);
             if (!wants_encoding(b, (enum gn_technique)t, encoding, true)) continue;
+            opts.shadow.planar_points = encoding == GN_ENCODING_MEAN ? 64 : 0;
             opts.width_px = 320, opts.height_px = 240;
             opts.debug.show_lights = opts.debug.show_maps = true;
             opts.captions = gn_captions_run(captions, opts.width_px, opts.height_px, 0);
@@ -366,6 +368,7 @@ static void try_maps(struct bench *b, enum gn_gpu_scene which) {
         for (int e = 0; e < GN_ENCODING_COUNT; e++) {
             struct gn_frame_opts opts = opts_of((enum gn_technique)t, (enum gn_encoding)e);
             if (!wants_encoding(b, (enum gn_technique)t, e, true)) continue;
+            opts.shadow.planar_points = e == GN_ENCODING_MEAN ? 64 : 0;
             opts.all_seen = false;
             for (int step = 0; step < 3; step++) {
                 opts.view.turntable_rad = 0.7f * (float)step;

@@ -61,6 +61,8 @@ static void all_that_is_allocated_is_counted(void **state) {
                                                      .shadow.encoding = (enum gn_encoding)e,
                                                      .shadow.moments = (enum gn_moments)m,
                                                      .shadow.map_px = sizes[k % 3],
+                                                     .shadow.planar_points =
+                                                         e == GN_ENCODING_MEAN ? 64 : 0,
                                                      .shadow.maps_bytes = limits[i],
                                                      .shadow.cascades = k / 3 ? 1 : 0};
                         const bool filters = gn_technique_filters_map(opts.shadow.technique);

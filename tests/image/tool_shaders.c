@@ -20,7 +20,9 @@ static struct gn_program_key lit(uint64_t features, enum gn_light_type type, con
     enum gn_encoding e = GN_ENCODING_DEPTH;
     gn_technique_find(technique, strlen(technique), &t);
     if (gn_techniques[t].on_plane)
-        e = strcmp(encoding, "stencil") == 0 ? GN_ENCODING_STENCIL : GN_ENCODING_MASK;
+        e = strcmp(encoding, "stencil") == 0 ? GN_ENCODING_STENCIL
+            : strcmp(encoding, "mean") == 0  ? GN_ENCODING_MEAN
+                                             : GN_ENCODING_MASK;
     else
         gn_encoding_find(encoding, &e, NULL);
     if (gn_technique_filters_map(t)) {
@@ -76,16 +78,16 @@ static const char *const moments_formats[GN_MOMENTS_COUNT] = {
 
 static const char *target_of(const struct gn_program_key *key) {
     if (key->kind == GN_PROGRAM_FILTER) return moments_formats[key->moments];
-    static const char *const maps[GN_ENCODING_COUNT] = {"none", "R32UI", "R16F",
-                                                        "R16F", "RGBA8", "R8"};
+    static const char *const maps[GN_ENCODING_COUNT] = {"none",  "R32UI", "R16F", "R16F",
+                                                        "RGBA8", "R8",    "R8"};
     if (key->kind == GN_PROGRAM_DEPTH) return "none";
     return key->kind == GN_PROGRAM_DISTANCE ? maps[key->encoding] : "SRGB8A8";
 }
 
 static bool write(const char *folder, const char *name, const struct gn_program_key *key,
                   struct gn_err *err) {
-    static const char *const formats[GN_ENCODING_COUNT] = {"D24",  "R32UI", "R16F",
-                                                           "R16F", "RGBA8", "R8"};
+    static const char *const formats[GN_ENCODING_COUNT] = {"D24",   "R32UI", "R16F", "R16F",
+                                                           "RGBA8", "R8",    "R8"};
     static const char *const endings[] = {"vert", "frag"};
     for (int shader = GN_GL_VERTEX; shader <= GN_GL_FRAGMENT; shader++) {
         struct gn_gl_text text = {0};
@@ -144,7 +146,7 @@ static bool write_all(const char *folder, struct gn_err *err) {
                 enum gn_encoding own = gn_encoding_choose((enum gn_technique)t, GN_ENCODING_AUTO,
                                                           UINT32_MAX, &fell_back);
                 bool by_hand = gn_techniques[t].on_plane
-                                   ? e == GN_ENCODING_STENCIL
+                                   ? e > GN_ENCODING_MASK
                                    : t == GN_TECHNIQUE_HARD && e < GN_ENCODING_MASK;
                 if (e != (int)own && !by_hand) continue;
                 char name[80];
@@ -193,6 +195,7 @@ int main(int argc, char **argv) {
         {"none-spot-slide", with_slide(lit(FULL, GN_LIGHT_SPOT, "none", "depth"), GN_SLIDE_DARK)},
         {"hard-spot", lit(FULL, GN_LIGHT_SPOT, "hard", "r16f")},
         {"planar", lit(FULL, GN_LIGHT_DIRECTIONAL, "planar", "auto")},
+        {"planar-soft", lit(FULL, GN_LIGHT_DIRECTIONAL, "planar", "mean")},
         {"planar-point", lit(FULL, GN_LIGHT_POINT, "planar", "auto")},
         {"map-depth", caster(GN_PROGRAM_DEPTH, 0, GN_ENCODING_DEPTH)},
         {"map-r16f", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_R16F)},

@@ -36,6 +36,33 @@ static void test_planar_plan(void **state) {
     gn_plan_end(&f);
 }
 
+/* Four frames until all points are there; a step of the clock begins again. */
+static void test_plan_of_a_soft_planar_light(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
+    f.opts.shadow.planar_points = 64;
+    f.opts.shadow.gather_points = 16;
+    f.scene->lights[1].radius = 0.3f;
+    f.scene->lights[0].radius = 1e-4f; /* one point */
+    for (uint32_t drawn = 16; drawn <= 64; drawn += 16) {
+        const struct gn_plan *plan = gn_plan_make(&f);
+        assert_int_equal(plan->shadows[1].lamp.drawn, drawn);
+        assert_int_equal(plan->shadows[0].lamp.drawn, 1);
+        assert_int_equal(plan->is_behind, drawn < 64);
+    }
+    assert_false(gn_plan_make(&f)->is_behind);
+    gn_pose_step(&f.pose, 100000000);
+    const struct gn_plan *plan = gn_plan_make(&f);
+    assert_true(plan->is_behind);
+    gn_plan_expect(plan, "soft-planar");
+    f.opts.shadow.gather_points = 0;
+    assert_int_equal(gn_plan_make(&f)->shadows[1].lamp.drawn, 64);
+    gn_plan_end(&f);
+}
+
 static void test_planar_plan_in_stencil(void **state) {
     (void)state;
     struct gn_plan_fixture f;
@@ -444,6 +471,7 @@ int main(void) {
         cmocka_unit_test(test_default_plan),
         cmocka_unit_test(test_hard_plan),
         cmocka_unit_test(test_planar_plan),
+        cmocka_unit_test(test_plan_of_a_soft_planar_light),
         cmocka_unit_test(test_planar_plan_in_stencil),
         cmocka_unit_test(test_a_stencil_is_there_where_a_light_needs_it),
         cmocka_unit_test(test_a_transparent_plane_has_a_mask),

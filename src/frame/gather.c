@@ -1,0 +1,51 @@
+/* Gathers the points of a lamp in its planar mask. Nothing has moved while the hash of the mask's
+ * content stays the same: then each frame adds points, until all are there and no frame is wanted
+ * any more. When it changes the mask begins again. The points so far are what the picture shows. */
+#include "blocks.glsl"
+#include "core/arena.h"
+#include "frame/private.h"
+#include "shadow/lamp.h"
+#include "shadow/planar.h"
+
+_Static_assert(PASS_CODE_ADD + 1 == GN_POINT_CONSTANTS, "constants of casters");
+
+/* Bytes are subtracted: the whole of the points is 256 of 255, which ends at 0. */
+static void set_scale(struct gn_shadow_view *view) {
+    const struct gn_shadow_lamp *lamp = &view->lamp;
+    const uint32_t hidden = 256 * lamp->drawn / lamp->count; /* where no point is seen */
+    view->penumbra.scale = hidden < 255 ? 255.0f / (float)hidden : 1.0f;
+    view->penumbra.bias = 1.0f - view->penumbra.scale;
+}
+
+void gn_frame_gather_points(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+    for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
+        struct gn_shadow_view *view = &frame->shadows[slot];
+        struct gn_shadow_lamp *lamp = &view->lamp;
+        const uint64_t hash = view->raster.tiles[0].content_hash;
+        if (lamp->count == 0) continue;
+        const uint32_t before =
+                           frame->gathered[slot].hash == hash ? frame->gathered[slot].drawn : 0,
+                       more = opts->shadow.gather_points;
+        lamp->drawn = more && before + more < lamp->count ? before + more : lamp->count;
+        set_scale(view);
+        if (opts->all_seen) continue; /* it is not drawn */
+        frame->gathered[slot].hash = hash;
+        frame->gathered[slot].drawn = lamp->drawn;
+        frame->plan.is_behind |= lamp->drawn < lamp->count;
+    }
+}
+
+void gn_frame_set_points(struct gn_frame *frame, uint32_t slot, struct gn_pass *pass) {
+    const struct gn_shadow_view *view = &frame->shadows[slot];
+    float(**points)[4] = &frame->gathered[slot].points;
+    if (view->encoding != GN_ENCODING_MEAN) return;
+    /* also while it is empty: a later frame allocates nothing */
+    if (!*points) *points = gn_xalloc(GN_LAMP_POINTS_MAX, GN_POINT_CONSTANTS * sizeof **points);
+    for (uint32_t i = 0; i < view->lamp.drawn; i++) {
+        mat4 clip_from_world;
+        gn_planar_point(view, i, clip_from_world);
+        gn_frame_shadow_constants(view, clip_from_world, *points + i * GN_POINT_CONSTANTS);
+    }
+    pass->map.point_count = view->lamp.drawn;
+    pass->map.points = *points;
+}

@@ -1,0 +1,260 @@
+/* Planar shadows of lamps that have a size: penumbrae against ray-traced truth, and how points of
+ * the lamp are gathered from frame to frame. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "frame/frame.h"
+#include "image/planar_scene.h"
+#include "image/truth.h"
+#include "unit/check.h"
+#include "unit/gl_help.h"
+
+enum { WIDTH = 640, HEIGHT = 480, PIXELS = WIDTH * HEIGHT };
+
+static struct gn_display display;
+static struct gn_gl *gl;
+static float picture[4 * PIXELS];
+
+static int open_gl(void **state) {
+    (void)state;
+    help_open(&display, "egl");
+    /* no float can be drawn to, blended or not */
+    gl = help_gl(&display, &(struct gn_gl_opts){.without = "r16f,rgba16f"}, NULL);
+    return 0;
+}
+
+static int close_gl(void **state) {
+    (void)state;
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+    return 0;
+}
+
+/* ---- drawing ---- */
+
+struct soft {
+    struct gn_frame *frame;
+    struct gn_pose pose;
+    struct gn_frame_opts opts;
+    bool is_behind;
+};
+
+/* gather: points a frame adds; 0: all. */
+static void begin(struct soft *s, const struct gn_scene *scene, uint32_t points, uint32_t gather) {
+    struct gn_err err = {0};
+    s->opts = (struct gn_frame_opts){.width_px = WIDTH,
+                                     .height_px = HEIGHT,
+                                     .debug.aov = GN_AOV_VISIBILITY,
+                                     .shadow.encoding = GN_ENCODING_AUTO,
+                                     .shadow.technique_given = true,
+                                     .shadow.technique = GN_TECHNIQUE_PLANAR,
+                                     .shadow.planar_points = points,
+                                     .shadow.gather_points = gather};
+    gn_pose_init(&s->pose, scene, GN_POSE_DEFAULT);
+    if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
+    s->frame = gn_frame_create(scene, gn_gl_caps(gl));
+}
+
+static void end(struct soft *s) {
+    gn_frame_destroy(s->frame);
+    gn_pose_finish(&s->pose);
+}
+
+/* Into `picture`. Returns how many draws the maps took. */
+static uint32_t draw(struct soft *s) {
+    struct gn_err err = {0};
+    const struct gn_plan *plan = gn_frame_build(s->frame, &s->pose, &s->opts, NULL);
+    s->is_behind = plan->is_behind;
+    if (!gn_gl_prepare(gl, plan, &err) || !gn_gl_run(gl, plan, NULL, &err) ||
+        !gn_gl_read_f32(gl, picture, &err))
+        fail_msg("%s", err.text);
+    return gn_gl_stats(gl).shadow_draws;
+}
+
+/* ---- against truth ---- */
+
+static void find_truth(struct gn_truth *truth, const struct gn_scene *scene) {
+    struct gn_err err = {0};
+    const struct gn_truth_opts opts = {.width_px = WIDTH, .height_px = HEIGHT};
+    if (!gn_truth_make(truth, scene, &opts, &err)) fail_msg("%s", err.text);
+}
+
+static bool is_on_plane(const struct gn_truth *truth, const struct gn_scene *scene, int i) {
+    return truth->mask.item[i] >= 0 && scene->items[truth->mask.item[i]].plane;
+}
+
+/* Every so many pixels; samples: of what is partly seen by the first. */
+enum { STRIDE = 5, FEW = 128, MANY = 1536 };
+
+/* The share of the lamp that pixels of the plane see, by MANY rays, every STRIDE pixels; -1 where
+ * the first FEW see all or nothing of it, and off the plane. Returns how many are in penumbrae. */
+static int find_shares(const struct gn_scene *scene, float *shares) {
+    struct gn_truth truth;
+    struct gn_pose pose;
+    struct gn_raycast rays;
+    int count = 0;
+    find_truth(&truth, scene);
+    gn_pose_init(&pose, scene, GN_POSE_NONE);
+    gn_raycast_init(&rays, scene, &pose);
+    for (int i = 0; i < PIXELS; i++) {
+        struct gn_ray_surface surface;
+        const int x = i % WIDTH, y = i / WIDTH;
+        shares[i] = -1;
+        if (x % STRIDE || y % STRIDE || !is_on_plane(&truth, scene, i)) continue;
+        if (!gn_raycast_eye(&rays, &truth.frame.eye, x, y, &surface)) continue;
+        const double few = gn_raycast_share(&rays, &truth.frame.lamp, &surface, FEW);
+        if (few <= 0 || few >= 1) continue;
+        shares[i] = (float)gn_raycast_share(&rays, &truth.frame.lamp, &surface, MANY);
+        count++;
+    }
+    gn_raycast_finish(&rays);
+    gn_pose_finish(&pose);
+    gn_truth_finish(&truth);
+    return count;
+}
+
+/* Root mean square of visibility in `picture` less the shares. */
+static double error_of(const float *shares) {
+    double sum = 0;
+    int count = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        if (shares[i] < 0) continue;
+        sum += pow((double)picture[4 * i] - (double)shares[i], 2);
+        count++;
+    }
+    return sqrt(sum / count);
+}
+
+static void test_penumbrae_agree_with_truth(void **state) {
+    (void)state;
+    static const float radii[] = {0.2f, 0.4f, 0.6f}; /* of gn_planar_lights[] */
+    static const struct {
+        uint32_t points;
+        double most;
+    } counts[] = {{16, .05}, {64, .02}, {256, .01}};
+    static float shares[PIXELS];
+    struct soft s;
+    bool ok = true;
+    for (size_t l = 0; l < GN_PLANAR_LIGHTS; l++)
+        for (size_t t = 0; t < 2; t++) {
+            struct gn_scene *scene =
+                gn_planar_scene(gn_planar_turns[t].turn, &gn_planar_lights[l], gn_planar_things);
+            scene->lights[0].radius = radii[l];
+            const int pixels = find_shares(scene, shares);
+            assert_true(pixels > 400);
+            for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+                begin(&s, scene, counts[k].points, 0);
+                draw(&s);
+                end(&s);
+                const double error = error_of(shares);
+                printf("%s, %s, %3u points: %.4f over %d pixels\n", gn_planar_lights[l].name,
+                       gn_planar_turns[t].name, counts[k].points, error, pixels);
+                ok &= error <= counts[k].most;
+            }
+            gn_scene_destroy(scene);
+        }
+    assert_true(ok);
+}
+
+/* ---- gathering ---- */
+
+static struct gn_scene *make_one(void) {
+    struct gn_scene *scene =
+        gn_planar_scene(gn_planar_turns[0].turn, &gn_planar_lights[2], gn_planar_things);
+    scene->lights[0].radius = 0.5f;
+    return scene;
+}
+
+/* A quarter of 64 points with each frame; then nothing more is drawn, nor is a frame wanted, and
+ * the picture is that of all at once to the last bit. */
+static void test_points_are_gathered_while_nothing_moves(void **state) {
+    (void)state;
+    static float once[4 * PIXELS], before[4 * PIXELS];
+    struct gn_scene *scene = make_one();
+    struct soft s;
+    begin(&s, scene, 64, 0);
+    const uint32_t all = draw(&s);
+    assert_false(s.is_behind);
+    assert_true(all > 0 && all % 64 == 0);
+    memcpy(once, picture, sizeof once);
+    end(&s);
+
+    begin(&s, scene, 64, 16);
+    for (int frame = 1; frame <= 4; frame++) {
+        memcpy(before, picture, sizeof before);
+        assert_int_equal(draw(&s), all / 4);
+        assert_int_equal(s.is_behind, frame < 4);
+        assert_memory_not_equal(picture, before, sizeof before);
+    }
+    assert_memory_equal(picture, once, sizeof once);
+    for (int frame = 0; frame < 2; frame++) {
+        assert_int_equal(draw(&s), 0);
+        assert_false(s.is_behind);
+        assert_memory_equal(picture, once, sizeof once);
+    }
+
+    /* the lamp moves: from the beginning */
+    scene->lights[0].radius = 0.6f;
+    assert_int_equal(draw(&s), all / 4);
+    assert_true(s.is_behind);
+    end(&s);
+    gn_scene_destroy(scene);
+}
+
+/* What the GPU holds decides what is drawn, not what the builder remembers. */
+static void test_a_lost_mask_is_drawn_again(void **state) {
+    (void)state;
+    static float expected[4 * PIXELS];
+    struct gn_scene *scene = make_one();
+    struct soft s;
+    begin(&s, scene, 64, 16);
+    const uint32_t each = draw(&s);
+    draw(&s);
+    memcpy(expected, picture, sizeof expected);
+    end(&s);
+
+    begin(&s, scene, 64, 16); /* loading a scene has dropped its maps */
+    gn_frame_build(s.frame, &s.pose, &s.opts, NULL);
+    assert_int_equal(draw(&s), 2 * each);
+    assert_memory_equal(picture, expected, sizeof expected);
+
+    /* another builder, which begins with fewer points than the mask has */
+    gn_frame_destroy(s.frame);
+    s.frame = gn_frame_create(scene, gn_gl_caps(gl));
+    assert_int_equal(draw(&s), each);
+    assert_memory_not_equal(picture, expected, sizeof expected);
+    draw(&s);
+    assert_memory_equal(picture, expected, sizeof expected);
+    end(&s);
+    gn_scene_destroy(scene);
+}
+
+/* A lamp so small that no penumbra is as wide as a texel has one point. */
+static void test_a_point_is_drawn_once(void **state) {
+    (void)state;
+    static float hard[4 * PIXELS];
+    struct gn_scene *scene = make_one();
+    struct soft s;
+    begin(&s, scene, 0, 0);
+    const uint32_t each = draw(&s);
+    memcpy(hard, picture, sizeof hard);
+    end(&s);
+    scene->lights[0].radius = 1e-4f;
+    begin(&s, scene, 64, 16);
+    assert_int_equal(draw(&s), each);
+    assert_false(s.is_behind);
+    assert_memory_equal(picture, hard, sizeof hard);
+    end(&s);
+    gn_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_points_are_gathered_while_nothing_moves),
+        cmocka_unit_test(test_a_lost_mask_is_drawn_again),
+        cmocka_unit_test(test_a_point_is_drawn_once),
+        cmocka_unit_test(test_penumbrae_agree_with_truth),
+    };
+    return cmocka_run_group_tests_name("soft_planar", tests, open_gl, close_gl);
+}
