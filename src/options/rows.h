@@ -27,7 +27,9 @@ GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .m
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
           .help = "texture format of shadow maps; rg32ui and those after it: for filtered techniques", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_format))
 GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
-          .help = "draw planar shadows with a mask texture (soft edges) or the stencil buffer (sharp edges)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar_in_stencil))
+          .help = "draw planar shadows with a mask texture (edges one texel soft), the stencil buffer (sharp edges) or the mean of masks over the lamp (exact penumbrae)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar))
+GN_OPTION(.name = "planar-points", .section = "render", .kind = GN_KIND_CHOICE, .choices = lamp_points, .value = "N", .fallback = "64",
+          .help = "number of points of the lamp with planar soft; where frames follow each other, 16 more with each frame in which nothing moves", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar_points))
 GN_OPTION(.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "16",
           .help = "number of samples of disk, poisson and pcss", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps))
 GN_OPTION(.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,

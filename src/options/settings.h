@@ -62,13 +62,15 @@ struct gn_scene_settings {
     int64_t time_ns;
     double turntable_deg_s;
 };
+enum gn_planar { GN_PLANAR_MASK, GN_PLANAR_STENCIL, GN_PLANAR_SOFT };
 struct gn_render_settings {
     struct gn_size size;
     struct gn_technique_list shadow; /* one; for bench any number. Set (gn_settings_given()) it
                                         overrides that of lights */
     int map_px;                      /* set it overrides that of lights */
     int map_format;                  /* GN_MAP_FORMAT() */
-    int planar_in_stencil;           /* 0, 1 */
+    int planar;                      /* enum gn_planar */
+    int planar_points;
     int taps;
     bool taps_fixed;
     double filter_budget;   /* million texels; 0: no limit */

@@ -40,7 +40,10 @@ static const struct gn_choice aovs[] = {
     {"map", GN_AOV_COUNT},         {0}};
 static const struct gn_choice outputs[] = {
     {"srgb", GN_PICTURE_SRGB}, {"linear", GN_PICTURE_LINEAR}, {0}};
-static const struct gn_choice planar_ways[] = {{"mask", 0}, {"stencil", 1}, {0}};
+static const struct gn_choice planar_ways[] = {
+    {"mask", GN_PLANAR_MASK}, {"stencil", GN_PLANAR_STENCIL}, {"soft", GN_PLANAR_SOFT}, {0}};
+static const struct gn_choice lamp_points[] = {{"16", 16},   {"32", 32},   {"64", 64},
+                                               {"128", 128}, {"256", 256}, {0}};
 static const struct gn_choice samples[] = {{"0", 0}, {"2", 2}, {"4", 4}, {0}};
 static const struct gn_choice tap_counts[] = {{"8", 8}, {"16", 16}, {"32", 32}, {0}};
 static const struct gn_choice idles[] = {

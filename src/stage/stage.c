@@ -77,6 +77,9 @@ static bool choose_clips(const struct gn_settings *o, const struct gn_scene *sce
     return do_without(o, clip, warnings, err);
 }
 
+/* Points of a lamp in a mask while something moves: their error is .04 in penumbrae. */
+enum { GATHER_POINTS = 16 };
+
 static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o) {
     const bool continuous = o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
     *f = (struct gn_frame_opts){
@@ -91,7 +94,11 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
         .shadow.encoding = GN_MAP_FORMAT_ENCODING(o->render.map_format),
         .shadow.moments = GN_MAP_FORMAT_MOMENTS(o->render.map_format),
         .shadow.map_px = gn_settings_given(o, render.map_px) ? (uint32_t)o->render.map_px : 0,
-        .shadow.planar_in_stencil = o->render.planar_in_stencil,
+        .shadow.planar_in_stencil = o->render.planar == GN_PLANAR_STENCIL,
+        .shadow.planar_points =
+            o->render.planar == GN_PLANAR_SOFT ? (uint32_t)o->render.planar_points : 0,
+        .shadow.gather_points =
+            continuous || o->run.command == GN_COMMAND_BENCH ? GATHER_POINTS : 0,
         .shadow.taps = (unsigned)o->render.taps,
         .shadow.taps_fixed = o->render.taps_fixed,
         .shadow.filter_texels = continuous ? (uint64_t)(o->render.filter_budget * 1e6) : 0,
