@@ -1,6 +1,7 @@
 /* Scenes for comparing shadows with ray-traced truth: a ground and all kinds of casters under one
  * light, generated from tables and a seed. `--contact` writes the two scenes of the contact test
  * instead. */
+#include "coarse.h"
 #include "glb.h"
 #include "outline.h"
 #include "shapes.h"
@@ -41,11 +42,25 @@ static const struct lamp {
     {8, 275, {-1.2f, 2.9f, -4.3f}, WALLED}, {25, 15, {1.5f, 6.0f, 1.0f}, OPEN},
     {60, 225, {3.6f, 3.8f, -3.7f}, ROOM},   {13, 330, {-.4f, 1.4f, .6f}, OPEN},
 };
+/* Scenes of coarse meshes with smooth normals, numbered after those: three of each kind of light.
+ */
+static const struct scene coarse_scenes[] = {
+    {8, 55, 20, 0},   {13, 33, 160, 0}, {5, 74, 290, 0},
+    {8, 50, 250, 10}, {13, 66, 40, 18}, {13, 38, 120, 100},
+};
+static const struct lamp coarse_lamps[] = {
+    {8, 60, {.5f, 4.5f, -.6f}, OPEN},
+    {13, 170, {-3.8f, 3.6f, 3.4f}, OPEN},
+    {5, 300, {.3f, 3.2f, .5f}, ROOM},
+};
 enum { SCENES = sizeof scenes / sizeof *scenes, LAMPS = sizeof lamps / sizeof *lamps };
+enum { COARSE_SCENES = sizeof coarse_scenes / sizeof *coarse_scenes };
+enum { COARSE_LAMPS = sizeof coarse_lamps / sizeof *coarse_lamps };
 enum { CASTERS_MAX = 16 };
-_Static_assert(SCENES == 24 && LAMPS == 6, "the table is part of the contract");
+_Static_assert(SCENES == 24 && LAMPS == 6 && COARSE_SCENES == 6 && COARSE_LAMPS == 3,
+               "the table is part of the contract");
 
-enum kind { BOX, WALL, BALL, FENCE, TILT, KINDS };
+enum kind { BOX, WALL, BALL, FENCE, TILT, COARSE_BALL, HEAD, CYLINDER, CUBE, KINDS };
 
 struct spot { /* position of a caster on the ground, in units of the scene's scale */
     float x, z, radius;
@@ -129,6 +144,33 @@ static void make_tilt(struct build *b, struct gn_shape *shape) {
     gn_shape_plane(shape, chance(b, 0.8f, 1.4f) * b->unit, chance(b, 0.8f, 1.2f) * b->unit);
 }
 
+/* On the ground or in the air. */
+static void make_coarse_ball(struct build *b, struct gn_shape *shape) {
+    float radius = chance(b, .5f, .95f) * b->unit, lift = fmaxf(0, chance(b, -.6f, .6f)) * b->unit;
+    gn_shape_move(shape, 0, radius + lift, 0);
+    gn_shape_turn(shape, 'x', chance(b, -90, 90));
+    gn_shape_sphere(shape, radius, (int)chance(b, 8, 15), (int)chance(b, 5, 10));
+}
+
+static void make_head(struct build *b, struct gn_shape *shape) {
+    gn_coarse_head(shape, chance(b, 1.5f, 2) * b->unit, (int)chance(b, 12, 21),
+                   (int)chance(b, 9, 15));
+}
+
+/* Upright, or leaning. */
+static void make_cylinder(struct build *b, struct gn_shape *shape) {
+    float lean = fmaxf(0, chance(b, -40, 60));
+    gn_shape_move(shape, 0, lean > 0 ? .3f * b->unit : 0, 0);
+    gn_shape_turn(shape, 'x', lean);
+    gn_shape_cylinder(shape, chance(b, .3f, .6f) * b->unit, chance(b, .8f, 1.8f) * b->unit,
+                      (int)chance(b, 11, 17));
+}
+
+static void make_cube(struct build *b, struct gn_shape *shape) {
+    float side = chance(b, .7f, 1.2f) * b->unit;
+    gn_shape_block(shape, side, side, side);
+}
+
 static const struct {
     const char *name;
     caster_fn *make;
@@ -136,7 +178,9 @@ static const struct {
 } kinds[KINDS] = {
     [BOX] = {"box", make_box, 0.8f},       [WALL] = {"wall", make_wall, 1.1f},
     [BALL] = {"sphere", make_ball, 0.65f}, [FENCE] = {"fence", make_fence, 1.1f},
-    [TILT] = {"plane", make_tilt, 0.9f},
+    [TILT] = {"plane", make_tilt, 0.9f},   [COARSE_BALL] = {"coarse sphere", make_coarse_ball, 1},
+    [HEAD] = {"head", make_head, 1.05f},   [CYLINDER] = {"cylinder", make_cylinder, 1.1f},
+    [CUBE] = {"cube", make_cube, 0.8f},
 };
 
 static void add_caster(struct build *b, enum kind kind) {
@@ -162,6 +206,12 @@ static void add_caster(struct build *b, enum kind kind) {
 static void add_casters(struct build *b) {
     static const enum kind order[] = {BOX,  WALL, BALL, FENCE, TILT, BOX, WALL,
                                       BALL, BOX,  TILT, WALL,  BALL, BOX};
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++) add_caster(b, order[i]);
+}
+
+static void add_coarse_casters(struct build *b) {
+    static const enum kind order[] = {HEAD,     COARSE_BALL, CYLINDER, COARSE_BALL, CUBE,
+                                      CYLINDER, COARSE_BALL, HEAD,     COARSE_BALL, CYLINDER};
     for (size_t i = 0; i < sizeof order / sizeof *order; i++) add_caster(b, order[i]);
 }
 
@@ -328,9 +378,14 @@ static bool write_note(const struct build *b, const char *path) {
         perror(path);
         return false;
     }
-    fprintf(file, "%d boxes, %d walls, %d spheres, %d fences, %d tilted planes on %g m; ",
-            b->counts[BOX], b->counts[WALL], b->counts[BALL], b->counts[FENCE], b->counts[TILT],
-            (double)s->size);
+    if (b->counts[COARSE_BALL])
+        fprintf(file, "%d coarse spheres, %d heads, %d cylinders, %d cubes on %g m; ",
+                b->counts[COARSE_BALL], b->counts[HEAD], b->counts[CYLINDER], b->counts[CUBE],
+                (double)s->size);
+    else
+        fprintf(file, "%d boxes, %d walls, %d spheres, %d fences, %d tilted planes on %g m; ",
+                b->counts[BOX], b->counts[WALL], b->counts[BALL], b->counts[FENCE], b->counts[TILT],
+                (double)s->size);
     if (b->lamp)
         fprintf(file, "point %s at %g %g %g\n", sites[b->lamp->site],
                 (double)(b->lamp->at[0] * b->unit), (double)(b->lamp->at[1] * b->unit),
@@ -352,9 +407,14 @@ static bool write_scene(struct build *b, const char *folder, const char *name) {
 }
 
 static bool write_truth(const char *folder, int index) {
-    const struct lamp *lamp = index < SCENES ? NULL : &lamps[index - SCENES];
-    const struct scene around =
-        lamp ? (struct scene){lamp->size, 0, lamp->azimuth, 0} : scenes[index];
+    const int nth = index - SCENES - LAMPS; /* of the coarse ones */
+    const struct lamp *lamp = index < SCENES        ? NULL
+                              : nth < 0             ? &lamps[index - SCENES]
+                              : nth < COARSE_SCENES ? NULL
+                                                    : &coarse_lamps[nth - COARSE_SCENES];
+    const struct scene around = lamp      ? (struct scene){lamp->size, 0, lamp->azimuth, 0}
+                                : nth < 0 ? scenes[index]
+                                          : coarse_scenes[nth];
     struct build b;
     init_build(&b, &around, (uint32_t)index + 1);
     b.lamp = lamp;
@@ -364,7 +424,10 @@ static bool write_truth(const char *folder, int index) {
         add_light(&b);
     add_ground(&b);
     if (lamp) add_site(&b);
-    add_casters(&b);
+    if (nth < 0)
+        add_casters(&b);
+    else
+        add_coarse_casters(&b);
     add_camera(&b);
     char name[32];
     snprintf(name, sizeof name, "truth-%02d", index);
@@ -404,6 +467,7 @@ int main(int argc, char **argv) {
                        write_contact(argv[2], "contact-spot", 12)
                    ? 0
                    : 1;
-    for (int i = 0; ok && i < SCENES + LAMPS; i++) ok = write_truth(argv[1], i);
+    for (int i = 0; ok && i < SCENES + LAMPS + COARSE_SCENES + COARSE_LAMPS; i++)
+        ok = write_truth(argv[1], i);
     return ok ? 0 : 1;
 }

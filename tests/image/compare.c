@@ -118,6 +118,16 @@ static bool is_away(const struct gn_mask_truth *truth, const float *edges, size_
     return edges[i] > (truth->band_px ? fmaxf(2, truth->band_px[i]) : 2);
 }
 
+static bool is_safe(const struct gn_mask_truth *truth, const float *edges, size_t i) {
+    return truth->lit[i] && edges[i] >= (truth->safe_px ? truth->safe_px[i] : 5);
+}
+
+/* What is no number is dark. */
+static double darkness_of(const struct gn_picture *shot, size_t i) {
+    double seen = shot->data[i * shot->channels];
+    return isnan(seen) ? 1 : fmax(0, fmin(1, 1 - seen));
+}
+
 static bool shot_is_lit(const struct gn_picture *shot, size_t i) {
     return shot->data[i * shot->channels] >= .5f;
 }
@@ -138,6 +148,11 @@ void gn_mask_compare(const struct gn_mask_truth *truth, const struct gn_picture 
         score->leak += away && !lit && shown;
         score->gap += !lit && shown;
         score->wrong += lit != shown;
+        if (!is_safe(truth, edges, i)) continue;
+        double darkness = darkness_of(shot, i);
+        score->safe++;
+        score->darkness += darkness;
+        score->darkened += darkness > .05;
     }
     free(edges);
 }
@@ -146,6 +161,10 @@ static double percent(uint64_t part, uint64_t of) {
     return of ? 100.0 * (double)part / (double)of : 0;
 }
 double gn_mask_acne(const struct gn_mask_score *s) { return percent(s->acne, s->away_lit); }
+double gn_mask_darkening(const struct gn_mask_score *s) {
+    return s->safe ? 100 * s->darkness / (double)s->safe : 0;
+}
+double gn_mask_darkened(const struct gn_mask_score *s) { return percent(s->darkened, s->safe); }
 double gn_mask_leak(const struct gn_mask_score *s) { return percent(s->leak, s->away_dark); }
 double gn_mask_gap(const struct gn_mask_score *s) { return percent(s->gap, s->dark); }
 double gn_mask_wrong(const struct gn_mask_score *s) { return percent(s->wrong, s->pixels); }

@@ -4,7 +4,8 @@
  * allowed share). Shadow masks: against truth, knowing about edges. A map has texels and a
  * rasteriser has pixels, so next to the outline of a shadow or of a thing both answers are right;
  * away from edges only one is. Acne and leaks are counted away from edges, gaps (peter-panning) and
- * everything wrong with the edges in. */
+ * everything wrong with the edges in. A pixel is acne when it is darker than half; faint acne is
+ * measured on the safely lit pixels, by how much they are darkened and how many by over 5 %. */
 #ifndef GN_IMAGE_COMPARE_H
 #define GN_IMAGE_COMPARE_H
 
@@ -33,6 +34,8 @@ struct gn_mask_truth {
     const float *normal_ws;  /* 3 per pixel */
     const float *distance_m; /* from the eye */
     const float *band_px; /* how wide the edges are at this pixel; NULL: 2 everywhere; at least 2 */
+    const float *safe_px; /* from this distance to an edge on a lit pixel must be fully lit;
+                             INFINITY: nowhere. NULL: 5 everywhere */
 };
 
 struct gn_mask_score {                               /* counts of pixels */
@@ -41,9 +44,14 @@ struct gn_mask_score {                               /* counts of pixels */
     uint64_t leak;                                   /* away_dark but lit in the shot */
     uint64_t gap;                                    /* dark but lit in the shot, edges included */
     uint64_t wrong;                                  /* all that differ, edges included */
+    uint64_t safe;     /* lit in the truth and at least safe_px from edges */
+    uint64_t darkened; /* of those: darker than .95 in the shot */
+    double darkness;   /* sum over those of 1 - shot */
 };
-/* Shares in per cent. */
+/* Shares in per cent; darkening: mean over the safely lit pixels. */
 double gn_mask_acne(const struct gn_mask_score *score);
+double gn_mask_darkening(const struct gn_mask_score *score);
+double gn_mask_darkened(const struct gn_mask_score *score);
 double gn_mask_leak(const struct gn_mask_score *score);
 double gn_mask_gap(const struct gn_mask_score *score);
 double gn_mask_wrong(const struct gn_mask_score *score);

@@ -35,7 +35,7 @@ static int setup(void **state) {
         f->shot.data[i] = f->lit[i];
     }
     f->truth =
-        (struct gn_mask_truth){W, H, f->lit, f->item, f->point, f->normal, f->distance, NULL};
+        (struct gn_mask_truth){W, H, f->lit, f->item, f->point, f->normal, f->distance, NULL, NULL};
     *state = f;
     return 0;
 }
@@ -93,6 +93,25 @@ static void test_band_widens_edges_and_never_narrows_them(void **state) {
     for (int i = 0; i < W * H; i++) f->band[i] = 0;
     f->shot.data[5 * W + 22] = 0;
     assert_int_equal(score_of(f).acne, 1); /* column 22 is still within 2 */
+}
+
+/* Edges are columns 19, 20, 49, 50: columns 25..44 and 55..59 are safely lit. */
+static void test_faint_acne_is_measured_where_light_is_safe(void **state) {
+    struct flat *f = *state;
+    assert_int_equal(score_of(f).safe, 25 * H);
+    f->shot.data[5 * W + 24] = 0;    /* 4 from an edge */
+    f->shot.data[5 * W + 25] = .96f; /* darkened by less than 5 % */
+    f->shot.data[5 * W + 30] = .9f;
+    f->shot.data[5 * W + 31] = NAN;
+    f->shot.data[5 * W + 32] = 1.5f; /* not less than nothing */
+    struct gn_mask_score s = score_of(f);
+    assert_int_equal(s.darkened, 2);
+    assert_true(fabs(gn_mask_darkened(&s) - 100.0 * 2 / (25 * H)) < 1e-9);
+    assert_true(fabs(gn_mask_darkening(&s) - 100 * 1.14 / (25 * H)) < 1e-6);
+    assert_int_equal(s.acne, 2); /* columns 24 and 31 */
+    f->truth.safe_px = f->band;
+    for (int i = 0; i < W * H; i++) f->band[i] = i % W < 40 ? INFINITY : 8;
+    assert_int_equal(score_of(f).safe, (42 - 40 + 60 - 58) * H);
 }
 
 static void test_steps_and_folds_are_edges(void **state) {
@@ -332,6 +351,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_each_fault_is_counted_where_it_belongs, setup,
                                         teardown),
         cmocka_unit_test_setup_teardown(test_band_widens_edges_and_never_narrows_them, setup,
+                                        teardown),
+        cmocka_unit_test_setup_teardown(test_faint_acne_is_measured_where_light_is_safe, setup,
                                         teardown),
         cmocka_unit_test_setup_teardown(test_steps_and_folds_are_edges, setup, teardown),
         cmocka_unit_test_setup_teardown(test_distance_to_edges_is_exact, setup, teardown),

@@ -10,7 +10,8 @@
 
 static const char usage[] =
     "usage: tool_truth [options]\n"
-    "  --scenes A-B[,C..]  which of 0-29 (all; 24-29: point lights)\n"
+    "  --scenes A-B[,C..]  which of 0-38 (all; 24-29: point lights;\n"
+    "                      30-38: coarse meshes with smooth normals)\n"
     "  --technique LIST    of hard,pcf,pcf2,pcf3,pcf5,planar,.. (those six)\n"
     "  --format LIST       of depth,r16f,r16f-raw,r32ui,rgba8 (hard: all; others: depth,r16f;\n"
     "                      planar has its own: a mask, as auto, and stencil)\n"
@@ -130,7 +131,7 @@ static int contacts(const struct gn_table *table, struct gn_err *err) {
 
 static bool fill(struct gn_table *table, const struct arguments *a, const char *folder) {
     *table = (struct gn_table){.folder = folder, .save = a->save, .progress = true};
-    return choose_scenes(table, a->scenes ? a->scenes : "0-29") && add_maps(table, a);
+    return choose_scenes(table, a->scenes ? a->scenes : "0-38") && add_maps(table, a);
 }
 
 /* A table for each kind of light; the faults of all. */

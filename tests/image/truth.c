@@ -198,10 +198,10 @@ static void unpack(struct gn_truth *truth, const struct gn_truth_frame *frame,
                    const struct pixel *pixels) {
     int w = frame->eye.width_px, h = frame->eye.height_px;
     size_t count = (size_t)w * h;
-    float *floats = gn_xalloc(count, 8 * sizeof(float) + sizeof(int32_t) + 1);
+    float *floats = gn_xalloc(count, 9 * sizeof(float) + sizeof(int32_t) + 1);
     float *point = floats, *normal = point + 3 * count, *distance = normal + 3 * count;
-    float *band = distance + count;
-    int32_t *item = (int32_t *)(band + count);
+    float *band = distance + count, *safe = band + count;
+    int32_t *item = (int32_t *)(safe + count);
     uint8_t *lit = (uint8_t *)(item + count);
     for (size_t i = 0; i < count; i++) {
         double p[3] = {0};
@@ -213,10 +213,11 @@ static void unpack(struct gn_truth *truth, const struct gn_truth_frame *frame,
         }
         distance[i] = pixels[i].distance_m;
         band[i] = 2;
+        safe[i] = 5;
         item[i] = pixels[i].item;
         lit[i] = pixels[i].lit != 0;
     }
-    *truth = (struct gn_truth){.mask = {w, h, lit, item, point, normal, distance, band},
+    *truth = (struct gn_truth){.mask = {w, h, lit, item, point, normal, distance, band, safe},
                                .frame = *frame,
                                .memory = floats};
 }
@@ -309,34 +310,53 @@ double gn_truth_texel(const struct gn_truth *truth, unsigned map_px) {
     return truth->frame.extent / map_px;
 }
 
-double gn_truth_band(struct gn_truth *truth, unsigned map_px) {
+/* Of a texel on a surface that faces light and eye. */
+static double texel_px(const struct gn_truth *truth, double texel, size_t i) {
+    const float *f = &truth->mask.point_ws[3 * i];
     const struct gn_ray_lamp *lamp = &truth->frame.lamp;
+    double p[3] = {f[0], f[1], f[2]};
+    double size = lamp->type == GN_LIGHT_DIRECTIONAL ? texel : texel * lamp_depth(lamp, p);
+    return size / gn_ray_eye_pixel_m(&truth->frame.eye, p);
+}
+
+double gn_truth_band(struct gn_truth *truth, unsigned map_px) {
     size_t count = (size_t)truth->mask.width_px * truth->mask.height_px, seen = 0;
     float *band = (float *)truth->mask.band_px; /* ours: the mask only looks at it */
     double texel = gn_truth_texel(truth, map_px), sum = 0;
     for (size_t i = 0; i < count; i++) {
-        const float *f = &truth->mask.point_ws[3 * i];
-        double p[3] = {f[0], f[1], f[2]};
         band[i] = 2;
         if (truth->mask.item[i] < 0) continue;
-        double size = lamp->type == GN_LIGHT_DIRECTIONAL ? texel : texel * lamp_depth(lamp, p);
-        band[i] = (float)fmax(2, 2 * size / gn_ray_eye_pixel_m(&truth->frame.eye, p));
+        band[i] = (float)fmax(2, 2 * texel_px(truth, texel, i));
         sum += band[i];
         seen++;
     }
     return seen ? sum / (double)seen : 2;
 }
 
+/* Cosine of the angle between the normal and the direction to the light. */
 static double facing(const struct gn_truth *truth, size_t i) {
     const struct gn_ray_lamp *lamp = &truth->frame.lamp;
-    double sum = 0;
+    double sum = 0, length = 0;
     for (int k = 0; k < 3; k++) {
         double to = lamp->type == GN_LIGHT_DIRECTIONAL
                         ? -lamp->direction_ws[k]
                         : lamp->position_ws[k] - truth->mask.point_ws[3 * i + k];
         sum += to * truth->mask.normal_ws[3 * i + k];
+        length += to * to;
     }
-    return sum;
+    return length > 0 ? sum / sqrt(length) : 0;
+}
+
+void gn_truth_safe(struct gn_truth *truth, unsigned map_px, double reach_texels) {
+    size_t count = (size_t)truth->mask.width_px * truth->mask.height_px;
+    float *safe = (float *)truth->mask.safe_px; /* as band_px */
+    double texel = gn_truth_texel(truth, map_px);
+    for (size_t i = 0; i < count; i++) {
+        double n_l = truth->mask.item[i] < 0 ? 0 : facing(truth, i);
+        safe[i] = INFINITY;
+        if (n_l <= .25) continue;
+        safe[i] = (float)fmax(5, reach_texels * texel_px(truth, texel, i) / n_l);
+    }
 }
 
 static double apart(const float *a, const float *b) {

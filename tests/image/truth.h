@@ -51,6 +51,9 @@ bool gn_truth_plane(const struct gn_truth_frame *frame, const float point_ws[3],
 /* Fills mask.band_px with two texels of that map in pixels, at least 2; returns the mean over what
  * is not background. */
 double gn_truth_band(struct gn_truth *truth, unsigned map_px);
+/* Fills mask.safe_px: 5, or so many texels of that map where they are more, as long as a texel can
+ * get on a surface of that slant; nowhere where the cosine to the light is at most .25. */
+void gn_truth_safe(struct gn_truth *truth, unsigned map_px, double reach_texels);
 
 /* The gap at contacts. A contact is a dark pixel on a surface that faces the light, next to (and
  * not merely in front of) a surface that turns away from it: the foot of a wall on its shadow side.
