@@ -12,6 +12,9 @@ flat out vec4 v_color;
 #endif
 out vec3 v_position;
 out vec3 v_normal;
+#ifdef WITH_SPREAD
+out float v_spread;
+#endif
 #define DECLARE_UV(v_uv, slot, second) out vec2 v_uv;
 EACH_TEXTURE(DECLARE_UV)
 flat out vec4 v_surface;
@@ -25,7 +28,8 @@ out vec3 v_shadow[SHADOW_COUNT];
 
 #define PLACE_SHADOW(slot) \
     v_shadow[slot] = SHADOW_LINEAR[slot] \
-        ? shadow_point_directional(slot, p, n, u_pass[PASS_LIGHTS + slot * LIGHT_SIZE + LIGHT_PLACE].xyz) : vec3(0.0);
+        ? shadow_point_directional(slot, p, n, u_pass[PASS_LIGHTS + slot * LIGHT_SIZE + LIGHT_PLACE].xyz, \
+                                   SHADOW_SPREAD[slot] ? spread : 0.0) : vec3(0.0);
 
 #define SET_UV(v_uv, slot, second) v_uv = slot_uv(slot, second);
 
@@ -35,6 +39,10 @@ void main() {
     gl_Position = pass_matrix(PASS_CLIP) * vec4(p, 1.0);
     v_position = p;
     v_normal = n;
+    float spread = normal_spread();
+#ifdef WITH_SPREAD
+    v_spread = spread;
+#endif
     v_color = VERTEX_COLOR ? a_base_color * a_color : a_base_color;
     v_surface = a_surface;
     v_emissive = a_emissive;

@@ -35,8 +35,8 @@ shadow_cascade shadow_cascade_of(const int slot, const bool shared) {
 }
 
 // uv and code. Points that the tile does not cover are lit: the result is outside of the map, with a code nearer than any caster.
-vec3 shadow_cascade_at(const int slot, shadow_cascade c, vec3 p, vec3 n, vec3 l) {
-    vec3 at = (shadow_matrix(slot) * vec4(p + shadow_push(slot, n, l, dot(n, l), c.texel), 1.0)).xyz;
+vec3 shadow_cascade_at(const int slot, shadow_cascade c, vec3 p, vec3 n, vec3 l, float spread) {
+    vec3 at = (shadow_matrix(slot) * vec4(p + shadow_push(slot, n, l, dot(n, l), c.texel, spread), 1.0)).xyz;
     vec4 size = SHADOW(slot, SHADOW_MAP_SIZE);
     vec2 texels = at.xy / c.texel + c.axis;
     bool held = max(abs(texels.x), abs(texels.y)) < SHADOW(slot, SHADOW_CODE).CODE_HELD;

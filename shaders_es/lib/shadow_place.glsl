@@ -2,6 +2,12 @@
 #include "lib/flat_constants.glsl"
 #include "lib/shadow_point.glsl"
 
+#ifdef WITH_SPREAD
+in float v_spread; // normal_spread() of lib/vertex.glsl
+#else
+const float v_spread = 0.0;
+#endif
+
 struct shadow_place {
     vec3 at;    // uv over the map (0..1) and code of the receiver, after the bias (shadow_push())
     vec4 size;  // xy: width and height of the map in texels; zw: their inverse
@@ -25,6 +31,10 @@ bool shadow_outside(shadow_place s) { return any(greaterThan(abs(s.at.xy - 0.5),
 // a caster, ends within the square at a straight edge and covers the fraction `share` of it, then the centroid of that part is at
 // most radius (1 - share) from the centre of the square. radius: half of the square's side, texels.
 float shadow_cut(shadow_place s, float radius, float share) { return dot(abs(s.slope), s.size.zw) * radius * max(1.0 - share, 0.0); }
+
+// Visibility lit * scale without the outermost 2 % of the filter's weight at both ends: texels as far away as those are behind the
+// plane of a lit surface in spite of the bias (bias_texels in src/shadow/technique.h).
+float shadow_trimmed(float lit, float scale) { return clamp(lit * (1.04 * scale) - 0.02, 0.0, 1.0); }
 
 float shadow_penumbra_depth(shadow_place s, float code) {
     float x = s.penumbra.PENUMBRA_SCALE * code + s.penumbra.PENUMBRA_BIAS;
@@ -64,6 +74,7 @@ vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 
 // and _SPANS (cascades of filtered maps): add_shadow_flags() of src/gl/compose.c.
 shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
     shadow_place s;
+    float spread = SHADOW_SPREAD[slot] ? v_spread : 0.0;
     s.size = SHADOW(slot, SHADOW_MAP_SIZE);
     s.far = SHADOW(slot, SHADOW_CODE).CODE_FAR_END;
     s.penumbra = SHADOW(slot, SHADOW_PENUMBRA);
@@ -76,7 +87,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     } else if (SHADOW_CASCADES[slot]) {
         shadow_cascade c = shadow_cascade_of(slot, SHADOW_SHARED[slot]);
         s.beside = c.beside;
-        s.at = shadow_cascade_at(slot, c, p, n, l);
+        s.at = shadow_cascade_at(slot, c, p, n, l, spread);
         s.slope = shadow_cascade_slope(slot, c, face, l);
         s.penumbra.PENUMBRA_RADIUS /= c.texel;
         // Limits penumbrae to the reach of a tile and, in proportion to the view depth, to PENUMBRA_GROWTH: one
@@ -93,7 +104,8 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.window.xy = c.tile * (0.5 * s.size.x);
         s.window.zw = s.window.xy + 0.5 * s.size.x;
     } else if (type == LIGHT_POINT) {
-        shadow_tile t = SHADOW_SHARED[slot] ? shadow_tile_shared(slot, radial, p, n, l) : shadow_tile_pushed(slot, radial, p, n, l);
+        shadow_tile t = SHADOW_SHARED[slot] ? shadow_tile_shared(slot, radial, p, n, l, spread)
+                                            : shadow_tile_pushed(slot, radial, p, n, l, spread);
         s.beside = t.beside;
         s.at = shadow_tile_at(slot, radial, t);
         s.slope = shadow_tile_slope(slot, radial, t, face);
@@ -105,7 +117,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.window.xy = floor(s.at.xy * vec2(3.0, 2.0)) * tile;
         s.window.zw = s.window.xy + tile;
     } else {
-        s.at = shadow_point_spot(slot, radial, p, n, l);
+        s.at = shadow_point_spot(slot, radial, p, n, l, spread);
         s.slope = shadow_slope_spot(slot, radial, s.at, p, face, l);
         mat4 m = shadow_matrix(slot);
         float w = dot(vec3(m[0].w, m[1].w, m[2].w), p) + m[3].w;

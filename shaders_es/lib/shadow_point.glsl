@@ -12,28 +12,33 @@ mat4 shadow_matrix(const int slot) {
 // direction in which the code grows, of either sign (l for distances, the axis for depths); n_a: cosine between n and a; texel:
 // scale of the plane units at the point, metres. Across a texel the code changes by texel sin(n, a) / cos(n, l): by 0 on a surface
 // normal to a. A surface seen from its unlit side is pushed to the lit side: callers test whether it faces the light.
-vec3 shadow_push(const int slot, vec3 n, vec3 l, float n_a, float texel) {
+// spread: normal_spread() for techniques that need the bias of the face, whose normal may be further from l than n; cos(n, l) less
+// the sine of the angle between them is about the least that it can be. Where the bias is computed per vertex, a normal that is
+// turned away may belong to a face with cos(face, l) > 0.25, and is pushed to neither side; and the slope is limited less, against
+// stripes on faces that the light grazes.
+vec3 shadow_push(const int slot, vec3 n, vec3 l, float n_a, float texel, float spread) {
     vec4 bias = SHADOW(slot, SHADOW_BIAS);
-    float c = dot(n, l);
-    float s = sqrt(max(1.0 - min(c * c, n_a * n_a), 0.0));
-    float side = c < 0.0 ? -1.0 : 1.0;
-    float slope = min(s / max(abs(c), 0.001), bias.BIAS_SLOPE_MAX);
+    float c = dot(n, l), turned = abs(c) - spread, least = min(turned, abs(n_a));
+    float s = sqrt(max(1.0 - least * least, 0.0));
+    float side = c >= 0.0 ? 1.0 : SHADOW_LINEAR[slot] && c > 0.25 - spread ? 0.0 : -1.0;
+    float slope_max = bias.BIAS_SLOPE_MAX + (SHADOW_LINEAR[slot] ? 20.0 * spread : 0.0);
+    float slope = min(s / max(turned, 0.001), slope_max);
     return n * (side * bias.BIAS_NORMAL * s * texel) + l * (bias.BIAS_SLOPE * slope * texel + bias.BIAS_ULP);
 }
 
 // Directional lights: uv and code, linear in p, so it may be computed per vertex. Also planar shadows of any light: their bias is
 // 0, so l does not matter.
-vec3 shadow_point_directional(const int slot, vec3 p, vec3 n, vec3 l) {
-    return (shadow_matrix(slot) * vec4(p + shadow_push(slot, n, l, dot(n, l), 1.0), 1.0)).xyz;
+vec3 shadow_point_directional(const int slot, vec3 p, vec3 n, vec3 l, float spread) {
+    return (shadow_matrix(slot) * vec4(p + shadow_push(slot, n, l, dot(n, l), 1.0, spread), 1.0)).xyz;
 }
 
 // Spot lights: uv and code. Texels grow with the depth along the axis, which is the w of the projection. radial: the map holds
 // distances.
-vec3 shadow_point_spot(const int slot, const bool radial, vec3 p, vec3 n, vec3 l) {
+vec3 shadow_point_spot(const int slot, const bool radial, vec3 p, vec3 n, vec3 l, float spread) {
     mat4 m = shadow_matrix(slot);
     vec3 axis = vec3(m[0].w, m[1].w, m[2].w);
     float depth = dot(axis, p) + m[3].w;
-    vec3 q = p + shadow_push(slot, n, l, dot(n, radial ? l : axis), depth);
+    vec3 q = p + shadow_push(slot, n, l, dot(n, radial ? l : axis), depth, spread);
     vec4 h = m * vec4(q, 1.0);
     vec4 place = SHADOW(slot, SHADOW_PLACE);
     vec3 at = h.xyz / h.w;

@@ -41,10 +41,10 @@ vec3 shadow_tile_at(const int slot, const bool radial, shadow_tile t) {
 }
 
 // The tile of the point after the bias, so that near an edge the lookup stays within one tile.
-shadow_tile shadow_tile_pushed(const int slot, const bool radial, vec3 p, vec3 n, vec3 l) {
+shadow_tile shadow_tile_pushed(const int slot, const bool radial, vec3 p, vec3 n, vec3 l, float spread) {
     vec3 v = p - SHADOW(slot, SHADOW_PLACE).xyz;
     shadow_tile t = shadow_tile_of(v);
-    return shadow_tile_of(v + shadow_push(slot, n, l, radial ? dot(n, l) : shadow_tile_turn(t, n).z, t.q.z));
+    return shadow_tile_of(v + shadow_push(slot, n, l, radial ? dot(n, l) : shadow_tile_turn(t, n).z, t.q.z, spread));
 }
 
 // Two tiles have different texel grids, so filtered shadows differ across an edge. Within CODE_SHARED of an edge the four pixels
@@ -54,7 +54,7 @@ shadow_tile shadow_tile_pushed(const int slot, const bool radial, vec3 p, vec3 n
 // 2, 2011). The tiles are ordered at the centre of the quad, so all four pixels agree. This also holds for GPUs that compute one
 // derivative per quad, from the left pixels and either row. Cost on a Pi 4: 62 instructions (of 229 with pcf). Alternatives: two
 // tiles only, with a discontinuity in corners, 34; sampling two tiles per pixel in a loop, 71 and half of the threads.
-shadow_tile shadow_tile_shared(const int slot, const bool radial, vec3 p, vec3 n, vec3 l) {
+shadow_tile shadow_tile_shared(const int slot, const bool radial, vec3 p, vec3 n, vec3 l, float spread) {
     vec3 v = p - SHADOW(slot, SHADOW_PLACE).xyz;
     vec2 turn = 2.0 * fract(0.5 * gl_FragCoord.xy) - 1.0; // from the centre of the quad, pixels
     turn.y *= dFdy(turn.y);                               // pictures of odd height may have quads aligned to the top
@@ -71,7 +71,7 @@ shadow_tile shadow_tile_shared(const int slot, const bool radial, vec3 p, vec3 n
     if (other.x) t.beside.y = 0.0;
     t.q = shadow_tile_turn(t, v);
     t.side = t.q.z < 0.0 ? -1.0 : 1.0;
-    t.q = shadow_tile_turn(t, v + shadow_push(slot, n, l, radial ? dot(n, l) : shadow_tile_turn(t, n).z, abs(t.q.z)));
+    t.q = shadow_tile_turn(t, v + shadow_push(slot, n, l, radial ? dot(n, l) : shadow_tile_turn(t, n).z, abs(t.q.z), spread));
     t.q.z = abs(t.q.z);
     return t;
 }

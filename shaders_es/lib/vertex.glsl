@@ -1,5 +1,5 @@
 // Attributes of vertices and instances, and functions of them that all vertex shaders share.
-VERTEX_ATTRIBUTES // a_position, a_normal, a_uv0, a_uv1, a_color: the rows of src/scene/attribute.h
+VERTEX_ATTRIBUTES // a_position, a_normal, a_uv0, a_uv1, a_color: the rows of src/scene/attribute.h; a_normal.w: spread
 layout(location = 10) in vec4 a_world_0; // rows of world_from_item
 layout(location = 11) in vec4 a_world_1;
 layout(location = 12) in vec4 a_world_2;
@@ -20,8 +20,16 @@ vec3 normal_ws() {
     vec3 c0 = cross(a_world_1.xyz, a_world_2.xyz);
     vec3 c1 = cross(a_world_2.xyz, a_world_0.xyz);
     vec3 c2 = cross(a_world_0.xyz, a_world_1.xyz);
-    vec3 n = vec3(dot(c0, a_normal), dot(c1, a_normal), dot(c2, a_normal));
+    vec3 n = vec3(dot(c0, a_normal.xyz), dot(c1, a_normal.xyz), dot(c2, a_normal.xyz));
     return dot(a_world_0.xyz, c0) < 0.0 ? -n : n;
+}
+
+// Sine of the largest angle between the normal and those of the faces around the vertex. Scaling by different factors changes an
+// angle by at most their ratio. Not more than 0.4: on coarser meshes shadows would be lost with the acne.
+float normal_spread() {
+    vec3 scale = a_world_0.xyz * a_world_0.xyz + a_world_1.xyz * a_world_1.xyz + a_world_2.xyz * a_world_2.xyz;
+    float most = max(max(scale.x, scale.y), scale.z), least = min(min(scale.x, scale.y), scale.z);
+    return min(a_normal.w * sqrt(most / max(least, 1e-12 * most)), 0.4);
 }
 
 // Texture coordinates of a slot (SLOT_BASE ..); second: from TEXCOORD_1.

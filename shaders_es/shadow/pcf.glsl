@@ -7,5 +7,5 @@ float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
     lit += map_lit_linear(map, vec3(b.x, a.y, s.at.z), s);
     lit += map_lit_linear(map, vec3(a.x, b.y, s.at.z), s);
     lit += map_lit_linear(map, vec3(b, s.at.z), s);
-    return 0.25 * lit;
+    return shadow_trimmed(lit, 0.25);
 }

@@ -15,5 +15,5 @@ float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
                   weight_b.x * map_lit_linear(map, vec3(b.x, a.y, s.at.z), s);
     float above = weight_a.x * map_lit_linear(map, vec3(a.x, b.y, s.at.z), s) +
                   weight_b.x * map_lit_linear(map, vec3(b, s.at.z), s);
-    return (weight_a.y * below + weight_b.y * above) * (1.0 / 16.0);
+    return shadow_trimmed(weight_a.y * below + weight_b.y * above, 1.0 / 16.0);
 }

@@ -19,5 +19,5 @@ float shadow_visibility(MAP_SAMPLER map, shadow_place s) {
     lit += weight_c.y * (weight_a.x * map_lit_linear(map, vec3(a.x, c.y, s.at.z), s) +
                          7.0 * map_lit_linear(map, vec3(b.x, c.y, s.at.z), s) +
                          weight_c.x * map_lit_linear(map, vec3(c, s.at.z), s));
-    return lit * (1.0 / 144.0);
+    return shadow_trimmed(lit, 1.0 / 144.0);
 }

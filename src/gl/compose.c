@@ -120,9 +120,10 @@ static void add_flags(const struct gn_program_key *key, const char *name, uint32
  * the results (shaders_es/lib/shadow_tile.glsl). SHADOW_CASCADES:
  * the tiles are cascades; SHADOW_SPANS: each encodes distances of its own. Sharing takes
  * derivatives, which are undefined after a discard: CUT_LAST cuts holes last where a map is shared,
- * and first elsewhere, where that saves work. */
+ * and first elsewhere, where that saves work. SHADOW_SPREAD: the bias takes into account how far
+ * faces are turned from their smooth normals; WITH_SPREAD: it does so in the fragment shader. */
 static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
-    uint32_t linear = 0, shared = 0, cascades = 0, spans = 0; /* a bit per light */
+    uint32_t linear = 0, shared = 0, cascades = 0, spans = 0, spread = 0; /* a bit per light */
     for (int i = 0; i < GN_SHADOWS_MAX; i++) {
         const struct gn_light_key *light = &key->lights[i];
         const struct gn_light_type_row *type = &gn_light_types[light->type];
@@ -131,15 +132,19 @@ static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text
         if ((type->shines_around || light->cascades) && gn_technique_shades(light->technique))
             shared |= 1u << i;
         if (light->cascades) cascades |= 1u << i;
+        if (gn_techniques[light->technique].one_code) spread |= 1u << i;
         if (light->cascades && gn_technique_filters_map((enum gn_technique)light->technique))
             spans |= 1u << i;
     }
-    const bool cut_last = shared & ((1u << key->shadow_count) - 1);
+    const uint32_t shadows = (1u << key->shadow_count) - 1;
+    const bool cut_last = shared & shadows;
     add_flags(key, "SHADOW_LINEAR", linear, out);
     add_flags(key, "SHADOW_SHARED", shared, out);
     gn_gl_text_add(out, "const bool CUT_LAST = %s;\n", cut_last ? "true" : "false");
     add_flags(key, "SHADOW_CASCADES", cascades, out);
     add_flags(key, "SHADOW_SPANS", spans, out);
+    add_flags(key, "SHADOW_SPREAD", spread, out);
+    if (spread & ~linear & shadows) gn_gl_text_add(out, "#define WITH_SPREAD 1\n");
 }
 
 /* Slide k is that of the k-th light that has one. */
@@ -214,11 +219,14 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
     add_constants(key, out);
     if (!gn_gl_source_add(&source, "blocks.glsl", out, err)) return false;
     if (lit) add_shadow_flags(key, out);
-    if (shader == GN_GL_VERTEX) { /* VERTEX_ATTRIBUTES declares the rows of scene/attribute.h */
+    if (shader == GN_GL_VERTEX) {
+        /* VERTEX_ATTRIBUTES declares the rows of scene/attribute.h; of four shorts all are read */
         gn_gl_text_add(out, "#define VERTEX_ATTRIBUTES");
         for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
-            gn_gl_text_add(out, " layout(location = %d) in vec%d a_%s;", i,
-                           gn_attributes[i].components, gn_attributes[i].name);
+            gn_gl_text_add(
+                out, " layout(location = %d) in vec%d a_%s;", i,
+                gn_attributes[i].format == GN_ATTRIBUTE_SNORM16 ? 4 : gn_attributes[i].components,
+                gn_attributes[i].name);
         gn_gl_text_add(out, "\n");
     }
     if (lit && shader == GN_GL_VERTEX) {

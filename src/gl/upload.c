@@ -47,6 +47,8 @@ static void pack_vertex(const struct gn_gl_scene *s, uint32_t vertex, uint8_t *o
                 const float x = ((const float *)(const void *)from)[k];
                 packed[k] = (int16_t)lrintf(fmaxf(-1, fminf(1, x)) * 32767);
             }
+            if (i == GN_ATTRIBUTE_NORMAL && s->scene->buffers.spreads)
+                packed[3] = s->scene->buffers.spreads[vertex];
             memcpy(out + s->attribute_at[i], packed, sizeof packed);
         } else
             memcpy(out + s->attribute_at[i], from, row->bytes);

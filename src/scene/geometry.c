@@ -257,6 +257,8 @@ static bool allocate_vertices(struct gn_gltf *g) {
         gn_gltf_alloc(g, g->memory.scene, scene->geometry_count, sizeof *scene->geometries);
     scene->buffers.indices =
         gn_gltf_alloc(g, g->memory.scene, corners, sizeof *scene->buffers.indices);
+    scene->buffers.spreads =
+        gn_gltf_alloc(g, g->memory.scene, vertices, sizeof *scene->buffers.spreads);
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
         if (any[i])
             scene->buffers.attributes[i] =
@@ -283,6 +285,7 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
         if (!filled || !gn_gltf_check_time(g)) return false;
         scene->buffers.index_count += geometry->index_count;
         gn_geometry_measure(scene, geometry, &shape->area);
+        if (shape->vertices != UINT32_MAX) gn_geometry_add_spreads(scene, geometry);
         /* The test visits all vertices, which many geometries may share: run it only where most
          * belong to this one. Many geometries may read the same indices, too: its work is bounded
          * by the limit on vertices. */

@@ -76,6 +76,29 @@ size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geomet
     return repaired;
 }
 
+/* Angles under half a degree are rounding errors of the file's normals. */
+#define SPREAD_LEAST .01
+
+void gn_geometry_add_spreads(struct gn_scene *scene, const struct gn_geometry *geometry) {
+    const struct gn_scene_buffers *buffers = &scene->buffers;
+    const uint32_t *index = buffers->indices + geometry->first_index;
+    for (size_t i = 0; i + 2 < geometry->index_count; i += 3) {
+        double face[3];
+        cross_of(buffers->positions + 3 * (size_t)index[i],
+                 buffers->positions + 3 * (size_t)index[i + 1],
+                 buffers->positions + 3 * (size_t)index[i + 2], face);
+        const double length = length_of(face);
+        for (int k = 0; k < 3 && length > 0; k++) {
+            const float *n = buffers->normals + 3 * (size_t)index[i + k];
+            int16_t *spread = &buffers->spreads[index[i + k]];
+            double along = 0;
+            for (int c = 0; c < 3; c++) along += face[c] / length * (double)n[c];
+            const double sine = sqrt(fmax(1 - along * along, 0));
+            if (sine > SPREAD_LEAST && sine * 32767 > *spread) *spread = (int16_t)(sine * 32767);
+        }
+    }
+}
+
 /* ---- bounds ---- */
 
 /* The normal of the largest triangle, oriented to the side that most of the area faces. */

@@ -230,6 +230,8 @@ bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_
                               float **normals, size_t *made);
 /* Replaces normals of length 0 by the normal of a face; returns their number. */
 size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geometry *geometry);
+/* Of the vertices of a geometry, whose triangles may share them with others. */
+void gn_geometry_add_spreads(struct gn_scene *scene, const struct gn_geometry *geometry);
 /* closed.c. False also where memory_mb leaves too little memory for the test. */
 bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *geometry);
 /* Sets box, flat and plane; *area: of all triangles, square units of mesh space. */

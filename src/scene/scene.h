@@ -152,6 +152,9 @@ struct gn_scene_buffers { /* vertices and indices of all geometries */
         };
         void *attributes[GN_ATTRIBUTE_COUNT];
     };
+    /* Of each vertex: sine of the largest angle between its normal and those of its faces, as
+     * SNORM16. NULL: all 0. */
+    int16_t *spreads;
     uint32_t *indices;
     uint32_t vertex_count, index_count;
 };

@@ -40,6 +40,8 @@ struct gn_technique_row {
     const char *file;     /* below shaders_es/, NULL for none */
     bool compares_linear; /* compares and weighs four texels: needs a LINEAR compare sampler */
     bool searches; /* needs a blocker's distance: samples a depth map without hardware compare */
+    bool one_code; /* compares all its texels with the code of the point, not with those of the
+                      face's plane: the bias has to be that of the face, not of a smooth normal */
     bool reads_distance; /* `auto` selects a distance map for it; else a depth map */
     bool on_plane;       /* only the scene's plane receives its shadows: planar.h */
     bool soft;           /* penumbrae by the light's size: the map includes their width */

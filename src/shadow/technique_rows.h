@@ -5,17 +5,17 @@ ROW(NONE, .name = "none", .rank = 15, .what = "no shadows")
 ROW(HARD, .name = "hard", .rank = 13, .file = "shadow/hard.glsl", .reads_distance = true,
     .radius_texels = 1, .bias_texels = 0.6f, .what = "one comparison", .source = "Williams 1978")
 ROW(PCF, .name = "pcf", .rank = 1, .file = "shadow/pcf.glsl", .compares_linear = true,
-    .radius_texels = 2, .bias_texels = 0.9f, .what = "four hardware-compare taps half a texel away",
-    .source = "Reeves, Salesin, Cook 1987")
+    .one_code = true, .radius_texels = 2, .bias_texels = 0.9f,
+    .what = "four hardware-compare taps half a texel away", .source = "Reeves, Salesin, Cook 1987")
 ROW(PCF2, .name = "pcf2", .rank = 10, .file = "shadow/pcf2.glsl", .compares_linear = true,
-    .radius_texels = 1, .bias_texels = 0.7f, .what = "one hardware-compare tap",
+    .one_code = true, .radius_texels = 1, .bias_texels = 0.7f, .what = "one hardware-compare tap",
     .source = "Reeves, Salesin, Cook 1987")
 ROW(PCF3, .name = "pcf3", .rank = 11, .file = "shadow/pcf3.glsl", .compares_linear = true,
-    .radius_texels = 2, .bias_texels = 1.15f, .what = "[1 2 1] squared in four fetches",
-    .source = "Reeves, Salesin, Cook 1987")
+    .one_code = true, .radius_texels = 2, .bias_texels = 1.15f,
+    .what = "[1 2 1] squared in four fetches", .source = "Reeves, Salesin, Cook 1987")
 ROW(PCF5, .name = "pcf5", .rank = 12, .file = "shadow/pcf5.glsl", .compares_linear = true,
-    .radius_texels = 3, .bias_texels = 1.65f, .what = "[1 3 4 3 1] squared in nine fetches",
-    .source = "Reeves, Salesin, Cook 1987")
+    .one_code = true, .radius_texels = 3, .bias_texels = 1.65f,
+    .what = "[1 3 4 3 1] squared in nine fetches", .source = "Reeves, Salesin, Cook 1987")
 ROW(DISK, .name = "disk", .rank = 9, .file = "shadow/disk.glsl", .compares_linear = true,
     .reads_distance = true, .taps = GN_TAPS_DISK, .radius_texels = 4, .bias_texels = 0.7f,
     .what = "16 taps over a disk, turned from pixel to pixel", .source = "Vogel 1979")

@@ -144,6 +144,24 @@ static void test_normals_without_length(void **state) {
     gn_scene_destroy(scene);
 }
 
+/* The same roof with normals: those of the ridge point up, 45 degrees from both faces. */
+static void test_spread_is_the_sine_to_the_faces(void **state) {
+    (void)state;
+    static const float roof[] = {-1, 0, 1, 0, 1, 1, 0, 1, -1, -1, 0, -1, 1, 0, 1, 1, 0, -1};
+    static const float normals[] = {-1, 1, 0, 0, 1, 0, 0, 1, 0, -1, 1, 0, 1, 1.01f, 0, 1, 1, 0};
+    static const uint8_t corners[] = {0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2};
+    gn_maker_accessor(&maker, "VEC3", 5126, 6, roof, sizeof roof, NULL);
+    gn_maker_accessor(&maker, "VEC3", 5126, 6, normals, sizeof normals, NULL);
+    gn_maker_accessor(&maker, "SCALAR", 5121, 12, corners, sizeof corners, NULL);
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':2,'NORMAL':3},'indices':4}]}]");
+    struct gn_scene *scene = load();
+    static const double sines[] = {0, .70711, .70711, 0, 0, 0}; /* 4: a rounding error */
+    for (int i = 0; i < 6; i++)
+        assert_true(fabs(scene->buffers.spreads[i] / 32767.0 - sines[i]) < 1e-4);
+    gn_scene_destroy(scene);
+}
+
 /* ---- formats ---- */
 
 static void test_formats(void **state) {
@@ -416,6 +434,7 @@ int main(void) {
         cmocka_unit_test_setup(test_index_beyond_the_vertices, setup),
         cmocka_unit_test_setup(test_flat_normals_unweld_where_needed, setup),
         cmocka_unit_test_setup(test_normals_without_length, setup),
+        cmocka_unit_test_setup(test_spread_is_the_sine_to_the_faces, setup),
         cmocka_unit_test_setup(test_formats, setup),
         cmocka_unit_test_setup(test_colors, setup),
         cmocka_unit_test_setup(test_interleaved, setup),
