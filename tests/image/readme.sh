@@ -17,14 +17,14 @@ put() {
 
 # ten rows of the page's table: under a sun, each technique with the encoding that it takes itself
 short() {
-    echo '| technique | map | leak | wrong | penumbra | time | Pi 4 | MB |'
-    echo '|---|---|---|---|---|---|---|---|'
+    echo '| technique | map | darkening | leak | wrong | penumbra | time | Pi 4 | MB |'
+    echo '|---|---|---|---|---|---|---|---|---|'
     awk -F ' *[|] *' '
         BEGIN { n = split("hard:r16f pcf:depth pcf3:depth pcss:r16f vsm:rg32ui evsm:rgba32f-share msm:rgba16ui vssm:rgba32ui smsm:rgba32ui planar:stencil", row, " ")
                 for (i = 1; i <= n; i++) wanted[row[i]] = 1 }
         { name = $2; gsub(/`/, "", name) }
         $3 == "sun" && (name ":" $4) in wanted {
-            print "| " $2 " | " $4 " | " $6 " | " $8 " | " $9 " | " $12 " | " $13 " | " $16 " |" }' "$page"
+            print "| " $2 " | " $4 " | " $6 " | " $8 " | " $10 " | " $11 " | " $14 " | " $15 " | " $18 " |" }' "$page"
 }
 
 if [ "$1" != --check ]; then
