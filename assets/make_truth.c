@@ -42,7 +42,7 @@ static const struct lamp {
     {8, 275, {-1.2f, 2.9f, -4.3f}, WALLED}, {25, 15, {1.5f, 6.0f, 1.0f}, OPEN},
     {60, 225, {3.6f, 3.8f, -3.7f}, ROOM},   {13, 330, {-.4f, 1.4f, .6f}, OPEN},
 };
-/* Scenes of coarse meshes with smooth normals, numbered after those: three of each kind of light.
+/* Scenes of coarse meshes with smooth normals, numbered after those: three for each kind of light.
  */
 static const struct scene coarse_scenes[] = {
     {8, 55, 20, 0},   {13, 33, 160, 0}, {5, 74, 290, 0},
@@ -407,14 +407,13 @@ static bool write_scene(struct build *b, const char *folder, const char *name) {
 }
 
 static bool write_truth(const char *folder, int index) {
-    const int nth = index - SCENES - LAMPS; /* of the coarse ones */
-    const struct lamp *lamp = index < SCENES        ? NULL
-                              : nth < 0             ? &lamps[index - SCENES]
-                              : nth < COARSE_SCENES ? NULL
-                                                    : &coarse_lamps[nth - COARSE_SCENES];
-    const struct scene around = lamp      ? (struct scene){lamp->size, 0, lamp->azimuth, 0}
-                                : nth < 0 ? scenes[index]
-                                          : coarse_scenes[nth];
+    const bool coarse = index >= SCENES + LAMPS;
+    const int nth = coarse ? index - SCENES - LAMPS : index;
+    const int scene_count = coarse ? COARSE_SCENES : SCENES;
+    const struct lamp *lamp =
+        nth < scene_count ? NULL : (coarse ? coarse_lamps : lamps) + nth - scene_count;
+    const struct scene around = lamp ? (struct scene){lamp->size, 0, lamp->azimuth, 0}
+                                     : (coarse ? coarse_scenes : scenes)[nth];
     struct build b;
     init_build(&b, &around, (uint32_t)index + 1);
     b.lamp = lamp;
@@ -424,10 +423,10 @@ static bool write_truth(const char *folder, int index) {
         add_light(&b);
     add_ground(&b);
     if (lamp) add_site(&b);
-    if (nth < 0)
-        add_casters(&b);
-    else
+    if (coarse)
         add_coarse_casters(&b);
+    else
+        add_casters(&b);
     add_camera(&b);
     char name[32];
     snprintf(name, sizeof name, "truth-%02d", index);

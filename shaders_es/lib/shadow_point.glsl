@@ -12,10 +12,10 @@ mat4 shadow_matrix(const int slot) {
 // direction in which the code grows, of either sign (l for distances, the axis for depths); n_a: cosine between n and a; texel:
 // scale of the plane units at the point, metres. Across a texel the code changes by texel sin(n, a) / cos(n, l): by 0 on a surface
 // normal to a. A surface seen from its unlit side is pushed to the lit side: callers test whether it faces the light.
-// spread: normal_spread() for techniques that need the bias of the face, whose normal may be further from l than n; cos(n, l) less
-// the sine of the angle between them is about the least that it can be. Where the bias is computed per vertex, a normal that is
-// turned away may belong to a face with cos(face, l) > 0.25, and is pushed to neither side; and the slope is limited less, against
-// stripes on faces that the light grazes.
+// spread: normal_spread() for techniques that need the bias of the face, else 0. The face's normal may be further from l than n is;
+// its cosine to l is at least about |cos(n, l)| - spread, and the bias is that of this cosine. Where the bias is computed per vertex
+// (SHADOW_LINEAR), a normal turned away from the light may belong to a face with cos(face, l) > 0.25: the normal offset of such a
+// vertex is 0, and the limit of the slope is higher, against stripes on faces at grazing light.
 vec3 shadow_push(const int slot, vec3 n, vec3 l, float n_a, float texel, float spread) {
     vec4 bias = SHADOW(slot, SHADOW_BIAS);
     float c = dot(n, l), turned = abs(c) - spread, least = min(turned, abs(n_a));

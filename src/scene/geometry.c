@@ -285,7 +285,8 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
         if (!filled || !gn_gltf_check_time(g)) return false;
         scene->buffers.index_count += geometry->index_count;
         gn_geometry_measure(scene, geometry, &shape->area);
-        if (shape->vertices != UINT32_MAX) gn_geometry_add_spreads(scene, geometry);
+        if (shape->vertices != UINT32_MAX) /* else its normals are those of the faces */
+            gn_geometry_add_spreads(scene, geometry);
         /* The test visits all vertices, which many geometries may share: run it only where most
          * belong to this one. Many geometries may read the same indices, too: its work is bounded
          * by the limit on vertices. */

@@ -294,9 +294,8 @@ static const struct gn_limit_row no_limit = {INFINITY, INFINITY};
 
 struct gn_limit_row gn_table_limit(const struct gn_table_row *row, enum gn_fault fault) {
     bool small = row->map_px < 1024;
-    if (fault == GN_FAULT_DARKENING || fault == GN_FAULT_DARKENED) {
-        return (struct gn_limit_row){fault == GN_FAULT_DARKENING ? .02 : .1, INFINITY};
-    }
+    if (fault == GN_FAULT_DARKENING) return (struct gn_limit_row){.02, INFINITY};
+    if (fault == GN_FAULT_DARKENED) return (struct gn_limit_row){.1, INFINITY};
     /* where the normal is turned away from the light and the face is not, no light arrives that a
      * shadow could take */
     if (is_coarse(row) && (fault == GN_FAULT_ACNE || fault == GN_FAULT_WRONG)) return no_limit;

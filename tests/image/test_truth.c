@@ -14,6 +14,7 @@ static void quick_rows(struct gn_table *table) {
     gn_table_add(table, "hard", "r16f", 1024);
     gn_table_add(table, "hard", "depth", 1024);
     gn_table_add(table, "pcf", "depth", 1024);
+    gn_table_add(table, "pcf2", "depth", 1024);
     gn_table_add(table, "pcf3", "depth", 1024);
     gn_table_add(table, "planar", "auto", 1024);
     gn_table_add(table, "msm", "auto", 1024);
@@ -24,7 +25,7 @@ static void full_rows(struct gn_table *table, enum gn_table_kind kind) {
     static const char *const formats[] = {"r16f", "depth", "r16f-raw", "r32ui", "rgba8"};
     static const char *const filters[] = {"pcf", "pcf2", "pcf3", "pcf5", "disk", "poisson", "pcss"};
     static const char *const moments[] = {"vsm", "evsm", "msm"};
-    static const unsigned maps[] = {1024, 256};
+    static const unsigned maps[] = {1024, 256}, further_maps[] = {512, 2048, 4096};
     for (int i = 0; i < GN_TABLE_SCENES; i++) table->scenes[i] = true;
     for (int m = 0; m < (kind == GN_TABLE_POINT ? 1 : 2); m++) {
         for (int f = 0; f < 5; f++) gn_table_add(table, "hard", formats[f], maps[m]);
@@ -33,6 +34,8 @@ static void full_rows(struct gn_table *table, enum gn_table_kind kind) {
         for (int t = 0; t < 7; t++)
             for (int f = 0; f < 2; f++) gn_table_add(table, filters[t], formats[f], maps[m]);
     }
+    for (int m = kind == GN_TABLE_POINT ? 1 : 0; m < 3; m++) /* pcf .. pcf5 */
+        for (int t = 0; t < 4; t++) gn_table_add(table, filters[t], "depth", further_maps[m]);
 }
 
 /* A spoilt table must not pass: the truth of one scene turned round counts as acne and as leaks. */
