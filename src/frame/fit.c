@@ -10,7 +10,9 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         struct gn_frame_light *light = gn_frame_light_of_slot(frame, slot);
         const struct gn_light *l = &frame->scene->lights[light->light];
         const uint32_t most = gn_frame_most_px(frame, light, 1);
+        const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
         uint32_t asked = opts->shadow.map_px; /* the side of the map, or of each of its tiles */
+        if (one.given & GN_LIGHT_MAP_PX) asked = one.map_px;
         if (!asked) asked = l->map_px;
         if (!asked) asked = gn_techniques[light->technique].map_px;
         if (!asked) asked = 1024;

@@ -7,6 +7,23 @@
 
 /* In all options zero means the default written beside. */
 
+/* What holds for one light, whatever options say of all and the scene says of it. */
+enum gn_light_given {
+    GN_LIGHT_TECHNIQUE = 1,
+    GN_LIGHT_FORMAT = 2, /* encoding and moments */
+    GN_LIGHT_MAP_PX = 4,
+    GN_LIGHT_STRENGTH = 8,
+};
+struct gn_frame_light_opts { /* all of 4 bytes: hashed */
+    uint32_t light;          /* index in the scene */
+    uint32_t given;          /* bits: enum gn_light_given */
+    enum gn_technique technique;
+    enum gn_encoding encoding;
+    enum gn_moments moments;
+    uint32_t map_px;
+    float strength;
+};
+
 struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     bool technique_given; /* `technique` overrides the lights' own and the default pcf; a light's
                              own none holds */
@@ -31,6 +48,8 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     bool taps_fixed;        /* the same for every pixel */
     bool strength_given;
     float strength; /* overrides the lights' gnomon_shadow_strength */
+    struct gn_frame_light_opts lights[GN_ALL_LIGHTS_MAX]; /* each light once */
+    uint32_t light_count;
 };
 
 struct gn_frame_view_opts {

@@ -35,16 +35,26 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
     return frame->auto_exposure.value;
 }
 
+struct gn_frame_light_opts gn_frame_light_opts(const struct gn_frame_opts *opts, uint32_t light) {
+    for (uint32_t i = 0; i < opts->shadow.light_count; i++)
+        if (opts->shadow.lights[i].light == light) return opts->shadow.lights[i];
+    return (struct gn_frame_light_opts){.light = light};
+}
+
 static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
                                       const struct gn_frame_opts *opts,
+                                      const struct gn_frame_light_opts *one,
                                       struct gn_warnings *warnings) {
+    const bool given = one->given & GN_LIGHT_TECHNIQUE;
     const struct gn_light *light = &frame->scene->lights[index];
     struct gn_light_note *note = &frame->notes.lights.at[index];
-    if (note->unknown && gn_frame_notice(&note->said, GN_NOTICE_TECHNIQUE, warnings))
+    if (note->unknown && !given && gn_frame_notice(&note->said, GN_NOTICE_TECHNIQUE, warnings))
         gn_warn(warnings, "light '%s': gnomon_shadow '%s' is not a known technique; using pcf",
                 light->name, light->technique);
     bool own = note->technique == GN_TECHNIQUE_NONE || !opts->shadow.technique_given;
-    enum gn_technique technique = own ? note->technique : opts->shadow.technique;
+    enum gn_technique technique = given ? one->technique
+                                  : own ? note->technique
+                                        : opts->shadow.technique;
     bool fell_back;
     if (gn_technique_filters_map(technique) &&
         gn_moments_choose(gn_techniques[technique].stores, GN_MOMENTS_NONE,
@@ -65,31 +75,33 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
 }
 
 static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *opts,
-                            struct gn_frame_light *light, struct gn_warnings *warnings) {
+                            const struct gn_frame_light_opts *one, struct gn_frame_light *light,
+                            struct gn_warnings *warnings) {
+    const bool given = one->given & GN_LIGHT_FORMAT;
+    const enum gn_encoding encoding = given ? one->encoding : opts->shadow.encoding;
+    const enum gn_moments moments = given ? one->moments : opts->shadow.moments;
     const struct gn_technique_row *technique = &gn_techniques[light->technique];
     uint32_t *said = &frame->notes.lights.at[light->light].said;
     bool fell_back, moments_fell_back = false;
-    light->encoding = gn_encoding_choose(light->technique, opts->shadow.encoding,
-                                         gn_caps_encodings(&frame->caps), &fell_back);
+    light->encoding =
+        gn_encoding_choose(light->technique, encoding, gn_caps_encodings(&frame->caps), &fell_back);
 
     /* A format can be requested for the moments of a filtered map, or for an unfiltered map, not
      * for both. */
     const bool filters_map = gn_technique_filters_map(light->technique);
     if (filters_map)
-        light->moments = gn_moments_choose(technique->stores, opts->shadow.moments,
+        light->moments = gn_moments_choose(technique->stores, moments,
                                            gn_caps_moments(&frame->caps), &moments_fell_back);
-    const bool wants_map = opts->shadow.encoding != GN_ENCODING_AUTO,
-               wants_moments = opts->shadow.moments;
+    const bool wants_map = encoding != GN_ENCODING_AUTO, wants_moments = moments;
     if ((filters_map ? moments_fell_back || wants_map : wants_moments) &&
         gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
         gn_warn(warnings, "%s does not support map format %s%s; using %s", technique->name,
-                wants_map ? gn_encodings[opts->shadow.encoding].name
-                          : gn_moments[opts->shadow.moments].name,
+                wants_map ? gn_encodings[encoding].name : gn_moments[moments].name,
                 moments_fell_back ? " on this GPU" : "",
                 filters_map ? gn_moments[light->moments].name : gn_encodings[light->encoding].name);
     if (fell_back && gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
         gn_warn(warnings, "this GPU cannot render to map format %s; using %s",
-                gn_encodings[opts->shadow.encoding].name, gn_encodings[light->encoding].name);
+                gn_encodings[encoding].name, gn_encodings[light->encoding].name);
     if (light->encoding != GN_ENCODING_MASK) return;
     if (!opts->shadow.planar_in_stencil) {
         const float radius = frame->scene->lights[light->light].radius;
@@ -177,11 +189,14 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
     frame->light_count = 0;
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
         if (visibility ? (int)i != opts->debug.light : opts->debug.aov != GN_AOV_COLOR) continue;
-        struct gn_frame_light l = {.light = i, .technique = technique_of(frame, i, opts, warnings)};
-        l.strength = opts->shadow.strength_given ? opts->shadow.strength
-                                                 : frame->scene->lights[i].shadow_strength;
+        const struct gn_frame_light_opts one = gn_frame_light_opts(opts, i);
+        struct gn_frame_light l = {.light = i,
+                                   .technique = technique_of(frame, i, opts, &one, warnings)};
+        l.strength = one.given & GN_LIGHT_STRENGTH ? one.strength
+                     : opts->shadow.strength_given ? opts->shadow.strength
+                                                   : frame->scene->lights[i].shadow_strength;
         l.illuminance = illuminance(pose, i);
-        if (casts_shadow(&l)) choose_encoding(frame, opts, &l, warnings);
+        if (casts_shadow(&l)) choose_encoding(frame, opts, &one, &l, warnings);
         if (frame->light_count == most) { /* full: replaces the weakest, or is that itself */
             const uint32_t least = find_weakest(frame, false);
             struct gn_frame_light *at = &frame->lights[least];

@@ -3,6 +3,7 @@
  * text. */
 #include <string.h>
 
+#include "core/hash.h"
 #include "frame/private.h"
 #include "shadow/planar.h"
 
@@ -27,17 +28,20 @@ void gn_frame_learn_scene(struct gn_frame *frame) {
 }
 
 void gn_frame_renew_notices(struct gn_frame *frame, const struct gn_frame_opts *opts) {
-    const uint32_t about[GN_NOTICE_ABOUT] = {opts->shadow.technique_given,
-                                             opts->shadow.technique,
-                                             opts->shadow.encoding,
-                                             opts->debug.aov,
-                                             opts->output_float,
-                                             opts->output_linear,
-                                             opts->msaa,
-                                             opts->shadow.planar_in_stencil,
-                                             opts->shadow.moments,
-                                             opts->shadow.map_px,
-                                             (uint32_t)(opts->shadow.maps_bytes >> 20)};
+    const struct gn_frame_light_opts *lights = opts->shadow.lights;
+    const uint32_t about[GN_NOTICE_ABOUT] = {
+        opts->shadow.technique_given,
+        opts->shadow.technique,
+        opts->shadow.encoding,
+        opts->debug.aov,
+        opts->output_float,
+        opts->output_linear,
+        opts->msaa,
+        opts->shadow.planar_in_stencil,
+        opts->shadow.moments,
+        opts->shadow.map_px,
+        (uint32_t)(opts->shadow.maps_bytes >> 20),
+        (uint32_t)gn_hash(GN_HASH_INIT, lights, opts->shadow.light_count * sizeof *lights)};
     if (memcmp(frame->notes.about, about, sizeof about) == 0) return;
     memcpy(frame->notes.about, about, sizeof about);
     frame->notes.said = 0;

@@ -21,7 +21,7 @@ enum gn_notice {
     GN_NOTICE_MAPS_MB,
     GN_NOTICE_TRIANGLES,
 };
-enum { GN_NOTICE_ABOUT = 11 }; /* options that a warning may be about */
+enum { GN_NOTICE_ABOUT = 12 }; /* options that a warning may be about */
 
 struct gn_frame;
 struct gn_frame_opts;

@@ -197,6 +197,8 @@ struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect
 
 /* ---- lights.c, group.c, slides.c: which lights ---- */
 
+/* What options say of that light of the scene alone; nothing given: no such options. */
+struct gn_frame_light_opts gn_frame_light_opts(const struct gn_frame_opts *opts, uint32_t light);
 /* With what technique and map format; then in groups. */
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, struct gn_warnings *warnings);

@@ -213,6 +213,49 @@ static void test_programs_do_not_change_with_what_is_reached(void **state) {
     gn_plan_end(&f);
 }
 
+/* ---- options of single lights ---- */
+
+static const struct gn_shadow_view *view_of(const struct gn_plan *plan, uint32_t light) {
+    for (uint32_t i = 0; i < plan->shadow_count; i++)
+        if (plan->shadows[i].light == light) return &plan->shadows[i];
+    return NULL;
+}
+
+static void test_options_of_a_light_beat_those_of_all(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.scene->lights[1].technique = "none";
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_PCF;
+    f.opts.shadow.map_px = 512;
+    f.opts.shadow.strength_given = true;
+    f.opts.shadow.strength = 1.0f;
+    f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
+        .light = 1,
+        .given = GN_LIGHT_TECHNIQUE | GN_LIGHT_MAP_PX | GN_LIGHT_FORMAT | GN_LIGHT_STRENGTH,
+        .technique = GN_TECHNIQUE_HARD,
+        .map_px = 128,
+        .encoding = GN_ENCODING_R32UI,
+        .strength = 0.25f};
+    f.opts.shadow.lights[1] = (struct gn_frame_light_opts){
+        .light = 2, .given = GN_LIGHT_TECHNIQUE, .technique = GN_TECHNIQUE_NONE};
+    f.opts.shadow.light_count = 2;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    assert_int_equal(plan->shadow_count, 2);
+    assert_null(view_of(plan, 2));
+    assert_int_equal(view_of(plan, 0)->technique, GN_TECHNIQUE_PCF);
+    assert_int_equal(view_of(plan, 0)->map.tile_px, 512);
+    assert_int_equal(view_of(plan, 1)->technique, GN_TECHNIQUE_HARD);
+    assert_int_equal(view_of(plan, 1)->encoding, GN_ENCODING_R32UI);
+    assert_int_equal(view_of(plan, 1)->map.tile_px, 128);
+    const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
+    const float(*c)[4] = (const float(*)[4])last->constants;
+    assert_true(c[PASS_LIGHTS + LIGHT_COLOR][3] == 1.0f);
+    assert_true(c[PASS_LIGHTS + LIGHT_SIZE + LIGHT_COLOR][3] == 0.25f);
+    gn_plan_end(&f);
+}
+
 /* ---- too many lights ---- */
 
 /* The bulb of the stage, `count` times, each stronger than those before it. */
@@ -412,6 +455,7 @@ int main(void) {
         cmocka_unit_test(test_a_map_that_is_too_large_is_made_smaller_and_said_so),
         cmocka_unit_test(test_many_lights_without_srgb_plan),
         cmocka_unit_test(test_programs_do_not_change_with_what_is_reached),
+        cmocka_unit_test(test_options_of_a_light_beat_those_of_all),
         cmocka_unit_test(test_a_warning_is_given_once),
         cmocka_unit_test(test_the_strongest_that_are_shown_have_the_maps),
         cmocka_unit_test(test_slide_plan),
