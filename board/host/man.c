@@ -16,6 +16,10 @@ static const struct gn_help_entry section_texts[SECTIONS] = {
     {"render", "How it is drawn."},
     {"kiosk", "What gnomon show does by itself."},
 };
+static const char light_text[] =
+    "Settings of the lights of that name: their node's, or their own. They take the place of what "
+    "the scene says of them and of [render]; a mode, an option and gnomon ctl set beat them. "
+    "\"shadow = none\" always holds. Keys, as in [render]:";
 static const struct gn_help_entry variables[] = {
     {"WAYLAND_DISPLAY, DISPLAY",
      "one of them set: gnomon without a command opens a window there, else it uses the screen"},
@@ -228,6 +232,12 @@ static void print_ini(void) {
     print_line(".SS ", "[mode \"NAME\"]", "\n");
     puts("Any number of modes: keys of [scene] and [render] that differ in it. The first one is "
          "shown at the start; without any, each technique is a mode.");
+    print_line(".SS ", "[light \"NAME\"]", "\n");
+    print_line("", light_text, "\n");
+    for (int i = 0, more = 0; i < GN_OPTION_COUNT; i++)
+        if (gn_option_rows[i].of_light)
+            print_line(more++ ? ", " : "", gn_option_key(&gn_option_rows[i], tag, sizeof tag), "");
+    puts(".");
     print_line(".SS ", "[button \"NAME\"]", "\n");
     puts("Any number of buttons; they replace the default ones, which are in \\fBgnomon\\fP(1).");
     for (int i = 0; i < GN_BUTTON_KEY_COUNT; i++) {
@@ -270,8 +280,13 @@ static void print_options(void) {
         }
         putchar('\n');
     }
-    puts("### [mode \"NAME\"]\n\nAny key of [scene] and [render].\n\n### [button \"NAME\"]\n\n"
-         "| key | value | |\n|---|---|---|");
+    printf("### [mode \"NAME\"]\n\nAny key of [scene] and [render].\n\n### [light \"NAME\"]\n\n%s",
+           light_text);
+    for (int i = 0, more = 0; i < GN_OPTION_COUNT; i++)
+        if (gn_option_rows[i].of_light)
+            printf("%s `%s`", more++ ? "," : "",
+                   gn_option_key(&gn_option_rows[i], key, sizeof key));
+    puts(".\n\n### [button \"NAME\"]\n\n| key | value | |\n|---|---|---|");
     for (int i = 0; i < GN_BUTTON_KEY_COUNT; i++)
         print_row(gn_button_key(i)->name, gn_button_key(i)->value, gn_button_key(i)->help);
 }

@@ -32,36 +32,65 @@ struct load {
     struct gn_options *options;
     const char *path;
     struct gn_mode *modes;
-    struct gn_mode *mode;      /* whose section this is, or NULL */
-    struct gn_override **link; /* where its next setting goes */
-    bool in_button;            /* the section is of a button */
+    struct gn_light_section *lights;
+    struct gn_override **first; /* in a mode's or a light's section: its settings; else NULL */
+    struct gn_override **link;  /* where its next setting goes */
+    bool in_mode, in_button;    /* what the section is of */
     struct gn_config_buttons buttons;
     int lines[GN_OPTION_COUNT]; /* where each was set outside of modes */
 };
 
 /* ---- sections ------------------------------------------------------------------------------ */
 
+static bool open_mode(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
+    struct gn_options *options = load->options;
+    if (!line->name)
+        return gn_fail_usage(err, "%s: a mode has a name: [mode \"NAME\"]", line->where);
+    for (int i = 0; i < options->mode_count; i++)
+        if (strcmp(load->modes[i].name, line->name) == 0)
+            return gn_fail_usage(err, "%s: mode \"%s\" is there already, in line %d", line->where,
+                                 line->name, load->modes[i].line);
+    if (options->mode_count == GN_MODES_MAX)
+        return gn_fail_usage(err, "%s: more than %d modes", line->where, GN_MODES_MAX);
+    struct gn_mode *mode = &load->modes[options->mode_count++];
+    mode->name = gn_arena_strdup(&options->arena, line->name);
+    mode->line = line->number;
+    load->first = load->link = &mode->first;
+    return mode->name || gn_fail(err, "%s: no memory left", line->where);
+}
+
+static bool open_light(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
+    struct gn_settings *all = &load->options->all[0];
+    struct gn_arena *arena = &load->options->arena;
+    if (!line->name)
+        return gn_fail_usage(err, "%s: a light has a name: [light \"NAME\"]", line->where);
+    for (int i = 0; i < all->light_count; i++)
+        if (strcmp(load->lights[i].name, line->name) == 0)
+            return gn_fail_usage(err, "%s: light \"%s\" is there already, in line %d", line->where,
+                                 line->name, load->lights[i].line);
+    if (all->light_count == GN_LIGHT_SECTIONS_MAX)
+        return gn_fail_usage(err, "%s: more than %d lights", line->where, GN_LIGHT_SECTIONS_MAX);
+    if (!load->lights)
+        load->lights = gn_arena_alloc(arena, GN_LIGHT_SECTIONS_MAX, sizeof *load->lights);
+    if (!load->lights) return gn_fail(err, "%s: no memory left", line->where);
+    all->lights = load->lights;
+    struct gn_light_section *light = &load->lights[all->light_count++];
+    light->name = gn_arena_strdup(arena, line->name);
+    light->label = gn_arena_strdup(arena, line->where);
+    light->line = line->number;
+    load->first = load->link = &light->first;
+    return (light->name && light->label) || gn_fail(err, "%s: no memory left", line->where);
+}
+
 static bool open_section(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
     static const char *const plain[] = {"display", "scene", "render", "kiosk"};
     struct gn_options *options = load->options;
     struct gn_config_buttons *buttons = &load->buttons;
-    load->mode = NULL;
+    load->first = NULL;
+    load->in_mode = strcmp(line->section, "mode") == 0;
     load->in_button = strcmp(line->section, "button") == 0;
-    if (strcmp(line->section, "mode") == 0) {
-        if (!line->name)
-            return gn_fail_usage(err, "%s: a mode has a name: [mode \"NAME\"]", line->where);
-        for (int i = 0; i < options->mode_count; i++)
-            if (strcmp(load->modes[i].name, line->name) == 0)
-                return gn_fail_usage(err, "%s: mode \"%s\" is there already, in line %d",
-                                     line->where, line->name, load->modes[i].line);
-        if (options->mode_count == GN_MODES_MAX)
-            return gn_fail_usage(err, "%s: more than %d modes", line->where, GN_MODES_MAX);
-        load->mode = &load->modes[options->mode_count++];
-        load->mode->name = gn_arena_strdup(&options->arena, line->name);
-        load->mode->line = line->number;
-        load->link = &load->mode->first;
-        return load->mode->name || gn_fail(err, "%s: no memory left", line->where);
-    }
+    if (load->in_mode) return open_mode(load, line, err);
+    if (strcmp(line->section, "light") == 0) return open_light(load, line, err);
     if (load->in_button) {
         buttons->arena = &options->arena;
         if (!buttons->buttons)
@@ -74,11 +103,11 @@ static bool open_section(struct load *load, const struct gn_ini_line *line, stru
         if (strcmp(line->section, plain[i]) == 0)
             return !line->name ||
                    gn_fail_usage(err, "%s: [%s] has no name", line->where, line->section);
-    return gn_fail_usage(
-        err,
-        "%s: unknown section [%s]; expected [display], [scene], [render], [kiosk], [mode \"NAME\"] "
-        "or [button \"NAME\"]",
-        line->where, line->section);
+    return gn_fail_usage(err,
+                         "%s: unknown section [%s]; expected [display], [scene], [render], "
+                         "[kiosk], [mode \"NAME\"], "
+                         "[light \"NAME\"] or [button \"NAME\"]",
+                         line->where, line->section);
 }
 
 /* ---- settings ------------------------------------------------------------------------------ */
@@ -105,18 +134,17 @@ static bool fail_key(const struct gn_ini_line *line, const char *section, struct
                          line->section, near);
 }
 
-static struct gn_override *find_override(const struct gn_mode *mode,
+static struct gn_override *find_override(struct gn_override *override,
                                          const struct gn_option_row *row) {
-    struct gn_override *override = mode->first;
     while (override && override->row != row) override = override->next;
     return override;
 }
 
 static int line_before(struct load *load, const struct gn_option_row *row) {
-    if (row->kind == GN_KIND_LIMIT || (row->kind == GN_KIND_SCENES && !load->mode))
+    if (row->kind == GN_KIND_LIMIT || (row->kind == GN_KIND_SCENES && !load->in_mode))
         return 0; /* may be given again */
-    if (!load->mode) return load->lines[row - gn_option_rows];
-    const struct gn_override *override = find_override(load->mode, row);
+    if (!load->first) return load->lines[row - gn_option_rows];
+    const struct gn_override *override = find_override(*load->first, row);
     return override ? override->line : 0;
 }
 
@@ -124,7 +152,7 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
     struct load *load = user;
     if (!line->key) return open_section(load, line, err);
     if (load->in_button) return gn_config_button_set(&load->buttons, line, err);
-    const char *section = load->mode ? NULL : line->section;
+    const char *section = load->in_mode ? NULL : line->section;
     const struct gn_option_row *row = gn_option_find_key(section, line->key);
     if (!row) return fail_key(line, section, err);
     if (line_before(load, row))
@@ -139,12 +167,12 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
         snprintf(path, sizeof path, "%.*s%s", (int)(slash - load->path + 1), load->path, text);
         text = path;
     }
-    if (!load->mode) {
+    if (!load->first) {
         load->lines[row - gn_option_rows] = line->number;
         return gn_options_set(load->options, row, text, GN_SOURCE_INI, label, err);
     }
     struct gn_arena *arena = &load->options->arena;
-    struct gn_override *override = find_override(load->mode, row);
+    struct gn_override *override = find_override(*load->first, row);
     if (override)
         return gn_options_parse(load->options, row, text, override->value, arena, label, err);
     override = gn_arena_alloc(arena, 1, sizeof *override);

@@ -56,12 +56,21 @@ bool gn_options_set(struct gn_options *options, const struct gn_option_row *row,
 
 /* ---- modes --------------------------------------------------------------------------------- */
 
+static bool names_several_scenes(const struct gn_options *options) {
+    if (options->all[0].scene.list.count > 1) return true;
+    for (int i = 0; i < options->mode_count; i++)
+        for (const struct gn_override *o = options->modes[i].first; o; o = o->next)
+            if (o->row->kind == GN_KIND_SCENES) return true;
+    return false;
+}
+
 void gn_options_resolve(struct gn_options *options) {
     const int modes = options->mode_count ? options->mode_count : GN_TECHNIQUE_COUNT;
     const struct gn_option_row *shadow = gn_option_find_key("render", "shadow");
     options->all = gn_xrealloc(options->all, (size_t)modes + 1, sizeof *options->all);
     options->all_count = modes + 1;
     options->settings = options->all;
+    options->all[0].several_scenes = names_several_scenes(options);
     for (int i = 0; i < modes; i++) {
         struct gn_settings *settings = &options->all[1 + i];
         *settings = options->all[0];

@@ -8,13 +8,6 @@
 #include "options/binding.h"
 #include "options/settings.h"
 
-struct gn_override { /* one setting of a mode, as the file has it */
-    const struct gn_option_row *row;
-    void *value;       /* as in the field */
-    const char *label; /* "kiosk.ini:31: camera" */
-    int line;
-    struct gn_override *next;
-};
 struct gn_mode {
     const char *name;
     int line;

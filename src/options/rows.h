@@ -21,11 +21,11 @@ GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min 
 GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
           .fallback = "1280x720", .help = "size of the picture", .commands = DRAW, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
 GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
-          .help = "shadow technique; for bench a comma-separated list", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.shadow))
+          .help = "shadow technique; for bench a comma-separated list", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow))
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
-          .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_px))
+          .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.map_px))
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
-          .help = "texture format of shadow maps; rg32ui and those after it: for filtered techniques", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_format))
+          .help = "texture format of shadow maps; rg32ui and those after it: for filtered techniques", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.map_format))
 GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
           .help = "draw planar shadows with a mask texture (edges one texel soft), the stencil buffer (sharp edges) or the mean of masks over the lamp (exact penumbrae)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar))
 GN_OPTION(.name = "planar-points", .section = "render", .kind = GN_KIND_CHOICE, .choices = lamp_points, .value = "N", .fallback = "64",
@@ -37,7 +37,7 @@ GN_OPTION(.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,
 GN_OPTION(.name = "filter-budget", .section = "render", .kind = GN_KIND_NUMBER, .max = 10000, .value = "N", .unit = "million texels", .fallback = "4",
           .help = "limit on filtered maps updated in one frame when many lights move; 0: no limit", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(render.filter_budget))
 GN_OPTION(.name = "shadow-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1, .value = "X", .fallback = "1",
-          .help = "share of direct light that a shadow removes", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.shadow_strength))
+          .help = "share of direct light that a shadow removes", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow_strength))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
           .help = "draw a gizmo at each light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.show_lights))
 GN_OPTION(.name = "show-maps", .section = "render", .kind = GN_KIND_FLAG,

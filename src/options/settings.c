@@ -38,6 +38,14 @@ enum gn_source gn_settings_source(const struct gn_settings *settings, size_t off
     return settings->source[index_of_field(offset)];
 }
 
+bool gn_settings_light_holds(const struct gn_settings *settings,
+                             const struct gn_override *override) {
+    const struct gn_technique_list *techniques = override->value;
+    const bool casts_none =
+        override->row->kind == GN_KIND_TECHNIQUES && techniques->items[0] == GN_TECHNIQUE_NONE;
+    return casts_none || settings->source[index_of_row(override->row)] < GN_SOURCE_MODE;
+}
+
 const char *gn_settings_label_at(const struct gn_settings *settings, size_t offset) {
     const char *label = settings->label[index_of_field(offset)];
     return label ? label : gn_option_rows[index_of_field(offset)].name;

@@ -52,6 +52,22 @@ enum gn_source {
     GN_SOURCE_SET, /* by `ctl set`, until a reload */
 };                 /* later ones override earlier ones */
 
+struct gn_override { /* one setting of a mode or a light, as the file has it */
+    const struct gn_option_row *row;
+    void *value;       /* as in the field */
+    const char *label; /* "kiosk.ini:31: camera" */
+    int line;
+    struct gn_override *next;
+};
+/* [light "NAME"]: settings of the lights of that name alone. */
+enum { GN_LIGHT_SECTIONS_MAX = 32 };
+struct gn_light_section {
+    const char *name;
+    const char *label; /* "kiosk.ini:31" */
+    int line;
+    struct gn_override *first; /* in the order of the file; NULL: it changes nothing */
+};
+
 struct gn_scene_settings {
     union {
         const char *path;          /* NULL: the default scene inside the program */
@@ -118,6 +134,9 @@ struct gn_settings {
     struct gn_display_settings display;
     struct gn_kiosk_settings kiosk;
     struct gn_run_settings run;
+    const struct gn_light_section *lights; /* of the file, the same in every mode */
+    int light_count;
+    bool several_scenes;                /* some mode or next-scene shows another one */
     uint8_t source[GN_OPTION_COUNT];    /* enum gn_source of each row */
     const char *label[GN_OPTION_COUNT]; /* see gn_settings_label(); NULL: at its default */
 };
@@ -139,6 +158,10 @@ enum gn_source gn_settings_source(const struct gn_settings *settings, size_t off
 const char *gn_settings_label_at(const struct gn_settings *settings, size_t offset);
 #define gn_settings_label(settings, field)                                                         \
     gn_settings_label_at(settings, offsetof(struct gn_settings, field))
+/* Whether a setting of a light section holds: it beats the scene and the sections without a name,
+ * not a mode, a flag or `ctl set`. A light that is to cast no shadow (none) never does. */
+bool gn_settings_light_holds(const struct gn_settings *settings,
+                             const struct gn_override *override);
 #define gn_settings_given(settings, field)                                                         \
     (gn_settings_source(settings, offsetof(struct gn_settings, field)) != GN_SOURCE_DEFAULT)
 

@@ -96,12 +96,16 @@ const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t 
     return buffer;
 }
 
+static bool is_of_section(const struct gn_option_row *row, const char *section) {
+    if (!row->section) return false;
+    if (!section) return strcmp(row->section, "scene") == 0 || strcmp(row->section, "render") == 0;
+    return strcmp(section, "light") == 0 ? row->of_light : strcmp(row->section, section) == 0;
+}
+
 const struct gn_option_row *gn_option_find_key(const char *section, const char *key) {
     char buffer[64];
     for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++)
-        if (row->section &&
-            (section ? strcmp(row->section, section) == 0
-                     : strcmp(row->section, "scene") == 0 || strcmp(row->section, "render") == 0) &&
+        if (is_of_section(row, section) &&
             strcmp(gn_option_key(row, buffer, sizeof buffer), key) == 0)
             return row;
     return NULL;

@@ -69,6 +69,7 @@ struct gn_option_row {
     const char *help;     /* a phrase without full stop */
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     enum gn_change change;
+    bool of_light; /* a key of [light "NAME"], too */
     bool reopens;  /* a reload that changes it opens the display again */
     size_t offset; /* of its field in struct gn_settings */
 };
@@ -83,7 +84,8 @@ extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
 const struct gn_option_row *gn_option_find(const char *name,
                                            size_t length); /* by --name, or NULL */
 const struct gn_option_row *gn_option_find_letter(char letter);
-/* By INI section and key; NULL section: any of scene and render, as in [mode "NAME"]. */
+/* By INI section and key; NULL section: any of scene and render, as in [mode "NAME"]; "light": as
+ * in [light "NAME"]. */
 const struct gn_option_row *gn_option_find_key(const char *section, const char *key);
 const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t size);
 

@@ -7,6 +7,7 @@
 #include "core/embedded.h"
 #include "core/stop.h"
 #include "stage/import.h"
+#include "stage/lights.h"
 #include "stage/wake.h"
 
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
@@ -126,6 +127,7 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     struct gn_scene_limits limits;
     if (!gn_stage_limits(o, &limits, err)) return false;
     set_frame_opts(&look->frame_opts, o);
+    gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
     limits = gn_scene_limits_or_default(&limits);
     look->frame_opts.shadow.maps_bytes = limits.maps_mb << 20;
     look->frame_opts.shadow.triangles = limits.triangles_per_frame;

@@ -16,6 +16,7 @@ static const char good[] =
     "[render]\nshadow = pcf\nmap = 512\nexposure = auto\nlimit = nodes=9\n"
     "[kiosk]\nsocket = ctl\ncaptions = yes\ncaption_seconds = 2\n"
     "[mode \"Soft\"]\nshadow = pcss\n[mode \"Plan\"]\ncamera = Top\n"
+    "[light \"Sun\"]\nshadow = pcss\nmap = 256\n"
     "[button \"next\"]\nline = GPIO17\nkeys = space right\nactive_high = no\nbias = pull-up\n"
     "hold_ms = 900\npress = next\nhold = mode Soft\n"
     "[button \"prev\"]\nline = label:rp1/27\nclick = prev\ndouble = pause\n"

@@ -10,6 +10,7 @@
 #include "options/args.h"
 #include "options/file.h"
 #include "options/ini.h"
+#include "stage/lights.h"
 #include "unit/folder.h"
 
 static char folder[] = "/tmp/gnomon-ini-XXXXXX";
@@ -217,6 +218,36 @@ static void a_mode_is_undone_by_the_next(void **state) {
     assert_int_equal(options.settings->render.map_px, 256);
 }
 
+static const char lights[] = "[render]\nshadow = hard\nmap = 512\n"
+                             "[light \"Sun\"]\nshadow = pcss\nmap = 2048\n"
+                             "[light \"Lamp 2\"]\nshadow = none\n[light \"Empty\"]\n"
+                             "[mode \"Plain\"]\n[mode \"Soft\"]\nshadow = pcf5\n";
+
+/* What holds of a section, in a mode. */
+static void assert_light(const char *mode, int light, const char *holds) {
+    char text[200];
+    if (mode) assert_true(gn_options_choose(&options, mode, &err));
+    gn_stage_print_light(options.settings, &options.settings->lights[light], text, sizeof text);
+    assert_string_equal(text, holds);
+}
+
+static void a_light_beats_the_file_and_not_a_mode(void **state) {
+    (void)state;
+    write_file("k.ini", lights);
+    char *path = (char *)in_folder("k.ini");
+    assert_true(PARSE("gnomon", "show", "-c", path));
+    assert_shadow("hard");
+    assert_int_equal(options.settings->light_count, 3);
+    assert_string_equal(options.settings->lights[1].name, "Lamp 2");
+    assert_light(NULL, 0, "shadow = pcss, map = 2048");
+    assert_light("Plain", 0, "shadow = pcss, map = 2048");
+    assert_light("Soft", 0, "map = 2048");
+    assert_light("Soft", 1, "shadow = none"); /* it never casts any */
+    assert_light("Soft", 2, "");
+    assert_true(PARSE("gnomon", "render", "-c", path, "--map", "64"));
+    assert_light(NULL, 0, "shadow = pcss");
+}
+
 static void assert_file_refused(const char *text, const char *says) {
     write_file("bad.ini", text);
     if (PARSE("gnomon", "render", "-c", (char *)in_folder("bad.ini"))) fail_msg("taken: %s", text);
@@ -252,6 +283,29 @@ static void what_a_file_may_not_say(void **state) {
     assert_file_refused("[mode \"a\"]\nconnector = x\n", "bad.ini:2: unknown key \"connector\"");
     assert_file_refused("[mode \"a\"]\n[mode \"b\"]\n[mode \"a\"]\n",
                         "bad.ini:3: mode \"a\" is there already, in line 1");
+    assert_file_refused("[light]\n", "bad.ini:1: a light has a name: [light \"NAME\"]");
+    assert_file_refused("[light \"a\"]\n[light \"a\"]\n",
+                        "bad.ini:2: light \"a\" is there already, in line 1");
+    assert_file_refused("[light \"a\"]\nmap = 64\nmap = 64\n",
+                        "bad.ini:3: map is set already, in line 2");
+    assert_file_refused("[light \"a\"]\nmap = 8\n", "bad.ini:2: map: \"8\"");
+    assert_file_refused("[light \"a\"]\nshadw = pcf\n",
+                        "bad.ini:2: unknown key \"shadw\" in [light]; expected shadow");
+    assert_file_refused("[light \"a\"]\nmsaa = 4\n", "bad.ini:2: unknown key \"msaa\"; keys of [light]: shadow,");
+}
+
+static void there_are_so_many_lights(void **state) {
+    (void)state;
+    char text[2000] = "";
+    size_t used = 0;
+    for (int i = 0; i <= GN_LIGHT_SECTIONS_MAX; i++) {
+        used += (size_t)snprintf(text + used, sizeof text - used, "[light \"%d\"]\n", i);
+        if (i + 1 < GN_LIGHT_SECTIONS_MAX) continue;
+        write_file("k.ini", text);
+        assert_int_equal(PARSE("gnomon", "render", "-c", (char *)in_folder("k.ini")),
+                         i < GN_LIGHT_SECTIONS_MAX);
+    }
+    assert_non_null(strstr(err.text, "k.ini:33: more than 32 lights"));
 }
 
 /* Each line of a good file is replaced by a wrong one: always refused, by its own line. */
@@ -346,6 +400,8 @@ int main(void) {
         cmocka_unit_test(a_mode_is_undone_by_the_next),
         cmocka_unit_test(what_a_file_may_not_say),
         cmocka_unit_test(every_line_broken_in_turn_is_found),
+        cmocka_unit_test(a_light_beats_the_file_and_not_a_mode),
+        cmocka_unit_test(there_are_so_many_lights),
         cmocka_unit_test(a_missing_file_is_a_runtime_error),
         cmocka_unit_test(a_kiosk_runs_on_without_its_bad_file),
         cmocka_unit_test(only_show_and_the_bare_command_search),

@@ -1,0 +1,20 @@
+/* [light "NAME"] of the configuration: what it says of the lights of a scene. */
+#ifndef GN_STAGE_LIGHTS_H
+#define GN_STAGE_LIGHTS_H
+
+#include "core/warn.h"
+#include "frame/frame.h"
+#include "options/settings.h"
+
+/* Whether the section is of that light: by the name of its node, or its own. */
+bool gn_light_section_is_of(const struct gn_light_section *section, const struct gn_scene *scene,
+                            uint32_t light);
+/* Fills opts->lights. A section that is of no light gives a warning, unless there are other scenes.
+ */
+void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_settings *settings,
+                         const struct gn_scene *scene, struct gn_warnings *warnings);
+/* What holds of a section, as "shadow = pcss, map = 512"; "" if that is nothing. */
+void gn_stage_print_light(const struct gn_settings *settings,
+                          const struct gn_light_section *section, char *out, size_t size);
+
+#endif
