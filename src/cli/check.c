@@ -12,6 +12,7 @@
 #include "options/args.h"
 #include "options/binding.h"
 #include "options/value.h"
+#include "stage/lights.h"
 #include "stage/stage.h"
 
 enum { SCENES_MAX = GN_SCENES_MAX + GN_MODES_MAX };
@@ -70,6 +71,19 @@ static bool check_looks(struct check *c, const struct gn_settings *settings, str
             return true;
         }
     return false;
+}
+
+/* Of several scenes none may have a light of that name. */
+static void check_lights(struct check *c, const struct gn_settings *s) {
+    for (int k = 0; k < s->light_count && s->several_scenes; k++) {
+        bool found = false;
+        for (int n = 0; n < c->scene_count; n++)
+            for (uint32_t i = 0; i < c->scenes[n]->light_count; i++)
+                found |= gn_light_section_is_of(&s->lights[k], c->scenes[n], i);
+        if (!found)
+            gn_warn(c->warnings, "%s: light \"%s\": no scene has a light of that name",
+                    s->lights[k].label, s->lights[k].name);
+    }
 }
 
 /* ---- what else the settings name ------------------------------------------------------------ */
@@ -175,6 +189,12 @@ static void print_check(const struct check *c, const struct gn_options *o) {
             print_setting(set->row, set->value, count++);
         puts(count ? "" : "no settings of its own");
     }
+    for (int i = 0; i < o->settings->light_count; i++) {
+        const struct gn_light_section *light = &o->settings->lights[i];
+        char text[400];
+        gn_stage_print_light(o->settings, light, text, sizeof text);
+        printf("light \"%s\": %s\n", light->name, text[0] ? text : "no settings of its own");
+    }
     print_buttons(o);
 }
 
@@ -188,6 +208,7 @@ bool gn_cli_check(const struct gn_options *options, struct gn_warnings *warnings
          check_names(again.settings, err) && check_looks(&c, again.settings, err);
     for (int i = 0; ok && i < again.mode_count; i++)
         ok = check_names(&again.all[1 + i], err) && check_looks(&c, &again.all[1 + i], err);
+    if (ok) check_lights(&c, again.settings);
     if (ok) print_check(&c, options);
     for (int i = 0; i < c.scene_count; i++) gn_scene_destroy(c.scenes[i]);
     gn_options_finish(&again);

@@ -3,6 +3,7 @@
 #include "cli/inspect.h"
 
 #include "cli/commands.h"
+#include "stage/lights.h"
 #include "stage/stage.h"
 
 bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnings,
@@ -16,11 +17,14 @@ bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnin
     }
     limits = gn_scene_limits_or_default(&limits);
     struct gn_inspection in;
+    struct gn_frame_shadow_opts unused = {0};
+    gn_stage_set_lights(&unused, options->settings, scene, warnings); /* for its warnings */
     bool ok = true;
     const char *path = options->settings->scene.path;
     gn_inspect_build(&in, path ? path : "(default scene)", scene, limits.triangles_per_frame,
                      warnings);
     gn_scene_limits_print(&limits, in.limits, sizeof in.limits);
+    in.settings = options->settings;
     if (in.cost.map_bytes > limits.maps_mb << 20)
         gn_problem_add(&in.advice, "lower gnomon_map_px, or give fewer lights a shadow",
                        "shadow maps of %llu MB exceed the limit maps_mb=%llu: they are reduced",

@@ -7,6 +7,7 @@
 #include "cli/problem.h"
 #include "core/err.h"
 #include "core/warn.h"
+#include "options/settings.h"
 #include "scene/scene.h"
 
 enum { GN_INSPECT_WIDTH_PX = 1280, GN_INSPECT_HEIGHT_PX = 720 };
@@ -24,12 +25,14 @@ struct gn_inspection {
     const char *file; /* as in messages */
     const struct gn_scene *scene;
     const struct gn_warnings *warnings; /* of loading */
+    const struct gn_settings *settings; /* for [light "NAME"], or NULL */
     char limits[400];                   /* as gn_scene_limits_print() makes them, or "" */
     struct gn_scene_cost cost;
     struct gn_problem_list advice;
 };
 
-/* All but `limits` of it; file and scene must outlive it. triangles: of a frame at most, or 0. */
+/* All but `limits` and `settings` of it; file and scene must outlive it. triangles: of a frame at
+ * most, or 0. */
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
                       uint64_t triangles, const struct gn_warnings *warnings);
 /* Fills advice; the cost must be known. */
@@ -43,7 +46,8 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to);
  * images [{width_px, height_px, alpha, bytes}],
  * lights [{name, type, intensity, unit, color, range_m|null, inner_deg|null, outer_deg|null,
  *     gnomon_shadow|null, gnomon_map_px|null, gnomon_radius, gnomon_shadow_strength,
- *     gnomon_slide|null, made}] (intensity: of the strongest channel; made: not in the file),
+ *     gnomon_slide|null, made, settings}] (settings: those of [light "NAME"], as text;
+ *     intensity: of the strongest channel; made: not in the file),
  * cameras [{name, type, yfov_deg|null, half_height_m|null, near_m, far_m|null, made}],
  * clips [{name, duration_s, channels, on}] (on: plays by default),
  * hemisphere {sky, ground, background},

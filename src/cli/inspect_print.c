@@ -7,12 +7,27 @@
 #include "cli/units.h"
 #include "core/json.h"
 #include "core/text.h"
+#include "stage/lights.h"
 
 static double max_channel(const struct gn_light *light) {
     return (double)fmaxf(light->color[0], fmaxf(light->color[1], light->color[2]));
 }
 
 static bool is_made(bool made, uint32_t i, uint32_t count) { return made && i + 1 == count; }
+
+/* What the configuration says of that light: of each section that is of it. */
+static void print_settings(const struct gn_inspection *in, uint32_t light, char *out, size_t size) {
+    const struct gn_settings *s = in->settings;
+    size_t used = 0;
+    out[0] = '\0';
+    for (int i = 0; s && i < s->light_count; i++) {
+        char text[300];
+        if (!gn_light_section_is_of(&s->lights[i], in->scene, light)) continue;
+        gn_stage_print_light(s, &s->lights[i], text, sizeof text);
+        if (text[0] && used < size)
+            used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "", text);
+    }
+}
 
 struct kinds {
     uint32_t alpha[3], unlit, double_sided;
@@ -44,7 +59,8 @@ __attribute__((format(printf, 2, 3))) static void print_line(FILE *to, const cha
     fprintf(to, "  %s\n", text);
 }
 
-static void print_lists(const struct gn_scene *s, FILE *to) {
+static void print_lists(const struct gn_inspection *in, FILE *to) {
+    const struct gn_scene *s = in->scene;
     if (s->pictures.image_count)
         fprintf(to, "\nTextures: %u of %u images\n", s->pictures.texture_count,
                 s->pictures.image_count);
@@ -70,6 +86,9 @@ static void print_lists(const struct gn_scene *s, FILE *to) {
                    light->technique ? light->technique : "by mode", map, (double)light->radius,
                    (double)light->shadow_strength, slide,
                    is_made(s->added.light, i, s->light_count) ? " (made: the file has none)" : "");
+        char own[320];
+        print_settings(in, i, own, sizeof own);
+        if (own[0]) print_line(to, "    by the configuration: %s", own);
     }
     fprintf(to, "\nCameras\n");
     for (uint32_t i = 0; i < s->camera_count; i++) {
@@ -116,7 +135,7 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
     for (int i = 0; i < 3; i++)
         print_line(to, "%-11s %.3g %.3g %.3g", names[i], (double)colors[i][0], (double)colors[i][1],
                    (double)colors[i][2]);
-    print_lists(s, to);
+    print_lists(in, to);
 
     const struct gn_scene_cost *c = &in->cost;
     fprintf(to, "\nCost at %dx%d through the first camera\n", GN_INSPECT_WIDTH_PX,
@@ -156,13 +175,16 @@ static json_t *vector_json(const float *v) {
                      gn_json_make_number((double)v[2]));
 }
 
-static json_t *light_json(const struct gn_scene *s, uint32_t i) {
+static json_t *light_json(const struct gn_inspection *in, uint32_t i) {
+    const struct gn_scene *s = in->scene;
+    char own[320];
+    print_settings(in, i, own, sizeof own);
     const struct gn_light *l = &s->lights[i];
     double strongest = max_channel(l);
     bool spot = gn_light_types[l->type].has_cone;
     vec3 color;
     for (int k = 0; k < 3; k++) color[k] = strongest > 0 ? l->color[k] / (float)strongest : 0.0f;
-    return json_pack("{so ss so ss so so so so so so so so so sb}", "name",
+    return json_pack("{so ss so ss so so so so so so so so so sb so}", "name",
                      gn_json_make_text(l->name), "type", gn_light_types[l->type].name, "intensity",
                      gn_json_make_number(strongest), "unit", gn_light_types[l->type].unit, "color",
                      vector_json(color), "range_m", number_or_null(l->range_m > 0, l->range_m),
@@ -173,7 +195,8 @@ static json_t *light_json(const struct gn_scene *s, uint32_t i) {
                      gn_json_make_number(l->radius), "gnomon_shadow_strength",
                      gn_json_make_number(l->shadow_strength), "gnomon_slide",
                      l->slide >= 0 ? gn_json_make_count((uint64_t)l->slide) : json_null(), "made",
-                     is_made(s->added.light, i, s->light_count));
+                     is_made(s->added.light, i, s->light_count), "settings",
+                     gn_json_make_text(own[0] ? own : NULL));
 }
 
 /* The description in inspect.h up to the materials. */
@@ -201,7 +224,8 @@ static json_t *content_json(const struct gn_inspection *in) {
                      "materials", materials);
 }
 
-static void add_lists(json_t *all, const struct gn_scene *s) {
+static void add_lists(json_t *all, const struct gn_inspection *in) {
+    const struct gn_scene *s = in->scene;
     json_t *images = json_array(), *lights = json_array(), *cameras = json_array();
     json_t *clips = json_array();
     for (uint32_t i = 0; i < s->pictures.image_count; i++) {
@@ -212,7 +236,7 @@ static void add_lists(json_t *all, const struct gn_scene *s) {
                       gn_json_make_count(image->height_px), "alpha", image->has_alpha, "bytes",
                       gn_json_make_count(gn_scene_image_bytes(&s->pictures.images[i]))));
     }
-    for (uint32_t i = 0; i < s->light_count; i++) json_array_append_new(lights, light_json(s, i));
+    for (uint32_t i = 0; i < s->light_count; i++) json_array_append_new(lights, light_json(in, i));
     for (uint32_t i = 0; i < s->camera_count; i++) {
         const struct gn_camera *c = &s->cameras[i];
         json_array_append_new(
@@ -241,7 +265,7 @@ bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_e
     const struct gn_scene *s = in->scene;
     const struct gn_scene_cost *c = &in->cost;
     json_t *all = content_json(in);
-    add_lists(all, s);
+    add_lists(all, in);
     json_object_set_new(all, "hemisphere",
                         json_pack("{so so so}", "sky", vector_json(s->environment.sky), "ground",
                                   vector_json(s->environment.ground), "background",

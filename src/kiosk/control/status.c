@@ -8,6 +8,7 @@
 #include "core/clock.h"
 #include "core/json.h"
 #include "kiosk/private.h"
+#include "stage/lights.h"
 
 /* Resident memory in MiB: cheap to read, and shows leaks. */
 static double memory_mb(struct gn_show_status *status, int64_t now_ns) {
@@ -31,6 +32,24 @@ static uint32_t camera_of(const struct gn_show *s) {
     const bool resets = mode != shown && s->rules.own_camera >> mode & 1;
     const uint32_t first = (uint32_t)s->looks.of[mode].frame_opts.view.camera;
     return (first + (resets ? 0 : s->kiosk.camera)) % s->stage.scene->camera_count;
+}
+
+/* What the file says of single lights: [{name, holds, here}]; here: the scene shown has one. */
+static json_t *lights_json(const struct gn_show *s) {
+    const struct gn_settings *o = s->stage.settings;
+    const struct gn_scene *scene = s->stage.scene;
+    json_t *lights = json_array();
+    for (int i = 0; i < o->light_count; i++) {
+        char holds[400];
+        bool here = false;
+        for (uint32_t k = 0; scene && k < scene->light_count; k++)
+            here |= gn_light_section_is_of(&o->lights[i], scene, k);
+        gn_stage_print_light(o, &o->lights[i], holds, sizeof holds);
+        json_array_append_new(lights, json_pack("{s:o, s:o, s:b}", "name",
+                                                gn_json_make_text(o->lights[i].name), "holds",
+                                                gn_json_make_text(holds), "here", here));
+    }
+    return lights;
 }
 
 json_t *gn_show_status_short(const struct gn_show *s) {
@@ -59,6 +78,7 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     json_object_update_new(reply, gn_show_status_short(s));
     json_object_set_new(reply, "waits", json_boolean(status->waits || gn_kiosk_waits(&s->kiosk)));
     json_object_set_new(reply, "modes", modes);
+    if (s->stage.settings->light_count > 0) json_object_set_new(reply, "lights", lights_json(s));
     json_object_set_new(reply, "screen",
                         json_pack("{s:s, s:o, s:o, s:b, s:i, s:i, s:i}", "backend",
                                   display->ops ? display->ops->name : "", "what",
