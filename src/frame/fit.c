@@ -24,6 +24,8 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
             .map_px = asked < most ? asked : most,
             .points = opts->shadow.planar_points,
             .all_receive = opts->debug.aov == GN_AOV_VISIBILITY,
+            .radius_given = one.given & GN_LIGHT_RADIUS,
+            .radius = one.radius,
             .cascades = opts->shadow.cascades ? opts->shadow.cascades : GN_CASCADES_MAX};
         struct gn_shadow_opts *shadow = &maps[slot];
         gn_frame_make_memories(frame, slot, gn_shadow_tile_count(l->type, light->technique));

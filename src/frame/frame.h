@@ -13,6 +13,7 @@ enum gn_light_given {
     GN_LIGHT_FORMAT = 2, /* encoding and moments */
     GN_LIGHT_MAP_PX = 4,
     GN_LIGHT_STRENGTH = 8,
+    GN_LIGHT_RADIUS = 16,
 };
 struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t light;          /* index in the scene */
@@ -22,6 +23,7 @@ struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     enum gn_moments moments;
     uint32_t map_px;
     float strength;
+    float radius; /* as in gn_light */
 };
 
 struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */

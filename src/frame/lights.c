@@ -104,7 +104,8 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
                 gn_encodings[encoding].name, gn_encodings[light->encoding].name);
     if (light->encoding != GN_ENCODING_MASK) return;
     if (!opts->shadow.planar_in_stencil) {
-        const float radius = frame->scene->lights[light->light].radius;
+        const float radius =
+            one->given & GN_LIGHT_RADIUS ? one->radius : frame->scene->lights[light->light].radius;
         if (opts->shadow.planar_points && radius > 0.0f) light->encoding = GN_ENCODING_MEAN;
         return;
     }

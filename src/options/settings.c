@@ -43,7 +43,10 @@ bool gn_settings_light_holds(const struct gn_settings *settings,
     const struct gn_technique_list *techniques = override->value;
     const bool casts_none =
         override->row->kind == GN_KIND_TECHNIQUES && techniques->items[0] == GN_TECHNIQUE_NONE;
-    return casts_none || settings->source[index_of_row(override->row)] < GN_SOURCE_MODE;
+    const bool is_radius =
+        override->row->offset == offsetof(struct gn_settings, render.light_radius);
+    return casts_none || is_radius ||
+           settings->source[index_of_row(override->row)] < GN_SOURCE_MODE;
 }
 
 const char *gn_settings_label_at(const struct gn_settings *settings, size_t offset) {

@@ -91,6 +91,7 @@ struct gn_render_settings {
     bool taps_fixed;
     double filter_budget;   /* million texels; 0: no limit */
     double shadow_strength; /* set it overrides that of lights */
+    double light_radius;    /* of a light made for a scene without any, as in gn_light */
     bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */
     int aov;   /* enum gn_aov, or GN_AOV_COUNT: the light's map */
@@ -159,7 +160,8 @@ const char *gn_settings_label_at(const struct gn_settings *settings, size_t offs
 #define gn_settings_label(settings, field)                                                         \
     gn_settings_label_at(settings, offsetof(struct gn_settings, field))
 /* Whether a setting of a light section holds: it beats the scene and the sections without a name,
- * not a mode, a flag or `ctl set`. A light that is to cast no shadow (none) never does. */
+ * not a mode, a flag or `ctl set`. A light that is to cast no shadow (none) never does; the radius
+ * of others is that of the made light (stage/lights.h). */
 bool gn_settings_light_holds(const struct gn_settings *settings,
                              const struct gn_override *override);
 #define gn_settings_given(settings, field)                                                         \

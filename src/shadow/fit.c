@@ -84,9 +84,9 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                           .view = view,
                           .tile = view->raster.tiles,
                           .scene_size_m = gn_scene_size_m(pose),
-                          .light_radius = l->radius,
+                          .light_radius = opts->radius_given ? opts->radius : l->radius,
                           .range_m = l->range_m > 0.0f ? l->range_m : INFINITY};
-    const bool found = row->on_plane ? gn_planar_fit(pose, eye, opts->points, memory, view)
+    const bool found = row->on_plane                 ? gn_planar_fit(&f, opts->points)
                        : view->map.cascade_count > 0 ? gn_cascades_fit(&f)
                        : view->map.tile_count > 1    ? gn_cube_fit(&f)
                                                      : gn_single_fit(&f);

@@ -30,6 +30,8 @@ struct gn_shadow_opts {
     uint32_t map_px;             /* side of the map, or of a tile; with STENCIL 0 */
     bool all_receive;            /* ignore gnomon_receive: for pictures of visibility */
     uint32_t points;             /* with MEAN: of the lamp (lamp.h) */
+    bool radius_given;
+    float radius;      /* given: the light's, in place of the scene's */
     uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
                           one need an eye with a perspective */
 };

@@ -358,10 +358,12 @@ static bool set_stencil(struct planar *f, const struct gn_shadow_region *window)
     return true;
 }
 
-bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye, uint32_t points,
-                   struct gn_shadow_memory *memory, struct gn_shadow_view *view) {
+bool gn_planar_fit(const struct gn_fitter *fitter, uint32_t points) {
+    const struct gn_pose *pose = fitter->pose;
+    const struct gn_shadow_memory *memory = fitter->memory;
+    struct gn_shadow_view *view = fitter->view;
     struct planar f = {
-        .pose = pose, .eye = eye, .view = view, .scene_size_m = gn_scene_size_m(pose)};
+        .pose = pose, .eye = fitter->eye, .view = view, .scene_size_m = fitter->scene_size_m};
     view->code.scale = view->code.far_end = view->code.far_m = 1.0f;
     if (!set_plane(&f)) return false;
 
@@ -372,7 +374,7 @@ bool gn_planar_fit(const struct gn_pose *pose, const struct gn_eye *eye, uint32_
     f.low_m = HAIR * f.scene_size_m + 1e-6f * gn_scene_reach_m(pose);
     set_heights(view, f.low_m, f.highest_m, &f.aim);
     if (f.aim.high_m <= f.low_m) return false;
-    const float radius = pose->scene->lights[view->light].radius;
+    const float radius = fitter->light_radius;
     set_lamp(&f, radius);
 
     /* the window: the part of the plane that is both seen and reached by shadows */

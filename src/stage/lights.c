@@ -43,7 +43,20 @@ static void set_entry(struct gn_frame_light_opts *entry, const struct gn_overrid
         entry->strength = (float)*(const double *)value;
         entry->given |= GN_LIGHT_STRENGTH;
         break;
+    case offsetof(struct gn_settings, render.light_radius):
+        entry->radius = (float)*(const double *)value;
+        entry->given |= GN_LIGHT_RADIUS;
+        break;
     }
+}
+
+/* The radius of a mode, a flag or `ctl set` is that of the made light alone. */
+static bool is_overruled(const struct gn_settings *settings, const struct gn_scene *scene,
+                         uint32_t light, const struct gn_override *setting) {
+    const size_t radius = offsetof(struct gn_settings, render.light_radius);
+    return setting->row->offset == radius && scene->added.light &&
+           light + 1 == scene->light_count &&
+           gn_settings_source(settings, radius) >= GN_SOURCE_MODE;
 }
 
 static void warn_of_name(const struct gn_light_section *section, const struct gn_scene *scene,
@@ -59,6 +72,11 @@ static void warn_of_name(const struct gn_light_section *section, const struct gn
 
 void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_settings *settings,
                          const struct gn_scene *scene, struct gn_warnings *warnings) {
+    if (scene->added.light && gn_settings_given(settings, render.light_radius))
+        opts->lights[opts->light_count++] =
+            (struct gn_frame_light_opts){.light = scene->light_count - 1,
+                                         .given = GN_LIGHT_RADIUS,
+                                         .radius = (float)settings->render.light_radius};
     for (int s = 0; s < settings->light_count; s++) {
         const struct gn_light_section *section = &settings->lights[s];
         bool found = false;
@@ -72,7 +90,8 @@ void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_sett
                 return;
             }
             for (const struct gn_override *o = section->first; o; o = o->next)
-                if (gn_settings_light_holds(settings, o)) set_entry(entry, o);
+                if (gn_settings_light_holds(settings, o) && !is_overruled(settings, scene, i, o))
+                    set_entry(entry, o);
         }
         if (!found && !settings->several_scenes) warn_of_name(section, scene, warnings);
     }
