@@ -116,7 +116,9 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
         }
 
     struct views v = {.frame = frame, .opts = frame_opts, .now = pose, .count = 1};
-    v.moves = pose->node_moves[scene->cameras[frame_opts->view.camera].node];
+    const uint32_t from = frame_opts->view.light_plus_1;
+    v.moves = pose->node_moves[from ? scene->lights[from - 1].node
+                                    : scene->cameras[frame_opts->view.camera].node];
     for (uint32_t i = 0; i < scene->animation.clip_count && v.moves; i++)
         if (scene->animation.clips[i].duration_ns > v.lasts_ns)
             v.lasts_ns = scene->animation.clips[i].duration_ns;

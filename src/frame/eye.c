@@ -29,16 +29,24 @@ static void make_projection(const struct gn_camera *camera, const struct gn_orbi
 struct look {
     mat4 view_from_world, clip_from_world;
     vec3 eye_ws;
+    bool orthographic;
 };
 
 static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
                       const struct gn_frame_opts *opts, struct look *look) {
-    const struct gn_camera *camera = &frame->scene->cameras[opts->view.camera];
+    static const struct gn_orbit unmoved;
+    const struct gn_orbit *orbit = opts->view.light_plus_1 ? &unmoved : &opts->view.orbit;
+    struct gn_camera camera = frame->scene->cameras[opts->view.camera];
     float aspect = (float)frame->picture.width_px / (float)frame->picture.height_px;
     mat4 clip_from_view;
-    float reach_m[2]; /* to what is looked at, and to the end of the scene */
-    reach_m[0] = gn_orbit_view(&opts->view.orbit, pose, (uint32_t)opts->view.camera,
-                               look->view_from_world, look->eye_ws);
+    float reach_m[2] = {0}; /* to what is looked at, and to the end of the scene */
+    if (opts->view.light_plus_1)
+        gn_frame_light_camera(pose, opts->view.light_plus_1 - 1, aspect, &camera,
+                              look->view_from_world, look->eye_ws);
+    else
+        reach_m[0] = gn_orbit_view(orbit, pose, (uint32_t)opts->view.camera, look->view_from_world,
+                                   look->eye_ws);
+    look->orthographic = camera.orthographic;
     const float angle_rad = opts->view.turntable_rad;
     if (angle_rad != 0.0f) { /* about the vertical axis through the scene's centre */
         vec3 centre, back;
@@ -58,9 +66,9 @@ static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
     for (int k = 0; k < 3; k++)
         reach[k] =
             fmaxf(fabsf(box->min[k] - look->eye_ws[k]), fabsf(box->max[k] - look->eye_ws[k]));
-    const float far_m = glm_vec3_norm(reach) * 1.01f, least_m = 2.0f * camera->near_m;
+    const float far_m = glm_vec3_norm(reach) * 1.01f, least_m = 2.0f * camera.near_m;
     reach_m[1] = isfinite(far_m) && far_m > least_m ? far_m : least_m;
-    make_projection(camera, &opts->view.orbit, aspect, reach_m, clip_from_view);
+    make_projection(&camera, orbit, aspect, reach_m, clip_from_view);
     /* Rotates the picture in clip space: free for a rotated screen. */
     const float c = frame->picture.turn[0], s = frame->picture.turn[1];
     for (int k = 0; k < 4; k++) {
@@ -80,15 +88,14 @@ void gn_frame_eye_at(const struct gn_frame *frame, const struct gn_pose *pose,
 
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]) {
-    const struct gn_camera *camera = &frame->scene->cameras[opts->view.camera];
     struct look look;
     find_look(frame, pose, opts, &look);
     gn_eye_build(&frame->eye, look.clip_from_world);
     memcpy(constants[PASS_CLIP], look.clip_from_world, sizeof look.clip_from_world);
     for (int k = 0; k < 3; k++) {
         /* orthographic: the unit vector towards the camera is the view's +Z */
-        constants[PASS_EYE][k] = camera->orthographic ? look.view_from_world[k][2] : look.eye_ws[k];
+        constants[PASS_EYE][k] = look.orthographic ? look.view_from_world[k][2] : look.eye_ws[k];
         constants[PASS_EXPOSURE][1 + k] = look.eye_ws[k];
     }
-    constants[PASS_EYE][3] = camera->orthographic ? 0.0f : 1.0f;
+    constants[PASS_EYE][3] = look.orthographic ? 0.0f : 1.0f;
 }

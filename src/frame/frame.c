@@ -89,7 +89,9 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     *plan = (struct gn_plan){.scene = frame->scene, .maps_bytes = opts->shadow.maps_bytes};
     plan->width_px = opts->width_px ? opts->width_px : 1280;
     plan->height_px = opts->height_px ? opts->height_px : 720;
-    frame->camera = (uint32_t)opts->view.camera;
+    frame->camera = opts->view.light_plus_1
+                        ? frame->scene->camera_count + opts->view.light_plus_1 - 1
+                        : (uint32_t)opts->view.camera;
     const bool on_side = opts->turn_deg / 90 % 2;
     frame->picture.width_px = on_side ? plan->height_px : plan->width_px;
     frame->picture.height_px = on_side ? plan->width_px : plan->height_px;

@@ -56,6 +56,8 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
 
 struct gn_frame_view_opts {
     int camera;            /* 0; of the scene, there */
+    uint32_t light_plus_1; /* the view of that light, a spot or a directional one, in place of the
+                              camera's; 0: none */
     struct gn_orbit orbit; /* the camera moved by the user */
     float turntable_rad;   /* the camera is rotated about +Y through the scene's centre by this */
 };

@@ -94,7 +94,7 @@ struct gn_frame {
     } items;               /* of the pass that is being built */
     float (*constants)[4]; /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
     float (*sets)[4];      /* stencil.c's, likewise; NULL until there are any */
-    uint32_t camera;
+    uint32_t camera; /* of the scene; after those its lights */
     struct gn_eye eye;
     struct {
         uint32_t width_px, height_px; /* before it is turned */
@@ -270,6 +270,10 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
 /* eye.c: clip_from_world of the camera, its position and their constants. */
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]);
+/* light_eye.c: a camera in a light's place, a spot or a directional one, that shows its cone, or
+ * what casts. */
+void gn_frame_light_camera(const struct gn_pose *pose, uint32_t light, float aspect,
+                           struct gn_camera *camera, mat4 view_from_world, vec3 eye_ws);
 /* The same camera at another pose. */
 void gn_frame_eye_at(const struct gn_frame *frame, const struct gn_pose *pose,
                      const struct gn_frame_opts *opts, struct gn_eye *eye);

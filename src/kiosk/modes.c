@@ -121,4 +121,6 @@ void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view) {
         ((uint32_t)look->frame_opts.view.camera + view->camera) % s->stage.scene->camera_count;
     if ((uint32_t)f->view.camera != camera) f->view.orbit = (struct gn_orbit){0};
     f->view.camera = (int)camera;
+    f->view.light_plus_1 =
+        camera == (uint32_t)look->frame_opts.view.camera ? look->frame_opts.view.light_plus_1 : 0;
 }

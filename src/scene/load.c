@@ -113,19 +113,24 @@ void gn_scene_destroy(struct gn_scene *scene) {
 
 /* ---- finding ---- */
 
-enum list { CAMERAS, CLIPS };
+enum list { CAMERAS, LIGHTS, CLIPS };
 
-/* second: of a camera, the name of its node. */
+/* second: of a camera or a light, the name of its node. */
 static const char *listed_name(const struct gn_scene *scene, enum list list, uint32_t i,
                                bool second) {
     if (list == CLIPS) return scene->animation.clips[i].name;
+    if (list == LIGHTS)
+        return second ? scene->nodes[scene->lights[i].node].name : scene->lights[i].name;
     return second ? scene->nodes[scene->cameras[i].node].name : scene->cameras[i].name;
 }
 
 static int find_listed(const struct gn_scene *scene, enum list list, const char *what,
                        struct gn_err *err) {
-    const char *kind = list == CLIPS ? "animation" : "camera";
-    uint32_t count = list == CLIPS ? scene->animation.clip_count : scene->camera_count;
+    static const char *const kinds[] = {"camera", "light", "animation"};
+    const uint32_t counts[] = {scene->camera_count, scene->light_count,
+                               scene->animation.clip_count};
+    const char *kind = kinds[list];
+    const uint32_t count = counts[list];
     if (count > 0 && (!what || !*what)) return 0;
     for (uint32_t i = 0; what && i < 2 * count; i++)
         if (strcmp(listed_name(scene, list, i % count, i >= count), what) == 0)
@@ -148,6 +153,10 @@ static int find_listed(const struct gn_scene *scene, enum list list, const char 
 
 int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct gn_err *err) {
     return find_listed(scene, CAMERAS, what, err);
+}
+
+int gn_scene_find_light(const struct gn_scene *scene, const char *what, struct gn_err *err) {
+    return find_listed(scene, LIGHTS, what, err);
 }
 
 int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err) {

@@ -259,6 +259,7 @@ uint32_t gn_scene_vertex_bytes(const struct gn_scene *scene);
 
 /* By name, else by number; -1 and a usage error that lists all. NULL or "" finds the first. */
 int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct gn_err *err);
+int gn_scene_find_light(const struct gn_scene *scene, const char *what, struct gn_err *err);
 int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err);
 
 #endif

@@ -81,6 +81,26 @@ static bool choose_clips(const struct gn_settings *o, const struct gn_scene *sce
 /* Points of a lamp in a mask while something moves: their error is .04 in penumbrae. */
 enum { GATHER_POINTS = 16 };
 
+/* A camera, or light:NAME. */
+static bool choose_camera(const struct gn_settings *o, const struct gn_scene *scene,
+                          struct gn_frame_view_opts *view, struct gn_err *err) {
+    static const char prefix[] = "light:";
+    const char *name = o->scene.camera;
+    const bool of_light = name && strncmp(name, prefix, sizeof prefix - 1) == 0;
+    const int camera = gn_scene_find_camera(scene, name, of_light ? NULL : err);
+    view->camera = camera >= 0 ? camera : 0;
+    if (camera >= 0 || !of_light) return camera >= 0;
+    const int light = gn_scene_find_light(scene, name + sizeof prefix - 1, err);
+    if (light < 0) return false;
+    if (gn_light_types[scene->lights[light].type].shines_around)
+        return gn_fail_usage(err,
+                             "light '%s' shines in all directions: only a spot or a directional "
+                             "light can be looked from",
+                             scene->lights[light].name);
+    view->light_plus_1 = (uint32_t)light + 1;
+    return true;
+}
+
 static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o) {
     const bool continuous = o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
     *f = (struct gn_frame_opts){
@@ -131,10 +151,7 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     limits = gn_scene_limits_or_default(&limits);
     look->frame_opts.shadow.maps_bytes = limits.maps_mb << 20;
     look->frame_opts.shadow.triangles = limits.triangles_per_frame;
-    int *camera = &look->frame_opts.view.camera;
-    *camera = gn_scene_find_camera(scene, o->scene.camera, err);
-    if (*camera >= 0) return true;
-    *camera = 0;
+    if (choose_camera(o, scene, &look->frame_opts.view, err)) return true;
     return do_without(o, offsetof(struct gn_settings, scene.camera), warnings, err);
 }
 

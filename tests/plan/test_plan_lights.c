@@ -256,6 +256,44 @@ static void test_options_of_a_light_beat_those_of_all(void **state) {
     gn_plan_end(&f);
 }
 
+/* All that casts is in the picture of a sun, whatever its shape; a spot is where it stands. */
+static void test_a_light_can_be_looked_from(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    for (int wide = 0; wide < 2; wide++) {
+        f.opts.view.light_plus_1 = 1;
+        f.opts.width_px = wide ? 640 : 200;
+        f.opts.height_px = wide ? 200 : 640;
+        const struct gn_plan *plan = gn_plan_make(&f);
+        const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
+        mat4 clip;
+        memcpy(clip, last->constants[PASS_CLIP], sizeof clip);
+        uint32_t seen = 0;
+        for (uint32_t i = 0; i < 8 * f.scene->item_count; i++) {
+            const struct gn_item *item = &f.scene->items[i / 8];
+            const struct gn_box *box = &f.pose.items[i / 8].box_ws;
+            vec4 p = {0, 0, 0, 1};
+            if (!gn_shadow_item_casts(f.scene, i / 8) || item->plane ||
+                f.pose.node_moves[item->node])
+                continue;
+            for (int k = 0; k < 3; k++) p[k] = i >> k & 1 ? box->max[k] : box->min[k];
+            glm_mat4_mulv(clip, p, p);
+            for (int k = 0; k < 3; k++) assert_true(fabsf(p[k]) <= 1.001f * p[3]);
+            seen++;
+        }
+        assert_true(seen > 0);
+        f.opts.view.light_plus_1 = 2;
+        plan = gn_plan_make(&f);
+        last = &plan->passes[plan->pass_count - 1];
+        vec3 place, direction;
+        gn_pose_light(&f.pose, 1, place, direction);
+        for (int k = 0; k < 3; k++)
+            assert_true(fabsf(last->constants[PASS_EYE][k] - place[k]) < 1e-4f);
+    }
+    gn_plan_end(&f);
+}
+
 /* ---- too many lights ---- */
 
 /* The bulb of the stage, `count` times, each stronger than those before it. */
@@ -456,6 +494,7 @@ int main(void) {
         cmocka_unit_test(test_many_lights_without_srgb_plan),
         cmocka_unit_test(test_programs_do_not_change_with_what_is_reached),
         cmocka_unit_test(test_options_of_a_light_beat_those_of_all),
+        cmocka_unit_test(test_a_light_can_be_looked_from),
         cmocka_unit_test(test_a_warning_is_given_once),
         cmocka_unit_test(test_the_strongest_that_are_shown_have_the_maps),
         cmocka_unit_test(test_slide_plan),

@@ -108,6 +108,23 @@ static void the_radius_of_all_is_that_of_the_made_light(void **state) {
     assert_true(of_light(0)->radius == 0.2f);
 }
 
+static void a_camera_may_be_a_spot_or_a_directional_light(void **state) {
+    (void)state;
+    make_scene(true);
+    assert_true(build_look("", "--camera", "light:Lamp"));
+    assert_int_equal(look.frame_opts.view.light_plus_1, 2);
+    assert_true(build_look("", "--camera", "light:0"));
+    assert_int_equal(look.frame_opts.view.light_plus_1, 1);
+    assert_false(build_look("", "--camera", "light:Bulb"));
+    assert_string_equal(err.text, "--camera: light 'Bulb' shines in all directions: only a spot or "
+                                  "a directional light can be looked from");
+    assert_false(build_look("", "--camera", "light:Lantern"));
+    assert_non_null(strstr(err.text, "no light named 'Lantern'; available: 0 'Sun', 1 'Spot"));
+    assert_false(build_look("", "--camera", "lamp"));
+    assert_non_null(strstr(err.text, "no camera named 'lamp'"));
+    assert_int_equal(look.frame_opts.view.light_plus_1, 0);
+}
+
 static int make_path(void **state) {
     const int fd = mkstemp(path);
     (void)state;
@@ -131,6 +148,7 @@ int main(void) {
         cmocka_unit_test_teardown(a_flag_beats_it, finish),
         cmocka_unit_test_teardown(a_name_that_no_light_has_is_one_warning, finish),
         cmocka_unit_test_teardown(the_radius_of_all_is_that_of_the_made_light, finish),
+        cmocka_unit_test_teardown(a_camera_may_be_a_spot_or_a_directional_light, finish),
     };
     return cmocka_run_group_tests_name("lights", tests, make_path, remove_path);
 }
