@@ -29,8 +29,13 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
             .cascades = opts->shadow.cascades ? opts->shadow.cascades : GN_CASCADES_MAX};
         struct gn_shadow_opts *shadow = &maps[slot];
         gn_frame_make_memories(frame, slot, gn_shadow_tile_count(l->type, light->technique));
-        light->cascades = shadow->cascades =
-            gn_frame_choose_cascades(frame, pose, opts, slot, shadow);
+        const uint32_t count =
+            one.given & GN_LIGHT_CASCADES ? one.cascades : opts->shadow.cascade_count;
+        if (count == 0)
+            shadow->cascades = gn_frame_choose_cascades(frame, pose, opts, slot, shadow);
+        else
+            shadow->cascades = gn_cascade_can(l, &frame->eye, shadow) ? count : 1;
+        light->cascades = shadow->cascades;
         if (shadow->cascades > 1) gn_frame_make_memories(frame, slot, GN_CASCADE_MEMORIES);
         const uint32_t most_each = gn_frame_most_px(frame, light, shadow->cascades);
         if (shadow->map_px > most_each) shadow->map_px = most_each;

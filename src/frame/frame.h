@@ -14,6 +14,7 @@ enum gn_light_given {
     GN_LIGHT_MAP_PX = 4,
     GN_LIGHT_STRENGTH = 8,
     GN_LIGHT_RADIUS = 16,
+    GN_LIGHT_CASCADES = 32,
 };
 struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t light;          /* index in the scene */
@@ -23,7 +24,8 @@ struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     enum gn_moments moments;
     uint32_t map_px;
     float strength;
-    float radius; /* as in gn_light */
+    float radius;      /* as in gn_light */
+    uint32_t cascades; /* as cascade_count */
 };
 
 struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
@@ -34,6 +36,7 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     enum gn_moments moments;   /* of techniques that filter their map; NONE: the automatic choice */
     uint32_t map_px;           /* 0: the light's, else the technique's */
     uint32_t cascades;         /* limit per light; 4 */
+    uint32_t cascade_count; /* so many of each light that can have them; 0: as few as are enough */
     uint64_t filter_texels; /* of filtered maps that one frame makes again, if that is more than one
                                map; others stay as they are for a while. 0: all are made */
     uint64_t maps_bytes; /* limit on what shadows take on the GPU: maps, their pages, what they are

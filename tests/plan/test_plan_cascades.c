@@ -166,6 +166,26 @@ static void test_as_many_as_asked_for_at_most(void **state) {
 }
 
 /* Texels in the light of a tiny map are few pixels of a tiny picture. */
+static void test_so_many_as_are_set(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    begin(&f, gn_field_scene_make(), 4096);
+    f.opts.width_px = 64; /* one would be enough */
+    f.opts.height_px = 36;
+    for (uint32_t count = 1; count <= 4; count++) {
+        f.opts.shadow.cascade_count = count;
+        assert_int_equal(view_of(&f)->map.cascade_count, count == 1 ? 0 : count);
+        f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
+            .light = 0, .given = GN_LIGHT_CASCADES, .cascades = 5 - count};
+        f.opts.shadow.light_count = 1;
+        assert_int_equal(view_of(&f)->map.cascade_count, count == 4 ? 0 : 5 - count);
+        f.opts.shadow.light_count = 0;
+    }
+    f.opts.shadow.map_px = 32; /* no room for their gutters */
+    assert_int_equal(view_of(&f)->map.cascade_count, 0);
+    gn_plan_end(&f);
+}
+
 static void test_small_pictures_need_fewer(void **state) {
     (void)state;
     struct gn_plan_fixture f;
@@ -374,6 +394,7 @@ int main(void) {
         cmocka_unit_test(test_every_camera_has_a_plan),
         cmocka_unit_test(test_an_atlas_is_no_larger_than_a_texture),
         cmocka_unit_test(test_as_many_as_asked_for_at_most),
+        cmocka_unit_test(test_so_many_as_are_set),
         cmocka_unit_test(test_small_pictures_need_fewer),
         cmocka_unit_test(test_a_camera_that_flies_has_as_many_all_along),
         cmocka_unit_test(test_more_that_help_little_are_not_taken),
