@@ -1,0 +1,133 @@
+/* What options that are automatic by default do to the figures, on the field of 5 to 400 m: README
+ * of src/shadow has these figures. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "image/truth.h"
+#include "plan/field_scene.h"
+#include "unit/check.h"
+#include "unit/gl_help.h"
+
+enum { WIDTH_PX = 640, HEIGHT_PX = 360, PIXELS = WIDTH_PX * HEIGHT_PX };
+
+static struct help_stage stage;
+static struct gn_truth truth;
+static float *aov;
+
+static int open_all(void **state) {
+    const struct gn_truth_opts opts = {.width_px = WIDTH_PX, .height_px = HEIGHT_PX};
+    struct gn_err err = {0};
+    (void)state;
+    help_stage_open(&stage, gn_field_scene_make, "egl", NULL, NULL);
+    if (!gn_truth_make(&truth, stage.scene, &opts, &err)) fail_msg("%s", err.text);
+    gn_truth_band(&truth, 1024);
+    aov = gn_xalloc(4 * PIXELS, sizeof *aov);
+    return 0;
+}
+
+static int close_all(void **state) {
+    (void)state;
+    free(aov);
+    gn_truth_finish(&truth);
+    help_stage_close(&stage);
+    return 0;
+}
+
+static struct gn_frame_opts opts_of(enum gn_technique technique) {
+    return (struct gn_frame_opts){.width_px = WIDTH_PX,
+                                  .height_px = HEIGHT_PX,
+                                  .shadow.technique_given = true,
+                                  .shadow.technique = technique,
+                                  .shadow.encoding = GN_ENCODING_AUTO,
+                                  .shadow.map_px = 1024,
+                                  .debug.aov = GN_AOV_VISIBILITY};
+}
+
+/* Into aov, four floats a pixel. */
+static const struct gn_plan *draw(const struct gn_frame_opts *opts) {
+    struct gn_err err = {0};
+    const struct gn_plan *plan = help_stage_draw(&stage, opts, NULL);
+    if (!gn_gl_read_f32(stage.gl, aov, &err)) fail_msg("%s", err.text);
+    return plan;
+}
+
+static double wrong_with(uint32_t cascades) {
+    struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
+    struct gn_picture shot;
+    struct gn_mask_score score;
+    opts.shadow.cascade_count = cascades;
+    const uint32_t got = draw(&opts)->shadows[0].map.cascade_count;
+    gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
+    for (int i = 0; i < PIXELS; i++) shot.data[i] = aov[4 * i];
+    gn_mask_compare(&truth.mask, &shot, &score);
+    gn_picture_finish(&shot);
+    const double wrong = gn_mask_wrong(&score), gap = gn_mask_gap(&score);
+    printf("cascades %u (%u): wrong %.3f %%, gap %.2f %%\n", cascades, got, wrong, gap);
+    if (cascades) assert_int_equal(got, cascades == 1 ? 0 : cascades);
+    return wrong;
+}
+
+static void test_more_cascades_are_nearer_to_truth(void **state) {
+    (void)state;
+    const double one = wrong_with(1), two = wrong_with(2), four = wrong_with(4);
+    const double automatic = wrong_with(0);
+    assert_true(one > 2 * two);
+    assert_true(two > 1.2 * four);
+    assert_true(automatic <= four);
+}
+
+static int count_partly_lit(void) {
+    int count = 0;
+    for (int i = 0; i < PIXELS; i++)
+        count += aov[4 * i] > .02f && aov[4 * i] < .98f && truth.mask.item[i] >= 0;
+    return count;
+}
+
+static void test_a_larger_light_has_wider_penumbrae(void **state) {
+    (void)state;
+    struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCSS);
+    draw(&opts);
+    const int own = count_partly_lit();
+    float *before = gn_xalloc(4 * PIXELS, sizeof *before);
+    memcpy(before, aov, 4 * PIXELS * sizeof *aov);
+    opts.shadow.lights[0] = (struct gn_frame_light_opts){.given = GN_LIGHT_RADIUS,
+                                                         .radius = stage.scene->lights[0].radius};
+    opts.shadow.light_count = 1;
+    draw(&opts);
+    assert_memory_equal(before, aov, 4 * PIXELS * sizeof *aov); /* the same one */
+    free(before);
+    opts.shadow.lights[0].radius = 0.0465f;
+    draw(&opts);
+    const int large = count_partly_lit();
+    printf("pixels in penumbrae: %d, radius times ten: %d\n", own, large);
+    assert_true(large > 2 * own);
+}
+
+/* A light sees nothing that is in its own shadow. */
+static void test_what_a_light_sees_is_lit(void **state) {
+    (void)state;
+    struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
+    opts.view.light_plus_1 = 1;
+    draw(&opts);
+    int dark = 0;
+    for (int i = 0; i < PIXELS; i++) dark += aov[4 * i] < .5f;
+    printf("as the sun sees it: %d of %d pixels in shadow\n", dark, PIXELS);
+    assert_true(dark <= PIXELS / 1000);
+    opts.debug.aov = GN_AOV_DISTANCE;
+    draw(&opts);
+    int seen = 0;
+    for (int i = 0; i < PIXELS; i++) seen += isfinite(aov[4 * i]);
+    assert_true(seen > PIXELS / 20);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_more_cascades_are_nearer_to_truth),
+        cmocka_unit_test(test_a_larger_light_has_wider_penumbrae),
+        cmocka_unit_test(test_what_a_light_sees_is_lit),
+    };
+    return cmocka_run_group_tests_name("knobs", tests, open_all, close_all);
+}
