@@ -94,7 +94,7 @@ struct gn_frame {
     } items;               /* of the pass that is being built */
     float (*constants)[4]; /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
     float (*sets)[4];      /* stencil.c's, likewise; NULL until there are any */
-    uint32_t camera; /* of the scene; after those its lights */
+    uint32_t camera;       /* of the scene; after those its lights */
     struct gn_eye eye;
     struct {
         uint32_t width_px, height_px; /* before it is turned */

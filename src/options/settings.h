@@ -87,7 +87,7 @@ struct gn_render_settings {
     int map_format;                  /* GN_MAP_FORMAT() */
     int planar;                      /* enum gn_planar */
     int planar_points;
-    int cascades;                    /* 0: automatic */
+    int cascades; /* 0: automatic */
     int taps;
     bool taps_fixed;
     double filter_budget;   /* million texels; 0: no limit */

@@ -213,87 +213,6 @@ static void test_programs_do_not_change_with_what_is_reached(void **state) {
     gn_plan_end(&f);
 }
 
-/* ---- options of single lights ---- */
-
-static const struct gn_shadow_view *view_of(const struct gn_plan *plan, uint32_t light) {
-    for (uint32_t i = 0; i < plan->shadow_count; i++)
-        if (plan->shadows[i].light == light) return &plan->shadows[i];
-    return NULL;
-}
-
-static void test_options_of_a_light_beat_those_of_all(void **state) {
-    (void)state;
-    struct gn_plan_fixture f;
-    gn_plan_begin(&f, GN_EVERY_CAP);
-    f.scene->lights[1].technique = "none";
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_PCF;
-    f.opts.shadow.map_px = 512;
-    f.opts.shadow.strength_given = true;
-    f.opts.shadow.strength = 1.0f;
-    f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
-        .light = 1,
-        .given = GN_LIGHT_TECHNIQUE | GN_LIGHT_MAP_PX | GN_LIGHT_FORMAT | GN_LIGHT_STRENGTH,
-        .technique = GN_TECHNIQUE_HARD,
-        .map_px = 128,
-        .encoding = GN_ENCODING_R32UI,
-        .strength = 0.25f};
-    f.opts.shadow.lights[1] = (struct gn_frame_light_opts){
-        .light = 2, .given = GN_LIGHT_TECHNIQUE, .technique = GN_TECHNIQUE_NONE};
-    f.opts.shadow.light_count = 2;
-    const struct gn_plan *plan = gn_plan_make(&f);
-    assert_int_equal(plan->shadow_count, 2);
-    assert_null(view_of(plan, 2));
-    assert_int_equal(view_of(plan, 0)->technique, GN_TECHNIQUE_PCF);
-    assert_int_equal(view_of(plan, 0)->map.tile_px, 512);
-    assert_int_equal(view_of(plan, 1)->technique, GN_TECHNIQUE_HARD);
-    assert_int_equal(view_of(plan, 1)->encoding, GN_ENCODING_R32UI);
-    assert_int_equal(view_of(plan, 1)->map.tile_px, 128);
-    const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
-    const float(*c)[4] = (const float(*)[4])last->constants;
-    assert_true(c[PASS_LIGHTS + LIGHT_COLOR][3] == 1.0f);
-    assert_true(c[PASS_LIGHTS + LIGHT_SIZE + LIGHT_COLOR][3] == 0.25f);
-    gn_plan_end(&f);
-}
-
-/* All that casts is in the picture of a sun, whatever its shape; a spot is where it stands. */
-static void test_a_light_can_be_looked_from(void **state) {
-    (void)state;
-    struct gn_plan_fixture f;
-    gn_plan_begin(&f, GN_EVERY_CAP);
-    for (int wide = 0; wide < 2; wide++) {
-        f.opts.view.light_plus_1 = 1;
-        f.opts.width_px = wide ? 640 : 200;
-        f.opts.height_px = wide ? 200 : 640;
-        const struct gn_plan *plan = gn_plan_make(&f);
-        const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
-        mat4 clip;
-        memcpy(clip, last->constants[PASS_CLIP], sizeof clip);
-        uint32_t seen = 0;
-        for (uint32_t i = 0; i < 8 * f.scene->item_count; i++) {
-            const struct gn_item *item = &f.scene->items[i / 8];
-            const struct gn_box *box = &f.pose.items[i / 8].box_ws;
-            vec4 p = {0, 0, 0, 1};
-            if (!gn_shadow_item_casts(f.scene, i / 8) || item->plane ||
-                f.pose.node_moves[item->node])
-                continue;
-            for (int k = 0; k < 3; k++) p[k] = i >> k & 1 ? box->max[k] : box->min[k];
-            glm_mat4_mulv(clip, p, p);
-            for (int k = 0; k < 3; k++) assert_true(fabsf(p[k]) <= 1.001f * p[3]);
-            seen++;
-        }
-        assert_true(seen > 0);
-        f.opts.view.light_plus_1 = 2;
-        plan = gn_plan_make(&f);
-        last = &plan->passes[plan->pass_count - 1];
-        vec3 place, direction;
-        gn_pose_light(&f.pose, 1, place, direction);
-        for (int k = 0; k < 3; k++)
-            assert_true(fabsf(last->constants[PASS_EYE][k] - place[k]) < 1e-4f);
-    }
-    gn_plan_end(&f);
-}
-
 /* ---- too many lights ---- */
 
 /* The bulb of the stage, `count` times, each stronger than those before it. */
@@ -493,8 +412,6 @@ int main(void) {
         cmocka_unit_test(test_a_map_that_is_too_large_is_made_smaller_and_said_so),
         cmocka_unit_test(test_many_lights_without_srgb_plan),
         cmocka_unit_test(test_programs_do_not_change_with_what_is_reached),
-        cmocka_unit_test(test_options_of_a_light_beat_those_of_all),
-        cmocka_unit_test(test_a_light_can_be_looked_from),
         cmocka_unit_test(test_a_warning_is_given_once),
         cmocka_unit_test(test_the_strongest_that_are_shown_have_the_maps),
         cmocka_unit_test(test_slide_plan),

@@ -291,7 +291,8 @@ static void what_a_file_may_not_say(void **state) {
     assert_file_refused("[light \"a\"]\nmap = 8\n", "bad.ini:2: map: \"8\"");
     assert_file_refused("[light \"a\"]\nshadw = pcf\n",
                         "bad.ini:2: unknown key \"shadw\" in [light]; expected shadow");
-    assert_file_refused("[light \"a\"]\nmsaa = 4\n", "bad.ini:2: unknown key \"msaa\"; keys of [light]: shadow,");
+    assert_file_refused("[light \"a\"]\nmsaa = 4\n",
+                        "bad.ini:2: unknown key \"msaa\"; keys of [light]: shadow,");
 }
 
 static void there_are_so_many_lights(void **state) {
