@@ -115,8 +115,8 @@ static const struct group {
 };
 
 static void print_group(FILE *to, const struct group *group, enum gn_command command) {
-    static const char *const shadows[] = {"shadow", "map",          "planar",  "taps",
-                                          "filter", "light-radius", "cascades"};
+    static const char *const shadows[] = {"shadow", "map",          "planar",   "taps",
+                                          "filter", "light-radius", "cascades", "cast-faces"};
     bool begun = false;
     for (int i = 0; i < GN_OPTION_COUNT; i++) {
         const struct gn_option_row *row = &gn_option_rows[i];

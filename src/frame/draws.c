@@ -10,8 +10,9 @@
 static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_pose *pose,
                                 uint32_t index, const struct gn_shadow_view *view) {
     const struct gn_item *item = &scene->items[index];
-    if (item->cast_faces == GN_CAST_FRONT) return GN_CULL_BACK;
-    if (item->cast_faces == GN_CAST_BACK) return GN_CULL_FRONT;
+    const enum gn_cast_faces faces = view->faces_given ? view->faces : item->cast_faces;
+    if (faces == GN_CAST_FRONT) return GN_CULL_BACK;
+    if (faces == GN_CAST_BACK) return GN_CULL_FRONT;
     bool solid = scene->geometries[item->geometry].closed &&
                  scene->materials[item->material].alpha != GN_ALPHA_MASK;
     const struct gn_box *box = &pose->items[index].box_ws;
@@ -19,7 +20,7 @@ static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_po
     for (int k = 0; k < 3; k++)
         outside |= view->light_ws[k] < box->min[k] || view->light_ws[k] > box->max[k];
     if (!solid || !outside) return GN_CULL_NONE;
-    return item->cast_faces == GN_CAST_AUTO ? GN_CULL_FRONT : GN_CULL_BACK;
+    return faces == GN_CAST_AUTO ? GN_CULL_FRONT : GN_CULL_BACK;
 }
 
 /* How far behind the near plane a box lies: its middle, or its far side. */

@@ -16,6 +16,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         if (!asked) asked = l->map_px;
         if (!asked) asked = gn_techniques[light->technique].map_px;
         if (!asked) asked = 1024;
+        const int faces = one.given & GN_LIGHT_FACES ? one.faces : opts->shadow.faces;
         if (light->encoding == GN_ENCODING_STENCIL) asked = 0; /* no map */
         maps[slot] = (struct gn_shadow_opts){
             .technique = light->technique,
@@ -24,6 +25,8 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
             .map_px = asked < most ? asked : most,
             .points = opts->shadow.planar_points,
             .all_receive = opts->debug.aov == GN_AOV_VISIBILITY,
+            .faces_given = faces > 0,
+            .faces = (enum gn_cast_faces)(faces > 0 ? faces - 1 : 0),
             .radius_given = one.given & GN_LIGHT_RADIUS,
             .radius = one.radius,
             .cascades = opts->shadow.cascades ? opts->shadow.cascades : GN_CASCADES_MAX};

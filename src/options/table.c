@@ -48,6 +48,11 @@ static const struct gn_choice samples[] = {{"0", 0}, {"2", 2}, {"4", 4}, {0}};
 static const struct gn_choice tap_counts[] = {{"8", 8}, {"16", 16}, {"32", 32}, {0}};
 static const struct gn_choice cascade_counts[] = {{"auto", 0}, {"1", 1}, {"2", 2},
                                                   {"3", 3},    {"4", 4}, {0}};
+static const struct gn_choice cast_faces[] = {{"auto", 0},
+                                              {"both", 1 + GN_CAST_BOTH},
+                                              {"front", 1 + GN_CAST_FRONT},
+                                              {"back", 1 + GN_CAST_BACK},
+                                              {0}};
 static const struct gn_choice idles[] = {
     {"none", GN_IDLE_NONE}, {"first", GN_IDLE_FIRST}, {"next", GN_IDLE_NEXT}, {0}};
 static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};

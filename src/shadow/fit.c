@@ -67,6 +67,8 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                                 .encoding = opts->encoding,
                                 .moments = opts->moments,
                                 .all_receive = opts->all_receive,
+                                .faces_given = opts->faces_given && !row->on_plane,
+                                .faces = opts->faces,
                                 .perspective = gn_light_types[type].has_position,
                                 .map = {.tile_px = opts->map_px,
                                         .width_px = size_px[0],

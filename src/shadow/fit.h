@@ -30,6 +30,8 @@ struct gn_shadow_opts {
     uint32_t map_px;             /* side of the map, or of a tile; with STENCIL 0 */
     bool all_receive;            /* ignore gnomon_receive: for pictures of visibility */
     uint32_t points;             /* with MEAN: of the lamp (lamp.h) */
+    bool faces_given;
+    enum gn_cast_faces faces; /* given: of all casters, not on a plane, in place of their own */
     bool radius_given;
     float radius;      /* given: the light's, in place of the scene's */
     uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
@@ -160,7 +162,9 @@ struct gn_shadow_view {
     enum gn_encoding encoding;
     enum gn_moments moments; /* what shaders read in the map's place; NONE: the map */
     bool all_receive;        /* as in gn_shadow_opts */
-    bool perspective;        /* spot, point */
+    bool faces_given;        /* likewise */
+    enum gn_cast_faces faces;
+    bool perspective; /* spot, point */
     bool empty;       /* nothing in view can be in this light's shadow: the map holds the far end */
     vec3 light_ws;    /* position (spot, point) */
     vec3 to_light_ws; /* unit (directional) */

@@ -58,6 +58,7 @@ uint64_t gn_shadow_hash(const struct gn_pose *pose, const struct gn_shadow_view 
                     (float)view->map.tile_px, (float)view->encoding};
     uint64_t h = gn_hash(GN_HASH_INIT, code, sizeof code);
     if (!tile->empty) h = gn_hash(h, tile->clip_from_world, sizeof tile->clip_from_world);
+    if (view->faces_given) h = gn_hash(h, &view->faces, sizeof view->faces);
     for (uint32_t p = 0; p < view->raster.drawn.page_count; p++) {
         const struct gn_shadow_page *page = &view->raster.drawn.pages[p];
         h = gn_hash(h, page->corner, sizeof page->corner);

@@ -43,6 +43,10 @@ static void set_entry(struct gn_frame_light_opts *entry, const struct gn_overrid
         entry->cascades = (uint32_t)*whole;
         entry->given |= GN_LIGHT_CASCADES;
         break;
+    case offsetof(struct gn_settings, render.cast_faces):
+        entry->faces = *whole;
+        entry->given |= GN_LIGHT_FACES;
+        break;
     case offsetof(struct gn_settings, render.shadow_strength):
         entry->strength = (float)*(const double *)value;
         entry->given |= GN_LIGHT_STRENGTH;

@@ -120,6 +120,7 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
             o->render.planar == GN_PLANAR_SOFT ? (uint32_t)o->render.planar_points : 0,
         .shadow.gather_points =
             continuous || o->run.command == GN_COMMAND_BENCH ? GATHER_POINTS : 0,
+        .shadow.faces = o->render.cast_faces,
         .shadow.cascade_count = (uint32_t)o->render.cascades,
         .shadow.taps = (unsigned)o->render.taps,
         .shadow.taps_fixed = o->render.taps_fixed,

@@ -79,6 +79,30 @@ static void test_more_cascades_are_nearer_to_truth(void **state) {
     assert_true(automatic <= four);
 }
 
+/* Of thick bodies the faces away from the light throw the same shadow, but at contacts. */
+static void test_which_faces_cast(void **state) {
+    (void)state;
+    static const char *const names[] = {"auto", "both", "front", "back"};
+    struct gn_mask_score scores[4];
+    for (int faces = 0; faces < 4; faces++) {
+        struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
+        struct gn_picture shot;
+        opts.shadow.faces = faces;
+        draw(&opts);
+        gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
+        for (int i = 0; i < PIXELS; i++) shot.data[i] = aov[4 * i];
+        gn_mask_compare(&truth.mask, &shot, &scores[faces]);
+        gn_picture_finish(&shot);
+        printf("faces %s: acne %.4f %%, leak %.4f %%, gap %.2f %%, wrong %.3f %%\n", names[faces],
+               gn_mask_acne(&scores[faces]), gn_mask_leak(&scores[faces]),
+               gn_mask_gap(&scores[faces]), gn_mask_wrong(&scores[faces]));
+    }
+    for (int faces = 1; faces < 3; faces++) /* the same faces of closed bodies */
+        assert_true(gn_mask_wrong(&scores[faces]) == gn_mask_wrong(&scores[0]));
+    assert_true(gn_mask_gap(&scores[3]) > gn_mask_gap(&scores[0]));
+    assert_true(gn_mask_gap(&scores[3]) < 2);
+}
+
 static int count_partly_lit(void) {
     int count = 0;
     for (int i = 0; i < PIXELS; i++)
@@ -126,6 +150,7 @@ static void test_what_a_light_sees_is_lit(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_more_cascades_are_nearer_to_truth),
+        cmocka_unit_test(test_which_faces_cast),
         cmocka_unit_test(test_a_larger_light_has_wider_penumbrae),
         cmocka_unit_test(test_what_a_light_sees_is_lit),
     };

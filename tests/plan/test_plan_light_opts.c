@@ -47,6 +47,41 @@ static void test_options_of_a_light_beat_those_of_all(void **state) {
     gn_plan_end(&f);
 }
 
+/* Of the passes of that light's map; -1: not all alike. */
+static int cull_of(const struct gn_plan *plan, uint32_t light) {
+    int cull = -2;
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const struct gn_pass *pass = &plan->passes[i];
+        if (pass->kind != GN_PASS_MAP || plan->shadows[pass->target.slot].light != light) continue;
+        for (uint32_t d = 0; d < pass->draw_count; d++) {
+            const int one = plan->draws[pass->first_draw + d].cull;
+            cull = cull == -2 || cull == one ? one : -1;
+        }
+    }
+    return cull;
+}
+
+static void test_faces_of_all_casters_are_as_set(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    const uint64_t hash = view_of(gn_plan_make(&f), 1)->raster.tiles[0].content_hash;
+    f.opts.shadow.faces = 1 + GN_CAST_BACK;
+    f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
+        .light = 1, .given = GN_LIGHT_FACES, .faces = 1 + GN_CAST_FRONT};
+    f.opts.shadow.light_count = 1;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    assert_int_equal(cull_of(plan, 0), GN_CULL_FRONT);
+    assert_int_equal(cull_of(plan, 1), GN_CULL_BACK);
+    const uint64_t front = view_of(plan, 1)->raster.tiles[0].content_hash;
+    assert_true(front != hash); /* the map is drawn again */
+    f.opts.shadow.lights[0].faces = 0;
+    plan = gn_plan_make(&f);
+    assert_int_equal(cull_of(plan, 0), GN_CULL_FRONT);
+    assert_true(view_of(plan, 1)->raster.tiles[0].content_hash == hash);
+    gn_plan_end(&f);
+}
+
 /* All that casts is in the picture of a sun, whatever its shape; a spot is where it stands. */
 static void test_a_light_can_be_looked_from(void **state) {
     (void)state;
@@ -89,6 +124,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_options_of_a_light_beat_those_of_all),
         cmocka_unit_test(test_a_light_can_be_looked_from),
+        cmocka_unit_test(test_faces_of_all_casters_are_as_set),
     };
     return cmocka_run_group_tests_name("plan light options", tests, NULL, NULL);
 }
