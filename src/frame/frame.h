@@ -16,6 +16,7 @@ enum gn_light_given {
     GN_LIGHT_RADIUS = 16,
     GN_LIGHT_CASCADES = 32,
     GN_LIGHT_FACES = 64,
+    GN_LIGHT_SLIDE = 128,
 };
 struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t light;          /* index in the scene */
@@ -27,7 +28,8 @@ struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     float strength;
     float radius;      /* as in gn_light */
     uint32_t cascades; /* as cascade_count */
-    int faces;         /* as below */
+    int faces;         /* as below, and the next */
+    uint32_t slide_as_picture;
 };
 
 struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
@@ -55,6 +57,7 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     bool taps_fixed;        /* the same for every pixel */
     int faces; /* which faces of all casters go into maps: 0: as the scene says of each, else 1 +
                   enum gn_cast_faces. Not of planar lights */
+    bool slide_as_picture; /* a slide without a size has the shape of its picture; square */
     bool strength_given;
     float strength; /* overrides the lights' gnomon_shadow_strength */
     struct gn_frame_light_opts lights[GN_ALL_LIGHTS_MAX]; /* each light once */

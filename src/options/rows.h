@@ -42,6 +42,8 @@ GN_OPTION(.name = "filter-budget", .section = "render", .kind = GN_KIND_NUMBER, 
           .help = "limit on filtered maps updated in one frame when many lights move; 0: no limit", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(render.filter_budget))
 GN_OPTION(.name = "shadow-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1, .value = "X", .fallback = "1",
           .help = "share of direct light that a shadow removes", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow_strength))
+GN_OPTION(.name = "slide-aspect", .section = "render", .kind = GN_KIND_CHOICE, .choices = slide_aspects, .value = "SHAPE", .fallback = "square",
+          .help = "shape of a slide whose size the scene does not give; it fills the cone of its spot", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_as_picture))
 GN_OPTION(.name = "light-radius", .section = "render", .kind = GN_KIND_NUMBER, .max = 1000, .value = "R", .fallback = "0.00465",
           .help = "radius of the light made for a scene without any: tangent of its angular radius; in [light] of that one: metres, but a tangent of a directional light", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.light_radius))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,

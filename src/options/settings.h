@@ -87,8 +87,9 @@ struct gn_render_settings {
     int map_format;                  /* GN_MAP_FORMAT() */
     int planar;                      /* enum gn_planar */
     int planar_points;
-    int cascades;   /* 0: automatic */
-    int cast_faces; /* 0: as the scene says, else 1 + enum gn_cast_faces */
+    int cascades;         /* 0: automatic */
+    int cast_faces;       /* 0: as the scene says, else 1 + enum gn_cast_faces */
+    int slide_as_picture; /* 0, 1 */
     int taps;
     bool taps_fixed;
     double filter_budget;   /* million texels; 0: no limit */

@@ -11,7 +11,8 @@ enum gn_slide gn_slide_of(const struct gn_light *light) {
     return light->slide_lit_outside ? GN_SLIDE_LIT : GN_SLIDE_DARK;
 }
 
-void gn_slide_build(const struct gn_pose *pose, uint32_t light, struct gn_slide_view *view) {
+void gn_slide_build(const struct gn_pose *pose, uint32_t light, float aspect,
+                    struct gn_slide_view *view) {
     const struct gn_light *l = &pose->scene->lights[light];
 
     /* its distance, and its width and height one metre from the light */
@@ -21,6 +22,9 @@ void gn_slide_build(const struct gn_pose *pose, uint32_t light, struct gn_slide_
     if (given[0] > 0.0f && given[1] > 0.0f) {
         if (distance <= 0.0f) distance = fmaxf(given[0], given[1]) / cone;
         for (int k = 0; k < 2; k++) size[k] = given[k] / distance;
+    } else if (aspect > 0.0f) {
+        size[0] *= fminf(aspect, 1.0f);
+        size[1] /= fmaxf(aspect, 1.0f);
     }
     view->near_m = fmaxf(distance, LEAST_M);
 

@@ -23,10 +23,11 @@ struct gn_slide_view {
 
 /* GN_SLIDE_NONE if the light has none. */
 enum gn_slide gn_slide_of(const struct gn_light *light);
-/* Of a spot. Size 0, 0: as large as the cone is there, square (cones are cut at 80 degrees, as maps
- * are). Distance 0: at the light itself, or, if it has a size, where its longer side spans the
- * cone.
+/* Of a spot. Size 0, 0: as large as the cone is there (cones are cut at 80 degrees, as maps are),
+ * square, or with an aspect (width through height) over 0 its longer side is. Distance 0: at the
+ * light itself, or, if it has a size, where its longer side spans the cone.
  */
-void gn_slide_build(const struct gn_pose *pose, uint32_t light, struct gn_slide_view *view);
+void gn_slide_build(const struct gn_pose *pose, uint32_t light, float aspect,
+                    struct gn_slide_view *view);
 
 #endif

@@ -47,6 +47,10 @@ static void set_entry(struct gn_frame_light_opts *entry, const struct gn_overrid
         entry->faces = *whole;
         entry->given |= GN_LIGHT_FACES;
         break;
+    case offsetof(struct gn_settings, render.slide_as_picture):
+        entry->slide_as_picture = (uint32_t)*whole;
+        entry->given |= GN_LIGHT_SLIDE;
+        break;
     case offsetof(struct gn_settings, render.shadow_strength):
         entry->strength = (float)*(const double *)value;
         entry->given |= GN_LIGHT_STRENGTH;

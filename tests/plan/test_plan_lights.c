@@ -369,6 +369,32 @@ static void test_a_large_slide_counts_the_texels_that_the_gpu_holds(void **state
     gn_plan_end(&f);
 }
 
+/* 300 x 200: as wide as the cone, and two thirds as high. */
+static void test_a_slide_may_have_the_shape_of_its_picture(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[1];
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    make_spots(&f, lights, 1);
+    float square[3][4], shaped[3][4];
+    const struct gn_plan *plan = gn_plan_make(&f);
+    memcpy(square, plan->passes[plan->pass_count - 1].constants[PASS_SLIDES], sizeof square);
+    f.opts.shadow.slide_as_picture = true;
+    plan = gn_plan_make(&f);
+    memcpy(shaped, plan->passes[plan->pass_count - 1].constants[PASS_SLIDES], sizeof shaped);
+    assert_memory_equal(shaped[SLIDE_U], square[SLIDE_U], sizeof square[0]);
+    for (int c = 0; c < 4; c++) {
+        const float middle = 0.5f * square[SLIDE_W][c];
+        const float by = (shaped[SLIDE_V][c] - middle) - 1.5f * (square[SLIDE_V][c] - middle);
+        assert_true(fabsf(by) < 1e-4f);
+    }
+    lights[0].slide_size_m[0] = lights[0].slide_size_m[1] = 0.1f; /* as given */
+    plan = gn_plan_make(&f);
+    memcpy(shaped, plan->passes[plan->pass_count - 1].constants[PASS_SLIDES], sizeof shaped);
+    for (int c = 0; c < 4; c++) assert_true(fabsf(shaped[SLIDE_V][c] - square[SLIDE_V][c]) < 1e-4f);
+    gn_plan_end(&f);
+}
+
 /* ---- exposure ---- */
 
 static void test_exposure(void **state) {
@@ -415,6 +441,7 @@ int main(void) {
         cmocka_unit_test(test_a_warning_is_given_once),
         cmocka_unit_test(test_the_strongest_that_are_shown_have_the_maps),
         cmocka_unit_test(test_slide_plan),
+        cmocka_unit_test(test_a_slide_may_have_the_shape_of_its_picture),
         cmocka_unit_test(test_visibility_has_no_slide),
         cmocka_unit_test(test_slides_over_four_are_left_out_by_order),
         cmocka_unit_test(test_a_slide_goes_with_its_light_into_an_added_pass),

@@ -31,7 +31,7 @@ static void begin(void) {
 static void expect(float x, float y, float z, float u, float v) {
     struct gn_slide_view view;
     vec4 p = {x, y, z, 1};
-    gn_slide_build(&pose, 0, &view);
+    gn_slide_build(&pose, 0, 0.0f, &view);
     float w = glm_vec4_dot(view.w, p);
     assert_float_equal(glm_vec4_dot(view.u, p) / w, u, 1e-5f);
     assert_float_equal(glm_vec4_dot(view.v, p) / w, v, 1e-5f);
@@ -39,13 +39,13 @@ static void expect(float x, float y, float z, float u, float v) {
 
 static float depth_at(float x, float y, float z) {
     struct gn_slide_view view;
-    gn_slide_build(&pose, 0, &view);
+    gn_slide_build(&pose, 0, 0.0f, &view);
     return glm_vec4_dot(view.w, (vec4){x, y, z, 1});
 }
 
 static float near_of(void) {
     struct gn_slide_view view;
-    gn_slide_build(&pose, 0, &view);
+    gn_slide_build(&pose, 0, 0.0f, &view);
     return view.near_m;
 }
 
