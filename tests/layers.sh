@@ -9,11 +9,12 @@ BEGIN {
     may["image"] = "core"
     may["scene"] = "core image"
     may["shadow"] = "core scene"
+    may["truth"] = "core scene"
     may["frame"] = "core scene shadow caption"
     may["gl"] = "core scene shadow frame caption"
     may["caption"] = may["display"] = may["input"] = may["import"] = "core" # import is a program of its own
     may["options"] = "core scene shadow frame display input"
-    may["stage"] = "core image scene shadow frame gl display input caption options"
+    may["stage"] = "core image scene shadow truth frame gl display input caption options"
     may["kiosk"] = may["stage"] " stage"
     may["cli"] = may["kiosk"] " kiosk"
     # which rooms may include <KEY..>

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "image/raycast.h"
 #include "image/shot.h"
+#include "truth/raycast.h"
 #include "unit/gltf_maker.h"
 
 /* ---- scenes ---- */

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "image/bvh.h"
 #include "image/dice.h"
+#include "truth/bvh.h"
 #include "unit/check.h"
 
 static struct gn_dice dice;

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "gl/private.h"
-#include "image/raycast.h"
 #include "image/shot.h"
+#include "truth/raycast.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"
 #include "unit/gltf_maker.h"

@@ -8,8 +8,8 @@
 
 #include "core/arena.h"
 #include "frame/frame.h"
-#include "image/raycast.h"
 #include "plan/stage_scene.h"
+#include "truth/raycast.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"
 

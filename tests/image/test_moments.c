@@ -8,9 +8,9 @@
 
 #include "core/arena.h"
 #include "gl/private.h"
-#include "image/raycast.h"
 #include "image/shot.h"
 #include "plan/stage_scene.h"
+#include "truth/raycast.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"
 #include "unit/gltf_maker.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "image/dice.h"
-#include "image/raycast.h"
+#include "truth/raycast.h"
 #include "unit/check.h"
 
 static struct gn_dice dice;

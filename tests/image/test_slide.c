@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/raycast.h"
 #include "image/shot.h"
+#include "truth/raycast.h"
 #include "unit/check.h"
 #include "unit/gltf_maker.h"
 

@@ -13,7 +13,7 @@
 #define GN_IMAGE_TRUTH_H
 
 #include "image/compare.h"
-#include "image/raycast.h"
+#include "truth/raycast.h"
 
 struct gn_truth_frame { /* where everything was */
     struct gn_ray_eye eye;

@@ -1,4 +1,4 @@
-#include "image/bvh.h"
+#include "truth/bvh.h"
 
 #include <assert.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "image/raycast.h"
+#include "truth/raycast.h"
 
 #include <math.h>
 

@@ -6,8 +6,8 @@
  * hierarchies", 2007). Traversal: an explicit stack, near child first. Triangle test: Woop,
  * Benthin, Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013: both neighbours of an
  * edge count a ray through it, so no ray slips between them. */
-#ifndef GN_IMAGE_BVH_H
-#define GN_IMAGE_BVH_H
+#ifndef GN_TRUTH_BVH_H
+#define GN_TRUTH_BVH_H
 
 #include <stdbool.h>
 #include <stdint.h>

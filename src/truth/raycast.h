@@ -16,14 +16,14 @@
  * - A hole is where texture alpha x vertex alpha x factor < cutoff; the texture at level 0, nearest
  * or bilinear with its wrap, as OpenGL ES 3.0 section 3.8.10 has it. The renderer minifies with
  * mip-maps, so rims of far holes may differ. */
-#ifndef GN_IMAGE_RAYCAST_H
-#define GN_IMAGE_RAYCAST_H
+#ifndef GN_TRUTH_RAYCAST_H
+#define GN_TRUTH_RAYCAST_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "image/bvh.h"
 #include "scene/pose.h"
+#include "truth/bvh.h"
 
 struct gn_raycast {
     const struct gn_scene *scene;
