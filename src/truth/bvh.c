@@ -7,7 +7,10 @@
 
 #include "core/arena.h"
 
-enum { BINS = 16, LEAF = 4, STACK = 128 };
+/* From DEEP on nodes are halved: each of the first levels may part one triangle from the others,
+ * and the stack has to hold all levels. */
+enum { BINS = 16, LEAF = 4, DEEP = 64, STACK = 128 };
+#define PAD 1e-9 /* of the scene's diagonal, around boxes: room for the rounding of their tests */
 
 /* Inner: children at `first` and `first + 1`, count 0. Leaf: triangles first .. first + count - 1.
  */
@@ -131,9 +134,10 @@ void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_
     for (uint32_t i = 0; i < count; i++) bounds_triangle(&all, &triangles[i]);
     bvh->diagonal =
         hypot(hypot(all.max[0] - all.min[0], all.max[1] - all.min[1]), all.max[2] - all.min[2]);
-    double pad = 1e-9 * bvh->diagonal;
+    double pad = PAD * bvh->diagonal;
 
     bvh->nodes = gn_xalloc(2 * (size_t)count, sizeof *bvh->nodes);
+    uint8_t *level = gn_xalloc(2 * (size_t)count, 1);
     bvh->nodes[0] = (struct gn_bvh_node){.first = 0, .count = count};
     bvh->node_count = 1;
     /* Nodes are made in the order in which they are numbered, so the list itself is the queue. */
@@ -143,15 +147,21 @@ void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_
         set_box(node, triangles + first, n, pad);
         if (n <= LEAF) continue;
         struct split split = {0};
-        uint32_t left = find_split(triangles + first, n, &split)
+        uint32_t left = level[i] < DEEP && find_split(triangles + first, n, &split)
                             ? partition(triangles + first, n, &split)
                             : n / 2;
         node->first = bvh->node_count;
         node->count = 0;
+        level[node->first] = level[node->first + 1] = level[i] + 1;
         bvh->nodes[bvh->node_count++] = (struct gn_bvh_node){.first = first, .count = left};
         bvh->nodes[bvh->node_count++] =
             (struct gn_bvh_node){.first = first + left, .count = n - left};
     }
+    free(level);
+}
+
+uint64_t gn_bvh_bytes(uint64_t triangles) {
+    return triangles * (sizeof(struct gn_bvh_triangle) + 2 * sizeof(struct gn_bvh_node) + 2);
 }
 
 void gn_bvh_finish(struct gn_bvh *bvh) {
@@ -288,4 +298,73 @@ bool gn_bvh_hit_slow(const struct gn_bvh *bvh, const struct gn_ray *ray, gn_bvh_
     struct sheared s = shear(ray);
     *hit = (struct gn_bvh_hit){.t = ray->t_max};
     return hit_range(bvh, &s, 0, bvh->triangle_count, accept, context, hit);
+}
+
+/* ---- many rays from one point ---- */
+
+/* Keeps the part of from..to where t * slope >= least. */
+static void cut_span(double slope, double least, double *from, double *to) {
+    if (slope > 0)
+        *from = fmax(*from, least / slope);
+    else if (slope < 0)
+        *to = fmin(*to, least / slope);
+    else if (least > 0)
+        *to = -1;
+}
+
+/* Along each axis the beam covers origin + t low .. origin + t high: a box is out of it unless some
+ * t has all three meet the box. */
+static bool beam_meets(const struct gn_beam *beam, const double min[3], const double max[3]) {
+    double from = 0, to = beam->t_max;
+    for (int k = 0; k < 3; k++) {
+        cut_span(beam->high[k], min[k] - beam->origin[k], &from, &to);
+        cut_span(-beam->low[k], beam->origin[k] - max[k], &from, &to);
+    }
+    return from <= to;
+}
+
+static bool beam_meets_triangle(const struct gn_bvh *bvh, const struct gn_beam *beam,
+                                const struct gn_bvh_triangle *t) {
+    const double pad = PAD * bvh->diagonal;
+    struct bounds b = nothing;
+    bounds_triangle(&b, t);
+    for (int k = 0; k < 3; k++) {
+        b.min[k] -= pad;
+        b.max[k] += pad;
+    }
+    return beam_meets(beam, b.min, b.max);
+}
+
+uint32_t gn_bvh_gather(const struct gn_bvh *bvh, const struct gn_beam *beam, uint32_t *out,
+                       uint32_t most) {
+    uint32_t stack[STACK], depth = 0, count = 0;
+    if (bvh->node_count) stack[depth++] = 0;
+    while (depth) {
+        const struct gn_bvh_node *node = &bvh->nodes[stack[--depth]];
+        if (!beam_meets(beam, node->min, node->max)) continue;
+        if (!node->count) {
+            assert(depth + 2 <= STACK);
+            stack[depth++] = node->first;
+            stack[depth++] = node->first + 1;
+            continue;
+        }
+        for (uint32_t i = node->first; i < node->first + node->count; i++) {
+            if (!beam_meets_triangle(bvh, beam, &bvh->triangles[i])) continue;
+            if (count == most) return most + 1;
+            out[count++] = i;
+        }
+    }
+    return count;
+}
+
+bool gn_bvh_hit_some(const struct gn_bvh *bvh, const struct gn_ray *ray, const uint32_t *list,
+                     uint32_t count, gn_bvh_accept accept, const void *context, uint32_t *which) {
+    const struct sheared s = shear(ray);
+    struct gn_bvh_hit hit = {.t = ray->t_max};
+    for (uint32_t i = 0; i < count; i++) {
+        if (!hit_range(bvh, &s, list[i], 1, accept, context, &hit)) continue;
+        *which = i;
+        return true;
+    }
+    return false;
 }

@@ -46,12 +46,27 @@ typedef bool (*gn_bvh_accept)(const void *context, const struct gn_bvh_triangle 
 /* Takes count triangles (malloc'ed, owned from here on, reordered). */
 void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_t count);
 void gn_bvh_finish(struct gn_bvh *bvh);
+/* What a tree of so many triangles takes, with them. */
+uint64_t gn_bvh_bytes(uint64_t triangles);
 
 /* The closest accepted hit, or any accepted one if `any` (then `hit` is just one of them).
  * Thread-safe. */
 bool gn_bvh_hit(const struct gn_bvh *bvh, const struct gn_ray *ray, bool any, gn_bvh_accept accept,
                 const void *context, struct gn_bvh_hit *hit);
-/* The same over every triangle, without the tree: the reference that the tree is tested against. */
+/* All rays from one point with directions between two corners of a box. */
+struct gn_beam {
+    double origin[3], low[3], high[3];
+    double t_max; /* 0 < t <= t_max */
+};
+/* The triangles, into bvh->triangles, that a ray of the beam can meet; perhaps others that are
+ * near. Returns how many; most + 1: there are more, and those in `out` are only some. */
+uint32_t gn_bvh_gather(const struct gn_bvh *bvh, const struct gn_beam *beam, uint32_t *out,
+                       uint32_t most);
+/* Whether the ray meets one of these that is accepted; *which: its number in the list. */
+bool gn_bvh_hit_some(const struct gn_bvh *bvh, const struct gn_ray *ray, const uint32_t *list,
+                     uint32_t count, gn_bvh_accept accept, const void *context, uint32_t *which);
+/* The same as gn_bvh_hit() over every triangle, without the tree: the reference that the tree is
+ * tested against. */
 bool gn_bvh_hit_slow(const struct gn_bvh *bvh, const struct gn_ray *ray, gn_bvh_accept accept,
                      const void *context, struct gn_bvh_hit *hit);
 

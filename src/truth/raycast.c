@@ -4,6 +4,7 @@
 
 #include "core/arena.h"
 
+enum { BLOCKERS_MAX = 24 };
 enum { SEEN = 1, SEEN_FROM_BEHIND = 2, CASTS = 4, MASKED = 8, MIRRORED = 16 };
 
 static double dot(const double a[3], const double b[3]) {
@@ -68,6 +69,13 @@ void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
 void gn_raycast_finish(struct gn_raycast *rays) {
     gn_bvh_finish(&rays->bvh);
     *rays = (struct gn_raycast){0};
+}
+
+uint64_t gn_raycast_bytes(const struct gn_scene *scene) {
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        bytes += gn_bvh_bytes(scene->geometries[scene->items[i].geometry].index_count / 3);
+    return bytes;
 }
 
 bool gn_raycast_casts(const struct gn_bvh_triangle *triangle) { return triangle->flags & CASTS; }
@@ -161,6 +169,22 @@ void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_
     eye->half_width = eye->half_height * width_px / height_px;
 }
 
+static void turn(double v[3], double c, double s) {
+    const double x = v[0], z = v[2];
+    v[0] = c * x + s * z;
+    v[2] = c * z - s * x;
+}
+
+void gn_ray_eye_turn(struct gn_ray_eye *eye, const double centre_ws[3], double angle_rad) {
+    const double c = cos(angle_rad), s = sin(angle_rad);
+    for (int k = 0; k < 3; k++) eye->position_ws[k] -= centre_ws[k];
+    turn(eye->position_ws, c, s);
+    for (int k = 0; k < 3; k++) eye->position_ws[k] += centre_ws[k];
+    turn(eye->right, c, s);
+    turn(eye->up, c, s);
+    turn(eye->forward, c, s);
+}
+
 double gn_ray_eye_pixel_m(const struct gn_ray_eye *eye, const double point_ws[3]) {
     double pixel = 2 * eye->half_height / eye->height_px;
     if (eye->orthographic) return pixel;
@@ -252,9 +276,31 @@ static bool casts_itself(const struct gn_raycast *rays, const struct gn_ray_surf
     return surface->item == GN_RAY_NO_ITEM || rays->scene->items[surface->item].casts;
 }
 
+/* What may be in the way of many rays from one surface to one lamp. */
+struct blockers {
+    uint32_t at[BLOCKERS_MAX], count; /* triangles; the one that was met last is the first */
+    bool complete;                    /* there is no other */
+};
+
+static bool is_blocked(const struct gn_raycast *rays, const struct gn_ray *ray,
+                       struct blockers *blockers) {
+    uint32_t which;
+    struct gn_bvh_hit hit;
+    if (gn_bvh_hit_some(&rays->bvh, ray, blockers->at, blockers->count, casts, rays, &which)) {
+        const uint32_t met = blockers->at[which];
+        blockers->at[which] = blockers->at[0];
+        blockers->at[0] = met;
+        return true;
+    }
+    if (blockers->complete || !gn_bvh_hit(&rays->bvh, ray, true, casts, rays, &hit)) return false;
+    blockers->at[0] = hit.triangle;
+    blockers->count = 1;
+    return true;
+}
+
 /* Is the way along `to` free (as far as its length, or without end)? */
 static bool is_free(const struct gn_raycast *rays, const struct gn_ray_surface *surface,
-                    const double to[3], bool endless) {
+                    const double to[3], bool endless, struct blockers *blockers) {
     if (dot(surface->normal_ws, to) <= 0 && casts_itself(rays, surface)) return false;
     struct gn_ray ray = {.t_min = 0, .t_max = endless ? INFINITY : 1};
     for (int k = 0; k < 3; k++) {
@@ -262,16 +308,35 @@ static bool is_free(const struct gn_raycast *rays, const struct gn_ray_surface *
         ray.origin[k] = surface->point_ws[k] + lift;
         ray.direction[k] = to[k] - (endless ? 0 : lift);
     }
-    struct gn_bvh_hit hit;
-    return !gn_bvh_hit(&rays->bvh, &ray, true, casts, rays, &hit);
+    return !is_blocked(rays, &ray, blockers);
 }
 
 int gn_raycast_visible(const struct gn_raycast *rays, const struct gn_ray_lamp *lamp,
                        const struct gn_ray_surface *surface) {
     double to[3];
+    struct blockers unknown = {.count = 0};
     towards(lamp, surface, to);
     if (out_of_reach(lamp, to)) return 1;
-    return is_free(rays, surface, to, lamp->type == GN_LIGHT_DIRECTIONAL);
+    return is_free(rays, surface, to, lamp->type == GN_LIGHT_DIRECTIONAL, &unknown);
+}
+
+/* Looks once for what may be in the way of any ray to the lamp's disk, which u and v span. */
+static void find_blockers(const struct gn_raycast *rays, const struct gn_ray_lamp *lamp,
+                          const struct gn_ray_surface *surface, const double to[3],
+                          const double u[3], const double v[3], struct blockers *blockers) {
+    const bool endless = lamp->type == GN_LIGHT_DIRECTIONAL;
+    struct gn_beam beam = {.t_max = endless ? INFINITY : 1};
+    for (int k = 0; k < 3; k++) {
+        const double lift = rays->lift_m * surface->normal_ws[k],
+                     middle = to[k] - (endless ? 0 : lift),
+                     spread = 1.000001 * lamp->radius * sqrt(u[k] * u[k] + v[k] * v[k]);
+        beam.origin[k] = surface->point_ws[k] + lift;
+        beam.low[k] = middle - spread;
+        beam.high[k] = middle + spread;
+    }
+    const uint32_t found = gn_bvh_gather(&rays->bvh, &beam, blockers->at, BLOCKERS_MAX);
+    blockers->complete = found <= BLOCKERS_MAX;
+    blockers->count = blockers->complete ? found : 0;
 }
 
 double gn_raycast_share(const struct gn_raycast *rays, const struct gn_ray_lamp *lamp,
@@ -284,13 +349,15 @@ double gn_raycast_share(const struct gn_raycast *rays, const struct gn_ray_lamp 
     cross(axis, fabs(axis[1]) < .9 ? (double[3]){0, 1, 0} : (double[3]){1, 0, 0}, u);
     normalise(u);
     cross(axis, u, v);
+    struct blockers blockers;
+    find_blockers(rays, lamp, surface, to, u, v, &blockers);
     int free_ways = 0;
     for (int i = 0; i < samples; i++) {
         double radius = lamp->radius * sqrt((i + .5) / samples);
         double angle = i * M_PI * (3 - sqrt(5)); /* the golden angle */
         double a = radius * cos(angle), b = radius * sin(angle), way[3];
         for (int k = 0; k < 3; k++) way[k] = to[k] + a * u[k] + b * v[k];
-        free_ways += is_free(rays, surface, way, lamp->type == GN_LIGHT_DIRECTIONAL);
+        free_ways += is_free(rays, surface, way, lamp->type == GN_LIGHT_DIRECTIONAL, &blockers);
     }
     return (double)free_ways / samples;
 }

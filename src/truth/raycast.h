@@ -36,6 +36,8 @@ struct gn_raycast {
 void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
                      const struct gn_pose *pose);
 void gn_raycast_finish(struct gn_raycast *rays);
+/* What gn_raycast_init() takes at most for a scene. */
+uint64_t gn_raycast_bytes(const struct gn_scene *scene);
 bool gn_raycast_casts(const struct gn_bvh_triangle *triangle); /* one of rays->bvh.triangles */
 
 /* A camera at a pose, and a picture size. A perspective camera keeps its vertical angle; an
@@ -50,6 +52,8 @@ struct gn_ray_eye {
 };
 void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera,
                      int width_px, int height_px);
+/* Turns it about the vertical axis through a point, anticlockwise seen from above. */
+void gn_ray_eye_turn(struct gn_ray_eye *eye, const double centre_ws[3], double angle_rad);
 /* Size of one pixel in metres for a surface facing the eye at this point. */
 double gn_ray_eye_pixel_m(const struct gn_ray_eye *eye, const double point_ws[3]);
 

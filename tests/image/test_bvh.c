@@ -120,9 +120,71 @@ static void test_no_ray_slips_between_triangles(void **state) {
     gn_bvh_finish(&bvh);
 }
 
+/* Rays from one point to a box of directions: none meets a triangle that was not gathered. */
+static void test_a_beam_holds_all_that_its_rays_meet(void **state) {
+    (void)state;
+    enum { COUNT = 2000, MOST = 400 };
+    struct gn_bvh bvh;
+    int hits = 0, full = 0;
+    gn_bvh_build(&bvh, random_triangles(COUNT, .05, false), COUNT);
+    for (int i = 0; i < 2000; i++) {
+        struct gn_ray middle = random_ray(i);
+        struct gn_beam beam = {.t_max = middle.t_max};
+        const double spread = i % 7 ? between(0, .2) : 0;
+        uint32_t list[MOST], which;
+        for (int k = 0; k < 3; k++) {
+            beam.origin[k] = middle.origin[k];
+            beam.low[k] = middle.direction[k] - spread;
+            beam.high[k] = middle.direction[k] + spread;
+        }
+        const uint32_t found = gn_bvh_gather(&bvh, &beam, list, MOST);
+        if (found > MOST) {
+            full++;
+            continue;
+        }
+        for (int r = 0; r < 20; r++) {
+            struct gn_ray ray = middle;
+            struct gn_bvh_hit hit;
+            for (int k = 0; k < 3; k++) ray.direction[k] = between(beam.low[k], beam.high[k]);
+            const bool meets = gn_bvh_hit(&bvh, &ray, true, NULL, NULL, &hit);
+            assert_int_equal(gn_bvh_hit_some(&bvh, &ray, list, found, NULL, NULL, &which), meets);
+            if (meets) assert_true(which < found);
+            hits += meets;
+        }
+    }
+    print_message("%d hits; %d beams with more than %d triangles\n", hits, full, MOST);
+    assert_true(hits > 1000 && full < 1000);
+    gn_bvh_finish(&bvh);
+}
+
+/* Each triangle a sixteenth as far away as the one before, so that a split parts only one. */
+static void test_the_tree_of_a_geometric_row_is_not_too_deep(void **state) {
+    (void)state;
+    enum { COUNT = 500 };
+    struct gn_bvh_triangle *t = gn_xalloc(COUNT, sizeof *t);
+    struct gn_bvh bvh;
+    for (int i = 0; i < COUNT; i++) {
+        const double at = pow(.5, i);
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++) t[i].p[c][k] = at * (1 + .01 * (c == k));
+    }
+    gn_bvh_build(&bvh, t, COUNT);
+    for (int i = 0; i < 200; i++) {
+        const struct gn_ray ray = {.origin = {2, 2, 2},
+                                   .direction = {-1, -1 + 1e-4 * i, -1 - 1e-5 * i},
+                                   .t_max = INFINITY};
+        struct gn_bvh_hit a, b;
+        const bool hit = gn_bvh_hit(&bvh, &ray, false, NULL, NULL, &a);
+        assert_int_equal(hit, gn_bvh_hit_slow(&bvh, &ray, NULL, NULL, &b));
+    }
+    gn_bvh_finish(&bvh);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_tree_agrees_with_every_triangle),
+        cmocka_unit_test(test_a_beam_holds_all_that_its_rays_meet),
+        cmocka_unit_test(test_the_tree_of_a_geometric_row_is_not_too_deep),
         cmocka_unit_test(test_empty_tree_has_no_hit),
         cmocka_unit_test(test_no_ray_slips_between_triangles),
     };
