@@ -56,8 +56,10 @@ static const char *check_key(const struct gn_program_key *key) {
     REQUIRE((key->features & ~gn_features_all()) == 0);
     for (int i = 0; i < key->light_count; i++) {
         REQUIRE((key->lights[i].technique != GN_TECHNIQUE_NONE) == (i < key->shadow_count));
-        REQUIRE(key->lights[i].technique < GN_TECHNIQUE_COUNT);
-        REQUIRE(key->lights[i].encoding < GN_ENCODING_COUNT);
+        REQUIRE(key->lights[i].technique < GN_TECHNIQUE_ALL);
+        REQUIRE(key->lights[i].encoding < GN_ENCODING_ALL);
+        REQUIRE(gn_techniques[key->lights[i].technique].on_screen ==
+                (key->lights[i].encoding == GN_ENCODING_SCREEN));
         REQUIRE(key->lights[i].moments < GN_MOMENTS_COUNT);
         REQUIRE(gn_technique_filters_map((enum gn_technique)key->lights[i].technique) ==
                 (key->lights[i].moments != GN_MOMENTS_NONE));
@@ -157,6 +159,15 @@ static const char *check_copy(const struct gn_plan *plan, const struct gn_pass *
     return check_tile(plan, pass);
 }
 
+/* As large as the picture; each pixel has its own texel. */
+static const char *check_given(const struct gn_plan *plan, const struct gn_pass *pass) {
+    REQUIRE(pass->target.kind == GN_TARGET_SHADOW);
+    REQUIRE(pass->target.encoding == GN_ENCODING_SCREEN && pass->draw_count == 0);
+    REQUIRE(pass->target.width_px == plan->width_px && pass->target.height_px == plan->height_px);
+    REQUIRE(plan->msaa < 2);
+    return check_tile(plan, pass);
+}
+
 /* A filter step draws all of its target once, and does not read its target. */
 static const char *check_filter(const struct gn_plan *plan, const struct gn_pass *pass) {
     const struct gn_target *to = &pass->target;
@@ -191,6 +202,7 @@ static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *
     case GN_PASS_MAP: broken = check_map(plan, pass); break;
     case GN_PASS_COPY: broken = check_copy(plan, pass); break;
     case GN_PASS_FILTER: broken = check_filter(plan, pass); break;
+    case GN_PASS_GIVEN: broken = check_given(plan, pass); break;
     }
     for (uint32_t i = 0; i < pass->draw_count && !broken; i++)
         broken = check_draw(plan, pass, &plan->draws[pass->first_draw + i]);

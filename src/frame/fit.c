@@ -2,12 +2,30 @@
 #include "frame/private.h"
 #include "shadow/cascade.h"
 
+/* The view of a light that has a value for each pixel instead of a map. */
+static void lay_screen(const struct gn_frame *frame, uint32_t light, struct gn_shadow_view *view) {
+    *view = (struct gn_shadow_view){
+        .light = light,
+        .technique = GN_TECHNIQUE_TRUTH,
+        .encoding = GN_ENCODING_SCREEN,
+        .perspective = gn_light_types[frame->scene->lights[light].type].has_position,
+        .map = {.width_px = frame->plan.width_px,
+                .height_px = frame->plan.height_px,
+                .tile_count = 1},
+        .raster.tiles[0].content_hash = 1,
+    };
+}
+
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     struct gn_shadow_opts maps[GN_ALL_SHADOWS_MAX];
     for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
         /* how large the light's map is wanted, as far as this GPU's textures go */
         struct gn_frame_light *light = gn_frame_light_of_slot(frame, slot);
+        maps[slot] =
+            (struct gn_shadow_opts){.technique = light->technique, .encoding = light->encoding};
+        light->cascades = 1;
+        if (gn_techniques[light->technique].on_screen) continue;
         const struct gn_light *l = &frame->scene->lights[light->light];
         const uint32_t most = gn_frame_most_px(frame, light, 1);
         const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
@@ -51,7 +69,11 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
     }
     gn_frame_shrink_maps(frame, opts->shadow.maps_bytes, maps, warnings);
     /* An empty view keeps its slot: programs do not depend on what is visible. */
-    for (uint32_t i = 0; i < frame->shadow_count; i++)
-        gn_shadow_fit(pose, gn_frame_light_of_slot(frame, i)->light, &frame->eye, &maps[i],
-                      frame->memory[i], &frame->shadows[i]);
+    for (uint32_t i = 0; i < frame->shadow_count; i++) {
+        const uint32_t light = gn_frame_light_of_slot(frame, i)->light;
+        if (gn_techniques[maps[i].technique].on_screen)
+            lay_screen(frame, light, &frame->shadows[i]);
+        else
+            gn_shadow_fit(pose, light, &frame->eye, &maps[i], frame->memory[i], &frame->shadows[i]);
+    }
 }

@@ -150,6 +150,7 @@ static void warn_of_limit(struct gn_frame *frame, uint32_t light, enum gn_notice
 /* How often the items are drawn for a light at most: once per tile, or per cascade. */
 static uint32_t count_views(const struct gn_frame *frame, const struct gn_frame_light *light) {
     const enum gn_light_type type = frame->scene->lights[light->light].type;
+    if (gn_techniques[light->technique].on_screen) return 0;
     if (!gn_light_types[type].has_position && !gn_techniques[light->technique].on_plane)
         return GN_CASCADES_MAX;
     return gn_shadow_tile_count(type, light->technique);

@@ -29,7 +29,7 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, enum gn_pass_kind kind
                                       .encoding = view->encoding};
     pass->clear.area = GN_CLEAR_ALL;
     pass->clear.color[0] = view->code.far_end;
-    pass->depth_write = view->encoding != GN_ENCODING_MASK;
+    pass->depth_write = view->encoding != GN_ENCODING_MASK && view->encoding != GN_ENCODING_SCREEN;
     pass->discard_depth = pass->depth_write && view->encoding != GN_ENCODING_DEPTH;
     pass->content = (struct gn_content){
         .tile = tile, .hash = view->raster.tiles[tile].content_hash, .completes = true};
@@ -125,12 +125,24 @@ static void add_paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_end_pass(frame);
 }
 
+/* ---- no map, but what the caller has computed ---- */
+
+static void add_given_pass(struct gn_frame *frame, uint32_t slot) {
+    mat4 nowhere = GLM_MAT4_IDENTITY_INIT;
+    begin_pass(frame, GN_PASS_GIVEN, slot, 0, 0, nowhere);
+    gn_frame_end_pass(frame);
+}
+
 void gn_frame_add_maps(struct gn_frame *frame, const struct gn_pose *pose,
                        const struct gn_frame_opts *opts) {
     for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
         struct gn_shadow_view *view = &frame->shadows[slot];
         const bool in_stencil = view->encoding == GN_ENCODING_STENCIL,
                    paged = view->raster.drawn.paged;
+        if (view->encoding == GN_ENCODING_SCREEN) {
+            add_given_pass(frame, slot);
+            continue;
+        }
         if (paged && !in_stencil) {
             const struct paged map = {.slot = slot,
                                       .page_px = view->map.tile_px,

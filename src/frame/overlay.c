@@ -118,7 +118,8 @@ struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect
 
 static void add_panel_pass(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
-    if (view->encoding == GN_ENCODING_STENCIL) return; /* it has no map */
+    if (view->encoding == GN_ENCODING_STENCIL || view->encoding == GN_ENCODING_SCREEN)
+        return; /* it has no map */
     /* Along the lower edge, from the left: a quarter of the height, or less so that all fit. */
     const uint32_t width = frame->picture.width_px, height = frame->picture.height_px;
     const uint32_t gap = (uint32_t)(GAP_PX * pixel_scale(frame)),

@@ -150,6 +150,7 @@ enum gn_pass_kind {
     GN_PASS_MAP,     /* casters: to SHADOW, or to PAGES, which complete nothing */
     GN_PASS_COPY,    /* pages to SHADOW, which is cleared; draws nothing */
     GN_PASS_FILTER,  /* a map, or moments, to MOMENTS; one draw, not cleared */
+    GN_PASS_GIVEN, /* SHADOW of encoding SCREEN: holds what gn_gl_give() put there; draws nothing */
 };
 struct gn_pass {
     char label[48]; /* KHR_debug group, timer, error: "shadow 0 Sun", "opaque", "blend" */

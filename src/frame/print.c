@@ -52,6 +52,10 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
             plan->scene->lights[view->light].name,
             gn_light_types[plan->scene->lights[view->light].type].name,
             gn_techniques[view->technique].name, format_of(view->encoding, view->moments));
+    if (view->encoding == GN_ENCODING_SCREEN) {
+        fprintf(to, ", a value for each pixel\n");
+        return;
+    }
     const bool has_map = view->encoding != GN_ENCODING_STENCIL;
     if (has_map) fprintf(to, " %u px", view->map.tile_px);
     if (has_map && view->map.tile_count > 1)

@@ -185,7 +185,8 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
     for (int i = 0; i < key->shadow_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
         const bool integers = light->moments ? !gn_moments[light->moments].linear
-                                             : light->encoding == GN_ENCODING_R32UI;
+                                             : light->encoding == GN_ENCODING_R32UI ||
+                                                   light->encoding == GN_ENCODING_SCREEN;
         const char *type = integers ? "usampler2D" : "sampler2D";
         if (compares_in_sampler(light)) type = "sampler2DShadow";
         gn_gl_text_add(out, "uniform %s u_map_%d;\n", type, i);

@@ -100,6 +100,9 @@ void gn_gl_set_window(struct gn_gl *gl, const struct gn_gl_window *window);
 /* Draws. Shadow passes whose target holds their content.hash are skipped. pass_ms, if not NULL,
  * gets the time of each pass (CPU wall clock around the pass and a 1-pixel read-back: slow, for
  * bench). */
+/* Fills the map of a slot of encoding SCREEN of a prepared plan: a value for each pixel, the lowest
+ * row first. It stays until the next call. */
+void gn_gl_give(struct gn_gl *gl, const struct gn_plan *plan, uint32_t slot, const float *values);
 bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err);
 
 /* Keeps a copy of the last picture, 8 bits per channel, to be blended over later ones: call it

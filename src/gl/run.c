@@ -49,6 +49,17 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
     return ok;
 }
 
+void gn_gl_give(struct gn_gl *gl, const struct gn_plan *plan, uint32_t slot, const float *values) {
+    const struct gn_shadow_view *view = &plan->shadows[slot];
+    struct gn_gl_map *map = gn_gl_view_find(gl, view, slot, false);
+    if (!map || view->encoding != GN_ENCODING_SCREEN) return;
+    gn_gl_work_on_texture(gl, map->texture);
+    GL(gl, TexSubImage2D)
+    (GL_TEXTURE_2D, 0, 0, 0, (GLsizei)map->width_px, (GLsizei)map->height_px, GL_RED_INTEGER,
+     GL_UNSIGNED_INT, values);
+    map->content_hash[0] = view->raster.tiles[0].content_hash;
+}
+
 /* ---- running ---- */
 
 static bool holds_content(const struct gn_gl_map *map, uint32_t tile, uint64_t hash) {
@@ -143,6 +154,8 @@ static bool run_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct 
     struct gn_gl_map *owner =
         gn_gl_view_find(gl, &plan->shadows[slot], slot, pass->kind == GN_PASS_FILTER);
     if (!to || !owner) return gn_fail(err, "%s: the plan was not prepared", pass->label);
+    if (pass->kind == GN_PASS_GIVEN)
+        return owner->content_hash[0] || gn_fail(err, "%s: no values were given", pass->label);
     const bool holds = holds_content(owner, content->tile, content->hash);
     const uint32_t wanted = pass->kind == GN_PASS_MAP ? pass->map.point_count : 0;
     if (holds && owner->points == wanted) {

@@ -158,7 +158,7 @@ bool gn_gl_pixel_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_
 
 /* ---- shadow maps ---- */
 
-static const GLenum map_formats[GN_ENCODING_COUNT] = {
+static const GLenum map_formats[GN_ENCODING_ALL] = {
     [GN_ENCODING_DEPTH] = GL_DEPTH_COMPONENT24,
     [GN_ENCODING_R32UI] = GL_R32UI,
     [GN_ENCODING_R16F] = GL_R16F,
@@ -167,6 +167,7 @@ static const GLenum map_formats[GN_ENCODING_COUNT] = {
     [GN_ENCODING_MASK] = GL_R8,
     [GN_ENCODING_MEAN] = GL_R8,      /* blended, which ES 3.0 promises; half floats it does not */
     [GN_ENCODING_STENCIL] = GL_NONE, /* no map */
+    [GN_ENCODING_SCREEN] = GL_R32UI,
 };
 
 static const GLenum moments_formats[GN_MOMENTS_COUNT] = {
@@ -204,8 +205,9 @@ static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err
     if (is_depth) {
         GL(gl, DrawBuffers)(1, &none);
         GL(gl, ReadBuffer)(GL_NONE);
-    } else if (!map->moments && map->encoding != GN_ENCODING_MASK) { /* which need no depth test */
-        const bool is_mean = map->encoding == GN_ENCODING_MEAN;      /* whose depths count points */
+    } else if (!map->moments && map->encoding != GN_ENCODING_MASK &&
+               map->encoding != GN_ENCODING_SCREEN) {           /* which need no depth test */
+        const bool is_mean = map->encoding == GN_ENCODING_MEAN; /* whose depths count points */
         map->depth = make_renderbuffer(gl, is_mean ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT24, 0,
                                        map->width_px, map->height_px);
         attach_renderbuffer(gl, GL_DEPTH_ATTACHMENT, map->depth);

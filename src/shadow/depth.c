@@ -70,6 +70,8 @@ void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_d
     case GN_ENCODING_MASK:
     case GN_ENCODING_MEAN:
     case GN_ENCODING_STENCIL:
+    case GN_ENCODING_SCREEN:
+    case GN_ENCODING_ALL:
     case GN_ENCODING_COUNT: return;
     }
 }

@@ -4,12 +4,17 @@
 #include <string.h>
 
 #define ROW(id, ...) [GN_TECHNIQUE_##id] = {__VA_ARGS__},
-const struct gn_technique_row gn_techniques[GN_TECHNIQUE_COUNT] = {
+const struct gn_technique_row gn_techniques[GN_TECHNIQUE_ALL] = {
 #include "shadow/technique_rows.h"
+    [GN_TECHNIQUE_TRUTH] = {.name = "truth",
+                            .file = "shadow/truth.glsl",
+                            .on_screen = true,
+                            .what = "rays to points of the light, on the CPU",
+                            .source = "Cook, Porter, Carpenter 1984"},
 };
 #undef ROW
 
-const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
+const struct gn_encoding_row gn_encodings[GN_ENCODING_ALL] = {
     [GN_ENCODING_DEPTH] = {"depth", "lib/map_depth_code.glsl", 4},
     [GN_ENCODING_R32UI] = {"r32ui", "lib/map_r32ui.glsl", 8},
     [GN_ENCODING_R16F] = {"r16f", "lib/map_r16f.glsl", 6},
@@ -18,6 +23,7 @@ const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT] = {
     [GN_ENCODING_MASK] = {"mask", "lib/map_mask.glsl", 1},
     [GN_ENCODING_MEAN] = {"mean", "lib/map_mean.glsl", 3},
     [GN_ENCODING_STENCIL] = {"stencil", "lib/map_stencil.glsl", 0},
+    [GN_ENCODING_SCREEN] = {"screen", "lib/map_screen.glsl", 4},
 };
 
 bool gn_technique_shades(enum gn_technique technique) {
@@ -73,6 +79,7 @@ enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encodin
                                                 GN_ENCODING_R16F};
     *fell_back = false;
     if (gn_techniques[technique].on_plane) return GN_ENCODING_MASK;
+    if (gn_techniques[technique].on_screen) return GN_ENCODING_SCREEN;
     if (gn_technique_filters_map(technique)) {
         *fell_back = wanted != GN_ENCODING_AUTO;
         return proved & 1u << GN_ENCODING_R32UI ? GN_ENCODING_R32UI : GN_ENCODING_RGBA8;

@@ -16,6 +16,8 @@
 enum gn_technique {
 #include "shadow/technique_rows.h"
     GN_TECHNIQUE_COUNT,
+    GN_TECHNIQUE_TRUTH = GN_TECHNIQUE_COUNT, /* of stills alone: no mode, and not measured */
+    GN_TECHNIQUE_ALL,
 };
 #undef ROW
 
@@ -32,6 +34,9 @@ enum gn_encoding {
     GN_ENCODING_STENCIL, /* on a plane: no map, but marks in the picture's stencil */
     GN_ENCODING_COUNT,
     GN_ENCODING_AUTO = GN_ENCODING_COUNT,
+    GN_ENCODING_SCREEN, /* no map: the visibility at each pixel of the picture, bits of a float,
+                           that the caller of gl/ computes. Only for TRUTH */
+    GN_ENCODING_ALL,
 };
 
 struct gn_technique_row {
@@ -44,6 +49,7 @@ struct gn_technique_row {
                       face's plane: the bias has to be that of the face, not of a smooth normal */
     bool reads_distance; /* `auto` selects a distance map for it; else a depth map */
     bool on_plane;       /* only the scene's plane receives its shadows: planar.h */
+    bool on_screen;      /* no map is drawn: encoding SCREEN */
     bool soft;           /* penumbrae by the light's size: the map includes their width */
     enum gn_taps taps;
     enum gn_filter filter; /* passes convert the map into moments, which it reads; else NONE */
@@ -58,14 +64,14 @@ struct gn_technique_row {
     const char *what;  /* one line of help */
     const char *source;
 };
-extern const struct gn_technique_row gn_techniques[GN_TECHNIQUE_COUNT];
+extern const struct gn_technique_row gn_techniques[GN_TECHNIQUE_ALL];
 
 struct gn_encoding_row {
     const char *name;     /* as in --map-format */
     const char *file;     /* below shaders_es/ */
     unsigned texel_bytes; /* with its depth attachment */
 };
-extern const struct gn_encoding_row gn_encodings[GN_ENCODING_COUNT];
+extern const struct gn_encoding_row gn_encodings[GN_ENCODING_ALL];
 
 /* Whether its visibility has values between 0 and 1: then those of two tiles can be mixed near
  * their common edge. */
@@ -76,10 +82,10 @@ static inline bool gn_technique_filters_map(enum gn_technique technique) {
     return gn_techniques[technique].filter != GN_FILTER_NONE;
 }
 
-/* All techniques in the order of their ranks. */
+/* All of the table in the order of their ranks. */
 void gn_techniques_by_rank(enum gn_technique out[GN_TECHNIQUE_COUNT]);
 
-/* By name, of so many bytes. False: there is none. */
+/* By name, of so many bytes. False: there is none. TRUTH is not found. */
 bool gn_technique_find(const char *name, size_t length, enum gn_technique *out);
 /* By name, or "auto"; on failure a usage error that lists the names. */
 bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *err);
