@@ -46,6 +46,15 @@ expect 0 '' inspect --limit maps_mb=100
 ! grep -q maps_mb=100: "$folder/out" || complain 'inspect: maps within the limit'
 expect 2 '--size: "100000x10"' render -v --size 100000x10 -o "$folder/a.png"
 expect 2 'nosuch' render --shadow nosuch -o "$folder/a.png"
+for command in show bench; do
+    expect 2 '--shadow: truth is for stills: only gnomon render draws with it' $command --shadow truth
+done
+expect 2 '--shadow: truth is for stills' --shadow truth assets/sundial.glb
+printf '[mode "Rays"]\nshadow = truth\n' > "$folder/truth.ini"
+expect 2 'truth.ini:2: shadow: truth is for stills' show --check "$folder/truth.ini"
+expect 2 '--msaa 4: truth has one visibility for each pixel' render --shadow truth --msaa 4 -o "$folder/a.png"
+expect 1 'over the limit maps_mb=1' render --shadow truth --size 1024x1024 --limit maps_mb=1 -o "$folder/a.png"
+expect 1 'light 0 has no map: truth casts rays' render --shadow truth --aov map --size 8x8 -o "$folder/a.png"
 printf '#?RADIANCE\n' > "$folder/sky.hdr"
 printf 'ISO-10303-21;\n' > "$folder/part.step"
 printf 'BLENDER-v304' > "$folder/model.blend"

@@ -55,6 +55,9 @@ void gn_help_phrase(const struct gn_option_row *row, char *out, size_t size) {
     if (row->kind == GN_KIND_LIMIT && used < size) {
         gn_scene_limits_list(limits, sizeof limits);
         used += (size_t)snprintf(out + used, size - used, ": %s", limits);
+    if (row->kind == GN_KIND_TECHNIQUES && used < size)
+        used += (size_t)snprintf(out + used, size - used, "; for render also %s",
+                                 gn_techniques[GN_TECHNIQUE_TRUTH].name);
     }
     /* "(default 1280x720 pixels)", "(in degrees)", "(in stops; default auto)" */
     const char *fallback = row->fallback, *unit = row->unit;

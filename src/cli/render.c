@@ -18,7 +18,9 @@ struct render {
     enum gn_picture_format format;
     bool map; /* --aov map */
     uint8_t *rgba;
-    float *floats; /* RGBA from the GPU, packed in place to what the file wants */
+    float *floats;    /* RGBA from the GPU, packed in place to what the file wants */
+    int64_t begun_ns; /* the rays of a frame; 0: not yet */
+    int percent;      /* of them, as printed last */
 };
 
 /* "frame-%04d.png": exactly one %d, with at most a width. */
@@ -51,6 +53,9 @@ static bool write_map(struct render *r, const struct gn_plan *plan, const char *
         return gn_fail(err, "light %d has no map: it casts no shadow, or %d stronger lights do",
                        r->stage.settings->render.light, GN_ALL_SHADOWS_MAX);
     const struct gn_shadow_view *view = &plan->shadows[slot];
+    if (view->encoding == GN_ENCODING_SCREEN)
+        return gn_fail(err, "light %d has no map: truth casts rays",
+                       r->stage.settings->render.light);
     if (view->encoding == GN_ENCODING_STENCIL)
         return gn_fail(err, "light %d has no map: its shadow is in the stencil; use --planar mask",
                        r->stage.settings->render.light);
@@ -73,6 +78,9 @@ static bool write_picture(struct render *r, const struct gn_plan *plan, const ch
     const int w = (int)plan->width_px, h = (int)plan->height_px;
     const size_t pixels = (size_t)w * (size_t)h;
     if (r->map) return write_map(r, plan, path, err);
+    /* as the rays have it: at outlines the rasteriser's choice of surface is not in it */
+    if (plan->aov == GN_AOV_VISIBILITY && r->stage.truth.visibility)
+        return write_grey(r, path, r->stage.truth.visibility, w, h, err);
     if (plan->aov == GN_AOV_COLOR && r->format == GN_PICTURE_PNG)
         return gn_gl_read_rgba8(r->stage.gl, r->rgba, err) &&
                gn_picture_write_png8(path, r->rgba, w, h,
@@ -96,6 +104,17 @@ static bool write_picture(struct render *r, const struct gn_plan *plan, const ch
     return gn_picture_write_png8(path, r->rgba, w, h, false, err);
 }
 
+/* On a terminal, once the work has taken a second. */
+static void print_progress(void *user, double share) {
+    struct render *r = user;
+    const int percent = (int)(100.0 * share);
+    const int64_t now_ns = gn_clock_monotonic_ns();
+    if (r->begun_ns == 0) r->begun_ns = now_ns;
+    if (percent <= r->percent || now_ns - r->begun_ns < GN_NS_PER_S) return;
+    r->percent = percent;
+    fprintf(stderr, "\rrays %d %%%s", percent, percent >= 100 ? "\n" : "");
+}
+
 static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_settings *o = r->stage.settings;
     const size_t pixels = (size_t)o->render.size.width_px * (size_t)o->render.size.height_px;
@@ -115,6 +134,7 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
             return gn_fail_usage(err, "-o: that name is too long");
         int64_t time_ns =
             o->scene.time_ns + (int64_t)llround((double)i / o->run.fps * (double)GN_NS_PER_S);
+        r->begun_ns = r->percent = 0;
         const struct gn_plan *plan = gn_stage_draw(&r->stage, time_ns, warnings, err);
         if (!plan || !write_picture(r, plan, path, err)) return false;
         if (o->run.plan && i == 0) gn_plan_print(plan, stdout);
@@ -143,6 +163,10 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
 
     bool ok = gn_stage_load(&r.stage, o, warnings, err);
     r.stage.frame_opts.output_float = o->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
+    if (isatty(STDERR_FILENO)) {
+        r.stage.truth.progress = print_progress;
+        r.stage.truth.user = &r;
+    }
     ok = ok && gn_stage_open(&r.stage, warnings, err);
     if (ok && o->run.caption) { /* it stays: one layout for all frames */
         const struct gn_captions_opts opts = {.font = o->render.font, .warnings = warnings};

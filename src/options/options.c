@@ -34,8 +34,14 @@ bool gn_options_parse(const struct gn_options *options, const struct gn_option_r
                       const char *text, void *value, struct gn_arena *arena, const char *label,
                       struct gn_err *err) {
     if (!gn_value_parse(row, text, value, arena, label, err)) return false;
-    return row->kind != GN_KIND_TECHNIQUES || ((struct gn_technique_list *)value)->count < 2 ||
-           options->all[0].run.command == GN_COMMAND_BENCH ||
+    if (row->kind != GN_KIND_TECHNIQUES) return true;
+    const struct gn_technique_list *list = value;
+    const enum gn_command command = options->all[0].run.command;
+    for (int i = 0; i < list->count; i++)
+        if (list->items[i] == GN_TECHNIQUE_TRUTH && command != GN_COMMAND_RENDER)
+            return gn_fail_usage(err, "%s: truth is for stills: only gnomon render draws with it",
+                                 label);
+    return list->count < 2 || command == GN_COMMAND_BENCH ||
            gn_fail_usage(err, "%s: \"%s\": one technique at a time; only bench takes a list", label,
                          text);
 }

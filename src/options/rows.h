@@ -122,6 +122,8 @@ GN_OPTION(.name = "frames", .kind = GN_KIND_INT, .min = 1, .max = 1000000, .valu
           .help = "number of frames; show exits after them", .commands = BIT(SHOW) | BIT(RENDER) | BIT(BENCH), .offset = FIELD(run.frames))
 GN_OPTION(.name = "fps", .kind = GN_KIND_NUMBER, .min = .001, .max = 1000, .value = "F", .unit = "frames per second", .fallback = "60",
           .help = "step of time between frames", .commands = BIT(RENDER), .offset = FIELD(run.fps))
+GN_OPTION(.name = "samples", .kind = GN_KIND_INT, .min = 1, .max = 65536, .value = "N", .unit = "points", .fallback = "64",
+          .help = "points of a light's area that --shadow truth casts rays to; 1: its middle", .commands = BIT(RENDER), .offset = FIELD(run.samples))
 GN_OPTION(.name = "plan", .kind = GN_KIND_FLAG,
           .help = "also print the plan of the first frame", .commands = BIT(RENDER), .offset = FIELD(run.plan))
 GN_OPTION(.name = "json", .kind = GN_KIND_FLAG,

@@ -75,13 +75,20 @@ static bool parse_text(const char *text, const char **field, struct gn_arena *ar
     return *field;
 }
 
+static bool find_technique(const char *name, size_t length, enum gn_technique *found) {
+    const char *truth = gn_techniques[GN_TECHNIQUE_TRUTH].name;
+    *found = GN_TECHNIQUE_TRUTH;
+    if (length == strlen(truth) && memcmp(name, truth, length) == 0) return true;
+    return gn_technique_find(name, length, found);
+}
+
 /* Names past the array's end are dropped: then one is there twice, which check_value() reports. */
 static bool parse_techniques(const char *text, struct gn_technique_list *field) {
     struct gn_technique_list list = {0};
     for (const char *at = text;; at++) {
         const size_t length = strcspn(at, ",");
         enum gn_technique found;
-        if (!gn_technique_find(at, length, &found)) return false;
+        if (!find_technique(at, length, &found)) return false;
         if (list.count <= GN_TECHNIQUE_COUNT) list.items[list.count++] = (uint8_t)found;
         at += length;
         if (!*at) break;
@@ -346,10 +353,10 @@ bool gn_value_parse(const struct gn_option_row *row, const char *text, void *fie
         const char *at = text;
         enum gn_technique known;
         char word[32];
-        while (gn_technique_find(at, strcspn(at, ","), &known) && strchr(at, ','))
+        while (find_technique(at, strcspn(at, ","), &known) && strchr(at, ','))
             at = strchr(at, ',') + 1;
         snprintf(word, sizeof word, "%.*s", (int)strcspn(at, ","), at);
-        for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
+        for (int i = 0; i < GN_TECHNIQUE_ALL; i++)
             gn_text_guess(&guess, word, gn_techniques[i].name);
     }
     char expected[160];

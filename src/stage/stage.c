@@ -2,12 +2,14 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/embedded.h"
 #include "core/stop.h"
 #include "stage/import.h"
 #include "stage/lights.h"
+#include "stage/rays.h"
 #include "stage/wake.h"
 
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
@@ -151,6 +153,9 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     if (!gn_stage_limits(o, &limits, err)) return false;
     set_frame_opts(&look->frame_opts, o);
     gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
+    if (look->frame_opts.shadow.technique == GN_TECHNIQUE_TRUTH && look->frame_opts.msaa > 1)
+        return gn_fail_usage(err, "%s %u: truth has one visibility for each pixel; use 0",
+                             gn_settings_label(o, render.msaa), look->frame_opts.msaa);
     limits = gn_scene_limits_or_default(&limits);
     look->frame_opts.shadow.maps_bytes = limits.maps_mb << 20;
     look->frame_opts.shadow.triangles = limits.triangles_per_frame;
@@ -237,9 +242,14 @@ void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
 
 const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
                                     struct gn_warnings *warnings, struct gn_err *err) {
+    struct gn_scene_limits limits;
+    if (!gn_stage_limits(stage->settings, &limits, err)) return NULL;
+    limits = gn_scene_limits_or_default(&limits);
     gn_stage_pose(stage, time_ns);
     const struct gn_plan *plan = gn_stage_plan(stage, warnings, err);
-    return plan && gn_gl_run(stage->gl, plan, NULL, err) ? plan : NULL;
+    const bool ok =
+        plan && gn_stage_cast(stage, plan, &limits, err) && gn_gl_run(stage->gl, plan, NULL, err);
+    return ok ? plan : NULL;
 }
 
 void gn_stage_close(struct gn_stage *stage) {
@@ -247,5 +257,6 @@ void gn_stage_close(struct gn_stage *stage) {
     gn_display_close(&stage->display);
     gn_pose_finish(&stage->pose);
     gn_scene_destroy(stage->scene);
+    free(stage->truth.visibility);
     *stage = (struct gn_stage){0};
 }

@@ -22,6 +22,12 @@ struct gn_stage {
     struct gn_gl *gl;
     struct gn_frame *frame;
     struct gn_frame_opts frame_opts;
+    struct gn_stage_truth {                         /* of technique truth */
+        void (*progress)(void *user, double share); /* the caller's, as in gn_cast_opts, or NULL */
+        void *user;
+        float *visibility; /* of the last picture's first light that is drawn with it: a value for
+                              each pixel, row 0 on top; or NULL */
+    } truth;
     bool is_behind; /* as in gn_plan, of the last plan: it wants another frame */
 };
 
@@ -61,7 +67,8 @@ void gn_stage_pose(struct gn_stage *stage, int64_t time_ns);
  * failure; with -v the source of a shader that does not compile is printed. */
 const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *warnings,
                                     struct gn_err *err);
-/* Poses at a time, builds the plan, makes its objects and draws it. NULL on failure. */
+/* Poses at a time, builds the plan, makes its objects and draws it; with technique truth casts its
+ * rays, which may take minutes. NULL on failure. */
 const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
                                     struct gn_warnings *warnings, struct gn_err *err);
 void gn_stage_close(
