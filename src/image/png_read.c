@@ -1,5 +1,5 @@
-/* Any PNG to 8-bit RGBA. libpng reports errors by longjmp: it is called only from here, and state
- * that must survive the jump is in struct reader. */
+/* Any PNG to RGBA of 8 or 16 bits. libpng reports errors by longjmp: it is called only from here,
+ * and state that must survive the jump is in struct reader. */
 #include "image/read.h"
 
 #include <png.h>
@@ -69,7 +69,9 @@ static void on_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
-static bool decode_png(struct reader *reader, const uint32_t px[2], uint8_t *rgba) {
+/* texel_bytes: 4 or 8. */
+static bool decode_png(struct reader *reader, const uint32_t px[2], uint8_t *rgba,
+                       size_t texel_bytes) {
     if (setjmp(reader->leave)) return false;
     png_set_read_fn(reader->png, reader, read_bytes);
     png_set_user_limits(reader->png, px[0], px[1]);
@@ -78,27 +80,43 @@ static bool decode_png(struct reader *reader, const uint32_t px[2], uint8_t *rgb
     png_set_keep_unknown_chunks(reader->png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
     png_read_info(reader->png, reader->info);
     png_set_expand(reader->png);
-    png_set_scale_16(reader->png);
+    if (texel_bytes == 8) {
+        png_set_expand_16(reader->png);
+        if (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) png_set_swap(reader->png);
+    } else {
+        png_set_scale_16(reader->png);
+    }
     png_set_gray_to_rgb(reader->png);
-    png_set_add_alpha(reader->png, 255, PNG_FILLER_AFTER);
+    png_set_add_alpha(reader->png, texel_bytes == 8 ? 65535 : 255, PNG_FILLER_AFTER);
     png_set_interlace_handling(reader->png);
     png_read_update_info(reader->png, reader->info);
-    if (png_get_rowbytes(reader->png, reader->info) != 4 * (size_t)px[0] ||
+    if (png_get_rowbytes(reader->png, reader->info) != texel_bytes * px[0] ||
         png_get_image_height(reader->png, reader->info) != px[1])
         png_error(reader->png, "size differs from its header");
     reader->rows = png_malloc(reader->png, px[1] * sizeof *reader->rows);
-    for (uint32_t y = 0; y < px[1]; y++) reader->rows[y] = rgba + 4 * (size_t)px[0] * y;
+    for (uint32_t y = 0; y < px[1]; y++) reader->rows[y] = rgba + texel_bytes * px[0] * y;
     png_read_image(reader->png, reader->rows);
     return true;
 }
 
-bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
-                 struct gn_err *err) {
+static bool read_png(const uint8_t *data, size_t size, const uint32_t px[2], void *rgba,
+                     size_t texel_bytes, struct gn_err *err) {
     struct reader reader = {.data = data, .left = size, .err = err};
     reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, on_error, on_warning);
     reader.info = reader.png ? png_create_info_struct(reader.png) : NULL;
-    bool done = reader.info ? decode_png(&reader, px, rgba) : gn_fail(err, "PNG: out of memory");
+    bool done = reader.info ? decode_png(&reader, px, rgba, texel_bytes)
+                            : gn_fail(err, "PNG: out of memory");
     if (reader.rows) png_free(reader.png, reader.rows);
     if (reader.png) png_destroy_read_struct(&reader.png, reader.info ? &reader.info : NULL, NULL);
     return done;
+}
+
+bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
+                 struct gn_err *err) {
+    return read_png(data, size, px, rgba, 4, err);
+}
+
+bool gn_png_read_16(const uint8_t *data, size_t size, const uint32_t px[2], uint16_t *rgba,
+                    struct gn_err *err) {
+    return read_png(data, size, px, rgba, 8, err);
 }

@@ -7,35 +7,19 @@
 #include <sys/stat.h>
 
 #include "core/arena.h"
+#include "image/measure.h"
 
 /* --- colours --- */
 
-static double channel_difference(float a, float b) {
-    if (a == b || (isnan(a) && isnan(b))) return 0;
-    double d = fabs((double)a - b);
-    return isnan(d) ? INFINITY : d;
-}
-
 bool gn_compare(const struct gn_picture *a, const struct gn_picture *b, double tolerance,
                 struct gn_difference *difference) {
+    struct gn_measure m;
     *difference = (struct gn_difference){.max = INFINITY, .share = INFINITY};
     if (a->width_px != b->width_px || a->height_px != b->height_px || a->channels != b->channels)
         return false;
-    size_t pixels = (size_t)a->width_px * a->height_px, over = 0;
-    difference->max = 0;
-    for (size_t i = 0; i < pixels; i++) {
-        double worst = 0;
-        for (int c = 0; c < a->channels; c++)
-            worst = fmax(worst, channel_difference(a->data[i * a->channels + c],
-                                                   b->data[i * b->channels + c]));
-        over += worst > tolerance;
-        if (worst > difference->max) {
-            difference->max = worst;
-            difference->worst_x = (int)(i % a->width_px);
-            difference->worst_y = (int)(i / a->width_px);
-        }
-    }
-    difference->share = (double)over / (double)pixels;
+    gn_measure(a->data, b->data, (size_t)a->width_px, (size_t)a->height_px, a->channels, tolerance,
+               &m);
+    *difference = (struct gn_difference){m.max, m.share, (int)m.worst_x, (int)m.worst_y};
     return true;
 }
 
@@ -243,7 +227,7 @@ void gn_compare_save(const char *folder, const char *name, const struct gn_pictu
         diff.data[i] = (shot->channels == 4 || shot->channels == 2) &&
                                (int)(i % shot->channels) == shot->channels - 1
                            ? 1
-                           : (float)(8 * channel_difference(shot->data[i], expected->data[i]));
+                           : (float)(8 * gn_measure_channel(shot->data[i], expected->data[i]));
     save(folder, name, "diff", &diff);
     gn_picture_finish(&diff);
 }
