@@ -16,7 +16,7 @@ static const struct {
     [GN_COMMAND_AUTO] = {gn_cli_auto, true},        [GN_COMMAND_SHOW] = {gn_cli_show, true},
     [GN_COMMAND_RENDER] = {gn_cli_render, false},   [GN_COMMAND_BENCH] = {gn_cli_bench, false},
     [GN_COMMAND_INSPECT] = {gn_cli_inspect, false}, [GN_COMMAND_DOCTOR] = {gn_cli_doctor, false},
-    [GN_COMMAND_CTL] = {gn_cli_ctl, false},
+    [GN_COMMAND_CTL] = {gn_cli_ctl, false},         [GN_COMMAND_COMPARE] = {gn_cli_compare, false},
 };
 _Static_assert(sizeof commands / sizeof commands[0] == GN_COMMAND_COUNT, "a row per command");
 

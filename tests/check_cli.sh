@@ -16,7 +16,7 @@ expect() {
 
 expect 0 '' --version
 grep -q '^gnomon [0-9]' "$folder/out" || complain 'the version'
-for command in '' show render bench inspect doctor ctl; do
+for command in '' show render bench inspect doctor ctl compare; do
     # shellcheck disable=SC2086
     expect 0 '' $command --help
     grep -q '^  .*--verbose' "$folder/out" || complain "$command --help"
@@ -73,6 +73,22 @@ expect 2 "$folder/bad.ini:2: map: \"1\" is not a whole number from 16 to 16384" 
 sed -n "/^pass 'shadow/,/^pass 'opaque/p" "$folder/out" > "$folder/maps"
 grep -q "'stone'" "$folder/maps" || complain 'the sundial casts nothing'
 ! grep -qE "'(court|lawn)'" "$folder/maps" || complain 'the ground is drawn into a map'
+
+# two pictures
+expect 0 '' render --size 32x24 --shadow none -o "$folder/a.png"
+expect 0 '' render --size 32x24 --shadow pcf -o "$folder/b.png"
+expect 0 '' compare "$folder/a.png" "$folder/a.png"
+grep -q '^PSNR  *inf dB' "$folder/out" || complain "the same picture: $(cat "$folder/out")"
+expect 3 "b.png differ: " compare "$folder/a.png" "$folder/b.png" --diff "$folder/d.pfm"
+expect 0 '' compare "$folder/a.png" "$folder/b.png" --share 100 --json --diff "$folder/d.png"
+grep -q '"psnr_db": [0-9]' "$folder/out" || complain "compare --json: $(cat "$folder/out")"
+expect 3 'is 32x24, ' compare "$folder/d.png" assets/sundial.png
+expect 2 'compare: expected two pictures' compare "$folder/a.png"
+expect 2 'compare: unexpected argument' compare a.png b.png c.png
+expect 1 'missing.png' compare "$folder/missing.png" "$folder/a.png"
+expect 1 'neither PNG nor PFM' compare "$folder/a.png" tests/check_cli.sh
+expect 2 'does not go with compare' compare a.png b.png --size 8x8
+rm -f "$folder/a.png"
 
 # asked to stop, a long run ends at once and leaves no half of a file
 mkdir "$folder/frames"

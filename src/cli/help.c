@@ -14,6 +14,7 @@ const struct gn_help_entry gn_help_exits[] = {
     {"0", "done; show and the window also after SIGTERM or SIGINT"},
     {"1", "runtime error: a file, a driver, a device or a scene"},
     {"2", "wrong usage, also a value outside its range"},
+    {"3", "compare: the pictures differ"},
     {"70", "the display could not be recovered: restart the program"},
     {"130, 143", "another command was interrupted by SIGINT or SIGTERM"},
     {0},
@@ -39,6 +40,8 @@ const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES] = {
     [GN_COMMAND_INSPECT] = {"gnomon inspect scene.glb", "gnomon inspect scene.glb --json"},
     [GN_COMMAND_DOCTOR] = {"gnomon doctor", "gnomon doctor --self-test"},
     [GN_COMMAND_CTL] = {"gnomon ctl mode Soft", "gnomon ctl set shadow pcss"},
+    [GN_COMMAND_COMPARE] = {"gnomon compare a.png b.png --diff difference.png",
+                            "gnomon compare a.pfm truth.pfm --json"},
 };
 
 /* ---- texts --------------------------------------------------------------------------------- */
@@ -52,12 +55,12 @@ void gn_help_phrase(const struct gn_option_row *row, char *out, size_t size) {
     for (int i = 0; row->kind == GN_KIND_TECHNIQUES && i < GN_TECHNIQUE_COUNT && used < size; i++)
         used += (size_t)snprintf(out + used, size - used, "%s%s", i ? ", " : ": ",
                                  gn_techniques[i].name);
-    if (row->kind == GN_KIND_LIMIT && used < size) {
-        gn_scene_limits_list(limits, sizeof limits);
-        used += (size_t)snprintf(out + used, size - used, ": %s", limits);
     if (row->kind == GN_KIND_TECHNIQUES && used < size)
         used += (size_t)snprintf(out + used, size - used, "; for render also %s",
                                  gn_techniques[GN_TECHNIQUE_TRUTH].name);
+    if (row->kind == GN_KIND_LIMIT && used < size) {
+        gn_scene_limits_list(limits, sizeof limits);
+        used += (size_t)snprintf(out + used, size - used, ": %s", limits);
     }
     /* "(default 1280x720 pixels)", "(in degrees)", "(in stops; default auto)" */
     const char *fallback = row->fallback, *unit = row->unit;

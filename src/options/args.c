@@ -21,7 +21,8 @@ struct args {
     int argc, at;
     struct flag *flags;
     int flag_count;
-    const char *words[1 + GN_SCENES_MAX]; /* command, scenes; of ctl: its own command and words */
+    const char *words[1 + GN_SCENES_MAX]; /* command, scenes; of ctl: its own command and words; of
+                                             compare: its pictures */
     int word_count;
 };
 
@@ -85,14 +86,22 @@ static bool is_ctl(const struct args *args) {
     return args->word_count > 0 && command_of(args->words[0]) == GN_COMMAND_CTL;
 }
 
+enum { PICTURES = 2 }; /* of compare */
+
 static bool add_word(struct args *args, const char *word, struct gn_err *err) {
-    const bool is_show = args->word_count > 0 && command_of(args->words[0]) == GN_COMMAND_SHOW;
+    const enum gn_command command =
+        args->word_count > 0 ? command_of(args->words[0]) : GN_COMMAND_AUTO;
+    const bool takes_list = command == GN_COMMAND_SHOW || command == GN_COMMAND_BENCH,
+               is_compare = command == GN_COMMAND_COMPARE;
+    if (is_compare && args->word_count == 1 + PICTURES)
+        return gn_fail_usage(err, "compare: unexpected argument \"%.80s\": it takes two pictures",
+                             word);
     if (is_ctl(args) && args->word_count == 2 + GN_CTL_WORDS_MAX)
         return gn_fail_usage(err, "ctl %.80s: unexpected argument \"%.80s\"", args->words[1], word);
-    if (!is_ctl(args) && args->word_count == (is_show ? 1 + GN_SCENES_MAX : 2))
+    if (!is_ctl(args) && !is_compare && args->word_count == (takes_list ? 1 + GN_SCENES_MAX : 2))
         return gn_fail_usage(err,
-                             is_show ? "too many scenes, from \"%.80s\" on"
-                                     : "unexpected argument \"%.80s\": only one scene",
+                             takes_list ? "too many scenes, from \"%.80s\" on"
+                                        : "unexpected argument \"%.80s\": only one scene",
                              word);
     args->words[args->word_count++] = word;
     return true;
@@ -109,7 +118,7 @@ static bool fail_command(const char *word, struct gn_err *err) {
                              word, guess.name);
     return gn_fail_usage(err,
                          "\"%.80s\" is neither a command nor a file; the commands are show, "
-                         "render, bench, inspect, doctor, ctl, help, version",
+                         "render, bench, inspect, doctor, ctl, compare, help, version",
                          word);
 }
 
@@ -162,6 +171,8 @@ static bool choose_command(struct args *args, struct gn_err *err) {
         return fail_command(first, err);
     if (bare && args->words[1])
         return gn_fail_usage(err, "unexpected argument \"%.80s\": only one scene", args->words[1]);
+    if (command == GN_COMMAND_COMPARE && args->word_count != 1 + PICTURES)
+        return gn_fail_usage(err, "compare: expected two pictures, A and B");
     if (command == GN_COMMAND_DOCTOR && args->words[1])
         return gn_fail_usage(err, "doctor takes no scene: unexpected argument \"%.80s\"",
                              args->words[1]);
@@ -173,7 +184,7 @@ static bool check_flags(const struct args *args, struct gn_err *err) {
     const struct flag *flag = args->flags, *end = args->flags + args->flag_count;
     while (flag < end && flag->row->commands & (1u << command)) flag++;
     if (flag == end) return true;
-    char takers[64] = "";
+    char takers[80] = "";
     size_t used = 0;
     for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
         if (flag->row->commands & (1u << i))
@@ -218,9 +229,9 @@ static bool apply_flags(struct args *args, struct gn_err *err) {
         if (!gn_options_set(options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
             return false;
     }
-    if (command_now(args) == GN_COMMAND_CTL) {
+    if (command_now(args) == GN_COMMAND_CTL || command_now(args) == GN_COMMAND_COMPARE) {
         const char **words = gn_arena_alloc(&options->arena, 1 + GN_CTL_WORDS_MAX, sizeof *words);
-        if (!words) return gn_fail(err, "ctl: no memory left");
+        if (!words) return gn_fail(err, "no memory left");
         options->word_count = args->word_count - 1;
         memcpy(words, args->words + 1, (size_t)options->word_count * sizeof *words);
         options->words = words;

@@ -126,6 +126,12 @@ GN_OPTION(.name = "samples", .kind = GN_KIND_INT, .min = 1, .max = 65536, .value
           .help = "points of a light's area that --shadow truth casts rays to; 1: its middle", .commands = BIT(RENDER), .offset = FIELD(run.samples))
 GN_OPTION(.name = "plan", .kind = GN_KIND_FLAG,
           .help = "also print the plan of the first frame", .commands = BIT(RENDER), .offset = FIELD(run.plan))
+GN_OPTION(.name = "diff", .kind = GN_KIND_PATH, .value = "FILE",
+          .help = "write the difference: 8 times its size as .png, or with its sign as .pfm", .commands = BIT(COMPARE), .offset = FIELD(run.diff))
+GN_OPTION(.name = "tolerance", .kind = GN_KIND_NUMBER, .max = 1e9, .value = "X", .fallback = "0.004",
+          .help = "how much a channel may differ, where white is 1", .commands = BIT(COMPARE), .offset = FIELD(run.tolerance))
+GN_OPTION(.name = "share", .kind = GN_KIND_NUMBER, .max = 100, .value = "PERCENT", .unit = "per cent", .fallback = "0",
+          .help = "how many of the pixels may differ by more; else the exit status is 3", .commands = BIT(COMPARE), .offset = FIELD(run.share))
 GN_OPTION(.name = "json", .kind = GN_KIND_FLAG,
           .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL), .offset = FIELD(run.json))
 GN_OPTION(.name = "self-test", .kind = GN_KIND_FLAG,

@@ -68,13 +68,15 @@ const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
     [GN_COMMAND_RENDER] = {"render", "render [OPTION..] [SCENE] -o FILE",
                            "draws into a file: .png, .pfm, or frame-%04d.png with --frames"},
     [GN_COMMAND_BENCH] =
-        {"bench", "bench [OPTION..] [SCENE]",
+        {"bench", "bench [OPTION..] [SCENE..]",
          "measures: time per frame and pass, draws, triangles, bytes, first picture, memory"},
     [GN_COMMAND_INSPECT] = {"inspect", "inspect [OPTION..] [SCENE]",
                             "lists a scene's contents, cost and problems"},
     [GN_COMMAND_DOCTOR] = {"doctor", "doctor [OPTION..]",
                            "tests this machine and says how to fix problems"},
     [GN_COMMAND_CTL] = {"ctl", "ctl [OPTION..] COMMAND [WORD..]", "talks to a running kiosk"},
+    [GN_COMMAND_COMPARE] = {"compare", "compare [OPTION..] A B",
+                            "measures how much two pictures differ, .png or .pfm"},
 };
 
 const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
