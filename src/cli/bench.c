@@ -3,9 +3,11 @@
  * anything else has run, then come the driver's cache and the empty context, memory when all
  * programs and targets exist, and last the passes, which need a read-back each. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/bench_move.h"
 #include "cli/bench_report.h"
 #include "cli/commands.h"
 #include "cli/driver_cache.h"
@@ -15,7 +17,7 @@
 #include "image/write.h"
 #include "stage/stage.h"
 
-enum { WARM_UP = 10, BLOCK = 6, FRAMES_DEFAULT = 60, FPS = 60, MS_NS = 1000000 };
+enum { WARM_UP = 10, BLOCK = 6, FRAMES_DEFAULT = 60, FPS = 60, MS_NS = 1000000, RENDERER = 96 };
 
 struct entry { /* a technique to measure */
     struct gn_frame_opts opts;
@@ -30,8 +32,10 @@ struct bench {
     const struct gn_settings *settings;
     struct gn_warnings *warnings;
     struct gn_stage stage;
-    struct gn_memory_probe probe;
-    struct gn_bench_report report;
+    struct gn_bench_move move;
+    struct gn_memory_probe *probe; /* NULL: other scenes came before */
+    struct gn_bench_report *report;
+    char *renderer; /* of RENDERER bytes, for the report */
     struct entry entries[GN_TECHNIQUE_COUNT];
     double *pass_ms;
     uint32_t frames, pass_room;
@@ -45,6 +49,7 @@ static const struct gn_plan *prepare_frame(struct bench *b, const struct entry *
     struct gn_stage *stage = &b->stage;
     stage->frame_opts = e->opts;
     gn_stage_pose(stage, b->settings->scene.time_ns + (int64_t)frame * GN_NS_PER_S / FPS);
+    gn_bench_move_step(&b->move, &stage->pose, frame);
     return gn_stage_plan(stage, b->warnings, err);
 }
 
@@ -60,7 +65,7 @@ static uint64_t allocations(const struct bench *b) {
 }
 
 static bool time_frames(struct bench *b, struct gn_err *err) {
-    const uint32_t count = b->report.run_count;
+    const uint32_t count = b->report->run_count;
     for (uint32_t i = 0; i < count; i++) {
         struct entry *e = &b->entries[i];
         for (; e->frame < WARM_UP; e->frame++)
@@ -122,7 +127,8 @@ static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
     run->ms_median = gn_bench_quantile(e->ms, run->frames, .5);
     run->ms_p95 = gn_bench_quantile(e->ms, run->frames, .95);
     run->cpu_ms = (double)e->cpu_ns / MS_NS / run->frames;
-    run->idle = !b->stage.pose.animated && b->settings->scene.turntable_deg_s == 0;
+    run->idle = !b->stage.pose.animated && b->settings->scene.turntable_deg_s == 0 &&
+                !b->move.lights && !b->move.casters;
     if (e->allocations > 0)
         gn_warn(b->warnings, "%s: timed frames asked for memory or GL objects %llu times",
                 run->technique, (unsigned long long)e->allocations);
@@ -135,20 +141,22 @@ static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
 static bool start_bench(struct bench *b, struct gn_err *err) {
     const struct gn_settings *o = b->settings;
     if (!gn_stage_load(&b->stage, o, b->warnings, err)) return false;
+    b->move = (struct gn_bench_move){.lights = o->run.move_lights, .casters = o->run.move_casters};
+    gn_bench_move_init(&b->move, &b->stage.pose);
     struct gn_driver_cache before = gn_driver_cache_read();
 
     /* without --shadow one entry, as the scene has it */
     const struct gn_technique_list *list = &o->render.shadow;
     const bool given = gn_settings_given(o, render.shadow);
     b->frames = o->run.frames > 0 ? (uint32_t)o->run.frames : FRAMES_DEFAULT;
-    b->report.run_count = given ? (uint32_t)list->count : 1;
-    b->report.runs = gn_xalloc(b->report.run_count, sizeof *b->report.runs);
-    for (uint32_t i = 0; i < b->report.run_count; i++) {
+    b->report->run_count = given ? (uint32_t)list->count : 1;
+    b->report->runs = gn_xalloc(b->report->run_count, sizeof *b->report->runs);
+    for (uint32_t i = 0; i < b->report->run_count; i++) {
         struct entry *e = &b->entries[i];
         e->opts = b->stage.frame_opts;
         e->opts.shadow.technique_given = given;
         e->opts.shadow.technique = given ? (enum gn_technique)list->items[i] : GN_TECHNIQUE_NONE;
-        e->run = &b->report.runs[i];
+        e->run = &b->report->runs[i];
         e->ms = gn_xalloc(b->frames, sizeof *e->ms);
     }
 
@@ -157,16 +165,44 @@ static bool start_bench(struct bench *b, struct gn_err *err) {
         (size_t)o->render.size.width_px * (size_t)o->render.size.height_px, 4, err);
     bool ok =
         rgba && draw_frame(b, &b->entries[0], 0, err) && gn_gl_read_rgba8(b->stage.gl, rgba, err);
-    b->report.start_ms = (double)(gn_clock_monotonic_ns() - b->start_ns) / MS_NS;
+    const double start_ms = (double)(gn_clock_monotonic_ns() - b->start_ns) / MS_NS;
+    b->report->start_ms = b->probe ? start_ms : NAN;
     free(rgba);
     if (!ok) return false;
-    b->report.private_dirty_empty_context_mb = gn_memory_probe_read(&b->probe);
+    b->report->private_dirty_empty_context_mb = b->probe ? gn_memory_probe_read(b->probe) : NAN;
     struct gn_driver_cache after = gn_driver_cache_read();
-    b->report.cache_warm = gn_driver_cache_warm(&before, &after);
-    b->report.renderer = gn_gl_caps(b->stage.gl)->renderer;
-    b->report.scene = o->scene.path ? o->scene.path : "(default scene)";
-    b->report.width_px = (uint32_t)o->render.size.width_px;
-    b->report.height_px = (uint32_t)o->render.size.height_px;
+    b->report->cache_warm = gn_driver_cache_warm(&before, &after);
+    snprintf(b->renderer, RENDERER, "%s", gn_gl_caps(b->stage.gl)->renderer);
+    b->report->renderer = b->renderer;
+    b->report->scene = o->scene.path ? o->scene.path : "(default scene)";
+    b->report->width_px = (uint32_t)o->render.size.width_px;
+    b->report->height_px = (uint32_t)o->render.size.height_px;
+    return true;
+}
+
+static bool measure_scene(struct bench *b, struct gn_err *err) {
+    struct gn_bench_report *report = b->report;
+    bool ok = start_bench(b, err) && time_frames(b, err);
+    report->private_dirty_mb = ok && b->probe ? gn_memory_private_dirty_mb() : NAN;
+    for (uint32_t i = 0; ok && i < report->run_count; i++) ok = time_passes(b, &b->entries[i], err);
+    for (uint32_t i = 0; ok && i < report->run_count; i++) ok = finish_run(b, &b->entries[i], err);
+    for (uint32_t i = 0; i < report->run_count; i++) free(b->entries[i].ms);
+    free(b->pass_ms);
+    gn_bench_move_finish(&b->move);
+    gn_stage_close(&b->stage);
+    return ok;
+}
+
+static bool print_reports(const struct gn_settings *o, const struct gn_bench_report *reports,
+                          uint32_t count, struct gn_err *err) {
+    if (o->run.json) return gn_bench_print_json(reports, count, stdout, err);
+    if (o->run.csv)
+        gn_bench_print_csv(reports, count, stdout);
+    else
+        for (uint32_t i = 0; i < count; i++) {
+            if (i > 0) putchar('\n');
+            gn_bench_print(&reports[i], stdout);
+        }
     return true;
 }
 
@@ -174,29 +210,32 @@ static bool start_bench(struct bench *b, struct gn_err *err) {
  * /proc/self/stat has steps of 10 ms. */
 bool gn_cli_bench(const struct gn_options *options, struct gn_warnings *warnings,
                   struct gn_err *err) {
-    struct bench b = {
-        .settings = options->settings,
-        .warnings = warnings,
-        .start_ns = gn_clock_monotonic_ns() - gn_clock_process_cpu_ns(),
-    };
-    gn_memory_probe_open(&b.probe, options->settings->display.backend);
-    bool ok = start_bench(&b, err) && time_frames(&b, err);
-    if (ok) b.report.private_dirty_mb = gn_memory_private_dirty_mb();
-    for (uint32_t i = 0; ok && i < b.report.run_count; i++)
-        ok = time_passes(&b, &b.entries[i], err);
-    for (uint32_t i = 0; ok && i < b.report.run_count; i++) ok = finish_run(&b, &b.entries[i], err);
-    if (ok && b.settings->run.json)
-        ok = gn_bench_print_json(&b.report, stdout, err);
-    else if (ok)
-        gn_bench_print(&b.report, stdout);
-
-    for (uint32_t i = 0; i < b.report.run_count; i++) {
-        free(b.entries[i].ms);
-        free(b.report.runs[i].passes);
+    const struct gn_settings *o = options->settings;
+    const int64_t start_ns = gn_clock_monotonic_ns() - gn_clock_process_cpu_ns();
+    struct gn_bench_report reports[GN_SCENES_MAX] = {0};
+    char renderers[GN_SCENES_MAX][RENDERER];
+    struct gn_memory_probe probe;
+    if (o->run.json && o->run.csv)
+        return gn_fail_usage(err, "--json and --csv exclude each other: drop one");
+    gn_memory_probe_open(&probe, o->display.backend);
+    const uint32_t count = o->scene.list.count > 0 ? (uint32_t)o->scene.list.count : 1;
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < count; i++) {
+        struct gn_settings one = *o;
+        one.scene.path = o->scene.list.paths[i];
+        struct bench b = {.settings = &one,
+                          .warnings = warnings,
+                          .start_ns = start_ns,
+                          .probe = i == 0 ? &probe : NULL,
+                          .report = &reports[i],
+                          .renderer = renderers[i]};
+        ok = measure_scene(&b, err);
     }
-    free(b.report.runs);
-    free(b.pass_ms);
-    gn_memory_probe_close(&b.probe);
-    gn_stage_close(&b.stage);
+    ok = ok && print_reports(o, reports, count, err);
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t k = 0; k < reports[i].run_count; k++) free(reports[i].runs[k].passes);
+        free(reports[i].runs);
+    }
+    gn_memory_probe_close(&probe);
     return ok;
 }

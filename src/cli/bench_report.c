@@ -53,11 +53,14 @@ static void print_mb(FILE *to, const char *what, double mb) {
 void gn_bench_print(const struct gn_bench_report *report, FILE *to) {
     fprintf(to, "%s, %ux%u, %s\n", report->scene, report->width_px, report->height_px,
             report->renderer);
-    fprintf(to, "first picture %.0f ms after the start, the driver's cache %s; ", report->start_ms,
-            report->cache_warm ? "warm" : "cold");
-    print_mb(to, "private dirty", report->private_dirty_mb);
-    print_mb(to, ", an empty context", report->private_dirty_empty_context_mb);
-    fprintf(to, "\n\n");
+    if (!isnan(report->start_ms)) {
+        fprintf(to, "first picture %.0f ms after the start, the driver's cache %s; ",
+                report->start_ms, report->cache_warm ? "warm" : "cold");
+        print_mb(to, "private dirty", report->private_dirty_mb);
+        print_mb(to, ", an empty context", report->private_dirty_empty_context_mb);
+        fprintf(to, "\n");
+    }
+    fprintf(to, "\n");
     fprintf(to, "technique map      output  median     p95  cpu ms  ratio  draws shadows  calls "
                 "triangles targets idle\n");
     for (uint32_t i = 0; i < report->run_count; i++) {
@@ -85,7 +88,7 @@ static json_t *number_json(double value) {
     return gn_json_make_number(round(value * 1000.0) / 1000.0);
 }
 
-bool gn_bench_print_json(const struct gn_bench_report *report, FILE *to, struct gn_err *err) {
+static json_t *report_json(const struct gn_bench_report *report) {
     char size[32];
     snprintf(size, sizeof size, "%ux%u", report->width_px, report->height_px);
     json_t *object = json_object(), *runs = json_array();
@@ -121,5 +124,49 @@ bool gn_bench_print_json(const struct gn_bench_report *report, FILE *to, struct 
         json_array_append_new(runs, run);
     }
     json_object_set_new(object, "runs", runs);
-    return gn_json_print(object, 9, to, err);
+    return object;
+}
+
+bool gn_bench_print_json(const struct gn_bench_report *reports, uint32_t count, FILE *to,
+                         struct gn_err *err) {
+    if (count == 1) return gn_json_print(report_json(reports), 9, to, err);
+    json_t *scenes = json_array();
+    for (uint32_t i = 0; i < count; i++) json_array_append_new(scenes, report_json(&reports[i]));
+    return gn_json_print(json_pack("{so}", "scenes", scenes), 9, to, err);
+}
+
+static void print_csv_text(const char *text, FILE *to) {
+    fputc('"', to);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', to);
+        if ((unsigned char)*text >= ' ') fputc(*text, to);
+    }
+    fputs("\",", to);
+}
+
+static void print_csv_number(double value, FILE *to) {
+    if (!isnan(value)) fprintf(to, "%.3f", value);
+    fputc(',', to);
+}
+
+void gn_bench_print_csv(const struct gn_bench_report *reports, uint32_t count, FILE *to) {
+    fputs("scene,gl_renderer,technique,map_format,width_px,height_px,output,"
+          "start_to_first_picture_ms,ms_median,ms_p95,cpu_ms,frames,draws,gl_calls,triangles,"
+          "shadow_draws,target_bytes,idle\n",
+          to);
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < reports[i].run_count; k++) {
+            const struct gn_bench_run *run = &reports[i].runs[k];
+            const struct gn_gl_stats *s = &run->stats;
+            print_csv_text(reports[i].scene, to);
+            print_csv_text(reports[i].renderer, to);
+            print_csv_text(run->technique, to);
+            print_csv_text(run->map_format, to);
+            fprintf(to, "%u,%u,%s,", reports[i].width_px, reports[i].height_px, run->output);
+            const double times[] = {reports[i].start_ms, run->ms_median, run->ms_p95, run->cpu_ms};
+            for (int t = 0; t < 4; t++) print_csv_number(times[t], to);
+            fprintf(to, "%u,%u,%u,%" PRIu64 ",%u,%" PRIu64 ",%s\n", run->frames, s->draws,
+                    s->gl_calls, s->triangles, s->shadow_draws, s->target_bytes,
+                    run->idle ? "yes" : "no");
+        }
 }

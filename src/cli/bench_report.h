@@ -31,7 +31,8 @@ struct gn_bench_run {          /* one technique */
 struct gn_bench_report {
     const char *renderer, *scene;
     uint32_t width_px, height_px;
-    double start_ms; /* from the start of the process until the first picture is read back */
+    double start_ms; /* from the start of the process until the first picture is read back; NAN:
+                        other scenes came before */
     bool cache_warm; /* all shaders of that picture were in the driver's cache */
     double private_dirty_mb, private_dirty_empty_context_mb; /* 2^20 bytes; NAN: unknown */
     struct gn_bench_run *runs;
@@ -48,7 +49,12 @@ void gn_bench_add_name(char *list, const char *name);
 
 /* Aligned, for people: one row a technique; the ratio is that of cpu_ms to the first row's. */
 void gn_bench_print(const struct gn_bench_report *report, FILE *to);
-/* One JSON object, the fields in the order of the contract; unknown values are null. */
-bool gn_bench_print_json(const struct gn_bench_report *report, FILE *to, struct gn_err *err);
+/* One JSON object, the fields in the order of the contract; unknown values are null. Of several
+ * scenes {"scenes": [..]}, such an object each. */
+bool gn_bench_print_json(const struct gn_bench_report *reports, uint32_t count, FILE *to,
+                         struct gn_err *err);
+/* A head line, and one for each technique of each scene (RFC 4180, but lines end in a newline);
+ * unknown values are empty. */
+void gn_bench_print_csv(const struct gn_bench_report *reports, uint32_t count, FILE *to);
 
 #endif

@@ -133,7 +133,13 @@ GN_OPTION(.name = "tolerance", .kind = GN_KIND_NUMBER, .max = 1e9, .value = "X",
 GN_OPTION(.name = "share", .kind = GN_KIND_NUMBER, .max = 100, .value = "PERCENT", .unit = "per cent", .fallback = "0",
           .help = "how many of the pixels may differ by more; else the exit status is 3", .commands = BIT(COMPARE), .offset = FIELD(run.share))
 GN_OPTION(.name = "json", .kind = GN_KIND_FLAG,
-          .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL), .offset = FIELD(run.json))
+          .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL) | BIT(COMPARE), .offset = FIELD(run.json))
+GN_OPTION(.name = "csv", .kind = GN_KIND_FLAG,
+          .help = "print CSV: a line for each scene and technique", .commands = BIT(BENCH), .offset = FIELD(run.csv))
+GN_OPTION(.name = "move-lights", .kind = GN_KIND_FLAG,
+          .help = "move the lights a little in each frame: all maps are drawn again", .commands = BIT(BENCH), .offset = FIELD(run.move_lights))
+GN_OPTION(.name = "move-casters", .kind = GN_KIND_FLAG,
+          .help = "move what casts shadows a little in each frame", .commands = BIT(BENCH), .offset = FIELD(run.move_casters))
 GN_OPTION(.name = "self-test", .kind = GN_KIND_FLAG,
           .help = "draw small scenes with every technique and compare them with the truth", .commands = BIT(DOCTOR), .offset = FIELD(run.self_test))
 GN_OPTION(.name = "stats", .kind = GN_KIND_FLAG,

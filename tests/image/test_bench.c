@@ -184,6 +184,49 @@ static void test_a_missing_scene_is_the_world_saying_no(void **state) {
     assert_non_null(strstr(result.err, "no-such-scene.glb"));
 }
 
+static uint64_t shadow_draws(json_t *json) {
+    const json_t *run = json_array_get(json_object_get(json, "runs"), 0);
+    return (uint64_t)json_integer_value(json_object_get(run, "shadow_draws"));
+}
+
+static void test_what_moves_is_drawn_into_maps_again(void **state) {
+    (void)state;
+    static const char *const moves[] = {"--move-lights", "--move-casters"};
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(
+            BENCH(SCENE, "--json", "--size", "160x90", "--frames", "7", "--no-animation", moves[i]),
+            0);
+        assert_null(strstr(result.err, "timed frames asked"));
+        json_t *json = bench_json(), *run = json_array_get(json_object_get(json, "runs"), 0);
+        assert_true(shadow_draws(json) > 0);
+        assert_true(json_is_false(json_object_get(run, "idle")));
+        json_decref(json);
+    }
+}
+
+static void test_several_scenes_are_measured_one_after_the_other(void **state) {
+    (void)state;
+    assert_int_equal(BENCH(SCENE, "assets/bench/s2.glb", "--json", "--size", "64x36", "--frames",
+                           "1", "--shadow", "none"),
+                     0);
+    json_t *json = bench_json(), *scenes = json_object_get(json, "scenes");
+    assert_int_equal(json_array_size(scenes), 2);
+    for (size_t i = 0; i < 2; i++) {
+        json_t *one = json_array_get(scenes, i);
+        assert_string_equal(text_of(one, "scene"), i ? "assets/bench/s2.glb" : SCENE);
+        assert_true(json_is_null(json_object_get(one, "start_to_first_picture_ms")) == (i == 1));
+        assert_int_equal(json_array_size(json_object_get(one, "runs")), 1);
+    }
+    json_decref(json);
+    assert_int_equal(
+        BENCH(SCENE, SCENE, "--csv", "--size", "64x36", "--frames", "1", "--shadow", "none,hard"),
+        0);
+    int lines = 0;
+    for (const char *at = result.out; *at; at++) lines += *at == '\n';
+    assert_int_equal(lines, 5);
+    assert_int_equal(BENCH(SCENE, "--csv", "--json"), 2);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_json_has_every_field_and_no_other),
@@ -194,6 +237,8 @@ int main(void) {
         cmocka_unit_test(test_the_table_names_what_was_measured),
         cmocka_unit_test(test_bad_lists_are_usage_errors_of_one_line),
         cmocka_unit_test(test_a_missing_scene_is_the_world_saying_no),
+        cmocka_unit_test(test_what_moves_is_drawn_into_maps_again),
+        cmocka_unit_test(test_several_scenes_are_measured_one_after_the_other),
     };
     return RUN(tests);
 }

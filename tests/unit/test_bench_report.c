@@ -89,7 +89,7 @@ static json_t *json_of(const struct gn_bench_report *report) {
     char *text = NULL;
     size_t size = 0;
     FILE *to = open_memstream(&text, &size);
-    assert_true(gn_bench_print_json(report, to, NULL));
+    assert_true(gn_bench_print_json(report, 1, to, NULL));
     fclose(to);
     json_t *json = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
     free(text);
@@ -164,6 +164,32 @@ static void test_the_table_has_a_row_a_technique(void **state) {
     free(run.passes);
 }
 
+static void test_the_csv_has_a_line_a_scene_and_technique(void **state) {
+    (void)state;
+    struct gn_bench_run run;
+    const struct gn_bench_report report = sample(&run);
+    struct gn_bench_report reports[2] = {report, report};
+    reports[1].scene = "b.glb";
+    reports[1].start_ms = NAN;
+    char text[2000];
+    FILE *to = fmemopen(text, sizeof text, "w");
+    gn_bench_print_csv(reports, 2, to);
+    fclose(to);
+    const char *first = strchr(text, '\n') + 1, *second = strchr(first, '\n') + 1;
+    int commas[3] = {0};
+    const char *lines[3] = {text, first, second};
+    for (int i = 0; i < 3; i++)
+        for (const char *at = lines[i]; *at != '\n'; at++) commas[i] += *at == ',';
+    assert_true(commas[0] > 10 && commas[0] == commas[1] && commas[0] == commas[2]);
+    assert_ptr_equal(strstr(first, "\"a \"\"scene\"\".glb\",\"llvmpipe"), first);
+    assert_non_null(
+        strstr(first, ",\"pcf3\",\"depth\",1280,720,linear,100.000,12.346,15.000,11.000,"));
+    assert_non_null(strstr(second, "\"b.glb\","));
+    assert_non_null(strstr(second, ",linear,,12.346,"));
+    assert_string_equal(strchr(second, '\n'), "\n");
+    free(run.passes);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_median_of_an_odd_count_is_the_middle),
@@ -175,6 +201,7 @@ int main(void) {
         cmocka_unit_test(test_values_are_said_as_they_are),
         cmocka_unit_test(test_a_name_that_is_not_utf8_still_makes_json),
         cmocka_unit_test(test_the_table_has_a_row_a_technique),
+        cmocka_unit_test(test_the_csv_has_a_line_a_scene_and_technique),
     };
     return RUN(tests);
 }
