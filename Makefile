@@ -35,7 +35,7 @@ help:
 	    'make check-gpus every program on the compilers of GPUs that are not here, and its cost' \
 	    'make check-gpiod2' \
 	    '                buttons with libgpiod 2, and the rest of Debian 13; with GN_FULL=1 its long form' \
-	    'make truth      shadows against ray-traced truth, as a table' \
+	    'make truth      shadows against ray-traced truth, as a table; CSV=FILE: as CSV, too' \
 	    'make readme     the table of techniques (src/shadow/README.md), measured' \
 	    'make options-page' \
 	    '                the table of keys in src/options/README.md, from the table of options' \
@@ -352,7 +352,7 @@ gallery: $(B)/tests/tool_gallery $(BIN)
 contact-sheet: $(B)/tests/tool_sheet $(BIN)
 	BUILD=$(B) GNOMON=$(BIN) tests/image/accept_terminal.sh $(O)/contact-sheet.png
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
-	$<
+	$< $(if $(CSV),--csv $(CSV))
 # clang looks at all sources and builds nothing; its stamps know the headers. clang-tidy follows them:
 # lint is all of it, lint-changed what has changed since it passed and, where it never ran, what
 # differs from origin's branch (a fresh clone has no such: accept runs lint).

@@ -349,6 +349,23 @@ void gn_table_print(const struct gn_table *table, FILE *to) {
             count, band / count, widest, 100 * away / count);
 }
 
+void gn_table_print_csv(const struct gn_table *table, bool head, FILE *to) {
+    static const char *const faults[GN_FAULT_COUNT] = {"acne", "darkening", "darkened",
+                                                       "leak", "gap",       "wrong"};
+    if (head)
+        fprintf(to, "kind,technique,map_format,map_px,fault,mean_percent,worst_percent,"
+                    "worst_scene,over\n");
+    for (int r = 0; r < table->row_count; r++)
+        for (int f = 0; f < GN_FAULT_COUNT; f++) {
+            const struct gn_table_row *row = &table->rows[r];
+            const struct gn_fault_sum sum = gn_table_sum(row, f);
+            if (sum.worst_scene < 0) continue;
+            fprintf(to, "\"%s\",%s,%s,%u,%s,%.6f,%.6f,%d,%s\n", table->title ? table->title : "",
+                    row->technique, row->format, row->map_px, faults[f], sum.mean, sum.worst,
+                    sum.worst_scene, is_over(row, f) ? "yes" : "no");
+        }
+}
+
 int gn_table_check(const struct gn_table *table, FILE *to) {
     int over = 0;
     if (table->failures)

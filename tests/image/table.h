@@ -80,6 +80,9 @@ struct gn_limit_row {
 struct gn_limit_row gn_table_limit(const struct gn_table_row *row, enum gn_fault fault);
 
 void gn_table_print(const struct gn_table *table, FILE *to);
+/* The same as CSV: a line for each row and fault, with its mean, its worst scene and that one's
+ * number; `head`: a line of names first. */
+void gn_table_print_csv(const struct gn_table *table, bool head, FILE *to);
 /* Prints each limit passed, with the scene that is worst; returns how many there are (failed shots
  * count). */
 int gn_table_check(const struct gn_table *table, FILE *to);

@@ -18,10 +18,11 @@ static const char usage[] =
     "  --map LIST          of sizes in pixels (1024,256)\n"
     "  --save DIR          shot, truth and diff of every cell, as PNG\n"
     "  --no-contact        leave out the gaps at contacts\n"
+    "  --csv FILE          write the figures as CSV, too\n"
     "  --limits            exit 1 if a limit is passed\n";
 
 struct arguments {
-    char *scenes, *techniques, *formats, *maps, *save;
+    char *scenes, *techniques, *formats, *maps, *save, *csv;
     bool contact, limits;
 };
 
@@ -34,11 +35,9 @@ static bool parse(int argc, char **argv, struct arguments *a) {
     struct {
         const char *name;
         char **value;
-    } const valued[] = {{"--scenes", &a->scenes},
-                        {"--technique", &a->techniques},
-                        {"--format", &a->formats},
-                        {"--map", &a->maps},
-                        {"--save", &a->save}};
+    } const valued[] = {{"--scenes", &a->scenes},  {"--technique", &a->techniques},
+                        {"--format", &a->formats}, {"--map", &a->maps},
+                        {"--save", &a->save},      {"--csv", &a->csv}};
     for (int i = 1; i < argc; i++) {
         bool known = true;
         if (!strcmp(argv[i], "--limits"))
@@ -135,13 +134,17 @@ static bool fill(struct gn_table *table, const struct arguments *a, const char *
 }
 
 /* A table for each kind of light; the faults of all. */
-static int measure(struct gn_table *table, const struct arguments *a, const char *folder) {
+static int measure(struct gn_table *table, const struct arguments *a, const char *folder,
+                   FILE *csv) {
     int over = 0, failures = 0;
+    bool head = true;
     for (int kind = 0; kind < GN_TABLE_KINDS; kind++) {
         fill(table, a, folder);
         if (!gn_table_keep(table, (enum gn_table_kind)kind)) continue;
         gn_table_run(table);
         gn_table_print(table, stdout);
+        if (csv) gn_table_print_csv(table, head, csv);
+        head = false;
         over += gn_table_check(table, stdout);
         failures += table->failures;
         printf("\n");
@@ -160,7 +163,13 @@ int main(int argc, char **argv) {
         fprintf(stderr, "tool_truth: %s\n", err.text);
         return 1;
     }
-    int over = measure(&table, &a, folder);
+    FILE *csv = a.csv ? fopen(a.csv, "w") : NULL;
+    if (a.csv && !csv) {
+        fprintf(stderr, "tool_truth: %s: cannot be written\n", a.csv);
+        return 1;
+    }
+    int over = measure(&table, &a, folder, csv);
+    if (csv && fclose(csv) != 0) over++;
     int contact = a.contact ? contacts(&table, &err) : 0;
     if (contact < 0) fprintf(stderr, "tool_truth: %s\n", err.text);
     free(folder);
