@@ -71,6 +71,9 @@ enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, bool 
 /* Warm-up is done: releases the driver's compiler. */
 void gn_gl_warm_end(struct gn_gl *gl);
 
+/* Makes all programs again from the files of opts.shaders; what was drawn with them before is drawn
+ * again. One that fails stays as it was: then false, and the first failure. */
+bool gn_gl_renew_programs(struct gn_gl *gl, struct gn_err *err);
 /* Programs are there until they are dropped: each takes 1 to 5 MB in Mesa's drivers. Those of this
  * plan are kept from now on; all others are idle, later ones too. */
 void gn_gl_keep_programs(struct gn_gl *gl, const struct gn_plan *plan);
@@ -97,12 +100,12 @@ struct gn_gl_window {
 };
 void gn_gl_set_window(struct gn_gl *gl, const struct gn_gl_window *window);
 
-/* Draws. Shadow passes whose target holds their content.hash are skipped. pass_ms, if not NULL,
- * gets the time of each pass (CPU wall clock around the pass and a 1-pixel read-back: slow, for
- * bench). */
 /* Fills the map of a slot of encoding SCREEN of a prepared plan: a value for each pixel, the lowest
  * row first. It stays until the next call. */
 void gn_gl_give(struct gn_gl *gl, const struct gn_plan *plan, uint32_t slot, const float *values);
+/* Draws. Shadow passes whose target holds their content.hash are skipped. pass_ms, if not NULL,
+ * gets the time of each pass (CPU wall clock around the pass and a 1-pixel read-back: slow, for
+ * bench). */
 bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err);
 
 /* Keeps a copy of the last picture, 8 bits per channel, to be blended over later ones: call it

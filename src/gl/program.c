@@ -155,6 +155,18 @@ bool gn_gl_program_is_dropped(struct gn_gl *gl, const struct gn_program_key *key
     return gl->programs.room && program_place(&gl->programs, key)->dropped;
 }
 
+/* What is known of a program that was just linked. */
+static struct gn_gl_program program_of(struct gn_gl *gl, const struct gn_program_key *key,
+                                       GLuint name) {
+    struct gn_gl_program p = {
+        .key = *key, .name = name, .made = gl->programs.made, .uv = UINT32_MAX};
+    p.u_pass = GL(gl, GetUniformLocation)(name, "u_pass");
+    p.u_uv = GL(gl, GetUniformLocation)(name, "u_uv");
+    p.attributes = active_attributes(gl, name);
+    set_units(gl, &p);
+    return p;
+}
+
 bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err) {
     if (gn_gl_program_find(gl, key)) return true;
     struct gn_gl_programs *programs = &gl->programs;
@@ -171,13 +183,8 @@ bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, st
     struct sources sources = {0};
     GLuint name = compose_and_build(gl, key, &sources, err);
     if (name) {
-        struct gn_gl_program p = {
-            .key = *key, .name = name, .made = programs->made, .uv = UINT32_MAX};
+        const struct gn_gl_program p = program_of(gl, key, name);
         struct gn_gl_program *place = program_place(programs, key);
-        p.u_pass = GL(gl, GetUniformLocation)(name, "u_pass");
-        p.u_uv = GL(gl, GetUniformLocation)(name, "u_uv");
-        p.attributes = active_attributes(gl, name);
-        set_units(gl, &p);
         programs->count += !place->dropped;
         *place = p;
     } else if (sources.composed) {
@@ -190,6 +197,34 @@ bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, st
     }
     sources_finish(&sources);
     return name;
+}
+
+static bool renew_program(struct gn_gl *gl, struct gn_gl_program *place, struct gn_err *err) {
+    struct sources sources = {0};
+    const GLuint name = compose_and_build(gl, &place->key, &sources, err);
+    sources_finish(&sources);
+    if (!name) return false;
+    struct gn_gl_program p = program_of(gl, &place->key, name);
+    if (!gn_gl_vertices_ensure(gl, p.attributes, err)) {
+        gn_gl_use_program(gl, place->name);
+        GL(gl, DeleteProgram)(name);
+        return false;
+    }
+    p.kept = place->kept;
+    p.used = place->used;
+    p.bytes = place->bytes;
+    GL(gl, DeleteProgram)(place->name);
+    *place = p;
+    return true;
+}
+
+bool gn_gl_renew_programs(struct gn_gl *gl, struct gn_err *err) {
+    bool ok = true;
+    for (uint32_t i = 0; i < gl->programs.room; i++)
+        if (gl->programs.table[i].name)
+            ok &= renew_program(gl, &gl->programs.table[i], ok ? err : NULL);
+    gn_gl_targets_forget(gl);
+    return ok;
 }
 
 /* ---- those that are needed, and idle ones ---- */

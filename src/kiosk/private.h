@@ -11,6 +11,7 @@
 #include "kiosk/machine.h"
 #include "kiosk/screenshot.h"
 #include "kiosk/service.h"
+#include "kiosk/shaders.h"
 #include "kiosk/show.h"
 #include "kiosk/stats.h"
 #include "options/binding.h"
@@ -126,6 +127,7 @@ struct gn_show {
     struct gn_show_fade fade;
     struct gn_show_counts counts;
     struct gn_show_stats stats;
+    struct gn_shader_files shaders;
     struct gn_service service;
     struct gn_show_control *control;  /* NULL: no control socket */
     struct gn_screenshot *screenshot; /* NULL without control */
@@ -163,6 +165,11 @@ bool gn_show_frame(struct gn_show *show, struct gn_err *err);
 
 bool gn_show_open_display(struct gn_show *show, struct gn_err *err);
 /* False: between these settings the display has to be opened again. */
+/* Waits for changes of the shaders of the settings; called again after a reload. */
+void gn_show_open_shaders(struct gn_show *show);
+/* Makes the programs again if their files have changed. One that fails stays as it is, with a
+ * warning. */
+void gn_show_renew_shaders(struct gn_show *show);
 bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b);
 /* Frame options that follow from the screen: size, rotation, encoding, MSAA. */
 void gn_show_fit_to_screen(struct gn_show *show);

@@ -40,6 +40,7 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     const bool blanked = s->kiosk.blanked;
     if (!gn_show_begin(s, err) || (!keeps_display && !gn_show_open_display(s, err))) return false;
     gn_show_open_captions(s);
+    gn_show_open_shaders(s);
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why))
         gn_show_report_problem(s, why.text); /* not fatal: the kiosk runs without buttons */

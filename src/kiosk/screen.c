@@ -66,6 +66,25 @@ void gn_show_fit_to_screen(struct gn_show *s) {
     gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
 }
 
+void gn_show_open_shaders(struct gn_show *s) {
+    struct gn_err why = {0};
+    gn_shader_files_close(&s->shaders);
+    if (!gn_shader_files_open(&s->shaders, s->stage.settings->render.shaders, s->loop, &why))
+        gn_show_report_problem(s, why.text);
+}
+
+void gn_show_renew_shaders(struct gn_show *s) {
+    struct gn_err why = {0};
+    if (!s->shaders.changed || !s->stage.gl) return;
+    s->shaders.changed = false;
+    s->changed = true;
+    if (gn_gl_renew_programs(s->stage.gl, &why)) {
+        s->text.problem[0] = '\0'; /* the same problem again is news */
+        return;
+    }
+    gn_show_report_problem(s, why.text);
+}
+
 void gn_show_stop_gl(struct gn_show *s) {
     gn_show_forget_work(s);
     gn_stage_stop_gl(&s->stage);

@@ -57,6 +57,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
         gn_display_blank(&s->stage.display, s->kiosk.blanked, tick.time_ns);
     s->changed |= gn_service_step(&s->service, screen, gn_loop_now_ns(s->loop));
     if (!gn_show_keep_context(s, err)) return false;
+    gn_show_renew_shaders(s);
     gn_show_advance(s);
     gn_show_enter_set(s);
 
@@ -104,6 +105,7 @@ void gn_show_close(struct gn_show *s) {
     gn_show_drop_staged(s);
     gn_stage_close(&s->stage);
     gn_show_stats_close(&s->stats);
+    gn_shader_files_close(&s->shaders);
     gn_service_close(&s->service);
     gn_loop_remove_signals(&s->signals);
     gn_loop_close(s->loop);
@@ -132,6 +134,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     s->config.options = gn_show_read_options(options, NULL, err);
     if (!s->config.options || !gn_show_load_first(s, err)) return false;
     gn_show_open_captions(s);
+    gn_show_open_shaders(s);
     if (!gn_show_begin(s, err) || !gn_show_open_display(s, err)) return false;
     if (!gn_show_open_input(s, err)) { /* a script is of the command line */
         if (s->stage.settings->run.input_script) return false;
@@ -145,7 +148,8 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
 
 static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *warnings) {
     struct gn_show *s = gn_xalloc(1, sizeof *s);
-    *s = (struct gn_show){.config.place = place, .service.socket = -1, .warnings = warnings};
+    *s = (struct gn_show){
+        .config.place = place, .service.socket = -1, .shaders.watch.fd = -1, .warnings = warnings};
     return s;
 }
 

@@ -63,7 +63,7 @@ GN_OPTION(.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices 
 GN_OPTION(.name = "font", .section = "render", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "font of captions (.ttf, .otf); without it DejaVu Sans or a similar one", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.font))
 GN_OPTION(.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value = "DIR",
-          .help = "read the shaders from this folder", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.shaders))
+          .help = "read the shaders from this folder; show reads them again when they change", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.shaders))
 GN_OPTION(.name = "without", .section = "render", .kind = GN_KIND_CAPS, .value = "CAP,..",
           .help = "do not use these GPU capabilities, named as doctor prints them", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.without))
 GN_OPTION(.name = "limit", .section = "render", .kind = GN_KIND_LIMIT, .min = 1, .max = 1099511627776.0, .value = "NAME=VALUE",

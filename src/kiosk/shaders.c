@@ -1,0 +1,68 @@
+#include "kiosk/shaders.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
+#include "core/clock.h"
+
+static const int64_t MOMENT_NS = GN_NS_PER_S / 10;
+
+static void take_event(void *user, uint32_t events, int64_t now_ns) {
+    struct gn_shader_files *files = user;
+    char buffer[4096] __attribute__((aligned(__alignof__(struct inotify_event))));
+    (void)events;
+    while (read(files->watch.fd, buffer, sizeof buffer) > 0)
+        files->timer.due_ns = now_ns + MOMENT_NS;
+}
+
+static void take_change(void *user, int64_t now_ns) {
+    struct gn_shader_files *files = user;
+    (void)now_ns;
+    files->changed = true;
+}
+
+static bool watch_folder(int fd, const char *path) {
+    return inotify_add_watch(fd, path, IN_CLOSE_WRITE | IN_MOVED_TO | IN_ONLYDIR) >= 0;
+}
+
+/* The folder and those in it, where shader files are. */
+static bool watch_folders(int fd, const char *folder) {
+    char path[4096];
+    if (!watch_folder(fd, folder)) return false;
+    DIR *list = opendir(folder);
+    if (!list) return false;
+    for (struct dirent *entry; (entry = readdir(list));) {
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        if (entry->d_name[0] != '.' && !watch_folder(fd, path) && errno != ENOTDIR) break;
+    }
+    closedir(list);
+    return true;
+}
+
+bool gn_shader_files_open(struct gn_shader_files *files, const char *folder, struct gn_loop *loop,
+                          struct gn_err *err) {
+    *files = (struct gn_shader_files){.watch.fd = -1};
+    if (!folder) return true;
+    const int fd = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    files->watch =
+        (struct gn_watch){.fd = fd, .events = EPOLLIN, .call = take_event, .user = files};
+    files->timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = take_change, .user = files};
+    if (fd >= 0 && watch_folders(fd, folder) && gn_loop_add(loop, &files->watch)) {
+        gn_loop_add_timer(loop, &files->timer);
+        return true;
+    }
+    gn_fail(err, "%s: changes are not noticed: %s", folder, strerror(errno));
+    gn_shader_files_close(files);
+    return false;
+}
+
+void gn_shader_files_close(struct gn_shader_files *files) {
+    gn_loop_remove(&files->watch);
+    gn_loop_remove_timer(&files->timer);
+    if (files->watch.fd >= 0) close(files->watch.fd);
+    *files = (struct gn_shader_files){.watch.fd = -1};
+}
