@@ -96,6 +96,13 @@ struct gn_frame_opts {
     bool captions_later;                   /* include their program even without captions */
 };
 
+/* What options say of that light of the scene alone; nothing given: no such options. */
+struct gn_frame_light_opts gn_frame_light_opts(const struct gn_frame_opts *opts, uint32_t light);
+/* light_eye.c: a camera in a light's place, a spot or a directional one, that shows its cone, or
+ * what casts. */
+void gn_frame_light_camera(const struct gn_pose *pose, uint32_t light, float aspect,
+                           struct gn_camera *camera, mat4 view_from_world, vec3 eye_ws);
+
 struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing
                   */
 struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_caps *caps);

@@ -198,8 +198,6 @@ struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect
 
 /* ---- lights.c, group.c, slides.c: which lights ---- */
 
-/* What options say of that light of the scene alone; nothing given: no such options. */
-struct gn_frame_light_opts gn_frame_light_opts(const struct gn_frame_opts *opts, uint32_t light);
 /* With what technique and map format; then in groups. */
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, struct gn_warnings *warnings);
@@ -271,10 +269,6 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
 /* eye.c: clip_from_world of the camera, its position and their constants. */
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]);
-/* light_eye.c: a camera in a light's place, a spot or a directional one, that shows its cone, or
- * what casts. */
-void gn_frame_light_camera(const struct gn_pose *pose, uint32_t light, float aspect,
-                           struct gn_camera *camera, mat4 view_from_world, vec3 eye_ws);
 /* The same camera at another pose. */
 void gn_frame_eye_at(const struct gn_frame *frame, const struct gn_pose *pose,
                      const struct gn_frame_opts *opts, struct gn_eye *eye);

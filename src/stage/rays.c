@@ -29,8 +29,17 @@ static void init_eye(const struct gn_stage *stage, const struct gn_plan *plan,
     const struct gn_box *box = &stage->scene->box;
     double centre[3];
     for (int k = 0; k < 3; k++) centre[k] = .5 * ((double)box->min[k] + (double)box->max[k]);
-    gn_ray_eye_init(eye, &stage->pose, (uint32_t)view->camera, (int)plan->width_px,
-                    (int)plan->height_px);
+    const int w = (int)plan->width_px, h = (int)plan->height_px;
+    if (view->light_plus_1 > 0) {
+        struct gn_camera camera;
+        mat4 view_from_world;
+        vec3 eye_ws;
+        gn_frame_light_camera(&stage->pose, view->light_plus_1 - 1, (float)w / (float)h, &camera,
+                              view_from_world, eye_ws);
+        gn_ray_eye_look(eye, &camera, view_from_world, eye_ws, w, h);
+    } else {
+        gn_ray_eye_init(eye, &stage->pose, (uint32_t)view->camera, w, h);
+    }
     if (view->turntable_rad != 0.0f) gn_ray_eye_turn(eye, centre, (double)view->turntable_rad);
 }
 
@@ -67,8 +76,12 @@ static void cast(struct gn_stage *stage, const struct gn_plan *plan, const struc
     struct gn_raycast triangles;
     struct gn_ray_lamp lamps[GN_ALL_SHADOWS_MAX];
     gn_raycast_init(&triangles, stage->scene, &stage->pose);
-    for (uint32_t i = 0; i < rays->count; i++)
-        gn_ray_lamp_init(&lamps[i], &stage->pose, plan->shadows[rays->slots[i]].light);
+    for (uint32_t i = 0; i < rays->count; i++) {
+        const uint32_t light = plan->shadows[rays->slots[i]].light;
+        const struct gn_frame_light_opts one = gn_frame_light_opts(&stage->frame_opts, light);
+        gn_ray_lamp_init(&lamps[i], &stage->pose, light);
+        if (one.given & GN_LIGHT_RADIUS) lamps[i].radius = (double)one.radius;
+    }
     gn_cast(&(struct gn_cast_opts){.rays = &triangles,
                                    .eye = eye,
                                    .lamps = lamps,

@@ -153,7 +153,11 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     if (!gn_stage_limits(o, &limits, err)) return false;
     set_frame_opts(&look->frame_opts, o);
     gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
-    if (look->frame_opts.shadow.technique == GN_TECHNIQUE_TRUTH && look->frame_opts.msaa > 1)
+    const struct gn_frame_shadow_opts *shadow = &look->frame_opts.shadow;
+    bool is_truth = shadow->technique == GN_TECHNIQUE_TRUTH;
+    for (uint32_t i = 0; i < shadow->light_count; i++)
+        is_truth |= shadow->lights[i].technique == GN_TECHNIQUE_TRUTH;
+    if (is_truth && look->frame_opts.msaa > 1)
         return gn_fail_usage(err, "%s %u: truth has one visibility for each pixel; use 0",
                              gn_settings_label(o, render.msaa), look->frame_opts.msaa);
     limits = gn_scene_limits_or_default(&limits);

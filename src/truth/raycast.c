@@ -148,25 +148,30 @@ static bool is_hole(const struct gn_scene *scene, const struct gn_bvh_triangle *
 
 /* --- the eye --- */
 
+void gn_ray_eye_look(struct gn_ray_eye *eye, const struct gn_camera *camera,
+                     const mat4 view_from_world, const float position_ws[3], int width_px,
+                     int height_px) {
+    *eye = (struct gn_ray_eye){.orthographic = camera->orthographic,
+                               .width_px = width_px,
+                               .height_px = height_px,
+                               .near_m = camera->near_m,
+                               .far_m = camera->far_m > 0 ? camera->far_m : INFINITY};
+    for (int k = 0; k < 3; k++) { /* rows of a rigid matrix are the axes */
+        eye->position_ws[k] = position_ws[k];
+        eye->right[k] = view_from_world[k][0];
+        eye->up[k] = view_from_world[k][1];
+        eye->forward[k] = -view_from_world[k][2];
+    }
+    eye->half_height = camera->orthographic ? camera->ymag_m : tan(camera->yfov_rad / 2);
+    eye->half_width = eye->half_height * width_px / height_px;
+}
+
 void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera,
                      int width_px, int height_px) {
-    const struct gn_camera *c = &pose->scene->cameras[camera];
     mat4 view;
     vec3 position;
     gn_pose_view(pose, camera, view, position);
-    *eye = (struct gn_ray_eye){.orthographic = c->orthographic,
-                               .width_px = width_px,
-                               .height_px = height_px,
-                               .near_m = c->near_m,
-                               .far_m = c->far_m > 0 ? c->far_m : INFINITY};
-    for (int k = 0; k < 3; k++) { /* rows of a rigid matrix are the axes */
-        eye->position_ws[k] = position[k];
-        eye->right[k] = view[k][0];
-        eye->up[k] = view[k][1];
-        eye->forward[k] = -view[k][2];
-    }
-    eye->half_height = c->orthographic ? c->ymag_m : tan(c->yfov_rad / 2);
-    eye->half_width = eye->half_height * width_px / height_px;
+    gn_ray_eye_look(eye, &pose->scene->cameras[camera], view, position, width_px, height_px);
 }
 
 static void turn(double v[3], double c, double s) {

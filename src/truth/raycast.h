@@ -52,6 +52,10 @@ struct gn_ray_eye {
 };
 void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera,
                      int width_px, int height_px);
+/* The same of any camera, and where it looks from: a rigid matrix. */
+void gn_ray_eye_look(struct gn_ray_eye *eye, const struct gn_camera *camera,
+                     const mat4 view_from_world, const float position_ws[3], int width_px,
+                     int height_px);
 /* Turns it about the vertical axis through a point, anticlockwise seen from above. */
 void gn_ray_eye_turn(struct gn_ray_eye *eye, const double centre_ws[3], double angle_rad);
 /* Size of one pixel in metres for a surface facing the eye at this point. */
