@@ -129,9 +129,9 @@ struct gn_run_settings { /* of this run of the program: flags only */
     const char *caption; /* text on the picture, or NULL */
     int frames;
     double fps;
-    int samples;             /* points of a light, of technique truth */
-    const char *diff;        /* of compare: a file for the difference, or NULL */
-    double tolerance, share; /* of compare */
+    int samples;                         /* points of a light, of technique truth */
+    const char *diff;                    /* of compare: a file for the difference, or NULL */
+    double tolerance, share;             /* of compare */
     bool csv, move_lights, move_casters; /* of bench */
     bool plan, json, self_test, stats, verbose, version, help;
 };
