@@ -24,7 +24,7 @@
 #define PASS_EXPOSURE 7   /* x: factor on emitted radiance; yzw: camera position, world space */
 #define PASS_LIGHTS 8     /* GN_LIGHTS_MAX x LIGHT_SIZE */
 #define LIGHT_SIZE 3
-#define LIGHT_COLOR 0     /* rgb: illuminance (lux) or intensity (candela), over pi, after exposure; w: shadow strength 0..1 */
+#define LIGHT_COLOR 0     /* rgb: illuminance (lux) or intensity (candela), over pi, after exposure; w: shadow strength 0..1 (lit.frag) */
 #define LIGHT_PLACE 1     /* directional: xyz unit vector to the light; else position, world space; w: 1 / range, 0 = unlimited */
 #define LIGHT_AXIS 2      /* spot: xyz unit vector of the direction of emission; w: cosine of the outer angle */
 #define PASS_CONES 32     /* GN_LIGHTS_MAX in two vec4: 1 / (cos inner - cos outer) of light i in [i / 4][i % 4] */

@@ -65,11 +65,13 @@ surface surface_make(vec4 base) {
     return s;
 }
 
-// Reflected radiance of one light; seen: visibility, 1 = lit. Without SPECULAR it lacks the albedo, which main() multiplies in.
-vec3 surface_light(surface s, light_sample l, float seen) {
+// Reflected radiance of one light; seen: visibility, 1 = lit; shine: that of highlights, with SHADOW_SPECULAR. Without SPECULAR it lacks the albedo, which main() multiplies in.
+vec3 surface_light(surface s, light_sample l, float seen, float shine) {
     vec3 arriving = l.color * (max(dot(s.normal, l.to_light), 0.0) * seen);
     if (!SPECULAR) return arriving;
     float n_h = max(dot(s.normal, normalize(l.to_light + s.to_eye)), 0.0001); // pow(0, 0) is undefined
+    if (SHADOW_SPECULAR)
+        return s.diffuse * arriving + s.specular * pow(n_h, s.exponent) * l.color * (max(dot(s.normal, l.to_light), 0.0) * shine);
     return (s.diffuse + s.specular * pow(n_h, s.exponent)) * arriving;
 }
 
@@ -89,14 +91,18 @@ light_sample light_here(const int slot, const int type) {
 // SHADOW_LINEAR[slot], also from compose.c, is true where uv and code are linear over a triangle: directional lights without
 // cascades, and planar shadows. lit.vert computes them there as v_shadow[slot]; else v_shadow[slot] is 0 and unused.
 // CUT_LAST, also from compose.c: holes are cut after the lights, since derivatives are undefined after a discard.
+// With SHADOW_SPECULAR, LIGHT_COLOR.w has the strength of the shadow, and what it leaves of highlights in steps of 1 / 255, times 2.
 #define ADD_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
     { \
         light_sample l = light_here(slot, type); \
         shadow_place place = shadow_place_of(slot, type, radial, v_shadow[slot], v_position, s.normal, face, l.to_light); \
         float seen = shadow_mixed(slot, place, visibility(map, place)); \
-        light += surface_light(s, l, 1.0 - LIGHT(slot, LIGHT_COLOR).w * (1.0 - seen)); \
+        float taken = LIGHT(slot, LIGHT_COLOR).w; \
+        float left = SHADOW_SPECULAR ? floor(taken * 0.5) : 0.0; \
+        if (SHADOW_SPECULAR) taken -= 2.0 * left; \
+        light += surface_light(s, l, 1.0 - taken * (1.0 - seen), mix(left / 255.0, 1.0, seen)); \
     }
-#define ADD_OPEN_LIGHT(slot, type) light += surface_light(s, light_here(slot, type), 1.0);
+#define ADD_OPEN_LIGHT(slot, type) light += surface_light(s, light_here(slot, type), 1.0, 1.0);
 
 void main() {
     vec3 face = surface_face_normal();

@@ -17,6 +17,7 @@ enum gn_light_given {
     GN_LIGHT_CASCADES = 32,
     GN_LIGHT_FACES = 64,
     GN_LIGHT_SLIDE = 128,
+    GN_LIGHT_SPECULAR = 256,
 };
 struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t light;          /* index in the scene */
@@ -26,6 +27,7 @@ struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     enum gn_moments moments;
     uint32_t map_px;
     float strength;
+    float specular;    /* below 0: as much as of the rest */
     float radius;      /* as in gn_light */
     uint32_t cascades; /* as cascade_count */
     int faces;         /* as below, and the next */
@@ -60,6 +62,8 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     bool slide_as_picture; /* a slide without a size has the shape of its picture; square */
     bool strength_given;
     float strength; /* overrides the lights' gnomon_shadow_strength */
+    bool specular_given;
+    float specular; /* share of highlights that shadows leave; below 0: as much as of the rest */
     struct gn_frame_light_opts lights[GN_ALL_LIGHTS_MAX]; /* each light once */
     uint32_t light_count;
 };

@@ -37,7 +37,10 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     if (frame->caps.software && !m->unlit) features |= GN_FEATURE(FLAT_CONSTANTS);
     if (m->unlit) return features | GN_FEATURE(UNLIT);
     if (m->double_sided) features |= GN_FEATURE(DOUBLE_SIDED);
-    if (gn_material_is_specular(m)) features |= GN_FEATURE(SPECULAR);
+    if (gn_material_is_specular(m)) {
+        features |= GN_FEATURE(SPECULAR);
+        if (frame->shadow_specular) features |= GN_FEATURE(SHADOW_SPECULAR);
+    }
     if (gn_material_is_emissive(m)) features |= GN_FEATURE(EMISSIVE);
     if (memcmp(scene->environment.sky, scene->environment.ground, sizeof(vec3)) != 0)
         features |= GN_FEATURE(HEMISPHERE);

@@ -197,6 +197,11 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         l.strength = one.given & GN_LIGHT_STRENGTH ? one.strength
                      : opts->shadow.strength_given ? opts->shadow.strength
                                                    : frame->scene->lights[i].shadow_strength;
+        const float specular = one.given & GN_LIGHT_SPECULAR ? one.specular
+                               : opts->shadow.specular_given
+                                   ? opts->shadow.specular
+                                   : frame->scene->lights[i].shadow_specular;
+        l.specular = specular >= 0.0f ? specular : 1.0f - l.strength;
         l.illuminance = illuminance(pose, i);
         if (casts_shadow(&l)) choose_encoding(frame, opts, &one, &l, warnings);
         if (frame->light_count == most) { /* full: replaces the weakest, or is that itself */
@@ -217,6 +222,10 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         light->technique = GN_TECHNIQUE_NONE;
     }
     bound_triangles(frame, opts, warnings);
+    frame->shadow_specular = false;
+    for (uint32_t i = 0; i < frame->light_count; i++)
+        frame->shadow_specular |= casts_shadow(&frame->lights[i]) &&
+                                  frame->lights[i].specular != 1.0f - frame->lights[i].strength;
     /* those that cast shadows first, else in the scene's order; gn_frame_group_lights() then orders
      * them within their groups, planar ones as the last of those that cast shadows */
     struct gn_frame_light open[GN_ALL_LIGHTS_MAX];

@@ -21,6 +21,7 @@ struct gn_frame_light {
     enum gn_slide slide;
     bool slide_as_picture;
     float strength;
+    float specular;    /* share of highlights that its shadow leaves */
     float illuminance; /* at the scene's centre, lux; the weakest are dropped over the limit */
     uint32_t cascades; /* 1: one map. Known after gn_frame_fit_shadows() */
 };
@@ -72,6 +73,7 @@ struct gn_frame {
     struct gn_frame_light lights[GN_ALL_LIGHTS_MAX]; /* group by group */
     uint32_t scene_lights[GN_ALL_LIGHTS_MAX];        /* the same, as the plan shows them */
     uint32_t light_count, shadow_count;
+    bool shadow_specular; /* of some of them that share is not what the strength leaves */
     struct gn_light_group groups[GN_GROUPS_MAX];
     uint32_t group_count; /* 1 at least */
     struct gn_shadow_view shadows[GN_ALL_SHADOWS_MAX];

@@ -94,6 +94,7 @@ struct gn_render_settings {
     bool taps_fixed;
     double filter_budget;   /* million texels; 0: no limit */
     double shadow_strength; /* set it overrides that of lights */
+    double shadow_specular; /* NAN: as the scene says */
     double light_radius;    /* of a light made for a scene without any, as in gn_light */
     bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */

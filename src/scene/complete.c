@@ -92,6 +92,7 @@ bool gn_scene_complete(struct gn_gltf *g) {
             .color = {2.8f, 2.8f * .95f, 2.8f * .87f},
             .radius = gn_light_types[GN_LIGHT_DIRECTIONAL].radius,
             .shadow_strength = 1,
+            .shadow_specular = -1,
             .slide = -1,
         };
     }

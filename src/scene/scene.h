@@ -111,10 +111,12 @@ struct gn_light {
     const char *technique;      /* gnomon_shadow, or NULL */
     uint32_t map_px;            /* 0: the default */
     float shadow_strength;      /* 1 */
-    int32_t slide;              /* texture of the gobo, or -1 */
-    float slide_size_m[2];      /* 0, 0: fills the cone at its distance */
-    float slide_distance_m;     /* 0: the distance at which its longer side spans the cone */
-    bool slide_lit_outside;     /* light outside the slide: yes (film), no (projector) */
+    float
+        shadow_specular; /* share of highlights that stays in shadow; -1: as much as of the rest */
+    int32_t slide;       /* texture of the gobo, or -1 */
+    float slide_size_m[2];  /* 0, 0: fills the cone at its distance */
+    float slide_distance_m; /* 0: the distance at which its longer side spans the cone */
+    bool slide_lit_outside; /* light outside the slide: yes (film), no (projector) */
 };
 
 struct gn_camera {

@@ -1,5 +1,6 @@
 #include "stage/lights.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -50,6 +51,10 @@ static void set_entry(struct gn_frame_light_opts *entry, const struct gn_overrid
     case offsetof(struct gn_settings, render.slide_as_picture):
         entry->slide_as_picture = (uint32_t)*whole;
         entry->given |= GN_LIGHT_SLIDE;
+        break;
+    case offsetof(struct gn_settings, render.shadow_specular):
+        entry->specular = isnan(*(const double *)value) ? -1.0f : (float)*(const double *)value;
+        entry->given |= GN_LIGHT_SPECULAR;
         break;
     case offsetof(struct gn_settings, render.shadow_strength):
         entry->strength = (float)*(const double *)value;

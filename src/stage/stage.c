@@ -123,6 +123,8 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
         .shadow.gather_points =
             continuous || o->run.command == GN_COMMAND_BENCH ? GATHER_POINTS : 0,
         .shadow.faces = o->render.cast_faces,
+        .shadow.specular_given = !isnan(o->render.shadow_specular),
+        .shadow.specular = (float)o->render.shadow_specular,
         .shadow.slide_as_picture = o->render.slide_as_picture,
         .shadow.cascade_count = (uint32_t)o->render.cascades,
         .shadow.taps = (unsigned)o->render.taps,

@@ -130,6 +130,37 @@ static void test_a_larger_light_has_wider_penumbrae(void **state) {
     assert_true(large > 2 * own);
 }
 
+/* The field is of metal: all its light is highlights. */
+static void test_highlights_stay_in_shadow_as_told(void **state) {
+    (void)state;
+    struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
+    double sums[3] = {0}; /* red of all pixels in shadow: as the rest, .302, none */
+    float *lit = gn_xalloc(4 * PIXELS, sizeof *lit);
+    opts.debug.aov = GN_AOV_COLOR;
+    opts.output_linear = opts.output_float = true;
+    opts.exposure_given = true;
+    opts.shadow.strength_given = true;
+    opts.shadow.strength = 0.0f;
+    draw(&opts);
+    memcpy(lit, aov, 4 * PIXELS * sizeof *aov);
+    opts.shadow.strength = 1.0f - 77.0f / 255.0f;
+    for (int i = 0; i < 3; i++) {
+        opts.shadow.specular_given = i > 0;
+        opts.shadow.specular = i == 1 ? 0.302f : 0.0f;
+        draw(&opts);
+        for (int p = 0; p < PIXELS; p++) {
+            assert_true(aov[4 * p] <= lit[4 * p] * 1.0001f + 1e-5f);
+            sums[i] += (double)(lit[4 * p] - aov[4 * p]);
+        }
+    }
+    free(lit);
+    printf("taken by shadows: %.3f as of the rest, %.3f with .302, %.3f with 0\n", sums[0], sums[1],
+           sums[2]);
+    assert_true(sums[0] > 0);
+    assert_true(fabs(sums[1] - sums[0]) < 1e-3 * sums[0]);
+    assert_true(fabs(sums[2] * (1 - 77.0 / 255) - sums[0]) < .01 * sums[0]);
+}
+
 /* A light sees nothing that is in its own shadow. */
 static void test_what_a_light_sees_is_lit(void **state) {
     (void)state;
@@ -152,6 +183,7 @@ int main(void) {
         cmocka_unit_test(test_more_cascades_are_nearer_to_truth),
         cmocka_unit_test(test_which_faces_cast),
         cmocka_unit_test(test_a_larger_light_has_wider_penumbrae),
+        cmocka_unit_test(test_highlights_stay_in_shadow_as_told),
         cmocka_unit_test(test_what_a_light_sees_is_lit),
     };
     return cmocka_run_group_tests_name("knobs", tests, open_all, close_all);

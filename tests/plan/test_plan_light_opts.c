@@ -120,11 +120,38 @@ static void test_a_light_can_be_looked_from(void **state) {
     gn_plan_end(&f);
 }
 
+/* Of specular items alone, and only where a light has a share of its own. */
+static void test_highlights_in_shadow_have_a_feature(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    for (int given = 0; given < 2; given++) {
+        f.opts.shadow.strength_given = true;
+        f.opts.shadow.strength = 0.75f;
+        f.opts.shadow.specular_given = given;
+        f.opts.shadow.specular = 0.2f;
+        const struct gn_plan *plan = gn_plan_make(&f);
+        const uint64_t both = GN_FEATURE(SPECULAR) | GN_FEATURE(SHADOW_SPECULAR);
+        int count = 0;
+        for (uint32_t i = 0; i < plan->program_count; i++) {
+            const uint64_t has = plan->programs[i].features & both;
+            assert_true(has == 0 || has == (given ? both : GN_FEATURE(SPECULAR)));
+            count += has != 0;
+        }
+        assert_true(count > 0);
+        const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
+        assert_true(last->constants[PASS_LIGHTS + LIGHT_COLOR][3] ==
+                    0.75f + (given ? 2 * 51 : 0)); /* 51 / 255 */
+    }
+    gn_plan_end(&f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_options_of_a_light_beat_those_of_all),
         cmocka_unit_test(test_a_light_can_be_looked_from),
         cmocka_unit_test(test_faces_of_all_casters_are_as_set),
+        cmocka_unit_test(test_highlights_in_shadow_have_a_feature),
     };
     return cmocka_run_group_tests_name("plan light options", tests, NULL, NULL);
 }

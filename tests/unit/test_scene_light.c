@@ -85,11 +85,13 @@ static void test_light_extras(void **state) {
     (void)state;
     set_light(
         "{'type':'spot','extras':{'gnomon_radius':0.3,'gnomon_shadow':'pcss','gnomon_map_px':512}}",
-        "{'gnomon_radius':0.7,'gnomon_shadow_strength':0.5,'gnomon_map_px':'big','gnomon_slide':0,'"
+        "{'gnomon_radius':0.7,'gnomon_shadow_strength':0.5,'gnomon_shadow_specular':0.25,'gnomon_"
+        "map_px':'big','gnomon_slide':0,'"
         "other':1}");
     struct gn_scene *scene = load();
     assert_near(scene->lights[0].radius, .7f); /* the node wins */
     assert_near(scene->lights[0].shadow_strength, .5f);
+    assert_near(scene->lights[0].shadow_specular, .25f);
     assert_string_equal(scene->lights[0].technique, "pcss");
     assert_int_equal(scene->lights[0].map_px, 512);
     assert_warned(

@@ -131,6 +131,7 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
     if (!json_is_object(extras.json)) return;
     take_float(g, &extras, "gnomon_radius", FLT_MAX, &light->radius);
     take_float(g, &extras, "gnomon_shadow_strength", 1, &light->shadow_strength);
+    take_float(g, &extras, "gnomon_shadow_specular", 1, &light->shadow_specular);
     int64_t px = light->map_px;
     take_whole(g, &extras, "gnomon_map_px", 16, 16384, &px);
     light->map_px = (uint32_t)px;

@@ -53,6 +53,7 @@ static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_ligh
     }
     light->radius = gn_light_types[light->type].radius;
     light->shadow_strength = 1;
+    light->shadow_specular = -1;
     light->slide = -1;
     if (gn_light_types[light->type].has_cone) read_cone(g, at, light);
     return !g->failed;
