@@ -35,12 +35,6 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
     return frame->auto_exposure.value;
 }
 
-struct gn_frame_light_opts gn_frame_light_opts(const struct gn_frame_opts *opts, uint32_t light) {
-    for (uint32_t i = 0; i < opts->shadow.light_count; i++)
-        if (opts->shadow.lights[i].light == light) return opts->shadow.lights[i];
-    return (struct gn_frame_light_opts){.light = light};
-}
-
 static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
                                       const struct gn_frame_opts *opts,
                                       const struct gn_frame_light_opts *one,
