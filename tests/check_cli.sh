@@ -100,6 +100,14 @@ wait $!
 [ -e "$folder/frames/0000.png" ] && [ -z "$(ls -A "$folder/frames" | grep -v png)" ] || complain 'what a stopped run leaves'
 [ ! -e "$folder/frames/9998.png" ] || complain 'a run that was not stopped'
 
+# so do rays
+"$gnomon" render assets/sundial.glb --shadow truth --samples 60000 -o "$folder/rays.png" 2> "$folder/err" &
+sleep 1
+kill -TERM $!
+wait $!
+[ $? = 143 ] && [ ! -s "$folder/err" ] || complain "rays by SIGTERM: $(cat "$folder/err")"
+[ -z "$(ls "$folder" | grep rays)" ] || complain 'what stopped rays leave'
+
 # decimal points are points, whatever the locale
 LC_ALL=de_DE.UTF-8 "$gnomon" render --time 1.5 --size 8x8 -o "$folder/a.png" || complain 'numbers in a German locale'
 

@@ -88,6 +88,24 @@ static void test_techniques(void **state) {
             }
 }
 
+/* What reads a value for each pixel, alone and beside a map. */
+static void test_truth(void **state) {
+    (void)state;
+    for (int type = GN_LIGHT_DIRECTIONAL; type < GN_LIGHT_TYPE_COUNT; type++) {
+        struct gn_program_key key = key_of(GN_PROGRAM_LIT);
+        add_light(&key, type, GN_TECHNIQUE_TRUTH, GN_ENCODING_SCREEN);
+        compiles(&key);
+        key.kind = GN_PROGRAM_AOV;
+        key.aov = GN_AOV_VISIBILITY;
+        compiles(&key);
+        key = key_of(GN_PROGRAM_LIT);
+        add_light(&key, type, GN_TECHNIQUE_TRUTH, GN_ENCODING_SCREEN);
+        add_light(&key, type, GN_TECHNIQUE_PCSS, GN_ENCODING_R16F);
+        key.features = GN_FEATURE(ALPHA_MASK);
+        compiles(&key);
+    }
+}
+
 /* What reads a filtered map, and the steps of the filter. */
 static void test_moments(void **state) {
     (void)state;
@@ -227,6 +245,7 @@ static void test_as_many_slides_as_may_be(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_techniques, open_egl, close_all),
+        cmocka_unit_test_setup_teardown(test_truth, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_moments, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_as_many_moments_as_may_be, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_features, open_egl, close_all),
