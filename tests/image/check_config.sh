@@ -49,6 +49,9 @@ exposure = -1
 camera = Top
 shadow = planar
 show_lights = yes
+[light "Sun"]
+shadow = hard
+light_radius = 0.01
 [button "next"]
 line = GPIO17
 keys = space right

@@ -173,6 +173,20 @@ settle
 expect 0 file screenshot after.png
 cmp -s before.png after.png || complain 'a good file leaves something on the screen'
 
+# a light's own settings come and go with the file; a name that no light has is one warning
+printf '[light "Sun"]\nshadow = none\n[light "Lamp"]\nmap = 64\n' >> kiosk.ini
+expect 0 'mode: Plain' reload
+expect 0 'lights.Sun: shadow = none' status
+expect 0 'lights.Lamp: map = 64 (not in this scene)' status
+settle
+expect 0 file screenshot sun.png
+cmp -s after.png sun.png && complain 'a light without shadows has some'
+cp good.ini kiosk.ini
+expect 0 'mode: Plain' reload
+settle
+expect 0 file screenshot after.png
+cmp -s before.png after.png || complain 'the settings of a light stay'
+
 # ---- a second one, and what a killed one leaves -------------------------------------------------
 "$gnomon" show --backend egl --size 32x32 --frames 3 --socket "$folder/ctl" > out 2> err ||
     complain "a second kiosk: $(cat err)"

@@ -1,6 +1,7 @@
 #include "kiosk/control/status.h"
 
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <config.h> /* the generated one */
@@ -34,20 +35,22 @@ static uint32_t camera_of(const struct gn_show *s) {
     return (first + (resets ? 0 : s->kiosk.camera)) % s->stage.scene->camera_count;
 }
 
-/* What the file says of single lights: [{name, holds, here}]; here: the scene shown has one. */
+/* What holds of the settings of single lights: {name: text}. */
 static json_t *lights_json(const struct gn_show *s) {
     const struct gn_settings *o = s->stage.settings;
     const struct gn_scene *scene = s->stage.scene;
-    json_t *lights = json_array();
+    json_t *lights = json_object();
     for (int i = 0; i < o->light_count; i++) {
         char holds[400];
         bool here = false;
         for (uint32_t k = 0; scene && k < scene->light_count; k++)
             here |= gn_light_section_is_of(&o->lights[i], scene, k);
         gn_stage_print_light(o, &o->lights[i], holds, sizeof holds);
-        json_array_append_new(lights, json_pack("{s:o, s:o, s:b}", "name",
-                                                gn_json_make_text(o->lights[i].name), "holds",
-                                                gn_json_make_text(holds), "here", here));
+        const size_t used = strlen(holds);
+        if (!here) snprintf(holds + used, sizeof holds - used, " (not in this scene)");
+        json_t *name = gn_json_make_text(o->lights[i].name); /* always UTF-8 */
+        json_object_set_new(lights, json_string_value(name), gn_json_make_text(holds));
+        json_decref(name);
     }
     return lights;
 }
