@@ -39,7 +39,7 @@ says() {
 says '^10 frames, [0-9]* late, 0 allocations and 0 GL objects' \
     "$gnomon" show -v --backend egl --size 64x64 --frames 10
 
-# still FRAMES ARGUMENT..: a scene in which nothing moves has as many. Within an operation of the driver
+# still FRAMES ARGUMENT..: a scene in which nothing moves has as many, and so many are late. Within an operation of the driver
 # that takes long SIGTERM ends it without its counts: on a busy machine the work ahead of the next mode
 # may last
 still() {
@@ -50,10 +50,10 @@ still() {
             2> /dev/null > "$folder/out" < /dev/null
         ! grep -q ' late, ' "$folder/out" || break
     done
-    says "^$frames frames, [0-9]* late, 0 allocations and 0 GL objects" cat "$folder/out"
+    says "^$frames late, 0 allocations and 0 GL objects" cat "$folder/out"
 }
-still 1
+still "1 frames, 0"
 # sixteen points of the lamp with each frame; after the last of 64 the mask is whole
-still 4 --shadow planar --planar soft
+still "4 frames, [0-9]*" --shadow planar --planar soft
 
 exit $bad
