@@ -90,7 +90,7 @@ void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn
     struct gn_map_need needs[GN_ALL_SHADOWS_MAX];
     uint32_t asked_px = 0, least_px = UINT32_MAX;
     if (most_bytes == 0) return;
-    for (uint32_t i = 0; i < frame->shadow_count; i++) {
+    for (uint32_t i = 0; i < frame->view_count; i++) {
         const enum gn_light_type type =
             frame->scene->lights[gn_frame_light_of_slot(frame, i)->light].type;
         needs[i] = (struct gn_map_need){.technique = maps[i].technique,
@@ -101,16 +101,16 @@ void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn
                                                  !gn_techniques[maps[i].technique].on_plane};
         set_size(type, &maps[i], &needs[i]);
     }
-    while (gn_map_needs_bytes(needs, frame->shadow_count) > most_bytes) {
-        uint32_t slot = frame->shadow_count; /* of the map whose tiles are halved next */
-        for (uint32_t i = 0; i < frame->shadow_count; i++) {
+    while (gn_map_needs_bytes(needs, frame->view_count) > most_bytes) {
+        uint32_t slot = frame->view_count; /* of the map whose tiles are halved next */
+        for (uint32_t i = 0; i < frame->view_count; i++) {
             if (needs[i].map.tile_px < 2 * LEAST_PX) continue;
-            if (slot == frame->shadow_count || needs[i].map.tile_px > needs[slot].map.tile_px ||
+            if (slot == frame->view_count || needs[i].map.tile_px > needs[slot].map.tile_px ||
                 (needs[i].map.tile_px == needs[slot].map.tile_px &&
                  own_bytes(&needs[i]) >= own_bytes(&needs[slot])))
                 slot = i;
         }
-        if (slot == frame->shadow_count) break;
+        if (slot == frame->view_count) break;
         struct gn_frame_light *light = gn_frame_light_of_slot(frame, slot);
         if (maps[slot].map_px > asked_px) asked_px = maps[slot].map_px;
         /* smaller tiles of cascades have no room for gutters: one map takes their place */

@@ -96,6 +96,8 @@ static const char *check_picture(const struct gn_plan *plan, const struct gn_pas
     REQUIRE(p->light_count <= plan->light_count - p->first_light);
     REQUIRE(p->shadow_count <= GN_SHADOWS_MAX && p->first_shadow <= plan->shadow_count);
     REQUIRE(p->shadow_count <= plan->shadow_count - p->first_shadow);
+    REQUIRE(p->plane_count <= p->shadow_count && p->first_on_plane <= plan->shadow_count);
+    REQUIRE(p->plane_count <= plan->shadow_count - p->first_on_plane);
     REQUIRE(p->slide_count <= GN_SLIDES_MAX);
     for (uint32_t i = 0; i < p->slide_count; i++)
         REQUIRE(p->slides[i] < plan->scene->pictures.texture_count);

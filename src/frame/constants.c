@@ -77,6 +77,12 @@ static void set_cascades(const struct gn_shadow_view *view, float (*constants)[4
     }
 }
 
+void gn_frame_reader_constants(const struct gn_shadow_view *view, uint32_t i,
+                               float (*constants)[4]) {
+    set_shadow(view, constants + PASS_SHADOWS + i * SHADOW_SIZE);
+    set_cascades(view, constants + PASS_CASCADES + i * CASCADES_SIZE);
+}
+
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
                               const struct gn_light_group *group, float (*constants)[4]) {
     for (uint32_t i = 0; i < group->count; i++) {
@@ -97,9 +103,7 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
         c[LIGHT_AXIS][3] = outer;
         constants[PASS_CONES + i / 4][i % 4] = 1.0f / fmaxf(inner - outer, 1e-4f);
         if (i >= group->shadow_count) continue;
-        const struct gn_shadow_view *view = &frame->shadows[group->first_shadow + i];
-        set_shadow(view, constants + PASS_SHADOWS + i * SHADOW_SIZE);
-        set_cascades(view, constants + PASS_CASCADES + i * CASCADES_SIZE);
+        gn_frame_reader_constants(&frame->shadows[group->first_shadow + i], i, constants);
     }
 }
 

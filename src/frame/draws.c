@@ -37,6 +37,8 @@ static float depth_of(const struct gn_frame *frame, const struct gn_box *box, bo
 static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
                        const struct gn_selection *s, uint32_t item) {
     if (s->casts) return s->casts[item] >> s->page & 1;
+    if (frame->plane.shown > 1 && gn_key_further_plane(frame, item, s->opts) != s->plane)
+        return false;
     if (s->part && gn_key_on_plane(frame, item, s->opts) != (s->part == GN_PART_PLANE))
         return false;
     const struct gn_material *m = &frame->scene->materials[frame->scene->items[item].material];

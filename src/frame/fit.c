@@ -19,7 +19,7 @@ static void lay_screen(const struct gn_frame *frame, uint32_t light, struct gn_s
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     struct gn_shadow_opts maps[GN_ALL_SHADOWS_MAX];
-    for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
+    for (uint32_t slot = 0; slot < frame->view_count; slot++) {
         /* how large the light's map is wanted, as far as this GPU's textures go */
         struct gn_frame_light *light = gn_frame_light_of_slot(frame, slot);
         maps[slot] =
@@ -41,6 +41,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
             .encoding = light->encoding,
             .moments = light->moments,
             .map_px = asked < most ? asked : most,
+            .plane = gn_frame_plane_of_slot(frame, slot),
             .points = opts->shadow.planar_points,
             .all_receive = opts->debug.aov == GN_AOV_VISIBILITY,
             .faces_given = faces > 0,
@@ -69,7 +70,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
     }
     gn_frame_shrink_maps(frame, opts->shadow.maps_bytes, maps, warnings);
     /* An empty view keeps its slot: programs do not depend on what is visible. */
-    for (uint32_t i = 0; i < frame->shadow_count; i++) {
+    for (uint32_t i = 0; i < frame->view_count; i++) {
         const uint32_t light = gn_frame_light_of_slot(frame, i)->light;
         if (gn_techniques[maps[i].technique].on_screen)
             lay_screen(frame, light, &frame->shadows[i]);

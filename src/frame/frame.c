@@ -32,6 +32,7 @@ void gn_frame_destroy(struct gn_frame *frame) {
     for (int i = 0; i < GN_ALL_SHADOWS_MAX; i++) free(frame->gathered[i].points);
     free(frame->constants);
     free(frame->sets);
+    free(frame->plane.constants);
     free(frame);
 }
 
@@ -129,7 +130,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     plan->draw_count = frame->draws.count;
     plan->instance_count = frame->instances.count;
     plan->program_count = frame->programs.count;
-    plan->shadow_count = frame->shadow_count;
+    plan->shadow_count = frame->view_count;
     plan->light_count = frame->light_count;
     assert(gn_plan_check(plan) == NULL);
     return plan;

@@ -18,7 +18,7 @@ static void set_scale(struct gn_shadow_view *view) {
 }
 
 void gn_frame_gather_points(struct gn_frame *frame, const struct gn_frame_opts *opts) {
-    for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
+    for (uint32_t slot = 0; slot < frame->view_count; slot++) {
         struct gn_shadow_view *view = &frame->shadows[slot];
         struct gn_shadow_lamp *lamp = &view->lamp;
         const uint64_t hash = view->raster.tiles[0].content_hash;

@@ -50,6 +50,9 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
 static enum gn_receiver receiver_of(const struct gn_frame *frame, const struct gn_item *item,
                                     enum gn_aov aov) {
     if (!item->receives && aov != GN_AOV_VISIBILITY) return GN_RECEIVES_NOTHING;
+    /* What is blended is drawn with what else is: on the first plane. */
+    const bool blended = frame->scene->materials[item->material].alpha == GN_ALPHA_BLEND;
+    if (item->plane > (blended ? 1 : frame->plane.shown)) return GN_RECEIVES_MAPS;
     for (uint32_t i = 0; item->plane && i < frame->light_count; i++)
         if (gn_techniques[frame->lights[i].technique].on_plane) return GN_RECEIVES_ALL;
     return GN_RECEIVES_MAPS;
@@ -58,6 +61,12 @@ static enum gn_receiver receiver_of(const struct gn_frame *frame, const struct g
 bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item,
                      const struct gn_frame_opts *opts) {
     return receiver_of(frame, &frame->scene->items[item], opts->debug.aov) == GN_RECEIVES_ALL;
+}
+
+uint32_t gn_key_further_plane(const struct gn_frame *frame, uint32_t item,
+                              const struct gn_frame_opts *opts) {
+    const uint32_t plane = frame->scene->items[item].plane;
+    return plane > 1 && gn_key_on_plane(frame, item, opts) ? plane : 0;
 }
 
 /* The lights of a group, and what their techniques need. */

@@ -177,6 +177,12 @@ static void bound_triangles(struct gn_frame *frame, const struct gn_frame_opts *
     }
 }
 
+static bool has_planar_light(const struct gn_frame *frame) {
+    for (uint32_t i = 0; i < frame->light_count; i++)
+        if (gn_techniques[frame->lights[i].technique].on_plane) return true;
+    return false;
+}
+
 void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                             const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     bool visibility = opts->debug.aov == GN_AOV_VISIBILITY;
@@ -235,4 +241,10 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         frame->plan.stencil |= frame->lights[i].encoding == GN_ENCODING_STENCIL;
     gn_frame_choose_slides(frame, opts, warnings);
     gn_frame_group_lights(frame, pose);
+    gn_frame_add_plane_slots(frame);
+    if (frame->plane.shown < frame->plane.count && has_planar_light(frame) &&
+        gn_frame_notice(&frame->notes.said, GN_NOTICE_PLANES, warnings))
+        gn_warn(warnings, "planar shadows are on %u of %u planes: %s", frame->plane.shown,
+                frame->plane.count,
+                frame->plan.stencil ? "the stencil has one" : "there are too many lights for more");
 }

@@ -135,7 +135,7 @@ static void add_given_pass(struct gn_frame *frame, uint32_t slot) {
 
 void gn_frame_add_maps(struct gn_frame *frame, const struct gn_pose *pose,
                        const struct gn_frame_opts *opts) {
-    for (uint32_t slot = 0; slot < frame->shadow_count; slot++) {
+    for (uint32_t slot = 0; slot < frame->view_count; slot++) {
         struct gn_shadow_view *view = &frame->shadows[slot];
         const bool in_stencil = view->encoding == GN_ENCODING_STENCIL,
                    paged = view->raster.drawn.paged;

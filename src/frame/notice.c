@@ -17,6 +17,10 @@ void gn_frame_learn_scene(struct gn_frame *frame) {
             frame->plane.blended |=
                 scene->items[i].plane && scene->items[i].receives &&
                 scene->materials[scene->items[i].material].alpha == GN_ALPHA_BLEND;
+        frame->plane.count = 1;
+        for (uint32_t i = 0; i < scene->item_count; i++)
+            if (scene->items[i].plane > frame->plane.count)
+                frame->plane.count = scene->items[i].plane;
     }
     for (uint32_t i = frame->notes.lights.count; i < scene->light_count; i++) {
         const char *name = scene->lights[i].technique;

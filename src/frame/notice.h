@@ -20,6 +20,7 @@ enum gn_notice {
     GN_NOTICE_MAP_PX,
     GN_NOTICE_MAPS_MB,
     GN_NOTICE_TRIANGLES,
+    GN_NOTICE_PLANES,
 };
 enum { GN_NOTICE_ABOUT = 12 }; /* options that a warning may be about */
 

@@ -71,6 +71,8 @@ struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uin
     pass->picture.light_count = g->count;
     pass->picture.first_shadow = g->first_shadow;
     pass->picture.shadow_count = g->shadow_count;
+    pass->picture.plane_count = g->plane_count;
+    pass->picture.first_on_plane = g->first_on_plane[0];
     for (uint32_t i = g->first; i < g->first + g->count; i++)
         if (frame->lights[i].slide != GN_SLIDE_NONE)
             pass->picture.slides[pass->picture.slide_count++] =
@@ -87,4 +89,19 @@ struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uin
     pass->depth_write = false;
     pass->rect = g->rect;
     return pass;
+}
+
+void gn_frame_set_plane(struct gn_frame *frame, struct gn_pass *pass, uint32_t group,
+                        uint32_t plane) {
+    const struct gn_light_group *g = &frame->groups[group];
+    const size_t of_pass = GN_PASS_SIZE * sizeof *frame->plane.constants;
+    if (!frame->plane.constants)
+        frame->plane.constants = gn_xalloc(GN_GROUPS_MAX * (GN_PLANES_MAX - 1), of_pass);
+    float(*c)[4] =
+        frame->plane.constants + (size_t)(group * (GN_PLANES_MAX - 1) + plane - 2) * GN_PASS_SIZE;
+    memcpy(c, pass->constants, of_pass);
+    pass->constants = c;
+    pass->picture.first_on_plane = g->first_on_plane[plane - 1];
+    for (uint32_t i = g->shadow_count - g->plane_count; i < g->shadow_count; i++)
+        gn_frame_reader_constants(&frame->shadows[gn_pass_slot(&pass->picture, i)], i, c);
 }

@@ -3,6 +3,7 @@
  * depth, in linear light, within the bounds of its lights on the screen. Blended items come last,
  * farthest first, each followed by what is added to it: what lies before it must dim that, too. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,6 +59,26 @@ static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
     if (blend) gn_frame_end_pass(frame);
 }
 
+/* ---- further planes ---- */
+
+/* Opaque items on each of them: the same programs, with the planar shadows on that plane. */
+static void add_further_planes(struct gn_frame *frame, const struct gn_pose *pose,
+                               const struct gn_frame_opts *opts, uint32_t group) {
+    for (uint32_t plane = 2; plane <= frame->plane.shown; plane++) {
+        const struct gn_selection seen = {
+            .group = group > 0 ? &frame->groups[group] : NULL, .plane = plane, .opts = opts};
+        char label[16];
+        snprintf(label, sizeof label, "plane %u", plane);
+        struct gn_pass *pass = gn_frame_lit_pass(frame, label, group);
+        const uint32_t first = pass->first_draw;
+        gn_frame_set_plane(frame, pass, group, plane);
+        gn_frame_draw_items(frame, pose, &seen);
+        gn_frame_sort_draws(frame, first);
+        gn_frame_end_pass(frame);
+        if (frame->passes.at[frame->passes.count - 1].draw_count == 0) frame->passes.count--;
+    }
+}
+
 /* ---- all of them ---- */
 
 void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
@@ -82,6 +103,7 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_draw_items(frame, pose, &seen);
     gn_frame_sort_draws(frame, first);
     gn_frame_end_pass(frame);
+    add_further_planes(frame, pose, opts, 0);
     if (frame->plan.stencil) gn_frame_plane_passes(frame, pose, opts, 0);
     for (uint32_t i = 1; i < frame->group_count; i++) {
         if (!frame->groups[i].seen) continue;
@@ -92,6 +114,7 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
         gn_frame_draw_items(frame, pose, &reached);
         gn_frame_end_pass(frame);
         if (frame->passes.at[frame->passes.count - 1].draw_count == 0) frame->passes.count--;
+        add_further_planes(frame, pose, opts, i);
         if (marks) gn_frame_plane_passes(frame, pose, opts, i);
     }
     add_blend_passes(frame, pose, opts);

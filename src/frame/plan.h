@@ -172,7 +172,10 @@ struct gn_pass {
             bool only_stencil;                   /* draws FLAT programs: no depth test, no colour */
             struct gn_stencil stencil;           /* of a plan with a stencil */
             uint32_t first_light, light_count;   /* of plan->lights: what its LIT programs know */
-            uint32_t first_shadow, shadow_count; /* sampler i: plan->shadows[first_shadow + i] */
+            uint32_t first_shadow, shadow_count; /* as gn_pass_slot() says */
+            uint32_t plane_count,
+                first_on_plane; /* the last so many are of planar lights: their
+                                   shadows are those on one plane, from that slot */
             uint32_t slide_count, slides[GN_SLIDES_MAX]; /* textures; slide i: sampler i */
             bool reads_codes; /* map samplers do not compare, and are of maps, filtered or not */
             bool reads_atlas; /* plan->atlas is behind sampler 0 */
@@ -196,6 +199,12 @@ struct gn_pass {
         } filter;
     };
 };
+
+/* What is behind sampler i: plan->shadows[..]. */
+static inline uint32_t gn_pass_slot(const struct gn_pass_picture *picture, uint32_t i) {
+    const uint32_t maps = picture->shadow_count - picture->plane_count;
+    return i < maps ? picture->first_shadow + i : picture->first_on_plane + i - maps;
+}
 
 enum gn_output_format {
     GN_OUTPUT_SRGB8,   /* SRGB8_ALPHA8: encodes on write */

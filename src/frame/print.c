@@ -69,6 +69,7 @@ static void print_shadow(const struct gn_plan *plan, uint32_t slot, FILE *to) {
     if (view->empty)
         fprintf(to, ", empty: it darkens nothing in view\n");
     else if (gn_techniques[view->technique].on_plane && has_map) {
+        if (view->plane > 1) fprintf(to, ", plane %u", view->plane);
         fprintf(to, ", texel %.4g m", (double)view->lookup.texel);
         if (view->lamp.count > 0)
             fprintf(to, ", %u of %u points of the lamp", view->lamp.drawn, view->lamp.count);
@@ -128,6 +129,9 @@ static void print_picture(const struct gn_plan *plan, const struct gn_pass *pass
     for (uint32_t i = 0; i < p->slide_count; i++)
         fprintf(to, ", slide %u: texture %u", i, p->slides[i]);
     if (p->blend == GN_BLEND_ALPHA) fprintf(to, ", blend");
+    if (p->plane_count > 0 &&
+        p->first_on_plane != p->first_shadow + p->shadow_count - p->plane_count)
+        fprintf(to, ", planar maps from %u", p->first_on_plane);
     if (p->reads_codes) fprintf(to, ", shows map %u", p->first_shadow);
     if (p->reads_atlas)
         fprintf(to, ", atlas %u x %u", plan->atlas->width_px, plan->atlas->height_px);

@@ -30,6 +30,9 @@ struct gn_frame_light {
  * other one is added to it. */
 struct gn_light_group {
     uint32_t first, count, first_shadow, shadow_count;
+    uint32_t plane_count;                   /* of those with maps, the last so many are planar */
+    uint32_t first_on_plane[GN_PLANES_MAX]; /* slots of their shadows, by plane; of the first plane
+                                               they are its own */
     struct gn_reach reaches[GN_LIGHTS_MAX]; /* of groups that are added */
     bool seen;                              /* in the camera's view; else it has no pass */
     struct gn_rect rect;                    /* of the picture; width 0: all of it */
@@ -65,7 +68,11 @@ struct gn_frame {
     } notes;
     struct {
         bool exists, blended;
-    } plane; /* of the scene, for planar shadows */
+        uint32_t count; /* of planes; those that have slots in this frame may be fewer */
+        uint32_t shown;
+        float (*constants)[4]; /* a set for each group and plane but the first; NULL until there
+                                  are any */
+    } plane;                   /* of the scene, for planar shadows */
     struct {
         bool known;
         float value;
@@ -74,6 +81,7 @@ struct gn_frame {
     uint32_t scene_lights[GN_ALL_LIGHTS_MAX];        /* the same, as the plan shows them */
     uint32_t light_count, shadow_count;
     bool shadow_specular; /* of some of them that share is not what the strength leaves */
+    uint32_t view_count;  /* of shadows[]: lights with maps, then planar ones on further planes */
     struct gn_light_group groups[GN_GROUPS_MAX];
     uint32_t group_count; /* 1 at least */
     struct gn_shadow_view shadows[GN_ALL_SHADOWS_MAX];
@@ -130,7 +138,9 @@ struct gn_selection {
     bool mirrored;                      /* drawn mirrored */
     const struct gn_light_group *group; /* added: draws items in its reach; NULL: the first */
     enum gn_part part;                  /* not of a shadow pass */
-    const struct gn_frame_opts *opts;   /* never NULL */
+    uint32_t plane; /* the same: only receivers of planar shadows on it; 0: all but those on further
+                       planes */
+    const struct gn_frame_opts *opts; /* never NULL */
 };
 
 /* ---- pass.c: programs, passes, bare draws ---- */
@@ -143,6 +153,9 @@ void gn_frame_end_pass(struct gn_frame *frame);
 struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label);
 /* The same with what the programs of a group of lights read; later groups are added by blending. */
 struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group);
+/* Makes it one of items on a further plane, from 2: with the planar shadows on that. */
+void gn_frame_set_plane(struct gn_frame *frame, struct gn_pass *pass, uint32_t group,
+                        uint32_t plane);
 /* Whether a last pass encodes the picture. */
 bool gn_frame_encodes_last(const struct gn_frame *frame);
 /* A draw of bare vertices. */
@@ -227,6 +240,9 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
                                   const struct gn_frame_opts *frame_opts, uint32_t slot,
                                   const struct gn_shadow_opts *opts);
 struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot);
+uint32_t gn_frame_plane_of_slot(const struct gn_frame *frame, uint32_t slot); /* from 1 */
+/* Gives planar lights slots on further planes: all of a group's on one plane follow each other. */
+void gn_frame_add_plane_slots(struct gn_frame *frame);
 /* Creates at least so many memories of a slot. */
 void gn_frame_make_memories(struct gn_frame *frame, uint32_t slot, uint32_t count);
 /* Largest resolution of a map, or of its tiles, whose texture this GPU supports. */
@@ -250,6 +266,10 @@ void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn
 
 /* ---- constants.c ---- */
 
+/* Of the shadow that sampler i of a pass reads. */
+void gn_frame_reader_constants(const struct gn_shadow_view *view, uint32_t i,
+                               float (*constants)[4]);
+
 void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose *pose,
                               const struct gn_light_group *group, float (*constants)[4]);
 void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from_world,
@@ -258,6 +278,9 @@ void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from
 /* key.c: the program that draws an item. */
 /* Whether that reads the shadows of planar lights. */
 bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item, const struct gn_frame_opts *opts);
+/* The plane whose planar shadows it reads, if that is not the first; else 0. */
+uint32_t gn_key_further_plane(const struct gn_frame *frame, uint32_t item,
+                              const struct gn_frame_opts *opts);
 struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t item,
                                  const struct gn_frame_opts *opts);
 struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,

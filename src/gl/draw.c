@@ -37,7 +37,7 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output.texture, nearest);
     else
         for (uint32_t i = 0; i < picture->shadow_count; i++) {
-            const uint32_t slot = picture->first_shadow + i;
+            const uint32_t slot = gn_pass_slot(picture, i);
             const struct gn_shadow_view *view = &plan->shadows[slot];
             const struct gn_gl_map *map = gn_gl_view_find(gl, view, slot, !picture->reads_codes);
             const GLuint sampler = picture->reads_codes ? nearest : map_sampler(gl, view);

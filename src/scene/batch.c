@@ -73,7 +73,7 @@ bool gn_scene_batch(struct gn_gltf *g) {
     for (uint32_t i = 0; i < scene->item_count; i++) {
         const struct gn_item *item = &scene->items[i];
         uint32_t flags = (uint32_t)item->casts | (uint32_t)item->receives << 1 |
-                         (uint32_t)item->plane << 2 | (uint32_t)item->cast_faces << 3;
+                         (uint32_t)item->cast_faces << 2 | (uint32_t)item->plane << 8;
         keys[i] = (struct item_key){.part = {[KEY_ALPHA] = scene->materials[item->material].alpha,
                                              [KEY_LOOK] = looks[item->material],
                                              [KEY_GEOMETRY] = item->geometry,

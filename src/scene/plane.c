@@ -9,12 +9,23 @@
 /* The minimum share of the scene's box, projected along the plane's normal, that it covers. */
 static const double LEAST_SHARE = .3;
 
-/* All marked items must lie in the plane of the first. */
+/* Whether two flat items lie in one plane. */
+static bool lie_together(const struct gn_pose *pose, uint32_t a, uint32_t b) {
+    const float size = glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max);
+    vec4 p, q;
+    gn_pose_plane(pose, a, p);
+    gn_pose_plane(pose, b, q);
+    if (glm_vec3_dot(p, q) < 0) glm_vec4_negate(q);
+    return glm_vec3_distance(p, q) < 1e-4f && fabsf(p[3] - q[3]) < 1e-4f * size;
+}
+
+/* Marked items make up planes, in the order of their items, as many as there may be. One that is
+ * not visible at first lies in the first plane. */
 static bool mark_named_planes(struct gn_gltf *g, const struct gn_pose *pose) {
     struct gn_scene *scene = g->scene;
-    const float size = glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max);
     bool named = false;
-    int64_t first = -1;
+    uint32_t first[GN_PLANES_MAX]; /* items */
+    int count = 0;
     for (uint32_t i = 0; i < scene->item_count; i++) {
         struct gn_item *item = &scene->items[i];
         if (g->placed[item->node].plane != GN_YES) continue;
@@ -24,16 +35,14 @@ static bool mark_named_planes(struct gn_gltf *g, const struct gn_pose *pose) {
             gn_gltf_warn(g, NULL, "gnomon_plane: node '%.60s' is not flat; ignored",
                          scene->nodes[item->node].name);
         if (!item->plane || !pose->items[i].visible) continue;
-        if (first < 0) first = i;
-        vec4 p, q;
-        gn_pose_plane(pose, (uint32_t)first, p);
-        gn_pose_plane(pose, i, q);
-        if (glm_vec3_dot(p, q) < 0) glm_vec4_negate(q);
-        item->plane = glm_vec3_distance(p, q) < 1e-4f && fabsf(p[3] - q[3]) < 1e-4f * size;
+        int at = 0;
+        while (at < count && !lie_together(pose, first[at], i)) at++;
+        item->plane = at < GN_PLANES_MAX ? (uint8_t)(at + 1) : 0;
+        if (at == count && at < GN_PLANES_MAX) first[count++] = i;
         if (!item->plane)
-            gn_gltf_warn(
-                g, NULL, "gnomon_plane: node '%.60s' lies in another plane than '%.60s'; ignored",
-                scene->nodes[item->node].name, scene->nodes[scene->items[first].node].name);
+            gn_gltf_warn(g, NULL,
+                         "gnomon_plane: node '%.60s' lies in plane %d, of at most %d; ignored",
+                         scene->nodes[item->node].name, at + 1, GN_PLANES_MAX);
     }
     return named;
 }
@@ -64,5 +73,5 @@ void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose) {
         best = area;
         found = item;
     }
-    if (found) found->plane = true;
+    if (found) found->plane = 1;
 }

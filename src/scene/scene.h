@@ -81,12 +81,14 @@ static inline bool gn_geometry_has(const struct gn_geometry *geometry,
 /* One thing to draw: a primitive of a node's mesh, or of one instance of it
  * (EXT_mesh_gpu_instancing). Sorted so that items that can share an instanced call (same geometry,
  * materials that differ only in factors, same flags) stand together. */
+enum { GN_PLANES_MAX = 4 }; /* that receive planar shadows */
 enum gn_cast_faces { GN_CAST_BOTH, GN_CAST_FRONT, GN_CAST_BACK, GN_CAST_AUTO };
 struct gn_item {
     uint32_t node, geometry, material;
-    int32_t instance;            /* index into scene->instances, or -1 */
-    uint32_t batch;              /* equal for items that can share a call; ascending */
-    bool casts, receives, plane; /* gnomon_cast, gnomon_receive, gnomon_plane */
+    int32_t instance;     /* index into scene->instances, or -1 */
+    uint32_t batch;       /* equal for items that can share a call; ascending */
+    bool casts, receives; /* gnomon_cast, gnomon_receive */
+    uint8_t plane;        /* in which it receives planar shadows, from 1; 0: in none */
     enum gn_cast_faces cast_faces;
 };
 

@@ -66,6 +66,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                                 .technique = opts->technique,
                                 .encoding = opts->encoding,
                                 .moments = opts->moments,
+                                .plane = opts->plane ? opts->plane : 1,
                                 .all_receive = opts->all_receive,
                                 .faces_given = opts->faces_given && !row->on_plane,
                                 .faces = opts->faces,

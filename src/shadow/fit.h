@@ -29,6 +29,7 @@ struct gn_shadow_opts {
     enum gn_moments moments;     /* of a technique that filters its map: proved ones */
     uint32_t map_px;             /* side of the map, or of a tile; with STENCIL 0 */
     bool all_receive;            /* ignore gnomon_receive: for pictures of visibility */
+    uint32_t plane;              /* on_plane: which of the scene, from 1; 0: the first */
     uint32_t points;             /* with MEAN: of the lamp (lamp.h) */
     bool faces_given;
     enum gn_cast_faces faces; /* given: of all casters, not on a plane, in place of their own */
@@ -161,6 +162,7 @@ struct gn_shadow_view {
     enum gn_technique technique;
     enum gn_encoding encoding;
     enum gn_moments moments; /* what shaders read in the map's place; NONE: the map */
+    uint32_t plane;          /* as in gn_shadow_opts */
     bool all_receive;        /* as in gn_shadow_opts */
     bool faces_given;        /* likewise */
     enum gn_cast_faces faces;

@@ -81,7 +81,8 @@ bool gn_planar_has_plane(const struct gn_scene *scene) {
 }
 
 static bool is_receiver(const struct planar *f, uint32_t item) {
-    return f->pose->scene->items[item].plane && gn_shadow_item_receives(f->pose, item, f->view);
+    return f->pose->scene->items[item].plane == f->view->plane &&
+           gn_shadow_item_receives(f->pose, item, f->view);
 }
 
 /* place: of the light, or the direction towards it. */
@@ -205,7 +206,7 @@ static void set_lamp(struct planar *f, float radius) {
 /* ---- casters and receivers ---- */
 
 static bool is_caster(const struct planar *f, uint32_t item) {
-    return f->pose->items[item].visible && !f->pose->scene->items[item].plane &&
+    return f->pose->items[item].visible && f->pose->scene->items[item].plane != f->view->plane &&
            gn_shadow_item_casts(f->pose->scene, item);
 }
 

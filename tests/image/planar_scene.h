@@ -25,6 +25,11 @@ extern const struct gn_planar_turn
 /* On the plane, over it, and through it; two that overlap; one with holes. */
 extern const char gn_planar_things[];
 
+/* A wall behind them, a plane of its own. */
+#define GN_PLANAR_WALL                                                                             \
+    ",{'mesh':0,'translation':[0,2,-4],'scale':[5,1,2],'rotation':[0.7071068,0,0,0.7071068],"      \
+    "'extras':{'gnomon_plane':true}}"
+
 /* A ground of 10 m, the plane, with these things on it (nodes, a comma before each) and a light,
  * seen from 13 m away. Mesh 0 is a square, 1 a cube, both of 2 m, 2 a square with square holes. */
 struct gn_scene *gn_planar_scene(const char *turn, const struct gn_planar_light *light,

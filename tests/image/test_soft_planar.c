@@ -19,8 +19,8 @@ static float picture[4 * PIXELS];
 static int open_gl(void **state) {
     (void)state;
     help_open(&display, "egl");
-    /* no float can be drawn to, blended or not */
-    gl = help_gl(&display, &(struct gn_gl_opts){.without = "r16f,rgba16f"}, NULL);
+    /* R16F, which a mask could be, cannot be drawn to */
+    gl = help_gl(&display, &(struct gn_gl_opts){.without = "r16f"}, NULL);
     return 0;
 }
 
@@ -157,6 +157,77 @@ static void test_penumbrae_agree_with_truth(void **state) {
     assert_true(ok);
 }
 
+/* ---- more than one plane ---- */
+
+/* On the floor and on a wall, each with its own mask; things on the floor shadow both, and floor
+ * and wall each other. In colour the two are passes of the same programs. */
+static void test_floor_and_wall_agree_with_truth(void **state) {
+    (void)state;
+    static float shares[PIXELS];
+    char nodes[2000];
+    snprintf(nodes, sizeof nodes, "%s%s", gn_planar_things, GN_PLANAR_WALL);
+    for (size_t l = 0; l < GN_PLANAR_LIGHTS; l++) {
+        struct gn_scene *scene =
+            gn_planar_scene(gn_planar_turns[l].turn, &gn_planar_lights[l], nodes);
+        struct soft s;
+        struct gn_truth truth;
+        int on_wall = 0;
+        scene->lights[0].radius = l ? 0.5f : 0.2f;
+        find_shares(scene, shares);
+        find_truth(&truth, scene);
+        for (int i = 0; i < PIXELS; i++)
+            on_wall += shares[i] >= 0 && scene->items[truth.mask.item[i]].plane == 2;
+        gn_truth_finish(&truth);
+        begin(&s, scene, 64, 0);
+        draw(&s);
+        const double error = error_of(shares);
+        printf("%s: %.4f, %d pixels on the wall\n", gn_planar_lights[l].name, error, on_wall);
+        assert_true(on_wall > 15 && error <= .02);
+        end(&s);
+        gn_scene_destroy(scene);
+    }
+}
+
+/* Each plane has one normal and one white, and a sun: its colour is a line over visibility. */
+static void test_both_planes_have_their_shadow_in_colour(void **state) {
+    (void)state;
+    static float seen[4 * PIXELS];
+    char nodes[2000];
+    snprintf(nodes, sizeof nodes, "%s%s", gn_planar_things, GN_PLANAR_WALL);
+    struct gn_scene *scene = gn_planar_scene(gn_planar_turns[0].turn, &gn_planar_lights[0], nodes);
+    struct soft s;
+    struct gn_truth truth;
+    scene->lights[0].radius = 0.2f;
+    find_truth(&truth, scene);
+    begin(&s, scene, 64, 0);
+    draw(&s);
+    memcpy(seen, picture, sizeof seen);
+    s.opts.debug.aov = GN_AOV_COLOR;
+    s.opts.output_float = true;
+    draw(&s);
+    for (uint8_t plane = 1; plane <= 2; plane++) {
+        int least = -1, most = -1; /* pixels */
+        for (int i = 0; i < PIXELS; i++) {
+            if (truth.mask.item[i] < 0 || scene->items[truth.mask.item[i]].plane != plane) continue;
+            if (least < 0 || seen[4 * i] < seen[4 * least]) least = i;
+            if (most < 0 || seen[4 * i] > seen[4 * most]) most = i;
+        }
+        const float dark = picture[4 * least], rise = picture[4 * most] - dark;
+        printf("plane %d: visibility %.2f to %.2f, colour %.3f to %.3f\n", plane,
+               (double)seen[4 * least], (double)seen[4 * most], (double)dark,
+               (double)picture[4 * most]);
+        assert_true(seen[4 * most] - seen[4 * least] > .5f && rise > .03f);
+        for (int i = 0; i < PIXELS; i++)
+            if (truth.mask.item[i] >= 0 && scene->items[truth.mask.item[i]].plane == plane)
+                assert_true(fabsf(picture[4 * i] - dark -
+                                  rise * (seen[4 * i] - seen[4 * least]) /
+                                      (seen[4 * most] - seen[4 * least])) < .01f * rise + .001f);
+    }
+    end(&s);
+    gn_truth_finish(&truth);
+    gn_scene_destroy(scene);
+}
+
 /* ---- gathering ---- */
 
 static struct gn_scene *make_one(void) {
@@ -254,6 +325,8 @@ int main(void) {
         cmocka_unit_test(test_points_are_gathered_while_nothing_moves),
         cmocka_unit_test(test_a_lost_mask_is_drawn_again),
         cmocka_unit_test(test_a_point_is_drawn_once),
+        cmocka_unit_test(test_floor_and_wall_agree_with_truth),
+        cmocka_unit_test(test_both_planes_have_their_shadow_in_colour),
         cmocka_unit_test(test_penumbrae_agree_with_truth),
     };
     return cmocka_run_group_tests_name("soft_planar", tests, open_gl, close_gl);

@@ -175,21 +175,32 @@ static void test_plane(void **state) {
         "wall");
 }
 
-static void test_planes_named_apart_are_not_one(void **state) {
+#define NAMED_PLANE "'extras':{'gnomon_plane':true}}"
+
+/* b lies in the plane of a, the ceiling too, from its other side; of five planes the last is
+ * ignored. */
+static void test_planes_named_apart_are_several(void **state) {
     (void)state;
+    static const struct {
+        const char *name;
+        int plane;
+    } expected[] = {{"a", 1},    {"b", 1},     {"ceiling", 1}, {"step", 2},
+                    {"wall", 3}, {"shelf", 4}, {"roof", 0}};
     gn_maker_set(&maker, "nodes",
-                 "[{'mesh':0,'name':'a','extras':{'gnomon_plane':true}},"
-                 "{'mesh':0,'name':'b','translation':[3,0,0],'extras':{'gnomon_plane':true}},"
-                 "{'mesh':0,'name':'step','translation':[0,1,0],'extras':{'gnomon_plane':true}},"
-                 "{'mesh':0,'name':'ceiling','rotation':[1,0,0,0],"
-                 "'extras':{'gnomon_plane':true}}]");
-    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3]}]");
+                 "[{'mesh':0,'name':'a'," NAMED_PLANE
+                 ",{'mesh':0,'name':'b','translation':[3,0,0]," NAMED_PLANE
+                 ",{'mesh':0,'name':'step','translation':[0,1,0]," NAMED_PLANE
+                 ",{'mesh':0,'name':'ceiling','rotation':[1,0,0,0]," NAMED_PLANE
+                 ",{'mesh':0,'name':'wall','rotation':[0.70710678,0,0,0.70710678]," NAMED_PLANE
+                 ",{'mesh':0,'name':'shelf','translation':[0,2,0]," NAMED_PLANE
+                 ",{'mesh':0,'name':'roof','translation':[0,3,0]," NAMED_PLANE "]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3,4,5,6]}]");
     struct gn_scene *scene = load();
-    for (uint32_t i = 0; i < scene->item_count; i++) {
-        bool step = !strcmp(scene->nodes[scene->items[i].node].name, "step");
-        assert_true(scene->items[i].plane == !step);
-    }
-    assert_warned("t: gnomon_plane: node 'step' lies in another plane than 'a'; ignored");
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        for (size_t k = 0; k < sizeof expected / sizeof *expected; k++)
+            if (!strcmp(scene->nodes[scene->items[i].node].name, expected[k].name))
+                assert_int_equal(scene->items[i].plane, expected[k].plane);
+    assert_warned("t: gnomon_plane: node 'roof' lies in plane 5, of at most 4; ignored");
     gn_scene_destroy(scene);
 }
 
@@ -273,7 +284,7 @@ int main(void) {
         cmocka_unit_test_setup(test_scene_extras, setup),
         cmocka_unit_test_setup(test_node_extras, setup),
         cmocka_unit_test_setup(test_plane, setup),
-        cmocka_unit_test_setup(test_planes_named_apart_are_not_one, setup),
+        cmocka_unit_test_setup(test_planes_named_apart_are_several, setup),
         cmocka_unit_test_setup(test_cameras, setup),
         cmocka_unit_test_setup(test_made_camera_and_light, setup),
     };
