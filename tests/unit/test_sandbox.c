@@ -109,7 +109,7 @@ static bool executes(void) {
 static bool forks(void) {
     const pid_t pid = fork();
     if (pid == 0) _exit(0);
-    return pid > 0;
+    return pid > 0 && waitpid(pid, NULL, 0) == pid; /* SIGCHLD would stop it once it is traced */
 }
 static bool traces(void) { return ptrace(PTRACE_TRACEME, 0, NULL, NULL) == 0; }
 static bool traces_its_parent(void) { return ptrace(PTRACE_SEIZE, parent, NULL, NULL) == 0; }
