@@ -35,6 +35,8 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         if (!asked) asked = gn_techniques[light->technique].map_px;
         if (!asked) asked = 1024;
         const int faces = one.given & GN_LIGHT_FACES ? one.faces : opts->shadow.faces;
+        const float bias = one.given & GN_LIGHT_BIAS ? one.bias_texels : opts->shadow.bias_texels;
+        const bool biased = one.given & GN_LIGHT_BIAS ? bias >= 0.0f : opts->shadow.bias_given;
         if (light->encoding == GN_ENCODING_STENCIL) asked = 0; /* no map */
         maps[slot] = (struct gn_shadow_opts){
             .technique = light->technique,
@@ -48,6 +50,8 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
             .faces = (enum gn_cast_faces)(faces > 0 ? faces - 1 : 0),
             .radius_given = one.given & GN_LIGHT_RADIUS,
             .radius = one.radius,
+            .bias_given = biased,
+            .bias_texels = bias,
             .cascades = opts->shadow.cascades ? opts->shadow.cascades : GN_CASCADES_MAX};
         struct gn_shadow_opts *shadow = &maps[slot];
         gn_frame_make_memories(frame, slot, gn_shadow_tile_count(l->type, light->technique));

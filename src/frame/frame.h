@@ -18,6 +18,7 @@ enum gn_light_given {
     GN_LIGHT_FACES = 64,
     GN_LIGHT_SLIDE = 128,
     GN_LIGHT_SPECULAR = 256,
+    GN_LIGHT_BIAS = 512,
 };
 struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t light;          /* index in the scene */
@@ -32,6 +33,7 @@ struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t cascades; /* as cascade_count */
     int faces;         /* as below, and the next */
     uint32_t slide_as_picture;
+    float bias_texels; /* below 0: the technique's */
 };
 
 struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
@@ -59,6 +61,8 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     bool taps_fixed;        /* the same for every pixel */
     int faces; /* which faces of all casters go into maps: 0: as the scene says of each, else 1 +
                   enum gn_cast_faces. Not of planar lights */
+    bool bias_given;
+    float bias_texels;     /* in place of the techniques' */
     bool slide_as_picture; /* a slide without a size has the shape of its picture; square */
     bool strength_given;
     float strength; /* overrides the lights' gnomon_shadow_strength */

@@ -44,6 +44,8 @@ GN_OPTION(.name = "shadow-strength", .section = "render", .kind = GN_KIND_NUMBER
           .help = "share of direct light that a shadow removes", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow_strength))
 GN_OPTION(.name = "shadow-specular", .section = "render", .kind = GN_KIND_EV, .max = 1, .value = "auto|X", .fallback = "auto",
           .help = "share of highlights that stays in shadow; as the scene says, else as of the rest", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow_specular))
+GN_OPTION(.name = "bias", .section = "render", .kind = GN_KIND_EV, .max = 100, .value = "auto|TEXELS", .unit = "texels", .fallback = "auto",
+          .help = "bias of shadow maps: 0 shows acne, large ones detach shadows from what casts them", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.bias_texels))
 GN_OPTION(.name = "slide-aspect", .section = "render", .kind = GN_KIND_CHOICE, .choices = slide_aspects, .value = "SHAPE", .fallback = "square",
           .help = "shape of a slide whose size the scene does not give; it fills the cone of its spot", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_as_picture))
 GN_OPTION(.name = "light-radius", .section = "render", .kind = GN_KIND_NUMBER, .max = 1000, .value = "R", .fallback = "0.00465",

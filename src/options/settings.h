@@ -89,6 +89,7 @@ struct gn_render_settings {
     int planar_points;
     int cascades;         /* 0: automatic */
     int cast_faces;       /* 0: as the scene says, else 1 + enum gn_cast_faces */
+    double bias_texels;   /* NAN: automatic */
     int slide_as_picture; /* 0, 1 */
     int taps;
     bool taps_fixed;

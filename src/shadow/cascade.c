@@ -38,7 +38,7 @@ static bool reads_table(const struct gn_shadow_view *view) {
  * where the tile ends (shaders_es/lib/table.glsl); it reads the outermost texels only. */
 static void lay_gutters(struct gn_shadow_view *view, float room) {
     const struct gn_technique_row *row = &gn_techniques[view->technique];
-    const uint32_t fixed = row->radius_texels + 1,
+    const uint32_t fixed = view->lookup.margin_px + 1,
                    soft = row->soft ? (uint32_t)(room * (float)view->map.tile_px) : 0,
                    reach = soft > fixed ? soft : fixed;
     view->map.gutter_px = (reads_table(view) ? fixed : reach) + 1;

@@ -21,6 +21,18 @@ void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, ui
     size_px[1] = atlas ? 2 * map_px : map_px;
 }
 
+/* The bias, and the margin that it needs: at most an eighth of a small map. */
+static void set_bias(const struct gn_shadow_opts *opts, struct gn_shadow_view *view) {
+    const struct gn_technique_row *row = &gn_techniques[opts->technique];
+    view->lookup.bias_texels = row->bias_texels;
+    view->lookup.margin_px = row->radius_texels;
+    if (!opts->bias_given || row->on_plane) return;
+    const float most = fmaxf((float)opts->map_px / 8.0f, row->bias_texels),
+                bias = fminf(opts->bias_texels, most);
+    view->lookup.bias_texels = bias;
+    view->lookup.margin_px += (uint32_t)ceilf(fmaxf(bias - row->bias_texels, 0.0f));
+}
+
 /* The whole map is cleared to the far end, so all lookups are lit. Techniques also use derivatives
  * of the map's coordinates, so the matrix must not be singular: it is the light's frame, one unit
  * wide, with a code of 0 everywhere. */
@@ -75,6 +87,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                                         .width_px = size_px[0],
                                         .height_px = size_px[1],
                                         .tile_count = gn_shadow_tile_count(type, opts->technique)}};
+    set_bias(opts, view);
     if (row->filter == GN_FILTER_TABLE) view->lookup.reach_px = GN_TABLE_REACH_PX;
     if (opts->cascades > 1 && !view->perspective && !row->on_plane)
         gn_cascades_lay(opts->cascades, view);
@@ -98,8 +111,8 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
 
     /* normal offset and slope follow the width that the technique averages over; the factors are
      * measured by `make truth` */
-    view->lookup.normal_offset = row->bias_texels;
-    view->lookup.slope_offset = 0.7f * row->bias_texels;
+    view->lookup.normal_offset = view->lookup.bias_texels;
+    view->lookup.slope_offset = 0.7f * view->lookup.bias_texels;
     view->lookup.slope_max = 4.0f;
     /* cascades have hashed theirs */
     for (uint32_t i = 0; i < view->map.tile_count && view->map.cascade_count == 0; i++)

@@ -34,7 +34,9 @@ struct gn_shadow_opts {
     bool faces_given;
     enum gn_cast_faces faces; /* given: of all casters, not on a plane, in place of their own */
     bool radius_given;
-    float radius;      /* given: the light's, in place of the scene's */
+    float radius; /* given: the light's, in place of the scene's */
+    bool bias_given;
+    float bias_texels; /* given: in place of the technique's */
     uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
                           one need an eye with a perspective */
 };
@@ -124,6 +126,9 @@ struct gn_shadow_lookup {
      * depth d along the tile's axis is depth_code[0] + depth_code[1] / d. */
     float tangent_uv[2], depth_code[2];
     float texel;         /* plane units: metres, or metres per metre of depth */
+    float bias_texels;   /* the technique's, or as given */
+    uint32_t margin_px;  /* texels round a place that are read for it: of the filter, and of what
+                            the bias is larger than the technique's */
     float normal_offset; /* texels (cascades: each one's), times sin(theta) */
     float slope_offset;  /* texels towards the light, times tan(theta) clamped at slope_max */
     float slope_max;

@@ -56,10 +56,9 @@ void gn_pages_lay(const double anchor[2], const double first[2], const double la
 
 /* ---- the view ---- */
 
-/* Texels drawn on each side of what a window must hold: the filter's radius, and one for the bias.
- */
+/* Texels drawn on each side of what a window must hold: those read, and one for the bias. */
 static double border_texels(const struct gn_shadow_view *view) {
-    return gn_techniques[view->technique].radius_texels + 1;
+    return view->lookup.margin_px + 1;
 }
 
 /* The texel with which a region, the texels beside it and the map's edge fit, wherever the region

@@ -31,7 +31,7 @@ float gn_shadow_step(float size) {
 
 void gn_shadow_snap(struct gn_shadow_view *view, const float min[2], const float max[2],
                     float least, double low[2]) {
-    uint32_t margin = gn_techniques[view->technique].radius_texels + RIM_TEXELS;
+    uint32_t margin = view->lookup.margin_px + RIM_TEXELS;
     uint32_t usable = view->map.tile_px > 2 * margin + 2 ? view->map.tile_px - 2 * margin : 2;
     float span = fmaxf(max[0] - min[0], max[1] - min[1]);
     view->lookup.texel = gn_shadow_step(fmaxf(span, least) / (float)(usable - 1));

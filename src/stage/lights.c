@@ -56,6 +56,10 @@ static void set_entry(struct gn_frame_light_opts *entry, const struct gn_overrid
         entry->specular = isnan(*(const double *)value) ? -1.0f : (float)*(const double *)value;
         entry->given |= GN_LIGHT_SPECULAR;
         break;
+    case offsetof(struct gn_settings, render.bias_texels):
+        entry->bias_texels = isnan(*(const double *)value) ? -1.0f : (float)*(const double *)value;
+        entry->given |= GN_LIGHT_BIAS;
+        break;
     case offsetof(struct gn_settings, render.shadow_strength):
         entry->strength = (float)*(const double *)value;
         entry->given |= GN_LIGHT_STRENGTH;

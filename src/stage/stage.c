@@ -125,6 +125,8 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
         .shadow.faces = o->render.cast_faces,
         .shadow.specular_given = !isnan(o->render.shadow_specular),
         .shadow.specular = (float)o->render.shadow_specular,
+        .shadow.bias_given = !isnan(o->render.bias_texels),
+        .shadow.bias_texels = (float)o->render.bias_texels,
         .shadow.slide_as_picture = o->render.slide_as_picture,
         .shadow.cascade_count = (uint32_t)o->render.cascades,
         .shadow.taps = (unsigned)o->render.taps,

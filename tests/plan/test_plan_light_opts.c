@@ -82,6 +82,36 @@ static void test_faces_of_all_casters_are_as_set(void **state) {
     gn_plan_end(&f);
 }
 
+/* In texels, and the techniques' own where it is automatic. */
+static void test_the_bias_is_as_set(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_PCF;
+    const float own = gn_techniques[GN_TECHNIQUE_PCF].bias_texels;
+    const struct gn_shadow_lookup before[] = {view_of(gn_plan_make(&f), 0)->lookup,
+                                              view_of(gn_plan_make(&f), 1)->lookup};
+    assert_true(before[0].bias_texels == own && before[0].margin_px == 2);
+    f.opts.shadow.bias_given = true;
+    f.opts.shadow.lights[0] =
+        (struct gn_frame_light_opts){.light = 1, .given = GN_LIGHT_BIAS, .bias_texels = own + 1.5f};
+    f.opts.shadow.light_count = 1;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    assert_true(view_of(plan, 0)->lookup.normal_offset == 0.0f);
+    assert_true(view_of(plan, 0)->lookup.slope_offset == 0.0f);
+    const float(*c)[4] = (const float(*)[4])plan->passes[plan->pass_count - 1].constants;
+    assert_true(c[PASS_SHADOWS + SHADOW_BIAS][BIAS_NORMAL] == 0.0f);
+    const struct gn_shadow_lookup *large = &view_of(plan, 1)->lookup;
+    assert_true(fabsf(large->normal_offset - (own + 1.5f) / own * before[1].normal_offset) < 1e-5f);
+    assert_true(fabsf(large->slope_offset - (own + 1.5f) / own * before[1].slope_offset) < 1e-5f);
+    assert_int_equal(large->margin_px, 4); /* lookups beside the map's window */
+    assert_true(large->texel >= before[1].texel);
+    f.opts.shadow.lights[0].bias_texels = -1.0f;
+    assert_true(view_of(gn_plan_make(&f), 1)->lookup.normal_offset == before[1].normal_offset);
+    gn_plan_end(&f);
+}
+
 /* All that casts is in the picture of a sun, whatever its shape; a spot is where it stands. */
 static void test_a_light_can_be_looked_from(void **state) {
     (void)state;
@@ -151,6 +181,7 @@ int main(void) {
         cmocka_unit_test(test_options_of_a_light_beat_those_of_all),
         cmocka_unit_test(test_a_light_can_be_looked_from),
         cmocka_unit_test(test_faces_of_all_casters_are_as_set),
+        cmocka_unit_test(test_the_bias_is_as_set),
         cmocka_unit_test(test_highlights_in_shadow_have_a_feature),
     };
     return cmocka_run_group_tests_name("plan light options", tests, NULL, NULL);

@@ -1,0 +1,136 @@
+/* What figures of a filter do that are automatic unless they are set, on nine of the generated
+ * scenes with a map of 1024: README of src/shadow has these. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/arena.h"
+#include "image/table.h"
+#include "unit/check.h"
+#include "unit/gl_help.h"
+
+enum { WIDTH_PX = 640, HEIGHT_PX = 480, PIXELS = WIDTH_PX * HEIGHT_PX };
+
+/* Three each of suns, spots and point lights, the last three on coarse meshes. */
+static const int numbers[] = {1, 7, 13, 19, 24, 27, 30, 33, 36};
+enum { SCENES = sizeof numbers / sizeof numbers[0] };
+
+static struct gn_display display;
+static struct gn_gl *gl;
+static float *aov; /* four floats a pixel */
+static struct shown {
+    struct gn_scene *scene;
+    struct gn_truth truth;
+} scenes[SCENES];
+
+static int open_all(void **state) {
+    struct gn_err err = {0};
+    (void)state;
+    help_open(&display, "egl");
+    gl = help_gl(&display, NULL, NULL);
+    char *folder = gn_table_scenes(false, &err);
+    if (!folder) fail_msg("%s", err.text);
+    for (int i = 0; i < SCENES; i++) {
+        char path[600];
+        const struct gn_truth_opts opts = {.width_px = WIDTH_PX, .height_px = HEIGHT_PX};
+        snprintf(path, sizeof path, "%s/truth-%02d.glb", folder, numbers[i]);
+        scenes[i].scene = gn_scene_load(path, NULL, NULL, &err);
+        if (!scenes[i].scene || !gn_truth_load(&scenes[i].truth, path, &opts, &err))
+            fail_msg("%s", err.text);
+        gn_truth_band(&scenes[i].truth, 1024);
+        gn_truth_safe(&scenes[i].truth, 1024, 4);
+    }
+    free(folder);
+    aov = gn_xalloc(4 * PIXELS, sizeof *aov);
+    return 0;
+}
+
+static int close_all(void **state) {
+    (void)state;
+    free(aov);
+    for (int i = 0; i < SCENES; i++) {
+        gn_truth_finish(&scenes[i].truth);
+        gn_scene_destroy(scenes[i].scene);
+    }
+    gn_gl_destroy(gl);
+    gn_display_close(&display);
+    return 0;
+}
+
+static struct gn_frame_opts opts_of(enum gn_technique technique) {
+    return (struct gn_frame_opts){.width_px = WIDTH_PX,
+                                  .height_px = HEIGHT_PX,
+                                  .shadow.technique_given = true,
+                                  .shadow.technique = technique,
+                                  .shadow.encoding = GN_ENCODING_AUTO,
+                                  .shadow.map_px = 1024,
+                                  .debug.aov = GN_AOV_VISIBILITY};
+}
+
+static void draw_scene(const struct gn_scene *scene, const struct gn_frame_opts *opts) {
+    struct gn_err err = {0};
+    struct gn_pose pose;
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
+    struct gn_frame *frame = gn_frame_create(scene, gn_gl_caps(gl));
+    const struct gn_plan *plan = gn_frame_build(frame, &pose, opts, NULL);
+    if (!gn_gl_prepare(gl, plan, &err) || !gn_gl_run(gl, plan, NULL, &err) ||
+        !gn_gl_read_f32(gl, aov, &err))
+        fail_msg("%s", err.text);
+    gn_frame_destroy(frame);
+    gn_pose_finish(&pose);
+}
+
+/* Of all scenes. Prints a line. */
+static struct gn_mask_score score_of(const char *what, const struct gn_frame_opts *opts) {
+    struct gn_mask_score sum = {0};
+    for (int i = 0; i < SCENES; i++) {
+        struct gn_mask_score s;
+        struct gn_picture shot;
+        draw_scene(scenes[i].scene, opts);
+        gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
+        for (int p = 0; p < PIXELS; p++) shot.data[p] = aov[4 * p];
+        gn_mask_compare(&scenes[i].truth.mask, &shot, &s);
+        gn_picture_finish(&shot);
+        sum.pixels += s.pixels, sum.dark += s.dark, sum.away_lit += s.away_lit, sum.acne += s.acne;
+        sum.gap += s.gap, sum.wrong += s.wrong, sum.safe += s.safe, sum.darkened += s.darkened;
+        sum.darkness += s.darkness;
+    }
+    printf("%s, %s: darkening %.3f %%, over 5 %%: %.3f %%, gap %.2f %%, wrong %.3f %%\n",
+           gn_techniques[opts->shadow.technique].name, what, gn_mask_darkening(&sum),
+           gn_mask_darkened(&sum), gn_mask_gap(&sum), gn_mask_wrong(&sum));
+    return sum;
+}
+
+static struct gn_mask_score with_bias(enum gn_technique technique, float texels) {
+    struct gn_frame_opts opts = opts_of(technique);
+    char what[32];
+    opts.shadow.bias_given = true;
+    opts.shadow.bias_texels = texels;
+    snprintf(what, sizeof what, "bias %g", (double)texels);
+    return score_of(what, &opts);
+}
+
+static void test_no_bias_is_acne_and_a_large_one_a_gap(void **state) {
+    (void)state;
+    static const enum gn_technique techniques[] = {GN_TECHNIQUE_HARD, GN_TECHNIQUE_PCF,
+                                                   GN_TECHNIQUE_DISK};
+    for (int i = 0; i < 3; i++) {
+        const enum gn_technique technique = techniques[i];
+        const struct gn_frame_opts opts = opts_of(technique);
+        const struct gn_mask_score automatic = score_of("automatic", &opts),
+                                   own = with_bias(technique, gn_techniques[technique].bias_texels),
+                                   none = with_bias(technique, 0), large = with_bias(technique, 8);
+        assert_true(own.wrong == automatic.wrong && own.darkness == automatic.darkness);
+        assert_true(gn_mask_darkening(&none) > 20 * gn_mask_darkening(&automatic));
+        assert_true(none.wrong > 2 * automatic.wrong);
+        assert_true(large.gap > 3 * automatic.gap);
+        assert_true(large.wrong > 2 * automatic.wrong);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_no_bias_is_acne_and_a_large_one_a_gap),
+    };
+    return cmocka_run_group_tests_name("manual", tests, open_all, close_all);
+}
