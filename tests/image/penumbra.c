@@ -7,7 +7,6 @@
 
 #include "core/arena.h"
 #include "image/shot.h"
-#include "truth/raycast.h"
 #include "unit/gltf_maker.h"
 
 /* ---- scenes ---- */
@@ -130,58 +129,21 @@ char *gn_penumbra_write(int scene, struct gn_err *err) {
 
 /* ---- truth ---- */
 
-enum { FEW = 24, MANY = 768 };
-
-struct caster {
-    struct gn_raycast rays;
-    struct gn_ray_eye eye;
-    struct gn_ray_lamp lamp;
-};
-
-static float share_at(const struct caster *c, int x, int y, int samples) {
-    struct gn_ray_surface surface;
-    if (!gn_raycast_eye(&c->rays, &c->eye, x, y, &surface)) return 1;
-    return (float)gn_raycast_share(&c->rays, &c->lamp, &surface, samples);
-}
-
-/* Few rays first; many where they or those of a neighbour do not agree. */
-static bool is_mixed(const struct gn_picture *few, int x, int y) {
-    float first = *gn_picture_at(few, x, y);
-    if (first > 0 && first < 1) return true;
-    for (int dy = -3; dy <= 3; dy++)
-        for (int dx = -3; dx <= 3; dx++) {
-            int nx = x + dx, ny = y + dy;
-            if (nx < 0 || ny < 0 || nx >= few->width_px || ny >= few->height_px) continue;
-            if (*gn_picture_at(few, nx, ny) != first) return true;
-        }
-    return false;
-}
-
-static void cast_all(const struct caster *c, struct gn_picture *truth) {
-    struct gn_picture few;
-    gn_picture_init(&few, truth->width_px, truth->height_px, 1);
-    for (int y = 0; y < few.height_px; y++)
-        for (int x = 0; x < few.width_px; x++) *gn_picture_at(&few, x, y) = share_at(c, x, y, FEW);
-    for (int y = 0; y < few.height_px; y++)
-        for (int x = 0; x < few.width_px; x++)
-            *gn_picture_at(truth, x, y) =
-                is_mixed(&few, x, y) ? share_at(c, x, y, MANY) : *gn_picture_at(&few, x, y);
-    gn_picture_finish(&few);
-}
-
 void gn_penumbra_truth_of(struct gn_picture *truth, const struct gn_scene *scene, bool point,
                           int width_px, int height_px) {
     struct gn_pose pose;
-    struct caster c;
+    struct gn_raycast rays;
+    struct gn_ray_eye eye;
+    struct gn_ray_lamp lamp;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     gn_pose_step(&pose, 0);
-    gn_raycast_init(&c.rays, scene, &pose);
-    gn_ray_eye_init(&c.eye, &pose, 0, width_px, height_px);
-    gn_ray_lamp_init(&c.lamp, &pose, 0);
-    if (point) c.lamp.radius = 0;
+    gn_raycast_init(&rays, scene, &pose);
+    gn_ray_eye_init(&eye, &pose, 0, width_px, height_px);
+    gn_ray_lamp_init(&lamp, &pose, 0);
+    if (point) lamp.radius = 0;
     gn_picture_init(truth, width_px, height_px, 1);
-    cast_all(&c, truth);
-    gn_raycast_finish(&c.rays);
+    gn_penumbra_cast(&rays, &eye, &lamp, truth->data);
+    gn_raycast_finish(&rays);
     gn_pose_finish(&pose);
 }
 
@@ -196,35 +158,10 @@ bool gn_penumbra_truth(struct gn_picture *truth, const char *path, bool point, i
 
 /* ---- measures ---- */
 
-static bool is_soft(const struct gn_picture *truth, int x, int y) {
-    for (int dy = -2; dy <= 2; dy++)
-        for (int dx = -2; dx <= 2; dx++) {
-            int nx = x + dx, ny = y + dy;
-            if (nx < 0 || ny < 0 || nx >= truth->width_px || ny >= truth->height_px) continue;
-            float v = *gn_picture_at(truth, nx, ny);
-            if (v > .01f && v < .99f) return true;
-        }
-    return false;
-}
-
 void gn_penumbra_score(const struct gn_picture *truth, const struct gn_picture *shot,
                        struct gn_penumbra_score *score) {
-    double sum[2] = {0}, square[2] = {0};
-    long count[2] = {0};
-    for (int y = 0; y < truth->height_px; y++)
-        for (int x = 0; x < truth->width_px; x++) {
-            double d = (double)*gn_picture_at(shot, x, y) - (double)*gn_picture_at(truth, x, y);
-            int soft = is_soft(truth, x, y);
-            sum[soft] += d;
-            square[soft] += d * d;
-            count[soft]++;
-        }
-    double n = count[1] ? (double)count[1] : 1;
-    score->soft_pixels = count[1];
-    score->soft = sqrt(square[1] / n);
-    score->rest = sqrt(square[0] / (count[0] ? (double)count[0] : 1));
-    score->bias = sum[1] / n;
-    score->grain = sqrt(fmax(square[1] / n - score->bias * score->bias, 0));
+    gn_penumbra_compare(truth->data, shot->data, shot->channels, truth->width_px, truth->height_px,
+                        score);
 }
 
 /* Means of the columns: the edge runs along the picture's height. */

@@ -5,6 +5,7 @@
 
 #include "image/picture.h"
 #include "scene/scene.h"
+#include "truth/penumbra.h"
 
 enum {
     GN_PENUMBRA_LOW,    /* a plate 1 m above the ground, a lamp of .3 m 9 m up */
@@ -35,13 +36,6 @@ void gn_penumbra_truth_of(struct gn_picture *truth, const struct gn_scene *scene
 bool gn_penumbra_truth(struct gn_picture *truth, const char *path, bool point, int width_px,
                        int height_px, struct gn_err *err);
 
-struct gn_penumbra_score {
-    double soft, rest; /* RMSE over pixels partly lit in truth (.01-.99, grown by 2 px), and over
-                          all others */
-    double grain;      /* standard deviation of (shot - truth) within those pixels */
-    double bias;       /* mean of it */
-    long soft_pixels;
-};
 void gn_penumbra_score(const struct gn_picture *truth, const struct gn_picture *shot,
                        struct gn_penumbra_score *score);
 

@@ -192,7 +192,7 @@ static void measure(struct job *job, struct sight *sight, struct gn_table_row *r
     }
     struct gn_mask_truth mask = truth->mask;
     if (is_planar(row)) mask.lit = sight->planar_lit;
-    gn_mask_compare(&mask, &shot, &row->scores[scene]);
+    gn_mask_compare(&mask, shot.data, shot.channels, &row->scores[scene]);
     if (is_planar(row)) row->scores[scene].pixels = sight->plane_pixels;
     row->measured[scene] = true;
     cell_name(row, scene, name, sizeof name);

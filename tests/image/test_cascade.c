@@ -115,7 +115,7 @@ static void expect_true(enum gn_technique technique, enum gn_encoding encoding) 
     struct gn_mask_score score;
     if (!(gn_caps_encodings(gn_gl_caps(stage.gl)) >> encoding & 1)) return;
     draw_visibility(technique, encoding, 4, &shot);
-    gn_mask_compare(&truth.mask, &shot, &score);
+    gn_mask_compare(&truth.mask, shot.data, shot.channels, &score);
     printf("%-6s %-6s acne %.4f %%, leak %.4f %%, gap %.3f %%, wrong %.3f %%; dark %lu of %lu\n",
            gn_techniques[technique].name, gn_encodings[encoding].name, gn_mask_acne(&score),
            gn_mask_leak(&score), gn_mask_gap(&score), gn_mask_wrong(&score),
@@ -143,7 +143,7 @@ static double wrong_with(enum gn_technique technique, uint32_t cascades) {
     struct gn_picture shot;
     struct gn_mask_score score;
     draw_visibility(technique, GN_ENCODING_R32UI, cascades, &shot);
-    gn_mask_compare(&truth.mask, &shot, &score);
+    gn_mask_compare(&truth.mask, shot.data, shot.channels, &score);
     gn_picture_finish(&shot);
     return gn_mask_wrong(&score);
 }

@@ -68,7 +68,7 @@ static struct gn_mask_score measure(const char *faces, bool with_open, bool spot
     if (!gn_truth_load(&truth, path, NULL, &err)) fail_msg("%s", err.text);
     if (!gn_shot(&shot, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
     gn_truth_band(&truth, 1024);
-    gn_mask_compare(&truth.mask, &shot, &score);
+    gn_mask_compare(&truth.mask, shot.data, shot.channels, &score);
     gn_picture_finish(&shot);
     gn_truth_finish(&truth);
     free(path);

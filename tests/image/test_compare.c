@@ -49,7 +49,7 @@ static int teardown(void **state) {
 
 static struct gn_mask_score score_of(const struct flat *f) {
     struct gn_mask_score score;
-    gn_mask_compare(&f->truth, &f->shot, &score);
+    gn_mask_compare(&f->truth, f->shot.data, f->shot.channels, &score);
     return score;
 }
 

@@ -62,7 +62,7 @@ static double wrong_with(uint32_t cascades) {
     const uint32_t got = draw(&opts)->shadows[0].map.cascade_count;
     gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
     for (int i = 0; i < PIXELS; i++) shot.data[i] = aov[4 * i];
-    gn_mask_compare(&truth.mask, &shot, &score);
+    gn_mask_compare(&truth.mask, shot.data, shot.channels, &score);
     gn_picture_finish(&shot);
     const double wrong = gn_mask_wrong(&score), gap = gn_mask_gap(&score);
     printf("cascades %u (%u): wrong %.3f %%, gap %.2f %%\n", cascades, got, wrong, gap);
@@ -91,7 +91,7 @@ static void test_which_faces_cast(void **state) {
         draw(&opts);
         gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
         for (int i = 0; i < PIXELS; i++) shot.data[i] = aov[4 * i];
-        gn_mask_compare(&truth.mask, &shot, &scores[faces]);
+        gn_mask_compare(&truth.mask, shot.data, shot.channels, &scores[faces]);
         gn_picture_finish(&shot);
         printf("faces %s: acne %.4f %%, leak %.4f %%, gap %.2f %%, wrong %.3f %%\n", names[faces],
                gn_mask_acne(&scores[faces]), gn_mask_leak(&scores[faces]),

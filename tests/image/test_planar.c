@@ -93,7 +93,7 @@ static struct faults faults_of(const char *name, struct gn_truth *truth, const u
         plane += on_plane[i];
         f.astray += !on_plane[i] && edges[i] > 1 && shot.data[i] < 1;
     }
-    gn_mask_compare(&truth->mask, &shot, &score);
+    gn_mask_compare(&truth->mask, shot.data, shot.channels, &score);
     score.pixels = plane;
     f.acne = gn_mask_acne(&score), f.leak = gn_mask_leak(&score);
     f.gap = gn_mask_gap(&score), f.wrong = gn_mask_wrong(&score);

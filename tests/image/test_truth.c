@@ -53,7 +53,7 @@ static bool notices_a_wrong_picture(const char *folder) {
     gn_picture_init(&shot, truth.mask.width_px, truth.mask.height_px, 1);
     for (int i = 0; i < shot.width_px * shot.height_px; i++) shot.data[i] = !truth.mask.lit[i];
     gn_table_add(&table, "hard", "depth", 1024);
-    gn_mask_compare(&truth.mask, &shot, &table.rows[0].scores[1]);
+    gn_mask_compare(&truth.mask, shot.data, shot.channels, &table.rows[0].scores[1]);
     table.rows[0].measured[1] = table.scenes[1] = true;
     FILE *nowhere = fopen("/dev/null", "w");
     int over = nowhere ? gn_table_check(&table, nowhere) : 0;
