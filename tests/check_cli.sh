@@ -16,7 +16,7 @@ expect() {
 
 expect 0 '' --version
 grep -q '^gnomon [0-9]' "$folder/out" || complain 'the version'
-for command in '' show render bench inspect doctor ctl compare; do
+for command in '' show render bench inspect doctor ctl compare score; do
     # shellcheck disable=SC2086
     expect 0 '' $command --help
     grep -q '^  .*--verbose' "$folder/out" || complain "$command --help"
@@ -88,6 +88,36 @@ expect 2 'compare: unexpected argument' compare a.png b.png c.png
 expect 1 'missing.png' compare "$folder/missing.png" "$folder/a.png"
 expect 1 'neither PNG nor PFM' compare "$folder/a.png" tests/check_cli.sh
 expect 2 'does not go with compare' compare a.png b.png --size 8x8
+
+# pictures of the benchmark
+mkdir "$folder/scenes" "$folder/pictures"
+expect 2 'score: expected a picture' score
+expect 2 'score: unexpected argument' score a.pfm b.pfm
+expect 2 'score --make-truth: add --truth NAME' score --make-truth
+expect 2 'score --make-truth: unexpected argument' score a.pfm --make-truth --truth field-sun-00
+expect 1 'no scenes of the benchmark here: `make benchmark-scenes`' score a.pfm --truth field-sun-00 --benchmark "$folder/scenes"
+cp assets/sundial.glb "$folder/scenes/field-sun-00.glb"
+expect 2 'unknown truth "field-sun-0"; did you mean field-sun-00?' score "$folder/a.png" --truth field-sun-0 --benchmark "$folder/scenes"
+expect 2 'unknown truth "../a"' score "$folder/a.png" --truth ../a --benchmark "$folder/scenes"
+expect 2 'unknown truth "a"' score "$folder/a.png" --benchmark "$folder/scenes"
+expect 1 'no truth yet: `gnomon score --make-truth --truth field-sun-00`' score "$folder/a.png" --truth field-sun-00 --benchmark "$folder/scenes"
+expect 0 '' score --make-truth --truth field-sun-00 --benchmark "$folder/scenes"
+truth=$folder/scenes/field-sun-00.pfm
+expect 1 'a.png is 32x24, the truth of field-sun-00 is 640x480' score "$folder/a.png" --truth field-sun-00 --benchmark "$folder/scenes"
+expect 1 'missing.pfm' score "$folder/missing.pfm" --truth field-sun-00 --benchmark "$folder/scenes"
+expect 1 'no pictures called as scenes' score "$folder/pictures" --benchmark "$folder/scenes"
+head -c 99999 "$truth" > "$folder/pictures/field-sun-00.pfm"
+expect 1 'field-sun-00.pfm: PFM: 99983 bytes of pixels, not the 3686400 of 640x480' score "$folder/pictures" --benchmark "$folder/scenes"
+expect 2 '--truth is of one picture' score "$folder/pictures" --truth field-sun-00 --benchmark "$folder/scenes"
+cp "$truth" "$folder/pictures/field-sun-00.pfm"
+expect 0 '' score "$folder/pictures" --benchmark "$folder/scenes" --csv
+grep -q '^mean,field,sun,1,wrong,0,' "$folder/out" || complain "score --csv: $(cat "$folder/out")"
+expect 0 '' score "$folder/pictures/field-sun-00.pfm" --benchmark "$folder/scenes" --json
+grep -q '"wrong_percent": 0' "$folder/out" || complain "score --json: $(cat "$folder/out")"
+cp "$folder/a.png" "$folder/pictures"
+expect 2 'unknown truth "a"' score "$folder/pictures" --benchmark "$folder/scenes"
+cp "$folder/d.pfm" "$truth"
+expect 1 'is 32x24, not the 640x480 of a truth: delete it' score "$folder/pictures/field-sun-00.pfm" --benchmark "$folder/scenes"
 rm -f "$folder/a.png"
 
 # asked to stop, a long run ends at once and leaves no half of a file

@@ -42,6 +42,8 @@ const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES] = {
     [GN_COMMAND_CTL] = {"gnomon ctl mode Soft", "gnomon ctl set shadow pcss"},
     [GN_COMMAND_COMPARE] = {"gnomon compare a.png b.png --diff difference.png",
                             "gnomon compare a.pfm truth.pfm --json"},
+    [GN_COMMAND_SCORE] = {"gnomon score picture.pfm --truth field-sun-00",
+                          "gnomon score build/benchmark/pcf --csv"},
 };
 
 /* ---- texts --------------------------------------------------------------------------------- */

@@ -22,7 +22,7 @@ struct args {
     struct flag *flags;
     int flag_count;
     const char *words[1 + GN_SCENES_MAX]; /* command, scenes; of ctl: its own command and words; of
-                                             compare: its pictures */
+                                             compare and score: pictures */
     int word_count;
 };
 
@@ -92,17 +92,19 @@ static bool add_word(struct args *args, const char *word, struct gn_err *err) {
     const enum gn_command command =
         args->word_count > 0 ? command_of(args->words[0]) : GN_COMMAND_AUTO;
     const bool takes_list = command == GN_COMMAND_SHOW || command == GN_COMMAND_BENCH,
-               is_compare = command == GN_COMMAND_COMPARE;
+               is_compare = command == GN_COMMAND_COMPARE, is_score = command == GN_COMMAND_SCORE;
     if (is_compare && args->word_count == 1 + PICTURES)
         return gn_fail_usage(err, "compare: unexpected argument \"%.80s\": it takes two pictures",
                              word);
     if (is_ctl(args) && args->word_count == 2 + GN_CTL_WORDS_MAX)
         return gn_fail_usage(err, "ctl %.80s: unexpected argument \"%.80s\"", args->words[1], word);
     if (!is_ctl(args) && !is_compare && args->word_count == (takes_list ? 1 + GN_SCENES_MAX : 2))
-        return gn_fail_usage(err,
-                             takes_list ? "too many scenes, from \"%.80s\" on"
-                                        : "unexpected argument \"%.80s\": only one scene",
-                             word);
+        return gn_fail_usage(
+            err,
+            takes_list ? "too many scenes, from \"%.80s\" on"
+            : is_score ? "score: unexpected argument \"%.80s\": it takes one picture or folder"
+                       : "unexpected argument \"%.80s\": only one scene",
+            word);
     args->words[args->word_count++] = word;
     return true;
 }
@@ -118,7 +120,7 @@ static bool fail_command(const char *word, struct gn_err *err) {
                              word, guess.name);
     return gn_fail_usage(err,
                          "\"%.80s\" is neither a command nor a file; the commands are show, "
-                         "render, bench, inspect, doctor, ctl, compare, help, version",
+                         "render, bench, inspect, doctor, ctl, compare, score, help, version",
                          word);
 }
 
@@ -229,7 +231,8 @@ static bool apply_flags(struct args *args, struct gn_err *err) {
         if (!gn_options_set(options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
             return false;
     }
-    if (command_now(args) == GN_COMMAND_CTL || command_now(args) == GN_COMMAND_COMPARE) {
+    if (command_now(args) == GN_COMMAND_CTL || command_now(args) == GN_COMMAND_COMPARE ||
+        command_now(args) == GN_COMMAND_SCORE) {
         const char **words = gn_arena_alloc(&options->arena, 1 + GN_CTL_WORDS_MAX, sizeof *words);
         if (!words) return gn_fail(err, "no memory left");
         options->word_count = args->word_count - 1;

@@ -28,7 +28,8 @@ struct gn_options {
     const char
         *config_error; /* why the file was not used and `show` runs with the defaults, or NULL */
 
-    const char *const *words; /* of ctl: its command and arguments; of compare: its files; argv's */
+    const char *const
+        *words; /* of ctl: its command and arguments; of compare and score: files; argv's */
     int word_count;
     int argc; /* of main(): a reload parses them again */
     char *const *argv;

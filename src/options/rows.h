@@ -136,10 +136,18 @@ GN_OPTION(.name = "tolerance", .kind = GN_KIND_NUMBER, .max = 1e9, .value = "X",
           .help = "how much a channel may differ, where white is 1", .commands = BIT(COMPARE), .offset = FIELD(run.tolerance))
 GN_OPTION(.name = "share", .kind = GN_KIND_NUMBER, .max = 100, .value = "PERCENT", .unit = "per cent", .fallback = "0",
           .help = "how many of the pixels may differ by more; else the exit status is 3", .commands = BIT(COMPARE), .offset = FIELD(run.share))
+GN_OPTION(.name = "truth", .kind = GN_KIND_TEXT, .value = "NAME",
+          .help = "scene of the benchmark that the picture shows; without it, the picture is called as the scene", .commands = BIT(SCORE), .offset = FIELD(run.truth))
+GN_OPTION(.name = "benchmark", .kind = GN_KIND_PATH, .value = "DIR", .fallback = "assets/benchmark",
+          .help = "folder of the benchmark's scenes and truths", .commands = BIT(SCORE), .offset = FIELD(run.benchmark))
+GN_OPTION(.name = "reach", .kind = GN_KIND_NUMBER, .max = 1000, .value = "TEXELS", .unit = "texels", .fallback = "3",
+          .help = "how far the shadow's filter reads to each side: so far from edges lit pixels must be fully lit", .commands = BIT(SCORE), .offset = FIELD(run.reach))
+GN_OPTION(.name = "make-truth", .kind = GN_KIND_FLAG,
+          .help = "cast the rays of the scene that --truth names, and write the truth beside it", .commands = BIT(SCORE), .offset = FIELD(run.make_truth))
 GN_OPTION(.name = "json", .kind = GN_KIND_FLAG,
-          .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL) | BIT(COMPARE), .offset = FIELD(run.json))
+          .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL) | BIT(COMPARE) | BIT(SCORE), .offset = FIELD(run.json))
 GN_OPTION(.name = "csv", .kind = GN_KIND_FLAG,
-          .help = "print CSV: a line for each scene and technique", .commands = BIT(BENCH), .offset = FIELD(run.csv))
+          .help = "print CSV: a line for each scene and technique, or picture and class", .commands = BIT(BENCH) | BIT(SCORE), .offset = FIELD(run.csv))
 GN_OPTION(.name = "move-lights", .kind = GN_KIND_FLAG,
           .help = "move the lights a little in each frame: all maps are drawn again", .commands = BIT(BENCH), .offset = FIELD(run.move_lights))
 GN_OPTION(.name = "move-casters", .kind = GN_KIND_FLAG,

@@ -131,9 +131,12 @@ struct gn_run_settings { /* of this run of the program: flags only */
     const char *caption; /* text on the picture, or NULL */
     int frames;
     double fps;
-    int samples;                         /* points of a light, of technique truth */
-    const char *diff;                    /* of compare: a file for the difference, or NULL */
-    double tolerance, share;             /* of compare */
+    int samples;                   /* points of a light, of technique truth */
+    const char *diff;              /* of compare: a file for the difference, or NULL */
+    double tolerance, share;       /* of compare */
+    const char *truth, *benchmark; /* of score: a scene's name, or NULL; the folder of scenes */
+    double reach;                  /* of score: of a filter, texels */
+    bool make_truth;               /* of score */
     bool csv, move_lights, move_casters; /* of bench */
     bool plan, json, self_test, stats, verbose, version, help;
 };

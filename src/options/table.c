@@ -77,6 +77,8 @@ const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
     [GN_COMMAND_CTL] = {"ctl", "ctl [OPTION..] COMMAND [WORD..]", "talks to a running kiosk"},
     [GN_COMMAND_COMPARE] = {"compare", "compare [OPTION..] A B",
                             "measures how much two pictures differ, .png or .pfm"},
+    [GN_COMMAND_SCORE] = {"score", "score [OPTION..] PICTURE|FOLDER",
+                          "measures shadows in pictures of the open benchmark, of any engine"},
 };
 
 const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
