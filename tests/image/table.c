@@ -12,6 +12,7 @@
 #include "core/hash.h"
 #include "image/shot.h"
 #include "shadow/technique.h"
+#include "truth/contact.h"
 
 const struct gn_table_range gn_table_kinds[GN_TABLE_KINDS] = {
     [GN_TABLE_SUN_AND_SPOT] = {"directional lights and spots", 0, 23},
@@ -428,7 +429,7 @@ static bool measure_contact(const char *path, const struct gn_table_row *row,
         fprintf(to, "%s\n", err.text);
         return false;
     }
-    gn_truth_contact(truth, &shot, row->map_px, contact);
+    gn_contact_compare(truth, shot.data, shot.channels, row->map_px, contact);
     double limit = is_hard(row) ? 1.5 : 2.5;
     bool ok = contact->contacts > 50 && contact->worst <= limit;
     fprintf(
