@@ -17,7 +17,7 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DELETE_ON_ERROR:
 .SUFFIXES:
 CHECKS := check-angle check-board check-board-arm64 check-gpus check-gpiod2
-.PHONY: all no-import tests sanitized run check $(CHECKS) gpus accept full truth gallery contact-sheet readme options-page deps \
+.PHONY: all no-import tests sanitized run check $(CHECKS) gpus accept full truth gallery contact-sheet lessons readme options-page deps \
         syntax lint lint-changed format man install uninstall help clean FORCE
 
 help:
@@ -42,6 +42,7 @@ help:
 	    'make gallery    one scene with every technique and the truth, into assets/gallery' \
 	    'make contact-sheet' \
 	    '                the modes of the default scene, gone through by keys, as one picture' \
+	    'make lessons    faults of shadows beside their cures, into build/lessons/index.html' \
 	    'make deps       install the packages that building, running and testing need (apt);' \
 	    '                with CROSS= those that building for it needs' \
 	    'make lint       clang-tidy; make syntax: clang for its warnings; make format: clang-format, in place' \
@@ -49,7 +50,7 @@ help:
 	    'make tests, man, compile_commands.json, clean' \
 	    'CONFIG=release|debug|asan|cov  CROSS=aarch64-linux-gnu SYSROOT=DIR  CC=clang  WERROR=1  V=1'
 clean:
-	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb
+	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb assets/lessons
 deps:
 	@sh board/deps.sh $(if $(CROSS),build cross,build run test)
 format:
@@ -71,8 +72,9 @@ DEPS_full := $(DEPS_accept)
 DEPS_truth := build run test
 DEPS_gallery := build run test
 DEPS_contact-sheet := build run test
+DEPS_lessons := build run
 DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept full truth gallery contact-sheet readme,$(GOALS)))
+BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept full truth gallery contact-sheet lessons readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -153,9 +155,10 @@ IMPORT  := $(if $(IMPORT_C),$(B)/gnomon-import,no-import)
 OBJ      = $(patsubst %.c,$(B)/obj/%.o,$(1))
 SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb) \
            $(if $(wildcard assets/make_bench.c),assets/bench/s1.glb assets/bench/s2.glb)
+LESSONS := $(patsubst %,assets/lessons/%.glb,solids hut sheets lattice lean plates thin far position form unseen lights)
 SELFTEST := $(foreach s,box ball fence lattice tilt stack lamp,$(addprefix $(O)/selftest/$s,.glb .truth))
 EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES)) \
-           $(SELFTEST)
+           $(SELFTEST) $(LESSONS)
 EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(suffix $f)),$f))
 
 # not out of a library: another one's dlclose would be found first
@@ -254,6 +257,9 @@ assets/sundial.glb: $(O)/host/make_sundial
 assets/bench/%.glb: $(O)/host/make_bench
 	@mkdir -p $(@D)
 	$(Q)$< $* $@.tmp && mv $@.tmp $@
+assets/lessons/%.glb: $(O)/host/make_lessons
+	@mkdir -p $(@D)
+	$(Q)$< $* $@.tmp && mv $@.tmp $@
 $(O)/selftest/%.glb $(O)/selftest/%.truth: $(O)/host/make_selftest
 	@mkdir -p $(@D)
 	$(Q)$< $* $(basename $@)
@@ -349,6 +355,8 @@ readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 gallery: $(B)/tests/tool_gallery $(BIN)
 	@mkdir -p assets/gallery
 	$< assets/gallery
+lessons: $(BIN)
+	$< lesson all -o $(O)/lessons
 contact-sheet: $(B)/tests/tool_sheet $(BIN)
 	BUILD=$(B) GNOMON=$(BIN) tests/image/accept_terminal.sh $(O)/contact-sheet.png
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth

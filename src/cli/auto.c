@@ -13,10 +13,11 @@ static bool has_desktop(void) { return getenv("WAYLAND_DISPLAY") || getenv("DISP
 
 static bool is_backend(const char *backend, const char *name) { return strcmp(backend, name) == 0; }
 
-bool gn_cli_auto(const struct gn_options *options, struct gn_warnings *warnings,
-                 struct gn_err *err) {
+bool gn_cli_show_here(const struct gn_options *options, bool *shown, struct gn_warnings *warnings,
+                      struct gn_err *err) {
     const char *backend = options->settings->display.backend;
     const bool forced = is_backend(backend, "window"), automatic = is_backend(backend, "auto");
+    *shown = true;
     if (forced || (automatic && has_desktop())) {
         struct gn_show_place place = {.backend = "window"};
         struct gn_err why = {0};
@@ -29,6 +30,15 @@ bool gn_cli_auto(const struct gn_options *options, struct gn_warnings *warnings,
     }
     if (is_backend(backend, "kms") || (automatic && !has_desktop() && gn_display_is_free("kms")))
         return gn_cli_show(options, warnings, err);
+    *shown = false;
+    return true;
+}
+
+bool gn_cli_auto(const struct gn_options *options, struct gn_warnings *warnings,
+                 struct gn_err *err) {
+    bool shown;
+    if (!gn_cli_show_here(options, &shown, warnings, err)) return false;
+    if (shown) return true;
     struct gn_settings settings = *options->settings;
     struct gn_options here = *options;
     settings.run.out = "gnomon.png";

@@ -44,6 +44,7 @@ const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES] = {
                             "gnomon compare a.pfm truth.pfm --json"},
     [GN_COMMAND_SCORE] = {"gnomon score picture.pfm --truth field-sun-00",
                           "gnomon score build/benchmark/pcf --csv"},
+    [GN_COMMAND_LESSON] = {"gnomon lesson position", "gnomon lesson all -o lessons"},
 };
 
 /* ---- texts --------------------------------------------------------------------------------- */

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "options/command.h"
 #include "options/file.h"
+#include "options/lesson.h"
 
 struct flag {
     const struct gn_option_row *row;
@@ -103,7 +104,8 @@ static bool add_word(struct args *args, const char *word, struct gn_err *err) {
             err,
             takes_list ? "too many scenes, from \"%.80s\" on"
             : is_score ? "score: unexpected argument \"%.80s\": it takes one picture or folder"
-                       : "unexpected argument \"%.80s\": only one scene",
+            : command == GN_COMMAND_LESSON ? "unexpected argument \"%.80s\": one lesson, or all"
+                                           : "unexpected argument \"%.80s\": only one scene",
             word);
     args->words[args->word_count++] = word;
     return true;
@@ -118,10 +120,11 @@ static bool fail_command(const char *word, struct gn_err *err) {
     if (guess.name)
         return gn_fail_usage(err, "\"%.80s\" is neither a command nor a file; did you mean %s?",
                              word, guess.name);
-    return gn_fail_usage(err,
-                         "\"%.80s\" is neither a command nor a file; the commands are show, "
-                         "render, bench, inspect, doctor, ctl, compare, score, help, version",
-                         word);
+    return gn_fail_usage(
+        err,
+        "\"%.80s\" is neither a command nor a file; the commands are show, "
+        "render, bench, inspect, doctor, ctl, compare, score, lesson, help, version",
+        word);
 }
 
 static bool split_arguments(struct args *args, struct gn_err *err) {
@@ -169,12 +172,14 @@ static bool choose_command(struct args *args, struct gn_err *err) {
     const enum gn_command command = first ? command_of(first) : GN_COMMAND_AUTO;
     const bool bare = command == GN_COMMAND_AUTO;
     gn_options_run_as(args->options, command);
-    if (bare && first && !strpbrk(first, "./") && access(first, F_OK) != 0)
+    if (bare && first && !strpbrk(first, "./:") && access(first, F_OK) != 0)
         return fail_command(first, err);
     if (bare && args->words[1])
         return gn_fail_usage(err, "unexpected argument \"%.80s\": only one scene", args->words[1]);
     if (command == GN_COMMAND_COMPARE && args->word_count != 1 + PICTURES)
         return gn_fail_usage(err, "compare: expected two pictures, A and B");
+    if (command == GN_COMMAND_LESSON && args->word_count != 2)
+        return gn_fail_usage(err, "lesson: expected list, all or the name of a lesson");
     if (command == GN_COMMAND_DOCTOR && args->words[1])
         return gn_fail_usage(err, "doctor takes no scene: unexpected argument \"%.80s\"",
                              args->words[1]);
@@ -204,6 +209,12 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     struct gn_options *options = args->options;
     char found[PATH_MAX];
     const enum gn_command command = command_now(args);
+    if (command == GN_COMMAND_LESSON) {
+        const char *name = args->words[1];
+        if (strcmp(name, "list") == 0 || strcmp(name, "all") == 0) return true;
+        const struct gn_lesson *lesson = gn_lesson_find(name, err);
+        return lesson && gn_lesson_load(options, lesson, err);
+    }
     const struct flag *check = find_flag(args, "check");
     const struct flag *named = check ? check : find_flag(args, "config");
     const bool searches = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW ||
@@ -224,6 +235,12 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     return true;
 }
 
+/* Its words are no scenes. */
+static bool takes_words(enum gn_command command) {
+    return command == GN_COMMAND_CTL || command == GN_COMMAND_COMPARE ||
+           command == GN_COMMAND_SCORE || command == GN_COMMAND_LESSON;
+}
+
 static bool apply_flags(struct args *args, struct gn_err *err) {
     struct gn_options *options = args->options;
     for (int i = 0; i < args->flag_count; i++) {
@@ -231,8 +248,7 @@ static bool apply_flags(struct args *args, struct gn_err *err) {
         if (!gn_options_set(options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
             return false;
     }
-    if (command_now(args) == GN_COMMAND_CTL || command_now(args) == GN_COMMAND_COMPARE ||
-        command_now(args) == GN_COMMAND_SCORE) {
+    if (takes_words(command_now(args))) {
         const char **words = gn_arena_alloc(&options->arena, 1 + GN_CTL_WORDS_MAX, sizeof *words);
         if (!words) return gn_fail(err, "no memory left");
         options->word_count = args->word_count - 1;

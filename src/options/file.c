@@ -187,17 +187,21 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
     return true;
 }
 
-bool gn_config_load(struct gn_options *options, const char *path, struct gn_err *err) {
-    struct gn_bytes bytes;
+bool gn_config_load_text(struct gn_options *options, const char *path, const char *text,
+                         size_t size, struct gn_err *err) {
     struct load load = {.options = options, .path = path};
-    if (!gn_file_read(path, FILE_MAX, &bytes, err)) return false;
     load.modes = gn_arena_alloc(&options->arena, GN_MODES_MAX, sizeof *load.modes);
     options->modes = load.modes;
     options->config_path = gn_arena_strdup(&options->arena, path);
-    bool ok = load.modes && options->config_path
-                  ? gn_ini_parse(path, (const char *)bytes.data, bytes.size, on_line, &load, err)
-                  : gn_fail(err, "%s: no memory left", path);
-    gn_bytes_finish(&bytes);
-    return ok &&
+    if (!load.modes || !options->config_path) return gn_fail(err, "%s: no memory left", path);
+    return gn_ini_parse(path, text, size, on_line, &load, err) &&
            (!load.buttons.buttons || gn_config_button_check(&load.buttons, options, path, err));
+}
+
+bool gn_config_load(struct gn_options *options, const char *path, struct gn_err *err) {
+    struct gn_bytes bytes;
+    if (!gn_file_read(path, FILE_MAX, &bytes, err)) return false;
+    const bool ok = gn_config_load_text(options, path, (const char *)bytes.data, bytes.size, err);
+    gn_bytes_finish(&bytes);
+    return ok;
 }

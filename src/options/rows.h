@@ -19,7 +19,7 @@ GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min 
           .help = "turn the camera around the scene", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_deg_s))
 /* the picture */
 GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
-          .fallback = "1280x720", .help = "size of the picture", .commands = DRAW, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
+          .fallback = "1280x720", .help = "size of the picture", .commands = DRAW | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
 GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
           .help = "shadow technique; for bench a comma-separated list", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow))
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
@@ -67,20 +67,20 @@ GN_OPTION(.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices 
 GN_OPTION(.name = "font", .section = "render", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "font of captions (.ttf, .otf); without it DejaVu Sans or a similar one", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.font))
 GN_OPTION(.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value = "DIR",
-          .help = "read the shaders from this folder; show reads them again when they change", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.shaders))
+          .help = "read the shaders from this folder; show reads them again when they change", .commands = DRAW | BIT(DOCTOR) | BIT(LESSON), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.shaders))
 GN_OPTION(.name = "without", .section = "render", .kind = GN_KIND_CAPS, .value = "CAP,..",
           .help = "do not use these GPU capabilities, named as doctor prints them", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.without))
 GN_OPTION(.name = "limit", .section = "render", .kind = GN_KIND_LIMIT, .min = 1, .max = 1099511627776.0, .value = "NAME=VALUE",
           .help = "limit on the size of a scene, or on the processor time that loading one may take; may be repeated", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.limits))
 /* where it goes */
 GN_OPTION(.name = "backend", .section = "display", .kind = GN_KIND_WORD, .choices = backends, .value = "NAME", .fallback = "auto",
-          .help = "display backend", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.backend))
+          .help = "display backend", .commands = DRAW | BIT(DOCTOR) | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.backend))
 GN_OPTION(.name = "card", .section = "display", .kind = GN_KIND_TEXT, .value = "NAME",
-          .help = "the display's card, as in /dev/dri/by-path; without it, the first with a monitor", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.card))
+          .help = "the display's card, as in /dev/dri/by-path; without it, the first with a monitor", .commands = KIOSK | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.card))
 GN_OPTION(.name = "render-node", .section = "display", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "the GPU that draws, as in /dev/dri/by-path; without it, the one that goes with the card", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.render_node))
 GN_OPTION(.name = "connector", .section = "display", .kind = GN_KIND_TEXT, .value = "NAME",
-          .help = "the display's connector; without it, the first connected", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.connector))
+          .help = "the display's connector; without it, the first connected", .commands = KIOSK | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.connector))
 GN_OPTION(.name = "display-mode", .key = "mode", .section = "display", .kind = GN_KIND_MODE, .min = 16, .max = 16384,
           .value = "WxH@HZ", .help = "the display's mode; without it, its current or preferred one up to --max-mode", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.mode))
 GN_OPTION(.name = "max-mode", .section = "display", .kind = GN_KIND_MODE, .min = 16, .max = 16384, .value = "WxH@HZ",
@@ -119,7 +119,7 @@ GN_OPTION(.name = "check", .kind = GN_KIND_PATH, .value = "FILE",
 GN_OPTION(.name = "mode", .kind = GN_KIND_TEXT, .value = "NAME",
           .help = "start in this mode of the INI file, or with this technique", .commands = DRAW, .offset = FIELD(run.mode))
 GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "write to this file; %04d in it becomes the number of the frame", .commands = BIT(RENDER), .offset = FIELD(run.out))
+          .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder", .commands = BIT(RENDER) | BIT(LESSON), .offset = FIELD(run.out))
 GN_OPTION(.name = "caption", .kind = GN_KIND_TEXT, .value = "TEXT",
           .help = "draw this text on the picture, as the kiosk does with an error", .commands = BIT(RENDER), .offset = FIELD(run.caption))
 GN_OPTION(.name = "frames", .kind = GN_KIND_INT, .min = 1, .max = 1000000, .value = "N",
@@ -145,7 +145,7 @@ GN_OPTION(.name = "reach", .kind = GN_KIND_NUMBER, .max = 1000, .value = "TEXELS
 GN_OPTION(.name = "make-truth", .kind = GN_KIND_FLAG,
           .help = "cast the rays of the scene that --truth names, and write the truth beside it", .commands = BIT(SCORE), .offset = FIELD(run.make_truth))
 GN_OPTION(.name = "json", .kind = GN_KIND_FLAG,
-          .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL) | BIT(COMPARE) | BIT(SCORE), .offset = FIELD(run.json))
+          .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL) | BIT(COMPARE) | BIT(SCORE) | BIT(LESSON), .offset = FIELD(run.json))
 GN_OPTION(.name = "csv", .kind = GN_KIND_FLAG,
           .help = "print CSV: a line for each scene and technique, or picture and class", .commands = BIT(BENCH) | BIT(SCORE), .offset = FIELD(run.csv))
 GN_OPTION(.name = "move-lights", .kind = GN_KIND_FLAG,

@@ -28,7 +28,9 @@ struct gn_limits {
     int count;
     struct gn_limit items[GN_LIMITS_MAX];
 };
-#define GN_SCENES_MAX 16
+#define GN_SCENES_MAX   16
+/* What the path of a lesson's scene inside the program begins with: "lesson:solids". */
+#define GN_SCENE_LESSON "lesson:"
 struct gn_scene_list {
     const char *paths[GN_SCENES_MAX]; /* [0] NULL: the default scene inside the program */
     int count;

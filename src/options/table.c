@@ -79,6 +79,9 @@ const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
                             "measures how much two pictures differ, .png or .pfm"},
     [GN_COMMAND_SCORE] = {"score", "score [OPTION..] PICTURE|FOLDER",
                           "measures shadows in pictures of the open benchmark, of any engine"},
+    [GN_COMMAND_LESSON] =
+        {"lesson", "lesson [OPTION..] list|NAME|all",
+         "shows a fault of shadows and its cures; with -o as a page of pictures and figures"},
 };
 
 const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {

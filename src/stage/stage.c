@@ -12,8 +12,22 @@
 #include "stage/rays.h"
 #include "stage/wake.h"
 
+/* "lesson:solids" */
+static struct gn_scene *read_lesson(const char *path, const struct gn_scene_limits *limits,
+                                    struct gn_warnings *warnings, struct gn_err *err) {
+    char name[80];
+    snprintf(name, sizeof name, "lessons/%.60s.glb", path + strlen(GN_SCENE_LESSON));
+    const struct gn_embedded *file = gn_embedded_find(name);
+    if (file) return gn_scene_load_bytes(path, file->data, file->size, limits, warnings, err);
+    gn_fail(err, "%.80s: there is no such scene inside; gnomon lesson list prints those there are",
+            path);
+    return NULL;
+}
+
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err) {
+    if (path && strncmp(path, GN_SCENE_LESSON, strlen(GN_SCENE_LESSON)) == 0)
+        return read_lesson(path, limits, warnings, err);
     if (path)
         return gn_import_wants(path) ? gn_import_load(path, limits, warnings, err)
                                      : gn_scene_load(path, limits, warnings, err);
