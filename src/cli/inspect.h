@@ -24,17 +24,17 @@ struct gn_scene_cost { /* of the default view: first camera, 1280x720, time 0, a
 struct gn_inspection {
     const char *file; /* as in messages */
     const struct gn_scene *scene;
-    const struct gn_warnings *warnings; /* of loading */
+    const struct gn_warnings *warnings; /* of loading, and of a frame */
     const struct gn_settings *settings; /* for [light "NAME"], or NULL */
     char limits[400];                   /* as gn_scene_limits_print() makes them, or "" */
     struct gn_scene_cost cost;
     struct gn_problem_list advice;
 };
 
-/* All but `limits` and `settings` of it; file and scene must outlive it. triangles: of a frame at
- * most, or 0. */
+/* All but `limits` and `settings` of it; file, scene and warnings must outlive it. triangles: of a
+ * frame at most, or 0. Adds what a frame warns of: a light without the shadow it asks for. */
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
-                      uint64_t triangles, const struct gn_warnings *warnings);
+                      uint64_t triangles, struct gn_warnings *warnings);
 /* Fills advice; the cost must be known. */
 void gn_inspect_advise(struct gn_inspection *in);
 

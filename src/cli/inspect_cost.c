@@ -5,7 +5,7 @@
 #include "frame/frame.h"
 
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
-                      uint64_t triangles, const struct gn_warnings *warnings) {
+                      uint64_t triangles, struct gn_warnings *warnings) {
     *in = (struct gn_inspection){.file = file, .scene = scene, .warnings = warnings};
     const struct gn_caps caps = {
         .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
@@ -16,7 +16,7 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     struct gn_frame *frame = gn_frame_create(scene, &caps);
-    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
+    const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, warnings);
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_pass *pass = &plan->passes[i];
         const bool shadow = pass->kind != GN_PASS_PICTURE;

@@ -136,6 +136,19 @@ static void test_faults_of_a_light_are_named(void **state) {
     assert_no_advice("no light");
 }
 
+/* A square counts as 100 triangles; the picture and the sides of a cube draw it seven times. */
+static void test_a_light_over_triangles_per_frame_is_named(void **state) {
+    (void)state;
+    set_lights(1, "{'type':'point','intensity':9}", 2);
+    inspect();
+    gn_inspect_build(&in, "t", scene, 700, &warnings);
+    assert_int_equal(in.warnings->count, 0);
+    gn_inspect_build(&in, "t", scene, 699, &warnings);
+    assert_int_equal(in.warnings->count, 1);
+    assert_string_equal(in.warnings->text[0], "light 'light 0' casts no shadow: its maps are over "
+                                              "the limit triangles_per_frame=699");
+}
+
 static void test_a_right_light_gets_no_advice(void **state) {
     (void)state;
     set_lights(1, "{'type':'spot','intensity':50,'spot':{'outerConeAngle':0.7}}", 2);
@@ -273,6 +286,7 @@ int main(void) {
         TEST(test_a_slide_costs_what_a_picture_does),
         TEST(test_what_the_file_lacks_is_said),
         TEST(test_faults_of_a_light_are_named),
+        TEST(test_a_light_over_triangles_per_frame_is_named),
         TEST(test_a_right_light_gets_no_advice),
         TEST(test_too_many_lights_are_counted),
         TEST(test_a_map_of_a_point_light_has_six_tiles),
