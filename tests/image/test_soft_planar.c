@@ -228,6 +228,43 @@ static void test_both_planes_have_their_shadow_in_colour(void **state) {
     gn_scene_destroy(scene);
 }
 
+/* Six suns from one direction are two passes: on floor and wall all are six times one of them. */
+static void test_lights_of_two_passes_reach_both_planes(void **state) {
+    (void)state;
+    enum { SUNS = 6 };
+    static float none[4 * PIXELS], one[4 * PIXELS];
+    char nodes[4000];
+    snprintf(nodes, sizeof nodes, "%s%s", gn_planar_things, GN_PLANAR_WALL);
+    for (int i = 1; i < SUNS; i++)
+        snprintf(nodes + strlen(nodes), sizeof nodes - strlen(nodes),
+                 ",{'mesh':0,'translation':[0,-9,0],%s,'extensions':{'KHR_lights_punctual':{"
+                 "'light':0}}}",
+                 gn_planar_lights[0].node);
+    struct gn_scene *scene = gn_planar_scene(gn_planar_turns[0].turn, &gn_planar_lights[0], nodes);
+    struct soft s;
+    vec3 color;
+    assert_int_equal(scene->light_count, SUNS);
+    glm_vec3_copy(scene->lights[0].color, color);
+    begin(&s, scene, 16, 0);
+    s.opts.debug.aov = GN_AOV_COLOR;
+    s.opts.output_float = s.opts.exposure_given = true;
+    for (int lit = 0; lit <= SUNS; lit++) {
+        for (int i = 0; i < SUNS; i++) {
+            scene->lights[i].radius = 0.2f;
+            glm_vec3_scale(color, i < lit, scene->lights[i].color);
+        }
+        draw(&s);
+        if (lit == 0) memcpy(none, picture, sizeof none);
+        if (lit == 1) memcpy(one, picture, sizeof one);
+        for (int k = 0; k < 4 * PIXELS; k++) {
+            const float wanted = none[k] + (float)lit * (one[k] - none[k]);
+            assert_true(fabsf(picture[k] - wanted) <= fmaxf(1.0f, picture[k]) / 255);
+        }
+    }
+    end(&s);
+    gn_scene_destroy(scene);
+}
+
 /* ---- gathering ---- */
 
 static struct gn_scene *make_one(void) {
@@ -327,6 +364,7 @@ int main(void) {
         cmocka_unit_test(test_a_point_is_drawn_once),
         cmocka_unit_test(test_floor_and_wall_agree_with_truth),
         cmocka_unit_test(test_both_planes_have_their_shadow_in_colour),
+        cmocka_unit_test(test_lights_of_two_passes_reach_both_planes),
         cmocka_unit_test(test_penumbrae_agree_with_truth),
     };
     return cmocka_run_group_tests_name("soft_planar", tests, open_gl, close_gl);
