@@ -17,7 +17,7 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DELETE_ON_ERROR:
 .SUFFIXES:
 CHECKS := check-angle check-board check-board-arm64 check-gpus check-gpiod2
-.PHONY: all no-import tests sanitized run check $(CHECKS) gpus accept full truth gallery contact-sheet lessons readme options-page deps \
+.PHONY: all no-import tests sanitized run check $(CHECKS) gpus accept full truth benchmark benchmark-scenes gallery contact-sheet lessons readme options-page deps \
         syntax lint lint-changed format man install uninstall help clean FORCE
 
 help:
@@ -36,6 +36,8 @@ help:
 	    'make check-gpiod2' \
 	    '                buttons with libgpiod 2, and the rest of Debian 13; with GN_FULL=1 its long form' \
 	    'make truth      shadows against ray-traced truth, as a table; CSV=FILE: as CSV, too' \
+	    'make benchmark  the open benchmark (assets/benchmark): scenes, truths, the table of all techniques;' \
+	    '                make benchmark-scenes: the scenes only' \
 	    'make readme     the table of techniques (src/shadow/README.md), measured' \
 	    'make options-page' \
 	    '                the table of keys in src/options/README.md, from the table of options' \
@@ -50,7 +52,7 @@ help:
 	    'make tests, man, compile_commands.json, clean' \
 	    'CONFIG=release|debug|asan|cov  CROSS=aarch64-linux-gnu SYSROOT=DIR  CC=clang  WERROR=1  V=1'
 clean:
-	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb assets/lessons
+	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb assets/lessons assets/benchmark/*.glb assets/benchmark/*.pfm
 deps:
 	@sh board/deps.sh $(if $(CROSS),build cross,build run test)
 format:
@@ -70,11 +72,13 @@ DEPS_check-gpiod2 := build run test board
 DEPS_accept := build run test board board-arm64 gpus
 DEPS_full := $(DEPS_accept)
 DEPS_truth := build run test
+DEPS_benchmark := build run test
+DEPS_benchmark-scenes := build run test
 DEPS_gallery := build run test
 DEPS_contact-sheet := build run test
 DEPS_lessons := build run
 DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept full truth gallery contact-sheet lessons readme,$(GOALS)))
+BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept full truth benchmark benchmark-scenes gallery contact-sheet lessons readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -95,7 +99,7 @@ endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm libdrm gbm
-NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests sanitized syntax $(CHECKS) truth gallery contact-sheet readme,$(GOALS)),cmocka)
+NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests sanitized syntax $(CHECKS) truth benchmark benchmark-scenes gallery contact-sheet readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # FreeType draws the texts on the picture; without it they are in the font inside the program
@@ -361,6 +365,15 @@ contact-sheet: $(B)/tests/tool_sheet $(BIN)
 	BUILD=$(B) GNOMON=$(BIN) tests/image/accept_terminal.sh $(O)/contact-sheet.png
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$< $(if $(CSV),--csv $(CSV))
+# GN_UPDATE=1: writes the hashes of what was made
+benchmark-scenes: $(B)/tests/tool_benchmark $(O)/host/make_truth
+	BUILD=$(B) $< scenes assets/benchmark
+	cd assets/benchmark && $(if $(GN_UPDATE),sha256sum *.glb > SHA256SUMS,grep '[.]glb$$' SHA256SUMS | sha256sum --quiet -c)
+benchmark: benchmark-scenes $(BIN)
+	GNOMON=$(BIN) BUILD=$(B) $(B)/tests/tool_benchmark truths assets/benchmark
+	cd assets/benchmark && $(if $(GN_UPDATE),sha256sum *.pfm >> SHA256SUMS,grep '[.]pfm$$' SHA256SUMS | sha256sum --quiet -c)
+	@mkdir -p $(O)/benchmark
+	GNOMON=$(BIN) BUILD=$(B) $(B)/tests/tool_benchmark run assets/benchmark $(O)/benchmark $(TECHNIQUE)
 # clang looks at all sources and builds nothing; its stamps know the headers. clang-tidy follows them:
 # lint is all of it, lint-changed what has changed since it passed and, where it never ran, what
 # differs from origin's branch (a fresh clone has no such: accept runs lint).

@@ -3,7 +3,7 @@
 # gnomon_ keys for artists and their examples, the rows of the table of techniques.
 . tests/script.sh
 
-pages='README.md CONTRIBUTING.md assets/README.md assets/SCENES.md board/README.md tests/README.md src/*/README.md tests/*/README.md'
+pages='README.md CONTRIBUTING.md assets/README.md assets/SCENES.md assets/benchmark/README.md board/README.md tests/README.md src/*/README.md tests/*/README.md'
 
 # ---- links and paths -----------------------------------------------------------------------------
 for page in $pages; do

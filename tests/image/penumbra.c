@@ -11,15 +11,32 @@
 
 /* ---- scenes ---- */
 
+/* Bars of .12 m, 5 m up, and a trellis of bars of .08 m, 4 m up; below them posts and walls of 1 to
+ * 1.4 m. */
+#define THIN                                                                                       \
+    "{'mesh':1,'translation':[-2,5,0],'rotation':[0,0.1305,0,0.9914],'scale':[0.06,0.06,4]},"      \
+    "{'mesh':1,'translation':[-1.1,5,0.4],'rotation':[0,0.1305,0,0.9914],'scale':[0.06,0.06,4]},"  \
+    "{'mesh':1,'translation':[-0.9,4,-0.2],'scale':[0.04,0.04,1.5]},"                              \
+    "{'mesh':1,'translation':[-0.4,4,-0.2],'scale':[0.04,0.04,1.5]},"                              \
+    "{'mesh':1,'translation':[0.1,4,-0.2],'scale':[0.04,0.04,1.5]},"                               \
+    "{'mesh':1,'translation':[-0.4,4,-0.9],'scale':[1,0.04,0.04]},"                                \
+    "{'mesh':1,'translation':[-0.4,4,0.5],'scale':[1,0.04,0.04]},"                                 \
+    "{'mesh':1,'translation':[0,0.7,1],'rotation':[0,0.2588,0,0.9659],'scale':[0.15,0.7,0.15]},"   \
+    "{'mesh':1,'translation':[1.2,0.5,-1.2],'scale':[0.2,0.5,0.2]},"                               \
+    "{'mesh':1,'translation':[2.2,0.6,0.6],'rotation':[0,0.1305,0,0.9914],'scale':[0.2,0.6,0.2]}," \
+    "{'mesh':1,'translation':[0.3,0.5,-2],'rotation':[0,0.1305,0,0.9914],'scale':[0.05,0.5,1]},"   \
+    "{'mesh':1,'translation':[1.5,0.5,2.4],'rotation':[0,0.1736,0,0.9848],'scale':[1.5,0.5,0.05]}"
+
 /* Nodes with mesh 0 (a square of 2 m) or 1 (a cube of 2 m). */
 static const struct {
     const char *name, *nodes;
     enum gn_light_type type;
-    double radius, light_up_m; /* a lamp is at x .5, z .3 and looks down, but for the seam's */
+    double radius, light_up_m; /* a lamp is at x .5, z .3 and looks down; at x -3.5 in the seam's
+                                  scene and the thin ones */
     const char *sun;           /* rotation; NULL: straight down */
     const char *eye;           /* NULL: from the side */
     double ground_m;           /* half the side of a slab; 0: a square, 12 */
-} scenes[GN_PENUMBRA_COUNT] = {
+} scenes[GN_PENUMBRA_ALL] = {
     [GN_PENUMBRA_LOW] = {"low", "{'mesh':0,'translation':[0,1,0],'scale':[1.2,1,0.8]}",
                          GN_LIGHT_SPOT, 0.3, .light_up_m = 9},
     [GN_PENUMBRA_MIDDLE] = {"middle",
@@ -66,9 +83,14 @@ static const struct {
                           GN_LIGHT_DIRECTIONAL, 0.15, 0,
                           .eye = "'translation':[0,2.5,0],"
                                  "'rotation':[-0.70710678,0,0,0.70710678]"}, /* straight above */
+    [GN_PENUMBRA_THIN_SUN] = {"thin-sun", THIN, GN_LIGHT_DIRECTIONAL, 0.06, 0,
+                              .sun = "-0.4686,-0.3748,-0.0000,0.8000"},
+    [GN_PENUMBRA_THIN_SPOT] = {"thin-spot", THIN, GN_LIGHT_SPOT, 0.5, .light_up_m = 9},
+    [GN_PENUMBRA_THIN_POINT] = {"thin-point", THIN, GN_LIGHT_POINT, 0.5, .light_up_m = 8},
 };
-const char *const gn_penumbra_names[GN_PENUMBRA_COUNT] = {
-    "low", "middle", "high", "box", "bars", "lean", "bulb", "seam", "field", "edge"};
+const char *const gn_penumbra_names[GN_PENUMBRA_ALL] = {
+    "low",  "middle", "high", "box",      "bars",      "lean",      "bulb",
+    "seam", "field",  "edge", "thin-sun", "thin-spot", "thin-point"};
 
 enum gn_light_type gn_penumbra_light(int scene) { return scenes[scene].type; }
 
@@ -85,10 +107,11 @@ static void add_nodes(struct gn_maker *maker, int scene) {
              "[%s,{'camera':0,%s},"
              "{'translation':[%g,%g,0.3],'rotation':[%s],"
              "'extensions':{'KHR_lights_punctual':{'light':0}}},%s]",
-             ground, eye ? eye : aside, scene == GN_PENUMBRA_SEAM ? -3.5 : 0.5,
+             ground, eye ? eye : aside,
+             scene == GN_PENUMBRA_SEAM || scene >= GN_PENUMBRA_COUNT ? -3.5 : 0.5,
              scenes[scene].light_up_m, sun ? sun : straight_down, scenes[scene].nodes);
     gn_maker_set(maker, "nodes", nodes);
-    char roots[100] = "[{'nodes':[0";
+    char roots[120] = "[{'nodes':[0";
     int count = 3;
     for (const char *at = scenes[scene].nodes; (at = strstr(at, "'mesh'")); at++) count++;
     for (int i = 1; i < count; i++) snprintf(roots + strlen(roots), 8, ",%d", i);

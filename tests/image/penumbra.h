@@ -21,8 +21,13 @@ enum {
                            large  sun that has cascades */
     GN_PENUMBRA_EDGE,   /* a half-plane 3 m up under a large sun, seen from above: the exact case */
     GN_PENUMBRA_COUNT,
+    /* of the open benchmark alone: thin bars and a trellis high over low posts and walls */
+    GN_PENUMBRA_THIN_SUN = GN_PENUMBRA_COUNT,
+    GN_PENUMBRA_THIN_SPOT,
+    GN_PENUMBRA_THIN_POINT,
+    GN_PENUMBRA_ALL,
 };
-extern const char *const gn_penumbra_names[GN_PENUMBRA_COUNT];
+extern const char *const gn_penumbra_names[GN_PENUMBRA_ALL];
 enum gn_light_type gn_penumbra_light(int scene);
 /* The edge's: its penumbra on the ground is GN_PENUMBRA_EDGE_M to each side of x = 0. */
 #define GN_PENUMBRA_EDGE_M (3 * 0.15)
