@@ -1,4 +1,5 @@
 /* The view of each light that has shadows: how large its map is, how many cascades it has. */
+#include "core/hash.h"
 #include "frame/private.h"
 #include "shadow/cascade.h"
 
@@ -14,6 +15,17 @@ static void lay_screen(const struct gn_frame *frame, uint32_t light, struct gn_s
                 .tile_count = 1},
         .raster.tiles[0].content_hash = 1,
     };
+}
+
+/* The lesson about clearing: the near end's code stands where nothing is drawn. What is drawn is
+ * the same, so the hash has to tell. */
+static void set_clear(struct gn_shadow_view *view, bool near_end) {
+    struct gn_shadow_code *code = &view->code;
+    code->clear = near_end ? code->scale * code->near_m + code->offset : code->far_end;
+    for (uint32_t i = 0; near_end && i < view->map.tile_count; i++) {
+        uint64_t *hash = &view->raster.tiles[i].content_hash;
+        *hash = gn_hash(*hash, &code->clear, sizeof code->clear) | 1;
+    }
 }
 
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
@@ -80,5 +92,6 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
             lay_screen(frame, light, &frame->shadows[i]);
         else
             gn_shadow_fit(pose, light, &frame->eye, &maps[i], frame->memory[i], &frame->shadows[i]);
+        set_clear(&frame->shadows[i], opts->shadow.clears_near);
     }
 }

@@ -63,6 +63,7 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
                   enum gn_cast_faces. Not of planar lights */
     bool bias_given;
     float bias_texels;     /* in place of the techniques' */
+    bool clears_near;      /* maps are cleared to the wrong end, for the lesson about it; far */
     bool slide_as_picture; /* a slide without a size has the shape of its picture; square */
     bool strength_given;
     float strength; /* overrides the lights' gnomon_shadow_strength */

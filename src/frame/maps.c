@@ -28,7 +28,7 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, enum gn_pass_kind kind
                                       .height_px = view->map.height_px,
                                       .encoding = view->encoding};
     pass->clear.area = GN_CLEAR_ALL;
-    pass->clear.color[0] = view->code.far_end;
+    pass->clear.color[0] = view->code.clear;
     pass->depth_write = view->encoding != GN_ENCODING_MASK && view->encoding != GN_ENCODING_SCREEN;
     pass->discard_depth = pass->depth_write && view->encoding != GN_ENCODING_DEPTH;
     pass->content = (struct gn_content){

@@ -26,6 +26,8 @@ GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .m
           .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.map_px))
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
           .help = "texture format of shadow maps; rg32ui and those after it: for filtered techniques", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.map_format))
+GN_OPTION(.name = "map-clear", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_ends, .value = "END", .fallback = "far",
+          .help = "end of the light's distances that maps are cleared to, but depth textures; near is wrong, for gnomon lesson clear", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_clears_near))
 GN_OPTION(.name = "cascades", .section = "render", .kind = GN_KIND_CHOICE, .choices = cascade_counts, .value = "N", .fallback = "auto",
           .help = "number of maps that share the view of a directional light", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.cascades))
 GN_OPTION(.name = "cast-faces", .section = "render", .kind = GN_KIND_CHOICE, .choices = cast_faces, .value = "FACES", .fallback = "auto",

@@ -87,6 +87,7 @@ struct gn_render_settings {
                                         overrides that of lights */
     int map_px;                      /* set it overrides that of lights */
     int map_format;                  /* GN_MAP_FORMAT() */
+    int map_clears_near;             /* 0, 1 */
     int planar;                      /* enum gn_planar */
     int planar_points;
     int cascades;         /* 0: automatic */

@@ -53,6 +53,7 @@ static const struct gn_choice cast_faces[] = {{"auto", 0},
                                               {"front", 1 + GN_CAST_FRONT},
                                               {"back", 1 + GN_CAST_BACK},
                                               {0}};
+static const struct gn_choice map_ends[] = {{"far", 0}, {"near", 1}, {0}};
 static const struct gn_choice slide_aspects[] = {{"square", 0}, {"picture", 1}, {0}};
 static const struct gn_choice idles[] = {
     {"none", GN_IDLE_NONE}, {"first", GN_IDLE_FIRST}, {"next", GN_IDLE_NEXT}, {0}};

@@ -101,7 +101,8 @@ struct gn_shadow_map {
 /* How the encoding keeps a distance d: code = scale * d + offset (but not DEPTH, see lookup). */
 struct gn_shadow_code {
     float scale, offset;
-    float far_end; /* the far end's code: what the map is cleared to */
+    float far_end; /* the far end's code: what the map is cleared to .. */
+    float clear;   /* .. but in the lesson about clearing; the frame's choice */
     /* What the codes cover: directional 0 and the depth between the clip planes; spot and point the
      * near plane's depth and the greatest distance from the light; on a plane 0 and 1, encoding
      * STENCIL heights over the plane. */

@@ -136,6 +136,7 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
             o->render.planar == GN_PLANAR_SOFT ? (uint32_t)o->render.planar_points : 0,
         .shadow.gather_points =
             continuous || o->run.command == GN_COMMAND_BENCH ? GATHER_POINTS : 0,
+        .shadow.clears_near = o->render.map_clears_near,
         .shadow.faces = o->render.cast_faces,
         .shadow.specular_given = !isnan(o->render.shadow_specular),
         .shadow.specular = (float)o->render.shadow_specular,

@@ -176,12 +176,43 @@ static void test_highlights_in_shadow_have_a_feature(void **state) {
     gn_plan_end(&f);
 }
 
+/* The map's clear code and what it holds, in a plan like this. */
+static void clear_of(struct gn_plan_fixture *f, bool near_end, float *code, uint64_t *hash) {
+    f->opts.shadow.clears_near = near_end;
+    const struct gn_plan *plan = gn_plan_make(f);
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        if (plan->passes[i].kind != GN_PASS_MAP) continue;
+        *code = plan->passes[i].clear.color[0];
+        *hash = plan->passes[i].content.hash;
+        return;
+    }
+    fail_msg("no map is drawn");
+}
+
+static void test_maps_are_cleared_to_the_far_end_but_in_a_lesson(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    float far_code, near_code;
+    uint64_t far_hash, near_hash;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.shadow.encoding = GN_ENCODING_R16F;
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_HARD;
+    clear_of(&f, false, &far_code, &far_hash);
+    clear_of(&f, true, &near_code, &near_hash);
+    assert_true(far_code == 1.0f);
+    assert_true(fabsf(near_code + 1.0f) < 1e-5f);
+    assert_true(far_hash != near_hash); /* or the map would not be drawn again */
+    gn_plan_end(&f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_options_of_a_light_beat_those_of_all),
         cmocka_unit_test(test_a_light_can_be_looked_from),
         cmocka_unit_test(test_faces_of_all_casters_are_as_set),
         cmocka_unit_test(test_the_bias_is_as_set),
+        cmocka_unit_test(test_maps_are_cleared_to_the_far_end_but_in_a_lesson),
         cmocka_unit_test(test_highlights_in_shadow_have_a_feature),
     };
     return cmocka_run_group_tests_name("plan light options", tests, NULL, NULL);
