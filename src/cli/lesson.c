@@ -37,7 +37,6 @@ static void print_heading(const struct gn_lesson *lesson) {
 static void print_result(const struct gn_lesson_result *result) {
     const struct gn_lesson *lesson = result->lesson;
     char flags[400];
-    print_heading(lesson);
     printf("\n  %-34s", "");
     for (int i = 0; i < GN_FIGURE_COUNT; i++)
         if (gn_lesson_figures(lesson) & 1u << i)
@@ -122,8 +121,9 @@ static bool run_offline(const struct gn_options *options, const struct gn_lesson
         ok = measure(options, &first[i], &results[i], warnings, err);
         if (ok && o->run.json) json_array_append_new(list, make_json(&results[i]));
         if (ok && !o->run.json) {
-            if (i > 0) printf("\n");
+            if (count > 1) print_heading(&first[i]);
             print_result(&results[i]);
+            if (i + 1 < count) printf("\n");
             fflush(stdout);
         }
     }

@@ -32,11 +32,15 @@ LESSON(.name = "peter-panning", .title = "Too large a bias: shadows leave their 
        .steps = {{"16 texels of bias", "bias = 16", GN_FIGURE_GAP},
                  {"8 texels of bias", "bias = 8", GN_FIGURE_GAP},
                  {"automatic bias"}})
-LESSON(.name = "leak", .title = "Light leaks into corners", .scene = "hut", .set = "map = 256\nshadow = hard",
+LESSON(.name = "leak", .title = "Light leaks into corners", .scene = "hut", .set = "shadow = hard",
        .teaches = "The same inside a hut: along the foot of its walls and below its roof the bias reaches through the wall, and a line of light appears in the corner. With texels smaller than the wall is thick, and a bias in texels, it is dark.",
-       .steps = {{"10 texels of bias, map 256", "bias = 10", GN_FIGURE_LEAK},
-                 {"automatic bias, map 256", NULL},
+       .steps = {{"10 texels of bias, map 256", "map = 256\nbias = 10", GN_FIGURE_WRONG},
+                 {"automatic bias, map 256", "map = 256"},
                  {"automatic bias, map 1024", "map = 1024"}})
+LESSON(.name = "clear", .title = "A map cleared to the wrong end", .scene = "solids", .set = "map = 512\nshadow = hard",
+       .teaches = "Where no caster is drawn a map keeps what it was cleared to. Black, to which textures are cleared by habit, is a distance of 0: something right before the light, in whose shadow all lies that the map covers. Cleared to the far end of the light it is lit; and so is what lies beside the map.",
+       .steps = {{"cleared to the near end, 0", "map_format = r32ui\nmap_clear = near", GN_FIGURE_DARKENING},
+                 {"cleared to the far end", "map_format = r32ui"}})
 LESSON(.name = "half-float", .title = "Steps of half-floats", .scene = "far", .set = "map = 1024\nshadow = hard",
        .teaches = "A half-float has 11 bits. Metres from a lamp 150 m away are stored in steps of 12 cm, and a bias that covers a step pulls shadows off their feet. The same 16 bits for the distance from the middle of what the map shows, over half its depth, have steps of millimetres; 32 bits have none that matter.",
        .steps = {{"metres in half-floats", "map_format = r16f-raw", GN_FIGURE_GAP},
