@@ -211,7 +211,7 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     const enum gn_command command = command_now(args);
     if (command == GN_COMMAND_LESSON) {
         const char *name = args->words[1];
-        if (strcmp(name, "list") == 0 || strcmp(name, "all") == 0) return true;
+        if (!name || strcmp(name, "list") == 0 || strcmp(name, "all") == 0) return true;
         const struct gn_lesson *lesson = gn_lesson_find(name, err);
         return lesson && gn_lesson_load(options, lesson, err);
     }

@@ -18,6 +18,10 @@ const struct gn_figure_row gn_figures[GN_FIGURE_COUNT] = {
 
 const struct gn_lesson gn_lessons[] = {
 #define LESSON(...) {__VA_ARGS__},
+#define FAULT(figure, name, set)                                                                   \
+    { name, set, GN_FIGURE_##figure }
+#define CURE(name, set)                                                                            \
+    { name, set, GN_FIGURE_NONE }
 #include "options/lesson_rows.h"
 };
 const int gn_lesson_count = sizeof gn_lessons / sizeof gn_lessons[0];

@@ -1,12 +1,14 @@
 #include <string.h>
 
 #include "core/embedded.h"
+#include "kiosk/private.h"
 #include "options/args.h"
 #include "options/lesson.h"
 #include "unit/options_help.h"
 
 static bool parse(char *name) {
-    char *argv[] = {"gnomon", "lesson", name, NULL};
+    static char *argv[] = {"gnomon", "lesson", NULL, NULL};
+    argv[2] = name;
     gn_options_finish(&options);
     err = (struct gn_err){0};
     return gn_args_parse(&options, 3, argv, &warnings, &err);
@@ -59,6 +61,19 @@ static void texts_need_no_escapes(void **state) {
     }
 }
 
+/* It parses the arguments again, at its start and with each reload. */
+static void a_kiosk_reads_the_lesson_itself(void **state) {
+    (void)state;
+    assert_true(parse("acne"));
+    struct gn_options *again = gn_show_read_options(&options, NULL, &err);
+    assert_non_null(again);
+    assert_int_equal(again->settings->run.command, GN_COMMAND_SHOW);
+    assert_int_equal(again->mode_count, options.mode_count);
+    assert_string_equal(again->settings->mode, options.modes[0].name);
+    assert_string_equal(again->settings->scene.path, "lesson:solids");
+    gn_show_drop_options(again);
+}
+
 static void names_are_unique(void **state) {
     (void)state;
     for (int i = 0; i < gn_lesson_count; i++)
@@ -80,7 +95,7 @@ static void steps_are_written_as_flags(void **state) {
     (void)state;
     static const struct gn_lesson lesson = {
         .set = "map = 256\nshadow = hard",
-        .steps = {{"a", "map_format = r16f-raw\nbias = 0"}, {"b", NULL}}};
+        .steps = {{.name = "a", .set = "map_format = r16f-raw\nbias = 0"}, {.name = "b"}}};
     char flags[200];
     gn_lesson_flags(&lesson, 0, flags, sizeof flags);
     assert_string_equal(flags, " --map 256 --shadow hard --map-format r16f-raw --bias 0");
@@ -96,6 +111,7 @@ int main(void) {
         cmocka_unit_test(every_lesson_has_a_scene_inside),
         cmocka_unit_test(every_lesson_shows_a_fault_and_last_its_cure),
         cmocka_unit_test(texts_need_no_escapes),
+        cmocka_unit_test_teardown(a_kiosk_reads_the_lesson_itself, clean),
         cmocka_unit_test(names_are_unique),
         cmocka_unit_test_teardown(an_unknown_lesson_is_refused_with_what_to_do, clean),
         cmocka_unit_test(steps_are_written_as_flags),
