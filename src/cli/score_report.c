@@ -20,7 +20,7 @@ enum { GROUPS_MAX = 3 * GN_BENCHMARK_CLASS_COUNT };
 /* In the order of classes, and of lights: sun, spot, point. Returns how many have pictures. */
 static int make_groups(const struct gn_score_report *report, struct group out[GROUPS_MAX]) {
     static const char *const lights[] = {"sun", "spot", "point"};
-    const struct gn_benchmark_score **of = gn_xalloc(report->row_count, sizeof *of);
+    struct gn_benchmark_score *of = gn_xalloc(report->row_count, sizeof *of);
     int groups = 0;
     for (int k = 0; k < GN_BENCHMARK_CLASS_COUNT; k++)
         for (int l = 0; l < 3; l++) {
@@ -28,7 +28,7 @@ static int make_groups(const struct gn_score_report *report, struct group out[GR
             for (size_t i = 0; i < report->row_count; i++)
                 if ((int)report->rows[i].name.kind == k &&
                     strcmp(report->rows[i].name.light, lights[l]) == 0)
-                    of[count++] = &report->rows[i].score;
+                    of[count++] = report->rows[i].score;
             if (count == 0) continue;
             out[groups] = (struct group){(enum gn_benchmark_class)k, lights[l], count, {{0}}};
             gn_benchmark_mean(of, count, &out[groups++].mean);

@@ -158,14 +158,14 @@ void gn_benchmark_compare(enum gn_benchmark_class kind, const float *truth, cons
         compare_hard(truth, shot, gn_benchmark_pixels(kind), reach_texels, score->of);
 }
 
-void gn_benchmark_mean(const struct gn_benchmark_score *const scores[], size_t count,
+void gn_benchmark_mean(const struct gn_benchmark_score *scores, size_t count,
                        struct gn_benchmark_score *mean) {
     for (int m = 0; m < GN_BENCHMARK_MEASURE_COUNT; m++) {
         double sum = 0;
         int measured = 0;
         for (size_t i = 0; i < count; i++) {
-            if (isnan(scores[i]->of[m])) continue;
-            sum += scores[i]->of[m];
+            if (isnan(scores[i].of[m])) continue;
+            sum += scores[i].of[m];
             measured++;
         }
         mean->of[m] = measured ? sum / measured : (double)NAN;

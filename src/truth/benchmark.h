@@ -63,7 +63,7 @@ struct gn_benchmark_score {
 void gn_benchmark_compare(enum gn_benchmark_class kind, const float *truth, const float *shot,
                           double reach_texels, struct gn_benchmark_score *score);
 /* The means of some; NAN where none is measured. */
-void gn_benchmark_mean(const struct gn_benchmark_score *const scores[], size_t count,
+void gn_benchmark_mean(const struct gn_benchmark_score *scores, size_t count,
                        struct gn_benchmark_score *mean);
 
 #endif

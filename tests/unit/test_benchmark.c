@@ -109,7 +109,7 @@ static void test_means_leave_out_what_is_not_measured(void **state) {
     a.of[GN_BENCHMARK_GAP] = 1;
     b.of[GN_BENCHMARK_GAP] = 4;
     b.of[GN_BENCHMARK_LEAK] = 3;
-    gn_benchmark_mean((const struct gn_benchmark_score *[]){&a, &b}, 2, &mean);
+    gn_benchmark_mean((const struct gn_benchmark_score[]){a, b}, 2, &mean);
     assert_true(mean.of[GN_BENCHMARK_GAP] == 2.5 && mean.of[GN_BENCHMARK_LEAK] == 3);
     assert_true(isnan(mean.of[GN_BENCHMARK_ACNE]));
 }
