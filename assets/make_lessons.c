@@ -265,7 +265,7 @@ static void make_form(struct lesson *l) {
         add_block(l, "pole", AT(x, 0, .8f), 0, AT(.09f, 1.9f, .09f), red);
     }
     add_sun(l, 38, -118, 0);
-    add_camera(l, AT(.2f, 4.6f, 6.2f), AT(.2f, .3f, -.5f), 34);
+    add_camera(l, AT(0, 4.6f, 6.2f), AT(-.1f, .3f, -.5f), 40);
 }
 
 /* A fence and a pawn behind the camera: only their shadows are seen. */
