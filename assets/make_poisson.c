@@ -97,9 +97,9 @@ static void scale_disk(struct disk *disk) {
 }
 
 int main(void) {
-    static const int counts[] = {8, 16, 32};
+    static const int counts[] = {8, 12, 16, 32};
     printf("/* made by assets/make_poisson.c */\n");
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         struct disk disk = widest_disk(counts[i] / 2);
         if (disk.count != counts[i] / 2) return 1;
         scale_disk(&disk);

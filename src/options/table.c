@@ -45,7 +45,8 @@ static const struct gn_choice planar_ways[] = {
 static const struct gn_choice lamp_points[] = {{"16", 16},   {"32", 32},   {"64", 64},
                                                {"128", 128}, {"256", 256}, {0}};
 static const struct gn_choice samples[] = {{"0", 0}, {"2", 2}, {"4", 4}, {0}};
-static const struct gn_choice tap_counts[] = {{"8", 8}, {"16", 16}, {"32", 32}, {0}};
+static const struct gn_choice tap_counts[] = {{"auto", 0}, {"8", 8},   {"12", 12},
+                                              {"16", 16},  {"32", 32}, {0}};
 static const struct gn_choice cascade_counts[] = {{"auto", 0}, {"1", 1}, {"2", 2},
                                                   {"3", 3},    {"4", 4}, {0}};
 static const struct gn_choice cast_faces[] = {{"auto", 0},

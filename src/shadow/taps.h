@@ -11,7 +11,7 @@ enum gn_taps {
 };
 enum { GN_TAPS_MAX = 32, GN_TAPS_DEFAULT = 16 };
 
-/* count: 8, 16 or 32 samples. Fills out with half as many points. */
+/* count: 8, 12, 16 or 32 samples. Fills out with half as many points. */
 void gn_taps_build(enum gn_taps kind, int count, float (*out)[2]);
 
 #endif
