@@ -87,7 +87,8 @@ light_sample light_here(const int slot, const int type) {
 // src/gl/compose.c writes the loops over lights as macros, so that every argument is a constant of the program:
 // EACH_SHADOWED_LIGHT(F) is one F(slot, LIGHT_.., radial, shadow_visibility_N, u_map_SLOT) per shadowed light. radial is true if
 // the map holds distances (point and spot lights, encodings other than depth); N is the first slot with the same technique, encoding
-// and moments. EACH_OPEN_LIGHT(F) is one F(slot, LIGHT_..) per light without a shadow.
+// and moments. A technique that also reads u_filtered_SLOT, what the map is filtered into, has shadow_both_SLOT instead, which
+// calls it. EACH_OPEN_LIGHT(F) is one F(slot, LIGHT_..) per light without a shadow.
 // SHADOW_LINEAR[slot], also from compose.c, is true where uv and code are linear over a triangle: directional lights without
 // cascades, and planar shadows. lit.vert computes them there as v_shadow[slot]; else v_shadow[slot] is 0 and unused.
 // CUT_LAST, also from compose.c: holes are cut after the lights, since derivatives are undefined after a discard.

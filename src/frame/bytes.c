@@ -16,7 +16,7 @@ static uint64_t filter_bytes(const struct gn_map_need *need, uint32_t texture) {
 
 static uint64_t own_bytes(const struct gn_map_need *need) {
     const uint64_t texels = (uint64_t)need->map.width_px * need->map.height_px;
-    const bool mipmaps = gn_moments[need->moments].linear && need->map.tile_count == 1;
+    const bool mipmaps = gn_moments[need->moments].mipmaps && need->map.tile_count == 1;
     const uint64_t filtered = need->moments ? filter_bytes(need, 0) : 0;
     return texels * gn_encodings[need->encoding].texel_bytes + filtered +
            (mipmaps ? filtered / 3 : 0);
@@ -117,7 +117,7 @@ void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn
         if (maps[slot].cascades > 1 && maps[slot].map_px / 2 < GN_CASCADE_LEAST_PX)
             light->cascades = maps[slot].cascades = 1;
         else
-            maps[slot].map_px /= 2;
+            maps[slot].map_px = gn_technique_map_px(maps[slot].technique, maps[slot].map_px / 2);
         if (maps[slot].map_px < least_px) least_px = maps[slot].map_px;
         set_size(frame->scene->lights[light->light].type, &maps[slot], &needs[slot]);
     }

@@ -38,9 +38,17 @@ uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) 
     return h ? h : 1;
 }
 
+/* Texels of the map that one of its filter's textures covers, along a side. */
+static uint32_t texels_per_side(enum gn_technique technique) {
+    return gn_filters[gn_techniques[technique].filter].halves ? 2 : 1;
+}
+
+/* In the filter's textures. */
 static struct gn_rect tile_rect(const struct gn_shadow_view *view, uint32_t tile) {
-    return (struct gn_rect){view->raster.tiles[tile].x_px, view->raster.tiles[tile].y_px,
-                            view->map.tile_px, view->map.tile_px};
+    const uint32_t each = texels_per_side(view->technique);
+    return (struct gn_rect){view->raster.tiles[tile].x_px / each,
+                            view->raster.tiles[tile].y_px / each, view->map.tile_px / each,
+                            view->map.tile_px / each};
 }
 
 /* ---- sums of blocks: of all tiles side by side, as high as one ---- */
@@ -57,13 +65,19 @@ static bool is_narrow(enum gn_technique technique, uint32_t texture) {
 void gn_frame_filter_size(enum gn_technique technique, const struct gn_shadow_map *map,
                           uint32_t texture, uint32_t size_px[2]) {
     const bool narrow = is_narrow(technique, texture);
-    size_px[0] = narrow ? map->tile_count * blocks_of(map) : map->width_px;
-    size_px[1] = narrow ? map->tile_px : map->height_px;
+    const uint32_t each = texels_per_side(technique);
+    size_px[0] = narrow ? map->tile_count * blocks_of(map) : map->width_px / each;
+    size_px[1] = narrow ? map->tile_px : map->height_px / each;
+}
+
+void gn_view_filtered_size(const struct gn_shadow_view *view, uint32_t size_px[2]) {
+    gn_frame_filter_size(view->technique, &view->map, 0, size_px);
 }
 
 static void filter_constants(const struct gn_shadow_view *view, uint32_t tile, float (*c)[4]) {
     const struct gn_rect r = tile_rect(view, tile);
     const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};
+    memset(c, 0, FILTER_CONSTANTS * sizeof *c);
     c[FILTER_RECT][0] = (float)r.x;
     c[FILTER_RECT][1] = (float)r.y;
     c[FILTER_RECT][2] = (float)(r.x + r.width - 1);
@@ -81,14 +95,17 @@ static void filter_constants(const struct gn_shadow_view *view, uint32_t tile, f
     }
 }
 
-/* After those of the casters of the same tile, which use only the start of their set. */
+/* After those of the casters of the same tile, which use only the start of their set; a part for
+ * each stage. */
 enum { CONSTANTS_AT = 8 };
-_Static_assert(PASS_CODE_ADD < CONSTANTS_AT && CONSTANTS_AT + FILTER_CONSTANTS <= GN_PASS_SIZE,
+_Static_assert(PASS_CODE_ADD < CONSTANTS_AT &&
+                   CONSTANTS_AT + GN_FILTER_STAGES_MAX * FILTER_CONSTANTS <= GN_PASS_SIZE,
                "room for the constants of a filter");
 
-static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
-                           const struct gn_filter_stage *stage, bool last) {
+static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile, uint32_t index) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
+    const struct gn_filter_row *filter = &gn_filters[gn_techniques[view->technique].filter];
+    const struct gn_filter_stage *stage = &filter->stages[index];
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = GN_PROGRAM_FILTER;
@@ -100,7 +117,7 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
     }
     float(*constants)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS +
                                                          tile * GN_SHADOW_PAGES_MAX) +
-                           CONSTANTS_AT;
+                           CONSTANTS_AT + index * FILTER_CONSTANTS;
     struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_FILTER);
     uint32_t size_px[2];
     gn_frame_filter_size(view->technique, &view->map, stage->to, size_px);
@@ -118,8 +135,9 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
                                                        blocks_of(&view->map), view->map.tile_px};
     else if (view->map.tile_count > 1)
         pass->rect = pass->viewport = tile_rect(view, tile);
-    pass->content = (struct gn_content){
-        .tile = tile, .hash = gn_frame_filter_hash(view, tile), .completes = last};
+    pass->content = (struct gn_content){.tile = tile,
+                                        .hash = gn_frame_filter_hash(view, tile),
+                                        .completes = index + 1 == filter->count};
     pass->depth_write = false;
     for (int i = 0; i < GN_FILTER_FROM_MAX; i++) {
         const int8_t from = stage->from[i];
@@ -143,5 +161,5 @@ void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot) {
     const struct gn_filter_row *filter = &gn_filters[gn_techniques[view->technique].filter];
     for (uint32_t i = 0; i < filter->count; i++)
         for (uint32_t tile = 0; tile < view->map.tile_count; tile++)
-            add_stage_pass(frame, slot, tile, &filter->stages[i], i + 1 == filter->count);
+            add_stage_pass(frame, slot, tile, i);
 }

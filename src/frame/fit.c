@@ -46,6 +46,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         if (!asked) asked = l->map_px;
         if (!asked) asked = gn_techniques[light->technique].map_px;
         if (!asked) asked = 1024;
+        asked = gn_technique_map_px(light->technique, asked);
         const int faces = one.given & GN_LIGHT_FACES ? one.faces : opts->shadow.faces;
         const float bias = one.given & GN_LIGHT_BIAS ? one.bias_texels : opts->shadow.bias_texels;
         const bool biased = one.given & GN_LIGHT_BIAS ? bias >= 0.0f : opts->shadow.bias_given;
@@ -77,6 +78,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         if (shadow->cascades > 1) gn_frame_make_memories(frame, slot, GN_CASCADE_MEMORIES);
         const uint32_t most_each = gn_frame_most_px(frame, light, shadow->cascades);
         if (shadow->map_px > most_each) shadow->map_px = most_each;
+        shadow->map_px = gn_technique_map_px(light->technique, shadow->map_px);
         if (shadow->map_px < asked &&
             gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_MAP_PX, warnings))
             gn_warn(

@@ -17,6 +17,7 @@
 #define GN_LIGHTS_MAX      8  /* lights in one pass */
 #define GN_SHADOWS_MAX     4  /* of them with a map */
 #define GN_SLIDES_MAX      4  /* of them with a slide, in one frame too */
+#define GN_SAMPLERS_MAX    16 /* of a program: ES 3.0 promises no more */
 #define GN_ALL_LIGHTS_MAX  32 /* lights in one frame: passes beyond the first add to the picture */
 #define GN_ALL_SHADOWS_MAX 16 /* of them with a map */
 #define GN_GROUPS_MAX      4  /* of lights that share a pass */
@@ -31,7 +32,7 @@ struct gn_light_key {  /* one light of a LIT or visibility program */
     uint8_t technique; /* gn_technique; NONE: no map */
     uint8_t encoding;  /* gn_encoding, 0 when technique is NONE */
     uint8_t slide;     /* gn_slide */
-    uint8_t moments;   /* gn_moments: what is read in the map's place */
+    uint8_t moments;   /* gn_moments: what is read in the map's place, or beside it */
     uint8_t cascades;  /* its map has some: 0 or 1 */
 };
 enum gn_receiver { /* whose shadows an item receives */
@@ -123,10 +124,12 @@ struct gn_copy {
     struct gn_rect from; /* of the pages */
     uint32_t to_x, to_y; /* its lower left corner in the map */
 };
-/* Whether its moments are sampled linearly, and no other tile lies beside them. */
+/* Whether its moments may be averaged, and no other tile lies beside them. */
 static inline bool gn_view_has_mipmaps(const struct gn_shadow_view *view) {
-    return gn_moments[view->moments].linear && view->map.tile_count == 1;
+    return gn_moments[view->moments].mipmaps && view->map.tile_count == 1;
 }
+/* The size of what its map is filtered into. */
+void gn_view_filtered_size(const struct gn_shadow_view *view, uint32_t size_px[2]);
 
 /* What a pass clears at its start: colour or encoded distance, depth, stencil. */
 struct gn_clear {

@@ -5,6 +5,12 @@
 
 void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *opts,
                             struct gn_warnings *warnings) {
+    uint32_t both = 0; /* lights with two samplers for their shadow: those of a pass at most */
+    for (uint32_t i = 0; i < frame->light_count; i++)
+        both += gn_techniques[frame->lights[i].technique].reads_both;
+    if (both > GN_SHADOWS_MAX) both = GN_SHADOWS_MAX;
+    const uint32_t left = GN_SAMPLERS_MAX - GN_TEXTURE_SLOT_COUNT - GN_SHADOWS_MAX - both,
+                   most = left < GN_SLIDES_MAX ? left : GN_SLIDES_MAX;
     for (uint32_t i = 0; i < frame->light_count; i++) {
         struct gn_frame_light *light = &frame->lights[i];
         const struct gn_light *l = &frame->scene->lights[light->light];
@@ -17,11 +23,10 @@ void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *
         for (uint32_t k = 0; k < frame->light_count; k++)
             before += frame->lights[k].light < light->light &&
                       gn_slide_of(&frame->scene->lights[frame->lights[k].light]) != GN_SLIDE_NONE;
-        if (before < GN_SLIDES_MAX) continue;
+        if (before < most) continue;
         light->slide = GN_SLIDE_NONE;
         if (gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_SLIDES, warnings))
-            gn_warn(warnings, "light '%s' has no slide: at most %d slides at once", l->name,
-                    GN_SLIDES_MAX);
+            gn_warn(warnings, "light '%s' has no slide: at most %u slides at once", l->name, most);
     }
 }
 

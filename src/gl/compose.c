@@ -17,8 +17,8 @@ static const char *const taps_names[] = {
     [GN_TAPS_DISK] = "TAPS_DISK", [GN_TAPS_POISSON] = "TAPS_POISSON"};
 
 static bool compares_in_sampler(const struct gn_light_key *light) {
-    return !light->moments && light->encoding == GN_ENCODING_DEPTH &&
-           !gn_techniques[light->technique].searches;
+    return !gn_technique_replaces_map((enum gn_technique)light->technique) &&
+           light->encoding == GN_ENCODING_DEPTH && !gn_techniques[light->technique].searches;
 }
 
 static void add_constants(const struct gn_program_key *key, struct gn_gl_text *out) {
@@ -71,15 +71,15 @@ static void add_middle(int technique, struct gn_gl_text *out) {
 
 static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *light, int suffix,
                        struct gn_gl_text *out, struct gn_err *err) {
-    enum { LOOKUP_FILES = 4 };
+    enum { LOOKUP_FILES = 5 };
     const struct gn_technique_row *technique = &gn_techniques[light->technique];
     const bool compares = compares_in_sampler(light);
     /* the files of the light's shadow, each after those that it uses */
-    const char *files[LOOKUP_FILES] = {compares ? "lib/map_depth.glsl"
-                                                : gn_encodings[light->encoding].file,
-                                       compares ? NULL : "lib/map_lit.glsl",
-                                       technique->taps ? "lib/taps.glsl" : NULL, technique->file};
-    if (light->moments) {
+    const char *files[LOOKUP_FILES] = {
+        compares ? "lib/map_depth.glsl" : gn_encodings[light->encoding].file,
+        compares ? NULL : "lib/map_lit.glsl", technique->taps ? "lib/taps.glsl" : NULL,
+        technique->reads_both ? gn_moments[light->moments].file : NULL, technique->file};
+    if (gn_technique_replaces_map((enum gn_technique)light->technique)) {
         files[0] = gn_moments[light->moments].file;
         files[1] = technique->moments;
     }
@@ -103,6 +103,26 @@ static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *l
                         "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n"
                         "#undef MOMENTS\n");
     return true;
+}
+
+static const char *sampler_of_map(const struct gn_light_key *light) {
+    const bool replaced = gn_technique_replaces_map((enum gn_technique)light->technique);
+    if (compares_in_sampler(light)) return "sampler2DShadow";
+    if (replaced) return gn_moments[light->moments].sampler;
+    const bool integers =
+        light->encoding == GN_ENCODING_R32UI || light->encoding == GN_ENCODING_SCREEN;
+    return integers ? "usampler2D" : "sampler2D";
+}
+
+/* For a technique that reads the map of shader slot i and what it is filtered into: a function with
+ * the arguments of all techniques, shadow_both_i(). */
+static void add_filtered(const struct gn_light_key *light, int i, int suffix,
+                         struct gn_gl_text *out) {
+    gn_gl_text_add(out, "uniform %s u_filtered_%d;\n", gn_moments[light->moments].sampler, i);
+    gn_gl_text_add(out,
+                   "float shadow_both_%d(%s map, shadow_place s) {\n"
+                   "    return shadow_visibility_%d(map, u_filtered_%d, s);\n}\n",
+                   i, sampler_of_map(light), suffix, i);
 }
 
 /* One per shadow, at least one: shaders that use none declare them, too. */
@@ -133,7 +153,7 @@ static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text
             shared |= 1u << i;
         if (light->cascades) cascades |= 1u << i;
         if (gn_techniques[light->technique].one_code) spread |= 1u << i;
-        if (light->cascades && gn_technique_filters_map((enum gn_technique)light->technique))
+        if (light->cascades && gn_technique_replaces_map((enum gn_technique)light->technique))
             spans |= 1u << i;
     }
     const uint32_t shadows = (1u << key->shadow_count) - 1;
@@ -183,25 +203,25 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
         gn_gl_text_add(out, ");\n");
     }
     for (int i = 0; i < key->shadow_count; i++) {
-        const struct gn_light_key *light = &key->lights[i];
-        const bool integers = light->moments ? !gn_moments[light->moments].linear
-                                             : light->encoding == GN_ENCODING_R32UI ||
-                                                   light->encoding == GN_ENCODING_SCREEN;
-        const char *type = integers ? "usampler2D" : "sampler2D";
-        if (compares_in_sampler(light)) type = "sampler2DShadow";
-        gn_gl_text_add(out, "uniform %s u_map_%d;\n", type, i);
+        const char *sampler = sampler_of_map(&key->lights[i]);
+        gn_gl_text_add(out, "uniform %s u_map_%d;\n", sampler, i);
     }
-    for (int i = 0; i < key->shadow_count; i++)
-        if (lookup_of(key, i) == i && !add_lookup(source, &key->lights[i], i, out, err))
-            return false;
+    for (int i = 0; i < key->shadow_count; i++) {
+        const struct gn_light_key *light = &key->lights[i];
+        if (lookup_of(key, i) == i && !add_lookup(source, light, i, out, err)) return false;
+        if (gn_techniques[light->technique].reads_both)
+            add_filtered(light, i, lookup_of(key, i), out);
+    }
     if (!add_slides(source, key, out, err)) return false;
     gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT(F)");
     for (int i = 0; i < key->shadow_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
         const struct gn_light_type_row *type = &gn_light_types[light->type];
         bool radial = type->has_position && light->encoding != GN_ENCODING_DEPTH;
-        gn_gl_text_add(out, " F(%d, %s, %s, shadow_visibility_%d, u_map_%d)", i, type->glsl,
-                       radial ? "true" : "false", lookup_of(key, i), i);
+        const bool both = gn_techniques[light->technique].reads_both;
+        gn_gl_text_add(out, " F(%d, %s, %s, shadow_%s_%d, u_map_%d)", i, type->glsl,
+                       radial ? "true" : "false", both ? "both" : "visibility",
+                       both ? i : lookup_of(key, i), i);
     }
     gn_gl_text_add(out, "\n#define EACH_OPEN_LIGHT(F)");
     for (int i = key->shadow_count; i < key->light_count; i++)
@@ -246,7 +266,8 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
         if (!gn_gl_source_add(&source, gn_moments[key->moments].file, out, err)) return false;
         if (step->reads_map &&
             (!gn_gl_source_add(&source, gn_encodings[key->encoding].file, out, err) ||
-             !gn_gl_source_add(&source, gn_techniques[key->technique].moments, out, err)))
+             (gn_techniques[key->technique].moments &&
+              !gn_gl_source_add(&source, gn_techniques[key->technique].moments, out, err))))
             return false;
         main_file = step->file;
     }

@@ -1,16 +1,32 @@
 /* The draws of a pass, and what they read. */
 #include "gl/private.h"
 
-static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
+static GLuint moments_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
     const GLuint *samplers = gl->targets.map_samplers;
     if (gn_view_has_mipmaps(view)) return samplers[GN_GL_MAP_TRILINEAR];
-    if (view->moments)
-        return samplers[gn_moments[view->moments].linear ? GN_GL_MAP_LINEAR : GN_GL_MAP_NEAREST];
+    return samplers[gn_moments[view->moments].linear ? GN_GL_MAP_LINEAR : GN_GL_MAP_NEAREST];
+}
+
+static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
+    const GLuint *samplers = gl->targets.map_samplers;
     if (gn_techniques[view->technique].on_plane) return samplers[GN_GL_MAP_LINEAR];
     if (view->encoding != GN_ENCODING_DEPTH || gn_techniques[view->technique].searches)
         return samplers[GN_GL_MAP_NEAREST];
     return samplers[gn_techniques[view->technique].compares_linear ? GN_GL_MAP_COMPARE_LINEAR
                                                                    : GN_GL_MAP_COMPARE];
+}
+
+/* The map of shader slot i, or what is read in its place, or both. */
+static void bind_map(struct gn_gl *gl, const struct gn_shadow_view *view, uint32_t slot, GLuint i) {
+    const bool replaced = gn_technique_replaces_map(view->technique);
+    const struct gn_gl_map *map = gn_gl_view_find(gl, view, slot, replaced);
+    const struct gn_gl_map *filtered = gn_gl_view_find(gl, view, slot, true);
+    if (map)
+        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture,
+                           replaced ? moments_sampler(gl, view) : map_sampler(gl, view));
+    if (filtered && filtered != map)
+        gn_gl_bind_texture(gl, GN_GL_UNIT_FILTERED + i, filtered->texture,
+                           moments_sampler(gl, view));
 }
 
 void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {
@@ -39,9 +55,12 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
         for (uint32_t i = 0; i < picture->shadow_count; i++) {
             const uint32_t slot = gn_pass_slot(picture, i);
             const struct gn_shadow_view *view = &plan->shadows[slot];
-            const struct gn_gl_map *map = gn_gl_view_find(gl, view, slot, !picture->reads_codes);
-            const GLuint sampler = picture->reads_codes ? nearest : map_sampler(gl, view);
-            if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, sampler);
+            const struct gn_gl_map *codes =
+                picture->reads_codes ? gn_gl_view_find(gl, view, slot, false) : NULL;
+            if (!picture->reads_codes)
+                bind_map(gl, view, slot, i);
+            else if (codes)
+                gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, codes->texture, nearest);
         }
     for (uint32_t i = 0; i < picture->slide_count; i++) gn_gl_slide_bind(gl, i, picture->slides[i]);
 }

@@ -124,11 +124,15 @@ static void set_units(struct gn_gl *gl, struct gn_gl_program *program) {
 #undef GN_X
     };
     static const char *const maps[GN_SHADOWS_MAX] = {"u_map_0", "u_map_1", "u_map_2", "u_map_3"};
+    static const char *const filtered[GN_SHADOWS_MAX] = {"u_filtered_0", "u_filtered_1",
+                                                         "u_filtered_2", "u_filtered_3"};
     static const char *const slides[GN_SLIDES_MAX] = {"u_slide_0", "u_slide_1", "u_slide_2",
                                                       "u_slide_3"};
     gn_gl_use_program(gl, program->name);
-    for (int i = 0; i < GN_SHADOWS_MAX; i++)
+    for (int i = 0; i < GN_SHADOWS_MAX; i++) {
         set_unit(gl, program->name, maps[i], GN_GL_UNIT_MAP + i);
+        set_unit(gl, program->name, filtered[i], GN_GL_UNIT_FILTERED + i);
+    }
     for (int i = 0; i < GN_SLIDES_MAX; i++)
         set_unit(gl, program->name, slides[i], GN_GL_UNIT_SLIDE + i);
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)

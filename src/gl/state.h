@@ -13,15 +13,17 @@ enum gn_gl_location { /* of inputs in shaders: a vertex's have the numbers of gn
 };
 _Static_assert((int)GN_ATTRIBUTE_COUNT <= (int)GN_GL_WORLD && GN_GL_LOCATION_COUNT <= 16,
                "ES 3.0 promises 16");
-enum { /* texture units: maps first, then one a gn_texture_slot, then slides; the last is for work
-          of our own. ES 3.0 promises 16. */
+enum { /* texture units: maps first, then one a gn_texture_slot, then slides, one for work of our
+          own, and what maps are filtered into, of techniques that read both. ES 3.0 promises 32,
+          and 16 to one shader: GN_SAMPLERS_MAX. */
        GN_GL_UNIT_MAP = 0,
        GN_GL_UNIT_TEXTURE = GN_SHADOWS_MAX,
        GN_GL_UNIT_SLIDE = GN_GL_UNIT_TEXTURE + GN_TEXTURE_SLOT_COUNT,
        GN_GL_UNIT_WORK = GN_GL_UNIT_SLIDE + GN_SLIDES_MAX,
-       GN_GL_UNIT_COUNT,
+       GN_GL_UNIT_FILTERED,
+       GN_GL_UNIT_COUNT = GN_GL_UNIT_FILTERED + GN_SHADOWS_MAX,
 };
-_Static_assert(GN_GL_UNIT_COUNT <= 16, "texture units that ES 3.0 promises");
+_Static_assert(GN_GL_UNIT_COUNT <= 32, "texture units that ES 3.0 promises");
 
 /* ---- the cache ---- */
 

@@ -263,9 +263,11 @@ void gn_gl_target_reduce(struct gn_gl *gl, const struct gn_gl_map *map) {
 struct gn_gl_map *gn_gl_view_find(struct gn_gl *gl, const struct gn_shadow_view *view,
                                   uint32_t slot, bool or_moments) {
     const bool map = !or_moments || !view->moments;
+    uint32_t size_px[2] = {view->map.width_px, view->map.height_px};
+    if (!map) gn_view_filtered_size(view, size_px);
     const struct gn_target target = {.slot = slot,
-                                     .width_px = view->map.width_px,
-                                     .height_px = view->map.height_px,
+                                     .width_px = size_px[0],
+                                     .height_px = size_px[1],
                                      .encoding = map ? view->encoding : (enum gn_encoding)0,
                                      .moments = map ? GN_MOMENTS_NONE : view->moments,
                                      .mipmaps = !map && gn_view_has_mipmaps(view)};

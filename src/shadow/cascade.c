@@ -106,7 +106,7 @@ static void copy_tile(struct gn_shadow_view *view, uint32_t index,
     c->span = least(round_to_step(wanted, SPAN_STEPS, true), tile->code.far_m);
     const float part = c->span / NEAREST_STEPS;
     c->nearest = least(floorf(tile->penumbra.nearest / part) * part, tile->code.far_m - c->span);
-    if (!gn_technique_filters_map(tile->technique)) c->nearest = tile->penumbra.nearest;
+    if (!gn_technique_replaces_map(tile->technique)) c->nearest = tile->penumbra.nearest;
 
     c->drawn = tile->raster.drawn;
     glm_mat4_copy((vec4 *)tile->raster.tiles[0].light_from_world,

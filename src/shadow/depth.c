@@ -62,7 +62,7 @@ void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_d
                                               : range * exp2f(-22.0f);
         return;
     case GN_ENCODING_R32UI:
-        if (!gn_technique_filters_map(view->technique)) return;
+        if (!gn_technique_replaces_map(view->technique)) return;
         view->code.scale = 1.0f / range; /* 0 to 1, for moments */
         view->code.offset = -view->code.near_m / range;
         view->code.far_end = 1.0f;

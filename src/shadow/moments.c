@@ -4,12 +4,13 @@
 
 const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_NONE] = {.name = "none"},
-    [GN_MOMENTS_RG32UI] = {"rg32ui", "lib/moments_thirds.glsl", 8, false},
-    [GN_MOMENTS_RGBA16UI] = {"rgba16ui", "lib/moments_16ui.glsl", 8, false},
-    [GN_MOMENTS_RGBA16F] = {"rgba16f", "lib/moments_16f.glsl", 8, true},
-    [GN_MOMENTS_RGBA32F_BITS] = {"rgba32f-bits", "lib/moments_bits.glsl", 16, false},
-    [GN_MOMENTS_RGBA32F_SHARE] = {"rgba32f-share", "lib/moments_share.glsl", 16, false},
-    [GN_MOMENTS_TABLE_RGBA32UI] = {"rgba32ui", "lib/moments_table.glsl", 16, false},
+    [GN_MOMENTS_RG32UI] = {"rg32ui", "lib/moments_thirds.glsl", "usampler2D", 8},
+    [GN_MOMENTS_RGBA16UI] = {"rgba16ui", "lib/moments_16ui.glsl", "usampler2D", 8},
+    [GN_MOMENTS_RGBA16F] = {"rgba16f", "lib/moments_16f.glsl", "sampler2D", 8, .linear = true,
+                            .mipmaps = true},
+    [GN_MOMENTS_RGBA32F_BITS] = {"rgba32f-bits", "lib/moments_bits.glsl", "usampler2D", 16},
+    [GN_MOMENTS_RGBA32F_SHARE] = {"rgba32f-share", "lib/moments_share.glsl", "usampler2D", 16},
+    [GN_MOMENTS_TABLE_RGBA32UI] = {"rgba32ui", "lib/moments_table.glsl", "usampler2D", 16},
 };
 
 const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {

@@ -26,10 +26,12 @@ enum gn_moments {
     GN_MOMENTS_COUNT,
 };
 struct gn_moments_row {
-    const char *name; /* as in --map-format */
-    const char *file; /* below shaders_es/ */
+    const char *name;    /* as in --map-format */
+    const char *file;    /* below shaders_es/ */
+    const char *sampler; /* its type in GLSL */
     unsigned texel_bytes;
-    bool linear; /* a sampler weighs texels; else a shader does */
+    bool linear;  /* a sampler weighs texels; else a shader does */
+    bool mipmaps; /* they may be averaged: a map of one tile has mipmaps */
 };
 extern const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT];
 enum { GN_STORES_MAX = 4 }; /* of a technique */
@@ -60,17 +62,19 @@ enum gn_filter {
     GN_FILTER_TABLE, /* sums over all texels to the lower left, tile by tile */
     GN_FILTER_COUNT,
 };
-enum { GN_FILTER_STAGES_MAX = 8, GN_FILTER_TEXTURES_MAX = 4, GN_FILTER_FROM_MAX = 2 };
+enum { GN_FILTER_STAGES_MAX = 9, GN_FILTER_TEXTURES_MAX = 4, GN_FILTER_FROM_MAX = 2 };
 #define GN_FROM_MAP     (-1) /* the map itself */
 #define GN_FROM_NOTHING (-2)
 struct gn_filter_stage {
     enum gn_filter_step step;
     int8_t from[GN_FILTER_FROM_MAX]; /* what is behind sampler i: a texture's number, or of these */
     uint8_t to;
+    uint8_t reach_px; /* of a step that reads some texels away: how far; else 0 */
 };
 struct gn_filter_row {
     uint32_t count;
     uint32_t narrow; /* the number of a texture that holds sums of blocks alone; 0: there is none */
+    bool halves;     /* textures have a texel for two by two of the map */
     struct gn_filter_stage stages[GN_FILTER_STAGES_MAX];
 };
 extern const struct gn_filter_row gn_filters[GN_FILTER_COUNT];

@@ -44,6 +44,10 @@ void gn_techniques_by_rank(enum gn_technique out[GN_TECHNIQUE_COUNT]) {
     }
 }
 
+uint32_t gn_technique_map_px(enum gn_technique technique, uint32_t px) {
+    return gn_filters[gn_techniques[technique].filter].halves ? px & ~1u : px;
+}
+
 bool gn_technique_find(const char *name, size_t length, enum gn_technique *out) {
     for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
         if (strlen(gn_techniques[i].name) == length &&
@@ -80,6 +84,10 @@ enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encodin
     *fell_back = false;
     if (gn_techniques[technique].on_plane) return GN_ENCODING_MASK;
     if (gn_techniques[technique].on_screen) return GN_ENCODING_SCREEN;
+    if (gn_techniques[technique].reads_both) {
+        *fell_back = wanted != GN_ENCODING_AUTO && wanted != GN_ENCODING_DEPTH;
+        return GN_ENCODING_DEPTH;
+    }
     if (gn_technique_filters_map(technique)) {
         *fell_back = wanted != GN_ENCODING_AUTO;
         return proved & 1u << GN_ENCODING_R32UI ? GN_ENCODING_R32UI : GN_ENCODING_RGBA8;

@@ -53,7 +53,9 @@ struct gn_technique_row {
     bool soft;           /* penumbrae by the light's size: the map includes their width */
     enum gn_taps taps;
     enum gn_filter filter; /* passes convert the map into moments, which it reads; else NONE */
-    const char *moments;   /* below shaders_es/: converts a code to moments */
+    bool reads_both;       /* and reads the map beside them, a depth map, with hardware compare */
+    const char *moments;   /* below shaders_es/: converts a code to moments; NULL: the filter's
+                              steps know */
     float moments_middle;  /* subtracted before storing as half floats: the middle of the range */
     uint8_t stores[GN_STORES_MAX]; /* gn_moments that can store it, best first, then NONE */
     unsigned map_px;               /* default resolution, where that is not 1024 */
@@ -81,6 +83,15 @@ bool gn_technique_shades(enum gn_technique technique);
 static inline bool gn_technique_filters_map(enum gn_technique technique) {
     return gn_techniques[technique].filter != GN_FILTER_NONE;
 }
+
+/* Whether it reads that alone, in the map's place. */
+static inline bool gn_technique_replaces_map(enum gn_technique technique) {
+    return gn_technique_filters_map(technique) && !gn_techniques[technique].reads_both;
+}
+
+/* A resolution that its maps can have, at most so many pixels: even where its filter has a texel
+ * for four. */
+uint32_t gn_technique_map_px(enum gn_technique technique, uint32_t px);
 
 /* All of the table in the order of their ranks. */
 void gn_techniques_by_rank(enum gn_technique out[GN_TECHNIQUE_COUNT]);

@@ -83,7 +83,7 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
     uint8_t *casts = f->memory->casts;
     uint32_t looks = MOST_LOOKS;
     const bool near_counts = (gn_techniques[f->view->technique].soft && !f->view->perspective) ||
-                             (f->is_cascade && gn_technique_filters_map(f->view->technique));
+                             (f->is_cascade && gn_technique_replaces_map(f->view->technique));
 
     /* World space planes round all places whose penumbra under a directional light reaches those
      * receivers: the nearer to the light, the farther aside. */
