@@ -72,11 +72,15 @@
 #define FILTER_SIZE 2     /* xy: width and height of the map in texels; zw: their inverse */
 #define FILTER_TABLE 3    /* x: largest read offset from a lookup in the SAT, texels; y: column of the tile's first block sum */
 #define FILTER_CODE 4     /* code * x + y: 0..1 over the range that moments cover */
-#define FILTER_CONSTANTS 5
+#define FILTER_CONE 5     /* x: texels of a cone's radius per unit of code; y: how far a step reads, texels of the cone map */
+#define FILTER_CONSTANTS 6
 /* Summed-area tables (SAT) */
 #define TABLE_BLOCK 16    /* texels per block; rows and columns are summed within blocks, sums of whole blocks are added later */
 /* Fixed-point scale of moments 0..1: the sum over a square with half side `reach` texels fits into 32 bits */
 #define TABLE_SCALE(reach) (4294966272.0f / ((2.0f * (reach) + 2.0f) * (2.0f * (reach) + 2.0f)) - 1.0f)
+/* Cone maps (shadow/cone.glsl) */
+#define CONE_FAR 60000.0  /* texels: where nothing blocks; a half float */
+#define CONE_WIDEST 510.0 /* texels: steps of 128 to 1 texels of the cone map reach as far */
 /* Casters projected onto the plane: PASS_CLIP, and */
 #define FLAT_PLANE 4      /* dot with (p, 1), world space: height above the plane, metres */
 #define FLAT_HEIGHTS 5    /* x, y: lowest and highest point that casts, metres */

@@ -20,6 +20,7 @@ struct shadow_place {
     vec4 penumbra;
     bool inverse; // penumbra depth is the negative inverse
     float reach;  // largest offset from `at` that a technique may read, texels: SAT, and any technique with tiles
+    float widest; // largest radius of a filter, texels
     vec4 window;  // lower left and upper right edge of the tile, texels: the limit of reads
     vec2 beside;  // as in shadow_tile and shadow_cascade
 };
@@ -80,6 +81,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     s.penumbra = SHADOW(slot, SHADOW_PENUMBRA);
     s.inverse = type != LIGHT_DIRECTIONAL && radial;
     s.reach = SHADOW(slot, SHADOW_CODE).CODE_REACH;
+    s.widest = CONE_WIDEST;
     s.window = vec4(0.0, 0.0, s.size.xy);
     if (SHADOW_LINEAR[slot]) {
         s.at = from_vertex;
@@ -95,6 +97,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         float depth = shadow_penumbra_depth(s, s.at.z);
         s.penumbra.PENUMBRA_NEAREST =
             max(c.nearest, depth - min(s.reach / s.penumbra.PENUMBRA_RADIUS, s.penumbra.PENUMBRA_GROWTH / gl_FragCoord.w));
+        s.widest = min(s.reach, s.penumbra.PENUMBRA_RADIUS * (depth - s.penumbra.PENUMBRA_NEAREST));
         if (SHADOW_SPANS[slot]) {
             s.at.z = (depth - c.nearest) / c.span;
             s.slope *= s.penumbra.PENUMBRA_SCALE / c.span;
@@ -110,6 +113,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.at = shadow_tile_at(slot, radial, t);
         s.slope = shadow_tile_slope(slot, radial, t, face);
         if (radial) s.penumbra.PENUMBRA_RADIUS *= length(t.q) / t.q.z;
+        s.widest = s.reach;
         // Limits penumbrae to the gutter.
         s.penumbra.PENUMBRA_NEAREST =
             max(s.penumbra.PENUMBRA_NEAREST, shadow_penumbra_depth(s, s.at.z) - s.reach / s.penumbra.PENUMBRA_RADIUS);

@@ -19,6 +19,7 @@ static const char *const instead[GN_CAP_COUNT] = {
     [GN_CAP_RGBA16UI] = "rgba32f-bits or rgba16f for msm",
     [GN_CAP_RG32UI] = "rgba16ui or rgba16f for vsm",
     [GN_CAP_RGBA32UI] = "pcf for evsm, vssm and smsm",
+    [GN_CAP_RG16F] = "pcss for cone",
     [GN_CAP_TIMER] = "bench times passes by the clock of the CPU",
     [GN_CAP_DEBUG] = "GL errors come without the driver's text",
 };

@@ -13,6 +13,7 @@ const char *const gn_cap_names[GN_CAP_COUNT] = {
     [GN_CAP_RGBA16UI] = "rgba16ui",
     [GN_CAP_RG32UI] = "rg32ui",
     [GN_CAP_RGBA32UI] = "rgba32ui",
+    [GN_CAP_RG16F] = "rg16f",
     [GN_CAP_TIMER] = "timer",
     [GN_CAP_DEBUG] = "debug",
 };
@@ -35,6 +36,7 @@ enum gn_cap gn_cap_of_moments(enum gn_moments moments) {
         [GN_MOMENTS_RGBA32F_BITS] = GN_CAP_RGBA32UI,
         [GN_MOMENTS_RGBA32F_SHARE] = GN_CAP_RGBA32UI,
         [GN_MOMENTS_TABLE_RGBA32UI] = GN_CAP_RGBA32UI,
+        [GN_MOMENTS_CONE_RG16F] = GN_CAP_RG16F,
     };
     return caps[moments];
 }

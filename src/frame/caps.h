@@ -20,13 +20,14 @@ enum gn_cap {                       /* named in --without and by doctor: see gn_
               GN_CAP_RGBA16UI, /* targets of filtered maps, from here on: drawn and read back */
               GN_CAP_RG32UI,
               GN_CAP_RGBA32UI,
+              GN_CAP_RG16F, /* cone maps */
               GN_CAP_TIMER, /* EXT_disjoint_timer_query */
               GN_CAP_DEBUG, /* KHR_debug */
               GN_CAP_COUNT,
 };
 extern const char *const gn_cap_names[GN_CAP_COUNT]; /* "depth-compare", "r32ui", "r16f", "rgba16f",
                                                         "srgb", "msaa4", "rgba16ui", "rg32ui",
-                                                        "rgba32ui", "timer", "debug" */
+                                                        "rgba32ui", "rg16f", "timer", "debug" */
 
 struct gn_caps {
     uint32_t has; /* bit per gn_cap */

@@ -53,6 +53,7 @@ static const char *check_key(const struct gn_program_key *key) {
     REQUIRE((key->kind == GN_PROGRAM_FILTER) == (key->moments != GN_MOMENTS_NONE));
     REQUIRE(key->taps == 0 || key->taps == 8 || key->taps == 12 || key->taps == 16 ||
             key->taps == 32);
+    REQUIRE(key->rings == 0 || (key->rings >= 2 && key->rings <= GN_RINGS_MAX));
     REQUIRE(key->receiver <= GN_RECEIVES_ALL);
     REQUIRE((key->features & ~gn_features_all()) == 0);
     for (int i = 0; i < key->light_count; i++) {

@@ -25,6 +25,31 @@ static void code_transform(const struct gn_shadow_view *view, uint32_t tile, flo
     code[1] = (view->penumbra.bias - c->nearest) / c->span;
 }
 
+/* ---- cone maps (shadow/cone.glsl) ---- */
+
+/* Texels of a cone's radius per unit of the map's code. */
+static float cone_growth(const struct gn_shadow_view *view, uint32_t tile) {
+    const float texel = view->map.cascade_count > 0 && !view->raster.tiles[tile].empty
+                            ? view->cascades[tile].texel
+                            : 1.0f;
+    return view->penumbra.radius * view->penumbra.scale / texel;
+}
+
+/* How far the first flooding step reads, so that all together reach as far as the widest penumbra:
+ * texels of the cone map, two of the map each. The steps that are left out are pairs: the last one
+ * fills the light's own texture. */
+static uint32_t first_reach_px(const struct gn_shadow_view *view) {
+    const float widest =
+        view->lookup.reach_px > 0.0f ? view->lookup.reach_px : view->penumbra.widest_px;
+    uint32_t px = 2;
+    while (px < 128 && (float)(4 * px - 4) < widest) px *= 4;
+    return px;
+}
+
+static bool is_left_out(const struct gn_shadow_view *view, const struct gn_filter_stage *stage) {
+    return stage->reach_px > first_reach_px(view);
+}
+
 uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) {
     const uint32_t what[] = {view->technique, view->moments};
     uint64_t h = gn_hash(GN_HASH_INIT, &view->raster.tiles[tile].content_hash, sizeof(uint64_t));
@@ -35,6 +60,10 @@ uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) 
     code_transform(view, tile, code);
     h = gn_hash(h, code, sizeof code);
     h = gn_hash(h, &view->lookup.reach_px, sizeof view->lookup.reach_px);
+    if (gn_techniques[view->technique].filter == GN_FILTER_CONE) {
+        const float cone[] = {cone_growth(view, tile), (float)first_reach_px(view)};
+        h = gn_hash(h, cone, sizeof cone);
+    }
     return h ? h : 1;
 }
 
@@ -74,7 +103,8 @@ void gn_view_filtered_size(const struct gn_shadow_view *view, uint32_t size_px[2
     gn_frame_filter_size(view->technique, &view->map, 0, size_px);
 }
 
-static void filter_constants(const struct gn_shadow_view *view, uint32_t tile, float (*c)[4]) {
+static void filter_constants(const struct gn_shadow_view *view, uint32_t tile,
+                             const struct gn_filter_stage *stage, float (*c)[4]) {
     const struct gn_rect r = tile_rect(view, tile);
     const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};
     memset(c, 0, FILTER_CONSTANTS * sizeof *c);
@@ -89,6 +119,8 @@ static void filter_constants(const struct gn_shadow_view *view, uint32_t tile, f
     c[FILTER_TABLE][0] = view->lookup.reach_px;
     c[FILTER_TABLE][1] = (float)(tile * blocks_of(&view->map));
     code_transform(view, tile, c[FILTER_CODE]);
+    c[FILTER_CONE][0] = cone_growth(view, tile);
+    c[FILTER_CONE][1] = (float)stage->reach_px;
     for (int k = 0; k < 2; k++) {
         c[FILTER_SIZE][k] = size[k];
         c[FILTER_SIZE][k + 2] = 1.0f / size[k];
@@ -123,6 +155,10 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
     gn_frame_filter_size(view->technique, &view->map, stage->to, size_px);
     snprintf(pass->label, sizeof pass->label, "shadow %u %.26s %s", slot,
              frame->scene->lights[view->light].name, gn_filter_steps[stage->step].name);
+    if (stage->reach_px > 0) {
+        const size_t used = strlen(pass->label);
+        snprintf(pass->label + used, sizeof pass->label - used, " %u", stage->reach_px);
+    }
     pass->target = (struct gn_target){.kind = GN_TARGET_MOMENTS,
                                       .slot = slot,
                                       .width_px = size_px[0],
@@ -149,7 +185,7 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
         gn_frame_filter_size(view->technique, &view->map, (uint32_t)from, size_px);
         *read = (struct gn_read){GN_READ_MOMENTS, (uint32_t)from, size_px[0], size_px[1]};
     }
-    filter_constants(view, tile, constants);
+    filter_constants(view, tile, stage, constants);
     pass->constants = constants;
     pass->constant_count = FILTER_CONSTANTS;
     gn_frame_draw_bare(frame, &key, 3, 0, 1);
@@ -159,7 +195,9 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
 void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     const struct gn_filter_row *filter = &gn_filters[gn_techniques[view->technique].filter];
-    for (uint32_t i = 0; i < filter->count; i++)
+    for (uint32_t i = 0; i < filter->count; i++) {
+        if (is_left_out(view, &filter->stages[i])) continue;
         for (uint32_t tile = 0; tile < view->map.tile_count; tile++)
             add_stage_pass(frame, slot, tile, i);
+    }
 }

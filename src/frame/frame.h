@@ -57,7 +57,7 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     uint32_t gather_points; /* of them, that one frame adds to a mask; 0: all. A mask has as many
                                when something moves that it shows, and more with each frame in
                                which nothing does */
-    unsigned taps;          /* of disk, poisson, pcss: 8, 12, 16, 32; 0: 16 */
+    unsigned taps;          /* 8, 12, 16, 32; cone: at most 16; 0: 16, cone 12 */
     bool taps_fixed;        /* the same for every pixel */
     int faces; /* which faces of all casters go into maps: 0: as the scene says of each, else 1 +
                   enum gn_cast_faces. Not of planar lights */

@@ -69,6 +69,11 @@ uint32_t gn_key_further_plane(const struct gn_frame *frame, uint32_t item,
     return plane > 1 && gn_key_on_plane(frame, item, opts) ? plane : 0;
 }
 
+static uint8_t rings_of(unsigned taps) {
+    if (taps == 0) return GN_RINGS_DEFAULT;
+    return taps / 4 < GN_RINGS_MAX ? (uint8_t)(taps / 4) : GN_RINGS_MAX;
+}
+
 /* The lights of a group, and what their techniques need. */
 static void set_lights(const struct gn_frame *frame, const struct gn_light_group *group,
                        const struct gn_frame_opts *opts, enum gn_receiver receiver,
@@ -90,8 +95,12 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         key->lights[i].encoding = (uint8_t)light->encoding;
         key->lights[i].moments = (uint8_t)light->moments;
         key->lights[i].cascades = light->cascades > 1;
-        if (!gn_techniques[light->technique].taps) continue;
-        key->taps = (uint8_t)(opts->shadow.taps ? opts->shadow.taps : GN_TAPS_DEFAULT);
+        const enum gn_taps taps = gn_techniques[light->technique].taps;
+        if (taps == GN_TAPS_NONE) continue;
+        if (taps == GN_TAPS_RINGS)
+            key->rings = rings_of(opts->shadow.taps);
+        else
+            key->taps = (uint8_t)(opts->shadow.taps ? opts->shadow.taps : GN_TAPS_DEFAULT);
         key->taps_turn = !opts->shadow.taps_fixed;
     }
 }

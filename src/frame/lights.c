@@ -35,6 +35,17 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
     return frame->auto_exposure.value;
 }
 
+/* Whether this GPU has what the technique's maps are stored in. */
+static bool has_formats(const struct gn_frame *frame, enum gn_technique technique) {
+    const struct gn_technique_row *row = &gn_techniques[technique];
+    bool fell_back;
+    if (row->reads_both && !(gn_caps_encodings(&frame->caps) >> GN_ENCODING_DEPTH & 1))
+        return false;
+    return !gn_technique_filters_map(technique) ||
+           gn_moments_choose(row->stores, GN_MOMENTS_NONE, gn_caps_moments(&frame->caps),
+                             &fell_back) != GN_MOMENTS_NONE;
+}
+
 static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
                                       const struct gn_frame_opts *opts,
                                       const struct gn_frame_light_opts *one,
@@ -49,15 +60,15 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
     enum gn_technique technique = given ? one->technique
                                   : own ? note->technique
                                         : opts->shadow.technique;
-    bool fell_back;
-    if (gn_technique_filters_map(technique) &&
-        gn_moments_choose(gn_techniques[technique].stores, GN_MOMENTS_NONE,
-                          gn_caps_moments(&frame->caps), &fell_back) == GN_MOMENTS_NONE) {
+    if (!has_formats(frame, technique)) {
+        const enum gn_technique instead = gn_techniques[technique].fallback
+                                              ? (enum gn_technique)gn_techniques[technique].fallback
+                                              : GN_TECHNIQUE_PCF;
         if (gn_frame_notice(&note->said, GN_NOTICE_MOMENTS, warnings))
             gn_warn(warnings,
-                    "light '%s' falls back to pcf: this GPU has no renderable format for %s",
-                    light->name, gn_techniques[technique].name);
-        return GN_TECHNIQUE_PCF;
+                    "light '%s' falls back to %s: this GPU has no renderable format for %s",
+                    light->name, gn_techniques[instead].name, gn_techniques[technique].name);
+        return instead;
     }
     if (!gn_techniques[technique].on_plane || frame->plane.exists) return technique;
     if (gn_frame_notice(&note->said, GN_NOTICE_PLANE, warnings))

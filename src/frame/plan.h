@@ -51,7 +51,8 @@ struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps
     uint8_t step;      /* FILTER: gn_filter_step */
     uint8_t technique; /* FILTER: whose moments; 0 where the step makes none of codes */
     uint8_t moments;   /* FILTER: gn_moments of what it reads and writes */
-    uint8_t unused[5];
+    uint8_t rings;     /* LIT, visibility: of techniques that take rings of four; 0: none does */
+    uint8_t unused[4];
     struct gn_light_key lights[GN_LIGHTS_MAX];
 };
 _Static_assert(sizeof(struct gn_program_key) == 24 + sizeof(struct gn_light_key[GN_LIGHTS_MAX]),

@@ -21,6 +21,10 @@ static bool compares_in_sampler(const struct gn_light_key *light) {
            light->encoding == GN_ENCODING_DEPTH && !gn_techniques[light->technique].searches;
 }
 
+static bool takes_taps(const struct gn_technique_row *technique) {
+    return technique->taps == GN_TAPS_DISK || technique->taps == GN_TAPS_POISSON;
+}
+
 static void add_constants(const struct gn_program_key *key, struct gn_gl_text *out) {
     gn_gl_text_add(out, "#version 300 es\nprecision highp float;\nprecision highp int;\n"
                         "precision highp sampler2D;\nprecision highp sampler2DShadow;\n"
@@ -77,13 +81,13 @@ static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *l
     /* the files of the light's shadow, each after those that it uses */
     const char *files[LOOKUP_FILES] = {
         compares ? "lib/map_depth.glsl" : gn_encodings[light->encoding].file,
-        compares ? NULL : "lib/map_lit.glsl", technique->taps ? "lib/taps.glsl" : NULL,
+        compares ? NULL : "lib/map_lit.glsl", takes_taps(technique) ? "lib/taps.glsl" : NULL,
         technique->reads_both ? gn_moments[light->moments].file : NULL, technique->file};
     if (gn_technique_replaces_map((enum gn_technique)light->technique)) {
         files[0] = gn_moments[light->moments].file;
         files[1] = technique->moments;
     }
-    if (technique->taps)
+    if (takes_taps(technique))
         gn_gl_text_add(out, "#define SHADOW_TAPS %s\n", taps_names[technique->taps]);
     add_middle(light->technique, out);
     char names[LOOKUP_FILES][GN_GL_NAMES_MAX][64];
@@ -190,7 +194,7 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
                        struct gn_gl_text *out, struct gn_err *err) {
     if (key->shadow_count && !gn_gl_source_add(source, "lib/shadow_place.glsl", out, err))
         return false;
-    if (key->taps)
+    if (key->taps || key->rings)
         gn_gl_text_add(out, "const int TAPS = %d;\nconst bool TAPS_TURN = %s;\n", key->taps,
                        key->taps_turn ? "true" : "false");
     for (int kind = GN_TAPS_DISK; key->taps && kind <= GN_TAPS_POISSON; kind++) {
@@ -200,6 +204,16 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
         for (int i = 0; i < key->taps / 2; i++)
             gn_gl_text_add(out, "%svec2(%.6f, %.6f)", i ? ", " : "", (double)taps[i][0],
                            (double)taps[i][1]);
+        gn_gl_text_add(out, ");\n");
+    }
+    if (key->rings) {
+        float rings[GN_RINGS_MAX][2];
+        gn_taps_rings(key->rings, rings);
+        gn_gl_text_add(out, "const int RINGS = %d;\nconst vec2 TAPS_RINGS[RINGS] = vec2[RINGS](",
+                       key->rings);
+        for (int i = 0; i < key->rings; i++)
+            gn_gl_text_add(out, "%svec2(%.6f, %.6f)", i ? ", " : "", (double)rings[i][0],
+                           (double)rings[i][1]);
         gn_gl_text_add(out, ");\n");
     }
     for (int i = 0; i < key->shadow_count; i++) {

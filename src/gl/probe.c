@@ -51,6 +51,11 @@ static const struct row {
      "uvec4",
      "uvec4(0x41c80000u, 0xff000000u, 0x7f000000u, 1u)",
      {0x41c80000u, 0xff000000u, 0x7f000000u, 1}},
+    {GN_CAP_RG16F,
+     GL_RG16F,
+     "vec4",
+     "vec4(60000.0, -0.3330078125, 0.0, 1.0)",
+     {60000, -0.3330078125}},
     {GN_CAP_SRGB, GL_SRGB8_ALPHA8, "vec4", "vec4(0.5, 0.0, 1.0, 1.0)", {188, 0, 255, 255}},
     /* the texture holds .5; lit where the reference is at most that */
     {GN_CAP_DEPTH_COMPARE,
@@ -127,6 +132,7 @@ static bool read_back(struct gn_gl *gl, const struct row *row, GLenum attachment
     switch (row->cap) {
     case GN_CAP_R32UI: right = read_integers(gl, 1, row->expected); break;
     case GN_CAP_R16F: right = read_halves(gl, 1, row->expected); break;
+    case GN_CAP_RG16F: right = read_halves(gl, 2, row->expected); break;
     case GN_CAP_RG32UI: right = read_integers(gl, 2, row->expected); break;
     case GN_CAP_RGBA16UI:
     case GN_CAP_RGBA32UI: right = read_integers(gl, 4, row->expected); break;

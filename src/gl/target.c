@@ -178,6 +178,7 @@ static const GLenum moments_formats[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_RGBA32F_BITS] = GL_RGBA32UI,
     [GN_MOMENTS_RGBA32F_SHARE] = GL_RGBA32UI,
     [GN_MOMENTS_TABLE_RGBA32UI] = GL_RGBA32UI,
+    [GN_MOMENTS_CONE_RG16F] = GL_RG16F,
 };
 
 static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {

@@ -32,6 +32,7 @@ static const struct gn_choice map_formats[] = {
     {"rgba32f-bits", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA32F_BITS)},
     {"rgba32f-share", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA32F_SHARE)},
     {"rgba32ui", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_TABLE_RGBA32UI)},
+    {"rg16f", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_CONE_RG16F)},
     {0},
 };
 static const struct gn_choice aovs[] = {

@@ -83,6 +83,8 @@ void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_re
                             float near_depth, float far_depth) {
     struct gn_shadow_view *view = f->view;
     view->penumbra.radius = f->light_radius / view->lookup.texel;
+    view->penumbra.widest_px =
+        view->penumbra.radius * gn_fitter_spread(f, window->near, window->far);
     if (view->perspective && view->encoding == GN_ENCODING_DEPTH) { /* linear in 1 / depth */
         view->penumbra.nearest = -1.0f / near_depth;
         view->penumbra.scale = 1.0f / near_depth - 1.0f / far_depth;

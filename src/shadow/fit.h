@@ -148,6 +148,7 @@ struct gn_shadow_penumbra {
                           distances from a spot or point light */
     float growth;      /* cascades: how much penumbra depth they may span per metre along the view,
                           where a tile has no room for more; else 1e9 */
+    float widest_px;   /* spot, directional without cascades: the widest radius that can be seen */
     float farthest;    /* directional: penumbra depth of the farthest place in a visible shadow */
     float blur_px; /* of a map that is blurred, without cascades: half the width of the blur; else 0
                     */

@@ -11,6 +11,7 @@ const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_RGBA32F_BITS] = {"rgba32f-bits", "lib/moments_bits.glsl", "usampler2D", 16},
     [GN_MOMENTS_RGBA32F_SHARE] = {"rgba32f-share", "lib/moments_share.glsl", "usampler2D", 16},
     [GN_MOMENTS_TABLE_RGBA32UI] = {"rgba32ui", "lib/moments_table.glsl", "usampler2D", 16},
+    [GN_MOMENTS_CONE_RG16F] = {"rg16f", "lib/cone_16f.glsl", "sampler2D", 4, .linear = true},
 };
 
 const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {
@@ -21,6 +22,8 @@ const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {
     [GN_STEP_TABLE_COLUMNS] = {"columns", "filter/table_columns.frag", false},
     [GN_STEP_TABLE_COLUMN_SUMS] = {"column sums", "filter/table_column_sums.frag", false},
     [GN_STEP_TABLE_ADD] = {"table", "filter/table_add.frag", false},
+    [GN_STEP_CONE_SEEDS] = {"cones", "filter/cone_seeds.frag", true},
+    [GN_STEP_CONE_FLOOD] = {"flood", "filter/cone_flood.frag", false},
 };
 
 const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
@@ -35,6 +38,17 @@ const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
                                     {GN_STEP_TABLE_COLUMNS, {0, 2}, 1},
                                     {GN_STEP_TABLE_COLUMN_SUMS, {1, GN_FROM_NOTHING}, 2},
                                     {GN_STEP_TABLE_ADD, {1, 2}, 0}}},
+    [GN_FILTER_CONE] = {.count = 9,
+                        .halves = true,
+                        .stages = {{GN_STEP_CONE_SEEDS, {GN_FROM_MAP, GN_FROM_NOTHING}, 0},
+                                   {GN_STEP_CONE_FLOOD, {0, GN_FROM_NOTHING}, 1, 128},
+                                   {GN_STEP_CONE_FLOOD, {1, GN_FROM_NOTHING}, 0, 64},
+                                   {GN_STEP_CONE_FLOOD, {0, GN_FROM_NOTHING}, 1, 32},
+                                   {GN_STEP_CONE_FLOOD, {1, GN_FROM_NOTHING}, 0, 16},
+                                   {GN_STEP_CONE_FLOOD, {0, GN_FROM_NOTHING}, 1, 8},
+                                   {GN_STEP_CONE_FLOOD, {1, GN_FROM_NOTHING}, 0, 4},
+                                   {GN_STEP_CONE_FLOOD, {0, GN_FROM_NOTHING}, 1, 2},
+                                   {GN_STEP_CONE_FLOOD, {1, GN_FROM_NOTHING}, 0, 1}}},
 };
 
 bool gn_moments_find(const char *name, enum gn_moments *out) {

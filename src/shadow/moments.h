@@ -23,6 +23,7 @@ enum gn_moments {
     GN_MOMENTS_RGBA32F_BITS,   /* bits of floats in integers: drawn to by all of ES 3.0 */
     GN_MOMENTS_RGBA32F_SHARE,  /* the same, and in the last ones of all four how much is covered */
     GN_MOMENTS_TABLE_RGBA32UI, /* sums, in fixed point that wraps round */
+    GN_MOMENTS_CONE_RG16F,     /* cone maps: no moments, and filtered by the sampler */
     GN_MOMENTS_COUNT,
 };
 struct gn_moments_row {
@@ -45,6 +46,8 @@ enum gn_filter_step {
     GN_STEP_TABLE_COLUMNS,
     GN_STEP_TABLE_COLUMN_SUMS,
     GN_STEP_TABLE_ADD,
+    GN_STEP_CONE_SEEDS, /* of codes */
+    GN_STEP_CONE_FLOOD,
     GN_STEP_COUNT,
 };
 struct gn_filter_step_row {
@@ -60,6 +63,7 @@ enum gn_filter {
     GN_FILTER_NONE,
     GN_FILTER_BLUR,  /* a box, as wide as gn_shadow_view.penumbra.blur_px */
     GN_FILTER_TABLE, /* sums over all texels to the lower left, tile by tile */
+    GN_FILTER_CONE,  /* the first cone behind a blocker at each place, tile by tile */
     GN_FILTER_COUNT,
 };
 enum { GN_FILTER_STAGES_MAX = 9, GN_FILTER_TEXTURES_MAX = 4, GN_FILTER_FROM_MAX = 2 };

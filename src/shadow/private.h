@@ -116,6 +116,9 @@ struct gn_window { /* plane coordinates */
 /* False: nothing visible is in shadow. Marks the casters in memory->casts; for a spot light those
  * in the window. everything: for an eye that sees all. */
 bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window *found);
+/* How much penumbra depth lies between a caster and a receiver at these depths: times the light's
+ * radius it is the penumbra's, plane units, as in gn_fitter_set_penumbra(). */
+float gn_fitter_spread(const struct gn_fitter *f, float near, float far);
 /* Whether this eye sees all receivers. */
 bool gn_window_is_all(const struct gn_fitter *f);
 

@@ -58,6 +58,8 @@ struct gn_technique_row {
                               steps know */
     float moments_middle;  /* subtracted before storing as half floats: the middle of the range */
     uint8_t stores[GN_STORES_MAX]; /* gn_moments that can store it, best first, then NONE */
+    uint8_t fallback;              /* gn_technique in its place where the GPU has none of those;
+                                      NONE: pcf */
     unsigned map_px;               /* default resolution, where that is not 1024 */
     unsigned radius_texels; /* reads at most so far from the point, rounded up: margin of the map */
     float bias_texels; /* scale of the normal offset and slope. On a flat surface lookups up to 1.7

@@ -50,12 +50,15 @@ static struct gn_shadow_region caster_region(const struct gn_fitter *f, uint32_t
     return region_is_empty(&r) ? nothing : r;
 }
 
-/* The radius in plane units of the penumbra of a caster at `near` on a receiver at `far`: as in
- * gn_fitter_set_penumbra(). */
+float gn_fitter_spread(const struct gn_fitter *f, float near, float far) {
+    if (far <= near) return 0.0f;
+    return f->view->perspective ? 1.0f / most(near, f->near_m) - 1.0f / far : far - near;
+}
+
+/* The radius in plane units of the penumbra of a caster at `near` on a receiver at `far`. */
 static float penumbra_reach(const struct gn_fitter *f, float near, float far) {
-    if (!gn_techniques[f->view->technique].soft || far <= near) return 0.0f;
-    float spread = f->view->perspective ? 1.0f / most(near, f->near_m) - 1.0f / far : far - near;
-    return f->light_radius * spread;
+    if (!gn_techniques[f->view->technique].soft) return 0.0f;
+    return f->light_radius * gn_fitter_spread(f, near, far);
 }
 
 /* The region of a receiver that the eye sees, or all of it; NULL: none. */
@@ -125,6 +128,22 @@ static struct gn_shadow_region unite_casters(const struct gn_fitter *f,
     return casters;
 }
 
+/* Adds places beside the casters: those receivers are looked up there, too. */
+static void add_penumbrae(const struct gn_fitter *f, const struct gn_shadow_region *receivers,
+                          const struct gn_shadow_region *all, struct gn_window *found) {
+    struct gn_shadow_region *const regions[] = {&found->window, &found->most};
+    const struct gn_shadow_region *const within[] = {receivers, all};
+    for (int i = 0; i < 2; i++) {
+        struct gn_shadow_region r = grown(
+            regions[i], penumbra_reach(f, found->window.near, most(found->window.far, all->far)));
+        r = intersect(&r, within[i]);
+        for (int k = 0; k < 2; k++) {
+            regions[i]->min[k] = least(regions[i]->min[k], r.min[k]);
+            regions[i]->max[k] = most(regions[i]->max[k], r.max[k]);
+        }
+    }
+}
+
 bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window *found) {
     /* receivers: the parts that count, and all of them */
     struct gn_shadow_region receivers = nothing, all = nothing, again = nothing;
@@ -158,5 +177,8 @@ bool gn_window_find(const struct gn_fitter *f, bool everything, struct gn_window
     }
     found->window = intersect(&casters, &again);
     found->window.far = again.far;
-    return !region_is_empty(&found->window);
+    if (region_is_empty(&found->window)) return false;
+    if (gn_techniques[f->view->technique].filter == GN_FILTER_CONE && !f->is_cascade)
+        add_penumbrae(f, &receivers, &all, found);
+    return true;
 }

@@ -48,10 +48,12 @@ static void add_light(struct gn_program_key *key, int type, int technique, int e
     light->encoding = (uint8_t)(technique ? encoding : 0);
     key->shadow_count += technique != GN_TECHNIQUE_NONE;
     if (gn_techniques[technique].taps) key->taps = GN_TAPS_DEFAULT, key->taps_turn = 1;
+    if (gn_techniques[technique].taps == GN_TAPS_RINGS) key->rings = GN_RINGS_DEFAULT;
 }
 
 static void filter_map(struct gn_light_key *light, int moments) {
-    light->encoding = GN_ENCODING_R32UI;
+    light->encoding =
+        gn_techniques[light->technique].reads_both ? GN_ENCODING_DEPTH : GN_ENCODING_R32UI;
     light->moments = (uint8_t)moments;
 }
 
@@ -128,6 +130,7 @@ static void test_moments(void **state) {
                 if (gn_filter_steps[key.step].reads_map) {
                     key.technique = (uint8_t)t;
                     key.encoding = s % 2 ? GN_ENCODING_R32UI : GN_ENCODING_RGBA8;
+                    if (gn_techniques[t].reads_both) key.encoding = GN_ENCODING_DEPTH;
                 }
                 compiles(&key);
             }
@@ -152,8 +155,12 @@ static void test_as_many_moments_as_may_be(void **state) {
          {GN_TECHNIQUE_VSM, GN_MOMENTS_RGBA16F},
          {GN_TECHNIQUE_EVSM, GN_MOMENTS_RGBA32F_SHARE},
          {GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA32F_BITS}},
+        {{GN_TECHNIQUE_CONE, GN_MOMENTS_CONE_RG16F},
+         {GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA16F},
+         {GN_TECHNIQUE_CONE, GN_MOMENTS_CONE_RG16F},
+         {GN_TECHNIQUE_VSM, GN_MOMENTS_RGBA16UI}},
     };
-    for (int n = 0; n < 3; n++) {
+    for (size_t n = 0; n < sizeof lights / sizeof *lights; n++) {
         struct gn_program_key key = key_of(GN_PROGRAM_LIT);
         key.features = GN_FEATURE(SPECULAR);
         for (int i = 0; i < GN_SHADOWS_MAX; i++) {
@@ -162,6 +169,19 @@ static void test_as_many_moments_as_may_be(void **state) {
         }
         compiles(&key);
     }
+}
+
+/* Each reads two textures; the slides beside them are fewer: src/frame/slides.c. */
+static void test_as_many_samplers_as_may_be(void **state) {
+    (void)state;
+    struct gn_program_key key = key_of(GN_PROGRAM_LIT);
+    key.features = gn_features_all() - GN_FEATURE(UNLIT);
+    for (int i = 0; i < GN_SHADOWS_MAX; i++) {
+        add_light(&key, i == 3 ? GN_LIGHT_DIRECTIONAL : GN_LIGHT_SPOT, GN_TECHNIQUE_CONE, 0);
+        filter_map(&key.lights[i], GN_MOMENTS_CONE_RG16F);
+        if (i < 3) key.lights[i].slide = GN_SLIDE_LIT;
+    }
+    compiles(&key);
 }
 
 static void test_features(void **state) {
@@ -248,6 +268,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_truth, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_moments, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_as_many_moments_as_may_be, open_egl, close_all),
+        cmocka_unit_test_setup_teardown(test_as_many_samplers_as_may_be, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_features, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_casters, open_egl, close_all),
         cmocka_unit_test_setup_teardown(test_many_lights, open_egl, close_all),

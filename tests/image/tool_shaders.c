@@ -29,17 +29,23 @@ static struct gn_program_key lit(uint64_t features, enum gn_light_type type, con
         enum gn_moments moments = (enum gn_moments)gn_techniques[t].stores[0];
         gn_moments_find(encoding, &moments);
         key.lights[0].moments = (uint8_t)moments;
-        e = GN_ENCODING_R32UI;
+        e = gn_techniques[t].reads_both ? GN_ENCODING_DEPTH : GN_ENCODING_R32UI;
     }
     key.shadow_count = t != GN_TECHNIQUE_NONE;
     key.lights[0].technique = (uint8_t)t;
     key.lights[0].encoding = (uint8_t)e;
     if (gn_techniques[t].taps) key.taps = GN_TAPS_DEFAULT, key.taps_turn = 1;
+    if (gn_techniques[t].taps == GN_TAPS_RINGS) key.rings = GN_RINGS_DEFAULT;
     return key;
 }
 
 static struct gn_program_key with_slide(struct gn_program_key key, enum gn_slide slide) {
     key.lights[0].slide = (uint8_t)slide;
+    return key;
+}
+
+static struct gn_program_key with_rings(struct gn_program_key key, uint8_t rings) {
+    key.rings = rings;
     return key;
 }
 
@@ -66,7 +72,7 @@ static struct gn_program_key filter(enum gn_technique technique, enum gn_filter_
     key.moments = gn_techniques[technique].stores[0];
     if (!gn_filter_steps[step].reads_map) return key;
     key.technique = (uint8_t)technique;
-    key.encoding = GN_ENCODING_R32UI;
+    key.encoding = gn_techniques[technique].reads_both ? GN_ENCODING_DEPTH : GN_ENCODING_R32UI;
     return key;
 }
 
@@ -74,6 +80,7 @@ static const char *const moments_formats[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_RG32UI] = "RG32UI",          [GN_MOMENTS_RGBA16UI] = "RGBA16UI",
     [GN_MOMENTS_RGBA16F] = "RGBA16F",        [GN_MOMENTS_RGBA32F_BITS] = "RGBA32UI",
     [GN_MOMENTS_RGBA32F_SHARE] = "RGBA32UI", [GN_MOMENTS_TABLE_RGBA32UI] = "RGBA32UI",
+    [GN_MOMENTS_CONE_RG16F] = "RG16F",
 };
 
 static const char *target_of(const struct gn_program_key *key) {
@@ -98,11 +105,15 @@ static bool write(const char *folder, const char *name, const struct gn_program_
                  target_of(key));
         if (key->shadow_count && key->lights[0].encoding != GN_ENCODING_STENCIL)
             snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_map_0 %s\n",
-                     key->lights[0].moments ? moments_formats[key->lights[0].moments]
-                                            : formats[key->lights[0].encoding]);
+                     gn_technique_replaces_map((enum gn_technique)key->lights[0].technique)
+                         ? moments_formats[key->lights[0].moments]
+                         : formats[key->lights[0].encoding]);
+        if (gn_techniques[key->lights[0].technique].reads_both)
+            snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_filtered_0 %s\n",
+                     moments_formats[key->lights[0].moments]);
         if (key->kind == GN_PROGRAM_FILTER)
             snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_map_0 %s\n",
-                     gn_filter_steps[key->step].reads_map ? "R32UI"
+                     gn_filter_steps[key->step].reads_map ? formats[key->encoding]
                                                           : moments_formats[key->moments]);
         if (key->kind == GN_PROGRAM_FILTER) /* not all read two */
             snprintf(head + strlen(head), sizeof head - strlen(head), "//@ tex u_map_1 %s\n",
@@ -213,6 +224,12 @@ int main(int argc, char **argv) {
         {"vssm-columns", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_COLUMNS)},
         {"vssm-column-sums", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_COLUMN_SUMS)},
         {"vssm-add", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_ADD)},
+        {"cone", lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f")},
+        {"cone-8", with_rings(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"), 2)},
+        {"cone-16", with_rings(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"), 4)},
+        {"cone-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"))},
+        {"cone-seeds", filter(GN_TECHNIQUE_CONE, GN_STEP_CONE_SEEDS)},
+        {"cone-flood", filter(GN_TECHNIQUE_CONE, GN_STEP_CONE_FLOOD)},
         {"map-mask", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_MASK)},
     };
     struct gn_err err = {0};

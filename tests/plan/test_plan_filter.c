@@ -19,6 +19,62 @@ static void test_msm_plan(void **state) {
     gn_plan_end(&f);
 }
 
+static void test_cone_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    choose(&f, GN_TECHNIQUE_CONE);
+    gn_plan_expect(gn_plan_make(&f), "cone");
+    gn_plan_end(&f);
+}
+
+/* A cone map has a texel for two by two: its tiles begin at even texels. */
+static void test_cone_maps_have_even_sizes(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    choose(&f, GN_TECHNIQUE_CONE);
+    f.opts.shadow.map_px = 333;
+    assert_int_equal(gn_plan_make(&f)->shadows[0].map.tile_px, 332);
+    f.opts.shadow.maps_bytes = 1 << 18;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    assert_true(plan->shadows[0].map.tile_px < 332 && plan->shadows[0].map.tile_px % 2 == 0);
+    assert_null(gn_plan_check(plan));
+    gn_plan_end(&f);
+}
+
+/* Of the first filter pass in the plan. */
+static uint64_t hash_of(const struct gn_plan *plan) {
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        if (plan->passes[i].target.kind == GN_TARGET_MOMENTS) return plan->passes[i].content.hash;
+    fail_msg("there is no filter");
+    return 0;
+}
+
+static uint32_t count_floods(const struct gn_plan *plan, uint32_t slot) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        count += plan->passes[i].target.kind == GN_TARGET_MOMENTS &&
+                 plan->passes[i].target.slot == slot && plan->passes[i].content.tile == 0;
+    return count - 1;
+}
+
+static void test_cones_reach_as_far_as_the_light_is_large(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    choose(&f, GN_TECHNIQUE_CONE);
+    f.opts.shadow.cascades = 1;
+    f.scene->light_count = 1;
+    f.scene->lights[0].radius = 0.001f;
+    assert_int_equal(count_floods(gn_plan_make(&f), 0), 2);
+    const uint64_t before = hash_of(gn_plan_make(&f));
+    f.scene->lights[0].radius = 0.5f;
+    assert_true(count_floods(gn_plan_make(&f), 0) >= 6);
+    assert_true(hash_of(gn_plan_make(&f)) != before);
+    gn_plan_end(&f);
+}
+
 /* Its filters still run, though no instance is drawn. */
 static void test_a_camera_that_sees_nothing_gets_a_valid_plan(void **state) {
     (void)state;
@@ -33,14 +89,6 @@ static void test_a_camera_that_sees_nothing_gets_a_valid_plan(void **state) {
     const char *broken = gn_plan_check(plan);
     if (broken) fail_msg("%s", broken);
     gn_plan_end(&f);
-}
-
-/* Of the first filter pass in the plan. */
-static uint64_t hash_of(const struct gn_plan *plan) {
-    for (uint32_t i = 0; i < plan->pass_count; i++)
-        if (plan->passes[i].target.kind == GN_TARGET_MOMENTS) return plan->passes[i].content.hash;
-    fail_msg("there is no filter");
-    return 0;
 }
 
 static void test_filters_change_with_their_map_and_technique_alone(void **state) {
@@ -93,11 +141,24 @@ static void test_what_a_gpu_lacks_is_replaced(void **state) {
     assert_int_equal(moments_with(GN_EVERY_CAP, GN_TECHNIQUE_PCF, GN_MOMENTS_RG32UI,
                                   "pcf does not support map format rg32ui; using depth"),
                      GN_MOMENTS_NONE);
+    const uint32_t no_cones = GN_EVERY_CAP & ~(1u << GN_CAP_RG16F),
+                   no_compare = GN_EVERY_CAP & ~(1u << GN_CAP_DEPTH_COMPARE);
+    assert_int_equal(moments_with(GN_EVERY_CAP, GN_TECHNIQUE_CONE, GN_MOMENTS_NONE, NULL),
+                     GN_MOMENTS_CONE_RG16F);
+    assert_int_equal(
+        moments_with(no_cones, GN_TECHNIQUE_CONE, GN_MOMENTS_NONE, "falls back to pcss"),
+        GN_MOMENTS_NONE);
+    assert_int_equal(
+        moments_with(no_compare, GN_TECHNIQUE_CONE, GN_MOMENTS_NONE, "falls back to pcss"),
+        GN_MOMENTS_NONE);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_msm_plan),
+        cmocka_unit_test(test_cone_plan),
+        cmocka_unit_test(test_cone_maps_have_even_sizes),
+        cmocka_unit_test(test_cones_reach_as_far_as_the_light_is_large),
         cmocka_unit_test(test_a_camera_that_sees_nothing_gets_a_valid_plan),
         cmocka_unit_test(test_filters_change_with_their_map_and_technique_alone),
         cmocka_unit_test(test_what_a_gpu_lacks_is_replaced),

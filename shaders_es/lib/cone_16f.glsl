@@ -1,0 +1,13 @@
+//@ names cone_store cone_fetch cone_at
+// Cone map as half floats, filtered by the sampler. What it holds: shadow/cone.glsl.
+#undef MOMENTS_SAMPLER
+#undef MOMENTS_OUT
+#define MOMENTS_SAMPLER sampler2D
+#define MOMENTS_OUT vec2
+
+vec2 cone_store(vec2 cone) { return cone; }
+
+vec2 cone_fetch(MOMENTS_SAMPLER cones, ivec2 texel) { return texelFetch(cones, texel, 0).rg; }
+
+// Bilinear lookup at uv (0..1 over the map), clamped to the edge. size: as in shadow_place.
+vec2 cone_at(MOMENTS_SAMPLER cones, vec2 uv, vec4 size) { return texture(cones, uv).rg; }
