@@ -23,6 +23,7 @@ const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {
     [GN_STEP_TABLE_COLUMN_SUMS] = {"column sums", "filter/table_column_sums.frag", false},
     [GN_STEP_TABLE_ADD] = {"table", "filter/table_add.frag", false},
     [GN_STEP_CONE_SEEDS] = {"cones", "filter/cone_seeds.frag", true},
+    [GN_STEP_CONE_EDGES] = {"edges", "filter/cone_edges.frag", false},
     [GN_STEP_CONE_FLOOD] = {"flood", "filter/cone_flood.frag", false},
 };
 
@@ -38,9 +39,10 @@ const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
                                     {GN_STEP_TABLE_COLUMNS, {0, 2}, 1},
                                     {GN_STEP_TABLE_COLUMN_SUMS, {1, GN_FROM_NOTHING}, 2},
                                     {GN_STEP_TABLE_ADD, {1, 2}, 0}}},
-    [GN_FILTER_CONE] = {.count = 9,
+    [GN_FILTER_CONE] = {.count = 10,
                         .halves = true,
-                        .stages = {{GN_STEP_CONE_SEEDS, {GN_FROM_MAP, GN_FROM_NOTHING}, 0},
+                        .stages = {{GN_STEP_CONE_SEEDS, {GN_FROM_MAP, GN_FROM_NOTHING}, 1},
+                                   {GN_STEP_CONE_EDGES, {1, GN_FROM_NOTHING}, 0},
                                    {GN_STEP_CONE_FLOOD, {0, GN_FROM_NOTHING}, 1, 128},
                                    {GN_STEP_CONE_FLOOD, {1, GN_FROM_NOTHING}, 0, 64},
                                    {GN_STEP_CONE_FLOOD, {0, GN_FROM_NOTHING}, 1, 32},

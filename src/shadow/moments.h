@@ -47,6 +47,7 @@ enum gn_filter_step {
     GN_STEP_TABLE_COLUMN_SUMS,
     GN_STEP_TABLE_ADD,
     GN_STEP_CONE_SEEDS, /* of codes */
+    GN_STEP_CONE_EDGES,
     GN_STEP_CONE_FLOOD,
     GN_STEP_COUNT,
 };
@@ -66,7 +67,7 @@ enum gn_filter {
     GN_FILTER_CONE,  /* the first cone behind a blocker at each place, tile by tile */
     GN_FILTER_COUNT,
 };
-enum { GN_FILTER_STAGES_MAX = 9, GN_FILTER_TEXTURES_MAX = 4, GN_FILTER_FROM_MAX = 2 };
+enum { GN_FILTER_STAGES_MAX = 10, GN_FILTER_TEXTURES_MAX = 4, GN_FILTER_FROM_MAX = 2 };
 #define GN_FROM_MAP     (-1) /* the map itself */
 #define GN_FROM_NOTHING (-2)
 struct gn_filter_stage {

@@ -229,6 +229,7 @@ int main(int argc, char **argv) {
         {"cone-16", with_rings(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"), 4)},
         {"cone-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"))},
         {"cone-seeds", filter(GN_TECHNIQUE_CONE, GN_STEP_CONE_SEEDS)},
+        {"cone-edges", filter(GN_TECHNIQUE_CONE, GN_STEP_CONE_EDGES)},
         {"cone-flood", filter(GN_TECHNIQUE_CONE, GN_STEP_CONE_FLOOD)},
         {"map-mask", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_MASK)},
     };
