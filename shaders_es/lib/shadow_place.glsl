@@ -51,30 +51,51 @@ vec2 shadow_slope(vec3 u, vec3 v, vec3 code, vec3 n, vec3 l) {
     return vec2(dot(cross(code, v), n), dot(cross(u, code), n)) / dot(cross(u, v), n);
 }
 
-vec2 shadow_slope_directional(const int slot, vec3 face, vec3 l) {
-    mat4 m = shadow_matrix(slot);
-    return shadow_slope(vec3(m[0].x, m[1].x, m[2].x), vec3(m[0].y, m[1].y, m[2].y), vec3(m[0].z, m[1].z, m[2].z), face, l);
+// The same for a directional light, whose u, v and code are at right angles. u, v: gradients of the coordinates; factor: of
+// SHADOW_SLOPE.
+vec2 shadow_slope_flat(vec3 u, vec3 v, vec2 factor, vec3 n, vec3 l) {
+    float c = dot(n, l);
+    return vec2(dot(u, n), dot(v, n)) * factor / (c < 0.0 ? min(c, -0.1) : max(c, 0.1));
 }
 
-// Projective map, at p: the gradient of x / w is (grad x - (x / w) grad w) / w.
-vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 face, vec3 l) {
+vec2 shadow_slope_directional(const int slot, vec3 n, vec3 l) {
     mat4 m = shadow_matrix(slot);
-    vec3 axis = vec3(m[0].w, m[1].w, m[2].w);
+    return shadow_slope_flat(vec3(m[0].x, m[1].x, m[2].x), vec3(m[0].y, m[1].y, m[2].y), SHADOW(slot, SHADOW_SLOPE).xy, n, l);
+}
+
+// A map of depths seen from a point: the inverse of the depth, and the code with it, is linear in u and v on a plane. across: of the
+// normal, what points along u and v, times its factors; height: of the light over the plane; depth: of the receiver, metres. The
+// slope is infinite on a plane through the light: its height is at least a tenth of the depth.
+vec2 shadow_slope_deep(vec2 across, float height, float depth) {
+    float least = 0.1 * depth;
+    return across / (height < 0.0 ? min(height, -least) : max(height, least));
+}
+
+// Spot: projective map, at p. Of distances: the gradient of x / w is (grad x - (x / w) grad w) / w.
+vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 n, vec3 l) {
+    mat4 m = shadow_matrix(slot);
+    vec3 x = vec3(m[0].x, m[1].x, m[2].x), y = vec3(m[0].y, m[1].y, m[2].y), axis = vec3(m[0].w, m[1].w, m[2].w);
     float w = dot(axis, p) + m[3].w;
-    vec3 u = (vec3(m[0].x, m[1].x, m[2].x) - at.x * axis) / w;
-    vec3 v = (vec3(m[0].y, m[1].y, m[2].y) - at.y * axis) / w;
-    vec3 code = radial ? -l * SHADOW(slot, SHADOW_PLACE).PLACE_CODE_SCALE : (vec3(m[0].z, m[1].z, m[2].z) - at.z * axis) / w;
-    return shadow_slope(u, v, code, face, l);
+    vec4 place = SHADOW(slot, SHADOW_PLACE);
+    if (!radial) {
+        vec4 factor = SHADOW(slot, SHADOW_SLOPE);
+        vec2 across = vec2(dot(n, x), dot(n, y)) * factor.xy + dot(n, axis) * factor.zw;
+        return shadow_slope_deep(across, dot(n, place.xyz - p), w);
+    }
+    vec3 u = (x - at.x * axis) / w, v = (y - at.y * axis) / w;
+    return shadow_slope(u, v, -l * place.PLACE_CODE_SCALE, n, l);
 }
 
 #include "lib/shadow_tile.glsl"
 #include "lib/shadow_cascade.glsl"
 
 // p, n, l: position and normal of the surface and direction to the light, world space; face: normal of the triangle; from_vertex:
-// v_shadow[slot], used where SHADOW_LINEAR[slot]; radial: the map holds distances, not depths. SHADOW_LINEAR, _CASCADES, _SHARED
-// and _SPANS (cascades of filtered maps): add_shadow_flags() of src/gl/compose.c.
+// v_shadow[slot], used where SHADOW_LINEAR[slot]; radial: the map holds distances, not depths. SHADOW_SMOOTH[slot]: the receiver's
+// plane is that of the surface's normal, which costs no derivatives. SHADOW_LINEAR, _CASCADES, _SHARED, _SMOOTH and _SPANS
+// (cascades of filtered maps): add_shadow_flags() of src/gl/compose.c.
 shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
     shadow_place s;
+    vec3 plane = SHADOW_SMOOTH[slot] ? n : face;
     float spread = SHADOW_SPREAD[slot] ? v_spread : 0.0;
     s.size = SHADOW(slot, SHADOW_MAP_SIZE);
     s.far = SHADOW(slot, SHADOW_CODE).CODE_FAR_END;
@@ -85,12 +106,12 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     s.window = vec4(0.0, 0.0, s.size.xy);
     if (SHADOW_LINEAR[slot]) {
         s.at = from_vertex;
-        s.slope = shadow_slope_directional(slot, face, l);
+        s.slope = shadow_slope_directional(slot, plane, l);
     } else if (SHADOW_CASCADES[slot]) {
         shadow_cascade c = shadow_cascade_of(slot, SHADOW_SHARED[slot]);
         s.beside = c.beside;
         s.at = shadow_cascade_at(slot, c, p, n, l, spread);
-        s.slope = shadow_cascade_slope(slot, c, face, l);
+        s.slope = shadow_cascade_slope(slot, c, plane, l);
         s.penumbra.PENUMBRA_RADIUS /= c.texel;
         // Limits penumbrae to the reach of a tile and, in proportion to the view depth, to PENUMBRA_GROWTH: one
         // component with PENUMBRA_NEAREST, which it holds from here on.
@@ -111,7 +132,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
                                             : shadow_tile_pushed(slot, radial, p, n, l, spread);
         s.beside = t.beside;
         s.at = shadow_tile_at(slot, radial, t);
-        s.slope = shadow_tile_slope(slot, radial, t, face);
+        s.slope = shadow_tile_slope(slot, radial, t, plane);
         if (radial) s.penumbra.PENUMBRA_RADIUS *= length(t.q) / t.q.z;
         s.widest = s.reach;
         // Limits penumbrae to the gutter.
@@ -122,7 +143,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.window.zw = s.window.xy + tile;
     } else {
         s.at = shadow_point_spot(slot, radial, p, n, l, spread);
-        s.slope = shadow_slope_spot(slot, radial, s.at, p, face, l);
+        s.slope = shadow_slope_spot(slot, radial, s.at, p, plane, l);
         mat4 m = shadow_matrix(slot);
         float w = dot(vec3(m[0].w, m[1].w, m[2].w), p) + m[3].w;
         // Off the axis tangents grow by distance / depth.

@@ -79,11 +79,11 @@ shadow_tile shadow_tile_shared(const int slot, const bool radial, vec3 p, vec3 n
 // As shadow_slope_spot(), in the frame of the tile.
 vec2 shadow_tile_slope(const int slot, const bool radial, shadow_tile t, vec3 face) {
     vec4 tiles = SHADOW(slot, SHADOW_TILES);
+    vec3 n = shadow_tile_turn(t, face) * vec3(1.0, 1.0, t.side);
+    if (!radial) return shadow_slope_deep(n.xy * SHADOW(slot, SHADOW_SLOPE).xy, -dot(n, t.q), t.q.z);
     float inverse = 1.0 / t.q.z;
     vec3 l = -normalize(t.q);
-    vec3 n = shadow_tile_turn(t, face) * vec3(1.0, 1.0, t.side);
     vec3 u = vec3(1.0, 0.0, -t.q.x * inverse) * (tiles.x * inverse);
     vec3 v = vec3(0.0, 1.0, -t.q.y * inverse) * (tiles.y * inverse);
-    vec3 code = radial ? -l * SHADOW(slot, SHADOW_PLACE).PLACE_CODE_SCALE : vec3(0.0, 0.0, -tiles.w * inverse * inverse);
-    return shadow_slope(u, v, code, n, l);
+    return shadow_slope(u, v, -l * SHADOW(slot, SHADOW_PLACE).PLACE_CODE_SCALE, n, l);
 }

@@ -19,6 +19,30 @@ _Static_assert(CASCADES_ZONES == GN_CASCADES_MAX && CASCADES_SIZE == CASCADES_ZO
 
 static void put3(float to[4], const float *v) { memcpy(to, v, sizeof(vec3)); }
 
+/* SHADOW_SLOPE. A directional light: where u changes by |u| in a metre and the code by |code|, the
+ * slope is the tangent of the plane times |code| / |u|. A spot, a tile: the code is a + b / depth,
+ * and 1 / depth changes with a tangent by the normal's share of that direction over the height of
+ * the light. The rows of a spot are scale * direction + shift * axis. */
+static void set_slope(const struct gn_shadow_view *view, float *to) {
+    const struct gn_shadow_lookup *lookup = &view->lookup;
+    const bool deep = view->perspective && view->encoding == GN_ENCODING_DEPTH;
+    if (view->empty || gn_techniques[view->technique].on_plane || (view->perspective && !deep))
+        return;
+    vec3 rows[4];
+    for (int r = 0; r < 4; r++)
+        for (int k = 0; k < 3; k++) rows[r][k] = lookup->map_from_world[k][r];
+    for (int k = 0; k < 2; k++)
+        if (deep && view->map.tile_count > 1) {
+            to[k] = -lookup->depth_code[1] / lookup->tangent_uv[k];
+        } else if (deep) {
+            const float shift = glm_vec3_dot(rows[k], rows[3]);
+            to[k] = -lookup->depth_code[1] / (glm_vec3_norm2(rows[k]) - shift * shift);
+            to[k + 2] = -shift * to[k];
+        } else {
+            to[k] = glm_vec3_norm(rows[2]) / glm_vec3_norm2(rows[k]);
+        }
+}
+
 static void set_shadow(const struct gn_shadow_view *view, float (*c)[4]) {
     const struct gn_shadow_lookup *lookup = &view->lookup;
     const bool cascades = view->map.cascade_count > 0;
@@ -34,6 +58,7 @@ static void set_shadow(const struct gn_shadow_view *view, float (*c)[4]) {
     c[SHADOW_BIAS][BIAS_SLOPE] = lookup->slope_offset * texel;
     c[SHADOW_BIAS][BIAS_SLOPE_MAX] = lookup->slope_max;
     c[SHADOW_BIAS][BIAS_ULP] = view->code.ulp_m;
+    set_slope(view, c[SHADOW_SLOPE]);
     put3(c[SHADOW_PLACE], view->light_ws);
     c[SHADOW_PLACE][PLACE_CODE_SCALE] = view->code.scale;
     const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};

@@ -147,7 +147,8 @@ static void add_flags(const struct gn_program_key *key, const char *name, uint32
  * and first elsewhere, where that saves work. SHADOW_SPREAD: the bias takes into account how far
  * faces are turned from their smooth normals; WITH_SPREAD: it does so in the fragment shader. */
 static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
-    uint32_t linear = 0, shared = 0, cascades = 0, spans = 0, spread = 0; /* a bit per light */
+    /* a bit per light */
+    uint32_t linear = 0, shared = 0, cascades = 0, spans = 0, spread = 0, smooth = 0;
     for (int i = 0; i < GN_SHADOWS_MAX; i++) {
         const struct gn_light_key *light = &key->lights[i];
         const struct gn_light_type_row *type = &gn_light_types[light->type];
@@ -159,6 +160,7 @@ static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text
         if (gn_techniques[light->technique].one_code) spread |= 1u << i;
         if (light->cascades && gn_technique_replaces_map((enum gn_technique)light->technique))
             spans |= 1u << i;
+        if (gn_techniques[light->technique].reads_both) smooth |= 1u << i;
     }
     const uint32_t shadows = (1u << key->shadow_count) - 1;
     const bool cut_last = shared & shadows;
@@ -169,6 +171,7 @@ static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text
     add_flags(key, "SHADOW_SPANS", spans, out);
     add_flags(key, "SHADOW_SPREAD", spread, out);
     if (spread & ~linear & shadows) gn_gl_text_add(out, "#define WITH_SPREAD 1\n");
+    add_flags(key, "SHADOW_SMOOTH", smooth, out);
 }
 
 /* Slide k is that of the k-th light that has one. */

@@ -78,7 +78,5 @@ bool gn_cube_fit(struct gn_fitter *f) {
     gn_fitter_set_blur(f, near_depth, far_depth);
     view->lookup.tangent_uv[0] = 1.0f / (view->lookup.texel * (float)view->map.width_px);
     view->lookup.tangent_uv[1] = 1.0f / (view->lookup.texel * (float)view->map.height_px);
-    view->lookup.depth_code[0] = far_depth / (far_depth - near_depth);
-    view->lookup.depth_code[1] = -near_depth * far_depth / (far_depth - near_depth);
     return true;
 }

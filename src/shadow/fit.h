@@ -123,8 +123,8 @@ struct gn_shadow_lookup {
     /* Directional, spot: xy / w is 0..1 over the map; z / w is the code for a directional light,
      * and for a spot with encoding DEPTH. Cascades: metres across the light, and the code. */
     mat4 map_from_world;
-    /* Point: a tangent from a tile's middle times tangent_uv is uv; with encoding DEPTH the code at
-     * depth d along the tile's axis is depth_code[0] + depth_code[1] / d. */
+    /* Point: a tangent from a tile's middle times tangent_uv is uv. Spot, point: with encoding
+     * DEPTH the code at depth d along the axis is depth_code[0] + depth_code[1] / d. */
     float tangent_uv[2], depth_code[2];
     float texel;         /* plane units: metres, or metres per metre of depth */
     float bias_texels;   /* the technique's, or as given */

@@ -26,15 +26,17 @@ void gn_taps_build(enum gn_taps kind, int count, float (*out)[2]) {
     }
 }
 
-/* Found by a random search, which test_taps repeats the measure of: turned by noise_quarter(), the
- * share of a ring's points on one side of a straight edge is as near as can be to the disk's. RMSE
- * over edges .050, .033, .026; with radii of equal area .053, .037, .028. */
+/* Turned by noise_quarter(), the share of the points on one side of a straight edge is as near as
+ * can be to the disk's: RMSE over edges .050, .034, .026; with radii of equal area .053, .037,
+ * .028. By a random search among points that share products (shaders_es/shadow/cone.glsl): the
+ * first and the fourth lie on the x axis, the second of two on the diagonal, the others mirror each
+ * other. */
 static const struct {
     double radius, angle_deg;
 } rings[GN_RINGS_MAX + 1][GN_RINGS_MAX] = {
-    [2] = {{.5277, 0}, {.7988, 45.14}},
-    [3] = {{.3642, 0}, {.8055, 67.72}, {.8054, 24.75}},
-    [4] = {{.3032, 0}, {.7326, 61.15}, {.8168, 1.21}, {.7890, 32.37}},
+    [2] = {{.5277, 0}, {.7988, 45}},
+    [3] = {{.3642, 0}, {.8055, 23.5}, {.8055, -23.5}},
+    [4] = {{.3032, 0}, {.7611, 30.6}, {.7611, -30.6}, {.8168, 0}},
 };
 
 void gn_taps_rings(int count, float (*out)[2]) {

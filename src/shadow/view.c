@@ -45,6 +45,8 @@ void gn_shadow_set_frustums(struct gn_shadow_view *view, const double low[2], fl
     float left = (float)low[0], right = (float)(low[0] + side), bottom = (float)low[1],
           top = (float)(low[1] + side);
     mat4 clip_from_light;
+    view->lookup.depth_code[0] = far_depth / (far_depth - near_depth);
+    view->lookup.depth_code[1] = -near_depth * far_depth / (far_depth - near_depth);
     glm_frustum(left * near_depth, right * near_depth, bottom * near_depth, top * near_depth,
                 near_depth, far_depth, clip_from_light);
     for (uint32_t i = 0; i < view->map.tile_count; i++)
