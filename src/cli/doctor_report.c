@@ -10,7 +10,7 @@
 
 /* What is used without a capability. */
 static const char *const instead[GN_CAP_COUNT] = {
-    [GN_CAP_DEPTH_COMPARE] = "shaders compare, on r32ui or r16f maps: slower",
+    [GN_CAP_DEPTH_COMPARE] = "shaders compare, on r32ui or r16f maps: slower; pcss for cone",
     [GN_CAP_R32UI] = "r16f or depth maps",
     [GN_CAP_R16F] = "r32ui maps, then depth, then rgba8",
     [GN_CAP_RGBA16F] = "8 bits a channel, ending at 1, in .pfm files of colour",
@@ -19,7 +19,7 @@ static const char *const instead[GN_CAP_COUNT] = {
     [GN_CAP_RGBA16UI] = "rgba32f-bits or rgba16f for msm",
     [GN_CAP_RG32UI] = "rgba16ui or rgba16f for vsm",
     [GN_CAP_RGBA32UI] = "pcf for evsm, vssm and smsm",
-    [GN_CAP_RG16F] = "pcss for cone",
+    [GN_CAP_RG16F] = "rg16f-bits or rg16f-bytes for cone",
     [GN_CAP_TIMER] = "bench times passes by the clock of the CPU",
     [GN_CAP_DEBUG] = "GL errors come without the driver's text",
 };

@@ -37,14 +37,18 @@ enum gn_cap gn_cap_of_moments(enum gn_moments moments) {
         [GN_MOMENTS_RGBA32F_SHARE] = GN_CAP_RGBA32UI,
         [GN_MOMENTS_TABLE_RGBA32UI] = GN_CAP_RGBA32UI,
         [GN_MOMENTS_CONE_RG16F] = GN_CAP_RG16F,
+        [GN_MOMENTS_CONE_BITS] = GN_CAP_R32UI,
+        [GN_MOMENTS_CONE_BYTES] = GN_CAP_COUNT,
     };
     return caps[moments];
 }
 
 uint32_t gn_caps_moments(const struct gn_caps *caps) {
     uint32_t proved = 0;
-    for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++)
-        if (caps->has >> gn_cap_of_moments((enum gn_moments)i) & 1) proved |= 1u << i;
+    for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++) {
+        const enum gn_cap cap = gn_cap_of_moments((enum gn_moments)i);
+        if (cap == GN_CAP_COUNT || caps->has >> cap & 1) proved |= 1u << i;
+    }
     return proved;
 }
 

@@ -39,7 +39,7 @@ struct gn_caps {
 /* The encodings that caps claim, and prove once gn_gl_prove() has tried them; for
  * gn_encoding_choose. */
 uint32_t gn_caps_encodings(const struct gn_caps *caps);
-/* The capability that a format of moments needs. */
+/* The capability that a format of moments needs; COUNT: none, every GPU renders to it. */
 enum gn_cap gn_cap_of_moments(enum gn_moments moments);
 /* The formats of moments that caps prove, for gn_moments_choose. */
 uint32_t gn_caps_moments(const struct gn_caps *caps);

@@ -87,7 +87,8 @@ bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan) {
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_target *target = &plan->passes[i].target;
         if (target->kind == GN_TARGET_SHADOW) caps |= by_encoding[target->encoding];
-        if (target->kind == GN_TARGET_MOMENTS) caps |= 1u << gn_cap_of_moments(target->moments);
+        if (target->kind == GN_TARGET_MOMENTS)
+            caps |= (1u << gn_cap_of_moments(target->moments)) & ((1u << GN_CAP_COUNT) - 1);
     }
     return prove_caps(gl, caps);
 }

@@ -179,6 +179,8 @@ static const GLenum moments_formats[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_RGBA32F_SHARE] = GL_RGBA32UI,
     [GN_MOMENTS_TABLE_RGBA32UI] = GL_RGBA32UI,
     [GN_MOMENTS_CONE_RG16F] = GL_RG16F,
+    [GN_MOMENTS_CONE_BITS] = GL_R32UI,
+    [GN_MOMENTS_CONE_BYTES] = GL_RGBA8,
 };
 
 static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {

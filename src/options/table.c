@@ -33,6 +33,8 @@ static const struct gn_choice map_formats[] = {
     {"rgba32f-share", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA32F_SHARE)},
     {"rgba32ui", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_TABLE_RGBA32UI)},
     {"rg16f", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_CONE_RG16F)},
+    {"rg16f-bits", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_CONE_BITS)},
+    {"rg16f-bytes", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_CONE_BYTES)},
     {0},
 };
 static const struct gn_choice aovs[] = {

@@ -12,6 +12,8 @@ const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_RGBA32F_SHARE] = {"rgba32f-share", "lib/moments_share.glsl", "usampler2D", 16},
     [GN_MOMENTS_TABLE_RGBA32UI] = {"rgba32ui", "lib/moments_table.glsl", "usampler2D", 16},
     [GN_MOMENTS_CONE_RG16F] = {"rg16f", "lib/cone_16f.glsl", "sampler2D", 4, .linear = true},
+    [GN_MOMENTS_CONE_BITS] = {"rg16f-bits", "lib/cone_bits.glsl", "usampler2D", 4},
+    [GN_MOMENTS_CONE_BYTES] = {"rg16f-bytes", "lib/cone_bytes.glsl", "sampler2D", 4},
 };
 
 const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {

@@ -23,7 +23,9 @@ enum gn_moments {
     GN_MOMENTS_RGBA32F_BITS,   /* bits of floats in integers: drawn to by all of ES 3.0 */
     GN_MOMENTS_RGBA32F_SHARE,  /* the same, and in the last ones of all four how much is covered */
     GN_MOMENTS_TABLE_RGBA32UI, /* sums, in fixed point that wraps round */
-    GN_MOMENTS_CONE_RG16F,     /* cone maps: no moments, and filtered by the sampler */
+    GN_MOMENTS_CONE_RG16F,     /* cone maps, which are no moments: filtered by the sampler */
+    GN_MOMENTS_CONE_BITS,      /* bits of two half floats in an integer */
+    GN_MOMENTS_CONE_BYTES,     /* in four bytes: core, needs no proof */
     GN_MOMENTS_COUNT,
 };
 struct gn_moments_row {

@@ -28,8 +28,8 @@ ROW(PCSS, .name = "pcss", .rank = 2, .file = "shadow/pcss.glsl", .searches = tru
     .source = "Fernando 2005")
 ROW(CONE, .name = "cone", .rank = 3, .file = "shadow/cone.glsl", .compares_linear = true,
     .soft = true, .taps = GN_TAPS_RINGS, .filter = GN_FILTER_CONE, .reads_both = true,
-    .stores = {GN_MOMENTS_CONE_RG16F}, .fallback = GN_TECHNIQUE_PCSS, .radius_texels = 2,
-    .bias_texels = 0.7f,
+    .stores = {GN_MOMENTS_CONE_RG16F, GN_MOMENTS_CONE_BITS, GN_MOMENTS_CONE_BYTES},
+    .fallback = GN_TECHNIQUE_PCSS, .radius_texels = 2, .bias_texels = 0.7f,
     .what = "one read finds the blocker, then hardware compares as wide as its penumbra",
     .source = "Rong, Tan 2006; Fernando 2005")
 ROW(VSM, .name = "vsm", .rank = 8, .file = "shadow/vsm.glsl", .filter = GN_FILTER_BLUR,

@@ -157,8 +157,8 @@ static void test_as_many_moments_as_may_be(void **state) {
          {GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA32F_BITS}},
         {{GN_TECHNIQUE_CONE, GN_MOMENTS_CONE_RG16F},
          {GN_TECHNIQUE_MSM, GN_MOMENTS_RGBA16F},
-         {GN_TECHNIQUE_CONE, GN_MOMENTS_CONE_RG16F},
-         {GN_TECHNIQUE_VSM, GN_MOMENTS_RGBA16UI}},
+         {GN_TECHNIQUE_CONE, GN_MOMENTS_CONE_BITS},
+         {GN_TECHNIQUE_CONE, GN_MOMENTS_CONE_BYTES}},
     };
     for (size_t n = 0; n < sizeof lights / sizeof *lights; n++) {
         struct gn_program_key key = key_of(GN_PROGRAM_LIT);

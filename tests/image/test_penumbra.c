@@ -1,4 +1,4 @@
-/* Penumbrae against truth: pcss, vssm and smsm are as wide as the light makes them, disk and
+/* Penumbrae against truth: pcss, cone, vssm and smsm are as wide as the light makes them, disk and
  * poisson are monotone and not too grainy. The quick form is smaller and leaves out some formats.
  */
 #include <math.h>
@@ -84,10 +84,10 @@ static void check_splits(const char *path, const struct gn_picture *truth, const
 
 static void test_no_split_is_seen_in_a_penumbra(void **state) {
     (void)state;
-    static const char *const techniques[] = {"pcss", "vssm", "smsm"};
+    static const char *const techniques[] = {"pcss", "cone", "vssm", "smsm"};
     struct gn_picture truth;
     char *path = make_of_size(GN_PENUMBRA_FIELD, &truth, FULL_W, FULL_H);
-    for (int t = 0; t < 3; t++) check_splits(path, &truth, techniques[t]);
+    for (int t = 0; t < 4; t++) check_splits(path, &truth, techniques[t]);
     gn_picture_finish(&truth);
     free(path);
 }
@@ -114,6 +114,29 @@ static void check_scene(int scene) {
 static void test_pcss(void **state) {
     (void)state;
     for (int scene = 0; scene < GN_PENUMBRA_EDGE; scene++) check_scene(scene);
+}
+
+/* No worse than pcss with as many taps, and in all formats the same but for how they filter. */
+static void check_cones(int scene) {
+    static const char *const formats[] = {"rg16f", "rg16f-bits", "rg16f-bytes"};
+    struct gn_picture truth;
+    char *path = make(scene, &truth);
+    const struct gn_penumbra_score pcss = score_of(path, &truth, "pcss", "auto");
+    for (int f = 0; f < (gn_shot_full() || scene == GN_PENUMBRA_SEAM ? 3 : 1); f++) {
+        const struct gn_penumbra_score cone = score_of(path, &truth, "cone", formats[f]);
+        print_message("%-7s %-11s soft %.4f (pcss %.4f), rest %.4f\n", gn_penumbra_names[scene],
+                      formats[f], cone.soft, pcss.soft, cone.rest);
+        assert_true(cone.soft_pixels > 200);
+        assert_true(cone.soft <= pcss.soft);
+        assert_true(cone.rest <= .01);
+    }
+    gn_picture_finish(&truth);
+    free(path);
+}
+
+static void test_cones(void **state) {
+    (void)state;
+    for (int scene = 0; scene < GN_PENUMBRA_EDGE; scene++) check_cones(scene);
 }
 
 /* The limits are wider than those of pcss, whose taps know each blocker by itself. */
@@ -170,10 +193,10 @@ static void test_moments_of_a_field(void **state) {
 
 static void test_the_edge_of_a_half_plane_is_exact(void **state) {
     (void)state;
-    static const char *const techniques[] = {"pcss", "vssm", "smsm"};
+    static const char *const techniques[] = {"pcss", "cone", "vssm", "smsm"};
     struct gn_picture truth;
     char *path = make(GN_PENUMBRA_EDGE, &truth);
-    for (int t = 0; t < 3; t++) check_edge(path, &truth, techniques[t]);
+    for (int t = 0; t < 4; t++) check_edge(path, &truth, techniques[t]);
     gn_picture_finish(&truth);
     free(path);
 }
@@ -210,6 +233,7 @@ static void test_disks_are_monotone_and_hardly_grainy(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_pcss),
+        cmocka_unit_test(test_cones),
         cmocka_unit_test(test_summed_area_tables),
         cmocka_unit_test(test_no_split_is_seen_in_a_penumbra),
         cmocka_unit_test(test_moments_of_a_field),

@@ -145,9 +145,11 @@ static void test_what_a_gpu_lacks_is_replaced(void **state) {
                    no_compare = GN_EVERY_CAP & ~(1u << GN_CAP_DEPTH_COMPARE);
     assert_int_equal(moments_with(GN_EVERY_CAP, GN_TECHNIQUE_CONE, GN_MOMENTS_NONE, NULL),
                      GN_MOMENTS_CONE_RG16F);
+    assert_int_equal(moments_with(no_cones, GN_TECHNIQUE_CONE, GN_MOMENTS_NONE, NULL),
+                     GN_MOMENTS_CONE_BITS);
     assert_int_equal(
-        moments_with(no_cones, GN_TECHNIQUE_CONE, GN_MOMENTS_NONE, "falls back to pcss"),
-        GN_MOMENTS_NONE);
+        moments_with(no_cones & ~(1u << GN_CAP_R32UI), GN_TECHNIQUE_CONE, GN_MOMENTS_NONE, NULL),
+        GN_MOMENTS_CONE_BYTES);
     assert_int_equal(
         moments_with(no_compare, GN_TECHNIQUE_CONE, GN_MOMENTS_NONE, "falls back to pcss"),
         GN_MOMENTS_NONE);
