@@ -125,8 +125,8 @@ static long check_split(const struct gn_shadow_view *view, uint32_t split) {
 }
 
 static void check_radius(float radius) {
-    static const enum gn_technique techniques[] = {GN_TECHNIQUE_PCSS, GN_TECHNIQUE_VSSM,
-                                                   GN_TECHNIQUE_SMSM};
+    static const enum gn_technique techniques[] = {GN_TECHNIQUE_PCSS, GN_TECHNIQUE_CONE,
+                                                   GN_TECHNIQUE_VSSM, GN_TECHNIQUE_SMSM};
     stage.scene->lights[0].radius = radius;
     gn_penumbra_truth_of(&truth, stage.scene, false, WIDTH_PX, HEIGHT_PX);
     find_depths();
