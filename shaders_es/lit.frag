@@ -58,8 +58,8 @@ surface surface_make(vec4 base) {
         vec2 rm = surface_roughness();
         float alpha = max(rm.x * rm.x, 0.002);
         s.exponent = 2.0 / (alpha * alpha) - 2.0;
-        s.specular = mix(vec3(0.04), base.rgb, rm.y) * (0.125 * s.exponent + 1.0);
-        s.diffuse = base.rgb * (1.0 - rm.y);
+        s.specular = (METAL ? mix(vec3(0.04), base.rgb, rm.y) : vec3(0.04)) * (0.125 * s.exponent + 1.0);
+        if (METAL) s.diffuse = base.rgb * (1.0 - rm.y);
         s.to_eye = surface_to_eye();
     }
     return s;

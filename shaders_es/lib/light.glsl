@@ -18,8 +18,11 @@ light_sample light_at(const int slot, const int type, vec3 p) {
     vec3 v = place.xyz - p;
     float d2 = max(dot(v, v), 1e-8);
     vec3 l = v * inversesqrt(d2);
-    float x = d2 * place.w * place.w;
-    float window = clamp(1.0 - x * x, 0.0, 1.0);
+    float window = 1.0;
+    if (LIGHT_RANGED[slot]) {
+        float x = d2 * place.w * place.w;
+        window = clamp(1.0 - x * x, 0.0, 1.0);
+    }
     float cone = 1.0;
     if (type == LIGHT_SPOT) {
         vec4 axis = LIGHT(slot, LIGHT_AXIS);

@@ -92,7 +92,7 @@ vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 
 // p, n, l: position and normal of the surface and direction to the light, world space; face: normal of the triangle; from_vertex:
 // v_shadow[slot], used where SHADOW_LINEAR[slot]; radial: the map holds distances, not depths. SHADOW_SMOOTH[slot]: the receiver's
 // plane is that of the surface's normal, which costs no derivatives. SHADOW_LINEAR, _CASCADES, _SHARED, _SMOOTH and _SPANS
-// (cascades of filtered maps): add_shadow_flags() of src/gl/compose.c.
+// (cascades of filtered maps): add_light_flags() of src/gl/compose.c.
 shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
     shadow_place s;
     vec3 plane = SHADOW_SMOOTH[slot] ? n : face;

@@ -25,7 +25,8 @@
     X(FLAT_CONSTANTS, "flat-constants") /* software drivers: the first light's constants come as   \
                                            flat varyings */                                        \
     X(ADDITIVE, "additive") /* LIT: light alone, to be added: no ambient, emission, alpha */       \
-    X(SHADOW_SPECULAR, "shadow-specular") /* shadows leave a share of highlights of their own */
+    X(SHADOW_SPECULAR, "shadow-specular") /* shadows leave a share of highlights of their own */   \
+    X(METAL, "metal")                     /* the material may be a metal in places */
 
 enum gn_feature_bit {
     GN_FEATURE_FIRST_TEXTURE = 0,    /* that slot has a texture */

@@ -41,6 +41,7 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
         features |= GN_FEATURE(SPECULAR);
         if (frame->shadow_specular) features |= GN_FEATURE(SHADOW_SPECULAR);
     }
+    if (gn_material_is_metal(m)) features |= GN_FEATURE(METAL);
     if (gn_material_is_emissive(m)) features |= GN_FEATURE(EMISSIVE);
     if (memcmp(scene->environment.sky, scene->environment.ground, sizeof(vec3)) != 0)
         features |= GN_FEATURE(HEMISPHERE);
@@ -90,6 +91,8 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         const struct gn_frame_light *light = &frame->lights[group->first + i];
         key->lights[i].type = (uint8_t)frame->scene->lights[light->light].type;
         key->lights[i].slide = (uint8_t)light->slide;
+        key->lights[i].ranged = gn_light_types[key->lights[i].type].has_position &&
+                                frame->scene->lights[light->light].range_m > 0.0f;
         if (i >= key->shadow_count) continue;
         key->lights[i].technique = (uint8_t)light->technique;
         key->lights[i].encoding = (uint8_t)light->encoding;

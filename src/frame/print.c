@@ -41,7 +41,7 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
         if (i < key->shadow_count)
             fprintf(to, ":%s/%s%s", gn_techniques[light->technique].name,
                     format_of(light->encoding, light->moments), light->cascades ? "+cascades" : "");
-        fprintf(to, "%s", slides[light->slide]);
+        fprintf(to, "%s%s", slides[light->slide], light->ranged ? "+range" : "");
     }
     fprintf(to, "%s\n", receivers[key->receiver]);
 }

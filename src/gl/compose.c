@@ -129,24 +129,24 @@ static void add_filtered(const struct gn_light_key *light, int i, int suffix,
                    i, sampler_of_map(light), suffix, i);
 }
 
-/* One per shadow, at least one: shaders that use none declare them, too. */
-static void add_flags(const struct gn_program_key *key, const char *name, uint32_t bits,
-                      struct gn_gl_text *out) {
-    const int count = key->shadow_count ? key->shadow_count : 1;
+/* One per light, at least one: shaders that use none declare them, too. */
+static void add_flags(int lights, const char *name, uint32_t bits, struct gn_gl_text *out) {
+    const int count = lights ? lights : 1;
     gn_gl_text_add(out, "const bool[%d] %s = bool[%d](", count, name, count);
     for (int i = 0; i < count; i++)
         gn_gl_text_add(out, "%s%s", i ? ", " : "", bits >> i & 1 ? "true" : "false");
     gn_gl_text_add(out, ");\n");
 }
 
-/* SHADOW_LINEAR: the vertex shader computes where the map is looked up; on a plane, with any light.
- * SHADOW_SHARED: near the edge of a tile the pixels of a quad sample different tiles and average
- * the results (shaders_es/lib/shadow_tile.glsl). SHADOW_CASCADES:
- * the tiles are cascades; SHADOW_SPANS: each encodes distances of its own. Sharing takes
- * derivatives, which are undefined after a discard: CUT_LAST cuts holes last where a map is shared,
- * and first elsewhere, where that saves work. SHADOW_SPREAD: the bias takes into account how far
- * faces are turned from their smooth normals; WITH_SPREAD: it does so in the fragment shader. */
-static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
+/* LIGHT_RANGED: the light ends at its range. SHADOW_LINEAR: the vertex shader computes where the
+ * map is looked up; on a plane, with any light. SHADOW_SHARED: near the edge of a tile the pixels
+ * of a quad sample different tiles and average the results (shaders_es/lib/shadow_tile.glsl).
+ * SHADOW_CASCADES: the tiles are cascades; SHADOW_SPANS: each encodes distances of its own. Sharing
+ * takes derivatives, which are undefined after a discard: CUT_LAST cuts holes last where a map is
+ * shared, and first elsewhere, where that saves work. SHADOW_SPREAD: the bias takes into account
+ * how far faces are turned from their smooth normals; WITH_SPREAD: it does so in the fragment
+ * shader. */
+static void add_light_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
     /* a bit per light */
     uint32_t linear = 0, shared = 0, cascades = 0, spans = 0, spread = 0, smooth = 0;
     for (int i = 0; i < GN_SHADOWS_MAX; i++) {
@@ -162,16 +162,19 @@ static void add_shadow_flags(const struct gn_program_key *key, struct gn_gl_text
             spans |= 1u << i;
         if (gn_techniques[light->technique].reads_both) smooth |= 1u << i;
     }
+    uint32_t ranged = 0;
+    for (int i = 0; i < key->light_count; i++) ranged |= (uint32_t)key->lights[i].ranged << i;
     const uint32_t shadows = (1u << key->shadow_count) - 1;
     const bool cut_last = shared & shadows;
-    add_flags(key, "SHADOW_LINEAR", linear, out);
-    add_flags(key, "SHADOW_SHARED", shared, out);
+    add_flags(key->light_count, "LIGHT_RANGED", ranged, out);
+    add_flags(key->shadow_count, "SHADOW_LINEAR", linear, out);
+    add_flags(key->shadow_count, "SHADOW_SHARED", shared, out);
     gn_gl_text_add(out, "const bool CUT_LAST = %s;\n", cut_last ? "true" : "false");
-    add_flags(key, "SHADOW_CASCADES", cascades, out);
-    add_flags(key, "SHADOW_SPANS", spans, out);
-    add_flags(key, "SHADOW_SPREAD", spread, out);
+    add_flags(key->shadow_count, "SHADOW_CASCADES", cascades, out);
+    add_flags(key->shadow_count, "SHADOW_SPANS", spans, out);
+    add_flags(key->shadow_count, "SHADOW_SPREAD", spread, out);
     if (spread & ~linear & shadows) gn_gl_text_add(out, "#define WITH_SPREAD 1\n");
-    add_flags(key, "SHADOW_SMOOTH", smooth, out);
+    add_flags(key->shadow_count, "SHADOW_SMOOTH", smooth, out);
 }
 
 /* Slide k is that of the k-th light that has one. */
@@ -256,7 +259,7 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
     const bool filter = key->kind == GN_PROGRAM_FILTER && fragment;
     add_constants(key, out);
     if (!gn_gl_source_add(&source, "blocks.glsl", out, err)) return false;
-    if (lit) add_shadow_flags(key, out);
+    if (lit) add_light_flags(key, out);
     if (shader == GN_GL_VERTEX) {
         /* VERTEX_ATTRIBUTES declares the rows of scene/attribute.h; of four shorts all are read */
         gn_gl_text_add(out, "#define VERTEX_ATTRIBUTES");
@@ -317,6 +320,7 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
         append_word(out, size, ", ", gn_light_types[light->type].glsl + sizeof "LIGHT_" - 1);
         if (light->slide)
             append_word(out, size, " ", light->slide == GN_SLIDE_LIT ? "film" : "slide");
+        if (light->ranged) append_word(out, size, " ", "ranged");
         if (i >= key->shadow_count) continue;
         append_word(out, size, " ", gn_techniques[light->technique].name);
         append_word(out, size, " ",

@@ -8,7 +8,7 @@
 /* The properties of a material that select its program and state, as words to compare. */
 enum {
     SLOT_WORDS = 2 + 6,
-    FLAG_WORDS = 5,
+    FLAG_WORDS = 6,
     LOOK_WORDS = GN_TEXTURE_SLOT_COUNT * SLOT_WORDS + FLAG_WORDS
 };
 struct look {
@@ -41,6 +41,7 @@ static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
         *to++ = m->double_sided;
         *to++ = m->unlit;
         *to++ = gn_material_is_specular(m) && !m->unlit;
+        *to++ = gn_material_is_metal(m) && !m->unlit;
         *to++ = gn_material_is_emissive(m);
     }
     qsort(looks, count, sizeof *looks, compare_looks);

@@ -9,8 +9,10 @@ const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT] = {
 #undef GN_X
 };
 
+bool gn_material_is_metal(const struct gn_material *m) { return m->metalness > 0.0f; }
+
 bool gn_material_is_specular(const struct gn_material *m) {
-    return m->metalness > 0.0f || m->roughness < 1.0f ||
+    return gn_material_is_metal(m) || m->roughness < 1.0f ||
            m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
 }
 

@@ -44,6 +44,7 @@ extern const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT];
 
 struct gn_material;
 bool gn_material_is_specular(const struct gn_material *material); /* has a highlight, if lit */
+bool gn_material_is_metal(const struct gn_material *material);    /* in places */
 bool gn_material_is_emissive(const struct gn_material *material);
 /* Whether a picture of the material reads the slot, if it has such a texture. */
 bool gn_material_reads(const struct gn_material *material, enum gn_texture_slot slot);

@@ -54,6 +54,7 @@ static void test_constants(void **state) {
     has(text, "const bool PERSPECTIVE = true;\n");
     has(text, "const bool UNLIT = false;\n");
     has(text, "const int LIGHT_COUNT = 1;\nconst int SHADOW_COUNT = 0;\n");
+    has(text, "const bool[1] LIGHT_RANGED = bool[1](false);\n");
     assert_null(strstr(text, "WITH_UNLIT"));
     assert_null(strstr(text, "WITH_SHADOWS"));
     assert_int_equal(count(text, "const bool "), GN_FEATURE_COUNT + 1); /* and CUT_LAST */
@@ -64,13 +65,13 @@ static void test_lights(void **state) {
     (void)state;
     struct gn_program_key key = lit_key();
     key.light_count = 4, key.shadow_count = 3;
-    key.lights[0] =
-        (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0, 0};
-    key.lights[1] =
-        (struct gn_light_key){GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_PCF, GN_ENCODING_DEPTH, 0, 0, 0};
-    key.lights[2] =
-        (struct gn_light_key){GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0, 0};
-    key.lights[3] = (struct gn_light_key){GN_LIGHT_POINT, 0, 0, 0, 0, 0};
+    key.lights[0] = (struct gn_light_key){
+        .type = GN_LIGHT_SPOT, .technique = GN_TECHNIQUE_HARD, .encoding = GN_ENCODING_R16F};
+    key.lights[1] = (struct gn_light_key){
+        .type = GN_LIGHT_DIRECTIONAL, .technique = GN_TECHNIQUE_PCF, .encoding = GN_ENCODING_DEPTH};
+    key.lights[2] = (struct gn_light_key){
+        .type = GN_LIGHT_DIRECTIONAL, .technique = GN_TECHNIQUE_HARD, .encoding = GN_ENCODING_R16F};
+    key.lights[3] = (struct gn_light_key){.type = GN_LIGHT_POINT, .ranged = 1};
     char *text = compose(&key, GN_GL_FRAGMENT);
     has(text, "#define WITH_SHADOWS 1\n");
     has(text,
@@ -80,6 +81,7 @@ static void test_lights(void **state) {
               " F(1, LIGHT_DIRECTIONAL, false, shadow_visibility_1, u_map_1)"
               " F(2, LIGHT_DIRECTIONAL, false, shadow_visibility_0, u_map_2)\n");
     has(text, "#define EACH_OPEN_LIGHT(F) F(3, LIGHT_POINT)\n");
+    has(text, "const bool[4] LIGHT_RANGED = bool[4](false, false, false, true);\n");
     has(text, "const bool[3] SHADOW_LINEAR = bool[3](false, true, true);\n");
     assert_int_equal(count(text, "#define tap tap_0\n"), 1);
     assert_int_equal(count(text, "#define tap tap_1\n"), 1);
@@ -97,10 +99,10 @@ static void test_slides_go_with_their_lights(void **state) {
     help_write(folder, "lib/slide.glsl", "// slide\n");
     struct gn_program_key key = lit_key();
     key.light_count = 3, key.shadow_count = 1;
-    key.lights[0] =
-        (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0, 0};
-    key.lights[1] = (struct gn_light_key){GN_LIGHT_SPOT, 0, 0, GN_SLIDE_LIT, 0, 0};
-    key.lights[2] = (struct gn_light_key){GN_LIGHT_SPOT, 0, 0, GN_SLIDE_DARK, 0, 0};
+    key.lights[0] = (struct gn_light_key){
+        .type = GN_LIGHT_SPOT, .technique = GN_TECHNIQUE_HARD, .encoding = GN_ENCODING_R16F};
+    key.lights[1] = (struct gn_light_key){.type = GN_LIGHT_SPOT, .slide = GN_SLIDE_LIT};
+    key.lights[2] = (struct gn_light_key){.type = GN_LIGHT_SPOT, .slide = GN_SLIDE_DARK};
     char *text = compose(&key, GN_GL_FRAGMENT);
     has(text, "uniform mediump sampler2D u_slide_0;\nuniform mediump sampler2D u_slide_1;\n");
     has(text, "#define WITH_SLIDES 1\n#define EACH_SLIDE(F)"
@@ -181,9 +183,9 @@ static void test_key_text(void **state) {
     char text[200];
     key.features = GN_FEATURE(UNLIT) | GN_FEATURE(ALPHA_MASK);
     key.light_count = 2, key.shadow_count = 1;
-    key.lights[0] =
-        (struct gn_light_key){GN_LIGHT_SPOT, GN_TECHNIQUE_HARD, GN_ENCODING_R16F, 0, 0, 0};
-    key.lights[1] = (struct gn_light_key){GN_LIGHT_POINT, 0, 0, 0, 0, 0};
+    key.lights[0] = (struct gn_light_key){
+        .type = GN_LIGHT_SPOT, .technique = GN_TECHNIQUE_HARD, .encoding = GN_ENCODING_R16F};
+    key.lights[1] = (struct gn_light_key){.type = GN_LIGHT_POINT};
     gn_gl_key_text(&key, text, sizeof text);
     assert_string_equal(text, "lit ALPHA_MASK|UNLIT, SPOT hard r16f, POINT");
     gn_gl_key_text(&key, text, 8);

@@ -331,6 +331,10 @@ static void test_batches(void **state) {
     assert_int_equal(batches_of("[{'emissiveFactor':[1,0,0]},{}]"), 2);
     assert_int_equal(batches_of("[{'pbrMetallicRoughness':{'metallicFactor':0}},{}]"), 2);
     assert_int_equal(batches_of("[{'pbrMetallicRoughness':{'metallicFactor':0.5}},{}]"), 1);
+    assert_int_equal(
+        batches_of("[{'pbrMetallicRoughness':{'metallicFactor':0,'roughnessFactor':0.5}"
+                   "},{}]"),
+        2);
     assert_int_equal(batches_of("[{'doubleSided':true},{}]"), 2);
     assert_int_equal(batches_of("[{'alphaMode':'MASK','alphaCutoff':0.2},{'alphaMode':'MASK'}]"),
                      1);
