@@ -221,6 +221,31 @@ static void test_it_covers_what_rays_hit(void **state) {
     assert_true(wrong <= asked / 5000); /* on edges, by rounding */
 }
 
+/* ---- when it is drawn ---- */
+
+/* Of a frame: draws to the map and to what it is filtered into. */
+static uint32_t draws_of(struct gn_frame_opts *opts) {
+    help_stage_draw(&stage, opts, NULL);
+    return gn_gl_stats(stage.gl).shadow_draws;
+}
+
+static void test_a_still_scene_makes_no_map_and_no_cones(void **state) {
+    (void)state;
+    struct gn_frame_opts opts = {.width_px = 80,
+                                 .height_px = 120,
+                                 .shadow.technique_given = true,
+                                 .shadow.technique = GN_TECHNIQUE_CONE,
+                                 .shadow.map_px = MAP_PX};
+    const uint32_t all = draws_of(&opts);
+    assert_true(all > 4);
+    assert_int_equal(draws_of(&opts), 0);
+    opts.exposure_given = true;
+    assert_int_equal(draws_of(&opts), 0);
+    opts.shadow.map_px = 2 * MAP_PX;
+    assert_true(draws_of(&opts) > 4);
+    assert_int_equal(draws_of(&opts), 0);
+}
+
 #define EACH(test)                                                                                 \
     cmocka_unit_test_setup_teardown(test, open_egl, close_all),                                    \
         cmocka_unit_test_setup_teardown(test, open_osmesa, close_all)
@@ -229,6 +254,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         EACH(test_r16f),  EACH(test_r16f_raw), EACH(test_depth),
         EACH(test_r32ui), EACH(test_rgba8),    EACH(test_it_covers_what_rays_hit),
+        EACH(test_a_still_scene_makes_no_map_and_no_cones),
     };
     return RUN(tests);
 }

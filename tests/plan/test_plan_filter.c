@@ -2,6 +2,7 @@
  * comes in the place of what a GPU lacks. */
 #include <string.h>
 
+#include "core/hash.h"
 #include "plan/fixture.h"
 #include "unit/check.h"
 
@@ -72,6 +73,32 @@ static void test_cones_reach_as_far_as_the_light_is_large(void **state) {
     f.scene->lights[0].radius = 0.5f;
     assert_true(count_floods(gn_plan_make(&f), 0) >= 6);
     assert_true(hash_of(gn_plan_make(&f)) != before);
+    gn_plan_end(&f);
+}
+
+static uint64_t hash_of_all(const struct gn_plan *plan) {
+    uint64_t hash = GN_HASH_INIT;
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        const struct gn_pass *pass = &plan->passes[i];
+        if (pass->target.kind != GN_TARGET_MOMENTS) continue;
+        assert_true(pass->content.hash != 0); /* 0: always drawn */
+        hash = gn_hash(hash, &pass->content.hash, sizeof pass->content.hash);
+    }
+    return hash;
+}
+
+/* A pass whose target holds its hash does not run. */
+static void test_cones_are_made_again_where_a_caster_moves(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    choose(&f, GN_TECHNIQUE_CONE);
+    const uint64_t before = hash_of_all(gn_plan_make(&f));
+    assert_int_equal(hash_of_all(gn_plan_make(&f)), before);
+    f.scene->environment.sky[0] += 0.1f;
+    assert_int_equal(hash_of_all(gn_plan_make(&f)), before);
+    gn_pose_step(&f.pose, 1000000000); /* the mover goes 1 m/s */
+    assert_true(hash_of_all(gn_plan_make(&f)) != before);
     gn_plan_end(&f);
 }
 
@@ -161,6 +188,7 @@ int main(void) {
         cmocka_unit_test(test_cone_plan),
         cmocka_unit_test(test_cone_maps_have_even_sizes),
         cmocka_unit_test(test_cones_reach_as_far_as_the_light_is_large),
+        cmocka_unit_test(test_cones_are_made_again_where_a_caster_moves),
         cmocka_unit_test(test_a_camera_that_sees_nothing_gets_a_valid_plan),
         cmocka_unit_test(test_filters_change_with_their_map_and_technique_alone),
         cmocka_unit_test(test_what_a_gpu_lacks_is_replaced),
