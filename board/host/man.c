@@ -250,7 +250,7 @@ static void print_ini(void) {
     print_text(sentence);
     puts(".SH EXAMPLES");
     print_text("\t[display]\n\tmode = 1920x1080@60\n\t[scene]\n\tfile = sundial.glb\n"
-               "\t[mode \"Sharp\"]\n\tshadow = pcf\n\t[mode \"Soft\"]\n\tshadow = pcss\n"
+               "\t[mode \"Sharp\"]\n\tshadow = pcf\n\t[mode \"Soft\"]\n\tshadow = cone\n"
                "\tcamera = Top\n\t[button \"next\"]\n\tline = GPIO17\n\tkeys = space right\n"
                "\tpress = next\n\t[kiosk]\n\tidle = first\n");
     puts(".SH SEE ALSO\n.BR gnomon (1)");

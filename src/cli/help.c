@@ -31,11 +31,11 @@ const struct gn_help_entry gn_help_window_keys[] = {
 };
 
 const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES] = {
-    [GN_COMMAND_AUTO] = {"gnomon scene.glb", "gnomon --shadow pcss --turntable 6 scene.glb"},
+    [GN_COMMAND_AUTO] = {"gnomon scene.glb", "gnomon --shadow cone --turntable 6 scene.glb"},
     [GN_COMMAND_SHOW] = {"gnomon show -c kiosk.ini", "gnomon show --check kiosk.ini"},
     [GN_COMMAND_RENDER] = {"gnomon render scene.glb -o picture.png --size 1920x1080 --msaa 4",
                            "gnomon render scene.glb -o frame-%04d.png --frames 100 --fps 25"},
-    [GN_COMMAND_BENCH] = {"gnomon bench scene.glb --shadow pcf,pcss,msm",
+    [GN_COMMAND_BENCH] = {"gnomon bench scene.glb --shadow pcf,cone,pcss",
                           "gnomon bench scene.glb --frames 200 --json"},
     [GN_COMMAND_INSPECT] = {"gnomon inspect scene.glb", "gnomon inspect scene.glb --json"},
     [GN_COMMAND_DOCTOR] = {"gnomon doctor", "gnomon doctor --self-test"},

@@ -22,11 +22,11 @@ ROW(DISK, .name = "disk", .rank = 10, .file = "shadow/disk.glsl", .compares_line
 ROW(POISSON, .name = "poisson", .rank = 9, .file = "shadow/poisson.glsl", .compares_linear = true,
     .reads_distance = true, .taps = GN_TAPS_POISSON, .radius_texels = 4, .bias_texels = 0.7f,
     .what = "16 taps over a Poisson disk, turned from pixel to pixel", .source = "Bridson 2007")
-ROW(PCSS, .name = "pcss", .rank = 2, .file = "shadow/pcss.glsl", .searches = true,
+ROW(PCSS, .name = "pcss", .rank = 3, .file = "shadow/pcss.glsl", .searches = true,
     .reads_distance = true, .soft = true, .taps = GN_TAPS_DISK, .radius_texels = 2,
     .bias_texels = 0.7f, .what = "finds the blockers, then filters as wide as their penumbra is",
     .source = "Fernando 2005")
-ROW(CONE, .name = "cone", .rank = 3, .file = "shadow/cone.glsl", .compares_linear = true,
+ROW(CONE, .name = "cone", .rank = 2, .file = "shadow/cone.glsl", .compares_linear = true,
     .soft = true, .taps = GN_TAPS_RINGS, .filter = GN_FILTER_CONE, .reads_both = true,
     .stores = {GN_MOMENTS_CONE_RG16F, GN_MOMENTS_CONE_BITS, GN_MOMENTS_CONE_BYTES},
     .fallback = GN_TECHNIQUE_PCSS, .radius_texels = 2, .bias_texels = 0.7f,

@@ -43,7 +43,7 @@ stop() {
 # buttons: twice on, one back; p and n are keys, next is a button by its name
 printf '0.5 click next\n0.7 click space\n0.9 click prev\n' > "$folder/script"
 start --input-script "$folder/script"
-until_says out '^mode pcss, scene (default scene)'
+until_says out '^mode cone, scene (default scene)'
 stop
 
 # what is pressed wrongly is said at once
