@@ -11,7 +11,7 @@ layout(location = 0) out uvec4 o_bits;
     { \
         light_sample l = light_at(slot, type, v_position); \
         shadow_place place = \
-            shadow_place_of(slot, type, radial, v_shadow[slot], v_position, surface_normal(), face, l.to_light); \
+            shadow_place_of(slot, type, radial, v_shadow[slot], v_position, surface_normal(), face, l); \
         float filtered = shadow_mixed(slot, place, visibility(map, place)); \
         bool blocks_itself = v_emissive.w > 0.5 && dot(face, l.to_light) <= 0.0; \
         if (l.cone > 0.0 && l.in_range) seen = blocks_itself ? 0.0 : filtered; \

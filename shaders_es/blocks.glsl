@@ -29,22 +29,24 @@
 #define LIGHT_AXIS 2      /* spot: xyz unit vector of the direction of emission; w: cosine of the outer angle */
 #define PASS_CONES 32     /* GN_LIGHTS_MAX in two vec4: 1 / (cos inner - cos outer) of light i in [i / 4][i % 4] */
 #define PASS_SHADOWS 34   /* GN_SHADOWS_MAX x SHADOW_SIZE; slot i belongs to light i */
-#define SHADOW_SIZE 10
+#define SHADOW_SIZE 11
 #define SHADOW_MAP 0      /* directional, spot: 4 columns of map_from_world; cascades: xy in metres across the light, z code */
-#define SHADOW_TILES 0    /* point, instead of SHADOW_MAP: xy: uv per unit of tangent; zw: depth maps: code at depth d is z + w / d */
+#define SHADOW_TILES 0    /* point, instead of SHADOW_MAP: xy: uv per unit of tangent */
 #define SHADOW_BIAS 4
 #define BIAS_NORMAL AT_X /* normal offset, plane units (texel size times texels); cascades: texels */
-#define BIAS_SLOPE AT_Y /* slope offset, same unit */
+#define BIAS_SLOPE AT_Y /* slope offset, same unit; depth maps of spots and points: times the factor on 1 / depth */
 #define BIAS_SLOPE_MAX AT_Z
-#define BIAS_ULP AT_W /* one step of the encoding, metres */
+#define BIAS_LEAST AT_Z /* spot, point: least cosine that the slope offset is divided by */
+#define BIAS_FLAT 0.4f /* spot, point: 1 / cosine - this stands for the tangent */
+#define BIAS_ULP AT_W /* one step of the encoding, metres; spots and points have it in CODE_OFFSET */
 #define SHADOW_PLACE 5    /* xyz: position of the light, world space */
-#define PLACE_CODE_SCALE AT_W /* code = distance * scale + CODE_OFFSET */
+#define PLACE_CODE_SCALE AT_W /* code = distance * scale + CODE_OFFSET; depth maps of spots and points: scale / depth + CODE_OFFSET */
 #define SHADOW_MAP_SIZE 6 /* xy: width and height of the map in texels; zw: 1 / width, 1 / height */
 #define SHADOW_CODE 7
 #define CODE_OFFSET AT_X
 #define CODE_FAR_END AT_Y /* code of the far end: the clear value of the map */
 #define CODE_REACH AT_Z /* tiles, SAT: largest read offset from a lookup, texels */
-#define CODE_SHARED AT_W /* point: tangent over which adjacent tiles are blended */
+#define CODE_SHARED AT_W /* point: 1 / tangent over which adjacent tiles are blended */
 #define CODE_HELD AT_W /* cascades: largest lookup offset from the centre of a tile, texels */
 #define SHADOW_PENUMBRA 8 /* width of penumbrae: lib/shadow_place.glsl */
 #define PENUMBRA_RADIUS AT_X /* of the emitter, texels per unit of penumbra depth; cascades: metres */
@@ -52,22 +54,22 @@
 #define PENUMBRA_GROWTH AT_Y /* cascades: largest penumbra depth per metre of view depth */
 #define PENUMBRA_SCALE AT_Z /* penumbra depth = code * scale + bias */
 #define PENUMBRA_BIAS AT_W
-#define SHADOW_SLOPE 9    /* slope of a receiver's plane, depth codes, lib/shadow_place.glsl: xy: factors on its normal's share of u and v;
-                             spot: zw: on that of the axis */
-#define PASS_SLIDES 74    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides or cascades ends here */
+#define SHADOW_SLOPE 9    /* slope of a receiver's plane, depth codes (lib/shadow_place.glsl): two vec4, for u and v: xyz: dot with its
+                             normal; point: xy of the first: factors on its normal in the tile's frame */
+#define PASS_SLIDES 78    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides or cascades ends here */
 #define SLIDE_SIZE 4
 #define SLIDE_U 0         /* dot with (p, 1), world space: u times w; u is 0..1 over the slide from its left edge */
 #define SLIDE_V 1         /* dot with (p, 1): v times w; v is 0..1 from the top edge */
 #define SLIDE_W 2         /* dot with (p, 1): w, the depth along the axis of the light, metres */
 #define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide (> 0); nearer points count as outside of it */
-#define PASS_CASCADES 90  /* GN_SHADOWS_MAX x CASCADES_SIZE, as PASS_SHADOWS; a pass without cascades ends here */
+#define PASS_CASCADES 94  /* GN_SHADOWS_MAX x CASCADES_SIZE, as PASS_SHADOWS; a pass without cascades ends here */
 #define CASCADES_SIZE 6   /* first one vec4 per cascade: xy: axis of the light, texels from the centre of the tile */
 #define CASCADE_TEXEL AT_Z /* size of a texel, metres */
 #define CASCADE_NEAREST AT_W /* penumbra depth of the nearest caster of the cascade */
 #define CASCADES_ZONES 4  /* per cascade but the last: 1 / width of the zone that fades it into the next; 0: no next cascade */
 #define CASCADES_SPANS 5  /* per cascade: range of penumbra depth that its moments cover, from the nearest caster */
 #define CASCADE_FADE 0.1  /* width of the zone, which ends at the split, as a fraction of the distance of the split */
-#define PASS_SIZE 114
+#define PASS_SIZE 118
 /* Filters of maps */
 #define FILTER_RECT 0     /* xy: lower left texel of the tile; zw: upper right texel, inclusive */
 #define FILTER_BLUR 1     /* x: half of the box width, texels; y: offset of the last texel from the centre; z: 1 / width */

@@ -90,13 +90,14 @@ light_sample light_here(const int slot, const int type) {
 // and moments. A technique that also reads u_filtered_SLOT, what the map is filtered into, has shadow_both_SLOT instead, which
 // calls it. EACH_OPEN_LIGHT(F) is one F(slot, LIGHT_..) per light without a shadow.
 // SHADOW_LINEAR[slot], also from compose.c, is true where uv and code are linear over a triangle: directional lights without
-// cascades, and planar shadows. lit.vert computes them there as v_shadow[slot]; else v_shadow[slot] is 0 and unused.
+// cascades, and planar shadows. lit.vert computes them there as v_shadow[slot], and where SHADOW_PROJECTED[slot], of a spot, x, y and
+// w of its projection; else v_shadow[slot] is 0 and unused.
 // CUT_LAST, also from compose.c: holes are cut after the lights, since derivatives are undefined after a discard.
 // With SHADOW_SPECULAR, LIGHT_COLOR.w has the strength of the shadow, and what it leaves of highlights in steps of 1 / 255, times 2.
 #define ADD_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
     { \
         light_sample l = light_here(slot, type); \
-        shadow_place place = shadow_place_of(slot, type, radial, v_shadow[slot], v_position, s.normal, face, l.to_light); \
+        shadow_place place = shadow_place_of(slot, type, radial, v_shadow[slot], v_position, s.normal, face, l); \
         float seen = shadow_mixed(slot, place, visibility(map, place)); \
         float taken = LIGHT(slot, LIGHT_COLOR).w; \
         float left = SHADOW_SPECULAR ? floor(taken * 0.5) : 0.0; \

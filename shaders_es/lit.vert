@@ -1,4 +1,4 @@
-// Vertex shader of lit.frag and aov.frag. Sets v_shadow[slot] where SHADOW_LINEAR[slot] (see lit.frag).
+// Vertex shader of lit.frag and aov.frag. Sets v_shadow[slot] where SHADOW_LINEAR or SHADOW_PROJECTED[slot] (see lit.frag).
 #include "lib/pass.glsl"
 #include "lib/vertex.glsl"
 #include "lib/shadow_point.glsl"
@@ -29,7 +29,8 @@ out vec3 v_shadow[SHADOW_COUNT];
 #define PLACE_SHADOW(slot) \
     v_shadow[slot] = SHADOW_LINEAR[slot] \
         ? shadow_point_directional(slot, p, n, u_pass[PASS_LIGHTS + slot * LIGHT_SIZE + LIGHT_PLACE].xyz, \
-                                   SHADOW_SPREAD[slot] ? spread : 0.0) : vec3(0.0);
+                                   SHADOW_SPREAD[slot] ? spread : 0.0) \
+        : SHADOW_PROJECTED[slot] ? shadow_point_spot(slot, p, n, SHADOW_SPREAD[slot] ? spread : 0.0) : vec3(0.0);
 
 #define SET_UV(v_uv, slot, second) v_uv = slot_uv(slot, second);
 

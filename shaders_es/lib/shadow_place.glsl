@@ -1,5 +1,6 @@
 // Lookup of a shadow: position in the map and parameters for the techniques. Compilers remove what a technique does not use.
 #include "lib/flat_constants.glsl"
+#include "lib/light.glsl"
 #include "lib/shadow_point.glsl"
 
 #ifdef WITH_SPREAD
@@ -51,51 +52,46 @@ vec2 shadow_slope(vec3 u, vec3 v, vec3 code, vec3 n, vec3 l) {
     return vec2(dot(cross(code, v), n), dot(cross(u, code), n)) / dot(cross(u, v), n);
 }
 
-// The same for a directional light, whose u, v and code are at right angles. u, v: gradients of the coordinates; factor: of
-// SHADOW_SLOPE.
-vec2 shadow_slope_flat(vec3 u, vec3 v, vec2 factor, vec3 n, vec3 l) {
-    float c = dot(n, l);
-    return vec2(dot(u, n), dot(v, n)) * factor / (c < 0.0 ? min(c, -0.1) : max(c, 0.1));
+// What the normal of a plane has along u and v, times the factors of SHADOW_SLOPE.
+vec2 shadow_across(const int slot, vec3 n) {
+    return vec2(dot(SHADOW(slot, SHADOW_SLOPE).xyz, n), dot(SHADOW(slot, SHADOW_SLOPE + 1).xyz, n));
 }
 
-vec2 shadow_slope_directional(const int slot, vec3 n, vec3 l) {
-    mat4 m = shadow_matrix(slot);
-    return shadow_slope_flat(vec3(m[0].x, m[1].x, m[2].x), vec3(m[0].y, m[1].y, m[2].y), SHADOW(slot, SHADOW_SLOPE).xy, n, l);
-}
+// height, of either sign, but not nearer to 0 than `least`. SHADOW_BACKS: surfaces that are turned away from the light matter.
+float shadow_height(float height, float least) { return SHADOW_BACKS && height < 0.0 ? min(height, -least) : max(height, least); }
+
+// The same for a directional light, whose u, v and code are at right angles.
+vec2 shadow_slope_directional(const int slot, vec3 n, vec3 l) { return shadow_across(slot, n) / shadow_height(dot(n, l), 0.1); }
 
 // A map of depths seen from a point: the inverse of the depth, and the code with it, is linear in u and v on a plane. across: of the
 // normal, what points along u and v, times its factors; height: of the light over the plane; depth: of the receiver, metres. The
 // slope is infinite on a plane through the light: its height is at least a tenth of the depth.
 vec2 shadow_slope_deep(vec2 across, float height, float depth) {
-    float least = 0.1 * depth;
-    return across / (height < 0.0 ? min(height, -least) : max(height, least));
+    return across / shadow_height(height, 0.1 * depth);
 }
 
-// Spot: projective map, at p. Of distances: the gradient of x / w is (grad x - (x / w) grad w) / w.
-vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, vec3 p, vec3 n, vec3 l) {
+// Spot: projective map, at a depth. Of distances: the gradient of x / w is (grad x - (x / w) grad w) / w.
+vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, float depth, vec3 n, float height, vec3 l) {
+    if (!radial) return shadow_slope_deep(shadow_across(slot, n), height, depth);
     mat4 m = shadow_matrix(slot);
     vec3 x = vec3(m[0].x, m[1].x, m[2].x), y = vec3(m[0].y, m[1].y, m[2].y), axis = vec3(m[0].w, m[1].w, m[2].w);
-    float w = dot(axis, p) + m[3].w;
-    vec4 place = SHADOW(slot, SHADOW_PLACE);
-    if (!radial) {
-        vec4 factor = SHADOW(slot, SHADOW_SLOPE);
-        vec2 across = vec2(dot(n, x), dot(n, y)) * factor.xy + dot(n, axis) * factor.zw;
-        return shadow_slope_deep(across, dot(n, place.xyz - p), w);
-    }
-    vec3 u = (x - at.x * axis) / w, v = (y - at.y * axis) / w;
-    return shadow_slope(u, v, -l * place.PLACE_CODE_SCALE, n, l);
+    vec3 u = (x - at.x * axis) / depth, v = (y - at.y * axis) / depth;
+    return shadow_slope(u, v, -l * SHADOW(slot, SHADOW_PLACE).PLACE_CODE_SCALE, n, l);
 }
 
 #include "lib/shadow_tile.glsl"
 #include "lib/shadow_cascade.glsl"
 
-// p, n, l: position and normal of the surface and direction to the light, world space; face: normal of the triangle; from_vertex:
-// v_shadow[slot], used where SHADOW_LINEAR[slot]; radial: the map holds distances, not depths. SHADOW_SMOOTH[slot]: the receiver's
-// plane is that of the surface's normal, which costs no derivatives. SHADOW_LINEAR, _CASCADES, _SHARED, _SMOOTH and _SPANS
-// (cascades of filtered maps): add_light_flags() of src/gl/compose.c.
-shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face, vec3 l) {
+// p, n: position and normal of the surface, world space; face: normal of the triangle; from_vertex: v_shadow[slot], used where
+// SHADOW_LINEAR[slot] or SHADOW_PROJECTED[slot]; radial: the map holds distances, not depths. SHADOW_SMOOTH[slot]: the receiver's
+// plane is that of the surface's normal, which costs no derivatives. SHADOW_LINEAR, _PROJECTED, _CASCADES, _SHARED, _SMOOTH
+// and _SPANS (cascades of filtered maps): add_light_flags() of src/gl/compose.c.
+shadow_place shadow_place_of(const int slot, const int type, const bool radial, vec3 from_vertex, vec3 p, vec3 n, vec3 face,
+                             light_sample light) {
     shadow_place s;
-    vec3 plane = SHADOW_SMOOTH[slot] ? n : face;
+    vec3 plane = SHADOW_SMOOTH[slot] ? n : face, l = light.to_light;
+    // of a light with a place over the surface, and over the plane
+    float c = dot(n, l), height = SHADOW_SMOOTH[slot] ? c * light.distance_m : dot(plane, LIGHT(slot, LIGHT_PLACE).xyz - p);
     float spread = SHADOW_SPREAD[slot] ? v_spread : 0.0;
     s.size = SHADOW(slot, SHADOW_MAP_SIZE);
     s.far = SHADOW(slot, SHADOW_CODE).CODE_FAR_END;
@@ -128,11 +124,11 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.window.xy = c.tile * (0.5 * s.size.x);
         s.window.zw = s.window.xy + 0.5 * s.size.x;
     } else if (type == LIGHT_POINT) {
-        shadow_tile t = SHADOW_SHARED[slot] ? shadow_tile_shared(slot, radial, p, n, l, spread)
-                                            : shadow_tile_pushed(slot, radial, p, n, l, spread);
+        vec3 v = p - LIGHT(slot, LIGHT_PLACE).xyz;
+        shadow_tile t = SHADOW_SHARED[slot] ? shadow_tile_shared(slot, p, v, n, c) : shadow_tile_raised_of(slot, v, n, c);
         s.beside = t.beside;
-        s.at = shadow_tile_at(slot, radial, t);
-        s.slope = shadow_tile_slope(slot, radial, t, plane);
+        s.at = vec3(shadow_tile_uv(slot, t), shadow_code(slot, radial, length(t.q), t.q.z, 1.0 / t.q.z, c, spread));
+        s.slope = shadow_tile_slope(slot, radial, t, plane, height);
         if (radial) s.penumbra.PENUMBRA_RADIUS *= length(t.q) / t.q.z;
         s.widest = s.reach;
         // Limits penumbrae to the gutter.
@@ -142,12 +138,12 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.window.xy = floor(s.at.xy * vec2(3.0, 2.0)) * tile;
         s.window.zw = s.window.xy + tile;
     } else {
-        s.at = shadow_point_spot(slot, radial, p, n, l, spread);
-        s.slope = shadow_slope_spot(slot, radial, s.at, p, plane, l);
-        mat4 m = shadow_matrix(slot);
-        float w = dot(vec3(m[0].w, m[1].w, m[2].w), p) + m[3].w;
+        float depth = from_vertex.z, inverse = 1.0 / depth, offset = SHADOW(slot, SHADOW_BIAS).BIAS_NORMAL * depth;
+        float code = shadow_code(slot, radial, light.distance_m - offset * abs(c), depth, inverse, c, spread);
+        s.at = vec3(from_vertex.xy * inverse, code);
+        s.slope = shadow_slope_spot(slot, radial, s.at, depth, plane, height, l);
         // Off the axis tangents grow by distance / depth.
-        if (radial) s.penumbra.PENUMBRA_RADIUS *= distance(p, SHADOW(slot, SHADOW_PLACE).xyz) / w;
+        if (radial) s.penumbra.PENUMBRA_RADIUS *= light.distance_m * inverse;
     }
     return s;
 }

@@ -32,16 +32,26 @@ vec3 shadow_point_directional(const int slot, vec3 p, vec3 n, vec3 l, float spre
     return (shadow_matrix(slot) * vec4(p + shadow_push(slot, n, l, dot(n, l), 1.0, spread), 1.0)).xyz;
 }
 
-// Spot lights: uv and code. Texels grow with the depth along the axis, which is the w of the projection. radial: the map holds
-// distances.
-vec3 shadow_point_spot(const int slot, const bool radial, vec3 p, vec3 n, vec3 l, float spread) {
+// Spots and points: the normal offset does not depend on the direction of the light, so it may be computed per vertex, and the rest
+// is towards the light (shadow_code()), which moves no lookup. side: 1, or -1 on a surface seen from its unlit side.
+
+// Spot lights: x, y and w of the projection, linear in p.
+vec3 shadow_point_spot(const int slot, vec3 p, vec3 n, float spread) {
     mat4 m = shadow_matrix(slot);
-    vec3 axis = vec3(m[0].w, m[1].w, m[2].w);
-    float depth = dot(axis, p) + m[3].w;
-    vec3 q = p + shadow_push(slot, n, l, dot(n, radial ? l : axis), depth, spread);
-    vec4 h = m * vec4(q, 1.0);
-    vec4 place = SHADOW(slot, SHADOW_PLACE);
-    vec3 at = h.xyz / h.w;
-    if (radial) at.z = length(q - place.xyz) * place.PLACE_CODE_SCALE + SHADOW(slot, SHADOW_CODE).CODE_OFFSET;
-    return at;
+    float c = dot(n, normalize(SHADOW(slot, SHADOW_PLACE).xyz - p));
+    float side = c >= 0.0 ? 1.0 : c > 0.25 - spread ? 0.0 : -1.0;
+    float depth = m[0].w * p.x + m[1].w * p.y + m[2].w * p.z + m[3].w;
+    return (m * vec4(p + n * (side * SHADOW(slot, SHADOW_BIAS).BIAS_NORMAL * depth), 1.0)).xyw;
+}
+
+// Code of a receiver, moved towards the light. Across a texel of a plane the code changes by texel tan(n, l), for which 1 / cos -
+// BIAS_FLAT stands; maps of depths have the latter in PLACE_CODE_SCALE. c: cosine between normal and direction
+// to the light; depth: along the axis; inverse: 1 / depth; distance_m: for maps of distances (radial).
+float shadow_code(const int slot, const bool radial, float distance_m, float depth, float inverse, float c, float spread) {
+    vec4 bias = SHADOW(slot, SHADOW_BIAS);
+    float scale = SHADOW(slot, SHADOW_PLACE).PLACE_CODE_SCALE;
+    float slope = 1.0 / max(abs(c) - spread, bias.BIAS_LEAST);
+    float length_or_inverse = radial ? distance_m - bias.BIAS_SLOPE * (slope - BIAS_FLAT) * depth : inverse;
+    if (!radial) scale += bias.BIAS_SLOPE * slope;
+    return length_or_inverse * scale + SHADOW(slot, SHADOW_CODE).CODE_OFFSET;
 }

@@ -13,7 +13,7 @@ EACH_TEXTURE(DECLARE_UV)
 flat in vec4 v_surface;  // roughness, metalness, occlusion strength, alpha cutoff
 flat in vec4 v_emissive; // radiance; w: 1 = casts
 #ifdef WITH_SHADOWS
-in vec3 v_shadow[SHADOW_COUNT]; // uv and code of slots with SHADOW_LINEAR, from lit.vert
+in vec3 v_shadow[SHADOW_COUNT]; // of slots with SHADOW_LINEAR or SHADOW_PROJECTED, from lit.vert
 #endif
 
 #ifdef WITH_BASE_TEXTURE

@@ -19,13 +19,17 @@ _Static_assert(CASCADES_ZONES == GN_CASCADES_MAX && CASCADES_SIZE == CASCADES_ZO
 
 static void put3(float to[4], const float *v) { memcpy(to, v, sizeof(vec3)); }
 
+static bool is_deep(const struct gn_shadow_view *view) {
+    return view->perspective && view->encoding == GN_ENCODING_DEPTH;
+}
+
 /* SHADOW_SLOPE. A directional light: where u changes by |u| in a metre and the code by |code|, the
  * slope is the tangent of the plane times |code| / |u|. A spot, a tile: the code is a + b / depth,
  * and 1 / depth changes with a tangent by the normal's share of that direction over the height of
  * the light. The rows of a spot are scale * direction + shift * axis. */
-static void set_slope(const struct gn_shadow_view *view, float *to) {
+static void set_slope(const struct gn_shadow_view *view, float (*to)[4]) {
     const struct gn_shadow_lookup *lookup = &view->lookup;
-    const bool deep = view->perspective && view->encoding == GN_ENCODING_DEPTH;
+    const bool deep = is_deep(view);
     if (view->empty || gn_techniques[view->technique].on_plane || (view->perspective && !deep))
         return;
     vec3 rows[4];
@@ -33,14 +37,33 @@ static void set_slope(const struct gn_shadow_view *view, float *to) {
         for (int k = 0; k < 3; k++) rows[r][k] = lookup->map_from_world[k][r];
     for (int k = 0; k < 2; k++)
         if (deep && view->map.tile_count > 1) {
-            to[k] = -lookup->depth_code[1] / lookup->tangent_uv[k];
+            to[0][k] = -lookup->depth_code[1] / lookup->tangent_uv[k];
         } else if (deep) {
             const float shift = glm_vec3_dot(rows[k], rows[3]);
-            to[k] = -lookup->depth_code[1] / (glm_vec3_norm2(rows[k]) - shift * shift);
-            to[k + 2] = -shift * to[k];
+            const float factor = -lookup->depth_code[1] / (glm_vec3_norm2(rows[k]) - shift * shift);
+            glm_vec3_scale(rows[k], factor, to[k]);
+            glm_vec3_muladds(rows[3], -shift * factor, to[k]);
         } else {
-            to[k] = glm_vec3_norm(rows[2]) / glm_vec3_norm2(rows[k]);
+            glm_vec3_scale(rows[k], glm_vec3_norm(rows[2]) / glm_vec3_norm2(rows[k]), to[k]);
         }
+}
+
+/* Bias and code of a spot or point light: shadow_code() of lib/shadow_point.glsl. In a map of
+ * depths a step of the encoding is the same everywhere, in metres the largest at the far end. */
+static void set_code(const struct gn_shadow_view *view, float (*c)[4]) {
+    const struct gn_shadow_lookup *lookup = &view->lookup;
+    const float slope = lookup->slope_offset * lookup->texel;
+    c[SHADOW_BIAS][BIAS_NORMAL] = lookup->normal_offset * lookup->texel;
+    c[SHADOW_BIAS][BIAS_SLOPE] = slope;
+    c[SHADOW_BIAS][BIAS_LEAST] = 1.0f / lookup->slope_max;
+    c[SHADOW_PLACE][PLACE_CODE_SCALE] = view->code.scale;
+    c[SHADOW_CODE][CODE_OFFSET] = view->code.offset - view->code.ulp_m * view->code.scale;
+    if (!is_deep(view) || view->empty) return;
+    const float first = lookup->depth_code[0], factor = lookup->depth_code[1];
+    const float far_depth = factor / (1.0f - first);
+    c[SHADOW_BIAS][BIAS_SLOPE] = factor * slope;
+    c[SHADOW_PLACE][PLACE_CODE_SCALE] = factor * (1.0f - BIAS_FLAT * slope);
+    c[SHADOW_CODE][CODE_OFFSET] = first + view->code.ulp_m * factor / (far_depth * far_depth);
 }
 
 static void set_shadow(const struct gn_shadow_view *view, float (*c)[4]) {
@@ -51,14 +74,13 @@ static void set_shadow(const struct gn_shadow_view *view, float (*c)[4]) {
     memcpy(c[SHADOW_MAP], lookup->map_from_world, sizeof lookup->map_from_world);
     if (view->map.tile_count > 1 && !cascades) {
         memcpy(c[SHADOW_TILES], lookup->tangent_uv, sizeof lookup->tangent_uv);
-        memcpy(&c[SHADOW_TILES][2], lookup->depth_code, sizeof lookup->depth_code);
     }
     const float texel = cascades ? 1.0f : lookup->texel;
     c[SHADOW_BIAS][BIAS_NORMAL] = lookup->normal_offset * texel;
     c[SHADOW_BIAS][BIAS_SLOPE] = lookup->slope_offset * texel;
     c[SHADOW_BIAS][BIAS_SLOPE_MAX] = lookup->slope_max;
     c[SHADOW_BIAS][BIAS_ULP] = view->code.ulp_m;
-    set_slope(view, c[SHADOW_SLOPE]);
+    set_slope(view, c + SHADOW_SLOPE);
     put3(c[SHADOW_PLACE], view->light_ws);
     c[SHADOW_PLACE][PLACE_CODE_SCALE] = view->code.scale;
     const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};
@@ -67,11 +89,12 @@ static void set_shadow(const struct gn_shadow_view *view, float (*c)[4]) {
         c[SHADOW_MAP_SIZE][k + 2] = 1.0f / size[k];
     }
     c[SHADOW_CODE][CODE_OFFSET] = view->code.offset;
+    if (view->perspective && !gn_techniques[view->technique].on_plane) set_code(view, c);
     c[SHADOW_CODE][CODE_REACH] = lookup->reach_px;
     if (cascades)
         c[SHADOW_CODE][CODE_HELD] = lookup->held_px;
     else
-        c[SHADOW_CODE][CODE_SHARED] = lookup->shared;
+        c[SHADOW_CODE][CODE_SHARED] = lookup->shared > 0.0f ? 1.0f / lookup->shared : 0.0f;
     const struct gn_shadow_penumbra *penumbra = &view->penumbra;
     c[SHADOW_PENUMBRA][PENUMBRA_RADIUS] = penumbra->radius;
     if (cascades)

@@ -115,7 +115,7 @@ struct gn_frame {
 };
 
 /* Room of the constants of one pass, in vec4. */
-enum { GN_PASS_SIZE = 114 };
+enum { GN_PASS_SIZE = 118 };
 /* Sets of a slot: a page of a tile each. */
 enum { GN_SLOT_SETS = GN_SHADOW_TILES_MAX * GN_SHADOW_PAGES_MAX };
 /* Index of a set of constants. */

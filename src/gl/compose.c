@@ -139,21 +139,24 @@ static void add_flags(int lights, const char *name, uint32_t bits, struct gn_gl_
 }
 
 /* LIGHT_RANGED: the light ends at its range. SHADOW_LINEAR: the vertex shader computes where the
- * map is looked up; on a plane, with any light. SHADOW_SHARED: near the edge of a tile the pixels
- * of a quad sample different tiles and average the results (shaders_es/lib/shadow_tile.glsl).
+ * map is looked up; on a plane, with any light. SHADOW_PROJECTED: it computes a spot's projection,
+ * and the fragment shader divides. SHADOW_SHARED: near the edge of a tile the pixels of a quad
+ * sample different tiles and average the results (shaders_es/lib/shadow_tile.glsl).
  * SHADOW_CASCADES: the tiles are cascades; SHADOW_SPANS: each encodes distances of its own. Sharing
  * takes derivatives, which are undefined after a discard: CUT_LAST cuts holes last where a map is
- * shared, and first elsewhere, where that saves work. SHADOW_SPREAD: the bias takes into account
- * how far faces are turned from their smooth normals; WITH_SPREAD: it does so in the fragment
- * shader. */
+ * shared, and first elsewhere, where that saves work. SHADOW_BACKS: visibility matters where a
+ * surface is turned away from the light, too. SHADOW_SPREAD: the bias takes into account how far
+ * faces are turned from their smooth normals; WITH_SPREAD: it does so in the fragment shader. */
 static void add_light_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
     /* a bit per light */
-    uint32_t linear = 0, shared = 0, cascades = 0, spans = 0, spread = 0, smooth = 0;
+    uint32_t linear = 0, shared = 0, cascades = 0, spans = 0, spread = 0, smooth = 0, projected = 0;
     for (int i = 0; i < GN_SHADOWS_MAX; i++) {
         const struct gn_light_key *light = &key->lights[i];
         const struct gn_light_type_row *type = &gn_light_types[light->type];
         if ((!type->has_position && !light->cascades) || gn_techniques[light->technique].on_plane)
             linear |= 1u << i;
+        else if (type->has_position && !type->shines_around)
+            projected |= 1u << i;
         if ((type->shines_around || light->cascades) && gn_technique_shades(light->technique))
             shared |= 1u << i;
         if (light->cascades) cascades |= 1u << i;
@@ -166,8 +169,11 @@ static void add_light_flags(const struct gn_program_key *key, struct gn_gl_text 
     for (int i = 0; i < key->light_count; i++) ranged |= (uint32_t)key->lights[i].ranged << i;
     const uint32_t shadows = (1u << key->shadow_count) - 1;
     const bool cut_last = shared & shadows;
+    gn_gl_text_add(out, "const bool SHADOW_BACKS = %s;\n",
+                   key->kind == GN_PROGRAM_AOV ? "true" : "false");
     add_flags(key->light_count, "LIGHT_RANGED", ranged, out);
     add_flags(key->shadow_count, "SHADOW_LINEAR", linear, out);
+    add_flags(key->shadow_count, "SHADOW_PROJECTED", projected, out);
     add_flags(key->shadow_count, "SHADOW_SHARED", shared, out);
     gn_gl_text_add(out, "const bool CUT_LAST = %s;\n", cut_last ? "true" : "false");
     add_flags(key->shadow_count, "SHADOW_CASCADES", cascades, out);

@@ -110,10 +110,11 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
     if (!found || row->on_plane) return found;
 
     /* normal offset and slope follow the width that the technique averages over; the factors are
-     * measured by `make truth` */
-    view->lookup.normal_offset = view->lookup.bias_texels;
-    view->lookup.slope_offset = 0.7f * view->lookup.bias_texels;
-    view->lookup.slope_max = 4.0f;
+     * measured by `make truth`. A spot's and a point light's slope moves no lookup, and costs no
+     * width of a shadow: of their bias more is slope. */
+    view->lookup.normal_offset = (view->perspective ? 0.7f : 1.0f) * view->lookup.bias_texels;
+    view->lookup.slope_offset = (view->perspective ? 1.05f : 0.7f) * view->lookup.bias_texels;
+    view->lookup.slope_max = view->perspective ? 8.0f : 4.0f;
     /* cascades have hashed theirs */
     for (uint32_t i = 0; i < view->map.tile_count && view->map.cascade_count == 0; i++)
         view->raster.tiles[i].content_hash =

@@ -94,10 +94,16 @@ static void test_a_map_that_is_too_large_is_made_smaller_and_said_so(void **stat
 /* What shaders read by a name of blocks.glsl is what the view has under it. */
 static void expect_constants(const struct gn_shadow_view *view, const float (*c)[4]) {
     const bool cascades = view->map.cascade_count > 0;
-    assert_true(c[SHADOW_BIAS][BIAS_SLOPE_MAX] == view->lookup.slope_max);
-    assert_true(c[SHADOW_BIAS][BIAS_ULP] == view->code.ulp_m);
     assert_true(c[SHADOW_PLACE][PLACE_CODE_SCALE] == view->code.scale);
-    assert_true(c[SHADOW_CODE][CODE_OFFSET] == view->code.offset);
+    if (view->perspective) {
+        assert_true(c[SHADOW_BIAS][BIAS_LEAST] == 1.0f / view->lookup.slope_max);
+        assert_true(c[SHADOW_CODE][CODE_OFFSET] ==
+                    view->code.offset - view->code.ulp_m * view->code.scale);
+    } else {
+        assert_true(c[SHADOW_BIAS][BIAS_SLOPE_MAX] == view->lookup.slope_max);
+        assert_true(c[SHADOW_BIAS][BIAS_ULP] == view->code.ulp_m);
+        assert_true(c[SHADOW_CODE][CODE_OFFSET] == view->code.offset);
+    }
     assert_true(c[SHADOW_CODE][CODE_FAR_END] == view->code.far_end);
     assert_true(c[SHADOW_CODE][CODE_REACH] == view->lookup.reach_px);
     assert_true(c[SHADOW_PENUMBRA][PENUMBRA_RADIUS] == view->penumbra.radius);
@@ -107,7 +113,8 @@ static void expect_constants(const struct gn_shadow_view *view, const float (*c)
         assert_true(c[SHADOW_CODE][CODE_HELD] == view->lookup.held_px);
         assert_true(c[SHADOW_PENUMBRA][PENUMBRA_GROWTH] == view->penumbra.growth);
     } else {
-        assert_true(c[SHADOW_CODE][CODE_SHARED] == view->lookup.shared);
+        const float shared = view->lookup.shared;
+        assert_true(c[SHADOW_CODE][CODE_SHARED] == (shared > 0.0f ? 1.0f / shared : 0.0f));
         assert_true(c[SHADOW_PENUMBRA][PENUMBRA_NEAREST] == view->penumbra.nearest);
     }
 }

@@ -57,7 +57,8 @@ static void test_constants(void **state) {
     has(text, "const bool[1] LIGHT_RANGED = bool[1](false);\n");
     assert_null(strstr(text, "WITH_UNLIT"));
     assert_null(strstr(text, "WITH_SHADOWS"));
-    assert_int_equal(count(text, "const bool "), GN_FEATURE_COUNT + 1); /* and CUT_LAST */
+    assert_int_equal(count(text, "const bool "),
+                     GN_FEATURE_COUNT + 2); /* and CUT_LAST, SHADOW_BACKS */
     free(text);
 }
 
