@@ -252,8 +252,12 @@ static void test_a_still_scene_makes_no_map_and_no_cones(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        EACH(test_r16f),  EACH(test_r16f_raw), EACH(test_depth),
-        EACH(test_r32ui), EACH(test_rgba8),    EACH(test_it_covers_what_rays_hit),
+        EACH(test_r16f),
+        EACH(test_r16f_raw),
+        EACH(test_depth),
+        EACH(test_r32ui),
+        EACH(test_rgba8),
+        EACH(test_it_covers_what_rays_hit),
         EACH(test_a_still_scene_makes_no_map_and_no_cones),
     };
     return RUN(tests);
