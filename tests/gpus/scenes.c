@@ -87,12 +87,11 @@ static const char *const kinds[] = {
 };
 
 static void add_lamp(struct gn_maker *m, json_t *lights, enum gn_light_type type,
-                     const char *extras, float x) {
+                     const char *extras, bool ranged, float x) {
     char json[300];
     json_error_t error;
-    snprintf(json, sizeof json, "{%s%s%s,'range':%d}", kinds[type], extras ? ",'extras':" : "",
-             extras ? extras : "", type == GN_LIGHT_DIRECTIONAL ? 0 : 9);
-    if (type == GN_LIGHT_DIRECTIONAL) snprintf(json, sizeof json, "{%s}", kinds[type]);
+    snprintf(json, sizeof json, "{%s%s%s%s}", kinds[type], extras ? ",'extras':" : "",
+             extras ? extras : "", ranged ? ",'range':9" : "");
     for (char *c = json; *c; c++)
         if (*c == '\'') *c = '"';
     json_array_append_new(lights, json_loads(json, 0, &error));
@@ -109,16 +108,18 @@ static void add_lights(struct gn_maker *m, enum gn_gpu_scene scene) {
     switch (scene) {
     case GN_GPU_SUN:
     case GN_GPU_FEW_MATERIALS:
-    case GN_GPU_MATERIALS: add_lamp(m, lights, GN_LIGHT_DIRECTIONAL, NULL, 0); break;
-    case GN_GPU_POINT: add_lamp(m, lights, GN_LIGHT_POINT, NULL, 0); break;
-    case GN_GPU_SPOT: add_lamp(m, lights, GN_LIGHT_SPOT, NULL, 0); break;
-    case GN_GPU_SLIDE: add_lamp(m, lights, GN_LIGHT_SPOT, "{'gnomon_slide':0}", 0); break;
+    case GN_GPU_MATERIALS: add_lamp(m, lights, GN_LIGHT_DIRECTIONAL, NULL, false, 0); break;
+    case GN_GPU_POINT: add_lamp(m, lights, GN_LIGHT_POINT, NULL, false, 0); break;
+    case GN_GPU_SPOT: add_lamp(m, lights, GN_LIGHT_SPOT, NULL, false, 0); break;
+    case GN_GPU_SLIDE: add_lamp(m, lights, GN_LIGHT_SPOT, "{'gnomon_slide':0}", false, 0); break;
     case GN_GPU_FILM:
-        add_lamp(m, lights, GN_LIGHT_SPOT, "{'gnomon_slide':0,'gnomon_slide_outside':'lit'}", 0);
+        add_lamp(m, lights, GN_LIGHT_SPOT, "{'gnomon_slide':0,'gnomon_slide_outside':'lit'}", false,
+                 0);
         break;
     default:
         for (int i = 0; i < (scene == GN_GPU_CROWD ? 10 : 3); i++)
-            add_lamp(m, lights, (enum gn_light_type)(i % 3), NULL, (float)i - 5);
+            add_lamp(m, lights, (enum gn_light_type)(i % 3), NULL, scene == GN_GPU_CROWD && i % 3,
+                     (float)i - 5);
     }
     json_t *all = json_pack("{s{so}}", "KHR_lights_punctual", "lights", lights);
     json_object_set_new(m->root, "extensions", all);
