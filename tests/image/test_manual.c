@@ -89,7 +89,7 @@ static struct gn_mask_score score_of(const char *what, const struct gn_frame_opt
         draw_scene(scenes[i].scene, opts);
         gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
         for (int p = 0; p < PIXELS; p++) shot.data[p] = aov[4 * p];
-        gn_mask_compare(&scenes[i].truth.mask, &shot, &s);
+        gn_mask_compare(&scenes[i].truth.mask, shot.data, shot.channels, &s);
         gn_picture_finish(&shot);
         sum.pixels += s.pixels, sum.dark += s.dark, sum.away_lit += s.away_lit, sum.acne += s.acne;
         sum.gap += s.gap, sum.wrong += s.wrong, sum.safe += s.safe, sum.darkened += s.darkened;
