@@ -1,5 +1,5 @@
 /* Scenes for comparing shadows with ray-traced truth: a ground and all kinds of casters under one
- * light, generated from tables and a seed. `--contact` writes the two scenes of the contact test
+ * light, generated from tables and a seed. `--contact` writes the scenes of the contact test
  * instead. */
 #include "coarse.h"
 #include "glb.h"
@@ -434,11 +434,16 @@ static bool write_truth(const char *folder, int index) {
 }
 
 /* A box of 1 m in the centre of a ground of 10 m. */
-static bool write_contact(const char *folder, const char *name, float distance) {
+static bool write_contact(const char *folder, const char *name, float distance,
+                          const struct lamp *lamp) {
     const struct scene scene = {10, 45, 30, distance};
     struct build b;
     init_build(&b, &scene, 1);
-    add_light(&b);
+    b.lamp = lamp;
+    if (lamp)
+        add_lamp(&b);
+    else
+        add_light(&b);
     add_ground(&b);
     struct gn_shape shape;
     gn_shape_init(&shape, 0);
@@ -461,11 +466,13 @@ int main(int argc, char **argv) {
         fprintf(stderr, "usage: make_truth [--contact] OUTDIR\n");
         return 2;
     }
-    if (contact)
-        return write_contact(argv[2], "contact-sun", 0) &&
-                       write_contact(argv[2], "contact-spot", 12)
-                   ? 0
-                   : 1;
+    if (contact) {
+        const struct lamp lamp = {.size = 10, .at = {3.1f, 3.4f, -1.7f}};
+        ok = write_contact(argv[2], "contact-sun", 0, NULL) &&
+             write_contact(argv[2], "contact-spot", 12, NULL) &&
+             write_contact(argv[2], "contact-point", 0, &lamp);
+        return ok ? 0 : 1;
+    }
     for (int i = 0; ok && i < SCENES + LAMPS + COARSE_SCENES + COARSE_LAMPS; i++)
         ok = write_truth(argv[1], i);
     return ok ? 0 : 1;

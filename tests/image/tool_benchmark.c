@@ -68,8 +68,8 @@ static void write_scenes(const char *folder) {
             snprintf(name, sizeof name, "%s-%02d", ranges[r].name, i);
             copy(path, folder, name);
         }
-    for (int i = 0; i < 2; i++) {
-        snprintf(name, sizeof name, "contact-%s", i ? "spot" : "sun");
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        snprintf(name, sizeof name, "contact-%s", kinds[i]);
         snprintf(path, sizeof path, "%s/%s.glb", contacts, name);
         copy(path, folder, name);
     }
