@@ -29,18 +29,14 @@ static bool measures(const struct desk *desk, enum gn_figure figure) {
 
 /* ---- figures ---- */
 
-/* Mean light in pixels that are dark and farther from edges than the filter reaches. */
+/* The most light in a pixel that is dark and farther from edges than the filter reaches. */
 static double measure_glow(const struct gn_mask_truth *mask, const float *shot, size_t pixels) {
-    float *edges = gn_xalloc(pixels, sizeof *edges);
-    double sum = 0, count = 0;
+    float *edges = gn_xalloc(pixels, sizeof *edges), most = 0;
     gn_mask_edges(mask, edges);
-    for (size_t i = 0; i < pixels; i++) {
-        if (mask->lit[i] || !(edges[i] >= mask->safe_px[i])) continue;
-        sum += (double)shot[4 * i];
-        count++;
-    }
+    for (size_t i = 0; i < pixels; i++)
+        if (!mask->lit[i] && edges[i] >= mask->safe_px[i]) most = fmaxf(most, shot[4 * i]);
     free(edges);
-    return count > 0 ? 100 * sum / count : 0;
+    return 100.0 * (double)most;
 }
 
 static void measure_step(struct desk *desk, const struct gn_shadow_view *view, double *figures) {

@@ -11,7 +11,7 @@ const struct gn_figure_row gn_figures[GN_FIGURE_COUNT] = {
     [GN_FIGURE_DARKENING] = {"darkening", "%", "mean darkening of safely lit pixels"},
     [GN_FIGURE_GAP] = {"gap", "texels", "mean gap between a contact and its shadow"},
     [GN_FIGURE_LEAK] = {"leak", "%", "dark pixels, away from edges, that are shown lit"},
-    [GN_FIGURE_GLOW] = {"glow", "%", "mean light in safely dark pixels"},
+    [GN_FIGURE_GLOW] = {"glow", "%", "most light in a safely dark pixel"},
     [GN_FIGURE_WRONG] = {"wrong", "%", "pixels that are lit instead of dark, or the reverse"},
     [GN_FIGURE_PENUMBRA] = {"penumbra", "", "root mean square error in penumbrae"},
 };

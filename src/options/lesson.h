@@ -12,7 +12,7 @@ enum gn_figure {
     GN_FIGURE_DARKENING, /* of pixels that are safely lit; mean, per cent */
     GN_FIGURE_GAP,       /* between a contact and its shadow; mean, texels */
     GN_FIGURE_LEAK,      /* pixels away from edges that are dark, but shown lit; per cent */
-    GN_FIGURE_GLOW,      /* light in pixels that are safely dark; mean, per cent */
+    GN_FIGURE_GLOW,      /* light in pixels that are safely dark; the most, per cent */
     GN_FIGURE_WRONG,     /* pixels that are lit instead of dark or the reverse; per cent */
     GN_FIGURE_PENUMBRA,  /* root mean square error in penumbrae */
     GN_FIGURE_COUNT,

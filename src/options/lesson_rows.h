@@ -65,6 +65,7 @@ LESSON(.name = "soft", .title = "Penumbrae grow with the distance from the caste
        .teaches = "A lamp with a size gives a shadow that is sharp at the foot of its caster and soft far from it. A filter of one width is wrong at one of them. Soft techniques first find how far away the caster is and then filter as wide as its penumbra.",
        .steps = {FAULT(PENUMBRA, "one width (pcf5)", "shadow = pcf5"),
                  CURE("searches blockers (pcss)", "shadow = pcss"),
+                 CURE("reads the nearest cone (cone)", "shadow = cone"),
                  CURE("sums of two moments (vssm)", "shadow = vssm")})
 LESSON(.name = "light-bleeding", .title = "Two moments let light through, four do not", .scene = "plates", .set = "map = 256",
        .teaches = "Chebyshev's inequality knows the mean and the variance of distances only. Where the edge of the upper plate crosses the shadow of the lower one the variance is large, and light comes through the lower plate. Four moments tell three distances apart.",
