@@ -56,6 +56,7 @@
 #define PENUMBRA_BIAS AT_W
 #define SHADOW_SLOPE 9    /* slope of a receiver's plane, depth codes (lib/shadow_place.glsl): two vec4, for u and v: xyz: dot with its
                              normal; point: xy of the first: factors on its normal in the tile's frame */
+#define SLOPE_FILTER AT_W /* of the first: radius of the filter, texels; 0: the technique's */
 #define PASS_SLIDES 78    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides or cascades ends here */
 #define SLIDE_SIZE 4
 #define SLIDE_U 0         /* dot with (p, 1), world space: u times w; u is 0..1 over the slide from its left edge */

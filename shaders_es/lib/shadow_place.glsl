@@ -22,6 +22,7 @@ struct shadow_place {
     bool inverse; // penumbra depth is the negative inverse
     float reach;  // largest offset from `at` that a technique may read, texels: SAT, and any technique with tiles
     float widest; // largest radius of a filter, texels
+    float filter_radius; // the one that is set, texels
     vec4 window;  // lower left and upper right edge of the tile, texels: the limit of reads
     vec2 beside;  // as in shadow_tile and shadow_cascade
 };
@@ -99,6 +100,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     s.inverse = type != LIGHT_DIRECTIONAL && radial;
     s.reach = SHADOW(slot, SHADOW_CODE).CODE_REACH;
     s.widest = CONE_WIDEST;
+    s.filter_radius = SHADOW(slot, SHADOW_SLOPE).SLOPE_FILTER;
     s.window = vec4(0.0, 0.0, s.size.xy);
     if (SHADOW_LINEAR[slot]) {
         s.at = from_vertex;

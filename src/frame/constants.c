@@ -81,6 +81,7 @@ static void set_shadow(const struct gn_shadow_view *view, float (*c)[4]) {
     c[SHADOW_BIAS][BIAS_SLOPE_MAX] = lookup->slope_max;
     c[SHADOW_BIAS][BIAS_ULP] = view->code.ulp_m;
     set_slope(view, c + SHADOW_SLOPE);
+    c[SHADOW_SLOPE][SLOPE_FILTER] = lookup->filter_radius_px;
     put3(c[SHADOW_PLACE], view->light_ws);
     c[SHADOW_PLACE][PLACE_CODE_SCALE] = view->code.scale;
     const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};

@@ -65,6 +65,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
             .radius = one.radius,
             .bias_given = biased,
             .bias_texels = bias,
+            .filter_radius_px = gn_frame_filter_radius_px(opts, &one),
             .cascades = opts->shadow.cascades ? opts->shadow.cascades : GN_CASCADES_MAX};
         struct gn_shadow_opts *shadow = &maps[slot];
         gn_frame_make_memories(frame, slot, gn_shadow_tile_count(l->type, light->technique));

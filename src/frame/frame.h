@@ -19,6 +19,7 @@ enum gn_light_given {
     GN_LIGHT_SLIDE = 128,
     GN_LIGHT_SPECULAR = 256,
     GN_LIGHT_BIAS = 512,
+    GN_LIGHT_FILTER = 1024,
 };
 struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t light;          /* index in the scene */
@@ -33,7 +34,8 @@ struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t cascades; /* as cascade_count */
     int faces;         /* as below, and the next */
     uint32_t slide_as_picture;
-    float bias_texels; /* below 0: the technique's */
+    float bias_texels;      /* below 0: the technique's */
+    float filter_radius_px; /* 0: the technique's */
 };
 
 struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
@@ -62,9 +64,10 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     int faces; /* which faces of all casters go into maps: 0: as the scene says of each, else 1 +
                   enum gn_cast_faces. Not of planar lights */
     bool bias_given;
-    float bias_texels;     /* in place of the techniques' */
-    bool clears_near;      /* maps are cleared to the wrong end, for the lesson about it; far */
-    bool slide_as_picture; /* a slide without a size has the shape of its picture; square */
+    float bias_texels;      /* in place of the techniques' */
+    float filter_radius_px; /* radius of filters that can have another one; 0: the techniques' */
+    bool clears_near;       /* maps are cleared to the wrong end, for the lesson about it; far */
+    bool slide_as_picture;  /* a slide without a size has the shape of its picture; square */
     bool strength_given;
     float strength; /* overrides the lights' gnomon_shadow_strength */
     bool specular_given;

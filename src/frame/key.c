@@ -98,6 +98,9 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         key->lights[i].encoding = (uint8_t)light->encoding;
         key->lights[i].moments = (uint8_t)light->moments;
         key->lights[i].cascades = light->cascades > 1;
+        const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
+        key->lights[i].filter_set = gn_techniques[light->technique].filter_radius_px > 0.0f &&
+                                    gn_frame_filter_radius_px(opts, &one) > 0.0f;
         const enum gn_taps taps = gn_techniques[light->technique].taps;
         if (taps == GN_TAPS_NONE) continue;
         if (taps == GN_TAPS_RINGS)

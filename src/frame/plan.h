@@ -27,14 +27,15 @@ enum gn_aov { GN_AOV_COLOR, GN_AOV_VISIBILITY, GN_AOV_DISTANCE, GN_AOV_NORMAL, G
 
 /* ---- programs: a variant is a key ---- */
 
-struct gn_light_key {  /* one light of a LIT or visibility program */
-    uint8_t type;      /* gn_light_type */
-    uint8_t technique; /* gn_technique; NONE: no map */
-    uint8_t encoding;  /* gn_encoding, 0 when technique is NONE */
-    uint8_t slide;     /* gn_slide */
-    uint8_t moments;   /* gn_moments: what is read in the map's place, or beside it */
-    uint8_t cascades;  /* its map has some: 0 or 1 */
-    uint8_t ranged;    /* it ends at its range: 0 or 1 */
+struct gn_light_key {   /* one light of a LIT or visibility program */
+    uint8_t type;       /* gn_light_type */
+    uint8_t technique;  /* gn_technique; NONE: no map */
+    uint8_t encoding;   /* gn_encoding, 0 when technique is NONE */
+    uint8_t slide;      /* gn_slide */
+    uint8_t moments;    /* gn_moments: what is read in the map's place, or beside it */
+    uint8_t cascades;   /* its map has some: 0 or 1 */
+    uint8_t ranged;     /* it ends at its range: 0 or 1 */
+    uint8_t filter_set; /* its filter has the radius of SHADOW_SLOPE: 0 or 1 */
 };
 enum gn_receiver { /* whose shadows an item receives */
                    GN_RECEIVES_MAPS,

@@ -264,6 +264,12 @@ uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count);
 void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn_shadow_opts *maps,
                           struct gn_warnings *warnings);
 
+/* ---- opts.c ---- */
+
+/* Of a light with these options of its own: radius of its filter; 0: the technique's. */
+float gn_frame_filter_radius_px(const struct gn_frame_opts *opts,
+                                const struct gn_frame_light_opts *one);
+
 /* ---- constants.c ---- */
 
 /* Of the shadow that sampler i of a pass reads. */

@@ -57,13 +57,13 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
 }
 
 /* A lookup is the code for one technique, encoding and moments. Its number, the suffix, is that of
- * the first light that has the same three as light i. */
+ * the first light that has the same of them as light i. */
 static int lookup_of(const struct gn_program_key *key, int i) {
     const struct gn_light_key *light = &key->lights[i];
     for (int first = 0;; first++) {
         const struct gn_light_key *other = &key->lights[first];
         if (other->technique == light->technique && other->encoding == light->encoding &&
-            other->moments == light->moments)
+            other->moments == light->moments && other->filter_set == light->filter_set)
             return first;
     }
 }
@@ -89,6 +89,10 @@ static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *l
     }
     if (takes_taps(technique))
         gn_gl_text_add(out, "#define SHADOW_TAPS %s\n", taps_names[technique->taps]);
+    if (light->filter_set)
+        gn_gl_text_add(out, "#define FILTER_RADIUS s.filter_radius\n");
+    else if (technique->filter_radius_px > 0.0f)
+        gn_gl_text_add(out, "#define FILTER_RADIUS %.1f\n", (double)technique->filter_radius_px);
     add_middle(light->technique, out);
     char names[LOOKUP_FILES][GN_GL_NAMES_MAX][64];
     int counts[LOOKUP_FILES] = {0};
@@ -103,9 +107,10 @@ static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *l
         if (files[i] && !gn_gl_source_add(source, files[i], out, err)) return false;
     for (int i = 0; i < LOOKUP_FILES; i++)
         for (int n = 0; n < counts[i]; n++) gn_gl_text_add(out, "#undef %s\n", names[i][n]);
-    gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n#undef SHADOW_TAPS\n"
-                        "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n"
-                        "#undef MOMENTS\n");
+    gn_gl_text_add(out,
+                   "#undef MAP_SAMPLER\n#undef MAP_OUT\n#undef SHADOW_TAPS\n#undef FILTER_RADIUS\n"
+                   "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n"
+                   "#undef MOMENTS\n");
     return true;
 }
 
@@ -333,5 +338,6 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
                     light->moments ? gn_moments[light->moments].name
                                    : gn_encodings[light->encoding].name);
         if (light->cascades) append_word(out, size, " ", "cascades");
+        if (light->filter_set) append_word(out, size, " ", "radius");
     }
 }

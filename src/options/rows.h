@@ -48,6 +48,8 @@ GN_OPTION(.name = "shadow-specular", .section = "render", .kind = GN_KIND_EV, .m
           .help = "share of highlights that stays in shadow; as the scene says, else as of the rest", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow_specular))
 GN_OPTION(.name = "bias", .section = "render", .kind = GN_KIND_EV, .max = 100, .value = "auto|TEXELS", .unit = "texels", .fallback = "auto",
           .help = "bias of shadow maps: 0 shows acne, large ones detach shadows from what casts them", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.bias_texels))
+GN_OPTION(.name = "filter-radius", .section = "render", .kind = GN_KIND_EV, .min = 1, .max = 32, .value = "auto|TEXELS", .unit = "texels", .fallback = "auto",
+          .help = "radius of the filter of disk and poisson (3 by itself), of pcf (1.5; at most 2) and of the blur of vsm, evsm and msm (1.5 to 4.5, by the light's size)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.filter_radius_px))
 GN_OPTION(.name = "slide-aspect", .section = "render", .kind = GN_KIND_CHOICE, .choices = slide_aspects, .value = "SHAPE", .fallback = "square",
           .help = "shape of a slide whose size the scene does not give; it fills the cone of its spot", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_as_picture))
 GN_OPTION(.name = "light-radius", .section = "render", .kind = GN_KIND_NUMBER, .max = 1000, .value = "R", .fallback = "0.00465",

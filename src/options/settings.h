@@ -90,10 +90,11 @@ struct gn_render_settings {
     int map_clears_near;             /* 0, 1 */
     int planar;                      /* enum gn_planar */
     int planar_points;
-    int cascades;         /* 0: automatic */
-    int cast_faces;       /* 0: as the scene says, else 1 + enum gn_cast_faces */
-    double bias_texels;   /* NAN: automatic */
-    int slide_as_picture; /* 0, 1 */
+    int cascades;            /* 0: automatic */
+    int cast_faces;          /* 0: as the scene says, else 1 + enum gn_cast_faces */
+    double bias_texels;      /* NAN: automatic */
+    double filter_radius_px; /* likewise */
+    int slide_as_picture;    /* 0, 1 */
     int taps;
     bool taps_fixed;
     double filter_budget;   /* million texels; 0: no limit */

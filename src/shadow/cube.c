@@ -52,7 +52,7 @@ bool gn_cube_fit(struct gn_fitter *f) {
     const bool shared = gn_technique_shades(view->technique);
     const float beyond =
         EDGE_TEXELS + (shared ? SHARED_TEXELS + 1.4142136f * view->lookup.bias_texels : 0.0f);
-    const uint32_t wanted = (uint32_t)ceilf((float)row->radius_texels + 1.0f + beyond);
+    const uint32_t wanted = (uint32_t)ceilf((float)view->lookup.margin_px + 1.0f + beyond);
     view->map.gutter_px =
         row->soft && wanted < view->map.tile_px / 8 ? view->map.tile_px / 8 : wanted;
     if (view->map.gutter_px > view->map.tile_px / 4) view->map.gutter_px = view->map.tile_px / 4;

@@ -104,8 +104,8 @@ void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_re
 }
 
 /* A blur does not know the distance of blockers. It is as wide as the penumbra that a blocker
- * throws on a receiver at the far end, a quarter of the casters' range of depths behind it; within
- * GN_BLUR_LEAST_PX and GN_BLUR_MOST_PX. */
+ * throws on a receiver at the far end, a quarter of the casters' range of depths behind it, or as
+ * is set; within GN_BLUR_LEAST_PX and GN_BLUR_MOST_PX. */
 void gn_fitter_set_blur(const struct gn_fitter *f, float near_depth, float far_depth) {
     struct gn_shadow_view *view = f->view;
     if (gn_techniques[view->technique].filter != GN_FILTER_BLUR) return;
@@ -114,6 +114,7 @@ void gn_fitter_set_blur(const struct gn_fitter *f, float near_depth, float far_d
         view->perspective ? 1.0f / (far_depth - behind) - 1.0f / far_depth : behind;
     float blur = f->light_radius * spread;
     if (f->blur_most_m > 0.0f) blur = least(blur, f->blur_most_m); /* else it jumps at each split */
-    const float blur_px = blur / view->lookup.texel;
+    const float set_px = view->lookup.filter_radius_px,
+                blur_px = set_px > 0.0f ? set_px : blur / view->lookup.texel;
     view->penumbra.blur_px = least(most(blur_px, GN_BLUR_LEAST_PX), GN_BLUR_MOST_PX);
 }

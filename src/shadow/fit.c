@@ -21,16 +21,27 @@ void gn_shadow_map_size(enum gn_light_type type, enum gn_technique technique, ui
     size_px[1] = atlas ? 2 * map_px : map_px;
 }
 
-/* The bias, and the margin that it needs: at most an eighth of a small map. */
-static void set_bias(const struct gn_shadow_opts *opts, struct gn_shadow_view *view) {
+/* The filter's radius, the bias, and the margin that they need: not all of a small map. A filter
+ * that compares with one code needs a bias as wide as it is. */
+static void set_filter(const struct gn_shadow_opts *opts, struct gn_shadow_view *view) {
     const struct gn_technique_row *row = &gn_techniques[opts->technique];
-    view->lookup.bias_texels = row->bias_texels;
-    view->lookup.margin_px = row->radius_texels;
+    struct gn_shadow_lookup *lookup = &view->lookup;
+    const float tile_px = (float)opts->map_px;
+    lookup->bias_texels = row->bias_texels;
+    lookup->margin_px = row->radius_texels;
+    if (row->filter == GN_FILTER_BLUR) {
+        lookup->filter_radius_px = opts->filter_radius_px;
+    } else if (opts->filter_radius_px > 0.0f && row->filter_radius_px > 0.0f) {
+        const float most = fmaxf(fminf(row->filter_most, tile_px / 16.0f), row->filter_radius_px);
+        lookup->filter_radius_px = fminf(opts->filter_radius_px, most);
+        const float further = ceilf(lookup->filter_radius_px) - ceilf(row->filter_radius_px);
+        if (further > 0.0f) lookup->margin_px += (uint32_t)further;
+        if (row->one_code) lookup->bias_texels *= lookup->filter_radius_px / row->filter_radius_px;
+    }
     if (!opts->bias_given || row->on_plane) return;
-    const float most = fmaxf((float)opts->map_px / 8.0f, row->bias_texels),
-                bias = fminf(opts->bias_texels, most);
-    view->lookup.bias_texels = bias;
-    view->lookup.margin_px += (uint32_t)ceilf(fmaxf(bias - row->bias_texels, 0.0f));
+    const float own = lookup->bias_texels, most = fmaxf(tile_px / 8.0f, own);
+    lookup->bias_texels = fminf(opts->bias_texels, most);
+    lookup->margin_px += (uint32_t)ceilf(fmaxf(lookup->bias_texels - own, 0.0f));
 }
 
 /* The whole map is cleared to the far end, so all lookups are lit. Techniques also use derivatives
@@ -87,7 +98,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                                         .width_px = size_px[0],
                                         .height_px = size_px[1],
                                         .tile_count = gn_shadow_tile_count(type, opts->technique)}};
-    set_bias(opts, view);
+    set_filter(opts, view);
     if (row->filter == GN_FILTER_TABLE) view->lookup.reach_px = GN_TABLE_REACH_PX;
     if (opts->cascades > 1 && !view->perspective && !row->on_plane)
         gn_cascades_lay(opts->cascades, view);

@@ -36,7 +36,9 @@ struct gn_shadow_opts {
     bool radius_given;
     float radius; /* given: the light's, in place of the scene's */
     bool bias_given;
-    float bias_texels; /* given: in place of the technique's */
+    float bias_texels;      /* given: in place of the technique's */
+    float filter_radius_px; /* over 0: radius of the filter, in place of the technique's; within
+                            what it can have */
     uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
                           one need an eye with a perspective */
 };
@@ -126,12 +128,13 @@ struct gn_shadow_lookup {
     /* Point: a tangent from a tile's middle times tangent_uv is uv. Spot, point: with encoding
      * DEPTH the code at depth d along the axis is depth_code[0] + depth_code[1] / d. */
     float tangent_uv[2], depth_code[2];
-    float texel;         /* plane units: metres, or metres per metre of depth */
-    float bias_texels;   /* the technique's, or as given */
-    uint32_t margin_px;  /* texels round a place that are read for it: of the filter, and of what
-                            the bias is larger than the technique's */
-    float normal_offset; /* texels (cascades: each one's), times sin(theta) */
-    float slope_offset;  /* texels towards the light, times tan(theta) clamped at slope_max */
+    float texel;            /* plane units: metres, or metres per metre of depth */
+    float bias_texels;      /* the technique's, or as given */
+    float filter_radius_px; /* radius of the filter, if one is given; else 0 */
+    uint32_t margin_px;     /* texels round a place that are read for it: of the filter, and of what
+                               the bias is larger than the technique's */
+    float normal_offset;    /* texels (cascades: each one's), times sin(theta) */
+    float slope_offset;     /* texels towards the light, times tan(theta) clamped at slope_max */
     float slope_max;
     float reach_px; /* tiles, SAT: how far beside a place may be read */
     float shared;   /* point: tangent, to each side of a tile's edge, where two tiles are mixed */

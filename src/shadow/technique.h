@@ -62,6 +62,8 @@ struct gn_technique_row {
                                       NONE: pcf */
     unsigned map_px;               /* default resolution, where that is not 1024 */
     unsigned radius_texels; /* reads at most so far from the point, rounded up: margin of the map */
+    float filter_radius_px; /* radius of a filter that can have another one; 0: it cannot */
+    float filter_most;      /* its largest radius */
     float bias_texels; /* scale of the normal offset and slope. On a flat surface lookups up to 1.7
                           times as far away stay lit; less than 2 % of the filter's weight lies
                           beyond */

@@ -5,8 +5,9 @@ ROW(NONE, .name = "none", .rank = 16, .what = "no shadows")
 ROW(HARD, .name = "hard", .rank = 14, .file = "shadow/hard.glsl", .reads_distance = true,
     .radius_texels = 1, .bias_texels = 0.6f, .what = "one comparison", .source = "Williams 1978")
 ROW(PCF, .name = "pcf", .rank = 1, .file = "shadow/pcf.glsl", .compares_linear = true,
-    .one_code = true, .radius_texels = 2, .bias_texels = 0.9f,
-    .what = "four hardware-compare taps half a texel away", .source = "Reeves, Salesin, Cook 1987")
+    .one_code = true, .filter_radius_px = 1.5f, .filter_most = 2.0f, .radius_texels = 2,
+    .bias_texels = 0.9f, .what = "four hardware-compare taps half a texel away",
+    .source = "Reeves, Salesin, Cook 1987")
 ROW(PCF2, .name = "pcf2", .rank = 11, .file = "shadow/pcf2.glsl", .compares_linear = true,
     .one_code = true, .radius_texels = 1, .bias_texels = 0.7f, .what = "one hardware-compare tap",
     .source = "Reeves, Salesin, Cook 1987")
@@ -17,10 +18,12 @@ ROW(PCF5, .name = "pcf5", .rank = 13, .file = "shadow/pcf5.glsl", .compares_line
     .one_code = true, .radius_texels = 3, .bias_texels = 1.65f,
     .what = "[1 3 4 3 1] squared in nine fetches", .source = "Reeves, Salesin, Cook 1987")
 ROW(DISK, .name = "disk", .rank = 10, .file = "shadow/disk.glsl", .compares_linear = true,
-    .reads_distance = true, .taps = GN_TAPS_DISK, .radius_texels = 4, .bias_texels = 0.7f,
+    .reads_distance = true, .taps = GN_TAPS_DISK, .filter_radius_px = 3.0f, .filter_most = 32.0f,
+    .radius_texels = 4, .bias_texels = 0.7f,
     .what = "16 taps over a disk, turned from pixel to pixel", .source = "Vogel 1979")
 ROW(POISSON, .name = "poisson", .rank = 9, .file = "shadow/poisson.glsl", .compares_linear = true,
-    .reads_distance = true, .taps = GN_TAPS_POISSON, .radius_texels = 4, .bias_texels = 0.7f,
+    .reads_distance = true, .taps = GN_TAPS_POISSON, .filter_radius_px = 3.0f, .filter_most = 32.0f,
+    .radius_texels = 4, .bias_texels = 0.7f,
     .what = "16 taps over a Poisson disk, turned from pixel to pixel", .source = "Bridson 2007")
 ROW(PCSS, .name = "pcss", .rank = 3, .file = "shadow/pcss.glsl", .searches = true,
     .reads_distance = true, .soft = true, .taps = GN_TAPS_DISK, .radius_texels = 2,

@@ -60,6 +60,11 @@ static void set_entry(struct gn_frame_light_opts *entry, const struct gn_overrid
         entry->bias_texels = isnan(*(const double *)value) ? -1.0f : (float)*(const double *)value;
         entry->given |= GN_LIGHT_BIAS;
         break;
+    case offsetof(struct gn_settings, render.filter_radius_px):
+        entry->filter_radius_px =
+            isnan(*(const double *)value) ? 0.0f : (float)*(const double *)value;
+        entry->given |= GN_LIGHT_FILTER;
+        break;
     case offsetof(struct gn_settings, render.shadow_strength):
         entry->strength = (float)*(const double *)value;
         entry->given |= GN_LIGHT_STRENGTH;

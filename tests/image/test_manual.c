@@ -80,24 +80,32 @@ static void draw_scene(const struct gn_scene *scene, const struct gn_frame_opts 
     gn_pose_finish(&pose);
 }
 
+static uint64_t shades; /* pixels of all scenes that are neither lit nor dark */
+
 /* Of all scenes. Prints a line. */
 static struct gn_mask_score score_of(const char *what, const struct gn_frame_opts *opts) {
     struct gn_mask_score sum = {0};
+    shades = 0;
     for (int i = 0; i < SCENES; i++) {
         struct gn_mask_score s;
         struct gn_picture shot;
         draw_scene(scenes[i].scene, opts);
         gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
-        for (int p = 0; p < PIXELS; p++) shot.data[p] = aov[4 * p];
+        for (int p = 0; p < PIXELS; p++) {
+            shot.data[p] = aov[4 * p];
+            shades += aov[4 * p] > .02f && aov[4 * p] < .98f;
+        }
         gn_mask_compare(&scenes[i].truth.mask, shot.data, shot.channels, &s);
         gn_picture_finish(&shot);
         sum.pixels += s.pixels, sum.dark += s.dark, sum.away_lit += s.away_lit, sum.acne += s.acne;
         sum.gap += s.gap, sum.wrong += s.wrong, sum.safe += s.safe, sum.darkened += s.darkened;
         sum.darkness += s.darkness;
     }
-    printf("%s, %s: darkening %.3f %%, over 5 %%: %.3f %%, gap %.2f %%, wrong %.3f %%\n",
+    printf("%s, %s: darkening %.3f %%, over 5 %%: %.3f %%, gap %.2f %%, wrong %.3f %%, "
+           "shades %.2f %%\n",
            gn_techniques[opts->shadow.technique].name, what, gn_mask_darkening(&sum),
-           gn_mask_darkened(&sum), gn_mask_gap(&sum), gn_mask_wrong(&sum));
+           gn_mask_darkened(&sum), gn_mask_gap(&sum), gn_mask_wrong(&sum),
+           100 * (double)shades / (double)sum.pixels);
     return sum;
 }
 
@@ -128,9 +136,39 @@ static void test_no_bias_is_acne_and_a_large_one_a_gap(void **state) {
     }
 }
 
+/* Wider edges, and no acne from them. */
+static void test_the_radius_of_a_filter(void **state) {
+    (void)state;
+    static const struct {
+        enum gn_technique technique;
+        float narrow_px, own_px, wide_px; /* own: 0: unlike any */
+    } rows[] = {{GN_TECHNIQUE_DISK, 1, 3, 8},
+                {GN_TECHNIQUE_POISSON, 1, 3, 8},
+                {GN_TECHNIQUE_PCF, 1, 1.5f, 2},
+                {GN_TECHNIQUE_MSM, 1.5f, 0, 4.5f}};
+    for (int i = 0; i < 4; i++) {
+        struct gn_frame_opts opts = opts_of(rows[i].technique);
+        const float radii[] = {0, rows[i].own_px, rows[i].narrow_px, rows[i].wide_px};
+        struct gn_mask_score scores[4];
+        uint64_t counts[4];
+        for (int k = 0; k < 4; k++) {
+            char what[32];
+            opts.shadow.filter_radius_px = radii[k];
+            snprintf(what, sizeof what, "radius %g", (double)radii[k]);
+            scores[k] = score_of(what, &opts);
+            counts[k] = shades;
+            if (i < 3) assert_true(gn_mask_darkening(&scores[k]) < .02);
+        }
+        assert_true(scores[1].wrong == scores[0].wrong && counts[1] == counts[0]);
+        if (i < 3) assert_true(counts[2] < counts[0]);
+        assert_true(counts[3] > counts[2] * 5 / 4);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_bias_is_acne_and_a_large_one_a_gap),
+        cmocka_unit_test(test_the_radius_of_a_filter),
     };
     return cmocka_run_group_tests_name("manual", tests, open_all, close_all);
 }

@@ -112,6 +112,52 @@ static void test_the_bias_is_as_set(void **state) {
     gn_plan_end(&f);
 }
 
+static const struct gn_program_key *lit_of(const struct gn_plan *plan) {
+    for (uint32_t i = 0; i < plan->program_count; i++)
+        if (plan->programs[i].kind == GN_PROGRAM_LIT && plan->programs[i].shadow_count > 1)
+            return &plan->programs[i];
+    return NULL;
+}
+
+/* A constant, and a bit of the program's key; the margin follows, and of pcf the bias. */
+static void test_the_radius_of_a_filter_is_as_set(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_DISK;
+    f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
+        .light = 1, .given = GN_LIGHT_FILTER, .filter_radius_px = 5.5f};
+    f.opts.shadow.light_count = 1;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    const float(*c)[4] = (const float(*)[4])plan->passes[plan->pass_count - 1].constants;
+    assert_true(c[PASS_SHADOWS + SHADOW_SLOPE][SLOPE_FILTER] == 0.0f);
+    assert_true(c[PASS_SHADOWS + SHADOW_SIZE + SHADOW_SLOPE][SLOPE_FILTER] == 5.5f);
+    assert_int_equal(view_of(plan, 0)->lookup.margin_px, 4);
+    assert_int_equal(view_of(plan, 1)->lookup.margin_px, 7);
+    assert_non_null(lit_of(plan));
+    assert_false(lit_of(plan)->lights[0].filter_set);
+    assert_true(lit_of(plan)->lights[1].filter_set);
+    f.opts.shadow.lights[0].filter_radius_px = 0.0f;
+    f.opts.shadow.technique = GN_TECHNIQUE_PCF;
+    f.opts.shadow.filter_radius_px = 30.0f; /* more than its taps can have */
+    plan = gn_plan_make(&f);
+    const struct gn_shadow_lookup *wide = &view_of(plan, 0)->lookup;
+    assert_true(wide->filter_radius_px == 2.0f && wide->margin_px == 2);
+    assert_true(fabsf(wide->bias_texels - 1.2f) < 1e-6f);
+    assert_false(lit_of(plan)->lights[1].filter_set);
+    f.opts.shadow.technique = GN_TECHNIQUE_PCF5; /* it has one radius */
+    plan = gn_plan_make(&f);
+    assert_true(view_of(plan, 0)->lookup.filter_radius_px == 0.0f);
+    assert_false(lit_of(plan)->lights[0].filter_set);
+    f.opts.shadow.technique = GN_TECHNIQUE_VSM;
+    f.opts.shadow.filter_radius_px = 3.0f;
+    plan = gn_plan_make(&f);
+    assert_true(view_of(plan, 0)->penumbra.blur_px == 3.0f);
+    assert_false(lit_of(plan)->lights[0].filter_set); /* the map is blurred */
+    gn_plan_end(&f);
+}
+
 /* All that casts is in the picture of a sun, whatever its shape; a spot is where it stands. */
 static void test_a_light_can_be_looked_from(void **state) {
     (void)state;
@@ -213,6 +259,7 @@ int main(void) {
         cmocka_unit_test(test_faces_of_all_casters_are_as_set),
         cmocka_unit_test(test_the_bias_is_as_set),
         cmocka_unit_test(test_maps_are_cleared_to_the_far_end_but_in_a_lesson),
+        cmocka_unit_test(test_the_radius_of_a_filter_is_as_set),
         cmocka_unit_test(test_highlights_in_shadow_have_a_feature),
     };
     return cmocka_run_group_tests_name("plan light options", tests, NULL, NULL);
