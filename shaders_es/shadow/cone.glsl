@@ -5,7 +5,7 @@
 // x: where the first cone begins there, y: the depth of its blocker; both as k (code - 1): texels. In front of x all is lit. Behind
 // it the distance from y is the penumbra's radius, over which taps compare (percentage-closer filtering).
 // Made by filter/cone_*.frag when the map was drawn. cone_at(): lib/cone_*.glsl.
-// Each tap is compared with the receiver's plane. Four taps are a ring, a quarter turn apart. RINGS, TAPS_RINGS: a point of each ring,
+// Each tap is compared with the receiver's plane. Four taps are a ring, a quarter turn apart. RINGS, SHADOW_TAPS: a point of each ring,
 // from src/shadow/taps.c, where the first lies on the x axis, and others so that they share products.
 #include "lib/noise.glsl"
 
@@ -27,13 +27,13 @@ float shadow_visibility(MAP_SAMPLER map, MOMENTS_SAMPLER cones, shadow_place s) 
     vec2 slope = s.at.z < 1.0 ? s.slope : vec2(0.0);
     vec3 x = vec3(right, dot(slope, right)), y = vec3(up, dot(slope, up));
     vec3 at = vec3(s.at.xy, min(s.at.z, 1.0 - abs(x.z) - abs(y.z)));
-    float lit = cone_ring(map, at, x * TAPS_RINGS[0].x, y * TAPS_RINGS[0].x);
+    float lit = cone_ring(map, at, x * SHADOW_TAPS[0].x, y * SHADOW_TAPS[0].x);
     if (RINGS == 2) {
-        lit += cone_ring(map, at, (x + y) * TAPS_RINGS[1].x, (y - x) * TAPS_RINGS[1].x);
+        lit += cone_ring(map, at, (x + y) * SHADOW_TAPS[1].x, (y - x) * SHADOW_TAPS[1].x);
     } else { // two that mirror each other
-        vec3 xx = x * TAPS_RINGS[1].x, xy = x * TAPS_RINGS[1].y, yx = y * TAPS_RINGS[1].x, yy = y * TAPS_RINGS[1].y;
+        vec3 xx = x * SHADOW_TAPS[1].x, xy = x * SHADOW_TAPS[1].y, yx = y * SHADOW_TAPS[1].x, yy = y * SHADOW_TAPS[1].y;
         lit += cone_ring(map, at, xx + yy, yx - xy) + cone_ring(map, at, xx - yy, yx + xy);
     }
-    if (RINGS == 4) lit += cone_ring(map, at, x * TAPS_RINGS[RINGS - 1].x, y * TAPS_RINGS[RINGS - 1].x);
+    if (RINGS == 4) lit += cone_ring(map, at, x * SHADOW_TAPS[RINGS - 1].x, y * SHADOW_TAPS[RINGS - 1].x);
     return lit * (0.25 / float(RINGS));
 }

@@ -51,14 +51,14 @@ static const char *check_key(const struct gn_program_key *key) {
     REQUIRE(key->technique < GN_TECHNIQUE_COUNT && key->step < GN_STEP_COUNT);
     REQUIRE(key->moments < GN_MOMENTS_COUNT);
     REQUIRE((key->kind == GN_PROGRAM_FILTER) == (key->moments != GN_MOMENTS_NONE));
-    REQUIRE(key->taps == 0 || key->taps == 8 || key->taps == 12 || key->taps == 16 ||
-            key->taps == 32);
-    REQUIRE(key->rings == 0 || (key->rings >= 2 && key->rings <= GN_RINGS_MAX));
     REQUIRE(key->receiver <= GN_RECEIVES_ALL);
     REQUIRE((key->features & ~gn_features_all()) == 0);
     for (int i = 0; i < key->light_count; i++) {
         REQUIRE((key->lights[i].technique != GN_TECHNIQUE_NONE) == (i < key->shadow_count));
         REQUIRE(key->lights[i].technique < GN_TECHNIQUE_ALL);
+        REQUIRE(key->lights[i].taps ==
+                gn_taps_count(gn_techniques[key->lights[i].technique].taps, key->lights[i].taps));
+        REQUIRE(key->lights[i].taps % 4 == 0 && key->lights[i].taps <= GN_TAPS_MAX);
         REQUIRE(key->lights[i].encoding < GN_ENCODING_ALL);
         REQUIRE(gn_techniques[key->lights[i].technique].on_screen ==
                 (key->lights[i].encoding == GN_ENCODING_SCREEN));

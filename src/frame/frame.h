@@ -20,6 +20,7 @@ enum gn_light_given {
     GN_LIGHT_SPECULAR = 256,
     GN_LIGHT_BIAS = 512,
     GN_LIGHT_FILTER = 1024,
+    GN_LIGHT_TAPS = 2048,
 };
 struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t light;          /* index in the scene */
@@ -36,6 +37,7 @@ struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t slide_as_picture;
     float bias_texels;      /* below 0: the technique's */
     float filter_radius_px; /* 0: the technique's */
+    uint32_t taps;          /* as below */
 };
 
 struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
@@ -59,7 +61,7 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     uint32_t gather_points; /* of them, that one frame adds to a mask; 0: all. A mask has as many
                                when something moves that it shows, and more with each frame in
                                which nothing does */
-    unsigned taps;          /* 8, 12, 16, 32; cone: at most 16; 0: 16, cone 12 */
+    unsigned taps;          /* a multiple of 4 to GN_TAPS_MAX; cone: 8 to 16; 0: 16, cone 12 */
     bool taps_fixed;        /* the same for every pixel */
     int faces; /* which faces of all casters go into maps: 0: as the scene says of each, else 1 +
                   enum gn_cast_faces. Not of planar lights */

@@ -70,11 +70,6 @@ uint32_t gn_key_further_plane(const struct gn_frame *frame, uint32_t item,
     return plane > 1 && gn_key_on_plane(frame, item, opts) ? plane : 0;
 }
 
-static uint8_t rings_of(unsigned taps) {
-    if (taps == 0) return GN_RINGS_DEFAULT;
-    return taps / 4 < GN_RINGS_MAX ? (uint8_t)(taps / 4) : GN_RINGS_MAX;
-}
-
 /* The lights of a group, and what their techniques need. */
 static void set_lights(const struct gn_frame *frame, const struct gn_light_group *group,
                        const struct gn_frame_opts *opts, enum gn_receiver receiver,
@@ -101,13 +96,10 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
         key->lights[i].filter_set = gn_techniques[light->technique].filter_radius_px > 0.0f &&
                                     gn_frame_filter_radius_px(opts, &one) > 0.0f;
-        const enum gn_taps taps = gn_techniques[light->technique].taps;
-        if (taps == GN_TAPS_NONE) continue;
-        if (taps == GN_TAPS_RINGS)
-            key->rings = rings_of(opts->shadow.taps);
-        else
-            key->taps = (uint8_t)(opts->shadow.taps ? opts->shadow.taps : GN_TAPS_DEFAULT);
-        key->taps_turn = !opts->shadow.taps_fixed;
+        const uint32_t taps = one.given & GN_LIGHT_TAPS ? one.taps : opts->shadow.taps;
+        key->lights[i].taps =
+            (uint8_t)gn_taps_count(gn_techniques[light->technique].taps, (int)taps);
+        if (key->lights[i].taps) key->taps_turn = !opts->shadow.taps_fixed;
     }
 }
 

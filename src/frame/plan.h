@@ -36,6 +36,7 @@ struct gn_light_key {   /* one light of a LIT or visibility program */
     uint8_t cascades;   /* its map has some: 0 or 1 */
     uint8_t ranged;     /* it ends at its range: 0 or 1 */
     uint8_t filter_set; /* its filter has the radius of SHADOW_SLOPE: 0 or 1 */
+    uint8_t taps;       /* samples of a technique that takes them, else 0 */
 };
 enum gn_receiver { /* whose shadows an item receives */
                    GN_RECEIVES_MAPS,
@@ -47,14 +48,12 @@ struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps
     uint8_t kind, aov, light_count, shadow_count;
     uint8_t encoding;  /* DISTANCE: what it writes; PANEL: what it shows; FILTER: of the map, where
                           the step reads that, and 0 */
-    uint8_t taps;      /* LIT, visibility: of techniques that take them; 0: none does */
-    uint8_t taps_turn; /* the pattern is rotated per pixel */
+    uint8_t taps_turn; /* LIT, visibility: patterns of samples are rotated per pixel */
     uint8_t receiver;  /* gn_receiver, of LIT, with more than one group of lights */
     uint8_t step;      /* FILTER: gn_filter_step */
     uint8_t technique; /* FILTER: whose moments; 0 where the step makes none of codes */
     uint8_t moments;   /* FILTER: gn_moments of what it reads and writes */
-    uint8_t rings;     /* LIT, visibility: of techniques that take rings of four; 0: none does */
-    uint8_t unused[4];
+    uint8_t unused[6];
     struct gn_light_key lights[GN_LIGHTS_MAX];
 };
 _Static_assert(sizeof(struct gn_program_key) == 24 + sizeof(struct gn_light_key[GN_LIGHTS_MAX]),

@@ -14,7 +14,7 @@ static const char *const aov_names[GN_AOV_COUNT] = {
     [GN_AOV_NORMAL] = "AOV_NORMAL",
 };
 static const char *const taps_names[] = {
-    [GN_TAPS_DISK] = "TAPS_DISK", [GN_TAPS_POISSON] = "TAPS_POISSON"};
+    [GN_TAPS_DISK] = "DISK", [GN_TAPS_POISSON] = "POISSON", [GN_TAPS_RINGS] = "RINGS"};
 
 static bool compares_in_sampler(const struct gn_light_key *light) {
     return !gn_technique_replaces_map((enum gn_technique)light->technique) &&
@@ -63,8 +63,44 @@ static int lookup_of(const struct gn_program_key *key, int i) {
     for (int first = 0;; first++) {
         const struct gn_light_key *other = &key->lights[first];
         if (other->technique == light->technique && other->encoding == light->encoding &&
-            other->moments == light->moments && other->filter_set == light->filter_set)
+            other->moments == light->moments && other->filter_set == light->filter_set &&
+            other->taps == light->taps)
             return first;
+    }
+}
+
+/* How many points a constant array has: rings of four share one, opposites are computed. */
+static int points_of(const struct gn_light_key *light) {
+    return gn_techniques[light->technique].taps == GN_TAPS_RINGS ? light->taps / 4
+                                                                 : light->taps / 2;
+}
+
+/* TAPS_DISK_8 and the like: the points of all counts that lights have, once. */
+static void add_points(const struct gn_program_key *key, struct gn_gl_text *out) {
+    bool any = false;
+    for (int i = 0; i < key->shadow_count; i++) {
+        const struct gn_light_key *light = &key->lights[i];
+        const enum gn_taps kind = gn_techniques[light->technique].taps;
+        bool known = false;
+        for (int k = 0; k < i; k++)
+            known |= gn_techniques[key->lights[k].technique].taps == kind &&
+                     key->lights[k].taps == light->taps;
+        if (kind == GN_TAPS_NONE || known) continue;
+        if (!any)
+            gn_gl_text_add(out, "const bool TAPS_TURN = %s;\n", key->taps_turn ? "true" : "false");
+        any = true;
+        float points[GN_TAPS_MAX / 2][2];
+        const int count = points_of(light);
+        if (kind == GN_TAPS_RINGS)
+            gn_taps_rings(count, points);
+        else
+            gn_taps_build(kind, light->taps, points);
+        gn_gl_text_add(out, "const vec2 TAPS_%s_%d[%d] = vec2[%d](", taps_names[kind], light->taps,
+                       count, count);
+        for (int k = 0; k < count; k++)
+            gn_gl_text_add(out, "%svec2(%.6f, %.6f)", k ? ", " : "", (double)points[k][0],
+                           (double)points[k][1]);
+        gn_gl_text_add(out, ");\n");
     }
 }
 
@@ -87,8 +123,9 @@ static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *l
         files[0] = gn_moments[light->moments].file;
         files[1] = technique->moments;
     }
-    if (takes_taps(technique))
-        gn_gl_text_add(out, "#define SHADOW_TAPS %s\n", taps_names[technique->taps]);
+    if (light->taps)
+        gn_gl_text_add(out, "#define TAPS %d\n#define RINGS %d\n#define SHADOW_TAPS TAPS_%s_%d\n",
+                       light->taps, light->taps / 4, taps_names[technique->taps], light->taps);
     if (light->filter_set)
         gn_gl_text_add(out, "#define FILTER_RADIUS s.filter_radius\n");
     else if (technique->filter_radius_px > 0.0f)
@@ -107,10 +144,10 @@ static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *l
         if (files[i] && !gn_gl_source_add(source, files[i], out, err)) return false;
     for (int i = 0; i < LOOKUP_FILES; i++)
         for (int n = 0; n < counts[i]; n++) gn_gl_text_add(out, "#undef %s\n", names[i][n]);
-    gn_gl_text_add(out,
-                   "#undef MAP_SAMPLER\n#undef MAP_OUT\n#undef SHADOW_TAPS\n#undef FILTER_RADIUS\n"
-                   "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n"
-                   "#undef MOMENTS\n");
+    gn_gl_text_add(out, "#undef MAP_SAMPLER\n#undef MAP_OUT\n#undef TAPS\n#undef RINGS\n#undef "
+                        "SHADOW_TAPS\n#undef FILTER_RADIUS\n"
+                        "#undef MOMENTS_SAMPLER\n#undef MOMENTS_OUT\n#undef MOMENTS_MIDDLE\n"
+                        "#undef MOMENTS\n");
     return true;
 }
 
@@ -211,28 +248,7 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
                        struct gn_gl_text *out, struct gn_err *err) {
     if (key->shadow_count && !gn_gl_source_add(source, "lib/shadow_place.glsl", out, err))
         return false;
-    if (key->taps || key->rings)
-        gn_gl_text_add(out, "const int TAPS = %d;\nconst bool TAPS_TURN = %s;\n", key->taps,
-                       key->taps_turn ? "true" : "false");
-    for (int kind = GN_TAPS_DISK; key->taps && kind <= GN_TAPS_POISSON; kind++) {
-        float taps[GN_TAPS_MAX / 2][2];
-        gn_taps_build(kind, key->taps, taps);
-        gn_gl_text_add(out, "const vec2 %s[TAPS / 2] = vec2[TAPS / 2](", taps_names[kind]);
-        for (int i = 0; i < key->taps / 2; i++)
-            gn_gl_text_add(out, "%svec2(%.6f, %.6f)", i ? ", " : "", (double)taps[i][0],
-                           (double)taps[i][1]);
-        gn_gl_text_add(out, ");\n");
-    }
-    if (key->rings) {
-        float rings[GN_RINGS_MAX][2];
-        gn_taps_rings(key->rings, rings);
-        gn_gl_text_add(out, "const int RINGS = %d;\nconst vec2 TAPS_RINGS[RINGS] = vec2[RINGS](",
-                       key->rings);
-        for (int i = 0; i < key->rings; i++)
-            gn_gl_text_add(out, "%svec2(%.6f, %.6f)", i ? ", " : "", (double)rings[i][0],
-                           (double)rings[i][1]);
-        gn_gl_text_add(out, ");\n");
-    }
+    add_points(key, out);
     for (int i = 0; i < key->shadow_count; i++) {
         const char *sampler = sampler_of_map(&key->lights[i]);
         gn_gl_text_add(out, "uniform %s u_map_%d;\n", sampler, i);

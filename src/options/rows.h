@@ -37,7 +37,7 @@ GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choice
 GN_OPTION(.name = "planar-points", .section = "render", .kind = GN_KIND_CHOICE, .choices = lamp_points, .value = "N", .fallback = "64",
           .help = "number of points of the lamp with planar soft; where frames follow each other, 16 more with each frame in which nothing moves", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar_points))
 GN_OPTION(.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "auto",
-          .help = "number of samples of disk, poisson, pcss (auto: 16) and cone (auto: 12, at most 16)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps))
+          .help = "number of samples of disk, poisson, pcss (auto: 16) and cone (auto: 12; 8 to 16)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.taps))
 GN_OPTION(.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,
           .help = "do not rotate the sample pattern per pixel (banding instead of noise)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps_fixed))
 GN_OPTION(.name = "filter-budget", .section = "render", .kind = GN_KIND_NUMBER, .max = 10000, .value = "N", .unit = "million texels", .fallback = "4",

@@ -48,8 +48,10 @@ static const struct gn_choice planar_ways[] = {
 static const struct gn_choice lamp_points[] = {{"16", 16},   {"32", 32},   {"64", 64},
                                                {"128", 128}, {"256", 256}, {0}};
 static const struct gn_choice samples[] = {{"0", 0}, {"2", 2}, {"4", 4}, {0}};
-static const struct gn_choice tap_counts[] = {{"auto", 0}, {"8", 8},   {"12", 12},
-                                              {"16", 16},  {"32", 32}, {0}};
+static const struct gn_choice tap_counts[] = {
+    {"auto", 0}, {"4", 4},   {"8", 8},   {"12", 12}, {"16", 16}, {"20", 20},
+    {"24", 24},  {"28", 28}, {"32", 32}, {"36", 36}, {"40", 40}, {"44", 44},
+    {"48", 48},  {"52", 52}, {"56", 56}, {"60", 60}, {"64", 64}, {0}};
 static const struct gn_choice cascade_counts[] = {{"auto", 0}, {"1", 1}, {"2", 2},
                                                   {"3", 3},    {"4", 4}, {0}};
 static const struct gn_choice cast_faces[] = {{"auto", 0},

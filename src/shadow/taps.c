@@ -6,15 +6,21 @@
 
 #include "poisson.h"
 
+/* That of 4 k points is after those of 4 to 4 (k - 1), a pair's first point each. */
 static const float (*poisson_of(int count))[2] {
-    return count == 8    ? poisson_8
-           : count == 12 ? poisson_12
-           : count == 16 ? poisson_16
-                         : poisson_32;
+    const int k = count / 4;
+    return poisson_disks + k * (k - 1);
+}
+
+int gn_taps_count(enum gn_taps kind, int wanted) {
+    if (kind == GN_TAPS_NONE) return 0;
+    if (kind != GN_TAPS_RINGS) return wanted ? wanted : GN_TAPS_DEFAULT;
+    if (wanted == 0) return 4 * GN_RINGS_DEFAULT;
+    return wanted < 8 ? 8 : wanted > 4 * GN_RINGS_MAX ? 4 * GN_RINGS_MAX : wanted;
 }
 
 void gn_taps_build(enum gn_taps kind, int count, float (*out)[2]) {
-    assert(count == 8 || count == 12 || count == 16 || count == 32);
+    assert(count >= 4 && count <= GN_TAPS_MAX && count % 4 == 0);
     if (kind == GN_TAPS_POISSON) {
         memcpy(out, poisson_of(count), (size_t)count / 2 * sizeof *out);
         return;

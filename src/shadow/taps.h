@@ -10,9 +10,12 @@ enum gn_taps {
     GN_TAPS_POISSON, /* no two closer than a distance: Bridson 2007, assets/make_poisson.c */
     GN_TAPS_RINGS,   /* rings of four, a quarter turn apart, which share arithmetic */
 };
-enum { GN_TAPS_MAX = 32, GN_TAPS_DEFAULT = 16, GN_RINGS_MAX = 4, GN_RINGS_DEFAULT = 3 };
+enum { GN_TAPS_MAX = 64, GN_TAPS_DEFAULT = 16, GN_RINGS_MAX = 4, GN_RINGS_DEFAULT = 3 };
 
-/* DISK, POISSON. count: 8, 12, 16 or 32 samples. Fills out with half as many points. */
+/* The number of samples of that kind, at most GN_TAPS_MAX, if so many are wanted: a multiple of 4,
+ * or 0 for the default. NONE: 0. */
+int gn_taps_count(enum gn_taps kind, int wanted);
+/* DISK, POISSON. count: a multiple of 4 to GN_TAPS_MAX. Fills out with half as many points. */
 void gn_taps_build(enum gn_taps kind, int count, float (*out)[2]);
 /* RINGS. Fills out with a point of each of 2 to GN_RINGS_MAX rings. */
 void gn_taps_rings(int count, float (*out)[2]);

@@ -40,6 +40,10 @@ static void set_entry(struct gn_frame_light_opts *entry, const struct gn_overrid
         entry->moments = GN_MAP_FORMAT_MOMENTS(*whole);
         entry->given |= GN_LIGHT_FORMAT;
         break;
+    case offsetof(struct gn_settings, render.taps):
+        entry->taps = (uint32_t)*whole;
+        entry->given |= GN_LIGHT_TAPS;
+        break;
     case offsetof(struct gn_settings, render.cascades):
         entry->cascades = (uint32_t)*whole;
         entry->given |= GN_LIGHT_CASCADES;

@@ -47,8 +47,8 @@ static void add_light(struct gn_program_key *key, int type, int technique, int e
     light->technique = (uint8_t)technique;
     light->encoding = (uint8_t)(technique ? encoding : 0);
     key->shadow_count += technique != GN_TECHNIQUE_NONE;
-    if (gn_techniques[technique].taps) key->taps = GN_TAPS_DEFAULT, key->taps_turn = 1;
-    if (gn_techniques[technique].taps == GN_TAPS_RINGS) key->rings = GN_RINGS_DEFAULT;
+    light->taps = (uint8_t)gn_taps_count(gn_techniques[technique].taps, 0);
+    if (light->taps) key->taps_turn = 1;
 }
 
 static void filter_map(struct gn_light_key *light, int moments) {

@@ -34,8 +34,8 @@ static struct gn_program_key lit(uint64_t features, enum gn_light_type type, con
     key.shadow_count = t != GN_TECHNIQUE_NONE;
     key.lights[0].technique = (uint8_t)t;
     key.lights[0].encoding = (uint8_t)e;
-    if (gn_techniques[t].taps) key.taps = GN_TAPS_DEFAULT, key.taps_turn = 1;
-    if (gn_techniques[t].taps == GN_TAPS_RINGS) key.rings = GN_RINGS_DEFAULT;
+    key.lights[0].taps = (uint8_t)gn_taps_count(gn_techniques[t].taps, 0);
+    key.taps_turn = key.lights[0].taps > 0;
     return key;
 }
 
@@ -45,7 +45,7 @@ static struct gn_program_key with_slide(struct gn_program_key key, enum gn_slide
 }
 
 static struct gn_program_key with_rings(struct gn_program_key key, uint8_t rings) {
-    key.rings = rings;
+    key.lights[0].taps = (uint8_t)(4 * rings);
     return key;
 }
 

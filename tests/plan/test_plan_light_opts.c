@@ -158,6 +158,36 @@ static void test_the_radius_of_a_filter_is_as_set(void **state) {
     gn_plan_end(&f);
 }
 
+/* Of the programs' lights; those of cone are 8 to 16. */
+static void test_lights_have_taps_of_their_own(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.shadow.technique_given = true;
+    f.opts.shadow.technique = GN_TECHNIQUE_POISSON;
+    f.opts.shadow.lights[0] =
+        (struct gn_frame_light_opts){.light = 1, .given = GN_LIGHT_TAPS, .taps = 20};
+    f.opts.shadow.light_count = 1;
+    static const struct {
+        uint32_t asked;
+        uint8_t disk, cone;
+    } rows[] = {{0, 16, 12}, {4, 4, 8}, {12, 12, 12}, {64, 64, 16}};
+    for (int i = 0; i < 4; i++) {
+        f.opts.shadow.taps = rows[i].asked;
+        f.opts.shadow.technique = GN_TECHNIQUE_POISSON;
+        const struct gn_plan *plan = gn_plan_make(&f);
+        assert_int_equal(lit_of(plan)->lights[0].taps, rows[i].disk);
+        assert_int_equal(lit_of(plan)->lights[1].taps, 20);
+        f.opts.shadow.technique = GN_TECHNIQUE_CONE;
+        plan = gn_plan_make(&f);
+        assert_int_equal(lit_of(plan)->lights[0].taps, rows[i].cone);
+        assert_int_equal(lit_of(plan)->lights[1].taps, 16);
+    }
+    f.opts.shadow.technique = GN_TECHNIQUE_PCF;
+    assert_int_equal(lit_of(gn_plan_make(&f))->lights[1].taps, 0);
+    gn_plan_end(&f);
+}
+
 /* All that casts is in the picture of a sun, whatever its shape; a spot is where it stands. */
 static void test_a_light_can_be_looked_from(void **state) {
     (void)state;
@@ -260,6 +290,7 @@ int main(void) {
         cmocka_unit_test(test_the_bias_is_as_set),
         cmocka_unit_test(test_maps_are_cleared_to_the_far_end_but_in_a_lesson),
         cmocka_unit_test(test_the_radius_of_a_filter_is_as_set),
+        cmocka_unit_test(test_lights_have_taps_of_their_own),
         cmocka_unit_test(test_highlights_in_shadow_have_a_feature),
     };
     return cmocka_run_group_tests_name("plan light options", tests, NULL, NULL);
