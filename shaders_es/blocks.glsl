@@ -62,7 +62,7 @@
 #define SLIDE_U 0         /* dot with (p, 1), world space: u times w; u is 0..1 over the slide from its left edge */
 #define SLIDE_V 1         /* dot with (p, 1): v times w; v is 0..1 from the top edge */
 #define SLIDE_W 2         /* dot with (p, 1): w, the depth along the axis of the light, metres */
-#define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide (> 0); nearer points count as outside of it */
+#define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide (> 0); nearer points count as outside of it; w: depth of its far plane, 0: none */
 #define PASS_CASCADES 94  /* GN_SHADOWS_MAX x CASCADES_SIZE, as PASS_SHADOWS; a pass without cascades ends here */
 #define CASCADES_SIZE 6   /* first one vec4 per cascade: xy: axis of the light, texels from the centre of the tile */
 #define CASCADE_TEXEL AT_Z /* size of a texel, metres */

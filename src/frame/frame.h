@@ -21,6 +21,7 @@ enum gn_light_given {
     GN_LIGHT_BIAS = 512,
     GN_LIGHT_FILTER = 1024,
     GN_LIGHT_TAPS = 2048,
+    GN_LIGHT_SLIDE_FAR = 4096,
 };
 struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t light;          /* index in the scene */
@@ -35,6 +36,7 @@ struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t cascades; /* as cascade_count */
     int faces;         /* as below, and the next */
     uint32_t slide_as_picture;
+    float slide_far_m;      /* as in gn_light; below 0: the scene's */
     float bias_texels;      /* below 0: the technique's */
     float filter_radius_px; /* 0: the technique's */
     uint32_t taps;          /* as below */
@@ -70,6 +72,8 @@ struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
     float filter_radius_px; /* radius of filters that can have another one; 0: the techniques' */
     bool clears_near;       /* maps are cleared to the wrong end, for the lesson about it; far */
     bool slide_as_picture;  /* a slide without a size has the shape of its picture; square */
+    bool slide_far_given;
+    float slide_far_m; /* overrides gnomon_slide_far_m of lights */
     bool strength_given;
     float strength; /* overrides the lights' gnomon_shadow_strength */
     bool specular_given;

@@ -86,6 +86,7 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         const struct gn_frame_light *light = &frame->lights[group->first + i];
         key->lights[i].type = (uint8_t)frame->scene->lights[light->light].type;
         key->lights[i].slide = (uint8_t)light->slide;
+        key->lights[i].slide_ends = light->slide != GN_SLIDE_NONE && light->slide_far_m > 0.0f;
         key->lights[i].ranged = gn_light_types[key->lights[i].type].has_position &&
                                 frame->scene->lights[light->light].range_m > 0.0f;
         if (i >= key->shadow_count) continue;

@@ -32,6 +32,7 @@ struct gn_light_key {   /* one light of a LIT or visibility program */
     uint8_t technique;  /* gn_technique; NONE: no map */
     uint8_t encoding;   /* gn_encoding, 0 when technique is NONE */
     uint8_t slide;      /* gn_slide */
+    uint8_t slide_ends; /* at a far plane: 0 or 1 */
     uint8_t moments;    /* gn_moments: what is read in the map's place, or beside it */
     uint8_t cascades;   /* its map has some: 0 or 1 */
     uint8_t ranged;     /* it ends at its range: 0 or 1 */

@@ -20,6 +20,7 @@ struct gn_frame_light {
     enum gn_moments moments; /* of a technique that filters its map */
     enum gn_slide slide;
     bool slide_as_picture;
+    float slide_far_m; /* 0: it does not end */
     float strength;
     float specular;    /* share of highlights that its shadow leaves */
     float illuminance; /* at the scene's centre, lux; the weakest are dropped over the limit */

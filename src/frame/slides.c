@@ -19,6 +19,10 @@ void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *
         const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
         light->slide_as_picture =
             one.given & GN_LIGHT_SLIDE ? one.slide_as_picture != 0 : opts->shadow.slide_as_picture;
+        const float far_m = one.given & GN_LIGHT_SLIDE_FAR ? one.slide_far_m
+                            : opts->shadow.slide_far_given ? opts->shadow.slide_far_m
+                                                           : -1.0f;
+        light->slide_far_m = far_m >= 0.0f ? far_m : l->slide_far_m;
         uint32_t before = 0; /* lights with a slide, in the scene's order */
         for (uint32_t k = 0; k < frame->light_count; k++)
             before += frame->lights[k].light < light->light &&
@@ -57,6 +61,7 @@ void gn_frame_slide_constants(const struct gn_frame *frame, const struct gn_pose
         c[SLIDE_PLACE][0] = shown_px(frame, image->width_px, image);
         c[SLIDE_PLACE][1] = shown_px(frame, image->height_px, image);
         c[SLIDE_PLACE][2] = view.near_m;
+        c[SLIDE_PLACE][3] = frame->lights[i].slide_far_m;
         c += SLIDE_SIZE;
     }
 }

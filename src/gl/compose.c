@@ -233,8 +233,9 @@ static bool add_slides(struct gn_gl_source *source, const struct gn_program_key 
     for (int i = 0; i < key->light_count; i++) {
         if (key->lights[i].slide == GN_SLIDE_NONE) continue;
         gn_gl_text_add(out, "uniform mediump sampler2D u_slide_%d;\n", count);
-        gn_gl_text_add(&each, " F(%d, %d, %s, u_slide_%d)", i, count,
-                       key->lights[i].slide == GN_SLIDE_LIT ? "true" : "false", count);
+        gn_gl_text_add(&each, " F(%d, %d, %s, %s, u_slide_%d)", i, count,
+                       key->lights[i].slide == GN_SLIDE_LIT ? "true" : "false",
+                       key->lights[i].slide_ends ? "true" : "false", count);
         count++;
     }
     if (count) gn_gl_text_add(out, "#define WITH_SLIDES 1\n#define EACH_SLIDE(F)%s\n", each.data);
@@ -347,6 +348,7 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
         append_word(out, size, ", ", gn_light_types[light->type].glsl + sizeof "LIGHT_" - 1);
         if (light->slide)
             append_word(out, size, " ", light->slide == GN_SLIDE_LIT ? "film" : "slide");
+        if (light->slide_ends) append_word(out, size, " ", "far");
         if (light->ranged) append_word(out, size, " ", "ranged");
         if (i >= key->shadow_count) continue;
         append_word(out, size, " ", gn_techniques[light->technique].name);

@@ -52,6 +52,8 @@ GN_OPTION(.name = "filter-radius", .section = "render", .kind = GN_KIND_EV, .min
           .help = "radius of the filter of disk and poisson (3 by itself), of pcf (1.5; at most 2) and of the blur of vsm, evsm and msm (1.5 to 4.5, by the light's size)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.filter_radius_px))
 GN_OPTION(.name = "slide-aspect", .section = "render", .kind = GN_KIND_CHOICE, .choices = slide_aspects, .value = "SHAPE", .fallback = "square",
           .help = "shape of a slide whose size the scene does not give; it fills the cone of its spot", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_as_picture))
+GN_OPTION(.name = "slide-far", .section = "render", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
+          .help = "depth in the light's cone at which the picture of a slide ends, as the scene says (auto); 0: nowhere", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_far_m))
 GN_OPTION(.name = "light-radius", .section = "render", .kind = GN_KIND_NUMBER, .max = 1000, .value = "R", .fallback = "0.00465",
           .help = "radius of the light made for a scene without any: tangent of its angular radius; in [light] of that one: metres, but a tangent of a directional light", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.light_radius))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,

@@ -95,6 +95,7 @@ struct gn_render_settings {
     double bias_texels;      /* NAN: automatic */
     double filter_radius_px; /* likewise */
     int slide_as_picture;    /* 0, 1 */
+    double slide_far_m;      /* NAN: as the scene says */
     int taps;
     bool taps_fixed;
     double filter_budget;   /* million texels; 0: no limit */

@@ -118,6 +118,7 @@ struct gn_light {
     int32_t slide;       /* texture of the gobo, or -1 */
     float slide_size_m[2];  /* 0, 0: fills the cone at its distance */
     float slide_distance_m; /* 0: the distance at which its longer side spans the cone */
+    float slide_far_m;      /* depth at which its picture ends; 0: nowhere */
     bool slide_lit_outside; /* light outside the slide: yes (film), no (projector) */
 };
 

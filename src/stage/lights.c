@@ -60,6 +60,10 @@ static void set_entry(struct gn_frame_light_opts *entry, const struct gn_overrid
         entry->specular = isnan(*(const double *)value) ? -1.0f : (float)*(const double *)value;
         entry->given |= GN_LIGHT_SPECULAR;
         break;
+    case offsetof(struct gn_settings, render.slide_far_m):
+        entry->slide_far_m = isnan(*(const double *)value) ? -1.0f : (float)*(const double *)value;
+        entry->given |= GN_LIGHT_SLIDE_FAR;
+        break;
     case offsetof(struct gn_settings, render.bias_texels):
         entry->bias_texels = isnan(*(const double *)value) ? -1.0f : (float)*(const double *)value;
         entry->given |= GN_LIGHT_BIAS;

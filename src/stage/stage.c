@@ -144,6 +144,8 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
         .shadow.bias_texels = (float)o->render.bias_texels,
         .shadow.filter_radius_px =
             isnan(o->render.filter_radius_px) ? 0.0f : (float)o->render.filter_radius_px,
+        .shadow.slide_far_given = !isnan(o->render.slide_far_m),
+        .shadow.slide_far_m = (float)o->render.slide_far_m,
         .shadow.slide_as_picture = o->render.slide_as_picture,
         .shadow.cascade_count = (uint32_t)o->render.cascades,
         .shadow.taps = (unsigned)o->render.taps,

@@ -85,7 +85,8 @@ static void seed_lights(struct gn_maker *m) {
         ","
         "{'type':'point','range':9,'name':'lamp'},{'type':'spot','spot':{'innerConeAngle':0.1,"
         "'outerConeAngle':0.6},'extras':{'gnomon_slide':1,'gnomon_slide_size_m':[2,1],"
-        "'gnomon_slide_distance_m':0.5,'gnomon_slide_outside':'lit','gnomon_shadow':'pcss'}}]}}");
+        "'gnomon_slide_distance_m':0.5,'gnomon_slide_far_m':4,'gnomon_slide_outside':'lit','gnomon_"
+        "shadow':'pcss'}}]}}");
     gn_maker_set(m, "cameras",
                  "[{'type':'perspective','perspective':{'yfov':0.7,'znear':0.1,'zfar':50,'"
                  "aspectRatio':1.5}},"

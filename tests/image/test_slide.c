@@ -27,6 +27,7 @@ struct beam {
     int filter, wrap;      /* glTF's numbers */
     const char *technique; /* --shadow */
     bool checker;          /* a fine checkerboard instead of eight by six colours */
+    double far_m;          /* 0: not in the file */
 };
 
 static uint8_t texels[TEXELS_Y][TEXELS_X][4];
@@ -77,6 +78,8 @@ static void add_lamp(struct gn_maker *maker, const struct beam *beam, bool with_
         n += sprintf(json + n, ",'gnomon_slide_size_m':[%g,%g]", beam->size_m[0], beam->size_m[1]);
     if (with_slide && beam->distance_m > 0)
         n += sprintf(json + n, ",'gnomon_slide_distance_m':%g", beam->distance_m);
+    if (with_slide && beam->far_m > 0)
+        n += sprintf(json + n, ",'gnomon_slide_far_m':%g", beam->far_m);
     if (with_slide && beam->outside)
         n += sprintf(json + n, ",'gnomon_slide_outside':'%s'", beam->outside);
     sprintf(json + n, "%s}]}}", with_slide ? "}" : "");
@@ -181,6 +184,7 @@ static void slide_factor(const struct beam *beam, double x, double y, double dep
     place_film(beam, &distance, size);
     double u = 0.5 + x * distance / depth / size[0], v = 0.5 - y * distance / depth / size[1];
     for (int c = 0; c < 3; c++) out[c] = film;
+    if (beam->far_m > 0 && depth >= beam->far_m) return;
     if (depth <= (has_plane ? distance : 0) || fabs(u - 0.5) > 0.5 || fabs(v - 0.5) > 0.5) return;
     sample(beam, u, v, color);
     for (int c = 0; c < 3; c++) out[c] = 1 - color[3] * (1 - color[c]);
@@ -276,10 +280,22 @@ static struct verdict compare(const struct beam *beam) {
 #define ASLANT "'translation':[-2.5,2.5,2.5],'rotation':[-0.2,-0.3,-0.0655,0.9305]"
 
 static const struct beam beams[] = {
-    {"dark, as large as the cone", ABOVE, .4, .6, 0, {0}, 0, NULL, LINEAR, CLAMP, "none", false},
-    {"dark, rolled", ROLLED, .5, .8, 0, {.5, .3}, .5, "dark", LINEAR, REPEAT, "none", false},
-    {"lit, aslant", ASLANT, .5, .7, 0, {.6, .9}, .8, "lit", LINEAR, MIRROR, "none", false},
-    {"lit, nearest", ASLANT, .5, .7, 6, {.8, .8}, 0, "lit", NEAREST, REPEAT, "none", false},
+    {"dark, as large as the cone", ABOVE, .4, .6, 0, {0}, 0, NULL, LINEAR, CLAMP, "none", false, 0},
+    {"dark, rolled", ROLLED, .5, .8, 0, {.5, .3}, .5, "dark", LINEAR, REPEAT, "none", false, 0},
+    {"lit, aslant, ends",
+     ASLANT,
+     .5,
+     .7,
+     0,
+     {.6, .9},
+     .8,
+     "lit",
+     LINEAR,
+     MIRROR,
+     "none",
+     false,
+     4.5},
+    {"lit, nearest", ASLANT, .5, .7, 6, {.8, .8}, 0, "lit", NEAREST, REPEAT, "none", false, 0},
     {"dark, nearest, rolled",
      ROLLED,
      .2,
@@ -291,11 +307,36 @@ static const struct beam beams[] = {
      NEAREST,
      MIRROR,
      "none",
-     false},
-    {"dark over pcf", ASLANT, .5, .7, 0, {1, 1}, .9, "dark", LINEAR, CLAMP, "pcf", false},
-    {"lit over hard", ABOVE, .5, .9, 0, {1.5, 1}, 2, "lit", LINEAR, CLAMP, "hard", false},
-    {"a film below the plate", ABOVE, .5, .9, 0, {1, 1}, 3, "lit", LINEAR, CLAMP, "none", false},
-    {"a slide below the plate", ABOVE, .5, .9, 0, {1, 1}, 3, "dark", LINEAR, CLAMP, "none", false},
+     false,
+     0},
+    {"dark over pcf, ends",
+     ASLANT,
+     .5,
+     .7,
+     0,
+     {1, 1},
+     .9,
+     "dark",
+     LINEAR,
+     CLAMP,
+     "pcf",
+     false,
+     4.5},
+    {"lit over hard", ABOVE, .5, .9, 0, {1.5, 1}, 2, "lit", LINEAR, CLAMP, "hard", false, 0},
+    {"a film below the plate", ABOVE, .5, .9, 0, {1, 1}, 3, "lit", LINEAR, CLAMP, "none", false, 0},
+    {"a slide below the plate",
+     ABOVE,
+     .5,
+     .9,
+     0,
+     {1, 1},
+     3,
+     "dark",
+     LINEAR,
+     CLAMP,
+     "none",
+     false,
+     0},
 };
 
 static void test_a_slide_is_the_projection_of_its_texels(void **state) {
@@ -311,15 +352,16 @@ static void test_a_slide_is_the_projection_of_its_texels(void **state) {
 
 static void test_outside_and_behind_is_exactly_nothing(void **state) {
     (void)state;
-    static const struct beam narrow = {"narrow", ABOVE,  .5,     .9,     0,     {.4, .4},
-                                       1,        "dark", LINEAR, REPEAT, "pcf", false};
+    static const struct beam narrow = {"narrow", ABOVE,  .5,     .9,    0,     {.4, .4}, 1,
+                                       "dark",   LINEAR, REPEAT, "pcf", false, 0};
     /* Half a sphere of light to +z, away from wall and plate, which lie at -z. */
     static const struct beam behind = {"behind", "'translation':[0,1,2],'rotation':[0,1,0,0]",
                                        1,        M_PI / 2,
                                        0,        {0},
                                        0,        NULL,
                                        LINEAR,   REPEAT,
-                                       "none",   false};
+                                       "none",   false,
+                                       0};
     struct verdict v = compare(&narrow);
     assert_true(v.dark > 100000);
     assert_int_equal(v.leaking, 0);
@@ -343,7 +385,8 @@ static void test_where_w_is_nothing_there_is_no_fault(void **state) {
          LINEAR,
          CLAMP,
          "none",
-         false},
+         false,
+         0},
         {"low, lit",
          "'translation':[0,0.05,2]",
          1,
@@ -355,7 +398,8 @@ static void test_where_w_is_nothing_there_is_no_fault(void **state) {
          LINEAR,
          REPEAT,
          "none",
-         false},
+         false,
+         0},
     };
     for (int i = 0; i < 2; i++) {
         struct verdict v = compare(&low[i]);
@@ -370,8 +414,8 @@ static void test_where_w_is_nothing_there_is_no_fault(void **state) {
 /* Of 256 x 256 squares, black and white, on a few dozen pixels only their mean is left. */
 static void test_a_fine_slide_far_away_does_not_shimmer(void **state) {
     (void)state;
-    static const struct beam fine = {"fine", ABOVE,  .3,     .4,    0,      {.1, .1},
-                                     1,      "dark", LINEAR, CLAMP, "none", true};
+    static const struct beam fine = {"fine", ABOVE,  .3,    .4,     0,    {.1, .1}, 1,
+                                     "dark", LINEAR, CLAMP, "none", true, 0};
     struct gn_picture shown, plain;
     shoot(&shown, make_scene(&fine, true), "color", "none");
     const char *path = make_scene(&fine, false);

@@ -402,6 +402,34 @@ static void test_a_slide_may_have_the_shape_of_its_picture(void **state) {
     gn_plan_end(&f);
 }
 
+/* As the scene says of the light, or options of all, or of it alone; a bit of the program's key. */
+static void test_a_slide_may_have_a_far_plane(void **state) {
+    (void)state;
+    static const struct {
+        float scene_m, all_m, own_m; /* below 0: not given */
+        float far_m;
+    } rows[] = {{0, -1, -1, 0}, {6, -1, -1, 6}, {6, 4, -1, 4}, {6, 0, -1, 0}, {6, 4, 3, 3}};
+    for (int i = 0; i < 5; i++) {
+        struct gn_plan_fixture f;
+        struct gn_light lights[1];
+        gn_plan_begin(&f, GN_EVERY_CAP);
+        make_spots(&f, lights, 1);
+        lights[0].slide_far_m = rows[i].scene_m;
+        f.opts.shadow.slide_far_given = rows[i].all_m >= 0;
+        f.opts.shadow.slide_far_m = rows[i].all_m;
+        f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
+            .given = rows[i].own_m >= 0 ? GN_LIGHT_SLIDE_FAR : 0, .slide_far_m = rows[i].own_m};
+        f.opts.shadow.light_count = 1;
+        const struct gn_plan *plan = gn_plan_make(&f);
+        const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
+        assert_true(last->constants[PASS_SLIDES + SLIDE_PLACE][3] == rows[i].far_m);
+        for (uint32_t p = 0; p < plan->program_count; p++)
+            if (plan->programs[p].lights[0].slide)
+                assert_int_equal(plan->programs[p].lights[0].slide_ends, rows[i].far_m > 0);
+        gn_plan_end(&f);
+    }
+}
+
 /* ---- exposure ---- */
 
 static void test_exposure(void **state) {
@@ -449,6 +477,7 @@ int main(void) {
         cmocka_unit_test(test_the_strongest_that_are_shown_have_the_maps),
         cmocka_unit_test(test_slide_plan),
         cmocka_unit_test(test_a_slide_may_have_the_shape_of_its_picture),
+        cmocka_unit_test(test_a_slide_may_have_a_far_plane),
         cmocka_unit_test(test_visibility_has_no_slide),
         cmocka_unit_test(test_slides_over_four_are_left_out_by_order),
         cmocka_unit_test(test_a_slide_goes_with_its_light_into_an_added_pass),

@@ -103,11 +103,12 @@ static void test_slides_go_with_their_lights(void **state) {
     key.lights[0] = (struct gn_light_key){
         .type = GN_LIGHT_SPOT, .technique = GN_TECHNIQUE_HARD, .encoding = GN_ENCODING_R16F};
     key.lights[1] = (struct gn_light_key){.type = GN_LIGHT_SPOT, .slide = GN_SLIDE_LIT};
-    key.lights[2] = (struct gn_light_key){.type = GN_LIGHT_SPOT, .slide = GN_SLIDE_DARK};
+    key.lights[2] =
+        (struct gn_light_key){.type = GN_LIGHT_SPOT, .slide = GN_SLIDE_DARK, .slide_ends = 1};
     char *text = compose(&key, GN_GL_FRAGMENT);
     has(text, "uniform mediump sampler2D u_slide_0;\nuniform mediump sampler2D u_slide_1;\n");
     has(text, "#define WITH_SLIDES 1\n#define EACH_SLIDE(F)"
-              " F(1, 0, true, u_slide_0) F(2, 1, false, u_slide_1)\n");
+              " F(1, 0, true, false, u_slide_0) F(2, 1, false, true, u_slide_1)\n");
     assert_int_equal(count(text, "// slide\n"), 1);
     free(text);
     key.lights[1].slide = key.lights[2].slide = GN_SLIDE_NONE;

@@ -156,6 +156,7 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
     if (slide >= 0) light->slide = gn_gltf_texture(g, (int32_t)slide);
     take_pair(g, &extras, "gnomon_slide_size_m", light->slide_size_m);
     take_float(g, &extras, "gnomon_slide_distance_m", 1e6f, &light->slide_distance_m);
+    take_float(g, &extras, "gnomon_slide_far_m", 1e6f, &light->slide_far_m);
     int word = take_word(g, &extras, "gnomon_slide_outside", outside, 2);
     if (word >= 0) light->slide_lit_outside = word == 1;
 }
