@@ -1,8 +1,8 @@
 /* The table of shadow techniques: a row each, of GN_TECHNIQUE_NAME and its struct gn_technique_row.
  * One row and its GLSL file add a technique. Includers define ROW; technique.h makes the
  * enumerators. */
-ROW(NONE, .name = "none", .rank = 16, .what = "no shadows")
-ROW(HARD, .name = "hard", .rank = 14, .file = "shadow/hard.glsl", .reads_distance = true,
+ROW(NONE, .name = "none", .rank = 18, .what = "no shadows")
+ROW(HARD, .name = "hard", .rank = 16, .file = "shadow/hard.glsl", .reads_distance = true,
     .radius_texels = 1, .bias_texels = 0.6f, .what = "one comparison", .source = "Williams 1978")
 ROW(PCF, .name = "pcf", .rank = 1, .file = "shadow/pcf.glsl", .compares_linear = true,
     .one_code = true, .filter_radius_px = 1.5f, .filter_most = 2.0f, .radius_texels = 2,
@@ -17,6 +17,14 @@ ROW(PCF3, .name = "pcf3", .rank = 12, .file = "shadow/pcf3.glsl", .compares_line
 ROW(PCF5, .name = "pcf5", .rank = 13, .file = "shadow/pcf5.glsl", .compares_linear = true,
     .one_code = true, .radius_texels = 3, .bias_texels = 1.65f,
     .what = "[1 3 4 3 1] squared in nine fetches", .source = "Reeves, Salesin, Cook 1987")
+ROW(BOX3, .name = "box3", .rank = 14, .file = "shadow/box3.glsl", .compares_linear = true,
+    .one_code = true, .radius_texels = 2, .bias_texels = 1.3f,
+    .what = "equal weights over 3 x 3 texels in four fetches",
+    .source = "Reeves, Salesin, Cook 1987")
+ROW(BOX5, .name = "box5", .rank = 15, .file = "shadow/box5.glsl", .compares_linear = true,
+    .one_code = true, .radius_texels = 3, .bias_texels = 1.9f,
+    .what = "equal weights over 5 x 5 texels in nine fetches",
+    .source = "Reeves, Salesin, Cook 1987")
 ROW(DISK, .name = "disk", .rank = 10, .file = "shadow/disk.glsl", .compares_linear = true,
     .reads_distance = true, .taps = GN_TAPS_DISK, .filter_radius_px = 3.0f, .filter_most = 32.0f,
     .radius_texels = 4, .bias_texels = 0.7f,
@@ -58,6 +66,6 @@ ROW(SMSM, .name = "smsm", .rank = 4, .file = "shadow/smsm.glsl", .soft = true,
     .filter = GN_FILTER_TABLE, .moments = "moments/smsm.glsl",
     .stores = {GN_MOMENTS_TABLE_RGBA32UI}, .map_px = 512, .radius_texels = 2, .bias_texels = 0.7f,
     .what = "the same from four moments", .source = "Peters et al. 2017")
-ROW(PLANAR, .name = "planar", .rank = 15, .file = "shadow/planar.glsl", .on_plane = true,
+ROW(PLANAR, .name = "planar", .rank = 17, .file = "shadow/planar.glsl", .on_plane = true,
     .radius_texels = 2, .what = "casters flattened on the scene's plane, nowhere else",
     .source = "Blinn 1988")

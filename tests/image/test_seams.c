@@ -144,6 +144,8 @@ struct seams {
         {GN_TECHNIQUE_PCF3, GN_ENCODING_DEPTH, 4, 36, 0, 0, 0, 0, 0, 0},                           \
         {GN_TECHNIQUE_PCF5, GN_ENCODING_DEPTH, 9, 56, 0, 0, 0, 0, 0, 0},                           \
         {GN_TECHNIQUE_PCF5, GN_ENCODING_RGBA8, 9, 56, 0, 0, 0, 0, 0, 0},                           \
+        {GN_TECHNIQUE_BOX3, GN_ENCODING_DEPTH, 4, 48, 0, 0, 0, 0, 0, 0},                           \
+        {GN_TECHNIQUE_BOX5, GN_ENCODING_DEPTH, 9, 64, 0, 0, 0, 0, 0, 0},                           \
         {GN_TECHNIQUE_DISK, GN_ENCODING_R16F, 16, 60, 0, 0, 0, 0, 0, 0},                           \
         {GN_TECHNIQUE_POISSON, GN_ENCODING_R16F, 16, 60, 0, 0, 0, 0, 0, 0},                        \
         {GN_TECHNIQUE_CONE, GN_ENCODING_DEPTH, 12, 60, 0, 0, 0, 0, 0, 0},                          \

@@ -23,7 +23,8 @@ static void quick_rows(struct gn_table *table) {
 /* A tile of a point light sees 90 degrees, whatever there is: 256 texels are too few for limits. */
 static void full_rows(struct gn_table *table, enum gn_table_kind kind) {
     static const char *const formats[] = {"r16f", "depth", "r16f-raw", "r32ui", "rgba8"};
-    static const char *const filters[] = {"pcf", "pcf2", "pcf3", "pcf5", "disk", "poisson", "pcss"};
+    static const char *const filters[] = {"pcf",  "pcf2", "pcf3",    "pcf5", "box3",
+                                          "box5", "disk", "poisson", "pcss"};
     static const char *const moments[] = {"vsm", "evsm", "msm"};
     static const unsigned maps[] = {1024, 256}, further_maps[] = {512, 2048, 4096};
     for (int i = 0; i < GN_TABLE_SCENES; i++) table->scenes[i] = true;
@@ -31,7 +32,7 @@ static void full_rows(struct gn_table *table, enum gn_table_kind kind) {
         for (int f = 0; f < 5; f++) gn_table_add(table, "hard", formats[f], maps[m]);
         gn_table_add(table, "planar", "auto", maps[m]);
         for (int t = 0; t < 3; t++) gn_table_add(table, moments[t], "auto", maps[m]);
-        for (int t = 0; t < 7; t++)
+        for (int t = 0; t < 9; t++)
             for (int f = 0; f < 2; f++) gn_table_add(table, filters[t], formats[f], maps[m]);
     }
     for (int m = kind == GN_TABLE_POINT ? 1 : 0; m < 3; m++) /* pcf .. pcf5 */

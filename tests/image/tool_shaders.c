@@ -194,6 +194,8 @@ int main(int argc, char **argv) {
         {"pcf2", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf2", "depth")},
         {"pcf3", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf3", "depth")},
         {"pcf5", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf5", "depth")},
+        {"box3", lit(FULL, GN_LIGHT_DIRECTIONAL, "box3", "depth")},
+        {"box5", lit(FULL, GN_LIGHT_DIRECTIONAL, "box5", "depth")},
         {"disk", lit(FULL, GN_LIGHT_DIRECTIONAL, "disk", "r16f")},
         {"disk-depth", lit(FULL, GN_LIGHT_DIRECTIONAL, "disk", "depth")},
         {"poisson", lit(FULL, GN_LIGHT_DIRECTIONAL, "poisson", "r16f")},
